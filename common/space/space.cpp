@@ -4,6 +4,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "common/space/attributes.h"
 #include "common/space/make_entity.h"
@@ -28,7 +29,7 @@ CSwarmanoidSpace::CSwarmanoidSpace(const Experiment& experiment) : experiment_(e
   const std::size_t count = experiment.entities.size();
   for (auto* component : Components(poses_)) component->resize(count);
   entities_.reserve(count);
-  index_of_id_.reserve(count);
+  place_of_id_.resize(std::bit_ceil(2 * count + 1));
   std::size_t slots = count;  // of presence
   for (const EntityConfiguration& configuration : experiment.entities)
     slots +=
@@ -45,14 +46,14 @@ CSwarmanoidSpace::CSwarmanoidSpace(const Experiment& experiment) : experiment_(e
       const double initial = spec.name == "colour"      ? configuration.colour
                              : spec.name == "intensity" ? configuration.intensity
                                                         : spec.initial;
-      attributes_.insert(attributes_.end(), static_cast<std::size_t>(spec.count), initial);
+      attributes_.resize(attributes_.size() + static_cast<std::size_t>(spec.count), initial);
       attribute_values_.insert(attribute_values_.end(), static_cast<std::size_t>(spec.count), spec.value);
     }
     const auto further = static_cast<std::size_t>(FurtherMessageSlots(experiment, configuration));
-    attributes_.insert(attributes_.end(), further, 0);
+    attributes_.resize(attributes_.size() + further);
     attribute_values_.insert(attribute_values_.end(), further, AttributeValue::kBytes);
     entities_.push_back(MakeEntity(*this, index, configuration, first_slot));
-    index_of_id_.emplace(configuration.id, index);
+    if (std::uint32_t& place = place_of_id_[PlaceOfId(configuration.id)]; place == 0) place = index + 1;
     if (configuration.movable) movable_.push_back(index);
     SetPose(i, configuration.pose);
   }
@@ -65,16 +66,24 @@ CSwarmanoidSpace::CSwarmanoidSpace(const Experiment& experiment) : experiment_(e
 
 CSwarmanoidSpace::~CSwarmanoidSpace() = default;
 
+std::size_t CSwarmanoidSpace::PlaceOfId(std::string_view id) const
+{
+  const std::size_t last = place_of_id_.size() - 1;
+  std::size_t place = XXH3_64bits(id.data(), id.size()) & last;
+  while (place_of_id_[place] != 0 && experiment_.entities[place_of_id_[place] - 1].id != id) place = (place + 1) & last;
+  return place;
+}
+
 const CSwarmanoidSpaceEntity* CSwarmanoidSpace::FindEntity(std::string_view id) const
 {
-  const auto found = index_of_id_.find(id);
-  return found == index_of_id_.end() ? nullptr : entities_[found->second].get();
+  const std::uint32_t found = place_of_id_[PlaceOfId(id)];
+  return found == 0 ? nullptr : entities_[found - 1].get();
 }
 
 CSwarmanoidSpaceEntity* CSwarmanoidSpace::FindEntity(std::string_view id)
 {
-  const auto found = index_of_id_.find(id);
-  return found == index_of_id_.end() ? nullptr : entities_[found->second].get();
+  const std::uint32_t found = place_of_id_[PlaceOfId(id)];
+  return found == 0 ? nullptr : entities_[found - 1].get();
 }
 
 Pose CSwarmanoidSpace::GetPose(std::size_t i) const
@@ -176,7 +185,8 @@ void CSwarmanoidSpace::Apply(const SpaceSnapshot& snapshot)
 {
   tick_ = snapshot.tick;
   SetPoses(movable_, snapshot.poses);
-  attributes_ = snapshot.attributes;
+  attributes_.clear();
+  attributes_.insert(attributes_.end(), snapshot.attributes.begin(), snapshot.attributes.end());
   ++attribute_revision_;
   FindAbsent();
   structure_.FollowAll();

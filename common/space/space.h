@@ -8,10 +8,10 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "common/experiment/experiment.h"
+#include "common/math/zeroed_vector.h"
 #include "common/messages/messages.h"
 #include "common/space/attributes.h"
 #include "common/space/entity.h"
@@ -85,19 +85,23 @@ public:
 
 private:
   void FindAbsent();
+  // Where the id stands in place_of_id_, or the free place where it would.
+  std::size_t PlaceOfId(std::string_view id) const;
 
   const Experiment& experiment_;
   std::uint64_t tick_ = 0;
   std::uint64_t revision_ = 1;
   std::uint64_t attribute_revision_ = 1;
   PoseArrays poses_;
-  std::vector<double> attributes_;
+  ZeroedVector<double> attributes_;  // most are 0: LEDs that are dark, messages that nobody sends
   std::vector<AttributeValue> attribute_values_;
   std::uint32_t first_presence_ = 0;  // slot
   std::vector<std::uint32_t> absent_;
   std::vector<std::uint32_t> movable_;
   std::vector<std::unique_ptr<CSwarmanoidSpaceEntity>> entities_;
-  std::unordered_map<std::string_view, std::uint32_t> index_of_id_;
+  // A table with open addresses (Knuth, The Art of Computer Programming, volume 3, 6.4): 1 + index at the hash of the
+  // id or behind it, 0: free.
+  std::vector<std::uint32_t> place_of_id_;
   StructuralTree structure_;
 };
 

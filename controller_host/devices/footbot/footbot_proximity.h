@@ -96,9 +96,10 @@ private:
   // Those that are not all 0, in the order in which they were made: that of the grid, so that they come one after the
   // other in memory.
   static constexpr std::size_t kBlock = 256;
-  std::vector<std::unique_ptr<Rays[]>> blocks_;  // of kBlock each; room for all from the start, as others read meanwhile
-  std::vector<std::uint32_t> seeing_;            // k of those that have readings
-  std::vector<std::uint8_t> saw_;                // whether robot k had readings before
+  std::vector<std::unique_ptr<Rays[]>>
+      blocks_;                         // of kBlock each; room for all from the start, as others read meanwhile
+  std::vector<std::uint32_t> seeing_;  // k of those that have readings
+  std::vector<std::uint8_t> saw_;      // whether robot k had readings before
   std::vector<Readings> sensors_;
 };
 

@@ -96,7 +96,7 @@ void KinematicWorld::FindContacts(const PairList& pairs, ContactBlock* blocks, C
       {
         const double dx = first.x - second.x;
         const double dy = first.y - second.y;
-        const double limit = radius_[a] + radius_[b] + contact_margin_;
+        const double limit = first.model->bounding_radius + second.model->bounding_radius + contact_margin_;
         if (dx * dx + dy * dy >= limit * limit) continue;
       }
       if (!everyone_is_free)

@@ -196,7 +196,7 @@ void KinematicWorld::Division::ReadResult(KinematicWorld& world, unsigned region
       Refuse("a body that there is not, or that another one told of");
     region_of_body_[body] = static_cast<std::uint8_t>(region);
   }
-  const auto take = [&](std::vector<double>& of_bodies)
+  const auto take = [&](auto& of_bodies)
   {
     const std::span<const char> values = result.GetImage<double>();
     if (values.size() != bodies.size() * sizeof(double)) Refuse("it told of other bodies");
@@ -308,7 +308,7 @@ void KinematicWorld::Division::WriteResult(const KinematicWorld& world, ByteWrit
   result.Put(world.statistics_);
   result.PutArray(numbers);
   std::vector<double> values(bodies.size());
-  const auto put = [&](const std::vector<double>& of_bodies)
+  const auto put = [&](const auto& of_bodies)
   {
     for (std::size_t k = 0; k < bodies.size(); ++k) values[k] = of_bodies[bodies[k]];
     result.PutArray(values);

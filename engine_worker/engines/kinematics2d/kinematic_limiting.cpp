@@ -150,7 +150,7 @@ bool KinematicWorld::CirclesMeet(std::uint32_t a, std::uint32_t b) const
 {
   const double dx = now_.x[a] - now_.x[b];
   const double dy = now_.y[a] - now_.y[b];
-  const double limit = radius_[a] + radius_[b];
+  const double limit = RadiusOf(a) + RadiusOf(b);
   return dx * dx + dy * dy <= limit * limit;
 }
 
@@ -193,7 +193,7 @@ bool KinematicWorld::CanMeet(std::uint32_t a, std::uint32_t b) const
   const double dx = before_.x[a] - before_.x[b];
   const double dy = before_.y[a] - before_.y[b];
   const double squared = dx * dx + dy * dy;
-  const double radii = radius_[a] + radius_[b];
+  const double radii = RadiusOf(a) + RadiusOf(b);
   const double far = radii + way_[a] + way_[b];
   if (squared >= far * far) return false;
   // What is led by another body goes no straight way.
@@ -207,7 +207,7 @@ bool KinematicWorld::CanMeet(std::uint32_t a, std::uint32_t b) const
 // No point of the body's outline gets further than this (metres) from where it was.
 double KinematicWorld::OutlineWay(std::uint32_t body, double seconds) const
 {
-  return way_[body] + radius_[body] * (std::fabs(TurnOf(leader_[body], seconds)) + std::fabs(turret_way_[body]));
+  return way_[body] + RadiusOf(body) * (std::fabs(TurnOf(leader_[body], seconds)) + std::fabs(turret_way_[body]));
 }
 
 // One plane for each near pair of parts. For all pairs of the batch, which is empty then.

@@ -16,15 +16,15 @@ namespace
 {
 
 // Gives back what the whole world took.
-template <class T>
-void Trim(std::vector<T>& values)
+template <class Values>
+void Trim(Values& values)
 {
   if (values.capacity() > 2 * values.size()) values.shrink_to_fit();
 }
 
 // Moves runs of values to their new places. What lies between them is left over from before.
-template <class Runs, class T>
-void MoveRuns(const Runs& runs, std::size_t size, const T& behind, std::vector<T>& values)
+template <class Runs, class Values>
+void MoveRuns(const Runs& runs, std::size_t size, typename Values::value_type behind, Values& values)
 {
   const std::size_t bodies = runs.empty() ? 0 : runs.back().to + runs.back().count;
   values.resize(std::max({values.size(), size, bodies}), behind);
@@ -222,7 +222,9 @@ void KinematicWorld::Region::TakeArrived(KinematicWorld& world)
   for (std::size_t k = 0; k < arrived_.size(); ++k) Settle(world, places_[k], arrived_[k]);
   if (others)
   {
-    world.broad_.SetBodies(world.radius_);
+    std::vector<double> radii(world.count_);
+    for (std::uint32_t body = 0; body < world.count_; ++body) radii[body] = world.RadiusOf(body);
+    world.broad_.SetBodies(radii);
     world.grips_.clear();
     world.RebuildGroups();
   }
@@ -367,12 +369,12 @@ void KinematicWorld::Region::Rearrange(KinematicWorld& world)
   for (std::vector<double>* of_bodies :
        {&world.now_.x, &world.now_.y, &world.now_.z, &world.twists_.forward, &world.twists_.left, &world.twists_.turn})
     MoveRuns(runs_, padded, 0.0, *of_bodies);
-  for (std::vector<double>* of_bodies : {&world.now_.w, &world.core_limit_, &world.inverse_limit_})
+  for (std::vector<double>* of_bodies : {&world.now_.w, &world.inverse_limit_})
     MoveRuns(runs_, padded, 1.0, *of_bodies);
-  for (std::vector<double>* of_bodies :
-       {&world.turret_angle_, &world.turret_sin_, &world.radius_, &world.travel_forward_, &world.travel_turn_})
+  for (ZeroedVector<double>* of_bodies :
+       {&world.turret_angle_, &world.turret_sin_, &world.travel_forward_, &world.travel_turn_})
     MoveRuns(runs_, count, 0.0, *of_bodies);
-  MoveRuns(runs_, count, 1.0, world.turret_cos_);
+  if (!world.turret_cos_.empty()) MoveRuns(runs_, count, 1.0, world.turret_cos_);
   for (std::vector<std::uint32_t>* of_bodies : {&world.model_, &numbers_, &cells_})
     MoveRuns(runs_, count, 0U, *of_bodies);
   for (std::vector<std::uint8_t>* of_bodies : {&world.follower_, &world.present_, &is_own_})
@@ -395,14 +397,11 @@ void KinematicWorld::Region::Rearrange(KinematicWorld& world)
   world.turret_cos_before_ = world.turret_cos_;
   world.turret_sin_before_ = world.turret_sin_;
   world.turret_way_.assign(count, 0);
-  for (std::vector<double>* values : {&world.effective_.forward, &world.effective_.left, &world.effective_.turn})
-    values->resize(padded, 0);
   world.way_.resize(padded);
   for (PoseStore* poses : {&world.now_, &world.before_})
     for (std::vector<double>* values : {&poses->x, &poses->y, &poses->z, &poses->w}) Trim(*values);
-  for (std::vector<double>* values :
-       {&world.way_, &world.turret_way_, &world.effective_.forward, &world.effective_.left, &world.effective_.turn})
-    Trim(*values);
+  Trim(world.way_);
+  Trim(world.turret_way_);
   world.placed_.resize(count);
   Trim(world.placed_);
   for (const CollisionModel& shape : world.statics_) world.placed_.push_back({.model = &shape});
@@ -430,9 +429,7 @@ void KinematicWorld::Region::Settle(KinematicWorld& world, std::uint32_t body, c
   world.follower_[body] = 0;
   world.present_[body] = arrived.body.is_present;
   const CollisionModel& model = world.models_[arrived.body.model];
-  world.radius_[body] = model.bounding_radius;
-  world.core_limit_[body] = world.CoreLimitOf(model);
-  world.inverse_limit_[body] = 1 / world.core_limit_[body];
+  world.inverse_limit_[body] = 1 / world.CoreLimitOf(model);
   world.travel_forward_[body] = arrived.travel.forward;
   world.travel_turn_[body] = arrived.travel.turn;
   world.SetTurretRate(body, arrived.turret.rate);

@@ -19,7 +19,7 @@ KinematicWorld::Region::SharedLeader KinematicWorld::Region::LeaderAt(const Kine
 void KinematicWorld::Region::ChoosePairsOfLarge(KinematicWorld& world)
 {
   order_of_large_.clear();
-  const auto is_large = [&](std::uint32_t body) { return world.broad_.IsLarge(world.radius_[body]); };
+  const auto is_large = [&](std::uint32_t body) { return world.broad_.IsLarge(world.RadiusOf(body)); };
   const auto cells = static_cast<std::uint32_t>(world.broad_.Cells().Count());
   std::erase_if(
       world.pairs_of_large_.pairs,

@@ -118,13 +118,13 @@ int KinematicWorld::Substeps(double seconds, int steps)
     const double arm = std::sqrt(grip.relative.x * grip.relative.x + grip.relative.y * grip.relative.y);
     const double speed =
         std::sqrt(group.forward * group.forward + group.left * group.left) + std::fabs(group.turn) * arm;
-    consider(speed * seconds, core_limit_[grip.body]);
+    consider(speed * seconds, CoreLimitOf(ModelOf(grip.body)));
   }
   for (const Follower& follower : followers_)
   {
     const double dx = follower.goal.x - follower.from.x;
     const double dy = follower.goal.y - follower.from.y;
-    consider(std::sqrt(dx * dx + dy * dy), core_limit_[follower.body]);
+    consider(std::sqrt(dx * dx + dy * dy), CoreLimitOf(ModelOf(follower.body)));
   }
 
   if (region_) region_->ShareMaxima({&ratio, &way});
@@ -197,11 +197,11 @@ void KinematicWorld::Move(double seconds, double fraction)
   {
     const std::uint32_t body = turret.body;
     turret.before = turret_angle_[body];
-    const double before_cos = turret_cos_[body];
+    const double before_cos = TurretCos(body);
     const double before_sin = turret_sin_[body];
     const double way = leader_[body] == body ? turret.rate * seconds : 0;
     SetTurretAngle(body, turret.before + way);
-    turret_cos_before_[body] = before_cos;
+    if (!turret_cos_before_.empty()) turret_cos_before_[body] = before_cos;
     turret_sin_before_[body] = before_sin;
     turret_way_[body] = way;
   }

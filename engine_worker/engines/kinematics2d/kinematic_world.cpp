@@ -89,30 +89,26 @@ void KinematicWorld::Start(Bounds area, unsigned threads, WorkerPool* pool)
   placed_.resize(count_);
   for (const CollisionModel& shape : statics_) placed_.push_back({.model = &shape});
   twists_.Resize(padded);
-  effective_.Resize(padded);
-  turret_angle_.assign(count_, 0);
-  turret_cos_.assign(count_, 1);
-  turret_sin_.assign(count_, 0);
-  turret_cos_before_ = turret_cos_;
-  turret_sin_before_ = turret_sin_;
-  turret_way_.assign(count_, 0);
+  turret_angle_.resize(count_);
+  turret_sin_.resize(count_);
+  turret_sin_before_.resize(count_);
+  turret_way_.resize(count_);
   way_.assign(padded, 0);
-  travel_forward_.assign(count_, 0);
-  travel_turn_.assign(count_, 0);
+  travel_forward_.resize(count_);
+  travel_turn_.resize(count_);
   mobility_.assign(count_ + 1, 0);
   leader_.resize(count_ + 1);
   for (std::uint32_t k = 0; k <= count_; ++k) leader_[k] = k;
 
-  std::vector<double> cores;
+  std::vector<double> cores, radii;
   for (std::size_t k = 0; k < count_; ++k)
   {
     const CollisionModel& model = models_[model_[k]];
-    radius_.push_back(model.bounding_radius);
+    radii.push_back(model.bounding_radius);
     cores.push_back(CoreOf(model));
     if (present_[k] != 0) area.Include(now_.x[k], now_.y[k], model.bounding_radius);
   }
   // A wide body among narrow ones goes no further in a substep than they do, so that the cells can stay small.
-  core_limit_.assign(padded, 1);
   inverse_limit_.assign(padded, 1);
   double longest_way = 0;
   smallest_limit_ = 1;
@@ -123,15 +119,15 @@ void KinematicWorld::Start(Bounds area, unsigned threads, WorkerPool* pool)
     median_core_ = sorted[count_ / 2];
     for (std::size_t k = 0; k < count_; ++k)
     {
-      core_limit_[k] = CoreLimitOf(models_[model_[k]]);
-      inverse_limit_[k] = 1 / core_limit_[k];
-      longest_way = std::max(longest_way, core_limit_[k]);
-      smallest_limit_ = std::min(smallest_limit_, core_limit_[k]);
+      const double limit = CoreLimitOf(models_[model_[k]]);
+      inverse_limit_[k] = 1 / limit;
+      longest_way = std::max(longest_way, limit);
+      smallest_limit_ = std::min(smallest_limit_, limit);
     }
   }
   allowed_ = kAllowedOverlap * smallest_limit_ / kWayInCore;
 
-  broad_.Configure(area, radius_, 2 * (longest_way + kSlowestSeparation));
+  broad_.Configure(area, radii, 2 * (longest_way + kSlowestSeparation));
   std::vector<Bounds> boxes;
   for (const CollisionModel& shape : statics_) boxes.push_back(BoxOf(shape));
   broad_.SetStatics(boxes);
@@ -178,8 +174,15 @@ void KinematicWorld::SetTurretRate(std::uint32_t body, double rate)
 
 void KinematicWorld::SetTurretAngle(std::uint32_t body, double angle)
 {
-  turret_angle_[body] = WrapAngle(angle);
-  const SinCos turned = SinCosOf(turret_angle_[body]);
+  angle = WrapAngle(angle);
+  if (turret_cos_.empty())
+  {
+    if (angle == 0) return;
+    turret_cos_.assign(count_, 1);
+    turret_cos_before_.assign(count_, 1);
+  }
+  turret_angle_[body] = angle;
+  const SinCos turned = SinCosOf(angle);
   turret_cos_[body] = turret_cos_before_[body] = turned.cos;
   turret_sin_[body] = turret_sin_before_[body] = turned.sin;
   turret_way_[body] = 0;
@@ -192,7 +195,7 @@ void KinematicWorld::Follow(std::uint32_t body, const Pose2& pose, bool present)
   const Pose2 from = now_.Get(body);
   const double dx = pose.x - from.x;
   const double dy = pose.y - from.y;
-  const double leap = kMostSubsteps * core_limit_[body];
+  const double leap = kMostSubsteps * CoreLimitOf(ModelOf(body));
   const bool appears = present && present_[body] == 0;
   at->from = appears || dx * dx + dy * dy > leap * leap ? pose : from;
   at->goal = pose;
@@ -276,22 +279,23 @@ double KinematicWorld::StaticOverlapOf(std::uint32_t body) const
 
 void KinematicWorld::SaveState(ByteWriter& state) const
 {
-  for (const auto* values : {&now_.x, &now_.y, &now_.z, &now_.w, &turret_angle_})
-    state.PutArray(std::span<const double>(values->data(), count_));
+  for (const double* values : {now_.x.data(), now_.y.data(), now_.z.data(), now_.w.data(), turret_angle_.data()})
+    state.PutArray(std::span(values, count_));
   state.PutArray(present_);
   state.PutArray(grips_);
 }
 
 void KinematicWorld::LoadState(ByteReader& state)
 {
-  const auto read = [&]<class T>(std::vector<T>& values)
+  const auto read = [&](auto& values)
   {
-    const std::vector<T> saved = state.GetArray<T>();
+    const auto saved = state.GetArray<typename std::remove_cvref_t<decltype(values)>::value_type>();
     if (saved.size() != count_)
       throw std::runtime_error("saved state of a kinematic world: it is of another experiment");
     std::copy(saved.begin(), saved.end(), values.begin());
   };
-  for (auto* values : {&now_.x, &now_.y, &now_.z, &now_.w, &turret_angle_}) read(*values);
+  for (auto* values : {&now_.x, &now_.y, &now_.z, &now_.w}) read(*values);
+  read(turret_angle_);
   read(present_);
   for (std::uint32_t k = 0; k < count_; ++k) SetTurretAngle(k, turret_angle_[k]);
   grips_ = state.GetArray<Grip>();

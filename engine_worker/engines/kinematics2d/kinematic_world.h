@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "common/math/zeroed_vector.h"
 #include "common/messages/regions.h"
 #include "common/serialisation/bytes.h"
 #include "engine_worker/engines/kinematics2d/broad_phase.h"
@@ -214,16 +215,23 @@ private:
   Placed PlaceAt(std::uint32_t body, const PoseStore& poses) const
   {
     const Rotor heading{poses.z[body], poses.w[body]};
-    return {poses.x[body],     poses.y[body],     CosOf(heading),        SinOf(heading),
-            turret_cos_[body], turret_sin_[body], &models_[model_[body]]};
+    return {poses.x[body],   poses.y[body],     CosOf(heading),        SinOf(heading),
+            TurretCos(body), turret_sin_[body], &models_[model_[body]]};
   }
   std::uint32_t NumberOf(const Placed& placed) const { return static_cast<std::uint32_t>(&placed - placed_.data()); }
   Placed PlaceBefore(std::uint32_t body) const
   {
     const Rotor heading{before_.z[body], before_.w[body]};
-    return {before_.x[body],          before_.y[body],          CosOf(heading),        SinOf(heading),
-            turret_cos_before_[body], turret_sin_before_[body], &models_[model_[body]]};
+    return {before_.x[body],
+            before_.y[body],
+            CosOf(heading),
+            SinOf(heading),
+            turret_cos_before_.empty() ? 1 : turret_cos_before_[body],
+            turret_sin_before_[body],
+            &models_[model_[body]]};
   }
+  double TurretCos(std::uint32_t body) const { return turret_cos_.empty() ? 1 : turret_cos_[body]; }
+  double RadiusOf(std::uint32_t body) const { return models_[model_[body]].bounding_radius; }
   // Each body leads itself and can be pushed.
   bool EveryoneIsFree() const { return grips_.empty() && followers_.empty(); }
   // Of a body, or of static shapes.
@@ -296,13 +304,13 @@ private:
   TwistStore effective_;  // twists_ with those of groups filled in; used while there are groups
   std::vector<std::uint32_t> model_;
   std::vector<std::uint8_t> follower_, present_;
-  std::vector<double> turret_angle_, turret_cos_, turret_sin_;
-  std::vector<double> turret_cos_before_, turret_sin_before_;  // when the substep began
-  std::vector<double> turret_way_;                             // rad in this substep
-  std::vector<double> way_;                                    // metres that a body wants to go in this substep
-  std::vector<double> core_limit_, inverse_limit_;             // metres that a body may go in one substep
-  std::vector<double> radius_;                                 // of the circle around it
-  std::vector<double> travel_forward_, travel_turn_;
+  ZeroedVector<double> turret_angle_, turret_sin_;
+  ZeroedVector<double> turret_sin_before_;              // when the substep began
+  std::vector<double> turret_cos_, turret_cos_before_;  // none while no turret was ever turned: all are 1
+  ZeroedVector<double> turret_way_;                     // rad in this substep
+  std::vector<double> way_;                             // metres that a body wants to go in this substep
+  std::vector<double> inverse_limit_;                   // 1 / metres that a body may go in one substep
+  ZeroedVector<double> travel_forward_, travel_turn_;
   bool keeps_travel_ = false;
 
   // A body of its own leads itself, one that grips is led by its prey. One more entry than bodies: the static world.

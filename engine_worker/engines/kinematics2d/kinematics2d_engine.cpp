@@ -100,15 +100,15 @@ void Kinematics2dEngine::Start()
   const auto model_for = [&](const CSwarmanoidSpaceEntity& entity)
   { return HasTurret(entity) ? footbot_model : world_.AddModel(ModelOf(entity)); };
 
-  std::vector<PlaneStance> stances;
+  std::vector<PlaneWriter::Stance> stances;
   for (const CSwarmanoidSpaceEntity* entity : owned_)
   {
     // Robots and preys stand on the plane; blocks keep their height and lean.
     robots_.AddOwned(*entity);
     const bool block = IsFreeBox(entity->GetKind());
-    stances.push_back(block ? frame_.StanceOf(entity->GetConfiguration().pose) : PlaneStance{});
     const std::uint32_t model = model_for(*entity);
     const std::uint32_t body = world_.AddBody(model, PlanePoseOf(entity->GetConfiguration().pose));
+    if (block) stances.push_back({body, frame_.StanceOf(entity->GetConfiguration().pose)});
     world_.SetPresent(body, entity->GetConfiguration().reserve.empty());
     if (block && world_.ModelOf(body).polygons.empty())
       throw ConfigurationError(entity->GetConfiguration().location,
@@ -156,7 +156,8 @@ void Kinematics2dEngine::Start()
   world_.Start(AreaOf(frame_, space_->GetExperiment().arena_size), threads_, pool_);
   for (const Footbot& footbot : footbots_)
     world_.SetTurretAngle(footbot.body, space_->Attributes()[footbot.turret_slot]);
-  writer_ = PlaneWriter(frame_, std::move(stances));
+  writer_ = PlaneWriter(frame_, owned_.size(), std::move(stances));
+  std::vector<const CSwarmanoidSpaceEntity*>().swap(owned_);
   if (team_ != nullptr) world_.Divide(*team_);
 }
 

@@ -101,7 +101,7 @@ private:
   PlaneWriter writer_;
   PlaneRobots robots_;
 
-  std::vector<const CSwarmanoidSpaceEntity*> owned_;  // body k is owned_[k]
+  std::vector<const CSwarmanoidSpaceEntity*> owned_;  // body k is owned_[k]; until the start
   std::vector<Mirror> mirrors_;
   std::vector<const CSwarmanoidSpaceEntity*> fixed_;
   std::vector<Wheels> wheels_;                   // by body; 0 for those without

@@ -50,50 +50,47 @@ bool LimitList::Add(double gap, const std::array<Approach, 4>& approaches)
 
 void MotionLimiter::Configure(std::size_t leaders)
 {
-  most_.assign(2 * leaders, 1);
-  part_ = next_ = most_;
-  is_touched_.assign(2 * leaders, 0);
-  touched_.reserve(2 * leaders);
+  place_.resize(2 * leaders);
   limited_.reserve(leaders);
+  most_ = part_ = next_ = {1};
 }
 
 void MotionLimiter::MakeRoom(std::size_t leaders)
 {
-  const bool is_much_too_large = part_.size() > 8 * leaders;
-  if (2 * leaders <= part_.size() && !is_much_too_large) return;
-  for (std::vector<double>* of_motions : {&most_, &part_, &next_})
-  {
-    of_motions->resize(2 * leaders, 1);
-    if (is_much_too_large) of_motions->shrink_to_fit();
-  }
-  is_touched_.resize(2 * leaders, 0);
+  const bool is_much_too_large = place_.size() > 8 * leaders;
+  if (2 * leaders <= place_.size() && !is_much_too_large) return;
+  place_.resize(2 * leaders);
+  if (is_much_too_large) place_.shrink_to_fit();
 }
 
 void MotionLimiter::Clear()
 {
-  for (const std::uint32_t motion : touched_)
-  {
-    most_[motion] = part_[motion] = next_[motion] = 1;
-    is_touched_[motion] = 0;
-  }
+  for (const std::uint32_t motion : touched_) place_[motion] = 0;
   touched_.clear();
   limited_.clear();
   chases_.clear();
+  most_.resize(1);
+  part_.resize(1);
+  next_.resize(1);
 }
 
-void MotionLimiter::Touch(std::uint32_t motion)
+std::uint32_t MotionLimiter::Touch(std::uint32_t motion)
 {
-  if (is_touched_[motion] != 0) return;
-  is_touched_[motion] = 1;
-  touched_.push_back(motion);
+  if (place_[motion] == 0)
+  {
+    touched_.push_back(motion);
+    place_[motion] = static_cast<std::uint32_t>(touched_.size());
+    most_.push_back(1);
+  }
+  return place_[motion];
 }
 
 void MotionLimiter::Add(const LimitList& limits)
 {
   for (const LimitList::Bound& bound : limits.Bounds())
   {
-    Touch(bound.motion);
-    most_[bound.motion] = std::min(most_[bound.motion], bound.most);
+    const std::uint32_t place = Touch(bound.motion);
+    most_[place] = std::min(most_[place], bound.most);
   }
   for (const LimitList::Chase& chase : limits.Chases()) Touch(chase.motion);
   chases_.insert(chases_.end(), limits.Chases().begin(), limits.Chases().end());
@@ -101,27 +98,33 @@ void MotionLimiter::Add(const LimitList& limits)
 
 void MotionLimiter::Raise()
 {
-  for (const std::uint32_t motion : touched_) part_[motion] = next_[motion] = most_[motion];
-  for (const LimitList::Chase& chase : chases_) part_[chase.motion] = 0;
-  bool rises = !chases_.empty();
+  part_ = next_ = most_;
+  by_place_ = chases_;
+  for (LimitList::Chase& chase : by_place_)
+  {
+    chase.motion = place_[chase.motion];
+    for (std::uint32_t& ahead : chase.ahead) ahead = place_[ahead];
+  }
+  for (const LimitList::Chase& chase : by_place_) part_[chase.motion] = 0;
+  bool rises = !by_place_.empty();
   for (int round = 0; rises && round < kMostRounds; ++round)
   {
-    for (const LimitList::Chase& chase : chases_) next_[chase.motion] = most_[chase.motion];
-    for (const LimitList::Chase& chase : chases_)
+    for (const LimitList::Chase& chase : by_place_) next_[chase.motion] = most_[chase.motion];
+    for (const LimitList::Chase& chase : by_place_)
     {
       const double most = chase.base + chase.slope[0] * part_[chase.ahead[0]] + chase.slope[1] * part_[chase.ahead[1]];
       next_[chase.motion] = std::min(next_[chase.motion], most);
     }
     rises = false;
-    for (const LimitList::Chase& chase : chases_) rises |= next_[chase.motion] > part_[chase.motion] + kLeastRise;
+    for (const LimitList::Chase& chase : by_place_) rises |= next_[chase.motion] > part_[chase.motion] + kLeastRise;
     std::swap(part_, next_);
   }
 
   for (const std::uint32_t motion : touched_)
   {
     const std::uint32_t leader = LeaderOfMotion(motion);
-    const bool counted_before = motion % 2 == 1 && part_[WayMotion(leader)] < 1;
-    if (part_[motion] < 1 && !counted_before) limited_.push_back(leader);
+    const bool counted_before = motion % 2 == 1 && PartOf(WayMotion(leader)) < 1;
+    if (PartOf(motion) < 1 && !counted_before) limited_.push_back(leader);
   }
 }
 

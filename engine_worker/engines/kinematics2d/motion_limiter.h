@@ -17,6 +17,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/math/zeroed_vector.h"
+
 namespace swarmanoid::kinematics2d
 {
 
@@ -76,18 +78,20 @@ public:
   // Finds the parts under all limits that were added. Depends on their set, not on their order.
   void Raise();
 
-  double PartOf(std::uint32_t motion) const { return part_[motion]; }
+  double PartOf(std::uint32_t motion) const { return part_[place_[motion]]; }
   // Those of whose motions one is limited, after Raise; each once.
   const std::vector<std::uint32_t>& Limited() const { return limited_; }
 
 private:
-  void Touch(std::uint32_t motion);
+  // Its place, from now on one of its own.
+  std::uint32_t Touch(std::uint32_t motion);
 
   std::vector<LimitList::Chase> chases_;
-  // Of each motion; 1 if nothing limits it.
+  std::vector<LimitList::Chase> by_place_;  // the same with places for motions
+  // Of motions with limits, one behind the other; in front is that of all others, which is 1.
   std::vector<double> most_, part_, next_;
-  std::vector<std::uint8_t> is_touched_;
-  std::vector<std::uint32_t> touched_;  // motions with limits
+  std::vector<std::uint32_t> touched_;  // the motion of each of these, but the first
+  ZeroedVector<std::uint32_t> place_;   // of each motion in these; 0: nothing limits it
   std::vector<std::uint32_t> limited_;
 };
 

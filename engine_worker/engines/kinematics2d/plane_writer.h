@@ -15,22 +15,32 @@ namespace swarmanoid
 class PlaneWriter
 {
 public:
+  struct Stance
+  {
+    std::uint32_t body;
+    PlaneStance stance;
+  };
+
   PlaneWriter() = default;
-  // The first stances.size() bodies are written.
-  PlaneWriter(const PlaneFrame& frame, std::vector<PlaneStance> stances);
+  // The first bodies are written. `stances`, by body, are of those that may stand otherwise than upright on the plane.
+  PlaneWriter(const PlaneFrame& frame, std::size_t bodies, std::vector<Stance> stances);
 
   // poses: 7 doubles a body, structure of arrays x y z qx qy qz qw.
   // The threads of `pool`, if there is one, share the work.
   void Write(const kinematics2d::PoseStore& bodies, std::span<double> poses, WorkerPool* pool = nullptr) const;
 
 private:
-  // From body `begin` to before `end`.
-  void WriteSome(const kinematics2d::PoseStore& bodies, std::size_t begin, std::size_t end, double* poses) const;
-  void WriteFlat(const kinematics2d::PoseStore& bodies, std::size_t begin, std::size_t end, double* poses) const;
+  using Stances = std::vector<Stance>;
+  // From body `begin` to before `end`; `stance` is the first of these, or of later ones.
+  void WriteSome(const kinematics2d::PoseStore& bodies, std::size_t begin, std::size_t end,
+                 Stances::const_iterator stance, double* poses) const;
+  void WriteFlat(const kinematics2d::PoseStore& bodies, std::size_t begin, std::size_t end,
+                 Stances::const_iterator stance, double* poses) const;
 
   Pose frame_;
   bool flat_ = true;  // perpendicular to z, all bodies upright
-  std::vector<PlaneStance> stances_;
+  std::size_t bodies_ = 0;
+  Stances stances_;
 };
 
 }  // namespace swarmanoid
