@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "common/configuration/wording.h"
 #include "common/experiment/body.h"
@@ -286,6 +287,58 @@ void Unplace(const Distribution& distribution, std::vector<EntityConfiguration>&
   }
 }
 
+// The bits of x and y in turn: who is near on the plane is near in this order, mostly (Morton, "A computer oriented
+// geodetic data base", IBM, 1966).
+std::uint32_t MortonOrder(std::uint16_t x, std::uint16_t y)
+{
+  const auto spread = [](std::uint32_t bits)
+  {
+    bits = (bits | bits << 8U) & 0x00ff00ffU;
+    bits = (bits | bits << 4U) & 0x0f0f0f0fU;
+    bits = (bits | bits << 2U) & 0x33333333U;
+    return (bits | bits << 1U) & 0x55555555U;
+  };
+  return spread(x) | spread(y) << 1U;
+}
+
+void SortByPlace(const Distribution& distribution, Experiment& experiment)
+{
+  struct Place
+  {
+    std::uint32_t order, index;
+    bool operator<(const Place& other) const { return std::tie(order, index) < std::tie(other.order, other.index); }
+  };
+  const auto first = static_cast<std::uint32_t>(distribution.first);
+  const auto behind = static_cast<std::uint32_t>(distribution.first + distribution.count);
+  const double widest = experiment.arena_size.head<2>().maxCoeff();
+  const auto step = [&](double metres)
+  { return static_cast<std::uint16_t>(std::clamp(metres / widest, 0.0, 1.0) * 0xffff); };
+  std::vector<Place> places;
+  places.reserve(distribution.count);
+  for (std::uint32_t i = first; i < behind; ++i)
+  {
+    const Vector3& position = experiment.entities[i].pose.position;
+    places.push_back({MortonOrder(step(position.x()), step(position.y())), i});
+  }
+  std::sort(places.begin(), places.end());
+
+  std::vector<EntityConfiguration> sorted;
+  std::vector<std::uint32_t> new_index(distribution.count);
+  sorted.reserve(distribution.count);
+  for (const Place& place : places)
+  {
+    new_index[place.index - first] = first + static_cast<std::uint32_t>(sorted.size());
+    sorted.push_back(std::move(experiment.entities[place.index]));
+  }
+  std::move(sorted.begin(), sorted.end(), experiment.entities.begin() + first);
+  for (EngineConfiguration& engine : experiment.engines)
+  {
+    for (std::uint32_t& entity : engine.entities)
+      if (entity >= first && entity < behind) entity = new_index[entity - first];
+    std::sort(engine.entities.begin(), engine.entities.end());
+  }
+}
+
 }  // namespace
 
 void PlaceDistributed(Reading& reading)
@@ -301,10 +354,14 @@ void PlaceDistributed(Reading& reading)
     next = distribution.first + distribution.count;
   }
   placer.AddPlaced(next, reading.experiment.entities.size());
+  const std::size_t mistakes = reading.diagnostics.Count();
   for (const Distribution& distribution : distributions)
   {
     if (!placer.Place(distribution)) Unplace(distribution, reading.experiment.entities);
   }
+  if (reading.diagnostics.Count() != mistakes) return;
+  for (const Distribution& distribution : distributions)
+    if (distribution.by_place) SortByPlace(distribution, reading.experiment);
 }
 
 }  // namespace swarmanoid

@@ -262,7 +262,9 @@ private:
     const ElementReader reader(tree, spec, reading_.diagnostics);
     const std::size_t first = reading_.experiment.entities.size();
     const std::size_t count = ReadAlike(reader, spec, false);
-    if (count > 0) reading_.distributions.push_back({tree, first, count, reader.Integer("max_trials")});
+    if (count > 0)
+      reading_.distributions.push_back(
+          {tree, first, count, reader.Integer("max_trials"), reader.Text("order") == "place"});
   }
 
   void ReadReserve(const TConfigurationTree& tree, const ElementSpec& spec)

@@ -21,6 +21,7 @@ struct Distribution
   std::size_t first = 0;  // index of its first entity
   std::size_t count = 0;
   long long max_trials = 0;
+  bool by_place = false;  // the order in which they stand in the end
 };
 
 // What the readers share.
