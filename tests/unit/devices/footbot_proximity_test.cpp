@@ -205,6 +205,41 @@ TEST(FootbotProximity, FollowsTheRobotsAndForgetsWhatIsGone)
   for (const double reading : ReadingsOf(sensor, 0)) EXPECT_EQ(reading, 0);
 }
 
+// Readings lie side by side in the order in which they were made, whoever they are of.
+TEST(FootbotProximity, OfManyThatSeeEachHasItsOwn)
+{
+  TestWorld world;
+  constexpr std::uint32_t kPairs = 400;
+  std::vector<std::uint32_t> robots;
+  for (std::uint32_t n = 0; n < kPairs; ++n)
+  {
+    // From the far end on, so that the order of places is not that of numbers; nearer and nearer to one another.
+    const double x = 9.5 - 0.45 * (n % 20);
+    const double y = 9.5 - 0.45 * (n / 20);
+    const double gap = 0.175 + 0.09 * n / kPairs;
+    world.AddFootbot(x - gap / 2, y);
+    world.AddFootbot(x + gap / 2, y, kPi);
+    robots.insert(robots.end(), {2 * n, 2 * n + 1});
+  }
+  TestSensor sensor(world, "footbot_proximity", "generic_footbot_proximity", robots);
+  for (int turn = 0; turn < 3; ++turn)
+  {
+    sensor.Update();
+    for (std::uint32_t n = 0; n < kPairs; ++n)
+    {
+      TestSensor alone(world, "footbot_proximity", "generic_footbot_proximity", {2 * n});
+      alone.Update();
+      const auto expected = ReadingsOf(alone, 0);
+      const auto readings = ReadingsOf(sensor, 2 * n);
+      ASSERT_TRUE(std::equal(expected.begin(), expected.end(), readings.begin())) << n;
+      ASSERT_EQ(expected[0] > 0, turn == 0 || n % 2 == 1) << n;
+    }
+    // Every other pair parts.
+    for (std::uint32_t n = 0; n < kPairs; n += 2)
+      world.Space().SetPose(2 * n + 1, {{0.2, 0.2, 50.0 + n}, Quaternion::Identity()});
+  }
+}
+
 TEST(FootbotProximity, UniformNoiseStaysWithinItsRangeAndTheReadings)
 {
   TestWorld world;

@@ -46,6 +46,25 @@ MotionLimiter Limited(const std::vector<Plane>& planes, std::uint32_t leaders, s
   return limiter;
 }
 
+TEST(MotionLimiter, WhatWasLimitedIsFreeAgainAfterClear)
+{
+  constexpr std::uint32_t kLeaders = 12;
+  MotionLimiter limiter = Limited(RandomPlanes(1, kLeaders, 20), kLeaders, 1);
+  ASSERT_FALSE(limiter.Limited().empty());
+  limiter.Clear();
+  EXPECT_TRUE(limiter.Limited().empty());
+  for (std::uint32_t motion = 0; motion < 2 * kLeaders; ++motion) EXPECT_EQ(limiter.PartOf(motion), 1);
+  // Others than those before, with nothing left of them.
+  const std::vector<Plane> planes = RandomPlanes(2, kLeaders, 5);
+  LimitList list;
+  for (const Plane& plane : planes) list.Add(plane.gap, plane.approaches);
+  limiter.Add(list);
+  limiter.Raise();
+  const MotionLimiter fresh = Limited(planes, kLeaders, 1);
+  for (std::uint32_t motion = 0; motion < 2 * kLeaders; ++motion)
+    EXPECT_EQ(limiter.PartOf(motion), fresh.PartOf(motion)) << motion;
+}
+
 TEST(MotionLimiter, NoPlaneIsCrossed)
 {
   for (std::uint64_t seed = 1; seed <= 200; ++seed)

@@ -1,7 +1,10 @@
 // <distribute> in terrain, and with the outlines of the engines: as these are described.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
 
 #include "common/builtins/builtins.h"
 #include "common/experiment/body.h"
@@ -99,6 +102,66 @@ TEST(Distribute, KeepsGrippersApart)
     const auto others = EntitiesOf(ArenaInEngine(crowd, "5,5,1", engine));
     for (std::size_t i = 0; i < others.size(); ++i)
       EXPECT_EQ(others[i].pose.position, kinematic[i].pose.position) << engine;
+  }
+}
+
+// Two engines that share the robots of one <distribute> between them, in the order of their numbers or of their places.
+std::unique_ptr<Experiment> Ordered(const std::string& order)
+{
+  DescribeBuiltins();
+  LoadedExperiment loaded = LoadExperimentText(
+      "<ahss-config><arena size='60,60,2' optimization='2D'><footbot id='first'><position>1,1,0</position>"
+      "<orientation>0,0,0</orientation></footbot><distribute quantity='900' order='" +
+          order +
+          "'><footbot id='fb'/></distribute><footbot id='last'><position>59,59,0</position><orientation>0,0,0"
+          "</orientation></footbot></arena><engines><dummy_engine id='a'/><dummy_engine id='b'/></engines>"
+          "<arena_physics><engine id='a'><entity id='fb_7'/><entity id='last'/></engine>"
+          "<engine id='b'><all/></engine></arena_physics></ahss-config>",
+      "test.xml", "/", {});
+  for (const Diagnostic& error : loaded.errors) ADD_FAILURE() << error.Text();
+  return std::move(loaded.experiment);
+}
+
+double WayAlong(const std::vector<EntityConfiguration>& entities)
+{
+  double way = 0;
+  for (std::size_t i = 2; i + 1 < entities.size(); ++i)
+    way += (entities[i].pose.position - entities[i - 1].pose.position).norm();
+  return way;
+}
+
+TEST(Distribute, InTheOrderOfTheirPlacesNeighboursStandTogetherAndNothingElseChanges)
+{
+  const auto by_number = Ordered("number");
+  const auto by_place = Ordered("place");
+  ASSERT_TRUE(by_number && by_place);
+  ASSERT_EQ(by_place->entities.size(), 902U);
+  EXPECT_EQ(by_place->entities.front().id, "first");
+  EXPECT_EQ(by_place->entities.back().id, "last");
+  std::map<std::string, Pose> poses;
+  for (const EntityConfiguration& entity : by_place->entities) poses[entity.id] = entity.pose;
+  for (const EntityConfiguration& entity : by_number->entities)
+  {
+    EXPECT_EQ(poses.at(entity.id).position, entity.pose.position) << entity.id;
+    EXPECT_EQ(poses.at(entity.id).orientation.coeffs(), entity.pose.orientation.coeffs()) << entity.id;
+  }
+  for (std::size_t i = 1; i <= 900; ++i) EXPECT_EQ(by_number->entities[i].id, "fb_" + std::to_string(i - 1));
+  // 900 robots, 2 m apart: from each to the next one, not across the arena.
+  EXPECT_LT(WayAlong(by_place->entities), 900 * 3.0);
+  EXPECT_GT(WayAlong(by_number->entities), 900 * 20.0);
+}
+
+TEST(Distribute, EnginesHaveTheSameRobotsInEitherOrder)
+{
+  for (const char* order : {"number", "place"})
+  {
+    const auto experiment = Ordered(order);
+    ASSERT_TRUE(experiment);
+    std::vector<std::string> ids;
+    for (const std::uint32_t i : experiment->engines[0].entities) ids.push_back(experiment->entities[i].id);
+    EXPECT_EQ(ids, (std::vector<std::string>{"fb_7", "last"})) << order;
+    EXPECT_EQ(experiment->engines[1].entities.size(), 902U);
+    EXPECT_TRUE(std::ranges::is_sorted(experiment->engines[1].entities));
   }
 }
 
