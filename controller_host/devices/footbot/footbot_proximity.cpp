@@ -45,6 +45,11 @@ void FootbotProximity::Init(const DeviceSetup& setup)
   // A tilted robot's rays start up to kHeight beside its base.
   fixed_ = std::make_unique<FixedBodies>(setup.space, world_->Bodies(), ring_radius_ + range_ + kHeight);
 
+  remembers_ = world_->Grid().ShapeOfAll() != nullptr;
+  if (remembers_)
+    fixed_for_long_ = std::make_unique<FixedBodies>(setup.space, world_->Bodies(),
+                                                    ring_radius_ + range_ + kHeight + MovedSince::kMostMargin / 2);
+
   sensors_.reserve(robots_.size());
   in_one_run_ = !robots_.empty() && robots_.back() - robots_.front() + 1 == robots_.size();
   if (!in_one_run_) place_of_entity_.assign(setup.space.Size(), -1);
@@ -60,11 +65,24 @@ void FootbotProximity::Init(const DeviceSetup& setup)
   InitDemand(robots_.size());
 }
 
+void FootbotProximity::RefreshShared(WorkerPool* pool)
+{
+  if (remembers_) world_->Moved().Follow(pool);
+  if (!KnowsNear()) world_->Refresh(pool);
+}
+
+bool FootbotProximity::KnowsNear() const
+{
+  return remembers_ && world_->Moved().Holds() && near_since_ == world_->Moved().Number();
+}
+
 void FootbotProximity::MakeDue()
 {
+  if (remembers_ && !KnowsNear() && world_->Moved().IsNow()) FindNear();
+  if (KnowsNear()) return SenseNear();
   // In the order of the grid's cells, where it has the places of the robots: neighbours stay in the cache. What is kept
   // of a robot itself lies anywhere.
-  ListOwn();
+  ListOwn(AllAreDue());
   if (world_->Grid().AllUpright())
     for (std::size_t first = 0; first < listed_; first += kLanes)
       SenseUpright(first, std::min<std::size_t>(first + kLanes, listed_));
@@ -94,7 +112,67 @@ double* FootbotProximity::NewReadings(std::size_t k)
   return readings;
 }
 
-void FootbotProximity::ListOwn()
+void FootbotProximity::FindNear()
+{
+  const NeighbourGrid& grid = world_->Grid();
+  near_since_ = world_->Moved().Number();
+  ListOwn(true);
+  surroundings_.clear();
+  near_.clear();
+  const double reach = ring_radius_ + range_ + world_->Moved().Margin();
+  const bool sees_more = noise_.IsActive() || !world_->Terrain().IsEmpty();
+  CellWindows windows;
+  std::array<std::int32_t, kLanes> fixed_cells;
+  for (std::size_t first = 0; first < listed_; first += kLanes)
+  {
+    grid.FindWindows(&place_[first], reach, windows);
+    fixed_for_long_->FindCells(grid, &place_[first], fixed_cells.data());
+    for (std::size_t lane = 0; lane < std::min<std::size_t>(kLanes, listed_ - first); ++lane)
+    {
+      const auto begin = static_cast<std::uint32_t>(near_.size());
+      grid.ForEachOtherNear(static_cast<std::size_t>(place_[first + lane]), reach, windows, lane,
+                            [&](std::size_t other) { near_.push_back(grid.Sorted()[other]); });
+      const std::span<const std::uint32_t> fixed = fixed_for_long_->InCell(fixed_cells[lane]);
+      near_.insert(near_.end(), fixed.begin(), fixed.end());
+      const std::uint32_t count = static_cast<std::uint32_t>(near_.size()) - begin;
+      if (count > 0 || sees_more) surroundings_.push_back({number_[first + lane], begin, count});
+    }
+  }
+  std::ranges::sort(surroundings_, {}, &Surroundings::k);
+}
+
+void FootbotProximity::SenseNear()
+{
+  const PoseArrays& poses = world_->Space().Poses();
+  const std::uint32_t first = robots_.empty() ? 0 : robots_.front();
+  const bool all = AllAreDue();
+  for (std::size_t n = 0; n < surroundings_.size(); ++n)
+  {
+    const Surroundings& later = surroundings_[std::min(n + kAhead, surroundings_.size() - 1)];
+    if (later.count > 0)
+    {
+      const std::uint32_t body = near_[later.first];
+      __builtin_prefetch(&poses.x[body]);
+      __builtin_prefetch(&poses.y[body]);
+      __builtin_prefetch(&poses.z[body]);
+    }
+    const Surroundings& own = surroundings_[n];
+    if (!all && !IsDue(own.k)) continue;
+    const std::uint32_t robot = in_one_run_ ? first + own.k : robots_[own.k];
+    const Vector3 sensors(poses.x[robot], poses.y[robot], poses.z[robot] + kHeight);
+    touched_ = false;
+    for (std::uint32_t i = own.first; i < own.first + own.count; ++i)
+    {
+      const std::uint32_t body = near_[i];
+      LookAt(robot, sensors, true, body, world_->Body(body), {poses.x[body], poses.y[body], poses.z[body]},
+             IsUpright(poses, body));
+    }
+    if (!world_->Terrain().IsEmpty()) AddTerrain(robot);
+    FinishReadings(own.k);
+  }
+}
+
+void FootbotProximity::ListOwn(bool all)
 {
   const std::span<const std::uint32_t> sorted = world_->Grid().Sorted();
   listed_ = 0;
@@ -111,7 +189,7 @@ void FootbotProximity::ListOwn()
   };
   const auto list = [&](const auto& number_of)
   {
-    if (AllAreDue())
+    if (all)
       list_those(number_of, [](std::uint32_t) { return true; });
     else
       list_those(number_of, [this](std::uint32_t k) { return IsDue(k); });

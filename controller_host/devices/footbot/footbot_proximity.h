@@ -31,7 +31,7 @@ public:
     Forget();
     MakeAhead();
   }
-  void RefreshShared(WorkerPool* pool) override { world_->Refresh(pool); }
+  void RefreshShared(WorkerPool* pool) override;
 
 protected:
   // From distances in m (more than the range: nothing there) to readings, before noise and the cut to 0..1.
@@ -59,8 +59,13 @@ private:
   void Forget();
   // Room for the readings of a robot until Forget. What others have stays where it is.
   double* NewReadings(std::size_t k);
-  // Lists the robots of the batch that are due in the order of the grid.
-  void ListOwn();
+  // Where all movable bodies are upright cylinders of one size: finds out who is near whom, or will be as long as
+  // MovedSince holds; and senses by what was found out.
+  bool KnowsNear() const;
+  void FindNear();
+  void SenseNear();
+  // Lists the robots of the batch, all or those that are due, in the order of the grid.
+  void ListOwn(bool all);
   // Fetches what Sense will read of robots that come later in that order.
   void Prefetch(std::size_t later) const;
   // The robot that is listed there. SenseUpright: where nobody is tilted; what is near is looked for around several.
@@ -86,7 +91,17 @@ private:
   std::vector<std::uint32_t> number_;  // k of each that is listed
   std::vector<std::int32_t> place_;    // and its place in the grid; both have kLanes more
   std::unique_ptr<FixedBodies> fixed_;
-  double ring_radius_ = 0;  // m: where the rays start
+  // A robot, and those of near_ that are near it.
+  struct Surroundings
+  {
+    std::uint32_t k, first, count;
+  };
+  bool remembers_ = false;
+  std::uint64_t near_since_ = 0;            // MovedSince::Number
+  std::vector<Surroundings> surroundings_;  // ascending; without those who have nobody near, if nothing else is seen
+  std::vector<std::uint32_t> near_;         // entities
+  std::unique_ptr<FixedBodies> fixed_for_long_;  // those that come near as long as MovedSince may hold
+  double ring_radius_ = 0;                       // m: where the rays start
   NoiseModel noise_;
   DeviceStreams streams_;
 

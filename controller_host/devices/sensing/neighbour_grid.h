@@ -72,8 +72,8 @@ public:
   // nothing and are not sensed. The threads of `pool`, if there is one, share the work.
   void Rebuild(WorkerPool* pool = nullptr);
 
-  // How many may ever be sorted.
-  std::size_t MostBodies() const { return bodies_.size(); }
+  // Those that may ever be sorted: the movable entities with a body, ascending.
+  std::span<const std::uint32_t> Bodies() const { return bodies_; }
   // The movable bodies in the order of their cells: entity indices.
   std::span<const std::uint32_t> Sorted() const { return {entity_.data(), count_}; }
 

@@ -32,6 +32,7 @@ SensorWorld::SensorWorld(const CSwarmanoidSpace& space)
       bodies_(SensedBodies(space, models_)),
       membership_(space.GetExperiment()),
       grid_(space, bodies_),
+      moved_(space, grid_.Bodies()),
       fixed_(space, bodies_, 0),
       terrain_(space),
       revision_(space.Revision() - 1)

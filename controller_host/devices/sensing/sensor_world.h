@@ -12,6 +12,7 @@
 #include "common/space/space.h"
 #include "controller_host/devices/sensing/body_shapes.h"
 #include "controller_host/devices/sensing/engine_membership.h"
+#include "controller_host/devices/sensing/moved_since.h"
 #include "controller_host/devices/sensing/neighbour_grid.h"
 #include "controller_host/devices/sensing/sensed_terrain.h"
 
@@ -69,7 +70,10 @@ public:
   const BodyExtent& Extent(std::uint32_t entity) const { return bodies_[entity].extent; }
   const BodyShapes& Bodies() const { return bodies_; }
   const EngineMembership& Membership() const { return membership_; }
+  // As of the last Refresh.
   const NeighbourGrid& Grid() const { return grid_; }
+  // For who remembers who is near. Refresh does not follow it.
+  MovedSince& Moved() { return moved_; }
   // StreamName of the id of each entity; made when first asked for. Valid as long as the world.
   std::span<const std::uint64_t> Names();
   const SensedTerrain& Terrain() const { return terrain_; }
@@ -84,6 +88,7 @@ private:
   BodyShapes bodies_;
   EngineMembership membership_;
   NeighbourGrid grid_;
+  MovedSince moved_;
   FixedBodies fixed_;
   SensedTerrain terrain_;
   std::vector<std::uint64_t> names_;

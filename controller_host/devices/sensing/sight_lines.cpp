@@ -25,7 +25,7 @@ void ClipSlab(float start, float step, float low, float high, float& enter, floa
 SightLines::SightLines(const SensorWorld& world, double reach)
     : world_(world), fixed_(world.Space(), world.Bodies(), reach), usual_reach_(reach), stamps_(world.Space().Size(), 0)
 {
-  near_.Reserve(world.Grid().MostBodies());
+  near_.Reserve(world.Grid().Bodies().size());
   discs_.Reserve(world.Space().Size());
 }
 

@@ -205,6 +205,51 @@ TEST(FootbotProximity, FollowsTheRobotsAndForgetsWhatIsGone)
   for (const double reading : ReadingsOf(sensor, 0)) EXPECT_EQ(reading, 0);
 }
 
+// Who is near is found out now and then and remembered; a new sensor looks for itself.
+TEST(FootbotProximity, WhoIsRememberedIsWhoIsNear)
+{
+  for (const double step : {0.002, 0.005, 0.02, 0.1})
+  {
+    TestWorld world;
+    RandomStream random(11, 0, 0, 0);
+    std::vector<std::uint32_t> robots;
+    for (std::uint32_t n = 0; n < 60; ++n)
+    {
+      world.AddFootbot(random.Uniform(0.3, 2.7), random.Uniform(0.3, 2.7), random.Uniform(-3, 3));
+      robots.push_back(n);
+    }
+    world.AddBlock({3, 1.5, 0.25}, {0.2, 3, 0.5});
+    TestSensor sensor(world, "footbot_proximity", "generic_footbot_proximity", robots);
+    int seen = 0;
+    for (std::uint64_t tick = 1; tick < 80; ++tick)
+    {
+      world.Space().SetTick(tick);
+      for (const std::uint32_t k : robots)
+      {
+        Pose pose = world.Space().GetPose(k);
+        pose.position += Vector3(random.Uniform(-step, step), random.Uniform(-step, step), 0);
+        world.Space().SetPose(k, pose);
+      }
+      // Somebody is put elsewhere; somebody falls over, lies for some ticks and gets up.
+      if (tick % 17 == 0) world.Space().SetPose(5, {{2.8, random.Uniform(0.3, 2.7), 0}, Quaternion::Identity()});
+      if (tick == 30) world.Space().SetPose(7, {{1, 1, 0}, Quaternion(Eigen::AngleAxisd(0.3, Vector3::UnitX()))});
+      if (tick == 40) world.Space().SetPose(7, {{1, 1, 0}, Quaternion::Identity()});
+      sensor.Update();
+      TestSensor fresh(world, "footbot_proximity", "generic_footbot_proximity", robots);
+      fresh.Update();
+      for (const std::uint32_t k : robots)
+      {
+        const auto expected = ReadingsOf(fresh, k);
+        const auto readings = ReadingsOf(sensor, k);
+        ASSERT_TRUE(std::equal(expected.begin(), expected.end(), readings.begin()))
+            << "steps of " << step << " m, tick " << tick << ", robot " << k;
+        for (const double reading : expected) seen += reading > 0;
+      }
+    }
+    EXPECT_GT(seen, 1000);
+  }
+}
+
 // Readings lie side by side in the order in which they were made, whoever they are of.
 TEST(FootbotProximity, OfManyThatSeeEachHasItsOwn)
 {

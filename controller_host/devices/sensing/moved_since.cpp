@@ -1,0 +1,109 @@
+#include "controller_host/devices/sensing/moved_since.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/math/lanes.h"
+#include "controller_host/devices/sensing/body_shapes.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+// Ticks that a margin is made for, and how few of them do not pay; then it is left alone for some.
+constexpr double kAim = 8;
+constexpr std::uint32_t kFewest = 4;
+constexpr std::uint32_t kPause = 64;
+// Metres. At first as if bodies went 5 cm/s in ticks of 0.1 s.
+constexpr double kFirstMargin = 0.08;
+constexpr double kLeastMargin = 0.01;
+
+}  // namespace
+
+void MovedSince::Follow(WorkerPool* pool)
+{
+  if (revision_ == space_.Revision()) return;
+  revision_ = space_.Revision();
+  is_now_ = false;
+  if (pause_ > 0)
+  {
+    --pause_;
+    holds_ = false;
+    return;
+  }
+  const bool began = !x_.empty();
+  if (!began)
+  {
+    x_.resize(bodies_.size());
+    y_.resize(bodies_.size());
+    margin_ = kFirstMargin;
+  }
+  furthest_.assign(pool == nullptr ? 1 : pool->Threads(), 0);
+  InParts(pool, bodies_.size(), 8,
+          [&](unsigned thread, std::size_t begin, std::size_t end) { furthest_[thread] = FurthestSquare(begin, end); });
+  const double furthest = std::sqrt(*std::max_element(furthest_.begin(), furthest_.end()));
+  ++age_;
+  if (holds_ && furthest <= margin_ / 2 && std::ranges::equal(absent_, space_.Absent())) return;
+
+  // Somebody who was put elsewhere is no measure of their speed.
+  if (holds_) margin_ = std::clamp(2 * kAim * std::min(furthest, margin_) / age_, kLeastMargin, kMostMargin);
+  const bool all_upright = std::isfinite(furthest);
+  if (all_upright && (!holds_ || age_ >= kFewest)) return Begin();
+  pause_ = kPause;
+  holds_ = false;
+}
+
+double MovedSince::FurthestSquare(std::size_t begin, std::size_t end) const
+{
+  const PoseArrays& poses = space_.Poses();
+  double furthest = 0, tilt = 0;
+  std::size_t k = begin;
+  // Of bodies that follow one another, several at a time.
+  if (begin < end && bodies_[end - 1] - bodies_[begin] == end - 1 - begin)
+  {
+    DoubleLanes furthest_of{}, tilt_of{};
+    for (std::size_t entity = bodies_[begin]; k + kDoubleLanes <= end; k += kDoubleLanes, entity += kDoubleLanes)
+    {
+      const DoubleLanes dx = LoadLanes(&poses.x[entity]) - LoadLanes(&x_[k]);
+      const DoubleLanes dy = LoadLanes(&poses.y[entity]) - LoadLanes(&y_[k]);
+      const DoubleLanes qx = LoadLanes(&poses.qx[entity]);
+      const DoubleLanes qy = LoadLanes(&poses.qy[entity]);
+      const DoubleLanes square = dx * dx + dy * dy;
+      furthest_of = square > furthest_of ? square : furthest_of;
+      tilt_of += (qx > 0 ? qx : -qx) + (qy > 0 ? qy : -qy);
+    }
+    for (std::size_t lane = 0; lane < kDoubleLanes; ++lane)
+    {
+      furthest = std::max(furthest, furthest_of[lane]);
+      tilt += tilt_of[lane];
+    }
+  }
+  for (; k < end; ++k)
+  {
+    const std::size_t entity = bodies_[k];
+    const double dx = poses.x[entity] - x_[k];
+    const double dy = poses.y[entity] - y_[k];
+    furthest = std::max(furthest, dx * dx + dy * dy);
+    tilt += IsUpright(poses, entity) ? 0 : 1;
+  }
+  return tilt > 0 ? std::numeric_limits<double>::infinity() : furthest;
+}
+
+void MovedSince::Begin()
+{
+  const PoseArrays& poses = space_.Poses();
+  for (std::size_t k = 0; k < bodies_.size(); ++k)
+  {
+    x_[k] = poses.x[bodies_[k]];
+    y_[k] = poses.y[bodies_[k]];
+  }
+  absent_.assign(space_.Absent().begin(), space_.Absent().end());
+  ++number_;
+  age_ = 0;
+  holds_ = true;
+  is_now_ = true;
+}
+
+}  // namespace swarmanoid

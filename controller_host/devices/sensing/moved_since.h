@@ -1,0 +1,54 @@
+// How far the movable bodies have gone since a tick at which somebody looked who is near whom: as long as nobody went
+// further than half a margin, nobody is near who was not within that margin then (Verlet, "Computer experiments on
+// classical fluids", Physical Review 159, 1967). For sensors that look for the same neighbours in tick after tick.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/space/space.h"
+#include "common/threads/worker_pool.h"
+
+namespace swarmanoid
+{
+
+class MovedSince
+{
+public:
+  static constexpr double kMostMargin = 0.12;  // m
+
+  // `bodies`: entities, ascending; they outlive it.
+  MovedSince(const CSwarmanoidSpace& space, std::span<const std::uint32_t> bodies) : space_(space), bodies_(bodies) {}
+
+  // Looks at the poses of the space, once for each of its revisions; in the threads of `pool`, if there is one.
+  void Follow(WorkerPool* pool);
+  // Whether who is near may be told from what was then, now or later: all stand upright, and they are so slow that it
+  // pays.
+  bool Holds() const { return holds_; }
+  // Whether then is now.
+  bool IsNow() const { return is_now_; }
+  // A number for then: another one each time.
+  std::uint64_t Number() const { return number_; }
+  // Two bodies have come nearer to each other by at most this since then, and to what stands by half of it, m.
+  double Margin() const { return margin_; }
+
+private:
+  // The square of the furthest way, or infinity if somebody does not stand upright.
+  double FurthestSquare(std::size_t begin, std::size_t end) const;
+  void Begin();
+
+  const CSwarmanoidSpace& space_;
+  std::span<const std::uint32_t> bodies_;
+  std::uint64_t revision_ = 0;  // of the space; none has it
+  std::uint64_t number_ = 0;
+  std::uint32_t age_ = 0;    // ticks that it has held
+  std::uint32_t pause_ = 0;  // ticks for which it is not tried
+  bool holds_ = false;
+  bool is_now_ = false;
+  double margin_ = 0;
+  std::vector<double> x_, y_;  // of each body then
+  std::vector<std::uint32_t> absent_;
+  std::vector<double> furthest_;  // of each thread
+};
+
+}  // namespace swarmanoid
