@@ -64,11 +64,12 @@ ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& 
     const ControllerConfiguration* configuration = experiment.FindController(entity.GetConfiguration().controller);
     robots_of[static_cast<std::size_t>(configuration - experiment.controllers.data())].push_back(k);
     robots_.push_back({layout_.robots[k], RobotActor(experiment, layout_.robots[k]),
-                       StreamKey(experiment.seed, StreamName(entity.GetId()), kControlStepStream),
                        std::make_unique<CCI_Robot>(entity.GetId(), std::string(TagName(entity.GetKind()))), nullptr,
                        configuration->IsGuarded() ? std::make_unique<Guard>(Guard{configuration}) : nullptr});
   }
 
+  for (const Robot& robot : robots_)
+    robot.interface->SetControlStepKey({experiment.seed, StreamName(robot.interface->GetId()), kControlStepStream});
   for (const Robot& robot : robots_)
     robot.interface->SetLog([](const CCI_Robot& of, std::string_view text)
                             { LogInfo("robot '{}' at tick {}: {}", of.GetId(), of.GetTick(), text); });

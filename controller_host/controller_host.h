@@ -86,7 +86,6 @@ private:
   {
     std::uint32_t entity = 0;
     Actor actor;
-    StreamKey random;  // of its control steps
     std::unique_ptr<CCI_Robot> interface;
     std::unique_ptr<CCI_Controller> controller;
     std::unique_ptr<Guard> guard;  // none: what it throws ends the run, and it may take its time

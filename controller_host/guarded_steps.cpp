@@ -43,7 +43,7 @@ void ControllerHost::StepGuarded(std::uint64_t tick)
   {
     Robot& guarded = robots_[k];
     if (!space_.IsPresent(guarded.entity) || guarded.guard->stopped) continue;
-    guarded.interface->BeginStep(tick, space_.GetTickSeconds(), {guarded.random, tick});
+    guarded.interface->BeginControlStep(tick);
     activity.Next(guarded.actor);
     TryStep(guarded, tick);
   }

@@ -65,7 +65,11 @@ public:
   // Random numbers of this robot in this step: Init, a ControlStep or Destroy. They go on from call to call, are others
   // in the next step, and depend on the seed, the id of the robot, the step and its tick alone, so that they are equal
   // in every run. Keep no reference beyond the step.
-  RandomStream& GetRandom() { return random_; }
+  RandomStream& GetRandom()
+  {
+    if (!has_random_) BeginRandom();
+    return random_;
+  }
 
   // Writes a line into the log of the process that runs the controller, with the id of the robot and the tick: in a run
   // the files of the run's folder, on a robot the log of its program. For people; results belong into reports and
@@ -82,6 +86,14 @@ public:
     tick_ = tick;
     tick_seconds_ = tick_seconds;
     random_ = std::move(random);
+    has_random_ = true;
+  }
+  // Likewise a control step with random numbers of that key: most steps draw none. The tick lasts as long as before.
+  void SetControlStepKey(const StreamKey& key) { control_step_key_ = key; }
+  void BeginControlStep(std::uint64_t tick)
+  {
+    tick_ = tick;
+    has_random_ = false;
   }
 
 private:
@@ -101,6 +113,11 @@ private:
   Device* Listed(const Devices<Device>& devices, const Devices<Other>& others, const std::string& type,
                  const std::string& what, const std::string& other) const;
 
+  void BeginRandom()
+  {
+    random_ = {control_step_key_, tick_};
+    has_random_ = true;
+  }
   // To standard error: without a runtime that has a log.
   static void WriteLog(const CCI_Robot& robot, std::string_view text);
 
@@ -111,13 +128,16 @@ private:
     throw CCI_DeviceError("robot '" + id_ + "': device '" + type + "' is not of the interface asked for");
   }
 
+  // What each step writes, together.
+  std::uint64_t tick_ = 0;
+  bool has_random_ = true;
+  double tick_seconds_ = 0.1;
+  RandomStream random_{0, 0, 0, 0};
+  StreamKey control_step_key_{0, 0, kControlStepStream};
   std::string id_;
   const std::string* kind_;
   Devices<CCI_Actuator> actuators_;
   Devices<CCI_Sensor> sensors_;
-  std::uint64_t tick_ = 0;
-  double tick_seconds_ = 0.1;
-  RandomStream random_{0, 0, 0, 0};
   LogSink log_ = WriteLog;
 };
 
