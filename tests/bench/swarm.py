@@ -11,4 +11,6 @@ def diffusion(robots):
         text = file.read()
     text = re.sub(r"<visualisations>.*</visualisations>", "", text, flags=re.DOTALL)
     text = text.replace("3.16228", f"{robots ** 0.5:.6g}").replace("1.58114", f"{robots ** 0.5 / 2:.6g}")
-    return text.replace('quantity="10"', f'quantity="{robots}"')
+    # As docs/experiment_files.md advises for many robots.
+    order = ' order="place"' if robots >= 10000 else ""
+    return text.replace('quantity="10"', f'quantity="{robots}"{order}')
