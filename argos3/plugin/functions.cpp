@@ -138,6 +138,10 @@ public:
       Step(editor,
            [&]
            {
+             const CSwarmanoidSpace& space = editor.GetSpace();
+             for (std::size_t i = 0; i < space.Size(); ++i)
+               if (space.IsPresent(i))
+                 TheRunning().arrivals[space.GetEntity(i).GetId()] = ArrivalNow(space.GetEntity(i));
              Calling(place_, [&] { functions_->Init(element_); });
              if (const auto& rehearsal = TheRunning().rehearsal)
                WriteMadeBodies(rehearsal->Shapes(), editor.GetOutputFolder());

@@ -28,7 +28,7 @@ public:
     return medium;
   }
   UInt32 GetRandomSeed() const { return seed_; }
-  // What GetRandomSeed says from now on; random generators follow it from the next Reset on.
+  // What GetRandomSeed says from now on; random generators and noise follow it from the next Reset on.
   void SetRandomSeed(UInt32 seed) { seed_ = seed; }
   // The experiment file, as it stands there. Throws CARGoSException where no loop functions ask for it. Defined in the
   // library: `swarmanoid` tells by its name that a library asks.
@@ -37,9 +37,10 @@ public:
   UInt32 GetMaxSimulationClock() const { return max_clock_; }
   // The experiment ends after this step.
   void Terminate() { terminated_ = true; }
-  // Random generators, the space and the loop functions begin again, the clock at 0: Reset of all of them. Called from
-  // Reset of the loop functions, it does not call that once more. Defined in the library: `swarmanoid` tells by its
-  // name that loop functions reset runs. Throws CARGoSException where CSpace::Reset does.
+  // Random generators, noise, the space and the loop functions begin again, the clock at 0: Reset of all of them. Of
+  // the same seed the trial is the same. Called from Reset of the loop functions, it does not call that once more.
+  // Defined in the library: `swarmanoid` tells by its name that loop functions reset runs. Throws CARGoSException where
+  // CSpace::Reset does.
   void Reset();
   void Reset(UInt32 seed)
   {
@@ -67,7 +68,7 @@ public:
   void Start(UInt32 seed, UInt32 max_clock)
   {
     seed_ = seed;
-    seed_of_generators_ = seed;
+    first_seed_ = seed;
     max_clock_ = max_clock;
     terminated_ = false;
     configuration_ = TConfigurationNode();
@@ -78,7 +79,7 @@ private:
   CSpace space_;
   CPhysicsEngine engine_;
   UInt32 seed_ = 0;
-  UInt32 seed_of_generators_ = 0;
+  UInt32 first_seed_ = 0;
   bool resets_ = false;
   UInt32 max_clock_ = 0;
   bool terminated_ = false;
