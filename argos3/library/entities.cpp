@@ -67,6 +67,37 @@ swarmanoid::argos3::BatteryCharge& ChargeOf(const CBatteryEquippedEntity& part)
 
 }  // namespace
 
+CComposableEntity& CEntity::GetParent() const
+{
+  if (parent_ == nullptr) THROW_ARGOSEXCEPTION("entity '" << id_ << "' is no part of another one");
+  return dynamic_cast<CComposableEntity&>(*parent_);
+}
+
+CEntity* CComposableEntity::Find(const std::string& name)
+{
+  const std::size_t dot = name.find('.');
+  const std::string first = name.substr(0, dot);
+  const std::size_t bracket = first.find('[');
+  const std::string type = first.substr(0, bracket);
+  const std::string id = bracket == std::string::npos ? "" : first.substr(bracket + 1, first.size() - bracket - 2);
+  for (CEntity* component : in_order_)
+  {
+    if (component->GetTypeDescription() != type || (!id.empty() && component->GetId() != id)) continue;
+    if (dot == std::string::npos) return component;
+    auto* composed = dynamic_cast<CComposableEntity*>(component);
+    return composed == nullptr ? nullptr : composed->Find(name.substr(dot + 1));
+  }
+  return nullptr;
+}
+
+CEntity& CComposableEntity::GetComponent(const std::string& name)
+{
+  if (CEntity* found = Find(name)) return *found;
+  std::string types;
+  for (const CEntity* component : in_order_) types += (types.empty() ? "" : ", ") + component->GetTypeDescription();
+  THROW_ARGOSEXCEPTION("entity '" << GetId() << "' has no component '" << name << "'; it has: " << types);
+}
+
 CColor CLEDEntity::GetColor() const
 {
   const auto* ours = OursOf(const_cast<CLEDEntity&>(*this));
@@ -87,9 +118,13 @@ void CLEDEntity::SetColor(const CColor& colour)
   TheRunning().editor->SetAttribute(ours->GetId(), slot.attribute, value, slot.element);
 }
 
-CLEDEquippedEntity::CLEDEquippedEntity(CEntity* parent, unsigned leds) : CEntity(parent, "leds_0")
+CLEDEquippedEntity::CLEDEquippedEntity(CEntity* parent, unsigned leds) : CComposableEntity(parent, "leds_0")
 {
-  for (unsigned led = 0; led < leds; ++led) leds_.push_back(std::make_shared<CLEDEntity>(this, led));
+  for (unsigned led = 0; led < leds; ++led)
+  {
+    leds_.push_back(std::make_shared<CLEDEntity>(this, led));
+    AddComponent(*leds_.back());
+  }
 }
 
 void CLEDEquippedEntity::AddLED(const CVector3&, const SAnchor&, const CColor& colour)
@@ -97,6 +132,7 @@ void CLEDEquippedEntity::AddLED(const CVector3&, const SAnchor&, const CColor& c
   if (dynamic_cast<CObjectWithLEDs*>(&GetRootEntity()) == nullptr)
     THROW_ARGOSEXCEPTION("'" << GetRootEntity().GetId() << "' has the LEDs of its kind; boxes and cylinders get more");
   leds_.push_back(std::make_shared<CLEDEntity>(this, static_cast<unsigned>(leds_.size()), colour));
+  AddComponent(*leds_.back());
   if (leds_.size() == 1 && OursOf(*this) != nullptr) leds_.front()->SetColor(colour);
 }
 

@@ -114,6 +114,7 @@ void CEmbodiedEntity::Reset()
   const SAnchor anchor = swarmanoid::argos3::AnchorOf(*ours, pose);
   m_sOriginAnchor.Position = anchor.Position;
   m_sOriginAnchor.Orientation = anchor.Orientation;
+  UpdateAnchors();
 }
 
 void CControllableEntity::Reset()

@@ -167,6 +167,8 @@ struct Running
   std::string OurId(const std::string& id) const;
 };
 Running& TheRunning();
+// What loop functions wrote into the messages of robots (CRABEquippedEntity::GetData) since the last call.
+void SendWrittenMessages();
 
 // For as long as it lives, LOG and new random generators are those of a robot, or of the loop functions.
 class Speaker

@@ -152,6 +152,7 @@ public:
     const Speaker speaker(editor);
     const Changing changing(editor);
     functions_->PostStep();
+    SendWrittenMessages();
     if (TheRunning().is_program) return;
     // Some begin again where they are asked whether they are over, so they are asked while they may.
     ends_ = functions_->IsExperimentFinished() || argos::CSimulator::GetInstance().IsTerminated();
@@ -232,6 +233,7 @@ private:
     const Changing changing(editor);
     Follow(editor.GetSpace());
     call();
+    SendWrittenMessages();
   }
 
   void MakeView(const CSwarmanoidSpaceEntity& entity)
@@ -301,6 +303,7 @@ private:
     const argos::SAnchor anchor = AnchorOf(space.GetEntity(view.index), space.GetPose(view.index));
     view.body->GetOriginAnchor().Position = anchor.Position;
     view.body->GetOriginAnchor().Orientation = anchor.Orientation;
+    view.body->UpdateAnchors();
   }
 
   argos::CLoopFunctions* (*create_)() = nullptr;

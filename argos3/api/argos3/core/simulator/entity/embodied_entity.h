@@ -2,17 +2,42 @@
 #pragma once
 
 #include <argos3/core/simulator/entity/positional_entity.h>
+#include <argos3/core/utility/datatypes/set.h>
 
 namespace argos
 {
 
 class CEmbodiedEntity;
 
+// A place on a body, which goes with it.
 struct SAnchor
 {
   std::string Id = "origin";
+  UInt32 Index = 0;
+  // In the frame of the body.
+  CVector3 OffsetPosition;
+  CQuaternion OffsetOrientation;
+  // In the arena.
   CVector3 Position;
   CQuaternion Orientation;
+  UInt32 InUseCount = 0;
+
+  void Enable() { ++InUseCount; }
+  void Disable()
+  {
+    if (InUseCount > 0) --InUseCount;
+  }
+};
+
+// Around a body, along the axes of the arena.
+struct SBoundingBox
+{
+  CVector3 MinCorner;
+  CVector3 MaxCorner;
+  bool Intersects(const SBoundingBox& other) const
+  {
+    return MinCorner < other.MaxCorner && other.MinCorner < MaxCorner;
+  }
 };
 
 class CEmbodiedEntity : public CEntity
@@ -23,6 +48,19 @@ public:
   bool IsMovable() const { return movable_; }
   const SAnchor& GetOriginAnchor() const { return m_sOriginAnchor; }
   SAnchor& GetOriginAnchor() { return m_sOriginAnchor; }
+  // Of anchors that are added here: robots bring only their origin. Throw CARGoSException for an id that there is
+  // already, and for one that there is not.
+  SAnchor& AddAnchor(const std::string& id, const CVector3& position = CVector3(),
+                     const CQuaternion& orientation = CQuaternion());
+  SAnchor& GetAnchor(const std::string& id);
+  const SAnchor& GetAnchor(const std::string& id) const { return const_cast<CEmbodiedEntity*>(this)->GetAnchor(id); }
+  void EnableAnchor(const std::string& id) { GetAnchor(id).Enable(); }
+  void DisableAnchor(const std::string& id) { GetAnchor(id).Disable(); }
+  bool IsAnchorEnabled(const std::string& id) { return GetAnchor(id).InUseCount > 0; }
+  // Puts them where the body is; called when it moves.
+  void UpdateAnchors();
+  // In the latest step. Throws CARGoSException outside loop functions.
+  const SBoundingBox& GetBoundingBox() const;
   // To where it came into the arena, if it can move.
   void Reset() override;
   // The names of versions before 2014.
@@ -38,6 +76,12 @@ public:
 protected:
   SAnchor m_sOriginAnchor;
   bool movable_;
+  std::map<std::string, SAnchor> anchors_;  // but the origin
+  mutable SBoundingBox box_;
 };
+
+using TEmbodiedEntityVector = std::vector<CEmbodiedEntity*>;
+using TEmbodiedEntityMap = std::map<std::string, CEmbodiedEntity*>;
+using TEmbodiedEntitySet = CSet<CEmbodiedEntity*, SEntityComparator>;
 
 }  // namespace argos
