@@ -4,6 +4,7 @@
 #include <argos3/plugins/robots/foot-bot/simulator/footbot_entity.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_range_and_bearing_sensor.h>
 #include <argos3/plugins/simulator/entities/box_entity.h>
+#include <argos3/plugins/simulator/entities/light_entity.h>
 #include <argos3/plugins/simulator/media/rab_medium.h>
 
 using namespace argos;
@@ -42,6 +43,19 @@ public:
     auto& led = robot.GetComponent<CLEDEntity>("leds.led[led_3]");
     file_ << "led " << led.GetId() << " " << led.GetParent().GetTypeDescription() << " " << led.GetContext() << "\n";
     Refused("part", [&] { robot.GetComponent("wings"); });
+    auto& proximity = robot.GetProximitySensorEquippedEntity();
+    auto& first = proximity.GetSensor(0);
+    CVector3 end = first.Offset + first.Direction;
+    end.Rotate(first.Anchor.Orientation);
+    end += first.Anchor.Position;
+    file_ << "sensor " << proximity.GetNumSensors() << " " << Rounded(first.Offset) << " " << Rounded(end) << "\n";
+    auto& ground = robot.GetComponent<CGroundSensorEquippedEntity>("ground_sensors");
+    file_ << "ground " << ground.GetSensors().size() << " " << ground.GetSensor(4).Offset << " "
+          << ground.GetSensor(3).Type << ground.GetSensor(4).Type << "\n";
+    file_ << "light " << robot.GetLightSensorEquippedEntity().GetNumSensors() << "\n";
+    Refused("sensor", [&] { proximity.GetSensor(24); });
+    const CLightEntity nowhere;
+    file_ << "nowhere " << nowhere.GetIntensity() << "\n";
     Refused("parent", [&] { robot.GetParent(); });
     file_ << "order " << Robot("a").GetIndex() << " " << led.GetIndex() << " "
           << SEntityComparator()(&Robot("a"), &Robot("b")) << "\n";
