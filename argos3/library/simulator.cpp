@@ -194,6 +194,26 @@ SAnchor& CEmbodiedEntity::GetAnchor(const std::string& id)
                                        << ". AddAnchor makes others");
 }
 
+const SBoundingBox& CPhysicsModel::GetBoundingBox() const { return body_->GetBoundingBox(); }
+
+bool CPhysicsModel::IsCollidingWithSomething() const { return body_->IsCollidingWithSomething(); }
+
+CPhysicsModel& CEmbodiedEntity::GetPhysicsModel(size_t number)
+{
+  const auto& engines = CSimulator::GetInstance().GetPhysicsEngines();
+  if (number >= GetPhysicsModelsNum())
+    THROW_ARGOSEXCEPTION("the body of '" << GetRootEntity().GetId() << "' has no physics model " << number
+                                         << "; it has one, 0");
+  if (models_.empty()) models_.emplace_back(*engines.front(), *this);
+  return models_.front();
+}
+
+CPhysicsModel& CEmbodiedEntity::GetPhysicsModel(const std::string& engine)
+{
+  CSimulator::GetInstance().GetPhysicsEngine(engine);
+  return GetPhysicsModel(0);
+}
+
 void CEmbodiedEntity::UpdateAnchors()
 {
   const SAnchor& origin = m_sOriginAnchor;

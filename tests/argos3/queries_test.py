@@ -17,6 +17,8 @@ class Queries(RunningTest):
             "parts 10 100",
             "led led_3 leds a.leds_0.",
             "refused part: entity 'a' has no component 'wings'; it has: body, battery, gripper, controller, leds, rab, wheels, proximity_sensors, light_sensors, ground_sensors",
+            "model engine 10",
+            "refused model: the body of 'a' has no physics model 1; it has one, 0",
             # The robot looks along y.
             "sensor 24 0.0843,0.0111,0.06 -0.0241,0.1834,0.06",
             "ground 12 0.08,0 10",

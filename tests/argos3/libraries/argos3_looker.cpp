@@ -43,6 +43,11 @@ public:
     auto& led = robot.GetComponent<CLEDEntity>("leds.led[led_3]");
     file_ << "led " << led.GetId() << " " << led.GetParent().GetTypeDescription() << " " << led.GetContext() << "\n";
     Refused("part", [&] { robot.GetComponent("wings"); });
+    CPhysicsModel& model = robot.GetEmbodiedEntity().GetPhysicsModel(0);
+    file_ << "model " << model.GetEngine().GetId() << " "
+          << (&model == &model.GetEmbodiedEntity().GetPhysicsModel("dyn2d")) << model.IsCollidingWithSomething()
+          << "\n";
+    Refused("model", [&] { robot.GetEmbodiedEntity().GetPhysicsModel(1); });
     auto& proximity = robot.GetProximitySensorEquippedEntity();
     auto& first = proximity.GetSensor(0);
     CVector3 end = first.Offset + first.Direction;

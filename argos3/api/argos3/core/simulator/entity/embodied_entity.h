@@ -2,6 +2,7 @@
 #pragma once
 
 #include <argos3/core/simulator/entity/positional_entity.h>
+#include <argos3/core/simulator/physics_engine/physics_engine.h>
 #include <argos3/core/utility/datatypes/set.h>
 
 namespace argos
@@ -40,6 +41,26 @@ struct SBoundingBox
   }
 };
 
+// A body in its engine, to look at.
+class CPhysicsModel
+{
+public:
+  CPhysicsModel(CPhysicsEngine& engine, CEmbodiedEntity& body) : engine_(&engine), body_(&body) {}
+  CPhysicsEngine& GetEngine() { return *engine_; }
+  const CPhysicsEngine& GetEngine() const { return *engine_; }
+  CEmbodiedEntity& GetEmbodiedEntity() { return *body_; }
+  const CEmbodiedEntity& GetEmbodiedEntity() const { return *body_; }
+  // As those of the body.
+  const SBoundingBox& GetBoundingBox() const;
+  bool IsCollidingWithSomething() const;
+  // The body tells of itself after each step.
+  void UpdateEntityStatus() {}
+
+private:
+  CPhysicsEngine* engine_;
+  CEmbodiedEntity* body_;
+};
+
 class CEmbodiedEntity : public CEntity
 {
 public:
@@ -61,6 +82,14 @@ public:
   void UpdateAnchors();
   // In the latest step. Throws CARGoSException outside loop functions.
   const SBoundingBox& GetBoundingBox() const;
+  // One engine has all bodies; it goes by each name. Throws CARGoSException for another number.
+  UInt32 GetPhysicsModelsNum() const { return 1; }
+  CPhysicsModel& GetPhysicsModel(size_t number);
+  CPhysicsModel& GetPhysicsModel(const std::string& engine);
+  const CPhysicsModel& GetPhysicsModel(size_t number) const
+  {
+    return const_cast<CEmbodiedEntity*>(this)->GetPhysicsModel(number);
+  }
   // To where it came into the arena, if it can move.
   void Reset() override;
   // The names of versions before 2014.
@@ -78,6 +107,7 @@ protected:
   bool movable_;
   std::map<std::string, SAnchor> anchors_;  // but the origin
   mutable SBoundingBox box_;
+  std::vector<CPhysicsModel> models_;  // one, once it was asked for
 };
 
 using TEmbodiedEntityVector = std::vector<CEmbodiedEntity*>;

@@ -48,7 +48,7 @@ public:
 
 private:
   static Real tick_s_;
-  std::string id_;
+  std::string id_ = "engine";  // or the name by which it was asked for last
 };
 
 }  // namespace argos
