@@ -257,7 +257,7 @@ void CEyeBotEntity::AddParts()
 {
   using Light = swarmanoid::CCI_EyeBotLightSensor;
   SAnchor& origin = GetEmbodiedEntity().GetOriginAnchor();
-  if (const auto& ring = swarmanoid::DescriptionOf(swarmanoid::EntityKind::kEyebot).proximity)
+  if (const auto& ring = swarmanoid::DescriptionOf(*swarmanoid::KindOfTag("eyebot")).proximity)
     for (const auto& sensor : ring->sensors)
       proximity_.Place(CVector3(sensor.place.x(), sensor.place.y(), ring->height_m), CRadians(sensor.direction),
                        ring->range_m, origin);
