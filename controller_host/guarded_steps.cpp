@@ -43,7 +43,7 @@ void ControllerHost::StepGuarded(std::uint64_t tick)
   {
     Robot& guarded = robots_[k];
     if (!space_.IsPresent(guarded.entity) || guarded.guard->stopped) continue;
-    guarded.interface->BeginControlStep(tick);
+    guarded.interface->BeginControlStep(tick, space_.StreamTick());
     activity.Next(guarded.actor);
     TryStep(guarded, tick);
   }
@@ -143,8 +143,9 @@ void ControllerHost::Restart(Robot& robot, std::uint64_t tick)
 {
   const Guard& guard = *robot.guard;
   const auto* entry = PluginRegistry<CCI_Controller>::Instance().Find(guard.configuration->tag);
-  robot.interface->BeginStep(tick, space_.GetTickSeconds(),
-                             {space_.GetExperiment().seed, StreamName(robot.interface->GetId()), kInitStream, tick});
+  robot.interface->BeginStep(
+      tick, space_.GetTickSeconds(),
+      {space_.GetExperiment().seed, StreamName(robot.interface->GetId()), kInitStream, space_.StreamTick()});
   RunCodeOf(robot.actor, ActivityStep::kInit, tick,
             [&]
             {

@@ -238,7 +238,7 @@ void ControllerHost::ControlSteps(std::span<const std::uint32_t> robots, std::ui
     {
       Robot& robot = robots_[k];
       if (!space_.IsPresent(robot.entity)) continue;
-      robot.interface->BeginControlStep(tick);
+      robot.interface->BeginControlStep(tick, space_.StreamTick());
       running = &robot.actor;
       activity.Next(*running);
       robot.controller->ControlStep();

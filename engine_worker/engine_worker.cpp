@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "common/experiment/actors.h"
 #include "common/space/space.h"
@@ -64,6 +65,7 @@ void EngineWorker::Tick(std::span<const std::uint32_t> moved, std::span<const Co
               for (const std::uint32_t entity : moved)
                 if (std::binary_search(layout_.owned.begin(), layout_.owned.end(), entity))
                   engine_->EntityMoved(entity);
+              if (std::exchange(first_tick_, space_.FirstTick()) != space_.FirstTick()) engine_->BeginAgain();
               engine_->Update({layout_.commands, command_values_}, update_, frame_.values);
             });
   // The engine was lent these.
@@ -76,7 +78,7 @@ void EngineWorker::Tick(std::span<const std::uint32_t> moved, std::span<const Co
         CheckResults();
         order_.Apply(update_.attributes);
       });
-  if (frame_.tick % space_.GetExperiment().canonical_period == 0) Canonicalise();
+  if ((frame_.tick - first_tick_) % space_.GetExperiment().canonical_period == 0) Canonicalise();
 }
 
 void EngineWorker::Canonicalise()

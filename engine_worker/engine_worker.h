@@ -65,6 +65,7 @@ private:
   std::uint32_t index_ = 0;
   std::unique_ptr<CPhysicsEngine> engine_;
   std::vector<double> command_values_;
+  std::uint64_t first_tick_ = 0;  // of the space, as far as the engine knows
   EngineUpdate update_;
   SensorFrame frame_;
   AttributeOrder order_;

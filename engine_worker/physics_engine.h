@@ -103,6 +103,9 @@ public:
   virtual void LoadState(ByteReader& state) = 0;
   // Drops everything that the saved state does not hold (caches, contact order). Called at the same ticks in every run.
   virtual void Canonicalise() = 0;
+  // The run begins again (SpaceEditor::BeginAgain); EntityMoved was told before. What does not follow from the space
+  // returns to how the engine was made.
+  virtual void BeginAgain() { Canonicalise(); }
   // True if Canonicalise has nothing to drop at any tick: then SaveState is exact after each Update.
   virtual bool IsAlwaysCanonical() const { return false; }
 

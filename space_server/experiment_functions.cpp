@@ -70,6 +70,11 @@ std::string SpaceEditor::AddEntity(std::string_view id, const Pose& pose)
   return added.GetId();
 }
 
+void SpaceEditor::BeginAgain(std::uint64_t first_tick, std::uint32_t variation)
+{
+  server_.BeginAgain(first_tick, variation);
+}
+
 void SpaceEditor::RemoveEntity(std::string_view id) { server_.Move(Removal(FindToRemove(server_.Space(), id))); }
 
 void SpaceEditor::SetAttribute(std::string_view id, std::string_view attribute, double value, int element)

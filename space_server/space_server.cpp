@@ -38,7 +38,7 @@ SpaceServer::SpaceServer(const Experiment& experiment, const Assignment& assignm
   AskWhetherFinished();
   if (!IsLast())
     CallFunctions(ActivityStep::kPreStep, [this](const Functions& functions) { functions.object->PreStep(editor_); });
-  editor_.BeginStep({program_random_, space_.GetTick()});
+  editor_.BeginStep({program_random_, space_.StreamTick()});
 }
 
 SpaceServer::~SpaceServer() = default;
@@ -120,7 +120,7 @@ void SpaceServer::Advance(std::span<const EngineUpdate* const> updates,
   AskWhetherFinished();
   if (!IsLast())
     CallFunctions(ActivityStep::kPreStep, [this](const Functions& functions) { functions.object->PreStep(editor_); });
-  editor_.BeginStep({program_random_, space_.GetTick()});
+  editor_.BeginStep({program_random_, space_.StreamTick()});
 }
 
 // In the order of the entities, whichever their hosts.
@@ -170,7 +170,7 @@ void SpaceServer::CallFunctions(ActivityStep step, Call call)
   const std::uint64_t what = StreamName(std::string("functions ") + NameOf(step));
   for (const Functions& functions : functions_)
   {
-    editor_.BeginStep({experiment_.seed, StreamName(functions.configuration->id), what, space_.GetTick()});
+    editor_.BeginStep({experiment_.seed, StreamName(functions.configuration->id), what, space_.StreamTick()});
     RunCodeOf<ConfigurationError>(functions.actor, step, space_.GetTick(), [&] { call(functions); });
   }
 }

@@ -77,6 +77,8 @@ public:
   // Changes one attribute at the current tick, before its state goes out. Throws StateError for a value that it cannot
   // have. Of who is held, 0 alone is taken, which ends the hold.
   void SetAttribute(std::uint32_t slot, double value);
+  // As SpaceEditor says.
+  void BeginAgain(std::uint64_t first_tick, std::uint32_t variation) { space_.BeginAgain(first_tick, variation); }
   // The current tick is the last one.
   void Finish() { last_ = true; }
   // Ends the experiment functions, once; later calls do nothing.

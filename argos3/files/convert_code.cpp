@@ -16,10 +16,16 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPlugin = "argos3";
 
-constexpr std::pair<const char*, const char*> kConstructors[]{
-    {"footbot", "14CFootBotEntityC"},  {"eyebot", "13CEyeBotEntityC"}, {"argos3_epuck", "12CEPuckEntityC"},
-    {"light_bulb", "12CLightEntityC"}, {"box", "10CBoxEntityC"},       {"cylinder", "15CCylinderEntityC"},
-    {"reset", "10CSimulator5ResetE"},  {"reset", "6CSpace5ResetE"},    {"configuration", "20GetConfigurationRootE"}};
+constexpr std::pair<const char*, const char*> kConstructors[]{{"footbot", "14CFootBotEntityC"},
+                                                              {"eyebot", "13CEyeBotEntityC"},
+                                                              {"argos3_epuck", "12CEPuckEntityC"},
+                                                              {"light_bulb", "12CLightEntityC"},
+                                                              {"box", "10CBoxEntityC"},
+                                                              {"cylinder", "15CCylinderEntityC"},
+                                                              {"reset", "10CSimulator5ResetE"},
+                                                              {"reset", "6CSpace5ResetE"},
+                                                              {"configuration", "20GetConfigurationRootE"},
+                                                              {"configuration", "22GetConfigForControllerE"}};
 
 // Of a controller that no robot of the file has: by its devices.
 std::string KindByDevices(const ConfigurationNode& controller)

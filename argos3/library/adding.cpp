@@ -176,9 +176,7 @@ void CLoopFunctions::AddEntity(CEntity& entity)
     throw CARGoSException(refused.what());
   }
   running.given[ours] = &entity;
-  const auto& now = *Editor().GetSpace().FindEntity(ours);
-  const bool has_colour = swarmanoid::FindAttribute(now.GetKind(), "colour") != nullptr;
-  running.arrivals[ours] = {now.GetPose(), has_colour ? now.GetAttribute("colour") : 0};
+  running.arrivals[ours] = swarmanoid::argos3::ArrivalNow(*Editor().GetSpace().FindEntity(ours));
   running.presence_changed = true;
   CSimulator::GetInstance().GetSpace().InsertAny(entity);
   if (was_declared) return;

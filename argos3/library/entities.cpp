@@ -9,8 +9,14 @@
 #include <argos3/plugins/simulator/entities/cylinder_entity.h>
 #include <argos3/plugins/simulator/entities/light_entity.h>
 
+#include "argos3/kinds/epuck_ground.h"
 #include "argos3/library/editing.h"
 #include "argos3/library/running.h"
+#include "common/control_interface/eyebot/ci_eyebot_light_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_base_ground_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_light_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_motor_ground_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_proximity_sensor.h"
 #include "common/space/space.h"
 
 namespace swarmanoid::argos3
@@ -67,6 +73,37 @@ swarmanoid::argos3::BatteryCharge& ChargeOf(const CBatteryEquippedEntity& part)
 
 }  // namespace
 
+CComposableEntity& CEntity::GetParent() const
+{
+  if (parent_ == nullptr) THROW_ARGOSEXCEPTION("entity '" << id_ << "' is no part of another one");
+  return dynamic_cast<CComposableEntity&>(*parent_);
+}
+
+CEntity* CComposableEntity::Find(const std::string& name)
+{
+  const std::size_t dot = name.find('.');
+  const std::string first = name.substr(0, dot);
+  const std::size_t bracket = first.find('[');
+  const std::string type = first.substr(0, bracket);
+  const std::string id = bracket == std::string::npos ? "" : first.substr(bracket + 1, first.size() - bracket - 2);
+  for (CEntity* component : in_order_)
+  {
+    if (component->GetTypeDescription() != type || (!id.empty() && component->GetId() != id)) continue;
+    if (dot == std::string::npos) return component;
+    auto* composed = dynamic_cast<CComposableEntity*>(component);
+    return composed == nullptr ? nullptr : composed->Find(name.substr(dot + 1));
+  }
+  return nullptr;
+}
+
+CEntity& CComposableEntity::GetComponent(const std::string& name)
+{
+  if (CEntity* found = Find(name)) return *found;
+  std::string types;
+  for (const CEntity* component : in_order_) types += (types.empty() ? "" : ", ") + component->GetTypeDescription();
+  THROW_ARGOSEXCEPTION("entity '" << GetId() << "' has no component '" << name << "'; it has: " << types);
+}
+
 CColor CLEDEntity::GetColor() const
 {
   const auto* ours = OursOf(const_cast<CLEDEntity&>(*this));
@@ -87,9 +124,13 @@ void CLEDEntity::SetColor(const CColor& colour)
   TheRunning().editor->SetAttribute(ours->GetId(), slot.attribute, value, slot.element);
 }
 
-CLEDEquippedEntity::CLEDEquippedEntity(CEntity* parent, unsigned leds) : CEntity(parent, "leds_0")
+CLEDEquippedEntity::CLEDEquippedEntity(CEntity* parent, unsigned leds) : CComposableEntity(parent, "leds_0")
 {
-  for (unsigned led = 0; led < leds; ++led) leds_.push_back(std::make_shared<CLEDEntity>(this, led));
+  for (unsigned led = 0; led < leds; ++led)
+  {
+    leds_.push_back(std::make_shared<CLEDEntity>(this, led));
+    AddComponent(*leds_.back());
+  }
 }
 
 void CLEDEquippedEntity::AddLED(const CVector3&, const SAnchor&, const CColor& colour)
@@ -97,6 +138,7 @@ void CLEDEquippedEntity::AddLED(const CVector3&, const SAnchor&, const CColor& c
   if (dynamic_cast<CObjectWithLEDs*>(&GetRootEntity()) == nullptr)
     THROW_ARGOSEXCEPTION("'" << GetRootEntity().GetId() << "' has the LEDs of its kind; boxes and cylinders get more");
   leds_.push_back(std::make_shared<CLEDEntity>(this, static_cast<unsigned>(leds_.size()), colour));
+  AddComponent(*leds_.back());
   if (leds_.size() == 1 && OursOf(*this) != nullptr) leds_.front()->SetColor(colour);
 }
 
@@ -153,20 +195,21 @@ CFootBotEntity::CFootBotEntity(const std::string& id, const std::string& control
                                Real, Real, const std::string&)
     : CRobotWithController(id, kLeds, controller, position, orientation)
 {
-  AddComponent(wheels_);
+  AddParts();
 }
 
 CEyeBotEntity::CEyeBotEntity(const std::string& id, const std::string& controller, const CVector3& position,
                              const CQuaternion& orientation, Real, size_t, const std::string&)
     : CRobotWithController(id, kLeds, controller, position, orientation)
 {
+  AddParts();
 }
 
 CEPuckEntity::CEPuckEntity(const std::string& id, const std::string& controller, const CVector3& position,
                            const CQuaternion& orientation, Real, size_t, const std::string&)
     : CRobotWithController(id, kLeds, controller, position, orientation)
 {
-  AddComponent(wheels_);
+  AddParts();
 }
 
 CBoxEntity::CBoxEntity(const std::string& id, const CVector3& position, const CQuaternion& orientation, bool movable,
@@ -188,6 +231,127 @@ CCylinderEntity::CCylinderEntity(const std::string& id, const CVector3& position
 CLightEntity::CLightEntity(const std::string& id, const CVector3& position, const CColor& colour, Real intensity)
     : CPositionalEntity(nullptr, id, position, CQuaternion()), colour_(colour), intensity_(intensity)
 {
+}
+
+// The places are those of the simulated sensors.
+
+void CFootBotEntity::AddParts()
+{
+  using Proximity = swarmanoid::CCI_FootBotProximitySensor;
+  using Light = swarmanoid::CCI_FootBotLightSensor;
+  SAnchor& origin = GetEmbodiedEntity().GetOriginAnchor();
+  proximity_.PlaceRing(Light::RING_HEIGHT_M, 0.085, CRadians(Proximity::FIRST_ANGLE), Proximity::RANGE_M,
+                       Proximity::NUM_SENSORS, origin);
+  light_.PlaceRing(Light::RING_HEIGHT_M, 0.085, CRadians(Light::FIRST_ANGLE), 0.1, Light::NUM_SENSORS, origin);
+  for (const auto& place : swarmanoid::CCI_FootBotMotorGroundSensor::PLACES_M)
+    ground_.Place(place.x, place.y, CGroundSensorEquippedEntity::TYPE_GRAYSCALE, origin);
+  for (const auto& place : swarmanoid::CCI_FootBotBaseGroundSensor::PLACES_M)
+    ground_.Place(place.x, place.y, CGroundSensorEquippedEntity::TYPE_BLACK_WHITE, origin);
+  AddComponent(wheels_);
+  AddComponent(proximity_);
+  AddComponent(light_);
+  AddComponent(ground_);
+}
+
+void CEyeBotEntity::AddParts()
+{
+  using Light = swarmanoid::CCI_EyeBotLightSensor;
+  SAnchor& origin = GetEmbodiedEntity().GetOriginAnchor();
+  if (const auto& ring = swarmanoid::DescriptionOf(*swarmanoid::KindOfTag("eyebot")).proximity)
+    for (const auto& sensor : ring->sensors)
+      proximity_.Place(CVector3(sensor.place.x(), sensor.place.y(), ring->height_m), CRadians(sensor.direction),
+                       ring->range_m, origin);
+  light_.PlaceRing(Light::RING_HEIGHT_M, 0.255, CRadians(Light::FIRST_ANGLE), 0.1, Light::NUM_SENSORS, origin);
+  AddComponent(proximity_);
+  AddComponent(light_);
+}
+
+void CEPuckEntity::AddParts()
+{
+  SAnchor& origin = GetEmbodiedEntity().GetOriginAnchor();
+  for (const int degrees : {17, 50, 90, 150, -150, -90, -50, -17})
+  {
+    const CRadians heading = ToRadians(CDegrees(degrees));
+    proximity_.Place(CVector3(0.035 * Cos(heading), 0.035 * Sin(heading), 0.06), heading, 0.1, origin);
+  }
+  light_.PlaceRing(0.06, 0.035, ToRadians(CDegrees(22.5)), 0.1, 8, origin);
+  for (const auto& place : swarmanoid::argos3::kEPuckGround)
+    ground_.Place(place.x, place.y, CGroundSensorEquippedEntity::TYPE_GRAYSCALE, origin);
+  AddComponent(wheels_);
+  AddComponent(proximity_);
+  AddComponent(light_);
+  AddComponent(ground_);
+}
+
+namespace
+{
+
+template <class Sensors>
+auto& OneOf(const CEntity& entity, const Sensors& sensors, size_t sensor)
+{
+  if (sensor >= sensors.size())
+    THROW_ARGOSEXCEPTION("sensor " << sensor << " of the " << sensors.size() << " of '"
+                                   << entity.GetContext() + entity.GetId() << "'; the first one is 0");
+  return *sensors[sensor];
+}
+
+template <class Place>
+void ForRing(Real height, Real radius, const CRadians& first_angle, unsigned sensors, const Place& place)
+{
+  for (unsigned sensor = 0; sensor < sensors; ++sensor)
+  {
+    const CRadians heading = first_angle + CRadians(2 * ARGOS_PI * sensor / sensors);
+    place(CVector3(radius * Cos(heading), radius * Sin(heading), height), heading);
+  }
+}
+
+CVector3 Ahead(const CRadians& heading) { return CVector3(Cos(heading), Sin(heading), 0); }
+
+}  // namespace
+
+CProximitySensorEquippedEntity::SSensor& CProximitySensorEquippedEntity::GetSensor(size_t sensor)
+{
+  return OneOf(*this, sensors_, sensor);
+}
+
+void CProximitySensorEquippedEntity::Place(const CVector3& offset, const CRadians& heading, Real range, SAnchor& anchor)
+{
+  owned_.push_back(std::make_shared<SSensor>(offset, Ahead(heading), range, anchor));
+  sensors_.push_back(owned_.back().get());
+}
+
+void CProximitySensorEquippedEntity::PlaceRing(Real height, Real radius, const CRadians& first_angle, Real range,
+                                               unsigned sensors, SAnchor& anchor)
+{
+  ForRing(height, radius, first_angle, sensors,
+          [&](const CVector3& place, const CRadians& heading) { Place(place, heading, range, anchor); });
+}
+
+CLightSensorEquippedEntity::SSensor& CLightSensorEquippedEntity::GetSensor(size_t sensor)
+{
+  return OneOf(*this, sensors_, sensor);
+}
+
+void CLightSensorEquippedEntity::PlaceRing(Real height, Real radius, const CRadians& first_angle, Real range,
+                                           unsigned sensors, SAnchor& anchor)
+{
+  ForRing(height, radius, first_angle, sensors,
+          [&](const CVector3& place, const CRadians& heading)
+          {
+            owned_.push_back(std::make_shared<SSensor>(place, Ahead(heading), range, anchor));
+            sensors_.push_back(owned_.back().get());
+          });
+}
+
+CGroundSensorEquippedEntity::SSensor& CGroundSensorEquippedEntity::GetSensor(size_t sensor)
+{
+  return OneOf(*this, sensors_, sensor);
+}
+
+void CGroundSensorEquippedEntity::Place(Real x, Real y, ESensorType type, SAnchor& anchor)
+{
+  owned_.push_back(std::make_shared<SSensor>(CVector2(x, y), type, anchor));
+  sensors_.push_back(owned_.back().get());
 }
 
 Real CPhysicsEngine::tick_s_ = 0.1;

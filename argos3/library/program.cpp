@@ -97,6 +97,7 @@ void CSimulator::UpdateSpace()
   Told(
       [&]
       {
+        swarmanoid::argos3::SendWrittenMessages();
         TheRunning().stepped->BeginStep(program.run->Editor());
         program.run->Step();
       });

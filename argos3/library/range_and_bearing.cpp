@@ -1,10 +1,12 @@
 // Range and bearing of robots, for loop functions: the bytes are an attribute of the sender in our space, range and
 // size what the controller of the robot has.
-#include <argos3/plugins/simulator/entities/rab_equipped_entity.h>
+#include <argos3/core/simulator/simulator.h>
+#include <argos3/plugins/simulator/media/rab_medium.h>
 
 #include <algorithm>
 
 #include "argos3/library/running.h"
+#include "common/builtins/antenna.h"
 #include "common/messages/range_and_bearing_message.h"
 #include "common/space/space.h"
 
@@ -42,6 +44,51 @@ int NumbersOf(const CByteArray& data)
   return (static_cast<int>(data.Size()) + swarmanoid::kBytesInNumber - 1) / swarmanoid::kBytesInNumber;
 }
 
+void Send(const std::string& ours, const CByteArray& data)
+{
+  std::vector<double> values(static_cast<std::size_t>(NumbersOf(data)));
+  swarmanoid::PackBytes({data.ToCArray(), data.Size()}, values.data());
+  TheRunning().editor->SetAttribute(ours, "message", 1, 0);
+  for (int i = 0; i < NumbersOf(data); ++i)
+    TheRunning().editor->SetAttribute(ours, "message", values[static_cast<std::size_t>(i)], i + 1);
+}
+
+// Bytes that loop functions have a reference to, until their function ends.
+struct LentMessage
+{
+  std::shared_ptr<const CByteArray> bytes;
+  CByteArray before;
+  std::string ours;
+};
+std::vector<LentMessage>& Lent()
+{
+  static std::vector<LentMessage> lent;
+  return lent;
+}
+
+void SendWritten()
+{
+  for (LentMessage& lent : Lent())
+  {
+    if (*lent.bytes == lent.before) continue;
+    CByteArray data = *lent.bytes;
+    data.Resize(lent.before.Size());
+    Send(lent.ours, data);
+    lent.before = *lent.bytes;
+  }
+}
+
+// Whether it has a controller with range and bearing, which says how far it goes.
+bool Communicates(const CRABEquippedEntity& part)
+{
+  const auto& ours = OursOf(part);
+  const auto* controller =
+      TheRunning().editor->GetSpace().GetExperiment().FindController(ours.GetConfiguration().controller);
+  return controller != nullptr &&
+         std::ranges::find(controller->sensors, "range_and_bearing", &swarmanoid::DeviceConfiguration::type) !=
+             controller->sensors.end();
+}
+
 }  // namespace
 
 size_t CRABEquippedEntity::GetMsgSize() const
@@ -70,15 +117,53 @@ void CRABEquippedEntity::SetRange(Real range)
                                           << "; set rab_range in the experiment file");
 }
 
-const CByteArray& CRABEquippedEntity::GetData()
+CEmbodiedEntity& CRABEquippedEntity::GetEntityBody() const
+{
+  return dynamic_cast<CBodyEntity&>(const_cast<CRABEquippedEntity*>(this)->GetRootEntity()).GetEmbodiedEntity();
+}
+
+const CVector3& CRABEquippedEntity::GetPosition() const
+{
+  const SAnchor& body = GetEntityBody().GetOriginAnchor();
+  m_cPosition = body.Position + CVector3(0, 0, swarmanoid::kAntennaHeight_m).Rotate(body.Orientation);
+  return m_cPosition;
+}
+
+const CQuaternion& CRABEquippedEntity::GetOrientation() const { return GetEntityBody().GetOriginAnchor().Orientation; }
+
+const CRABEquippedEntity::TSet& CRABMedium::GetRABsCommunicatingWith(CRABEquippedEntity& receiver) const
+{
+  CRABEquippedEntity::TSet& heard = heard_[receiver.GetRootEntity().GetId()];
+  heard.clear();
+  OursOf(receiver);
+  for (CEntity* entity : CSimulator::GetInstance().GetSpace().GetRootEntityVector())
+  {
+    auto* robot = dynamic_cast<CRobotWithController*>(entity);
+    if (robot == nullptr || robot == &receiver.GetRootEntity()) continue;
+    CRABEquippedEntity& sender = robot->GetRABEquippedEntity();
+    const CRay3 line(receiver.GetPosition(), sender.GetPosition());
+    if (!Communicates(sender) || sender.GetMsgSize() != receiver.GetMsgSize() || line.GetLength() >= sender.GetRange())
+      continue;
+    SEmbodiedEntityIntersectionItem between;
+    const bool is_met = GetClosestEmbodiedEntityIntersectedByRay(between, line, receiver.GetEntityBody());
+    if (!is_met || between.IntersectedEntity == &sender.GetEntityBody()) heard.insert(&sender);
+  }
+  return heard;
+}
+
+CByteArray& CRABEquippedEntity::GetData()
 {
   const auto& ours = OursOf(*this);
-  data_ = CByteArray(GetMsgSize());
-  if (ours.GetAttribute("message", 0) == 0) return data_;
-  std::vector<double> values;
-  for (int i = 0; i < NumbersOf(data_); ++i) values.push_back(ours.GetAttribute("message", 1 + i));
-  swarmanoid::UnpackBytes(values.data(), {data_.ToCArray(), data_.Size()});
-  return data_;
+  SendWritten();
+  *data_ = CByteArray(GetMsgSize());
+  if (ours.GetAttribute("message", 0) != 0)
+  {
+    std::vector<double> values;
+    for (int i = 0; i < NumbersOf(*data_); ++i) values.push_back(ours.GetAttribute("message", 1 + i));
+    swarmanoid::UnpackBytes(values.data(), {data_->ToCArray(), data_->Size()});
+  }
+  Lent().push_back({data_, *data_, ours.GetId()});
+  return *data_;
 }
 
 void CRABEquippedEntity::SetData(const CByteArray& data)
@@ -86,12 +171,18 @@ void CRABEquippedEntity::SetData(const CByteArray& data)
   if (data.Size() != GetMsgSize())
     THROW_ARGOSEXCEPTION("messages of '" << GetRootEntity().GetId() << "' have " << GetMsgSize() << " bytes, not "
                                          << data.Size());
-  std::vector<double> values(static_cast<std::size_t>(NumbersOf(data)));
-  swarmanoid::PackBytes({data.ToCArray(), data.Size()}, values.data());
-  const std::string id = OursOf(*this).GetId();
-  TheRunning().editor->SetAttribute(id, "message", 1, 0);
-  for (int i = 0; i < NumbersOf(data); ++i)
-    TheRunning().editor->SetAttribute(id, "message", values[static_cast<std::size_t>(i)], i + 1);
+  Send(OursOf(*this).GetId(), data);
 }
 
 }  // namespace argos
+
+namespace swarmanoid::argos3
+{
+
+void SendWrittenMessages()
+{
+  argos::SendWritten();
+  argos::Lent().clear();
+}
+
+}  // namespace swarmanoid::argos3

@@ -5,6 +5,18 @@
 #include "argos3/library/editing.h"
 #include "common/space/attributes.h"
 
+namespace swarmanoid::argos3
+{
+
+Arrival ArrivalNow(const CSwarmanoidSpaceEntity& entity)
+{
+  const auto value = [&](const char* name)
+  { return FindAttribute(entity.GetKind(), name) == nullptr ? 0 : entity.GetAttribute(name); };
+  return {entity.GetPose(), value("colour"), value("turret_angle")};
+}
+
+}  // namespace swarmanoid::argos3
+
 namespace argos
 {
 namespace
@@ -25,11 +37,11 @@ const CSwarmanoidSpaceEntity* PresentOf(CEntity& part)
   return ours != nullptr && space.IsPresent(ours->GetIndex()) ? ours : nullptr;
 }
 
+// Of one that was removed and came back by itself, how it is.
 Arrival ArrivalOf(const CSwarmanoidSpaceEntity& ours)
 {
   const auto given = TheRunning().arrivals.find(ours.GetId());
-  if (given != TheRunning().arrivals.end()) return given->second;
-  return {ours.GetConfiguration().pose, static_cast<double>(ours.GetConfiguration().colour)};
+  return given != TheRunning().arrivals.end() ? given->second : swarmanoid::argos3::ArrivalNow(ours);
 }
 
 void ResetAttribute(const CSwarmanoidSpaceEntity& ours, const char* name, double value)
@@ -61,10 +73,13 @@ void CSimulator::Reset()
 {
   if (resets_) return GetSpace().Reset();
   RequireControllersHere();
-  if (seed_ != seed_of_generators_) CRandom::SetSeedOf("argos", seed_);
-  seed_of_generators_ = seed_;
+  // Of the first seed: the numbers of the first trial.
+  const UInt32 variation = seed_ ^ first_seed_;
+  CRandom::GetCategory("argos").Vary(variation);
   CRandom::GetCategory("argos").ResetRNGs();
+  Editor().BeginStep({seed_, swarmanoid::StreamName("loop functions"), swarmanoid::StreamName("ARGoS3 reset"), 0});
   GetSpace().Reset();
+  Editor().BeginAgain(TheRunning().step, variation);
   terminated_ = false;
   struct Resetting
   {
@@ -84,6 +99,8 @@ void CSpace::Reset()
   RequireControllersHere();
   SetSimulationClock(0);
   running.first_step = running.step;
+  // Only the Reset of the simulator takes numbers of before.
+  Editor().BeginAgain(running.step, static_cast<UInt32>(swarmanoid::MixedBits(running.step)));
   for (CEntity* entity : entities_)
     if (!running.Rehearsed(entity->GetId())) entity->Reset();
 }
@@ -97,11 +114,13 @@ void CEmbodiedEntity::Reset()
   const SAnchor anchor = swarmanoid::argos3::AnchorOf(*ours, pose);
   m_sOriginAnchor.Position = anchor.Position;
   m_sOriginAnchor.Orientation = anchor.Orientation;
+  UpdateAnchors();
 }
 
 void CControllableEntity::Reset()
 {
   const auto* ours = PresentOf(*this);
+  if (ours != nullptr) ResetAttribute(*ours, "turret_angle", ArrivalOf(*ours).turret);
   if (ours == nullptr || ours->GetConfiguration().controller.empty()) return;
   const auto found = TheRunning().controlled.find(ours->GetId());
   if (found == TheRunning().controlled.end()) return RequireControllersHere();

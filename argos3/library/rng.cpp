@@ -96,6 +96,13 @@ void CRandom::CCategory::ReseedRNGs()
     generators_[i]->SetSeed(static_cast<UInt32>(swarmanoid::MixedBits(seed_ + (UInt64{i} << 32U))));
 }
 
+void CRandom::CCategory::Vary(UInt32 variation)
+{
+  const auto bits = [](UInt32 of) { return of == 0 ? UInt64{0} : swarmanoid::MixedBits(of); };
+  for (const auto& generator : generators_) generator->seed_ ^= bits(variation_) ^ bits(variation);
+  variation_ = variation;
+}
+
 bool CRandom::CreateCategory(const std::string& category, UInt32 seed)
 {
   return Categories().emplace(category, CCategory(category, seed)).second;
@@ -119,6 +126,12 @@ void CRandom::RemoveCategory(const std::string& category)
 CRandom::CRNG* CRandom::CreateRNG(const std::string& category, const std::string& type)
 {
   return GetCategory(category).CreateRNG(type);
+}
+
+void CRandom::Reset()
+{
+  Categories().clear();
+  CreateCategory("argos", 0);
 }
 
 UInt32 CRandom::GetSeedOf(const std::string& category) { return GetCategory(category).GetSeed(); }

@@ -84,12 +84,14 @@ public:
   virtual void Reset() = 0;
 };
 
-// How an entity came into the arena.
+// How an entity came into the arena, or was when Init of the loop functions was called.
 struct Arrival
 {
   Pose pose;
   double colour = 0;  // 0xRRGGBB; of one that has the attribute
+  double turret = 0;  // rad; likewise
 };
+Arrival ArrivalNow(const CSwarmanoidSpaceEntity& entity);
 
 struct BatteryCharge
 {
@@ -144,7 +146,8 @@ struct Running
   // id; and the objects that they gave by our id.
   std::map<std::string, std::string> taken;
   std::map<std::string, argos::CEntity*> given;
-  std::map<std::string, Arrival> arrivals;  // of those objects
+  // By our id, of all that Reset puts back.
+  std::map<std::string, Arrival> arrivals;
   // The tick of the step that functions are called in, and that at which the clock of theirs was 0.
   std::uint64_t step = 0;
   std::uint64_t first_step = 0;
@@ -164,6 +167,8 @@ struct Running
   std::string OurId(const std::string& id) const;
 };
 Running& TheRunning();
+// What loop functions wrote into the messages of robots (CRABEquippedEntity::GetData) since the last call.
+void SendWrittenMessages();
 
 // For as long as it lives, LOG and new random generators are those of a robot, or of the loop functions.
 class Speaker

@@ -73,6 +73,21 @@ TConfigurationNode& CSimulator::GetConfigurationRoot()
   return configuration_;
 }
 
+CRandom::CRNG* CSimulator::GetRNG()
+{
+  if (generator_ == nullptr) generator_ = CRandom::CreateRNG("argos");
+  return generator_;
+}
+
+TConfigurationNode& CSimulator::GetConfigForController(const std::string& id)
+{
+  TConfigurationNodeIterator controller;
+  for (controller = controller.begin(&GetNode(GetConfigurationRoot(), "controllers")); controller != controller.end();
+       ++controller)
+    if (controller->GetAttribute("id") == id) return *controller;
+  THROW_ARGOSEXCEPTION("<controllers> has no controller '" << id << "'");
+}
+
 CColor CFloorEntity::GetColorAtPoint(Real x, Real y)
 {
   return CSimulator::GetInstance().GetLoopFunctions().GetFloorColor(CVector2(x, y));
@@ -151,7 +166,84 @@ bool CEmbodiedEntity::MoveTo(const CVector3& position, const CQuaternion& orient
   }
   m_sOriginAnchor.Position = position;
   m_sOriginAnchor.Orientation = orientation;
+  UpdateAnchors();
   return true;
+}
+
+SAnchor& CEmbodiedEntity::AddAnchor(const std::string& id, const CVector3& position, const CQuaternion& orientation)
+{
+  if (id == m_sOriginAnchor.Id || anchors_.count(id) != 0)
+    THROW_ARGOSEXCEPTION("the body of '" << GetRootEntity().GetId() << "' has an anchor '" << id << "' already");
+  SAnchor& anchor = anchors_[id];
+  anchor.Id = id;
+  anchor.Index = static_cast<UInt32>(anchors_.size());
+  anchor.OffsetPosition = position;
+  anchor.OffsetOrientation = orientation;
+  UpdateAnchors();
+  return anchor;
+}
+
+SAnchor& CEmbodiedEntity::GetAnchor(const std::string& id)
+{
+  if (id == m_sOriginAnchor.Id) return m_sOriginAnchor;
+  const auto found = anchors_.find(id);
+  if (found != anchors_.end()) return found->second;
+  std::string known = m_sOriginAnchor.Id;
+  for (const auto& anchor : anchors_) known += ", " + anchor.first;
+  THROW_ARGOSEXCEPTION("the body of '" << GetRootEntity().GetId() << "' has no anchor '" << id << "'; it has: " << known
+                                       << ". AddAnchor makes others");
+}
+
+const SBoundingBox& CPhysicsModel::GetBoundingBox() const { return body_->GetBoundingBox(); }
+
+bool CPhysicsModel::IsCollidingWithSomething() const { return body_->IsCollidingWithSomething(); }
+
+CPhysicsModel& CEmbodiedEntity::GetPhysicsModel(size_t number)
+{
+  const auto& engines = CSimulator::GetInstance().GetPhysicsEngines();
+  if (number >= GetPhysicsModelsNum())
+    THROW_ARGOSEXCEPTION("the body of '" << GetRootEntity().GetId() << "' has no physics model " << number
+                                         << "; it has one, 0");
+  if (models_.empty()) models_.emplace_back(*engines.front(), *this);
+  return models_.front();
+}
+
+CPhysicsModel& CEmbodiedEntity::GetPhysicsModel(const std::string& engine)
+{
+  CSimulator::GetInstance().GetPhysicsEngine(engine);
+  return GetPhysicsModel(0);
+}
+
+void CEmbodiedEntity::UpdateAnchors()
+{
+  const SAnchor& origin = m_sOriginAnchor;
+  for (auto& named : anchors_)
+  {
+    SAnchor& anchor = named.second;
+    anchor.Position = origin.Position + CVector3(anchor.OffsetPosition).Rotate(origin.Orientation);
+    anchor.Orientation = origin.Orientation * anchor.OffsetOrientation;
+  }
+}
+
+const SBoundingBox& CEmbodiedEntity::GetBoundingBox() const
+{
+  const auto& ours = Declared(GetRootEntity().GetId());
+  const auto& row = swarmanoid::DescriptionOf(ours.GetKind());
+  const swarmanoid::Vector3& size = ours.GetSize();
+  const bool is_cylinder = row.form == swarmanoid::BodyForm::kCylinder;
+  const double half_height = size.z() / 2;
+  const swarmanoid::Pose pose = ours.GetPose();
+  swarmanoid::Vector3 middle = pose.position;
+  if (row.origin == swarmanoid::BodyOrigin::kBase) middle = pose.Apply({0, 0, half_height});
+  const Eigen::Matrix3d axes = pose.orientation.toRotationMatrix();
+  swarmanoid::Vector3 half;
+  for (int i = 0; i < 3; ++i)
+    half[i] = std::abs(axes(i, 2)) * half_height +
+              (is_cylinder ? size.x() * std::sqrt(std::max(0.0, 1 - axes(i, 2) * axes(i, 2)))
+                           : std::abs(axes(i, 0)) * size.x() / 2 + std::abs(axes(i, 1)) * size.y() / 2);
+  box_.MinCorner = TheRunning().translation.Argos3Position(middle - half);
+  box_.MaxCorner = TheRunning().translation.Argos3Position(middle + half);
+  return box_;
 }
 
 bool CEmbodiedEntity::IsCollidingWithSomething() const

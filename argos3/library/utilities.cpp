@@ -43,6 +43,18 @@ const std::array<NamedColour, kColours>& NamedColours()
   return colours;
 }
 
+// "r,g,b" or "r,g,b,a".
+CColor Numbered(const std::string& text)
+{
+  const auto numbers = static_cast<UInt32>(1 + std::count(text.begin(), text.end(), ','));
+  int values[4]{0, 0, 0, 255};
+  ParseValues<int>(text, numbers < 4 ? 3 : 4, values, ',');
+  for (const int value : values)
+    if (value < 0 || value > 255) THROW_ARGOSEXCEPTION("'" << text << "' is no colour: each number is 0 to 255");
+  return {static_cast<UInt8>(values[0]), static_cast<UInt8>(values[1]), static_cast<UInt8>(values[2]),
+          static_cast<UInt8>(values[3])};
+}
+
 std::string& PendingLine()
 {
   thread_local std::string line;
@@ -107,25 +119,23 @@ void CColor::Set(const std::string& name)
       *this = named.colour;
       return;
     }
-  THROW_ARGOSEXCEPTION("there is no colour '" << name << "'");
+  if (name.find(',') == std::string::npos) THROW_ARGOSEXCEPTION("there is no colour '" << name << "'");
+  *this = Numbered(name);
+}
+
+std::ostream& operator<<(std::ostream& stream, const CColor& colour)
+{
+  for (const NamedColour& named : NamedColours())
+    if (colour == named.colour) return stream << named.name;
+  return stream << int{colour.GetRed()} << "," << int{colour.GetGreen()} << "," << int{colour.GetBlue()} << ","
+                << int{colour.GetAlpha()};
 }
 
 std::istream& operator>>(std::istream& stream, CColor& colour)
 {
   std::string text;
   std::getline(stream, text);
-  if (text.find(',') == std::string::npos)
-  {
-    colour.Set(text);
-    return stream;
-  }
-  const auto numbers = static_cast<UInt32>(1 + std::count(text.begin(), text.end(), ','));
-  int values[4]{0, 0, 0, 255};
-  ParseValues<int>(text, numbers < 4 ? 3 : 4, values, ',');
-  for (const int value : values)
-    if (value < 0 || value > 255) THROW_ARGOSEXCEPTION("'" << text << "' is no colour: each number is 0 to 255");
-  colour = CColor(static_cast<UInt8>(values[0]), static_cast<UInt8>(values[1]), static_cast<UInt8>(values[2]),
-                  static_cast<UInt8>(values[3]));
+  colour.Set(text);
   stream.clear(stream.rdstate() & ~std::ios::failbit);
   return stream;
 }
@@ -139,8 +149,18 @@ CARGoSLog& CARGoSLog::operator<<(std::ostream& (*manipulator)(std::ostream&))
 {
   std::ostringstream text;
   text << manipulator;
-  Append(text.str());
+  constexpr const char* kColour = "\033[";
+  if (text.str().rfind(kColour, 0) != 0) Append(text.str());
   return *this;
+}
+
+void CARGoSLog::RedirectToFile(const std::string& file)
+{
+  file_.close();
+  file_.clear();
+  file_.open(file);
+  if (!file_) THROW_ARGOSEXCEPTION("the log file '" << file << "' cannot be written");
+  stream_.rdbuf(file_.rdbuf());
 }
 
 void CARGoSLog::Append(const std::string& text)

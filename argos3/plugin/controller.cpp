@@ -92,7 +92,12 @@ private:
   }
   void Reset() override
   {
-    const Speaker speaker(*GetRobot());
+    // What is created in it draws the same numbers each time.
+    CCI_Robot& robot = *GetRobot();
+    robot.BeginStep(
+        robot.GetTick(), robot.GetTickSeconds(),
+        {argos::CSimulator::GetInstance().GetRandomSeed(), StreamName(robot.GetId()), StreamName("ARGoS3 reset"), 0});
+    const Speaker speaker(robot);
     for (const auto& sensor : sensors_) sensor->Sensor().Reset();
     for (const auto& actuator : actuators_) actuator->Actuator().Reset();
     controller_->Reset();

@@ -177,6 +177,13 @@ public:
   }
   ~Battery() override { TheRunning().batteries.erase(robot_.GetId()); }
   argos::CCI_Sensor& Sensor() override { return *this; }
+  // Ours begins again, too.
+  void Reset() override
+  {
+    charge_.available = charge_.start;
+    spent_ = 0;
+    m_sReading = SReading();
+  }
   void Update() override
   {
     const double spent = Spent();

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "argos3/plugin/noise.h"
 #include "common/control_interface/ci_positioning_sensor.h"
@@ -74,11 +75,14 @@ public:
     m_sReading.WheelAxisLength = kCentimetres * CCI_FootBotWheelsActuator::INTERWHEEL_DISTANCE_M;
   }
   argos::CCI_Sensor& Sensor() override { return *this; }
+  // What the engine measured last was before.
+  void Reset() override { was_reset_ = true; }
   void Update() override
   {
     const double tick = robot_.GetTickSeconds();
-    m_sReading.CoveredDistanceLeftWheel = kCentimetres * encoders_.GetLeftDistance(tick);
-    m_sReading.CoveredDistanceRightWheel = kCentimetres * encoders_.GetRightDistance(tick);
+    const bool has_stood = std::exchange(was_reset_, false);
+    m_sReading.CoveredDistanceLeftWheel = has_stood ? 0 : kCentimetres * encoders_.GetLeftDistance(tick);
+    m_sReading.CoveredDistanceRightWheel = has_stood ? 0 : kCentimetres * encoders_.GetRightDistance(tick);
     m_sReading.VelocityLeftWheel = m_sReading.CoveredDistanceLeftWheel / tick;
     m_sReading.VelocityRightWheel = m_sReading.CoveredDistanceRightWheel / tick;
     noise_.Add(robot_.GetRandom(), m_sReading);
@@ -88,6 +92,7 @@ private:
   CCI_Robot& robot_;
   const WheelNoise noise_;
   const CCI_FootBotEncodersSensor& encoders_;
+  bool was_reset_ = false;
 };
 
 // Twelve LEDs of the ring and the beacon.

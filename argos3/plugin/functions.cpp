@@ -138,6 +138,10 @@ public:
       Step(editor,
            [&]
            {
+             const CSwarmanoidSpace& space = editor.GetSpace();
+             for (std::size_t i = 0; i < space.Size(); ++i)
+               if (space.IsPresent(i))
+                 TheRunning().arrivals[space.GetEntity(i).GetId()] = ArrivalNow(space.GetEntity(i));
              Calling(place_, [&] { functions_->Init(element_); });
              if (const auto& rehearsal = TheRunning().rehearsal)
                WriteMadeBodies(rehearsal->Shapes(), editor.GetOutputFolder());
@@ -148,6 +152,7 @@ public:
     const Speaker speaker(editor);
     const Changing changing(editor);
     functions_->PostStep();
+    SendWrittenMessages();
     if (TheRunning().is_program) return;
     // Some begin again where they are asked whether they are over, so they are asked while they may.
     ends_ = functions_->IsExperimentFinished() || argos::CSimulator::GetInstance().IsTerminated();
@@ -228,6 +233,7 @@ private:
     const Changing changing(editor);
     Follow(editor.GetSpace());
     call();
+    SendWrittenMessages();
   }
 
   void MakeView(const CSwarmanoidSpaceEntity& entity)
@@ -297,6 +303,7 @@ private:
     const argos::SAnchor anchor = AnchorOf(space.GetEntity(view.index), space.GetPose(view.index));
     view.body->GetOriginAnchor().Position = anchor.Position;
     view.body->GetOriginAnchor().Orientation = anchor.Orientation;
+    view.body->UpdateAnchors();
   }
 
   argos::CLoopFunctions* (*create_)() = nullptr;

@@ -88,11 +88,13 @@ public:
     random_ = std::move(random);
     has_random_ = true;
   }
-  // Likewise a control step with random numbers of that key: most steps draw none. The tick lasts as long as before.
+  // Likewise a control step with random numbers of that key and of `random_tick`: most steps draw none. The tick lasts as
+  // long as before.
   void SetControlStepKey(const StreamKey& key) { control_step_key_ = key; }
-  void BeginControlStep(std::uint64_t tick)
+  void BeginControlStep(std::uint64_t tick, std::uint64_t random_tick)
   {
     tick_ = tick;
+    random_tick_ = random_tick;
     has_random_ = false;
   }
 
@@ -115,7 +117,7 @@ private:
 
   void BeginRandom()
   {
-    random_ = {control_step_key_, tick_};
+    random_ = {control_step_key_, random_tick_};
     has_random_ = true;
   }
   // To standard error: without a runtime that has a log.
@@ -129,7 +131,7 @@ private:
   }
 
   // What each step writes, together.
-  std::uint64_t tick_ = 0;
+  std::uint64_t tick_ = 0, random_tick_ = 0;
   bool has_random_ = true;
   double tick_seconds_ = 0.1;
   RandomStream random_{0, 0, 0, 0};

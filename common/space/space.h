@@ -34,6 +34,10 @@ public:
   std::uint64_t GetTick() const { return tick_; }
   double GetTickSeconds() const { return experiment_.TickSeconds(); }
   double GetTime() const { return static_cast<double>(tick_) * GetTickSeconds(); }
+  // The tick at which the run began: 0, or later if experiment functions began it again (SpaceEditor::BeginAgain).
+  std::uint64_t FirstTick() const { return first_tick_; }
+  // As what tick random numbers are drawn now: counted from the first one, in the upper half what was given with it.
+  std::uint64_t StreamTick() const { return (tick_ - first_tick_) | std::uint64_t{variation_} << 32U; }
 
   std::size_t Size() const { return entities_.size(); }
   const CSwarmanoidSpaceEntity& GetEntity(std::size_t index) const { return *entities_[index]; }
@@ -68,6 +72,11 @@ public:
 
   // Changes of the state, for the role that owns this space.
   void SetTick(std::uint64_t tick) { tick_ = tick; }
+  void BeginAgain(std::uint64_t first_tick, std::uint32_t variation)
+  {
+    first_tick_ = first_tick;
+    variation_ = variation;
+  }
   void SetPose(std::size_t index, const Pose& pose);
   // poses: structure of arrays over `entities`, as in EngineUpdate.
   void SetPoses(std::span<const std::uint32_t> entities, std::span<const double> poses);
@@ -90,6 +99,8 @@ private:
 
   const Experiment& experiment_;
   std::uint64_t tick_ = 0;
+  std::uint64_t first_tick_ = 0;
+  std::uint32_t variation_ = 0;
   std::uint64_t revision_ = 1;
   std::uint64_t attribute_revision_ = 1;
   PoseArrays poses_;

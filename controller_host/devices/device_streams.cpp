@@ -126,13 +126,13 @@ DeviceStreams::DeviceStreams(const DeviceSetup& setup, std::string_view quantity
 {
 }
 
-RandomStream DeviceStreams::Of(std::size_t k) const { return {Key(k), space_->GetTick()}; }
+RandomStream DeviceStreams::Of(std::size_t k) const { return {Key(k), space_->StreamTick()}; }
 
-RandomStream DeviceStreams::Of(std::size_t k, std::uint64_t whom) const { return {Key(k), space_->GetTick(), whom}; }
+RandomStream DeviceStreams::Of(std::size_t k, std::uint64_t whom) const { return {Key(k), space_->StreamTick(), whom}; }
 
 void DeviceStreams::Sample(const NoiseModel& noise, std::size_t k, std::span<double> samples) const
 {
-  StreamWords stream(Key(k), space_->GetTick());
+  StreamWords stream(Key(k), space_->StreamTick());
   constexpr std::size_t kGroup = 2 * kDoubleLanes;  // a block gives two samples
   for (std::size_t i = 0; i < samples.size(); i += kGroup)
   {
@@ -148,7 +148,7 @@ void DeviceStreams::Sample(const NoiseModel& noise, std::size_t k, std::span<dou
 void DeviceStreams::Sample(const NoiseModel& noise, std::size_t k, std::span<const std::uint64_t> whoms,
                            std::span<double> samples) const
 {
-  const StreamWords stream(Key(k), space_->GetTick());
+  const StreamWords stream(Key(k), space_->StreamTick());
   for (std::size_t i = 0; i < whoms.size(); i += kDoubleLanes)
   {
     const std::size_t count = std::min<std::size_t>(kDoubleLanes, whoms.size() - i);

@@ -21,7 +21,7 @@ public:
   // `quantity` tells those of one device apart: "range", "bearing". The space of the setup must outlive the streams.
   explicit DeviceStreams(const DeviceSetup& setup, std::string_view quantity = {});
 
-  // The stream of robot k of the batch at the tick of the space.
+  // The stream of robot k of the batch at the StreamTick() of the space.
   RandomStream Of(std::size_t k) const;
   // What robot k draws about `whom`: StreamName(id) of another entity, StreamPart(name, number) of a part.
   RandomStream Of(std::size_t k, std::uint64_t whom) const;

@@ -12,6 +12,7 @@
 #include "common/configuration/wording.h"
 #include "common/control_interface/ci_controller.h"
 #include "common/control_interface/footbot/ci_footbot_encoders_sensor.h"
+#include "real_robot/drivers/ros2/joined_datagrams.h"
 #include "real_robot/ros2_controller/device_commands.h"
 #include "real_robot/ros2_controller/drive.h"
 #include "real_robot/ros2_controller/readings.h"
@@ -80,8 +81,7 @@ public:
     }
     else
     {
-      if (odometry_) AdvanceOdometry(tick);
-      Publish(TimeOf(GetRobot()->GetTime()));
+      if (asked_tick_ != tick) TellAll(tick);
       while (const auto command = ends_->drive.Take(std::nullopt)) command_ = *command;
       for (const auto& topic : ends_->devices)
       {
@@ -231,8 +231,27 @@ private:
       if (each == this || (each->lock_step_ && each->TakesPartIn(tick))) asked.push_back(each);
     AwaitNodes(asked);
     const auto now = TimeOf(GetRobot()->GetTime());
+    const JoinedDatagrams joined;
     for (CRos2Controller* each : asked)
       if (each->node_is_here_) each->Ask(tick, now);
+  }
+
+  // Publishes the readings of the tick of all robots of the group that had a step in the tick before, and so have one
+  // now. The sensors of all are of this tick already.
+  void TellAll(std::uint64_t tick)
+  {
+    const JoinedDatagrams joined;
+    const auto now = TimeOf(GetRobot()->GetTime());
+    for (CRos2Controller* each : group_->members)
+      if (each == this || (!each->lock_step_ && each->ends_ && each->asked_tick_ && each->TakesPartIn(tick)))
+        each->Tell(tick, now);
+  }
+
+  void Tell(std::uint64_t tick, const builtin_interfaces::msg::dds_::Time_& now)
+  {
+    if (odometry_) AdvanceOdometry(tick);
+    Publish(now);
+    asked_tick_ = tick;
   }
 
   // Until the nodes of these robots hear and are heard; or the time of this one is over, which says so in its own step.
@@ -269,9 +288,7 @@ private:
       while (topic->Take())
       {
       }
-    if (odometry_) AdvanceOdometry(tick);
-    Publish(now);
-    asked_tick_ = tick;
+    Tell(tick, now);
     asked_at_ = said_at_ = Now();
     repetitions_ = 0;
   }

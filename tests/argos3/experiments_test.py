@@ -189,7 +189,7 @@ class Experiments(RunningTest):
         # In Init: three robots, the controller of the first, no place for the second where the first is, limits, ticks.
         self.assertEqual(lines[0], "# 3 made0 0 2,2,1 10")
         # Entities may be changed behind the last step, too.
-        self.assertEqual(lines[-1], "# over 0,255,0,255")
+        self.assertEqual(lines[-1], "# over green")
         rows = [line.split("\t") for line in lines[1:-1]]
         self.assertEqual([row[1] for row in rows], ["3"] * 3 + ["2"] * 3 + ["3"] * 4)
         for row in rows:
@@ -198,8 +198,8 @@ class Experiments(RunningTest):
             self.assertAlmostEqual(float(row[2]), 0.01 * (clock - 1), places=4)  # the object that was added follows it
             # The can shows another colour from the step after it was given.
             # A lamp that loop functions made is near in step 4.
-            self.assertEqual(row[4:7], ["1", "1" if clock == 4 else "0", "255,0,0,255"] if clock <= 5 else
-                             ["0", "1", "0,0,255,255"])
+            self.assertEqual(row[4:7], ["1", "1" if clock == 4 else "0", "red"] if clock <= 5 else
+                             ["0", "1", "blue"])
         # The place of one that left is taken by another, with a controller of its own.
         self.assertEqual(rows[5][7], "0")
         made = re.findall(r"(Init|Destroy) of (\w+)", self.said_in("run"))

@@ -21,7 +21,7 @@ class Reset(RunningTest):
         at_reset, steps = second[0], second[1:]
         # clock, x, steps, resets of the controller, number drawn, resets, and all that was changed.
         self.assertEqual(at_reset[:5] + at_reset[6:],
-                         ["reset", "0", "0", "0", "1", "1", "-0.5", "0,255,0,255", "255,255,0,255", "0,0,0,255", "0", "-1", "3"])
+                         ["reset", "0", "0", "0", "1", "1", "-0.5", "green", "yellow", "black", "0", "-1", "3"])
         # But for the resets and who was removed for good, and for the number that was drawn last.
         same = [[*row[:4], row[5] if row[3] != "0" else "", *row[7:-1]] for row in first]
         self.assertEqual([[*row[:4], row[5] if row[3] != "0" else "", *row[7:-1]] for row in steps], same)
@@ -32,6 +32,27 @@ class Reset(RunningTest):
         self.assertIn("finished: 21 ticks", said.stdout)
         self.assertEqual(re.findall(r"(init|reset after) (\d+)", self.said_in("post")),
                          [("init", "0"), ("reset after", "6"), ("reset after", "6")])
+
+    def rows_of_trials(self, file):
+        self.swarmanoid("run", file, "--output", "run")
+        rows = [line.split("\t") for line in (self.folder / "trials.tsv").read_text().splitlines()]
+        return [[row[1:] for row in rows if row[0] == str(trial)] for trial in range(5)]
+
+    def test_trials_of_one_seed_are_the_same_bit_by_bit_with_noise_and_contacts(self):
+        first, again, other, other_again, last = self.rows_of_trials(HERE / "trials.argos")
+        self.assertEqual(len(first), 130)
+        self.assertEqual([row[0] for row in first], [str(clock) for clock in range(1, 131)])
+        # Of seed 3, twice of seed 99, and of seed 3.
+        self.assertEqual(again, first)
+        self.assertNotEqual(other[0], first[0])
+        self.assertEqual(other_again, other)
+        self.assertEqual(last, first)
+        # They meet, and push the crate.
+        self.assertNotEqual(first[0][-1], first[-1][-1])
+
+    def test_the_noise_goes_on_if_the_space_alone_begins_again(self):
+        trials = self.rows_of_trials(self.changed("trials.argos", ('reset="simulator"', 'reset="space"')))
+        self.assertEqual(len({str(trial[0]) for trial in trials}), 5)
 
     def test_a_run_begins_again_where_it_is_asked_whether_it_is_over(self):
         trials = self.trials("finished")[1]

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "common/control_interface/ci_battery_sensor.h"
 #include "common/control_interface/ci_gyroscope_sensor.h"
@@ -160,6 +161,7 @@ public:
   }
   void Update(const ChannelView&) override
   {
+    if (std::exchange(first_tick_, space_->FirstTick()) != space_->FirstTick()) return BeginAgain();
     for (std::size_t k = 0; k < robots_.size(); ++k)
     {
       const auto motion = last_.Motion(k, space_->GetPose(robots_[k]), space_->IsPresent(robots_[k]));
@@ -168,11 +170,9 @@ public:
         used = per_tick_ + per_metre_ * __builtin_sqrt(motion->position.squaredNorm()) +
                per_radian_ * __builtin_sqrt(RotationVector(motion->orientation).squaredNorm());
       charges_[k] = std::max(charges_[k] - used, 0.0);
-      const double noise = noise_.IsActive() ? noise_.Sample(streams_.Of(k)) : 0;
-      ValuesOf(k)[0] = std::clamp(charges_[k] + noise, 0.0, 1.0);
-      ValuesOf(k)[1] =
-          used > 0 ? charges_[k] / used * space_->GetTickSeconds() : std::numeric_limits<double>::infinity();
+      Tell(k, used);
     }
+    if (space_->GetTick() <= 1) first_charges_ = charges_;
   }
   void SaveState(std::size_t k, ByteWriter& state) const override
   {
@@ -186,8 +186,26 @@ public:
   }
 
 private:
+  // As charged as in the first tick behind the beginning, and no way was made to where the robots stand.
+  void BeginAgain()
+  {
+    charges_ = first_charges_;
+    for (std::size_t k = 0; k < robots_.size(); ++k)
+    {
+      last_.Motion(k, space_->GetPose(robots_[k]), space_->IsPresent(robots_[k]));
+      Tell(k, per_tick_);
+    }
+  }
+  void Tell(std::size_t k, double used)
+  {
+    const double noise = noise_.IsActive() ? noise_.Sample(streams_.Of(k)) : 0;
+    ValuesOf(k)[0] = std::clamp(charges_[k] + noise, 0.0, 1.0);
+    ValuesOf(k)[1] = used > 0 ? charges_[k] / used * space_->GetTickSeconds() : std::numeric_limits<double>::infinity();
+  }
+
   double per_tick_ = 0, per_metre_ = 0, per_radian_ = 0;
-  std::vector<double> charges_;
+  std::uint64_t first_tick_ = 0;  // of the space, as far as it knows
+  std::vector<double> charges_, first_charges_;
   LastPoses last_;
 };
 

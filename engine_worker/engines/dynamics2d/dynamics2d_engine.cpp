@@ -102,7 +102,7 @@ void CDynamics2dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding
       BodyModel model = MovableModel(entity, EMotion::kDynamic, plane_, parameters_);
       model.has_turret_motor = std::binary_search(turret_robots_.begin(), turret_robots_.end(), entity.GetIndex());
       body = world_->AddBody(std::move(model), pose);
-      owned_.push_back({&entity, body, stance});
+      owned_.push_back({&entity, body, stance, stance});
       robots_.AddOwned(entity);
       if (DescriptionOf(entity.GetKind()).mechanism != Mechanism::kTurretGripper) break;
       footbot_of_entity_[entity.GetIndex()] = static_cast<std::uint32_t>(footbots_.size());
@@ -329,6 +329,19 @@ void CDynamics2dEngine::LoadState(ByteReader& state)
 }
 
 void CDynamics2dEngine::Canonicalise() { world_->Rebuild(); }
+
+void CDynamics2dEngine::BeginAgain()
+{
+  for (const Footbot& footbot : footbots_)
+    world_->SetTurretAngle(footbot.body, space_->Attributes()[footbot.turret_slot]);
+  // What leans as at first does to the last bit, which what is computed from a pose does not.
+  constexpr double kSame = 1e-12;
+  for (Owned& owned : owned_)
+    if (std::abs(owned.stance.height - owned.first_stance.height) < kSame &&
+        1 - std::abs(owned.stance.lean.dot(owned.first_stance.lean)) < kSame)
+      owned.stance = owned.first_stance;
+  world_->BeginAgain();
+}
 
 std::string CDynamics2dEngine::StatusText() const
 {

@@ -27,6 +27,7 @@ public:
   void SaveState(ByteWriter& state) const override;
   void LoadState(ByteReader& state) override;
   void Canonicalise() override;
+  void BeginAgain() override;
   std::string StatusText() const override;
 
   // For tests: gives an owned entity a velocity in the plane.
@@ -38,7 +39,7 @@ private:
   {
     const CSwarmanoidSpaceEntity* entity;
     int body;
-    PlaneStance stance;
+    PlaneStance stance, first_stance;
   };
   // One that another engine moves.
   struct Mirror

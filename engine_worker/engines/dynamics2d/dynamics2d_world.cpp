@@ -245,8 +245,12 @@ PlaneVelocity Dynamics2dWorld::VelocityOf(int number) const
 
 void Dynamics2dWorld::Place(int number, const PlanePose& pose)
 {
+  // The float next to half a turn is a little more than that, so its heading is told from the other side.
+  constexpr auto kHalfTurn = static_cast<float>(kPi);
+  const double other = pose.heading - std::copysign(2 * kPi, pose.heading);
+  const bool is_half_turn = std::abs(static_cast<double>(kHalfTurn) - std::abs(other)) < 1e-12;
   SetPosition(bodies_[Index(number)], pose.u * kUnitsPerMetre, pose.v * kUnitsPerMetre,
-              static_cast<float>(pose.heading));
+              static_cast<float>(is_half_turn ? other : pose.heading));
   for (Body& body : bodies_)
     if (body.gripped == number || (body.gripped != kNoBody && &body == &bodies_[Index(number)])) CountTurns(body);
 }

@@ -147,6 +147,8 @@ public:
   void SaveState(ByteWriter& state) const;
   void LoadState(ByteReader& state);
   void Rebuild();
+  // As one that was just made with the bodies as they are; angles stay, which grow with each turn.
+  void BeginAgain();
 
 private:
   struct BodyState

@@ -25,6 +25,12 @@ void Dynamics2dWorld::Rebuild()
   Build();
 }
 
+void Dynamics2dWorld::BeginAgain()
+{
+  for (Body& body : bodies_) body.start = StateOf(body);
+  Build();
+}
+
 // Angles grow with every turn and lose precision; here they come back to -pi..pi, and the grips' angles with them.
 void Dynamics2dWorld::WrapAngles()
 {

@@ -21,6 +21,7 @@
 #include <fmt/format.h>
 
 #include "common/configuration/configuration_tree.h"
+#include "real_robot/drivers/ros2/joined_datagrams.h"
 
 namespace swarmanoid::ros2
 {
@@ -74,7 +75,7 @@ public:
     qos.transport().use_builtin_transports = false;
     auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
     if (LocalhostOnly()) udp->interfaceWhiteList = {"127.0.0.1"};
-    qos.transport().user_transports.push_back(udp);
+    qos.transport().user_transports.push_back(JoiningTransport(udp));
     participant_ = dds::DomainParticipantFactory::get_instance()->create_participant(Domain(), qos);
     if (participant_ == nullptr)
       throw DriverError(fmt::format("cannot join the DDS domain {}: no network, or too many programs in it", Domain()));

@@ -16,19 +16,27 @@ class CComposableEntity : public CEntity
 {
 public:
   explicit CComposableEntity(const std::string& id) : CEntity(nullptr, id) {}
+  CComposableEntity(CEntity* parent, const std::string& id) : CEntity(parent, id) {}
 
-  bool HasComponent(const std::string& name) { return components_.count(name) != 0; }
-  // Throws CARGoSException for a part that it does not have.
+  // `name`: a type ("body"), one of several by its id ("led[led_3]"), or a part of a part ("leds.led[led_3]").
+  bool HasComponent(const std::string& name) { return Find(name) != nullptr; }
+  // Throw CARGoSException for a part that it does not have.
+  CEntity& GetComponent(const std::string& name);
   template <class Entity>
   Entity& GetComponent(const std::string& name)
   {
-    const auto found = components_.find(name);
-    auto* typed = found == components_.end() ? nullptr : dynamic_cast<Entity*>(found->second);
-    if (typed == nullptr) THROW_ARGOSEXCEPTION("entity '" << GetId() << "' has no component '" << name << "'");
+    auto* typed = dynamic_cast<Entity*>(&GetComponent(name));
+    if (typed == nullptr)
+      THROW_ARGOSEXCEPTION("the component '" << name << "' of '" << GetId() << "' is of another type");
     return *typed;
   }
-  CEntity::TMap& GetComponentMap() { return components_; }
-  void AddComponent(CEntity& component) { components_[component.GetTypeDescription()] = &component; }
+  CEntity::TMultiMap& GetComponentMap() { return components_; }
+  CEntity::TVector& GetComponentVector() { return in_order_; }
+  void AddComponent(CEntity& component)
+  {
+    components_.emplace(component.GetTypeDescription(), &component);
+    in_order_.push_back(&component);
+  }
   void UpdateComponents() {}
   void Reset() override
   {
@@ -37,7 +45,10 @@ public:
   std::string GetTypeDescription() const override { return "composite"; }
 
 private:
-  CEntity::TMap components_;
+  CEntity* Find(const std::string& name);
+
+  CEntity::TMultiMap components_;
+  CEntity::TVector in_order_;
 };
 
 // An LED of an entity.
@@ -70,7 +81,7 @@ private:
 
 // The LEDs of an entity. Those of a box or cylinder have one colour, which cameras see at its middle: the one that was
 // set last, and at first that of the first LED.
-class CLEDEquippedEntity : public CEntity
+class CLEDEquippedEntity : public CComposableEntity
 {
 public:
   CLEDEquippedEntity(CEntity* parent, unsigned leds);

@@ -6,6 +6,8 @@
 #include <argos3/core/utility/math/quaternion.h>
 #include <argos3/core/utility/math/vector3.h>
 
+#include <sys/types.h>
+
 namespace argos
 {
 
@@ -16,6 +18,7 @@ class CEntity : public CBaseConfigurableResource
 public:
   using TVector = std::vector<CEntity*>;
   using TMap = std::map<std::string, CEntity*>;
+  using TMultiMap = std::multimap<std::string, CEntity*>;
 
   explicit CEntity(CEntity* parent = nullptr) : parent_(parent) {}
   CEntity(CEntity* parent, std::string id) : id_(std::move(id)), parent_(parent) {}
@@ -27,8 +30,14 @@ public:
   void SetId(const std::string& id) { id_ = id; }
   // "foot-bot", "box", "body" …
   virtual std::string GetTypeDescription() const { return "entity"; }
+  // The ids of all that it is a part of, each with a dot behind it.
+  std::string GetContext() const { return parent_ == nullptr ? "" : parent_->GetContext() + parent_->GetId() + "."; }
   bool HasParent() const { return parent_ != nullptr; }
-  CEntity& GetParent() const { return *parent_; }
+  // Throws CARGoSException if it has none.
+  CComposableEntity& GetParent() const;
+  // The place of its root among all in the arena; -1 before it is there.
+  ssize_t GetIndex() const { return parent_ == nullptr ? index_ : parent_->GetIndex(); }
+  void SetIndex(ssize_t index) { index_ = index; }
   // Entities take part in a run while they are in the arena, whatever this says.
   void Enable() { enabled_ = true; }
   void Disable() { enabled_ = false; }
@@ -36,11 +45,20 @@ public:
   bool IsEnabled() const { return enabled_; }
   void Update() {}
   CEntity& GetRootEntity() { return parent_ == nullptr ? *this : parent_->GetRootEntity(); }
+  const CEntity& GetRootEntity() const { return parent_ == nullptr ? *this : parent_->GetRootEntity(); }
 
 private:
   std::string id_;
   CEntity* parent_;
   bool enabled_ = true;
+  ssize_t index_ = -1;
+};
+
+// The order of the arena.
+struct SEntityComparator
+{
+  bool operator()(const CEntity* a, const CEntity* b) const { return a->GetIndex() < b->GetIndex(); }
+  bool operator()(const CEntity& a, const CEntity& b) const { return a.GetIndex() < b.GetIndex(); }
 };
 
 }  // namespace argos

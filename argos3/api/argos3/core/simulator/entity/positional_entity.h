@@ -14,8 +14,8 @@ public:
       : CEntity(parent, id), m_cPosition(position), m_cOrientation(orientation)
   {
   }
-  const CVector3& GetPosition() const { return m_cPosition; }
-  const CQuaternion& GetOrientation() const { return m_cOrientation; }
+  virtual const CVector3& GetPosition() const { return m_cPosition; }
+  virtual const CQuaternion& GetOrientation() const { return m_cOrientation; }
   // Of the view alone: CLoopFunctions::MoveEntity moves an entity.
   void SetPosition(const CVector3& position) { m_cPosition = position; }
   void SetOrientation(const CQuaternion& orientation) { m_cOrientation = orientation; }
@@ -24,7 +24,7 @@ public:
   std::string GetTypeDescription() const override { return "position"; }
 
 protected:
-  CVector3 m_cPosition;
+  mutable CVector3 m_cPosition;
   CQuaternion m_cOrientation;
 };
 

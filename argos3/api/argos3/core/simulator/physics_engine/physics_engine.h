@@ -34,6 +34,11 @@ bool GetClosestEmbodiedEntityIntersectedByRay(SEmbodiedEntityIntersectionItem& m
 class CPhysicsEngine
 {
 public:
+  using TVector = std::vector<CPhysicsEngine*>;
+  using TMap = std::map<std::string, CPhysicsEngine*>;
+
+  const std::string& GetId() const { return id_; }
+  void SetId(const std::string& id) { id_ = id; }
   // s
   static Real GetSimulationClockTick() { return tick_s_; }
   // Ticks a second.
@@ -43,6 +48,7 @@ public:
 
 private:
   static Real tick_s_;
+  std::string id_ = "engine";  // or the name by which it was asked for last
 };
 
 }  // namespace argos

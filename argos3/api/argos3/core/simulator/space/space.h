@@ -51,6 +51,7 @@ public:
   template <class Entity>
   void Insert(Entity& entity)
   {
+    entity.SetIndex(static_cast<ssize_t>(entities_.size()));
     entities_.push_back(&entity);
     by_id_[entity.GetId()] = &entity;
     by_type_[entity.GetTypeDescription()][entity.GetId()] = CAny(&entity);

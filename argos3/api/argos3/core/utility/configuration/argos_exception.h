@@ -24,6 +24,15 @@ private:
 
 }  // namespace argos
 
+// Not in a build with NDEBUG, as assert.
+#ifndef NDEBUG
+#define ARGOS_ASSERT(CONDITION, MESSAGE)            \
+  {                                                 \
+    if (!(CONDITION)) THROW_ARGOSEXCEPTION(MESSAGE) \
+  }
+#else
+#define ARGOS_ASSERT(CONDITION, MESSAGE)
+#endif
 #define THROW_ARGOSEXCEPTION(MESSAGE)                  \
   {                                                    \
     std::ostringstream argos_message;                  \

@@ -15,10 +15,4 @@ public:
   virtual void Destroy() = 0;
 };
 
-class CMemento
-{
-public:
-  virtual ~CMemento() = default;
-};
-
 }  // namespace argos

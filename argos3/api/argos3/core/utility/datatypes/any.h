@@ -16,6 +16,11 @@ public:
   CAny(const T& value) : held_(std::make_shared<Held<T>>(value))
   {
   }
+  CAny& swap(CAny& other)
+  {
+    held_.swap(other.held_);
+    return *this;
+  }
   bool IsEmpty() const { return held_ == nullptr; }
   // nullptr for another type than that which was put in.
   template <class T>
@@ -41,6 +46,12 @@ private:
   std::shared_ptr<const Holder> held_;
 };
 
+// nullptr for another type than that which was put in.
+template <class T>
+const T* any_cast(const CAny* any)
+{
+  return any == nullptr ? nullptr : any->Find<T>();
+}
 // Throws std::bad_cast for another type than that which was put in.
 template <class T>
 T any_cast(const CAny& any)

@@ -13,12 +13,13 @@ class CByteArray
 {
 public:
   CByteArray() = default;
-  explicit CByteArray(size_t size, UInt8 value = 0) : bytes_(size, value) {}
+  CByteArray(size_t size, UInt8 value = 0) : bytes_(size, value) {}
   CByteArray(const UInt8* buffer, size_t size) : bytes_(buffer, buffer + size) {}
 
   size_t Size() const { return bytes_.size(); }
   bool Empty() const { return bytes_.empty(); }
   void Clear() { bytes_.clear(); }
+  void Swap(CByteArray& other) { bytes_.swap(other.bytes_); }
   void Resize(size_t size, UInt8 value = 0) { bytes_.resize(size, value); }
   void Zero() { std::fill(bytes_.begin(), bytes_.end(), UInt8{0}); }
   // nullptr if it is empty.
@@ -28,6 +29,7 @@ public:
   UInt8& operator[](size_t index) { return bytes_[Checked(index)]; }
   UInt8 operator[](size_t index) const { return bytes_[Checked(index)]; }
   bool operator==(const CByteArray& other) const { return bytes_ == other.bytes_; }
+  bool operator!=(const CByteArray& other) const { return !(*this == other); }
 
   CByteArray& AddBuffer(const UInt8* buffer, size_t size)
   {
@@ -47,6 +49,15 @@ public:
   {
     bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(std::min(size, Size())));
     return *this;
+  }
+
+  // Takes a value from the front.
+  template <class T>
+  T PopFront()
+  {
+    T value;
+    *this >> value;
+    return value;
   }
 
   // Whole numbers and floating-point numbers by their bits, the highest byte first.

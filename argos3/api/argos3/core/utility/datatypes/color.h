@@ -33,21 +33,24 @@ public:
   void SetBlue(UInt8 blue) { blue_ = blue; }
   void SetAlpha(UInt8 alpha) { alpha_ = alpha; }
   void Set(UInt8 red, UInt8 green, UInt8 blue, UInt8 alpha = 255) { *this = CColor(red, green, blue, alpha); }
-  // A name of the list above. Throws CARGoSException for any other.
+  // As in files. Throws CARGoSException for what is no colour.
   void Set(const std::string& name);
   // Brightness 0 to 255, weighted for the eye (ITU-R BT.601).
-  UInt8 ToGrayScale() const { return static_cast<UInt8>(0.299 * red_ + 0.587 * green_ + 0.114 * blue_); }
+  Real ToGrayScale() const { return 0.299 * red_ + 0.587 * green_ + 0.114 * blue_; }
+  // 0xAABBGGRR.
+  operator UInt32() const
+  {
+    return static_cast<UInt32>(alpha_) << 24 | static_cast<UInt32>(blue_) << 16 | static_cast<UInt32>(green_) << 8 |
+           red_;
+  }
 
   bool operator==(const CColor& other) const
   {
     return red_ == other.red_ && green_ == other.green_ && blue_ == other.blue_ && alpha_ == other.alpha_;
   }
   bool operator!=(const CColor& other) const { return !(*this == other); }
-  friend std::ostream& operator<<(std::ostream& stream, const CColor& colour)
-  {
-    return stream << int{colour.red_} << "," << int{colour.green_} << "," << int{colour.blue_} << ","
-                  << int{colour.alpha_};
-  }
+  // Its name, or the four numbers if it has none.
+  friend std::ostream& operator<<(std::ostream& stream, const CColor& colour);
   friend std::istream& operator>>(std::istream& stream, CColor& colour);
 
 private:

@@ -63,3 +63,8 @@ using ::UInt8;
 #ifndef DEBUG
 #define DEBUG(...) std::fprintf(stderr, "[DEBUG] " __VA_ARGS__)
 #endif
+#define DEBUG_FUNCTION_ENTER DEBUG("%s - START\n", __PRETTY_FUNCTION__)
+#define DEBUG_FUNCTION_EXIT DEBUG("%s - END\n", __PRETTY_FUNCTION__)
+#define TRACE(LINE) \
+  LINE;             \
+  DEBUG("%s\n", #LINE)

@@ -1,6 +1,7 @@
 // CSet: a set, with the names of ARGoS3.
 #pragma once
 
+#include <functional>
 #include <set>
 
 namespace argos
@@ -11,7 +12,16 @@ class CSet : public std::set<T, Comparator>
 {
 public:
   using std::set<T, Comparator>::set;
+  CSet() = default;
+  // Of the same elements in another order.
+  template <class Other>
+  CSet(const CSet<T, Other>& other) : std::set<T, Comparator>(other.begin(), other.end())
+  {
+  }
   bool exists(const T& element) const { return this->count(element) != 0; }
+  // Of a set that is not empty.
+  const T& first() const { return *this->begin(); }
+  const T& last() const { return *this->rbegin(); }
 };
 
 }  // namespace argos

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <argos3/core/utility/datatypes/datatypes.h>
+#include <argos3/core/utility/logging/argos_colored_text.h>
 
 #include <ostream>
 
@@ -27,6 +28,11 @@ public:
   void Flush() {}
   void DisableColoredOutput() {}
   void EnableColoredOutput() {}
+  bool IsColoredOutput() const { return false; }
+  // Lines of each thread stay together anyway.
+  void AddThreadSafeBuffer() {}
+  // All lines of this process, from now on. Throws CARGoSException if it cannot be written.
+  void RedirectToFile(const std::string& file);
   // Given another buffer, all lines of this process go there.
   std::ostream& GetStream() { return stream_; }
 
@@ -36,6 +42,7 @@ private:
   const char* prefix_;
   std::ostream stream_;
   std::streambuf* own_;  // none: lines go to the log
+  std::ofstream file_;
 };
 
 extern CARGoSLog LOG;

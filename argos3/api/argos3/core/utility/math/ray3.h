@@ -1,6 +1,7 @@
 // CRay3: a line from one point to another.
 #pragma once
 
+#include <argos3/core/utility/math/plane.h>
 #include <argos3/core/utility/math/vector3.h>
 
 namespace argos
@@ -30,6 +31,21 @@ public:
   void GetPoint(CVector3& point, Real t) const { point = start_ + t * (end_ - start_); }
   // From the start to the point at `t`.
   Real GetDistance(Real t) const { return Abs(t) * GetLength(); }
+  // Whether it meets the plane, and where; a parallel ray does not.
+  bool Intersects(const CPlane& plane, CVector3& point) const
+  {
+    CVector3 way;
+    const Real along = plane.GetNormal().DotProduct(ToVector(way));
+    const Real t = plane.GetNormal().DotProduct(plane.GetPosition() - start_) / along;
+    if (along == 0 || t < 0 || t > 1) return false;
+    GetPoint(point, t);
+    return true;
+  }
+
+  friend std::ostream& operator<<(std::ostream& stream, const CRay3& ray)
+  {
+    return stream << ray.start_ << " -> " << ray.end_;
+  }
 
 private:
   CVector3 start_;

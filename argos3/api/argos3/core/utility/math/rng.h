@@ -25,6 +25,8 @@ public:
     // Of the numbers after the next Reset.
     void SetSeed(UInt32 seed) { seed_ = seed; }
     std::string GetType() const { return "philox4x32"; }
+    // There is one type.
+    void SetType(const std::string& /*type*/) {}
     void Reset();
 
     bool Bernoulli(Real probability = 0.5);
@@ -53,16 +55,20 @@ public:
   public:
     CCategory(const std::string& id, UInt32 seed) : id_(id), seed_(seed) {}
     const std::string& GetId() const { return id_; }
+    void SetId(const std::string& id) { id_ = id; }
     UInt32 GetSeed() const { return seed_; }
     // Of the generators that are created from now on, and of those there are after the next reset.
     void SetSeed(UInt32 seed);
     CRNG* CreateRNG(const std::string& type = "");
     void ResetRNGs();
     void ReseedRNGs();
+    // For CSimulator::Reset: the seeds of all generators; 0 gives back those that they were created with.
+    void Vary(UInt32 variation);
 
   private:
     std::string id_;
     UInt32 seed_;
+    UInt32 variation_ = 0;
     std::vector<std::unique_ptr<CRNG>> generators_;
   };
 
@@ -76,6 +82,8 @@ public:
   // by a program before it loads an experiment: the seed of the category and their number seed them.
   static CRNG* CreateRNG(const std::string& category, const std::string& type = "");
   static UInt32 GetSeedOf(const std::string& category);
+  // Removes all categories but "argos", and the generators of that one.
+  static void Reset();
   static void SetSeedOf(const std::string& category, UInt32 seed);
 };
 

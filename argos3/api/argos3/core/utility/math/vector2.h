@@ -1,7 +1,10 @@
-// CVector2. In files: "x,y".
+// CVector2. In files: "x,y". It is a matrix of one row or one column, too.
 #pragma once
 
 #include <argos3/core/utility/math/angles.h>
+#include <argos3/core/utility/math/matrix/matrix.h>
+
+#include <array>
 
 namespace argos
 {
@@ -15,6 +18,10 @@ public:
 
   constexpr CVector2() = default;
   constexpr CVector2(Real x, Real y) : x_(x), y_(y) {}
+  template <class T>
+  CVector2(const std::array<T, 2>& coordinates) : x_(coordinates[0]), y_(coordinates[1])
+  {
+  }
   CVector2(Real length, const CRadians& angle) : x_(length * Cos(angle)), y_(length * Sin(angle)) {}
 
   Real GetX() const { return x_; }
@@ -25,6 +32,11 @@ public:
   {
     x_ = x;
     y_ = y;
+  }
+  template <class T>
+  void Set(const std::array<T, 2>& coordinates)
+  {
+    *this = CVector2(coordinates);
   }
   void FromPolarCoordinates(Real length, const CRadians& angle) { *this = CVector2(length, angle); }
 
@@ -56,6 +68,8 @@ public:
   CVector2 operator-() const { return {-x_, -y_}; }
   bool operator==(const CVector2& other) const { return x_ == other.x_ && y_ == other.y_; }
   bool operator!=(const CVector2& other) const { return !(*this == other); }
+  operator CMatrix<1, 2>() const { return CMatrix<1, 2>(Coordinates().data()); }
+  operator CMatrix<2, 1>() const { return CMatrix<2, 1>(Coordinates().data()); }
 
   friend std::ostream& operator<<(std::ostream& stream, const CVector2& vector)
   {
@@ -70,6 +84,8 @@ public:
   }
 
 private:
+  std::array<Real, 2> Coordinates() const { return {{x_, y_}}; }
+
   Real x_ = 0;
   Real y_ = 0;
 };

@@ -1,4 +1,4 @@
-// CVector3. In files: "x,y,z".
+// CVector3. In files: "x,y,z". It is a matrix of one row or one column, too.
 #pragma once
 
 #include <argos3/core/utility/math/vector2.h>
@@ -18,6 +18,10 @@ public:
 
   constexpr CVector3() = default;
   constexpr CVector3(Real x, Real y, Real z) : x_(x), y_(y), z_(z) {}
+  template <class T>
+  CVector3(const std::array<T, 3>& coordinates) : CVector3(coordinates[0], coordinates[1], coordinates[2])
+  {
+  }
   // By length, inclination from the z axis, and azimuth.
   CVector3(Real length, const CRadians& inclination, const CRadians& azimuth)
   {
@@ -38,6 +42,11 @@ public:
   }
   Real& operator[](UInt32 axis) { return const_cast<Real&>(static_cast<const CVector3&>(*this)[axis]); }
   void Set(Real x, Real y, Real z) { *this = CVector3(x, y, z); }
+  template <class T>
+  void Set(const std::array<T, 3>& coordinates)
+  {
+    *this = CVector3(coordinates);
+  }
   CVector3& FromSphericalCoords(Real length, const CRadians& inclination, const CRadians& azimuth)
   {
     const Real level = length * Sin(inclination);
@@ -71,6 +80,11 @@ public:
     const CVector2 rotated = CVector2(x_, y_).Rotate(angle);
     return *this = CVector3(rotated.GetX(), rotated.GetY(), z_);
   }
+  // By the angle whose cosine and sine are x and y of `turn`.
+  CVector3& RotateZ(const CVector2& turn)
+  {
+    return *this = CVector3(x_ * turn.GetX() - y_ * turn.GetY(), x_ * turn.GetY() + y_ * turn.GetX(), z_);
+  }
   CVector3& Rotate(const CQuaternion& rotation);
   Real DotProduct(const CVector3& other) const { return x_ * other.x_ + y_ * other.y_ + z_ * other.z_; }
   // This vector becomes its product with the other one.
@@ -83,7 +97,9 @@ public:
   CRadians GetXAngle() const { return ATan2(z_, y_); }
   CRadians GetYAngle() const { return ATan2(x_, z_); }
   CRadians GetZAngle() const { return ATan2(y_, x_); }
-  void ProjectOntoXY(CVector2& projection) const { projection.Set(x_, y_); }
+  CVector2& ProjectOntoXY(CVector2& projection) const { return projection = CVector2(x_, y_); }
+  CVector2& ProjectOntoYZ(CVector2& projection) const { return projection = CVector2(y_, z_); }
+  CVector2& ProjectOntoXZ(CVector2& projection) const { return projection = CVector2(x_, z_); }
 
   CVector3& operator+=(const CVector3& other) { return *this = CVector3(x_ + other.x_, y_ + other.y_, z_ + other.z_); }
   CVector3& operator-=(const CVector3& other) { return *this = CVector3(x_ - other.x_, y_ - other.y_, z_ - other.z_); }
@@ -97,6 +113,8 @@ public:
   CVector3 operator-() const { return {-x_, -y_, -z_}; }
   bool operator==(const CVector3& other) const { return x_ == other.x_ && y_ == other.y_ && z_ == other.z_; }
   bool operator!=(const CVector3& other) const { return !(*this == other); }
+  operator CMatrix<1, 3>() const { return CMatrix<1, 3>(Coordinates().data()); }
+  operator CMatrix<3, 1>() const { return CMatrix<3, 1>(Coordinates().data()); }
   // In each of the three.
   bool operator<(const CVector3& other) const { return x_ < other.x_ && y_ < other.y_ && z_ < other.z_; }
   bool operator>(const CVector3& other) const { return other < *this; }
@@ -116,6 +134,8 @@ public:
   }
 
 private:
+  std::array<Real, 3> Coordinates() const { return {{x_, y_, z_}}; }
+
   Real x_ = 0;
   Real y_ = 0;
   Real z_ = 0;

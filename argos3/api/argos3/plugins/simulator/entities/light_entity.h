@@ -13,6 +13,8 @@ class CLightEntity : public CPositionalEntity
 public:
   // Defined in the library: `swarmanoid` tells by its name among those that a library asks for that it makes lights.
   CLightEntity(const std::string& id, const CVector3& position, const CColor& colour, Real intensity);
+  // One that is nowhere: for controllers that keep a light of their own.
+  CLightEntity() : CPositionalEntity(nullptr, "", CVector3(), CQuaternion()), intensity_(0) {}
   // To the place and colour with which it came into the arena.
   void Reset() override;
   const CColor& GetColor() const { return colour_; }

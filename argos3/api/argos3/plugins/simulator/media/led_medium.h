@@ -1,10 +1,12 @@
 // CLEDMedium, which loop functions hand to what they make. Cameras see all LEDs and lights here, whatever their medium.
 #pragma once
 
+#include <argos3/core/simulator/medium/medium.h>
+
 namespace argos
 {
 
-class CLEDMedium
+class CLEDMedium : public CMedium
 {
 public:
   template <class Led>

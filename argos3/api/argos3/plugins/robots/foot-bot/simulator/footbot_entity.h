@@ -3,6 +3,9 @@
 
 #include <argos3/core/simulator/entity/composable_entity.h>
 #include <argos3/core/utility/math/angles.h>
+#include <argos3/plugins/simulator/entities/ground_sensor_equipped_entity.h>
+#include <argos3/plugins/simulator/entities/light_sensor_equipped_entity.h>
+#include <argos3/plugins/simulator/entities/proximity_sensor_equipped_entity.h>
 
 namespace argos
 {
@@ -10,8 +13,12 @@ namespace argos
 class CFootBotEntity : public CRobotWithController
 {
 public:
-  explicit CFootBotEntity(const std::string& id) : CRobotWithController(id, kLeds) { AddComponent(wheels_); }
+  explicit CFootBotEntity(const std::string& id) : CRobotWithController(id, kLeds) { AddParts(); }
   CWheeledEntity& GetWheeledEntity() { return wheels_; }
+  CProximitySensorEquippedEntity& GetProximitySensorEquippedEntity() { return proximity_; }
+  CLightSensorEquippedEntity& GetLightSensorEquippedEntity() { return light_; }
+  // The four beside the motors, then the eight of the base.
+  CGroundSensorEquippedEntity& GetGroundSensorEquippedEntity() { return ground_; }
   // For AddEntity. `controller`: its id in the experiment file. The ranges and apertures are those that robots of the
   // file with the same controller have, whatever is given here. Defined in the library: `swarmanoid` tells by its name
   // among those that a library asks for that it makes foot-bots.
@@ -25,7 +32,12 @@ public:
   std::string GetTypeDescription() const override { return "foot-bot"; }
 
 private:
+  void AddParts();
+
   CWheeledEntity wheels_{this, 0.14, 0.029112741};
+  CProximitySensorEquippedEntity proximity_{this};
+  CLightSensorEquippedEntity light_{this};
+  CGroundSensorEquippedEntity ground_{this};
   static constexpr unsigned kLeds = 13;  // the ring, and the beacon
 };
 

@@ -1,0 +1,27 @@
+// CMedium: what loop functions get from GetMedium of the simulator.
+#pragma once
+
+#include <argos3/core/utility/configuration/base_configurable_resource.h>
+
+namespace argos
+{
+
+class CMedium : public CBaseConfigurableResource
+{
+public:
+  using TVector = std::vector<CMedium*>;
+  using TMap = std::map<std::string, CMedium*>;
+
+  void Init(TConfigurationNode&) override {}
+  void Reset() override {}
+  void Destroy() override {}
+  virtual void PostSpaceInit() {}
+  virtual void Update() {}
+  const std::string& GetId() const { return id_; }
+  void SetId(const std::string& id) { id_ = id; }
+
+private:
+  std::string id_;
+};
+
+}  // namespace argos

@@ -1,0 +1,31 @@
+// CProfiler: how much time and memory a program takes between Start and Stop, written into a file.
+#pragma once
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <fstream>
+#include <string>
+
+namespace argos
+{
+
+class CProfiler
+{
+public:
+  // `truncates`: whether the file begins anew. Throws CARGoSException if it cannot be written.
+  CProfiler(const std::string& file, bool truncates = true);
+  void Start();
+  void Stop();
+  // Lines with names, or one line of numbers in the same order.
+  void Flush(bool human_readable);
+  // The process is measured with all its threads.
+  void CollectThreadResourceUsage() {}
+
+private:
+  std::ofstream file_;
+  std::chrono::steady_clock::time_point start_, end_;
+  ::rusage usage_at_start_{}, usage_at_end_{};
+};
+
+}  // namespace argos

@@ -1,0 +1,51 @@
+// CStats and CRCLowPassFilter: of numbers that come one after another.
+#pragma once
+
+#include <argos3/core/utility/math/general.h>
+
+namespace argos
+{
+
+// Mean and variance (Welford's sums).
+class CStats
+{
+public:
+  void Append(Real value)
+  {
+    ++count_;
+    const Real away = value - mean_;
+    mean_ += away / static_cast<Real>(count_);
+    squares_ += away * (value - mean_);
+  }
+  Real GetMean() const { return mean_; }
+  // Of the population that the numbers are a sample of; 0 for fewer than two.
+  Real GetVariance() const { return count_ > 1 ? squares_ / static_cast<Real>(count_ - 1) : 0; }
+  Real GetStdDev() const { return Sqrt(GetVariance()); }
+
+private:
+  UInt64 count_ = 0;
+  Real mean_ = 0;
+  Real squares_ = 0;
+};
+
+// Each output is between the input and the output before: `smoothing` 0 follows the input, 1 never moves.
+class CRCLowPassFilter
+{
+public:
+  CRCLowPassFilter(Real smoothing) : smoothing_(smoothing) {}
+  // The first input goes through.
+  Real Filter(Real input)
+  {
+    output_ = is_first_ ? input : input + smoothing_ * (output_ - input);
+    is_first_ = false;
+    return output_;
+  }
+  void Reset() { is_first_ = true; }
+
+private:
+  Real smoothing_;
+  Real output_ = 0;
+  bool is_first_ = true;
+};
+
+}  // namespace argos

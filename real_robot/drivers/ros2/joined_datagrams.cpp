@@ -1,0 +1,165 @@
+#include "real_robot/drivers/ros2/joined_datagrams.h"
+
+#include <fastdds/rtps/network/SenderResource.h>
+#include <fastdds/rtps/transport/ChainingTransport.h>
+#include <fastrtps/utils/IPLocator.h>
+#include <fastdds/rtps/common/LocatorList.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace swarmanoid::ros2
+{
+namespace
+{
+
+namespace transport = eprosima::fastdds::rtps;
+namespace rtps = eprosima::fastrtps::rtps;
+using Byte = unsigned char;
+
+constexpr std::size_t kHeaderBytes = 20;
+constexpr Byte kPad = 0x01;
+constexpr Byte kTimestamp = 0x09;
+// In front of what is joined: without a time, and to whoever gets it. Its own submessages say otherwise.
+constexpr std::array<Byte, 20> kAsAtTheFront{kTimestamp, 0x03, 0, 0, 0x0e, 0x01, 12, 0};
+// What Fast DDS has at the end of each datagram, about the network: it has to stay the last one.
+constexpr std::array<Byte, 4> kStatistics{0x80, 0x01, 56, 0};
+constexpr std::size_t kStatisticsBytes = 60;
+
+// Where a datagram stays whole, it may be as long as readers' buffers hold; elsewhere within an Ethernet frame.
+constexpr std::size_t kMostOnLoopback = 16'000;
+constexpr std::size_t kMostInFrame = 1'400;
+
+std::size_t StatisticsAtEnd(std::span<const Byte> datagram)
+{
+  if (datagram.size() < kHeaderBytes + kStatisticsBytes) return 0;
+  return std::ranges::equal(datagram.last(kStatisticsBytes).first(kStatistics.size()), kStatistics) ? kStatisticsBytes
+                                                                                                    : 0;
+}
+
+// Whether each submessage says where the next one begins, so that one may follow the last.
+bool EndsWhereItSays(std::span<const Byte> submessages)
+{
+  while (submessages.size() >= 4)
+  {
+    const bool is_little_endian = (submessages[1] & 1U) != 0;
+    const std::size_t length =
+        is_little_endian ? submessages[2] | submessages[3] << 8 : submessages[3] | submessages[2] << 8;
+    if (length == 0 && submessages[0] != kPad && submessages[0] != kTimestamp) return false;
+    if (length % 4 != 0 || 4 + length > submessages.size()) return false;
+    submessages = submessages.subspan(4 + length);
+  }
+  return submessages.empty();
+}
+
+// To whom, and by which socket.
+struct Waiting
+{
+  rtps::SenderResource* below;
+  std::vector<rtps::Locator_t> locators;
+  std::vector<Byte> bytes;
+  std::size_t most_bytes;
+
+  bool Send(const std::chrono::steady_clock::time_point& timeout) const
+  {
+    rtps::Locators first(locators.begin()), last(locators.end());
+    return below->send(bytes.data(), static_cast<std::uint32_t>(bytes.size()), &first, &last, timeout);
+  }
+};
+
+struct Collection
+{
+  int depth = 0;
+  std::vector<Waiting> waiting;
+};
+Collection& OfThisThread()
+{
+  thread_local Collection collection;
+  return collection;
+}
+
+class Joining : public transport::ChainingTransport
+{
+public:
+  explicit Joining(const transport::ChainingTransportDescriptor& descriptor);
+  transport::TransportDescriptorInterface* get_configuration() override { return configuration_.get(); }
+
+  bool send(rtps::SenderResource* below, const rtps::octet* bytes, std::uint32_t size, rtps::LocatorsIterator* first,
+            rtps::LocatorsIterator* last, const std::chrono::steady_clock::time_point& timeout) override
+  {
+    Collection& collection = OfThisThread();
+    if (collection.depth == 0) return below->send(bytes, size, first, last, timeout);
+    std::vector<rtps::Locator_t> locators;
+    for (; *first != *last; ++*first) locators.push_back(**first);
+    if (locators.empty()) return true;
+    // The latest one to the same is the one that has room.
+    const auto open =
+        std::find_if(collection.waiting.rbegin(), collection.waiting.rend(),
+                     [&](const Waiting& waiting) { return waiting.below == below && waiting.locators == locators; });
+    if (open != collection.waiting.rend() && Join(open->bytes, {bytes, size}, open->most_bytes)) return true;
+    const bool stays_here =
+        std::ranges::all_of(locators, [](const rtps::Locator_t& to) { return rtps::IPLocator::isLocal(to); });
+    collection.waiting.push_back(
+        {below, std::move(locators), {bytes, bytes + size}, stays_here ? kMostOnLoopback : kMostInFrame});
+    return true;
+  }
+
+  void receive(transport::TransportReceiverInterface* next, const rtps::octet* bytes, std::uint32_t size,
+               const rtps::Locator_t& local, const rtps::Locator_t& remote) override
+  {
+    next->OnDataReceived(bytes, size, local, remote);
+  }
+
+private:
+  std::unique_ptr<transport::ChainingTransportDescriptor> configuration_;
+};
+
+struct Descriptor : transport::ChainingTransportDescriptor
+{
+  using ChainingTransportDescriptor::ChainingTransportDescriptor;
+  transport::TransportInterface* create_transport() const override { return new Joining(*this); }
+  std::uint32_t max_message_size() const override { return maxMessageSize; }
+};
+
+Joining::Joining(const transport::ChainingTransportDescriptor& descriptor)
+    : ChainingTransport(descriptor),
+      configuration_(std::make_unique<Descriptor>(static_cast<const Descriptor&>(descriptor)))
+{
+}
+
+}  // namespace
+
+bool Join(std::vector<unsigned char>& datagram, std::span<const unsigned char> next, std::size_t most_bytes)
+{
+  if (datagram.size() < kHeaderBytes || next.size() < kHeaderBytes) return false;
+  if (!std::equal(next.begin(), next.begin() + kHeaderBytes, datagram.begin())) return false;
+  const std::size_t at_end = StatisticsAtEnd(datagram);
+  if (StatisticsAtEnd(next) != at_end) return false;
+  const auto added = next.subspan(kHeaderBytes, next.size() - kHeaderBytes - at_end);
+  if (datagram.size() + kAsAtTheFront.size() + added.size() > most_bytes) return false;
+  const std::span<const Byte> before = std::span<const Byte>(datagram).first(datagram.size() - at_end);
+  if (!EndsWhereItSays(before.subspan(kHeaderBytes)) || !EndsWhereItSays(added)) return false;
+  const auto end =
+      datagram.insert(datagram.end() - static_cast<std::ptrdiff_t>(at_end), kAsAtTheFront.begin(), kAsAtTheFront.end());
+  datagram.insert(end + kAsAtTheFront.size(), added.begin(), added.end());
+  return true;
+}
+
+JoinedDatagrams::JoinedDatagrams() { ++OfThisThread().depth; }
+
+JoinedDatagrams::~JoinedDatagrams()
+{
+  Collection& collection = OfThisThread();
+  if (--collection.depth > 0) return;
+  const auto timeout = std::chrono::steady_clock::now() + std::chrono::milliseconds(20);
+  for (const Waiting& waiting : collection.waiting) waiting.Send(timeout);
+  collection.waiting.clear();
+}
+
+std::shared_ptr<transport::TransportDescriptorInterface> JoiningTransport(
+    std::shared_ptr<transport::TransportDescriptorInterface> udp)
+{
+  return std::make_shared<Descriptor>(std::move(udp));
+}
+
+}  // namespace swarmanoid::ros2

@@ -1,0 +1,1 @@
+target_link_libraries(unit_ros2 PRIVATE ros2_endpoints)
