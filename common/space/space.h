@@ -74,6 +74,13 @@ public:
   void SetAttribute(std::uint32_t slot, double value);
   void SetAttributes(const AttributeChanges& changes);
 
+  // What experiment functions draw at this tick; empty unless somebody looks. No part of the state.
+  const Drawing& GetDrawing() const { return drawing_; }
+  // Changes when that does.
+  std::uint64_t DrawingRevision() const { return drawing_revision_; }
+  // The former one is left in `drawing`.
+  void SwapDrawing(Drawing& drawing);
+
   // Brings a replica to the tick of the message.
   void Apply(const SpaceState& state);
   void Apply(const SpaceSnapshot& snapshot);
@@ -85,11 +92,14 @@ public:
 
 private:
   void FindAbsent();
+  void SetDrawing(const Drawing& drawing);
 
   const Experiment& experiment_;
   std::uint64_t tick_ = 0;
   std::uint64_t revision_ = 1;
   std::uint64_t attribute_revision_ = 1;
+  std::uint64_t drawing_revision_ = 1;
+  Drawing drawing_;
   PoseArrays poses_;
   std::vector<double> attributes_;
   std::vector<AttributeValue> attribute_values_;

@@ -37,6 +37,11 @@ public:
     place = pose;
   }
   void RemoveEntity(const std::string& id) override { asked.push_back("remove " + id); }
+  void PressKey(const std::string& key, bool pressed) override
+  {
+    asked.push_back((pressed ? "press " : "release ") + key);
+  }
+  void SelectEntity(const std::string& id) override { asked.push_back(id.empty() ? "deselect" : "select " + id); }
   void Stop() override { asked.push_back("stop"); }
 
   std::vector<std::string> asked;
