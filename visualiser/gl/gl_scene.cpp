@@ -150,6 +150,7 @@ void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffe
   s.statistics.triangles += s.meshes.Draw(s.frame.patches);
   glPolygonOffset(-2, -4);
   s.DrawPaint(view, s.frame.paint);
+  glEnable(GL_CULL_FACE);
   glDisable(GL_POLYGON_OFFSET_FILL);
   s.DrawSky(view);
 
@@ -312,7 +313,6 @@ void GlScene::State::DrawPaint(const ViewVolume& view, std::span<const GlPaint> 
   shaders.paint.Set("u_view_projection", view.view_projection);
   glDisable(GL_CULL_FACE);
   paint.Draw(corners);
-  glEnable(GL_CULL_FACE);
 }
 
 void GlScene::State::DrawGlows(const ViewVolume& view, const Camera& camera, std::span<const GlGlow> some)
