@@ -205,7 +205,11 @@ public:
       user_functions_->Call(*view.entity);
     }
     pen.InWorld();
-    if (floor_) user_functions_->Draw(*floor_);
+    if (floor_)
+    {
+      user_functions_->Call(*floor_);
+      user_functions_->Draw(*floor_);
+    }
     pen.InWorld();
     user_functions_->DrawInWorld();
   }

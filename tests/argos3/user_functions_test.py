@@ -1,5 +1,6 @@
 """Qt user functions of ARGoS3: what they draw in pictures, and keys that they get."""
 import re
+import shutil
 import struct
 import unittest
 import zlib
@@ -63,6 +64,7 @@ class UserFunctions(RunningTest):
         element = f'<image_render id="picture" camera="top" size="{size}, {size}" at="{at}" file="top.png"/>'
         (self.folder / "seen.xml").write_text(
             text.replace("</ahss-config>", f"<visualisations>{element}</visualisations></ahss-config>"))
+        shutil.rmtree(self.folder / "seen", ignore_errors=True)
         self.swarmanoid("run", "seen.xml", "--single-process", "--output", "seen", *words)
         return read_png(self.folder / "seen" / "top.png")
 

@@ -175,7 +175,7 @@ TEST_F(LimitsOfATick, DrawingsAreChecked)
       {"there is no entity 3 of 3", [](Drawing& d) { d.shapes.back().frame = 4; }},
       {"sixteenths of a pixel", [](Drawing& d) { d.shapes[0].width_16 = 1U << 31U; }},
       {"has 8 numbers", [](Drawing& d) { d.shapes[0].count = 8; }},
-      {"has 4294967295 numbers", [](Drawing& d) { d.shapes[1].count = ~0U; }},
+      {"fewer numbers", [](Drawing& d) { d.shapes[1].count = ~0U; }},
       {"has 9 numbers", [](Drawing& d) { d.shapes[4].count = 9; }},
       {"fewer numbers", [](Drawing& d) { d.numbers.pop_back(); }},
       {"more numbers", [](Drawing& d) { d.numbers.push_back(0); }},
