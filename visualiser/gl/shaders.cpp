@@ -258,7 +258,9 @@ void main()
   v_colour = vec4(i_colour.rgb, mix(i_width.y, i_width.z, a_corner.x));
   v_side *= i_width.x + 1.0;
   v_colour.a *= 1.0;
-  gl_Position = place - vec4(0.0, 0.0, 0.0005 * place.w, 0.0);
+  // A dot as a ball would be: what it stands on hides no half of it.
+  float nearer = dot_only ? 2.0 * u_near * i_width.x / u_size.y : 0.0;
+  gl_Position = place - vec4(0.0, 0.0, 0.0005 * place.w + nearer, 0.0);
 }
 )";
 

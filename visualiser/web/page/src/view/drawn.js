@@ -47,8 +47,12 @@ function lines(group) {
 
 function dots(group) {
   const material = new THREE.PointsMaterial({ ...look(group), size: group.width * Math.min(window.devicePixelRatio || 1, 2), sizeAttenuation: false });
-  // Round ones.
+  // Round ones, as balls would be: what they stand on hides no half of them.
   material.onBeforeCompile = (shader) => {
+    shader.vertexShader = shader.vertexShader.replace(
+      "gl_PointSize = size;",
+      "gl_PointSize = size;\n  gl_Position.z += projectionMatrix[3][2] * size / (2.0 * scale * projectionMatrix[1][1]);",
+    );
     shader.fragmentShader = shader.fragmentShader.replace("void main() {", "void main() {\n  if (length(gl_PointCoord - 0.5) > 0.5) discard;");
   };
   return new THREE.Points(places(group.points), material);

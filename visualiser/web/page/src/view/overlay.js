@@ -164,11 +164,15 @@ export class Overlay {
     const { context } = this;
     context.textAlign = "left";
     context.textBaseline = "alphabetic";
+    context.lineWidth = 3;
     for (const { place, text, colour, opacity } of texts) {
       const at = this.view.project(...place);
       if (!at) continue;
       context.globalAlpha = opacity;
       context.fillStyle = css(colour);
+      // Dark ones can be read on what is dark, and light ones on what is light.
+      context.strokeStyle = luminance(colour) < 128 ? "rgba(255, 255, 255, 0.6)" : "rgba(0, 0, 0, 0.6)";
+      context.strokeText(text, at.x, at.y);
       context.fillText(text, at.x, at.y);
     }
     context.globalAlpha = 1;
@@ -286,6 +290,9 @@ export class Overlay {
     });
   }
 }
+
+// Of 0xRRGGBB, 0 to 255.
+const luminance = (colour) => 0.299 * (colour >> 16) + 0.587 * ((colour >> 8) & 255) + 0.114 * (colour & 255);
 
 // The longest round length (1, 2 or 5 and zeros) that is no longer than `most`.
 export function scaleLength(most) {
