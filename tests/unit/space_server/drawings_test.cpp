@@ -64,12 +64,15 @@ protected:
   {
     told = {};
     experiment_.arena_size = {5, 5, 1};
-    EntityConfiguration& robot = experiment_.entities.emplace_back();
-    robot.kind = EntityKind::kFootbot;
-    robot.id = "fb";
-    robot.pose.position = {1, 1, 0};
-    robot.movable = true;
-    robot.size = DescriptionOf(EntityKind::kFootbot).size;
+    for (const char* id : {"fb", "other"})
+    {
+      EntityConfiguration& robot = experiment_.entities.emplace_back();
+      robot.kind = EntityKind::kFootbot;
+      robot.id = id;
+      robot.pose.position = {1, id[0] == 'f' ? 1.0 : 4.0, 0};
+      robot.movable = true;
+      robot.size = DescriptionOf(EntityKind::kFootbot).size;
+    }
   }
   void AddFunctions(const std::string& id)
   {
@@ -217,9 +220,11 @@ TEST_F(Drawings, KeysAndSelectionsComeInTheirOrder)
   Server().Select("fb");
   Server().Select("fb");
   Server().PressKey("I", false);
+  Server().Select("other");
   Server().Select("");
   Server().Select("");
-  EXPECT_THAT(told.inputs, ElementsAre("press I", "select fb", "release I", "deselect fb"));
+  EXPECT_THAT(told.inputs,
+              ElementsAre("press I", "select fb", "release I", "deselect fb", "select other", "deselect other"));
   EXPECT_THROW(Server().PressKey("i", true), std::invalid_argument);
   EXPECT_THROW(Server().PressKey("", true), std::invalid_argument);
   EXPECT_THROW(Server().Select("nobody"), std::invalid_argument);

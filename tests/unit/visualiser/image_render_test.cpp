@@ -154,7 +154,14 @@ TEST_F(ImageRender, ShowsWhatExperimentFunctionsDraw)
   EXPECT_GT(thin, 50);
   EXPECT_GT(wide, 3 * thin);
   EXPECT_NEAR(pixels_of("dot", [&](Drawing& drawing) { drawing.Point({0.5, 0.5, 0}, {0xff00ff, 1, 20}); }), 314, 60);
-  EXPECT_GT(pixels_of("text", [&](Drawing& drawing) { drawing.Text({0.3, 0.5, 0}, "MMMM", ink); }), 40);
+  const auto write = [&](Drawing& drawing) { drawing.Text({0.3, 0.5, 0}, "MMMM", ink); };
+  EXPECT_GT(pixels_of("text", write), 40);
+  const auto write_beside = [&](Drawing& drawing)
+  {
+    drawing.Disc(at, 0.2, {0x0000ff, 0.5});
+    write(drawing);
+  };
+  EXPECT_GT(pixels_of("both", write_beside), 40);
   // On the robot, which hides what is below it.
   EXPECT_GT(pixels_of("above",
                       [&](Drawing& drawing) {

@@ -276,6 +276,38 @@ TEST_F(ViewerTest, FollowsTheSelectedEntity)
   EXPECT_TRUE((viewer.camera.position - before).isApprox(Vector3(0.5, 0.2, 0), 1e-9));
 }
 
+TEST_F(ViewerTest, KeysAndSelectionsGoToExperimentFunctionsUntilTheyAreTheWindowsAgain)
+{
+  Viewer& viewer = Make();
+  viewer.Press({keys::kFunction + 8});
+  EXPECT_FALSE(viewer.GivesKeys());
+  EXPECT_THAT(viewer.Messages().back().text, HasSubstr("no functions"));
+  world_.GetExperiment().functions.emplace_back();
+  viewer.Select(Index("fb_0"));
+  EXPECT_THAT(control_.asked, IsEmpty());
+  viewer.Press({keys::kFunction + 8});
+  EXPECT_TRUE(viewer.GivesKeys());
+  viewer.Press({'I'});
+  viewer.Press({'I'});  // it is held
+  EXPECT_FALSE(viewer.shown.scene.ids) << "which is what it does in the window";
+  viewer.Press({keys::kUp});
+  viewer.Release('I');
+  viewer.Release('I');
+  viewer.Select(Index("fb_1"));
+  viewer.Press({'0', true});
+  viewer.Press({keys::kFunction + 8});
+  EXPECT_THAT(control_.asked,
+              ElementsAre("select fb_0", "press I", "press Up", "release I", "select fb_1", "release Up", "deselect"));
+  control_.asked.clear();
+  viewer.Press({'I'});
+  viewer.Release('I');
+  EXPECT_TRUE(viewer.shown.scene.ids);
+  EXPECT_THAT(control_.asked, IsEmpty());
+  Viewer& watcher = Make("", false);
+  watcher.Press({keys::kFunction + 8});
+  EXPECT_FALSE(watcher.GivesKeys());
+}
+
 TEST_F(ViewerTest, FollowsNobodyOutOfTheArena)
 {
   Viewer& viewer = Make();
