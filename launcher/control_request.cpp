@@ -91,6 +91,12 @@ void TakeHosts(ControlRequest& request, const std::vector<std::string>& rest)
   if (rest.size() == 2) request.entity = rest[1];
 }
 
+void TakeKey(ControlRequest& request, const std::vector<std::string>& rest)
+{
+  if (rest.size() != 1) throw UsageError(fmt::format("write {} KEY, such as I, Up or Space", request.verb));
+  request.entity = rest[0];
+}
+
 void TakeEntity(ControlRequest& request, const std::vector<std::string>& rest)
 {
   if (rest.size() != 1) throw UsageError(fmt::format("write {} ENTITY", request.verb));
@@ -103,7 +109,7 @@ ControlRequest ParseControlRequest(std::vector<std::string> words, std::optional
 {
   ControlRequest request;
   // An experiment may be called like a verb: then a verb follows it.
-  if (words.size() > 1 && IsVerb(words[1]) && !IsSpaceChange(words[0]))
+  if (words.size() > 1 && IsVerb(words[1]) && !IsSpaceChange(words[0]) && !IsInput(words[0]))
   {
     request.experiment = words[0];
     words.erase(words.begin());
@@ -131,7 +137,9 @@ ControlRequest ParseControlRequest(std::vector<std::string> words, std::optional
     TakeSpeed(request, rest);
   else if (request.verb == "move" || request.verb == "detach" || request.verb == "add")
     TakePlace(request, rest);
-  else if (request.verb == "remove")
+  else if (request.verb == "press" || request.verb == "release")
+    TakeKey(request, rest);
+  else if (request.verb == "remove" || request.verb == "select")
     TakeEntity(request, rest);
   else if (request.verb == "hosts")
     TakeHosts(request, rest);

@@ -23,6 +23,7 @@
 #include "launcher/load.h"
 #include "launcher/manifest_at_death.h"
 #include "launcher/original_command.h"
+#include "launcher/showing.h"
 #include "space_server/event_log.h"
 
 namespace swarmanoid
@@ -304,12 +305,14 @@ int RunExperiment(const RunSettings& given, const WatchFunction& watch)
   const RunSettings asked = given.branch.empty() ? given : SettingsOfBranch(given);
   auto experiment = LoadOrComplain(asked.file, ChangesOf(asked));
   if (!experiment) return kExitInvalidFile;
+  if (!asked.show.empty()) experiment = WithShown(*experiment, asked.show);
   RunSettings options = asked;
   if (WantsOneProcess(asked, *experiment))
   {
     options.single_process = true;
     PrintError(
-        "{}: note: it has loop functions, so it runs in one process; `swarmanoid convert` makes an experiment "
+        "{}: note: it has loop functions or user functions, so it runs in one process; `swarmanoid convert` makes an "
+        "experiment "
         "that runs as a cluster if they reach into no controller\n",
         asked.file);
   }
@@ -328,7 +331,7 @@ int RunExperiment(const RunSettings& given, const WatchFunction& watch)
     if (branch) Begin(*branch, *experiment, folder, options, manifest);
     folder.Write("experiment.xml", experiment->effective_xml);
     // The space server reads our files alone.
-    if (IsOfArgos3(asked)) options.file = folder.File("experiment.xml");
+    if (IsOfArgos3(asked) || !asked.show.empty()) options.file = folder.File("experiment.xml");
     folder.Write("manifest.json", manifest.Text());
     Begun first{std::move(options), std::move(experiment), folder, std::move(manifest)};
     if (!first.options.single_process) return RunAsCluster(first, watch);

@@ -13,6 +13,10 @@
 #include <vector>
 
 #include "common/activity/exit_codes.h"
+#include "common/configuration/wording.h"
+#include "common/experiment/load_experiment.h"
+#include "common/plugins/catalogue.h"
+#include "common/program/usage_error.h"
 #include "launcher/installation.h"
 #include "launcher/processes/child.h"
 #include "launcher/run_folder.h"
@@ -97,6 +101,24 @@ std::string WithVisualisation(const std::string& effective_xml, const std::strin
     text.erase(from, to - from);
   }
   return text.insert(text.rfind(last), section);
+}
+
+std::unique_ptr<Experiment> WithShown(const Experiment& experiment, const std::string& kind)
+{
+  const std::string tag = kind.ends_with("_render") ? kind : kind + "_render";
+  const std::vector<std::string> known = PluginCatalogue::Instance().Labels(PluginKind::kRenderer);
+  if (std::ranges::find(known, tag) == known.end())
+    throw UsageError(fmt::format("--show: there is no renderer {}; there are {}", Quoted(tag), Listed(known)));
+  const std::string element =
+      fmt::format("<{} id=\"shown\"{}/>", tag, tag == "web_render" ? " allow_control=\"true\"" : "");
+  std::string text = experiment.effective_xml;
+  if (const std::size_t end = text.find("</visualisations>"); end != std::string::npos)
+    text.insert(end, "  " + element + "\n  ");
+  else
+    text = WithVisualisation(text, element);
+  LoadedExperiment loaded = LoadExperimentText(text, experiment.name + ".xml", experiment.folder);
+  if (loaded.experiment) return std::move(loaded.experiment);
+  throw UsageError("--show: " + loaded.errors.front().Text());
 }
 
 std::uint64_t TicksOfFilm(const Experiment& experiment, std::uint64_t ran)

@@ -3,6 +3,7 @@
 // and no run is slowed. Used by the commands `demo` and `run`.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "common/experiment/experiment.h"
@@ -29,6 +30,8 @@ bool HasPictures(const Experiment& experiment);
 // From the current folder, if the file is in it; otherwise the path as it is.
 std::string ShortPath(const std::string& path);
 
+// The experiment with one visualisation more: "web", "opengl" … Throws UsageError if there is no such renderer.
+std::unique_ptr<Experiment> WithShown(const Experiment& experiment, const std::string& kind);
 // The text with the visualisation in the place of its own ones.
 std::string WithVisualisation(const std::string& effective_xml, const std::string& element);
 

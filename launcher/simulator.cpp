@@ -236,6 +236,7 @@ void CSimulator::Show()
     r.watching = false;
   }
   if (r.hash_log.IsOpen()) r.hash_log.Write(r.space.GetTick(), r.space.Hash());
+  if (!r.visualisers.empty()) r.server.Draw();
   const Visualiser* terminator = nullptr;
   for (const auto& visualiser : r.visualisers)
     if (visualiser->Draw() && terminator == nullptr) terminator = visualiser.get();

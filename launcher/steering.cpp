@@ -59,6 +59,7 @@ void Steering::WaitForGo(const std::vector<std::unique_ptr<Visualiser>>& visuali
     if (run_control_.Paused()) pace_.Rest(tick, now);
     // A short wait is not worth a look at the windows, which Draw gives.
     const bool idle = !decision.due || *decision.due - now >= kIdlePeriod;
+    if (idle && !visualisers.empty()) server_.Draw();
     if (idle)
       for (const auto& visualiser : visualisers)
         if (visualiser->Idle()) run_control_.Stop(NameOf(visualiser->Id()));

@@ -31,12 +31,13 @@ std::string ErrorOf(const ControlRequestMessage& request, const Experiment& expe
   if (IsOnlyNoted(request) || request.verb == kFailedController) return {};
   if (std::find(kControlVerbs.begin(), kControlVerbs.end(), request.verb) == kControlVerbs.end())
     return fmt::format("there is no request {}; known are {}", Quoted(request.verb), Listed(kControlVerbs));
-  if (!IsSpaceChange(request.verb)) return {};
+  if (!IsSpaceChange(request.verb) && request.verb != "select") return {};
   const auto entity = std::find_if(experiment.entities.begin(), experiment.entities.end(),
                                    [&](const EntityConfiguration& e) { return e.id == request.entity; });
   if (entity == experiment.entities.end())
     return fmt::format("the experiment has no entity {}; repeat the events of a run of the same file",
                        Quoted(request.entity));
+  if (request.verb == "select") return {};
   if (!entity->movable) return fmt::format("{} cannot move", Quoted(request.entity));
   if (request.verb != "remove" && request.numbers.size() != 3 && request.numbers.size() != 6)
     return fmt::format("{} needs 3 or 6 numbers: x y z, and alpha beta gamma", Quoted(request.verb));
@@ -106,7 +107,7 @@ std::vector<RecordedEvent> WithoutPace(std::vector<RecordedEvent> events)
                 [](const RecordedEvent& event)
                 {
                   const std::string& verb = event.request.verb;
-                  return !IsSpaceChange(verb) && verb != "stop" && verb != "reset";
+                  return !IsSpaceChange(verb) && !IsInput(verb) && verb != "stop" && verb != "reset";
                 });
   return events;
 }

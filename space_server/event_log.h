@@ -33,8 +33,8 @@ inline constexpr const char* kMachineGone = "gone";
 // asked.
 inline constexpr const char* kFailedController = "failed";
 
-// The events that change the outcome of a run (move, add, remove, stop), in the order of the file. Throws
-// ConfigurationError, with file and line, for what is no event of this experiment.
+// The events that change the outcome of a run (move, add, remove, keys and selections, stop), in the order of the file.
+// Throws ConfigurationError, with file and line, for what is no event of this experiment.
 std::vector<RecordedEvent> ReadEvents(const std::string& path, const Experiment& experiment);
 // The same from the text of the file.
 std::vector<RecordedEvent> ParseEvents(const std::string& text, const std::string& path, const Experiment& experiment);

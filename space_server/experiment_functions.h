@@ -15,9 +15,11 @@
 
 #include "common/math/pose.h"
 #include "common/math/random.h"
+#include "common/messages/drawing.h"
 #include "common/plugins/registry.h"
 #include "common/space/query.h"
 #include "common/space/structure/structural_tree.h"
+#include "space_server/user_input.h"
 
 #ifndef SWARMANOID_OWN_SOURCES
 #include <common/space/space.h>  // for plug-ins, which mostly need it
@@ -78,8 +80,9 @@ public:
   // The folder of the run: files of the functions go there.
   const std::string& GetOutputFolder() const { return output_folder_; }
 
-  // For the server, before it calls functions.
+  // For the server, before it calls functions, and to go on with the random numbers of who was called before.
   void BeginStep(RandomStream random) { random_ = std::move(random); }
+  RandomStream LeaveStep() { return std::move(random_); }
 
 private:
   SpaceServer& server_;
@@ -109,6 +112,14 @@ public:
   // Asked after Init and after each PostStep.
   virtual Outcome IsFinished(const SpaceEditor&) { return Outcome::kRunning; }
   virtual void Destroy(SpaceEditor&) {}
+
+  // Draws into the pictures of the tick. Called only if somebody looks: before each tick if the run has visualisers
+  // that are waited for, otherwise when a picture is due. So it must change nothing that later steps depend on.
+  virtual void Draw(const SpaceEditor&, Drawing&) {}
+  // A user pressed or released a key for the functions, or selected an entity, in a window, on a page or by `swarmanoid
+  // control`. Called between two ticks; it may change the space as PreStep may, and is repeated with the other events
+  // of a run. References in the input are valid during the call.
+  virtual void Input(const UserInput&, SpaceEditor&) {}
 
   // Optional: all that the functions remember between ticks, so that a run can go on from a checkpoint. Functions that
   // remember nothing override HasState alone; if it is left false, checkpoints of the run are refused.

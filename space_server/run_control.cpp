@@ -166,7 +166,10 @@ void RunControl::Repeat(SpaceServer& server)
     }
     try
     {
-      Change(event.request, server, event.logged);
+      if (IsInput(event.request.verb))
+        HandOver(event.request, server, event.logged);
+      else
+        Change(event.request, server, event.logged);
     }
     catch (const std::invalid_argument& error)
     {
@@ -185,6 +188,26 @@ void RunControl::Change(const ControlRequestMessage& request, SpaceServer& serve
   done.entity = change.entity;
   if (!logged) event_log_.Write(tick, done);
   answer_(request, true, tick, fmt::format("{} at tick {}", change.done, tick));
+}
+
+void RunControl::HandOver(const ControlRequestMessage& request, SpaceServer& server, bool logged)
+{
+  const std::uint64_t tick = server.Space().GetTick();
+  std::string done;
+  if (request.verb == "select" || request.verb == "deselect")
+  {
+    const bool selects = request.verb == "select";
+    if (selects && request.entity.empty()) throw std::invalid_argument("select needs an entity");
+    server.Select(selects ? request.entity : std::string());
+    done = selects ? fmt::format("selected '{}'", request.entity) : std::string("selected none");
+  }
+  else
+  {
+    server.PressKey(request.entity, request.verb == "press");
+    done = fmt::format("key {} {}", request.entity, request.verb == "press" ? "pressed" : "released");
+  }
+  if (!logged) event_log_.Write(tick, request);
+  answer_(request, true, tick, fmt::format("{} at tick {}", done, tick));
 }
 
 void RunControl::Carry(const ControlRequestMessage& request, SpaceServer& server)
@@ -276,11 +299,14 @@ void RunControl::Carry(const ControlRequestMessage& request, SpaceServer& server
       reply(false, error.what());
     }
   }
-  else if (IsSpaceChange(request.verb))
+  else if (IsSpaceChange(request.verb) || IsInput(request.verb))
   {
     try
     {
-      Change(request, server);
+      if (IsInput(request.verb))
+        HandOver(request, server);
+      else
+        Change(request, server);
     }
     catch (const std::invalid_argument& error)
     {

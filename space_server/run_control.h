@@ -102,6 +102,8 @@ private:
   void Carry(const ControlRequestMessage& request, SpaceServer& server);
   // Moves, adds or removes an entity, and says so. Throws std::invalid_argument.
   void Change(const ControlRequestMessage& request, SpaceServer& server, bool logged = false);
+  // Hands a key or a selection to experiment functions, and says so. Throws std::invalid_argument.
+  void HandOver(const ControlRequestMessage& request, SpaceServer& server, bool logged = false);
   // Ends the run, which is to begin again.
   void BeginAgain(const ControlRequestMessage& request, std::uint64_t tick, bool logged = false);
   // Has workers take other places; the run holds until they have.

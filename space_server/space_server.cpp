@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "common/experiment/actors.h"
 #include "common/logging/log.h"
@@ -55,6 +56,7 @@ const SpaceState& SpaceServer::State()
   for (const std::uint32_t slot : changed_slots_) state.attributes.Add(slot, space_.Attributes()[slot]);
   const auto moved = Moved();
   state.moved.assign(moved.begin(), moved.end());
+  if (draws_into_states_) state.drawing = space_.GetDrawing();
   return state;
 }
 
@@ -78,6 +80,7 @@ void SpaceServer::SaveState(ByteWriter& state) const
   state.Put(last_);
   state.Put(failed_);
   state.PutArray(moved_);
+  state.Put(selected_);
   for (const Functions& functions : functions_)
   {
     if (!functions.object->HasState())
@@ -99,6 +102,10 @@ void SpaceServer::LoadState(const SpaceSnapshot& snapshot, ByteReader& state)
   moved_ = state.GetArray<std::uint32_t>();
   for (const std::uint32_t entity : moved_)
     if (entity >= space_.Size()) throw std::runtime_error("it moved an entity that does not exist");
+  selected_ = state.Get<std::uint32_t>();
+  if (selected_ != kNobody && selected_ >= space_.Size())
+    throw std::runtime_error("it has selected an entity that does not exist");
+  drawn_at_.reset();
   for (const Functions& functions : functions_)
   {
     std::istringstream text(state.GetText());
@@ -173,6 +180,68 @@ void SpaceServer::CallFunctions(ActivityStep step, Call call)
     editor_.BeginStep({experiment_.seed, StreamName(functions.configuration->id), what, space_.StreamTick()});
     RunCodeOf<ConfigurationError>(functions.actor, step, space_.GetTick(), [&] { call(functions); });
   }
+}
+
+void SpaceServer::Draw()
+{
+  if (functions_.empty()) return;
+  const DrawnAt now{space_.GetTick(), space_.Revision(), space_.AttributeRevision(), inputs_};
+  if (drawn_at_ == now) return;
+  drawn_at_ = now;
+  drawing_.Clear();
+  RandomStream before = editor_.LeaveStep();
+  CallFunctions(ActivityStep::kDraw,
+                [this](const Functions& functions)
+                {
+                  drawing_.InSpace();
+                  functions.object->Draw(editor_, drawing_);
+                });
+  editor_.BeginStep(std::move(before));
+  if (const std::string mistake = drawing_.Mistake(space_.Size()); !mistake.empty())
+    throw std::runtime_error(
+        fmt::format("what experiment functions draw at tick {} is wrong: {}", space_.GetTick(), mistake));
+  if (drawing_.IsFull() && !std::exchange(told_full_, true))
+    warn_(fmt::format("experiment functions draw more at tick {} than is shown: {} shapes, {} numbers or {} texts",
+                      space_.GetTick(), Drawing::kMostShapes, Drawing::kMostNumbers, Drawing::kMostTexts));
+  space_.SwapDrawing(drawing_);
+}
+
+void SpaceServer::RequireFunctions() const
+{
+  if (functions_.empty())
+    throw std::invalid_argument("the experiment has no <experiment_functions> that keys and selections could go to");
+}
+
+void SpaceServer::Tell(const UserInput& input)
+{
+  ++inputs_;
+  RandomStream before = editor_.LeaveStep();
+  CallFunctions(ActivityStep::kInput, [&](const Functions& functions) { functions.object->Input(input, editor_); });
+  editor_.BeginStep(std::move(before));
+}
+
+void SpaceServer::PressKey(const std::string& key, bool pressed)
+{
+  RequireFunctions();
+  if (!IsKeyName(key))
+    throw std::invalid_argument(
+        fmt::format("there is no key '{}'; keys are A to Z, 0 to 9, the sign on them, Up, Down, Left, Right, Space, "
+                    "Return, Escape, Tab, Backspace, Delete, Insert, Home, End, PageUp, PageDown, Shift, Control, Alt "
+                    "and F1 to F12",
+                    key));
+  Tell({pressed ? UserInput::Kind::kKeyPressed : UserInput::Kind::kKeyReleased, key, nullptr});
+}
+
+void SpaceServer::Select(const std::string& id)
+{
+  RequireFunctions();
+  const CSwarmanoidSpaceEntity* entity = id.empty() ? nullptr : space_.FindEntity(id);
+  if (!id.empty() && entity == nullptr) throw std::invalid_argument("there is no entity '" + id + "'");
+  const std::uint32_t index = entity == nullptr ? kNobody : entity->GetIndex();
+  if (index == selected_) return;
+  if (selected_ != kNobody) Tell({UserInput::Kind::kDeselected, {}, &space_.GetEntity(selected_)});
+  selected_ = index;
+  if (entity != nullptr) Tell({UserInput::Kind::kSelected, {}, entity});
 }
 
 void SpaceServer::AskWhetherFinished()

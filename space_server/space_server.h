@@ -5,6 +5,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -81,6 +82,14 @@ public:
   void BeginAgain(std::uint64_t first_tick, std::uint32_t variation) { space_.BeginAgain(first_tick, variation); }
   // The current tick is the last one.
   void Finish() { last_ = true; }
+  // Has experiment functions draw, if something changed since they did. Throws as Advance does.
+  void Draw();
+  // The states that go out have what they drew.
+  void SetDrawsIntoStates() { draws_into_states_ = true; }
+  // Gives all experiment functions a key ("I"), pressed or released, or selects an entity (its id; empty: none). Throws
+  // std::invalid_argument if there are no functions, no such key or no such entity.
+  void PressKey(const std::string& key, bool pressed);
+  void Select(const std::string& id);
   // Ends the experiment functions, once; later calls do nothing.
   void Destroy();
   // True if the experiment functions say that the experiment failed: exit code 1.
@@ -111,6 +120,15 @@ private:
   template <class Call>
   void CallFunctions(ActivityStep step, Call call);
   void AskWhetherFinished();
+  void Tell(const UserInput& input);
+  void RequireFunctions() const;
+
+  // When they drew last.
+  struct DrawnAt
+  {
+    std::uint64_t tick, poses, attributes, inputs;
+    bool operator==(const DrawnAt&) const = default;
+  };
 
   const Experiment& experiment_;
   const Assignment& assignment_;
@@ -127,6 +145,13 @@ private:
   std::vector<Functions> functions_;
   std::function<void(const std::string&)> warn_;
   FaultHandler fault_;
+  Drawing drawing_;
+  bool draws_into_states_ = false;
+  bool told_full_ = false;
+  std::optional<DrawnAt> drawn_at_;
+  std::uint64_t inputs_ = 0;
+  std::uint32_t selected_ = kNobody;
+  static constexpr std::uint32_t kNobody = ~0U;
 };
 
 }  // namespace swarmanoid

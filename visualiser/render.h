@@ -36,6 +36,10 @@ public:
   // Puts an entity that is not in the arena into it: the one of that id, or the next one of the <reserve> of that id.
   virtual void AddEntity(const std::string& id, const Pose& pose) = 0;
   virtual void RemoveEntity(const std::string& id) = 0;
+  // For the experiment functions: a key by its name (UserInput), pressed or released, and an entity that is selected
+  // (its id; empty: none is).
+  virtual void PressKey(const std::string& key, bool pressed) = 0;
+  virtual void SelectEntity(const std::string& id) = 0;
   virtual void Stop() = 0;   // the run ends at its tick
   virtual void Reset() = 0;  // and begins again at tick 0, with the same seed
 };

@@ -23,6 +23,8 @@ public:
   void MoveEntity(const std::string& id, const Pose& pose) override { AskWithPose("move", id, pose); }
   void AddEntity(const std::string& id, const Pose& pose) override { AskWithPose("add", id, pose); }
   void RemoveEntity(const std::string& id) override { Ask("remove", id); }
+  void PressKey(const std::string& key, bool pressed) override { Ask(pressed ? "press" : "release", key); }
+  void SelectEntity(const std::string& id) override { Ask(id.empty() ? "deselect" : "select", id); }
   void Stop() override { Ask("stop"); }
   void Reset() override { Ask("reset"); }
 

@@ -1,5 +1,6 @@
-# The names by which CMakeLists.txt of users link the libraries of ARGoS3. Qt-OpenGL user functions are not shown here:
-# ARGOS_QTOPENGL_FOUND is false, and whoever asks for it leaves them out.
+# The names by which CMakeLists.txt of users link the libraries of ARGoS3. Qt user functions are built without Qt; those
+# that need more of it than there is are left out by -DSWARMANOID_ARGOS_QTOPENGL=OFF.
+option(SWARMANOID_ARGOS_QTOPENGL "Build the Qt user functions of code for ARGoS3" ON)
 include(${CMAKE_CURRENT_LIST_DIR}/ARGoSNames.cmake)
 foreach(name IN LISTS ARGOS_LIBRARY_NAMES)
   if(NOT TARGET ${name})
@@ -10,8 +11,10 @@ endforeach()
 set(ARGOS_FOUND TRUE)
 set(ARGOS_BUILD_FOR simulator)
 set(ARGOS_BUILD_FOR_SIMULATOR TRUE)
-set(ARGOS_QTOPENGL_FOUND FALSE)
-set(ARGOS_COMPILE_QTOPENGL FALSE)
+set(ARGOS_QTOPENGL_FOUND ${SWARMANOID_ARGOS_QTOPENGL})
+set(ARGOS_COMPILE_QTOPENGL ${SWARMANOID_ARGOS_QTOPENGL})
+set(ARGOS_QTOPENGL_INCLUDE_DIRS "")
+set(ARGOS_QTOPENGL_LIBRARIES "")
 get_target_property(ARGOS_INCLUDE_DIRS Swarmanoid::argos3 INTERFACE_INCLUDE_DIRECTORIES)
 set(ARGOS_INCLUDE_DIR ${ARGOS_INCLUDE_DIRS})
 set(ARGOS_LIBRARY_DIRS "")

@@ -48,7 +48,10 @@ public:
       if (child->name == "visualization")
       {
         if (!child->children.empty())
-          Note(child->location, "<visualization> has no effect here; `swarmanoid attach` shows a run");
+          Note(child->location, code.UserFunctions() == nullptr
+                                    ? "<visualization> has no effect here; `swarmanoid attach` shows a run"
+                                    : "of <visualization> the user functions alone have an effect here; "
+                                      "`swarmanoid run --show web` shows the run");
       }
       else if (!kSections.contains(child->name))
         Mistake(child->location, "<" + child->name + "> has no counterpart; leave it out");

@@ -307,6 +307,21 @@ void CodeConverter::MoveLength(ConfigurationNode& ours, ConfigurationNode& funct
   }
 }
 
+const ConfigurationNode* CodeConverter::UserFunctions() const
+{
+  const ConfigurationNode* visualization = FindChild(root_, "visualization");
+  const ConfigurationNode* window = visualization == nullptr ? nullptr : FindChild(*visualization, "qt-opengl");
+  return window == nullptr ? nullptr : FindChild(*window, "user_functions");
+}
+
+void CodeConverter::SetUserFunctions(const ConfigurationNode& theirs, ConfigurationNode& functions)
+{
+  const std::string label = NeededText(theirs, "label");
+  SetLibrary(theirs, label, "user_file", functions);
+  SetValue(functions, "user_label", label, theirs.location);
+  functions.children.push_back(std::make_shared<ConfigurationNode>(theirs));
+}
+
 void CodeConverter::ConvertLoopFunctions(ConfigurationNode& ours, bool for_rehearsal)
 {
   for (const Made& options : options_)
@@ -315,27 +330,29 @@ void CodeConverter::ConvertLoopFunctions(ConfigurationNode& ours, bool for_rehea
     SetValue(*options, "distributed", arena_.Distributed(), options->location);
   }
   const ConfigurationNode* theirs = FindChild(root_, "loop_functions");
-  if (theirs == nullptr)
-  {
-    if (!arena_.FloorId().empty())
-      Mistake(arena_.Location(), "the source of the floor is loop_functions, and there are none; add them");
-    return;
-  }
-  const SourceLocation& at = theirs->location;
+  const ConfigurationNode* user = UserFunctions();
+  if (theirs == nullptr && !arena_.FloorId().empty())
+    Mistake(arena_.Location(), "the source of the floor is loop_functions, and there are none; add them");
+  if (theirs == nullptr && user == nullptr) return;
+  const SourceLocation& at = theirs == nullptr ? user->location : theirs->location;
   const Made list = AddNode(ours, "experiment_functions", at);
   const Made made = AddNode(*list, "argos3_loop_functions", at);
   SetValue(*made, "id", "loop_functions", at);
   SetValue(*made, "library", kPlugin, at);
-  const std::string label = NeededText(*theirs, "label");
-  SetLibrary(*theirs, label, "file", *made);
-  SetValue(*made, "label", label, at);
+  if (theirs != nullptr)
+  {
+    const std::string label = NeededText(*theirs, "label");
+    SetLibrary(*theirs, label, "file", *made);
+    SetValue(*made, "label", label, at);
+  }
   SetValue(*made, "origin", TextOf(arena_.Origin()), at);
   SetValue(*made, "distributed", arena_.Distributed(), at);
   SetValue(*made, "floor", arena_.FloorId(), at);
   SetValue(*made, "controllers", controller_libraries_, at);
   if (resets_runs_) MoveLength(ours, *made);
   if (for_rehearsal) SetValue(*made, "rehearsal", "true", at);
-  made->children.push_back(std::make_shared<ConfigurationNode>(*theirs));
+  if (theirs != nullptr) made->children.push_back(std::make_shared<ConfigurationNode>(*theirs));
+  if (user != nullptr) SetUserFunctions(*user, *made);
   if (!asks_for_configuration_) return;
   const Made configuration = AddNode(*made, "configuration", at);
   configuration->children = root_.children;

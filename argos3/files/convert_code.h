@@ -28,6 +28,8 @@ public:
   void ConvertControllers(ConfigurationNode& ours);
   // After the controllers: whether loop functions make boxes or cylinders.
   bool MakesBodies() const { return makes_bodies_; }
+  // <user_functions> of <qt-opengl>; nullptr: there are none.
+  const ConfigurationNode* UserFunctions() const;
   // After the controllers and the arena.
   void ConvertLoopFunctions(ConfigurationNode& ours, bool for_rehearsal);
 
@@ -63,6 +65,7 @@ private:
   // `label`: what the library registers; ARGoS3 loads all libraries of ARGOS_PLUGIN_PATH, so files need not name one.
   void SetLibrary(const ConfigurationNode& theirs, const std::string& label, const char* ours,
                   ConfigurationNode& options);
+  void SetUserFunctions(const ConfigurationNode& theirs, ConfigurationNode& functions);
   static std::optional<std::string> LibraryThatNames(const std::string& label, std::string& searched);
   // The first file of one of the names in one of the folders; otherwise where it is not, a line each.
   static std::optional<std::string> Found(const std::vector<std::filesystem::path>& folders,

@@ -11,7 +11,7 @@ namespace
 {
 
 thread_local CCI_Robot* speaking_robot = nullptr;
-thread_local SpaceEditor* speaking_functions = nullptr;
+thread_local const SpaceEditor* speaking_functions = nullptr;
 
 bool IsNumber(std::string_view text)
 {
@@ -36,6 +36,12 @@ std::map<std::string, argos::CCI_Controller* (*)()>& ControllersByLabel()
 std::map<std::string, argos::CLoopFunctions* (*)()>& LoopFunctionsByLabel()
 {
   static std::map<std::string, argos::CLoopFunctions* (*)()> functions;
+  return functions;
+}
+
+std::map<std::string, argos::CQTOpenGLUserFunctions* (*)()>& UserFunctionsByLabel()
+{
+  static std::map<std::string, argos::CQTOpenGLUserFunctions* (*)()> functions;
   return functions;
 }
 
@@ -108,7 +114,7 @@ Speaker::Speaker(CCI_Robot& robot) : robot_before_(speaking_robot), editor_befor
   speaking_functions = nullptr;
 }
 
-Speaker::Speaker(SpaceEditor& editor) : robot_before_(speaking_robot), editor_before_(speaking_functions)
+Speaker::Speaker(const SpaceEditor& editor) : robot_before_(speaking_robot), editor_before_(speaking_functions)
 {
   speaking_robot = nullptr;
   speaking_functions = &editor;
@@ -154,6 +160,11 @@ SControllerRegistration::SControllerRegistration(const char* label, CCI_Controll
 SLoopFunctionsRegistration::SLoopFunctionsRegistration(const char* label, CLoopFunctions* (*create)())
 {
   swarmanoid::argos3::LoopFunctionsByLabel().emplace(label, create);
+}
+
+SUserFunctionsRegistration::SUserFunctionsRegistration(const char* label, CQTOpenGLUserFunctions* (*create)())
+{
+  swarmanoid::argos3::UserFunctionsByLabel().emplace(label, create);
 }
 
 }  // namespace argos

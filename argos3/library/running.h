@@ -3,6 +3,7 @@
 #pragma once
 
 #include <argos3/core/simulator/loop_functions.h>
+#include <argos3/plugins/simulator/visualizations/qt-opengl/qtopengl_user_functions.h>
 
 #include <functional>
 #include <map>
@@ -24,6 +25,7 @@ namespace swarmanoid::argos3
 // What ARGoS3's classes are made by: the labels of the libraries that were loaded.
 std::map<std::string, argos::CCI_Controller* (*)()>& ControllersByLabel();
 std::map<std::string, argos::CLoopFunctions* (*)()>& LoopFunctionsByLabel();
+std::map<std::string, argos::CQTOpenGLUserFunctions* (*)()>& UserFunctionsByLabel();
 
 // The arena and the ids of an ARGoS3 experiment beside ours.
 struct Translation
@@ -126,6 +128,8 @@ public:
   virtual void Finish() = 0;
 };
 
+class Pen;
+
 struct Running
 {
   // Of the robots whose controller host is this process, by ARGoS3's id.
@@ -133,6 +137,8 @@ struct Running
   argos::CLoopFunctions* functions = nullptr;
   // While functions run: what carries out their changes.
   SpaceEditor* editor = nullptr;
+  // While user functions draw.
+  Pen* pen = nullptr;
   Translation translation;
   // Those of this process, by our id.
   std::map<std::string, SpareRobot*> spares;
@@ -175,7 +181,7 @@ class Speaker
 {
 public:
   explicit Speaker(CCI_Robot& robot);
-  explicit Speaker(SpaceEditor& editor);
+  explicit Speaker(const SpaceEditor& editor);
   ~Speaker();
   Speaker(const Speaker&) = delete;
   Speaker& operator=(const Speaker&) = delete;
@@ -187,7 +193,7 @@ public:
 
 private:
   CCI_Robot* robot_before_;
-  SpaceEditor* editor_before_;
+  const SpaceEditor* editor_before_;
 };
 
 }  // namespace swarmanoid::argos3

@@ -9,11 +9,14 @@
 #include <argos3/plugins/simulator/entities/cylinder_entity.h>
 #include <argos3/plugins/simulator/entities/light_entity.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "argos3/library/editing.h"
+#include "argos3/library/pen.h"
 #include "argos3/library/running.h"
+#include "argos3/plugin/keyboard.h"
 #include "argos3/plugin/labels.h"
 #include "common/space/space.h"
 
@@ -31,10 +34,22 @@ public:
         .label = "argos3_loop_functions",
         .brief = "runs loop functions that were written for ARGoS3",
         .parameters = {
-            {.name = "file", .type = ParameterType::kText, .description = "The library that holds them: a path."},
+            {.name = "file",
+             .type = ParameterType::kText,
+             .default_value = "",
+             .description = "The library that holds them: a path; empty: there are none, only user functions."},
             {.name = "label",
              .type = ParameterType::kText,
+             .default_value = "",
              .description = "The label under which the library registered them."},
+            {.name = "user_file",
+             .type = ParameterType::kText,
+             .default_value = "",
+             .description = "The library that holds Qt user functions: a path; empty for none."},
+            {.name = "user_label",
+             .type = ParameterType::kText,
+             .default_value = "",
+             .description = "The label under which that library registered them."},
             {.name = "origin",
              .type = ParameterType::kVector3,
              .unit = "m",
@@ -65,6 +80,10 @@ public:
              .type = ParameterType::kTree,
              .default_value = "",
              .description = "The element of the ARGoS3 file, as it stands there."},
+            {.name = "user_functions",
+             .type = ParameterType::kTree,
+             .default_value = "",
+             .description = "Likewise, of the Qt user functions."},
             {.name = "configuration",
              .type = ParameterType::kTree,
              .default_value = "",
@@ -87,7 +106,13 @@ public:
   void Init(const TConfigurationTree t_tree, SpaceEditor& editor) override
   {
     LoadBefore(t_tree.GetText("controllers"));
-    create_ = FindLabel(t_tree, "file", "loop functions", LoopFunctionsByLabel);
+    create_ = t_tree.GetText("file").empty() ? []() -> argos::CLoopFunctions* { return new argos::CLoopFunctions; }
+                                             : FindLabel(t_tree, "file", "loop functions", LoopFunctionsByLabel);
+    if (!t_tree.GetText("user_file").empty())
+      create_user_ = FindLabel(t_tree, "user_file", "Qt user functions", UserFunctionsByLabel, "user_label");
+    const TConfigurationTree user = t_tree.Child("user_functions");
+    user_place_ = user.Exists() ? user.Location() : t_tree.Location();
+    if (user.Exists()) CopyElement(*user.Node(), user_element_);
     if (t_tree.GetBoolean("rehearsal")) TheRunning().rehearsal.emplace();
     const TConfigurationTree element = t_tree.Child("loop_functions");
     place_ = element.Exists() ? element.Location() : t_tree.Location();
@@ -146,6 +171,7 @@ public:
              if (const auto& rehearsal = TheRunning().rehearsal)
                WriteMadeBodies(rehearsal->Shapes(), editor.GetOutputFolder());
              if (!TheRunning().is_program) functions_->PreExperiment();
+             MakeUserFunctions();
            });
       return;
     }
@@ -169,10 +195,60 @@ public:
     return over ? Outcome::kDone : Outcome::kRunning;
   }
 
+  // As ARGoS3 draws a picture: each entity, the floor, the world.
+  void Draw(const SpaceEditor& editor, Drawing& drawing) override
+  {
+    if (user_functions_ == nullptr) return;
+    const Speaker speaker(editor);
+    Pen pen(drawing, translation_);
+    const AtWork at_work(pen);
+    const CSwarmanoidSpace& space = editor.GetSpace();
+    for (const View& view : views_)
+    {
+      if (view.entity == nullptr || !space.IsPresent(view.index)) continue;
+      pen.InFrameOf(view.index, view.is_box ? space.GetEntity(view.index).GetSize().z() / 2 : 0);
+      user_functions_->Call(*view.entity);
+    }
+    pen.InWorld();
+    if (floor_)
+    {
+      user_functions_->Call(*floor_);
+      user_functions_->Draw(*floor_);
+    }
+    pen.InWorld();
+    user_functions_->DrawInWorld();
+  }
+
+  void Input(const UserInput& input, SpaceEditor& editor) override
+  {
+    if (user_functions_ == nullptr) return;
+    const Speaker speaker(editor);
+    const Changing changing(editor);
+    using Kind = UserInput::Kind;
+    if (input.kind == Kind::kKeyPressed || input.kind == Kind::kKeyReleased)
+    {
+      const bool pressed = input.kind == Kind::kKeyPressed;
+      QKeyEvent event = keyboard_.EventOf(input.key, pressed);
+      if (pressed)
+        user_functions_->KeyPressed(&event);
+      else
+        user_functions_->KeyReleased(&event);
+      return;
+    }
+    const auto view = std::find_if(views_.begin(), views_.end(),
+                                   [&](const View& one) { return one.index == input.entity->GetIndex(); });
+    if (view == views_.end() || view->entity == nullptr) return;
+    if (input.kind == Kind::kSelected)
+      user_functions_->SelectEntity(*view->entity);
+    else if (user_functions_->GetSelectedEntity() == view->entity)
+      user_functions_->DeselectEntity();
+  }
+
   void Destroy(SpaceEditor& editor) override
   {
     const Speaker speaker(editor);
     const Changing changing(editor);
+    if (user_functions_ != nullptr) user_functions_->Destroy();
     // Not where it is found out: PostExperiment may change entities.
     if (is_over_) functions_->PostExperiment();
     is_over_ = false;
@@ -192,6 +268,28 @@ private:
   private:
     SpaceEditor* before_;
   };
+
+  // For as long as it lives, user functions draw by a pen.
+  class AtWork
+  {
+  public:
+    explicit AtWork(Pen& pen) { TheRunning().pen = &pen; }
+    ~AtWork() { TheRunning().pen = nullptr; }
+    AtWork(const AtWork&) = delete;
+    AtWork& operator=(const AtWork&) = delete;
+  };
+
+  // Neither in a rehearsal nor in a program, which shows nothing.
+  void MakeUserFunctions()
+  {
+    if (create_user_ == nullptr || TheRunning().is_program || TheRunning().rehearsal) return;
+    Calling(user_place_,
+            [&]
+            {
+              user_functions_.reset(create_user_());
+              user_functions_->Init(user_element_);
+            });
+  }
 
   void BeginStep(SpaceEditor& editor) override
   {
@@ -317,6 +415,11 @@ private:
   bool is_over_ = false;
   std::optional<argos::CFloorEntity> floor_;
   std::unique_ptr<argos::CLoopFunctions> functions_;
+  argos::CQTOpenGLUserFunctions* (*create_user_)() = nullptr;
+  SourceLocation user_place_;
+  argos::TConfigurationNode user_element_;
+  Keyboard keyboard_;
+  std::unique_ptr<argos::CQTOpenGLUserFunctions> user_functions_;
 };
 
 const ExperimentFunctionsRegistration registration_of_functions(Argos3LoopFunctions::Description(),

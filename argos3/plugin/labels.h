@@ -23,20 +23,21 @@ void LoadBefore(const std::string& libraries);
 // Loads the library that `file` of an element names and gives what it registered under the label that it names. Throws
 // ConfigurationError.
 template <class Registry>
-auto FindLabel(const TConfigurationTree& element, const std::string& file, const std::string& what, Registry registry)
+auto FindLabel(const TConfigurationTree& element, const std::string& file, const std::string& what, Registry registry,
+               const std::string& label_name = "label")
 {
   LoadBefore("");
   const PluginLibrary& library = LoadPluginLibrary(element.GetText(file), {});
   ShareNames(library.path);
   if (!library.error.empty()) throw ConfigurationError(element.ValueLocation(file), library.error);
-  const std::string label = element.GetText("label");
+  const std::string label = element.GetText(label_name);
   const auto& known = registry();
   if (const auto found = known.find(label); found != known.end()) return found->second;
   std::vector<std::string> labels;
   for (const auto& [name, create] : known) labels.push_back(name);
-  throw ConfigurationError(element.ValueLocation("label"), "the library " + library.path + " registers no " + what +
-                                                               " " + Quoted(label) + "; registered: " + Listed(labels) +
-                                                               DidYouMean(label, labels));
+  throw ConfigurationError(element.ValueLocation(label_name),
+                           "the library " + library.path + " registers no " + what + " " + Quoted(label) +
+                               "; registered: " + Listed(labels) + DidYouMean(label, labels));
 }
 
 // What they throw in Init is a mistake of the file.

@@ -23,7 +23,7 @@ namespace
 
 constexpr std::array kSteps{"",          "loading", "Init",    "ControlStep", "StatusText", "SaveState",
                             "LoadState", "Destroy", "PreStep", "PostStep",    "IsFinished", "Update",
-                            "Draw",      "Idle",    "Finish",  "Watch"};
+                            "Draw",      "Idle",    "Finish",  "Watch",       "Input"};
 
 std::atomic<const Actor*> current_actor = nullptr;
 std::atomic<ActivityStep> current_step = ActivityStep::kNone;

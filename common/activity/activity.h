@@ -50,7 +50,8 @@ enum class ActivityStep : std::uint32_t
   kDraw,
   kIdle,
   kFinish,
-  kWatch
+  kWatch,
+  kInput
 };
 
 // "ControlStep"; of several functions of an engine, the one that users know.

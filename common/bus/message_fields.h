@@ -78,6 +78,23 @@ void PoseFields(Archive& archive, std::vector<double>& poses, std::initializer_l
   }
 }
 
+// What is wrong with the shapes is found by TickLimits, which knows the entities.
+template <class Archive>
+void Fields(Archive& archive, Drawing& drawing)
+{
+  archive.List("shapes", drawing.shapes,
+               [](Archive& a, DrawnShape& shape)
+               {
+                 a.Choice("shapes.kind", shape.kind, DrawnShape::Kind::kPoints, DrawnShape::Kind::kText);
+                 a.Integer("shapes.frame", shape.frame);
+                 a.Integer("shapes.colour", shape.colour);
+                 a.Integer("shapes.width_16", shape.width_16);
+                 a.Integer("shapes.count", shape.count);
+               });
+  archive.Array("shape_numbers", drawing.numbers);
+  archive.List("shape_texts", drawing.texts, [](Archive& a, std::string& text) { a.Text("shape_texts", text); });
+}
+
 template <class Archive>
 void Fields(Archive& archive, MessageHeader& header, SpaceState& message)
 {
@@ -85,6 +102,7 @@ void Fields(Archive& archive, MessageHeader& header, SpaceState& message)
              {{kFlagLast, &message.last}, {kFlagRepeated, &header.repeated}, {kFlagSave, &header.save}});
   Fields(archive, message.attributes);
   archive.Array("moved", message.moved);
+  Fields(archive, message.drawing);
   if constexpr (Archive::kReads) message.tick = header.tick;
 }
 
@@ -244,6 +262,7 @@ void Fields(Archive& archive, ViewMessage& message)
   PoseFields(archive, message.snapshot.poses, {{kFlagLast, &message.snapshot.last}});
   archive.Array("attributes", message.snapshot.attributes);
   archive.Number("real_time_factor", message.snapshot.real_time_factor);
+  Fields(archive, message.snapshot.drawing);
 }
 
 template <class Archive>

@@ -28,6 +28,13 @@ void FillPoses(std::vector<double>& poses, std::size_t entities)
   std::iota(poses.begin(), poses.end(), 0.0);
 }
 
+void FillDrawing(Drawing& drawing)
+{
+  drawing.shapes.resize(Drawing::kMostShapes);
+  drawing.numbers.resize(Drawing::kMostNumbers);
+  drawing.texts.assign(Drawing::kMostTexts, std::string(Drawing::kLongestText, ' '));
+}
+
 void CheckLength(const char* field, std::size_t length, std::size_t wanted)
 {
   if (length != wanted) RefuseField(field, fmt::format("it has {} numbers, not {}", length, wanted));
@@ -43,7 +50,10 @@ std::size_t OfSource(const std::vector<std::size_t>& numbers, const MessageHeade
 }  // namespace
 
 TickLimits::TickLimits(const CSwarmanoidSpace& space, const Assignment& assignment, bool recorded)
-    : entities_(space.Size()), movable_(space.Movable().size()), slots_(space.Attributes().size())
+    : entities_(space.Size()),
+      movable_(space.Movable().size()),
+      slots_(space.Attributes().size()),
+      draws_(!space.GetExperiment().functions.empty() && !space.GetExperiment().visualisations.empty())
 {
   const Experiment& experiment = space.GetExperiment();
   for (const EntityConfiguration& entity : experiment.entities)
@@ -72,6 +82,7 @@ std::size_t TickLimits::StateBytes() const
   FillPoses(state.poses, movable_);
   FillSlots(state.attributes, slots_);
   state.moved.resize(entities_);
+  if (draws_) FillDrawing(state.drawing);
   return PayloadSize(MessageHeader(), state);
 }
 
@@ -119,6 +130,13 @@ void TickLimits::Check(const MessageHeader& header, const SpaceState& state) con
   for (std::size_t k = 0; k < state.moved.size(); ++k)
     if (state.moved[k] >= entities_ || (k > 0 && state.moved[k] <= state.moved[k - 1]))
       RefuseField("moved", fmt::format("entity {} of {} does not ascend, or there is none", state.moved[k], entities_));
+  if (!draws_ && !state.drawing.IsEmpty()) RefuseField("shapes", "nobody draws in this run");
+  CheckDrawing(state.drawing);
+}
+
+void TickLimits::CheckDrawing(const Drawing& drawing) const
+{
+  if (const std::string mistake = drawing.Mistake(entities_); !mistake.empty()) RefuseField("shapes", mistake);
 }
 
 void TickLimits::Check(const MessageHeader& header, const ControlCommands& commands) const
@@ -144,6 +162,7 @@ void TickLimits::Check(const SpaceSnapshot& snapshot) const
 {
   CheckLength("poses", snapshot.poses.size(), kPoseColumns * movable_);
   CheckLength("attributes", snapshot.attributes.size(), slots_);
+  CheckDrawing(snapshot.drawing);
 }
 
 void TickLimits::CheckSource(const MessageHeader& header, std::size_t senders)

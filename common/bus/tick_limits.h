@@ -45,11 +45,13 @@ public:
 
 private:
   void CheckSlots(const AttributeChanges& changes) const;
+  void CheckDrawing(const Drawing& drawing) const;
   void CheckFaults(const ControllerFaults& faults) const;
 
   std::size_t entities_;
   std::size_t movable_;
   std::size_t slots_;
+  bool draws_;                               // states have what experiment functions draw
   std::vector<bool> may_fail_;               // of each entity
   std::vector<std::size_t> command_values_;  // of each host
   std::vector<std::size_t> owned_;           // of each engine

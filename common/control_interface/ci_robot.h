@@ -88,8 +88,8 @@ public:
     random_ = std::move(random);
     has_random_ = true;
   }
-  // Likewise a control step with random numbers of that key and of `random_tick`: most steps draw none. The tick lasts as
-  // long as before.
+  // Likewise a control step with random numbers of that key and of `random_tick`: most steps draw none. The tick lasts
+  // as long as before.
   void SetControlStepKey(const StreamKey& key) { control_step_key_ = key; }
   void BeginControlStep(std::uint64_t tick, std::uint64_t random_tick)
   {

@@ -9,9 +9,9 @@
 namespace swarmanoid
 {
 
-inline const std::vector<std::string> kControlVerbs{"pause",     "resume",      "step",   "speed", "stop",
-                                                    "reset",     "move",        "detach", "add",   "remove",
-                                                    "move-host", "move-engine", "drain",  "hosts", "machines"};
+inline const std::vector<std::string> kControlVerbs{
+    "pause",     "resume",      "step",  "speed", "stop",     "reset", "move",    "detach", "add",     "remove",
+    "move-host", "move-engine", "drain", "hosts", "machines", "press", "release", "select", "deselect"};
 
 // What members alone ask for: shares of the run (common/bus/share.h).
 inline const std::vector<std::string> kShareVerbs{"share", "shares", "revoke"};
@@ -25,6 +25,13 @@ inline constexpr const char* kOfBuild = " of build ";
 inline bool IsSpaceChange(const std::string& verb)
 {
   return verb == "move" || verb == "detach" || verb == "add" || verb == "remove";
+}
+
+// Whether a verb is for experiment functions: of keys, whose name stands in the place of the entity, and of who is
+// selected.
+inline bool IsInput(const std::string& verb)
+{
+  return verb == "press" || verb == "release" || verb == "select" || verb == "deselect";
 }
 
 // Whether a verb asks for another place of workers. In the place of the entity: the number or id of the worker, and

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "common/messages/drawing.h"
+
 namespace swarmanoid
 {
 
@@ -36,6 +38,7 @@ struct SpaceState
   std::vector<double> poses;  // of the movable entities, structure of arrays: all x (m), y, z, qx, qy, qz, qw
   AttributeChanges attributes;
   std::vector<std::uint32_t> moved;  // entities that were put elsewhere from outside physics, ascending
+  Drawing drawing{};                 // of experiment functions, if the run has visualisers
 };
 
 // Space server to those who join late: the whole state at a tick.
@@ -46,6 +49,7 @@ struct SpaceSnapshot
   double real_time_factor = 0;
   std::vector<double> poses;       // as in SpaceState
   std::vector<double> attributes;  // all slots
+  Drawing drawing{};               // in views alone
 };
 
 // How a controller failed whose run goes on (OnFailure).

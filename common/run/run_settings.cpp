@@ -231,6 +231,9 @@ std::vector<RunOption> Table(RunSettings& s)
       {{Text("memory-limit", "Memory that each process may take; otherwise nine tenths of what this machine has"),
         &s.memory_limit, "2GiB", "SIZE", SizeMistake},
        For::kLauncher},
+      {{Text("show", "Add a visualisation to those of the file, such as web or opengl, which may steer the run"),
+        &s.show, "web", "KIND"},
+       For::kLauncher},
       {{Flag("single-process", "Run everything in this process, without DDS"), &s.single_process}, For::kLauncher},
       {{Whole("threads",
               "Threads of a controller host, which share its sensors and the controllers that may step in parallel; 0: "

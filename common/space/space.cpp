@@ -179,6 +179,21 @@ void CSwarmanoidSpace::Apply(const SpaceState& state)
   tick_ = state.tick;
   SetPoses(movable_, state.poses);
   SetAttributes(state.attributes);
+  SetDrawing(state.drawing);
+}
+
+void CSwarmanoidSpace::SwapDrawing(Drawing& drawing)
+{
+  if (drawing == drawing_) return;
+  std::swap(drawing_, drawing);
+  ++drawing_revision_;
+}
+
+void CSwarmanoidSpace::SetDrawing(const Drawing& drawing)
+{
+  if (drawing == drawing_) return;
+  drawing_ = drawing;
+  ++drawing_revision_;
 }
 
 void CSwarmanoidSpace::Apply(const SpaceSnapshot& snapshot)
@@ -190,6 +205,7 @@ void CSwarmanoidSpace::Apply(const SpaceSnapshot& snapshot)
   ++attribute_revision_;
   FindAbsent();
   structure_.FollowAll();
+  SetDrawing(snapshot.drawing);
 }
 
 void CSwarmanoidSpace::WritePoses(std::vector<double>& poses) const

@@ -83,6 +83,13 @@ public:
   void SetAttribute(std::uint32_t slot, double value);
   void SetAttributes(const AttributeChanges& changes);
 
+  // What experiment functions draw at this tick; empty unless somebody looks. No part of the state.
+  const Drawing& GetDrawing() const { return drawing_; }
+  // Changes when that does.
+  std::uint64_t DrawingRevision() const { return drawing_revision_; }
+  // The former one is left in `drawing`.
+  void SwapDrawing(Drawing& drawing);
+
   // Brings a replica to the tick of the message.
   void Apply(const SpaceState& state);
   void Apply(const SpaceSnapshot& snapshot);
@@ -96,6 +103,7 @@ private:
   void FindAbsent();
   // Where the id stands in place_of_id_, or the free place where it would.
   std::size_t PlaceOfId(std::string_view id) const;
+  void SetDrawing(const Drawing& drawing);
 
   const Experiment& experiment_;
   std::uint64_t tick_ = 0;
@@ -103,6 +111,8 @@ private:
   std::uint32_t variation_ = 0;
   std::uint64_t revision_ = 1;
   std::uint64_t attribute_revision_ = 1;
+  std::uint64_t drawing_revision_ = 1;
+  Drawing drawing_;
   PoseArrays poses_;
   ZeroedVector<double> attributes_;  // most are 0: LEDs that are dark, messages that nobody sends
   std::vector<AttributeValue> attribute_values_;

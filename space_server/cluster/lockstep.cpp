@@ -73,6 +73,7 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
       hash_log_(hash_log, continuation != nullptr ? std::optional(first_tick_) : std::nullopt),
       states_(session.GetBus(), session.Scope(limits_.StateBytes(), 1))
 {
+  if (visualisers_ > 0) server_.SetDrawsIntoStates();
   for (const UpdateMessage& update : updates_) updates_here_.push_back(&update);
   for (auto& commands : commands_)
     for (const HostLayout& host : assignment.hosts) commands.emplace_back().values.resize(host.command_size);
@@ -224,6 +225,7 @@ void Lockstep::Send(bool repeated)
     saves_ = checkpoints_.Sending(server_);
   }
   if (watch_ && !repeated) RunCodeOf({Actor::kWatcher}, ActivityStep::kWatch, tick, [&] { watch_(server_); });
+  if (visualisers_ > 0 && !repeated) server_.Draw();
   const SpaceState& state = server_.State();
   sent_ = &state;
   if (hash_log_.IsOpen() && !repeated) hash_log_.Write(state.tick, server_.Space().Hash());

@@ -111,7 +111,13 @@ void ServerProgram::PublishViews()
   if (std::exchange(told_end_, over) || (over && BeginsAgain())) return;
   if (started_ && (over || views_.ViewIsDue(lockstep_.Tick(), now)))
   {
-    lockstep_.WithServer([this](SpaceServer& server) { server.WriteSnapshot(snapshot_); });
+    lockstep_.WithServer(
+        [this](SpaceServer& server)
+        {
+          server.Draw();
+          server.WriteSnapshot(snapshot_);
+          snapshot_.drawing = server.Space().GetDrawing();
+        });
     snapshot_.last = over;
     snapshot_.real_time_factor = pace_.RealTimeFactor();
     views_.SendView(snapshot_, now);

@@ -37,6 +37,11 @@ TEST(WebMessages, RequestsAreRead)
   EXPECT_EQ(add.entity, "prey");
   EXPECT_EQ(add.pose.position, Vector3(3, 2, 0));
   EXPECT_EQ(std::get<RemoveEntityRequest>(ParseRequest(R"({"do": "remove", "entity": "prey_0"})")).entity, "prey_0");
+  const auto key = std::get<KeyRequest>(ParseRequest(R"({"do": "key", "key": "Up", "pressed": false})"));
+  EXPECT_EQ(key.key, "Up");
+  EXPECT_FALSE(key.pressed);
+  EXPECT_EQ(std::get<SelectRequest>(ParseRequest(R"({"do": "select", "entity": "fb_0"})")).entity, "fb_0");
+  EXPECT_EQ(std::get<SelectRequest>(ParseRequest(R"({"do": "select"})")).entity, "");
   EXPECT_EQ(std::get<ProveRequest>(ParseRequest(R"({"do": "prove", "proof": "ab"})")).proof, "ab");
   const auto marks =
       std::get<MarksRequest>(ParseRequest(R"({"do": "marks", "rays": [1], "bodies": [], "links": [2, 3]})"));
@@ -73,6 +78,9 @@ TEST(WebMessages, EverythingElseIsRefusedWithAReason)
   EXPECT_THAT(refusal(R"({"do": "watch", "entities": [1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17]})"), HasSubstr("16"));
   EXPECT_THAT(refusal(R"({"do": "move", "entity": "fb_0", "position": [1, 2]})"), HasSubstr("three"));
   EXPECT_THAT(refusal(R"({"do": "remove"})"), HasSubstr("'remove' needs the id"));
+  EXPECT_THAT(refusal(R"({"do": "key", "pressed": true})"), HasSubstr("'key' needs the name"));
+  EXPECT_THAT(refusal(R"({"do": "key", "key": "I", "pressed": 1})"), HasSubstr("'pressed', true or false"));
+  EXPECT_THAT(refusal(R"({"do": "select", "entity": 3})"), HasSubstr("'select' needs the id"));
   EXPECT_THAT(refusal(R"({"do": "move", "entity": "fb_0", "position": [1, 2, 1e99], "angles": [0, 0, 0]})"),
               HasSubstr("bounds"));
   EXPECT_THAT(refusal(R"({"do": "prove", "proof": 1})"), HasSubstr("'proof'"));
@@ -83,6 +91,8 @@ TEST(WebMessages, EverythingElseIsRefusedWithAReason)
 
 TEST(WebMessages, OnlyWhatChangesTheRunIsACommand)
 {
+  EXPECT_TRUE(IsCommand(KeyRequest{}));
+  EXPECT_TRUE(IsCommand(SelectRequest{}));
   EXPECT_FALSE(IsCommand(WatchRequest{}));
   EXPECT_FALSE(IsCommand(FrameRateRequest{}));
   EXPECT_FALSE(IsCommand(ProveRequest{}));

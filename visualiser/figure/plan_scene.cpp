@@ -13,6 +13,7 @@
 #include "common/space/space.h"
 #include "common/space/terrain/floor_picture.h"
 #include "common/space/terrain/terrain.h"
+#include "visualiser/figure/plan_drawing.h"
 #include "visualiser/led_place.h"
 #include "visualiser/scene/kind_model.h"
 #include "visualiser/scene/material.h"
@@ -240,6 +241,7 @@ PlanPicture PlanScene::Draw() const
   each([&](const auto& kind) { return kind.role == EntityRole::kRobot && !flies(kind); }, &PlanScene::AddRobot);
   AddHolds(picture);
   each([&](const auto& kind) { return kind.role == EntityRole::kRobot && flies(kind); }, &PlanScene::AddRobot);
+  AddDrawing(space_, picture);
   if (!options_.ids) return picture;
   for (const std::uint32_t e : space_.Movable())
   {

@@ -160,6 +160,32 @@ void Frame::SortMarks(const Scene& scene, const LabelAtlas& labels, const Camera
     const Vector3 pixel = camera.Project(label.position.cast<double>(), width, height);
     if (pixel.z() > 0) labels.Append(label.text, static_cast<float>(pixel.x()), static_cast<float>(pixel.y()), glyphs);
   }
+  SortDrawn(scene.Drawn(), labels, camera, width, height);
+}
+
+void Frame::SortDrawn(const DrawnMarks& drawn, const LabelAtlas& labels, const Camera& camera, int width, int height)
+{
+  const auto line = [&](const Vector3f& from, const Vector3f& to, Colour colour, float line_width, float opacity)
+  {
+    under.push_back(
+        {{from.x(), from.y(), from.z()}, {to.x(), to.y(), to.z()}, Components(colour), {line_width, opacity, opacity}});
+  };
+  for (const DrawnMarks::Line& one : drawn.lines)
+    if (one.from != one.to) line(one.from, one.to, one.colour, one.width, one.opacity);
+  for (const DrawnMarks::Dot& dot : drawn.dots) line(dot.place, dot.place, dot.colour, dot.diameter, dot.opacity);
+  paint.clear();
+  clear_paint.clear();
+  for (const DrawnMarks::Triangle& triangle : drawn.triangles)
+    for (const Vector3f& corner : triangle.corners)
+      (triangle.opacity < 1 ? clear_paint : paint)
+          .push_back({{corner.x(), corner.y(), corner.z()}, Components(triangle.colour, triangle.opacity)});
+  for (const DrawnMarks::Text& text : drawn.texts)
+  {
+    const Vector3 pixel = camera.Project(text.place.cast<double>(), width, height);
+    if (pixel.z() > 0)
+      labels.AppendPlain(text.text, static_cast<float>(pixel.x()), static_cast<float>(pixel.y()),
+                         Components(text.colour, text.opacity), glyphs);
+  }
 }
 
 }  // namespace swarmanoid

@@ -7,6 +7,7 @@
 #include "visualiser/gl/gl_scene.h"
 #include "visualiser/gl/label_atlas.h"
 #include "visualiser/gl/mesh_store.h"
+#include "visualiser/gl/painted_triangles.h"
 #include "visualiser/gl/view_volume.h"
 
 namespace swarmanoid
@@ -49,10 +50,13 @@ struct Frame
   std::vector<GlLine> over;   // lines over everything
   std::vector<GlGlow> soft;   // on the floor, under everything that is see-through
   std::vector<GlGlow> bright;
+  std::vector<GlPaint> paint;        // what experiment functions draw: corners of triangles
+  std::vector<GlPaint> clear_paint;  // see-through
   std::vector<Glyph> glyphs;
   std::size_t instances = 0;
 
 private:
+  void SortDrawn(const DrawnMarks& drawn, const LabelAtlas& labels, const Camera& camera, int width, int height);
   void SortWall(const SceneItem& item, const Scene& scene, const ViewVolume& view);
   void AddUnderglow(const SceneItem& item, const Scene& scene);
 };

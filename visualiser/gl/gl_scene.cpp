@@ -56,6 +56,7 @@ struct GlScene::State
   Quads<GlLine> lines{3, 3, 4, 3};
   Quads<GlGlow> glows{4, 4, 2};
   Quads<Glyph> glyphs{4, 4, 4};
+  PaintedTriangles paint;
   GlObject light_buffer{GlObject::Kind::kBuffer};
   GlObject light_texture{GlObject::Kind::kTexture};
 
@@ -71,6 +72,7 @@ struct GlScene::State
   void DrawSky(const ViewVolume& view);
   void DrawLines(const ViewVolume& view, int width, int height, std::span<const GlLine> some, bool depth);
   void DrawGlows(const ViewVolume& view, const Camera& camera, std::span<const GlGlow> some);
+  void DrawPaint(const ViewVolume& view, std::span<const GlPaint> corners);
 };
 
 GlScene::GlScene()
@@ -146,6 +148,9 @@ void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffe
   glPolygonOffset(-1, -2);
   body.Use();
   s.statistics.triangles += s.meshes.Draw(s.frame.patches);
+  glPolygonOffset(-2, -4);
+  s.DrawPaint(view, s.frame.paint);
+  glEnable(GL_CULL_FACE);
   glDisable(GL_POLYGON_OFFSET_FILL);
   s.DrawSky(view);
 
@@ -158,6 +163,10 @@ void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffe
   glDisable(GL_CULL_FACE);
   body.Use();
   s.statistics.triangles += s.meshes.Draw(s.frame.glass);
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(-2, -4);
+  s.DrawPaint(view, s.frame.clear_paint);
+  glDisable(GL_POLYGON_OFFSET_FILL);
   s.DrawGlows(view, camera, s.frame.bright);
   s.DrawLines(view, width, height, s.frame.over, false);
   if (!s.frame.glyphs.empty())
@@ -295,6 +304,15 @@ void GlScene::State::DrawLines(const ViewVolume& view, int width, int height, st
   if (!depth) glDisable(GL_DEPTH_TEST);
   lines.Draw(some);
   glEnable(GL_DEPTH_TEST);
+}
+
+void GlScene::State::DrawPaint(const ViewVolume& view, std::span<const GlPaint> corners)
+{
+  if (corners.empty()) return;
+  shaders.paint.Use();
+  shaders.paint.Set("u_view_projection", view.view_projection);
+  glDisable(GL_CULL_FACE);
+  paint.Draw(corners);
 }
 
 void GlScene::State::DrawGlows(const ViewVolume& view, const Camera& camera, std::span<const GlGlow> some)

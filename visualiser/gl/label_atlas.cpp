@@ -89,16 +89,25 @@ void LabelAtlas::AppendFrom(std::string_view text, float x, float y, std::vector
 {
   if (IsEmpty()) return;
   const auto channel = [](int shift) { return static_cast<float>((palette::kLabel >> shift) & 0xff) / 255; };
-  float pen = std::round(x);
+  const float pen = std::round(x);
   const float line = std::round(y);
   glyphs.push_back(
       {{pen - 5, line - 14, pen + WidthOf(text) + 5, line + 5}, {kWhite, kWhite, kWhite, kWhite}, {1, 1, 1, 0.78F}});
+  AppendPlain(text, x, y, {channel(16), channel(8), channel(0), 1}, glyphs);
+}
+
+void LabelAtlas::AppendPlain(std::string_view text, float x, float y, const std::array<float, 4>& colour,
+                             std::vector<Glyph>& glyphs) const
+{
+  if (IsEmpty()) return;
+  float pen = std::round(x);
+  const float line = std::round(y);
   for (const char c : text)
   {
+    // Of a character of UTF-8 that has several bytes, one.
+    if ((static_cast<unsigned char>(c) & 0xc0U) == 0x80) continue;
     const BakedGlyph& l = GlyphOf(c);
-    glyphs.push_back({{pen + l.left, line + l.top, pen + l.right, line + l.bottom},
-                      l.texture,
-                      {channel(16), channel(8), channel(0), 1}});
+    glyphs.push_back({{pen + l.left, line + l.top, pen + l.right, line + l.bottom}, l.texture, colour});
     pen = std::round(pen + l.advance);
   }
 }

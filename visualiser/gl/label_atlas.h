@@ -30,6 +30,9 @@ public:
   void Append(std::string_view text, float x, float y, std::vector<Glyph>& glyphs) const;
   // The same from a place to the right: x, y (pixels) is where the first letter stands.
   void AppendFrom(std::string_view text, float x, float y, std::vector<Glyph>& glyphs) const;
+  // Likewise, without a plate, in that colour and opacity.
+  void AppendPlain(std::string_view text, float x, float y, const std::array<float, 4>& colour,
+                   std::vector<Glyph>& glyphs) const;
 
 private:
   struct BakedGlyph

@@ -221,7 +221,8 @@ void main()
 }
 )";
 
-// A line is a quadrangle across the picture; what is behind the camera is cut off.
+// A line is a quadrangle across the picture; what is behind the camera is cut off. One that ends where it begins is a
+// dot.
 const std::string kLineVertex = kVersion + R"(
 layout(location = 0) in vec2 a_corner;
 layout(location = 1) in vec3 i_from;
@@ -233,8 +234,11 @@ uniform vec2 u_size;
 uniform float u_near;
 out vec4 v_colour;
 out float v_side;
+out vec2 v_dot;
 void main()
 {
+  bool dot_only = i_from == i_to;
+  v_dot = dot_only ? 2.0 * a_corner - 1.0 : vec2(0.0);
   vec4 a = u_view_projection * vec4(i_from, 1.0);
   vec4 b = u_view_projection * vec4(i_to, 1.0);
   if (a.w < u_near && b.w < u_near)
@@ -249,20 +253,46 @@ void main()
   vec2 across = len > 0.0 ? vec2(-along.y, along.x) / len : vec2(0.0, 1.0);
   vec4 place = a_corner.x < 0.5 ? a : b;
   v_side = 2.0 * a_corner.y - 1.0;
-  place.xy += across * v_side * (i_width.x + 1.0) / u_size * place.w;
+  if (dot_only) place.xy += v_dot * i_width.x / u_size * place.w;
+  else place.xy += across * v_side * (i_width.x + 1.0) / u_size * place.w;
   v_colour = vec4(i_colour.rgb, mix(i_width.y, i_width.z, a_corner.x));
   v_side *= i_width.x + 1.0;
   v_colour.a *= 1.0;
-  gl_Position = place - vec4(0.0, 0.0, 0.0005 * place.w, 0.0);
+  // A dot as a ball would be: what it stands on hides no half of it.
+  float nearer = dot_only ? 2.0 * u_near * i_width.x / u_size.y : 0.0;
+  gl_Position = place - vec4(0.0, 0.0, 0.0005 * place.w + nearer, 0.0);
 }
 )";
 
 const std::string kLineFragment = kVersion + R"(
 in vec4 v_colour;
 in float v_side;
+in vec2 v_dot;
 uniform float u_opacity;
 out vec4 o_colour;
-void main() { o_colour = vec4(v_colour.rgb, v_colour.a * u_opacity); }
+void main()
+{
+  if (dot(v_dot, v_dot) > 1.0) discard;
+  o_colour = vec4(v_colour.rgb, v_colour.a * u_opacity);
+}
+)";
+
+const std::string kPaintVertex = kVersion + R"(
+layout(location = 0) in vec3 a_place;
+layout(location = 1) in vec4 a_colour;
+uniform mat4 u_view_projection;
+out vec4 v_colour;
+void main()
+{
+  v_colour = a_colour;
+  gl_Position = u_view_projection * vec4(a_place, 1.0);
+}
+)";
+
+const std::string kPaintFragment = kVersion + R"(
+in vec4 v_colour;
+out vec4 o_colour;
+void main() { o_colour = v_colour; }
 )";
 
 const std::string kGlowVertex = kVersion + R"(
@@ -345,7 +375,8 @@ Shaders::Shaders()
       sky("sky", kSkyVertex, kSkyFragment),
       line("line", kLineVertex, kLineFragment),
       glow("glow", kGlowVertex, kGlowFragment),
-      text("text", kTextVertex, kTextFragment)
+      text("text", kTextVertex, kTextFragment),
+      paint("paint", kPaintVertex, kPaintFragment)
 {
 }
 

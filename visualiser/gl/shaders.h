@@ -17,6 +17,7 @@ struct Shaders
   GlProgram line;
   GlProgram glow;
   GlProgram text;
+  GlProgram paint;  // triangles in the colours of their corners
 };
 
 // Where the vertex attributes of body and caster are.

@@ -1,6 +1,7 @@
 #include "visualiser/interaction/keys.h"
 
 #include <array>
+#include <utility>
 
 namespace swarmanoid
 {
@@ -70,6 +71,8 @@ constexpr std::array kBindings{
     KeyBinding{Action::kMouse, {}, "Entities", "Shift-drag", "move (wheel: turn)"},
     KeyBinding{Action::kFollow, {'F'}, "Entities", "F", "follow the selected one"},
     KeyBinding{Action::kDeselect, {kEscape}, "Entities", "Escape", "select nothing"},
+    KeyBinding{
+        Action::kKeysToFunctions, {kFunction + 8}, "Entities", "F8", "keys and selections go to experiment functions"},
 };
 
 }  // namespace
@@ -88,6 +91,18 @@ std::optional<KeyCommand> CommandOf(const KeyPress& press)
     if (wanted == press) return KeyCommand{binding.action, numbered ? press.key - '0' : 0};
   }
   return std::nullopt;
+}
+
+std::string NameOfKey(int key)
+{
+  constexpr std::pair<int, const char*> kNames[]{
+      {' ', "Space"},  {kEscape, "Escape"}, {kTab, "Tab"},          {kHome, "Home"},
+      {kEnd, "End"},   {kLeft, "Left"},     {kRight, "Right"},      {kUp, "Up"},
+      {kDown, "Down"}, {kPageUp, "PageUp"}, {kPageDown, "PageDown"}};
+  for (const auto& [code, name] : kNames)
+    if (code == key) return name;
+  if (key > kFunction && key <= kFunction + 12) return "F" + std::to_string(key - kFunction);
+  return key > ' ' && key <= '~' ? std::string(1, static_cast<char>(key)) : std::string();
 }
 
 bool MayRepeat(int key)

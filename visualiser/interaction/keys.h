@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace swarmanoid
@@ -64,6 +65,7 @@ enum class Action
   kInspectPast,
   kFollow,
   kDeselect,
+  kKeysToFunctions,
   kWholeArena,
   kFromAbove,
   kRecall,
@@ -96,6 +98,8 @@ struct KeyCommand
   int number = 0;  // of a viewpoint
 };
 std::optional<KeyCommand> CommandOf(const KeyPress& press);
+// As experiment functions know a key (UserInput); empty for what is no key of theirs.
+std::string NameOfKey(int key);
 // Whether a key that is held acts again and again: those that turn, zoom and step.
 bool MayRepeat(int key);
 

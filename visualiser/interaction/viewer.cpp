@@ -113,8 +113,15 @@ void Viewer::Select(std::uint32_t entity, bool in_further_window)
   }
   if (shown.scene.selected == entity) return;
   shown.scene.selected = entity;
+  if (gives_keys_) setup_.control->SelectEntity(Space().GetEntity(entity).GetId());
   followed_place_.reset();
   LogInfo("window: selected '{}'", Space().GetEntity(entity).GetId());
+}
+
+void Viewer::Deselect()
+{
+  if (gives_keys_ && shown.scene.selected) setup_.control->SelectEntity({});
+  shown.scene.selected.reset();
 }
 
 void Viewer::CloseInspector(std::uint32_t entity)

@@ -80,6 +80,8 @@ public:
 
   // What the person does; places in pixels from the upper left corner. Not for keys and buttons meant for a panel.
   void Press(const KeyPress& press);
+  // A key is let go.
+  void Release(int key);
   void Do(const KeyCommand& command);
   void MousePress(MouseButton button, double x, double y, bool ctrl, bool shift);
   void MouseMove(double x, double y);
@@ -94,7 +96,7 @@ public:
   const Scene& Refresh();
 
   void Select(std::uint32_t entity, bool in_further_window = false);
-  void Deselect() { shown.scene.selected.reset(); }
+  void Deselect();
   void CloseInspector(std::uint32_t entity);
   // Brings the camera near to an entity, along its line of sight.
   void Visit(std::uint32_t entity);
@@ -117,6 +119,8 @@ public:
   const RobotStatus* Robot(std::uint32_t entity);
   // Whether the run can be asked for anything here.
   bool CanControl() const { return setup_.control != nullptr; }
+  // Whether keys and selections go to experiment functions, not to the window.
+  bool GivesKeys() const { return gives_keys_; }
   // Whether entities can be moved: nobody changes the past.
   bool CanMove() const { return CanControl() && !past_.IsOn(); }
   std::string Owner(std::uint32_t entity) const { return OwnerName(GetExperiment(), setup_.assignment, entity); }
@@ -163,6 +167,7 @@ private:
   void StoreViewpoint(int number);
   void StartMove(std::uint32_t entity);
   void ChangeSpeed(int steps);
+  void ToggleKeys();
   void TogglePause();
   bool MayLookBack();
   void LookBackBy(int ticks);
@@ -211,6 +216,8 @@ private:
   bool drag_ctrl_ = false;
   double drag_x_ = 0, drag_y_ = 0;
   bool whole_arena_ = false;  // the camera is as ShowWholeArena left it
+  bool gives_keys_ = false;
+  std::vector<int> given_keys_;  // that are held
   bool close_ = false;
   bool picture_ = false;
 };

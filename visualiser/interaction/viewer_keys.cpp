@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <utility>
 #include "common/space/space.h"
 
 namespace swarmanoid
@@ -22,7 +23,36 @@ constexpr std::array kSpeeds{0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100
 
 void Viewer::Press(const KeyPress& press)
 {
-  if (const std::optional<KeyCommand> command = CommandOf(press)) Do(*command);
+  const std::optional<KeyCommand> command = CommandOf(press);
+  const bool ends = command && command->action == Action::kKeysToFunctions;
+  const std::string name = NameOfKey(press.key);
+  if (gives_keys_ && !ends && !press.ctrl && !name.empty())
+  {
+    if (std::find(given_keys_.begin(), given_keys_.end(), press.key) != given_keys_.end()) return;
+    given_keys_.push_back(press.key);
+    return setup_.control->PressKey(name, true);
+  }
+  if (command) Do(*command);
+}
+
+void Viewer::Release(int key)
+{
+  if (std::erase(given_keys_, key) != 0) setup_.control->PressKey(NameOfKey(key), false);
+}
+
+void Viewer::ToggleKeys()
+{
+  if (!CanControl()) return Say("this visualisation may only watch", true);
+  if (GetExperiment().functions.empty()) return Say("the experiment has no functions that keys could go to", true);
+  if (gives_keys_)
+  {
+    for (const int key : std::exchange(given_keys_, {})) setup_.control->PressKey(NameOfKey(key), false);
+    if (shown.scene.selected) setup_.control->SelectEntity({});
+  }
+  gives_keys_ = !gives_keys_;
+  if (gives_keys_ && shown.scene.selected)
+    setup_.control->SelectEntity(Space().GetEntity(*shown.scene.selected).GetId());
+  Say(gives_keys_ ? "keys and selections go to the experiment functions; F8 ends it" : "keys are the window's again");
 }
 
 void Viewer::Do(const KeyCommand& command)
@@ -117,6 +147,9 @@ void Viewer::Do(const KeyCommand& command)
         shown.help = false;
       else
         Deselect();
+      break;
+    case Action::kKeysToFunctions:
+      ToggleKeys();
       break;
     case Action::kWholeArena:
     case Action::kFromAbove:

@@ -27,6 +27,16 @@ void COgreRender::Show(const TakePicture& take)
   window_->Present(viewer, [&] { ShowPanels(scene); });
 }
 
+namespace
+{
+
+ImU32 WindowColour(Colour colour, float opacity)
+{
+  return IM_COL32(colour >> 16 & 0xff, colour >> 8 & 0xff, colour & 0xff, static_cast<int>(opacity * 255));
+}
+
+}  // namespace
+
 void COgreRender::ShowPanels(const Scene& scene)
 {
   const auto width = static_cast<float>(window_->Width());
@@ -39,6 +49,21 @@ void COgreRender::ShowPanels(const Scene& scene)
     ImGui::GetBackgroundDrawList()->AddText(
         {static_cast<float>(place.x()) - size.x / 2, static_cast<float>(place.y()) - size.y}, theme::kText,
         label.text.data(), label.text.data() + label.text.size());
+  }
+  for (const DrawnMarks::Dot& dot : scene.Drawn().dots)
+  {
+    const Vector3 place = GetViewer().camera.Project(dot.place.cast<double>(), width, height);
+    if (place.z() > 0)
+      ImGui::GetBackgroundDrawList()->AddCircleFilled({static_cast<float>(place.x()), static_cast<float>(place.y())},
+                                                      dot.diameter / 2, WindowColour(dot.colour, dot.opacity));
+  }
+  for (const DrawnMarks::Text& text : scene.Drawn().texts)
+  {
+    const Vector3 place = GetViewer().camera.Project(text.place.cast<double>(), width, height);
+    if (place.z() <= 0) continue;
+    ImGui::GetBackgroundDrawList()->AddText(
+        {static_cast<float>(place.x()), static_cast<float>(place.y()) - ImGui::GetTextLineHeight()},
+        WindowColour(text.colour, text.opacity), text.text.data(), text.text.data() + text.text.size());
   }
   panels_->Show(width, height);
 }

@@ -98,6 +98,8 @@ OgreScene::OgreScene(Ogre::SceneManager& manager, const Scene& scene) : manager_
   glows_ = MakeDynamic("glows", Ogre::RENDER_QUEUE_7);
   lines_ = MakeDynamic("lines", Ogre::RENDER_QUEUE_8);
   lines_on_top_ = MakeDynamic("lines_on_top", Ogre::RENDER_QUEUE_9);
+  paint_ = MakeDynamic("paint", Ogre::RENDER_QUEUE_MAIN);
+  clear_paint_ = MakeDynamic("clear_paint", Ogre::RENDER_QUEUE_8);
   bodies_.resize(scene.Items().size());
   meshes_.resize(scene.Models().size());
   led_meshes_.resize(scene.Models().size());
@@ -261,6 +263,7 @@ void OgreScene::Update(const Scene& scene, const Camera& camera, int height, boo
   BuildLights(scene);
   BuildLines(scene);
   BuildGlows(scene, camera);
+  BuildDrawn(scene.Drawn());
 }
 
 void OgreScene::BuildLights(const Scene& scene)
@@ -296,6 +299,35 @@ void OgreScene::BuildLines(const Scene& scene)
       object->colour(OgreColour(line.colour, line.opacity_from));
       object->position(ToOgre(line.to));
       object->colour(OgreColour(line.colour, line.opacity_to));
+    }
+    for (const DrawnMarks::Line& line : scene.Drawn().lines)
+    {
+      if (on_top) break;
+      for (const Eigen::Vector3f& end : {line.from, line.to})
+      {
+        object->position(ToOgre(end));
+        object->colour(OgreColour(line.colour, line.opacity));
+      }
+    }
+    object->end();
+  }
+}
+
+void OgreScene::BuildDrawn(const DrawnMarks& drawn)
+{
+  for (const bool clear : {false, true})
+  {
+    Ogre::ManualObject* object = clear ? clear_paint_ : paint_;
+    Begin(object, clear ? materials_.Lines() : materials_.Lights(), RenderOperation::OT_TRIANGLE_LIST);
+    AddNothing(object, 3);
+    for (const DrawnMarks::Triangle& triangle : drawn.triangles)
+    {
+      if ((triangle.opacity < 1) != clear) continue;
+      for (const Eigen::Vector3f& corner : triangle.corners)
+      {
+        object->position(ToOgre(corner));
+        object->colour(OgreColour(triangle.colour, triangle.opacity));
+      }
     }
     object->end();
   }

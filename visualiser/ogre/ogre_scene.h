@@ -49,6 +49,7 @@ private:
   void BuildLights(const Scene& scene);
   void BuildLines(const Scene& scene);
   void BuildGlows(const Scene& scene, const Camera& camera);
+  void BuildDrawn(const DrawnMarks& drawn);
   Ogre::ManualObject* MakeDynamic(const char* name, Ogre::uint8 queue);
 
   Ogre::SceneManager& manager_;
@@ -60,6 +61,8 @@ private:
   Ogre::ManualObject* lines_ = nullptr;
   Ogre::ManualObject* lines_on_top_ = nullptr;
   Ogre::ManualObject* glows_ = nullptr;
+  Ogre::ManualObject* paint_ = nullptr;  // triangles of experiment functions
+  Ogre::ManualObject* clear_paint_ = nullptr;
   std::vector<Body> bodies_;
   std::vector<std::array<Ogre::MeshPtr, kLevels>> meshes_;                 // by model
   std::vector<std::array<std::vector<LightVertex>, kLevels>> led_meshes_;  // by model

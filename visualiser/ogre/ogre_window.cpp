@@ -280,6 +280,7 @@ bool OgreWindow::keyReleased(const OgreBites::KeyboardEvent& event)
   happened_ = true;
   ctrl_ = (event.keysym.mod & OgreBites::KMOD_CTRL) != 0;
   shift_ = (event.keysym.mod & OgreBites::KMOD_SHIFT) != 0;
+  if (viewer_ != nullptr) viewer_->Release(KeyOf(event.keysym.sym));
   return imgui_input_->keyReleased(event);
 }
 

@@ -100,6 +100,7 @@ struct GlWindow::Callbacks
     GlWindow& self = Of(window);
     ImGui_ImplGlfw_KeyCallback(window, key, scancode, action, mods);
     const bool ctrl = (mods & GLFW_MOD_CONTROL) != 0;
+    if (self.viewer_ != nullptr && action == GLFW_RELEASE) self.viewer_->Release(KeyOf(key, scancode));
     if (self.viewer_ == nullptr || action == GLFW_RELEASE || (ImGui::GetIO().WantTextInput && !ctrl)) return;
     const KeyPress press{KeyOf(key, scancode), ctrl, (mods & GLFW_MOD_SHIFT) != 0};
     if (press.key != 0 && (action == GLFW_PRESS || MayRepeat(press.key))) self.viewer_->Press(press);

@@ -246,6 +246,7 @@ void Scene::Update(const SceneOptions& options)
   }
   if (options.trails || trails_ != nullptr) Track();
   if (options.trails) AddTrails();
+  CutDrawing(space_, drawn_);
 }
 
 void Scene::UpdateLights()

@@ -13,6 +13,7 @@
 #include "common/builtins/led_cones.h"
 #include "common/space/collision_models.h"
 #include "common/space/query.h"
+#include "visualiser/scene/drawn_marks.h"
 #include "visualiser/scene/meshes.h"
 #include "visualiser/scene/proximity_rays.h"
 
@@ -106,6 +107,8 @@ public:
   std::span<const SceneLine> Lines() const { return lines_; }
   std::span<const SceneGlow> Glows() const { return glows_; }
   std::span<const SceneLabel> Labels() const { return labels_; }
+  // What experiment functions draw.
+  const DrawnMarks& Drawn() const { return drawn_; }
 
   // Of the arena, in metres.
   const Vector3& ArenaSize() const;
@@ -179,6 +182,7 @@ private:
   std::vector<SceneLine> lines_;
   std::vector<SceneGlow> glows_;
   std::vector<SceneLabel> labels_;
+  DrawnMarks drawn_;
   std::vector<std::pair<std::uint32_t, std::shared_ptr<const Terrain>>> terrains_;
   std::vector<std::uint32_t> large_;                     // bodies too large for the search about a line
   double search_radius_ = 0;                             // of the largest of the others

@@ -253,6 +253,20 @@ std::string EntityIn(const Json& json, const std::string& verb)
   return entity->get<std::string>();
 }
 
+std::string KeyIn(const Json& json)
+{
+  const auto key = json.find("key");
+  if (key == json.end() || !key->is_string()) Refuse("'key' needs the name of a key");
+  return key->get<std::string>().substr(0, 20);
+}
+
+bool IsPressedIn(const Json& json)
+{
+  const auto pressed = json.find("pressed");
+  if (pressed == json.end() || !pressed->is_boolean()) Refuse("'key' needs 'pressed', true or false");
+  return pressed->get<bool>();
+}
+
 Pose PoseIn(const Json& json)
 {
   const std::array<double, 3> position = TripleIn(json, "position");
@@ -453,6 +467,8 @@ PageRequest ParseRequest(std::string_view text)
   if (name == "move") return MoveEntityRequest{EntityIn(json, name), PoseIn(json)};
   if (name == "add") return AddEntityRequest{EntityIn(json, name), PoseIn(json)};
   if (name == "remove") return RemoveEntityRequest{EntityIn(json, name)};
+  if (name == "key") return KeyRequest{KeyIn(json), IsPressedIn(json)};
+  if (name == "select") return SelectRequest{json.contains("entity") ? EntityIn(json, name) : std::string()};
   if (name == "stop") return StopRequest{};
   if (name == "reset") return ResetRunRequest{};
   Refuse(fmt::format("there is no request '{}'", name.substr(0, 40)));

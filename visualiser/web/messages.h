@@ -93,15 +93,26 @@ struct RemoveEntityRequest
 {
   std::string entity;
 };
+// For experiment functions.
+struct KeyRequest
+{
+  std::string key;
+  bool pressed = true;
+};
+struct SelectRequest
+{
+  std::string entity;  // empty: none
+};
 struct StopRequest
 {
 };
 struct ResetRunRequest
 {
 };
-using PageRequest = std::variant<WatchRequest, LookBackRequest, FrameRateRequest, ProveRequest, MarksRequest,
-                                 PauseRequest, ResumeRequest, StepRequest, SpeedRequest, MoveEntityRequest,
-                                 AddEntityRequest, RemoveEntityRequest, StopRequest, ResetRunRequest>;
+using PageRequest =
+    std::variant<WatchRequest, LookBackRequest, FrameRateRequest, ProveRequest, MarksRequest, PauseRequest,
+                 ResumeRequest, StepRequest, SpeedRequest, MoveEntityRequest, AddEntityRequest, RemoveEntityRequest,
+                 KeyRequest, SelectRequest, StopRequest, ResetRunRequest>;
 
 inline constexpr std::size_t kMostWatched = 16;   // entities, of one page
 inline constexpr std::size_t kMostMarked = 1000;  // likewise, of each kind of mark

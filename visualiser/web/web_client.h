@@ -155,7 +155,8 @@ private:
       const std::size_t slot = slots_[Index(Slot::kKey)] ? Index(Slot::kKey) : (next_slot_ + i) % kSlots;
       if (!slots_[slot]) continue;
       next_slot_ = (slot + 1) % kSlots;
-      binary = slot == Index(Slot::kKey) || slot == Index(Slot::kChange) || slot == Index(Slot::kPast);
+      binary = slot == Index(Slot::kKey) || slot == Index(Slot::kChange) || slot == Index(Slot::kPast) ||
+               slot == Index(Slot::kDrawing);
       return std::exchange(slots_[slot], nullptr);
     }
     return nullptr;

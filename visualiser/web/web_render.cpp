@@ -13,6 +13,7 @@
 #include "common/activity/print_error.h"
 #include "common/space/space.h"
 #include "visualiser/renderer_library.h"
+#include "visualiser/web/drawing_frame.h"
 
 namespace swarmanoid
 {
@@ -25,6 +26,7 @@ constexpr auto kStatusPeriod = 250ms;
 constexpr auto kWatchedPeriod = 100ms;
 constexpr auto kFollowPeriod = 250ms;
 constexpr auto kMarksPeriod = 100ms;
+constexpr auto kDrawingPeriod = 33ms;
 constexpr int kMarksShare = 20;              // marks take at most this part of the time …
 constexpr double kMarksBandwidthShare = 4;   // … and of what a page may get
 constexpr std::size_t kMostRequests = 1024;  // waiting for the next tick
@@ -111,6 +113,7 @@ void CWebRender::Finish()
 {
   FollowStatus();
   SendFrame();
+  SendDrawing();
   SendWatched();
   SendStatus();
 }
@@ -148,6 +151,7 @@ void CWebRender::Work()
     SendWatched();
   }
   if (now >= marks_due_) SendMarks();
+  if (now >= drawing_due_) SendDrawing();
   if (now >= status_due_)
   {
     status_due_ = now + kStatusPeriod;
@@ -209,6 +213,22 @@ void CWebRender::SendMarks()
   const std::chrono::duration<double> transfer(kMarksBandwidthShare * static_cast<double>(bytes) / bytes_per_second_);
   marks_due_ = std::max(
       {marks_due_, end + kMarksShare * (end - start), start + std::chrono::duration_cast<Clock::duration>(transfer)});
+}
+
+// Only what changed; what is in the frames of entities moves with them.
+void CWebRender::SendDrawing()
+{
+  const Clock::time_point start = Clock::now();
+  drawing_due_ = start + kDrawingPeriod;
+  const bool is_empty = space_->GetDrawing().IsEmpty();
+  if (drawing_revision_ == space_->DrawingRevision() && (is_empty || drawing_poses_ == space_->Revision())) return;
+  drawing_revision_ = space_->DrawingRevision();
+  drawing_poses_ = space_->Revision();
+  const WebServer::Bytes bytes = Shared(DrawingBytes(*space_));
+  host_->Server().Publish(WebServer::Slot::kDrawing, bytes);
+  const std::chrono::duration<double> transfer(static_cast<double>(bytes->size()) / bytes_per_second_);
+  drawing_due_ = std::max({drawing_due_, Clock::now() + kMarksShare * (Clock::now() - start),
+                           start + std::chrono::duration_cast<Clock::duration>(transfer)});
 }
 
 // What is worth a line of the log: what processes print, the end, who is late, what users did.
@@ -415,6 +435,8 @@ void CWebRender::Obey(const PageRequest& request)
   if (const auto* move = std::get_if<MoveEntityRequest>(&request)) control_->MoveEntity(move->entity, move->pose);
   if (const auto* add = std::get_if<AddEntityRequest>(&request)) control_->AddEntity(add->entity, add->pose);
   if (const auto* remove = std::get_if<RemoveEntityRequest>(&request)) control_->RemoveEntity(remove->entity);
+  if (const auto* key = std::get_if<KeyRequest>(&request)) control_->PressKey(key->key, key->pressed);
+  if (const auto* select = std::get_if<SelectRequest>(&request)) control_->SelectEntity(select->entity);
   if (std::holds_alternative<StopRequest>(request)) control_->Stop();
   if (std::holds_alternative<ResetRunRequest>(request)) control_->Reset();
 }

@@ -58,6 +58,7 @@ private:
   void SendStatus();
   void SendWatched();
   void SendMarks();
+  void SendDrawing();
   void SendNotes();
   void FollowStatus();
   void FollowJournal();
@@ -77,7 +78,7 @@ private:
   std::unique_ptr<FrameWriter> frame_writer_;
   std::unique_ptr<LogFollower> logs_;
 
-  Clock::time_point frame_due_, status_due_, watched_due_, marks_due_, followed_due_;
+  Clock::time_point frame_due_, status_due_, watched_due_, marks_due_, drawing_due_, followed_due_;
   std::uint64_t shown_revision_ = 0, shown_attributes_ = 0, shown_tick_ = ~0ULL;
   std::uint64_t colours_revision_ = 0;
   std::string colours_;
@@ -88,6 +89,8 @@ private:
 
   std::map<std::uint64_t, MarksRequest> marked_;  // by client
   std::unique_ptr<MarksWriter> marks_writer_;     // once a page has asked for marks
+  std::uint64_t drawing_revision_ = 1;            // that pages have; at first they have nothing
+  std::uint64_t drawing_poses_ = 0;
   std::uint64_t marked_revision_ = 0, marked_attributes_ = 0;
 
   std::map<std::uint64_t, std::vector<std::uint32_t>> watched_;  // by client

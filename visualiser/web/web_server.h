@@ -60,6 +60,7 @@ public:
     kColours,
     kWatched,
     kMarks,
+    kDrawing,   // binary: what experiment functions draw
     kDocument,  // of the editor
     kCount
   };

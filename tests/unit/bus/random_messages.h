@@ -55,9 +55,38 @@ public:
     return bytes;
   }
 
+  // Any bytes: what they mean is looked at by TickLimits.
+  Drawing Drawn()
+  {
+    Drawing drawing;
+    for (std::size_t k = Length(); k > 0; --k)
+      drawing.shapes.push_back(
+          {static_cast<DrawnShape::Kind>(1 + engine_() % 10), Number32(), Number32(), Number32(), Number32()});
+    for (std::size_t k = Length(); k > 0; --k) drawing.numbers.push_back(static_cast<float>(Real()));
+    for (std::size_t k = Length(); k > 0; --k) drawing.texts.push_back(Text());
+    return drawing;
+  }
+
 private:
   std::mt19937_64 engine_;
 };
+
+// Of a state or a view.
+template <class Wire>
+inline void SetDrawing(const Drawing& drawing, Wire& wire_message)
+{
+  for (const DrawnShape& shape : drawing.shapes)
+  {
+    wire::Shape& one = wire_message.shapes().emplace_back();
+    one.kind(static_cast<std::uint32_t>(shape.kind));
+    one.frame(shape.frame);
+    one.colour(shape.colour);
+    one.width_16(shape.width_16);
+    one.count(shape.count);
+  }
+  wire_message.shape_numbers(drawing.numbers);
+  wire_message.shape_texts(drawing.texts);
+}
 
 template <class Support, class Wire>
 inline std::string GeneratedBytes(Wire& wire)

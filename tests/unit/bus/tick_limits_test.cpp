@@ -124,6 +124,80 @@ TEST_F(LimitsOfATick, WhatEnginesRecordHasTheLengthOfTheRun)
   }
 }
 
+// Who sends no states with drawings makes no room for them.
+TEST_F(LimitsOfATick, DrawingsAreOfRunsWithFunctionsAndVisualisers)
+{
+  SpaceState state = State();
+  state.drawing.Segment({0, 0, 0}, {1, 0, 0});
+  EXPECT_THAT(Refusal(state), HasSubstr("shapes: nobody draws in this run"));
+  Experiment experiment = ThreeRobots();
+  experiment.functions.emplace_back();
+  experiment.visualisations.emplace_back();
+  const CSwarmanoidSpace space(experiment);
+  const TickLimits limits(space, MakeAssignment(experiment, 1), false);
+  EXPECT_NO_THROW(limits.Check(MessageHeader{1, 1, 0, false}, state));
+  EXPECT_GT(limits.StateBytes(), limits_.StateBytes() + 4 * Drawing::kMostNumbers);
+}
+
+TEST_F(LimitsOfATick, DrawingsAreChecked)
+{
+  SpaceSnapshot view;
+  view.poses.resize(7 * 3);
+  view.attributes.resize(Slots());
+  const auto refusal = [&]() -> std::string
+  {
+    try
+    {
+      limits_.Check(view);
+    }
+    catch (const BadMessage& error)
+    {
+      return error.what();
+    }
+    return {};
+  };
+  Drawing good;
+  const Vector3 corners[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  good.Points(corners);
+  good.Polyline(corners);
+  good.Polygon(corners);
+  good.Arrow({0, 0, 0}, {1, 1, 1});
+  good.InFrameOf(2);
+  good.Circle({}, 1);
+  good.Disc({}, 1);
+  good.Box({}, {1, 2, 3});
+  good.Cylinder({}, 0.5, 1);
+  good.Text({0, 0, 1}, "text");
+  view.drawing = good;
+  EXPECT_EQ(refusal(), "");
+  const std::pair<const char*, std::function<void(Drawing&)>> mistakes[] = {
+      {"there is no kind 11", [](Drawing& d) { d.shapes[0].kind = static_cast<DrawnShape::Kind>(11); }},
+      {"there is no entity 3 of 3", [](Drawing& d) { d.shapes.back().frame = 4; }},
+      {"sixteenths of a pixel", [](Drawing& d) { d.shapes[0].width_16 = 1U << 31U; }},
+      {"has 8 numbers", [](Drawing& d) { d.shapes[0].count = 8; }},
+      {"fewer numbers", [](Drawing& d) { d.shapes[1].count = ~0U; }},
+      {"has 9 numbers", [](Drawing& d) { d.shapes[4].count = 9; }},
+      {"fewer numbers", [](Drawing& d) { d.numbers.pop_back(); }},
+      {"more numbers", [](Drawing& d) { d.numbers.push_back(0); }},
+      {"not finite", [](Drawing& d) { d.numbers[1] = std::numeric_limits<float>::quiet_NaN(); }},
+      {"not finite", [](Drawing& d) { d.numbers[1] = 1e20F; }},
+      {"no unit quaternion", [](Drawing& d) { d.numbers[9 + 9 + 9 + 6 + 6] = 2; }},
+      {"a size is negative", [](Drawing& d) { d.numbers[9 + 9 + 9 + 6 + 7] = -1; }},
+      {"not as many texts", [](Drawing& d) { d.texts.clear(); }},
+      {"a text is too long", [](Drawing& d) { d.texts[0].resize(1000, 'a'); }},
+      {"texts are more than", [](Drawing& d) { d.texts.resize(Drawing::kMostTexts + 1); }},
+      {"shapes are more than", [](Drawing& d) { d.shapes.resize(Drawing::kMostShapes + 1); }},
+      {"numbers are more than", [](Drawing& d) { d.numbers.resize(Drawing::kMostNumbers + 1); }},
+  };
+  for (const auto& [said, spoil] : mistakes)
+  {
+    view.drawing = good;
+    spoil(view.drawing);
+    EXPECT_THAT(refusal(), HasSubstr(said));
+    EXPECT_THAT(refusal(), HasSubstr("shapes: "));
+  }
+}
+
 TEST_F(LimitsOfATick, EntitiesThatMovedExistAndAscend)
 {
   SpaceState state = State();

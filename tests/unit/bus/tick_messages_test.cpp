@@ -64,12 +64,14 @@ TEST(MessageBytes, OfATickAreThoseOfTheIdl)
     state.poses = random.Reals();
     state.attributes = RandomChanges(random);
     state.moved = random.Ascending();
+    state.drawing = random.Drawn();
     wire::SpaceState wire_state;
     wire_state.poses(state.poses);
     wire_state.flags(FlagsOf(state.last, header.repeated) | (header.save ? wire::FLAG_SAVE : 0U));
     wire_state.attribute_values(state.attributes.values);
     wire_state.attribute_slots(state.attributes.slots);
     wire_state.moved(state.moved);
+    SetDrawing(state.drawing, wire_state);
     ExpectSame<wire::SpaceStatePubSubType>(header, state, wire_state);
 
     ControlCommands commands;

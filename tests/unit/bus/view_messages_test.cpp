@@ -78,6 +78,7 @@ TEST(MessageBytes, OfWhatIsShownAreThoseOfTheIdl)
     view.snapshot.real_time_factor = random.Real();
     view.snapshot.poses = random.Reals();
     view.snapshot.attributes = random.Reals();
+    view.snapshot.drawing = random.Drawn();
     wire::View wire_view;
     wire_view.run(view.run);
     wire_view.tick(view.snapshot.tick);
@@ -86,6 +87,7 @@ TEST(MessageBytes, OfWhatIsShownAreThoseOfTheIdl)
     wire_view.flags(FlagsOf(view.snapshot.last, false));
     wire_view.attributes(view.snapshot.attributes);
     wire_view.real_time_factor(view.snapshot.real_time_factor);
+    SetDrawing(view.snapshot.drawing, wire_view);
     ExpectSame<wire::ViewPubSubType>(view, wire_view);
 
     RunStatusMessage status;

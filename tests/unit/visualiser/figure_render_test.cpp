@@ -148,6 +148,22 @@ TEST_F(FigureRender, LedsThatShineAndWhatIsHeldAreDrawn)
   EXPECT_EQ(ColourIn(picture, 3, 1.25), 0xe69f00u);
 }
 
+TEST_F(FigureRender, WhatExperimentFunctionsDrawIsAboveIt)
+{
+  Drawing drawing;
+  drawing.Disc({{1, 1, 0}, Quaternion::Identity()}, 0.3, {0xff00ff});
+  drawing.Segment({1, 1, 0}, {2, 1, 0}, {0x00ff00, 1, 8});
+  drawing.InFrameOf(0);
+  drawing.Box({{0.3, 0, 0}, Quaternion::Identity()}, {0.2, 0.2, 0.2}, {0x00ffff});
+  world_.Space().SwapDrawing(drawing);
+  const Picture picture = Page("");
+  EXPECT_EQ(ColourIn(picture, 0.8, 1.1), 0xff00ffU);
+  EXPECT_EQ(ColourIn(picture, 1.8, 1), 0x00ff00U);
+  // The robot at 3, 1.5 looks along y.
+  EXPECT_EQ(ColourIn(picture, 3, 1.8), 0x00ffffU);
+  EXPECT_NE(ColourIn(picture, 3.3, 1.5), 0x00ffffU);
+}
+
 TEST_F(FigureRender, TicksArePanelsWithTheirTimes)
 {
   EXPECT_EQ(Run("file=\"sheet.pdf\" ticks=\"0, 50,100\" stop=\"true\"", 200), 100);

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
+#include <functional>
 
 #include "common/configuration/xml_reader.h"
 #include "tests/unit/visualiser/small_world.h"
@@ -48,7 +49,10 @@ protected:
     configuration.tag = "image_render";
     configuration.id = "images";
     configuration.tree = TConfigurationTree(
-        ReadXml("<image_render size=\"96, 64\" " + attributes + ">" + children + "</image_render>", "images.xml"));
+        ReadXml("<image_render " +
+                    (attributes.find("size=") == std::string::npos ? std::string("size=\"96, 64\" ") : std::string()) +
+                    attributes + ">" + children + "</image_render>",
+                "images.xml"));
     return std::make_unique<Visualiser>(configuration, world_.Space(), assignment_, folder_.string(), nullptr, &run_);
   }
 
@@ -114,6 +118,61 @@ TEST_F(ImageRender, WritesNumberedPicturesAtTheTicksAsked)
   EXPECT_EQ(picture.width, 96);
   EXPECT_EQ(picture.height, 64);
   EXPECT_NE(picture.pixels, ReadPng(Path("frames/frame_000010.png")).pixels);
+}
+
+// Straight from above, in the colours that they have: an area, a body, a line, a dot, a text.
+TEST_F(ImageRender, ShowsWhatExperimentFunctionsDraw)
+{
+  const auto pixels_of = [&](const std::string& name, const std::function<void(Drawing&)>& draw)
+  {
+    Drawing drawing;
+    draw(drawing);
+    world_.Space().SwapDrawing(drawing);
+    Run("camera=\"top\" size=\"320, 320\" file=\"" + name + ".png\"", 0);
+    const Picture picture = ReadPng(Path(name + ".png"));
+    int found = 0;
+    for (int y = 0; y < picture.height; ++y)
+      for (int x = 0; x < picture.width; ++x)
+      {
+        const std::uint8_t* pixel = picture.At(x, y);
+        found += pixel[0] > 200 && pixel[1] < 60 && pixel[2] > 200;
+      }
+    return found;
+  };
+  const Ink ink{0xff00ff};
+  const Pose at{{1.5, 1.5, 0.001}, Quaternion::Identity()};
+  EXPECT_EQ(pixels_of("nothing", [](Drawing&) {}), 0);
+  const int disc = pixels_of("disc", [&](Drawing& drawing) { drawing.Disc(at, 0.2, ink); });
+  const int box = pixels_of("box", [&](Drawing& drawing) { drawing.Box(at, {0.4, 0.4, 0.1}, ink); });
+  EXPECT_GT(disc, 1000);
+  EXPECT_NEAR(disc / static_cast<double>(box), 0.785, 0.08) << "a circle within a square";
+  const int thin = pixels_of("line", [&](Drawing& drawing) { drawing.Segment({0.3, 0.3, 0}, {0.3, 1.5, 0}, ink); });
+  const int wide = pixels_of("wide",
+                             [&](Drawing& drawing) {
+                               drawing.Segment({0.3, 0.3, 0}, {0.3, 1.5, 0}, {0xff00ff, 1, 9});
+                             });
+  EXPECT_GT(thin, 50);
+  EXPECT_GT(wide, 3 * thin);
+  EXPECT_NEAR(pixels_of("dot", [&](Drawing& drawing) { drawing.Point({0.5, 0.5, 0}, {0xff00ff, 1, 20}); }), 314, 60);
+  const auto write = [&](Drawing& drawing) { drawing.Text({0.3, 0.5, 0}, "MMMM", ink); };
+  EXPECT_GT(pixels_of("text", write), 40);
+  const auto write_beside = [&](Drawing& drawing)
+  {
+    drawing.Disc(at, 0.2, {0x0000ff, 0.5});
+    write(drawing);
+  };
+  EXPECT_GT(pixels_of("both", write_beside), 40);
+  // On the robot, which hides what is below it.
+  EXPECT_GT(pixels_of("above",
+                      [&](Drawing& drawing) {
+                        drawing.InFrameOf(0), drawing.Disc({{0, 0, 0.4}, Quaternion::Identity()}, 0.05, ink);
+                      }),
+            30);
+  EXPECT_EQ(pixels_of("below",
+                      [&](Drawing& drawing) {
+                        drawing.InFrameOf(0), drawing.Disc({{0, 0, 0.01}, Quaternion::Identity()}, 0.02, ink);
+                      }),
+            0);
 }
 
 TEST_F(ImageRender, TakesTheNextStateWhereTicksAreMissed)

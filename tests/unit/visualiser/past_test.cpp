@@ -35,6 +35,8 @@ public:
   void MoveEntity(const std::string& id, const Pose&) override { moved = id; }
   void AddEntity(const std::string&, const Pose&) override {}
   void RemoveEntity(const std::string&) override {}
+  void PressKey(const std::string&, bool) override {}
+  void SelectEntity(const std::string&) override {}
   void Stop() override {}
   void Reset() override {}
 

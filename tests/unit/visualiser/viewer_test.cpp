@@ -37,6 +37,11 @@ public:
     place = pose;
   }
   void RemoveEntity(const std::string& id) override { asked.push_back("remove " + id); }
+  void PressKey(const std::string& key, bool pressed) override
+  {
+    asked.push_back((pressed ? "press " : "release ") + key);
+  }
+  void SelectEntity(const std::string& id) override { asked.push_back(id.empty() ? "deselect" : "select " + id); }
   void Stop() override { asked.push_back("stop"); }
 
   std::vector<std::string> asked;
@@ -269,6 +274,38 @@ TEST_F(ViewerTest, FollowsTheSelectedEntity)
   world_.Space().SetPose(Index("fb_0"), {{1.5, 1.2, 0}, Quaternion::Identity()});
   viewer.StateCame();
   EXPECT_TRUE((viewer.camera.position - before).isApprox(Vector3(0.5, 0.2, 0), 1e-9));
+}
+
+TEST_F(ViewerTest, KeysAndSelectionsGoToExperimentFunctionsUntilTheyAreTheWindowsAgain)
+{
+  Viewer& viewer = Make();
+  viewer.Press({keys::kFunction + 8});
+  EXPECT_FALSE(viewer.GivesKeys());
+  EXPECT_THAT(viewer.Messages().back().text, HasSubstr("no functions"));
+  world_.GetExperiment().functions.emplace_back();
+  viewer.Select(Index("fb_0"));
+  EXPECT_THAT(control_.asked, IsEmpty());
+  viewer.Press({keys::kFunction + 8});
+  EXPECT_TRUE(viewer.GivesKeys());
+  viewer.Press({'I'});
+  viewer.Press({'I'});  // it is held
+  EXPECT_FALSE(viewer.shown.scene.ids) << "which is what it does in the window";
+  viewer.Press({keys::kUp});
+  viewer.Release('I');
+  viewer.Release('I');
+  viewer.Select(Index("fb_1"));
+  viewer.Press({'0', true});
+  viewer.Press({keys::kFunction + 8});
+  EXPECT_THAT(control_.asked,
+              ElementsAre("select fb_0", "press I", "press Up", "release I", "select fb_1", "release Up", "deselect"));
+  control_.asked.clear();
+  viewer.Press({'I'});
+  viewer.Release('I');
+  EXPECT_TRUE(viewer.shown.scene.ids);
+  EXPECT_THAT(control_.asked, IsEmpty());
+  Viewer& watcher = Make("", false);
+  watcher.Press({keys::kFunction + 8});
+  EXPECT_FALSE(watcher.GivesKeys());
 }
 
 TEST_F(ViewerTest, FollowsNobodyOutOfTheArena)

@@ -10,7 +10,7 @@ export class Actions {
     this.state = state;
   }
 
-  // parts: app, toolbar, list, inspector, log, picture, past, legend, tools, colourChoice of the page; send(request)
+  // parts: app, toolbar, list, inspector, log, picture, past, legend, tools, colourChoice, functionKeys of the page; send(request)
   reach(parts) {
     Object.assign(this, parts);
   }
@@ -84,6 +84,7 @@ export class Actions {
 
   showChosen(chosen) {
     const entity = chosen[0] ?? null;
+    if (entity !== this.state.selected) this.functionKeys.select(entity === null ? null : this.state.world.ids[entity]);
     this.state.selected = entity;
     this.picture.select(entity, chosen);
     this.list.select(entity, chosen);

@@ -33,6 +33,7 @@ export class LookingBack {
     timeline.showPlaying(false);
     timeline.show(within);
     if (!begins) return;
+    this.picture.looksBack = true;
     this.inspector.lookBack(true);
     this.changed();
   }
@@ -78,6 +79,7 @@ export class LookingBack {
     const { state } = this;
     this.timeline.showPlaying(false);
     this.timeline.show(null);
+    this.picture.looksBack = false;
     this.inspector.lookBack(false);
     if (state.colours) this.picture.paint(state.colours);
     if (state.live) {

@@ -3,6 +3,7 @@ import { Actions } from "./actions.js";
 import { Authority } from "./authority.js";
 import { Connection } from "./connection.js";
 import { Film } from "./film.js";
+import { FunctionKeys } from "./function_keys.js";
 import { readLink } from "./link.js";
 import { LookingBack } from "./looking_back.js";
 import { pageHook } from "./page_hook.js";
@@ -106,6 +107,7 @@ const tools = new Tools([
     { name: "film", label: "Film", key: "shift + P", title: "Film the picture, until it is pressed again", switches: true, act: () => film.toggle() },
   ],
   [
+    { name: "function_keys", label: "Keys to functions", key: "F8", title: "Keys and selections go to the experiment functions", switches: true, control: true, act: () => functionKeys.toggle() },
     { name: "handles", label: "Handles", key: "H", title: "The selected robot has handles that move and turn it", switches: true, control: true, act: () => actions.switchTool("handles") },
     h("label", {}, "Colours: ", colourChoice),
   ],
@@ -123,8 +125,15 @@ picture.onQuality = () => {
 picture.onQuality();
 picture.onBoard = () => tools.set("aboard", picture.aboard !== null);
 
+const functionKeys = new FunctionKeys({
+  command: (request) => actions.command(request),
+  selected: () => (state.selected === null ? null : state.world.ids[state.selected]),
+  changed: (on) => tools.set("function_keys", on),
+});
+window.addEventListener("keyup", (event) => functionKeys.up(event));
+window.addEventListener("blur", () => functionKeys.release());
 const authority = new Authority({ state, toolbar, tools, inspector, send });
-actions.reach({ app, toolbar, list, inspector, log, picture, past, legend, tools, colourChoice, send });
+actions.reach({ app, toolbar, list, inspector, log, picture, past, legend, tools, colourChoice, functionKeys, send });
 const reception = new Reception({ state, actions, authority, toolbar, list, inspector, log, processes, timeline, viewpoints, banner, picture, past, startEditor, greet: sendVisibility, showState });
 const connection = new Connection({
   onOpen: () => reception.connected(true),
@@ -133,9 +142,9 @@ const connection = new Connection({
   onFrame: (buffer) => reception.frame(buffer),
 });
 listenToKeys({
-  keys: keysOf({ state, actions, toolbar, inspector, picture, viewpoints, past, film, help, log, list }),
+  keys: keysOf({ state, actions, toolbar, inspector, picture, viewpoints, past, film, help, log, list, functionKeys }),
   digit: (number, { shiftKey }) => (shiftKey ? viewpoints.store(number) : viewpoints.recall(number)),
-  first: (event) => state.editor?.key(event),
+  first: (event) => functionKeys.down(event) || state.editor?.key(event),
   isReady: () => state.world !== null,
 });
 
@@ -149,7 +158,7 @@ let loadingEditor = null;
 function startEditor() {
   state.status = { phase: "editing", real_time_factor: 0, speed_wanted: 1, processes: [] };
   loadingEditor ??= import("./edit/editor.js").then(({ Editor }) => {
-    for (const name of ["rays", "bodies", "links", "heat", "swarm", "aboard", "film"]) tools.buttons[name].hidden = true;
+    for (const name of ["function_keys", "rays", "bodies", "links", "heat", "swarm", "aboard", "film"]) tools.buttons[name].hidden = true;
     for (const name of ["trails", "beams"]) toolbar.toggles[name].hidden = true;
     state.editor = new Editor({ app, main, picture, left: list.element, send, choose: (chosen) => actions.showChosen(chosen) });
     if (state.control === "granted") state.editor.begin();

@@ -80,6 +80,12 @@ export function pageHook({ state, past, timeline, viewpoints, list, picture, sel
     get marks() {
       return Object.fromEntries(picture.marks.lines({ link: 0 }).map(({ name, points }) => [name, points.length / 6]));
     },
+    // Of experiment functions, as they are shown.
+    get drawing() {
+      const drawing = picture.shownDrawing;
+      const count = (groups, numbers) => groups.reduce((sum, { points }) => sum + points.length / numbers, 0);
+      return drawing && { tick: drawing.tick, lines: count(drawing.lines, 6), triangles: count(drawing.triangles, 9), dots: count(drawing.dots, 3), texts: drawing.texts.map(({ text }) => text) };
+    },
     get selected() {
       return state.selected === null ? null : state.world.ids[state.selected];
     },

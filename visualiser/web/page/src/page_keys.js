@@ -1,7 +1,7 @@
 // The keys of the page. As in the windows, where they have the same function.
 
-// parts: state, actions, toolbar, inspector, picture, viewpoints, past, film, help, log, list of the page
-export function keysOf({ state, actions, toolbar, inspector, picture, viewpoints, past, film, help, log, list }) {
+// parts: state, actions, toolbar, inspector, picture, viewpoints, past, film, help, log, list, functionKeys of the page
+export function keysOf({ state, actions, toolbar, inspector, picture, viewpoints, past, film, help, log, list, functionKeys }) {
   const leave = () => {
     if (!help.element.hidden) help.toggle(false);
     else if (picture.aboard !== null || picture.flight) picture.leaveRobot();
@@ -52,6 +52,7 @@ export function keysOf({ state, actions, toolbar, inspector, picture, viewpoints
     End: () => actions.frameArena("top"),
     F1: () => help.toggle(),
     F3: () => actions.togglePanel(),
+    F8: () => state.control === "granted" && !state.editor && functionKeys.toggle(),
     g: () => log.toggle(),
     "?": () => help.toggle(),
     "/": () => list.filter.focus(),

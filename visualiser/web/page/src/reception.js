@@ -1,5 +1,6 @@
 // What the server says: frames and messages, and whom on the page they are for.
 import { FrameDecoder, isPast } from "./protocol.js";
+import { isDrawing, readDrawing } from "./view/drawing.js";
 import { World } from "./world.js";
 
 export class Reception {
@@ -15,6 +16,7 @@ export class Reception {
     if (isOpen) {
       this.decoder = new FrameDecoder();
       this.picture.marks.forget();
+      this.picture.setDrawing(null);
     }
     this.state.connected = isOpen;
     this.showState();
@@ -22,6 +24,7 @@ export class Reception {
 
   frame(buffer) {
     const { state, past, picture, inspector } = this;
+    if (isDrawing(buffer)) return picture.setDrawing(readDrawing(buffer));
     const frame = this.decoder.decode(buffer);
     if (!frame || !state.world) return;
     if (isPast(buffer)) return past.show(frame);

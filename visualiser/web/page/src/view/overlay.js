@@ -36,7 +36,8 @@ export class Overlay {
   draw() {
     const { picture, canvas, context } = this;
     this.drawScale();
-    const empty = !picture.shows.ids && picture.chosen.length === 0 && picture.ghosts.length === 0 && !picture.box && !picture.tape;
+    const texts = picture.shownDrawing?.texts ?? [];
+    const empty = texts.length === 0 && !picture.shows.ids && picture.chosen.length === 0 && picture.ghosts.length === 0 && !picture.box && !picture.tape;
     canvas.hidden = empty;
     if (empty) return;
     const ratio = window.devicePixelRatio || 1;
@@ -53,6 +54,7 @@ export class Overlay {
     for (const entity of picture.chosen) this.drawRing(entity);
     for (const ghost of picture.ghosts) this.drawGhost(ghost);
     this.drawHandles();
+    this.drawTexts(texts);
     this.drawLabels(width, height);
     if (picture.box) this.drawBox(picture.box);
     if (picture.tape) this.drawTape(picture.tape);
@@ -154,6 +156,26 @@ export class Overlay {
       context.fill();
       context.stroke();
     }
+  }
+
+  // ---- texts of experiment functions ----
+
+  drawTexts(texts) {
+    const { context } = this;
+    context.textAlign = "left";
+    context.textBaseline = "alphabetic";
+    context.lineWidth = 3;
+    for (const { place, text, colour, opacity } of texts) {
+      const at = this.view.project(...place);
+      if (!at) continue;
+      context.globalAlpha = opacity;
+      context.fillStyle = css(colour);
+      // Dark ones can be read on what is dark, and light ones on what is light.
+      context.strokeStyle = luminance(colour) < 128 ? "rgba(255, 255, 255, 0.6)" : "rgba(0, 0, 0, 0.6)";
+      context.strokeText(text, at.x, at.y);
+      context.fillText(text, at.x, at.y);
+    }
+    context.globalAlpha = 1;
   }
 
   // ---- names ----
@@ -268,6 +290,9 @@ export class Overlay {
     });
   }
 }
+
+// Of 0xRRGGBB, 0 to 255.
+const luminance = (colour) => 0.299 * (colour >> 16) + 0.587 * ((colour >> 8) & 255) + 0.114 * (colour & 255);
 
 // The longest round length (1, 2 or 5 and zeros) that is no longer than `most`.
 export function scaleLength(most) {

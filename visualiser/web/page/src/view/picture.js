@@ -33,6 +33,8 @@ export class Picture {
     this.governor = new Governor("high");
     this.shows = { ids: false, trails: false, beams: true, shadows: false, textures: true, rays: false, bodies: false, links: false };
     this.marks = new Marks(this, (request) => actions.send(request));
+    this.drawing = null; // what experiment functions draw, of drawing.js
+    this.looksBack = false; // at a tick of which no drawing is kept
     this.selected = null;
     this.edits = false; // whether what cannot move may be chosen and placed, too
     this.chosen = []; // all that are selected, the one above among them
@@ -50,6 +52,17 @@ export class Picture {
     this.view = null; // until one can draw
     this.overlay = new Overlay(container, this);
     this.useWantedView();
+  }
+
+  // ---- what experiment functions draw ----
+
+  setDrawing(drawing) {
+    this.drawing = drawing;
+    this.invalidate();
+  }
+
+  get shownDrawing() {
+    return this.looksBack ? null : this.drawing;
   }
 
   // ---- which view ----

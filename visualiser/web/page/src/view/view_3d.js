@@ -2,6 +2,7 @@
 import * as THREE from "three";
 import { Arena } from "./arena.js";
 import { extentOf } from "./look.js";
+import { Drawn } from "./drawn.js";
 import { Beams, Grips, MarkLines, Trails } from "./overlays.js";
 import { floorPoint, pick, sight } from "./picking.js";
 import { Stage } from "./stage.js";
@@ -27,13 +28,14 @@ export class View3d {
   }
 
   setWorld(world) {
-    for (const overlay of [this.beams?.group, this.grips?.lines, this.trails?.lines, this.marks?.group]) overlay?.removeFromParent();
+    for (const overlay of [this.beams?.group, this.grips?.lines, this.trails?.lines, this.marks?.group, this.drawn?.group]) overlay?.removeFromParent();
     const { scene } = this.stage;
     this.world = world;
     this.beams = new Beams(scene, world);
     this.grips = new Grips(scene, world);
     this.trails = new Trails(scene, this.picture.trails);
     this.marks = new MarkLines(scene);
+    this.drawn = new Drawn(scene);
     this.rebuildArena();
     this.rebuildSwarm();
     this.stage.setReach(world.arena);
@@ -119,6 +121,7 @@ export class View3d {
     }
     this.trails.update();
     this.marks.update(this.picture.marks.lines(this.stage.theme));
+    this.drawn.update(this.picture.shownDrawing);
     this.stage.draw();
     return true;
   }

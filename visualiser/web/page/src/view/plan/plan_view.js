@@ -98,7 +98,38 @@ export class PlanView {
       this.drawBeams(frame, motion);
     }
     for (const lines of picture.marks.lines(this.theme)) this.drawLines(frame, lines);
+    if (picture.shownDrawing) this.drawDrawing(frame, picture.shownDrawing);
     return true;
+  }
+
+  // Of experiment functions, from above: areas, then lines, then points.
+  drawDrawing(frame, { triangles, lines, dots }) {
+    const { context } = this;
+    for (const { colour, opacity, points } of triangles) {
+      context.globalAlpha = opacity;
+      context.fillStyle = css(colour);
+      context.beginPath();
+      for (let i = 0; i < points.length; i += 9) {
+        context.moveTo(frame.x(points[i]), frame.y(points[i + 1]));
+        context.lineTo(frame.x(points[i + 3]), frame.y(points[i + 4]));
+        context.lineTo(frame.x(points[i + 6]), frame.y(points[i + 7]));
+        context.closePath();
+      }
+      context.fill();
+    }
+    for (const { colour, opacity, points, width } of lines) this.drawLines(frame, { colour, points, opacity, width });
+    for (const { colour, opacity, points, width } of dots) {
+      context.globalAlpha = opacity;
+      context.fillStyle = css(colour);
+      context.beginPath();
+      for (let i = 0; i < points.length; i += 3) {
+        const [x, y] = [frame.x(points[i]), frame.y(points[i + 1])];
+        context.moveTo(x, y);
+        context.arc(x, y, (width / 2) * frame.ratio, 0, 2 * Math.PI);
+      }
+      context.fill();
+    }
+    context.globalAlpha = 1;
   }
 
   // What stands still, and the robots that are dots.
@@ -163,11 +194,11 @@ export class PlanView {
     context.globalAlpha = 1;
   }
 
-  drawLines(frame, { colour, points, opacity = 1 }) {
+  drawLines(frame, { colour, points, opacity = 1, width = 1.25 }) {
     const { context } = this;
     context.globalAlpha = opacity;
     context.strokeStyle = css(colour);
-    context.lineWidth = 1.25 * frame.ratio;
+    context.lineWidth = width * frame.ratio;
     context.beginPath();
     for (let i = 0; i < points.length; i += 6) {
       context.moveTo(frame.x(points[i]), frame.y(points[i + 1]));

@@ -1,0 +1,73 @@
+// Pen: what Qt user functions draw with, between them and the drawing of a tick: colour and widths as OpenGL remembers
+// them, matrices, and the shape that is begun. Made by the plug-in for each drawing; one thread.
+#pragma once
+
+#include <argos3/plugins/simulator/visualizations/qt-opengl/qtopengl_user_functions.h>
+
+#include <Eigen/Geometry>
+
+#include <vector>
+
+#include "argos3/library/running.h"
+#include "common/messages/drawing.h"
+
+namespace swarmanoid::argos3
+{
+
+class Pen
+{
+public:
+  Pen(Drawing& drawing, const Translation& translation) : drawing_(drawing), translation_(translation) { InWorld(); }
+
+  // What follows is in the arena as ARGoS3 has it, with everything set anew.
+  void InWorld();
+  // In the frame of an entity of ours, whose origin ARGoS3 has `lower_m` below ours.
+  void InFrameOf(std::uint32_t entity, double lower_m);
+
+  Drawing& GetDrawing() { return drawing_; }
+  Vector3 At(const argos::CVector3& place) const { return At(Vector3(place.GetX(), place.GetY(), place.GetZ())); }
+  Vector3 At(const Vector3& place) const { return origin_ + now_.matrix * place; }
+  Pose At(const argos::CVector3& place, const argos::CQuaternion& orientation) const;
+  static Ink InkOf(const argos::CColor& colour, double width = 1);
+
+  // As the functions of OpenGL of these names.
+  void SetColour(const Ink& colour) { now_.ink.colour = colour.colour, now_.ink.opacity = colour.opacity; }
+  void SetLineWidth(double pixels) { now_.ink.width = pixels; }
+  void SetPointSize(double pixels) { now_.point = pixels; }
+  void SetPolygonMode(GLenum mode) { now_.polygon = mode; }
+  void Begin(GLenum mode);
+  void Vertex(const Vector3& place);
+  void End();
+  void Transform(const Eigen::Affine3d& by) { now_.matrix = now_.matrix * by; }
+  void PushMatrix();
+  void PopMatrix();
+  void PushAttributes();
+  void PopAttributes();
+  const Ink& Colour() const { return now_.ink; }
+
+private:
+  struct Settings
+  {
+    Ink ink;
+    double point = 1;  // pixels
+    GLenum polygon = GL_FILL;
+    Eigen::Affine3d matrix = Eigen::Affine3d::Identity();
+  };
+
+  void Area(std::initializer_list<std::size_t> corners);
+
+  Drawing& drawing_;
+  const Translation& translation_;
+  Vector3 origin_ = Vector3::Zero();
+  Settings now_;
+  std::vector<Settings> attributes_;
+  std::vector<Eigen::Affine3d> matrices_;
+  bool is_begun_ = false;
+  GLenum mode_ = GL_POINTS;
+  std::vector<Vector3> vertices_;
+};
+
+// Throws CARGoSException if nothing is drawn now. `function`: that asks.
+Pen& ThePen(const char* function);
+
+}  // namespace swarmanoid::argos3

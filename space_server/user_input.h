@@ -1,0 +1,32 @@
+// What a user does in a window or on a page that is for experiment functions: keys, and which entity is selected.
+#pragma once
+
+#include <string>
+
+namespace swarmanoid
+{
+
+class CSwarmanoidSpaceEntity;
+
+struct UserInput
+{
+  enum class Kind
+  {
+    kKeyPressed,
+    kKeyReleased,
+    kSelected,   // an entity; whoever was selected before was deselected first
+    kDeselected  // the entity that was
+  };
+
+  Kind kind = Kind::kKeyPressed;
+  // "A" to "Z", "0" to "9", another sign that is on the key, "Space", "Return", "Escape", "Tab", "Backspace", "Delete",
+  // "Insert", "Home", "End", "PageUp", "PageDown", "Up", "Down", "Left", "Right", "Shift", "Control", "Alt", "F1" to
+  // "F12".
+  std::string key;
+  const CSwarmanoidSpaceEntity* entity = nullptr;  // of the last two
+};
+
+// Whether a key can be called so.
+bool IsKeyName(const std::string& name);
+
+}  // namespace swarmanoid

@@ -1,0 +1,62 @@
+#include "visualiser/web/drawing_frame.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "tests/web/four_entities.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+TEST(DrawingFrame, HasLinesTrianglesDotsAndTextsInTheSpace)
+{
+  FourEntities four;
+  Drawing drawing;
+  drawing.Segment({0, 0, 0}, {1, 2, 3}, {0x102030, 0.5, 4});
+  const Vector3 corners[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  drawing.Polygon(corners, {0x00ff00});
+  drawing.InFrameOf(0);
+  drawing.Point({0, 0, 0.5}, {0xff0000, 1, 8});
+  drawing.Text({0, 0, 1}, "fb \"0\" \xc3\xa9\xff");
+  four.space.SwapDrawing(drawing);
+  four.space.SetTick(9);
+  const std::string bytes = DrawingBytes(four.space);
+  DrawingHeader header;
+  ASSERT_GE(bytes.size(), sizeof header);
+  std::memcpy(&header, bytes.data(), sizeof header);
+  EXPECT_EQ(header.magic, kDrawingMagic);
+  EXPECT_EQ(header.lines, 1U);
+  EXPECT_EQ(header.triangles, 1U);
+  EXPECT_EQ(header.dots, 1U);
+  EXPECT_EQ(header.tick, 9U);
+  ASSERT_EQ(bytes.size(),
+            sizeof header + sizeof(DrawingLine) + sizeof(DrawingTriangle) + sizeof(DrawingDot) + header.text_bytes);
+  const char* place = bytes.data() + sizeof header;
+  DrawingLine line;
+  std::memcpy(&line, place, sizeof line);
+  EXPECT_EQ(line.to[2], 3);
+  EXPECT_EQ(line.colour, 0x10203080U);
+  EXPECT_EQ(line.width, 4);
+  DrawingTriangle triangle;
+  std::memcpy(&triangle, place + sizeof line, sizeof triangle);
+  EXPECT_EQ(triangle.colour, 0x00ff00ffU);
+  EXPECT_EQ(triangle.corners[7], 1);
+  DrawingDot dot;
+  std::memcpy(&dot, place + sizeof line + sizeof triangle, sizeof dot);
+  // The footbot stands at 1, 1.
+  EXPECT_EQ(dot.place[0], 1);
+  EXPECT_EQ(dot.place[2], 0.5F);
+  EXPECT_EQ(dot.diameter, 8);
+  const auto texts = nlohmann::json::parse(bytes.substr(bytes.size() - header.text_bytes));
+  ASSERT_EQ(texts.size(), 1U);
+  EXPECT_EQ(texts[0][2], 1);
+  EXPECT_EQ(texts[0][3], 0xffU);
+  EXPECT_EQ(texts[0][4], "fb \"0\" \xc3\xa9\xef\xbf\xbd") << "what is no UTF-8 is replaced";
+}
+
+}  // namespace
+}  // namespace swarmanoid

@@ -1,0 +1,59 @@
+// What experiment functions draw, in three dimensions; drawing: of drawing.js. Texts are the overlay's.
+import * as THREE from "three";
+import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
+import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
+import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
+
+export class Drawn {
+  constructor(scene) {
+    this.group = new THREE.Group();
+    scene.add(this.group);
+  }
+
+  update(drawing) {
+    if (drawing === this.drawing) return;
+    this.drawing = drawing;
+    for (const thing of this.group.children) {
+      thing.geometry.dispose();
+      thing.material.dispose();
+    }
+    this.group.clear();
+    if (!drawing) return;
+    for (const group of drawing.triangles) this.add(triangles(group), group);
+    for (const group of drawing.lines) this.add(lines(group), group);
+    for (const group of drawing.dots) this.add(dots(group), group);
+  }
+
+  add(thing, { opacity }) {
+    thing.frustumCulled = false;
+    thing.renderOrder = opacity < 1 ? 3 : 2;
+    this.group.add(thing);
+  }
+}
+
+const look = ({ colour, opacity }) => ({ color: colour, opacity, transparent: opacity < 1, depthWrite: opacity === 1 });
+const places = (points) => new THREE.BufferGeometry().setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
+
+function triangles(group) {
+  const over = { side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -4 };
+  return new THREE.Mesh(places(group.points), new THREE.MeshBasicMaterial({ ...look(group), ...over }));
+}
+
+// As wide as they say, which the lines of WebGL are not.
+function lines(group) {
+  const geometry = new LineSegmentsGeometry().setPositions(group.points);
+  return new LineSegments2(geometry, new LineMaterial({ ...look(group), linewidth: group.width, polygonOffset: true, polygonOffsetFactor: -3, polygonOffsetUnits: -6 }));
+}
+
+function dots(group) {
+  const material = new THREE.PointsMaterial({ ...look(group), size: group.width * Math.min(window.devicePixelRatio || 1, 2), sizeAttenuation: false });
+  // Round ones, as balls would be: what they stand on hides no half of them.
+  material.onBeforeCompile = (shader) => {
+    shader.vertexShader = shader.vertexShader.replace(
+      "gl_PointSize = size;",
+      "gl_PointSize = size;\n  gl_Position.z += projectionMatrix[3][2] * size / (2.0 * scale * projectionMatrix[1][1]);",
+    );
+    shader.fragmentShader = shader.fragmentShader.replace("void main() {", "void main() {\n  if (length(gl_PointCoord - 0.5) > 0.5) discard;");
+  };
+  return new THREE.Points(places(group.points), material);
+}
