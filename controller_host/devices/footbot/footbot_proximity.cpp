@@ -132,10 +132,11 @@ void FootbotProximity::FindNear()
       const auto begin = static_cast<std::uint32_t>(near_.size());
       grid.ForEachOtherNear(static_cast<std::size_t>(place_[first + lane]), reach, windows, lane,
                             [&](std::size_t other) { near_.push_back(grid.Sorted()[other]); });
+      const auto fixed_begin = static_cast<std::uint32_t>(near_.size());
       const std::span<const std::uint32_t> fixed = fixed_for_long_->InCell(fixed_cells[lane]);
       near_.insert(near_.end(), fixed.begin(), fixed.end());
       const std::uint32_t count = static_cast<std::uint32_t>(near_.size()) - begin;
-      if (count > 0 || sees_more) surroundings_.push_back({number_[first + lane], begin, count});
+      if (count > 0 || sees_more) surroundings_.push_back({number_[first + lane], begin, count, fixed_begin});
     }
   }
   std::ranges::sort(surroundings_, {}, &Surroundings::k);
@@ -146,6 +147,8 @@ void FootbotProximity::SenseNear()
   const PoseArrays& poses = world_->Space().Poses();
   const std::uint32_t first = robots_.empty() ? 0 : robots_.front();
   const bool all = AllAreDue();
+  // Between the middles of two that see each other.
+  const double furthest = ring_radius_ + range_ + world_->Grid().ShapeOfAll()->radius;
   for (std::size_t n = 0; n < surroundings_.size(); ++n)
   {
     const Surroundings& later = surroundings_[std::min(n + kAhead, surroundings_.size() - 1)];
@@ -164,6 +167,9 @@ void FootbotProximity::SenseNear()
     for (std::uint32_t i = own.first; i < own.first + own.count; ++i)
     {
       const std::uint32_t body = near_[i];
+      const double dx = poses.x[body] - sensors.x();
+      const double dy = poses.y[body] - sensors.y();
+      if (i < own.fixed && dx * dx + dy * dy > furthest * furthest) continue;
       LookAt(robot, sensors, true, body, world_->Body(body), {poses.x[body], poses.y[body], poses.z[body]},
              IsUpright(poses, body));
     }

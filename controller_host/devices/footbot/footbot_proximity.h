@@ -91,10 +91,10 @@ private:
   std::vector<std::uint32_t> number_;  // k of each that is listed
   std::vector<std::int32_t> place_;    // and its place in the grid; both have kLanes more
   std::unique_ptr<FixedBodies> fixed_;
-  // A robot, and those of near_ that are near it.
+  // A robot, and those of near_ that are near it: from `fixed` on bodies that never move.
   struct Surroundings
   {
-    std::uint32_t k, first, count;
+    std::uint32_t k, first, count, fixed;
   };
   bool remembers_ = false;
   std::uint64_t near_since_ = 0;            // MovedSince::Number
