@@ -146,6 +146,7 @@ class Experiments(RunningTest):
         # Behind each step what the robot said in it; two bytes and 0.8 m are those of e-pucks.
         self.assertEqual(sends[1:4], ["0 7 of 2 as far as 0.8"] * 3)
         self.assertIn("\nset 200 200\n", said)
+        self.assertIn("\nsensors 8 0.035 0.1 8 0.03,0.009\n", said)
         # Others hear what was set behind step 2 in step 3, and its controller says its own again then.
         self.assertRegex(self.said_in("run"), "robot 'back' at tick 3: leds 8 heard 2:200\n")
         self.assertRegex(self.said_in("run"), "robot 'front' at tick 3: leds 8 heard 2:7\n")

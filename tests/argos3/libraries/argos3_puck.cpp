@@ -82,6 +82,10 @@ private:
     LOG << "sends " << radio.GetData() << " of " << radio.GetMsgSize() << " as far as " << radio.GetRange()
         << std::endl;
     if (GetSpace().GetSimulationClock() != 2) return;
+    auto& proximity = puck.GetProximitySensorEquippedEntity();
+    LOG << "sensors " << proximity.GetNumSensors() << " " << proximity.GetSensor(2).Offset.GetY() << " "
+        << proximity.GetSensor(2).Direction.Length() << " " << puck.GetLightSensorEquippedEntity().GetNumSensors()
+        << " " << puck.GetGroundSensorEquippedEntity().GetSensor(2).Offset << std::endl;
     CByteArray data(2, 200);
     radio.SetData(data);
     LOG << "set " << radio.GetData() << std::endl;
