@@ -2,7 +2,6 @@
 import * as THREE from "three";
 import { Arena } from "./arena.js";
 import { extentOf } from "./look.js";
-import { Drawn } from "./drawn.js";
 import { Beams, Grips, MarkLines, Trails } from "./overlays.js";
 import { floorPoint, pick, sight } from "./picking.js";
 import { Stage } from "./stage.js";
@@ -35,7 +34,7 @@ export class View3d {
     this.grips = new Grips(scene, world);
     this.trails = new Trails(scene, this.picture.trails);
     this.marks = new MarkLines(scene);
-    this.drawn = new Drawn(scene);
+    this.drawn = null;
     this.rebuildArena();
     this.rebuildSwarm();
     this.stage.setReach(world.arena);
@@ -121,9 +120,26 @@ export class View3d {
     }
     this.trails.update();
     this.marks.update(this.picture.marks.lines(this.stage.theme));
-    this.drawn.update(this.picture.shownDrawing);
+    this.showDrawing(this.picture.shownDrawing);
     this.stage.draw();
     return true;
+  }
+
+  // What shows drawings is loaded for the first of them: few experiments have any.
+  showDrawing(drawing) {
+    if (drawing && !this.drawn && this.Drawn) this.drawn = new this.Drawn(this.stage.scene);
+    if (this.drawn) this.drawn.update(drawing);
+    else if (drawing && !this.loadingDrawn) this.loadDrawn();
+  }
+
+  async loadDrawn() {
+    this.loadingDrawn = true;
+    try {
+      this.Drawn = (await import("./drawn.js")).Drawn;
+      this.stage.invalidate();
+    } catch (error) {
+      this.picture.actions.trouble(`What experiment functions draw is not shown: ${error.message}`);
+    }
   }
 
   // The camera on the robot that is boarded, turned as it is, and by the hand that looks about. Of one that is not in the
