@@ -45,7 +45,7 @@ void FootbotProximity::Init(const DeviceSetup& setup)
   // A tilted robot's rays start up to kHeight beside its base.
   fixed_ = std::make_unique<FixedBodies>(setup.space, world_->Bodies(), ring_radius_ + range_ + kHeight);
 
-  remembers_ = world_->Grid().ShapeOfAll() != nullptr;
+  remembers_ = !world_->HasArticulated();
   if (remembers_)
     fixed_for_long_ = std::make_unique<FixedBodies>(setup.space, world_->Bodies(),
                                                     ring_radius_ + range_ + kHeight + MovedSince::kMostMargin / 2);
@@ -147,8 +147,6 @@ void FootbotProximity::SenseNear()
   const PoseArrays& poses = world_->Space().Poses();
   const std::uint32_t first = robots_.empty() ? 0 : robots_.front();
   const bool all = AllAreDue();
-  // Between the middles of two that see each other.
-  const double furthest = ring_radius_ + range_ + world_->Grid().ShapeOfAll()->radius;
   for (std::size_t n = 0; n < surroundings_.size(); ++n)
   {
     const Surroundings& later = surroundings_[std::min(n + kAhead, surroundings_.size() - 1)];
@@ -167,11 +165,12 @@ void FootbotProximity::SenseNear()
     for (std::uint32_t i = own.first; i < own.first + own.count; ++i)
     {
       const std::uint32_t body = near_[i];
+      const BodyShape& shape = world_->Body(body);
       const double dx = poses.x[body] - sensors.x();
       const double dy = poses.y[body] - sensors.y();
-      if (i < own.fixed && dx * dx + dy * dy > furthest * furthest) continue;
-      LookAt(robot, sensors, true, body, world_->Body(body), {poses.x[body], poses.y[body], poses.z[body]},
-             IsUpright(poses, body));
+      const double reach = ring_radius_ + range_ + shape.radius;
+      if (i < own.fixed && dx * dx + dy * dy > reach * reach) continue;
+      LookAt(robot, sensors, true, body, shape, {poses.x[body], poses.y[body], poses.z[body]}, IsUpright(poses, body));
     }
     if (!world_->Terrain().IsEmpty()) AddTerrain(robot);
     FinishReadings(own.k);

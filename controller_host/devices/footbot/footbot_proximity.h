@@ -59,8 +59,8 @@ private:
   void Forget();
   // Room for the readings of a robot until Forget. What others have stays where it is.
   double* NewReadings(std::size_t k);
-  // Where all movable bodies are upright cylinders of one size: finds out who is near whom, or will be as long as
-  // MovedSince holds; and senses by what was found out.
+  // Where no body has parts that move by themselves, and all stand upright: finds out who is near whom, or will be as
+  // long as MovedSince holds; and senses by what was found out.
   bool KnowsNear() const;
   void FindNear();
   void SenseNear();

@@ -33,6 +33,8 @@ public:
 
   // Whether a body has parts that reach beyond its shape (CollisionModels::Articulated): it is sensed part by part.
   bool IsArticulated(std::uint32_t entity) const { return !parts_of_.empty() && parts_of_[entity] >= 0; }
+  // Whether some body is.
+  bool HasArticulated() const { return !parts_.empty(); }
   // The parts of such a body in the frame of its entity, as of the last Refresh.
   std::span<const CollisionBody> PartsOf(std::uint32_t entity) const
   {

@@ -219,12 +219,14 @@ TEST(FootbotProximity, WhoIsRememberedIsWhoIsNear)
       robots.push_back(n);
     }
     world.AddBlock({3, 1.5, 0.25}, {0.2, 3, 0.5});
+    for (std::uint32_t n = 0; n < 8; ++n)
+      world.AddPrey(random.Uniform(0.3, 2.7), random.Uniform(0.3, 2.7), random.Uniform(0.02, 0.2), 0.1);
     TestSensor sensor(world, "footbot_proximity", "generic_footbot_proximity", robots);
     int seen = 0;
     for (std::uint64_t tick = 1; tick < 80; ++tick)
     {
       world.Space().SetTick(tick);
-      for (const std::uint32_t k : robots)
+      for (const std::uint32_t k : world.Space().Movable())
       {
         Pose pose = world.Space().GetPose(k);
         pose.position += Vector3(random.Uniform(-step, step), random.Uniform(-step, step), 0);
