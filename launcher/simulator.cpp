@@ -62,6 +62,7 @@ struct CSimulator::Roles
         steering(of, server, MakeRunControlSetup(of, with), with.stop),
         hash_log(with.hash_log)
   {
+    server.ShareSpace();
     const unsigned threads =
         std::min(options.threads == 0 ? FreeCores() : options.threads, SharedActivity::kMostThreads);
     if (threads > 1) pool = std::make_unique<WorkerPool>(threads);

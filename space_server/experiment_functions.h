@@ -71,7 +71,8 @@ public:
   void SetAttribute(std::string_view id, std::string_view attribute, double value, int element = 0);
   // From now on ticks count from `first_tick` for random numbers of all (noise, robots, functions) and for what engines
   // forget from time to time, so that a run whose entities were put back repeats itself; `variation`: 0 for the same
-  // numbers, others for others. It is no part of the state: for a run in one process that is not saved.
+  // numbers, others for others. It is no part of the state: throws
+  // std::logic_error if the run is a cluster, and such a run cannot be saved.
   void BeginAgain(std::uint64_t first_tick, std::uint32_t variation);
   // Random numbers of these functions in this step: Init, a PreStep, PostStep or IsFinished, Destroy. They go on from
   // call to call, are others in the next step, and depend on the seed, the id of the functions, the step and the tick

@@ -75,8 +75,16 @@ void SpaceServer::WriteSnapshot(SpaceSnapshot& snapshot) const
   snapshot.attributes.assign(space_.Attributes().begin(), space_.Attributes().end());
 }
 
+void SpaceServer::BeginAgain(std::uint64_t first_tick, std::uint32_t variation)
+{
+  if (!shares_space_) throw std::logic_error("BeginAgain needs all roles in one process: run it with --single-process");
+  space_.BeginAgain(first_tick, variation);
+}
+
 void SpaceServer::SaveState(ByteWriter& state) const
 {
+  if (space_.FirstTick() != 0)
+    throw std::runtime_error("experiment functions began the run again; such a run cannot be saved");
   state.Put(last_);
   state.Put(failed_);
   state.PutArray(moved_);

@@ -53,7 +53,7 @@ public:
   std::span<const std::uint32_t> Moved();
   void WriteSnapshot(SpaceSnapshot& snapshot) const;
   // What the server remembers beside the snapshot. Saving throws std::runtime_error if experiment functions cannot
-  // be saved (HasState is false).
+  // be saved (HasState is false), or began the run again.
   void SaveState(ByteWriter& state) const;
   // The space as in the snapshot, which must fit it; what is sent next is complete only for those who have it too.
   void LoadState(const SpaceSnapshot& snapshot, ByteReader& state);
@@ -78,8 +78,10 @@ public:
   // Changes one attribute at the current tick, before its state goes out. Throws StateError for a value that it cannot
   // have. Of who is held, 0 alone is taken, which ends the hold.
   void SetAttribute(std::uint32_t slot, double value);
+  // All roles read this space: they are in one process with the server.
+  void ShareSpace() { shares_space_ = true; }
   // As SpaceEditor says.
-  void BeginAgain(std::uint64_t first_tick, std::uint32_t variation) { space_.BeginAgain(first_tick, variation); }
+  void BeginAgain(std::uint64_t first_tick, std::uint32_t variation);
   // The current tick is the last one.
   void Finish() { last_ = true; }
   // Has experiment functions draw, if something changed since they did. Throws as Advance does.
@@ -137,6 +139,7 @@ private:
   std::vector<std::uint32_t> changed_slots_;
   std::vector<std::uint32_t> moved_;
   std::vector<bool> told_;  // of each entity: whether it is told already that it was held
+  bool shares_space_ = false;
   bool last_ = false;
   bool failed_ = false;
   bool destroyed_ = false;

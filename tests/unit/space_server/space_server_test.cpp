@@ -58,6 +58,24 @@ TEST(SpaceServer, UpdatesOfAllEnginesMakeTheNextState)
   EXPECT_THAT(std::vector<double>(state.poses.begin(), state.poses.begin() + 3), ElementsAre(1.5, 2.5, 3.5));
 }
 
+// Who does not read this space would draw other random numbers.
+TEST(SpaceServer, ARunBeginsAgainInOneProcessAloneAndIsNotSavedThen)
+{
+  const Experiment experiment = TwoEngines();
+  const Assignment assignment = MakeAssignment(experiment, 1);
+  SpaceServer of_cluster(experiment, assignment, ".");
+  EXPECT_THROW(of_cluster.Editor().BeginAgain(1, 0), std::logic_error);
+  EXPECT_EQ(of_cluster.Space().FirstTick(), 0U);
+
+  SpaceServer server(experiment, assignment, ".");
+  server.ShareSpace();
+  ByteWriter saved;
+  EXPECT_NO_THROW(server.SaveState(saved));
+  server.Editor().BeginAgain(1, 0);
+  EXPECT_EQ(server.Space().FirstTick(), 1U);
+  EXPECT_THROW(server.SaveState(saved), std::runtime_error);
+}
+
 TEST(SpaceServer, OnlyAttributesThatChangedTravel)
 {
   const Experiment experiment = TwoEngines();
