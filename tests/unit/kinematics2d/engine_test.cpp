@@ -109,6 +109,23 @@ TEST(Kinematics2dEngine, RobotsArePutOnThePlaneAndBlocksKeepTheirHeight)
   EXPECT_NEAR(YawOf(f.PoseOf(block).orientation), 0.5, 1e-12);
 }
 
+// Where all stand upright, poses are written by columns.
+TEST(Kinematics2dEngine, BlocksThatAreNotTurnedKeepTheirHeightAmongRobots)
+{
+  EngineFixture f;
+  f.Parameter("distance", "0.1");
+  const auto robot = f.Add(EntityKind::kFootbot, Vector3(2, 3, 0.1));
+  const auto low = f.Add(EntityKind::kBlock, Vector3(5, 5, 0.15), {0, 0, 0}, Vector3(0.5, 0.1, 0.3));
+  const auto other = f.Add(EntityKind::kFootbot, Vector3(4, 3, 0.1));
+  const auto high = f.Add(EntityKind::kBlock, Vector3(8, 5, 0.25), {0, 0, 0}, Vector3(0.5, 0.1, 0.5));
+  f.Start();
+  f.Ticks(3);
+  EXPECT_EQ(f.PoseOf(robot).position.z(), 0.1);
+  EXPECT_EQ(f.PoseOf(other).position.z(), 0.1);
+  EXPECT_NEAR(f.PoseOf(low).position.z(), 0.15, 1e-12);
+  EXPECT_NEAR(f.PoseOf(high).position.z(), 0.25, 1e-12);
+}
+
 // Also while others on the plane drive.
 TEST(Kinematics2dEngine, BlocksThatLeanKeepTheirHeightAndLean)
 {
