@@ -6,6 +6,7 @@
 
 #include "common/math/convex_outline.h"
 #include "common/math/elementary.h"
+#include "common/space/drawn_shapes.h"
 #include "common/space/space.h"
 
 namespace swarmanoid
@@ -159,19 +160,9 @@ private:
 
 void AddDrawing(const CSwarmanoidSpace& space, PlanPicture& picture)
 {
-  static const std::string kNone;
-  const Drawing& drawing = space.GetDrawing();
-  std::size_t number = 0;
-  std::size_t text = 0;
-  for (const DrawnShape& shape : drawing.shapes)
-  {
-    const std::span<const float> numbers(&drawing.numbers[number], shape.count);
-    number += shape.count;
-    const std::string& words = shape.kind == Kind::kText ? drawing.texts[text++] : kNone;
-    if (shape.frame > 0 && !space.IsPresent(shape.frame - 1)) continue;
-    const Pose frame = shape.frame > 0 ? space.GetPose(shape.frame - 1) : Pose();
-    PlanDrawer(shape, numbers, frame, picture).Draw(shape.kind, words);
-  }
+  ForEachDrawnShape(
+      space, [&](const DrawnShape& shape, std::span<const float> numbers, std::string_view words, const Pose& frame)
+      { PlanDrawer(shape, numbers, frame, picture).Draw(shape.kind, std::string(words)); });
 }
 
 }  // namespace swarmanoid

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <span>
 
+#include "common/space/drawn_shapes.h"
 #include "common/space/space.h"
 
 namespace swarmanoid
@@ -190,24 +191,13 @@ void CutDrawing(const CSwarmanoidSpace& space, DrawnMarks& marks)
   marks.triangles.clear();
   marks.dots.clear();
   marks.texts.clear();
-  const Drawing& drawing = space.GetDrawing();
-  std::size_t number = 0;
-  std::size_t text = 0;
-  for (const DrawnShape& shape : drawing.shapes)
-  {
-    const std::span<const float> numbers(&drawing.numbers[number], shape.count);
-    number += shape.count;
-    const std::string_view words = shape.kind == Kind::kText ? drawing.texts[text++] : std::string_view();
-    Isometry3f frame = Isometry3f::Identity();
-    if (shape.frame > 0)
-    {
-      const std::uint32_t entity = shape.frame - 1;
-      if (!space.IsPresent(entity)) continue;
-      const Pose pose = space.GetPose(entity);
-      frame = Translation3f(pose.position.cast<float>()) * pose.orientation.cast<float>();
-    }
-    Cutter(shape, numbers, frame, marks).Cut(shape.kind, words);
-  }
+  ForEachDrawnShape(
+      space,
+      [&](const DrawnShape& shape, std::span<const float> numbers, std::string_view words, const Pose& pose)
+      {
+        const Isometry3f frame(Translation3f(pose.position.cast<float>()) * pose.orientation.cast<float>());
+        Cutter(shape, numbers, frame, marks).Cut(shape.kind, words);
+      });
 }
 
 }  // namespace swarmanoid
