@@ -67,10 +67,7 @@ void ShareData(Qos& qos, Bus& bus, const HotScope& scope)
   if (!SharesMemory(bus, scope)) return;
   qos.data_sharing().on(scope.directory, {MachineId()});
   if (bus.Internals().insecure) return;
-  eprosima::fastrtps::rtps::Locator_t nowhere;
-  nowhere.kind = LOCATOR_KIND_SHM;
-  nowhere.port = 1;
-  qos.endpoint().unicast_locator_list.push_back(nowhere);
+  qos.endpoint().unicast_locator_list.push_back(NowhereLocator());
 }
 
 }  // namespace

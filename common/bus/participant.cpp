@@ -267,7 +267,7 @@ Bus::Impl::Impl(const BusOptions& options, const std::string& name)
   udp->interfaceWhiteList = InterfaceAddresses(options.network_interface);
   datagrams->forged = [this](const GuidPrefix& member, const std::string& sender) { RefuseDatagram(member, sender); };
   if (insecure)
-    qos.transport().user_transports.push_back(udp);
+    qos.transport().user_transports.push_back(std::make_shared<DiscardingTransportDescriptor>(udp));
   else
     qos.transport().user_transports.push_back(
         std::make_shared<SignedTransportDescriptor>(udp, std::make_shared<DatagramSignatures>(key_ring), datagrams));

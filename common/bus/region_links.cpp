@@ -124,7 +124,11 @@ bool RegionTeamLink::SendAndWait(std::chrono::milliseconds most)
   const auto until = std::chrono::steady_clock::now() + most;
   Patience patience;
   std::unique_lock lock(mutex_);
-  const auto all_here = [this] { return std::ranges::all_of(places_, &Place::is_here); };
+  // The answer to the end of the run may be lost: a region leaves after it, and the memory in which it is goes, too.
+  const auto has_left = [this](const Place& place)
+  { return task_.number == kEndOfRun && session_.HasLeft(place.name, tick_); };
+  const auto all_here = [&]
+  { return std::ranges::all_of(places_, [&](const Place& place) { return place.is_here || has_left(place); }); };
   while (!changed_.wait_for(lock, patience.time, [&] { return all_here() || begins_again_; }))
   {
     if (std::chrono::steady_clock::now() > until) return false;

@@ -27,11 +27,11 @@ std::string TextOf(const rtps::Locator_t& locator)
   return fmt::format("{} port {}", rtps::IPLocator::toIPv4string(locator), locator.port);
 }
 
-class SignedTransport : public transport::ChainingTransport
+class SignedTransport : public DiscardingTransport
 {
 public:
   explicit SignedTransport(const SignedTransportDescriptor& descriptor)
-      : ChainingTransport(descriptor), descriptor_(descriptor)
+      : DiscardingTransport(descriptor), descriptor_(descriptor)
   {
   }
 
@@ -47,6 +47,7 @@ public:
   bool send(rtps::SenderResource* below, const rtps::octet* bytes, std::uint32_t size, rtps::LocatorsIterator* first,
             rtps::LocatorsIterator* last, const std::chrono::steady_clock::time_point& timeout) override
   {
+    if (!HasDestination(*first, *last)) return true;
     std::vector<char> room;
     std::span<const char> datagram;
     if (!Try([&] { datagram = descriptor_.signatures->Sign({reinterpret_cast<const char*>(bytes), size}, room); }))
@@ -96,7 +97,7 @@ private:
 SignedTransportDescriptor::SignedTransportDescriptor(std::shared_ptr<transport::TransportDescriptorInterface> udp,
                                                      std::shared_ptr<DatagramSignatures> its_signatures,
                                                      std::shared_ptr<Listener> its_listener)
-    : ChainingTransportDescriptor(std::move(udp)),
+    : DiscardingTransportDescriptor(std::move(udp)),
       signatures(std::move(its_signatures)),
       listener(std::move(its_listener))
 {

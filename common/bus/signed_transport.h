@@ -1,20 +1,18 @@
 // UDP whose datagrams are signed and checked by DatagramSignatures, as a transport of Fast DDS.
 #pragma once
 
-#include <fastdds/rtps/transport/ChainingTransport.h>
-#include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
-
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
 
 #include "common/bus/datagram_signatures.h"
+#include "common/bus/discarding_transport.h"
 
 namespace swarmanoid
 {
 
-struct SignedTransportDescriptor : eprosima::fastdds::rtps::ChainingTransportDescriptor
+struct SignedTransportDescriptor : DiscardingTransportDescriptor
 {
   // Called in threads of the transport.
   struct Listener
@@ -29,7 +27,6 @@ struct SignedTransportDescriptor : eprosima::fastdds::rtps::ChainingTransportDes
                             std::shared_ptr<DatagramSignatures> its_signatures, std::shared_ptr<Listener> its_listener);
 
   eprosima::fastdds::rtps::TransportInterface* create_transport() const override;
-  std::uint32_t max_message_size() const override { return maxMessageSize; }
 
   const std::shared_ptr<DatagramSignatures> signatures;
   const std::shared_ptr<Listener> listener;

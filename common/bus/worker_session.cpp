@@ -136,11 +136,16 @@ void WorkerSession::HearLeaves(const std::string& experiment)
   leaves_ = std::make_unique<Subscription<LeaveMessage>>(bus_, experiment,
                                                          [this](const LeaveMessage& leave)
                                                          {
-                                                           if (leave.name != "space server") return;
-                                                           const bool own = leave.process == ProcessId();
-                                                           if (!leave.process.empty() && !own) return;
                                                            const std::lock_guard lock(mutex_);
                                                            const bool of_run = leave.run == world_.run;
+                                                           if (leave.name != "space server")
+                                                           {
+                                                             if (of_run && leave.error.empty())
+                                                               left_[leave.name] = leave.tick;
+                                                             return;
+                                                           }
+                                                           const bool own = leave.process == ProcessId();
+                                                           if (!leave.process.empty() && !own) return;
                                                            const bool ends_share =
                                                                !have_world_ && !own && !leave.error.empty();
                                                            if (have_world_ ? !of_run : !ends_share) return;
@@ -212,6 +217,13 @@ bool WorkerSession::IsOver() const
 {
   const std::lock_guard lock(mutex_);
   return others_error_ || server_left_ || ServerHasGone();
+}
+
+bool WorkerSession::HasLeft(const std::string& name, std::uint64_t tick) const
+{
+  const std::lock_guard lock(mutex_);
+  const auto found = left_.find(name);
+  return found != left_.end() && found->second == tick;
 }
 
 void WorkerSession::Trust(const std::string& name)

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -67,6 +68,8 @@ public:
   bool RunHasEnded() const;
   // Whether the run has ended or failed, or its server has gone: then Follow returns the reason.
   bool IsOver() const;
+  // Whether the process of that name has said that its work is done, and that tick was its last one.
+  bool HasLeft(const std::string& name, std::uint64_t tick) const;
   // For one who looks on, after Follow: if the server was lost and its run may go on with another one, says so and
   // waits for that one, and joins it. False if none has come in time, or `idle`, which is called all the while, returns
   // true.
@@ -129,6 +132,7 @@ private:
   bool answered_ = false;  // the server has read that this process leaves
   std::string server_process_;
   std::set<std::string> trusted_;
+  std::map<std::string, std::uint64_t> left_;  // last tick by name
   std::string last_status_;
   WorldMessage world_;
   std::optional<WorldMessage> next_world_;  // of the server that goes on with the run

@@ -24,6 +24,16 @@ TEST_F(ClusterTest, AKilledWorkerEndsTheRunWithinTheLeaseAndIsNamed)
   ChildProcess server = StartServer(WriteExperiment("deadly", 2, 0), {"--hash-log", folder_ + "/hashes.txt"});
   std::vector<ChildProcess> workers = StartWorkers("deadly", 2, 1);
   ASSERT_TRUE(Reaches(100)) << server.Output();
+  {
+    BusOptions options;
+    options.domain = domain_.Id();
+    Bus bus(options, "test");
+    ControlClient client(bus, "deadly");
+    const auto reply = client.Ask("pause", "", {}, kGenerous_s);
+    ASSERT_TRUE(reply && reply->ok) << server.Output();
+  }
+  // Asleep it holds no lock of the memory that it shares with the others, which end in another way then.
+  ASSERT_TRUE(workers[1].StopAsleep());
   const auto killed = std::chrono::steady_clock::now();
   workers[1].Signal(SIGKILL);
   EXPECT_EQ(server.Wait(), 6);

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 
 #include <atomic>
+#include <future>
 #include <map>
 #include <mutex>
 #include <set>
@@ -12,7 +13,9 @@
 #include <gtest/gtest.h>
 
 #include "common/activity/exit_codes.h"
+#include "common/bus/region_links.h"
 #include "common/bus/worker_session.h"
+#include "common/space/space.h"
 #include "tests/eventually.h"
 #include "tests/unit/bus/separate_processes.h"
 #include "tests/unit/bus/server_fixture.h"
@@ -139,6 +142,37 @@ TEST_F(Leaving, IsReadBeforeTheProcessIsMissed)
       }));
   EXPECT_EQ(session.Failure().value_or("none"), "none");
   EXPECT_EQ(session.FirstLeft(), "engine 'ground'");
+}
+
+// The last answer of a region may be lost with its memory.
+TEST_F(Leaving, OfARegionAtItsEndCountsAsItsAnswer)
+{
+  Bus server(options_, "space server");
+  Publisher<WorldMessage> worlds(server, "leaving");
+  worlds.Write(world_);
+  Experiment experiment;
+  experiment.arena_size = {10, 10, 1};
+  experiment.engines.resize(1);
+  experiment.engines[0].id = "ground";
+  experiment.engines[0].split.regions = 2;
+  const CSwarmanoidSpace space(experiment);
+  WorkerSession session(options_, "leaving", "engine 'ground'");
+  RegionTeamLink team(session, experiment, 0, TickLimits(space, MakeAssignment(experiment, 1), false));
+  std::mutex role;
+  team.Begin(role);
+  team.SetTick(7);
+  const auto end = std::async(std::launch::async, [&] { team.End(); });
+  Publisher<LeaveMessage> leaves(server, "leaving");
+  const auto leave = [&](unsigned region, std::uint64_t tick) {
+    leaves.Write({world_.run, tick, RegionName(experiment, 0, region), "another:1", ""});
+  };
+  leave(0, 7);
+  // One that was moved to another machine, where its place is taken.
+  leave(1, 6);
+  ASSERT_TRUE(Eventually([&] { return session.HasLeft(RegionName(experiment, 0, 1), 6); }));
+  EXPECT_EQ(end.wait_for(500ms), std::future_status::timeout);
+  leave(1, 7);
+  EXPECT_EQ(end.wait_for(20s), std::future_status::ready);
 }
 
 // On another machine, after the connection by ssh has broken. An exception would take endpoints down that may wait for

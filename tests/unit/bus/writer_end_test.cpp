@@ -1,9 +1,13 @@
-// How a writer ends while its heartbeat goes out.
+// Where a writer of Fast DDS 2.9 would go on for ever: while it ends, and for a reader without an address.
 #include <unistd.h>
 
+#include <atomic>
 #include <cstring>
+#include <filesystem>
+#include <functional>
 
 #include "common/bus/participant.h"
+#include "common/bus/run_directory.h"
 #include "tests/eventually.h"
 #include "tests/unit/bus/separate_processes.h"
 #include "tests/unit/bus/server_fixture.h"
@@ -90,6 +94,65 @@ TEST_F(WriterEndTest, EndsWhileItsHeartbeatGoesOut)
       },
       testing::ExitedWithCode(0), "");
 }
+
+// As a process that has just ended, and is still known.
+void RemoveMemory(const std::string& folder)
+{
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.path().filename().string().starts_with("fast_datasharing")) std::filesystem::remove(entry.path());
+}
+
+// Messages in fragments to one whose shared memory cannot be opened, and to one who is there.
+void WriteToOneWithoutMemory(BusOptions options, const std::string& folder, bool insecure)
+{
+  options.insecure = insecure;
+  const test::SeparateProcesses separate;
+  const RunDirectory directory("writer_end", 5);
+  const HotScope scope{"writer_end", directory.Path(), false, 400'000, 1};
+  std::atomic<std::size_t> read = 0;
+  SpaceState of_lost, of_other, state;
+  const auto handler = [](SpaceState& place, std::function<void(const SpaceState&)> received)
+  {
+    return HotSubscription<SpaceState>::Handler{[&place](const MessageHeader&) { return &place; },
+                                                [received](const MessageHeader&, SpaceState& message)
+                                                { received(message); }};
+  };
+  Bus of_lost_reader(options, "lost");
+  const HotSubscription<SpaceState> lost(of_lost_reader, scope, handler(of_lost, [](const SpaceState&) { FAIL(); }));
+  RemoveMemory(folder);
+  Bus of_other_reader(options, "other");
+  const HotSubscription<SpaceState> other(of_other_reader, scope,
+                                          handler(of_other, [&](const SpaceState& s) { read = s.poses.size(); }));
+  Bus of_writer(options, "writer");
+  HotPublisher<SpaceState> writer(of_writer, scope);
+  ASSERT_TRUE(test::Eventually([&] { return writer.Readers() == 2 && other.Writers() == 1; }));
+  state.poses.assign(40'000, 1.0);
+  ASSERT_TRUE(test::Eventually(
+      [&]
+      {
+        writer.Write({1, 1, 0, false}, state);
+        return read == state.poses.size();
+      }));
+}
+
+class WriterToNobody : public WriterEndTest, public testing::WithParamInterface<bool>
+{
+};
+
+TEST_P(WriterToNobody, IsNotHeldUpByAReaderWhoseMemoryHasGone)
+{
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  EXPECT_EXIT(
+      {
+        alarm(60);
+        WriteToOneWithoutMemory(options_, folder_, GetParam());
+        _exit(testing::Test::HasFailure() ? 1 : 0);
+      },
+      testing::ExitedWithCode(0), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Writers, WriterToNobody, testing::Bool(),
+                         [](const auto& of) { return of.param ? "WithoutKeys" : "WithKeys"; });
 
 }  // namespace
 }  // namespace swarmanoid
