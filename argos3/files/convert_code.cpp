@@ -55,7 +55,8 @@ std::string BytesOf(const std::string& file)
 
 std::vector<std::string> LibraryNames(const std::string& library)
 {
-  return {library, library + ".so", "lib" + library + ".so"};
+  const fs::path path(library);
+  return {library, library + ".so", (path.parent_path() / ("lib" + path.filename().string() + ".so")).string()};
 }
 
 }  // namespace
@@ -288,7 +289,8 @@ std::optional<std::string> CodeConverter::Found(const std::vector<fs::path>& fol
       const fs::path file = (folder / name).lexically_normal();
       std::error_code none;
       if (fs::is_regular_file(file, none)) return file.string();
-      searched += "\n    " + file.string();
+      const std::string line = "\n    " + file.string();
+      if ((searched + "\n").find(line + "\n") == std::string::npos) searched += line;
     }
   return std::nullopt;
 }

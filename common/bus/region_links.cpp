@@ -18,6 +18,7 @@ constexpr std::uint32_t kFirstTask = 0;
 constexpr std::uint32_t kEndOfRun = ~0U;
 constexpr std::chrono::milliseconds kFirstWait = 100ms;  // of what may have been lost
 constexpr std::chrono::milliseconds kLastWait = 1s;
+constexpr std::chrono::milliseconds kLook = 2ms;  // whether the engine has left
 constexpr std::chrono::milliseconds kForEver = std::chrono::hours(24 * 365);
 constexpr std::chrono::milliseconds kEndTime = 60s;  // for a region that is on its way
 
@@ -124,11 +125,7 @@ bool RegionTeamLink::SendAndWait(std::chrono::milliseconds most)
   const auto until = std::chrono::steady_clock::now() + most;
   Patience patience;
   std::unique_lock lock(mutex_);
-  // The answer to the end of the run may be lost: a region leaves after it, and the memory in which it is goes, too.
-  const auto has_left = [this](const Place& place)
-  { return task_.number == kEndOfRun && session_.HasLeft(place.name, tick_); };
-  const auto all_here = [&]
-  { return std::ranges::all_of(places_, [&](const Place& place) { return place.is_here || has_left(place); }); };
+  const auto all_here = [this] { return std::ranges::all_of(places_, &Place::is_here); };
   while (!changed_.wait_for(lock, patience.time, [&] { return all_here() || begins_again_; }))
   {
     if (std::chrono::steady_clock::now() > until) return false;
@@ -198,6 +195,7 @@ RegionLink::RegionLink(WorkerSession& session, const Experiment& experiment, std
                        const TickLimits& limits)
     : session_(session),
       engine_(static_cast<std::uint32_t>(engine)),
+      engine_name_(EngineName(experiment, engine)),
       first_(RegionNumber(experiment, engine, 0)),
       own_(region),
       regions_(RegionsOf(experiment.engines[engine])),
@@ -222,7 +220,7 @@ RegionLink::RegionLink(WorkerSession& session, const Experiment& experiment, std
               [this](const MessageHeader& header, RegionTaskMessage& task) { TaskReceived(header, task); },
               [this](const MessageHeader&, const RegionTaskMessage& task) { RequireParts(task, regions_); }})
 {
-  session.Trust(EngineName(experiment, engine));
+  session.Trust(engine_name_);
   for (unsigned k = 0; k < regions_; ++k)
     if (k != region) session.Trust(RegionName(experiment, engine, k));
 }
@@ -334,10 +332,15 @@ void RegionLink::Answer(std::uint32_t epoch, std::uint32_t number, std::span<con
   results_.Write(session_.Header(tick_, first_ + own_), answer_);
 }
 
+// What it answered last may be lost, and would go with its process: it stays for as long as the engine asks.
+bool RegionLink::EngineHasLeft() const { return tasks_.Writers() == 0 || session_.HasLeft(engine_name_, tick_); }
+
 RegionLink::Next RegionLink::WaitForNext()
 {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return next_ || is_asked_again_ || is_halo_missed_ || is_lost_ || is_closed_; });
+  const auto is_due = [this] { return next_ || is_asked_again_ || is_halo_missed_ || is_lost_ || is_closed_; };
+  while (!changed_.wait_for(lock, is_over_ ? kLook : kForEver, is_due))
+    if (is_over_ && EngineHasLeft()) return Next::kEnd;
   if (is_closed_) return Next::kEnd;
   if (next_)
   {
@@ -390,10 +393,9 @@ void RegionLink::Serve(EngineRegion& region)
       const std::lock_guard lock(mutex_);
       is_done_ = !next_;
     }
-    if (task_.number != kEndOfRun) continue;
-    is_over_ = true;
-    return session_.Finish(tick_);
+    is_over_ = task_.number == kEndOfRun;
   }
+  if (is_over_) session_.Finish(tick_);
 }
 
 void RegionLink::Close()

@@ -85,7 +85,8 @@ public:
 
   // Of the engine worker and the other regions, those whose topics have not been met yet.
   unsigned Missing() const;
-  // Does tasks until the run is over, or the program asks for the end (Close). What fails is told to the engine.
+  // Does tasks until the run is over and the engine has left, or the program asks for the end (Close). What fails is
+  // told to the engine.
   void Serve(EngineRegion& region);
   // The engine has said that the run is over. Others may have left already.
   bool IsOver() const { return is_over_; }
@@ -111,12 +112,15 @@ private:
     kEnd
   };
   Next WaitForNext();
+  // After the end of the run.
+  bool EngineHasLeft() const;
   void WriteHalo(const RegionHaloMessage& halo, bool lacks_others = false);
   // Those of the task that another one may lack.
   void WriteHalosAgain(bool lacks_others);
 
   WorkerSession& session_;
   const std::uint32_t engine_;
+  const std::string engine_name_;
   const std::uint32_t first_;  // number of region 0 of the engine
   const std::uint32_t own_;    // of this one, from 0
   const unsigned regions_;     // of the engine

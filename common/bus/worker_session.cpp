@@ -223,7 +223,7 @@ bool WorkerSession::HasLeft(const std::string& name, std::uint64_t tick) const
 {
   const std::lock_guard lock(mutex_);
   const auto found = left_.find(name);
-  return found != left_.end() && found->second == tick;
+  return found != left_.end() && found->second >= tick;
 }
 
 void WorkerSession::Trust(const std::string& name)

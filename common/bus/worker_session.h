@@ -68,7 +68,7 @@ public:
   bool RunHasEnded() const;
   // Whether the run has ended or failed, or its server has gone: then Follow returns the reason.
   bool IsOver() const;
-  // Whether the process of that name has said that its work is done, and that tick was its last one.
+  // Whether the process of that name has said that its work is done, at that tick or a later one.
   bool HasLeft(const std::string& name, std::uint64_t tick) const;
   // For one who looks on, after Follow: if the server was lost and its run may go on with another one, says so and
   // waits for that one, and joins it. False if none has come in time, or `idle`, which is called all the while, returns

@@ -241,6 +241,10 @@ class Experiments(RunningTest):
         result = self.swarmanoid("check", file, code=3)
         self.assertRegex(result.stderr, r"wander\.argos:8:\d+: the library 'build/libnone.so' is not found")
         self.assertIn("ARGOS_PLUGIN_PATH", result.stderr)
+        searched = [line.strip() for line in result.stderr.partition("searched:\n")[2].splitlines() if line.startswith("    ")]
+        self.assertIn(f"{self.folder}/build/libnone.so", searched)
+        self.assertIn(f"{self.folder}/build/liblibnone.so.so", searched)
+        self.assertEqual(len(searched), len(set(searched)))
 
     def test_mistakes_of_parameters_name_their_place(self):
         result = self.swarmanoid("check", self.changed("wander.argos", ('velocity="5"', 'speed="5"')), code=3)

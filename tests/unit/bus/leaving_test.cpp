@@ -3,7 +3,6 @@
 #include <fcntl.h>
 
 #include <atomic>
-#include <future>
 #include <map>
 #include <mutex>
 #include <set>
@@ -144,9 +143,15 @@ TEST_F(Leaving, IsReadBeforeTheProcessIsMissed)
   EXPECT_EQ(session.FirstLeft(), "engine 'ground'");
 }
 
-// The last answer of a region may be lost with its memory.
-TEST_F(Leaving, OfARegionAtItsEndCountsAsItsAnswer)
+// What a region answered last may be lost, and its process would take it along.
+TEST_F(Leaving, RegionsStayUntilTheirEngineHasLeft)
 {
+  struct NoWork : EngineRegion
+  {
+    void Work(std::span<const char>, ByteWriter&) override {}
+  };
+  // A process has one folder of a run; these are three.
+  world_.spread = true;
   Bus server(options_, "space server");
   Publisher<WorldMessage> worlds(server, "leaving");
   worlds.Write(world_);
@@ -156,23 +161,52 @@ TEST_F(Leaving, OfARegionAtItsEndCountsAsItsAnswer)
   experiment.engines[0].id = "ground";
   experiment.engines[0].split.regions = 2;
   const CSwarmanoidSpace space(experiment);
-  WorkerSession session(options_, "leaving", "engine 'ground'");
-  RegionTeamLink team(session, experiment, 0, TickLimits(space, MakeAssignment(experiment, 1), false));
+  const TickLimits limits(space, MakeAssignment(experiment, 1), false);
+  std::vector<std::unique_ptr<WorkerSession>> sessions;
+  for (const std::string& name :
+       {RegionName(experiment, 0, 0), RegionName(experiment, 0, 1), std::string("engine 'ground'")})
+  {
+    const std::string folder = fmt::format("{}-worker/{}", folder_, sessions.size());
+    std::filesystem::create_directories(folder);
+    setenv("SWARMANOID_SHARED_FOLDER", folder.c_str(), 1);
+    sessions.push_back(std::make_unique<WorkerSession>(options_, "leaving", name));
+  }
+  std::atomic<int> left = 0;
+  std::vector<std::jthread> regions;
+  for (const unsigned k : {0U, 1U})
+    regions.emplace_back(
+        [&, k]
+        {
+          RegionLink link(*sessions[k], experiment, 0, k, limits);
+          NoWork region;
+          link.Serve(region);
+          EXPECT_TRUE(link.IsOver());
+          ++left;
+        });
+  RegionTeamLink team(*sessions[2], experiment, 0, limits);
+  ASSERT_TRUE(Eventually([&] { return team.Missing() == 0; }));
   std::mutex role;
   team.Begin(role);
   team.SetTick(7);
-  const auto end = std::async(std::launch::async, [&] { team.End(); });
+  {
+    const std::lock_guard lock(role);
+    std::vector<std::vector<char>> results(2);
+    team.Work(
+        true, [](bool, std::span<ByteWriter>) {}, results);
+  }
+  // However often it asks.
+  for (int k = 0; k < 3; ++k)
+  {
+    team.End();
+    EXPECT_EQ(team.Awaited(), "") << k;
+  }
   Publisher<LeaveMessage> leaves(server, "leaving");
-  const auto leave = [&](unsigned region, std::uint64_t tick) {
-    leaves.Write({world_.run, tick, RegionName(experiment, 0, region), "another:1", ""});
-  };
-  leave(0, 7);
-  // One that was moved to another machine, where its place is taken.
-  leave(1, 6);
-  ASSERT_TRUE(Eventually([&] { return session.HasLeft(RegionName(experiment, 0, 1), 6); }));
-  EXPECT_EQ(end.wait_for(500ms), std::future_status::timeout);
-  leave(1, 7);
-  EXPECT_EQ(end.wait_for(20s), std::future_status::ready);
+  // One that was moved to another machine, where its place was taken.
+  leaves.Write({world_.run, 6, "engine 'ground'", "another:1", ""});
+  std::this_thread::sleep_for(200ms);
+  EXPECT_EQ(left, 0);
+  leaves.Write({world_.run, 8, "engine 'ground'", ProcessId(), ""});
+  EXPECT_TRUE(Eventually([&] { return left == 2; }));
 }
 
 // On another machine, after the connection by ssh has broken. An exception would take endpoints down that may wait for
