@@ -305,7 +305,9 @@ int RunExperiment(const RunSettings& given, const WatchFunction& watch)
   const RunSettings asked = given.branch.empty() ? given : SettingsOfBranch(given);
   auto experiment = LoadOrComplain(asked.file, ChangesOf(asked));
   if (!experiment) return kExitInvalidFile;
-  if (!asked.show.empty()) experiment = WithShown(*experiment, asked.show);
+  std::vector<std::string> shown = asked.show;
+  if (asked.ros2) shown.emplace_back("ros2");
+  if (!shown.empty()) experiment = WithShown(*experiment, shown);
   RunSettings options = asked;
   if (WantsOneProcess(asked, *experiment))
   {
@@ -331,7 +333,7 @@ int RunExperiment(const RunSettings& given, const WatchFunction& watch)
     if (branch) Begin(*branch, *experiment, folder, options, manifest);
     folder.Write("experiment.xml", experiment->effective_xml);
     // The space server reads our files alone.
-    if (IsOfArgos3(asked) || !asked.show.empty()) options.file = folder.File("experiment.xml");
+    if (IsOfArgos3(asked) || !shown.empty()) options.file = folder.File("experiment.xml");
     folder.Write("manifest.json", manifest.Text());
     Begun first{std::move(options), std::move(experiment), folder, std::move(manifest)};
     if (!first.options.single_process) return RunAsCluster(first, watch);

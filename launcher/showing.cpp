@@ -103,19 +103,22 @@ std::string WithVisualisation(const std::string& effective_xml, const std::strin
   return text.insert(text.rfind(last), section);
 }
 
-std::unique_ptr<Experiment> WithShown(const Experiment& experiment, const std::string& kind)
+std::unique_ptr<Experiment> WithShown(const Experiment& experiment, const std::vector<std::string>& kinds)
 {
-  const std::string tag = kind.ends_with("_render") ? kind : kind + "_render";
-  const std::vector<std::string> known = PluginCatalogue::Instance().Labels(PluginKind::kRenderer);
-  if (std::ranges::find(known, tag) == known.end())
-    throw UsageError(fmt::format("--show: there is no renderer {}; there are {}", Quoted(tag), Listed(known)));
-  const std::string element =
-      fmt::format("<{} id=\"shown\"{}/>", tag, tag == "web_render" ? " allow_control=\"true\"" : "");
   std::string text = experiment.effective_xml;
-  if (const std::size_t end = text.find("</visualisations>"); end != std::string::npos)
-    text.insert(end, "  " + element + "\n  ");
-  else
-    text = WithVisualisation(text, element);
+  for (std::size_t k = 0; k < kinds.size(); ++k)
+  {
+    const std::string tag = kinds[k].ends_with("_render") ? kinds[k] : kinds[k] + "_render";
+    const std::vector<std::string> known = PluginCatalogue::Instance().Labels(PluginKind::kRenderer);
+    if (std::ranges::find(known, tag) == known.end())
+      throw UsageError(fmt::format("--show: there is no renderer {}; there are {}", Quoted(tag), Listed(known)));
+    const std::string element = fmt::format("<{} id=\"shown{}\"{}/>", tag, k == 0 ? "" : fmt::format("_{}", k + 1),
+                                            tag == "web_render" ? " allow_control=\"true\"" : "");
+    if (const std::size_t end = text.find("</visualisations>"); end != std::string::npos)
+      text.insert(end, "  " + element + "\n  ");
+    else
+      text = WithVisualisation(text, element);
+  }
   LoadedExperiment loaded = LoadExperimentText(text, experiment.name + ".xml", experiment.folder);
   if (loaded.experiment) return std::move(loaded.experiment);
   throw UsageError("--show: " + loaded.errors.front().Text());

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "common/experiment/experiment.h"
 
@@ -30,8 +31,8 @@ bool HasPictures(const Experiment& experiment);
 // From the current folder, if the file is in it; otherwise the path as it is.
 std::string ShortPath(const std::string& path);
 
-// The experiment with one visualisation more: "web", "opengl" … Throws UsageError if there is no such renderer.
-std::unique_ptr<Experiment> WithShown(const Experiment& experiment, const std::string& kind);
+// The experiment with visualisations more: "web", "opengl" … Throws UsageError if there is no such renderer.
+std::unique_ptr<Experiment> WithShown(const Experiment& experiment, const std::vector<std::string>& kinds);
 // The text with the visualisation in the place of its own ones.
 std::string WithVisualisation(const std::string& effective_xml, const std::string& element);
 

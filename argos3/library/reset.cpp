@@ -62,8 +62,8 @@ void RequireControllersHere()
     if (!space.IsPresent(i) || ours.GetConfiguration().controller.empty()) continue;
     if (running.controlled.count(ours.GetId()) != 0) continue;
     THROW_ARGOSEXCEPTION("the controller of '" << running.translation.Argos3Id(ours.GetId())
-                                               << "' is not in this process: loop functions reset robots in a run with "
-                                               << "--single-process");
+                                               << "' is not in this process: loop functions reset, enable and disable "
+                                               << "robots in a run with --single-process");
   }
 }
 
@@ -115,6 +115,17 @@ void CEmbodiedEntity::Reset()
   m_sOriginAnchor.Position = anchor.Position;
   m_sOriginAnchor.Orientation = anchor.Orientation;
   UpdateAnchors();
+}
+
+void CControllableEntity::SetEnabled(bool enabled)
+{
+  if (enabled == IsEnabled()) return;
+  CEntity::SetEnabled(enabled);
+  const auto* ours = PresentOf(*this);
+  if (ours == nullptr || ours->GetConfiguration().controller.empty() || TheRunning().rehearsal) return;
+  const auto found = TheRunning().controlled.find(ours->GetId());
+  if (found == TheRunning().controlled.end()) return RequireControllersHere();
+  found->second->SetEnabled(enabled);
 }
 
 void CControllableEntity::Reset()

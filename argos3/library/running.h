@@ -84,6 +84,7 @@ public:
   virtual ~ControlledRobot() = default;
   // Reset of its devices and its controller.
   virtual void Reset() = 0;
+  virtual void SetEnabled(bool enabled) = 0;
 };
 
 // How an entity came into the arena, or was when Init of the loop functions was called.

@@ -53,7 +53,7 @@ public:
   {
     // ARGoS3 moves robots before it asks their controllers for the first time.
     if (GetRobot()->GetTick() == 0) return;
-    if (controller_ == nullptr) return;
+    if (controller_ == nullptr || !is_enabled_) return;
     const Speaker speaker(*GetRobot());
     for (const auto& sensor : sensors_) sensor->Update();
     controller_->ControlStep();
@@ -71,9 +71,11 @@ public:
   bool ReadsParametersLater() const override { return true; }
 
 private:
+  void SetEnabled(bool enabled) override { is_enabled_ = enabled; }
   void Take(const std::string& id) override
   {
     Leave();
+    is_enabled_ = true;
     Start(id);
   }
   void Leave() override
@@ -166,6 +168,7 @@ private:
 
   Translation translation_;
   TConfigurationTree parameters_;
+  bool is_enabled_ = true;
   bool is_spare_ = false;
   std::string id_;  // of theirs
   std::vector<std::unique_ptr<SensorBridge>> sensors_;

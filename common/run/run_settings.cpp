@@ -234,6 +234,7 @@ std::vector<RunOption> Table(RunSettings& s)
       {{Text("show", "Add a visualisation to those of the file, such as web or opengl, which may steer the run"),
         &s.show, "web", "KIND"},
        For::kLauncher},
+      {{Flag("ros2", "Show the run to ROS 2 (docs/ros2.md): the same as --show ros2"), &s.ros2}, For::kLauncher},
       {{Flag("single-process", "Run everything in this process, without DDS"), &s.single_process}, For::kLauncher},
       {{Whole("threads",
               "Threads of a controller host, which share its sensors and the controllers that may step in parallel; 0: "

@@ -69,7 +69,9 @@ struct RunSettings : ExperimentChoice, SimulatorOptions
 {
   std::string branch;  // "RUN@TICK": the state to begin with is that of an earlier run
   bool single_process = false;
-  std::string show;  // a visualisation that is added to those of the file: "web", "opengl" …
+  // Visualisations that are added to those of the file: "web", "opengl" …
+  std::vector<std::string> show;
+  bool ros2 = false;  // likewise "ros2"
   unsigned controller_hosts = 1;
   std::vector<std::string> engine_hosts;  // "ENGINE=HOST"
   std::string hosts_file;

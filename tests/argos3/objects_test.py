@@ -30,6 +30,21 @@ class Objects(RunningTest):
         self.assertEqual(self.seen_at(15, said), [green, red])
         self.assertEqual(self.seen_at(25, said), [green, red])
 
+    def test_a_robot_that_is_disabled_makes_no_steps(self):
+        (self.folder / "scripts").symlink_to(HERE / "scripts")
+        said = {}
+        for rests in (0, 40):
+            file = self.changed("build.argos", ('late="0"', f'late="0" rests="{rests}"'))
+            self.swarmanoid("run", file, "--output", f"run{rests}")
+            said[rests] = {int(tick) for tick in re.findall(r"at tick (\d+): saw", self.said_in(f"run{rests}"))}
+        self.assertEqual(said[0], set(range(1, 101)))
+        self.assertEqual(said[40], said[0] - set(range(41, 61)))
+        # Nothing but the loop functions is there in the process of a cluster.
+        file = self.changed("build.argos", ('late="0"', 'late="0" rests="40"'))
+        self.swarmanoid("convert", file, "--output", "ours.xml")
+        result = self.swarmanoid("run", "ours.xml", "--output", "cluster", "--controller-hosts", 1, code=4)
+        self.assertIn("loop functions reset, enable and disable robots in a run with --single-process", result.stdout + result.stderr)
+
     def test_as_many_as_init_makes_are_kept_twice(self):
         text = self.swarmanoid("convert", HERE / "build.argos").stdout
         self.assertEqual(re.findall(r'<reserve quantity="(\d+)">\s*<(\w+) id="made_body', text),

@@ -38,7 +38,8 @@ class Simulation(unittest.TestCase):
         out = pathlib.Path(folder.name) / "run"
         file = pathlib.Path(folder.name) / "experiment.xml"
         text = (CONFIGS / "diffusion_10.xml").read_text()
-        text = text.replace("<visualisations>", "<visualisations>\n    <ros2_render id=\"ros\"/>")
+        if "--ros2" not in options:
+            text = text.replace("<visualisations>", "<visualisations>\n    <ros2_render id=\"ros\"/>")
         text = text.replace("<file>positions.txt</file>", "<file>positions.txt</file><format>csv</format>").replace(
             "<precision>4</precision>", "<precision>15</precision>")
         file.write_text(text)
@@ -117,6 +118,9 @@ class Simulation(unittest.TestCase):
 
     def test_as_a_cluster(self):
         self.check(*self.run_with())
+
+    def test_by_an_option(self):
+        self.check(*self.run_with("--ros2", "--show", "text"))
 
 
 if __name__ == "__main__":

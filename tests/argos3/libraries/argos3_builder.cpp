@@ -14,6 +14,7 @@ public:
     UInt32 late = 0;
     GetNodeAttribute(node, "late", late);
     late_ = late != 0;
+    GetNodeAttributeOrDefault(node, "rests", rests_, rests_);
     UInt32 more = 0;
     GetNodeAttributeOrDefault(node, "more", more, more);
     const Real size = 0.001 * GetSimulator().GetRandomSeed();
@@ -53,6 +54,10 @@ public:
                  .Position
           << '\t' << crate_->GetEmbodiedEntity().IsMovable() << pillar_->GetEmbodiedEntity().IsMovable() << '\n';
     if (clock == 10) RemoveEntity("crate");
+    if (clock == rests_) robot.Disable();
+    if (clock == rests_ + 20) robot.SetEnabled(true);
+    if (rests_ != 0 && robot.GetControllableEntity().IsEnabled() == (clock >= rests_ && clock < rests_ + 20))
+      THROW_ARGOSEXCEPTION("the controller is not as the robot is");
     if (clock == 20)
       AddEntity(*new CBoxEntity("next", CVector3(-0.8, 0, 0), CQuaternion(), true, {0.1, 0.1, 0.1}, 1e12));
     if (clock == 30 && late_)
@@ -61,6 +66,7 @@ public:
 
 private:
   bool late_ = false;
+  UInt32 rests_ = 0;
   CBoxEntity* crate_ = nullptr;
   CCylinderEntity* pillar_ = nullptr;
   std::ofstream file_;

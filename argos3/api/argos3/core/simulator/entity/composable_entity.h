@@ -38,6 +38,12 @@ public:
     in_order_.push_back(&component);
   }
   void UpdateComponents() {}
+  // All components with it.
+  void SetEnabled(bool enabled) override
+  {
+    CEntity::SetEnabled(enabled);
+    for (CEntity* component : in_order_) component->SetEnabled(enabled);
+  }
   void Reset() override
   {
     for (const auto& component : components_) component.second->Reset();

@@ -16,6 +16,9 @@ public:
   // for a robot without a controller. Of a robot that loop functions made, before AddEntity too.
   CCI_Controller& GetController();
   const CCI_Controller& GetController() const { return const_cast<CControllableEntity*>(this)->GetController(); }
+  // One that is disabled makes no control steps, and its actuators go on as they were told last. In a run of one
+  // process; throws CARGoSException otherwise.
+  void SetEnabled(bool enabled) override;
   // Of its devices and its controller, if it has one in this process.
   void Reset() override;
   std::string GetTypeDescription() const override { return "controller"; }

@@ -38,10 +38,10 @@ public:
   // The place of its root among all in the arena; -1 before it is there.
   ssize_t GetIndex() const { return parent_ == nullptr ? index_ : parent_->GetIndex(); }
   void SetIndex(ssize_t index) { index_ = index; }
-  // Entities take part in a run while they are in the arena, whatever this says.
-  void Enable() { enabled_ = true; }
-  void Disable() { enabled_ = false; }
-  void SetEnabled(bool enabled) { enabled_ = enabled; }
+  void Enable() { SetEnabled(true); }
+  void Disable() { SetEnabled(false); }
+  // Bodies and devices take part in a run while they are in the arena, whatever this says; controllers heed it.
+  virtual void SetEnabled(bool enabled) { enabled_ = enabled; }
   bool IsEnabled() const { return enabled_; }
   void Update() {}
   CEntity& GetRootEntity() { return parent_ == nullptr ? *this : parent_->GetRootEntity(); }
