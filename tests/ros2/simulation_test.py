@@ -117,9 +117,6 @@ class Simulation(unittest.TestCase):
         self.check(*self.run_with("--single-process"))
 
     def test_as_a_cluster(self):
-        self.check(*self.run_with())
-
-    def test_by_an_option(self):
         self.check(*self.run_with("--ros2", "--show", "text"))
 
 
