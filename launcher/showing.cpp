@@ -105,11 +105,11 @@ std::string WithVisualisation(const std::string& effective_xml, const std::strin
 
 std::unique_ptr<Experiment> WithShown(const Experiment& experiment, const std::vector<std::string>& kinds)
 {
+  const std::vector<std::string> known = PluginCatalogue::Instance().Labels(PluginKind::kRenderer);
   std::string text = experiment.effective_xml;
   for (std::size_t k = 0; k < kinds.size(); ++k)
   {
     const std::string tag = kinds[k].ends_with("_render") ? kinds[k] : kinds[k] + "_render";
-    const std::vector<std::string> known = PluginCatalogue::Instance().Labels(PluginKind::kRenderer);
     if (std::ranges::find(known, tag) == known.end())
       throw UsageError(fmt::format("--show: there is no renderer {}; there are {}", Quoted(tag), Listed(known)));
     const std::string element = fmt::format("<{} id=\"shown{}\"{}/>", tag, k == 0 ? "" : fmt::format("_{}", k + 1),

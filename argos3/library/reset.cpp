@@ -24,6 +24,7 @@ namespace
 
 using swarmanoid::CSwarmanoidSpaceEntity;
 using swarmanoid::argos3::Arrival;
+using swarmanoid::argos3::ControlledRobot;
 using swarmanoid::argos3::Declared;
 using swarmanoid::argos3::Editor;
 using swarmanoid::argos3::Running;
@@ -65,6 +66,16 @@ void RequireControllersHere()
                                                << "' is not in this process: loop functions reset, enable and disable "
                                                << "robots in a run with --single-process");
   }
+}
+
+// nullptr for what is not in the arena or has no controller. Throws CARGoSException if that is in another process.
+ControlledRobot* ControlledOf(const CSwarmanoidSpaceEntity* ours)
+{
+  if (ours == nullptr || ours->GetConfiguration().controller.empty()) return nullptr;
+  const auto found = TheRunning().controlled.find(ours->GetId());
+  if (found != TheRunning().controlled.end()) return found->second;
+  RequireControllersHere();
+  return nullptr;
 }
 
 }  // namespace
@@ -121,21 +132,15 @@ void CControllableEntity::SetEnabled(bool enabled)
 {
   if (enabled == IsEnabled()) return;
   CEntity::SetEnabled(enabled);
-  const auto* ours = PresentOf(*this);
-  if (ours == nullptr || ours->GetConfiguration().controller.empty() || TheRunning().rehearsal) return;
-  const auto found = TheRunning().controlled.find(ours->GetId());
-  if (found == TheRunning().controlled.end()) return RequireControllersHere();
-  found->second->SetEnabled(enabled);
+  if (TheRunning().rehearsal) return;
+  if (auto* robot = ControlledOf(PresentOf(*this))) robot->SetEnabled(enabled);
 }
 
 void CControllableEntity::Reset()
 {
   const auto* ours = PresentOf(*this);
   if (ours != nullptr) ResetAttribute(*ours, "turret_angle", ArrivalOf(*ours).turret);
-  if (ours == nullptr || ours->GetConfiguration().controller.empty()) return;
-  const auto found = TheRunning().controlled.find(ours->GetId());
-  if (found == TheRunning().controlled.end()) return RequireControllersHere();
-  found->second->Reset();
+  if (auto* robot = ControlledOf(ours)) robot->Reset();
 }
 
 void CLEDEntity::Reset()

@@ -35,8 +35,6 @@ public:
   {
   }
 
-  transport::TransportDescriptorInterface* get_configuration() override { return &descriptor_; }
-
   // What comes has its signature.
   bool OpenInputChannel(const rtps::Locator_t& locator, transport::TransportReceiverInterface* receiver,
                         std::uint32_t max_message_size) override

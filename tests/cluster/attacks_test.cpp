@@ -294,10 +294,7 @@ TEST_F(AttacksTest, WhoSaysThatWhatHeSaidIsLostIsNotWaitedFor)
   }
   close(socket);
   ASSERT_TRUE(stranger.Send("ControlRequest", {PayloadOf(ControlRequestMessage{"host:1", 1, "stop", "", {}, "root"})}));
-  Bus bus(Options(), "test");
-  ControlClient client(bus, "counting");
-  const auto reply = client.Ask("stop", "", {}, kGenerous_s);
-  ASSERT_TRUE(reply && reply->ok) << server.Output();
+  ASSERT_TRUE(Ask("counting", "stop")) << server.Output();
   EXPECT_EQ(server.Wait(), 0) << server.Output();
 }
 
@@ -387,10 +384,7 @@ TEST_F(AttacksTest, AProgramOfAnotherDdsIsRefused)
     EXPECT_TRUE(server.WaitForOutput(fmt::format("dropped a bad {} message of an unknown process", topic)))
         << server.Output();
   }
-  Bus bus(Options(), "test");
-  ControlClient client(bus, "closed");
-  const auto reply = client.Ask("resume", "", {}, kGenerous_s);
-  ASSERT_TRUE(reply && reply->ok) << server.Output();
+  ASSERT_TRUE(Ask("closed", "resume")) << server.Output();
   EXPECT_EQ(server.Wait(), 0) << server.Output();
   for (ChildProcess& worker : workers) EXPECT_EQ(worker.Wait(), 0) << worker.Output();
   stranger.Signal(SIGKILL);

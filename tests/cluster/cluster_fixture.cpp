@@ -9,6 +9,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "common/bus/bus.h"
+#include "common/bus/control_client.h"
 #include "common/experiment/load_experiment.h"
 #include "controller_host/controller_host.h"
 #include "engine_worker/engine_worker.h"
@@ -132,6 +134,15 @@ std::vector<ChildProcess> ClusterTest::StartWorkers(const std::string& experimen
   for (int e = 0; e < engines; ++e) workers.push_back(StartEngine(experiment, e));
   for (int h = 0; h < hosts; ++h) workers.push_back(StartHost(experiment, h));
   return workers;
+}
+
+bool ClusterTest::Ask(const std::string& experiment, const std::string& verb) const
+{
+  BusOptions options;
+  options.domain = domain_.Id();
+  Bus bus(options, "test");
+  const auto reply = ControlClient(bus, experiment).Ask(verb, "", {}, kGenerous_s);
+  return reply && reply->ok;
 }
 
 std::string ClusterTest::Read(const std::string& file) const

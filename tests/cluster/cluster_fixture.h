@@ -36,6 +36,8 @@ protected:
   std::string Read(const std::string& file) const;
   // Waits until the hash log has that many ticks.
   bool Reaches(std::ptrdiff_t ticks, const std::string& hash_log = "hashes.txt") const;
+  // Asks the run as `swarmanoid control` does; whether it has done so.
+  bool Ask(const std::string& experiment, const std::string& verb) const;
   // One hash a line, of the experiment run in one process.
   std::string HashesOfSingleProcess(const std::string& file);
   // No process has left anything in shared memory.

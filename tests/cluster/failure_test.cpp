@@ -24,14 +24,7 @@ TEST_F(ClusterTest, AKilledWorkerEndsTheRunWithinTheLeaseAndIsNamed)
   ChildProcess server = StartServer(WriteExperiment("deadly", 2, 0), {"--hash-log", folder_ + "/hashes.txt"});
   std::vector<ChildProcess> workers = StartWorkers("deadly", 2, 1);
   ASSERT_TRUE(Reaches(100)) << server.Output();
-  {
-    BusOptions options;
-    options.domain = domain_.Id();
-    Bus bus(options, "test");
-    ControlClient client(bus, "deadly");
-    const auto reply = client.Ask("pause", "", {}, kGenerous_s);
-    ASSERT_TRUE(reply && reply->ok) << server.Output();
-  }
+  ASSERT_TRUE(Ask("deadly", "pause")) << server.Output();
   // Asleep it holds no lock of the memory that it shares with the others, which end in another way then.
   ASSERT_TRUE(workers[1].StopAsleep());
   const auto killed = std::chrono::steady_clock::now();
@@ -83,12 +76,7 @@ TEST_F(ClusterTest, AStoppedWorkerIsNamedAfterTwoSecondsAndTheRunGoesOnWhenItDoe
   ChildProcess host = Start("controller_host", {"--experiment", "stalled", "--lease", "30"});
   ASSERT_TRUE(server.WaitForOutput("paused at tick 0")) << server.Output();
   ASSERT_TRUE(host.StopAsleep());
-  BusOptions options;
-  options.domain = domain_.Id();
-  Bus bus(options, "test");
-  ControlClient client(bus, "stalled");
-  const auto reply = client.Ask("resume", "", {}, kGenerous_s);
-  ASSERT_TRUE(reply && reply->ok) << server.Output();
+  ASSERT_TRUE(Ask("stalled", "resume")) << server.Output();
   EXPECT_TRUE(server.WaitForOutput("waiting for controller host 0 since 2 s")) << server.Output();
   host.Signal(SIGCONT);
   EXPECT_EQ(server.Wait(), 0) << server.Output();
