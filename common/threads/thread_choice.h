@@ -1,7 +1,7 @@
 // Whether a piece of work that comes again at each tick is done by one thread or by several: by whichever took less
 // time lately. Work of a few microseconds wakes nobody, and where other programs need the cores one thread goes on
-// alone, also if they come to need them between two trials. For work whose results are the same either way. One thread
-// at a time.
+// alone, also if they come to need them between two trials; work that grows is tried anew. For work whose results are
+// the same either way. One thread at a time.
 #pragma once
 
 #include <algorithm>
@@ -17,10 +17,14 @@ public:
   static constexpr Duration kWorthWaking{20'000};  // work that takes less is never shared
   static constexpr unsigned kTrials = 4;           // of each way; the shortest counts
   static constexpr unsigned kLeastGain = 10;       // sharing is worth it if it saves more than one such part
-  static constexpr unsigned kPeriod = 512;         // pieces until both ways are tried again
-  static constexpr unsigned kMostDoublings = 4;    // of it: one for each time after the first that sharing was slower
-  // Pieces that several threads did are late by what they took longer than one thread would; each counts as at most
-  // kMostLate pieces, and when kPatience are lost one thread goes on.
+  // Pieces until both ways are tried again: few at first, since the first pieces of a run are unlike those that follow,
+  // then twice as many each time.
+  static constexpr unsigned kFirstPeriod = 32;
+  static constexpr unsigned kPeriod = 512;
+  static constexpr unsigned kMostPeriod = 16 * kPeriod;  // while sharing is slower each time
+  // Pieces that several threads did are late by what they took longer than one thread did; each counts as at most
+  // kMostLate pieces, and when kPatience are lost one thread is tried again: it takes longer now if there is more to
+  // do, and as long as before if others have taken the cores.
   static constexpr int kMostLate = 4;
   static constexpr int kPatience = 8;
 
@@ -38,24 +42,30 @@ public:
     else if (shares_)
     {
       late_ = std::max(late_ + std::min(time - alone_, kMostLate * alone_), Duration::zero());
-      if (late_ > kPatience * alone_) shares_ = false;
+      if (late_ > kPatience * alone_) return Begin(period_, alone_);
     }
-    if (pieces_ == kTrials) shares_ = alone_ >= kWorthWaking;
+    if (pieces_ == kTrials) shares_ = alone_ >= kWorthWaking && alone_ >= alone_before_ + alone_before_ / kLeastGain;
     if (pieces_ == 2 * kTrials) shares_ = shares_ && shared_ < alone_ - alone_ / kLeastGain;
-    if (pieces_ < kPeriod << (losses_ > 1 ? losses_ - 1 : 0)) return;
+    if (pieces_ < period_) return;
     const bool lost = alone_ >= kWorthWaking && !shares_;
-    const unsigned losses = lost ? std::min(losses_ + 1, kMostDoublings + 1) : 0;
-    *this = ThreadChoice();
-    losses_ = losses;
+    Begin(std::min(2 * period_, lost ? kMostPeriod : kPeriod), Duration::zero());
   }
 
 private:
+  void Begin(unsigned period, Duration alone_before)
+  {
+    *this = ThreadChoice();
+    period_ = period;
+    alone_before_ = alone_before;
+  }
+
   bool shares_ = false;
-  unsigned pieces_ = 0;  // of the period
+  unsigned period_ = kFirstPeriod;
+  unsigned pieces_ = 0;                       // of the period
+  Duration alone_before_ = Duration::zero();  // when several threads became late; 0 if they are not
   Duration alone_ = Duration::max();
   Duration shared_ = Duration::max();
   Duration late_ = Duration::zero();
-  unsigned losses_ = 0;  // periods in a row in which sharing was slower
 };
 
 // Does a piece of work by one of two functions that do the same.

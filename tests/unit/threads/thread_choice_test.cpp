@@ -22,34 +22,52 @@ unsigned Shared(ThreadChoice& choice, unsigned pieces, ThreadChoice::Duration al
   return count;
 }
 
-TEST(ThreadChoice, FewMicrosecondsWakeNobody)
+// The periods of the start are over; all were worth sharing.
+ThreadChoice Settled()
 {
   ThreadChoice choice;
+  for (unsigned period = ThreadChoice::kFirstPeriod; period < ThreadChoice::kPeriod; period *= 2)
+    Shared(choice, period, 100us, 60us);
+  return choice;
+}
+
+TEST(ThreadChoice, TriesMoreOftenAtTheStart)
+{
+  ThreadChoice choice;
+  for (unsigned period = ThreadChoice::kFirstPeriod; period < ThreadChoice::kPeriod; period *= 2)
+    EXPECT_EQ(Shared(choice, period, 100us, 60us), period - ThreadChoice::kTrials) << period;
+  EXPECT_EQ(Shared(choice, ThreadChoice::kPeriod, 100us, 60us), ThreadChoice::kPeriod - ThreadChoice::kTrials);
+  EXPECT_EQ(Shared(choice, ThreadChoice::kPeriod, 100us, 60us), ThreadChoice::kPeriod - ThreadChoice::kTrials);
+}
+
+TEST(ThreadChoice, FewMicrosecondsWakeNobody)
+{
+  ThreadChoice choice = Settled();
   EXPECT_EQ(Shared(choice, 5 * ThreadChoice::kPeriod, 19us, 1us), 0U);
 }
 
 TEST(ThreadChoice, SharesWhatIsQuickerSo)
 {
-  ThreadChoice choice;
+  ThreadChoice choice = Settled();
   EXPECT_EQ(Shared(choice, ThreadChoice::kPeriod, 100us, 60us), ThreadChoice::kPeriod - ThreadChoice::kTrials);
 }
 
 // The best of a few pieces is hardly quicker, and the usual one slower.
 TEST(ThreadChoice, LittleGainIsNotWorthOtherCores)
 {
-  ThreadChoice choice;
+  ThreadChoice choice = Settled();
   EXPECT_EQ(Shared(choice, ThreadChoice::kPeriod, 100us, 92us), ThreadChoice::kTrials);
 }
 
 TEST(ThreadChoice, TriesWhatIsSlowerAFewTimesAPeriod)
 {
-  ThreadChoice choice;
+  ThreadChoice choice = Settled();
   EXPECT_EQ(Shared(choice, ThreadChoice::kPeriod, 100us, 160us), ThreadChoice::kTrials);
 }
 
 TEST(ThreadChoice, FollowsWhenTheCoresAreTakenAndFreeAgain)
 {
-  ThreadChoice choice;
+  ThreadChoice choice = Settled();
   EXPECT_EQ(Shared(choice, ThreadChoice::kPeriod, 100us, 60us), ThreadChoice::kPeriod - ThreadChoice::kTrials);
   EXPECT_EQ(Shared(choice, ThreadChoice::kPeriod, 100us, 4ms), ThreadChoice::kTrials);
   EXPECT_EQ(Shared(choice, ThreadChoice::kPeriod, 100us, 60us), ThreadChoice::kPeriod - ThreadChoice::kTrials);
@@ -59,8 +77,8 @@ TEST(ThreadChoice, FollowsWhenTheCoresAreTakenAndFreeAgain)
 TEST(ThreadChoice, TriesLessOftenWhatWasSlowerAgainAndAgain)
 {
   constexpr unsigned kPeriod = ThreadChoice::kPeriod;
-  ThreadChoice choice;
-  for (const unsigned periods : {1U, 1U, 2U, 4U, 8U, 16U, 16U})
+  ThreadChoice choice = Settled();
+  for (const unsigned periods : {1U, 2U, 4U, 8U, 16U, 16U})
   {
     EXPECT_EQ(Shared(choice, 16, 100us, 4ms), ThreadChoice::kTrials) << periods;
     EXPECT_EQ(Shared(choice, periods * kPeriod - 16, 100us, 4ms), 0U) << periods;
@@ -72,17 +90,35 @@ TEST(ThreadChoice, TriesLessOftenWhatWasSlowerAgainAndAgain)
 // Others take a core between two trials: what is lost until one thread goes on is little.
 TEST(ThreadChoice, StopsWhenTheCoresAreTakenBetweenTrials)
 {
-  ThreadChoice choice;
+  ThreadChoice choice = Settled();
   unsigned count = Shared(choice, 100, 100us, 60us);
   EXPECT_EQ(count, 96U);
-  count = Shared(choice, ThreadChoice::kPeriod - 100, 100us, 4ms);
+  count = Shared(choice, ThreadChoice::kPeriod, 100us, 4ms);
   EXPECT_LE(count, 3U);
   EXPECT_GT(Shared(choice, ThreadChoice::kPeriod, 100us, 60us), 500U) << "and tries anew";
 }
 
+// What there is to do grows: several threads are still quicker, though slower than one was at first.
+TEST(ThreadChoice, SharesWorkThatGrows)
+{
+  ThreadChoice choice = Settled();
+  unsigned count = Shared(choice, 16, 100us, 60us);
+  EXPECT_EQ(count, 12U);
+  count = Shared(choice, ThreadChoice::kPeriod, 400us, 240us);
+  EXPECT_GE(count, ThreadChoice::kPeriod - 2 * ThreadChoice::kTrials);
+}
+
+// Not if others take the cores at the same time.
+TEST(ThreadChoice, WorkThatGrowsOnABusyMachineIsNotShared)
+{
+  ThreadChoice choice = Settled();
+  Shared(choice, 16, 100us, 60us);
+  EXPECT_LE(Shared(choice, ThreadChoice::kPeriod / 2, 400us, 4ms), 3 + ThreadChoice::kTrials);
+}
+
 TEST(ThreadChoice, BearsSomeSlowPiecesAmongManyQuickOnes)
 {
-  ThreadChoice choice;
+  ThreadChoice choice = Settled();
   Shared(choice, 2 * ThreadChoice::kTrials, 100us, 60us);
   for (unsigned k = 2 * ThreadChoice::kTrials; k + 1 < ThreadChoice::kPeriod; ++k)
   {
@@ -94,7 +130,7 @@ TEST(ThreadChoice, BearsSomeSlowPiecesAmongManyQuickOnes)
 // Somebody else's work delays a piece now and then.
 TEST(ThreadChoice, OneSlowPieceDoesNotDecide)
 {
-  ThreadChoice choice;
+  ThreadChoice choice = Settled();
   for (unsigned k = 0; k < ThreadChoice::kPeriod; ++k)
   {
     const bool disturbed = k == ThreadChoice::kTrials + 1;
