@@ -168,7 +168,7 @@ void BroadPhase::FindPairs(double margin, std::span<const std::uint32_t> blocks,
   }
 }
 
-void BroadPhase::SweepBlock(float margin, std::uint32_t block, std::vector<Pair>& pairs) const
+void BroadPhase::SweepBlock(float reach, std::uint32_t block, std::vector<Pair>& pairs) const
 {
   // Most searches find nobody or one. Those that do are noted without a branch, and only then taken apart.
   struct Finds
@@ -199,11 +199,10 @@ void BroadPhase::SweepBlock(float margin, std::uint32_t block, std::vector<Pair>
     for (std::uint32_t k = begin; k < end; ++k)
     {
       const std::uint32_t cell = sorted_cell_[k];
-      const float reach = r_[k] + margin;
       const auto search = [&](std::uint32_t from, std::uint32_t to)
       {
         do {  // most ranges fit one vector
-          finds[count] = {k, from, Within(x_[k], y_[k], reach, from, to)};
+          finds[count] = {k, from, Within(k, reach, from, to)};
           count += finds[count].hits != 0 ? 1 : 0;
           if (count == kMost) take_apart();
           from += kLanes;
@@ -218,7 +217,7 @@ void BroadPhase::SweepBlock(float margin, std::uint32_t block, std::vector<Pair>
   take_apart();
 }
 
-void BroadPhase::SweepStatics(float margin, std::uint32_t block, std::vector<Pair>& pairs) const
+void BroadPhase::SweepStatics(float reach, std::uint32_t block, std::vector<Pair>& pairs) const
 {
   const std::uint32_t* const start = sort_.Starts();
   ForEachRowOf(block,
@@ -231,7 +230,7 @@ void BroadPhase::SweepStatics(float margin, std::uint32_t block, std::vector<Pai
                    if (shapes.empty()) continue;
                    for (std::uint32_t k = start[cell]; k < start[cell + 1]; ++k)
                      for (const std::uint32_t shape : shapes)
-                       if (static_boxes_[shape].IsNear(x_[k], y_[k], r_[k] + margin))
+                       if (static_boxes_[shape].IsNear(x_[k], y_[k], r_[k] + reach))
                          pairs.push_back({body_[k], static_cast<std::uint32_t>(count_) + shape});
                  }
                });

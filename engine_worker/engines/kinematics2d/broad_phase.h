@@ -1,6 +1,7 @@
 // Which bodies are near each other: a uniform grid filled anew at each step by a counting sort, with float copies of
 // the positions in the order of the cells. Used by the kinematic world. Remembers nothing from step to step, so that
-// the pairs and their order follow from the positions alone. Finding may be shared among threads.
+// the pairs and their order follow from the positions alone. Finding may be shared among threads. What it would find
+// can be told without it, pair by pair (VerletList).
 #pragma once
 
 #include <algorithm>
@@ -77,6 +78,33 @@ public:
   // After Sort: bodies whose circles are less than `margin` apart, and bodies with the static shapes near them, block
   // by block in the order of their cells. Large bodies are left out.
   void FindPairs(double margin, std::span<const std::uint32_t> blocks, PairList& found) const;
+  // Whether FindPairs finds this pair when bodies are there: `reach` is that of its margin.
+  bool IsNear(const Pair& pair, float reach, const PoseStore& poses) const
+  {
+    const auto x = static_cast<float>(poses.x[pair.first]);
+    const auto y = static_cast<float>(poses.y[pair.first]);
+    const float radius = radius_[pair.first];
+    if (pair.second >= count_) return static_boxes_[pair.second - count_].IsNear(x, y, radius + reach);
+    const float dx = static_cast<float>(poses.x[pair.second]) - x;
+    const float dy = static_cast<float>(poses.y[pair.second]) - y;
+    const float limit = radius_[pair.second] + radius + reach;
+    return dx * dx + dy * dy < limit * limit;
+  }
+  float ReachOf(double margin) const { return static_cast<float>(margin) + 2 * slack_; }
+  double LargestMargin() const { return largest_margin_; }
+  // No position is rounded by more than this (m).
+  double Rounding() const { return slack_; }
+  struct Place
+  {
+    std::uint32_t cell, block;
+  };
+  Place PlaceOf(double x, double y) const
+  {
+    const std::uint32_t column = cells_.columns.CellOf(x);
+    const std::uint32_t row = cells_.rows.CellOf(y);
+    return {cells_.Cell(column, row),
+            (row + missing_rows_) / kBlock * block_columns_ + (column + missing_columns_) / kBlock};
+  }
   // Those of large bodies with all others.
   void FindPairsOfLarge(double margin, const PoseStore& poses, std::span<const std::uint8_t> present,
                         std::vector<Pair>& pairs) const;
@@ -94,20 +122,19 @@ private:
     }
   };
 
-  // Those of the sorted bodies `from`, `from` + 1, ... before `to` whose circle is less than `reach` from a point: one
-  // bit each, for as many as fit a vector.
-  unsigned Within(float x, float y, float reach, std::uint32_t from, std::uint32_t to) const
+  // Those of the sorted bodies `from`, `from` + 1, ... before `to` whose circle is less than `reach` from that of a
+  // sorted body: one bit each, for as many as fit a vector.
+  unsigned Within(std::uint32_t body, float reach, std::uint32_t from, std::uint32_t to) const
   {
-    const FloatLanes dx = LoadLanes(&x_[from]) - x;
-    const FloatLanes dy = LoadLanes(&y_[from]) - y;
-    const FloatLanes limit = LoadLanes(&r_[from]) + reach;
+    const FloatLanes dx = LoadLanes(&x_[from]) - x_[body];
+    const FloatLanes dy = LoadLanes(&y_[from]) - y_[body];
+    const FloatLanes limit = LoadLanes(&r_[from]) + r_[body] + reach;
     const unsigned hits = LaneMask(dx * dx + dy * dy < limit * limit);
     const std::uint32_t left = to - from;
     return left < kLanes ? hits & ((1U << left) - 1) : hits;
   }
-  float ReachOf(double margin) const { return static_cast<float>(margin) + 2 * slack_; }
-  void SweepBlock(float margin, std::uint32_t block, std::vector<Pair>& pairs) const;
-  void SweepStatics(float margin, std::uint32_t block, std::vector<Pair>& pairs) const;
+  void SweepBlock(float reach, std::uint32_t block, std::vector<Pair>& pairs) const;
+  void SweepStatics(float reach, std::uint32_t block, std::vector<Pair>& pairs) const;
 
   std::size_t count_ = 0;
   PlaneCells<double> cells_;

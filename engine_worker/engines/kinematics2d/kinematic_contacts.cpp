@@ -33,7 +33,8 @@ void KinematicWorld::FindContacts()
 {
   const double margin = 2 * reach_;
   SwapFollowers();
-  broad_.Sort(before_, present_, Pool());
+  const bool listed = !region_ && verlet_list_.Update(broad_, before_, present_, margin, Pool());
+  if (!listed) broad_.Sort(before_, present_, Pool());
   broad_.FindPairsOfLarge(margin, before_, present_, pairs_of_large_.pairs);
   pairs_of_large_.ends.assign(1, static_cast<std::uint32_t>(pairs_of_large_.pairs.size()));
   if (region_) region_->ChoosePairsOfLarge(*this);
@@ -48,8 +49,11 @@ void KinematicWorld::FindContacts()
   ForEachPart(
       [&](Part& part)
       {
-        broad_.FindPairs(margin, std::span(blocks_).subspan(part.first_block, part.last_block - part.first_block),
-                         part.pairs);
+        if (listed)
+          verlet_list_.TakePairs(part.first_block, part.last_block, part.pairs);
+        else
+          broad_.FindPairs(margin, std::span(blocks_).subspan(part.first_block, part.last_block - part.first_block),
+                           part.pairs);
         FindContacts(part.pairs, block_contacts_.data() + part.first_block, part.contacts, part.of_groups);
       });
 

@@ -134,6 +134,7 @@ void KinematicWorld::Start(Bounds area, unsigned threads, WorkerPool* pool)
   blocks_.resize(broad_.BlockCount());
   std::iota(blocks_.begin(), blocks_.end(), 0U);
   block_contacts_.resize(blocks_.size());
+  verlet_list_.Configure(threads);
   solver_.Configure(count_, threads);
   limiter_.Configure(count_ + 1);
   is_involved_.assign(count_ + 1, 0);

@@ -22,6 +22,7 @@
 #include "engine_worker/engines/kinematics2d/contact_solver.h"
 #include "engine_worker/engines/kinematics2d/motion.h"
 #include "engine_worker/engines/kinematics2d/motion_limiter.h"
+#include "engine_worker/engines/kinematics2d/verlet_list.h"
 
 namespace swarmanoid::kinematics2d
 {
@@ -327,6 +328,7 @@ private:
   bool uses_threads_ = true;
   std::vector<Part> parts_;  // one for each thread
   BroadPhase broad_;
+  VerletList verlet_list_;
   std::vector<std::uint32_t> blocks_;  // those of this region, ascending
   PairList pairs_of_large_;
   std::vector<ContactBlock> block_contacts_;  // of each of them

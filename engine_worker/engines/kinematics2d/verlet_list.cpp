@@ -1,0 +1,165 @@
+#include "engine_worker/engines/kinematics2d/verlet_list.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "common/math/lanes.h"
+
+namespace swarmanoid::kinematics2d
+{
+namespace
+{
+
+// A list that lasts for fewer steps does not pay; then it is left alone for some.
+constexpr std::uint32_t kFewest = 4;
+constexpr std::uint32_t kPause = 64;
+constexpr std::uint64_t kStatic = std::uint64_t{1} << 63;
+
+// Nearly all stand in order already.
+template <class Value>
+void InsertionSort(std::span<Value> values)
+{
+  for (std::size_t k = 1; k < values.size(); ++k)
+  {
+    if (!(values[k] < values[k - 1])) continue;
+    const Value value = values[k];
+    std::size_t at = k;
+    for (; at > 0 && value < values[at - 1]; --at) values[at] = values[at - 1];
+    values[at] = value;
+  }
+}
+
+}  // namespace
+
+bool VerletList::Update(BroadPhase& broad, const PoseStore& poses, std::span<const std::uint8_t> present, double margin,
+                        WorkerPool* pool)
+{
+  if (!broad.Large().empty() || margin > broad.LargestMargin()) return false;
+  if (pause_ > 0)
+  {
+    --pause_;
+    return false;
+  }
+  ++age_;
+  const bool began = !x_.empty();
+  if (!began || !Holds(poses, present, margin_ - margin - 4 * broad.Rounding(), pool))
+  {
+    if (began && age_ < kFewest)
+    {
+      x_.clear();
+      pause_ = kPause;
+      return false;
+    }
+    Search(broad, poses, present, pool);
+  }
+  Choose(broad, poses, margin, pool);
+  return true;
+}
+
+// Whether nobody has moved further than half of `slack` (metres), appeared or gone.
+bool VerletList::Holds(const PoseStore& poses, std::span<const std::uint8_t> present, double slack, WorkerPool* pool)
+{
+  if (slack < 0 || x_.size() != poses.x.size() || !std::ranges::equal(present_, present)) return false;
+  const auto furthest_square = [&](std::size_t begin, std::size_t end)
+  {
+    DoubleLanes squares{};
+    for (std::size_t k = begin; k < end; k += kDoubleLanes)
+    {
+      const DoubleLanes dx = LoadLanes(&poses.x[k]) - LoadLanes(&x_[k]);
+      const DoubleLanes dy = LoadLanes(&poses.y[k]) - LoadLanes(&y_[k]);
+      squares = Maximum(dx * dx + dy * dy, squares);
+    }
+    double furthest = 0;
+    for (std::size_t lane = 0; lane < kDoubleLanes; ++lane) furthest = std::max(furthest, squares[lane]);
+    return furthest;
+  };
+  for (Part& part : parts_) part.furthest = 0;
+  InParts(pool, x_.size(), kPadding,
+          [&](unsigned thread, std::size_t begin, std::size_t end)
+          { parts_[thread].furthest = furthest_square(begin, end); });
+  return std::ranges::max(parts_, {}, &Part::furthest).furthest <= slack * slack / 4;
+}
+
+void VerletList::Search(BroadPhase& broad, const PoseStore& poses, std::span<const std::uint8_t> present,
+                        WorkerPool* pool)
+{
+  broad.Sort(poses, present, pool);
+  x_ = poses.x;
+  y_ = poses.y;
+  present_.assign(present.begin(), present.end());
+  age_ = 0;
+  margin_ = broad.LargestMargin();
+  blocks_.resize(broad.BlockCount());
+  std::iota(blocks_.begin(), blocks_.end(), 0U);
+  std::size_t begin = 0;
+  for (std::size_t k = 0; k < parts_.size(); ++k)
+  {
+    const double share = static_cast<double>(k + 1) / static_cast<double>(parts_.size());
+    const std::size_t end = k + 1 == parts_.size() ? blocks_.size() : broad.BlocksWith(share, blocks_);
+    parts_[k].searched = std::span(blocks_).subspan(begin, end - begin);
+    begin = end;
+  }
+  ForEachPart(pool, [&](Part& part) { broad.FindPairs(margin_, part.searched, part.candidates); });
+}
+
+void VerletList::Choose(const BroadPhase& broad, const PoseStore& poses, double margin, WorkerPool* pool)
+{
+  const float reach = broad.ReachOf(margin);
+  const auto key = [](std::uint32_t cell, std::uint32_t body) { return std::uint64_t{cell} << 32 | body; };
+  ForEachPart(pool,
+              [&](Part& part)
+              {
+                part.near.clear();
+                part.blocks.clear();
+                for (const auto& [a, b] : part.candidates.pairs)
+                {
+                  if (!broad.IsNear({a, b}, reach, poses)) continue;
+                  const BroadPhase::Place at = broad.PlaceOf(poses.x[a], poses.y[a]);
+                  if (b >= present_.size())
+                  {
+                    part.near.push_back({kStatic | key(at.cell, a), b});
+                    part.blocks.push_back(at.block);
+                    continue;
+                  }
+                  const BroadPhase::Place other = broad.PlaceOf(poses.x[b], poses.y[b]);
+                  const std::uint64_t one = key(at.cell, a);
+                  const std::uint64_t two = key(other.cell, b);
+                  part.near.push_back({std::min(one, two), std::max(one, two)});
+                  part.blocks.push_back(one < two ? at.block : other.block);
+                }
+              });
+
+  // By block. Counted two places up, as CellSort does.
+  ends_.assign(broad.BlockCount() + 2, 0);
+  std::size_t count = 0;
+  for (const Part& part : parts_)
+  {
+    for (const std::uint32_t block : part.blocks) ++ends_[block + 2];
+    count += part.near.size();
+  }
+  std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
+  near_.resize(count);
+  for (const Part& part : parts_)
+    for (std::size_t n = 0; n < part.near.size(); ++n) near_[ends_[part.blocks[n] + 1]++] = part.near[n];
+}
+
+void VerletList::TakePairs(std::size_t first, std::size_t last, PairList& found)
+{
+  found.pairs.clear();
+  found.ends.clear();
+  for (std::size_t block = first; block < last; ++block)
+  {
+    const std::span<Near> near(near_.data() + ends_[block], ends_[block + 1] - ends_[block]);
+    InsertionSort(near);
+    for (const Near& pair : near)
+    {
+      const auto a = static_cast<std::uint32_t>(pair.first);
+      const auto b = static_cast<std::uint32_t>(pair.second);
+      found.pairs.push_back({std::min(a, b), std::max(a, b)});
+    }
+    found.ends.push_back(static_cast<std::uint32_t>(found.pairs.size()));
+  }
+}
+
+}  // namespace swarmanoid::kinematics2d

@@ -1,0 +1,74 @@
+// Who may come near whom: the pairs of a search with a wider margin, which last until somebody has moved by half of
+// what it is wider (a Verlet list, https://doi.org/10.1103/PhysRev.159.98). Gives the same pairs in the same order as
+// a search at each step. Used by the kinematic world.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/threads/worker_pool.h"
+#include "engine_worker/engines/kinematics2d/broad_phase.h"
+
+namespace swarmanoid::kinematics2d
+{
+
+class VerletList
+{
+public:
+  // `threads`: of the pools that it will get.
+  void Configure(unsigned threads) { parts_.resize(threads); }
+  // Brings the list to where the bodies are now, by a search of its own where that is needed. False if it is not worth
+  // while, or if some bodies are large: then the pairs are to be searched for.
+  bool Update(BroadPhase& broad, const PoseStore& poses, std::span<const std::uint8_t> present, double margin,
+              WorkerPool* pool);
+  // After an update that was true: what BroadPhase::FindPairs finds in blocks `first`, `first` + 1, ... before `last`.
+  // Several threads may ask for different blocks.
+  void TakePairs(std::size_t first, std::size_t last, PairList& found);
+
+private:
+  // A pair at its place in the order of a search: whose cell comes first, then the other one's, each with the number
+  // of the body. Static shapes come after all bodies of a block, and have no cell.
+  struct Near
+  {
+    std::uint64_t first, second;
+
+    bool operator<(const Near& other) const
+    {
+      return first != other.first ? first < other.first : second < other.second;
+    }
+  };
+  // What one thread looks after.
+  struct Part
+  {
+    std::span<const std::uint32_t> searched;  // blocks
+    PairList candidates;
+    std::vector<Near> near;
+    std::vector<std::uint32_t> blocks;  // of them
+    double furthest = 0;
+  };
+
+  bool Holds(const PoseStore& poses, std::span<const std::uint8_t> present, double slack, WorkerPool* pool);
+  void Search(BroadPhase& broad, const PoseStore& poses, std::span<const std::uint8_t> present, WorkerPool* pool);
+  void Choose(const BroadPhase& broad, const PoseStore& poses, double margin, WorkerPool* pool);
+
+  // Calls act(part) with all of them, each in a thread of its own if there is a pool.
+  template <class Act>
+  void ForEachPart(WorkerPool* pool, const Act& act)
+  {
+    if (pool != nullptr) return pool->Run([&](unsigned k) { act(parts_[k]); });
+    for (Part& part : parts_) act(part);
+  }
+
+  std::vector<Part> parts_;
+  double margin_ = 0;          // of the search
+  std::vector<double> x_, y_;  // of each body then
+  std::vector<std::uint8_t> present_;
+  std::uint32_t age_ = 0;              // steps since then
+  std::uint32_t pause_ = 0;            // steps for which it is not tried
+  std::vector<std::uint32_t> blocks_;  // all
+  std::vector<Near> near_;             // block by block
+  std::vector<std::uint32_t> ends_;    // of each block in near_, and 0 before the first
+};
+
+}  // namespace swarmanoid::kinematics2d
