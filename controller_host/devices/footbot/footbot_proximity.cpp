@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "common/builtins/devices.h"
@@ -17,6 +18,7 @@ namespace
 
 constexpr unsigned kRays = FootbotProximity::kRays;
 constexpr double kNothing = std::numeric_limits<double>::infinity();
+constexpr double kTiny = 1e-300;  // for a ray along a side: the quotients become huge, not NaN
 
 // ARGoS3, foot-bot proximity sensor: distance of full response, and the hyperbola beyond it.
 constexpr double kContactDistance = 0.009889556;
@@ -360,7 +362,16 @@ void FootbotProximity::AddUprightBox(std::uint32_t robot, std::uint32_t body)
   const double s = own.sin * box.cos - own.cos * box.sin;
   if (!touched_) std::fill_n(distances_.values, kRays, kNothing);
   touched_ = true;
-  constexpr double kTiny = 1e-300;  // a ray along a side: the quotients become huge, not NaN
+  // Most boxes are walls, of which the rays meet one side: they do not reach its ends, and start before its back.
+  constexpr double kMore = 1.000001;  // a ray may be rounded to be longer than 1
+  const auto is_side_only = [&](double outside, double across, double along, double half_across, double half_along)
+  { return outside > 0 && along + kMore * far <= half_along && across + half_across >= kMore * near; };
+  const double across_x = __builtin_fabs(ox);
+  const double across_y = __builtin_fabs(oy);
+  if (is_side_only(outside_x, across_x, across_y, shape.half_size.x(), shape.half_size.y()))
+    return AddSide(std::copysign(shape.half_size.x(), ox) - ox, c, -s);
+  if (is_side_only(outside_y, across_y, across_x, shape.half_size.y(), shape.half_size.x()))
+    return AddSide(std::copysign(shape.half_size.y(), oy) - oy, s, c);
   for (unsigned i = 0; i < kRays; ++i)
   {
     double ux = c * ray_cos_.values[i] - s * ray_sin_.values[i];
@@ -381,6 +392,24 @@ void FootbotProximity::AddUprightBox(std::uint32_t robot, std::uint32_t body)
     leave = leave < far ? leave : far;
     const double nearest = distances_.values[i];
     const double candidate = enter <= leave ? enter - near : nearest;
+    distances_.values[i] = candidate < nearest ? candidate : nearest;
+  }
+}
+
+// Rays against a straight side that all of them that point to it meet: `way` metres off along an axis, which is (c, s)
+// in the frame of the robot.
+void FootbotProximity::AddSide(double way, double c, double s)
+{
+  const double near = ring_radius_;
+  const double far = near + range_;
+  for (unsigned i = 0; i < kRays; ++i)
+  {
+    double u = c * ray_cos_.values[i] + s * ray_sin_.values[i];
+    u = u == 0 ? kTiny : u;
+    const double meets = way / u;
+    const double enter = meets > near ? meets : near;
+    const double nearest = distances_.values[i];
+    const double candidate = (meets > 0) & (enter <= far) ? enter - near : nearest;
     distances_.values[i] = candidate < nearest ? candidate : nearest;
   }
 }

@@ -77,6 +77,7 @@ private:
   void FinishReadings(std::size_t k);
   void AddDisc(std::uint32_t robot, double dx, double dy, double radius);
   void AddUprightBox(std::uint32_t robot, std::uint32_t body);
+  void AddSide(double way, double c, double s);
   void AddAny(std::uint32_t robot, const Shape& shape, const Pose& other);
   template <class HitOf>
   void AddRays(std::uint32_t robot, const Vector3& centre, double radius, const HitOf& hit_of);
