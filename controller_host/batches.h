@@ -9,7 +9,6 @@
 
 #include "common/activity/shared_activity.h"
 #include "common/messages/attribute_changes.h"
-#include "common/threads/thread_choice.h"
 #include "common/threads/worker_pool.h"
 #include "controller_host/controller_host.h"
 #include "controller_host/device.h"
@@ -57,12 +56,10 @@ struct ControllerHost::Batches
   std::vector<Sensor> sensors;
   std::vector<Actuator> actuators;
   AttributeOrder order;
-  WorkerPool* pool = nullptr;     // none: one thread does it all
-  bool split = false;             // some sensor is
-  std::vector<Failure> failures;  // of sensors, by thread
-  SharedWork sensing;
+  WorkerPool* pool = nullptr;               // none: one thread does it all
+  bool split = false;                       // some sensor is
+  std::vector<Failure> failures;            // of sensors, by thread
   std::vector<std::exception_ptr> stopped;  // what stopped the controllers of a thread
-  SharedWork stepping;
 };
 
 template <class Do>

@@ -95,17 +95,11 @@ void ControllerHost::UpdateParts(std::uint64_t tick)
         RunCodeOf(sensor.actor, ActivityStep::kUpdate, tick,
                   [&] { dynamic_cast<SplitSensor&>(*sensor.batch).RefreshShared(by); });
   };
-  batches_->sensing.Do(
-      [&]
-      {
-        refresh(nullptr);
-        for (unsigned part = 0; part < pool.Threads(); ++part) update(part);
-      },
-      [&]
-      {
-        refresh(&pool);
-        pool.Run(update);
-      });
+  refresh(pool.Shares() ? &pool : nullptr);
+  if (pool.Shares())
+    pool.Run(update);
+  else
+    for (unsigned part = 0; part < pool.Threads(); ++part) update(part);
   // The first of the robots, whichever thread was first.
   for (const Batches::Failure& failure : failures)
     if (failure.what != nullptr)
@@ -188,8 +182,8 @@ void ControllerHost::FailCommand(std::uint32_t robot, const DeviceConfiguration&
 // Those that may step in parallel come first, however many threads there are, and those with a guard last.
 void ControllerHost::RunControllers(std::uint64_t tick)
 {
-  if (batches_->pool != nullptr && parallel_.size() > 1)
-    batches_->stepping.Do([&] { StepInTurn(parallel_, tick); }, [&] { StepInParallel(tick); });
+  if (batches_->pool != nullptr && batches_->pool->Shares() && parallel_.size() > 1)
+    StepInParallel(tick);
   else
     StepInTurn(parallel_, tick);
   StepInTurn(in_turn_, tick);

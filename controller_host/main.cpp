@@ -11,7 +11,7 @@
 #include "common/bus/worker_program.h"
 #include "common/bus/worker_session.h"
 #include "common/logging/log.h"
-#include "common/threads/worker_pool.h"
+#include "common/threads/thread_choice.h"
 #include "controller_host/cluster/robot_inspection.h"
 #include "controller_host/controller_host.h"
 
@@ -158,7 +158,8 @@ private:
   void Step(std::uint64_t tick)
   {
     for (std::size_t k = 0; k < frames_here_.size(); ++k) frames_here_[k] = &frames_[tick % 2][k];
-    role_.Tick(tick == 0 ? std::span<const SensorFrame* const>() : std::span<const SensorFrame* const>(frames_here_));
+    const std::span<const SensorFrame* const> frames(frames_here_);
+    sharing_.Do(&pool_, [&] { role_.Tick(tick == 0 ? std::span<const SensorFrame* const>() : frames); });
     has_stepped_ = true;
   }
 
@@ -192,6 +193,7 @@ private:
   Replica& replica_;
   std::uint32_t host_;
   WorkerPool pool_;
+  SharedTicks sharing_;
   ControllerHost role_;
   SavedStates saved_;
   Inputs inputs_;                                   // its mutex guards the role and what follows

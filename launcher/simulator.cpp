@@ -20,7 +20,7 @@
 #include "common/run/hash_log.h"
 #include "common/serialisation/trial.h"
 #include "common/space/space.h"
-#include "common/threads/worker_pool.h"
+#include "common/threads/thread_choice.h"
 #include "controller_host/controller_host.h"
 #include "engine_worker/engine_worker.h"
 #include "launcher/steering.h"
@@ -158,6 +158,7 @@ struct CSimulator::Roles
   const CSwarmanoidSpace& space;
   Steering steering;
   std::unique_ptr<WorkerPool> pool;  // of the roles, which work one after the other; none for one thread
+  SharedTicks sharing;
   std::vector<std::unique_ptr<EngineWorker>> engines;
   std::vector<std::unique_ptr<ControllerHost>> hosts;
   std::unique_ptr<StepTimeout> time_budgets;
@@ -214,9 +215,14 @@ bool CSimulator::Step()
   RefuseWithin("Step");
   Roles& r = *roles_;
   if (r.over || r.finished) return false;
-  for (std::size_t h = 0; h < r.hosts.size(); ++h) r.hosts[h]->Tick(r.Frames(h));
-  for (std::size_t e = 0; e < r.engines.size(); ++e) r.engines[e]->Tick(r.server.Moved(), r.commands_of_engines[e]);
-  r.server.Advance(r.updates, r.commands);
+  r.sharing.Do(r.pool.get(),
+               [&]
+               {
+                 for (std::size_t h = 0; h < r.hosts.size(); ++h) r.hosts[h]->Tick(r.Frames(h));
+                 for (std::size_t e = 0; e < r.engines.size(); ++e)
+                   r.engines[e]->Tick(r.server.Moved(), r.commands_of_engines[e]);
+                 r.server.Advance(r.updates, r.commands);
+               });
   Show();
   return true;
 }

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "common/threads/worker_pool.h"
+
 namespace swarmanoid
 {
 
@@ -15,7 +17,7 @@ class ThreadChoice
 public:
   using Duration = std::chrono::nanoseconds;
   static constexpr Duration kWorthWaking{20'000};  // work that takes less is never shared
-  static constexpr unsigned kTrials = 4;           // of each way; the shortest counts
+  static constexpr unsigned kTrials = 4;           // of each way; the shortest counts (the first wakes the threads)
   static constexpr unsigned kLeastGain = 10;       // sharing is worth it if it saves more than one such part
   // Pieces until both ways are tried again: few at first, since the first pieces of a run are unlike those that follow,
   // then twice as many each time.
@@ -68,18 +70,19 @@ private:
   Duration late_ = Duration::zero();
 };
 
-// Does a piece of work by one of two functions that do the same.
-class SharedWork
+// Does the ticks of a process whose roles have a pool: with its threads or without. All that a tick has is shared or
+// nothing, since threads that have just worked take up the next part at once, and others are to be woken.
+class SharedTicks
 {
 public:
-  template <class Alone, class Shared>
-  void Do(const Alone& alone, const Shared& shared)
+  // `pool`: none for one thread. Whoever works in `tick` asks whether it shares.
+  template <class Tick>
+  void Do(WorkerPool* pool, const Tick& tick)
   {
+    if (pool == nullptr || pool->Threads() == 1) return tick();
+    pool->Share(choice_.Shares());
     const auto start = std::chrono::steady_clock::now();
-    if (choice_.Shares())
-      shared();
-    else
-      alone();
+    tick();
     choice_.Took(std::chrono::steady_clock::now() - start);
   }
 

@@ -33,6 +33,9 @@ public:
   WorkerPool& operator=(const WorkerPool&) = delete;
 
   unsigned Threads() const { return static_cast<unsigned>(workers_.size()) + 1; }
+  // Whether those who have work for the threads are to share it now, or to do it alone. (Run does not ask.)
+  bool Shares() const { return shares_; }
+  void Share(bool shares) { shares_ = shares; }
   // Calls part(k) for every k below Threads(), each in a thread of its own, and returns when all are done. Parts throw
   // nothing and write to places of their own.
   template <class Part>
@@ -73,6 +76,7 @@ private:
     }
   }
 
+  bool shares_ = true;
   void (*call_)(const void* context, unsigned k) = nullptr;  // nullptr ends the threads
   const void* context_ = nullptr;
   std::atomic<unsigned> piece_ = 0;

@@ -17,7 +17,7 @@ constexpr std::size_t kPairsAhead = 12;
 // Blocks for the threads, about as many bodies for each.
 void KinematicWorld::SplitBlocks()
 {
-  constexpr std::size_t kLeast = 1024;  // bodies; below, waking threads takes longer
+  constexpr std::size_t kLeast = 512;  // bodies; below, handing parts over takes longer
   const std::size_t parts = count_ < kLeast || Pool() == nullptr ? 1 : parts_.size();
   std::size_t last = 0;
   for (std::size_t k = 0; k < parts_.size(); ++k)

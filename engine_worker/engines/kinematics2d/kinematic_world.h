@@ -62,8 +62,6 @@ public:
   // `area` is where most bodies will be. `threads` work together, those of `pool` if there is one; their number changes
   // no bit of the results.
   void Start(Bounds area, unsigned threads = 1, WorkerPool* pool = nullptr);
-  // Whether they do from now on.
-  void UseThreads(bool use) { uses_threads_ = use; }
 
   // Each tick: what the bodies do until they are told otherwise.
   void SetTwist(std::uint32_t body, const Twist& twist) { twists_.Set(body, twist); }
@@ -252,7 +250,7 @@ private:
   void Move(double seconds, double fraction);
   void SwapFollowers();
   void SplitBlocks();
-  WorkerPool* Pool() const { return uses_threads_ ? pool_ : nullptr; }
+  WorkerPool* Pool() const { return pool_ != nullptr && pool_->Shares() ? pool_ : nullptr; }
   // Calls act(part) with all that have blocks, each in a thread of its own.
   template <class Act>
   void ForEachPart(const Act& act)
@@ -325,8 +323,7 @@ private:
 
   std::unique_ptr<WorkerPool> own_pool_;
   WorkerPool* pool_ = nullptr;  // none for one thread
-  bool uses_threads_ = true;
-  std::vector<Part> parts_;  // one for each thread
+  std::vector<Part> parts_;     // one for each thread
   BroadPhase broad_;
   VerletList verlet_list_;
   std::vector<std::uint32_t> blocks_;  // those of this region, ascending

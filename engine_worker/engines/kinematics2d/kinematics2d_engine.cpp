@@ -76,7 +76,6 @@ void Kinematics2dEngine::Init(const EngineSetup& setup)
   {
     threads_ = setup.threads;
     pool_ = setup.pool;
-    if (threads_ > 1) sharing_.emplace();
   }
   world_ = KinematicWorld(setup.parameters.Number("elasticity"));
   robots_.Init(setup.space, frame_, *this);
@@ -225,10 +224,12 @@ CollisionModel Kinematics2dEngine::Outline(const CSwarmanoidSpaceEntity& block, 
 void Kinematics2dEngine::Update(const EngineCommands& commands, EngineUpdate& update, std::span<double> sensors)
 {
   FollowMirrors();
-  if (sharing_)
-    sharing_->Do([&] { Step(commands, false, update.poses); }, [&] { Step(commands, true, update.poses); });
-  else
-    Step(commands, true, update.poses);
+  WorkerPool* const pool = pool_ != nullptr && pool_->Shares() ? pool_ : nullptr;
+  ApplyCommands(commands, pool);
+  for (std::size_t k = 0; k < tick_start_.size(); ++k) tick_start_[k] = world_.PoseOf(footbots_[k].body);
+  BalanceRegions();
+  world_.Advance(TickSeconds(), subclock_);
+  writer_.Write(world_.Poses(), update.poses, pool);
   robots_.Raise(layout_->owned, update.poses);
   ReportFootbots(update.attributes);
   robots_.Report(update.attributes);
@@ -239,17 +240,6 @@ void Kinematics2dEngine::Update(const EngineCommands& commands, EngineUpdate& up
     if (block.name == "footbot_encoders") ReadEncoders(block, values);
     if (block.name == "footbot_turret_torque") ReadTurretTorques(block, values);
   }
-}
-
-void Kinematics2dEngine::Step(const EngineCommands& commands, bool in_threads, std::span<double> poses)
-{
-  WorkerPool* const pool = in_threads ? pool_ : nullptr;
-  ApplyCommands(commands, pool);
-  for (std::size_t k = 0; k < tick_start_.size(); ++k) tick_start_[k] = world_.PoseOf(footbots_[k].body);
-  BalanceRegions();
-  world_.UseThreads(in_threads);
-  world_.Advance(TickSeconds(), subclock_);
-  writer_.Write(world_.Poses(), poses, pool);
 }
 
 void Kinematics2dEngine::FollowMirrors()

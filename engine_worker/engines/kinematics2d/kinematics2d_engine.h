@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/threads/thread_choice.h"
+#include "common/threads/worker_pool.h"
 #include "engine_worker/engines/kinematics2d/kinematic_world.h"
 #include "engine_worker/engines/kinematics2d/plane_writer.h"
 #include "engine_worker/engines/near_objects.h"
@@ -71,7 +71,6 @@ private:
   void AddFixed(const CSwarmanoidSpaceEntity& entity);
   void BalanceRegions();
   // The commands, the motion and the poses after it.
-  void Step(const EngineCommands& commands, bool in_threads, std::span<double> poses);
   void FollowMirrors();
   void ApplyCommands(const EngineCommands& commands, WorkerPool* pool);
   void DriveWheels(const ChannelBlock& block, std::span<const double> values, WorkerPool* pool);
@@ -93,8 +92,7 @@ private:
   PlaneFrame frame_{PlaneAxis::kZ, 0};
   int subclock_ = 1;
   unsigned threads_ = 1;
-  WorkerPool* pool_ = nullptr;         // of the process
-  std::optional<SharedWork> sharing_;  // where it is tried whether several threads pay
+  WorkerPool* pool_ = nullptr;  // of the process
   RegionTeam* team_ = nullptr;
   std::uint64_t updates_ = 0;
   kinematics2d::KinematicWorld world_;

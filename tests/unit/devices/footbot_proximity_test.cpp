@@ -78,6 +78,40 @@ TEST(FootbotProximity, SeesAWallAheadAtTheDistanceOfEachRay)
   for (unsigned i = 6; i < 18; ++i) EXPECT_EQ(readings[i], 0);
 }
 
+// Of a wall whose ends are out of reach only the side is looked at; of one that just does not get there, all of it.
+TEST(FootbotProximity, ALongWallReadsBitForBitAsABoxThatEndsWhereTheRaysDo)
+{
+  constexpr double kReach = kBody + 0.1;
+  RandomStream random(3, 1, 2, 3);
+  int seen = 0;
+  for (int trial = 0; trial < 400; ++trial)
+  {
+    const double own_yaw = random.Uniform(-kPi, kPi);
+    const double wall_yaw = trial % 4 == 0 ? kPi / 2 * (trial / 4 % 4) : random.Uniform(-kPi, kPi);
+    const double thickness = random.Uniform(0.01, 0.3);
+    const double gap = random.Uniform(-0.01, kReach);
+    const double away = gap + thickness / 2;
+    const Vector3 at(5 + away * std::cos(wall_yaw), 5 + away * std::sin(wall_yaw), 0.25);
+    std::array<std::array<double, kSensors>, 2> readings;
+    for (int k = 0; k < 2; ++k)
+    {
+      TestWorld world;
+      world.AddFootbot(5, 5, own_yaw);
+      const double length = k == 0 ? 2 * kReach * (1 - 1e-9) : 3;
+      if (trial % 2 == 0)
+        world.AddBlock(at, {thickness, length, 0.5}, wall_yaw);
+      else
+        world.AddBlock(at, {length, thickness, 0.5}, wall_yaw + kPi / 2);
+      TestSensor sensor(world, "footbot_proximity", "generic_footbot_proximity", {0});
+      sensor.Update();
+      std::ranges::copy(ReadingsOf(sensor, 0), readings[static_cast<std::size_t>(k)].begin());
+    }
+    EXPECT_EQ(readings[0], readings[1]) << trial;
+    seen += readings[1] != std::array<double, kSensors>{} ? 1 : 0;
+  }
+  EXPECT_GT(seen, 300);
+}
+
 TEST(FootbotProximity, TouchingRobotReadsOneOnTheSideOfTheContact)
 {
   TestWorld world;

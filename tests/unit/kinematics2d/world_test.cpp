@@ -242,7 +242,8 @@ TEST(KinematicWorld, ASpeedBeyondAllSenseIsRefused)
 }
 
 // 3,600 robots, a prey gripped by two of them and a follower, all driven into a corner.
-KinematicWorld CornerPile(unsigned threads, bool now_and_then = false)
+// `now_and_then`: threads that share some of the ticks.
+KinematicWorld CornerPile(unsigned threads, WorkerPool* now_and_then = nullptr)
 {
   KinematicWorld world;
   const auto footbot = world.AddModel(FootbotModel());
@@ -256,7 +257,7 @@ KinematicWorld CornerPile(unsigned threads, bool now_and_then = false)
   world.AddStatic(Wall(-0.05, 7, 0.1, 16));
   world.AddStatic(Wall(7, -0.05, 16, 0.1));
   world.KeepTravel();
-  world.Start({0, 0, 14, 14}, threads);
+  world.Start({0, 0, 14, 14}, threads, now_and_then);
   world.AddGrip(left, prey);
   world.AddGrip(right, prey);
   for (int tick = 0; tick < 40; ++tick)
@@ -269,7 +270,7 @@ KinematicWorld CornerPile(unsigned threads, bool now_and_then = false)
       world.SetTurretRate(k, 0.1 * (k % 7));
     }
     world.Follow(follower, {13.2 - 0.02 * tick, 8, RotorOf(0)}, true);
-    if (now_and_then) world.UseThreads(tick % 3 == 1);
+    if (now_and_then != nullptr) now_and_then->Share(tick % 3 == 1);
     world.Advance(kTick, 1);
   }
   return world;
@@ -280,9 +281,10 @@ TEST(KinematicWorld, ThreadsChangeNoBit)
   const KinematicWorld one = CornerPile(1);
   EXPECT_GT(one.Statistics().contacts, 3000U) << "enough for all threads";
   EXPECT_GT(one.Statistics().held_back, 0U);
+  WorkerPool three(3);
   for (const unsigned threads : {2U, 3U, 4U})
   {
-    const KinematicWorld several = CornerPile(threads, threads == 3);
+    const KinematicWorld several = CornerPile(threads, threads == 3 ? &three : nullptr);
     ByteWriter expected, state;
     one.SaveState(expected);
     several.SaveState(state);

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <thread>
+
 namespace swarmanoid
 {
 namespace
@@ -137,6 +140,27 @@ TEST(ThreadChoice, OneSlowPieceDoesNotDecide)
     choice.Took(disturbed ? 10ms : choice.Shares() ? 60us : 100us);
     EXPECT_EQ(choice.Shares(), k + 1 >= ThreadChoice::kTrials && k + 1 < ThreadChoice::kPeriod) << k;
   }
+}
+
+// All of a tick is shared or nothing; one thread is never told to share.
+TEST(SharedTicks, ThePoolKnowsWhetherATickIsShared)
+{
+  WorkerPool pool(2);
+  SharedTicks ticks;
+  std::set<bool> shared;
+  for (unsigned k = 0; k < 2 * ThreadChoice::kTrials; ++k)
+    ticks.Do(&pool,
+             [&]
+             {
+               shared.insert(pool.Shares());
+               std::this_thread::sleep_for(2 * ThreadChoice::kWorthWaking);
+             });
+  EXPECT_EQ(shared, (std::set<bool>{false, true}));
+  unsigned count = 0;
+  ticks.Do(nullptr, [&] { ++count; });
+  WorkerPool one(1);
+  ticks.Do(&one, [&] { ++count; });
+  EXPECT_EQ(count, 2U);
 }
 
 }  // namespace
