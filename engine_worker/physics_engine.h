@@ -59,7 +59,7 @@ struct EngineSetup
   // Of an engine that is split in a cluster: those who compute the regions of its world. Otherwise nullptr.
   RegionTeam* team = nullptr;
   unsigned threads = 1;        // that the process has for its work
-  WorkerPool* pool = nullptr;  // of these, if they are several
+  WorkerPool* pool = nullptr;  // of these, if they are several; at each tick it says whether it Shares()
 };
 
 // The commands of one step: EngineLayout::commands with the values filled in.
