@@ -95,7 +95,7 @@ void ControllerHost::UpdateParts(std::uint64_t tick)
         RunCodeOf(sensor.actor, ActivityStep::kUpdate, tick,
                   [&] { dynamic_cast<SplitSensor&>(*sensor.batch).RefreshShared(by); });
   };
-  refresh(pool.Shares() ? &pool : nullptr);
+  refresh(IfItShares(&pool));
   if (pool.Shares())
     pool.Run(update);
   else
@@ -182,7 +182,7 @@ void ControllerHost::FailCommand(std::uint32_t robot, const DeviceConfiguration&
 // Those that may step in parallel come first, however many threads there are, and those with a guard last.
 void ControllerHost::RunControllers(std::uint64_t tick)
 {
-  if (batches_->pool != nullptr && batches_->pool->Shares() && parallel_.size() > 1)
+  if (IfItShares(batches_->pool) != nullptr && parallel_.size() > 1)
     StepInParallel(tick);
   else
     StepInTurn(parallel_, tick);

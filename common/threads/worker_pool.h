@@ -84,6 +84,9 @@ private:
   std::vector<std::thread> workers_;
 };
 
+// The pool, if there is one that shares now; else nullptr, as for one thread.
+inline WorkerPool* IfItShares(WorkerPool* pool) { return pool != nullptr && pool->Shares() ? pool : nullptr; }
+
 // Work on `count` things in one part for each thread, or in one if they are few: work(part, begin, end). Borders are
 // multiples of `step`.
 template <class Work>

@@ -250,7 +250,7 @@ private:
   void Move(double seconds, double fraction);
   void SwapFollowers();
   void SplitBlocks();
-  WorkerPool* Pool() const { return pool_ != nullptr && pool_->Shares() ? pool_ : nullptr; }
+  WorkerPool* Pool() const { return IfItShares(pool_); }
   // Calls act(part) with all that have blocks, each in a thread of its own.
   template <class Act>
   void ForEachPart(const Act& act)

@@ -224,7 +224,7 @@ CollisionModel Kinematics2dEngine::Outline(const CSwarmanoidSpaceEntity& block, 
 void Kinematics2dEngine::Update(const EngineCommands& commands, EngineUpdate& update, std::span<double> sensors)
 {
   FollowMirrors();
-  WorkerPool* const pool = pool_ != nullptr && pool_->Shares() ? pool_ : nullptr;
+  WorkerPool* const pool = IfItShares(pool_);
   ApplyCommands(commands, pool);
   for (std::size_t k = 0; k < tick_start_.size(); ++k) tick_start_[k] = world_.PoseOf(footbots_[k].body);
   BalanceRegions();

@@ -70,7 +70,6 @@ private:
 
   void AddFixed(const CSwarmanoidSpaceEntity& entity);
   void BalanceRegions();
-  // The commands, the motion and the poses after it.
   void FollowMirrors();
   void ApplyCommands(const EngineCommands& commands, WorkerPool* pool);
   void DriveWheels(const ChannelBlock& block, std::span<const double> values, WorkerPool* pool);

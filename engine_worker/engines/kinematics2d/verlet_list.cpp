@@ -1,7 +1,6 @@
 #include "engine_worker/engines/kinematics2d/verlet_list.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "common/math/lanes.h"
