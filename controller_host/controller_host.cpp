@@ -8,6 +8,8 @@
 #include "common/control_interface/init_controller.h"
 #include "common/experiment/actors.h"
 #include "common/logging/log.h"
+#include "common/space/collision_models.h"
+#include "common/space/shape.h"
 #include "common/space/space.h"
 #include "controller_host/batches.h"
 #include "controller_host/split_sensor.h"
@@ -116,6 +118,29 @@ ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& 
     else
       (robots_[k].controller->StepsInParallel() ? parallel_ : in_turn_).push_back(k);
   SaveLastStates(0);
+}
+
+double ControllerHost::Reach() const
+{
+  // LEDs, antennas, tags and hands of others stand out from their bodies.
+  constexpr double kStandOut = 1;
+  double reach = 0;
+  for (const Batches::Sensor& sensor : batches_->sensors) reach = std::max(reach, sensor.batch->Reach());
+  for (const Batches::Actuator& actuator : batches_->actuators) reach = std::max(reach, actuator.batch->Reach());
+  double largest = 0;
+  const CollisionModels models(space_);
+  std::vector<CollisionBody> bodies;
+  for (const std::uint32_t entity : space_.Movable())
+  {
+    if (models.IsArticulated(entity))
+    {
+      models.BodiesOf(entity, bodies);
+      for (const CollisionBody& body : bodies) largest = std::max(largest, ReachOf(body));
+    }
+    const Shape shape = ShapeOf(space_.GetEntity(entity).GetConfiguration());
+    largest = std::max(largest, shape.centre.norm() + BoundingRadius(shape));
+  }
+  return reach + largest + kStandOut;
 }
 
 ControllerHost::~ControllerHost()

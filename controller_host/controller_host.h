@@ -38,6 +38,10 @@ public:
                  WorkerPool* pool = nullptr);
   ~ControllerHost();
 
+  // How far in the plane an entity may be from all robots of the host without being missed by the devices, if it is
+  // left out of the space with all that is farther away, m; infinite if they may ask for any. Origins of both count.
+  double Reach() const;
+
   // Brings the sensors to the tick of the space. `frames`: one for each of layout.frames_from, in that order; empty at
   // tick 0. Tick does so first, unless it was done for this tick.
   void Sense(std::span<const SensorFrame* const> frames);

@@ -4,6 +4,7 @@
 // A generic device needs the space alone. A specific one exchanges a channel of values with the engine of its robots.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <type_traits>
@@ -46,6 +47,9 @@ struct ChannelView
   int width = 0;
 };
 
+// Of devices that ask for the whole space.
+inline constexpr double kReachesEverywhere = std::numeric_limits<double>::infinity();
+
 class SensorBatch
 {
 public:
@@ -56,6 +60,9 @@ public:
   // Computes the readings of all robots from the space at its tick. `channel`: what the engines sent (specific
   // sensors).
   virtual void Update(const ChannelView& channel) = 0;
+  // After Init: how far from the origin of a robot, in the plane, the nearest point of a body or source may be on which
+  // its readings depend, m. What is farther away may be missing from the space of the host (docs/scaling.md).
+  virtual double Reach() const { return kReachesEverywhere; }
   // What the device of robot k remembers between ticks, if anything.
   virtual void SaveState(std::size_t, ByteWriter&) const {}
   virtual void LoadState(std::size_t, ByteReader&) {}
@@ -72,6 +79,8 @@ public:
   virtual CCI_Actuator* Actuator(std::size_t k) = 0;
   // Turns what the controllers set into channel values (specific) or attribute changes (generic; slots ascending).
   virtual void Commit(const ChannelView& channel, AttributeChanges& changes) = 0;
+  // As that of sensors: of what it asks of others to know its commands.
+  virtual double Reach() const { return kReachesEverywhere; }
   // What the device of robot k remembers between ticks, if anything.
   virtual void SaveState(std::size_t, ByteWriter&) const {}
   virtual void LoadState(std::size_t, ByteReader&) {}

@@ -1,6 +1,7 @@
 // The program that runs the controllers of some robots of an experiment: the controller host's role at the bus.
 #include <fmt/format.h>
 #include <array>
+#include <cmath>
 
 #include "common/activity/shared_activity.h"
 #include "common/builtins/builtins.h"
@@ -37,6 +38,12 @@ public:
         commands_(session.GetBus(), session.Scope(replica.limits->CommandBytes(), 1)),
         inspection_(session, role_, host_, inputs_.Mutex())
   {
+    // Sensors that ask for all, wherever they are, need the state of all.
+    if (const double reach = role_.Reach(); HostsAskForParts(session.World()) && std::isfinite(reach))
+    {
+      inputs_.HearPartOf(host);
+      session.SetReach(reach);
+    }
     const std::size_t engines = role_.Layout().frames_from.size();
     for (auto& frames : frames_) frames.resize(engines);
     frames_here_.resize(engines);

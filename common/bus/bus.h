@@ -145,9 +145,11 @@ struct HotScope
   bool spread = false;       // WorldMessage::spread
   std::size_t capacity = 0;  // bytes of the largest message (TickLimits)
   unsigned writers = 1;      // of the topic
+  std::string listener{};    // if it is for one process alone: its name
 };
 
-// Messages of a tick: SpaceState, ControlCommands, EngineUpdate, SensorFrame, DrawnMessage, those of regions.
+// Messages of a tick: SpaceState, LocalState, ControlCommands, EngineUpdate, SensorFrame, DrawnMessage, those of
+// regions.
 template <class Message>
 class HotPublisher
 {

@@ -22,6 +22,11 @@ dds::Topic* HotTopic(Bus& bus, const HotScope& scope)
       kTopicOf<Message>, [&] { return dds::TypeSupport(new HotType<Message>(scope.capacity + kMostSealBytes)); });
 }
 
+std::string PartitionOf(const HotScope& scope)
+{
+  return scope.listener.empty() ? scope.experiment : scope.experiment + "/" + scope.listener;
+}
+
 // What leaves the machine is sealed, unless the run lets anybody in. Throws BusError.
 std::optional<RunKey> KeyOfTicks(Bus& bus, const HotScope& scope)
 {
@@ -76,7 +81,7 @@ template <class Message>
 struct HotPublisher<Message>::Impl
 {
   Impl(Bus& bus, const HotScope& scope)
-      : capacity(scope.capacity), writer(bus, HotTopic<Message>(bus, scope), scope.experiment, Qos(bus, scope))
+      : capacity(scope.capacity), writer(bus, HotTopic<Message>(bus, scope), PartitionOf(scope), Qos(bus, scope))
   {
     if (const auto key = KeyOfTicks(bus, scope)) sealer.emplace(*key, kTopicOf<Message>);
   }
@@ -143,7 +148,7 @@ struct HotSubscription<Message>::Impl : dds::DataReaderListener
         reader(bus,
                [this, &its_bus, scope]
                {
-                 return std::make_unique<ReaderEnd>(its_bus, HotTopic<Message>(its_bus, scope), scope.experiment,
+                 return std::make_unique<ReaderEnd>(its_bus, HotTopic<Message>(its_bus, scope), PartitionOf(scope),
                                                     Qos(its_bus, scope), this);
                })
   {
@@ -210,6 +215,7 @@ unsigned HotSubscription<Message>::Writers() const
 }
 
 template class HotPublisher<SpaceState>;
+template class HotPublisher<LocalState>;
 template class HotPublisher<ControlCommands>;
 template class HotPublisher<UpdateMessage>;
 template class HotPublisher<SensorFrame>;
@@ -218,6 +224,7 @@ template class HotPublisher<RegionTaskMessage>;
 template class HotPublisher<RegionHaloMessage>;
 template class HotPublisher<RegionResultMessage>;
 template class HotSubscription<SpaceState>;
+template class HotSubscription<LocalState>;
 template class HotSubscription<ControlCommands>;
 template class HotSubscription<UpdateMessage>;
 template class HotSubscription<SensorFrame>;

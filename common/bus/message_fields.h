@@ -27,6 +27,8 @@ inline constexpr const char* kTopicOf = nullptr;
 template <>
 inline constexpr const char* kTopicOf<SpaceState> = "SpaceState";
 template <>
+inline constexpr const char* kTopicOf<LocalState> = "LocalState";
+template <>
 inline constexpr const char* kTopicOf<ControlCommands> = "ControlCommands";
 template <>
 inline constexpr const char* kTopicOf<UpdateMessage> = "EngineUpdate";
@@ -103,6 +105,16 @@ void Fields(Archive& archive, MessageHeader& header, SpaceState& message)
   Fields(archive, message.attributes);
   archive.Array("moved", message.moved);
   Fields(archive, message.drawing);
+  if constexpr (Archive::kReads) message.tick = header.tick;
+}
+
+template <class Archive>
+void Fields(Archive& archive, MessageHeader& header, LocalState& message)
+{
+  PoseFields(archive, message.poses,
+             {{kFlagLast, &message.last}, {kFlagRepeated, &header.repeated}, {kFlagSave, &header.save}});
+  Fields(archive, message.attributes);
+  archive.Array("entities", message.entities);
   if constexpr (Archive::kReads) message.tick = header.tick;
 }
 
@@ -251,6 +263,7 @@ void Fields(Archive& archive, JoinMessage& message)
   archive.Bool("ready", message.ready);
   archive.Integer("incarnation", message.incarnation);
   archive.Name("machine", message.machine);
+  archive.Number("reach", message.reach);
 }
 
 template <class Archive>

@@ -15,7 +15,7 @@ namespace swarmanoid
 {
 
 // Equal to PROTOCOL_VERSION of the IDL; a test says so.
-inline constexpr std::uint32_t kProtocolVersion = 14;
+inline constexpr std::uint32_t kProtocolVersion = 15;
 
 // What precedes every message of a tick.
 struct MessageHeader
@@ -97,6 +97,9 @@ struct WorldMessage
   KnownFaults known{};
 };
 
+// JoinMessage::reach of those who hear the state of all.
+inline constexpr double kReachesAll = -1;
+
 struct JoinMessage
 {
   std::string process;
@@ -106,6 +109,7 @@ struct JoinMessage
   bool ready = false;
   std::uint32_t incarnation = 0;
   std::string machine{};
+  double reach = kReachesAll;  // m
 };
 
 struct ViewMessage

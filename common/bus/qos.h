@@ -22,6 +22,7 @@ struct TopicQos
 inline constexpr TopicQos kTopics[] = {
     // topic            hot    kept   keyed  writer reader
     {"SpaceState", true, false, false, 2, 4},
+    {"LocalState", true, false, false, 2, 4},
     {"ControlCommands", true, false, false, 2, 4},  // reader: for each writer
     {"EngineUpdate", true, false, false, 2, 4},     // reader: for each writer
     {"SensorFrame", true, false, false, 2, 4},      // reader: for each writer

@@ -62,6 +62,8 @@ WorldMessage DescribeWorld(const CSwarmanoidSpace& space, std::uint64_t run, con
   return world;
 }
 
+bool HostsAskForParts(const WorldMessage& world) { return world.spread && world.hosts > 1; }
+
 // No engine waits for a host without robots.
 bool ServerHears(const HostLayout& host) { return host.reports_to_server || host.robots.empty(); }
 

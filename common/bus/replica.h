@@ -42,6 +42,10 @@ struct Replica
 // What the space server says of its world.
 WorldMessage DescribeWorld(const CSwarmanoidSpace& space, std::uint64_t run, const std::string& file, unsigned hosts);
 
+// Whether hosts hear LocalState, if they know how far they reach: in memory that processes share it would save nothing,
+// and a single host knows all.
+bool HostsAskForParts(const WorldMessage& world);
+
 // Whether the server waits for the commands of a host.
 bool ServerHears(const HostLayout& host);
 

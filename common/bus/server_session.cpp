@@ -161,6 +161,7 @@ void ServerSession::Joined(const JoinMessage& join)
       if (joined.process != join.process) joined.released = false;
       std::tie(joined.process, joined.ready, joined.incarnation) = std::tie(join.process, join.ready, join.incarnation);
       joined.machine = join.machine;
+      joined.reach = join.reach;
       if (join.ready && join.incarnation > 0) state->replaced.emplace_back(join.name, join.incarnation);
     }
   }
@@ -206,6 +207,8 @@ void ServerSession::Release(const std::string& name) { state_.Lock()->members.at
 std::string ServerSession::ProcessOf(const std::string& name) const { return state_.Lock()->members.at(name).process; }
 
 std::string ServerSession::MachineOf(const std::string& name) const { return state_.Lock()->members.at(name).machine; }
+
+double ServerSession::ReachOf(const std::string& name) const { return state_.Lock()->members.at(name).reach; }
 
 std::uint32_t ServerSession::Incarnation(const std::string& name) const
 {

@@ -71,6 +71,8 @@ public:
   std::string ProcessOf(const std::string& name) const;
   // As whoever started it calls it; empty if nobody said.
   std::string MachineOf(const std::string& name) const;
+  // Of a host that hears LocalState: JoinMessage::reach.
+  double ReachOf(const std::string& name) const;
   // Of the process that has the name now.
   std::uint32_t Incarnation(const std::string& name) const;
   // What such processes ask for, and the answer.
@@ -104,6 +106,7 @@ private:
     bool released = false;  // whoever comes takes its place
     std::uint32_t incarnation = 0;
     std::string machine{};  // as in JoinMessage
+    double reach = kReachesAll;
     StatusMessage status;
   };
 

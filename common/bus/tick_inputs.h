@@ -59,6 +59,13 @@ public:
     }
   }
 
+  // The states are those that the server tells this host alone. Before Open.
+  void HearPartOf(std::size_t host)
+  {
+    part_of_ = static_cast<std::uint32_t>(host);
+    known_.assign(space_.Movable().begin(), space_.Movable().end());
+  }
+
   // The first step is at another tick. Before Open.
   void StartAt(std::uint64_t tick) { gate_.StartAt(tick); }
 
@@ -75,17 +82,17 @@ public:
                              [this](const MessageHeader& header) { return PlaceOf(header); },
                              [this](const MessageHeader& header, Message&) { Arrived(header); },
                              [this](const MessageHeader& header, const Message& m) { limits_.Check(header, m); }});
-    states_in_.emplace(session_.GetBus(), session_.Scope(limits_.StateBytes(), 1),
-                       HotSubscription<SpaceState>::Handler{
-                           [this](const MessageHeader& header) { return PlaceOfState(header); },
-                           [this](const MessageHeader& header, SpaceState& state) { StateArrived(header, state); },
-                           [this](const MessageHeader& header, const SpaceState& s) { limits_.Check(header, s); }});
+    if (part_of_)
+      Hear(part_in_, session_.Scope(limits_.LocalStateBytes(), 1), HostName(*part_of_));
+    else
+      Hear(states_in_, session_.Scope(limits_.StateBytes(), 1), {});
   }
 
   // No message comes and none of the calls runs after this. Before anything that they use goes.
   void Close()
   {
     states_in_.reset();
+    part_in_.reset();
     others_in_.reset();
     if (!stepper_.joinable()) return;
     {
@@ -99,7 +106,7 @@ public:
   // The last state has come: others may have left already.
   bool Over() const { return over_; }
   // Whether the states of the server can be read, and how many of the other writers have not been found yet.
-  bool ServerIsHere() const { return states_in_->Writers() >= 1; }
+  bool ServerIsHere() const { return (part_of_ ? part_in_->Writers() : states_in_->Writers()) >= 1; }
   unsigned MissingWriters() const
   {
     const unsigned here = others_in_ ? others_in_->Writers() : 0;
@@ -147,9 +154,21 @@ private:
     return static_cast<std::size_t>(std::find(sources_.begin(), sources_.end(), header.source) - sources_.begin());
   }
 
-  SpaceState* PlaceOfState(const MessageHeader& header)
+  template <class State>
+  void Hear(std::optional<HotSubscription<State>>& states_in, HotScope scope, const std::string& listener)
+  {
+    scope.listener = listener;
+    states_in.emplace(session_.GetBus(), scope,
+                      typename HotSubscription<State>::Handler{
+                          [this](const MessageHeader& header) -> State* { return PlaceOfState(header); },
+                          [this](const MessageHeader& header, State& state) { StateArrived(header, state); },
+                          [this](const MessageHeader& header, const State& s) { limits_.Check(header, s); }});
+  }
+
+  LocalState* PlaceOfState(const MessageHeader& header)
   {
     if (header.run != session_.World().run) return nullptr;
+    if (part_of_ && header.source != *part_of_) throw BadMessage("source: it is for another host");
     const std::lock_guard lock(mutex_);
     const auto verdict = gate_.Offer(0, header.tick);
     // A repeated state is read too: it may say that the run ends here.
@@ -199,9 +218,11 @@ private:
   // The state of the tick is here. False if it is the last one.
   bool Enter()
   {
-    const SpaceState& state = State();
+    const LocalState& state = states_[gate_.Tick() % 2];
     if (state.last)
       Finish(state.tick);
+    else if (part_of_)
+      space_.Apply(state, known_);
     else
       space_.Apply(state);
     return !state.last;
@@ -264,9 +285,11 @@ private:
   Calls calls_;
   std::mutex mutex_;  // of the gate, the states and all that the calls touch
   TickGate gate_;
-  std::array<SpaceState, 2> states_;  // of even and odd ticks
+  std::array<LocalState, 2> states_;  // of even and odd ticks; of all entities, unless it hears a part
   std::array<bool, 2> saves_{};
-  SpaceState repeated_;
+  LocalState repeated_;
+  std::optional<std::uint32_t> part_of_;  // the host that the states are for
+  std::vector<std::uint32_t> known_;      // if they are for one: the entities of the last one
   std::atomic<std::uint64_t> stepping_ = 0;
   std::atomic<bool> over_ = false;
   bool is_stepping_ = false;
@@ -277,6 +300,7 @@ private:
   StallDetector stall_;  // main thread
   std::optional<HotSubscription<Message>> others_in_;
   std::optional<HotSubscription<SpaceState>> states_in_;
+  std::optional<HotSubscription<LocalState>> part_in_;
 };
 
 }  // namespace swarmanoid

@@ -59,6 +59,7 @@ TickLimits::TickLimits(const CSwarmanoidSpace& space, const Assignment& assignme
   for (const EntityConfiguration& entity : experiment.entities)
   {
     const ControllerConfiguration* controller = experiment.FindController(entity.controller);
+    is_movable_.push_back(entity.movable);
     may_fail_.push_back(controller != nullptr && controller->MayFail());
   }
   for (const HostLayout& host : assignment.hosts) command_values_.push_back(host.command_size);
@@ -83,6 +84,15 @@ std::size_t TickLimits::StateBytes() const
   FillSlots(state.attributes, slots_);
   state.moved.resize(entities_);
   if (draws_) FillDrawing(state.drawing);
+  return PayloadSize(MessageHeader(), state);
+}
+
+std::size_t TickLimits::LocalStateBytes() const
+{
+  LocalState state;
+  FillPoses(state.poses, movable_);
+  FillSlots(state.attributes, slots_);
+  state.entities.resize(movable_);
   return PayloadSize(MessageHeader(), state);
 }
 
@@ -132,6 +142,19 @@ void TickLimits::Check(const MessageHeader& header, const SpaceState& state) con
       RefuseField("moved", fmt::format("entity {} of {} does not ascend, or there is none", state.moved[k], entities_));
   if (!draws_ && !state.drawing.IsEmpty()) RefuseField("shapes", "nobody draws in this run");
   CheckDrawing(state.drawing);
+}
+
+void TickLimits::Check(const MessageHeader& header, const LocalState& state) const
+{
+  CheckSource(header, command_values_.size());
+  for (std::size_t k = 0; k < state.entities.size(); ++k)
+  {
+    const std::uint32_t entity = state.entities[k];
+    if (entity >= entities_ || !is_movable_[entity] || (k > 0 && entity <= state.entities[k - 1]))
+      RefuseField("entities", fmt::format("entity {} of {} does not ascend, or cannot move", entity, entities_));
+  }
+  CheckLength("poses", state.poses.size(), kPoseColumns * state.entities.size());
+  CheckSlots(state.attributes);
 }
 
 void TickLimits::CheckDrawing(const Drawing& drawing) const

@@ -23,6 +23,7 @@ public:
 
   // Bytes of the largest message of a kind, no matter of whom.
   std::size_t StateBytes() const;
+  std::size_t LocalStateBytes() const;
   std::size_t CommandBytes() const;
   std::size_t UpdateBytes() const;
   std::size_t FrameBytes() const;
@@ -33,6 +34,7 @@ public:
 
   // Throw BadMessage, with the name of the field.
   void Check(const MessageHeader& header, const SpaceState& state) const;
+  void Check(const MessageHeader& header, const LocalState& state) const;
   void Check(const MessageHeader& header, const ControlCommands& commands) const;
   void Check(const MessageHeader& header, const UpdateMessage& update) const;
   void Check(const MessageHeader& header, const SensorFrame& frame) const;
@@ -52,7 +54,8 @@ private:
   std::size_t movable_;
   std::size_t slots_;
   bool draws_;                               // states have what experiment functions draw
-  std::vector<bool> may_fail_;               // of each entity
+  std::vector<bool> is_movable_;             // of each entity
+  std::vector<bool> may_fail_;               // likewise
   std::vector<std::size_t> command_values_;  // of each host
   std::vector<std::size_t> owned_;           // of each engine
   std::vector<std::size_t> recorded_;        // of each engine: numbers in UpdateMessage::recorded

@@ -128,7 +128,7 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
   status_ = std::make_unique<Publisher<StatusMessage>>(bus_, world_.experiment);
   leave_ = std::make_unique<Publisher<LeaveMessage>>(bus_, world_.experiment);
   if (leaves_ == nullptr) HearLeaves(world_.experiment);
-  join_->Write({ProcessId(), kProtocolVersion, world_.run, name_, false, incarnation_, machine_});
+  join_->Write({ProcessId(), kProtocolVersion, world_.run, name_, false, incarnation_, machine_, reach_});
 }
 
 void WorkerSession::HearLeaves(const std::string& experiment)
@@ -202,7 +202,7 @@ bool WorkerSession::FollowNext(const std::function<bool()>& idle)
     reason_ = EndReason::kFailed;
   }
   directory_ = std::make_unique<RunDirectory>(world_.experiment, world_.run);
-  join_->Write({ProcessId(), kProtocolVersion, world_.run, name_, true, incarnation_, machine_});
+  join_->Write({ProcessId(), kProtocolVersion, world_.run, name_, true, incarnation_, machine_, reach_});
   Say("the run goes on with another space server");
   return true;
 }
@@ -313,7 +313,7 @@ void WorkerSession::WaitUntil(const std::function<bool()>& met, const std::funct
 void WorkerSession::ReportReady()
 {
   said_ready_ = Clock::now();
-  join_->Write({ProcessId(), kProtocolVersion, world_.run, name_, true, incarnation_, machine_});
+  join_->Write({ProcessId(), kProtocolVersion, world_.run, name_, true, incarnation_, machine_, reach_});
 }
 
 bool WorkerSession::HasBegun() const

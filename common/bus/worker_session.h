@@ -50,6 +50,8 @@ public:
 
   // Waits until `met` is true; after a while it says "waiting for <what>". Throws BusError if the run ends before.
   void WaitUntil(const std::function<bool()>& met, const std::function<std::string()>& what);
+  // Before ReportReady: of a host that hears LocalState (JoinMessage::reach).
+  void SetReach(double reach_m) { reach_ = reach_m; }
   // Tells the server that this process can step.
   void ReportReady();
 
@@ -109,6 +111,7 @@ private:
   std::string name_;
   unsigned incarnation_;
   std::string machine_;
+  double reach_ = kReachesAll;
   const std::atomic<bool>& stop_;
   Bus bus_;
   int domain_;

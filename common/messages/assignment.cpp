@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
+#include <utility>
 
 #include "common/plugins/catalogue.h"
 
@@ -107,6 +109,34 @@ std::vector<std::uint32_t> SourcesOf(const std::vector<ValueCopy>& copies)
   return sources;
 }
 
+// Orders robots so that those of the hosts from `first` to before `last` stand one behind the other, near ones
+// together: halved across the longer side of where they start, again and again. `begin`: of the robots of each host,
+// and the end. They come ordered by engine; where they are of several, these are kept apart.
+void OrderByPlace(const Experiment& experiment, const std::vector<int>& owner, std::span<const std::size_t> begin,
+                  std::size_t first, std::size_t last, std::vector<std::uint32_t>& robots)
+{
+  if (last - first < 2) return;
+  const std::size_t middle = (first + last) / 2;
+  const auto at = [&](std::size_t host) { return robots.begin() + static_cast<std::ptrdiff_t>(begin[host]); };
+  const std::span<const std::uint32_t> these(at(first), at(last));
+  if (!these.empty() && owner[these.front()] == owner[these.back()])
+  {
+    const auto place_of = [&](std::uint32_t robot) { return experiment.entities[robot].pose.position; };
+    Vector3 low = place_of(these.front()), high = low;
+    for (const std::uint32_t robot : these)
+    {
+      low = low.cwiseMin(place_of(robot));
+      high = high.cwiseMax(place_of(robot));
+    }
+    const int axis = high.x() - low.x() >= high.y() - low.y() ? 0 : 1;
+    std::nth_element(at(first), at(middle), at(last),
+                     [&](std::uint32_t a, std::uint32_t b)
+                     { return std::pair(place_of(a)[axis], a) < std::pair(place_of(b)[axis], b); });
+  }
+  OrderByPlace(experiment, owner, begin, first, middle, robots);
+  OrderByPlace(experiment, owner, begin, middle, last, robots);
+}
+
 }  // namespace
 
 Assignment MakeAssignment(const Experiment& experiment, unsigned hosts)
@@ -148,18 +178,20 @@ Assignment MakeAssignment(const Experiment& experiment, unsigned hosts)
     robots.push_back(i);
   }
 
-  // Hosts: contiguous runs of the robots ordered by engine, then entity.
+  // Hosts: as many robots each, ordered by engine, then place.
   std::stable_sort(robots.begin(), robots.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return assignment.owner[a] < assignment.owner[b]; });
   const std::size_t host_count = std::clamp<std::size_t>(hosts, 1, std::max<std::size_t>(robots.size(), 1));
   assignment.host.assign(count, -1);
   assignment.hosts.resize(host_count);
+  std::vector<std::size_t> begins;
+  for (std::size_t h = 0; h <= host_count; ++h) begins.push_back(h * robots.size() / host_count);
+  OrderByPlace(experiment, assignment.owner, begins, 0, host_count, robots);
   for (std::size_t h = 0; h < host_count; ++h)
   {
     HostLayout& layout = assignment.hosts[h];
-    const auto begin = robots.begin() + static_cast<std::ptrdiff_t>(h * robots.size() / host_count);
-    const auto end = robots.begin() + static_cast<std::ptrdiff_t>((h + 1) * robots.size() / host_count);
-    layout.robots.assign(begin, end);
+    layout.robots.assign(robots.begin() + static_cast<std::ptrdiff_t>(begins[h]),
+                         robots.begin() + static_cast<std::ptrdiff_t>(begins[h + 1]));
     std::sort(layout.robots.begin(), layout.robots.end());
     for (const std::uint32_t robot : layout.robots)
     {

@@ -62,7 +62,8 @@ struct Assignment
   std::vector<int> host;   // of each entity: host index, -1 for none
 };
 
-// Robots go to hosts in contiguous runs of about equal size, ordered by owning engine, then entity.
+// Each host has about as many robots, of one engine if it may be, and near one another where they start: the swarm is
+// halved across its longer side, again and again.
 // There are never more hosts than robots, and always at least one. Needs the device registries.
 Assignment MakeAssignment(const Experiment& experiment, unsigned hosts);
 

@@ -41,6 +41,14 @@ struct SpaceState
   Drawing drawing{};                 // of experiment functions, if the run has visualisers
 };
 
+// Space server to one controller host, in runs over a network: of the movable entities those alone that
+// its sensors may reach; all others are not in the arena for it. `poses` are of these, `attributes` are of these and of
+// all that cannot move, and have all slots of those that were not among them a tick before.
+struct LocalState : SpaceState
+{
+  std::vector<std::uint32_t> entities;  // ascending
+};
+
 // Space server to those who join late: the whole state at a tick.
 struct SpaceSnapshot
 {

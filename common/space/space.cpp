@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 
 #include "common/space/attributes.h"
 #include "common/space/make_entity.h"
@@ -180,6 +181,22 @@ void CSwarmanoidSpace::Apply(const SpaceState& state)
   SetPoses(movable_, state.poses);
   SetAttributes(state.attributes);
   SetDrawing(state.drawing);
+}
+
+void CSwarmanoidSpace::Apply(const LocalState& state, std::vector<std::uint32_t>& known)
+{
+  tick_ = state.tick;
+  // Who is not known any more is not there, and holds nobody: whom it may hold by now is not told.
+  std::vector<std::uint32_t> gone;
+  std::ranges::set_difference(known, state.entities, std::back_inserter(gone));
+  AttributeChanges changes;
+  for (const std::uint32_t entity : gone)
+    for (std::uint32_t hand = 0; hand < Hands(entity).size(); ++hand) changes.Add(FirstHandSlot(entity) + hand, 0);
+  for (const std::uint32_t entity : gone) changes.Add(PresenceSlot(entity), 0);
+  SetAttributes(changes);
+  SetPoses(state.entities, state.poses);
+  SetAttributes(state.attributes);
+  known = state.entities;
 }
 
 void CSwarmanoidSpace::SwapDrawing(Drawing& drawing)

@@ -92,6 +92,9 @@ public:
 
   // Brings a replica to the tick of the message.
   void Apply(const SpaceState& state);
+  // Likewise where others are left out. `known`: the entities of the message before, at first Movable(); becomes those
+  // of this one.
+  void Apply(const LocalState& state, std::vector<std::uint32_t>& known);
   void Apply(const SpaceSnapshot& snapshot);
   void WritePoses(std::vector<double>& poses) const;  // of the movable entities, as in SpaceState
 

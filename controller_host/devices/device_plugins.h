@@ -1,27 +1,43 @@
 // Small parts that the simulated devices share: registration, random numbers, noise.
 #pragma once
 
+#include <concepts>
 #include <memory>
 #include <string>
+#include <type_traits>
 
 #include "controller_host/device.h"
 #include "controller_host/devices/device_streams.h"
 #include "controller_host/devices/noise.h"
+#include "controller_host/devices/value_devices.h"
 
 namespace swarmanoid
 {
 
-// Sensors and actuators that common/builtins describes.
+// A device that asks for nothing but its own robots.
+template <class Batch>
+class OfOwnRobots : public Batch
+{
+public:
+  double Reach() const override { return 0; }
+};
+
+// Sensors and actuators that common/builtins describes. Of these all actuators ask for their own robots alone, and so
+// do sensors that hand on what engines or attributes say. What users derive from the same bases says itself how far it
+// reaches.
 template <class Batch>
 void BindSensor(const std::string& label, const std::string& implementation)
 {
-  PluginRegistry<SensorBatch>::Instance().Bind(label, implementation, [] { return std::make_unique<Batch>(); });
+  constexpr bool kOfOwnRobots = std::derived_from<Batch, ChannelSensor> || std::derived_from<Batch, AttributeSensor>;
+  using Made = std::conditional_t<kOfOwnRobots, OfOwnRobots<Batch>, Batch>;
+  PluginRegistry<SensorBatch>::Instance().Bind(label, implementation, [] { return std::make_unique<Made>(); });
 }
 
 template <class Batch>
 void BindActuator(const std::string& label, const std::string& implementation)
 {
-  PluginRegistry<ActuatorBatch>::Instance().Bind(label, implementation, [] { return std::make_unique<Batch>(); });
+  PluginRegistry<ActuatorBatch>::Instance().Bind(label, implementation,
+                                                 [] { return std::make_unique<OfOwnRobots<Batch>>(); });
 }
 
 }  // namespace swarmanoid

@@ -13,6 +13,7 @@
 #include "controller_host/devices/any_robot/kind_of_batch.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
+#include "controller_host/devices/sensing/engine_membership.h"
 #include "controller_host/devices/sensing/floor_patches.h"
 #include "controller_host/devices/sensing/sensor_world.h"
 #include "controller_host/devices/value_devices.h"
@@ -102,6 +103,9 @@ public:
   }
 
   CCI_Sensor* Sensor(std::size_t k) override { return &devices_[k]; }
+
+  // Patches of the floor are there for everybody.
+  double Reach() const override { return 0; }
 
   void RefreshShared(WorkerPool* pool) override { world_->Refresh(pool); }
   void Update(const ChannelView&) override
@@ -206,7 +210,7 @@ private:
     const auto& engines = space_->GetExperiment().engines;
     const auto holds = [robot](const EngineConfiguration& engine)
     {
-      const bool is_plane = engine.tag == "dummy_engine" || engine.tag == "kinematics2d" || engine.tag == "dynamics2d";
+      const bool is_plane = IsPlane(engine);
       return is_plane && std::binary_search(engine.entities.begin(), engine.entities.end(), robot);
     };
     return std::any_of(engines.begin(), engines.end(), holds);

@@ -2,6 +2,7 @@
 """A run over two machines whose link loses packets. The hash must be that of one process, and what is lost is all that is sent again.
 Needs root and /dev/net/tun; skipped otherwise."""
 import os
+import signal
 import sys
 import time
 import unittest
@@ -48,6 +49,42 @@ class Network(LauncherTest):
         carried, lost = self.run_over(0.02, experiment="diffusion_1000.xml", ticks=ticks)
         self.assertGreater(lost, ticks / 2)
         self.assertLess(carried / ticks, 200)
+
+    def test_hosts_that_are_told_their_surroundings(self):
+        """Three hosts on the other machine: alone each is told of all 1,000 robots, together hardly more. One of them dies, and its place is
+        taken."""
+        experiment, ticks = CONFIGS / "diffusion_1000.xml", 300
+        hosts = self.folder / "hosts.txt"
+        one = self.run_it("run", experiment, "--ticks", ticks, "--no-visualisers", "--single-process", "--hash-log", "one")
+        carried = {}
+        for number in (1, 3):
+            hosts.write_text(self.machines.hosts() + "".join(f"controller_host {k} = {self.machines.names[1]}\n" for k in range(number)))
+            self.machines.connect(0, 0.1)
+            try:
+                run = self.run_it("run", experiment, "--ticks", ticks, "--no-visualisers", "--hosts", hosts, "--controller-hosts", number,
+                                  "--hash-log", "cluster", timeout=90)
+            finally:
+                carried[number] = self.machines.disconnect()[0]
+            self.assertEqual(run.process.returncode, 0, run.stderr)
+            self.assertEqual((self.folder / "cluster").read_text(), (self.folder / "one").read_text())
+        # Each further host would be told 32 kB in a tick if it were told all: 23 packets, and what confirms them, some 20,000 for both.
+        self.assertLess(carried[3] - carried[1], 2 * 23 * ticks)
+
+        self.machines.connect(0.01, 1)
+        (self.folder / "cluster").unlink()
+        run = self.start("run", experiment, "--ticks", ticks, "--no-visualisers", "--hosts", hosts, "--controller-hosts", 3, "--real-time", 3,
+                         "--hash-log", "cluster")
+        try:
+            self.wait_for_tick("cluster", 20, run)
+            os.kill(run.find("controller_host"), signal.SIGKILL)
+            run.read_until(REPLACED)
+            run.wait()
+        finally:
+            self.machines.disconnect()
+        self.assertEqual(run.process.returncode, 0, run.stderr)
+        self.assertEqual(self.assert_finished(run, ticks), self.assert_finished(one, ticks))
+        self.assertEqual((self.folder / "cluster").read_text(), (self.folder / "one").read_text())
+        self.assert_nothing_left(run)
 
     def test_without_multicast_by_peers(self):
         self.machines.forget_multicast()

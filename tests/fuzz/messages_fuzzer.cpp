@@ -74,7 +74,8 @@ constexpr void (*kTries[])(std::span<const char>) = {TryOfTick<SpaceState>,
                                                      TryOther<WorkerReportMessage>,
                                                      TryOfTick<RegionTaskMessage>,
                                                      TryOfTick<RegionHaloMessage>,
-                                                     TryOfTick<RegionResultMessage>};
+                                                     TryOfTick<RegionResultMessage>,
+                                                     TryOfTick<LocalState>};
 
 fuzz::Input InputOf(std::uint8_t topic, const std::string& payload)
 {
@@ -95,6 +96,10 @@ std::vector<fuzz::Input> fuzz::FirstInputs()
   state.poses = {1, 2, 3, 0, 0, 0, 1};
   state.attributes = changes;
   state.moved = {4, 9};
+  LocalState local;
+  local.poses = state.poses;
+  local.attributes = changes;
+  local.entities = {4};
   ControlCommands commands;
   commands.values = {0.1, -0.1};
   commands.attributes = changes;
@@ -147,7 +152,8 @@ std::vector<fuzz::Input> fuzz::FirstInputs()
           InputOf(16, BytesOf(RecoveryRequestMessage{5, "host:1", "engine 'ground'", 2})),
           InputOf(17, BytesOf(RecoveryBlockMessage{5, "host:1", 2, 7, {'a', 'b'}})),
           InputOf(18, BytesOf(WorkerRequestMessage{"host:1", 5, "beta", "engine_worker", {"--engine", "ground"}, 2.5})),
-          InputOf(19, BytesOf(WorkerReportMessage{"host:1", 5, "host:2", 3, {'a'}, {'b'}, "", true, 4, 0, {'c'}}))};
+          InputOf(19, BytesOf(WorkerReportMessage{"host:1", 5, "host:2", 3, {'a'}, {'b'}, "", true, 4, 0, {'c'}})),
+          InputOf(23, BytesOf(header, local))};
 }
 
 }  // namespace swarmanoid

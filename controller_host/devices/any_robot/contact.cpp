@@ -120,6 +120,7 @@ public:
     contacts_.resize(robots_.size());
   }
   CCI_Sensor* Sensor(std::size_t k) override { return &contacts_[k]; }
+  double Reach() const override { return widest_ + reach_; }
 
   void Update(const ChannelView&) override
   {

@@ -97,6 +97,13 @@ public:
     for (std::size_t k = 0; k < robots_.size(); ++k) cameras_.emplace_back(*this, k, width, height, field_of_view);
   }
   CCI_Sensor* Sensor(std::size_t k) override { return &cameras_[k]; }
+  // The depth is along the axis; the rays of the corners are the longest.
+  double Reach() const override
+  {
+    double longest = 0;
+    for (const Vector3& ray : rays_) longest = std::max(longest, ray.norm());
+    return place_.norm() + range_ * longest;
+  }
 
   void RefreshShared(WorkerPool* pool) override
   {

@@ -110,6 +110,12 @@ public:
     scanners_.resize(robots_.size());
   }
   CCI_Sensor* Sensor(std::size_t k) override { return &scanners_[k]; }
+  double Reach() const override
+  {
+    double reach = 0;
+    for (const Beam& beam : beams_) reach = std::max(reach, beam.start + beam.longest + Head::kHeight);
+    return reach;
+  }
   void Update(const ChannelView&) override
   {
     world_->Refresh();

@@ -34,6 +34,7 @@ private:
 class PositioningSensor : public SensorsOf<ValueSensor, Positioning>
 {
 public:
+  double Reach() const override { return 0; }
   void Init(const DeviceSetup& setup) override
   {
     Reset(setup, 7);
@@ -109,6 +110,7 @@ Vector3 RotationVector(const Quaternion& rotation)
 class GyroscopeSensor : public SensorsOf<ValueSensor, ReadingsOf<CCI_GyroscopeSensor, 3>>
 {
 public:
+  double Reach() const override { return 0; }
   void Init(const DeviceSetup& setup) override
   {
     Reset(setup, 3);
@@ -148,6 +150,7 @@ private:
 class BatterySensor : public SensorsOf<ValueSensor, Battery>
 {
 public:
+  double Reach() const override { return 0; }
   void Init(const DeviceSetup& setup) override
   {
     Reset(setup, 2);

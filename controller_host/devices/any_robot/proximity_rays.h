@@ -24,6 +24,7 @@ class ProximityRays : public ValueSensor, public OnDemandSensor
 public:
   void RefreshShared(WorkerPool* pool) override;
   void Update(const ChannelView&) override { MakeAhead(); }
+  double Reach() const override { return reach_m_; }
 
 protected:
   // Takes the noise from the parameters. What controllers hold has to Want its readings. `reach`: how far from the

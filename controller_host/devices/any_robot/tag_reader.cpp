@@ -42,6 +42,7 @@ public:
     FindTagged(setup.parameters);
   }
   CCI_Sensor* Sensor(std::size_t k) override { return &readers_[k]; }
+  double Reach() const override { return std::abs(height_) + range_; }
 
   void Update(const ChannelView&) override
   {

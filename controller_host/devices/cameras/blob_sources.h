@@ -70,6 +70,8 @@ public:
     const Vector3 offset = eye - sources_[number].position;
     return cone.cosine < -1 || offset.dot(cone.axis) >= cone.cosine * __builtin_sqrt(offset.squaredNorm());
   }
+  // Whether there may be laser spots, whose eyebots may be far away.
+  bool HasLasers() const { return !lasers_.empty(); }
   // No source is lower than this, m in the space.
   double LowestHeight() const { return lowest_; }
 

@@ -1,5 +1,7 @@
 #include "controller_host/devices/cameras/colour_camera.h"
 
+#include <algorithm>
+
 #include "common/math/elementary.h"
 #include "common/space/space.h"
 
@@ -33,6 +35,20 @@ void ColourCamera::InitCamera(const DeviceSetup& setup, CameraModel model)
   place_of_entity_.assign(setup.space.Size(), -1);
   for (std::size_t k = 0; k < robots_.size(); ++k) place_of_entity_[robots_[k]] = static_cast<std::int32_t>(k);
   InitDemand(robots_.size());
+}
+
+double ColourCamera::Reach() const
+{
+  // A camera that looks down sees the farther the more it is tilted and the higher it is.
+  const auto stays_upright = [&](std::uint32_t robot)
+  {
+    return std::ranges::all_of(space_->GetExperiment().engines, [&](const EngineConfiguration& engine)
+                               { return IsPlane(engine) || !std::ranges::binary_search(engine.entities, robot); });
+  };
+  if (sources_->HasLasers()) return kReachesEverywhere;
+  if (model_.view == CameraModel::View::kDown && !std::ranges::all_of(robots_, stays_upright))
+    return kReachesEverywhere;
+  return model_.eye.norm() + model_.range + BlobSources::kStandOut;
 }
 
 void ColourCamera::RefreshShared(WorkerPool* pool)

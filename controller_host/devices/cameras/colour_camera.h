@@ -35,6 +35,7 @@ class ColourCamera : public SensorBatch, public OnDemandSensor
 public:
   void Update(const ChannelView&) override { MakeAhead(); }
   void RefreshShared(WorkerPool* pool) override;
+  double Reach() const override;
 
 protected:
   // Takes <aperture> and <range> from the parameters. What controllers hold has to Want its blobs.

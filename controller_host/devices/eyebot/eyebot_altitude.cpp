@@ -36,6 +36,9 @@ public:
     MakeDevices();
   }
 
+  // Straight down.
+  double Reach() const override { return 0; }
+
   void Update(const ChannelView&) override
   {
     world_->Refresh();

@@ -104,6 +104,8 @@ public:
     messages_are_read_ = false;
   }
   void Update(const ChannelView&) override { MakeAhead(); }
+  // A robot that is tilted has its antenna beside it, and so has who is heard.
+  double Reach() const override { return range_ + 2 * kAntennaHeight_m; }
 
 private:
   struct alignas(16) Sent

@@ -6,6 +6,11 @@
 namespace swarmanoid
 {
 
+bool IsPlane(const EngineConfiguration& engine)
+{
+  return engine.tag == "dummy_engine" || engine.tag == "kinematics2d" || engine.tag == "dynamics2d";
+}
+
 EngineMembership::EngineMembership(const Experiment& experiment)
 {
   std::vector<std::vector<std::uint32_t>> engines_of(experiment.entities.size());

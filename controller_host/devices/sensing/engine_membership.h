@@ -10,6 +10,9 @@
 namespace swarmanoid
 {
 
+// Whether the robots of an engine stay upright and at their height.
+bool IsPlane(const EngineConfiguration& engine);
+
 class EngineMembership
 {
 public:

@@ -91,8 +91,9 @@ TEST(MessageBytes, OfJoiningAndLeavingAreThoseOfTheIdl)
     ExpectSame<wire::WorldPubSubType>(world, wire_world);
 
     const JoinMessage join{random.Text(), kProtocolVersion,  random.Number(), random.Text(),
-                           random.Flag(), random.Number32(), random.Text()};
+                           random.Flag(), random.Number32(), random.Text(),   0.25 * random.Number32()};
     wire::Join wire_join;
+    wire_join.reach(join.reach);
     wire_join.process(join.process);
     wire_join.protocol(join.protocol);
     wire_join.run(join.run);

@@ -78,6 +78,25 @@ TEST_F(LimitsOfATick, PosesAreAsManyAsTheirEngineOwns)
   EXPECT_THAT(Refusal(state), HasSubstr("poses: it has 20 numbers, not 21"));
 }
 
+TEST_F(LimitsOfATick, TheEntitiesOfAPartAscendAndHaveOnePoseEach)
+{
+  LocalState part;
+  EXPECT_EQ(Refusal(part), "");
+  part.entities = {0, 2};
+  EXPECT_THAT(Refusal(part), HasSubstr("poses: it has 0 numbers, not 14"));
+  part.poses.resize(14);
+  EXPECT_EQ(Refusal(part), "");
+  EXPECT_THAT(Refusal(part, 1), HasSubstr("source: there is no number 1"));
+  for (const std::vector<std::uint32_t>& wrong : {std::vector<std::uint32_t>{2, 0}, {1, 1}, {1, 99}})
+  {
+    part.entities = wrong;
+    EXPECT_THAT(Refusal(part), HasSubstr("does not ascend, or cannot move")) << wrong[1];
+  }
+  part.entities = {0, 2};
+  part.attributes.Add(Slots(), 0);
+  EXPECT_THAT(Refusal(part), HasSubstr("attribute_slots: there is no slot"));
+}
+
 TEST_F(LimitsOfATick, SlotsEndWithTheLastOne)
 {
   SpaceState state = State();

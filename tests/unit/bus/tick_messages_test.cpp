@@ -74,6 +74,19 @@ TEST(MessageBytes, OfATickAreThoseOfTheIdl)
     SetDrawing(state.drawing, wire_state);
     ExpectSame<wire::SpaceStatePubSubType>(header, state, wire_state);
 
+    LocalState local;
+    local.last = state.last;
+    local.poses = state.poses;
+    local.attributes = state.attributes;
+    local.entities = random.Ascending();
+    wire::LocalState wire_local;
+    wire_local.poses(local.poses);
+    wire_local.flags(wire_state.flags());
+    wire_local.attribute_values(local.attributes.values);
+    wire_local.attribute_slots(local.attributes.slots);
+    wire_local.entities(local.entities);
+    ExpectSame<wire::LocalStatePubSubType>(header, local, wire_local);
+
     ControlCommands commands;
     commands.values = random.Reals();
     commands.attributes = RandomChanges(random);

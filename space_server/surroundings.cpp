@@ -1,0 +1,154 @@
+#include "space_server/surroundings.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "common/space/space.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr double kRounding_m = 0.01;
+
+// The start positions, and so about all later ones; who is elsewhere counts to the nearest cell.
+PlaneCells<double> CellsOver(const CSwarmanoidSpace& space, double edge)
+{
+  constexpr double kMostCells = 1 << 20;
+  double left = std::numeric_limits<double>::infinity(), right = -left;
+  double bottom = left, top = right;
+  for (const std::uint32_t entity : space.Movable())
+  {
+    left = std::min(left, space.Poses().x[entity]);
+    right = std::max(right, space.Poses().x[entity]);
+    bottom = std::min(bottom, space.Poses().y[entity]);
+    top = std::max(top, space.Poses().y[entity]);
+  }
+  if (left > right) left = right = bottom = top = 0;
+  edge = CellEdge<2>({right - left, top - bottom}, edge, kMostCells);
+  return {left, bottom, right - left, top - bottom, edge, true};
+}
+
+}  // namespace
+
+Surroundings::Surroundings(const CSwarmanoidSpace& space, std::span<const std::uint32_t> robots, double reach_m)
+    : space_(space), robots_(robots), cells_(CellsOver(space, reach_m + kMargin_m + kRounding_m))
+{
+  is_near_.resize(cells_.Count());
+  is_told_.resize(space.Size(), 1);
+  // Floors, lights and the like may be large, and are few.
+  for (const std::uint32_t entity : space.Movable())
+    is_always_told_.push_back(IsBodiless(space.GetEntity(entity).GetKind()));
+  first_slots_.reserve(space.Size() + 1);
+  for (std::uint32_t entity = 0; entity < space.Size(); ++entity)
+    first_slots_.push_back(space.GetEntity(entity).FirstSlot());
+  first_slots_.push_back(space.PresenceSlot(0));
+  x_.resize(space.Movable().size());
+  y_.resize(space.Movable().size());
+  // At the start of the run a host knows all.
+  part_.entities.assign(space.Movable().begin(), space.Movable().end());
+}
+
+LocalState& Surroundings::Part(const SpaceState& state)
+{
+  entered_.clear();
+  // Who is put elsewhere may be tilted in the plane for a tick, and see farther than its sensors say.
+  const bool all = !state.moved.empty();
+  if (!holds_ || all || HaveLeftMargin()) Search(all);
+
+  part_.tick = state.tick;
+  part_.last = state.last;
+  const PoseArrays& poses = space_.Poses();
+  part_.poses.resize(7 * part_.entities.size());
+  double* to = part_.poses.data();
+  for (const auto* component : {&poses.x, &poses.y, &poses.z, &poses.qx, &poses.qy, &poses.qz, &poses.qw})
+    for (const std::uint32_t entity : part_.entities) *to++ = (*component)[entity];
+  AddAttributes(state);
+  return part_;
+}
+
+bool Surroundings::HaveLeftMargin() const
+{
+  const PoseArrays& poses = space_.Poses();
+  const std::span<const std::uint32_t> movable = space_.Movable();
+  double furthest = 0;
+  for (std::size_t k = 0; k < movable.size(); ++k)
+  {
+    const double dx = poses.x[movable[k]] - x_[k];
+    const double dy = poses.y[movable[k]] - y_[k];
+    furthest = std::max(furthest, dx * dx + dy * dy);
+  }
+  return furthest > kMargin_m / 2 * kMargin_m / 2;
+}
+
+void Surroundings::Search(bool all)
+{
+  const PoseArrays& poses = space_.Poses();
+  const std::span<const std::uint32_t> movable = space_.Movable();
+  // A search that tells all says nothing about who will be near.
+  holds_ = !all;
+  std::fill(is_near_.begin(), is_near_.end(), all);
+  if (!all)
+    for (const std::uint32_t robot : robots_)
+    {
+      const std::uint32_t middle = cells_.CellOf(poses.x[robot], poses.y[robot]);
+      for (const std::uint32_t row : {middle - cells_.stride, middle, middle + cells_.stride})
+        for (const std::uint32_t cell : {row - 1, row, row + 1}) is_near_[cell] = 1;
+    }
+  part_.entities.clear();
+  for (std::size_t k = 0; k < movable.size(); ++k)
+  {
+    const std::uint32_t entity = movable[k];
+    x_[k] = poses.x[entity];
+    y_[k] = poses.y[entity];
+    const bool is_near = is_near_[cells_.CellOf(x_[k], y_[k])] != 0 || is_always_told_[k] != 0;
+    if (is_near && is_told_[entity] == 0) entered_.push_back(entity);
+    is_told_[entity] = is_near;
+    if (is_near) part_.entities.push_back(entity);
+  }
+}
+
+std::uint32_t Surroundings::EntityOf(std::uint32_t slot, std::uint32_t least) const
+{
+  if (slot >= first_slots_.back()) return slot - first_slots_.back();
+  // Slots ascend, and so do their entities: near the one before.
+  std::uint32_t step = 1;
+  while (least + step < first_slots_.size() && first_slots_[least + step] <= slot)
+  {
+    least += step;
+    step *= 2;
+  }
+  const auto end = first_slots_.begin() + std::min<std::ptrdiff_t>(least + step, std::ssize(first_slots_));
+  return static_cast<std::uint32_t>(std::upper_bound(first_slots_.begin() + least, end, slot) - first_slots_.begin()) -
+         1;
+}
+
+void Surroundings::AddAttributes(const SpaceState& state)
+{
+  AttributeChanges& changes = part_.attributes;
+  changes.Clear();
+  std::uint32_t entity = 0;
+  for (std::size_t k = 0; k < state.attributes.slots.size(); ++k)
+  {
+    const std::uint32_t slot = state.attributes.slots[k];
+    entity = EntityOf(slot, slot >= first_slots_.back() ? 0 : entity);
+    if (is_told_[entity] != 0) changes.slots.push_back(slot);
+  }
+  for (const std::uint32_t other : entered_)
+  {
+    for (std::uint32_t slot = first_slots_[other]; slot < first_slots_[other + 1]; ++slot)
+      changes.slots.push_back(slot);
+    changes.slots.push_back(space_.PresenceSlot(other));
+  }
+  if (!entered_.empty())
+  {
+    std::sort(changes.slots.begin(), changes.slots.end());
+    changes.slots.erase(std::unique(changes.slots.begin(), changes.slots.end()), changes.slots.end());
+  }
+  for (const std::uint32_t slot : changes.slots) changes.values.push_back(space_.Attributes()[slot]);
+}
+
+}  // namespace swarmanoid

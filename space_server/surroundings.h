@@ -1,0 +1,51 @@
+// Surroundings: what a controller host is told of a tick where states go over a network: of the entities that can move
+// those alone that are near its robots. So what a host hears does not grow with the swarm, if robots that are near one
+// another are of one host.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/math/cells.h"
+#include "common/messages/messages.h"
+
+namespace swarmanoid
+{
+
+class CSwarmanoidSpace;
+
+class Surroundings
+{
+public:
+  // `robots`: those of the host. `reach_m`: who is farther away from all of them, in the plane, need not be told. The
+  // space outlives it.
+  Surroundings(const CSwarmanoidSpace& space, std::span<const std::uint32_t> robots, double reach_m);
+
+  // The part of the state of the space's tick. To be called once for each tick, and all ticks. Valid until the next
+  // call.
+  LocalState& Part(const SpaceState& state);
+
+private:
+  // Ticks without a search: who is within the margin beyond the reach is told too.
+  static constexpr double kMargin_m = 0.5;
+
+  bool HaveLeftMargin() const;
+  void Search(bool all);
+  void AddAttributes(const SpaceState& state);
+  std::uint32_t EntityOf(std::uint32_t slot, std::uint32_t least) const;
+
+  const CSwarmanoidSpace& space_;
+  std::span<const std::uint32_t> robots_;
+  PlaneCells<double> cells_;                // as wide as reach and margin
+  std::vector<char> is_near_;               // of each cell
+  std::vector<char> is_told_;               // of each entity; always of those that cannot move
+  std::vector<char> is_always_told_;        // of each that can
+  std::vector<std::uint32_t> first_slots_;  // of each entity, and behind the last one that of their presence
+  std::vector<double> x_, y_;               // of those that can move, where they were searched
+  bool holds_ = false;                      // there was a search
+  std::vector<std::uint32_t> entered_;      // whom the message before had not
+  LocalState part_;
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,217 @@
+// Hosts that are told only what is near their robots sense and command what those do that are told all.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "common/builtins/builtins.h"
+#include "common/control_interface/ci_controller.h"
+#include "common/control_interface/ci_led_ring_actuator.h"
+#include "common/control_interface/ci_range_and_bearing.h"
+#include "common/math/random.h"
+#include "common/messages/robot_status.h"
+#include "common/space/space.h"
+#include "controller_host/controller_host.h"
+#include "space_server/surroundings.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr unsigned kHosts = 3;
+constexpr std::uint32_t kRobots = 150;
+constexpr double kSide = 30;  // m
+
+// Shines and sends by what it senses, so that an error spreads.
+class Shouter : public CCI_Controller
+{
+public:
+  int Init(const TConfigurationTree) override { return RETURN_OK; }
+  void ControlStep() override
+  {
+    const auto byte = static_cast<std::uint8_t>(StreamName(GetRobot()->GetId()) >> GetRobot()->GetTick() % 40);
+    GetRobot()->Actuator<CCI_LedRingActuator>("led_ring").SetAllColours(byte < 128 ? 0U : byte * 0x10101U);
+    GetRobot()->Actuator<CCI_RangeAndBearingActuator>("range_and_bearing").SetMessage({byte, 7});
+  }
+};
+
+REGISTER_CONTROLLER(Shouter, "surroundings_test")
+
+struct Sensor
+{
+  std::string type, implementation;
+};
+
+Experiment Swarm(const Sensor& sensor, std::mt19937& random)
+{
+  DescribeBuiltins();
+  RegisterBuiltinDevices();
+  Experiment experiment;
+  experiment.arena_size = {kSide, kSide, 2};
+  ControllerConfiguration& controller = experiment.controllers.emplace_back();
+  controller.tag = "surroundings_test";
+  controller.id = "c";
+  controller.actuators.resize(2);
+  controller.actuators[0].type = "led_ring";
+  controller.actuators[0].implementation = "generic_led_ring";
+  controller.actuators[1].type = "range_and_bearing";
+  controller.actuators[1].implementation = "generic_range_and_bearing";
+  controller.sensors.resize(1);
+  controller.sensors[0].type = sensor.type;
+  controller.sensors[0].implementation = sensor.implementation;
+  experiment.engines.resize(1);
+  experiment.engines[0].tag = "kinematics2d";
+  std::uniform_real_distribution<double> place(0.3, kSide - 0.3);
+  for (std::uint32_t k = 0; k < kRobots; ++k)
+  {
+    EntityConfiguration& entity = experiment.entities.emplace_back();
+    // Some are things of another size that robots see and bump into.
+    entity.kind = k % 10 == 9 ? EntityKind::kCylindricPrey : EntityKind::kFootbot;
+    entity.id = "e" + std::to_string(k);
+    if (entity.kind == EntityKind::kFootbot) entity.controller = "c";
+    entity.size = entity.kind == EntityKind::kFootbot ? DescriptionOf(entity.kind).size : Vector3(0.4, 0.4, 0.3);
+    entity.movable = true;
+    entity.pose.position = {place(random), place(random), 0};
+    // Half of them close together: there is something to sense.
+    if (k % 2 == 0) entity.pose.position = {place(random) / 6 + (k % 3) * 10, place(random) / 6 + (k % 5) * 5, 0};
+    experiment.engines[0].entities.push_back(k);
+  }
+  return experiment;
+}
+
+// A host, told all or a part.
+struct Host
+{
+  Host(const Experiment& experiment, const Assignment& assignment, std::size_t number)
+      : space(experiment), role(space, assignment, number), known(space.Movable().begin(), space.Movable().end())
+  {
+  }
+  CSwarmanoidSpace space;
+  ControllerHost role;
+  std::vector<std::uint32_t> known;
+};
+
+class Swarms : public testing::TestWithParam<Sensor>
+{
+};
+
+std::vector<double> ReadingsOf(const ControllerHost& role, const std::vector<std::uint32_t>& robots)
+{
+  std::vector<double> values;
+  for (const std::uint32_t robot : robots)
+  {
+    RobotStatus status;
+    EXPECT_TRUE(role.Describe(robot, status));
+    for (const auto& sensor : status.sensors)
+      for (const CCI_Reading& reading : sensor.readings) values.push_back(reading.value);
+  }
+  return values;
+}
+
+TEST_P(Swarms, AreSensedFromThePartAsFromAll)
+{
+  std::mt19937 random(7);
+  const Experiment experiment = Swarm(GetParam(), random);
+  const Assignment assignment = MakeAssignment(experiment, kHosts);
+  CSwarmanoidSpace space(experiment);
+  std::vector<std::unique_ptr<Host>> whole, local;
+  std::vector<Surroundings> surroundings;
+  for (unsigned h = 0; h < kHosts; ++h)
+  {
+    whole.push_back(std::make_unique<Host>(experiment, assignment, h));
+    local.push_back(std::make_unique<Host>(experiment, assignment, h));
+    ASSERT_TRUE(std::isfinite(whole.back()->role.Reach()));
+    surroundings.emplace_back(space, assignment.hosts[h].robots, whole.back()->role.Reach());
+  }
+
+  std::uniform_real_distribution<double> step(-0.04, 0.04), place(0.3, kSide - 0.3);
+  std::uniform_int_distribution<std::uint32_t> some(0, kRobots - 1);
+  std::set<std::uint32_t> changed;
+  std::vector<std::uint32_t> moved;
+  std::size_t sensed = 0, told = 0;
+  const std::uint64_t ticks = 60;
+  for (std::uint64_t tick = 0; tick < ticks; ++tick)
+  {
+    space.SetTick(tick);
+    SpaceState state;
+    state.tick = tick;
+    space.WritePoses(state.poses);
+    for (const std::uint32_t slot : changed) state.attributes.Add(slot, space.Attributes()[slot]);
+    state.moved = moved;
+    changed.clear();
+    moved.clear();
+    for (unsigned h = 0; h < kHosts; ++h)
+    {
+      const LocalState& part = surroundings[h].Part(state);
+      told += part.entities.size();
+      whole[h]->space.Apply(state);
+      local[h]->space.Apply(part, local[h]->known);
+      const ControlCommands& expected = whole[h]->role.Tick({});
+      const ControlCommands& commands = local[h]->role.Tick({});
+      ASSERT_EQ(commands.values, expected.values);
+      ASSERT_EQ(commands.attributes.slots, expected.attributes.slots);
+      ASSERT_EQ(commands.attributes.values, expected.attributes.values);
+      const std::vector<double> readings = ReadingsOf(whole[h]->role, assignment.hosts[h].robots);
+      for (const std::uint32_t robot : assignment.hosts[h].robots)
+        ASSERT_EQ(ReadingsOf(local[h]->role, {robot}), ReadingsOf(whole[h]->role, {robot}))
+            << "robot " << robot << " of host " << h << " at tick " << tick;
+      sensed += readings.size();
+    }
+    for (const auto& host : whole)
+    {
+      const AttributeChanges& commanded = host->role.Commands().attributes;
+      space.SetAttributes(commanded);
+      changed.insert(commanded.slots.begin(), commanded.slots.end());
+    }
+    for (std::uint32_t entity = 0; entity < kRobots; ++entity)
+    {
+      Pose pose = space.GetPose(entity);
+      pose.position.x() += (entity % 7 == 0 ? 3 : 1) * step(random);
+      pose.position.y() += step(random);
+      space.SetPose(entity, pose);
+    }
+    if (tick % 16 == 5)
+    {
+      moved = {some(random)};
+      space.SetPose(moved[0], {{place(random), place(random), 0}, Pose().orientation});
+    }
+    if (tick % 8 == 3)
+    {
+      const std::uint32_t entity = some(random);
+      space.SetAttribute(space.PresenceSlot(entity), space.IsPresent(entity) ? 0 : 1);
+      changed.insert(space.PresenceSlot(entity));
+    }
+  }
+  EXPECT_GT(sensed, 100U);
+  EXPECT_LT(told, ticks * kHosts * kRobots * 8 / 10) << "most are told of most";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , Swarms,
+    testing::Values(Sensor{"footbot_proximity", "generic_footbot_proximity"}, Sensor{"proximity", "generic_proximity"},
+                    Sensor{"range_and_bearing", "generic_range_and_bearing"},
+                    Sensor{"footbot_omnidirectional_camera", "generic_footbot_omnidirectional_camera"},
+                    Sensor{"footbot_perspective_camera", "generic_footbot_perspective_camera"},
+                    Sensor{"pie_camera", "generic_pie_camera"}, Sensor{"contact", "generic_contact"},
+                    Sensor{"footbot_distance_scanner", "generic_footbot_distance_scanner"},
+                    Sensor{"positioning", "generic_positioning"}),
+    [](const auto& of) { return of.param.type; });
+
+// Nobody may be left out for them.
+TEST(Reach, OfLightAndSoundIsWithoutEnd)
+{
+  std::mt19937 random(7);
+  for (const Sensor& sensor : {Sensor{"footbot_light", "generic_footbot_light"}, Sensor{"radio", "generic_radio"},
+                               Sensor{"microphone", "generic_microphone"}})
+  {
+    const Experiment experiment = Swarm(sensor, random);
+    const Assignment assignment = MakeAssignment(experiment, kHosts);
+    const Host host(experiment, assignment, 0);
+    EXPECT_TRUE(std::isinf(host.role.Reach())) << sensor.type;
+  }
+}
+
+}  // namespace
+}  // namespace swarmanoid
