@@ -10,9 +10,6 @@ namespace swarmanoid::kinematics2d
 namespace
 {
 
-// A list that lasts for fewer steps does not pay; then it is left alone for some.
-constexpr std::uint32_t kFewest = 4;
-constexpr std::uint32_t kPause = 64;
 constexpr std::uint64_t kStatic = std::uint64_t{1} << 63;
 
 // Nearly all stand in order already.
@@ -35,21 +32,10 @@ bool VerletList::Update(BroadPhase& broad, const PoseStore& poses, std::span<con
                         WorkerPool* pool)
 {
   if (!broad.Large().empty() || margin > broad.LargestMargin()) return false;
-  if (pause_ > 0)
+  if (!lifetime_.BeginStep()) return false;
+  if (!lifetime_.HasList() || !Holds(poses, present, margin_ - margin - 4 * broad.Rounding(), pool))
   {
-    --pause_;
-    return false;
-  }
-  ++age_;
-  const bool began = !x_.empty();
-  if (!began || !Holds(poses, present, margin_ - margin - 4 * broad.Rounding(), pool))
-  {
-    if (began && age_ < kFewest)
-    {
-      x_.clear();
-      pause_ = kPause;
-      return false;
-    }
+    if (!lifetime_.Renew()) return false;
     Search(broad, poses, present, pool);
   }
   Choose(broad, poses, margin, pool);
@@ -87,7 +73,6 @@ void VerletList::Search(BroadPhase& broad, const PoseStore& poses, std::span<con
   x_ = poses.x;
   y_ = poses.y;
   present_.assign(present.begin(), present.end());
-  age_ = 0;
   margin_ = broad.LargestMargin();
   broad.ShareOut(broad.Blocks(), parts_.size(), parts_);
   ForEachPart(pool, [&](Part& part) { broad.FindPairs(margin_, part.blocks, part.candidates); });

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "common/math/verlet_lifetime.h"
 #include "common/threads/worker_pool.h"
 #include "engine_worker/engines/kinematics2d/broad_phase.h"
 
@@ -61,11 +62,10 @@ private:
   }
 
   std::vector<Part> parts_;
+  VerletLifetime lifetime_;
   double margin_ = 0;          // of the search
   std::vector<double> x_, y_;  // of each body then
   std::vector<std::uint8_t> present_;
-  std::uint32_t age_ = 0;            // steps since then
-  std::uint32_t pause_ = 0;          // steps for which it is not tried
   std::vector<Near> near_;           // block by block
   std::vector<std::uint32_t> ends_;  // of each block in near_, and 0 before the first
 };
