@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace swarmanoid
 {
@@ -62,8 +61,6 @@ void Isolation::Configure(std::span<const MovingOutline> bodies, std::vector<Sta
   }
   broad_phase_.Configure(bodies.empty() ? kinematics2d::Bounds{} : area, radii_, largest_margin_);
   broad_phase_.SetStatics(boxes);
-  blocks_.resize(broad_phase_.BlockCount());
-  std::iota(blocks_.begin(), blocks_.end(), 0U);
   const std::size_t padded = kinematics2d::PaddedCount(bodies.size());
   places_.x.assign(padded, 0);
   places_.y.assign(padded, 0);
@@ -122,7 +119,7 @@ bool Isolation::Find(std::span<const MovingOutline> bodies, double margin, std::
     if (near_pairs != nullptr && gap < margin) near_pairs->push_back(pair);
   };
   broad_phase_.Sort(places_, {present_.data(), bodies.size()});
-  broad_phase_.FindPairs(reach, blocks_, pairs_);
+  broad_phase_.FindPairs(reach, broad_phase_.Blocks(), pairs_);
   broad_phase_.FindPairsOfLarge(reach, places_, {present_.data(), bodies.size()}, large_pairs_);
   for (const kinematics2d::Pair& pair : pairs_.pairs) compare(pair);
   for (const kinematics2d::Pair& pair : large_pairs_) compare(pair);

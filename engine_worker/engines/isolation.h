@@ -76,7 +76,6 @@ private:
   kinematics2d::PairList pairs_;
   std::vector<kinematics2d::Pair> large_pairs_;
   std::vector<std::uint8_t> present_;
-  std::vector<std::uint32_t> blocks_;
   std::vector<double> radii_;  // that the broad phase knows
   std::vector<StaticOutline> statics_;
   double largest_margin_ = 0;

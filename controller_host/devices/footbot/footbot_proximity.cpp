@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
+#include <optional>
 
 #include "common/builtins/devices.h"
-#include "common/math/elementary.h"
 #include "common/space/space.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
@@ -16,9 +14,7 @@ namespace swarmanoid
 namespace
 {
 
-constexpr unsigned kRays = FootbotProximity::kRays;
-constexpr double kNothing = std::numeric_limits<double>::infinity();
-constexpr double kTiny = 1e-300;  // for a ray along a side: the quotients become huge, not NaN
+constexpr unsigned kRays = FootbotProximityRays::kRays;
 
 // ARGoS3, foot-bot proximity sensor: distance of full response, and the hyperbola beyond it.
 constexpr double kContactDistance = 0.009889556;
@@ -34,23 +30,15 @@ void FootbotProximity::Init(const DeviceSetup& setup)
   world_ = SensorWorld::Of(setup.space);
   robots_ = setup.robots;
   streams_ = DeviceStreams(setup);
-  range_ = setup.parameters.Number("range");
   noise_ = NoiseFrom(setup.parameters);
-  for (unsigned i = 0; i < kRays; ++i)
-  {
-    const SinCos angle = SinCosOf(CCI_FootBotProximitySensor::AngleOf(i));
-    ray_cos_.values[i] = angle.cos;
-    ray_sin_.values[i] = angle.sin;
-  }
-
-  ring_radius_ = robots_.empty() ? 0 : world_->Body(robots_.front()).radius;
+  rays_.Configure(robots_.empty() ? 0 : world_->Body(robots_.front()).radius, setup.parameters.Number("range"));
   // A tilted robot's rays start up to kHeight beside its base.
-  fixed_ = std::make_unique<FixedBodies>(setup.space, world_->Bodies(), ring_radius_ + range_ + kHeight);
+  fixed_ = std::make_unique<FixedBodies>(setup.space, world_->Bodies(), rays_.Reach() + kHeight);
 
   remembers_ = !world_->HasArticulated();
   if (remembers_)
     fixed_for_long_ = std::make_unique<FixedBodies>(setup.space, world_->Bodies(),
-                                                    ring_radius_ + range_ + kHeight + MovedSince::kMostMargin / 2);
+                                                    rays_.Reach() + kHeight + MovedSince::kMostMargin / 2);
 
   sensors_.reserve(robots_.size());
   in_one_run_ = !robots_.empty() && robots_.back() - robots_.front() + 1 == robots_.size();
@@ -107,7 +95,7 @@ void FootbotProximity::Forget()
 double* FootbotProximity::NewReadings(std::size_t k)
 {
   const std::size_t place = seeing_.size();
-  if (place == blocks_.size() * kBlock) blocks_.push_back(std::make_unique<Rays[]>(kBlock));
+  if (place == blocks_.size() * kBlock) blocks_.push_back(std::make_unique<FootbotProximityRays::Values[]>(kBlock));
   seeing_.push_back(static_cast<std::uint32_t>(k));
   double* const readings = blocks_[place / kBlock][place % kBlock].values;
   sensors_[k].Show(readings);
@@ -121,7 +109,7 @@ void FootbotProximity::FindNear()
   ListOwn(true);
   surroundings_.clear();
   near_.clear();
-  const double reach = ring_radius_ + range_ + world_->Moved().Margin();
+  const double reach = rays_.Reach() + world_->Moved().Margin();
   const bool sees_more = noise_.IsActive() || !world_->Terrain().IsEmpty();
   CellWindows windows;
   std::array<std::int32_t, kLanes> fixed_cells;
@@ -163,14 +151,14 @@ void FootbotProximity::SenseNear()
     if (!all && !IsDue(own.k)) continue;
     const std::uint32_t robot = in_one_run_ ? first + own.k : robots_[own.k];
     const Vector3 sensors(poses.x[robot], poses.y[robot], poses.z[robot] + kHeight);
-    touched_ = false;
+    rays_.Reset();
     for (std::uint32_t i = own.first; i < own.first + own.count; ++i)
     {
       const std::uint32_t body = near_[i];
       const BodyShape& shape = world_->Body(body);
       const double dx = poses.x[body] - sensors.x();
       const double dy = poses.y[body] - sensors.y();
-      const double reach = ring_radius_ + range_ + shape.radius;
+      const double reach = rays_.Reach() + shape.radius;
       if (i < own.fixed && dx * dx + dy * dy > reach * reach) continue;
       LookAt(robot, sensors, true, body, shape, {poses.x[body], poses.y[body], poses.z[body]}, IsUpright(poses, body));
     }
@@ -228,7 +216,7 @@ void FootbotProximity::SenseUpright(std::size_t first, std::size_t last)
   const double* const origin_x = grid.OriginX();
   const double* const origin_y = grid.OriginY();
   const double* const origin_z = grid.OriginZ();
-  const double reach = ring_radius_ + range_;
+  const double reach = rays_.Reach();
   CellWindows windows;
   std::array<std::int32_t, kLanes> fixed_cells;
   grid.FindWindows(&place_[first], reach, windows);
@@ -238,7 +226,7 @@ void FootbotProximity::SenseUpright(std::size_t first, std::size_t last)
     Prefetch(listed + kAhead);
     const auto place = static_cast<std::size_t>(place_[listed]);
     const std::uint32_t k = number_[listed];
-    touched_ = false;
+    rays_.Reset();
     grid.ForEachOtherNear(place, reach, windows, listed - first,
                           [&](std::size_t other)
                           {
@@ -251,7 +239,7 @@ void FootbotProximity::SenseUpright(std::size_t first, std::size_t last)
       LookAt(robots_[k], {origin_x[place], origin_y[place], origin_z[place] + kHeight}, true, body, world_->Body(body),
              {poses.x[body], poses.y[body], poses.z[body]}, IsUpright(poses, body));
     if (!world_->Terrain().IsEmpty()) AddTerrain(robots_[k]);
-    if (touched_ || noise_.IsActive()) FinishReadings(k);
+    if (rays_.Touched() || noise_.IsActive()) FinishReadings(k);
   }
 }
 
@@ -264,8 +252,8 @@ void FootbotProximity::Sense(std::size_t listed)
   const auto place = static_cast<std::size_t>(place_[listed]);
   const bool upright = IsUpright(poses, robot);
   const Vector3 sensors(grid.OriginX()[place], grid.OriginY()[place], grid.OriginZ()[place] + kHeight);
-  touched_ = false;
-  grid.ForEachNear(sensors.x(), sensors.y(), ring_radius_ + range_ + (upright ? 0 : kHeight),
+  rays_.Reset();
+  grid.ForEachNear(sensors.x(), sensors.y(), rays_.Reach() + (upright ? 0 : kHeight),
                    [&](std::uint32_t body)
                    {
                      if (body != robot)
@@ -288,18 +276,18 @@ void FootbotProximity::LookAt(std::uint32_t robot, const Vector3& sensors, bool 
   if (!upright || !body_upright) return AddAny(robot, shape, world_->Space().GetPose(body));
   if (sensors.z() < at.z() + shape.low || sensors.z() > at.z() + shape.high) return;
   if (shape.kind == Shape::Kind::kCylinder)
-    return AddDisc(robot, at.x() - sensors.x(), at.y() - sensors.y(), shape.radius);
-  AddUprightBox(robot, body);
+    return rays_.AddDisc(world_->Space().Poses(), robot, at.x() - sensors.x(), at.y() - sensors.y(), shape.radius);
+  rays_.AddUprightBox(world_->Space().Poses(), robot, body, shape.half_size);
 }
 
 // From the distances of a robot, if something touched its rays.
 void FootbotProximity::FinishReadings(std::size_t k)
 {
-  if (!touched_ && !noise_.IsActive()) return;
+  if (!rays_.Touched() && !noise_.IsActive()) return;
   double* const readings = NewReadings(k);
-  if (touched_)
+  if (rays_.Touched())
   {
-    Respond(distances_.values, readings);
+    Respond(rays_.Distances(), readings);
     for (unsigned i = 0; i < kRays; ++i) readings[i] = std::clamp(readings[i], 0.0, 1.0);
   }
   else
@@ -309,109 +297,6 @@ void FootbotProximity::FinishReadings(std::size_t k)
   std::array<double, kRays> noise;
   streams_.Sample(noise_, k, noise);
   for (unsigned i = 0; i < kRays; ++i) readings[i] = std::clamp(readings[i] + noise[i], 0.0, 1.0);
-}
-
-// Rays from the centre of the robot's ring against a disc (dx, dy) from it: with p its centre in the robot's frame and
-// b = ray . p, the ray is within the disc from b - s to b + s, s^2 = b^2 - |p|^2 + r^2.
-void FootbotProximity::AddDisc(std::uint32_t robot, double dx, double dy, double radius)
-{
-  const double square = dx * dx + dy * dy;
-  const double reach = ring_radius_ + range_ + radius;
-  if (square > reach * reach) return;
-
-  const Heading heading = HeadingOf(world_->Space().Poses(), robot);
-  const double px = heading.cos * dx + heading.sin * dy;
-  const double py = heading.cos * dy - heading.sin * dx;
-  const double c = square - radius * radius;
-  const double ring = ring_radius_;
-  const double far = ring + range_;
-  if (!touched_) std::fill_n(distances_.values, kRays, kNothing);
-  touched_ = true;
-  for (unsigned i = 0; i < kRays; ++i)
-  {
-    const double b = ray_cos_.values[i] * px + ray_sin_.values[i] * py;
-    const double discriminant = b * b - c;
-    const double s = __builtin_sqrt(discriminant > 0 ? discriminant : 0);
-    const double enter = b - s;
-    const double distance = enter > ring ? enter - ring : 0;
-    const bool hit = (discriminant >= 0) & (b + s >= ring) & (enter <= far);
-    const double nearest = distances_.values[i];
-    const double candidate = hit ? distance : nearest;
-    distances_.values[i] = candidate < nearest ? candidate : nearest;
-  }
-}
-
-void FootbotProximity::AddUprightBox(std::uint32_t robot, std::uint32_t body)
-{
-  const PoseArrays& poses = world_->Space().Poses();
-  const BodyShape& shape = world_->Body(body);
-  const Heading box = HeadingOf(poses, body);
-  const double dx = poses.x[robot] - poses.x[body];
-  const double dy = poses.y[robot] - poses.y[body];
-  const double ox = box.cos * dx + box.sin * dy;
-  const double oy = box.cos * dy - box.sin * dx;
-  const double near = ring_radius_;
-  const double far = near + range_;
-  const double outside_x = std::max(__builtin_fabs(ox) - shape.half_size.x(), 0.0);
-  const double outside_y = std::max(__builtin_fabs(oy) - shape.half_size.y(), 0.0);
-  if (outside_x * outside_x + outside_y * outside_y > far * far) return;
-
-  // The rays turned into the frame of the box.
-  const Heading own = HeadingOf(poses, robot);
-  const double c = own.cos * box.cos + own.sin * box.sin;
-  const double s = own.sin * box.cos - own.cos * box.sin;
-  if (!touched_) std::fill_n(distances_.values, kRays, kNothing);
-  touched_ = true;
-  // Most boxes are walls, of which the rays meet one side: they do not reach its ends, and start before its back.
-  constexpr double kMore = 1.000001;  // a ray may be rounded to be longer than 1
-  const auto is_side_only = [&](double outside, double across, double along, double half_across, double half_along)
-  { return outside > 0 && along + kMore * far <= half_along && across + half_across >= kMore * near; };
-  const double across_x = __builtin_fabs(ox);
-  const double across_y = __builtin_fabs(oy);
-  if (is_side_only(outside_x, across_x, across_y, shape.half_size.x(), shape.half_size.y()))
-    return AddSide(std::copysign(shape.half_size.x(), ox) - ox, c, -s);
-  if (is_side_only(outside_y, across_y, across_x, shape.half_size.y(), shape.half_size.x()))
-    return AddSide(std::copysign(shape.half_size.y(), oy) - oy, s, c);
-  for (unsigned i = 0; i < kRays; ++i)
-  {
-    double ux = c * ray_cos_.values[i] - s * ray_sin_.values[i];
-    double uy = s * ray_cos_.values[i] + c * ray_sin_.values[i];
-    ux = ux == 0 ? kTiny : ux;
-    uy = uy == 0 ? kTiny : uy;
-    const double ax = (-shape.half_size.x() - ox) / ux;
-    const double bx = (shape.half_size.x() - ox) / ux;
-    const double ay = (-shape.half_size.y() - oy) / uy;
-    const double by = (shape.half_size.y() - oy) / uy;
-    const double enter_x = ax < bx ? ax : bx;
-    const double leave_x = ax < bx ? bx : ax;
-    const double enter_y = ay < by ? ay : by;
-    const double leave_y = ay < by ? by : ay;
-    double enter = enter_x > enter_y ? enter_x : enter_y;
-    enter = enter > near ? enter : near;
-    double leave = leave_x < leave_y ? leave_x : leave_y;
-    leave = leave < far ? leave : far;
-    const double nearest = distances_.values[i];
-    const double candidate = enter <= leave ? enter - near : nearest;
-    distances_.values[i] = candidate < nearest ? candidate : nearest;
-  }
-}
-
-// Rays against a straight side that all of them that point to it meet: `way` metres off along an axis, which is (c, s)
-// in the frame of the robot.
-void FootbotProximity::AddSide(double way, double c, double s)
-{
-  const double near = ring_radius_;
-  const double far = near + range_;
-  for (unsigned i = 0; i < kRays; ++i)
-  {
-    double u = c * ray_cos_.values[i] + s * ray_sin_.values[i];
-    u = u == 0 ? kTiny : u;
-    const double meets = way / u;
-    const double enter = meets > near ? meets : near;
-    const double nearest = distances_.values[i];
-    const double candidate = (meets > 0) & (enter <= far) ? enter - near : nearest;
-    distances_.values[i] = candidate < nearest ? candidate : nearest;
-  }
 }
 
 // As the engine collides them: a handbot's arms, a hull.
@@ -441,37 +326,20 @@ template <class HitOf>
 void FootbotProximity::AddRays(std::uint32_t robot, const Vector3& centre, double radius, const HitOf& hit_of)
 {
   const Pose own = world_->Space().GetPose(robot);
-  const double reach = ring_radius_ + range_ + radius;
+  const double reach = rays_.Reach() + radius;
   if ((own.Apply({0, 0, kHeight}) - centre).squaredNorm() > reach * reach) return;
-
-  const Eigen::Matrix3d rotation = own.orientation.toRotationMatrix();
-  for (unsigned i = 0; i < kRays; ++i)
-  {
-    const Vector3 ray(ray_cos_.values[i], ray_sin_.values[i], 0);
-    const Vector3 from = own.position + rotation * (ring_radius_ * ray + Vector3(0, 0, kHeight));
-    const auto hit = hit_of(from, from + rotation * (range_ * ray));
-    if (!hit) continue;
-    if (!touched_) std::fill_n(distances_.values, kRays, kNothing);
-    touched_ = true;
-    distances_.values[i] = std::min(distances_.values[i], *hit * range_);
-  }
+  rays_.AddInSpace(own, hit_of);
 }
 
 void FootbotProximity::AddTerrain(std::uint32_t robot)
 {
-  const Pose own = world_->Space().GetPose(robot);
-  const Eigen::Matrix3d rotation = own.orientation.toRotationMatrix();
   const auto is_there = [&](std::uint32_t terrain) { return world_->Membership().ShareEngine(robot, terrain); };
-  for (unsigned i = 0; i < kRays; ++i)
-  {
-    const Vector3 ray(ray_cos_.values[i], ray_sin_.values[i], 0);
-    const Vector3 from = own.position + rotation * (ring_radius_ * ray + Vector3(0, 0, kHeight));
-    const double hit = world_->Terrain().FirstHit(from, from + rotation * (range_ * ray), is_there);
-    if (hit > 1) continue;
-    if (!touched_) std::fill_n(distances_.values, kRays, kNothing);
-    touched_ = true;
-    distances_.values[i] = std::min(distances_.values[i], hit * range_);
-  }
+  rays_.AddInSpace(world_->Space().GetPose(robot),
+                   [&](const Vector3& from, const Vector3& to)
+                   {
+                     const double hit = world_->Terrain().FirstHit(from, to, is_there);
+                     return hit > 1 ? std::nullopt : std::optional(hit);
+                   });
 }
 
 void RayCastProximity::Respond(const double* distances, double* readings) const
@@ -496,8 +364,8 @@ void PolynomialProximity::Respond(const double* distances, double* readings) con
   for (unsigned i = 0; i < kRays; ++i) readings[i] = coefficients_.back();
   for (std::size_t c = coefficients_.size() - 1; c-- > 0;)
     for (unsigned i = 0; i < kRays; ++i)
-      readings[i] = readings[i] * (distances[i] <= range_ ? distances[i] : 0) + coefficients_[c];
-  for (unsigned i = 0; i < kRays; ++i) readings[i] = distances[i] <= range_ ? readings[i] : 0;
+      readings[i] = readings[i] * (distances[i] <= Range() ? distances[i] : 0) + coefficients_[c];
+  for (unsigned i = 0; i < kRays; ++i) readings[i] = distances[i] <= Range() ? readings[i] : 0;
 }
 
 void RegisterFootbotProximity()

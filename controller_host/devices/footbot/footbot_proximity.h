@@ -8,6 +8,7 @@
 #include "common/control_interface/footbot/ci_footbot_proximity_sensor.h"
 #include "controller_host/device.h"
 #include "controller_host/devices/device_streams.h"
+#include "controller_host/devices/footbot/footbot_proximity_rays.h"
 #include "controller_host/devices/noise.h"
 #include "controller_host/devices/sensing/sensor_world.h"
 #include "controller_host/devices/value_devices.h"
@@ -20,10 +21,6 @@ namespace swarmanoid
 class FootbotProximity : public SensorBatch, public OnDemandSensor
 {
 public:
-  static constexpr unsigned kRays = CCI_FootBotProximitySensor::NUM_SENSORS;
-  // Of the sensors above the base of the footbot (ARGoS3, foot-bot).
-  static constexpr double kHeight = 0.06;
-
   void Init(const DeviceSetup& setup) override;
   CCI_Sensor* Sensor(std::size_t k) override { return &sensors_[k]; }
   void Update(const ChannelView&) override
@@ -38,17 +35,14 @@ protected:
   // From distances in m (more than the range: nothing there) to readings, before noise and the cut to 0..1.
   virtual void Respond(const double* distances, double* readings) const = 0;
 
-  double range_ = 0;  // m
+  double Range() const { return rays_.Range(); }  // m
 
 private:
-  struct alignas(64) Rays
-  {
-    double values[kRays];
-  };
+  static constexpr double kHeight = FootbotProximityRays::kHeight;
   // Of robots that see nothing, with all others of them.
-  static constexpr Rays kNoReadings{};
+  static constexpr FootbotProximityRays::Values kNoReadings{};
 
-  class Readings : public ReadingsOnDemand<CCI_FootBotProximitySensor, kRays>
+  class Readings : public ReadingsOnDemand<CCI_FootBotProximitySensor, FootbotProximityRays::kRays>
   {
   public:
     Readings(OnDemandSensor& batch, std::size_t k) : ReadingsOnDemand(kNoReadings.values, batch, k) {}
@@ -76,9 +70,6 @@ private:
   void LookAt(std::uint32_t robot, const Vector3& sensors, bool upright, std::uint32_t body, const BodyShape& shape,
               const Vector3& at, bool body_upright);
   void FinishReadings(std::size_t k);
-  void AddDisc(std::uint32_t robot, double dx, double dy, double radius);
-  void AddUprightBox(std::uint32_t robot, std::uint32_t body);
-  void AddSide(double way, double c, double s);
   void AddAny(std::uint32_t robot, const Shape& shape, const Pose& other);
   template <class HitOf>
   void AddRays(std::uint32_t robot, const Vector3& centre, double radius, const HitOf& hit_of);
@@ -103,17 +94,13 @@ private:
   std::vector<Surroundings> surroundings_;  // ascending; without those who have nobody near, if nothing else is seen
   std::vector<std::uint32_t> near_;         // entities
   std::unique_ptr<FixedBodies> fixed_for_long_;  // those that come near as long as MovedSince may hold
-  double ring_radius_ = 0;                       // m: where the rays start
   NoiseModel noise_;
   DeviceStreams streams_;
-
-  Rays ray_cos_{}, ray_sin_{};
-  Rays distances_{};      // of the robot being sensed
-  bool touched_ = false;  // some ray of it hit something
+  FootbotProximityRays rays_;  // of the robot being sensed
   // Those that are not all 0, in the order in which they were made: that of the grid, so that they come one after the
   // other in memory.
   static constexpr std::size_t kBlock = 256;
-  std::vector<std::unique_ptr<Rays[]>>
+  std::vector<std::unique_ptr<FootbotProximityRays::Values[]>>
       blocks_;                         // of kBlock each; room for all from the start, as others read meanwhile
   std::vector<std::uint32_t> seeing_;  // k of those that have readings
   std::vector<std::uint8_t> saw_;      // whether robot k had readings before

@@ -12,10 +12,7 @@ namespace swarmanoid
 namespace
 {
 
-// Ticks that a margin is made for, and how few of them do not pay; then it is left alone for some.
-constexpr double kAim = 8;
-constexpr std::uint32_t kFewest = 4;
-constexpr std::uint32_t kPause = 64;
+constexpr double kAim = 8;  // ticks that a margin is made for
 // Metres. At first as if bodies went 5 cm/s in ticks of 0.1 s.
 constexpr double kFirstMargin = 0.08;
 constexpr double kLeastMargin = 0.01;
@@ -27,14 +24,8 @@ void MovedSince::Follow(WorkerPool* pool)
   if (revision_ == space_.Revision()) return;
   revision_ = space_.Revision();
   is_now_ = false;
-  if (pause_ > 0)
-  {
-    --pause_;
-    holds_ = false;
-    return;
-  }
-  const bool began = !x_.empty();
-  if (!began)
+  if (!lifetime_.BeginStep()) return;
+  if (x_.empty())
   {
     x_.resize(bodies_.size());
     y_.resize(bodies_.size());
@@ -44,15 +35,14 @@ void MovedSince::Follow(WorkerPool* pool)
   InParts(pool, bodies_.size(), 8,
           [&](unsigned thread, std::size_t begin, std::size_t end) { furthest_[thread] = FurthestSquare(begin, end); });
   const double furthest = std::sqrt(*std::max_element(furthest_.begin(), furthest_.end()));
-  ++age_;
-  if (holds_ && furthest <= margin_ / 2 && std::ranges::equal(absent_, space_.Absent())) return;
+  if (Holds() && furthest <= margin_ / 2 && std::ranges::equal(absent_, space_.Absent())) return;
 
   // Somebody who was put elsewhere is no measure of their speed.
-  if (holds_) margin_ = std::clamp(2 * kAim * std::min(furthest, margin_) / age_, kLeastMargin, kMostMargin);
+  if (Holds())
+    margin_ = std::clamp(2 * kAim * std::min(furthest, margin_) / lifetime_.Age(), kLeastMargin, kMostMargin);
   const bool all_upright = std::isfinite(furthest);
-  if (all_upright && (!holds_ || age_ >= kFewest)) return Begin();
-  pause_ = kPause;
-  holds_ = false;
+  if (!all_upright) return lifetime_.Pause();
+  if (lifetime_.Renew()) Begin();
 }
 
 double MovedSince::FurthestSquare(std::size_t begin, std::size_t end) const
@@ -101,8 +91,6 @@ void MovedSince::Begin()
   }
   absent_.assign(space_.Absent().begin(), space_.Absent().end());
   ++number_;
-  age_ = 0;
-  holds_ = true;
   is_now_ = true;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/math/verlet_lifetime.h"
 #include "common/space/space.h"
 #include "common/threads/worker_pool.h"
 
@@ -24,7 +25,7 @@ public:
   void Follow(WorkerPool* pool);
   // Whether who is near may be told from what was then, now or later: all stand upright, and they are so slow that it
   // pays.
-  bool Holds() const { return holds_; }
+  bool Holds() const { return lifetime_.HasList(); }
   // Whether then is now.
   bool IsNow() const { return is_now_; }
   // A number for then: another one each time.
@@ -41,9 +42,7 @@ private:
   std::span<const std::uint32_t> bodies_;
   std::uint64_t revision_ = 0;  // of the space; none has it
   std::uint64_t number_ = 0;
-  std::uint32_t age_ = 0;    // ticks that it has held
-  std::uint32_t pause_ = 0;  // ticks for which it is not tried
-  bool holds_ = false;
+  VerletLifetime lifetime_;
   bool is_now_ = false;
   double margin_ = 0;
   std::vector<double> x_, y_;  // of each body then

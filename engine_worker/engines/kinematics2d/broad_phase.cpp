@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace swarmanoid::kinematics2d
 {
@@ -62,6 +63,8 @@ void BroadPhase::Configure(const Bounds& area, std::span<const double> radii, do
   };
   block_columns_ = cut(first_column, cells_.columns.Count(), missing_columns_, first_block_column_);
   block_rows_ = cut(first_row, cells_.rows.Count(), missing_rows_, first_block_row_);
+  blocks_.resize(BlockCount());
+  std::iota(blocks_.begin(), blocks_.end(), 0U);
   sort_.SetCells(cells_.Count() + 1);
   const double extent =
       std::max({std::fabs(area.min_x), std::fabs(area.max_x), std::fabs(area.min_y), std::fabs(area.max_y)});
@@ -137,7 +140,7 @@ void BroadPhase::Sort(const PoseStore& poses, std::span<const std::uint8_t> pres
           });
 }
 
-std::size_t BroadPhase::BlocksWith(double part, std::span<const std::uint32_t> blocks) const
+std::size_t BroadPhase::BlocksWith(double share, std::span<const std::uint32_t> blocks) const
 {
   const std::uint32_t* const start = sort_.Starts();
   const auto bodies_in = [&](std::uint32_t block)
@@ -148,7 +151,7 @@ std::size_t BroadPhase::BlocksWith(double part, std::span<const std::uint32_t> b
   };
   std::uint64_t all = 0;
   for (const std::uint32_t block : blocks) all += bodies_in(block);
-  const double before = part * static_cast<double>(all);
+  const double before = share * static_cast<double>(all);
   std::size_t count = 0;
   for (std::uint64_t bodies = 0; count < blocks.size() && static_cast<double>(bodies) < before; ++count)
     bodies += bodies_in(blocks[count]);

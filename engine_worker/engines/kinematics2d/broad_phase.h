@@ -59,6 +59,8 @@ public:
   void Sort(const PoseStore& poses, std::span<const std::uint8_t> present, WorkerPool* pool = nullptr);
   const PlaneCells<double>& Cells() const { return cells_; }
   std::uint32_t BlockCount() const { return block_columns_ * block_rows_; }
+  // The numbers of all of them, ascending.
+  std::span<const std::uint32_t> Blocks() const { return blocks_; }
   std::uint32_t BlockColumns() const { return block_columns_; }
   // Calls act(first, last) with the first and the last cell of each row of a block.
   template <class Act>
@@ -73,8 +75,10 @@ public:
     const std::uint32_t row = block / block_columns_ + first_block_row_;
     return (row & 1U) * 2 + (column & 1U);
   }
-  // How many of these blocks hold a part (0 to 1) of the bodies that were sorted into them.
-  std::size_t BlocksWith(double part, std::span<const std::uint32_t> blocks) const;
+  // After Sort: part.blocks of the first `sharing` parts become pieces of these blocks, one after the other, with about
+  // as many bodies each; those of the other parts become empty.
+  template <class Part>
+  void ShareOut(std::span<const std::uint32_t> blocks, std::size_t sharing, std::vector<Part>& parts) const;
   // After Sort: bodies whose circles are less than `margin` apart, and bodies with the static shapes near them, block
   // by block in the order of their cells. Large bodies are left out.
   void FindPairs(double margin, std::span<const std::uint32_t> blocks, PairList& found) const;
@@ -133,6 +137,8 @@ private:
     const std::uint32_t left = to - from;
     return left < kLanes ? hits & ((1U << left) - 1) : hits;
   }
+  // How many of these blocks hold a share (0 to 1) of the bodies that were sorted into them.
+  std::size_t BlocksWith(double share, std::span<const std::uint32_t> blocks) const;
   void SweepBlock(float reach, std::uint32_t block, std::vector<Pair>& pairs) const;
   void SweepStatics(float reach, std::uint32_t block, std::vector<Pair>& pairs) const;
 
@@ -143,6 +149,7 @@ private:
   std::uint32_t block_columns_ = 1, block_rows_ = 1;
   std::uint32_t missing_columns_ = 0, missing_rows_ = 0;
   std::uint32_t first_block_column_ = 0, first_block_row_ = 0;  // counted from the world's origin, modulo 2
+  std::vector<std::uint32_t> blocks_;
   double largest_margin_ = 0;
   double largest_radius_ = 0;  // of a body that is not large
   double largest_small_radius_ = 0;
@@ -171,6 +178,19 @@ inline void BroadPhase::ForEachRowOf(std::uint32_t block, const Act& act) const
   const std::uint32_t row_end = std::min((row + 1) * kBlock - missing_rows_, cells_.rows.Count());
   for (std::uint32_t r = begin(row, missing_rows_); r < row_end; ++r)
     act(cells_.Cell(begin(column, missing_columns_), r), cells_.Cell(last_column, r));
+}
+
+template <class Part>
+void BroadPhase::ShareOut(std::span<const std::uint32_t> blocks, std::size_t sharing, std::vector<Part>& parts) const
+{
+  std::size_t begin = 0;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+  {
+    const double share = static_cast<double>(k + 1) / static_cast<double>(sharing);
+    const std::size_t end = k + 1 >= sharing ? blocks.size() : BlocksWith(share, blocks);
+    parts[k].blocks = blocks.subspan(begin, end - begin);
+    begin = end;
+  }
 }
 
 }  // namespace swarmanoid::kinematics2d

@@ -11,23 +11,9 @@ namespace
 
 // In large crowds the bodies are not in the cache: they are asked for this many pairs before they are needed.
 constexpr std::size_t kPairsAhead = 12;
+constexpr std::size_t kLeast = 512;  // bodies; below, handing parts over to threads takes longer
 
 }  // namespace
-
-// Blocks for the threads, about as many bodies for each.
-void KinematicWorld::SplitBlocks()
-{
-  constexpr std::size_t kLeast = 512;  // bodies; below, handing parts over takes longer
-  const std::size_t parts = count_ < kLeast || Pool() == nullptr ? 1 : parts_.size();
-  std::size_t last = 0;
-  for (std::size_t k = 0; k < parts_.size(); ++k)
-  {
-    parts_[k].first_block = last;
-    const double share = static_cast<double>(k + 1) / static_cast<double>(parts);
-    last = k + 1 >= parts ? blocks_.size() : broad_.BlocksWith(share, blocks_);
-    parts_[k].last_block = last;
-  }
-}
 
 void KinematicWorld::FindContacts()
 {
@@ -39,7 +25,7 @@ void KinematicWorld::FindContacts()
   pairs_of_large_.ends.assign(1, static_cast<std::uint32_t>(pairs_of_large_.pairs.size()));
   if (region_) region_->ChoosePairsOfLarge(*this);
   SwapFollowers();
-  SplitBlocks();
+  broad_.ShareOut(blocks_, count_ < kLeast || Pool() == nullptr ? 1 : parts_.size(), parts_);
   for (Part& part : parts_)
   {
     part.pairs.pairs.clear();
@@ -50,11 +36,11 @@ void KinematicWorld::FindContacts()
       [&](Part& part)
       {
         if (listed)
-          verlet_list_.TakePairs(part.first_block, part.last_block, part.pairs);
+          verlet_list_.TakePairs(part.blocks, part.pairs);
         else
-          broad_.FindPairs(margin, std::span(blocks_).subspan(part.first_block, part.last_block - part.first_block),
-                           part.pairs);
-        FindContacts(part.pairs, block_contacts_.data() + part.first_block, part.contacts, part.of_groups);
+          broad_.FindPairs(margin, part.blocks, part.pairs);
+        FindContacts(part.pairs, block_contacts_.data() + (part.blocks.data() - blocks_.data()), part.contacts,
+                     part.of_groups);
       });
 
   shared_contacts_.Clear();

@@ -61,11 +61,11 @@ void KinematicWorld::Region::AddOwnContacts(const KinematicWorld& world)
                                   LeaderAt(world, ends.second), contacts.Outlines()[n]});
     }
   };
-  std::size_t begin = 0;
+  std::size_t begin = 0, b = 0;
   for (const Part& part : world.parts_)
   {
-    for (std::size_t b = part.first_block; b < part.last_block; ++b)
-      add_to(begin + world.block_contacts_[b].last_of_groups, {0, world.blocks_[b], 0});
+    for (const std::uint32_t block : part.blocks)
+      add_to(begin + world.block_contacts_[b++].last_of_groups, {0, block, 0});
     begin += part.of_groups.AllEnds().size();
   }
   for (std::size_t k = 0; k < order_of_large_.size(); ++k) add_to(world.contacts_of_large_[k].last, order_of_large_[k]);

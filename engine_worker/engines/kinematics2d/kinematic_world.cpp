@@ -1,7 +1,6 @@
 #include "engine_worker/engines/kinematics2d/kinematic_world.h"
 
 #include <algorithm>
-#include <numeric>
 #include <stdexcept>
 #include <tuple>
 
@@ -131,8 +130,7 @@ void KinematicWorld::Start(Bounds area, unsigned threads, WorkerPool* pool)
   std::vector<Bounds> boxes;
   for (const CollisionModel& shape : statics_) boxes.push_back(BoxOf(shape));
   broad_.SetStatics(boxes);
-  blocks_.resize(broad_.BlockCount());
-  std::iota(blocks_.begin(), blocks_.end(), 0U);
+  blocks_.assign(broad_.Blocks().begin(), broad_.Blocks().end());
   block_contacts_.resize(blocks_.size());
   verlet_list_.Configure(threads);
   solver_.Configure(count_, threads);

@@ -152,7 +152,7 @@ private:
   // What one thread finds in some of the blocks.
   struct Part
   {
-    std::size_t first_block = 0, last_block = 0;  // in blocks_
+    std::span<const std::uint32_t> blocks;  // a piece of blocks_
     PairList pairs;
     ContactList contacts;
     ContactList of_groups;  // contacts of bodies that are led by another one
@@ -249,13 +249,12 @@ private:
   void Substep(double seconds, double fraction);
   void Move(double seconds, double fraction);
   void SwapFollowers();
-  void SplitBlocks();
   WorkerPool* Pool() const { return IfItShares(pool_); }
   // Calls act(part) with all that have blocks, each in a thread of its own.
   template <class Act>
   void ForEachPart(const Act& act)
   {
-    if (Pool() == nullptr || parts_[0].last_block == blocks_.size()) return act(parts_[0]);
+    if (Pool() == nullptr || parts_[0].blocks.size() == blocks_.size()) return act(parts_[0]);
     pool_->Run([&](unsigned k) { act(parts_[k]); });
   }
   void FindContacts();

@@ -10,9 +10,6 @@ namespace swarmanoid::kinematics2d
 namespace
 {
 
-// A list that lasts for fewer steps does not pay; then it is left alone for some.
-constexpr std::uint32_t kFewest = 4;
-constexpr std::uint32_t kPause = 64;
 constexpr std::uint64_t kStatic = std::uint64_t{1} << 63;
 
 // Nearly all stand in order already.
@@ -35,21 +32,10 @@ bool VerletList::Update(BroadPhase& broad, const PoseStore& poses, std::span<con
                         WorkerPool* pool)
 {
   if (!broad.Large().empty() || margin > broad.LargestMargin()) return false;
-  if (pause_ > 0)
+  if (!lifetime_.BeginStep()) return false;
+  if (!lifetime_.HasList() || !Holds(poses, present, margin_ - margin - 4 * broad.Rounding(), pool))
   {
-    --pause_;
-    return false;
-  }
-  ++age_;
-  const bool began = !x_.empty();
-  if (!began || !Holds(poses, present, margin_ - margin - 4 * broad.Rounding(), pool))
-  {
-    if (began && age_ < kFewest)
-    {
-      x_.clear();
-      pause_ = kPause;
-      return false;
-    }
+    if (!lifetime_.Renew()) return false;
     Search(broad, poses, present, pool);
   }
   Choose(broad, poses, margin, pool);
@@ -87,19 +73,9 @@ void VerletList::Search(BroadPhase& broad, const PoseStore& poses, std::span<con
   x_ = poses.x;
   y_ = poses.y;
   present_.assign(present.begin(), present.end());
-  age_ = 0;
   margin_ = broad.LargestMargin();
-  blocks_.resize(broad.BlockCount());
-  std::iota(blocks_.begin(), blocks_.end(), 0U);
-  std::size_t begin = 0;
-  for (std::size_t k = 0; k < parts_.size(); ++k)
-  {
-    const double share = static_cast<double>(k + 1) / static_cast<double>(parts_.size());
-    const std::size_t end = k + 1 == parts_.size() ? blocks_.size() : broad.BlocksWith(share, blocks_);
-    parts_[k].searched = std::span(blocks_).subspan(begin, end - begin);
-    begin = end;
-  }
-  ForEachPart(pool, [&](Part& part) { broad.FindPairs(margin_, part.searched, part.candidates); });
+  broad.ShareOut(broad.Blocks(), parts_.size(), parts_);
+  ForEachPart(pool, [&](Part& part) { broad.FindPairs(margin_, part.blocks, part.candidates); });
 }
 
 void VerletList::Choose(const BroadPhase& broad, const PoseStore& poses, double margin, WorkerPool* pool)
@@ -110,7 +86,7 @@ void VerletList::Choose(const BroadPhase& broad, const PoseStore& poses, double 
               [&](Part& part)
               {
                 part.near.clear();
-                part.blocks.clear();
+                part.block_of.clear();
                 for (const auto& [a, b] : part.candidates.pairs)
                 {
                   if (!broad.IsNear({a, b}, reach, poses)) continue;
@@ -118,14 +94,14 @@ void VerletList::Choose(const BroadPhase& broad, const PoseStore& poses, double 
                   if (b >= present_.size())
                   {
                     part.near.push_back({kStatic | key(at.cell, a), b});
-                    part.blocks.push_back(at.block);
+                    part.block_of.push_back(at.block);
                     continue;
                   }
                   const BroadPhase::Place other = broad.PlaceOf(poses.x[b], poses.y[b]);
                   const std::uint64_t one = key(at.cell, a);
                   const std::uint64_t two = key(other.cell, b);
                   part.near.push_back({std::min(one, two), std::max(one, two)});
-                  part.blocks.push_back(one < two ? at.block : other.block);
+                  part.block_of.push_back(one < two ? at.block : other.block);
                 }
               });
 
@@ -134,20 +110,20 @@ void VerletList::Choose(const BroadPhase& broad, const PoseStore& poses, double 
   std::size_t count = 0;
   for (const Part& part : parts_)
   {
-    for (const std::uint32_t block : part.blocks) ++ends_[block + 2];
+    for (const std::uint32_t block : part.block_of) ++ends_[block + 2];
     count += part.near.size();
   }
   std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
   near_.resize(count);
   for (const Part& part : parts_)
-    for (std::size_t n = 0; n < part.near.size(); ++n) near_[ends_[part.blocks[n] + 1]++] = part.near[n];
+    for (std::size_t n = 0; n < part.near.size(); ++n) near_[ends_[part.block_of[n] + 1]++] = part.near[n];
 }
 
-void VerletList::TakePairs(std::size_t first, std::size_t last, PairList& found)
+void VerletList::TakePairs(std::span<const std::uint32_t> blocks, PairList& found)
 {
   found.pairs.clear();
   found.ends.clear();
-  for (std::size_t block = first; block < last; ++block)
+  for (const std::uint32_t block : blocks)
   {
     const std::span<Near> near(near_.data() + ends_[block], ends_[block + 1] - ends_[block]);
     InsertionSort(near);

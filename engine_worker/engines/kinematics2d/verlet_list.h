@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "common/math/verlet_lifetime.h"
 #include "common/threads/worker_pool.h"
 #include "engine_worker/engines/kinematics2d/broad_phase.h"
 
@@ -22,9 +23,9 @@ public:
   // while, or if some bodies are large: then the pairs are to be searched for.
   bool Update(BroadPhase& broad, const PoseStore& poses, std::span<const std::uint8_t> present, double margin,
               WorkerPool* pool);
-  // After an update that was true: what BroadPhase::FindPairs finds in blocks `first`, `first` + 1, ... before `last`.
-  // Several threads may ask for different blocks.
-  void TakePairs(std::size_t first, std::size_t last, PairList& found);
+  // After an update that was true: what BroadPhase::FindPairs finds in these blocks. Several threads may ask for
+  // different ones.
+  void TakePairs(std::span<const std::uint32_t> blocks, PairList& found);
 
 private:
   // A pair at its place in the order of a search: whose cell comes first, then the other one's, each with the number
@@ -41,10 +42,10 @@ private:
   // What one thread looks after.
   struct Part
   {
-    std::span<const std::uint32_t> searched;  // blocks
+    std::span<const std::uint32_t> blocks;  // that it searches
     PairList candidates;
     std::vector<Near> near;
-    std::vector<std::uint32_t> blocks;  // of them
+    std::vector<std::uint32_t> block_of;  // of each of them
     double furthest = 0;
   };
 
@@ -61,14 +62,12 @@ private:
   }
 
   std::vector<Part> parts_;
+  VerletLifetime lifetime_;
   double margin_ = 0;          // of the search
   std::vector<double> x_, y_;  // of each body then
   std::vector<std::uint8_t> present_;
-  std::uint32_t age_ = 0;              // steps since then
-  std::uint32_t pause_ = 0;            // steps for which it is not tried
-  std::vector<std::uint32_t> blocks_;  // all
-  std::vector<Near> near_;             // block by block
-  std::vector<std::uint32_t> ends_;    // of each block in near_, and 0 before the first
+  std::vector<Near> near_;           // block by block
+  std::vector<std::uint32_t> ends_;  // of each block in near_, and 0 before the first
 };
 
 }  // namespace swarmanoid::kinematics2d

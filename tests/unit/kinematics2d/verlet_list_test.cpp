@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
 #include <random>
 
 namespace swarmanoid::kinematics2d
@@ -53,10 +52,8 @@ struct Swarm
   PairList Search(double margin)
   {
     searched.Sort(poses, present);
-    std::vector<std::uint32_t> blocks(searched.BlockCount());
-    std::iota(blocks.begin(), blocks.end(), 0U);
     PairList found;
-    searched.FindPairs(margin, blocks, found);
+    searched.FindPairs(margin, searched.Blocks(), found);
     return found;
   }
 
@@ -65,7 +62,7 @@ struct Swarm
   {
     if (!list.Update(listed, poses, present, margin, pool)) return false;
     PairList found;
-    list.TakePairs(0, listed.BlockCount(), found);
+    list.TakePairs(listed.Blocks(), found);
     const PairList expected = Search(margin);
     EXPECT_EQ(found.ends, expected.ends);
     EXPECT_EQ(found.pairs.size(), expected.pairs.size());
