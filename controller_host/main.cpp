@@ -41,7 +41,9 @@ public:
     // Sensors that ask for all, wherever they are, need the state of all.
     if (const double reach = role_.Reach(); HostsAskForParts(session.World()) && std::isfinite(reach))
     {
-      inputs_.HearPartOf(host);
+      known_.assign(replica.space->Movable().begin(), replica.space->Movable().end());
+      inputs_.HearPart(HostName(host), host_,
+                       [this](const LocalState& state) { replica_.space->Apply(state, known_); });
       session.SetReach(reach);
     }
     const std::size_t engines = role_.Layout().frames_from.size();
@@ -203,6 +205,7 @@ private:
   SharedTicks sharing_;
   ControllerHost role_;
   SavedStates saved_;
+  std::vector<std::uint32_t> known_;                // if it hears what is near: of whom it heard last
   Inputs inputs_;                                   // its mutex guards the role and what follows
   std::array<std::vector<SensorFrame>, 2> frames_;  // of even and odd ticks
   std::vector<const SensorFrame*> frames_here_;

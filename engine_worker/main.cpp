@@ -44,6 +44,8 @@ public:
     if (session.World().recorded) update_.recorded.resize(role_.Layout().command_size + role_.Layout().sensor_size);
     if (role_.Layout().sensor_size > 0)
       frames_.emplace(session.GetBus(), session.Scope(replica.limits->FrameBytes(), 1));
+    if (EnginesHearParts(session.World()))
+      inputs_.HearPart(PartNameOfEngine(engine), engine_, [this](const LocalState& state) { Apply(state); });
     Begin();
     inputs_.Open({[this](std::size_t k, std::uint64_t tick) { return &commands_[tick % 2][k]; }, [this] { Tick(); },
                   [this] { Answer(true); }, team_ != nullptr},
@@ -139,6 +141,16 @@ private:
       commands_[tick % 2][k] = record.commands.at(role_.Layout().commands_from[k]);
     Step(tick, record.state.moved);
     saved_.Ready(tick + 1, role_, record.save);
+  }
+
+  // Where its own entities are that nobody has moved, it has said itself.
+  void Apply(const LocalState& state)
+  {
+    CSwarmanoidSpace& space = *replica_.space;
+    space.SetTick(state.tick);
+    if (has_update_) space.SetPoses(role_.Layout().owned, update_.poses);
+    space.SetPoses(state.entities, state.poses);
+    space.SetAttributes(state.attributes);
   }
 
   // What was computed for the tick against what the run went on with.

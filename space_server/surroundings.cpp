@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "common/space/space.h"
@@ -30,6 +31,14 @@ PlaneCells<double> CellsOver(const CSwarmanoidSpace& space, double edge)
   if (left > right) left = right = bottom = top = 0;
   edge = CellEdge<2>({right - left, top - bottom}, edge, kMostCells);
   return {left, bottom, right - left, top - bottom, edge, true};
+}
+
+void WritePoses(const PoseArrays& poses, LocalState& part)
+{
+  part.poses.resize(7 * part.entities.size());
+  double* to = part.poses.data();
+  for (const auto* component : {&poses.x, &poses.y, &poses.z, &poses.qx, &poses.qy, &poses.qz, &poses.qw})
+    for (const std::uint32_t entity : part.entities) *to++ = (*component)[entity];
 }
 
 }  // namespace
@@ -61,11 +70,7 @@ LocalState& Surroundings::Part(const SpaceState& state)
 
   part_.tick = state.tick;
   part_.last = state.last;
-  const PoseArrays& poses = space_.Poses();
-  part_.poses.resize(7 * part_.entities.size());
-  double* to = part_.poses.data();
-  for (const auto* component : {&poses.x, &poses.y, &poses.z, &poses.qx, &poses.qy, &poses.qz, &poses.qw})
-    for (const std::uint32_t entity : part_.entities) *to++ = (*component)[entity];
+  WritePoses(space_.Poses(), part_);
   AddAttributes(state);
   return part_;
 }
@@ -149,6 +154,26 @@ void Surroundings::AddAttributes(const SpaceState& state)
     changes.slots.erase(std::unique(changes.slots.begin(), changes.slots.end()), changes.slots.end());
   }
   for (const std::uint32_t slot : changes.slots) changes.values.push_back(space_.Attributes()[slot]);
+}
+
+EngineNews::EngineNews(const CSwarmanoidSpace& space, std::span<const std::uint32_t> owned)
+    : space_(space), owned_(owned)
+{
+  std::ranges::set_difference(space.Movable(), owned, std::back_inserter(others_));
+}
+
+LocalState& EngineNews::Part(const SpaceState& state)
+{
+  part_.tick = state.tick;
+  part_.last = state.last;
+  part_.entities = others_;
+  for (const std::uint32_t entity : state.moved)
+    if (std::ranges::binary_search(owned_, entity)) part_.entities.push_back(entity);
+  std::ranges::sort(part_.entities);
+  WritePoses(space_.Poses(), part_);
+  part_.attributes = state.attributes;
+  part_.moved = state.moved;
+  return part_;
 }
 
 }  // namespace swarmanoid

@@ -48,4 +48,20 @@ private:
   LocalState part_;
 };
 
+// What an engine is told likewise: the state without the poses of those that it has moved itself.
+class EngineNews
+{
+public:
+  // `owned`: those that the engine moves, ascending. The space outlives it.
+  EngineNews(const CSwarmanoidSpace& space, std::span<const std::uint32_t> owned);
+  // As Surroundings::Part.
+  LocalState& Part(const SpaceState& state);
+
+private:
+  const CSwarmanoidSpace& space_;
+  std::span<const std::uint32_t> owned_;
+  std::vector<std::uint32_t> others_;  // that can move
+  LocalState part_;
+};
+
 }  // namespace swarmanoid

@@ -64,6 +64,10 @@ WorldMessage DescribeWorld(const CSwarmanoidSpace& space, std::uint64_t run, con
 
 bool HostsAskForParts(const WorldMessage& world) { return world.spread && world.hosts > 1; }
 
+bool EnginesHearParts(const WorldMessage& world) { return world.spread; }
+
+std::string PartNameOfEngine(std::size_t engine) { return "engine " + std::to_string(engine); }
+
 // No engine waits for a host without robots.
 bool ServerHears(const HostLayout& host) { return host.reports_to_server || host.robots.empty(); }
 

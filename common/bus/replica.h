@@ -45,6 +45,10 @@ WorldMessage DescribeWorld(const CSwarmanoidSpace& space, std::uint64_t run, con
 // Whether hosts hear LocalState, if they know how far they reach: in memory that processes share it would save nothing,
 // and a single host knows all.
 bool HostsAskForParts(const WorldMessage& world);
+// Likewise engines, which say themselves where their own entities are.
+bool EnginesHearParts(const WorldMessage& world);
+// Behind the slash of its partition.
+std::string PartNameOfEngine(std::size_t engine);
 
 // Whether the server waits for the commands of a host.
 bool ServerHears(const HostLayout& host);

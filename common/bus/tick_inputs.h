@@ -59,11 +59,11 @@ public:
     }
   }
 
-  // The states are those that the server tells this host alone. Before Open.
-  void HearPartOf(std::size_t host)
+  // The states are those that the server tells this process alone: `name` as LocalState says, and its number. `apply`
+  // brings the space to the tick of one. Before Open.
+  void HearPart(std::string name, std::uint32_t number, std::function<void(const LocalState&)> apply)
   {
-    part_of_ = static_cast<std::uint32_t>(host);
-    known_.assign(space_.Movable().begin(), space_.Movable().end());
+    part_ = {std::move(name), number, std::move(apply)};
   }
 
   // The first step is at another tick. Before Open.
@@ -82,8 +82,8 @@ public:
                              [this](const MessageHeader& header) { return PlaceOf(header); },
                              [this](const MessageHeader& header, Message&) { Arrived(header); },
                              [this](const MessageHeader& header, const Message& m) { limits_.Check(header, m); }});
-    if (part_of_)
-      Hear(part_in_, session_.Scope(limits_.LocalStateBytes(), 1), HostName(*part_of_));
+    if (part_)
+      Hear(part_in_, session_.Scope(limits_.LocalStateBytes(), 1), part_->name);
     else
       Hear(states_in_, session_.Scope(limits_.StateBytes(), 1), {});
   }
@@ -106,7 +106,7 @@ public:
   // The last state has come: others may have left already.
   bool Over() const { return over_; }
   // Whether the states of the server can be read, and how many of the other writers have not been found yet.
-  bool ServerIsHere() const { return (part_of_ ? part_in_->Writers() : states_in_->Writers()) >= 1; }
+  bool ServerIsHere() const { return (part_ ? part_in_->Writers() : states_in_->Writers()) >= 1; }
   unsigned MissingWriters() const
   {
     const unsigned here = others_in_ ? others_in_->Writers() : 0;
@@ -168,7 +168,7 @@ private:
   LocalState* PlaceOfState(const MessageHeader& header)
   {
     if (header.run != session_.World().run) return nullptr;
-    if (part_of_ && header.source != *part_of_) throw BadMessage("source: it is for another host");
+    if (part_ && header.source != part_->number) throw BadMessage("source: it is for another process");
     const std::lock_guard lock(mutex_);
     const auto verdict = gate_.Offer(0, header.tick);
     // A repeated state is read too: it may say that the run ends here.
@@ -221,8 +221,8 @@ private:
     const LocalState& state = states_[gate_.Tick() % 2];
     if (state.last)
       Finish(state.tick);
-    else if (part_of_)
-      space_.Apply(state, known_);
+    else if (part_)
+      part_->apply(state);
     else
       space_.Apply(state);
     return !state.last;
@@ -288,8 +288,13 @@ private:
   std::array<LocalState, 2> states_;  // of even and odd ticks; of all entities, unless it hears a part
   std::array<bool, 2> saves_{};
   LocalState repeated_;
-  std::optional<std::uint32_t> part_of_;  // the host that the states are for
-  std::vector<std::uint32_t> known_;      // if they are for one: the entities of the last one
+  struct Part
+  {
+    std::string name;
+    std::uint32_t number;
+    std::function<void(const LocalState&)> apply;
+  };
+  std::optional<Part> part_;  // if the states are for this process alone
   std::atomic<std::uint64_t> stepping_ = 0;
   std::atomic<bool> over_ = false;
   bool is_stepping_ = false;

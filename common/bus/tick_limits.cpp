@@ -93,6 +93,7 @@ std::size_t TickLimits::LocalStateBytes() const
   FillPoses(state.poses, movable_);
   FillSlots(state.attributes, slots_);
   state.entities.resize(movable_);
+  state.moved.resize(entities_);
   return PayloadSize(MessageHeader(), state);
 }
 
@@ -137,16 +138,14 @@ void TickLimits::Check(const MessageHeader& header, const SpaceState& state) con
   if (header.source != 0) RefuseField("source", "the space server is number 0");
   CheckLength("poses", state.poses.size(), kPoseColumns * movable_);
   CheckSlots(state.attributes);
-  for (std::size_t k = 0; k < state.moved.size(); ++k)
-    if (state.moved[k] >= entities_ || (k > 0 && state.moved[k] <= state.moved[k - 1]))
-      RefuseField("moved", fmt::format("entity {} of {} does not ascend, or there is none", state.moved[k], entities_));
+  CheckMoved(state.moved);
   if (!draws_ && !state.drawing.IsEmpty()) RefuseField("shapes", "nobody draws in this run");
   CheckDrawing(state.drawing);
 }
 
-void TickLimits::Check(const MessageHeader& header, const LocalState& state) const
+// Whom it is for is known to those who hear it.
+void TickLimits::Check(const MessageHeader&, const LocalState& state) const
 {
-  CheckSource(header, command_values_.size());
   for (std::size_t k = 0; k < state.entities.size(); ++k)
   {
     const std::uint32_t entity = state.entities[k];
@@ -155,6 +154,14 @@ void TickLimits::Check(const MessageHeader& header, const LocalState& state) con
   }
   CheckLength("poses", state.poses.size(), kPoseColumns * state.entities.size());
   CheckSlots(state.attributes);
+  CheckMoved(state.moved);
+}
+
+void TickLimits::CheckMoved(const std::vector<std::uint32_t>& moved) const
+{
+  for (std::size_t k = 0; k < moved.size(); ++k)
+    if (moved[k] >= entities_ || (k > 0 && moved[k] <= moved[k - 1]))
+      RefuseField("moved", fmt::format("entity {} of {} does not ascend, or there is none", moved[k], entities_));
 }
 
 void TickLimits::CheckDrawing(const Drawing& drawing) const

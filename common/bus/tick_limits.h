@@ -47,6 +47,7 @@ public:
 
 private:
   void CheckSlots(const AttributeChanges& changes) const;
+  void CheckMoved(const std::vector<std::uint32_t>& moved) const;
   void CheckDrawing(const Drawing& drawing) const;
   void CheckFaults(const ControllerFaults& faults) const;
 

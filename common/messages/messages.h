@@ -41,9 +41,10 @@ struct SpaceState
   Drawing drawing{};                 // of experiment functions, if the run has visualisers
 };
 
-// Space server to one controller host, in runs over a network: of the movable entities those alone that
-// its sensors may reach; all others are not in the arena for it. `poses` are of these, `attributes` are of these and of
-// all that cannot move, and have all slots of those that were not among them a tick before.
+// Space server to one process, in runs over a network: the state with the poses of some of the movable entities alone.
+// A controller host has those that its sensors may reach, and all others are not in the arena for it; `attributes` are
+// of these and of all that cannot move, and have all slots of those that were not among them a tick before. An engine
+// worker has those that it does not move itself, and those that were moved.
 struct LocalState : SpaceState
 {
   std::vector<std::uint32_t> entities;  // ascending

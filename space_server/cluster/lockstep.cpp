@@ -71,14 +71,9 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
       first_frames_(FirstFrames(continuation)),
       frames_(journal == nullptr ? 0 : engines_),
       hash_log_(hash_log, continuation != nullptr ? std::optional(first_tick_) : std::nullopt),
-      states_(session.GetBus(), session.Scope(limits_.StateBytes(), 1))
+      states_(session.GetBus(), session.Scope(limits_.StateBytes(), 1)),
+      local_states_(session, server.Space(), assignment, limits_)
 {
-  for (std::size_t h = 0; HostsAskForParts(session.World()) && h < assignment.hosts.size(); ++h)
-  {
-    HotScope scope = session.Scope(limits_.LocalStateBytes(), 1);
-    scope.listener = HostName(h);
-    host_parts_.push_back(std::make_unique<HostPart>(session.GetBus(), scope));
-  }
   if (visualisers_ > 0) server_.SetDrawsIntoStates();
   for (const UpdateMessage& update : updates_) updates_here_.push_back(&update);
   for (auto& commands : commands_)
@@ -134,9 +129,8 @@ Lockstep::~Lockstep()
 
 bool Lockstep::AllMatched() const
 {
-  unsigned readers = states_.Readers();
-  for (const auto& part : host_parts_) readers += part->states.Readers();
-  return readers >= workers_ && (!updates_in_ || updates_in_->Writers() >= engines_) &&
+  return states_.Readers() + local_states_.Readers() >= workers_ &&
+         (!updates_in_ || updates_in_->Writers() >= engines_) &&
          (!commands_in_ || commands_in_->Writers() >= hosts_.size()) &&
          (!drawn_in_ || drawn_in_->Writers() >= visualisers_);
 }
@@ -239,30 +233,14 @@ void Lockstep::Send(bool repeated)
   if (hash_log_.IsOpen() && !repeated) hash_log_.Write(state.tick, server_.Space().Hash());
   held_ = false;
   const MessageHeader header{session_.World().run, state.tick, 0, repeated, 0, saves_};
-  states_.Write(header, state);
-  SendToHosts(header, state);
+  // Where all hear what is theirs, nobody may read this.
+  if (local_states_.IsEmpty() || states_.Readers() > 0) states_.Write(header, state);
+  local_states_.Write(header, state);
   if (!state.last) return;
   // For those who look back: nobody steps there.
   if (journal_ != nullptr && !finished_) journal_->AddTick(state, saves_, Frames(), {});
   finished_ = true;
   stopped_();
-}
-
-void Lockstep::SendToHosts(const MessageHeader& header, const SpaceState& state)
-{
-  for (std::uint32_t h = 0; h < host_parts_.size(); ++h)
-  {
-    HostPart& part = *host_parts_[h];
-    if (!parts_are_known_ && part.states.Readers() > 0)
-      part.surroundings.emplace(server_.Space(), assignment_.hosts[h].robots, session_.ReachOf(HostName(h)));
-    if (!part.surroundings) continue;
-    if (!header.repeated) part.state = &part.surroundings->Part(state);
-    part.state->last = state.last;
-    MessageHeader to_host = header;
-    to_host.source = h;
-    part.states.Write(to_host, *part.state);
-  }
-  parts_are_known_ = true;
 }
 
 void Lockstep::Record(const SpaceState& state, bool saves, std::span<const SensorFrame> frames)

@@ -18,7 +18,7 @@
 #include "common/run/hash_log.h"
 #include "space_server/cluster/checkpoint_writer.h"
 #include "space_server/cluster/continuation.h"
-#include "space_server/surroundings.h"
+#include "space_server/cluster/local_states.h"
 
 namespace swarmanoid
 {
@@ -79,7 +79,6 @@ public:
 
 private:
   void Send(bool repeated);
-  void SendToHosts(const MessageHeader& header, const SpaceState& state);
   void Complete();
   std::span<const SensorFrame> Frames() const;
   // Writes a tick into the journal: what the server did not hear itself, the engines reported. Then frames_ are those
@@ -125,17 +124,7 @@ private:
   std::optional<std::string> failure_;
   HashLog hash_log_;
   HotPublisher<SpaceState> states_;
-  // For a host that is told its surroundings alone.
-  struct HostPart
-  {
-    HostPart(Bus& bus, const HotScope& scope) : states(bus, scope) {}
-
-    HotPublisher<LocalState> states;
-    std::optional<Surroundings> surroundings{};  // made with the first state; none: the host hears that of all
-    LocalState* state = nullptr;                 // of the tick
-  };
-  std::vector<std::unique_ptr<HostPart>> host_parts_;  // of all hosts, or empty
-  bool parts_are_known_ = false;                       // which of them have surroundings
+  LocalStates local_states_;
   std::optional<HotSubscription<UpdateMessage>> updates_in_;
   std::optional<HotSubscription<ControlCommands>> commands_in_;
   std::optional<HotSubscription<DrawnMessage>> drawn_in_;

@@ -86,6 +86,19 @@ class Network(LauncherTest):
         self.assertEqual((self.folder / "cluster").read_text(), (self.folder / "one").read_text())
         self.assert_nothing_left(run)
 
+    def test_engines_that_are_told_of_others(self):
+        """Entities that several engines see, those that functions move, and groups that hold one another."""
+        hosts = self.folder / "hosts.txt"
+        hosts.write_text(self.machines.hosts() + f"controller_host 1 = {self.machines.names[1]}\n")
+        self.machines.connect(0, 0.1)
+        self.addCleanup(self.machines.disconnect)
+        for name in ("mirrors", "prey_supply", "gripped_chain"):
+            with self.subTest(name):
+                words = ("run", CONFIGS / f"{name}.xml", "--ticks", 150, "--no-visualisers")
+                one = self.run_it(*words, "--single-process")
+                run = self.run_it(*words, "--hosts", hosts, "--controller-hosts", 2, timeout=90)
+                self.assertEqual(self.assert_finished(run, 150), self.assert_finished(one, 150), run.stderr)
+
     def test_without_multicast_by_peers(self):
         self.machines.forget_multicast()
         self.run_over(0, "--lease 60 --peers 10.78.0.1 10.78.0.2")

@@ -29,7 +29,7 @@ public:
     MakeAhead();
   }
   void RefreshShared(WorkerPool* pool) override;
-  double Reach() const override { return ring_radius_ + range_ + kHeight; }
+  double Reach() const override { return rays_.Reach() + kHeight; }
 
 protected:
   // From distances in m (more than the range: nothing there) to readings, before noise and the cut to 0..1.

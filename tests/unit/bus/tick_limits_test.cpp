@@ -86,13 +86,15 @@ TEST_F(LimitsOfATick, TheEntitiesOfAPartAscendAndHaveOnePoseEach)
   EXPECT_THAT(Refusal(part), HasSubstr("poses: it has 0 numbers, not 14"));
   part.poses.resize(14);
   EXPECT_EQ(Refusal(part), "");
-  EXPECT_THAT(Refusal(part, 1), HasSubstr("source: there is no number 1"));
   for (const std::vector<std::uint32_t>& wrong : {std::vector<std::uint32_t>{2, 0}, {1, 1}, {1, 99}})
   {
     part.entities = wrong;
     EXPECT_THAT(Refusal(part), HasSubstr("does not ascend, or cannot move")) << wrong[1];
   }
   part.entities = {0, 2};
+  part.moved = {99};
+  EXPECT_THAT(Refusal(part), HasSubstr("moved: entity 99"));
+  part.moved.clear();
   part.attributes.Add(Slots(), 0);
   EXPECT_THAT(Refusal(part), HasSubstr("attribute_slots: there is no slot"));
 }

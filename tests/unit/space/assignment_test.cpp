@@ -174,6 +174,37 @@ TEST(Assignment, ContiguousValuesAreOneCopy)
   EXPECT_EQ(assignment.engines[0].command_copies.size(), 4U);
 }
 
+// However they stand in the file: a square of robots is halved, and its halves across the longer side.
+TEST(Assignment, HostsHaveRobotsThatStartNearOneAnother)
+{
+  RegisterDevices();
+  Experiment experiment;
+  ControllerConfiguration driver;
+  driver.id = "driver";
+  driver.actuators = {{"test_wheels", "test", {}}};
+  experiment.controllers = {driver};
+  experiment.engines.resize(1);
+  for (std::uint32_t i = 0; i < 64; ++i)
+  {
+    experiment.entities.push_back(Robot("r" + std::to_string(i), "driver"));
+    const std::uint32_t scattered = i * 29 % 64;
+    experiment.entities.back().pose.position = {scattered % 8 * 1.0, scattered / 8 * 1.0, 0};
+    experiment.engines[0].entities.push_back(i);
+  }
+  const Assignment assignment = MakeAssignment(experiment, 4);
+  for (std::size_t h = 0; h < 4; ++h)
+  {
+    ASSERT_EQ(assignment.hosts[h].robots.size(), 16U);
+    EXPECT_TRUE(std::ranges::is_sorted(assignment.hosts[h].robots));
+    for (const std::uint32_t robot : assignment.hosts[h].robots)
+    {
+      const Vector3& place = experiment.entities[robot].pose.position;
+      EXPECT_EQ(place.x() < 4 ? 0U : 1U, h / 2) << "host " << h;
+      EXPECT_EQ(place.y() < 4 ? 0U : 1U, h % 2) << "host " << h;
+    }
+  }
+}
+
 TEST(Assignment, AnExperimentWithoutRobotsHasOneIdleHost)
 {
   const Experiment experiment;

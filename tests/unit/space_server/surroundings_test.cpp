@@ -158,5 +158,26 @@ TEST_F(SurroundingsTest, WhoIsNotToldHoldsNobody)
   EXPECT_EQ(replica.Hands(30)[0], 0);
 }
 
+// What an engine has moved itself it need not be told, unless somebody else has moved it since.
+TEST_F(SurroundingsTest, AnEngineIsToldOfOthersAndOfWhoWasMoved)
+{
+  std::vector<std::uint32_t> owned;
+  for (std::uint32_t k = 3; k < kRobots; ++k) owned.push_back(k);
+  EngineNews news(space_, owned);
+  SpaceState state;
+  state.attributes.Add(7, 0.5);
+  EXPECT_THAT(news.Part(state).entities, ElementsAre(0, 1, 2));
+  Put(9, 20);
+  state.tick = 1;
+  state.moved = {1, 9};
+  const LocalState& part = news.Part(state);
+  EXPECT_EQ(part.tick, 1U);
+  EXPECT_THAT(part.entities, ElementsAre(0, 1, 2, 9));
+  EXPECT_THAT(part.moved, ElementsAre(1, 9));
+  EXPECT_EQ(part.poses[3], 20);
+  EXPECT_EQ(part.poses.size(), 7 * 4U);
+  EXPECT_THAT(part.attributes.slots, ElementsAre(7));
+}
+
 }  // namespace
 }  // namespace swarmanoid

@@ -1,0 +1,52 @@
+// LocalStates: what the space server tells single processes of a tick where states go over a network, in place of the
+// state of all: engines, and controller hosts that have said how far they reach. Used by Lockstep, with its mutex
+// locked.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/bus/server_session.h"
+#include "common/bus/tick_limits.h"
+
+namespace swarmanoid
+{
+
+class LocalStates
+{
+public:
+  // All outlive it.
+  LocalStates(ServerSession& session, const CSwarmanoidSpace& space, const Assignment& assignment,
+              const TickLimits& limits);
+
+  bool IsEmpty() const { return listeners_.empty(); }
+  unsigned Readers() const;
+  // The state of the space's tick; if the header says that it is repeated, what was told before.
+  void Write(const MessageHeader& header, const SpaceState& state);
+
+private:
+  struct Listener
+  {
+    Listener(Bus& bus, const HotScope& scope, std::uint32_t of) : states(bus, scope), number(of) {}
+
+    HotPublisher<LocalState> states;
+    std::uint32_t number;  // of the host or engine
+    bool is_host = false;
+    std::function<LocalState&(const SpaceState&)> part{};  // none: a host that hears the state of all
+    LocalState* told = nullptr;                            // of the tick
+  };
+
+  Listener& Add(const std::string& name, std::size_t number);
+  void FindReaches();
+
+  ServerSession& session_;
+  const CSwarmanoidSpace& space_;
+  const Assignment& assignment_;
+  const TickLimits& limits_;
+  std::vector<std::unique_ptr<Listener>> listeners_;
+  bool reaches_are_known_ = false;
+};
+
+}  // namespace swarmanoid
