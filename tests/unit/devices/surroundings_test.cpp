@@ -22,7 +22,7 @@ namespace
 
 constexpr unsigned kHosts = 3;
 constexpr std::uint32_t kRobots = 150;
-constexpr double kSide = 30;  // m
+constexpr double kSide = 45;  // m
 
 // Shines and sends by what it senses, so that an error spreads.
 class Shouter : public CCI_Controller
@@ -71,11 +71,11 @@ Experiment Swarm(const Sensor& sensor, std::mt19937& random)
     entity.kind = k % 10 == 9 ? EntityKind::kCylindricPrey : EntityKind::kFootbot;
     entity.id = "e" + std::to_string(k);
     if (entity.kind == EntityKind::kFootbot) entity.controller = "c";
-    entity.size = entity.kind == EntityKind::kFootbot ? DescriptionOf(entity.kind).size : Vector3(0.4, 0.4, 0.3);
+    entity.size = entity.kind == EntityKind::kFootbot ? DescriptionOf(entity.kind).size : Vector3(1.2, 1.2, 0.3);
     entity.movable = true;
     entity.pose.position = {place(random), place(random), 0};
     // Half of them close together: there is something to sense.
-    if (k % 2 == 0) entity.pose.position = {place(random) / 6 + (k % 3) * 10, place(random) / 6 + (k % 5) * 5, 0};
+    if (k % 2 == 0) entity.pose.position = {place(random) / 6 + (k % 3) * 15, place(random) / 6 + (k % 5) * 8, 0};
     experiment.engines[0].entities.push_back(k);
   }
   return experiment;
