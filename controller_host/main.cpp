@@ -41,9 +41,7 @@ public:
     // Sensors that ask for all, wherever they are, need the state of all.
     if (const double reach = role_.Reach(); HostsAskForParts(session.World()) && std::isfinite(reach))
     {
-      known_.assign(replica.space->Movable().begin(), replica.space->Movable().end());
-      inputs_.HearPart(HostName(host), host_,
-                       [this](const LocalState& state) { replica_.space->Apply(state, known_); });
+      inputs_.HearPart(HostName(host), host_, [this](const LocalState& state) { replica_.space->Apply(state, near_); });
       session.SetReach(reach);
     }
     const std::size_t engines = role_.Layout().frames_from.size();
@@ -205,7 +203,7 @@ private:
   SharedTicks sharing_;
   ControllerHost role_;
   SavedStates saved_;
-  std::vector<std::uint32_t> known_;                // if it hears what is near: of whom it heard last
+  std::vector<std::uint32_t> near_;                 // LocalState::near of the last state that was told
   Inputs inputs_;                                   // its mutex guards the role and what follows
   std::array<std::vector<SensorFrame>, 2> frames_;  // of even and odd ticks
   std::vector<const SensorFrame*> frames_here_;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
+#include <cstring>
 #include <limits>
 
 #include "common/space/space.h"
@@ -43,8 +43,26 @@ void WritePoses(const PoseArrays& poses, LocalState& part)
 
 }  // namespace
 
+// No pose has these bits: the first time all have changed.
+ToldPoses::ToldPoses(const CSwarmanoidSpace& space)
+    : space_(space), told_(space.Movable().size(), {std::numeric_limits<double>::quiet_NaN()})
+{
+}
+
+bool ToldPoses::HasChanged(std::size_t movable)
+{
+  const PoseArrays& poses = space_.Poses();
+  const std::uint32_t entity = space_.Movable()[movable];
+  const std::array<double, 7> now{poses.x[entity],  poses.y[entity],  poses.z[entity], poses.qx[entity],
+                                  poses.qy[entity], poses.qz[entity], poses.qw[entity]};
+  // Minus zero is another pose.
+  if (std::memcmp(now.data(), told_[movable].data(), sizeof(now)) == 0) return false;
+  told_[movable] = now;
+  return true;
+}
+
 Surroundings::Surroundings(const CSwarmanoidSpace& space, std::span<const std::uint32_t> robots, double reach_m)
-    : space_(space), robots_(robots), cells_(CellsOver(space, reach_m + kMargin_m + kRounding_m))
+    : space_(space), robots_(robots), cells_(CellsOver(space, reach_m + kMargin_m + kRounding_m)), told_poses_(space)
 {
   is_near_.resize(cells_.Count());
   is_told_.resize(space.Size(), 1);
@@ -57,8 +75,6 @@ Surroundings::Surroundings(const CSwarmanoidSpace& space, std::span<const std::u
   first_slots_.push_back(space.PresenceSlot(0));
   x_.resize(space.Movable().size());
   y_.resize(space.Movable().size());
-  // At the start of the run a host knows all.
-  part_.entities.assign(space.Movable().begin(), space.Movable().end());
 }
 
 LocalState& Surroundings::Part(const SpaceState& state)
@@ -70,6 +86,17 @@ LocalState& Surroundings::Part(const SpaceState& state)
 
   part_.tick = state.tick;
   part_.last = state.last;
+  part_.entities.clear();
+  const std::span<const std::uint32_t> movable = space_.Movable();
+  auto entered = entered_.begin();
+  for (std::size_t k = 0; k < movable.size(); ++k)
+  {
+    if (!IsNear(part_.near, k)) continue;
+    // Its pose may have been told long ago, to another process.
+    const bool is_new = entered != entered_.end() && *entered == movable[k];
+    if (is_new) ++entered;
+    if (told_poses_.HasChanged(k) || is_new) part_.entities.push_back(movable[k]);
+  }
   WritePoses(space_.Poses(), part_);
   AddAttributes(state);
   return part_;
@@ -103,7 +130,7 @@ void Surroundings::Search(bool all)
       for (const std::uint32_t row : {middle - cells_.stride, middle, middle + cells_.stride})
         for (const std::uint32_t cell : {row - 1, row, row + 1}) is_near_[cell] = 1;
     }
-  part_.entities.clear();
+  part_.near.assign((movable.size() + 31) / 32, 0);
   for (std::size_t k = 0; k < movable.size(); ++k)
   {
     const std::uint32_t entity = movable[k];
@@ -112,7 +139,7 @@ void Surroundings::Search(bool all)
     const bool is_near = is_near_[cells_.CellOf(x_[k], y_[k])] != 0 || is_always_told_[k] != 0;
     if (is_near && is_told_[entity] == 0) entered_.push_back(entity);
     is_told_[entity] = is_near;
-    if (is_near) part_.entities.push_back(entity);
+    if (is_near) part_.near[k / 32] |= 1U << k % 32;
   }
 }
 
@@ -157,19 +184,25 @@ void Surroundings::AddAttributes(const SpaceState& state)
 }
 
 EngineNews::EngineNews(const CSwarmanoidSpace& space, std::span<const std::uint32_t> owned)
-    : space_(space), owned_(owned)
+    : space_(space), owned_(owned), told_poses_(space)
 {
-  std::ranges::set_difference(space.Movable(), owned, std::back_inserter(others_));
 }
 
 LocalState& EngineNews::Part(const SpaceState& state)
 {
   part_.tick = state.tick;
   part_.last = state.last;
-  part_.entities = others_;
-  for (const std::uint32_t entity : state.moved)
-    if (std::ranges::binary_search(owned_, entity)) part_.entities.push_back(entity);
-  std::ranges::sort(part_.entities);
+  part_.entities.clear();
+  const std::span<const std::uint32_t> movable = space_.Movable();
+  auto own = owned_.begin();
+  for (std::size_t k = 0; k < movable.size(); ++k)
+  {
+    const std::uint32_t entity = movable[k];
+    const bool is_own = own != owned_.end() && *own == entity;
+    if (is_own) ++own;
+    if (is_own ? std::ranges::binary_search(state.moved, entity) : told_poses_.HasChanged(k))
+      part_.entities.push_back(entity);
+  }
   WritePoses(space_.Poses(), part_);
   part_.attributes = state.attributes;
   part_.moved = state.moved;

@@ -3,6 +3,7 @@
 // another are of one host.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -15,6 +16,19 @@ namespace swarmanoid
 
 class CSwarmanoidSpace;
 
+// Which poses have changed since they were told.
+class ToldPoses
+{
+public:
+  explicit ToldPoses(const CSwarmanoidSpace& space);
+  // Of a movable entity, by its number among these: whether its pose is another one than when this was last asked.
+  bool HasChanged(std::size_t movable);
+
+private:
+  const CSwarmanoidSpace& space_;
+  std::vector<std::array<double, 7>> told_;
+};
+
 class Surroundings
 {
 public:
@@ -22,8 +36,8 @@ public:
   // space outlives it.
   Surroundings(const CSwarmanoidSpace& space, std::span<const std::uint32_t> robots, double reach_m);
 
-  // The part of the state of the space's tick. To be called once for each tick, and all ticks. Valid until the next
-  // call.
+  // The part of the state of the space's tick. To be called once for each tick, and all ticks; the first one has the
+  // poses of all that are near. Valid until the next call.
   LocalState& Part(const SpaceState& state);
 
 private:
@@ -43,8 +57,9 @@ private:
   std::vector<char> is_always_told_;        // of each that can
   std::vector<std::uint32_t> first_slots_;  // of each entity, and behind the last one that of their presence
   std::vector<double> x_, y_;               // of those that can move, where they were searched
-  bool holds_ = false;                      // there was a search
-  std::vector<std::uint32_t> entered_;      // whom the message before had not
+  ToldPoses told_poses_;
+  bool holds_ = false;                  // there was a search
+  std::vector<std::uint32_t> entered_;  // whom the message before had not
   LocalState part_;
 };
 
@@ -60,7 +75,7 @@ public:
 private:
   const CSwarmanoidSpace& space_;
   std::span<const std::uint32_t> owned_;
-  std::vector<std::uint32_t> others_;  // that can move
+  ToldPoses told_poses_;
   LocalState part_;
 };
 

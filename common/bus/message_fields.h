@@ -115,6 +115,7 @@ void Fields(Archive& archive, MessageHeader& header, LocalState& message)
              {{kFlagLast, &message.last}, {kFlagRepeated, &header.repeated}, {kFlagSave, &header.save}});
   Fields(archive, message.attributes);
   archive.Array("entities", message.entities);
+  archive.Array("near", message.near);
   archive.Array("moved", message.moved);
   if constexpr (Archive::kReads) message.tick = header.tick;
 }

@@ -93,6 +93,7 @@ std::size_t TickLimits::LocalStateBytes() const
   FillPoses(state.poses, movable_);
   FillSlots(state.attributes, slots_);
   state.entities.resize(movable_);
+  state.near.resize((movable_ + 31) / 32);
   state.moved.resize(entities_);
   return PayloadSize(MessageHeader(), state);
 }
@@ -153,6 +154,7 @@ void TickLimits::Check(const MessageHeader&, const LocalState& state) const
       RefuseField("entities", fmt::format("entity {} of {} does not ascend, or cannot move", entity, entities_));
   }
   CheckLength("poses", state.poses.size(), kPoseColumns * state.entities.size());
+  if (!state.near.empty()) CheckLength("near", state.near.size(), (movable_ + 31) / 32);
   CheckSlots(state.attributes);
   CheckMoved(state.moved);
 }

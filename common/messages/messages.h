@@ -41,14 +41,22 @@ struct SpaceState
   Drawing drawing{};                 // of experiment functions, if the run has visualisers
 };
 
-// Space server to one process, in runs over a network: the state with the poses of some of the movable entities alone.
-// A controller host has those that its sensors may reach, and all others are not in the arena for it; `attributes` are
-// of these and of all that cannot move, and have all slots of those that were not among them a tick before. An engine
-// worker has those that it does not move itself, and those that were moved.
+// Space server to one process, in runs over a network: the state with the poses of some of the movable entities alone,
+// of those that are not where they were at the tick before. A controller host is told of those that its sensors may
+// reach
+// (`near`), and all others are not in the arena for it; `attributes` are of these and of all that cannot move, and
+// those that were not near at the tick before have all slots, and a pose. An engine worker is told of those that it
+// does not move itself, and of those that were moved.
 struct LocalState : SpaceState
 {
-  std::vector<std::uint32_t> entities;  // ascending
+  std::vector<std::uint32_t> entities;  // whose poses these are, ascending
+  std::vector<std::uint32_t> near;      // of hosts: bits of the movable entities, in the order of SpaceState::poses
 };
+
+inline bool IsNear(const std::vector<std::uint32_t>& near, std::size_t movable)
+{
+  return (near[movable / 32] >> movable % 32 & 1U) != 0;
+}
 
 // Space server to those who join late: the whole state at a tick.
 struct SpaceSnapshot

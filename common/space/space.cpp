@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <iterator>
 
 #include "common/space/attributes.h"
 #include "common/space/make_entity.h"
@@ -183,20 +182,30 @@ void CSwarmanoidSpace::Apply(const SpaceState& state)
   SetDrawing(state.drawing);
 }
 
-void CSwarmanoidSpace::Apply(const LocalState& state, std::vector<std::uint32_t>& known)
+void CSwarmanoidSpace::Apply(const LocalState& state, std::vector<std::uint32_t>& near)
 {
   tick_ = state.tick;
-  // Who is not known any more is not there, and holds nobody: whom it may hold by now is not told.
-  std::vector<std::uint32_t> gone;
-  std::ranges::set_difference(known, state.entities, std::back_inserter(gone));
-  AttributeChanges changes;
-  for (const std::uint32_t entity : gone)
-    for (std::uint32_t hand = 0; hand < Hands(entity).size(); ++hand) changes.Add(FirstHandSlot(entity) + hand, 0);
-  for (const std::uint32_t entity : gone) changes.Add(PresenceSlot(entity), 0);
-  SetAttributes(changes);
+  if (near != state.near)
+  {
+    near = state.near;
+    LeaveOut(near);
+  }
   SetPoses(state.entities, state.poses);
   SetAttributes(state.attributes);
-  known = state.entities;
+}
+
+// Who is not near is not there, and holds nobody: whom it may hold by now is not told.
+void CSwarmanoidSpace::LeaveOut(const std::vector<std::uint32_t>& near)
+{
+  AttributeChanges changes;
+  for (std::size_t k = 0; k < movable_.size(); ++k)
+  {
+    const std::uint32_t entity = movable_[k];
+    if (IsNear(near, k) || !IsPresent(entity)) continue;
+    for (std::uint32_t hand = 0; hand < Hands(entity).size(); ++hand) changes.Add(FirstHandSlot(entity) + hand, 0);
+    changes.Add(PresenceSlot(entity), 0);
+  }
+  SetAttributes(changes);
 }
 
 void CSwarmanoidSpace::SwapDrawing(Drawing& drawing)

@@ -92,9 +92,8 @@ public:
 
   // Brings a replica to the tick of the message.
   void Apply(const SpaceState& state);
-  // Likewise where others are left out. `known`: the entities of the message before, at first Movable(); becomes those
-  // of this one.
-  void Apply(const LocalState& state, std::vector<std::uint32_t>& known);
+  // Likewise of a message to a host. `near`: that of the message before, at first empty; becomes that of this one.
+  void Apply(const LocalState& state, std::vector<std::uint32_t>& near);
   void Apply(const SpaceSnapshot& snapshot);
   void WritePoses(std::vector<double>& poses) const;  // of the movable entities, as in SpaceState
 
@@ -104,6 +103,7 @@ public:
 
 private:
   void FindAbsent();
+  void LeaveOut(const std::vector<std::uint32_t>& near);
   // Where the id stands in place_of_id_, or the free place where it would.
   std::size_t PlaceOfId(std::string_view id) const;
   void SetDrawing(const Drawing& drawing);

@@ -100,6 +100,7 @@ std::vector<fuzz::Input> fuzz::FirstInputs()
   local.poses = state.poses;
   local.attributes = changes;
   local.entities = {4};
+  local.near = {16};
   ControlCommands commands;
   commands.values = {0.1, -0.1};
   commands.attributes = changes;

@@ -92,6 +92,11 @@ TEST_F(LimitsOfATick, TheEntitiesOfAPartAscendAndHaveOnePoseEach)
     EXPECT_THAT(Refusal(part), HasSubstr("does not ascend, or cannot move")) << wrong[1];
   }
   part.entities = {0, 2};
+  part.near = {7};
+  EXPECT_EQ(Refusal(part), "");
+  part.near = {7, 0};
+  EXPECT_THAT(Refusal(part), HasSubstr("near: it has 2 numbers, not 1"));
+  part.near.clear();
   part.moved = {99};
   EXPECT_THAT(Refusal(part), HasSubstr("moved: entity 99"));
   part.moved.clear();

@@ -79,6 +79,7 @@ TEST(MessageBytes, OfATickAreThoseOfTheIdl)
     local.poses = state.poses;
     local.attributes = state.attributes;
     local.entities = random.Ascending();
+    local.near = random.Ascending();
     local.moved = state.moved;
     wire::LocalState wire_local;
     wire_local.poses(local.poses);
@@ -86,6 +87,7 @@ TEST(MessageBytes, OfATickAreThoseOfTheIdl)
     wire_local.attribute_values(local.attributes.values);
     wire_local.attribute_slots(local.attributes.slots);
     wire_local.entities(local.entities);
+    wire_local.near(local.near);
     wire_local.moved(local.moved);
     ExpectSame<wire::LocalStatePubSubType>(header, local, wire_local);
 
