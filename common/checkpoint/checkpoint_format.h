@@ -17,7 +17,7 @@ namespace swarmanoid
 
 inline constexpr std::string_view kCheckpointMagic = "SWARMCP";
 // Another one for each change of the fields, or of what they mean.
-inline constexpr char kCheckpointVersion = '3';
+inline constexpr char kCheckpointVersion = '4';
 inline constexpr std::size_t kCheckpointHeaderBytes = 16;
 inline constexpr std::size_t kCheckpointChecksumBytes = 8;
 

@@ -25,7 +25,7 @@ namespace swarmanoid
 
 inline constexpr std::string_view kJournalMagic = "SWARMJB";
 // Another one for each change of the blocks, or of what they mean.
-inline constexpr char kJournalVersion = '6';
+inline constexpr char kJournalVersion = '7';
 inline constexpr std::size_t kJournalHeaderBytes = 48;
 
 enum class JournalBlockKind : std::uint32_t

@@ -20,7 +20,9 @@ unsigned Shared(ThreadChoice& choice, unsigned pieces, ThreadChoice::Duration al
   for (unsigned k = 0; k < pieces; ++k)
   {
     count += choice.Shares() ? 1 : 0;
-    choice.Took(choice.Shares() ? shared : alone);
+    // Where it says that it does not matter, it must not.
+    const ThreadChoice::Duration took = choice.Shares() ? shared : alone;
+    choice.Took(choice.Measures() ? took : ThreadChoice::Duration(k % 2 == 0 ? 0 : 1'000'000'000));
   }
   return count;
 }
@@ -47,6 +49,23 @@ TEST(ThreadChoice, FewMicrosecondsWakeNobody)
 {
   ThreadChoice choice = Settled();
   EXPECT_EQ(Shared(choice, 5 * ThreadChoice::kPeriod, 19us, 1us), 0U);
+}
+
+// Of a tick of some microseconds the clock would be a part.
+TEST(ThreadChoice, MeasuresTrialsAndWhatIsSharedAlone)
+{
+  ThreadChoice quick = Settled();
+  unsigned measured = 0;
+  for (unsigned k = 0; k < ThreadChoice::kPeriod; ++k)
+  {
+    measured += quick.Measures() ? 1 : 0;
+    quick.Took(4us);
+  }
+  EXPECT_EQ(measured, 2 * ThreadChoice::kTrials);
+  ThreadChoice slow = Settled();
+  Shared(slow, 2 * ThreadChoice::kTrials, 100us, 60us);
+  EXPECT_TRUE(slow.Shares());
+  EXPECT_TRUE(slow.Measures());
 }
 
 TEST(ThreadChoice, SharesWhatIsQuickerSo)
