@@ -91,8 +91,8 @@ class Attaching(LauncherTest):
         self.control("step", 20)
         self.wait_until("tick 23", lambda: "# tick 23, paused" in (self.folder / "table").read_text())
         text = (self.folder / "table").read_text()
-        self.assertIn("\nfb_0\t\tground\t0\n", text)
-        self.assertIn("\nfb_9\t\tground\t1\n", text)
+        # Half of the robots each, those that start near one another.
+        self.assertEqual(sorted(re.findall(r"^fb_\d\t\tground\t(\d)$", text, re.MULTILINE)[:10]), ["0"] * 5 + ["1"] * 5)
         self.control("stop")
         self.assertEqual((run.wait(GENEROUS_S), watcher.wait(GENEROUS_S)), (0, 0))
 
