@@ -33,6 +33,14 @@ PlaneCells<double> CellsOver(const CSwarmanoidSpace& space, double edge)
   return {left, bottom, right - left, top - bottom, edge, true};
 }
 
+// Of the tick, with no pose yet.
+void Begin(LocalState& part, const SpaceState& state)
+{
+  part.tick = state.tick;
+  part.last = state.last;
+  part.entities.clear();
+}
+
 void WritePoses(const PoseArrays& poses, LocalState& part)
 {
   part.poses.resize(7 * part.entities.size());
@@ -84,9 +92,7 @@ LocalState& Surroundings::Part(const SpaceState& state)
   const bool all = !state.moved.empty();
   if (!holds_ || all || HaveLeftMargin()) Search(all);
 
-  part_.tick = state.tick;
-  part_.last = state.last;
-  part_.entities.clear();
+  Begin(part_, state);
   const std::span<const std::uint32_t> movable = space_.Movable();
   auto entered = entered_.begin();
   for (std::size_t k = 0; k < movable.size(); ++k)
@@ -143,31 +149,17 @@ void Surroundings::Search(bool all)
   }
 }
 
-std::uint32_t Surroundings::EntityOf(std::uint32_t slot, std::uint32_t least) const
-{
-  if (slot >= first_slots_.back()) return slot - first_slots_.back();
-  // Slots ascend, and so do their entities: near the one before.
-  std::uint32_t step = 1;
-  while (least + step < first_slots_.size() && first_slots_[least + step] <= slot)
-  {
-    least += step;
-    step *= 2;
-  }
-  const auto end = first_slots_.begin() + std::min<std::ptrdiff_t>(least + step, std::ssize(first_slots_));
-  return static_cast<std::uint32_t>(std::upper_bound(first_slots_.begin() + least, end, slot) - first_slots_.begin()) -
-         1;
-}
-
 void Surroundings::AddAttributes(const SpaceState& state)
 {
   AttributeChanges& changes = part_.attributes;
   changes.Clear();
+  // Slots ascend, and so do the entities that have them, before those of presence.
+  const std::uint32_t first_presence = first_slots_.back();
   std::uint32_t entity = 0;
-  for (std::size_t k = 0; k < state.attributes.slots.size(); ++k)
+  for (const std::uint32_t slot : state.attributes.slots)
   {
-    const std::uint32_t slot = state.attributes.slots[k];
-    entity = EntityOf(slot, slot >= first_slots_.back() ? 0 : entity);
-    if (is_told_[entity] != 0) changes.slots.push_back(slot);
+    while (slot < first_presence && first_slots_[entity + 1] <= slot) ++entity;
+    if (is_told_[slot < first_presence ? entity : slot - first_presence] != 0) changes.slots.push_back(slot);
   }
   for (const std::uint32_t other : entered_)
   {
@@ -190,9 +182,7 @@ EngineNews::EngineNews(const CSwarmanoidSpace& space, std::span<const std::uint3
 
 LocalState& EngineNews::Part(const SpaceState& state)
 {
-  part_.tick = state.tick;
-  part_.last = state.last;
-  part_.entities.clear();
+  Begin(part_, state);
   const std::span<const std::uint32_t> movable = space_.Movable();
   auto own = owned_.begin();
   for (std::size_t k = 0; k < movable.size(); ++k)

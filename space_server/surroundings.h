@@ -47,7 +47,6 @@ private:
   bool HaveLeftMargin() const;
   void Search(bool all);
   void AddAttributes(const SpaceState& state);
-  std::uint32_t EntityOf(std::uint32_t slot, std::uint32_t least) const;
 
   const CSwarmanoidSpace& space_;
   std::span<const std::uint32_t> robots_;

@@ -97,27 +97,31 @@ void Fields(Archive& archive, Drawing& drawing)
   archive.List("shape_texts", drawing.texts, [](Archive& a, std::string& text) { a.Text("shape_texts", text); });
 }
 
+// What the state of all and that for one process begin with.
 template <class Archive>
-void Fields(Archive& archive, MessageHeader& header, SpaceState& message)
+void StateFields(Archive& archive, MessageHeader& header, SpaceState& message)
 {
   PoseFields(archive, message.poses,
              {{kFlagLast, &message.last}, {kFlagRepeated, &header.repeated}, {kFlagSave, &header.save}});
   Fields(archive, message.attributes);
+  if constexpr (Archive::kReads) message.tick = header.tick;
+}
+
+template <class Archive>
+void Fields(Archive& archive, MessageHeader& header, SpaceState& message)
+{
+  StateFields(archive, header, message);
   archive.Array("moved", message.moved);
   Fields(archive, message.drawing);
-  if constexpr (Archive::kReads) message.tick = header.tick;
 }
 
 template <class Archive>
 void Fields(Archive& archive, MessageHeader& header, LocalState& message)
 {
-  PoseFields(archive, message.poses,
-             {{kFlagLast, &message.last}, {kFlagRepeated, &header.repeated}, {kFlagSave, &header.save}});
-  Fields(archive, message.attributes);
+  StateFields(archive, header, message);
   archive.Array("entities", message.entities);
   archive.Array("near", message.near);
   archive.Array("moved", message.moved);
-  if constexpr (Archive::kReads) message.tick = header.tick;
 }
 
 template <class Archive>

@@ -156,7 +156,8 @@ TEST(Assignment, SensorValuesTravelTheOtherWay)
   EXPECT_THAT(assignment.hosts[1].frames_from, ElementsAre(0, 1));
 }
 
-TEST(Assignment, ContiguousValuesAreOneCopy)
+// With wheels alone, in one engine.
+Experiment Drivers(std::uint32_t robots)
 {
   RegisterDevices();
   Experiment experiment;
@@ -165,11 +166,17 @@ TEST(Assignment, ContiguousValuesAreOneCopy)
   driver.actuators = {{"test_wheels", "test", {}}};
   experiment.controllers = {driver};
   experiment.engines.resize(1);
-  for (std::uint32_t i = 0; i < 1000; ++i)
+  for (std::uint32_t i = 0; i < robots; ++i)
   {
     experiment.entities.push_back(Robot("r" + std::to_string(i), "driver"));
     experiment.engines[0].entities.push_back(i);
   }
+  return experiment;
+}
+
+TEST(Assignment, ContiguousValuesAreOneCopy)
+{
+  const Experiment experiment = Drivers(1000);
   const Assignment assignment = MakeAssignment(experiment, 4);
   EXPECT_EQ(assignment.engines[0].command_copies.size(), 4U);
 }
@@ -177,19 +184,11 @@ TEST(Assignment, ContiguousValuesAreOneCopy)
 // However they stand in the file: a square of robots is halved, and its halves across the longer side.
 TEST(Assignment, HostsHaveRobotsThatStartNearOneAnother)
 {
-  RegisterDevices();
-  Experiment experiment;
-  ControllerConfiguration driver;
-  driver.id = "driver";
-  driver.actuators = {{"test_wheels", "test", {}}};
-  experiment.controllers = {driver};
-  experiment.engines.resize(1);
+  Experiment experiment = Drivers(64);
   for (std::uint32_t i = 0; i < 64; ++i)
   {
-    experiment.entities.push_back(Robot("r" + std::to_string(i), "driver"));
     const std::uint32_t scattered = i * 29 % 64;
-    experiment.entities.back().pose.position = {scattered % 8 * 1.0, scattered / 8 * 1.0, 0};
-    experiment.engines[0].entities.push_back(i);
+    experiment.entities[i].pose.position = {scattered % 8 * 1.0, scattered / 8 * 1.0, 0};
   }
   const Assignment assignment = MakeAssignment(experiment, 4);
   for (std::size_t h = 0; h < 4; ++h)
