@@ -2,7 +2,7 @@
 option(SWARMANOID_BUILD_TESTS "Build the tests" ON)
 option(SWARMANOID_BUILD_BENCH "Build the benchmarks" ON)
 set(SWARMANOID_CPU "x86-64-v3" CACHE STRING
-  "Instruction set of the build (-march); results do not depend on it. build_framework picks x86-64 where AVX2 is missing")
+  "Instruction set of the build, as for -march=, and further options (x86-64-v3 -mno-lzcnt); results do not depend on it. build_framework asks the processor")
 set(SWARMANOID_SANITIZE "" CACHE STRING "Sanitizers of the build, as for -fsanitize=; empty for none")
 
 set(CMAKE_CXX_STANDARD 20)
@@ -45,7 +45,8 @@ add_compile_definitions(EIGEN_DONT_VECTORIZE)
 # GCC looks for memory to free when it has used 1 GiB, not 128 MiB: a tenth less time.
 add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-heapsize=1048576>)
 if(SWARMANOID_CPU AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  add_compile_options(-march=${SWARMANOID_CPU})
+  separate_arguments(instruction_set UNIX_COMMAND "-march=${SWARMANOID_CPU}")
+  add_compile_options(${instruction_set})
 endif()
 if(SWARMANOID_SANITIZE)
   add_compile_options(-fsanitize=${SWARMANOID_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)

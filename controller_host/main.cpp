@@ -224,6 +224,7 @@ int Run(const WorkerSettings& settings, const BusOptions& bus)
       [&]
       {
         Replica replica(session.World(), true);
+        session.ReleaseWorld();
         const std::size_t hosts = replica.assignment.hosts.size();
         if (host >= hosts)
           throw ConfigurationError(fmt::format("experiment '{}' has {} controller host{}, numbered from 0",

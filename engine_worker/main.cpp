@@ -252,6 +252,7 @@ int RunRegion(const WorkerSettings& settings, const BusOptions& bus)
       [&]
       {
         std::optional<Replica> replica(std::in_place, session.World(), false);
+        session.ReleaseWorld();
         const Experiment& experiment = *replica->experiment;
         const std::size_t engine = NumberOf(experiment, experiment.engines, "engine", settings.engine);
         if (region >= RegionsOf(experiment.engines[engine]))
@@ -302,6 +303,7 @@ int Run(const WorkerSettings& settings, const BusOptions& bus)
       [&]
       {
         Replica replica(session.World(), false);
+        session.ReleaseWorld();
         const Experiment& experiment = *replica.experiment;
         EngineNode node(session, replica, NumberOf(experiment, experiment.engines, "engine", settings.engine));
         node.WaitForOthers();

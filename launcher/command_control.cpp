@@ -38,6 +38,7 @@ struct ControlOptions
   BusOptions bus;
   bool json = false;
   std::optional<std::uint64_t> seed;
+  double patience_s = kPatience_s;
 };
 
 void PrintJson(const std::string& experiment, const ControlReplyMessage& reply)
@@ -69,7 +70,7 @@ int Control(ControlOptions& options, bool domain_given)
   }
   ControlClient client(bus, run.experiment);
   const auto reply = client.Ask(request.verb, request.entity, request.numbers,
-                                IsWorkerMove(request.verb) ? kPatienceWithMoves_s : kPatience_s);
+                                std::max(options.patience_s, IsWorkerMove(request.verb) ? kPatienceWithMoves_s : 0));
   if (!reply)
   {
     fmt::print(
@@ -105,13 +106,21 @@ void AddControlCommand(CLI::App& app, int& exit_code)
                    "machines")
       ->required();
   verb->add_flag("--json", options->json, "For programs: experiment, ok, tick and text of the answer");
-  AddOptions(*verb, {{{.name = "seed",
-                       .type = ParameterType::kInteger,
-                       .description = "With reset: the seed of the run that begins; otherwise that of this one",
-                       .minimum = 0,
-                       .maximum = kLargestSeed},
-                      &options->seed,
-                      "7"}});
+  AddOptions(*verb,
+             {{{.name = "seed",
+                .type = ParameterType::kInteger,
+                .description = "With reset: the seed of the run that begins; otherwise that of this one",
+                .minimum = 0,
+                .maximum = kLargestSeed},
+               &options->seed,
+               "7"},
+              {{.name = "patience",
+                .type = ParameterType::kNumber,
+                .unit = "s",
+                .description = "How long a run may stand still without an answer; moves of workers: 600 at least",
+                .minimum = 0},
+               &options->patience_s,
+               "60"}});
   AddOptions(*verb, BusOptionTable(options->bus));
   verb->footer(
       "speed is a multiple of real time, 0 is as fast as possible. Positions are in metres, angles in degrees.\n"

@@ -72,7 +72,7 @@ void SpaceServer::WriteSnapshot(SpaceSnapshot& snapshot) const
   snapshot.tick = space_.GetTick();
   snapshot.last = IsLast();
   space_.WritePoses(snapshot.poses);
-  snapshot.attributes.assign(space_.Attributes().begin(), space_.Attributes().end());
+  snapshot.attributes.assign(space_.Attributes().Values().begin(), space_.Attributes().Values().end());
 }
 
 void SpaceServer::BeginAgain(std::uint64_t first_tick, std::uint32_t variation)

@@ -144,7 +144,7 @@ struct HotSubscription<Message>::Impl : dds::DataReaderListener
   Impl(Bus& its_bus, const HotScope& scope, Handler its_handler)
       : bus(its_bus),
         handler(std::move(its_handler)),
-        opener{KeyOfTicks(bus, scope), Opener(kTopicOf<Message>), std::vector<char>(scope.capacity + kMostSealBytes)},
+        opener{KeyOfTicks(bus, scope), Opener(kTopicOf<Message>), {}},
         reader(bus,
                [this, &its_bus, scope]
                {

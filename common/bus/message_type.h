@@ -77,7 +77,7 @@ struct HotOpener
   // The key of the run, and the opener of the topic. No key: messages come in the clear.
   std::optional<RunKey> key;
   Opener opener;
-  std::vector<char> room;
+  std::vector<char> room;  // as large as the largest message that came
 };
 
 // What a reader hands to the type support: where the message goes is decided when its header is known.

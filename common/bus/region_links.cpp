@@ -18,9 +18,12 @@ constexpr std::uint32_t kFirstTask = 0;
 constexpr std::uint32_t kEndOfRun = ~0U;
 constexpr std::chrono::milliseconds kFirstWait = 100ms;  // of what may have been lost
 constexpr std::chrono::milliseconds kLastWait = 1s;
-constexpr std::chrono::milliseconds kLook = 2ms;  // whether the engine has left
+constexpr std::chrono::milliseconds kLook = 2ms;          // whether the engine has left, after the end of the run
+constexpr std::chrono::milliseconds kLookBefore = 500ms;  // likewise, before it
+// After the end of the run, without being asked by an engine that asks each 0.1 s: it may have left unheard, and the
+// bus takes one that was killed for living a while.
+constexpr std::chrono::milliseconds kLinger = 5s;
 constexpr std::chrono::milliseconds kForEver = std::chrono::hours(24 * 365);
-constexpr std::chrono::milliseconds kEndTime = 60s;  // for a region that is on its way
 
 unsigned RegionsOfAll(const Experiment& experiment) { return RegionNumber(experiment, experiment.engines.size(), 0); }
 
@@ -179,16 +182,28 @@ void RegionTeamLink::Work(bool anew, const WriteTasks& write, std::span<std::vec
 
 void RegionTeamLink::End()
 {
-  if (role_ == nullptr) return;
   {
     const std::lock_guard lock(mutex_);
+    ++task_.epoch;  // there may have been no task: epoch 0 is of those that begin again
     task_.number = kEndOfRun;
     task_.sizes.assign(places_.size(), 0);
     task_.bytes.clear();
-    begins_again_ = false;
     for (Place& place : places_) place.is_here = false;
   }
-  SendAndWait(kEndTime);
+  session_.WaitUntil(
+      [this]
+      {
+        {
+          // One that is there only now may have said so: it is told at once.
+          const std::lock_guard lock(mutex_);
+          begins_again_ = false;
+        }
+        if (SendAndWait(0ms)) return true;
+        const std::lock_guard lock(mutex_);
+        return std::ranges::all_of(
+            places_, [this](const Place& place) { return place.is_here || session_.HasLeft(place.name, 0); });
+      },
+      [this] { return Awaited(); });
 }
 
 RegionLink::RegionLink(WorkerSession& session, const Experiment& experiment, std::size_t engine, unsigned region,
@@ -329,18 +344,39 @@ void RegionLink::Answer(std::uint32_t epoch, std::uint32_t number, std::span<con
     answer_.bytes.assign(result.begin(), result.end());
   else
     answer_.bytes.assign(error.begin(), error.end());
+  WriteAnswer();
+}
+
+void RegionLink::WriteAnswer()
+{
+  answered_ = std::chrono::steady_clock::now();
   results_.Write(session_.Header(tick_, first_ + own_), answer_);
 }
 
-// What it answered last may be lost, and would go with its process: it stays for as long as the engine asks.
-bool RegionLink::EngineHasLeft() const { return tasks_.Writers() == 0 || session_.HasLeft(engine_name_, tick_); }
+// What it answered last may be lost, and would go with its process: it stays for as long as the engine asks. An engine
+// that leaves in good order has done the last tick, even if this region was not there to be told so.
+bool RegionLink::EngineHasLeft() const
+{
+  if (!is_over_) return session_.HasLeft(engine_name_, tick_ + 1);
+  return tasks_.Writers() == 0 || session_.HasLeft(engine_name_, tick_) ||
+         std::chrono::steady_clock::now() - answered_ > kLinger;
+}
 
 RegionLink::Next RegionLink::WaitForNext()
 {
   std::unique_lock lock(mutex_);
   const auto is_due = [this] { return next_ || is_asked_again_ || is_halo_missed_ || is_lost_ || is_closed_; };
-  while (!changed_.wait_for(lock, is_over_ ? kLook : kForEver, is_due))
-    if (is_over_ && EngineHasLeft()) return Next::kEnd;
+  while (!changed_.wait_for(lock, is_over_ ? kLook : kLookBefore, is_due))
+  {
+    // The bus calls with locks of its own, which this asks for.
+    lock.unlock();
+    if (EngineHasLeft())
+    {
+      is_over_ = true;
+      return Next::kEnd;
+    }
+    lock.lock();
+  }
   if (is_closed_) return Next::kEnd;
   if (next_)
   {
@@ -364,7 +400,7 @@ void RegionLink::Serve(EngineRegion& region)
   for (Next next = WaitForNext(); next != Next::kEnd; next = WaitForNext())
   {
     if (next == Next::kHalosAgain) WriteHalosAgain(false);
-    if (next == Next::kAnswerAgain) results_.Write(session_.Header(tick_, first_ + own_), answer_);
+    if (next == Next::kAnswerAgain) WriteAnswer();
     if (next == Next::kAskForAll) Answer(0, 0, {}, "");
     if (next != Next::kTask) continue;
     result.Clear();

@@ -38,7 +38,8 @@ public:
   // The regions that a task waits for: "region 2 of engine 'ground'"; empty if none.
   std::string Awaited() const;
   void SetTick(std::uint64_t tick) { tick_ = tick; }
-  // The run is over: regions are told, so that they leave.
+  // The run is over: regions are told, so that they leave; those that are still on their way are waited for. Throws
+  // BusError if the run is given up meanwhile.
   void End();
 
   unsigned RegionCount() const override { return static_cast<unsigned>(places_.size()); }
@@ -88,7 +89,7 @@ public:
   // Does tasks until the run is over and the engine has left, or the program asks for the end (Close). What fails is
   // told to the engine.
   void Serve(EngineRegion& region);
-  // The engine has said that the run is over. Others may have left already.
+  // The engine has said that the run is over, or left. Others may have left already.
   bool IsOver() const { return is_over_; }
   void Close();
 
@@ -100,6 +101,7 @@ private:
   using Halos = std::array<RegionHaloMessage, 2>;
 
   void Answer(std::uint32_t epoch, std::uint32_t number, std::span<const char> result, const std::string& error);
+  void WriteAnswer();
   void TaskReceived(const MessageHeader& header, RegionTaskMessage& task);
   void HaloReceived(const MessageHeader& header, RegionHaloMessage& halo);
   // What a region does next, between two tasks.
@@ -112,7 +114,6 @@ private:
     kEnd
   };
   Next WaitForNext();
-  // After the end of the run.
   bool EngineHasLeft() const;
   void WriteHalo(const RegionHaloMessage& halo, bool lacks_others = false);
   // Those of the task that another one may lack.
@@ -129,6 +130,7 @@ private:
   std::atomic<bool> is_over_ = false;
   RegionTaskMessage task_;  // in work, or done last
   RegionResultMessage answer_;
+  std::chrono::steady_clock::time_point answered_;
   std::uint32_t exchanges_ = 0;  // in the epoch
   Halos said_;
   std::mutex mutex_;

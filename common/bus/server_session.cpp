@@ -309,12 +309,13 @@ std::optional<std::string> ServerSession::FirstLeft() const
   return std::nullopt;
 }
 
-bool ServerSession::AllLeft() const
+std::vector<std::string> ServerSession::NotLeft() const
 {
   const auto state = state_.Lock();
+  std::vector<std::string> names;
   for (const auto& [name, member] : state->members)
-    if (!member.left && !member.process.empty()) return false;
-  return true;
+    if (!member.left && !member.process.empty()) names.push_back(name);
+  return names;
 }
 
 void ServerSession::Asked(const ControlRequestMessage& request)

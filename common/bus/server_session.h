@@ -80,8 +80,8 @@ public:
   void Answer(const RecoveryBlockMessage& block) { blocks_->Write(block); }
   // Lets those go who said that they leave. To be called again and again by the server's own thread.
   void AnswerLeaves();
-  // True once every expected process has left.
-  bool AllLeft() const;
+  // Those expected that have joined and not left.
+  std::vector<std::string> NotLeft() const;
 
   // Before Open: a server of this run before this one has taken the request, and answered it unless `waits`. Whoever
   // repeats it is not taken for somebody who asks anew, and is told the text.

@@ -162,6 +162,14 @@ WorkerSession::~WorkerSession()
   bus_.OnProcessGone(nullptr);
 }
 
+void WorkerSession::ReleaseWorld()
+{
+  const std::lock_guard lock(mutex_);
+  std::exchange(world_.xml, {});
+  std::exchange(world_.entities, {});
+  std::exchange(world_.checkpoint, {});
+}
+
 void WorkerSession::LookOn()
 {
   const std::lock_guard lock(mutex_);

@@ -41,6 +41,8 @@ public:
   const std::string& Name() const { return name_; }
   bool TakesAPlace() const { return incarnation_ > 0; }
   const WorldMessage& World() const { return world_; }
+  // Lets go of what serves to make the world alone (xml, entities, checkpoint). Not for those who look on.
+  void ReleaseWorld();
   Bus& GetBus() { return bus_; }
   HotScope Scope(std::size_t capacity, unsigned writers) const;
   MessageHeader Header(std::uint64_t tick, std::uint32_t source) const

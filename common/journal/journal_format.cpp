@@ -12,6 +12,8 @@
 #include <new>
 #include <stdexcept>
 
+#include "common/serialisation/room.h"
+
 namespace swarmanoid
 {
 namespace
@@ -48,35 +50,35 @@ struct FreeContext
   void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
 };
 
-// Stays until the next call in this thread: tables and room are as large as a block, and cost as much to make.
-std::span<const char> Compressed(std::span<const char> content)
+// The content behind room for the header. Tables and room are as large as a block, and cost as much to make.
+std::span<char> Compressed(std::span<const char> content)
 {
   thread_local const std::unique_ptr<ZSTD_CCtx, FreeContext> context(ZSTD_createCCtx());
-  thread_local std::vector<char> room;
+  thread_local Room room;
   if (context == nullptr) throw std::bad_alloc();
-  room.resize(std::max(room.size(), ZSTD_compressBound(content.size())));
+  const std::size_t most = ZSTD_compressBound(content.size());
+  char* const block = room.AtLeast(kJournalHeaderBytes + most);
   const std::size_t stored =
-      ZSTD_compressCCtx(context.get(), room.data(), room.size(), content.data(), content.size(), kLevel);
+      ZSTD_compressCCtx(context.get(), block + kJournalHeaderBytes, most, content.data(), content.size(), kLevel);
   if (ZSTD_isError(stored) != 0)
     throw std::runtime_error(fmt::format("cannot compress {} bytes: {}", content.size(), ZSTD_getErrorName(stored)));
-  return {room.data(), stored};
+  return {block, kJournalHeaderBytes + stored};
 }
 
 }  // namespace
 
-std::vector<char> EncodeJournalBlock(JournalBlockKind kind, std::uint64_t first_tick, std::uint32_t ticks,
-                                     std::span<const char> content)
+std::span<const char> EncodeJournalBlock(JournalBlockKind kind, std::uint64_t first_tick, std::uint32_t ticks,
+                                         std::span<const char> content)
 {
-  const std::span<const char> stored = Compressed(content);
-  std::vector<char> block(kJournalHeaderBytes + stored.size());
-  std::memcpy(block.data() + kJournalHeaderBytes, stored.data(), stored.size());
+  const std::span<char> block = Compressed(content);
+  std::fill_n(block.begin(), kJournalHeaderBytes, '\0');
   std::memcpy(block.data(), kJournalMagic.data(), kJournalMagic.size());
   block[kJournalMagic.size()] = kJournalVersion;
   PutAt(block, 8, static_cast<std::uint32_t>(kind));
   PutAt(block, 12, ticks);
   PutAt(block, 16, first_tick);
   PutAt(block, 24, std::uint64_t{content.size()});
-  PutAt(block, 32, std::uint64_t{stored.size()});
+  PutAt(block, 32, std::uint64_t{block.size() - kJournalHeaderBytes});
   PutAt(block, kChecksumAt, BlockChecksum(block));
   return block;
 }

@@ -47,9 +47,10 @@ struct JournalBlockHeader
   std::uint64_t stored_bytes = 0;
 };
 
-// A whole block. Throws std::runtime_error if the content cannot be compressed.
-std::vector<char> EncodeJournalBlock(JournalBlockKind kind, std::uint64_t first_tick, std::uint32_t ticks,
-                                     std::span<const char> content);
+// A whole block, which stays until the next call in this thread. Throws std::runtime_error if the content cannot be
+// compressed.
+std::span<const char> EncodeJournalBlock(JournalBlockKind kind, std::uint64_t first_tick, std::uint32_t ticks,
+                                         std::span<const char> content);
 // The header at the start of the bytes; nothing if there is none of this version, or the block is longer than what is
 // left of its file.
 std::optional<JournalBlockHeader> JournalBlockAt(std::span<const char> bytes, std::uint64_t left);

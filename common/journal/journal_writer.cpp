@@ -362,8 +362,9 @@ void JournalWriter::WriteBlock(Block& block)
   place.segment = segment_;
   place.hosts = hosts_;
   const bool ticks = place.kind == JournalBlockKind::kTicks;
-  const std::vector<char> bytes =
-      EncodeJournalBlock(place.kind, place.first_tick, place.ticks, ticks ? block.rows.Content() : block.content);
+  const std::span<const char> bytes =
+      EncodeJournalBlock(place.kind, place.first_tick, place.ticks,
+                         ticks ? block.rows.Content(room_) : std::span<const char>(block.content));
   place.offset = size_;
   place.bytes = bytes.size();
   if (Append(bytes))

@@ -122,6 +122,7 @@ private:
   int file_ = -1;            // the newest segment
   std::uint32_t segment_ = 0;
   std::uint64_t hosts_ = 0;   // in the newest segment; the writer's thread
+  Room room_;                 // of the content of a block; likewise
   mutable std::mutex mutex_;  // of what follows
   std::condition_variable changed_;
   TickRows rows_;               // being filled

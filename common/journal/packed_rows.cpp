@@ -54,7 +54,7 @@ void RowPacker::Begin(std::size_t row, std::size_t moving)
   together_ = TicksTogether(row);
   packed_ = waiting_ = used_ = 0;
   widths_.clear();
-  recent_.resize((kBefore + together_) * row);
+  recent_.AtLeast((kBefore + together_) * row * sizeof(double));
 }
 
 void RowPacker::Added()
@@ -70,9 +70,7 @@ void RowPacker::Finish()
 void RowPacker::Pack()
 {
   // All eight bytes of each number are written, and what is not needed of them is written over.
-  const std::size_t most = used_ + (waiting_ * row_ + 1) * sizeof(std::uint64_t);
-  if (room_.size() < most) room_.resize(std::max(most, room_.size() + room_.size() / 2));
-  char* out = room_.data() + used_;
+  char* out = room_.AtLeast(used_ + (waiting_ * row_ + 1) * sizeof(std::uint64_t)) + used_;
   std::array<Line, kSide> lines{};  // of the ticks
   for (std::size_t first = 0; first < row_; first += kSide)
   {
@@ -82,7 +80,7 @@ void RowPacker::Pack()
     Line any{};
     for (std::size_t tick = 0; tick < waiting_; ++tick)
     {
-      const double* at = recent_.data() + (kBefore + tick) * row_ + first;
+      const double* at = Row(kBefore + tick) + first;
       Line& folded = lines[tick];
       if (count == kSide && packed_ + tick > 1 && all_move)
         FoldLine<true>(at, row_, folded);
@@ -94,6 +92,11 @@ void RowPacker::Pack()
                              std::bit_cast<std::uint64_t>(Expected(at + k, packed_ + tick, row_, first + k < moving_)));
       for (std::size_t k = 0; k < kSide; ++k) any[k] |= folded[k];
     }
+    if (std::ranges::all_of(any, [](std::uint64_t differences) { return differences == 0; }))
+    {
+      widths_.insert(widths_.end(), count, '\0');
+      continue;
+    }
     for (std::size_t k = 0; k < count; ++k)
     {
       const std::size_t width = (static_cast<std::size_t>(std::bit_width(any[k])) + 7) / 8;
@@ -103,9 +106,9 @@ void RowPacker::Pack()
         std::memcpy(out, &lines[tick][k], sizeof(std::uint64_t));
     }
   }
-  used_ = static_cast<std::size_t>(out - room_.data());
+  used_ = static_cast<std::size_t>(out - room_.Bytes());
   // Where one row alone was packed, the one before stays.
-  std::copy_n(recent_.data() + waiting_ * row_, kBefore * row_, recent_.data());
+  std::copy_n(Row(waiting_), kBefore * row_, Row(0));
   packed_ += waiting_;
   waiting_ = 0;
 }

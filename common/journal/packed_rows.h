@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "common/serialisation/room.h"
+
 namespace swarmanoid
 {
 
@@ -21,7 +23,7 @@ public:
   // the others to stay. What was packed is gone; its room is kept.
   void Begin(std::size_t row, std::size_t moving);
   // Where the numbers of the next row are to be put, and then, that they are there.
-  double* NextRow() { return recent_.data() + (kBefore + waiting_) * row_; }
+  double* NextRow() { return Row(kBefore + waiting_); }
   void Added();
   // Packs the rows that still wait for others; none can be added any more.
   void Finish();
@@ -29,21 +31,22 @@ public:
   // Bytes of a number (0 to 8), a column of TicksTogether ticks after the other.
   std::span<const char> Widths() const { return widths_; }
   // In the same order, of each number its ticks, little-endian.
-  std::span<const char> Bytes() const { return {room_.data(), used_}; }
+  std::span<const char> Bytes() const { return {room_.Bytes(), used_}; }
 
 private:
   static constexpr std::size_t kBefore = 2;  // rows that tell what to expect
 
   void Pack();
+  double* Row(std::size_t place) { return reinterpret_cast<double*>(recent_.Bytes()) + place * row_; }
 
   std::size_t row_ = 0;
   std::size_t moving_ = 0;
   std::size_t together_ = 1;
-  std::size_t packed_ = 0;      // rows
-  std::size_t waiting_ = 0;     // rows
-  std::vector<double> recent_;  // the last rows that were packed, then those that wait
+  std::size_t packed_ = 0;   // rows
+  std::size_t waiting_ = 0;  // rows
+  Room recent_;              // doubles: the last rows that were packed, then those that wait
   std::vector<char> widths_;
-  std::vector<char> room_;
+  Room room_;
   std::size_t used_ = 0;  // of the room
 };
 

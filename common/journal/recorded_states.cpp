@@ -13,7 +13,7 @@ RecordedStates::RecordedStates(const Experiment& experiment, const JournalBlocks
 {
   initial_.tick = space_->GetTick();
   space_->WritePoses(initial_.poses);
-  initial_.attributes.assign(space_->Attributes().begin(), space_->Attributes().end());
+  initial_.attributes.assign(space_->Attributes().Values().begin(), space_->Attributes().Values().end());
 }
 
 RecordedStates::~RecordedStates() = default;

@@ -75,7 +75,10 @@ std::vector<char> SharedCommands::Of(std::span<const char> block) const
   for (TickRecordReader records(JournalContent(block)); records.Next(record);)
     if (!rows.Add(record.state, record.save, record.frames, Of(record.commands)))
       throw std::runtime_error("the journal has ticks of different lengths in one block");
-  return EncodeJournalBlock(JournalBlockKind::kTicks, rows.FirstTick(), rows.Ticks(), rows.Content());
+  Room room;
+  const std::span<const char> encoded =
+      EncodeJournalBlock(JournalBlockKind::kTicks, rows.FirstTick(), rows.Ticks(), rows.Content(room));
+  return {encoded.begin(), encoded.end()};
 }
 
 }  // namespace swarmanoid

@@ -103,16 +103,21 @@ void TickRows::Clear()
   rest_.Clear();
 }
 
-std::vector<char> TickRows::Content()
+std::span<const char> TickRows::Content(Room& room)
 {
   numbers_.Finish();
-  ByteWriter content;
-  for (const std::uint64_t number : std::array<std::uint64_t, 4>{first_tick_, ticks_, poses_, poses_ + others_})
-    content.Put(number);
-  content.PutArray(numbers_.Widths());
-  content.PutArray(numbers_.Bytes());
-  content.PutArray(rest_.Bytes());
-  return content.Bytes();
+  const std::array<std::uint64_t, 4> header{first_tick_, ticks_, poses_, poses_ + others_};
+  const std::array<std::span<const char>, 3> parts{numbers_.Widths(), numbers_.Bytes(), rest_.Bytes()};
+  std::size_t size = sizeof header;
+  for (const std::span<const char> part : parts) size += sizeof(std::uint64_t) + part.size();
+  char* to = std::copy_n(reinterpret_cast<const char*>(header.data()), sizeof header, room.AtLeast(size));
+  for (const std::span<const char> part : parts)
+  {
+    const std::uint64_t count = part.size();
+    to = std::copy_n(reinterpret_cast<const char*>(&count), sizeof count, to);
+    to = std::copy(part.begin(), part.end(), to);
+  }
+  return {room.Bytes(), size};
 }
 
 TickRecordReader::TickRecordReader(std::span<const char> content, bool with_numbers)

@@ -37,8 +37,8 @@ public:
   bool Add(const SpaceState& state, bool save, std::span<const SensorFrame> frames,
            std::span<const ControlCommands> commands);
   void Clear();
-  // The content of a block. Nothing can be added any more until Clear.
-  std::vector<char> Content();
+  // The content of a block, in `room`, which is kept for the next one. Nothing can be added any more until Clear.
+  std::span<const char> Content(Room& room);
 
 private:
   std::uint64_t first_tick_ = 0;

@@ -90,9 +90,9 @@ double NormalQuantile(double mass)
 void NormalQuantiles(std::span<double> masses)
 {
   // All as if they were of the middle, then those that are not.
-  constexpr std::size_t kBlock = 64;
+  constexpr std::size_t kBlock = 256;
   std::array<double, kBlock + kDoubleLanes> flanks;
-  std::array<std::uint32_t, kBlock> places;
+  std::array<std::uint32_t, kBlock + 1> places;
   const std::size_t whole = masses.size() / kDoubleLanes * kDoubleLanes;
   for (std::size_t begin = 0; begin < whole; begin += kBlock)
   {
@@ -101,12 +101,14 @@ void NormalQuantiles(std::span<double> masses)
     for (std::size_t i = begin; i < end; i += kDoubleLanes)
     {
       const DoubleLanes mass = LoadLanes(&masses[i]);
-      ForEachBit(LaneMask((mass > kMiddle) | (mass < -kMiddle)),
-                 [&](unsigned lane)
-                 {
-                   flanks[count] = masses[i + lane];
-                   places[count++] = static_cast<std::uint32_t>(i + lane - begin);
-                 });
+      // Without a branch: which of them are there nobody can foretell.
+      const unsigned mask = LaneMask((mass > kMiddle) | (mass < -kMiddle));
+      for (unsigned lane = 0; lane < kDoubleLanes; ++lane)
+      {
+        flanks[count] = masses[i + lane];
+        places[count] = static_cast<std::uint32_t>(i + lane - begin);
+        count += mask >> lane & 1;
+      }
       StoreLanes(mass * Quotient(kMiddleNumerator, kMiddleDenominator, kMiddle * kMiddle - mass * mass), &masses[i]);
     }
     for (std::size_t lane = 0; lane < kDoubleLanes; ++lane) flanks[count + lane] = kMiddle;

@@ -1,10 +1,17 @@
-// Vectors for large arrays that stay zero for the most part. What was never written takes no memory: the system gives a
-// page when something is written into it, and shows zeros until then.
+// Arrays that stay zero for the most part. What was never written takes no memory: the system gives a page when
+// something is written into it. Some systems give one also to what is only read, so nothing is read here that is known
+// to be zero.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <new>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -12,36 +19,178 @@
 namespace swarmanoid
 {
 
+// A vector of numbers.
 template <class T>
-struct ZeroedAllocator
+class ZeroedVector
 {
   static_assert(std::is_arithmetic_v<T>);
+
+public:
   using value_type = T;
+  using iterator = T*;
+  using const_iterator = const T*;
 
-  ZeroedAllocator() = default;
-  template <class U>
-  ZeroedAllocator(const ZeroedAllocator<U>&) noexcept
+  ZeroedVector() = default;
+  explicit ZeroedVector(std::size_t count, T value = T{}) { resize(count, value); }
+  ZeroedVector(const ZeroedVector& other) { *this = other; }
+  ZeroedVector(ZeroedVector&& other) noexcept { swap(other); }
+  ZeroedVector& operator=(const ZeroedVector& other)
   {
+    if (this == &other) return *this;
+    clear();
+    resize(other.size_);
+    CopyFrom(other);
+    return *this;
+  }
+  ZeroedVector& operator=(ZeroedVector&& other) noexcept
+  {
+    swap(other);
+    return *this;
+  }
+  ~ZeroedVector() = default;
+
+  std::size_t size() const { return size_; }
+  std::size_t capacity() const { return capacity_; }
+  bool empty() const { return size_ == 0; }
+  T* data() { return data_.get(); }
+  const T* data() const { return data_.get(); }
+  T& operator[](std::size_t place) { return data_[place]; }
+  const T& operator[](std::size_t place) const { return data_[place]; }
+  iterator begin() { return data_.get(); }
+  iterator end() { return data_.get() + size_; }
+  const_iterator begin() const { return data_.get(); }
+  const_iterator end() const { return data_.get() + size_; }
+
+  void clear() { size_ = 0; }
+  void reserve(std::size_t count)
+  {
+    if (count > capacity_) Move(count);
+  }
+  void resize(std::size_t count, T value = T{})
+  {
+    if (count > capacity_) Move(std::max(count, 2 * capacity_));
+    if (count > size_)
+    {
+      // What it had there before may be left up to used_.
+      if (!IsZero(value))
+        std::fill(begin() + size_, begin() + count, value);
+      else
+        for (std::size_t place = size_; place < std::min(count, used_); ++place)
+          if (!IsZero(data_[place])) data_[place] = 0;
+    }
+    size_ = count;
+    used_ = std::max(used_, size_);
+  }
+  void assign(std::size_t count, T value)
+  {
+    clear();
+    resize(count, value);
+  }
+  void push_back(T value) { resize(size_ + 1, value); }
+  void shrink_to_fit()
+  {
+    if (capacity_ > size_) Move(size_);
+  }
+  void swap(ZeroedVector& other) noexcept
+  {
+    data_.swap(other.data_);
+    std::swap(size_, other.size_);
+    std::swap(used_, other.used_);
+    std::swap(capacity_, other.capacity_);
   }
 
-  T* allocate(std::size_t count)
+  // By bits: -0.0 is not.
+  static bool IsZero(T value)
   {
-    void* const memory = std::calloc(count, sizeof(T));
-    if (memory == nullptr) throw std::bad_alloc();
-    return static_cast<T*>(memory);
-  }
-  void deallocate(T* memory, std::size_t) noexcept { std::free(memory); }
-  // Looks first: reading a page that was never written takes none. What a vector had there before may be left.
-  void construct(T* place, const T& value = T{}) noexcept
-  {
-    if (std::memcmp(place, &value, sizeof(T)) != 0) *place = value;
+    const T zero{};
+    return std::memcmp(&value, &zero, sizeof(T)) == 0;
   }
 
-  friend bool operator==(const ZeroedAllocator&, const ZeroedAllocator&) { return true; }
+private:
+  struct Free
+  {
+    void operator()(T* memory) const { std::free(memory); }
+  };
+
+  // From a vector that is not shorter, when all is zero here.
+  void CopyFrom(const ZeroedVector& other)
+  {
+    for (std::size_t place = 0; place < size_; ++place)
+      if (!IsZero(other[place])) data_[place] = other[place];
+  }
+  void Move(std::size_t capacity)
+  {
+    ZeroedVector moved;
+    if (capacity > 0)
+    {
+      moved.data_.reset(static_cast<T*>(std::calloc(capacity, sizeof(T))));
+      if (moved.data_ == nullptr) throw std::bad_alloc();
+    }
+    moved.size_ = moved.used_ = size_;
+    moved.capacity_ = capacity;
+    moved.CopyFrom(*this);
+    swap(moved);
+  }
+
+  std::unique_ptr<T[], Free> data_;
+  std::size_t size_ = 0;
+  std::size_t used_ = 0;  // behind it nothing was ever written
+  std::size_t capacity_ = 0;
 };
 
-// resize(n) writes nothing where zeros are.
+// The like that knows on which pages something was written, so that nothing is read of others.
 template <class T>
-using ZeroedVector = std::vector<T, ZeroedAllocator<T>>;
+class SparseVector
+{
+public:
+  std::size_t size() const { return values_.size(); }
+  void reserve(std::size_t count) { values_.reserve(count); }
+  void push_back(T value) { resize(size() + 1, value); }
+  void resize(std::size_t count, T value = T{})
+  {
+    std::size_t place = values_.size();
+    values_.resize(count);
+    written_.resize((count + kPage - 1) / kPage);
+    if (!ZeroedVector<T>::IsZero(value))
+      for (; place < count; ++place) Set(place, value);
+  }
+  void Set(std::size_t place, T value)
+  {
+    std::uint8_t& written = written_[place / kPage];
+    if (written == 0 && ZeroedVector<T>::IsZero(value)) return;
+    written = 1;
+    values_[place] = value;
+  }
+  T operator[](std::size_t place) const { return written_[place / kPage] != 0 ? values_[place] : T{}; }
+  // Zeros from elsewhere where nothing was written; of what is longer than a page, those that stand here.
+  std::span<const T> Part(std::size_t first, std::size_t count) const
+  {
+    const bool is_here =
+        count > kPage || (count > 0 && (written_[first / kPage] != 0 || written_[(first + count - 1) / kPage] != 0));
+    return {is_here ? values_.data() + first : kZeros.data(), count};
+  }
+  // Who reads all of these makes them take memory.
+  std::span<const T> Values() const { return {values_.data(), values_.size()}; }
+  // visit(span): the first `count` numbers, run by run.
+  template <class Visit>
+  void VisitRuns(std::size_t count, Visit&& visit) const
+  {
+    for (std::size_t from = 0, to = 0; from < count; from = to)
+    {
+      const bool is_written = written_[from / kPage] != 0;
+      to = from + kPage;
+      while (is_written && to < count && written_[to / kPage] != 0) to += kPage;
+      to = std::min(to, count);
+      visit(std::span<const T>(is_written ? values_.data() + from : kZeros.data(), to - from));
+    }
+  }
+
+private:
+  static constexpr std::size_t kPage = 4096 / sizeof(T);
+  static constexpr std::array<T, kPage> kZeros{};
+
+  ZeroedVector<T> values_;
+  std::vector<std::uint8_t> written_;  // of each page
+};
 
 }  // namespace swarmanoid

@@ -42,8 +42,8 @@ void AttributeOrder::Apply(AttributeChanges& changes)
   std::swap(changes, ordered_);
 }
 
-void ReportChanges(std::span<const std::uint32_t> slots, std::span<const double> values, std::span<const double> known,
-                   AttributeChanges& changes)
+void ReportChanges(std::span<const std::uint32_t> slots, std::span<const double> values,
+                   const SparseVector<double>& known, AttributeChanges& changes)
 {
   if (changes.slots.empty())
   {

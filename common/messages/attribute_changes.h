@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "common/math/zeroed_vector.h"
 #include "common/messages/messages.h"
 
 namespace swarmanoid
@@ -27,7 +28,7 @@ bool IsOrdered(const AttributeChanges& changes);
 
 // Adds the values of `slots` (ascending) that differ from those of the space (`known`, all slots), or for whose slot
 // there is a change already: who reports last decides on a slot, even by leaving it as it is.
-void ReportChanges(std::span<const std::uint32_t> slots, std::span<const double> values, std::span<const double> known,
-                   AttributeChanges& changes);
+void ReportChanges(std::span<const std::uint32_t> slots, std::span<const double> values,
+                   const SparseVector<double>& known, AttributeChanges& changes);
 
 }  // namespace swarmanoid

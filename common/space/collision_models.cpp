@@ -104,8 +104,7 @@ void CollisionModels::BodiesOf(std::uint32_t entity, std::vector<CollisionBody>&
                 PluginKind::kEngine, space_.GetExperiment().engines[static_cast<std::size_t>(engine_of_[entity])].tag);
   if (engine == nullptr || engine->collision_model == nullptr) return AddPlainBody(configuration, bodies);
   const auto slots = static_cast<std::size_t>(AttributeCount(configuration.kind));
-  engine->collision_model(configuration, space_.Attributes().subspan(space_.GetEntity(entity).FirstSlot(), slots),
-                          bodies);
+  engine->collision_model(configuration, space_.Attributes().Part(space_.GetEntity(entity).FirstSlot(), slots), bodies);
 }
 
 bool CollisionModels::IsArticulated(std::uint32_t entity) const

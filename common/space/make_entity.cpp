@@ -3,33 +3,38 @@
 namespace swarmanoid
 {
 
-std::unique_ptr<CSwarmanoidSpaceEntity> MakeEntity(CSwarmanoidSpace& space, std::uint32_t index,
-                                                   const EntityConfiguration& configuration, std::uint32_t first_slot)
+EntityPointer MakeEntity(std::pmr::memory_resource& memory, CSwarmanoidSpace& space, std::uint32_t index,
+                         const EntityConfiguration& configuration, std::uint32_t first_slot)
 {
+  const auto make = [&]<class Entity>(std::type_identity<Entity>) -> EntityPointer
+  {
+    return EntityPointer(
+        std::pmr::polymorphic_allocator<>(&memory).new_object<Entity>(space, index, configuration, first_slot));
+  };
   switch (configuration.kind)
   {
     case EntityKind::kFootbot:
-      return std::make_unique<CFootBotEntity>(space, index, configuration, first_slot);
+      return make(std::type_identity<CFootBotEntity>{});
     case EntityKind::kHandbot:
-      return std::make_unique<CHandBotEntity>(space, index, configuration, first_slot);
+      return make(std::type_identity<CHandBotEntity>{});
     case EntityKind::kEyebot:
-      return std::make_unique<CEyeBotEntity>(space, index, configuration, first_slot);
+      return make(std::type_identity<CEyeBotEntity>{});
     case EntityKind::kBlock:
     case EntityKind::kWall:
-      return std::make_unique<CBlockEntity>(space, index, configuration, first_slot);
+      return make(std::type_identity<CBlockEntity>{});
     case EntityKind::kCylindricPrey:
-      return std::make_unique<CCylindricPreyEntity>(space, index, configuration, first_slot);
+      return make(std::type_identity<CCylindricPreyEntity>{});
     case EntityKind::kLightBulb:
-      return std::make_unique<CLightBulbEntity>(space, index, configuration, first_slot);
+      return make(std::type_identity<CLightBulbEntity>{});
     case EntityKind::kSoundSource:
-      return std::make_unique<CSoundSourceEntity>(space, index, configuration, first_slot);
+      return make(std::type_identity<CSoundSourceEntity>{});
     case EntityKind::kGroundPatch:
-      return std::make_unique<CGroundPatchEntity>(space, index, configuration, first_slot);
+      return make(std::type_identity<CGroundPatchEntity>{});
     default:
       break;
   }
-  if (IsRobot(configuration.kind)) return std::make_unique<CRobotEntity>(space, index, configuration, first_slot);
-  return std::make_unique<CSwarmanoidSpaceEntity>(space, index, configuration, first_slot);
+  if (IsRobot(configuration.kind)) return make(std::type_identity<CRobotEntity>{});
+  return make(std::type_identity<CSwarmanoidSpaceEntity>{});
 }
 
 }  // namespace swarmanoid

@@ -1,14 +1,22 @@
-// The classes of entities that users hold, by kind. For space.cpp alone.
+// The classes of entities that users hold, by kind. For the space alone.
 #pragma once
 
 #include <memory>
+#include <memory_resource>
 
 #include "common/space/entity.h"
 
 namespace swarmanoid
 {
 
-std::unique_ptr<CSwarmanoidSpaceEntity> MakeEntity(CSwarmanoidSpace& space, std::uint32_t index,
-                                                   const EntityConfiguration& configuration, std::uint32_t first_slot);
+// Its memory is that of a resource, which frees it: side by side, in the order of the entities.
+struct EndEntity
+{
+  void operator()(CSwarmanoidSpaceEntity* entity) const { std::destroy_at(entity); }
+};
+using EntityPointer = std::unique_ptr<CSwarmanoidSpaceEntity, EndEntity>;
+
+EntityPointer MakeEntity(std::pmr::memory_resource& memory, CSwarmanoidSpace& space, std::uint32_t index,
+                         const EntityConfiguration& configuration, std::uint32_t first_slot);
 
 }  // namespace swarmanoid

@@ -7,7 +7,6 @@
 #include <bit>
 
 #include "common/space/attributes.h"
-#include "common/space/make_entity.h"
 #include "common/space/message_slots.h"
 #include "common/space/state_checks.h"
 
@@ -35,7 +34,6 @@ CSwarmanoidSpace::CSwarmanoidSpace(const Experiment& experiment) : experiment_(e
     slots +=
         static_cast<std::size_t>(AttributeCount(configuration.kind) + FurtherMessageSlots(experiment, configuration));
   attributes_.reserve(slots);
-  attribute_values_.reserve(slots);
   for (std::size_t i = 0; i < count; ++i)
   {
     const EntityConfiguration& configuration = experiment.entities[i];
@@ -47,12 +45,11 @@ CSwarmanoidSpace::CSwarmanoidSpace(const Experiment& experiment) : experiment_(e
                              : spec.name == "intensity" ? configuration.intensity
                                                         : spec.initial;
       attributes_.resize(attributes_.size() + static_cast<std::size_t>(spec.count), initial);
-      attribute_values_.insert(attribute_values_.end(), static_cast<std::size_t>(spec.count), spec.value);
     }
     const auto further = static_cast<std::size_t>(FurtherMessageSlots(experiment, configuration));
     attributes_.resize(attributes_.size() + further);
-    attribute_values_.insert(attribute_values_.end(), further, AttributeValue::kBytes);
-    entities_.push_back(MakeEntity(*this, index, configuration, first_slot));
+    attribute_values_.Add(configuration.kind, static_cast<std::uint32_t>(further));
+    entities_.push_back(MakeEntity(memory_of_entities_, *this, index, configuration, first_slot));
     if (std::uint32_t& place = place_of_id_[PlaceOfId(configuration.id)]; place == 0) place = index + 1;
     if (configuration.movable) movable_.push_back(index);
     SetPose(i, configuration.pose);
@@ -60,7 +57,6 @@ CSwarmanoidSpace::CSwarmanoidSpace(const Experiment& experiment) : experiment_(e
   first_presence_ = static_cast<std::uint32_t>(attributes_.size());
   for (const EntityConfiguration& configuration : experiment.entities)
     attributes_.push_back(configuration.waits ? 0 : 1);
-  attribute_values_.resize(attributes_.size(), AttributeValue::kPresence);
   FindAbsent();
 }
 
@@ -100,7 +96,7 @@ std::span<const double> CSwarmanoidSpace::Hands(std::size_t i) const
 {
   const int grippers = DescriptionOf(entities_[i]->GetKind()).grippers;
   if (grippers == 0) return {};
-  return Attributes().subspan(FirstHandSlot(i), static_cast<std::size_t>(grippers));
+  return attributes_.Part(FirstHandSlot(i), static_cast<std::size_t>(grippers));
 }
 
 void CSwarmanoidSpace::SetPose(std::size_t i, const Pose& pose)
@@ -137,7 +133,7 @@ void CSwarmanoidSpace::SetPoses(std::span<const std::uint32_t> entities, std::sp
 void CSwarmanoidSpace::SetAttribute(std::uint32_t slot, double value)
 {
   ++attribute_revision_;
-  attributes_[slot] = value;
+  attributes_.Set(slot, value);
   if (attribute_values_[slot] == AttributeValue::kEntity) structure_.Follow(EntityOfSlot(*this, slot));
   if (slot < first_presence_) return;
   ++revision_;
@@ -156,7 +152,7 @@ void CSwarmanoidSpace::SetAttributes(const AttributeChanges& changes)
   bool holds = false;
   for (std::size_t k = 0; k < changes.slots.size(); ++k)
   {
-    attributes_[changes.slots[k]] = changes.values[k];
+    attributes_.Set(changes.slots[k], changes.values[k]);
     presence |= changes.slots[k] >= first_presence_;
     holds |= attribute_values_[changes.slots[k]] == AttributeValue::kEntity;
   }
@@ -226,8 +222,8 @@ void CSwarmanoidSpace::Apply(const SpaceSnapshot& snapshot)
 {
   tick_ = snapshot.tick;
   SetPoses(movable_, snapshot.poses);
-  attributes_.clear();
-  attributes_.insert(attributes_.end(), snapshot.attributes.begin(), snapshot.attributes.end());
+  for (std::size_t slot = 0; slot < snapshot.attributes.size(); ++slot)
+    attributes_.Set(slot, snapshot.attributes[slot]);
   ++attribute_revision_;
   FindAbsent();
   structure_.FollowAll();
@@ -259,7 +255,8 @@ std::uint64_t CSwarmanoidSpace::Hash() const
   XXH3_64bits_update(&state, &tick_, sizeof tick_);
   for (const auto* component : Components(poses_))
     XXH3_64bits_update(&state, component->data(), component->size() * sizeof(double));
-  XXH3_64bits_update(&state, attributes_.data(), first_presence_ * sizeof(double));
+  attributes_.VisitRuns(first_presence_,
+                        [&](std::span<const double> run) { XXH3_64bits_update(&state, run.data(), run.size_bytes()); });
   XXH3_64bits_update(&state, absent_.data(), absent_.size() * sizeof(std::uint32_t));
   return XXH3_64bits_digest(&state);
 }

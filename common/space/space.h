@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <memory_resource>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,8 +15,9 @@
 #include "common/math/zeroed_vector.h"
 #include "common/messages/messages.h"
 #include "common/space/attributes.h"
-#include "common/space/entity.h"
+#include "common/space/make_entity.h"
 #include "common/space/pose_arrays.h"
+#include "common/space/slot_table.h"
 #include "common/space/structure/structural_tree.h"
 
 namespace swarmanoid
@@ -53,9 +55,9 @@ public:
   // Those that are not in the arena, ascending.
   std::span<const std::uint32_t> Absent() const { return absent_; }
   // All slots: those of the entities in their order, then the presence of each, 1 or 0.
-  std::span<const double> Attributes() const { return attributes_; }
+  const SparseVector<double>& Attributes() const { return attributes_; }
   // What each slot stands for.
-  std::span<const AttributeValue> AttributeValues() const { return attribute_values_; }
+  const SlotTable& AttributeValues() const { return attribute_values_; }
   std::uint32_t PresenceSlot(std::size_t index) const { return first_presence_ + static_cast<std::uint32_t>(index); }
   // Who holds whom, as the attributes "gripped" say.
   const StructuralTree& Structure() const { return structure_; }
@@ -117,12 +119,13 @@ private:
   std::uint64_t drawing_revision_ = 1;
   Drawing drawing_;
   PoseArrays poses_;
-  ZeroedVector<double> attributes_;  // most are 0: LEDs that are dark, messages that nobody sends
-  std::vector<AttributeValue> attribute_values_;
+  SparseVector<double> attributes_;  // most are 0: LEDs that are dark, messages that nobody sends
+  SlotTable attribute_values_;
   std::uint32_t first_presence_ = 0;  // slot
   std::vector<std::uint32_t> absent_;
   std::vector<std::uint32_t> movable_;
-  std::vector<std::unique_ptr<CSwarmanoidSpaceEntity>> entities_;
+  std::pmr::monotonic_buffer_resource memory_of_entities_;
+  std::vector<EntityPointer> entities_;
   // A table with open addresses (Knuth, The Art of Computer Programming, volume 3, 6.4): 1 + index at the hash of the
   // id or behind it, 0: free.
   std::vector<std::uint32_t> place_of_id_;

@@ -155,16 +155,7 @@ std::string NameOfSlot(const CSwarmanoidSpace& space, std::uint32_t slot)
 
 std::uint32_t EntityOfSlot(const CSwarmanoidSpace& space, std::uint32_t slot)
 {
-  if (slot >= space.PresenceSlot(0)) return slot - space.PresenceSlot(0);
-  // The last one that starts there or before.
-  std::uint32_t low = 0;
-  auto high = static_cast<std::uint32_t>(space.Size());
-  while (high - low > 1)
-  {
-    const std::uint32_t middle = low + (high - low) / 2;
-    (space.GetEntity(middle).FirstSlot() <= slot ? low : high) = middle;
-  }
-  return low;
+  return space.AttributeValues().EntityOf(slot);
 }
 
 bool AllFinite(std::span<const double> values)
@@ -238,10 +229,9 @@ void CheckPose(const CSwarmanoidSpace& space, std::uint32_t entity, const Pose& 
 
 void CheckAttribute(const CSwarmanoidSpace& space, std::uint32_t slot, double value)
 {
-  const std::span<const AttributeValue> kinds = space.AttributeValues();
-  if (slot >= kinds.size())
+  if (slot >= space.Attributes().size())
     Refuse(fmt::format("there is no attribute slot {}; the experiment has {}", slot, space.PresenceSlot(0)));
-  const char* mistake = MistakeOf(kinds[slot], value, space.Size());
+  const char* mistake = MistakeOf(space.AttributeValues()[slot], value, space.Size());
   if (mistake != nullptr) Refuse(fmt::format("{} is {:.17g}: {}", NameOfSlot(space, slot), value, mistake));
 }
 

@@ -42,25 +42,43 @@ UnsignedLongLanes ProductOfLow(UnsignedLongLanes a, UnsignedLongLanes b)
 #endif
 }
 constexpr int kRounds = 10;
+constexpr std::size_t kGroupsAtOnce = 3;  // as many as the registers hold
 constexpr std::uint32_t kMultipliers[2] = {0xD2511F53U, 0xCD9E8D57U};
 constexpr std::uint32_t kKeySteps[2] = {0x9E3779B9U, 0xBB67AE85U};
 
 // 32 bits in each lane; those above them may be anything.
 using Words = std::array<UnsignedLongLanes, 4>;
 
-// Philox4x32 of as many counters as there are lanes.
-Words PhiloxEach(Words counter, std::array<std::uint32_t, 2> key)
+// Philox4x32 of as many counters as there are lanes, several times: each round waits for the one before it, so others
+// of the same key are computed meanwhile.
+template <std::size_t kTimes>
+std::array<Words, kTimes> PhiloxEach(std::array<Words, kTimes> counters, std::array<std::uint32_t, 2> key)
 {
   for (int round = 0; round < kRounds; ++round)
   {
-    const UnsignedLongLanes product0 = ProductOfLow(counter[0], Everywhere(std::uint64_t{kMultipliers[0]}));
-    const UnsignedLongLanes product1 = ProductOfLow(counter[2], Everywhere(std::uint64_t{kMultipliers[1]}));
-    counter = {(product1 >> 32) ^ counter[1] ^ Everywhere(std::uint64_t{key[0]}), product1,
-               (product0 >> 32) ^ counter[3] ^ Everywhere(std::uint64_t{key[1]}), product0};
+    const UnsignedLongLanes keys[2] = {Everywhere(std::uint64_t{key[0]}), Everywhere(std::uint64_t{key[1]})};
+#pragma GCC unroll 8
+    for (std::size_t k = 0; k < kTimes; ++k)
+    {
+      Words& counter = counters[k];
+      const UnsignedLongLanes product0 = ProductOfLow(counter[0], Everywhere(std::uint64_t{kMultipliers[0]}));
+      const UnsignedLongLanes product1 = ProductOfLow(counter[2], Everywhere(std::uint64_t{kMultipliers[1]}));
+      counter = {(product1 >> 32) ^ counter[1] ^ keys[0], product1, (product0 >> 32) ^ counter[3] ^ keys[1], product0};
+    }
     key[0] += kKeySteps[0];
     key[1] += kKeySteps[1];
   }
-  return counter;
+  return counters;
+}
+
+// Calls draw<groups>(first) for all numbers from 0 to before `count`: with several groups of kGroup where that many are
+// left, at the end with one, which may reach beyond them.
+template <std::size_t kGroup, class Draw>
+void InGroups(std::size_t count, const Draw& draw)
+{
+  std::size_t first = 0;
+  for (; first + kGroup < count; first += kGroupsAtOnce * kGroup) draw.template operator()<kGroupsAtOnce>(first);
+  if (first < count) draw.template operator()<1>(first);
 }
 
 // As RandomStream::Centred makes them of two words: the 53 highest bits of both words, in two parts that doubles hold
@@ -130,18 +148,38 @@ RandomStream DeviceStreams::Of(std::size_t k) const { return {Key(k), space_->St
 
 RandomStream DeviceStreams::Of(std::size_t k, std::uint64_t whom) const { return {Key(k), space_->StreamTick(), whom}; }
 
-void DeviceStreams::Sample(const NoiseModel& noise, std::size_t k, std::span<double> samples) const
+void DeviceStreams::Draw(std::size_t k, std::span<double> numbers) const
 {
   StreamWords stream(Key(k), space_->StreamTick());
   constexpr std::size_t kGroup = 2 * kDoubleLanes;  // a block gives two samples
-  for (std::size_t i = 0; i < samples.size(); i += kGroup)
+  const auto draw = [&]<std::size_t kGroups>(std::size_t first)
   {
-    stream.counter[0] = Numbered(i / 2);
-    const Words words = PhiloxEach(stream.counter, stream.key);
-    std::array<double, kGroup> drawn;
-    StorePairs(CentredOf(words[0], words[1]), CentredOf(words[2], words[3]), drawn.data());
-    std::copy_n(drawn.begin(), std::min(kGroup, samples.size() - i), &samples[i]);
-  }
+    std::array<Words, kGroups> counters;
+    for (std::size_t g = 0; g < kGroups; ++g)
+    {
+      counters[g] = stream.counter;
+      counters[g][0] = Numbered(first / 2 + g * kDoubleLanes);
+    }
+    const std::array<Words, kGroups> words = PhiloxEach(counters, stream.key);
+    std::array<double, kGroups * kGroup> drawn;
+    for (std::size_t g = 0; g < kGroups; ++g)
+      StorePairs(CentredOf(words[g][0], words[g][1]), CentredOf(words[g][2], words[g][3]), &drawn[g * kGroup]);
+    std::copy_n(drawn.begin(), std::min(drawn.size(), numbers.size() - first), &numbers[first]);
+  };
+  InGroups<kGroup>(numbers.size(), draw);
+}
+
+void DeviceStreams::Sample(const NoiseModel& noise, std::size_t k, std::span<double> samples) const
+{
+  Draw(k, samples);
+  MakeSamples(noise, samples);
+}
+
+void DeviceStreams::Sample(const NoiseModel& noise, std::span<const std::uint32_t> ks, std::span<double> samples) const
+{
+  if (ks.empty()) return;
+  const std::size_t each = samples.size() / ks.size();
+  for (std::size_t i = 0; i < ks.size(); ++i) Draw(ks[i], samples.subspan(i * each, each));
   MakeSamples(noise, samples);
 }
 
@@ -149,20 +187,25 @@ void DeviceStreams::Sample(const NoiseModel& noise, std::size_t k, std::span<con
                            std::span<double> samples) const
 {
   const StreamWords stream(Key(k), space_->StreamTick());
-  for (std::size_t i = 0; i < whoms.size(); i += kDoubleLanes)
+  const auto draw = [&]<std::size_t kGroups>(std::size_t first)
   {
-    const std::size_t count = std::min<std::size_t>(kDoubleLanes, whoms.size() - i);
-    std::array<std::uint64_t, kDoubleLanes> some{};
-    std::copy_n(&whoms[i], count, some.begin());
-    const auto whom = LoadAs<UnsignedLongLanes>(some.data());
-    Words counter = stream.counter;
-    counter[2] ^= whom;
-    counter[3] ^= whom >> 32;
-    const Words words = PhiloxEach(counter, stream.key);
-    std::array<double, kDoubleLanes> drawn;
-    StoreLanes(CentredOf(words[0], words[1]), drawn.data());
-    std::copy_n(drawn.begin(), count, &samples[i]);
-  }
+    std::array<std::uint64_t, kGroups * kDoubleLanes> some{};
+    const std::size_t count = std::min(some.size(), whoms.size() - first);
+    std::copy_n(&whoms[first], count, some.begin());
+    std::array<Words, kGroups> counters;
+    for (std::size_t g = 0; g < kGroups; ++g)
+    {
+      const auto whom = LoadAs<UnsignedLongLanes>(&some[g * kDoubleLanes]);
+      counters[g] = stream.counter;
+      counters[g][2] ^= whom;
+      counters[g][3] ^= whom >> 32;
+    }
+    const std::array<Words, kGroups> words = PhiloxEach(counters, stream.key);
+    std::array<double, kGroups * kDoubleLanes> drawn;
+    for (std::size_t g = 0; g < kGroups; ++g) StoreLanes(CentredOf(words[g][0], words[g][1]), &drawn[g * kDoubleLanes]);
+    std::copy_n(drawn.begin(), count, &samples[first]);
+  };
+  InGroups<kDoubleLanes>(whoms.size(), draw);
   MakeSamples(noise, samples);
 }
 

@@ -27,6 +27,8 @@ public:
   RandomStream Of(std::size_t k, std::uint64_t whom) const;
   // What noise.Sample gives call by call with Of(k): several at a time.
   void Sample(const NoiseModel& noise, std::size_t k, std::span<double> samples) const;
+  // The same for several robots, as many for each, one robot behind the other: faster than one robot after the other.
+  void Sample(const NoiseModel& noise, std::span<const std::uint32_t> ks, std::span<double> samples) const;
   // What it gives once with Of(k, whom) for each of them.
   void Sample(const NoiseModel& noise, std::size_t k, std::span<const std::uint64_t> whoms,
               std::span<double> samples) const;
@@ -40,6 +42,8 @@ private:
     return keys_[k];
   }
   void MakeKeys() const;
+  // What RandomStream::Centred gives call by call with Of(k).
+  void Draw(std::size_t k, std::span<double> numbers) const;
 
   const CSwarmanoidSpace* space_ = nullptr;
   std::vector<std::uint32_t> robots_;

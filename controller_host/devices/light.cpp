@@ -101,13 +101,19 @@ private:
       if (IsDue(k)) std::fill_n(this->ValuesOf(k), kSensors, 0.0);
     CollectPoints();
     for (std::size_t b = 0; b < bulbs_.size(); ++b) AddBulb(b);
+    made_.clear();
     for (std::size_t k = 0; k < this->robots_.size(); ++k)
     {
       if (!IsDue(k)) continue;
+      made_.push_back(static_cast<std::uint32_t>(k));
       double* const values = this->ValuesOf(k);
       for (unsigned i = 0; i < kSensors; ++i) values[i] = std::min(values[i], 1.0);
-      if (!this->noise_.IsActive()) continue;
-      this->AddNoise(k);
+    }
+    if (!this->noise_.IsActive()) return;
+    this->AddNoise(made_);
+    for (const std::uint32_t k : made_)
+    {
+      double* const values = this->ValuesOf(k);
       for (unsigned i = 0; i < kSensors; ++i) values[i] = std::clamp(values[i], 0.0, 1.0);
     }
   }
@@ -187,6 +193,7 @@ private:
   std::vector<FixedShadows> fixed_;  // by bulb
   std::unique_ptr<MovingShadows> shadows_;
   std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1
+  std::vector<std::uint32_t> made_;            // k of those whose readings were due
   SightedPoints points_;                       // of this tick
   std::vector<std::uint32_t> seen_;            // of them, by the bulb in turn
   std::vector<double> ahead_, beside_, bearing_, brightness_;

@@ -115,14 +115,28 @@ std::uint32_t AttributeActuator::Disturbed(std::uint32_t colour, RandomStream ra
 void ValueSensor::AddNoise()
 {
   if (!noise_.IsActive()) return;
-  for (std::size_t k = 0; k < robots_.size(); ++k) AddNoise(k);
+  while (all_.size() < robots_.size()) all_.push_back(static_cast<std::uint32_t>(all_.size()));
+  AddNoise(all_);
 }
 
 void ValueSensor::AddNoise(std::size_t k)
 {
-  samples_.resize(width_);
-  streams_.Sample(noise_, k, samples_);
-  for (std::size_t i = 0; i < width_; ++i) ValuesOf(k)[i] += samples_[i];
+  const auto number = static_cast<std::uint32_t>(k);
+  AddNoise({&number, 1});
+}
+
+void ValueSensor::AddNoise(std::span<const std::uint32_t> ks)
+{
+  constexpr std::size_t kAtOnce = 16;  // robots, whose samples stay in the cache
+  for (std::size_t first = 0; first < ks.size(); first += kAtOnce)
+  {
+    const auto some = ks.subspan(first, std::min(kAtOnce, ks.size() - first));
+    samples_.resize(some.size() * width_);
+    streams_.Sample(noise_, some, samples_);
+    const double* sample = samples_.data();
+    for (const std::uint32_t k : some)
+      for (std::size_t i = 0; i < width_; ++i) ValuesOf(k)[i] += *sample++;
+  }
 }
 
 void ChannelSensor::Update(const ChannelView& channel)
@@ -140,7 +154,7 @@ void AttributeSensor::Bind(const DeviceSetup& setup, const std::vector<std::stri
 
 void AttributeSensor::Update(const ChannelView&)
 {
-  const std::span<const double> attributes = space_->Attributes();
+  const SparseVector<double>& attributes = space_->Attributes();
   for (std::size_t i = 0; i < slots_.size(); ++i) values_[i] = attributes[slots_[i]];
   AddNoise();
 }

@@ -79,10 +79,12 @@ class ValueSensor : public SensorBatch, protected DeviceValues
 protected:
   void AddNoise();
   void AddNoise(std::size_t k);
+  void AddNoise(std::span<const std::uint32_t> ks);
 
   NoiseModel noise_;
 
 private:
+  std::vector<std::uint32_t> all_;  // 0, 1 …; if there is noise
   std::vector<double> samples_;
 };
 

@@ -273,7 +273,7 @@ void PlaneRobots::Raise(std::span<const std::uint32_t> owned, std::span<double> 
 
 void PlaneRobots::Report(AttributeChanges& changes) const
 {
-  const std::span<const double> known = space_->Attributes();
+  const SparseVector<double>& known = space_->Attributes();
   const auto report = [&](std::uint32_t slot, double value)
   {
     if (known[slot] != value) changes.Add(slot, value);

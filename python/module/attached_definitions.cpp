@@ -48,7 +48,7 @@ py::object StateOf(AttachedRun& run)
         state["qy"] = Frozen(poses.qy);
         state["qz"] = Frozen(poses.qz);
         state["qw"] = Frozen(poses.qw);
-        state["attributes"] = Frozen(space.Attributes());
+        state["attributes"] = Frozen(space.Attributes().Values());
       });
   return has_one ? py::object(state) : py::none();
 }

@@ -165,7 +165,7 @@ void DefineSimulation(py::module_& module)
       .def_property_readonly("attributes",
                              [](const Handle& self)
                              {
-                               const std::span<const double> values = self->Space().Attributes();
+                               const std::span<const double> values = self->Space().Attributes().Values();
                                return View(self, values.data(), {static_cast<py::ssize_t>(values.size())}, false);
                              })
       .def("slot", [](const Simulation& self, std::size_t index, const std::string& name)

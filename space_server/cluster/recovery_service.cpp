@@ -86,15 +86,18 @@ RecoveryService::Plan RecoveryService::MakePlan(const std::string& name)
   for (const JournalPlace& place : all)
     if (place.kind == JournalBlockKind::kTicks && place.first_tick + place.ticks > first && place.first_tick < tick)
       plan.places.push_back(place);
+  std::span<const char> last;
+  Room room;
   if (is_done)
   {
     // The engines may have all that they need of it: then the run goes on as soon as the new process is there.
     TickRows rows;
     rows.Add(record.state, record.save, record.frames, {});
-    plan.last = EncodeJournalBlock(JournalBlockKind::kTicks, tick, 1, rows.Content());
+    last = EncodeJournalBlock(JournalBlockKind::kTicks, tick, 1, rows.Content(room));
   }
   else
-    plan.last = EncodeJournalBlock(JournalBlockKind::kFrames, tick, 0, ContentOf(record.frames));
+    last = EncodeJournalBlock(JournalBlockKind::kFrames, tick, 0, ContentOf(record.frames));
+  plan.last.assign(last.begin(), last.end());
   return plan;
 }
 

@@ -227,13 +227,19 @@ void ServerProgram::Close()
       });
   lockstep_.CloseHashLog();
   run_control_.Ended(result.ticks);
+  result.wall_s = Seconds(end_ - start_);
+  result.real_time_factor = RealTimeFactor(result.ticks - first_tick_, experiment_.TickSeconds(), result.wall_s);
+  status_.Publish(ServerTick{result.ticks, experiment_.max_clock, result.real_time_factor});
   PublishViews();
   auto said = Clock::now();
   repeat_after_ = kFirstRepeat;
-  while (!session_.AllLeft())
+  since_ = said;
+  stall_said_ = 0s;
+  for (std::vector<std::string> there = session_.NotLeft(); !there.empty(); there = session_.NotLeft())
   {
     CheckFailures();
     Sleep(Clock::now() + 10ms);
+    if (StallIsDue()) ReportStall(Joined(there));
     if (Clock::now() - said < repeat_after_) continue;
     said = Clock::now();
     repeat_after_ = std::min<Clock::duration>(2 * repeat_after_, kLastRepeat);
@@ -249,9 +255,6 @@ void ServerProgram::Close()
     session_.LeaveToNext();
   else
     session_.Leave(result.ticks, "");
-  result.wall_s = Seconds(end_ - start_);
-  result.real_time_factor = RealTimeFactor(result.ticks - first_tick_, experiment_.TickSeconds(), result.wall_s);
-  status_.Publish(ServerTick{result.ticks, experiment_.max_clock, result.real_time_factor});
   if (const auto& reset = run_control_.Reset())
     status_.Publish(ServerReset{reset->seed, reset->paused, reset->real_time_factor});
   status_.Publish(ServerFinished{result.ticks, result.entities, result.hash, result.wall_s, result.real_time_factor});

@@ -102,6 +102,9 @@ private:
   void ReportState();
   // Progress, late answers, stalls.
   void ReportProgress();
+  // Since since_ somebody has been waited for long, and it has not been said lately.
+  bool StallIsDue() const;
+  void ReportStall(const std::string& who);
   // Whom the run waits for: those whose answer is missing, or those whom they in turn wait for.
   std::string LateNames(std::uint64_t tick) const;
   RunStatus::Phase Phase() const;

@@ -74,18 +74,24 @@ void ServerProgram::ReportProgress()
     repeated_ = now;
     repeat_after_ = std::min<Clock::duration>(2 * repeat_after_, kLastRepeat);
   }
-  if (now - since_ >= kStallTime && now - since_ >= stall_said_ + 1s)
-  {
-    stall_said_ = now - since_;
-    const std::string who = LateNames(tick);
-    status_.Publish(ServerStall{who, std::round(Seconds(stall_said_))});
-    Say(fmt::format("tick {}: waiting for {} since {:.0f} s", tick, who, Seconds(stall_said_)));
-  }
+  if (StallIsDue()) ReportStall(LateNames(tick));
   ReportState();
   if (run_control_.Paused() && held)
     pace_.Rest(tick, now);
   else if (pace_.Observe(tick, now))
     status_.Publish(ServerTick{tick, experiment_.max_clock, pace_.RealTimeFactor()});
+}
+
+bool ServerProgram::StallIsDue() const
+{
+  return Clock::now() - since_ >= std::max<Clock::duration>(kStallTime, stall_said_ + 1s);
+}
+
+void ServerProgram::ReportStall(const std::string& who)
+{
+  stall_said_ = Clock::now() - since_;
+  status_.Publish(ServerStall{who, std::round(Seconds(stall_said_))});
+  Say(fmt::format("tick {}: waiting for {} since {:.0f} s", lockstep_.Tick(), who, Seconds(stall_said_)));
 }
 
 std::string ServerProgram::LateNames(std::uint64_t tick) const

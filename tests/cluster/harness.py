@@ -144,7 +144,7 @@ class LauncherTest(unittest.TestCase):
 
     def control(self, *words):
         """What a request that is obeyed says."""
-        answer = self.run_it("control", *words)
+        answer = self.run_it("control", *words, "--patience", GENEROUS_S, timeout=2 * GENEROUS_S)
         self.assertEqual(answer.process.returncode, 0, answer.stderr)
         return answer.stdout
 

@@ -107,7 +107,7 @@ class Adopted(OrphanTest):
         expected = self.undisturbed()
         for number in range(KILLS):
             run = self.begin()
-            stepper = self.start("control", "step", TICKS - 200)
+            stepper = self.start("control", "step", TICKS - 200, "--patience", GENEROUS_S)
             moment = seed.randrange(1, TICKS - 300)
             # In the midst of ticks: the run is as quick as it can be.
             self.wait_for_tick("cluster", moment, run)
@@ -336,7 +336,7 @@ class SupervisorKilled(OrphanTest):
         seed = random.Random(SEED)
         for _ in range(2):
             run = self.begin()
-            stepper = self.start("control", "step", TICKS - 200)
+            stepper = self.start("control", "step", TICKS - 200, "--patience", GENEROUS_S)
             self.wait_for_tick("cluster", seed.randrange(1, TICKS - 300), run)
             os.kill(run.supervisor, signal.SIGKILL)
             said = run.read_until(AGAIN)

@@ -161,6 +161,24 @@ class WhoDies(SplitTest):
         self.assert_same(run, 400, expected)
         self.assertNotIn("all processes start again", run.stderr)
 
+    def test_a_region_that_comes_after_the_last_tick(self):
+        expected = self.one_process(EXPERIMENT, 200)
+        run = self.begin(200)
+        self.control("step", 150)
+        dead = [self.region(run, 0), self.leader(run)]
+        for pid in dead:
+            os.kill(pid, signal.SIGKILL)
+        late = self.region(run, 0, dead=dead)
+        os.kill(late, signal.SIGSTOP)
+        run.read_until(REPLACED)
+        run.read_until(REPLACED)
+        # The engine does without its regions until all are there.
+        self.control("resume")
+        self.wait_for_tick("cluster", 199, run)
+        run.read_until("waiting for engine 'ground', region 0 of engine 'ground', region 1")
+        os.kill(late, signal.SIGCONT)
+        self.assert_same(run, 200, expected)
+
     def test_one_that_is_stopped_for_longer_than_the_lease(self):
         expected = self.one_process(EXPERIMENT, 300)
         run = self.begin(300, "--lease", 1)

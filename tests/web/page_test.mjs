@@ -725,7 +725,8 @@ const tests = {
     assert.equal(await plots.count(), 1); // speed
     for (const name of ["x", "y", "heading"]) await page.click(`[aria-label="Plot ${name}"]`);
     assert.equal(await plots.count(), 3); // m/s, m, degrees
-    await until(page, () => swarmanoid.tick > 30);
+    const begin = await read(page, () => swarmanoid.tick); // plots have nothing of the time before they were opened
+    await until(page, (tick) => swarmanoid.tick > tick + 30, begin);
     await page.click(".plot >> nth=1 >> text=All");
     const [table] = await Promise.all([page.waitForEvent("download"), page.click(".plot >> nth=1 >> text=CSV")]);
     assert.equal(table.suggestedFilename(), "diffusion_10_fb_4_x_y.csv");

@@ -25,7 +25,7 @@ LookBackAnswers Past::Answers()
             SpaceSnapshot state;
             state.tick = space.GetTick();
             space.WritePoses(state.poses);
-            state.attributes.assign(space.Attributes().begin(), space.Attributes().end());
+            state.attributes.assign(space.Attributes().Values().begin(), space.Attributes().Values().end());
             const std::lock_guard lock(mutex_);
             arrived_.state = std::move(state);
           },

@@ -194,7 +194,7 @@ std::optional<FrameStep> FrameWriter::StepOf(std::size_t slot) const
 
 void FrameWriter::ReadAttributes()
 {
-  const std::span<const double> attributes = space_.Attributes();
+  const SparseVector<double>& attributes = space_.Attributes();
   grips_.clear();
   rings_.clear();
   std::uint8_t* bytes = colours_.data();
@@ -224,7 +224,7 @@ void FrameWriter::ReadAttributes()
 // The mean colour of the LEDs that shine, or that of the beacon if none does.
 std::uint32_t FrameWriter::ReadLeds(const Bearer& bearer, std::uint8_t& flags)
 {
-  const double* leds = &space_.Attributes()[bearer.led];
+  const std::span<const double> leds = space_.Attributes().Part(bearer.led, bearer.leds);
   std::uint32_t sum[3] = {};
   std::uint32_t lit = 0;
   bool even = true;
@@ -267,7 +267,7 @@ std::uint32_t FrameWriter::ReadLeds(const Bearer& bearer, std::uint8_t& flags)
 void FrameWriter::FindBeams()
 {
   beams_.clear();
-  const std::span<const double> attributes = space_.Attributes();
+  const SparseVector<double>& attributes = space_.Attributes();
   for (const Bearer& bearer : bearers_)
   {
     if (bearer.laser == kNone || attributes[bearer.laser] == 0 || !space_.IsPresent(bearer.entity)) continue;

@@ -207,7 +207,7 @@ private:
   // Of the nearest lit LED that makes a spot there, and looks at the eye; 0: none.
   std::uint32_t LedColour(std::uint32_t entity, const Surface& surface, const Vector3& eye, const Vector3& point) const
   {
-    const std::span<const double> attributes = space_->Attributes();
+    const SparseVector<double>& attributes = space_->Attributes();
     const Pose to_robot = space_->GetPose(entity).Inverse();
     const SinCos turret =
         surface.turret_slot == Surface::kNoSlot ? SinCos{0, 1} : SinCosOf(attributes[surface.turret_slot]);

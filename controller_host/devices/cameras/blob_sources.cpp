@@ -24,7 +24,7 @@ constexpr double kLongestBeam = 30;
 constexpr std::uint32_t kRgb = 0xffffff;
 constexpr std::uint32_t kParts = 0xff;
 
-std::uint32_t ColourIn(std::span<const double> attributes, std::uint32_t slot)
+std::uint32_t ColourIn(const SparseVector<double>& attributes, std::uint32_t slot)
 {
   return static_cast<std::uint32_t>(attributes[slot]);
 }
@@ -83,7 +83,7 @@ void BlobSources::Refresh()
   revision_ = space.Revision();
   attribute_revision_ = space.AttributeRevision();
 
-  const std::span<const double> attributes = space.Attributes();
+  const SparseVector<double>& attributes = space.Attributes();
   sources_.clear();
   cones_.clear();
   lit_by_.clear();
@@ -172,8 +172,8 @@ void BlobSources::AddPoint(std::uint32_t entity, const Vector3& local, std::uint
 void BlobSources::AddLeds(const Bearer& bearer)
 {
   const LedLayout& ring = *bearer.ring->leds;
-  const std::span<const double> attributes = world_.Space().Attributes();
-  const double* leds = &attributes[bearer.led_slot];
+  const SparseVector<double>& attributes = world_.Space().Attributes();
+  const double* leds = attributes.Part(bearer.led_slot, ring.places.size()).data();
   const auto count = ring.places.size();
   if (bearer.beacon_slot != kNoSlot)
     AddPoint(bearer.entity, {0, 0, *bearer.ring->beacon_height_m}, ColourIn(attributes, bearer.beacon_slot),
@@ -209,8 +209,8 @@ void BlobSources::AddLeds(const Bearer& bearer)
 void BlobSources::AddDirectionalLeds(const Bearer& bearer)
 {
   const LedLayout& ring = *bearer.ring->leds;
-  const std::span<const double> attributes = world_.Space().Attributes();
-  const double* leds = &attributes[bearer.led_slot];
+  const SparseVector<double>& attributes = world_.Space().Attributes();
+  const double* leds = attributes.Part(bearer.led_slot, ring.places.size()).data();
   SinCos turret{0, 1};
   if (ring.on_turret) turret = SinCosOf(attributes[bearer.turret_slot]);
   const auto turned = [&](double x, double y, double z)
@@ -231,7 +231,7 @@ void BlobSources::AddDirectionalLeds(const Bearer& bearer)
 // engine, or on the floor.
 void BlobSources::AddLaserSpot(const Laser& laser)
 {
-  const std::span<const double> attributes = world_.Space().Attributes();
+  const SparseVector<double>& attributes = world_.Space().Attributes();
   const std::uint32_t colour = ColourIn(attributes, laser.slot + 1);
   if (colour == 0) return;
   const SinCos pan = SinCosOf(attributes[laser.slot + 2]);

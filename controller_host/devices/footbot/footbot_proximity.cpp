@@ -21,7 +21,8 @@ constexpr double kContactDistance = 0.009889556;
 constexpr double kHyperbolaScale = 0.0100527;
 constexpr double kHyperbolaOffset = 0.000163144;
 
-constexpr std::size_t kAhead = 8;  // robots, whose memory is fetched early
+constexpr std::size_t kAhead = 8;      // robots, whose memory is fetched early
+constexpr std::size_t kDisturbed = 8;  // at once
 
 }  // namespace
 
@@ -69,7 +70,15 @@ bool FootbotProximity::KnowsNear() const
 void FootbotProximity::MakeDue()
 {
   if (remembers_ && !KnowsNear() && world_->Moved().IsNow()) FindNear();
-  if (KnowsNear()) return SenseNear();
+  if (KnowsNear())
+    SenseNear();
+  else
+    SenseAll();
+  if (noise_.IsActive()) Disturb();
+}
+
+void FootbotProximity::SenseAll()
+{
   // In the order of the grid's cells, where it has the places of the robots: neighbours stay in the cache. What is kept
   // of a robot itself lies anywhere.
   ListOwn(AllAreDue());
@@ -90,6 +99,7 @@ void FootbotProximity::Forget()
     saw_[k] = 1;
   }
   seeing_.clear();
+  disturbed_ = 0;
 }
 
 double* FootbotProximity::NewReadings(std::size_t k)
@@ -97,7 +107,7 @@ double* FootbotProximity::NewReadings(std::size_t k)
   const std::size_t place = seeing_.size();
   if (place == blocks_.size() * kBlock) blocks_.push_back(std::make_unique<FootbotProximityRays::Values[]>(kBlock));
   seeing_.push_back(static_cast<std::uint32_t>(k));
-  double* const readings = blocks_[place / kBlock][place % kBlock].values;
+  double* const readings = ReadingsAt(place);
   sensors_[k].Show(readings);
   return readings;
 }
@@ -293,10 +303,20 @@ void FootbotProximity::FinishReadings(std::size_t k)
   else
     std::fill_n(readings, kRays, 0.0);
 
-  if (!noise_.IsActive()) return;
-  std::array<double, kRays> noise;
-  streams_.Sample(noise_, k, noise);
-  for (unsigned i = 0; i < kRays; ++i) readings[i] = std::clamp(readings[i] + noise[i], 0.0, 1.0);
+  if (noise_.IsActive() && seeing_.size() - disturbed_ == kDisturbed) Disturb();
+}
+
+void FootbotProximity::Disturb()
+{
+  const std::span<const std::uint32_t> robots = std::span(seeing_).subspan(disturbed_);
+  std::array<double, kDisturbed * kRays> noise;
+  streams_.Sample(noise_, robots, std::span(noise).first(robots.size() * kRays));
+  for (std::size_t n = 0; n < robots.size(); ++n)
+  {
+    double* const readings = ReadingsAt(disturbed_ + n);
+    for (unsigned i = 0; i < kRays; ++i) readings[i] = std::clamp(readings[i] + noise[n * kRays + i], 0.0, 1.0);
+  }
+  disturbed_ = seeing_.size();
 }
 
 // As the engine collides them: a handbot's arms, a hull.

@@ -59,6 +59,8 @@ private:
   bool KnowsNear() const;
   void FindNear();
   void SenseNear();
+  // Where that is not known: looks around each robot.
+  void SenseAll();
   // Lists the robots of the batch, all or those that are due, in the order of the grid.
   void ListOwn(bool all);
   // Fetches what Sense will read of robots that come later in that order.
@@ -70,6 +72,9 @@ private:
   void LookAt(std::uint32_t robot, const Vector3& sensors, bool upright, std::uint32_t body, const BodyShape& shape,
               const Vector3& at, bool body_upright);
   void FinishReadings(std::size_t k);
+  double* ReadingsAt(std::size_t place) { return blocks_[place / kBlock][place % kBlock].values; }
+  // Noise for those robots' readings that have none yet.
+  void Disturb();
   void AddAny(std::uint32_t robot, const Shape& shape, const Pose& other);
   template <class HitOf>
   void AddRays(std::uint32_t robot, const Vector3& centre, double radius, const HitOf& hit_of);
@@ -103,6 +108,7 @@ private:
   std::vector<std::unique_ptr<FootbotProximityRays::Values[]>>
       blocks_;                         // of kBlock each; room for all from the start, as others read meanwhile
   std::vector<std::uint32_t> seeing_;  // k of those that have readings
+  std::size_t disturbed_ = 0;          // how many of them have noise
   std::vector<std::uint8_t> saw_;      // whether robot k had readings before
   std::vector<Readings> sensors_;
 };

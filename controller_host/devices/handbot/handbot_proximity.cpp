@@ -66,7 +66,7 @@ protected:
   std::span<const ProximitySensorRay> RaysOf(std::size_t k) override
   {
     const Slots& slots = slots_[k];
-    const std::span<const double> attributes = space_->Attributes();
+    const SparseVector<double>& attributes = space_->Attributes();
     for (std::uint32_t hand = 0; hand < 2; ++hand)
     {
       const HandRays rays(&rays_[hand * HandRays::extent], HandRays::extent);

@@ -92,7 +92,7 @@ private:
   void Spread(const Sender& sender)
   {
     const Vector3 place = space_->GetPose(sender.entity).position;
-    const AttributePacket packet = UnpackedPacket(&space_->Attributes()[sender.slot + 1]);
+    const AttributePacket packet = UnpackedPacket(&space_->Attributes().Values()[sender.slot + 1]);
     for (const std::uint32_t entity : query_->FindWithin(place, range_))
     {
       const std::int32_t place_of_robot = place_of_entity_[entity];

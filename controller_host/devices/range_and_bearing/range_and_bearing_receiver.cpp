@@ -139,7 +139,7 @@ private:
   void ReadMessages()
   {
     if (std::exchange(messages_are_read_, true)) return;
-    const std::span<const double> attributes = world_->Space().Attributes();
+    const SparseVector<double>& attributes = world_->Space().Attributes();
     const std::span<const std::uint32_t> senders = world_->Grid().Sorted();
     std::size_t sent = 0;
     for (std::size_t place = 0; place < senders.size(); ++place)
@@ -148,10 +148,10 @@ private:
       Sent& message = messages_[place];
       message.is_sent = slot != kNoSlot && attributes[slot] != 0;
       sent += message.is_sent;
-      if (message.is_sent) message.bytes = UnpackedMessage(&attributes[slot + 1]);
+      if (message.is_sent) message.bytes = UnpackedMessage(&attributes.Values()[slot + 1]);
       const std::uint32_t further = FurtherOf(senders[place]);
       if (message.is_sent && further != 0)
-        UnpackBytes(&attributes[further_slots_[further - 1]], further_bytes_[further - 1]);
+        UnpackBytes(&attributes.Values()[further_slots_[further - 1]], further_bytes_[further - 1]);
     }
     all_send_ = sent == senders.size();
     look_at_all_ = 2 * sent > senders.size() && world_->Grid().AllUpright();

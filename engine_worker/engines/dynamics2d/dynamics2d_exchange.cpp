@@ -83,7 +83,7 @@ void CDynamics2dEngine::WritePoses(EngineUpdate& update) const
 
 void CDynamics2dEngine::ReportAttributes(EngineUpdate& update) const
 {
-  const std::span<const double> known = space_->Attributes();
+  const SparseVector<double>& known = space_->Attributes();
   const auto report = [&](std::uint32_t slot, double value)
   {
     if (known[slot] != value) update.attributes.Add(slot, value);

@@ -158,7 +158,7 @@ void Kinematics2dEngine::ReportFootbots(AttributeChanges& changes)
 {
   if (!footbots_change_ && reported_ == space_->AttributeRevision()) return;
   const std::size_t before = changes.slots.size();
-  const std::span<const double> known = space_->Attributes();
+  const SparseVector<double>& known = space_->Attributes();
   const auto report = [&](std::uint32_t slot, double value)
   {
     if (known[slot] != value) changes.Add(slot, value);

@@ -63,7 +63,7 @@ TEST_F(ServerSessionTest, IsReadWhileProcessesComeAndTellWhatTheyDo)
             for (std::uint64_t tick = 0; tick < kCount; tick += 7)
               if (const std::string text = session.Status("engine 'ground'", tick); !text.empty())
                 torn += !IsWhole(text);
-            torn += session.Missing().size() > 1 || session.Failure().has_value() || session.AllLeft() != true;
+            torn += session.Missing().size() > 1 || session.Failure().has_value() || !session.NotLeft().empty();
           }
         });
   for (std::uint64_t k = 1; k < kCount; ++k)

@@ -137,6 +137,17 @@ TEST(NoiseKinds, ManySamplesAreThoseOfOneByOne)
   for (const NoiseModel& noise : {Made("uniform", 0.1, 0, 0.3), Made("gaussian", 0.1, 0.2, 0),
                                   Made("gaussian", 0.1, 0.2, 0.3), Made("truncated_gaussian", 0.1, 0.2, 0.3)})
     for (std::size_t count = 0; count < 40; ++count)
+    {
+      const std::vector<std::uint32_t> some{2, 0, 1};
+      std::vector<double> of_some(some.size() * count);
+      streams.Sample(noise, some, of_some);
+      auto one = of_some.begin();
+      for (const std::uint32_t k : some)
+      {
+        RandomStream random = streams.Of(k);
+        for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(*one++, noise.Sample(random));
+      }
+
       for (std::size_t k = 0; k < 3; ++k)
       {
         std::vector<double> samples(count);
@@ -149,6 +160,7 @@ TEST(NoiseKinds, ManySamplesAreThoseOfOneByOne)
         streams.Sample(noise, k, whoms, samples);
         for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(samples[i], noise.Sample(streams.Of(k, whoms[i])));
       }
+    }
 }
 
 }  // namespace

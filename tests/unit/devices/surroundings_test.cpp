@@ -101,7 +101,7 @@ std::unique_ptr<Host> Successor(const Experiment& experiment, const Assignment& 
   SpaceSnapshot snapshot;
   snapshot.tick = before.space.GetTick();
   before.space.WritePoses(snapshot.poses);
-  snapshot.attributes.assign(before.space.Attributes().begin(), before.space.Attributes().end());
+  snapshot.attributes.assign(before.space.Attributes().Values().begin(), before.space.Attributes().Values().end());
   host->space.Apply(snapshot);
   ByteWriter saved;
   before.role.SaveState(saved);

@@ -69,7 +69,7 @@ protected:
       {
         snapshot.tick = state.tick;
         space_.WritePoses(snapshot.poses);
-        snapshot.attributes.assign(space_.Attributes().begin(), space_.Attributes().end());
+        snapshot.attributes.assign(space_.Attributes().Values().begin(), space_.Attributes().Values().end());
         journal.Add(snapshot);
         journal.Add(state.tick, {kServerPart, {'s'}});
       }

@@ -50,7 +50,8 @@ TEST(AttributeChanges, ASlotThatStandsTwiceIsNotOrdered)
 
 TEST(AttributeChanges, WhoReportsLastDecidesOnASlot)
 {
-  const std::vector<double> known{0, 10, 20, 30};
+  SparseVector<double> known;
+  for (const double value : {0.0, 10.0, 20.0, 30.0}) known.push_back(value);
   AttributeChanges changes;
   ReportChanges(std::vector<std::uint32_t>{1, 2, 3}, std::vector<double>{10, 21, 31}, known, changes);
   EXPECT_THAT(changes.slots, ElementsAre(2, 3));

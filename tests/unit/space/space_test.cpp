@@ -133,7 +133,7 @@ TEST(Space, AReplicaThatComesLateKnowsWhoIsNotThere)
   snapshot.tick = 9;
   original.SetTick(9);
   original.WritePoses(snapshot.poses);
-  snapshot.attributes.assign(original.Attributes().begin(), original.Attributes().end());
+  snapshot.attributes.assign(original.Attributes().Values().begin(), original.Attributes().Values().end());
   CSwarmanoidSpace replica(experiment);
   SpaceQuery query(replica);
   replica.Apply(snapshot);

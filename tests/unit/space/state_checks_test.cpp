@@ -177,7 +177,7 @@ TEST_F(StateChecks, ASavedStateIsCheckedAsAWhole)
 {
   SpaceSnapshot snapshot;
   snapshot.poses = poses;
-  snapshot.attributes.assign(space.Attributes().begin(), space.Attributes().end());
+  snapshot.attributes.assign(space.Attributes().Values().begin(), space.Attributes().Values().end());
   const auto mistake = [&] { return Mistake([&] { CheckSnapshot(space, snapshot); }); };
   EXPECT_EQ(mistake(), "");
   std::swap(snapshot.attributes[space.PresenceSlot(1)], snapshot.attributes[space.PresenceSlot(19)]);
@@ -221,7 +221,7 @@ TEST_F(StateChecks, PresenceIsPartOfTheStateBesideThePose)
 
   SpaceSnapshot snapshot;
   snapshot.poses = state.poses;
-  snapshot.attributes.assign(space.Attributes().begin(), space.Attributes().end());
+  snapshot.attributes.assign(space.Attributes().Values().begin(), space.Attributes().Values().end());
   CSwarmanoidSpace late(experiment);
   late.Apply(snapshot);
   EXPECT_THAT(late.Absent(), ElementsAre(3, 19));

@@ -136,7 +136,7 @@ TEST_F(Structure, AReplicaThatJoinsLateHasTheSameTree)
   Hold(2, 8);
   SpaceSnapshot snapshot;
   space.WritePoses(snapshot.poses);
-  snapshot.attributes.assign(space.Attributes().begin(), space.Attributes().end());
+  snapshot.attributes.assign(space.Attributes().Values().begin(), space.Attributes().Values().end());
   CSwarmanoidSpace replica(experiment);
   replica.Apply(snapshot);
   EXPECT_THAT(replica.Structure().GetCompound(8).GetMembers(), ElementsAre(1, 2, 8));
@@ -187,7 +187,7 @@ TEST_F(Structure, ASavedLoopIsRefused)
 {
   SpaceSnapshot snapshot;
   space.WritePoses(snapshot.poses);
-  snapshot.attributes.assign(space.Attributes().begin(), space.Attributes().end());
+  snapshot.attributes.assign(space.Attributes().Values().begin(), space.Attributes().Values().end());
   snapshot.attributes[space.FirstHandSlot(4)] = 1 + 5;
   EXPECT_NO_THROW(CheckSnapshot(space, snapshot));
   snapshot.attributes[space.FirstHandSlot(5)] = 1 + 4;
