@@ -175,8 +175,8 @@ void RegionTeamLink::Work(bool anew, const WriteTasks& write, std::span<std::vec
   {
     const std::span<const char> error = PartOf(places_[k].result, 1);
     if (!error.empty()) throw std::runtime_error(std::string(error.begin(), error.end()));
-    const std::span<const char> result = PartOf(places_[k].result, 0);
-    results[k].assign(result.begin(), result.end());
+    // It is all there is.
+    results[k].swap(places_[k].result.bytes);
   }
 }
 
@@ -265,8 +265,8 @@ void RegionLink::TaskReceived(const MessageHeader& header, RegionTaskMessage& ta
     number_ = task.number;
     is_done_ = false;
     next_tick_ = header.tick;
-    next_.emplace();
-    std::swap(*next_, task);
+    has_next_ = true;
+    std::swap(next_, task);
   }
   changed_.notify_all();
 }
@@ -301,7 +301,7 @@ void RegionLink::Swap(std::span<const ByteWriter> out, std::span<std::vector<cha
   };
   Patience patience;
   std::unique_lock lock(mutex_);
-  while (!changed_.wait_for(lock, patience.time, [&] { return all_here() || next_ || is_closed_; }))
+  while (!changed_.wait_for(lock, patience.time, [&] { return all_here() || has_next_ || is_closed_; }))
   {
     lock.unlock();
     WriteHalosAgain(true);
@@ -365,7 +365,7 @@ bool RegionLink::EngineHasLeft() const
 RegionLink::Next RegionLink::WaitForNext()
 {
   std::unique_lock lock(mutex_);
-  const auto is_due = [this] { return next_ || is_asked_again_ || is_halo_missed_ || is_lost_ || is_closed_; };
+  const auto is_due = [this] { return has_next_ || is_asked_again_ || is_halo_missed_ || is_lost_ || is_closed_; };
   while (!changed_.wait_for(lock, is_over_ ? kLook : kLookBefore, is_due))
   {
     // The bus calls with locks of its own, which this asks for.
@@ -378,10 +378,9 @@ RegionLink::Next RegionLink::WaitForNext()
     lock.lock();
   }
   if (is_closed_) return Next::kEnd;
-  if (next_)
+  if (std::exchange(has_next_, false))
   {
-    std::swap(task_, *next_);
-    next_.reset();
+    std::swap(task_, next_);
     tick_ = next_tick_;
     is_asked_again_ = is_halo_missed_ = is_lost_ = false;
     return Next::kTask;
@@ -427,7 +426,7 @@ void RegionLink::Serve(EngineRegion& region)
     if (task_.number == kFirstTask) malloc_trim(0);
     {
       const std::lock_guard lock(mutex_);
-      is_done_ = !next_;
+      is_done_ = !has_next_;
     }
     is_over_ = task_.number == kEndOfRun;
   }

@@ -11,7 +11,6 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -135,7 +134,8 @@ private:
   Halos said_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::optional<RegionTaskMessage> next_;
+  RegionTaskMessage next_;
+  bool has_next_ = false;
   std::uint64_t next_tick_ = 0;
   std::uint32_t epoch_ = 0, number_ = 0;  // of the newest task that has come
   bool is_done_ = false;                  // that one, and answered

@@ -37,6 +37,21 @@ public:
   {
     PutArray(std::span<const T>(values));
   }
+  // As PutArray, of value_of(0), value_of(1), ...
+  template <class ValueOf>
+  void PutEach(std::size_t count, const ValueOf& value_of)
+  {
+    using Value = std::decay_t<decltype(value_of(std::size_t{0}))>;
+    static_assert(std::is_trivially_copyable_v<Value>);
+    Put(static_cast<std::uint64_t>(count));
+    const std::size_t begin = bytes_.size();
+    bytes_.resize(begin + count * sizeof(Value));
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      const Value value = value_of(k);
+      std::memcpy(bytes_.data() + begin + k * sizeof(Value), &value, sizeof(Value));
+    }
+  }
   void PutText(std::string_view text) { PutArray(std::span<const char>(text.data(), text.size())); }
 
   const std::vector<char>& Bytes() const { return bytes_; }
@@ -62,11 +77,18 @@ public:
   template <class T>
   requires std::is_trivially_copyable_v<T> std::vector<T> GetArray()
   {
-    const auto count = Get<std::uint64_t>();
-    if (count > bytes_.size() / sizeof(T)) throw std::runtime_error("saved state: an array is longer than the state");
-    std::vector<T> values(count);
-    if (count > 0) std::memcpy(values.data(), Take(count * sizeof(T)), count * sizeof(T));
+    std::vector<T> values;
+    GetArray(values);
     return values;
+  }
+  // Into room that is there already.
+  template <class T>
+  requires std::is_trivially_copyable_v<T>
+  void GetArray(std::vector<T>& values)
+  {
+    const std::span<const char> image = GetImage<T>();
+    values.resize(image.size() / sizeof(T));
+    if (!image.empty()) std::memcpy(values.data(), image.data(), image.size());
   }
   // The bytes of an array of such elements, where they are: not aligned.
   template <class T>

@@ -100,6 +100,8 @@ private:
   void Collect();
   void RunTicks();
   void ReportState();
+  // To whoever started the run, and decides by it where those are replaced that die.
+  void TellTick();
   // Progress, late answers, stalls.
   void ReportProgress();
   // Since since_ somebody has been waited for long, and it has not been said lately.
@@ -142,6 +144,7 @@ private:
   Clock::time_point end_;
   std::optional<ServerState::Phase> said_phase_;
   std::uint64_t last_tick_ = 0;
+  std::optional<std::uint64_t> told_tick_;
   Clock::time_point since_;  // the current tick is waited for
   Clock::time_point repeated_;
   Clock::duration repeat_after_{};

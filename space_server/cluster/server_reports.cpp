@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/activity/print_error.h"
 #include "space_server/cluster/process_liveness.h"
@@ -76,9 +77,15 @@ void ServerProgram::ReportProgress()
   }
   if (StallIsDue()) ReportStall(LateNames(tick));
   ReportState();
-  if (run_control_.Paused() && held)
-    pace_.Rest(tick, now);
-  else if (pace_.Observe(tick, now))
+  const bool rests = run_control_.Paused() && held;
+  if (rests) pace_.Rest(tick, now);
+  if (rests || pace_.Observe(tick, now)) TellTick();
+}
+
+void ServerProgram::TellTick()
+{
+  const std::uint64_t tick = lockstep_.Tick();
+  if (std::exchange(told_tick_, tick) != tick)
     status_.Publish(ServerTick{tick, experiment_.max_clock, pace_.RealTimeFactor()});
 }
 

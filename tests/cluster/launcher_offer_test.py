@@ -139,8 +139,8 @@ class Offers(OfferTest):
         self.control("step", 300)
         self.control("move-host", "1", "beta")
         self.control("move-engine", "ground", "beta")
-        # A worker: another process of that machine takes its place, if the run has gone on since it came there.
-        self.control("step", 100)
+        # A worker: another process of that machine takes its place, if the run has gone on since it came there, by however little.
+        self.control("step", 1)
         self.control("speed", SLOW)
         self.control("resume")
         killed = next(pid for pid, words in self.workers_of(agent).items() if "--engine" in words)

@@ -19,7 +19,8 @@ void KinematicWorld::FindContacts()
 {
   const double margin = 2 * reach_;
   SwapFollowers();
-  const bool listed = !region_ && verlet_list_.Update(broad_, before_, present_, margin, Pool());
+  const bool listed =
+      verlet_list_.Update(broad_, region_ ? region_->HeldBlocks() : broad_.Blocks(), before_, present_, margin, Pool());
   if (!listed) broad_.Sort(before_, present_, Pool());
   broad_.FindPairsOfLarge(margin, before_, present_, pairs_of_large_.pairs);
   pairs_of_large_.ends.assign(1, static_cast<std::uint32_t>(pairs_of_large_.pairs.size()));

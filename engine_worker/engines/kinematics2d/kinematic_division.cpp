@@ -131,6 +131,7 @@ void KinematicWorld::Division::WriteForAll(const KinematicWorld& world, bool ane
                                            ByteWriter& task) const
 {
   task.Put<std::uint8_t>(anew ? 1 : 0);
+  task.Put<std::uint8_t>(changed_.empty() ? 0 : 1);
   task.Put(seconds);
   task.Put(steps);
   task.PutArray(knows_cuts_ && !anew ? std::vector<std::uint8_t>() : region_of_block_);
@@ -172,10 +173,9 @@ void KinematicWorld::Division::WriteChanges(const KinematicWorld& world, std::sp
     rates[region_of_body_[turret.body]].push_back({turret.body, 0, turret.rate});
   for (std::size_t region = 0; region < tasks.size(); ++region)
   {
-    twists_.clear();
-    for (const std::uint32_t body : bodies_[region]) twists_.push_back(world.twists_.Get(body));
+    const std::vector<std::uint32_t>& bodies = bodies_[region];
     tasks[region].PutArray(changed[region]);
-    tasks[region].PutArray(twists_);
+    tasks[region].PutEach(bodies.size(), [&](std::size_t k) { return world.twists_.Get(bodies[k]); });
     tasks[region].PutArray(rates[region]);
   }
 }
@@ -189,7 +189,7 @@ void KinematicWorld::Division::ReadResult(KinematicWorld& world, unsigned region
   world.statistics_.contacts += statistics.contacts;
   world.statistics_.held_back += statistics.held_back;
   std::vector<std::uint32_t>& bodies = bodies_[region];
-  bodies = result.GetArray<std::uint32_t>();
+  result.GetArray(bodies);
   for (const std::uint32_t body : bodies)
   {
     if (body >= world.count_ || world.IsFollower(body) || region_of_body_[body] != kNoRegion)
@@ -222,6 +222,7 @@ void KinematicWorld::Division::DoTask(KinematicWorld& world, std::span<const cha
 {
   ByteReader task(bytes);
   const bool anew = task.Get<std::uint8_t>() != 0;
+  if (task.Get<std::uint8_t>() != 0) world.region_->ShareOutAnew();
   const auto seconds = task.Get<double>();
   const auto steps = task.Get<int>();
   if (const auto cuts = task.GetArray<std::uint8_t>(); !cuts.empty()) world.region_->SetCuts(world, cuts);
@@ -253,7 +254,7 @@ void KinematicWorld::Division::DoTask(KinematicWorld& world, std::span<const cha
 
 void KinematicWorld::Division::TakeChanges(KinematicWorld& world, ByteReader& task)
 {
-  const Region& region = *world.region_;
+  Region& region = *world.region_;
   const auto own = [&](std::uint32_t number)
   {
     const std::uint32_t body = region.FindBody(number);
@@ -267,17 +268,14 @@ void KinematicWorld::Division::TakeChanges(KinematicWorld& world, ByteReader& ta
     world.present_[body] = changed.is_present != 0 ? 1 : 0;
   }
   const std::span<const char> twists = task.GetImage<Twist>();
-  std::size_t at = 0;
-  for (std::uint32_t body = 0; body < world.count_; ++body)
+  const std::span<const std::uint32_t> bodies = region.FindOwn();
+  if (twists.size() != bodies.size() * sizeof(Twist)) Refuse("it computes other bodies");
+  for (std::size_t k = 0; k < bodies.size(); ++k)
   {
-    if (!region.IsOwn(body)) continue;
-    if (at == twists.size()) Refuse("it computes more bodies");
     Twist twist;
-    std::memcpy(&twist, twists.data() + at, sizeof(Twist));
-    at += sizeof(Twist);
-    world.twists_.Set(body, twist);
+    std::memcpy(&twist, twists.data() + k * sizeof(Twist), sizeof(Twist));
+    world.twists_.Set(bodies[k], twist);
   }
-  if (at != twists.size()) Refuse("it computes fewer bodies");
 
   std::vector<std::uint32_t> stopped;
   const auto rates = task.GetArray<TurretRate>();
@@ -295,24 +293,12 @@ void KinematicWorld::Division::TakeChanges(KinematicWorld& world, ByteReader& ta
 
 void KinematicWorld::Division::WriteResult(const KinematicWorld& world, ByteWriter& result)
 {
-  const Region& region = *world.region_;
-  std::vector<std::uint32_t> bodies, numbers;
-  bodies.reserve(world.count_);
-  numbers.reserve(world.count_);
-  for (std::uint32_t body = 0; body < world.count_; ++body)
-    if (region.IsOwn(body))
-    {
-      bodies.push_back(body);
-      numbers.push_back(region.NumberInWhole(body));
-    }
+  Region& region = *world.region_;
+  const std::span<const std::uint32_t> bodies = region.FindOwn();
   result.Put(world.statistics_);
-  result.PutArray(numbers);
-  std::vector<double> values(bodies.size());
+  result.PutEach(bodies.size(), [&](std::size_t k) { return region.NumberInWhole(bodies[k]); });
   const auto put = [&](const auto& of_bodies)
-  {
-    for (std::size_t k = 0; k < bodies.size(); ++k) values[k] = of_bodies[bodies[k]];
-    result.PutArray(values);
-  };
+  { result.PutEach(bodies.size(), [&](std::size_t k) { return of_bodies[bodies[k]]; }); };
   for (const std::vector<double>* of_bodies : {&world.now_.x, &world.now_.y, &world.now_.z, &world.now_.w})
     put(*of_bodies);
   std::vector<TurretAngle> turrets;

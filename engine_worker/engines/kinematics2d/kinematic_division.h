@@ -74,9 +74,7 @@ private:
   std::vector<std::uint8_t> region_of_body_;        // that computed it last
   std::vector<std::vector<std::uint32_t>> bodies_;  // of each region, as it told them last
   std::vector<std::vector<char>> results_;
-  // Of the tick, for one region; here to be used again.
-  std::vector<std::uint32_t> cells_;
-  std::vector<Twist> twists_;
+  std::vector<std::uint32_t> cells_;  // of the tick; here to be used again
 };
 
 }  // namespace swarmanoid::kinematics2d

@@ -15,6 +15,9 @@ namespace swarmanoid::kinematics2d
 namespace
 {
 
+// Of the width of a cell, less what rounding takes.
+constexpr double kWayThatLasts = 0.999;
+
 // Gives back what the whole world took.
 template <class Values>
 void Trim(Values& values)
@@ -122,6 +125,20 @@ void KinematicWorld::Region::SetCuts(KinematicWorld& world, std::span<const std:
   }
   inner_.resize(cells.Count());
   for (std::size_t cell = 0; cell < inner_.size(); ++cell) inner_[cell] = holders_[cell] == Bit(number_) ? 1 : 0;
+
+  held_blocks_.clear();
+  for (std::uint32_t block = 0; block < region_of_block.size(); ++block)
+  {
+    bool is_held = false;
+    broad.ForEachRowOf(block,
+                       [&](std::uint32_t first, std::uint32_t last)
+                       {
+                         is_held |= std::any_of(holders_.begin() + first, holders_.begin() + last + 1,
+                                                [&](Regions holders) { return (holders & Bit(number_)) != 0; });
+                       });
+    if (is_held) held_blocks_.push_back(block);
+  }
+  is_shared_out_ = false;
 }
 
 std::uint32_t KinematicWorld::Region::FindBody(std::uint32_t number_in_whole) const
@@ -129,6 +146,18 @@ std::uint32_t KinematicWorld::Region::FindBody(std::uint32_t number_in_whole) co
   const auto found = std::lower_bound(numbers_.begin(), numbers_.end(), number_in_whole);
   return found == numbers_.end() || *found != number_in_whole ? kNobody
                                                               : static_cast<std::uint32_t>(found - numbers_.begin());
+}
+
+std::span<const std::uint32_t> KinematicWorld::Region::FindOwn()
+{
+  own_.resize(is_own_.size());
+  std::size_t count = 0;
+  for (std::uint32_t body = 0; body < is_own_.size(); ++body)
+  {
+    own_[count] = body;
+    count += is_own_[body];
+  }
+  return {own_.data(), count};
 }
 
 KinematicWorld::Region::Regions KinematicWorld::Region::HoldersOf(std::uint32_t body) const
@@ -179,6 +208,8 @@ void KinematicWorld::Region::ShareMaxima(std::initializer_list<double*> numbers)
 
 void KinematicWorld::Region::SetGrips(std::vector<Grip> grips)
 {
+  if (grips == grips_) return;
+  is_shared_out_ = false;
   grips_ = std::move(grips);
   grouped_.clear();
   for (const Grip& grip : grips_) grouped_.insert(grouped_.end(), {grip.body, grip.prey});
@@ -187,6 +218,18 @@ void KinematicWorld::Region::SetGrips(std::vector<Grip> grips)
 }
 
 void KinematicWorld::Region::ShareBodies(KinematicWorld& world)
+{
+  way_ += world.reach_;
+  // Of the halo one cell is needed in each substep.
+  const double lasting = kWayThatLasts * (static_cast<double>(halo_) - 1);
+  if (way_ * world.broad_.Cells().columns.inverse_edge >= lasting) is_shared_out_ = false;
+  if (is_shared_out_) return TellBorder(world);
+  ShareOut(world);
+  is_shared_out_ = true;
+  way_ = 0;
+}
+
+void KinematicWorld::Region::ShareOut(KinematicWorld& world)
 {
   FindCells(world);
   MarkEverywhere(world);
@@ -214,6 +257,29 @@ void KinematicWorld::Region::ShareBodies(KinematicWorld& world)
   if (had_groups || !grips_.empty()) world.RebuildGroups();
 }
 
+// To those who hold them already.
+void KinematicWorld::Region::TellBorder(KinematicWorld& world)
+{
+  ForEachOther(
+      [&](unsigned region)
+      {
+        for (const std::uint32_t body : common_[region])
+          if (IsOwn(body)) PutBody(world, body, numbers_[body], out_[region]);
+      });
+  Swap();
+  ReadBodies(world);
+  const auto foreign = std::ranges::count_if(border_, [&](std::uint32_t body) { return !IsOwn(body); });
+  if (arrived_.size() != static_cast<std::size_t>(foreign)) Refuse("bodies of the border were not told");
+  for (const ArrivedBody& arrived : arrived_)
+  {
+    const std::uint32_t body = FindBody(arrived.body.number);
+    if (body == kNobody || IsOwn(body)) Refuse("a body was sent by one that does not compute it");
+    Settle(world, body, arrived);
+  }
+  for (const std::uint32_t body : border_)
+    is_own_[body] = owner_[world.broad_.Cells().CellOf(world.now_.x[body], world.now_.y[body])] == number_ ? 1 : 0;
+}
+
 // Who holds which body from now on.
 void KinematicWorld::Region::TakeArrived(KinematicWorld& world)
 {
@@ -225,6 +291,7 @@ void KinematicWorld::Region::TakeArrived(KinematicWorld& world)
     std::vector<double> radii(world.count_);
     for (std::uint32_t body = 0; body < world.count_; ++body) radii[body] = world.RadiusOf(body);
     world.broad_.SetBodies(radii);
+    world.verlet_list_.Forget();
     world.grips_.clear();
     world.RebuildGroups();
   }
@@ -233,6 +300,7 @@ void KinematicWorld::Region::TakeArrived(KinematicWorld& world)
 
 void KinematicWorld::Region::BeginAgain(KinematicWorld& world, ByteReader& bodies)
 {
+  is_shared_out_ = false;
   for (ByteWriter& message : out_) message.Clear();
   gone_.clear();
   for (std::uint32_t body = 0; body < world.count_; ++body)
@@ -436,16 +504,19 @@ void KinematicWorld::Region::Settle(KinematicWorld& world, std::uint32_t body, c
   world.SetTurretAngle(body, arrived.turret.angle);
 }
 
-// Who computes and who holds which body in the substep that begins.
+// Who computes which body in the substep that begins, and who holds it.
 void KinematicWorld::Region::FindCommon(const KinematicWorld& world)
 {
   MarkEverywhere(world);
   for (std::vector<std::uint32_t>& bodies : common_) bodies.clear();
+  border_.clear();
   for (std::uint32_t body = 0; body < world.count_; ++body)
   {
     if (IsInner(body) || world.IsFollower(body)) continue;
     is_own_[body] = owner_[cells_[body]] == number_ ? 1 : 0;
-    ForEachBit(HoldersOf(body) & others_, [&](unsigned region) { common_[region].push_back(body); });
+    const Regions others = HoldersOf(body) & others_;
+    if (others != 0) border_.push_back(body);
+    ForEachBit(others, [&](unsigned region) { common_[region].push_back(body); });
   }
 }
 

@@ -1,8 +1,10 @@
 // What a kinematic world has and does more if it is one of the regions into which a plane is cut. Private to it.
 //
 // A region computes the blocks of cells that it was given, and holds the bodies in them and in the cells around them.
-// Whoever computes a body at the beginning of a substep tells it to all others that hold it then: so bodies migrate.
-// After that all that happens to a body is told to all who hold it, by who does it; each computes the same from it.
+// It needs those next to its blocks and holds two rows of cells, so that who holds whom lasts until somebody may have
+// gone as far as a cell is wide. Then, and when somebody is put elsewhere, whoever computes a body tells it to all who
+// are to hold it: so bodies migrate. Who of those computes it follows from where it is when a substep begins. All that
+// happens to a body is told to all who hold it, by who does it; each computes the same from it.
 //
 // What is not bound to a place is told to all regions, and computed by each: the largest ways, who grips whom, contacts
 // of groups and of large bodies, and the limits of motions, whose rounds end for all at once. There is little of it.
@@ -33,8 +35,12 @@ public:
 
   void SetCuts(KinematicWorld& world, std::span<const std::uint8_t> region_of_block);
 
+  // Blocks in which bodies may be that it holds, ascending.
+  std::span<const std::uint32_t> HeldBlocks() const { return held_blocks_; }
   // Those of all regions, by numbers in the whole world and in its order.
   void SetGrips(std::vector<Grip> grips);
+  // Who holds whom is decided anew before the next substep. For all regions at once.
+  void ShareOutAnew() { is_shared_out_ = false; }
   // From now on it computes those that follow, as PutBody wrote them, and holds no others.
   void BeginAgain(KinematicWorld& world, ByteReader& bodies);
 
@@ -59,6 +65,8 @@ public:
   std::uint32_t NumberInWhole(std::uint32_t body) const { return numbers_[body]; }
   std::uint32_t FindBody(std::uint32_t number_in_whole) const;
   bool IsOwn(std::uint32_t body) const { return is_own_[body] != 0; }
+  // The bodies that it computes, ascending.
+  std::span<const std::uint32_t> FindOwn();
   static void PutBody(const KinematicWorld& world, std::uint32_t body, std::uint32_t number, ByteWriter& message);
 
 private:
@@ -135,6 +143,8 @@ private:
     ForEachBit(others_, act);
   }
   void Swap();
+  void ShareOut(KinematicWorld& world);
+  void TellBorder(KinematicWorld& world);
   void FindCells(const KinematicWorld& world);
   void ReadBodies(const KinematicWorld& world);
   void ReadBodies(const KinematicWorld& world, ByteReader& message);
@@ -164,12 +174,18 @@ private:
   std::vector<std::uint8_t> owner_;
   std::vector<Regions> holders_;
   std::vector<std::uint8_t> inner_;  // this region alone holds what is in it
+
+  std::vector<std::uint32_t> held_blocks_;
+  bool is_shared_out_ = false;
+  double way_ = 0;  // metres: nobody has gone further since the bodies were shared out
   // Of each body that is held.
   std::vector<std::uint32_t> numbers_;  // in the whole world, ascending
   std::vector<std::uint8_t> is_own_, is_told_;
   std::vector<std::uint8_t> is_everywhere_;  // all regions hold it
   std::vector<std::uint32_t> cells_;
   std::vector<std::vector<std::uint32_t>> common_;  // bodies that this region and another one hold, ascending
+  std::vector<std::uint32_t> border_;               // those of all the others
+  std::vector<std::uint32_t> own_;                  // room for FindOwn
 
   std::vector<Grip> grips_;             // of all regions, by numbers in the whole world
   std::vector<std::uint32_t> grouped_;  // bodies in groups, as numbers in the whole world, ascending

@@ -33,6 +33,8 @@ struct Grip
   std::uint32_t body = 0;  // the one that grips
   std::uint32_t prey = 0;
   Pose2 relative;  // of the body in the frame of the prey
+
+  friend bool operator==(const Grip&, const Grip&) = default;
 };
 
 struct WorldStatistics
@@ -124,8 +126,10 @@ public:
   // After Start, another world of the same making: one of the regions of such a team. It holds the bodies in its blocks
   // and in the cells around them, at most `halo` cells away, with numbers of its own; followers, members of groups and
   // bodies that are too large for the cells it holds wherever they are. It speaks to the others by `exchange`, which
-  // outlives the world. One cell of halo is enough. Throws std::runtime_error if there is no such region.
-  void BecomeRegion(unsigned region, RegionExchange& exchange, unsigned halo = 1);
+  // outlives the world. One cell of halo is enough, but then who holds whom is found in each substep. Throws
+  // std::runtime_error if there is no such region.
+  static constexpr unsigned kHalo = 2;
+  void BecomeRegion(unsigned region, RegionExchange& exchange, unsigned halo = kHalo);
   // What a region does for the world that was divided. Throws std::runtime_error for what is no task.
   void DoTask(std::span<const char> task, ByteWriter& result);
 

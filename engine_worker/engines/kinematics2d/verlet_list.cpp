@@ -28,15 +28,15 @@ void InsertionSort(std::span<Value> values)
 
 }  // namespace
 
-bool VerletList::Update(BroadPhase& broad, const PoseStore& poses, std::span<const std::uint8_t> present, double margin,
-                        WorkerPool* pool)
+bool VerletList::Update(BroadPhase& broad, std::span<const std::uint32_t> blocks, const PoseStore& poses,
+                        std::span<const std::uint8_t> present, double margin, WorkerPool* pool)
 {
   if (!broad.Large().empty() || margin > broad.LargestMargin()) return false;
   if (!lifetime_.BeginStep()) return false;
   if (!lifetime_.HasList() || !Holds(poses, present, margin_ - margin - 4 * broad.Rounding(), pool))
   {
     if (!lifetime_.Renew()) return false;
-    Search(broad, poses, present, pool);
+    Search(broad, blocks, poses, present, pool);
   }
   Choose(broad, poses, margin, pool);
   return true;
@@ -66,15 +66,15 @@ bool VerletList::Holds(const PoseStore& poses, std::span<const std::uint8_t> pre
   return std::ranges::max(parts_, {}, &Part::furthest).furthest <= slack * slack / 4;
 }
 
-void VerletList::Search(BroadPhase& broad, const PoseStore& poses, std::span<const std::uint8_t> present,
-                        WorkerPool* pool)
+void VerletList::Search(BroadPhase& broad, std::span<const std::uint32_t> blocks, const PoseStore& poses,
+                        std::span<const std::uint8_t> present, WorkerPool* pool)
 {
   broad.Sort(poses, present, pool);
   x_ = poses.x;
   y_ = poses.y;
   present_.assign(present.begin(), present.end());
   margin_ = broad.LargestMargin();
-  broad.ShareOut(broad.Blocks(), parts_.size(), parts_);
+  broad.ShareOut(blocks, parts_.size(), parts_);
   ForEachPart(pool, [&](Part& part) { broad.FindPairs(margin_, part.blocks, part.candidates); });
 }
 

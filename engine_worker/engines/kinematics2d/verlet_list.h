@@ -19,10 +19,12 @@ class VerletList
 public:
   // `threads`: of the pools that it will get.
   void Configure(unsigned threads) { parts_.resize(threads); }
-  // Brings the list to where the bodies are now, by a search of its own where that is needed. False if it is not worth
-  // while, or if some bodies are large: then the pairs are to be searched for.
-  bool Update(BroadPhase& broad, const PoseStore& poses, std::span<const std::uint8_t> present, double margin,
-              WorkerPool* pool);
+  // Brings the list to where the bodies are now, by a search of its own in these blocks where that is needed. False if
+  // it is not worth while, or if some bodies are large: then the pairs are to be searched for.
+  bool Update(BroadPhase& broad, std::span<const std::uint32_t> blocks, const PoseStore& poses,
+              std::span<const std::uint8_t> present, double margin, WorkerPool* pool);
+  // The bodies have other numbers now.
+  void Forget() { x_.clear(); }
   // After an update that was true: what BroadPhase::FindPairs finds in these blocks. Several threads may ask for
   // different ones.
   void TakePairs(std::span<const std::uint32_t> blocks, PairList& found);
@@ -50,7 +52,8 @@ private:
   };
 
   bool Holds(const PoseStore& poses, std::span<const std::uint8_t> present, double slack, WorkerPool* pool);
-  void Search(BroadPhase& broad, const PoseStore& poses, std::span<const std::uint8_t> present, WorkerPool* pool);
+  void Search(BroadPhase& broad, std::span<const std::uint32_t> blocks, const PoseStore& poses,
+              std::span<const std::uint8_t> present, WorkerPool* pool);
   void Choose(const BroadPhase& broad, const PoseStore& poses, double margin, WorkerPool* pool);
 
   // Calls act(part) with all of them, each in a thread of its own if there is a pool.

@@ -83,7 +83,7 @@ class HubTeam : public RegionTeam
 {
 public:
   // `build` makes a world as the one that is divided was when it started.
-  HubTeam(unsigned regions, std::function<KinematicWorld()> build, unsigned halo = 1)
+  HubTeam(unsigned regions, std::function<KinematicWorld()> build, unsigned halo = KinematicWorld::kHalo)
       : build_(std::move(build)), halo_(halo), hub_(std::make_unique<Hub>(regions)), worlds_(regions), seconds_(regions)
   {
     for (unsigned region = 0; region < regions; ++region) Replace(region);

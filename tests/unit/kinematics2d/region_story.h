@@ -253,7 +253,8 @@ inline void CompareTick(const Scene& scene, const KinematicWorld& world, const T
 }
 
 // The same with the world divided, compared after each tick. `replaced`: a region that becomes another one then.
-inline Outcome Retell(const Scene& scene, const Story& story, unsigned regions, const Cuts& cuts, unsigned halo = 1,
+inline Outcome Retell(const Scene& scene, const Story& story, unsigned regions, const Cuts& cuts,
+                      unsigned halo = KinematicWorld::kHalo,
                       const std::function<std::optional<unsigned>(std::uint64_t tick)>& replaced = nullptr)
 {
   Outcome outcome;

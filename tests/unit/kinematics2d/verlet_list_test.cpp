@@ -60,7 +60,7 @@ struct Swarm
   // Whether the list was used; then it must agree.
   bool Compare(VerletList& list, WorkerPool* pool, double margin = kMargin)
   {
-    if (!list.Update(listed, poses, present, margin, pool)) return false;
+    if (!list.Update(listed, listed.Blocks(), poses, present, margin, pool)) return false;
     PairList found;
     list.TakePairs(listed.Blocks(), found);
     const PairList expected = Search(margin);
