@@ -36,6 +36,7 @@ struct Scene
   bool has_grips = true;
   bool has_followers = true;
   bool has_large = true;
+  bool has_changes = true;  // some are put elsewhere, come and go
   std::uint64_t seed = 1;
 
   std::uint32_t Bodies() const { return static_cast<std::uint32_t>(side * side * density); }
@@ -127,7 +128,7 @@ inline void Command(const Scene& scene, KinematicWorld& world, std::uint32_t bod
   // Some turn for a while only.
   const bool turns = body % 3 == 0 && (tick / 20 + body) % 4 != 0;
   world.SetTurretRate(body, turns ? RandomStream(scene.seed, 3, body, tick / 7).Uniform(-1, 1) : 0);
-  if (body % 53 == 1) world.SetPresent(body, tick / 11 % 3 != 0);
+  if (scene.has_changes && body % 53 == 1) world.SetPresent(body, tick / 11 % 3 != 0);
 }
 
 // What is done to the world before it goes on.
@@ -201,7 +202,7 @@ inline Story Tell(const Scene& scene, std::uint64_t before, std::uint64_t ticks)
     }
     Tick now;
     now.grips = ChooseGrips(scene, world, tick);
-    if (tick % 16 == 9)
+    if (scene.has_changes && tick % 16 == 9)
     {
       const auto body = static_cast<std::uint32_t>(8 + tick * 10 % (scene.Bodies() - 20));
       if (world.FindGrip(body) == nullptr && !scene.IsPrey(body))

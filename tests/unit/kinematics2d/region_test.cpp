@@ -107,6 +107,7 @@ TEST(KinematicRegions, RandomWorldsGoAsInOneWhereCutsStay)
     scene.has_grips = seed % 4 == 0;
     scene.has_followers = seed % 3 == 0;
     scene.has_large = seed % 2 == 0;
+    scene.has_changes = seed % 8 < 5;
     const auto regions = static_cast<unsigned>(random.Uniform(2, 6));
     ExpectSame(scene, Tell(scene, 0, 80), regions,
                [&](auto, auto blocks, auto) { return Scattered(regions, blocks, seed); });
