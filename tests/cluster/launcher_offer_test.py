@@ -65,6 +65,13 @@ class OfferTest(LauncherTest):
         """Words of those that run as its children, by process id."""
         return {pid: words_of(pid) for pid in children_of(agent.process.pid) if (stat_of(pid) or (0, 0, "Z"))[2] != "Z"}
 
+    def kill_one(self, run, agent, role, name):
+        """Of the two workers there; another one takes its place there."""
+        killed = next(pid for pid, words in self.workers_of(agent).items() if role in words)
+        os.kill(killed, signal.SIGKILL)
+        run.read_until(f"{name} on beta was killed by signal 9 (Killed)")
+        self.wait_until(f"another {name}", lambda: len(self.workers_of(agent)) == 2 and killed not in self.workers_of(agent), run)
+
     def assert_undisturbed(self, run, experiment=EXPERIMENT, ticks=TICKS):
         one = self.run_it("run", experiment, "--ticks", ticks, "--single-process", "--quiet", "--hash-log", "one", "--output", "one_out",
                           *(["--no-visualisers"] if experiment != EXPERIMENT else []))
@@ -141,12 +148,10 @@ class Offers(OfferTest):
         self.control("move-engine", "ground", "beta")
         # A worker: another process of that machine takes its place, if the run has gone on since it came there, by however little.
         self.control("step", 1)
+        self.kill_one(run, agent, "--engine", "engine 'ground'")
         self.control("speed", SLOW)
         self.control("resume")
-        killed = next(pid for pid, words in self.workers_of(agent).items() if "--engine" in words)
-        os.kill(killed, signal.SIGKILL)
-        run.read_until("engine 'ground' on beta was killed by signal 9 (Killed)")
-        self.wait_until("another engine", lambda: len(self.workers_of(agent)) == 2 and killed not in self.workers_of(agent), run)
+        self.kill_one(run, agent, "--host", "controller host 1")
         self.control("pause")
         self.control("speed", 0)
         after = self.workers_of(agent)
