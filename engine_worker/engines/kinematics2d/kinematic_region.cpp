@@ -3,6 +3,7 @@
 #include "engine_worker/engines/kinematics2d/kinematic_region.h"
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 #include <stdexcept>
 #include <tuple>
@@ -208,7 +209,8 @@ void KinematicWorld::Region::ShareMaxima(std::initializer_list<double*> numbers)
 
 void KinematicWorld::Region::SetGrips(std::vector<Grip> grips)
 {
-  if (grips == grips_) return;
+  const std::size_t bytes = grips.size() * sizeof(Grip);
+  if (grips.size() == grips_.size() && (bytes == 0 || std::memcmp(grips.data(), grips_.data(), bytes) == 0)) return;
   is_shared_out_ = false;
   grips_ = std::move(grips);
   grouped_.clear();

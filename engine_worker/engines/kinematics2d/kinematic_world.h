@@ -33,8 +33,6 @@ struct Grip
   std::uint32_t body = 0;  // the one that grips
   std::uint32_t prey = 0;
   Pose2 relative;  // of the body in the frame of the prey
-
-  friend bool operator==(const Grip&, const Grip&) = default;
 };
 
 struct WorldStatistics

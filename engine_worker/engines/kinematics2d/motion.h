@@ -12,8 +12,6 @@ struct Rotor
 {
   double z = 0;
   double w = 1;
-
-  friend bool operator==(const Rotor&, const Rotor&) = default;
 };
 
 struct Pose2
@@ -21,8 +19,6 @@ struct Pose2
   double x = 0;
   double y = 0;
   Rotor heading;
-
-  friend bool operator==(const Pose2&, const Pose2&) = default;
 };
 
 // Velocity of a body in its own frame: forward and left in m/s, turn in rad/s counter-clockwise.
