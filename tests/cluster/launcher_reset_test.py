@@ -19,7 +19,7 @@ class Resets(LauncherTest):
     def await_reset(self, run, number):
         """Until the run goes by the name of the next one: who asks earlier may ask the one that ends."""
         said = run.read_until(f"reset-{number}")
-        return said + run.read_until("paused, ")
+        return said + run.read_until("paused")
 
     def resume(self, run):
         """However late the space server is there, and however soon the run has ended."""
