@@ -9,6 +9,9 @@ namespace swarmanoid
 namespace
 {
 
+// Room for messages up to this (bytes) is used again. Worlds come once, and may have a hundred times as much.
+constexpr std::size_t kKept = 1 << 20;
+
 // Those of a share have a name of their own, so that readers of the run do not hear what they cannot open.
 template <class Message>
 std::string TopicName(const std::optional<ShareChannel>& share)
@@ -135,7 +138,17 @@ struct Subscription<Message>::Impl : dds::DataReaderListener
     call.payload = &payload;
     dds::SampleInfo about;
     while (source->take_next_sample(&call, &about) == ReturnCode::RETCODE_OK)
+    {
       if (about.valid_data) Take(about.sample_identity.writer_guid());
+      if (payload.capacity() > kKept) GiveRoomBack();
+    }
+  }
+
+  void GiveRoomBack()
+  {
+    payload = {};
+    room = {};
+    message = {};
   }
 
   void Take(const Writer& writer)

@@ -15,7 +15,7 @@ namespace swarmanoid
 {
 
 // Equal to PROTOCOL_VERSION of the IDL; a test says so.
-inline constexpr std::uint32_t kProtocolVersion = 15;
+inline constexpr std::uint32_t kProtocolVersion = 16;
 
 // What precedes every message of a tick.
 struct MessageHeader

@@ -1,9 +1,11 @@
 #include "common/bus/region_links.h"
 
+#include <fmt/format.h>
 #include <malloc.h>
 
 #include <algorithm>
 
+#include "common/bus/replica.h"
 #include "common/bus/tick_gate.h"
 #include "common/messages/assignment.h"
 
@@ -25,12 +27,19 @@ constexpr std::chrono::milliseconds kLookBefore = 500ms;  // likewise, before it
 constexpr std::chrono::milliseconds kLinger = 5s;
 constexpr std::chrono::milliseconds kForEver = std::chrono::hours(24 * 365);
 
-unsigned RegionsOfAll(const Experiment& experiment) { return RegionNumber(experiment, experiment.engines.size(), 0); }
-
-unsigned SplitEngines(const Experiment& experiment)
+// What is said among the processes of one engine, and to one region.
+HotScope AmongEngine(const WorkerSession& session, std::uint32_t engine, std::size_t capacity, unsigned writers)
 {
-  return static_cast<unsigned>(std::ranges::count_if(
-      experiment.engines, [](const EngineConfiguration& engine) { return RegionsOf(engine) > 0; }));
+  HotScope scope = session.Scope(capacity, writers);
+  scope.listener = PartNameOfEngine(engine);
+  return scope;
+}
+
+HotScope ToRegion(const WorkerSession& session, std::uint32_t region, std::size_t capacity)
+{
+  HotScope scope = session.Scope(capacity, 1);
+  scope.listener = fmt::format("region {}", region);
+  return scope;
 }
 
 void RequireParts(const RegionMessage& message, std::size_t parts)
@@ -70,10 +79,10 @@ RegionTeamLink::RegionTeamLink(WorkerSession& session, const Experiment& experim
     : session_(session),
       engine_(static_cast<std::uint32_t>(engine)),
       first_(RegionNumber(experiment, engine, 0)),
-      of_all_(RegionsOfAll(experiment)),
+      // Whatever a worker before this one said is of an earlier epoch.
+      epoch_(session.Header(0, 0).incarnation << 16U),
       places_(RegionsOf(experiment.engines[engine])),
-      tasks_(session.GetBus(), session.Scope(limits.RegionBytes(), SplitEngines(experiment))),
-      results_(session.GetBus(), session.Scope(limits.RegionBytes(), of_all_),
+      results_(session.GetBus(), AmongEngine(session, engine_, limits.RegionResultBytes(), RegionCount()),
                {[this](const MessageHeader& header) -> RegionResultMessage*
                 {
                   const bool is_of_ours = header.source >= first_ && header.source - first_ < places_.size();
@@ -82,18 +91,23 @@ RegionTeamLink::RegionTeamLink(WorkerSession& session, const Experiment& experim
                 [this](const MessageHeader& header, RegionResultMessage& result) { Received(header, result); },
                 [](const MessageHeader&, const RegionResultMessage& result) { RequireParts(result, 2); }})
 {
-  // Whatever a worker before this one said is of an earlier epoch.
-  task_.epoch = session.Header(0, 0).incarnation << 16U;
   for (unsigned k = 0; k < places_.size(); ++k)
   {
     places_[k].name = RegionName(experiment, engine, k);
+    places_[k].tasks = std::make_unique<HotPublisher<RegionTaskMessage>>(
+        session.GetBus(), ToRegion(session, first_ + k, limits.RegionTaskBytes()));
     session.Trust(places_[k].name);
   }
 }
 
 RegionTeamLink::~RegionTeamLink() = default;
 
-unsigned RegionTeamLink::Missing() const { return of_all_ - std::min({of_all_, tasks_.Readers(), results_.Writers()}); }
+unsigned RegionTeamLink::Missing() const
+{
+  const auto met = static_cast<unsigned>(
+      std::ranges::count_if(places_, [](const Place& place) { return place.tasks->Readers() > 0; }));
+  return RegionCount() - std::min({RegionCount(), met, results_.Writers()});
+}
 
 void RegionTeamLink::Begin(std::mutex& role) { role_ = &role; }
 
@@ -111,8 +125,11 @@ void RegionTeamLink::Received(const MessageHeader& header, RegionResultMessage& 
   const std::lock_guard lock(mutex_);
   Place& place = places_[header.source - first_];
   if (result.epoch == 0)
+  {
     begins_again_ = true;
-  else if (result.epoch == task_.epoch && result.number == task_.number && !place.is_here)
+    place.is_here = false;
+  }
+  else if (result.epoch == epoch_ && result.number == number_ && !place.is_here)
   {
     std::swap(place.result, result);
     place.is_here = true;
@@ -120,7 +137,32 @@ void RegionTeamLink::Received(const MessageHeader& header, RegionResultMessage& 
   changed_.notify_all();
 }
 
-void RegionTeamLink::Send() { tasks_.Write(session_.Header(tick_, engine_), task_); }
+void RegionTeamLink::MakeTask(std::uint32_t epoch, std::uint32_t number, std::span<const ByteWriter> parts)
+{
+  const std::lock_guard lock(mutex_);
+  epoch_ = epoch;
+  number_ = number;
+  for (std::size_t k = 0; k < places_.size(); ++k)
+  {
+    Place& place = places_[k];
+    place.task.epoch = epoch;
+    place.task.number = number;
+    Pack(parts.subspan(k, 1), place.task);
+    place.is_here = false;
+  }
+}
+
+void RegionTeamLink::Send()
+{
+  for (Place& place : places_)
+  {
+    {
+      const std::lock_guard lock(mutex_);
+      if (place.is_here) continue;
+    }
+    place.tasks->Write(session_.Header(tick_, engine_), place.task);
+  }
+}
 
 bool RegionTeamLink::SendAndWait(std::chrono::milliseconds most)
 {
@@ -151,13 +193,7 @@ void RegionTeamLink::Work(bool anew, const WriteTasks& write, std::span<std::vec
     }
     for (ByteWriter& part : parts_) part.Clear();
     write(anew, parts_);
-    {
-      const std::lock_guard lock(mutex_);
-      task_.number = anew ? kFirstTask : task_.number + 1;
-      if (anew) ++task_.epoch;
-      Pack(parts_, task_);
-      for (Place& place : places_) place.is_here = false;
-    }
+    anew ? MakeTask(epoch_ + 1, kFirstTask, parts_) : MakeTask(epoch_, number_ + 1, parts_);
     role_->unlock();
     try
     {
@@ -182,14 +218,8 @@ void RegionTeamLink::Work(bool anew, const WriteTasks& write, std::span<std::vec
 
 void RegionTeamLink::End()
 {
-  {
-    const std::lock_guard lock(mutex_);
-    ++task_.epoch;  // there may have been no task: epoch 0 is of those that begin again
-    task_.number = kEndOfRun;
-    task_.sizes.assign(places_.size(), 0);
-    task_.bytes.clear();
-    for (Place& place : places_) place.is_here = false;
-  }
+  // In an epoch of its own: there may have been no task, and epoch 0 is of those that begin again.
+  MakeTask(epoch_ + 1, kEndOfRun, std::vector<ByteWriter>(places_.size()));
   session_.WaitUntil(
       [this]
       {
@@ -214,12 +244,10 @@ RegionLink::RegionLink(WorkerSession& session, const Experiment& experiment, std
       first_(RegionNumber(experiment, engine, 0)),
       own_(region),
       regions_(RegionsOf(experiment.engines[engine])),
-      engines_(SplitEngines(experiment)),
-      of_all_(RegionsOfAll(experiment)),
       heard_(regions_),
-      halos_out_(session.GetBus(), session.Scope(limits.RegionBytes(), of_all_)),
-      results_(session.GetBus(), session.Scope(limits.RegionBytes(), of_all_)),
-      halos_in_(session.GetBus(), session.Scope(limits.RegionBytes(), of_all_),
+      halos_out_(session.GetBus(), AmongEngine(session, engine_, limits.RegionHaloBytes(), regions_)),
+      results_(session.GetBus(), AmongEngine(session, engine_, limits.RegionResultBytes(), regions_)),
+      halos_in_(session.GetBus(), AmongEngine(session, engine_, limits.RegionHaloBytes(), regions_),
                 {[this](const MessageHeader& header) -> RegionHaloMessage*
                  {
                    const bool is_of_ours = header.source >= first_ && header.source - first_ < regions_;
@@ -229,11 +257,11 @@ RegionLink::RegionLink(WorkerSession& session, const Experiment& experiment, std
                  },
                  [this](const MessageHeader& header, RegionHaloMessage& halo) { HaloReceived(header, halo); },
                  [this](const MessageHeader&, const RegionHaloMessage& halo) { RequireParts(halo, regions_); }}),
-      tasks_(session.GetBus(), session.Scope(limits.RegionBytes(), engines_),
+      tasks_(session.GetBus(), ToRegion(session, first_ + own_, limits.RegionTaskBytes()),
              {[this](const MessageHeader& header) -> RegionTaskMessage*
               { return header.run == session_.World().run && header.source == engine_ ? &arriving_task_ : nullptr; },
               [this](const MessageHeader& header, RegionTaskMessage& task) { TaskReceived(header, task); },
-              [this](const MessageHeader&, const RegionTaskMessage& task) { RequireParts(task, regions_); }})
+              [this](const MessageHeader&, const RegionTaskMessage& task) { RequireParts(task, 1); }})
 {
   session.Trust(engine_name_);
   for (unsigned k = 0; k < regions_; ++k)
@@ -245,8 +273,8 @@ RegionLink::~RegionLink() = default;
 unsigned RegionLink::Missing() const
 {
   // Its own reader and writer meet, too.
-  const unsigned others = of_all_ - std::min({of_all_, halos_out_.Readers(), halos_in_.Writers()});
-  return others + engines_ - std::min({engines_, results_.Readers(), tasks_.Writers()});
+  const unsigned others = regions_ - std::min({regions_, halos_out_.Readers(), halos_in_.Writers()});
+  return others + 1 - std::min({1U, results_.Readers(), tasks_.Writers()});
 }
 
 void RegionLink::TaskReceived(const MessageHeader& header, RegionTaskMessage& task)
@@ -407,7 +435,7 @@ void RegionLink::Serve(EngineRegion& region)
     try
     {
       if (task_.number == kFirstTask) exchanges_ = 0;
-      if (task_.number != kEndOfRun) region.Work(PartOf(task_, own_), result);
+      if (task_.number != kEndOfRun) region.Work(PartOf(task_, 0), result);
     }
     catch (const RegionsBeginAgain&)
     {

@@ -10,6 +10,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -49,10 +50,15 @@ private:
   struct Place
   {
     std::string name;
-    bool is_here = false;  // the result of the present task
+    std::unique_ptr<HotPublisher<RegionTaskMessage>> tasks;
+    RegionTaskMessage task;  // the present one
+    bool is_here = false;    // its result
     RegionResultMessage result;
   };
 
+  // A task of all regions.
+  void MakeTask(std::uint32_t epoch, std::uint32_t number, std::span<const ByteWriter> parts);
+  // To those whose results are not here.
   void Send();
   // Sends the task until all results are here, or a region has to be told all: true for the former. False also if it
   // takes longer than `most`.
@@ -62,17 +68,15 @@ private:
   WorkerSession& session_;
   const std::uint32_t engine_;
   const std::uint32_t first_;  // number of region 0
-  const unsigned of_all_;      // regions of all engines
   std::mutex* role_ = nullptr;
   std::atomic<std::uint64_t> tick_ = 0;
+  std::uint32_t epoch_, number_ = 0;  // of the present task
   std::vector<ByteWriter> parts_;
-  RegionTaskMessage task_;  // the present one
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Place> places_;
   bool begins_again_ = false;
   RegionResultMessage arriving_;  // of the subscription's thread
-  HotPublisher<RegionTaskMessage> tasks_;
   HotSubscription<RegionResultMessage> results_;
 };
 
@@ -124,7 +128,6 @@ private:
   const std::uint32_t first_;  // number of region 0 of the engine
   const std::uint32_t own_;    // of this one, from 0
   const unsigned regions_;     // of the engine
-  const unsigned engines_, of_all_;
   std::uint64_t tick_ = 0;
   std::atomic<bool> is_over_ = false;
   RegionTaskMessage task_;  // in work, or done last

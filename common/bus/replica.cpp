@@ -8,6 +8,16 @@
 
 namespace swarmanoid
 {
+namespace
+{
+
+bool IsSame(const CSwarmanoidSpaceEntity& entity, const WorldEntity& told)
+{
+  return entity.GetId() == told.id && TagName(entity.GetKind()) == told.kind && entity.IsMovable() == told.movable &&
+         entity.FirstSlot() == told.first_slot;
+}
+
+}  // namespace
 
 Replica::Replica(const WorldMessage& world, bool load_controllers)
 {
@@ -26,10 +36,9 @@ Replica::Replica(const WorldMessage& world, bool load_controllers)
   limits = std::make_unique<const TickLimits>(*space, assignment, world.recorded);
 
   // A worker on another machine may have other plug-ins, and so another world, under the same names.
-  const WorldMessage own = DescribeWorld(*space, world.run, world.file, world.hosts);
-  const auto same = [](const WorldEntity& a, const WorldEntity& b)
-  { return a.id == b.id && a.kind == b.kind && a.movable == b.movable && a.first_slot == b.first_slot; };
-  if (!std::equal(own.entities.begin(), own.entities.end(), world.entities.begin(), world.entities.end(), same))
+  bool is_same = space->Size() == world.entities.size();
+  for (std::size_t i = 0; is_same && i < space->Size(); ++i) is_same = IsSame(space->GetEntity(i), world.entities[i]);
+  if (!is_same)
     throw BusError(
         "the entities made from the experiment differ from those of the space server; use programs of one build");
   if (!world.checkpoint.empty()) checkpoint = DecodeCheckpoint(world.checkpoint);

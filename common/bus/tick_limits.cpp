@@ -124,12 +124,16 @@ std::size_t TickLimits::FrameBytes() const
   return PayloadSize(MessageHeader(), frame);
 }
 
-std::size_t TickLimits::RegionBytes() const
+// Of a body: in a task its state and a grip, in a halo twice that, in a result its pose, turret and way.
+std::size_t TickLimits::RegionTaskBytes() const { return RegionBytes(144); }
+std::size_t TickLimits::RegionHaloBytes() const { return RegionBytes(256); }
+std::size_t TickLimits::RegionResultBytes() const { return RegionBytes(72); }
+
+std::size_t TickLimits::RegionBytes(std::size_t of_body) const
 {
   constexpr std::size_t kAtLeast = 1 << 20;  // for what does not grow with the bodies, and crowds of few that grip
-  constexpr std::size_t kBody = 256;
-  constexpr std::size_t kMirror = 4096;  // with its outline
-  return kAtLeast + kBody * most_in_regions_ + kMirror * most_mirrors_;
+  constexpr std::size_t kMirror = 4096;      // with its outline
+  return kAtLeast + of_body * most_in_regions_ + kMirror * most_mirrors_;
 }
 
 std::size_t TickLimits::DrawnBytes() { return PayloadSize(MessageHeader(), DrawnMessage()); }

@@ -28,9 +28,11 @@ public:
   std::size_t UpdateBytes() const;
   std::size_t FrameBytes() const;
   static std::size_t DrawnBytes();
-  // Of those between the regions of engines that are split: twice what a plane needs if all its bodies change their
-  // regions at once.
-  std::size_t RegionBytes() const;
+  // Of those of engines that are split, if one region has all bodies, and in halos if twice as many change regions at
+  // once.
+  std::size_t RegionTaskBytes() const;
+  std::size_t RegionHaloBytes() const;
+  std::size_t RegionResultBytes() const;
 
   // Throw BadMessage, with the name of the field.
   void Check(const MessageHeader& header, const SpaceState& state) const;
@@ -46,6 +48,7 @@ public:
   static void CheckSource(const MessageHeader& header, std::size_t senders);
 
 private:
+  std::size_t RegionBytes(std::size_t of_body) const;
   void CheckSlots(const AttributeChanges& changes) const;
   void CheckMoved(const std::vector<std::uint32_t>& moved) const;
   void CheckDrawing(const Drawing& drawing) const;

@@ -3,18 +3,14 @@
 #include <fcntl.h>
 
 #include <atomic>
-#include <map>
 #include <mutex>
-#include <set>
 #include <thread>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "common/activity/exit_codes.h"
-#include "common/bus/region_links.h"
 #include "common/bus/worker_session.h"
-#include "common/space/space.h"
 #include "tests/eventually.h"
 #include "tests/unit/bus/separate_processes.h"
 #include "tests/unit/bus/server_fixture.h"
@@ -141,124 +137,6 @@ TEST_F(Leaving, IsReadBeforeTheProcessIsMissed)
       }));
   EXPECT_EQ(session.Failure().value_or("none"), "none");
   EXPECT_EQ(session.FirstLeft(), "engine 'ground'");
-}
-
-// An engine that is split into two regions, which have done a task of tick 7.
-class TwoRegions
-{
-public:
-  TwoRegions(const BusOptions& options, const std::string& folder, WorldMessage world)
-      : run_(world.run),
-        server_(options, "space server"),
-        worlds_(server_, "leaving"),
-        leaves_(server_, "leaving"),
-        experiment_(SplitInTwo()),
-        space_(experiment_),
-        limits_(space_, MakeAssignment(experiment_, 1), false)
-  {
-    // A process has one folder of a run; these are three.
-    world.spread = true;
-    worlds_.Write(world);
-    for (const std::string& name :
-         {RegionName(experiment_, 0, 0), RegionName(experiment_, 0, 1), std::string("engine 'ground'")})
-    {
-      const std::string of_worker = fmt::format("{}-worker/{}", folder, sessions_.size());
-      std::filesystem::create_directories(of_worker);
-      setenv("SWARMANOID_SHARED_FOLDER", of_worker.c_str(), 1);
-      sessions_.push_back(std::make_unique<WorkerSession>(options, "leaving", name));
-    }
-    for (const unsigned k : {0U, 1U})
-      regions_.emplace_back(
-          [this, k]
-          {
-            RegionLink link(*sessions_[k], experiment_, 0, k, limits_);
-            NoWork region;
-            link.Serve(region);
-            EXPECT_TRUE(link.IsOver());
-            ++left_;
-          });
-    team_.emplace(*sessions_[2], experiment_, 0, limits_);
-    EXPECT_TRUE(Eventually([&] { return team_->Missing() == 0; }));
-    team_->Begin(role_);
-    team_->SetTick(7);
-    const std::lock_guard lock(role_);
-    std::vector<std::vector<char>> results(2);
-    team_->Work(
-        true, [](bool, std::span<ByteWriter>) {}, results);
-  }
-
-  RegionTeamLink& Team() { return *team_; }
-  int Left() const { return left_; }
-  std::string Name(unsigned region) const { return RegionName(experiment_, 0, region); }
-  void SayLeft(std::uint64_t tick, const std::string& name, const std::string& process = ProcessId())
-  {
-    leaves_.Write({run_, tick, name, process, ""});
-  }
-
-private:
-  struct NoWork : EngineRegion
-  {
-    void Work(std::span<const char>, ByteWriter&) override {}
-  };
-
-  static Experiment SplitInTwo()
-  {
-    Experiment experiment;
-    experiment.arena_size = {10, 10, 1};
-    experiment.engines.resize(1);
-    experiment.engines[0].id = "ground";
-    experiment.engines[0].split.regions = 2;
-    return experiment;
-  }
-
-  const std::uint64_t run_;
-  Bus server_;
-  Publisher<WorldMessage> worlds_;
-  Publisher<LeaveMessage> leaves_;
-  const Experiment experiment_;
-  const CSwarmanoidSpace space_;
-  const TickLimits limits_;
-  std::vector<std::unique_ptr<WorkerSession>> sessions_;
-  std::atomic<int> left_ = 0;
-  std::mutex role_;
-  std::optional<RegionTeamLink> team_;
-  std::vector<std::jthread> regions_;
-};
-
-// What a region answered last may be lost, and its process would take it along.
-TEST_F(Leaving, RegionsStayUntilTheirEngineHasLeft)
-{
-  TwoRegions two(options_, folder_, world_);
-  // However often it asks.
-  for (int k = 0; k < 3; ++k)
-  {
-    two.Team().End();
-    EXPECT_EQ(two.Team().Awaited(), "") << k;
-  }
-  // One that was moved to another machine, where its place was taken.
-  two.SayLeft(6, "engine 'ground'", "another:1");
-  std::this_thread::sleep_for(200ms);
-  EXPECT_EQ(two.Left(), 0);
-  two.SayLeft(8, "engine 'ground'");
-  EXPECT_TRUE(Eventually([&] { return two.Left() == 2; }));
-}
-
-// Its last word may not reach a region that it has just met, and one that was killed before it seems to be there.
-TEST_F(Leaving, RegionsDoNotStayForEverForAnEngineThatIsSilent)
-{
-  TwoRegions two(options_, folder_, world_);
-  two.Team().End();
-  EXPECT_TRUE(Eventually([&] { return two.Left() == 2; }));
-}
-
-// Nor an engine for one that has left.
-TEST_F(Leaving, AnEngineDoesNotWaitForRegionsThatHaveLeft)
-{
-  TwoRegions two(options_, folder_, world_);
-  two.Team().End();
-  ASSERT_TRUE(Eventually([&] { return two.Left() == 2; }));
-  for (const unsigned k : {0U, 1U}) two.SayLeft(8, two.Name(k));
-  two.Team().End();
 }
 
 // On another machine, after the connection by ssh has broken. An exception would take endpoints down that may wait for

@@ -1,0 +1,199 @@
+// The links between an engine that is split and the processes of its regions: who hears what, and who leaves when.
+#include <array>
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/bus/region_links.h"
+#include "common/bus/worker_session.h"
+#include "common/space/space.h"
+#include "tests/eventually.h"
+#include "tests/unit/bus/separate_processes.h"
+#include "tests/unit/bus/server_fixture.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+using test::Eventually;
+
+class RegionLinks : public test::ServerFixture
+{
+protected:
+  RegionLinks() : ServerFixture("region_links")
+  {
+    world_.host = MachineName();
+    world_.pid = static_cast<std::uint32_t>(getpid());
+  }
+  ~RegionLinks() override { std::filesystem::remove_all(folder_ + "-worker"); }
+
+  const test::SeparateProcesses separate_;
+};
+
+// An engine that is split into two regions, which have done a task of tick 7.
+class TwoRegions
+{
+public:
+  TwoRegions(const BusOptions& options, const std::string& folder, WorldMessage world)
+      : run_(world.run),
+        server_(options, "space server"),
+        worlds_(server_, "region_links"),
+        leaves_(server_, "region_links"),
+        experiment_(SplitInTwo()),
+        space_(experiment_),
+        limits_(space_, MakeAssignment(experiment_, 1), false)
+  {
+    // A process has one folder of a run; these are three.
+    world.spread = true;
+    worlds_.Write(world);
+    listened_.emplace(
+        server_, HotScope{"region_links", "", true, limits_.RegionTaskBytes(), 1, "region 1"},
+        HotSubscription<RegionTaskMessage>::Handler{[this](const MessageHeader&) { return &arriving_; },
+                                                    [this](const MessageHeader&, const RegionTaskMessage& task)
+                                                    {
+                                                      const std::lock_guard lock(mutex_);
+                                                      if (task.number == 0) heard_.push_back(task.bytes);
+                                                    },
+                                                    {}});
+    for (const std::string& name :
+         {RegionName(experiment_, 0, 0), RegionName(experiment_, 0, 1), std::string("engine 'ground'")})
+    {
+      const std::string of_worker = fmt::format("{}-worker/{}", folder, sessions_.size());
+      std::filesystem::create_directories(of_worker);
+      setenv("SWARMANOID_SHARED_FOLDER", of_worker.c_str(), 1);
+      sessions_.push_back(std::make_unique<WorkerSession>(options, "region_links", name));
+    }
+    for (const unsigned k : {0U, 1U})
+      regions_.emplace_back(
+          [this, k]
+          {
+            RegionLink link(*sessions_[k], experiment_, 0, k, limits_);
+            Remembers region(tasks_[k]);
+            link.Serve(region);
+            EXPECT_TRUE(link.IsOver());
+            ++left_;
+          });
+    team_.emplace(*sessions_[2], experiment_, 0, limits_);
+    EXPECT_TRUE(Eventually([&] { return team_->Missing() == 0; }));
+    team_->Begin(role_);
+    team_->SetTick(7);
+    const std::lock_guard lock(role_);
+    std::vector<std::vector<char>> results(2);
+    team_->Work(
+        true,
+        [](bool, std::span<ByteWriter> tasks)
+        {
+          for (std::uint32_t k = 0; k < tasks.size(); ++k) tasks[k].Put(k);
+        },
+        results);
+  }
+
+  RegionTeamLink& Team() { return *team_; }
+  int Left() const { return left_; }
+  // After all regions have left: the last one but that of the end.
+  std::uint32_t TaskOf(unsigned region) const { return ByteReader(tasks_[region]).Get<std::uint32_t>(); }
+  std::string Name(unsigned region) const { return RegionName(experiment_, 0, region); }
+  void SayLeft(std::uint64_t tick, const std::string& name, const std::string& process = ProcessId())
+  {
+    leaves_.Write({run_, tick, name, process, ""});
+  }
+
+  // What goes to region 1.
+  std::vector<std::vector<char>> Heard() const
+  {
+    const std::lock_guard lock(mutex_);
+    return heard_;
+  }
+
+private:
+  struct Remembers : EngineRegion
+  {
+    explicit Remembers(std::vector<char>& its_task) : last(its_task) {}
+    void Work(std::span<const char> task, ByteWriter&) override { last.assign(task.begin(), task.end()); }
+    std::vector<char>& last;
+  };
+
+  static Experiment SplitInTwo()
+  {
+    Experiment experiment;
+    experiment.arena_size = {10, 10, 1};
+    experiment.engines.resize(1);
+    experiment.engines[0].id = "ground";
+    experiment.engines[0].split.regions = 2;
+    return experiment;
+  }
+
+  const std::uint64_t run_;
+  Bus server_;
+  Publisher<WorldMessage> worlds_;
+  Publisher<LeaveMessage> leaves_;
+  const Experiment experiment_;
+  const CSwarmanoidSpace space_;
+  const TickLimits limits_;
+  mutable std::mutex mutex_;
+  std::vector<std::vector<char>> heard_;
+  RegionTaskMessage arriving_;
+  std::optional<HotSubscription<RegionTaskMessage>> listened_;
+  std::vector<std::unique_ptr<WorkerSession>> sessions_;
+  std::atomic<int> left_ = 0;
+  std::mutex role_;
+  std::optional<RegionTeamLink> team_;
+  std::array<std::vector<char>, 2> tasks_;
+  std::vector<std::jthread> regions_;
+};
+
+// Not those of the others: over a network each would take as much as the whole swarm does.
+TEST_F(RegionLinks, RegionsHearTheirOwnTasksAlone)
+{
+  TwoRegions two(options_, folder_, world_);
+  ASSERT_TRUE(Eventually([&] { return !two.Heard().empty(); }));
+  for (const std::vector<char>& task : two.Heard()) EXPECT_EQ(task, (std::vector<char>{1, 0, 0, 0}));
+  two.Team().End();
+  ASSERT_TRUE(Eventually([&] { return two.Left() == 2; }));
+  for (const unsigned k : {0U, 1U}) EXPECT_EQ(two.TaskOf(k), k);
+}
+
+// What a region answered last may be lost, and its process would take it along.
+TEST_F(RegionLinks, RegionsStayUntilTheirEngineHasLeft)
+{
+  TwoRegions two(options_, folder_, world_);
+  // However often it asks.
+  for (int k = 0; k < 3; ++k)
+  {
+    two.Team().End();
+    EXPECT_EQ(two.Team().Awaited(), "") << k;
+  }
+  // One that was moved to another machine, where its place was taken.
+  two.SayLeft(6, "engine 'ground'", "another:1");
+  std::this_thread::sleep_for(200ms);
+  EXPECT_EQ(two.Left(), 0);
+  two.SayLeft(8, "engine 'ground'");
+  EXPECT_TRUE(Eventually([&] { return two.Left() == 2; }));
+}
+
+// Its last word may not reach a region that it has just met, and one that was killed before it seems to be there.
+TEST_F(RegionLinks, RegionsDoNotStayForEverForAnEngineThatIsSilent)
+{
+  TwoRegions two(options_, folder_, world_);
+  two.Team().End();
+  EXPECT_TRUE(Eventually([&] { return two.Left() == 2; }));
+}
+
+// Nor an engine for one that has left.
+TEST_F(RegionLinks, AnEngineDoesNotWaitForRegionsThatHaveLeft)
+{
+  TwoRegions two(options_, folder_, world_);
+  two.Team().End();
+  ASSERT_TRUE(Eventually([&] { return two.Left() == 2; }));
+  for (const unsigned k : {0U, 1U}) two.SayLeft(8, two.Name(k));
+  two.Team().End();
+}
+
+}  // namespace
+}  // namespace swarmanoid
