@@ -26,7 +26,7 @@ class EngineWorker
 {
 public:
   // `space` is the replica of this process; it, `assignment` and `team` outlive the worker. `team`: of an engine that
-  // is split; nullptr: it is not, or only one region of it is wanted. `pool`: threads that the engine may use, beside
+  // is split, otherwise nullptr. `pool`: threads that the engine may use, beside
   // others. Throws ConfigurationError, or ActivityError naming the engine that failed; so does Tick.
   EngineWorker(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t engine,
                RegionTeam* team = nullptr, WorkerPool* pool = nullptr);

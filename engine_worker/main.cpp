@@ -101,7 +101,7 @@ private:
   static std::unique_ptr<RegionTeamLink> TeamOf(WorkerSession& session, const Replica& replica, std::size_t engine)
   {
     if (RegionsOf(replica.experiment->engines[engine]) == 0) return nullptr;
-    return std::make_unique<RegionTeamLink>(session, *replica.experiment, engine, *replica.limits);
+    return std::make_unique<RegionTeamLink>(session, *replica.experiment, engine, replica.limits->Regions());
   }
 
   // Commands that act a tick later come a tick early.
@@ -234,13 +234,26 @@ private:
   std::optional<HotPublisher<SensorFrame>> frames_;
 };
 
-// The world of the engine, of which one region is left when the first task comes. Nothing else of the experiment is
-// needed for the tasks.
-std::unique_ptr<EngineRegion> MakeRegion(const Replica& replica, std::size_t engine, unsigned region,
-                                         RegionExchange& exchange)
+// What a region does with its bodies the engine worker tells it: of the experiment it needs to know the engines alone.
+std::unique_ptr<Experiment> EnginesOf(const WorldMessage& world)
 {
-  EngineWorker role(*replica.space, replica.assignment, engine);
-  return role.Engine().MakeRegion(region, exchange);
+  LoadOptions options;
+  options.check_files = false;
+  options.engines_alone = true;
+  return LoadWorld(world, options);
+}
+
+// No engine has more bodies than there are entities that can move.
+RegionLimits LimitsOf(const WorldMessage& world)
+{
+  return {static_cast<std::size_t>(std::ranges::count_if(world.entities, &WorldEntity::movable)), 0};
+}
+
+std::unique_ptr<EngineRegion> MakeRegion(const EngineConfiguration& engine, unsigned region, RegionExchange& exchange)
+{
+  const auto* entry = PluginRegistry<CPhysicsEngine>::Instance().Find(engine.tag);
+  if (entry == nullptr) throw ConfigurationError(engine.location, "no engine is registered as '" + engine.tag + "'");
+  return entry->create()->MakeRegion(region, exchange);
 }
 
 int RunRegion(const WorkerSettings& settings, const BusOptions& bus)
@@ -251,18 +264,18 @@ int RunRegion(const WorkerSettings& settings, const BusOptions& bus)
   return session.Work(
       [&]
       {
-        std::optional<Replica> replica(std::in_place, session.World(), false);
+        const std::unique_ptr<Experiment> engines = EnginesOf(session.World());
+        const RegionLimits limits = LimitsOf(session.World());
         session.ReleaseWorld();
-        const Experiment& experiment = *replica->experiment;
+        malloc_trim(0);
+        const Experiment& experiment = *engines;
         const std::size_t engine = NumberOf(experiment, experiment.engines, "engine", settings.engine);
         if (region >= RegionsOf(experiment.engines[engine]))
           throw ConfigurationError(experiment.engines[engine].location,
                                    fmt::format("the engine '{}' has {} regions, numbered from 0; there is no region {}",
                                                settings.engine, RegionsOf(experiment.engines[engine]), region));
-        RegionLink link(session, experiment, engine, region, *replica->limits);
-        const std::unique_ptr<EngineRegion> world = MakeRegion(*replica, engine, region, link);
-        replica.reset();
-        malloc_trim(0);
+        RegionLink link(session, experiment, engine, region, limits);
+        const std::unique_ptr<EngineRegion> world = MakeRegion(experiment.engines[engine], region, link);
         std::thread worker(
             [&]
             {

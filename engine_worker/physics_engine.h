@@ -109,9 +109,9 @@ public:
   // True if Canonicalise has nothing to drop at any tick: then SaveState is exact after each Update.
   virtual bool IsAlwaysCanonical() const { return false; }
 
-  // Of an engine that can be split (PluginDescription::can_split): in a process of its own, after Start, it becomes one
-  // region of the world of another one of the same making, which has a team. It is not used any more then; the result
-  // may not refer to it. `exchange` outlives the result.
+  // Of an engine that can be split (PluginDescription::can_split): in a process of its own, nothing else is called of
+  // it. The result is one region of the world of another one of the same tag, which has a team, and tells it all in its
+  // first task: there is no space and no experiment here. `exchange` outlives the result.
   virtual std::unique_ptr<EngineRegion> MakeRegion(unsigned region, RegionExchange& exchange);
 
   // Numbers about the last update for diagnosis: contacts, pairs. One short line, may be empty.

@@ -1,7 +1,6 @@
 #include "common/bus/region_links.h"
 
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include <algorithm>
 
@@ -75,14 +74,14 @@ struct Patience
 }  // namespace
 
 RegionTeamLink::RegionTeamLink(WorkerSession& session, const Experiment& experiment, std::size_t engine,
-                               const TickLimits& limits)
+                               const RegionLimits& limits)
     : session_(session),
       engine_(static_cast<std::uint32_t>(engine)),
       first_(RegionNumber(experiment, engine, 0)),
       // Whatever a worker before this one said is of an earlier epoch.
       epoch_(session.Header(0, 0).incarnation << 16U),
       places_(RegionsOf(experiment.engines[engine])),
-      results_(session.GetBus(), AmongEngine(session, engine_, limits.RegionResultBytes(), RegionCount()),
+      results_(session.GetBus(), AmongEngine(session, engine_, limits.ResultBytes(), RegionCount()),
                {[this](const MessageHeader& header) -> RegionResultMessage*
                 {
                   const bool is_of_ours = header.source >= first_ && header.source - first_ < places_.size();
@@ -95,7 +94,7 @@ RegionTeamLink::RegionTeamLink(WorkerSession& session, const Experiment& experim
   {
     places_[k].name = RegionName(experiment, engine, k);
     places_[k].tasks = std::make_unique<HotPublisher<RegionTaskMessage>>(
-        session.GetBus(), ToRegion(session, first_ + k, limits.RegionTaskBytes()));
+        session.GetBus(), ToRegion(session, first_ + k, limits.TaskBytes()));
     session.Trust(places_[k].name);
   }
 }
@@ -237,7 +236,7 @@ void RegionTeamLink::End()
 }
 
 RegionLink::RegionLink(WorkerSession& session, const Experiment& experiment, std::size_t engine, unsigned region,
-                       const TickLimits& limits)
+                       const RegionLimits& limits)
     : session_(session),
       engine_(static_cast<std::uint32_t>(engine)),
       engine_name_(EngineName(experiment, engine)),
@@ -245,9 +244,9 @@ RegionLink::RegionLink(WorkerSession& session, const Experiment& experiment, std
       own_(region),
       regions_(RegionsOf(experiment.engines[engine])),
       heard_(regions_),
-      halos_out_(session.GetBus(), AmongEngine(session, engine_, limits.RegionHaloBytes(), regions_)),
-      results_(session.GetBus(), AmongEngine(session, engine_, limits.RegionResultBytes(), regions_)),
-      halos_in_(session.GetBus(), AmongEngine(session, engine_, limits.RegionHaloBytes(), regions_),
+      halos_out_(session.GetBus(), AmongEngine(session, engine_, limits.HaloBytes(), regions_)),
+      results_(session.GetBus(), AmongEngine(session, engine_, limits.ResultBytes(), regions_)),
+      halos_in_(session.GetBus(), AmongEngine(session, engine_, limits.HaloBytes(), regions_),
                 {[this](const MessageHeader& header) -> RegionHaloMessage*
                  {
                    const bool is_of_ours = header.source >= first_ && header.source - first_ < regions_;
@@ -257,7 +256,7 @@ RegionLink::RegionLink(WorkerSession& session, const Experiment& experiment, std
                  },
                  [this](const MessageHeader& header, RegionHaloMessage& halo) { HaloReceived(header, halo); },
                  [this](const MessageHeader&, const RegionHaloMessage& halo) { RequireParts(halo, regions_); }}),
-      tasks_(session.GetBus(), ToRegion(session, first_ + own_, limits.RegionTaskBytes()),
+      tasks_(session.GetBus(), ToRegion(session, first_ + own_, limits.TaskBytes()),
              {[this](const MessageHeader& header) -> RegionTaskMessage*
               { return header.run == session_.World().run && header.source == engine_ ? &arriving_task_ : nullptr; },
               [this](const MessageHeader& header, RegionTaskMessage& task) { TaskReceived(header, task); },
@@ -450,8 +449,6 @@ void RegionLink::Serve(EngineRegion& region)
       error = failure.what();
     }
     Answer(task_.epoch, task_.number, result.Bytes(), error);
-    // The region has dropped most of the world that it was made from.
-    if (task_.number == kFirstTask) malloc_trim(0);
     {
       const std::lock_guard lock(mutex_);
       is_done_ = !has_next_;

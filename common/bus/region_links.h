@@ -27,7 +27,7 @@ class RegionTeamLink final : public RegionTeam
 {
 public:
   // Of an engine that is split.
-  RegionTeamLink(WorkerSession& session, const Experiment& experiment, std::size_t engine, const TickLimits& limits);
+  RegionTeamLink(WorkerSession& session, const Experiment& experiment, std::size_t engine, const RegionLimits& limits);
   ~RegionTeamLink() override;
 
   // Regions whose topics have not been met yet.
@@ -84,7 +84,7 @@ class RegionLink final : public RegionExchange
 {
 public:
   RegionLink(WorkerSession& session, const Experiment& experiment, std::size_t engine, unsigned region,
-             const TickLimits& limits);
+             const RegionLimits& limits);
   ~RegionLink() override;
 
   // Of the engine worker and the other regions, those whose topics have not been met yet.

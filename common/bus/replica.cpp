@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "common/bus/bus.h"
-#include "common/experiment/load_experiment.h"
 #include "common/space/space.h"
 
 namespace swarmanoid
@@ -19,10 +18,8 @@ bool IsSame(const CSwarmanoidSpaceEntity& entity, const WorldEntity& told)
 
 }  // namespace
 
-Replica::Replica(const WorldMessage& world, bool load_controllers)
+std::unique_ptr<Experiment> LoadWorld(const WorldMessage& world, const LoadOptions& options)
 {
-  LoadOptions options;
-  options.check_files = load_controllers;
   LoadedExperiment loaded = LoadExperimentText(world.xml, world.file, world.folder, options);
   if (!loaded.experiment)
   {
@@ -30,7 +27,14 @@ Replica::Replica(const WorldMessage& world, bool load_controllers)
     for (const Diagnostic& error : loaded.errors) text += fmt::format("{}{}", text.empty() ? "" : "\n", error.Text());
     throw ConfigurationError(text);
   }
-  experiment = std::move(loaded.experiment);
+  return std::move(loaded.experiment);
+}
+
+Replica::Replica(const WorldMessage& world, bool load_controllers)
+{
+  LoadOptions options;
+  options.check_files = load_controllers;
+  experiment = LoadWorld(world, options);
   assignment = MakeAssignment(*experiment, world.hosts);
   space = std::make_unique<CSwarmanoidSpace>(*experiment);
   limits = std::make_unique<const TickLimits>(*space, assignment, world.recorded);

@@ -8,16 +8,20 @@
 #include "common/bus/messages.h"
 #include "common/bus/tick_limits.h"
 #include "common/checkpoint/checkpoint.h"
+#include "common/experiment/load_experiment.h"
 #include "common/messages/assignment.h"
 #include "common/space/space.h"
 
 namespace swarmanoid
 {
 
+// What the world's experiment file says. The plug-in registries are filled. Throws ConfigurationError naming every
+// mistake.
+std::unique_ptr<Experiment> LoadWorld(const WorldMessage& world, const LoadOptions& options);
+
 struct Replica
 {
-  // The plug-in registries are filled. Throws ConfigurationError naming every mistake.
-  // `load_controllers`: only controller hosts need the users' libraries.
+  // Throws as LoadWorld. `load_controllers`: only controller hosts need the users' libraries.
   Replica(const WorldMessage& world, bool load_controllers);
 
   std::unique_ptr<Experiment> experiment;

@@ -47,7 +47,17 @@ std::size_t OfSource(const std::vector<std::size_t>& numbers, const MessageHeade
   return numbers[header.source];
 }
 
+// For what does not grow with the bodies, and crowds of few that grip.
+constexpr std::size_t kRegionAtLeast = 1 << 20;
+
 }  // namespace
+
+// Of a body its state and a grip; of a mirror its outline, too.
+std::size_t RegionLimits::TaskBytes() const { return kRegionAtLeast + 144 * bodies + 4096 * mirrors; }
+// Twice what it takes if all change their regions at once.
+std::size_t RegionLimits::HaloBytes() const { return kRegionAtLeast + 256 * bodies; }
+// Of a body its pose, turret and way.
+std::size_t RegionLimits::ResultBytes() const { return kRegionAtLeast + 72 * bodies; }
 
 TickLimits::TickLimits(const CSwarmanoidSpace& space, const Assignment& assignment, bool recorded)
     : entities_(space.Size()),
@@ -122,18 +132,6 @@ std::size_t TickLimits::FrameBytes() const
   SensorFrame frame;
   frame.values.resize(Largest(sensor_values_));
   return PayloadSize(MessageHeader(), frame);
-}
-
-// Of a body: in a task its state and a grip, in a halo twice that, in a result its pose, turret and way.
-std::size_t TickLimits::RegionTaskBytes() const { return RegionBytes(144); }
-std::size_t TickLimits::RegionHaloBytes() const { return RegionBytes(256); }
-std::size_t TickLimits::RegionResultBytes() const { return RegionBytes(72); }
-
-std::size_t TickLimits::RegionBytes(std::size_t of_body) const
-{
-  constexpr std::size_t kAtLeast = 1 << 20;  // for what does not grow with the bodies, and crowds of few that grip
-  constexpr std::size_t kMirror = 4096;      // with its outline
-  return kAtLeast + of_body * most_in_regions_ + kMirror * most_mirrors_;
 }
 
 std::size_t TickLimits::DrawnBytes() { return PayloadSize(MessageHeader(), DrawnMessage()); }

@@ -15,6 +15,17 @@ namespace swarmanoid
 
 class CSwarmanoidSpace;
 
+// Bytes of the largest messages of an engine that is split, if one region has all bodies.
+struct RegionLimits
+{
+  std::size_t bodies = 0;
+  std::size_t mirrors = 0;  // bodies of other engines
+
+  std::size_t TaskBytes() const;
+  std::size_t HaloBytes() const;
+  std::size_t ResultBytes() const;
+};
+
 class TickLimits
 {
 public:
@@ -28,11 +39,8 @@ public:
   std::size_t UpdateBytes() const;
   std::size_t FrameBytes() const;
   static std::size_t DrawnBytes();
-  // Of those of engines that are split, if one region has all bodies, and in halos if twice as many change regions at
-  // once.
-  std::size_t RegionTaskBytes() const;
-  std::size_t RegionHaloBytes() const;
-  std::size_t RegionResultBytes() const;
+  // Of the largest engine that is split.
+  RegionLimits Regions() const { return {most_in_regions_, most_mirrors_}; }
 
   // Throw BadMessage, with the name of the field.
   void Check(const MessageHeader& header, const SpaceState& state) const;
@@ -48,7 +56,6 @@ public:
   static void CheckSource(const MessageHeader& header, std::size_t senders);
 
 private:
-  std::size_t RegionBytes(std::size_t of_body) const;
   void CheckSlots(const AttributeChanges& changes) const;
   void CheckMoved(const std::vector<std::uint32_t>& moved) const;
   void CheckDrawing(const Drawing& drawing) const;

@@ -67,6 +67,7 @@ void ReadSections(const TConfigurationTree& root, Reading& reading)
 {
   const ElementReader reader(root, ExperimentSchema(), reading.diagnostics);
   ReadFramework(root.Child("framework"), reading);
+  if (reading.options.engines_alone) return ReadEngines(root.Child("engines"), reading);
   ReadEntityKinds(root.Child("entity_kinds"), reading);
   ReadControllers(root.Child("controllers"), reading);
   ReadArena(root.Child("arena"), reading);

@@ -30,6 +30,9 @@ struct LoadOptions
   // For editors: what can be made of a file with mistakes, beside them. Values that are wrong have their defaults; only
   // to be looked at.
   bool even_if_wrong = false;
+  // The framework and the engines without their entities, for those who need to know no more: of a large swarm it takes
+  // a hundredth of the time and the memory. Mistakes elsewhere are not looked for.
+  bool engines_alone = false;
 };
 
 // Either an experiment or errors; both with even_if_wrong, unless nothing can be made of the file.

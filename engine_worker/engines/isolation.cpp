@@ -59,7 +59,8 @@ void Isolation::Configure(std::span<const MovingOutline> bodies, std::vector<Sta
     kinematics2d::Bounds& box = boxes.emplace_back(kinematics2d::Bounds{1e9, 1e9, -1e9, -1e9});
     for (const Vector2& corner : outline.corners) box.Include(corner.x(), corner.y(), outline.radius);
   }
-  broad_phase_.Configure(bodies.empty() ? kinematics2d::Bounds{} : area, radii_, largest_margin_);
+  broad_phase_.Configure(
+      kinematics2d::PlaneGrid::For(bodies.empty() ? kinematics2d::Bounds{} : area, radii_, largest_margin_), radii_);
   broad_phase_.SetStatics(boxes);
   const std::size_t padded = kinematics2d::PaddedCount(bodies.size());
   places_.x.assign(padded, 0);

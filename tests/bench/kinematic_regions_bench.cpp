@@ -21,7 +21,7 @@ void AdvanceRegions(benchmark::State& state)
   const auto density = static_cast<double>(state.range(1));
   const auto regions = static_cast<unsigned>(state.range(2));
   KinematicWorld world = Crowd(count, density, 1);
-  HubTeam team(regions, [&] { return Crowd(count, density, 1); });
+  HubTeam team(regions);
   if (regions > 1)
   {
     world.Divide(team);
@@ -59,7 +59,7 @@ void AdvanceRegions(benchmark::State& state)
   for (unsigned cuts = 1; cuts < regions; cuts *= 2)
     border += std::sqrt(count / density) * (cuts == 1 ? 1 : cuts == 2 ? 1 : 2);
   std::size_t held = 0;
-  for (unsigned region = 0; region < regions; ++region) held += regions > 1 ? team.World(region).BodyCount() : count;
+  for (unsigned region = 0; region < regions; ++region) held += regions > 1 ? team.Region(region).BodyCount() : count;
   const double bytes_a_tick = static_cast<double>(hub.Bytes() - bytes) / ticks;
   state.counters["bytes_per_border_metre"] = border > 0 ? bytes_a_tick / border : 0;
   state.counters["exchanges"] = static_cast<double>(hub.Rounds() - rounds) / ticks;

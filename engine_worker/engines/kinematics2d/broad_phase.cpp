@@ -27,27 +27,42 @@ void Bounds::Include(double x, double y, double radius)
   max_y = std::max(max_y, y + radius);
 }
 
-void BroadPhase::Configure(const Bounds& area, std::span<const double> radii, double largest_margin)
+PlaneGrid PlaneGrid::For(const Bounds& area, std::span<const double> radii, double largest_margin)
 {
-  count_ = radii.size();
-  largest_margin_ = largest_margin;
-  largest_radius_ = 0;
-  largest_small_radius_ = 0;
-  if (count_ > 0)
+  PlaneGrid grid{area, 1, largest_margin};
+  const std::size_t count = radii.size();
+  if (count > 0)
   {
     std::vector<double> sorted(radii.begin(), radii.end());
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(count_ / 2), sorted.end());
-    largest_radius_ = kLargeFactor * sorted[count_ / 2];
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(count / 2), sorted.end());
+    grid.largest_radius = kLargeFactor * sorted[count / 2];
     for (const double radius : radii)
-      if (!IsLarge(radius)) largest_small_radius_ = std::max(largest_small_radius_, radius);
+      if (!(radius > grid.largest_radius)) grid.largest_small_radius = std::max(grid.largest_small_radius, radius);
   }
 
   // One body a cell if the margin allows, and never more cells than memory is good for.
   const double width = std::max(area.max_x - area.min_x, 1e-3);
   const double height = std::max(area.max_y - area.min_y, 1e-3);
-  const double per_body = width * height / static_cast<double>(std::max<std::size_t>(count_, 1));
-  const double smallest = std::max(2 * largest_small_radius_ + largest_margin_, std::sqrt(per_body));
-  const double edge = CellEdge<2>({width, height}, smallest, kMostCells);
+  const double per_body = width * height / static_cast<double>(std::max<std::size_t>(count, 1));
+  const double smallest = std::max(2 * grid.largest_small_radius + largest_margin, std::sqrt(per_body));
+  grid.edge = CellEdge<2>({width, height}, smallest, kMostCells);
+  return grid;
+}
+
+bool PlaneGrid::IsSound() const
+{
+  const double width = area.max_x - area.min_x;
+  const double height = area.max_y - area.min_y;
+  return std::isfinite(width) && std::isfinite(height) && width >= 0 && height >= 0 && edge > 0 &&
+         CellsAcross(width, edge) * CellsAcross(height, edge) <= 2 * kMostCells && largest_margin >= 0 &&
+         largest_radius >= 0 && largest_small_radius >= 0;
+}
+
+void BroadPhase::Configure(const PlaneGrid& grid, std::span<const double> radii)
+{
+  grid_ = grid;
+  const Bounds& area = grid.area;
+  const double edge = grid.edge;
   // Cells and blocks start at multiples of their edges from the origin.
   const double first_column = std::floor(area.min_x / edge);
   const double first_row = std::floor(area.min_y / edge);
@@ -97,7 +112,7 @@ void BroadPhase::SetStatics(std::span<const Bounds> boxes)
                              static_cast<float>(box.max_x) + slack_, static_cast<float>(box.max_y) + slack_});
 
   // Large bodies ask all shapes instead.
-  const double reach = largest_small_radius_ + largest_margin_ + slack_;
+  const double reach = grid_.largest_small_radius + grid_.largest_margin + slack_;
   for (std::size_t s = 0; s < boxes.size(); ++s)
   {
     const Bounds& box = boxes[s];
@@ -256,7 +271,7 @@ void BroadPhase::FindPairsOfLarge(double distance, const PoseStore& poses, std::
       return Square(static_cast<float>(other_x - x)) + Square(static_cast<float>(other_y - y)) <
              Square(radius_[body] + radius + margin);
     };
-    const double reach = static_cast<double>(radius_[body]) + largest_small_radius_ + static_cast<double>(margin);
+    const double reach = static_cast<double>(radius_[body]) + grid_.largest_small_radius + static_cast<double>(margin);
     cells_.ForEachRow(x - reach, y - reach, x + reach, y + reach,
                       [&](std::uint32_t first, std::uint32_t last)
                       {

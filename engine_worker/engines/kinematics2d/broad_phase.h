@@ -39,6 +39,22 @@ struct PairList
   std::vector<std::uint32_t> ends;  // of each block: where its pairs end
 };
 
+// Into which cells a plane is cut, and for which bodies.
+struct PlaneGrid
+{
+  Bounds area;
+  double edge = 1;                  // of a cell (m)
+  double largest_margin = 0;        // the most that FindPairs will ever be asked for
+  double largest_radius = 0;        // of a body that is not large
+  double largest_small_radius = 0;  // of those that there are at first
+
+  // For bodies of these radii (of the circles around them). Bodies may leave `area`; many of them far outside cost
+  // time, nothing else.
+  static PlaneGrid For(const Bounds& area, std::span<const double> radii, double largest_margin);
+  // Whether Configure can take it.
+  bool IsSound() const;
+};
+
 // Cells form blocks of kBlock x kBlock whose borders follow from the world's origin alone. Bodies that are paired in a
 // block stand in its cells or next to it, so that no two blocks of one colour share a body.
 class BroadPhase
@@ -46,9 +62,9 @@ class BroadPhase
 public:
   static constexpr std::uint32_t kColours = 4;
 
-  // `radii`: of the circles around the bodies. `largest_margin`: the most that FindPairs will ever be asked for.
-  // Bodies may leave `area`; many of them far outside cost time, nothing else.
-  void Configure(const Bounds& area, std::span<const double> radii, double largest_margin);
+  // `radii`: of the circles around the bodies.
+  void Configure(const PlaneGrid& grid, std::span<const double> radii);
+  const PlaneGrid& Grid() const { return grid_; }
   // The static shapes by their boxes. After Configure.
   void SetStatics(std::span<const Bounds> boxes);
   // Other bodies from now on, in the same cells.
@@ -66,7 +82,7 @@ public:
   template <class Act>
   void ForEachRowOf(std::uint32_t block, const Act& act) const;
   // Whether a body of this radius is too big for the cells.
-  bool IsLarge(double radius) const { return radius > largest_radius_; }
+  bool IsLarge(double radius) const { return radius > grid_.largest_radius; }
   // Those bodies, ascending.
   std::span<const std::uint32_t> Large() const { return large_; }
   std::uint32_t ColourOf(std::uint32_t block) const
@@ -95,7 +111,7 @@ public:
     return dx * dx + dy * dy < limit * limit;
   }
   float ReachOf(double margin) const { return static_cast<float>(margin) + 2 * slack_; }
-  double LargestMargin() const { return largest_margin_; }
+  double LargestMargin() const { return grid_.largest_margin; }
   // No position is rounded by more than this (m).
   double Rounding() const { return slack_; }
   struct Place
@@ -150,9 +166,7 @@ private:
   std::uint32_t missing_columns_ = 0, missing_rows_ = 0;
   std::uint32_t first_block_column_ = 0, first_block_row_ = 0;  // counted from the world's origin, modulo 2
   std::vector<std::uint32_t> blocks_;
-  double largest_margin_ = 0;
-  double largest_radius_ = 0;  // of a body that is not large
-  double largest_small_radius_ = 0;
+  PlaneGrid grid_;
   float slack_ = 0;  // covers the rounding of positions to float
 
   std::vector<float> radius_;         // of each body

@@ -14,6 +14,8 @@ namespace
 {
 
 constexpr std::uint8_t kNoRegion = 0xff;
+constexpr std::size_t kPieceOfPlan = 1 << 19;  // bytes
+constexpr std::uint32_t kMostThreads = 64;
 
 // All of a model but its polygons.
 struct ModelImage
@@ -69,8 +71,6 @@ void KinematicWorld::MoveCuts(std::span<const std::uint8_t> region_of_block)
   division_->SetCuts(*this, region_of_block);
 }
 
-void KinematicWorld::DoTask(std::span<const char> task, ByteWriter& result) { Division::DoTask(*this, task, result); }
-
 KinematicWorld::Division::Division(const KinematicWorld& world, RegionTeam& team)
     : team_(team), bodies_(team.RegionCount()), results_(team.RegionCount())
 {
@@ -105,15 +105,31 @@ bool KinematicWorld::Division::Advance(KinematicWorld& world, double seconds, in
     knows_all_ = false;
     return false;
   }
-  team_.Work(
-      !knows_all_,
-      [&](bool anew, std::span<ByteWriter> tasks)
-      {
-        WriteForAll(world, anew, seconds, steps, tasks[0]);
-        for (std::size_t region = 1; region < tasks.size(); ++region) tasks[region] = tasks[0];
-        anew ? WriteBodies(world, tasks) : WriteChanges(world, tasks);
-      },
-      results_);
+  ByteWriter plan;
+  bool tells_all = !knows_all_;
+  bool is_done = false;
+  for (std::uint32_t piece = 0; !is_done; ++piece)
+    team_.Work(
+        tells_all && piece == 0,
+        [&](bool anew, std::span<ByteWriter> tasks)
+        {
+          if (anew)
+          {
+            tells_all = true;
+            piece = 0;
+            plan = PlanOf(world);
+          }
+          const std::span<const char> bytes(plan.Bytes());
+          const std::span<const char> rest = bytes.subspan(std::min(piece * kPieceOfPlan, bytes.size()));
+          is_done = rest.size() <= kPieceOfPlan;
+          const bool has_changes = !changed_.empty();
+          tasks[0].Put(TaskStart{piece, !is_done, tells_all, has_changes, {}});
+          if (tells_all) tasks[0].PutArray(rest.first(std::min(rest.size(), kPieceOfPlan)));
+          if (is_done) WriteForAll(world, tells_all, seconds, steps, tasks[0]);
+          for (std::size_t region = 1; region < tasks.size(); ++region) tasks[region] = tasks[0];
+          if (is_done) tells_all ? WriteBodies(world, tasks) : WriteChanges(world, tasks);
+        },
+        results_);
   knows_all_ = knows_cuts_ = true;
   changed_.clear();
   changed_models_.clear();
@@ -127,19 +143,34 @@ bool KinematicWorld::Division::Advance(KinematicWorld& world, double seconds, in
   return true;
 }
 
+// What stays as it is as long as a region knows all, or is replaced by name.
+ByteWriter KinematicWorld::Division::PlanOf(const KinematicWorld& world)
+{
+  ByteWriter plan;
+  plan.Put(Outset{world.broad_.Grid(), world.elasticity_, world.median_core_, world.smallest_limit_,
+                  world.own_pool_ ? static_cast<std::uint32_t>(world.parts_.size()) : 1, world.keeps_travel_});
+  for (const std::vector<CollisionModel>* models : {&world.models_, &world.statics_})
+  {
+    plan.Put(static_cast<std::uint64_t>(models->size()));
+    for (const CollisionModel& model : *models) PutModel(model, plan);
+  }
+  plan.PutEach(world.followers_.size(),
+               [&](std::size_t k)
+               {
+                 const std::uint32_t body = world.followers_[k].body;
+                 return FollowerPlan{body, world.model_[body]};
+               });
+  return plan;
+}
+
 void KinematicWorld::Division::WriteForAll(const KinematicWorld& world, bool anew, double seconds, int steps,
                                            ByteWriter& task) const
 {
-  task.Put<std::uint8_t>(anew ? 1 : 0);
-  task.Put<std::uint8_t>(changed_.empty() ? 0 : 1);
   task.Put(seconds);
   task.Put(steps);
   task.PutArray(knows_cuts_ && !anew ? std::vector<std::uint8_t>() : region_of_block_);
-  std::vector<std::uint32_t> models = changed_models_;
-  if (anew)
-    for (const Follower& follower : world.followers_) models.push_back(world.model_[follower.body]);
-  task.Put(static_cast<std::uint64_t>(models.size()));
-  for (const std::uint32_t model : models)
+  task.Put(static_cast<std::uint64_t>(changed_models_.size()));
+  for (const std::uint32_t model : changed_models_)
   {
     task.Put(model);
     PutModel(world.models_[model], task);
@@ -218,11 +249,42 @@ void KinematicWorld::Division::ReadResult(KinematicWorld& world, unsigned region
   take(world.travel_turn_);
 }
 
-void KinematicWorld::Division::DoTask(KinematicWorld& world, std::span<const char> bytes, ByteWriter& result)
+// With the followers alone.
+std::unique_ptr<KinematicWorld> KinematicWorld::Division::WorldOf(std::span<const char> bytes, unsigned region,
+                                                                  RegionExchange& exchange, unsigned halo)
 {
-  ByteReader task(bytes);
-  const bool anew = task.Get<std::uint8_t>() != 0;
-  if (task.Get<std::uint8_t>() != 0) world.region_->ShareOutAnew();
+  ByteReader plan(bytes);
+  const auto outset = plan.Get<Outset>();
+  if (!outset.grid.IsSound() || !(outset.median_core >= 0) || !(outset.smallest_limit > 0) || outset.threads < 1 ||
+      outset.threads > kMostThreads)
+    Refuse("a plan that is none");
+  auto world = std::make_unique<KinematicWorld>(outset.elasticity);
+  world->median_core_ = outset.median_core;
+  world->smallest_limit_ = outset.smallest_limit;
+  world->keeps_travel_ = outset.keeps_travel != 0;
+  for (std::vector<CollisionModel>* models : {&world->models_, &world->statics_})
+    for (auto count = plan.Get<std::uint64_t>(); count > 0; --count)
+    {
+      std::optional<CollisionModel> model = GetModel(plan);
+      if (!model) Refuse("a model that is none");
+      models->push_back(std::move(*model));
+    }
+  std::vector<std::uint32_t> numbers;
+  for (const FollowerPlan& follower : plan.GetArray<FollowerPlan>())
+  {
+    if (follower.model >= world->models_.size() || (!numbers.empty() && follower.number <= numbers.back()))
+      Refuse("a mirror that is none");
+    numbers.push_back(follower.number);
+    world->AddBody(follower.model, {}, true);
+  }
+  if (!plan.AtEnd()) Refuse("a plan that does not end");
+  world->MakeRoom(outset.grid, outset.threads, nullptr);
+  world->region_ = std::make_unique<Region>(*world, std::move(numbers), region, exchange, halo);
+  return world;
+}
+
+void KinematicWorld::Division::DoTask(KinematicWorld& world, bool anew, ByteReader& task, ByteWriter& result)
+{
   const auto seconds = task.Get<double>();
   const auto steps = task.Get<int>();
   if (const auto cuts = task.GetArray<std::uint8_t>(); !cuts.empty()) world.region_->SetCuts(world, cuts);
@@ -245,7 +307,7 @@ void KinematicWorld::Division::DoTask(KinematicWorld& world, std::span<const cha
   }
   world.region_->SetGrips(task.GetArray<Grip>());
   if (anew)
-    world.region_->BeginAgain(world, task);
+    world.region_->TakeBodies(world, task);
   else
     TakeChanges(world, task);
   world.Advance(seconds, steps);
@@ -309,6 +371,41 @@ void KinematicWorld::Division::WriteResult(const KinematicWorld& world, ByteWrit
   if (!world.keeps_travel_) return;
   put(world.travel_forward_);
   put(world.travel_turn_);
+}
+
+PlaneRegion::PlaneRegion(unsigned region, RegionExchange& exchange, unsigned halo)
+    : number_(region), exchange_(exchange), halo_(halo)
+{
+  const unsigned regions = exchange.RegionCount();
+  if (regions < 1 || regions > EngineSplit::kMostRegions || region >= regions)
+    throw std::runtime_error("a plane can be cut into 1 to 32 regions, numbered from 0");
+}
+
+PlaneRegion::~PlaneRegion() = default;
+
+std::size_t PlaneRegion::BodyCount() const { return world_ ? world_->BodyCount() : 0; }
+
+void PlaneRegion::Work(std::span<const char> bytes, ByteWriter& result)
+{
+  using Division = KinematicWorld::Division;
+  ByteReader task(bytes);
+  const auto start = task.Get<Division::TaskStart>();
+  if (start.tells_all != 0)
+  {
+    if (start.piece == 0)
+    {
+      plan_.clear();
+      world_.reset();
+    }
+    const auto piece = task.GetArray<char>();
+    plan_.insert(plan_.end(), piece.begin(), piece.end());
+    if (start.is_plan_alone != 0) return;
+    world_ = Division::WorldOf(plan_, number_, exchange_, halo_);
+    plan_ = {};
+  }
+  if (!world_) Division::Refuse("it was told no plan");
+  if (start.has_changes != 0) world_->region_->ShareOutAnew();
+  Division::DoTask(*world_, start.tells_all != 0, task, result);
 }
 
 }  // namespace swarmanoid::kinematics2d

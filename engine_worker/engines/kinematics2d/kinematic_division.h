@@ -2,7 +2,9 @@
 //
 // The world keeps what an engine asks for: poses, turrets, grips, travel. Each tick it tells each region what its
 // bodies do (a task), and takes over what became of them (a result). Regions remember the rest; how they speak with one
-// another is in kinematic_region.h. Tasks and results are written and read in kinematic_division.cpp alone.
+// another is in kinematic_region.h. A region that is told all gets the plan of the world before: models, static shapes,
+// cells, followers; in pieces, since there may be any number of walls. Tasks and results are written and read in
+// kinematic_division.cpp alone.
 #pragma once
 
 #include <vector>
@@ -28,7 +30,28 @@ public:
   bool Advance(KinematicWorld& world, double seconds, int steps);
 
 private:
-  // The parts of tasks and results.
+  friend class PlaneRegion;
+
+  // What comes first in a task.
+  struct TaskStart
+  {
+    std::uint32_t piece;             // of the plan, which follows
+    std::uint8_t is_plan_alone : 1;  // another piece comes before there is something to do
+    std::uint8_t tells_all : 1;
+    std::uint8_t has_changes : 1;
+    std::uint8_t padding[3];
+  };
+  // The parts of plans, tasks and results.
+  struct Outset
+  {
+    PlaneGrid grid;
+    double elasticity, median_core, smallest_limit;
+    std::uint32_t threads, keeps_travel;
+  };
+  struct FollowerPlan
+  {
+    std::uint32_t number, model;
+  };
   struct FollowerTask
   {
     Pose2 now, from, goal;
@@ -53,6 +76,7 @@ private:
     double angle;
   };
 
+  static ByteWriter PlanOf(const KinematicWorld& world);
   void WriteForAll(const KinematicWorld& world, bool anew, double seconds, int steps, ByteWriter& task) const;
   void WriteBodies(const KinematicWorld& world, std::span<ByteWriter> tasks);
   void WriteChanges(const KinematicWorld& world, std::span<ByteWriter> tasks);
@@ -60,8 +84,9 @@ private:
   [[noreturn]] static void Refuse(const char* what);
 
   // The other side.
-  friend class KinematicWorld;
-  static void DoTask(KinematicWorld& world, std::span<const char> task, ByteWriter& result);
+  static std::unique_ptr<KinematicWorld> WorldOf(std::span<const char> plan, unsigned region, RegionExchange& exchange,
+                                                 unsigned halo);
+  static void DoTask(KinematicWorld& world, bool anew, ByteReader& task, ByteWriter& result);
   static void TakeChanges(KinematicWorld& world, ByteReader& task);
   static void WriteResult(const KinematicWorld& world, ByteWriter& result);
 

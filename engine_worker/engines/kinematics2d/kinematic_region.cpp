@@ -53,11 +53,6 @@ void MoveRuns(const Runs& runs, std::size_t size, typename Values::value_type be
 
 }  // namespace
 
-void KinematicWorld::BecomeRegion(unsigned region, RegionExchange& exchange, unsigned halo)
-{
-  region_ = std::make_unique<Region>(*this, region, exchange, halo);
-}
-
 void CheckCuts(const BroadPhase& broad, std::span<const std::uint8_t> region_of_block, unsigned regions)
 {
   if (region_of_block.size() != broad.BlockCount())
@@ -72,23 +67,20 @@ void KinematicWorld::Region::Refuse(const char* what)
   throw std::runtime_error(std::string("the regions of a plane do not agree: ") + what);
 }
 
-KinematicWorld::Region::Region(KinematicWorld& whole, unsigned number, RegionExchange& exchange, unsigned halo)
-    : number_(number), halo_(halo), exchange_(exchange)
+KinematicWorld::Region::Region(KinematicWorld& world, std::vector<std::uint32_t> followers, unsigned number,
+                               RegionExchange& exchange, unsigned halo)
+    : number_(number), halo_(halo), exchange_(exchange), numbers_(std::move(followers))
 {
   const unsigned regions = exchange.RegionCount();
-  if (regions < 1 || regions > EngineSplit::kMostRegions || number >= regions)
-    throw std::runtime_error("a plane can be cut into 1 to 32 regions, numbered from 0");
   others_ = static_cast<Regions>((std::uint64_t{1} << regions) - 1) & ~Bit(number);
   out_.resize(regions);
   in_.resize(regions);
   common_.resize(regions);
-  numbers_.resize(whole.count_);
-  std::iota(numbers_.begin(), numbers_.end(), 0U);
-  is_own_.assign(whole.count_, 0);
-  SetCuts(whole, std::vector<std::uint8_t>(whole.broad_.BlockCount(), 0));
-  FindCells(whole);
+  is_own_.assign(world.count_, 0);
+  SetCuts(world, std::vector<std::uint8_t>(world.broad_.BlockCount(), 0));
+  FindCells(world);
   arrived_.clear();
-  TakeArrived(whole);
+  TakeArrived(world);
 }
 
 void KinematicWorld::Region::SetCuts(KinematicWorld& world, std::span<const std::uint8_t> region_of_block)
@@ -300,13 +292,8 @@ void KinematicWorld::Region::TakeArrived(KinematicWorld& world)
   FindCommon(world);
 }
 
-void KinematicWorld::Region::BeginAgain(KinematicWorld& world, ByteReader& bodies)
+void KinematicWorld::Region::TakeBodies(KinematicWorld& world, ByteReader& bodies)
 {
-  is_shared_out_ = false;
-  for (ByteWriter& message : out_) message.Clear();
-  gone_.clear();
-  for (std::uint32_t body = 0; body < world.count_; ++body)
-    if (!world.IsFollower(body)) gone_.push_back(body);
   arrived_.clear();
   ReadBodies(world, bodies);
   SortArrived();

@@ -30,8 +30,9 @@ class KinematicWorld::Region final : public ContactSolver::Border
 public:
   using Stamp = ContactSolver::Stamp;
 
-  // It is told all about its bodies and the cuts by BeginAgain.
-  Region(KinematicWorld& whole, unsigned number, RegionExchange& exchange, unsigned halo);
+  // Of a world that has the followers alone, which have these numbers in the whole one.
+  Region(KinematicWorld& world, std::vector<std::uint32_t> followers, unsigned number, RegionExchange& exchange,
+         unsigned halo);
 
   void SetCuts(KinematicWorld& world, std::span<const std::uint8_t> region_of_block);
 
@@ -41,8 +42,8 @@ public:
   void SetGrips(std::vector<Grip> grips);
   // Who holds whom is decided anew before the next substep. For all regions at once.
   void ShareOutAnew() { is_shared_out_ = false; }
-  // From now on it computes those that follow, as PutBody wrote them, and holds no others.
-  void BeginAgain(KinematicWorld& world, ByteReader& bodies);
+  // It computes those that follow, as PutBody wrote them.
+  void TakeBodies(KinematicWorld& world, ByteReader& bodies);
 
   // In this order in Advance: before each substep the bodies.
   void ShareBodies(KinematicWorld& world);

@@ -79,6 +79,34 @@ void KinematicWorld::AddStatic(CollisionModel shape) { statics_.push_back(std::m
 
 void KinematicWorld::Start(Bounds area, unsigned threads, WorkerPool* pool)
 {
+  std::vector<double> cores, radii;
+  for (std::size_t k = 0; k < count_; ++k)
+  {
+    const CollisionModel& model = models_[model_[k]];
+    radii.push_back(model.bounding_radius);
+    cores.push_back(CoreOf(model));
+    if (present_[k] != 0) area.Include(now_.x[k], now_.y[k], model.bounding_radius);
+  }
+  // A wide body among narrow ones goes no further in a substep than they do, so that the cells can stay small.
+  double longest_way = 0;
+  smallest_limit_ = 1;
+  if (count_ > 0)
+  {
+    const auto middle = cores.begin() + static_cast<std::ptrdiff_t>(count_ / 2);
+    std::nth_element(cores.begin(), middle, cores.end());
+    median_core_ = *middle;
+    for (std::size_t k = 0; k < count_; ++k)
+    {
+      const double limit = CoreLimitOf(models_[model_[k]]);
+      longest_way = std::max(longest_way, limit);
+      smallest_limit_ = std::min(smallest_limit_, limit);
+    }
+  }
+  MakeRoom(PlaneGrid::For(area, radii, 2 * (longest_way + kSlowestSeparation)), threads, pool);
+}
+
+void KinematicWorld::MakeRoom(const PlaneGrid& grid, unsigned threads, WorkerPool* pool)
+{
   if (pool == nullptr && threads > 1) own_pool_ = std::make_unique<WorkerPool>(threads);
   pool_ = pool != nullptr ? pool : own_pool_.get();
   parts_.resize(threads);
@@ -98,35 +126,16 @@ void KinematicWorld::Start(Bounds area, unsigned threads, WorkerPool* pool)
   mobility_.assign(count_ + 1, 0);
   leader_.resize(count_ + 1);
   for (std::uint32_t k = 0; k <= count_; ++k) leader_[k] = k;
-
-  std::vector<double> cores, radii;
-  for (std::size_t k = 0; k < count_; ++k)
-  {
-    const CollisionModel& model = models_[model_[k]];
-    radii.push_back(model.bounding_radius);
-    cores.push_back(CoreOf(model));
-    if (present_[k] != 0) area.Include(now_.x[k], now_.y[k], model.bounding_radius);
-  }
-  // A wide body among narrow ones goes no further in a substep than they do, so that the cells can stay small.
   inverse_limit_.assign(padded, 1);
-  double longest_way = 0;
-  smallest_limit_ = 1;
-  if (count_ > 0)
+  std::vector<double> radii;
+  for (std::uint32_t k = 0; k < count_; ++k)
   {
-    std::vector<double> sorted = cores;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(count_ / 2), sorted.end());
-    median_core_ = sorted[count_ / 2];
-    for (std::size_t k = 0; k < count_; ++k)
-    {
-      const double limit = CoreLimitOf(models_[model_[k]]);
-      inverse_limit_[k] = 1 / limit;
-      longest_way = std::max(longest_way, limit);
-      smallest_limit_ = std::min(smallest_limit_, limit);
-    }
+    inverse_limit_[k] = 1 / CoreLimitOf(ModelOf(k));
+    radii.push_back(RadiusOf(k));
   }
   allowed_ = kAllowedOverlap * smallest_limit_ / kWayInCore;
 
-  broad_.Configure(area, radii, 2 * (longest_way + kSlowestSeparation));
+  broad_.Configure(grid, radii);
   std::vector<Bounds> boxes;
   for (const CollisionModel& shape : statics_) boxes.push_back(BoxOf(shape));
   broad_.SetStatics(boxes);

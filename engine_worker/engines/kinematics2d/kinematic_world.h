@@ -121,21 +121,13 @@ public:
   std::vector<std::uint32_t> BodiesInBlocks() const;
   // region_of_block[k] has block k, from the next Advance on. Throws std::runtime_error for what is no cut.
   void MoveCuts(std::span<const std::uint8_t> region_of_block);
-  // After Start, another world of the same making: one of the regions of such a team. It holds the bodies in its blocks
-  // and in the cells around them, at most `halo` cells away, with numbers of its own; followers, members of groups and
-  // bodies that are too large for the cells it holds wherever they are. It speaks to the others by `exchange`, which
-  // outlives the world. One cell of halo is enough, but then who holds whom is found in each substep. Throws
-  // std::runtime_error if there is no such region.
-  static constexpr unsigned kHalo = 2;
-  void BecomeRegion(unsigned region, RegionExchange& exchange, unsigned halo = kHalo);
-  // What a region does for the world that was divided. Throws std::runtime_error for what is no task.
-  void DoTask(std::span<const char> task, ByteWriter& result);
 
   // Poses, turrets and grips; twists and followers' goals are commands and not part of it.
   void SaveState(ByteWriter& state) const;
   void LoadState(ByteReader& state);
 
 private:
+  friend class PlaneRegion;
   class Region;
   class Division;
 
@@ -242,6 +234,7 @@ private:
   }
   bool IsFollower(std::uint32_t body) const { return follower_[body] != 0; }
   double CoreLimitOf(const CollisionModel& model) const;
+  void MakeRoom(const PlaneGrid& grid, unsigned threads, WorkerPool* pool);
   void RebuildGroups();
   void FindEffectiveTwists();
   Twist GroupTwist(std::span<const Grip> members) const;
@@ -347,6 +340,30 @@ private:
   WorldStatistics statistics_;
   std::unique_ptr<Division> division_;  // none if the world does it all by itself
   std::unique_ptr<Region> region_;      // none for the whole world
+};
+
+// One of the regions of a plane that is divided. It knows nothing before the first task, which tells it all. It holds
+// the bodies in its blocks and in the cells around them, at most `halo` cells away, with numbers of its own; followers,
+// members of groups and bodies that are too large for the cells it holds wherever they are. One cell of halo is enough,
+// but then who holds whom is found in each substep.
+class PlaneRegion final : public EngineRegion
+{
+public:
+  static constexpr unsigned kHalo = 2;
+  // It speaks to the others by `exchange`, which outlives it. Throws std::runtime_error if there is no such region.
+  PlaneRegion(unsigned region, RegionExchange& exchange, unsigned halo = kHalo);
+  ~PlaneRegion() override;
+  // Throws std::runtime_error for what is no task.
+  void Work(std::span<const char> task, ByteWriter& result) override;
+  // How many bodies it holds.
+  std::size_t BodyCount() const;
+
+private:
+  const unsigned number_;
+  RegionExchange& exchange_;
+  const unsigned halo_;
+  std::vector<char> plan_;  // as far as it is told
+  std::unique_ptr<KinematicWorld> world_;
 };
 
 }  // namespace swarmanoid::kinematics2d

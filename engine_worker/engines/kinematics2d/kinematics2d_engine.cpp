@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <tuple>
 
 #include "common/math/elementary.h"
 #include "common/space/shape.h"
@@ -18,20 +20,6 @@ namespace
 using namespace kinematics2d;
 
 constexpr std::uint64_t kBalancePeriod = 64;  // ticks
-
-// The world of a process that has one region.
-class WorldRegion final : public EngineRegion
-{
-public:
-  WorldRegion(KinematicWorld world, unsigned region, RegionExchange& exchange) : world_(std::move(world))
-  {
-    world_.BecomeRegion(region, exchange);
-  }
-  void Work(std::span<const char> task, ByteWriter& result) override { world_.DoTask(task, result); }
-
-private:
-  KinematicWorld world_;
-};
 
 bool HasTurret(const CSwarmanoidSpaceEntity& entity)
 {
@@ -96,8 +84,17 @@ void Kinematics2dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBindin
 void Kinematics2dEngine::Start()
 {
   const std::uint32_t footbot_model = world_.AddModel(FootbotModel());
+  std::map<std::tuple<bool, double, double>, std::uint32_t> models;  // by form and size
   const auto model_for = [&](const CSwarmanoidSpaceEntity& entity)
-  { return HasTurret(entity) ? footbot_model : world_.AddModel(ModelOf(entity)); };
+  {
+    if (HasTurret(entity)) return footbot_model;
+    // The plane cuts each free box elsewhere.
+    if (IsFreeBox(entity.GetKind())) return world_.AddModel(ModelOf(entity));
+    const bool is_box = DescriptionOf(entity.GetKind()).form == BodyForm::kBox;
+    const auto [known, is_new] = models.try_emplace({is_box, entity.GetSize().x(), entity.GetSize().y()}, 0);
+    if (is_new) known->second = world_.AddModel(ModelOf(entity));
+    return known->second;
+  };
 
   std::vector<PlaneWriter::Stance> stances;
   for (const CSwarmanoidSpaceEntity* entity : owned_)
@@ -162,7 +159,7 @@ void Kinematics2dEngine::Start()
 
 std::unique_ptr<EngineRegion> Kinematics2dEngine::MakeRegion(unsigned region, RegionExchange& exchange)
 {
-  return std::make_unique<WorldRegion>(std::move(world_), region, exchange);
+  return std::make_unique<PlaneRegion>(region, exchange);
 }
 
 void Kinematics2dEngine::BalanceRegions()

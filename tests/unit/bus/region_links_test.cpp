@@ -10,7 +10,6 @@
 
 #include "common/bus/region_links.h"
 #include "common/bus/worker_session.h"
-#include "common/space/space.h"
 #include "tests/eventually.h"
 #include "tests/unit/bus/separate_processes.h"
 #include "tests/unit/bus/server_fixture.h"
@@ -45,15 +44,13 @@ public:
         server_(options, "space server"),
         worlds_(server_, "region_links"),
         leaves_(server_, "region_links"),
-        experiment_(SplitInTwo()),
-        space_(experiment_),
-        limits_(space_, MakeAssignment(experiment_, 1), false)
+        experiment_(SplitInTwo())
   {
     // A process has one folder of a run; these are three.
     world.spread = true;
     worlds_.Write(world);
     listened_.emplace(
-        server_, HotScope{"region_links", "", true, limits_.RegionTaskBytes(), 1, "region 1"},
+        server_, HotScope{"region_links", "", true, limits_.TaskBytes(), 1, "region 1"},
         HotSubscription<RegionTaskMessage>::Handler{[this](const MessageHeader&) { return &arriving_; },
                                                     [this](const MessageHeader&, const RegionTaskMessage& task)
                                                     {
@@ -134,8 +131,7 @@ private:
   Publisher<WorldMessage> worlds_;
   Publisher<LeaveMessage> leaves_;
   const Experiment experiment_;
-  const CSwarmanoidSpace space_;
-  const TickLimits limits_;
+  const RegionLimits limits_;
   mutable std::mutex mutex_;
   std::vector<std::vector<char>> heard_;
   RegionTaskMessage arriving_;

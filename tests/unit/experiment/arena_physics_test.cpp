@@ -52,5 +52,26 @@ TEST(ArenaPhysics, FindsOutQuicklyThatNoIdFitsALongPattern)
   EXPECT_NE(Fitting(pattern + "q").find("no entity fits"), std::string::npos);
 }
 
+// As processes do that compute a part of an engine's world, however many entities there are.
+TEST(ArenaPhysics, EnginesMayBeReadAlone)
+{
+  const std::string text =
+      "<ahss-config><framework><clocktick>50</clocktick></framework>"
+      "<arena size='9, 9, 2' optimization='2D'><block id='b' size='no'/></arena>"
+      "<engines><dummy_engine id='e'><subclock>3</subclock></dummy_engine><dummy_engine id='f'/></engines>"
+      "<arena_physics><engine id='e'><entity id='nobody'/></engine></arena_physics></ahss-config>";
+  LoadOptions options;
+  options.engines_alone = true;
+  const LoadedExperiment loaded = LoadText(text, options);
+  ASSERT_EQ(ErrorsOf(text, options), "");
+  EXPECT_EQ(loaded.experiment->clock_tick_ms, 50U);
+  ASSERT_EQ(loaded.experiment->engines.size(), 2U);
+  EXPECT_EQ(loaded.experiment->engines[0].id, "e");
+  EXPECT_EQ(loaded.experiment->engines[0].tag, "dummy_engine");
+  EXPECT_EQ(loaded.experiment->engines[0].subclock, 3);
+  EXPECT_TRUE(loaded.experiment->entities.empty());
+  EXPECT_NE(ErrorsOf(text), "");
+}
+
 }  // namespace
 }  // namespace swarmanoid::test

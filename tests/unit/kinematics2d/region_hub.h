@@ -6,11 +6,12 @@
 #include <condition_variable>
 #include <cstdint>
 #include <ctime>
-#include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "engine_worker/engines/kinematics2d/kinematic_world.h"
@@ -82,18 +83,19 @@ private:
 class HubTeam : public RegionTeam
 {
 public:
-  // `build` makes a world as the one that is divided was when it started.
-  HubTeam(unsigned regions, std::function<KinematicWorld()> build, unsigned halo = KinematicWorld::kHalo)
-      : build_(std::move(build)), halo_(halo), hub_(std::make_unique<Hub>(regions)), worlds_(regions), seconds_(regions)
+  explicit HubTeam(unsigned regions, unsigned halo = PlaneRegion::kHalo)
+      : halo_(halo), hub_(std::make_unique<Hub>(regions)), places_(regions), seconds_(regions)
   {
     for (unsigned region = 0; region < regions; ++region) Replace(region);
   }
 
-  unsigned RegionCount() const override { return static_cast<unsigned>(worlds_.size()); }
+  unsigned RegionCount() const override { return static_cast<unsigned>(places_.size()); }
   bool IsReady() const override { return is_ready_; }
   void SetReady(bool is_ready) { is_ready_ = is_ready; }
   void Work(bool anew, const WriteTasks& write, std::span<std::vector<char>> results) override
   {
+    ++works_;
+    if (replaced_ && replaced_->first == works_) Replace(replaced_->second);
     anew = std::exchange(begins_again_, false) || anew;
     tasks_.resize(RegionCount());
     results_.resize(RegionCount());
@@ -109,7 +111,7 @@ public:
             try
             {
               results_[region].Clear();
-              worlds_[region].world->DoTask(tasks_[region].Bytes(), results_[region]);
+              places_[region].region->Work(tasks_[region].Bytes(), results_[region]);
               results[region] = results_[region].Bytes();
             }
             catch (const std::exception& error)
@@ -124,16 +126,20 @@ public:
       if (!error.empty() && error != "another region has ended") throw std::runtime_error(error);
   }
 
+  // How often the world gave them something to do.
+  unsigned Works() const { return works_; }
+  // As Replace, when it does so for the n-th time.
+  void ReplaceAt(unsigned work, unsigned region) { replaced_.emplace(work, region); }
   // Another one takes its place, which knows nothing.
   void Replace(unsigned region)
   {
-    Place& place = worlds_[region];
+    Place& place = places_[region];
+    place.region.reset();
     place.exchange = std::make_unique<HubExchange>(*hub_, region);
-    place.world = std::make_unique<KinematicWorld>(build_());
-    place.world->BecomeRegion(region, *place.exchange, halo_);
+    place.region = std::make_unique<PlaneRegion>(region, *place.exchange, halo_);
     begins_again_ = true;
   }
-  const KinematicWorld& World(unsigned region) const { return *worlds_[region].world; }
+  const PlaneRegion& Region(unsigned region) const { return *places_[region].region; }
   const Hub& Exchanges() const { return *hub_; }
   // Processor time of the thread that asks.
   static double ThreadSeconds()
@@ -165,15 +171,16 @@ private:
   struct Place
   {
     std::unique_ptr<HubExchange> exchange;
-    std::unique_ptr<KinematicWorld> world;
+    std::unique_ptr<PlaneRegion> region;
   };
 
-  std::function<KinematicWorld()> build_;
   unsigned halo_;
   std::unique_ptr<Hub> hub_;
-  std::vector<Place> worlds_;
+  std::vector<Place> places_;
   std::vector<double> seconds_;
   std::vector<ByteWriter> tasks_, results_;
+  unsigned works_ = 0;
+  std::optional<std::pair<unsigned, unsigned>> replaced_;
   bool begins_again_ = false;
   bool is_ready_ = true;
 };

@@ -56,8 +56,9 @@ inline Pose2 FollowerPose(const Scene& scene, std::uint32_t k, std::uint64_t tic
   return {radius * at.cos, radius * at.sin, RotorOf(angle)};
 }
 
-// Footbots, preys and boxes, followers behind them, and walls around and across.
-inline KinematicWorld Build(const Scene& scene)
+// Footbots, preys and boxes, followers behind them, and walls around and across; `add` may add shapes.
+inline KinematicWorld Build(
+    const Scene& scene, const std::function<void(KinematicWorld&)>& add = [](KinematicWorld&) {})
 {
   KinematicWorld world(0.9);
   const std::uint32_t footbot = world.AddModel(FootbotModel());
@@ -90,6 +91,7 @@ inline KinematicWorld Build(const Scene& scene)
   world.AddStatic(Box(-edge - 0.1, edge, edge + 0.1, edge + 0.1));
   world.AddStatic(Box(-3, -0.1, 3, 0.1));
   world.AddStatic(MakeModel(std::array{Circle{0, 2, 0.4}}, {}));
+  add(world);
   world.Start({-edge, -edge, edge, edge});
   return world;
 }
@@ -255,18 +257,13 @@ inline void CompareTick(const Scene& scene, const KinematicWorld& world, const T
 
 // The same with the world divided, compared after each tick. `replaced`: a region that becomes another one then.
 inline Outcome Retell(const Scene& scene, const Story& story, unsigned regions, const Cuts& cuts,
-                      unsigned halo = KinematicWorld::kHalo,
+                      unsigned halo = PlaneRegion::kHalo,
                       const std::function<std::optional<unsigned>(std::uint64_t tick)>& replaced = nullptr)
 {
   Outcome outcome;
-  const auto build = [&]
-  {
-    KinematicWorld world = Build(scene);
-    world.KeepTravel();
-    return world;
-  };
-  KinematicWorld world = build();
-  HubTeam team(regions, build, halo);
+  KinematicWorld world = Build(scene);
+  world.KeepTravel();
+  HubTeam team(regions, halo);
   world.Divide(team);
   ByteReader saved(story.saved);
   world.LoadState(saved);
@@ -284,7 +281,7 @@ inline Outcome Retell(const Scene& scene, const Story& story, unsigned regions, 
       Act(scene, world, told, tick);
       world.Advance(kTick, 1);
       for (unsigned region = 0; region < regions; ++region)
-        outcome.most_held = std::max(outcome.most_held, team.World(region).BodyCount());
+        outcome.most_held = std::max(outcome.most_held, team.Region(region).BodyCount());
       CompareTick(scene, world, told, tick, outcome);
     }
   }

@@ -165,6 +165,49 @@ TEST(KinematicRegions, AnotherOneMayTakeThePlaceOfARegionAtAnyTick)
   EXPECT_EQ(outcome.differences, 0U) << outcome.first;
 }
 
+// As of the map of a building: a message of a task has no room for them.
+TEST(KinematicRegions, AnyNumberOfWallsIsToldPieceByPiece)
+{
+  Scene scene;
+  scene.side = 20;
+  scene.density = 1;
+  scene.has_grips = scene.has_followers = scene.has_large = false;
+  const auto build = [&]
+  {
+    return Build(scene,
+                 [](KinematicWorld& world)
+                 {
+                   for (int k = 0; k < 4000; ++k)
+                   {
+                     const double x = 0.3 * (k % 64) - 9.5;
+                     const double y = 0.3 * (k / 64) - 9.5;
+                     world.AddStatic(Box(x, y, x + 0.02, y + 0.02));
+                   }
+                 });
+  };
+  KinematicWorld one = build();
+  KinematicWorld divided = build();
+  HubTeam team(3);
+  divided.Divide(team);
+  divided.MoveCuts(Strips(3, divided.BlockColumns(), divided.BlockCount()));
+  // When some of it has been told.
+  team.ReplaceAt(3, 1);
+  for (std::uint64_t tick = 0; tick < 20; ++tick)
+  {
+    for (KinematicWorld* world : {&one, &divided})
+    {
+      for (std::uint32_t body = 0; body < scene.Bodies(); ++body) Command(scene, *world, body, tick);
+      world->Advance(kTick, 1);
+    }
+    for (std::uint32_t body = 0; body < scene.Bodies(); ++body)
+      ASSERT_TRUE(SameBits(one.PoseOf(body).x, divided.PoseOf(body).x) &&
+                  SameBits(one.PoseOf(body).y, divided.PoseOf(body).y))
+          << body << " at tick " << tick;
+  }
+  EXPECT_GE(team.Works(), 20U + 5) << "it has all gone into one message";
+  EXPECT_GT(one.Statistics().contacts, 10U);
+}
+
 TEST(KinematicRegions, ASpeedBeyondAllSenseIsRefusedAsInOneWorld)
 {
   Scene scene;
@@ -183,7 +226,7 @@ TEST(KinematicRegions, ASpeedBeyondAllSenseIsRefusedAsInOneWorld)
   };
   KinematicWorld one = Build(scene);
   KinematicWorld divided = Build(scene);
-  HubTeam team(2, [&] { return Build(scene); });
+  HubTeam team(2);
   divided.Divide(team);
   divided.MoveCuts(Strips(2, divided.BlockColumns(), divided.BlockCount()));
   EXPECT_EQ(refusal(divided), refusal(one));
@@ -194,11 +237,10 @@ TEST(KinematicRegions, WhatIsNoTaskIsRefused)
 {
   Scene scene;
   scene.side = 4;
-  HubTeam team(1, [&] { return Build(scene); });
+  HubTeam team(1);
   KinematicWorld divided = Build(scene);
   divided.Divide(team);
   divided.Advance(kTick, 1);
-  ByteWriter task;
   std::vector<std::vector<char>> results(1);
   const auto refused = [&](const std::function<void(ByteWriter&)>& write)
   {
@@ -219,6 +261,9 @@ TEST(KinematicRegions, WhatIsNoTaskIsRefused)
       {
         for (int k = 0; k < 100; ++k) noise.Put<std::uint64_t>(~0ULL - static_cast<unsigned>(k));
       }));
+  // Without a plan.
+  team.Replace(0);
+  EXPECT_TRUE(refused([](ByteWriter& task) { task.Put(std::uint64_t{0}); }));
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ struct Swarm
         {0, 0, side, 0.02}, {0, 0, 0.02, side}, {side / 2, side / 3, side / 2 + 0.3, side / 2}};
     for (BroadPhase* broad : {&searched, &listed})
     {
-      broad->Configure(area, radii, kLargestMargin);
+      broad->Configure(PlaneGrid::For(area, radii, kLargestMargin), radii);
       broad->SetStatics(walls);
     }
   }
@@ -146,7 +146,7 @@ TEST(VerletList, LeavesFastAndLargeBodiesToTheSearch)
 
   Swarm others(100, 5);
   others.radii[3] = 1;
-  others.listed.Configure({0, 0, 5, 5}, others.radii, kLargestMargin);
+  others.listed.Configure(PlaneGrid::For({0, 0, 5, 5}, others.radii, kLargestMargin), others.radii);
   EXPECT_FALSE(others.Compare(list, nullptr));
 }
 
