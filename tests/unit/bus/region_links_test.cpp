@@ -151,6 +151,7 @@ TEST_F(RegionLinks, RegionsHearTheirOwnTasksAlone)
   ASSERT_TRUE(Eventually([&] { return !two.Heard().empty(); }));
   for (const std::vector<char>& task : two.Heard()) EXPECT_EQ(task, (std::vector<char>{1, 0, 0, 0}));
   two.Team().End();
+  two.SayLeft(8, "engine 'ground'");
   ASSERT_TRUE(Eventually([&] { return two.Left() == 2; }));
   for (const unsigned k : {0U, 1U}) EXPECT_EQ(two.TaskOf(k), k);
 }
