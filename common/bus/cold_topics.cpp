@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "common/bus/message_type.h"
 #include "common/bus/participant.h"
 
@@ -146,8 +148,8 @@ struct Subscription<Message>::Impl : dds::DataReaderListener
 
   void GiveRoomBack()
   {
-    payload = {};
-    room = {};
+    std::exchange(payload, {});
+    std::exchange(room, {});
     message = {};
   }
 

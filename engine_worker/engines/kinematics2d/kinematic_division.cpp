@@ -5,6 +5,7 @@
 #include <cstring>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "engine_worker/engines/kinematics2d/kinematic_region.h"
 
@@ -401,7 +402,7 @@ void PlaneRegion::Work(std::span<const char> bytes, ByteWriter& result)
     plan_.insert(plan_.end(), piece.begin(), piece.end());
     if (start.is_plan_alone != 0) return;
     world_ = Division::WorldOf(plan_, number_, exchange_, halo_);
-    plan_ = {};
+    std::exchange(plan_, {});
   }
   if (!world_) Division::Refuse("it was told no plan");
   if (start.has_changes != 0) world_->region_->ShareOutAnew();
