@@ -8,7 +8,7 @@ rm -rf "$3"/controllers/* "$3"/functions/*
 cp -r "$2"/* "$3"
 cd "$3"
 {
-  ./build.sh
-  cmake -S drivers -B simulation_build/drivers -DCMAKE_PREFIX_PATH="$1"
-  cmake --build simulation_build/drivers
+  ./build.sh &&
+    cmake -S drivers -B simulation_build/drivers -DCMAKE_PREFIX_PATH="$1" &&
+    cmake --build simulation_build/drivers
 } >build.log 2>&1 || { cat build.log; exit 1; }
