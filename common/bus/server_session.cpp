@@ -157,8 +157,16 @@ void ServerSession::Joined(const JoinMessage& join)
       if (std::tie(joined.process, joined.ready, joined.incarnation) ==
           std::tie(join.process, join.ready, join.incarnation))
         return;
-      if (joined.process != join.process) joined.status = {};
-      if (joined.process != join.process) joined.released = false;
+      if (joined.process != join.process)
+      {
+        joined.status = {};
+        joined.released = false;
+        joined.done_at.reset();
+        // It has not heard who had left before, and may wait for one of them.
+        if (join.incarnation > 0)
+          for (const auto& [name, other] : state->members)
+            if (other.done_at) state->answers.push_back({world_.run, *other.done_at, name, other.process, ""});
+      }
       std::tie(joined.process, joined.ready, joined.incarnation) = std::tie(join.process, join.ready, join.incarnation);
       joined.machine = join.machine;
       joined.reach = join.reach;
@@ -186,6 +194,7 @@ void ServerSession::MemberLeft(const LeaveMessage& leave)
                         !(member->second.released && !in_order);
     if (of_run && in_order && !member->second.left) state->just_left.push_back(leave.name);
     if (of_run) member->second.left = true;
+    if (of_run && in_order && !member->second.released) member->second.done_at = leave.tick;
     if (of_run && !in_order && !state->over)
       state->Fail(fmt::format("{} failed at tick {}: {}", leave.name, leave.tick, leave.error));
     state->answers.push_back({leave.run, leave.tick, "space server", leave.process, ""});

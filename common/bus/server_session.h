@@ -103,7 +103,8 @@ private:
     std::string process;  // empty: not here yet
     bool ready = false;
     bool left = false;
-    bool released = false;  // whoever comes takes its place
+    std::optional<std::uint64_t> done_at;  // the tick at which it said that its work is done
+    bool released = false;                 // whoever comes takes its place
     std::uint32_t incarnation = 0;
     std::string machine{};  // as in JoinMessage
     double reach = kReachesAll;

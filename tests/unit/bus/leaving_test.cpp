@@ -139,6 +139,35 @@ TEST_F(Leaving, IsReadBeforeTheProcessIsMissed)
   EXPECT_EQ(session.FirstLeft(), "engine 'ground'");
 }
 
+// As a region that takes the place of one that was killed when its engine had done its work.
+TEST_F(Leaving, IsToldToThoseWhoComeLater)
+{
+  const std::string late = "region 0 of engine 'ground'";
+  ServerSession session(options_, world_, {"engine 'ground'", "controller host 0", late},
+                        {[](const auto&) {}, [] {}, [](const auto&) {}});
+  session.AwaitReplacements();
+  session.Open();
+  {
+    Bus engine(options_, "engine 'ground'");
+    Publisher<JoinMessage> join(engine, "leaving");
+    join.Write({ProcessId(), kProtocolVersion, world_.run, "engine 'ground'", true});
+    ASSERT_TRUE(Eventually([&] { return session.ProcessOf("engine 'ground'") == ProcessId(); }));
+    Publisher<LeaveMessage> leave(engine, "leaving");
+    leave.Write({world_.run, 9, "engine 'ground'", ProcessId(), ""});
+    ASSERT_TRUE(Eventually([&] { return session.FirstLeft().has_value(); }));
+  }
+  setenv("SWARMANOID_SHARED_FOLDER", (folder_ + "-worker").c_str(), 1);
+  const WorkerSession worker(options_, "leaving", late, {}, 1);
+  EXPECT_TRUE(Eventually(
+      [&]
+      {
+        session.AnswerLeaves();
+        return worker.HasLeft("engine 'ground'", 9);
+      }));
+  EXPECT_FALSE(worker.HasLeft("engine 'ground'", 10));
+  EXPECT_FALSE(worker.HasLeft("controller host 0", 0));
+}
+
 // On another machine, after the connection by ssh has broken. An exception would take endpoints down that may wait for
 // a dead process for ever.
 TEST_F(Leaving, GivesUpInOrderIfNobodyReadsItsErrors)
