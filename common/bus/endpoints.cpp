@@ -51,9 +51,8 @@ dds::DataReaderQos ReaderQos(const TopicQos& topic, unsigned writers)
   qos.resource_limits().max_samples = qos.resource_limits().max_instances * qos.history().depth;
   qos.resource_limits().allocated_samples = qos.history().depth;
   qos.resource_limits().extra_samples = kExtraSamples;
-  // Room of hot messages is used again; a world's is given back.
-  qos.endpoint().history_memory_policy = topic.hot ? eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE
-                                                   : eprosima::fastrtps::rtps::DYNAMIC_RESERVE_MEMORY_MODE;
+  // Not DYNAMIC_RESERVE: a reader without room made before never confirms an empty message, which a stranger may send.
+  qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   qos.data_sharing().off();
   qos.reliable_reader_qos().times.heartbeatResponseDelay = Milliseconds(topic.hot ? 0 : 0.2);
   return qos;
