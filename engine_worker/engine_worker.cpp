@@ -14,6 +14,14 @@
 namespace swarmanoid
 {
 
+const PluginRegistry<CPhysicsEngine>::Entry& RegisteredEngine(const EngineConfiguration& configuration)
+{
+  const auto* entry = PluginRegistry<CPhysicsEngine>::Instance().Find(configuration.tag);
+  if (entry == nullptr)
+    throw ConfigurationError(configuration.location, "no engine is registered as '" + configuration.tag + "'");
+  return *entry;
+}
+
 EngineWorker::EngineWorker(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t engine,
                            RegionTeam* team, WorkerPool* pool)
     : space_(space),
@@ -22,15 +30,13 @@ EngineWorker::EngineWorker(const CSwarmanoidSpace& space, const Assignment& assi
       actor_(EngineActor(space.GetExperiment(), engine))
 {
   const EngineConfiguration& configuration = space.GetExperiment().engines[engine];
-  const auto* entry = PluginRegistry<CPhysicsEngine>::Instance().Find(configuration.tag);
-  if (entry == nullptr)
-    throw ConfigurationError(configuration.location, "no engine is registered as '" + configuration.tag + "'");
+  const PluginRegistry<CPhysicsEngine>::Entry& entry = RegisteredEngine(configuration);
   RunCodeOf<ConfigurationError>(
       actor_, ActivityStep::kInit, space.GetTick(),
       [&]
       {
-        engine_ = entry->create();
-        engine_->Init({configuration, Parameters(configuration.tree, entry->description.parameters), space, layout_,
+        engine_ = entry.create();
+        engine_->Init({configuration, Parameters(configuration.tree, entry.description.parameters), space, layout_,
                        team, pool == nullptr ? 1 : pool->Threads(), pool});
         for (const std::uint32_t index : configuration.entities)
         {

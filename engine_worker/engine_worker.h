@@ -15,6 +15,9 @@ namespace swarmanoid
 // Adds dummy_engine (kinematics2d), dynamics2d and dynamics3d to the registry. Idempotent.
 void RegisterBuiltinEngines();
 
+// The one that the configuration asks for. Throws ConfigurationError if there is none.
+const PluginRegistry<CPhysicsEngine>::Entry& RegisteredEngine(const EngineConfiguration& configuration);
+
 // An engine failed, or gave what cannot be part of the state: what() names the engine, the tick and what is wrong.
 class EngineError : public ActivityError
 {

@@ -249,13 +249,6 @@ RegionLimits LimitsOf(const WorldMessage& world)
   return {static_cast<std::size_t>(std::ranges::count_if(world.entities, &WorldEntity::movable)), 0};
 }
 
-std::unique_ptr<EngineRegion> MakeRegion(const EngineConfiguration& engine, unsigned region, RegionExchange& exchange)
-{
-  const auto* entry = PluginRegistry<CPhysicsEngine>::Instance().Find(engine.tag);
-  if (entry == nullptr) throw ConfigurationError(engine.location, "no engine is registered as '" + engine.tag + "'");
-  return entry->create()->MakeRegion(region, exchange);
-}
-
 int RunRegion(const WorkerSettings& settings, const BusOptions& bus)
 {
   const auto region = static_cast<unsigned>(*settings.region);
@@ -275,7 +268,8 @@ int RunRegion(const WorkerSettings& settings, const BusOptions& bus)
                                    fmt::format("the engine '{}' has {} regions, numbered from 0; there is no region {}",
                                                settings.engine, RegionsOf(experiment.engines[engine]), region));
         RegionLink link(session, experiment, engine, region, limits);
-        const std::unique_ptr<EngineRegion> world = MakeRegion(experiment.engines[engine], region, link);
+        const std::unique_ptr<EngineRegion> world =
+            RegisteredEngine(experiment.engines[engine]).create()->MakeRegion(region, link);
         std::thread worker(
             [&]
             {

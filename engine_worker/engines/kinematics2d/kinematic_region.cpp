@@ -19,7 +19,7 @@ namespace
 // Of the width of a cell, less what rounding takes.
 constexpr double kWayThatLasts = 0.999;
 
-// Gives back what the whole world took.
+// Gives back what far more bodies took, before cuts moved.
 template <class Values>
 void Trim(Values& values)
 {

@@ -26,12 +26,7 @@ using test::Eventually;
 class Leaving : public test::ServerFixture
 {
 protected:
-  Leaving() : ServerFixture("leaving")
-  {
-    world_.host = MachineName();
-    world_.pid = static_cast<std::uint32_t>(getpid());
-  }
-  ~Leaving() override { std::filesystem::remove_all(folder_ + "-worker"); }
+  Leaving() : ServerFixture("leaving") {}
 
   // A worker that has nothing to do, in a thread of its own.
   std::jthread Worker(
@@ -124,7 +119,7 @@ TEST_F(Leaving, IsReadBeforeTheProcessIsMissed)
   opened = &session;
   session.Open();
   // A process has one folder of a run; these are two.
-  setenv("SWARMANOID_SHARED_FOLDER", (folder_ + "-worker").c_str(), 1);
+  setenv("SWARMANOID_SHARED_FOLDER", of_worker_.c_str(), 1);
   const std::jthread worker = Worker(exit_code, [&] { EXPECT_TRUE(Eventually([&] { return holds.load(); })); });
   EXPECT_TRUE(Eventually([&] { return session.FirstLeft() || session.Failure(); }));
   EXPECT_EQ(session.TakeLeft(), std::vector<std::string>{"engine 'ground'"}) << session.Failure().value_or("");
@@ -156,7 +151,7 @@ TEST_F(Leaving, IsToldToThoseWhoComeLater)
     leave.Write({world_.run, 9, "engine 'ground'", ProcessId(), ""});
     ASSERT_TRUE(Eventually([&] { return session.FirstLeft().has_value(); }));
   }
-  setenv("SWARMANOID_SHARED_FOLDER", (folder_ + "-worker").c_str(), 1);
+  setenv("SWARMANOID_SHARED_FOLDER", of_worker_.c_str(), 1);
   const WorkerSession worker(options_, "leaving", late, {}, 1);
   EXPECT_TRUE(Eventually(
       [&]

@@ -25,8 +25,6 @@ class OfferToARun : public test::ServerFixture
 protected:
   OfferToARun() : ServerFixture("offered")
   {
-    world_.host = MachineName();
-    world_.pid = static_cast<std::uint32_t>(getpid());
     world_.spread = true;
     server_.emplace(options_, "space server");
     leaves_.emplace(*server_, "offered");

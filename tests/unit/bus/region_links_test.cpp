@@ -25,12 +25,7 @@ using test::Eventually;
 class RegionLinks : public test::ServerFixture
 {
 protected:
-  RegionLinks() : ServerFixture("region_links")
-  {
-    world_.host = MachineName();
-    world_.pid = static_cast<std::uint32_t>(getpid());
-  }
-  ~RegionLinks() override { std::filesystem::remove_all(folder_ + "-worker"); }
+  RegionLinks() : ServerFixture("region_links") {}
 
   const test::SeparateProcesses separate_;
 };
@@ -61,7 +56,7 @@ public:
     for (const std::string& name :
          {RegionName(experiment_, 0, 0), RegionName(experiment_, 0, 1), std::string("engine 'ground'")})
     {
-      const std::string of_worker = fmt::format("{}-worker/{}", folder, sessions_.size());
+      const std::string of_worker = fmt::format("{}/{}", folder, sessions_.size());
       std::filesystem::create_directories(of_worker);
       setenv("SWARMANOID_SHARED_FOLDER", of_worker.c_str(), 1);
       sessions_.push_back(std::make_unique<WorkerSession>(options, "region_links", name));
@@ -147,7 +142,7 @@ private:
 // Not those of the others: over a network each would take as much as the whole swarm does.
 TEST_F(RegionLinks, RegionsHearTheirOwnTasksAlone)
 {
-  TwoRegions two(options_, folder_, world_);
+  TwoRegions two(options_, of_worker_, world_);
   ASSERT_TRUE(Eventually([&] { return !two.Heard().empty(); }));
   for (const std::vector<char>& task : two.Heard()) EXPECT_EQ(task, (std::vector<char>{1, 0, 0, 0}));
   two.Team().End();
@@ -159,7 +154,7 @@ TEST_F(RegionLinks, RegionsHearTheirOwnTasksAlone)
 // What a region answered last may be lost, and its process would take it along.
 TEST_F(RegionLinks, RegionsStayUntilTheirEngineHasLeft)
 {
-  TwoRegions two(options_, folder_, world_);
+  TwoRegions two(options_, of_worker_, world_);
   // However often it asks.
   for (int k = 0; k < 3; ++k)
   {
@@ -177,7 +172,7 @@ TEST_F(RegionLinks, RegionsStayUntilTheirEngineHasLeft)
 // Its last word may not reach a region that it has just met, and one that was killed before it seems to be there.
 TEST_F(RegionLinks, RegionsDoNotStayForEverForAnEngineThatIsSilent)
 {
-  TwoRegions two(options_, folder_, world_);
+  TwoRegions two(options_, of_worker_, world_);
   two.Team().End();
   EXPECT_TRUE(Eventually([&] { return two.Left() == 2; }));
 }
@@ -185,7 +180,7 @@ TEST_F(RegionLinks, RegionsDoNotStayForEverForAnEngineThatIsSilent)
 // Nor an engine for one that has left.
 TEST_F(RegionLinks, AnEngineDoesNotWaitForRegionsThatHaveLeft)
 {
-  TwoRegions two(options_, folder_, world_);
+  TwoRegions two(options_, of_worker_, world_);
   two.Team().End();
   ASSERT_TRUE(Eventually([&] { return two.Left() == 2; }));
   for (const unsigned k : {0U, 1U}) two.SayLeft(8, two.Name(k));

@@ -26,14 +26,17 @@ protected:
     options_.key.emplace().fill(7);
     world_.run = 5;
     world_.experiment = experiment;
+    world_.host = MachineName();
+    world_.pid = static_cast<std::uint32_t>(getpid());
   }
   ~ServerFixture() override
   {
     unsetenv("SWARMANOID_SHARED_FOLDER");
-    std::filesystem::remove_all(folder_);
+    for (const std::string& folder : {folder_, of_worker_}) std::filesystem::remove_all(folder);
   }
 
   const std::string folder_;
+  const std::string of_worker_ = folder_ + "-worker";  // a process has one folder of a run; for tests that need two
   FreeDomain domain_;
   BusOptions options_;
   WorldMessage world_;
