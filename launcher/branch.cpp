@@ -128,7 +128,7 @@ RunSettings SettingsOfBranch(const RunSettings& asked)
   if (settings.file.empty()) settings.file = request.run + "/experiment.xml";
   const RecordedRun run(request.run);
   if (!settings.single_process && settings.controller_hosts == 1)
-    settings.controller_hosts = static_cast<unsigned>(run.Journal().Hosts());
+    settings.controller_hosts = run.Journal().Hosts().hosts;
   return settings;
 }
 
@@ -197,7 +197,7 @@ void Branch::Compute(const RunSettings& settings, const Experiment& experiment)
   options.any_build = settings.any_build;
   options.faults_of = request_.run;
   std::uint64_t from = 0;
-  if (auto nearest = journal.WholeCheckpointUntil(request_.tick, experiment, settings.controller_hosts))
+  if (auto nearest = journal.WholeCheckpointUntil(request_.tick, experiment, journal.Hosts()))
   {
     from = nearest->snapshot.tick;
     options.restore_file = scratch_.Path() + "/nearest";

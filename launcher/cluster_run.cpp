@@ -111,7 +111,7 @@ int ServeHere(std::vector<std::string> words, int status, const std::atomic<bool
 unsigned HostsOf(const RunSettings& options, const RunFolder& folder, const Attendance& attendance)
 {
   const std::string journal = JournalFile(folder.Path());
-  return attendance.go_on.incarnation > 0 && IsBegun(journal) ? static_cast<unsigned>(JournalReader(journal).Hosts())
+  return attendance.go_on.incarnation > 0 && IsBegun(journal) ? JournalReader(journal).Hosts().hosts
                                                               : options.controller_hosts;
 }
 

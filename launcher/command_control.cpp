@@ -103,7 +103,7 @@ void AddControlCommand(CLI::App& app, int& exit_code)
                    "[EXPERIMENT] pause | resume | step [N] | speed F | stop | reset | move ENTITY X,Y,Z[,A,B,G] |\n"
                    "detach ENTITY X,Y,Z[,A,B,G] | add ENTITY X,Y,Z[,A,B,G] | remove ENTITY |\n"
                    "move-host N [MACHINE] | move-engine ID [MACHINE] | drain MACHINE | hosts +N|-N [MACHINE] |\n"
-                   "machines")
+                   "hosts again | machines")
       ->required();
   verb->add_flag("--json", options->json, "For programs: experiment, ok, tick and text of the answer");
   AddOptions(*verb,
@@ -130,8 +130,8 @@ void AddControlCommand(CLI::App& app, int& exit_code)
       "move-host and move-engine have another process take the place of a controller host or engine, on a machine of\n"
       "the file of --hosts, on one that is offered by controller_host --offer NAME, or on \"here\", that of the "
       "launcher;\n"
-      "drain has all workers of a machine leave it; hosts has the robots shared out among more controller hosts, or\n"
-      "fewer; machines tells which there are, and who is there.\n"
+      "drain has all workers of a machine leave it; hosts has the robots shared out by where they are among more\n"
+      "controller hosts, or fewer, or again among as many; machines tells which there are, and who is there.\n"
       "Examples:\n"
       "  swarmanoid control pause\n"
       "  swarmanoid control diffusion_10 step 5\n"

@@ -3,11 +3,14 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cstring>
 #include <memory>
+#include <optional>
 
 #include "common/activity/exit_codes.h"
-#include "common/bus/recovery.h"
+#include "common/journal/shared_commands.h"
 #include "common/space/space.h"
+#include "common/space/state_checks.h"
 #include "launcher/commands.h"
 #include "launcher/recorded_run.h"
 
@@ -16,19 +19,44 @@ namespace swarmanoid
 namespace
 {
 
-// Whose fault the difference may be: what the robots did in the tick before, if it can be compared.
-std::string CauseOf(const TickRecord& a, const TickRecord& b)
+// The first robot that was commanded something else; nothing if there is none. The commands are of one host, which has
+// all robots.
+std::optional<std::uint32_t> OtherCommands(const CSwarmanoidSpace& space, const HostLayout& layout,
+                                           const ControlCommands& a, const ControlCommands& b)
 {
-  if (a.commands.size() != b.commands.size()) return {};
-  for (std::size_t host = 0; host < a.commands.size(); ++host)
+  for (const ChannelBlock& block : layout.commands)
+    for (std::size_t k = 0; k < block.entities.size(); ++k)
+    {
+      const auto width = static_cast<std::size_t>(block.width);
+      const std::size_t from = block.offset + k * width;
+      if (std::memcmp(&a.values[from], &b.values[from], width * sizeof(double)) != 0) return block.entities[k];
+    }
+  const auto& p = a.attributes;
+  const auto& q = b.attributes;
+  for (std::size_t i = 0; i < std::max(p.slots.size(), q.slots.size()); ++i)
   {
-    const ControlCommands& p = a.commands[host];
-    const ControlCommands& q = b.commands[host];
-    if (!SameBits(p.values, q.values) || p.attributes.slots != q.attributes.slots ||
-        !SameBits(p.attributes.values, q.attributes.values))
-      return fmt::format("; the commands of controller host {} at the tick before differ", host);
+    if (i < p.slots.size() && i < q.slots.size() && p.slots[i] == q.slots[i] &&
+        std::memcmp(&p.values[i], &q.values[i], sizeof(double)) == 0)
+      continue;
+    return EntityOfSlot(space, i < p.slots.size() ? p.slots[i] : q.slots[i]);
   }
-  return "; the commands of the tick before do not differ";
+  return std::nullopt;
+}
+
+// Whose fault the difference may be: what the robots did in the tick before, if it can be compared.
+std::string CauseOf(const RecordedRun& a, const TickRecord& of_a, const RecordedRun& b, const TickRecord& of_b)
+{
+  if (of_a.commands.empty() || of_b.commands.empty()) return {};
+  const auto of_one_host = [](const RecordedRun& run, const TickRecord& record, const Assignment& one)
+  { return SharedCommands(run.Space(), one).Of(run.Journal().HostsAt(record.state.tick), record.commands).front(); };
+  const Assignment all_of_a = MakeAssignment(a.GetExperiment(), 1);
+  const ControlCommands p = of_one_host(a, of_a, all_of_a);
+  const ControlCommands q = of_one_host(b, of_b, MakeAssignment(b.GetExperiment(), 1));
+  // Other controllers, or other devices.
+  if (p.values.size() != q.values.size()) return {};
+  const auto robot = OtherCommands(a.Space(), all_of_a.hosts.front(), p, q);
+  return robot ? fmt::format("; the commands of '{}' at the tick before differ", a.Space().GetEntity(*robot).GetId())
+               : "; the commands of the tick before do not differ";
 }
 
 int Diff(const std::string& first, const std::string& second)
@@ -54,7 +82,8 @@ int Diff(const std::string& first, const std::string& second)
     }
     if (const std::string difference = FirstDifference(a.Space(), b.Space()); !difference.empty())
     {
-      fmt::print("tick {}: {}{}\n", a.Space().GetTick(), difference, ticks > 0 ? CauseOf(before_a, before_b) : "");
+      fmt::print("tick {}: {}{}\n", a.Space().GetTick(), difference,
+                 ticks > 0 ? CauseOf(a, before_a, b, before_b) : "");
       return kExitHashDiffers;
     }
     before_a = a.Record();

@@ -56,7 +56,7 @@ int Verify(RecordedRun& run)
   if (const std::uint64_t first = run.FirstTick(); first != 0)
   {
     const JournalReader& journal = run.Journal();
-    const auto checkpoint = journal.WholeCheckpointAt(first, *experiment, 1);
+    const auto checkpoint = journal.WholeCheckpointAt(first, *experiment, journal.Hosts());
     if (!checkpoint)
       throw UsageError(
           fmt::format("--verify: the journal begins at tick {}, and nobody can go on from there: not all "

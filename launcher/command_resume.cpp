@@ -75,7 +75,7 @@ int Resume(const std::string& run_folder, RunSettings options)
   try
   {
     const JournalReader journal(JournalFile(run_folder));
-    options.controller_hosts = static_cast<unsigned>(journal.Hosts());
+    options.controller_hosts = journal.Hosts().hosts;
     const auto checkpoint = journal.WholeCheckpointUntil(UINT64_MAX, *experiment, journal.Hosts());
     if (!checkpoint && journal.FirstTick() != 0)
       throw std::runtime_error(

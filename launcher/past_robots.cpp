@@ -9,6 +9,7 @@
 #include "common/bus/recovery.h"
 #include "common/journal/journal_reader.h"
 #include "common/journal/recorded_states.h"
+#include "common/journal/shared_commands.h"
 #include "common/space/space.h"
 #include "controller_host/controller_host.h"
 
@@ -23,16 +24,16 @@ struct PastHost
   std::unique_ptr<ControllerHost> role;
 };
 
-// As a process does that takes the place of a controller host.
-void Redo(PastHost& host, const TickRecord& record, std::size_t hosts)
+// As a process does that takes the place of a controller host. `commands`: what these hosts, all of them, commanded.
+void Redo(PastHost& host, const TickRecord& record, const std::vector<ControlCommands>& commands)
 {
   std::vector<const SensorFrame*> frames;
   for (const std::uint32_t engine : host.role->Layout().frames_from)
     if (!record.frames.empty()) frames.push_back(&record.frames.at(engine));
   host.role->Tick(frames);
-  // None at the last tick of a run; of other hosts, if their number was changed since.
-  if (record.commands.size() != hosts) return;
-  const ControlCommands& before = record.commands.at(host.number);
+  // None at the last tick of a run.
+  if (commands.empty()) return;
+  const ControlCommands& before = commands.at(host.number);
   const ControlCommands& now = host.role->Commands();
   if (!SameBits(now.values, before.values) || now.faults != before.faults ||
       now.attributes.slots != before.attributes.slots || !SameBits(now.attributes.values, before.attributes.values))
@@ -58,9 +59,9 @@ PastRobots::PastRobots(const Experiment& experiment, const std::string& run_fold
                : fmt::format("the journal has ticks {} to {}, and not {}", journal.FirstTick(), end - 1, tick));
   const std::uint64_t from = checkpoint ? checkpoint->snapshot.tick : 0;
 
-  const auto number_of_hosts = static_cast<unsigned>(journal.Hosts());
-  const Assignment assignment = MakeAssignment(experiment, number_of_hosts);
+  const Assignment assignment = MakeAssignment(experiment, journal.Hosts());
   RecordedStates states(experiment, journal, journal.Start());
+  SharedCommands shared(states.Space(), assignment);
   std::map<std::uint32_t, std::size_t> place_of_host;
   std::vector<PastHost> hosts;
   for (const std::uint32_t robot : robots)
@@ -77,7 +78,9 @@ PastRobots::PastRobots(const Experiment& experiment, const std::string& run_fold
       checkpoint->LoadPart(HostName(host.number), [&](ByteReader& state) { host.role->LoadState(state); });
   while (true)
   {
-    for (PastHost& host : hosts) Redo(host, states.Record(), number_of_hosts);
+    const TickRecord& past = states.Record();
+    const std::vector<ControlCommands> commands = shared.Of(journal.HostsAt(past.state.tick), past.commands);
+    for (PastHost& host : hosts) Redo(host, past, commands);
     if (states.Space().GetTick() == tick) break;
     if (!states.Next()) throw std::runtime_error(fmt::format("the journal lacks tick {}", tick));
   }

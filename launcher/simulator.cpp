@@ -53,10 +53,10 @@ unsigned FreeCores()
 
 struct CSimulator::Roles
 {
-  Roles(const Experiment& of, const SimulatorOptions& with, unsigned host_count)
+  Roles(const Experiment& of, const SimulatorOptions& with, const HostTable& table)
       : experiment(of),
         options(WithFolder(with)),
-        assignment(MakeAssignment(of, host_count)),
+        assignment(MakeAssignment(of, table)),
         server(of, assignment, options.output_folder),
         space(server.Space()),
         steering(of, server, MakeRunControlSetup(of, with), with.stop),
@@ -187,15 +187,20 @@ CSimulator::CSimulator(const Experiment& experiment, const SimulatorOptions& opt
 CSimulator::CSimulator(SpaceServer& server) : server_(&server) {}
 
 CSimulator::CSimulator(const Experiment& experiment, const SimulatorOptions& options, Watch watch, unsigned hosts)
-    : roles_((RequireReproducibleMath(), ReportDeaths(program_invocation_short_name),
-              std::make_unique<Roles>(experiment, options, hosts)))
 {
+  RequireReproducibleMath();
+  ReportDeaths(program_invocation_short_name);
+  std::optional<Checkpoint> restored;
+  if (!options.restore_file.empty())
+    restored = ReadCheckpoint(options.restore_file, experiment, {hosts, options.any_build});
+  roles_ = std::make_unique<Roles>(
+      experiment, options,
+      restored ? DealRobots(experiment, hosts, restored->snapshot.poses) : DealRobots(experiment, hosts));
   server_ = &roles_->server;
   roles_->watch = std::move(watch);
   CheckCheckpointPeriod(options.checkpoint_every, experiment);
   if (options.checkpoint_every != 0) roles_->TrySavingAll();
-  if (!options.restore_file.empty())
-    roles_->Restore(ReadCheckpoint(options.restore_file, experiment, {hosts, options.any_build}));
+  if (restored) roles_->Restore(*restored);
   roles_->first_tick = roles_->space.GetTick();
   roles_->start = std::chrono::steady_clock::now();
   Show();

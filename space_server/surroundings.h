@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/math/cells.h"
+#include "common/messages/assignment.h"
 #include "common/messages/messages.h"
 
 namespace swarmanoid
@@ -41,9 +42,6 @@ public:
   LocalState& Part(const SpaceState& state);
 
 private:
-  // Ticks without a search: who is within the margin beyond the reach is told too.
-  static constexpr double kMargin_m = 0.5;
-
   bool HaveLeftMargin() const;
   void Search(bool all);
   void AddAttributes(const SpaceState& state);
@@ -61,6 +59,16 @@ private:
   std::vector<std::uint32_t> entered_;  // whom the message before had not
   LocalState part_;
 };
+
+// Where entities are in the plane.
+struct PlanePlaces
+{
+  std::vector<double> x, y;  // m, of each entity
+};
+
+// How many entities that can move hosts with these robots are told of, all hosts together, if they are so far-reaching.
+std::size_t ToldTogether(const CSwarmanoidSpace& space, const PlanePlaces& places, std::span<const HostLayout> hosts,
+                         double reach_m);
 
 // What an engine is told likewise: the state without the poses of those that it has moved itself.
 class EngineNews

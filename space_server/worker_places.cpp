@@ -148,10 +148,16 @@ void WorkerPlaces::RequireMoves(const std::string& verb) const
                     verb));
 }
 
+bool WorkerPlaces::ServerMayStartAgain() const
+{
+  const auto server = places_.find(kServer);
+  return server != places_.end() && server->second == kHere;
+}
+
 std::vector<std::string> WorkerPlaces::ReadHosts(const ControlRequestMessage& request, std::size_t most) const
 {
   RequireMoves(request.verb);
-  if (const auto server = places_.find(kServer); server == places_.end() || server->second != kHere)
+  if (!ServerMayStartAgain())
     throw std::invalid_argument(
         "hosts: all processes start again for it, and the space server cannot: it is on another machine than the "
         "launcher");
@@ -160,9 +166,11 @@ std::vector<std::string> WorkerPlaces::ReadHosts(const ControlRequestMessage& re
   std::vector<std::string> hosts;
   for (auto place = places_.find(HostName(0)); place != places_.end(); place = places_.find(HostName(hosts.size())))
     hosts.push_back(place->second);
-  const double more = request.numbers.empty() ? 0 : request.numbers[0];
-  if (more == 0 || more != std::floor(more) || std::abs(more) > 1000)
-    throw std::invalid_argument("hosts: write +N or -N, a whole number of controller hosts");
+  const double more = request.numbers.size() == 1 ? request.numbers[0] : std::nan("");
+  if (more != std::floor(more) || std::abs(more) > 1000)
+    throw std::invalid_argument("hosts: write +N or -N, a whole number of controller hosts, or again");
+  if (more == 0 && hosts.size() == 1)
+    throw std::invalid_argument("hosts again: the run has one controller host, and that has all robots");
   const std::vector<std::string> before = hosts;
   if (static_cast<double>(before.size()) + more > static_cast<double>(most))
     throw std::invalid_argument(fmt::format(

@@ -40,8 +40,11 @@ public:
   // one whose machine has gone, or has not offered itself again since all processes started: "beta (not offered now):
   // …".
   std::string Text() const;
+  // Whether the space server can start again, beside the launcher; without it nobody shares out robots anew.
+  bool ServerMayStartAgain() const;
   // Where controller hosts are to be, in their order, after what hosts asks for: at most so many. New ones are on the
-  // machine that is named, or on the offered one with the fewest, or here if there is none. Throws likewise.
+  // machine that is named, or on the offered one with the fewest, or here if there is none. 0 more: where they are.
+  // Throws likewise.
   std::vector<std::string> ReadHosts(const ControlRequestMessage& request, std::size_t most) const;
   // Nothing of a worker that nobody moves.
   void Put(const Move& move);

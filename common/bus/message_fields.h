@@ -229,7 +229,8 @@ void Fields(Archive& archive, WorldMessage& message)
   archive.Exact("folder", message.folder);
   archive.Exact("xml", message.xml);
   archive.Integer("seed", message.seed);
-  archive.Integer("hosts", message.hosts);
+  archive.Integer("hosts", message.hosts.hosts);
+  archive.Array("host_of_robots", message.hosts.of_robots);
   archive.Bool("spread", message.spread);
   archive.Number("tick_seconds", message.tick_seconds);
   archive.Integer("checkpoint_every", message.checkpoint_every);

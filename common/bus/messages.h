@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/messages/assignment.h"
 #include "common/messages/control_request.h"
 #include "common/messages/messages.h"
 #include "common/messages/robot_status.h"
@@ -15,7 +16,7 @@ namespace swarmanoid
 {
 
 // Equal to PROTOCOL_VERSION of the IDL; a test says so.
-inline constexpr std::uint32_t kProtocolVersion = 16;
+inline constexpr std::uint32_t kProtocolVersion = 17;
 
 // What precedes every message of a tick.
 struct MessageHeader
@@ -86,7 +87,7 @@ struct WorldMessage
   std::string folder;
   std::string xml;
   std::uint64_t seed = 0;
-  std::uint32_t hosts = 1;
+  HostTable hosts{};
   bool spread = false;
   double tick_seconds = 0;
   std::uint64_t checkpoint_every = 0;

@@ -53,7 +53,8 @@ void Replica::RestoreSpace()
   if (checkpoint) space->Apply(checkpoint->snapshot);
 }
 
-WorldMessage DescribeWorld(const CSwarmanoidSpace& space, std::uint64_t run, const std::string& file, unsigned hosts)
+WorldMessage DescribeWorld(const CSwarmanoidSpace& space, std::uint64_t run, const std::string& file,
+                           const HostTable& hosts)
 {
   const Experiment& experiment = space.GetExperiment();
   WorldMessage world;
@@ -75,7 +76,7 @@ WorldMessage DescribeWorld(const CSwarmanoidSpace& space, std::uint64_t run, con
   return world;
 }
 
-bool HostsAskForParts(const WorldMessage& world) { return world.spread && world.hosts > 1; }
+bool HostsAskForParts(const WorldMessage& world) { return world.spread && world.hosts.hosts > 1; }
 
 bool EnginesHearParts(const WorldMessage& world) { return world.spread; }
 

@@ -44,7 +44,8 @@ struct Replica
 };
 
 // What the space server says of its world.
-WorldMessage DescribeWorld(const CSwarmanoidSpace& space, std::uint64_t run, const std::string& file, unsigned hosts);
+WorldMessage DescribeWorld(const CSwarmanoidSpace& space, std::uint64_t run, const std::string& file,
+                           const HostTable& hosts);
 
 // Whether hosts hear LocalState, if they know how far they reach: in memory that processes share it would save nothing,
 // and a single host knows all.

@@ -161,8 +161,8 @@ Checkpoint ReadCheckpoint(const std::string& path, const Experiment& experiment,
                                  "; go on with that one, start anew with this one, or let --any-build take it, which "
                                  "promises no equal bits");
     }
-    if (checkpoint.parts.size() != 1 + experiment.engines.size() + options.hosts)
-      checkpoint.parts = SharedOut(std::move(checkpoint.parts), experiment, options.hosts);
+    checkpoint.parts = SharedOut(std::move(checkpoint.parts), experiment,
+                                 DealRobots(experiment, options.hosts, checkpoint.snapshot.poses));
     return checkpoint;
   }
   catch (const std::exception& error)

@@ -71,7 +71,8 @@ void WriteCheckpoint(const std::string& path, const Checkpoint& checkpoint);
 
 struct RestoreOptions
 {
-  std::size_t hosts = 1;   // controller hosts of the run that goes on: its robots are shared out among them
+  // Controller hosts of the run that goes on: its robots are shared out among them by where they are (DealRobots).
+  unsigned hosts = 1;
   bool any_build = false;  // take what other builds of the libraries saved
 };
 // Throws std::runtime_error, with the path and the cure, if the file cannot be read, is damaged, is of another

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "common/messages/assignment.h"
-
 namespace swarmanoid
 {
 
@@ -52,8 +50,10 @@ std::vector<std::string> PartsOf(const Experiment& experiment, std::size_t hosts
   return parts;
 }
 
-std::vector<SavedPart> SharedOut(std::vector<SavedPart> parts, const Experiment& experiment, std::size_t hosts)
+std::vector<SavedPart> SharedOut(std::vector<SavedPart> parts, const Experiment& experiment, const HostTable& hosts)
 {
+  // One host that had all robots still has.
+  if (hosts.hosts == 1 && std::ranges::find(parts, HostName(1), &SavedPart::name) == parts.end()) return parts;
   HostState all;
   for (std::size_t h = 0;; ++h)
   {
@@ -66,7 +66,7 @@ std::vector<SavedPart> SharedOut(std::vector<SavedPart> parts, const Experiment&
     all.robots.merge(state.robots);
     parts.erase(part);
   }
-  const Assignment assignment = MakeAssignment(experiment, static_cast<unsigned>(hosts));
+  const Assignment assignment = MakeAssignment(experiment, hosts);
   for (std::size_t h = 0; h < assignment.hosts.size(); ++h)
   {
     HostState state;

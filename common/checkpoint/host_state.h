@@ -9,6 +9,7 @@
 
 #include "common/checkpoint/checkpoint.h"
 #include "common/experiment/experiment.h"
+#include "common/messages/assignment.h"
 #include "common/serialisation/bytes.h"
 
 namespace swarmanoid
@@ -29,8 +30,8 @@ HostState ReadHostState(ByteReader& bytes);
 // The names of what the processes of a run with so many controller hosts save.
 std::vector<std::string> PartsOf(const Experiment& experiment, std::size_t hosts);
 
-// The parts with those of so many controller hosts in the place of those that are there. Throws std::runtime_error if
-// the state of a robot is missing.
-std::vector<SavedPart> SharedOut(std::vector<SavedPart> parts, const Experiment& experiment, std::size_t hosts);
+// The parts with those of these controller hosts in the place of those that are there. Throws std::runtime_error if the
+// state of a robot is missing.
+std::vector<SavedPart> SharedOut(std::vector<SavedPart> parts, const Experiment& experiment, const HostTable& hosts);
 
 }  // namespace swarmanoid

@@ -9,7 +9,7 @@
 //   the content, compressed by zstd
 //
 // Numbers are little-endian. The first block of each segment is of kind kStart; its first tick is that of the segment.
-// All commands and states of hosts in a segment are of as many controller hosts as that block says.
+// All commands and states of controller hosts in a segment are of those that this block says, each with its robots.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ namespace swarmanoid
 
 inline constexpr std::string_view kJournalMagic = "SWARMJB";
 // Another one for each change of the blocks, or of what they mean.
-inline constexpr char kJournalVersion = '7';
+inline constexpr char kJournalVersion = '8';
 inline constexpr std::size_t kJournalHeaderBytes = 48;
 
 enum class JournalBlockKind : std::uint32_t

@@ -14,7 +14,7 @@ namespace swarmanoid
 namespace
 {
 
-// In the course of it, the number of controller hosts may change.
+// In the course of it, the controller hosts may change.
 bool IsOfOneRun(const JournalStart& start, JournalStart other)
 {
   other.hosts = start.hosts;
@@ -78,7 +78,6 @@ bool JournalReader::ReadSegment(std::uint32_t segment)
   files_.emplace_back(segment, std::make_unique<RegularFile>(SegmentFile(path_, segment)));
   const RegularFile& file = *files_.back().second;
   std::uint64_t offset = 0;
-  std::uint64_t hosts = 0;
   while (offset < file.Size())
   {
     const std::vector<char> block = BlockAt(file, offset);
@@ -91,13 +90,13 @@ bool JournalReader::ReadSegment(std::uint32_t segment)
       if (place.kind == JournalBlockKind::kPart) place.name = ReadPart(content).name;
       if (offset == 0)
       {
-        const JournalStart start = ReadStart(content);
+        JournalStart start = ReadStart(content);
         if (places_.empty()) start_ = start;
         // Another run may have left its own here.
         if (!IsOfOneRun(start, start_)) break;
-        hosts = start.hosts;
+        if (tables_.empty() || start.hosts != tables_.back()) tables_.push_back(std::move(start.hosts));
       }
-      place.hosts = hosts;
+      place.table = static_cast<std::uint32_t>(tables_.size() - 1);
     }
     catch (const std::runtime_error&)
     {
@@ -150,12 +149,12 @@ KnownFaults JournalReader::FaultsFrom(std::uint64_t tick, std::uint32_t ahead) c
 }
 
 const JournalPlace* JournalReader::PlaceOf(JournalBlockKind kind, std::uint64_t tick, const std::string& name,
-                                           std::optional<std::uint64_t> hosts) const
+                                           std::optional<std::uint32_t> table) const
 {
   const auto found = std::find_if(places_.rbegin(), places_.rend(),
                                   [&](const JournalPlace& place) {
                                     return place.kind == kind && place.first_tick == tick && place.name == name &&
-                                           (!hosts || place.hosts == *hosts);
+                                           (!table || place.table == *table);
                                   });
   return found == places_.rend() ? nullptr : &*found;
 }
@@ -192,15 +191,23 @@ std::optional<TickRecord> JournalReader::RecordOf(std::uint64_t tick) const
   return std::nullopt;
 }
 
+const HostTable& JournalReader::HostsAt(std::uint64_t tick) const
+{
+  for (const JournalPlace& place : places_)
+    if (place.kind == JournalBlockKind::kTicks && tick >= place.first_tick && tick - place.first_tick < place.ticks)
+      return tables_[place.table];
+  throw std::runtime_error(fmt::format("the journal '{}' has no tick {}", path_, tick));
+}
+
 std::optional<Checkpoint> JournalReader::CheckpointAt(std::uint64_t tick, const std::vector<std::string>& parts,
-                                                      std::optional<std::uint64_t> hosts) const
+                                                      std::optional<std::uint32_t> table) const
 {
   const JournalPlace* snapshot = PlaceOf(JournalBlockKind::kSnapshot, tick, {});
   if (snapshot == nullptr) return std::nullopt;
   Checkpoint checkpoint;
   for (const std::string& name : parts)
   {
-    const JournalPlace* part = PlaceOf(JournalBlockKind::kPart, tick, name, hosts);
+    const JournalPlace* part = PlaceOf(JournalBlockKind::kPart, tick, name, table);
     if (part == nullptr) return std::nullopt;
     checkpoint.parts.push_back(ReadPart(Content(*part)));
   }
@@ -220,24 +227,24 @@ std::optional<Checkpoint> JournalReader::NewestCheckpoint(const std::vector<std:
 }
 
 std::optional<Checkpoint> JournalReader::WholeCheckpointAt(std::uint64_t tick, const Experiment& experiment,
-                                                           std::size_t hosts) const
+                                                           const HostTable& hosts) const
 {
   // At a tick at which robots were shared out anew, both may have been saved.
-  std::set<std::uint64_t> numbers;
+  std::set<std::uint32_t> numbers;
   for (const JournalPlace& place : places_)
-    if (place.kind == JournalBlockKind::kPart && place.first_tick == tick) numbers.insert(place.hosts);
-  for (const std::uint64_t number : numbers)
+    if (place.kind == JournalBlockKind::kPart && place.first_tick == tick) numbers.insert(place.table);
+  for (const std::uint32_t number : numbers)
   {
-    auto checkpoint = CheckpointAt(tick, PartsOf(experiment, number), number);
+    auto checkpoint = CheckpointAt(tick, PartsOf(experiment, tables_[number].hosts), number);
     if (!checkpoint) continue;
-    if (number != hosts) checkpoint->parts = SharedOut(std::move(checkpoint->parts), experiment, hosts);
+    if (tables_[number] != hosts) checkpoint->parts = SharedOut(std::move(checkpoint->parts), experiment, hosts);
     return checkpoint;
   }
   return std::nullopt;
 }
 
 std::optional<Checkpoint> JournalReader::WholeCheckpointUntil(std::uint64_t tick, const Experiment& experiment,
-                                                              std::size_t hosts) const
+                                                              const HostTable& hosts) const
 {
   std::set<std::uint64_t, std::greater<>> ticks;
   for (const JournalPlace& place : places_)

@@ -25,8 +25,12 @@ public:
   explicit JournalReader(const std::string& path);
 
   const JournalStart& Start() const { return start_; }
-  // Controller hosts at the end; at first there may have been others.
-  std::uint64_t Hosts() const { return places_.back().hosts; }
+  // The controller hosts at the end; at first there may have been others.
+  const HostTable& Hosts() const { return tables_.back(); }
+  // Those that stepped at a tick that the journal has.
+  const HostTable& HostsAt(std::uint64_t tick) const;
+  // By the numbers that places have.
+  const std::vector<HostTable>& Tables() const { return tables_; }
   const std::string& Path() const { return path_; }
   // All whole blocks but those of ticks that were done again, in the order of the file.
   const std::vector<JournalPlace>& Places() const override { return places_; }
@@ -48,20 +52,20 @@ public:
   // Of controllers, in the steps from that tick on. `ahead`: ticks until commands, which tell of them, act.
   KnownFaults FaultsFrom(std::uint64_t tick, std::uint32_t ahead) const;
   // What all `parts` saved at the tick, or at the newest one that has them all, put together; nothing if one is
-  // lacking. `hosts`: saved by as many.
+  // lacking. `table`: saved by these controller hosts.
   std::optional<Checkpoint> CheckpointAt(std::uint64_t tick, const std::vector<std::string>& parts,
-                                         std::optional<std::uint64_t> hosts = std::nullopt) const;
+                                         std::optional<std::uint32_t> table = std::nullopt) const;
   std::optional<Checkpoint> NewestCheckpoint(const std::vector<std::string>& parts) const;
-  // What all processes saved at the tick, or at the newest one until then at which all did, for so many controller
-  // hosts, whichever number the run had.
+  // What all processes saved at the tick, or at the newest one until then at which all did, for these controller hosts,
+  // whichever the run had.
   std::optional<Checkpoint> WholeCheckpointAt(std::uint64_t tick, const Experiment& experiment,
-                                              std::size_t hosts) const;
+                                              const HostTable& hosts) const;
   std::optional<Checkpoint> WholeCheckpointUntil(std::uint64_t tick, const Experiment& experiment,
-                                                 std::size_t hosts) const;
+                                                 const HostTable& hosts) const;
 
 private:
   const JournalPlace* PlaceOf(JournalBlockKind kind, std::uint64_t tick, const std::string& name,
-                              std::optional<std::uint64_t> hosts = std::nullopt) const;
+                              std::optional<std::uint32_t> table = std::nullopt) const;
 
   std::string path_;
   // The blocks of one segment; false if another one cannot follow.
@@ -70,6 +74,7 @@ private:
   std::vector<std::pair<std::uint32_t, std::unique_ptr<RegularFile>>> files_;
   JournalStart start_;
   std::vector<JournalPlace> places_;
+  std::vector<HostTable> tables_;
   std::uint64_t bytes_ = 0;
   std::uint64_t newest_bytes_ = 0;
   std::uint32_t newest_ = 0;

@@ -54,7 +54,8 @@ std::optional<std::uint64_t> StateAfter(const std::vector<JournalPlace>& places,
                          [&](const JournalPlace& place)
                          {
                            return place.kind == JournalBlockKind::kPart && place.segment > segment &&
-                                  place.first_tick == snapshot->first_tick && place.name == name;
+                                  place.first_tick == snapshot->first_tick && place.name == name &&
+                                  place.table == snapshot->table;
                          });
     };
     if (std::all_of(parts.begin(), parts.end(), is_there)) return snapshot->first_tick;
@@ -105,7 +106,7 @@ JournalWriter::JournalWriter(const std::string& path, std::span<const char> star
     : JournalWriter(path, 0, O_CREAT | O_TRUNC, std::move(budget))
 {
   start_.assign(start.begin(), start.end());
-  hosts_ = Start().hosts;
+  tables_.push_back(Start().hosts);
   Block first;
   first.place.kind = JournalBlockKind::kStart;
   first.content = start_;
@@ -118,7 +119,8 @@ JournalWriter::JournalWriter(const JournalReader& journal, std::uint64_t tick, b
     : JournalWriter(journal.Path(), journal.NewestSegment(), 0, std::move(budget))
 {
   JournalStart start = journal.Start();
-  start.hosts = hosts_ = journal.Hosts();
+  tables_ = journal.Tables();
+  start.hosts = tables_.back();
   start_ = ContentOf(start);
   size_ = journal.NewestSegmentBytes();
   all_bytes_ = journal.Bytes();
@@ -224,7 +226,7 @@ void JournalWriter::Queue(JournalBlockKind kind, std::uint64_t tick, const std::
   if (opens_segment) block.start = start_;
 }
 
-void JournalWriter::BeginHosts(std::uint64_t hosts, std::uint64_t tick)
+void JournalWriter::BeginHosts(const HostTable& hosts, std::uint64_t tick)
 {
   const std::lock_guard lock(mutex_);
   if (!works_) return;
@@ -243,6 +245,12 @@ JournalStart JournalWriter::Start() const
 {
   const std::lock_guard lock(mutex_);
   return ReadStart(start_);
+}
+
+HostTable JournalWriter::Table(std::uint32_t number) const
+{
+  const std::lock_guard lock(mutex_);
+  return tables_.at(number);
 }
 
 void JournalWriter::QueueRows()
@@ -318,7 +326,10 @@ void JournalWriter::OpenNextSegment(const Block& opening)
   first.place.kind = JournalBlockKind::kStart;
   first.place.first_tick = opening.place.first_tick;
   first.content = opening.start;
-  hosts_ = ReadStart(opening.start).hosts;
+  {
+    const std::lock_guard lock(mutex_);
+    if (HostTable hosts = ReadStart(opening.start).hosts; hosts != tables_.back()) tables_.push_back(std::move(hosts));
+  }
   WriteBlock(first);
 }
 
@@ -360,7 +371,6 @@ void JournalWriter::WriteBlock(Block& block)
   if (!Works()) return;
   JournalPlace place = block.place;
   place.segment = segment_;
-  place.hosts = hosts_;
   const bool ticks = place.kind == JournalBlockKind::kTicks;
   const std::span<const char> bytes =
       EncodeJournalBlock(place.kind, place.first_tick, place.ticks,
@@ -372,6 +382,7 @@ void JournalWriter::WriteBlock(Block& block)
     size_ += bytes.size();
     const std::lock_guard lock(mutex_);
     all_bytes_ += bytes.size();
+    place.table = static_cast<std::uint32_t>(tables_.size() - 1);
     places_.push_back(std::move(place));
     return;
   }

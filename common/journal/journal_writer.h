@@ -31,7 +31,7 @@ struct JournalPlace
   std::uint64_t offset = 0;
   std::uint64_t bytes = 0;
   std::uint32_t segment = 0;
-  std::uint64_t hosts = 0;  // controller hosts of the run then
+  std::uint32_t table = 0;  // of the controller hosts then: its number among the tables of the journal
 };
 
 // How much of a journal is kept.
@@ -73,8 +73,8 @@ public:
                std::span<const ControlCommands> commands);
   void Add(const SpaceSnapshot& snapshot);
   void Add(std::uint64_t tick, const SavedPart& part);
-  // The robots are shared out among other controller hosts at the tick: what is added from now on is of so many.
-  void BeginHosts(std::uint64_t hosts, std::uint64_t tick);
+  // The robots are shared out among controller hosts anew at the tick: what is added from now on is of these.
+  void BeginHosts(const HostTable& hosts, std::uint64_t tick);
 
   // Until all that was added is written.
   void Flush();
@@ -90,6 +90,8 @@ public:
   std::vector<char> Read(const JournalPlace& place) const;
   const std::string& Path() const { return path_; }
   JournalStart Start() const;
+  // By the number that places have.
+  HostTable Table(std::uint32_t number) const;
 
 private:
   using Clock = std::chrono::steady_clock;
@@ -121,7 +123,6 @@ private:
   std::vector<char> start_;  // the content of the first block of the segment that is added to
   int file_ = -1;            // the newest segment
   std::uint32_t segment_ = 0;
-  std::uint64_t hosts_ = 0;   // in the newest segment; the writer's thread
   Room room_;                 // of the content of a block; likewise
   mutable std::mutex mutex_;  // of what follows
   std::condition_variable changed_;
@@ -137,6 +138,7 @@ private:
   std::optional<std::string> trouble_;
   bool excess_told_ = false;
   std::vector<JournalPlace> places_;
+  std::vector<HostTable> tables_;   // the last one is that of the newest segment
   std::uint64_t saved_ = 0;         // the newest tick of which some state was added
   std::uint64_t all_bytes_ = 0;     // of whole blocks in all segments
   std::uint64_t segment_from_ = 0;  // all_bytes_ when the newest segment was begun, or is to be

@@ -11,12 +11,14 @@
 namespace swarmanoid
 {
 
-SharedCommands::SharedCommands(const CSwarmanoidSpace& space, std::size_t hosts, const Assignment& to)
-    : space_(space), to_(to)
+void SharedCommands::MakeCopies(const HostTable& hosts)
 {
-  const Assignment from = MakeAssignment(space.GetExperiment(), static_cast<unsigned>(hosts));
-  for (std::size_t h = 0; h < to.hosts.size(); ++h)
-    for (const ChannelBlock& block : to.hosts[h].commands)
+  if (from_ == hosts) return;
+  const Assignment from = MakeAssignment(space_.GetExperiment(), hosts);
+  from_ = hosts;
+  copies_.clear();
+  for (std::size_t h = 0; h < to_.hosts.size(); ++h)
+    for (const ChannelBlock& block : to_.hosts[h].commands)
       for (std::size_t k = 0; k < block.entities.size(); ++k)
       {
         const auto source = static_cast<std::size_t>(from.host[block.entities[k]]);
@@ -30,10 +32,11 @@ SharedCommands::SharedCommands(const CSwarmanoidSpace& space, std::size_t hosts,
       }
 }
 
-std::vector<ControlCommands> SharedCommands::Of(const std::vector<ControlCommands>& commands) const
+std::vector<ControlCommands> SharedCommands::Of(const HostTable& hosts, const std::vector<ControlCommands>& commands)
 {
   // None at the last tick.
-  if (commands.empty()) return {};
+  if (commands.empty() || hosts == to_.table) return commands;
+  MakeCopies(hosts);
   std::vector<ControlCommands> shared(to_.hosts.size());
   for (std::size_t h = 0; h < shared.size(); ++h)
   {
@@ -68,12 +71,13 @@ std::vector<ControlCommands> SharedCommands::Of(const std::vector<ControlCommand
   return shared;
 }
 
-std::vector<char> SharedCommands::Of(std::span<const char> block) const
+std::vector<char> SharedCommands::Of(const HostTable& hosts, std::vector<char> block)
 {
+  if (hosts == to_.table) return block;
   TickRows rows;
   TickRecord record;
   for (TickRecordReader records(JournalContent(block)); records.Next(record);)
-    if (!rows.Add(record.state, record.save, record.frames, Of(record.commands)))
+    if (!rows.Add(record.state, record.save, record.frames, Of(hosts, record.commands)))
       throw std::runtime_error("the journal has ticks of different lengths in one block");
   Room room;
   const std::span<const char> encoded =

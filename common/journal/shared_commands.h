@@ -1,8 +1,9 @@
-// SharedCommands: what the controller hosts of a run commanded at a tick, as another number of hosts would have said
-// it. For processes that do ticks again which were done before the robots were shared out anew. Used by the space
-// server.
+// SharedCommands: what the controller hosts of a run commanded at a tick, as others would have said it that have the
+// same robots. For processes that do ticks again which were done before the robots were shared out anew, and for those
+// who compare.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "common/journal/journal_format.h"
@@ -17,12 +18,13 @@ class CSwarmanoidSpace;
 class SharedCommands
 {
 public:
-  // From `hosts` to those of the assignment, which outlives this, as the space does.
-  SharedCommands(const CSwarmanoidSpace& space, std::size_t hosts, const Assignment& to);
+  // To the hosts of the assignment, which outlives this, as the space does.
+  SharedCommands(const CSwarmanoidSpace& space, const Assignment& to) : space_(space), to_(to) {}
 
-  std::vector<ControlCommands> Of(const std::vector<ControlCommands>& commands) const;
+  // What `hosts` commanded.
+  std::vector<ControlCommands> Of(const HostTable& hosts, const std::vector<ControlCommands>& commands);
   // A block of ticks.
-  std::vector<char> Of(std::span<const char> block) const;
+  std::vector<char> Of(const HostTable& hosts, std::vector<char> block);
 
 private:
   struct Copy
@@ -34,8 +36,12 @@ private:
     std::size_t count = 0;  // doubles
   };
 
+  void MakeCopies(const HostTable& hosts);
+
   const CSwarmanoidSpace& space_;
   const Assignment& to_;
+  // Made for those who were last asked of.
+  std::optional<HostTable> from_;
   std::vector<Copy> copies_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 
 #include "common/checkpoint/checkpoint_format.h"
 #include "common/journal/packed_rows.h"
@@ -30,7 +31,8 @@ void Get(ByteReader& bytes, AttributeChanges& changes)
 constexpr auto kStartFields = [](auto& archive, auto& start)
 {
   ForEachOriginField(archive, start.origin);
-  archive.Number(start.hosts);
+  archive.Array(start.hosts.of_robots);
+  archive.Number(start.hosts.hosts);
   archive.Number(start.first_tick);
 };
 constexpr auto kSnapshotFields = [](auto& archive, auto& snapshot) { ForEachSnapshotField(archive, snapshot); };
@@ -181,7 +183,13 @@ bool TickRecordReader::Next(TickRecord& record)
 }
 
 std::vector<char> ContentOf(const JournalStart& start) { return Written(start, kStartFields); }
-JournalStart ReadStart(std::span<const char> content) { return Read<JournalStart>(content, kStartFields); }
+JournalStart ReadStart(std::span<const char> content)
+{
+  JournalStart start = Read<JournalStart>(content, kStartFields);
+  if (!start.hosts.IsSound())
+    throw std::runtime_error("the start of a journal has robots of controller hosts that it has not");
+  return start;
+}
 
 std::vector<char> ContentOf(const SpaceSnapshot& snapshot) { return Written(snapshot, kSnapshotFields); }
 SpaceSnapshot ReadSnapshot(std::span<const char> content) { return Read<SpaceSnapshot>(content, kSnapshotFields); }

@@ -9,6 +9,7 @@
 
 #include "common/checkpoint/checkpoint.h"
 #include "common/journal/packed_rows.h"
+#include "common/messages/assignment.h"
 #include "common/messages/messages.h"
 #include "common/serialisation/bytes.h"
 
@@ -76,7 +77,7 @@ private:
 struct JournalStart
 {
   CheckpointOrigin origin;
-  std::uint64_t hosts = 1;
+  HostTable hosts;
   std::uint64_t first_tick = 0;
 };
 

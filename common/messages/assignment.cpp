@@ -1,8 +1,12 @@
 #include "common/messages/assignment.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
+#include <ranges>
 #include <span>
+#include <stdexcept>
 #include <utility>
 
 #include "common/plugins/catalogue.h"
@@ -109,10 +113,50 @@ std::vector<std::uint32_t> SourcesOf(const std::vector<ValueCopy>& copies)
   return sources;
 }
 
+// Of each entity: the first engine that lists it, if it can move; -1 if there is none.
+std::vector<int> OwnersOf(const Experiment& experiment)
+{
+  std::vector<int> owners(experiment.entities.size(), -1);
+  for (std::size_t e = 0; e < experiment.engines.size(); ++e)
+    for (const std::uint32_t entity : experiment.engines[e].entities)
+      if (experiment.entities[entity].movable && !IsBodiless(experiment.entities[entity].kind) && owners[entity] < 0)
+        owners[entity] = static_cast<int>(e);
+  return owners;
+}
+
+// Those with a controller, ascending.
+std::vector<std::uint32_t> RobotsOf(const Experiment& experiment)
+{
+  std::vector<std::uint32_t> robots;
+  for (std::uint32_t i = 0; i < experiment.entities.size(); ++i)
+    if (IsRobot(experiment.entities[i].kind) && !experiment.entities[i].controller.empty()) robots.push_back(i);
+  return robots;
+}
+
+// Of each entity, in the plane.
+std::vector<Vector2> PlacesOf(const Experiment& experiment, std::span<const double> poses)
+{
+  std::vector<Vector2> places;
+  places.reserve(experiment.entities.size());
+  const auto movable =
+      static_cast<std::size_t>(std::ranges::count_if(experiment.entities, &EntityConfiguration::movable));
+  if (!poses.empty() && poses.size() != 7 * movable)
+    throw std::runtime_error("the places of the robots are those of other entities than the experiment has");
+  std::size_t k = 0;
+  for (const EntityConfiguration& entity : experiment.entities)
+  {
+    places.push_back(entity.pose.position.head<2>());
+    if (!entity.movable) continue;
+    if (!poses.empty()) places.back() = {poses[k], poses[movable + k]};
+    ++k;
+  }
+  return places;
+}
+
 // Orders robots so that those of the hosts from `first` to before `last` stand one behind the other, near ones
-// together: halved across the longer side of where they start, again and again. `begin`: of the robots of each host,
+// together: halved across the longer side of where they are, again and again. `begin`: of the robots of each host,
 // and the end. They come ordered by engine; where they are of several, these are kept apart.
-void OrderByPlace(const Experiment& experiment, const std::vector<int>& owner, std::span<const std::size_t> begin,
+void OrderByPlace(const std::vector<Vector2>& places, const std::vector<int>& owner, std::span<const std::size_t> begin,
                   std::size_t first, std::size_t last, std::vector<std::uint32_t>& robots)
 {
   if (last - first < 2) return;
@@ -121,31 +165,64 @@ void OrderByPlace(const Experiment& experiment, const std::vector<int>& owner, s
   const std::span<const std::uint32_t> these(at(first), at(last));
   if (!these.empty() && owner[these.front()] == owner[these.back()])
   {
-    const auto place_of = [&](std::uint32_t robot) { return experiment.entities[robot].pose.position; };
-    Vector3 low = place_of(these.front()), high = low;
+    Vector2 low = places[these.front()], high = low;
     for (const std::uint32_t robot : these)
     {
-      low = low.cwiseMin(place_of(robot));
-      high = high.cwiseMax(place_of(robot));
+      low = low.cwiseMin(places[robot]);
+      high = high.cwiseMax(places[robot]);
     }
     const int axis = high.x() - low.x() >= high.y() - low.y() ? 0 : 1;
     std::nth_element(at(first), at(middle), at(last),
                      [&](std::uint32_t a, std::uint32_t b)
-                     { return std::pair(place_of(a)[axis], a) < std::pair(place_of(b)[axis], b); });
+                     { return std::pair(places[a][axis], a) < std::pair(places[b][axis], b); });
   }
-  OrderByPlace(experiment, owner, begin, first, middle, robots);
-  OrderByPlace(experiment, owner, begin, middle, last, robots);
+  OrderByPlace(places, owner, begin, first, middle, robots);
+  OrderByPlace(places, owner, begin, middle, last, robots);
 }
 
 }  // namespace
 
+bool HostTable::IsSound() const
+{
+  return hosts >= 1 && hosts <= std::max<std::size_t>(of_robots.size(), 1) &&
+         std::ranges::all_of(of_robots, [this](std::uint32_t host) { return host < hosts; });
+}
+
+HostTable DealRobots(const Experiment& experiment, unsigned hosts, std::span<const double> poses)
+{
+  const std::vector<std::uint32_t> robots = RobotsOf(experiment);
+  HostTable table;
+  table.hosts = static_cast<std::uint32_t>(std::clamp<std::size_t>(hosts, 1, std::max<std::size_t>(robots.size(), 1)));
+  table.of_robots.resize(robots.size());
+  if (table.hosts == 1) return table;
+
+  // As many robots each, ordered by engine, then place.
+  const std::vector<int> owner = OwnersOf(experiment);
+  std::vector<std::uint32_t> ordered = robots;
+  std::ranges::stable_sort(ordered, {}, [&](std::uint32_t robot) { return owner[robot]; });
+  std::vector<std::size_t> begins;
+  for (std::size_t h = 0; h <= table.hosts; ++h) begins.push_back(h * robots.size() / table.hosts);
+  OrderByPlace(PlacesOf(experiment, poses), owner, begins, 0, table.hosts, ordered);
+  std::vector<std::uint32_t> host(experiment.entities.size());
+  for (std::uint32_t h = 0; h < table.hosts; ++h)
+    for (std::size_t k = begins[h]; k < begins[h + 1]; ++k) host[ordered[k]] = h;
+  std::ranges::transform(robots, table.of_robots.begin(), [&](std::uint32_t robot) { return host[robot]; });
+  return table;
+}
+
 Assignment MakeAssignment(const Experiment& experiment, unsigned hosts)
 {
+  return MakeAssignment(experiment, DealRobots(experiment, hosts));
+}
+
+Assignment MakeAssignment(const Experiment& experiment, const HostTable& table)
+{
   Assignment assignment;
+  assignment.table = table;
   const std::size_t count = experiment.entities.size();
 
-  // Engines: a movable entity is owned by the first engine that lists it.
-  assignment.owner.assign(count, -1);
+  // Engines.
+  assignment.owner = OwnersOf(experiment);
   assignment.engines.resize(experiment.engines.size());
   for (std::size_t e = 0; e < experiment.engines.size(); ++e)
   {
@@ -154,11 +231,8 @@ Assignment MakeAssignment(const Experiment& experiment, unsigned hosts)
     {
       if (!experiment.entities[entity].movable || IsBodiless(experiment.entities[entity].kind))
         layout.fixed.push_back(entity);
-      else if (assignment.owner[entity] < 0)
-      {
-        assignment.owner[entity] = static_cast<int>(e);
+      else if (assignment.owner[entity] == static_cast<int>(e))
         layout.owned.push_back(entity);
-      }
       else
         layout.mirrored.push_back(entity);
     }
@@ -169,30 +243,22 @@ Assignment MakeAssignment(const Experiment& experiment, unsigned hosts)
   for (const ControllerConfiguration& controller : experiment.controllers)
     channels_by_id.emplace(controller.id, ChannelsOf(controller));
   std::vector<const ControllerChannels*> channels_of(count, nullptr);
-  std::vector<std::uint32_t> robots;
-  for (std::uint32_t i = 0; i < count; ++i)
-  {
-    const EntityConfiguration& entity = experiment.entities[i];
-    if (!IsRobot(entity.kind) || entity.controller.empty()) continue;
-    channels_of[i] = &channels_by_id.at(entity.controller);
-    robots.push_back(i);
-  }
+  const std::vector<std::uint32_t> robots = RobotsOf(experiment);
+  for (const std::uint32_t robot : robots)
+    channels_of[robot] = &channels_by_id.at(experiment.entities[robot].controller);
 
-  // Hosts: as many robots each, ordered by engine, then place.
-  std::stable_sort(robots.begin(), robots.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return assignment.owner[a] < assignment.owner[b]; });
-  const std::size_t host_count = std::clamp<std::size_t>(hosts, 1, std::max<std::size_t>(robots.size(), 1));
+  // Hosts.
+  if (table.of_robots.size() != robots.size() || !table.IsSound())
+    throw std::runtime_error(
+        fmt::format("a table of controller hosts is of {} robots and {} hosts, not of the {} robots "
+                    "of the experiment",
+                    table.of_robots.size(), table.hosts, robots.size()));
   assignment.host.assign(count, -1);
-  assignment.hosts.resize(host_count);
-  std::vector<std::size_t> begins;
-  for (std::size_t h = 0; h <= host_count; ++h) begins.push_back(h * robots.size() / host_count);
-  OrderByPlace(experiment, assignment.owner, begins, 0, host_count, robots);
-  for (std::size_t h = 0; h < host_count; ++h)
+  assignment.hosts.resize(table.hosts);
+  for (std::size_t k = 0; k < robots.size(); ++k) assignment.hosts[table.of_robots[k]].robots.push_back(robots[k]);
+  for (std::size_t h = 0; h < table.hosts; ++h)
   {
     HostLayout& layout = assignment.hosts[h];
-    layout.robots.assign(robots.begin() + static_cast<std::ptrdiff_t>(begins[h]),
-                         robots.begin() + static_cast<std::ptrdiff_t>(begins[h + 1]));
-    std::sort(layout.robots.begin(), layout.robots.end());
     for (const std::uint32_t robot : layout.robots)
     {
       assignment.host[robot] = static_cast<int>(h);
@@ -209,7 +275,7 @@ Assignment MakeAssignment(const Experiment& experiment, unsigned hosts)
     EngineLayout& layout = assignment.engines[e];
     layout.commands = MakeBlocks(layout.owned, channels_of, &ControllerChannels::commands, layout.command_size);
     layout.sensors = MakeBlocks(layout.owned, channels_of, &ControllerChannels::sensors, layout.sensor_size);
-    for (std::uint32_t h = 0; h < host_count; ++h)
+    for (std::uint32_t h = 0; h < table.hosts; ++h)
     {
       AppendCopies(h, assignment.hosts[h].commands, layout.commands, layout.command_copies);
       AppendCopies(static_cast<std::uint32_t>(e), layout.sensors, assignment.hosts[h].sensors,

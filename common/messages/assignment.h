@@ -1,8 +1,9 @@
 // Who does what: which host runs which robots, which engine owns which entities, and where each value of a specific
-// device stands in the messages between them. A pure function of the experiment and the number of hosts, equal in every
+// device stands in the messages between them. A pure function of the experiment and the host table, equal in every
 // process.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,16 @@
 
 namespace swarmanoid
 {
+
+// Which controller host runs which robot.
+struct HostTable
+{
+  std::uint32_t hosts = 1;
+  std::vector<std::uint32_t> of_robots;  // of each entity with a controller, in their order
+  bool operator==(const HostTable&) const = default;
+  // Whether all robots are of hosts that there are, and there are not more of these than of robots, but one at least.
+  bool IsSound() const;
+};
 
 // The values of one channel for some robots, contiguous: robot after robot, `width` doubles each.
 struct ChannelBlock
@@ -56,15 +67,20 @@ struct EngineLayout
 
 struct Assignment
 {
+  HostTable table;
   std::vector<HostLayout> hosts;
   std::vector<EngineLayout> engines;
   std::vector<int> owner;  // of each entity: engine index, -1 for none
   std::vector<int> host;   // of each entity: host index, -1 for none
 };
 
-// Each host has about as many robots, of one engine if it may be, and near one another where they start: the swarm is
-// halved across its longer side, again and again.
-// There are never more hosts than robots, and always at least one. Needs the device registries.
+// Each host has about as many robots, of one engine if it may be, and near one another: the swarm is halved across its
+// longer side, again and again. There are never more hosts than robots, and always at least one. `poses`: where they
+// are, as in SpaceState; none: where they start. Throws std::runtime_error if these are of other entities.
+HostTable DealRobots(const Experiment& experiment, unsigned hosts, std::span<const double> poses = {});
+// Needs the device registries. Throws std::runtime_error if the table is of other robots.
+Assignment MakeAssignment(const Experiment& experiment, const HostTable& table);
+// With robots dealt by where they start.
 Assignment MakeAssignment(const Experiment& experiment, unsigned hosts);
 
 std::string EngineName(const Experiment& experiment, std::size_t engine);  // "engine 'ground'"

@@ -14,6 +14,7 @@ class FieldWriter
 public:
   explicit FieldWriter(ByteWriter& bytes) : bytes_(bytes) {}
   void Number(std::uint64_t value) { bytes_.Put(value); }
+  void Number(std::uint32_t value) { bytes_.Put(value); }
   void Text(const std::string& text) { bytes_.PutText(text); }
   template <class T>
   void Array(const std::vector<T>& values)
@@ -36,6 +37,7 @@ class FieldReader
 public:
   explicit FieldReader(std::span<const char> bytes) : bytes_(bytes) {}
   void Number(std::uint64_t& value) { value = bytes_.Get<std::uint64_t>(); }
+  void Number(std::uint32_t& value) { value = bytes_.Get<std::uint32_t>(); }
   void Text(std::string& text) { text = bytes_.GetText(); }
   template <class T>
   void Array(std::vector<T>& values)

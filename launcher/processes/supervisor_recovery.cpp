@@ -203,8 +203,12 @@ void Supervisor::ShareOut(const std::vector<std::string>& machines)
     host += plan.may_fail ? 1 : 0;
     plan.place(plan.host);
   }
-  display_.Note(fmt::format("{} controller host{} from now on; all processes start again where the journal ends",
-                            machines.size(), machines.size() == 1 ? "" : "s"));
+  const bool as_many = std::cmp_equal(
+      machines.size(),
+      std::ranges::count_if(members_, [](const auto& member) { return member->Plan().may_fail != nullptr; }));
+  display_.Note(fmt::format("{}{} controller host{} from now on; all processes start again where the journal ends",
+                            as_many ? "the robots are shared out anew among " : "", machines.size(),
+                            machines.size() == 1 ? "" : "s"));
   KillToStartAgain();
 }
 

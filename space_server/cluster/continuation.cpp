@@ -24,17 +24,19 @@ Continuation::Continuation(const RunSettings& settings, const Experiment& experi
   if (start.origin.experiment != FingerprintOf(experiment))
     throw std::runtime_error("the journal '" + file + "' is of another run");
   tick_ = start.first_tick;
+  if (const auto newest = journal_->RecordOf(EndTickOf(start, journal_->Places()) - 1))
+    newest_poses_ = newest->state.poses;
   // A checkpoint that the run takes there is on the disk, or somebody's part of it may be lost.
   const auto usable = [&](std::uint64_t tick)
   {
     const bool of_file = settings.checkpoint_every != 0 && tick % settings.checkpoint_every == 0;
     return !of_file || fs::exists(settings.output_folder + "/" + CheckpointName(tick));
   };
-  const auto newest = journal_->TickToGoOn(usable);
-  if (!newest && journal_->FirstTick() != start.first_tick)
+  const auto saved = journal_->TickToGoOn(usable);
+  if (!saved && journal_->FirstTick() != start.first_tick)
     throw std::runtime_error("the journal '" + file + "' has no whole state of the space server any more");
-  if (!newest) return;
-  tick_ = *newest;
+  if (!saved) return;
+  tick_ = *saved;
   record_ = journal_->RecordOf(tick_);
   // They were done before the state was saved.
   std::erase_if(requests_.changes, [this](const RecordedEvent& event) { return event.tick <= tick_; });
@@ -48,7 +50,7 @@ void Continuation::Restore(SpaceServer& server) const
   server.TellAgain(record_->state.attributes);
 }
 
-void Continuation::ShareOut(JournalWriter& journal, const Experiment& experiment, std::size_t hosts) const
+void Continuation::ShareOut(JournalWriter& journal, const Experiment& experiment, const HostTable& hosts) const
 {
   if (journal.Start().hosts == hosts) return;
   journal.BeginHosts(hosts, tick_);

@@ -30,11 +30,13 @@ public:
   void Restore(SpaceServer& server) const;
   // Nothing can be read of it if the server died before it had begun.
   const JournalReader* Journal() const { return journal_ ? &*journal_ : nullptr; }
-  // If the run had another number of controller hosts: has the journal say so, with the newest state that all processes
-  // saved, shared out among these.
-  void ShareOut(JournalWriter& journal, const Experiment& experiment, std::size_t hosts) const;
+  // If other controller hosts had the robots: has the journal say so, with the newest state that all processes saved,
+  // shared out among these.
+  void ShareOut(JournalWriter& journal, const Experiment& experiment, const HostTable& hosts) const;
   // Of the tick; nothing if it is the first one.
   const std::optional<TickRecord>& Record() const { return record_; }
+  // Of the newest tick that the journal has, which may be a later one; none if it has none.
+  const std::vector<double>& NewestPoses() const { return newest_poses_; }
   const EarlierRequests& Requests() const { return requests_; }
   // Of controllers, in ticks that are done again. Some may stand there twice.
   KnownFaults Faults() const;
@@ -46,6 +48,7 @@ private:
   std::optional<JournalReader> journal_;
   std::uint64_t tick_ = 0;
   std::optional<TickRecord> record_;
+  std::vector<double> newest_poses_;
   EarlierRequests requests_;
 };
 

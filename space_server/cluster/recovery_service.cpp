@@ -8,23 +8,22 @@
 #include <stdexcept>
 
 #include "common/journal/journal_blocks.h"
-#include "common/journal/shared_commands.h"
 
 namespace swarmanoid
 {
 namespace
 {
 
-// The newest state of the process that was saved together with the space. `hosts`: by so many controller hosts.
+// The newest state of the process that was saved together with the space. `table`: by the hosts of that number.
 std::optional<std::pair<JournalPlace, JournalPlace>> NewestState(const std::vector<JournalPlace>& places,
                                                                  const std::string& name, std::uint64_t after,
-                                                                 std::optional<std::uint64_t> hosts)
+                                                                 std::optional<std::uint32_t> table)
 {
   for (auto part = places.rbegin(); part != places.rend(); ++part)
   {
     // In the first one it is by itself.
     if (part->kind != JournalBlockKind::kPart || part->name != name || part->first_tick == after) continue;
-    if (hosts && part->hosts != *hosts) continue;
+    if (table && part->table != *table) continue;
     const auto snapshot =
         std::find_if(places.begin(), places.end(),
                      [&](const JournalPlace& place)
@@ -51,11 +50,11 @@ void RecoveryService::Work()
   }
 }
 
-std::vector<char> RecoveryService::BlockAt(const JournalPlace& place) const
+std::vector<char> RecoveryService::BlockAt(const JournalPlace& place)
 {
   std::vector<char> block = journal_->Read(place);
-  if (place.kind != JournalBlockKind::kTicks || place.hosts == assignment_.hosts.size()) return block;
-  return SharedCommands(space_, place.hosts, assignment_).Of(block);
+  if (place.kind != JournalBlockKind::kTicks) return block;
+  return shared_.Of(journal_->Table(place.table), std::move(block));
 }
 
 RecoveryService::Plan RecoveryService::MakePlan(const std::string& name)
@@ -71,8 +70,8 @@ RecoveryService::Plan RecoveryService::MakePlan(const std::string& name)
   std::uint64_t first = start.first_tick;
   const bool is_host = std::ranges::any_of(std::views::iota(std::size_t{0}, assignment_.hosts.size()),
                                            [&](std::size_t h) { return name == HostName(h); });
-  const auto hosts = is_host ? std::optional<std::uint64_t>(assignment_.hosts.size()) : std::nullopt;
-  if (const auto state = NewestState(all, name, first, hosts))
+  const auto table = is_host && !all.empty() ? std::optional(all.back().table) : std::nullopt;
+  if (const auto state = NewestState(all, name, first, table))
   {
     plan.places = {state->first, state->second};
     first = state->second.first_tick;

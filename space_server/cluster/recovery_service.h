@@ -8,6 +8,7 @@
 
 #include "common/bus/server_session.h"
 #include "common/journal/journal_writer.h"
+#include "common/journal/shared_commands.h"
 #include "space_server/cluster/lockstep.h"
 
 namespace swarmanoid
@@ -18,7 +19,7 @@ class RecoveryService
 public:
   RecoveryService(ServerSession& session, Lockstep& lockstep, const CSwarmanoidSpace& space,
                   const Assignment& assignment, JournalWriter* journal)
-      : session_(session), lockstep_(lockstep), space_(space), assignment_(assignment), journal_(journal)
+      : session_(session), lockstep_(lockstep), assignment_(assignment), shared_(space, assignment), journal_(journal)
   {
   }
 
@@ -34,12 +35,12 @@ private:
   };
   Plan MakePlan(const std::string& name);
   // As the present controller hosts understand it.
-  std::vector<char> BlockAt(const JournalPlace& place) const;
+  std::vector<char> BlockAt(const JournalPlace& place);
 
   ServerSession& session_;
   Lockstep& lockstep_;
-  const CSwarmanoidSpace& space_;
   const Assignment& assignment_;
+  SharedCommands shared_;
   JournalWriter* journal_;
   std::map<std::string, Plan> plans_;  // by process
 };

@@ -112,6 +112,12 @@ void ServerProgram::CheckFailures()
   throw BusError("a process died, or was stopped, while it held shared memory of the run");
 }
 
+void ServerProgram::AdviseUser()
+{
+  if (!run_control_.MayShareOut()) return;
+  if (const auto advice = advice_.Take(Clock::now())) status_.Publish(ServerWarning{*advice});
+}
+
 void ServerProgram::HelpReplacements()
 {
   for (const std::string& name : session_.TakeLost()) status_.Publish(ServerLost{name});
@@ -205,6 +211,7 @@ void ServerProgram::RunTicks()
     }
     checkpoints_.Work();
     ReportProgress();
+    AdviseUser();
     PublishViews();
     if (!lockstep_.Finished() && !lockstep_.Failure()) Sleep(std::min(next, views_.Next()));
   }

@@ -20,6 +20,7 @@
 #include "common/run/run_settings.h"
 #include "space_server/cluster/checkpoint_writer.h"
 #include "space_server/cluster/continuation.h"
+#include "space_server/cluster/host_advice.h"
 #include "space_server/cluster/lockstep.h"
 #include "space_server/cluster/recovery_service.h"
 #include "space_server/cluster/view_publisher.h"
@@ -75,7 +76,9 @@ private:
   static constexpr std::chrono::milliseconds kFirstRepeat{100}, kLastRepeat{1000};
 
   static double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
-  // The world, where the run starts or goes on.
+  // By where the robots are, where the run starts or goes on.
+  HostTable Hosts() const;
+  // The world, likewise.
   WorldMessage World();
   std::span<const RenderConfiguration> Visualisers() const;
   std::vector<std::string> Expected(std::span<const RenderConfiguration> visualisers) const;
@@ -95,6 +98,7 @@ private:
   void CheckFailures();
   // Those who take the places of others get the journal; the state goes out again for them.
   void HelpReplacements();
+  void AdviseUser();
   void Say(const std::string& text) const;
   // Until all processes of the run are there.
   void Collect();
@@ -126,9 +130,9 @@ private:
   std::mutex wake_mutex_;
   std::condition_variable wake_;
   bool awake_ = false;
-  Assignment assignment_;
   std::optional<Continuation> continuation_;
   std::optional<Checkpoint> restored_;  // until the journal has it
+  Assignment assignment_;
   SpaceServer server_;
   ServerSession session_;
   Shares shares_;
@@ -139,6 +143,7 @@ private:
   CheckpointWriter checkpoints_;
   Lockstep lockstep_;
   RecoveryService recoveries_;
+  HostAdvice advice_;
 
   Clock::time_point start_;
   Clock::time_point end_;

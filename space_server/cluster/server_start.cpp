@@ -8,6 +8,7 @@
 #include <random>
 
 #include "common/activity/print_error.h"
+#include "common/checkpoint/host_state.h"
 #include "common/checkpoint/library_builds.h"
 #include "common/journal/journal_reader.h"
 #include "common/serialisation/trial.h"
@@ -57,8 +58,12 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
     : options_(options),
       experiment_(experiment),
       status_(status),
-      assignment_(MakeAssignment(experiment, options.controller_hosts)),
       continuation_(GoesOn() ? std::optional<Continuation>(std::in_place, options, experiment) : std::nullopt),
+      restored_(options.restore_file.empty()
+                    ? std::nullopt
+                    : std::optional(ReadCheckpoint(options.restore_file, experiment,
+                                                   {options.controller_hosts, options.any_build}))),
+      assignment_(MakeAssignment(experiment, Hosts())),
       server_(experiment, assignment_, options.output_folder.empty() ? "." : options.output_folder),
       session_(options.bus, World(), Members(),
                {[this](const ControlRequestMessage& request)
@@ -97,7 +102,8 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
                    [this] { Wake(); }),
       lockstep_(session_, server_, assignment_, options.visualisations, options.hash_log, options.watch, checkpoints_,
                 Journal(), continuation_ ? &*continuation_ : nullptr, [this] { Wake(); }),
-      recoveries_(session_, lockstep_, server_.Space(), assignment_, Journal())
+      recoveries_(session_, lockstep_, server_.Space(), assignment_, Journal()),
+      advice_(session_, lockstep_, experiment, assignment_)
 {
   if (options.awaits_replacements && journal_) session_.AwaitReplacements();
   if (continuation_)
@@ -143,10 +149,17 @@ RunControlSetup ServerProgram::Setup()
   return setup;
 }
 
+HostTable ServerProgram::Hosts() const
+{
+  std::span<const double> poses;
+  if (restored_) poses = restored_->snapshot.poses;
+  if (continuation_ && !continuation_->NewestPoses().empty()) poses = continuation_->NewestPoses();
+  return DealRobots(experiment_, options_.controller_hosts, poses);
+}
+
 WorldMessage ServerProgram::World()
 {
-  WorldMessage world =
-      DescribeWorld(server_.Space(), NewRun(), options_.file, static_cast<unsigned>(assignment_.hosts.size()));
+  WorldMessage world = DescribeWorld(server_.Space(), NewRun(), options_.file, assignment_.table);
   world.xml += options_.places;
   CheckCheckpointPeriod(options_.checkpoint_every, experiment_);
   world.checkpoint_every = options_.checkpoint_every;
@@ -157,13 +170,13 @@ WorldMessage ServerProgram::World()
                  {
                    if (!file.empty()) world.libraries.push_back({name, DigestOfFile(file)});
                  });
-  if (!options_.restore_file.empty())
+  if (restored_)
   {
-    const Checkpoint checkpoint =
-        ReadCheckpoint(options_.restore_file, experiment_, {assignment_.hosts.size(), options_.any_build});
-    checkpoint.LoadPart(kServerPart, [&](ByteReader& state) { server_.LoadState(checkpoint.snapshot, state); });
-    world.checkpoint = EncodeCheckpoint(checkpoint);
-    if (KeepsJournal() && !GoesOn()) restored_ = checkpoint;
+    // The hosts of a run that goes on elsewhere have other robots than those that it began with.
+    restored_->parts = SharedOut(std::move(restored_->parts), experiment_, assignment_.table);
+    restored_->LoadPart(kServerPart, [&](ByteReader& state) { server_.LoadState(restored_->snapshot, state); });
+    world.checkpoint = EncodeCheckpoint(*restored_);
+    if (!KeepsJournal() || GoesOn()) restored_.reset();
   }
   if (continuation_) continuation_->Restore(server_);
   if (!experiment_.HasGuards()) return world;
@@ -193,11 +206,11 @@ void ServerProgram::OpenJournal()
   if (continuation_ && continuation_->Journal() != nullptr)
   {
     journal_.emplace(*continuation_->Journal(), continuation_->Tick(), beside_launcher, std::move(budget));
-    continuation_->ShareOut(*journal_, experiment_, assignment_.hosts.size());
+    continuation_->ShareOut(*journal_, experiment_, assignment_.table);
     return;
   }
   std::filesystem::create_directories(std::filesystem::path(file).parent_path());
-  const JournalStart start{OriginOf(experiment_), assignment_.hosts.size(), server_.Space().GetTick()};
+  const JournalStart start{OriginOf(experiment_), assignment_.table, server_.Space().GetTick()};
   journal_.emplace(file, ContentOf(start), beside_launcher, std::move(budget));
   if (!restored_) return;
   // For those who look back, and resume: what no message of a tick tells.

@@ -126,7 +126,7 @@ class Moves(LauncherTest):
     def test_more_controller_hosts_and_fewer(self):
         run = self.begin()
         self.control("step", 777)
-        for words, hosts in ((["+1"], "012"), (["+2"], "01234"), (["-3"], "01"), (["-1", "here"], "0"), (["+1", "here"], "01")):
+        for words, hosts in ((["+1"], "012"), (["+2"], "01234"), (["-3"], "01"), (["-1", "here"], "0"), (["+1", "here"], "01"), (["again"], "01")):
             answer = self.control("hosts", *words)
             self.assertIn("one controller host has all robots now" if len(hosts) == 1 else f"{len(hosts)} controller hosts share the robots now", answer)
             self.wait_until("so many hosts", lambda: self.hosts_of(run) == list(hosts), run)
@@ -136,12 +136,73 @@ class Moves(LauncherTest):
         self.assert_undisturbed(run)
         with (self.folder / "out/events.csv").open() as file:
             asked = [(row["tick"], row["numbers"], row["entity"]) for row in csv.DictReader(file) if row["request"] == "hosts"]
-        self.assertEqual(asked, [("777", "1", ""), ("877", "2", ""), ("977", "-3", ""), ("1077", "-1", "here"), ("1177", "1", "here")])
+        self.assertEqual(asked, [("777", "1", ""), ("877", "2", ""), ("977", "-3", ""), ("1077", "-1", "here"), ("1177", "1", "here"), ("1277", "0", "")])
         # Looking back, and going on, from a journal of several numbers of hosts.
         self.assertIn(f"equal: {TICKS + 1} states", self.run_it("replay", "out", "--verify").stdout)
         for options in ([], ["--controller-hosts", 4], ["--single-process"]):
             branch = self.run_it("run", "--branch", "out@950", "--ticks", TICKS, *options, "--no-visualisers", "--output", f"branch{len(options)}{options[:1]}")
             self.assertEqual(self.assert_finished(branch, TICKS), self.assert_finished(run, TICKS))
+
+    def test_robots_are_shared_out_by_where_they_are(self):
+        run = self.begin()
+        self.refused("hosts", "again", "beta", says=["write hosts +N or hosts -N"])
+        self.control("step", 777)
+        self.assertFalse((self.folder / "out/journal/1").exists())
+        self.assertIn("2 controller hosts share the robots now", self.control("hosts", "again"))
+        run.read_until("the robots are shared out anew among 2 controller hosts")
+        # Other hosts begin a segment, and so do as many with other robots.
+        self.wait_until("a segment", lambda: (self.folder / "out/journal/1").exists(), run)
+        self.control("step", 100)
+        self.control("move-host", 1)
+        # So does a start of all processes for another reason.
+        self.control("step", 300)
+        os.kill(self.pid_of(run, "space_server"), signal.SIGKILL)
+        run.read_until("space server was killed by signal 9 (Killed)")
+        self.wait_for_experiment("diffusion_10")
+        self.control("step", 100)
+        self.control("move-host", 0)
+        self.run_it("control", "resume")
+        self.assert_undisturbed(run)
+        self.assertIn(f"equal: {TICKS + 1} states", self.run_it("replay", "out", "--verify").stdout)
+        # A branch begins with robots that are shared out by where they are, too.
+        for hosts in (2, 3):
+            branch = self.run_it("run", "--branch", "out@950", "--ticks", TICKS, "--controller-hosts", hosts, "--no-visualisers", "--output", f"branch{hosts}")
+            self.assertEqual(self.assert_finished(branch, TICKS), self.assert_finished(run, TICKS))
+        self.assertIn("fb_3", self.run_it("inspect", "out@600", "fb_3").stdout)
+
+    def test_users_are_told_once_robots_have_mixed(self):
+        """Over a network hosts hear of what is near their robots. Two groups, far apart, of one host each; then half of each changes places."""
+        place_of = {f"fb_{k}": f"{1 + 30 * (k // 4)},{1 + k % 4},0" for k in range(8)}
+        robots = "".join(f'<footbot id="{robot}"><position>{place}</position><orientation>0,0,0</orientation><controller>c</controller></footbot>'
+                         for robot, place in place_of.items())
+        experiment = self.folder / "groups.xml"
+        experiment.write_text(f"""<ahss-config>
+  <framework><clocktick>100</clocktick><maxclock>0</maxclock></framework>
+  <controllers><footbot_diffusion id="c" library="footbot_diffusion">
+    <actuators><footbot_wheels><implementation>dummy_footbot_wheels</implementation></footbot_wheels></actuators>
+    <sensors><footbot_proximity><implementation>generic_footbot_proximity</implementation></footbot_proximity></sensors>
+    <parameters><velocity>0.01</velocity><alpha>7.5</alpha><delta>0.1</delta></parameters>
+  </footbot_diffusion></controllers>
+  <arena size="40,6,1" optimization="2D">{robots}</arena>
+  <engines><dummy_engine id="ground"/></engines>
+  <arena_physics><engine id="ground"><all/></engine></arena_physics>
+  <visualisations/>
+</ahss-config>""")
+        network = ["--interface", "127.0.0.1"]
+        (self.folder / "hosts.txt").write_text(f"options = {' '.join(network)}\n")
+        run = self.start("run", experiment, "--controller-hosts", 2, "--real-time", 20, "--hosts", "hosts.txt", "--output", "out")
+        self.wait_until("the run", lambda: self.run_it("control", "machines", *network).process.returncode == 0, run)
+        for robot, place in (("fb_0", "31,5,0"), ("fb_1", "32,5,0"), ("fb_4", "1,5,0"), ("fb_5", "2,5,0")):
+            self.control("move", robot, place, *network)
+        said = run.read_until("the robots of the controller hosts have mixed: hosts are told of 2.0 times as many entities")
+        self.assertIn("`swarmanoid control groups hosts again`", said)
+        self.assertIn("2 controller hosts share the robots now", self.control("hosts", "again", *network))
+        self.control("move", "fb_2", "2,1,0", *network)
+        self.control("stop", *network)
+        self.assertEqual(run.wait(), 0, run.stderr)
+        self.assertNotIn("have mixed", run.stderr)
+        self.assertIn("equal: ", self.run_it("replay", "out", "--verify").stdout)
+        self.assert_nothing_left(run)
 
     def test_hosts_of_controllers_that_cannot_be_saved(self):
         """They do all ticks again, whose commands other hosts gave, and find the same."""

@@ -125,7 +125,7 @@ std::vector<fuzz::Input> fuzz::FirstInputs()
                            "/x",
                            "<x/>",
                            3,
-                           1,
+                           HostTable{2, std::vector<std::uint32_t>(2)},
                            false,
                            0.1,
                            100,

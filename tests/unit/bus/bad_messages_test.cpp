@@ -93,7 +93,7 @@ TEST(BadMessages, CutAnywhereAreRefused)
                                                  "d",
                                                  "<x/>",
                                                  3,
-                                                 1,
+                                                 HostTable{2, std::vector<std::uint32_t>(2)},
                                                  false,
                                                  0.1,
                                                  0,
@@ -247,7 +247,7 @@ TEST(Messages, OfAnotherVersionTellItWhateverElseTheyHold)
   for (const std::uint32_t version : {kProtocolVersion - 1, kProtocolVersion + 1})
   {
     std::string bytes =
-        BytesOf(WorldMessage{version, 1, "experiment", "host", 2, "", "", "", 3, 1, false, 0, 0, {}, false, {}});
+        BytesOf(WorldMessage{version, 1, "experiment", "host", 2, "", "", "", 3, {}, false, 0, 0, {}, false, {}});
     bytes.resize(bytes.size() - 20);
     WorldMessage world;
     ReadPayload<WorldMessage>(bytes, world);

@@ -40,7 +40,7 @@ TEST(MessageBytes, OfJoiningAndLeavingAreThoseOfTheIdl)
         random.Text(),
         random.Text(),
         random.Number(),
-        random.Number32(),
+        {random.Number32(), std::vector<std::uint32_t>(random.Length(), random.Number32())},
         random.Flag(),
         random.Real(),
         random.Number(),
@@ -60,7 +60,8 @@ TEST(MessageBytes, OfJoiningAndLeavingAreThoseOfTheIdl)
     wire_world.folder(world.folder);
     wire_world.xml(world.xml);
     wire_world.seed(world.seed);
-    wire_world.hosts(world.hosts);
+    wire_world.hosts(world.hosts.hosts);
+    wire_world.host_of_robots(world.hosts.of_robots);
     wire_world.spread(world.spread);
     wire_world.tick_seconds(world.tick_seconds);
     wire_world.checkpoint_every(world.checkpoint_every);

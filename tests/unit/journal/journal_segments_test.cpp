@@ -43,7 +43,7 @@ protected:
   ~JournalSegmentsTest() override { fs::remove_all(folder_); }
 
   std::string Path() const { return (folder_ / "0").string(); }
-  static std::vector<char> StartOfRun() { return ContentOf(JournalStart{{7, {}}, 1, 0}); }
+  static std::vector<char> StartOfRun() { return ContentOf(JournalStart{{7, {}}, HostTable{1, {0, 0, 0, 0}}, 0}); }
 
   static void AddSomeTicks(JournalWriter& journal, std::uint64_t from, std::uint64_t until,
                            const std::vector<std::string>& saved = kParts)
@@ -112,9 +112,10 @@ TEST_F(JournalSegmentsTest, OtherControllerHostsBeginASegment)
     AddSomeTicks(journal, 0, 130);
   }
   const JournalReader before(Path());
-  EXPECT_EQ(before.Hosts(), 1U);
+  EXPECT_EQ(before.Hosts(), (HostTable{1, {0, 0, 0, 0}}));
+  const HostTable three{3, {2, 0, 1, 0}};
   JournalWriter journal(before, 120, false, {kBudget, kParts});
-  journal.BeginHosts(3, 120);
+  journal.BeginHosts(three, 120);
   SpaceSnapshot snapshot;
   snapshot.tick = 100;
   journal.Add(snapshot);
@@ -122,16 +123,20 @@ TEST_F(JournalSegmentsTest, OtherControllerHostsBeginASegment)
   AddSomeTicks(journal, 120, 150);
   journal.Flush();
   const JournalReader after(Path());
-  EXPECT_EQ(after.Hosts(), 3U);
-  EXPECT_EQ(after.Start().hosts, 1U);
-  EXPECT_EQ(journal.Start().hosts, 3U);
+  EXPECT_EQ(after.Hosts(), three);
+  EXPECT_EQ(after.HostsAt(119), before.Hosts());
+  EXPECT_EQ(after.HostsAt(120), three);
+  EXPECT_THROW(after.HostsAt(150), std::runtime_error);
+  EXPECT_EQ(after.Start().hosts, before.Hosts());
+  EXPECT_EQ(journal.Start().hosts, three);
   ExpectWhole(after, 150);
-  EXPECT_EQ(after.CheckpointAt(100, kParts, 1)->StateOf(kServerPart)[0], 's');
-  EXPECT_EQ(after.CheckpointAt(100, kParts, 3)->StateOf(kServerPart)[0], 't');
+  EXPECT_EQ(after.CheckpointAt(100, kParts, 0)->StateOf(kServerPart)[0], 's');
+  EXPECT_EQ(after.CheckpointAt(100, kParts, 1)->StateOf(kServerPart)[0], 't');
   for (const JournalPlace& place : after.Places())
   {
     if (place.kind != JournalBlockKind::kTicks) continue;
-    EXPECT_EQ(place.hosts, place.first_tick < 120 ? 1U : 3U);
+    EXPECT_EQ(place.table, place.first_tick < 120 ? 0U : 1U);
+    EXPECT_EQ(journal.Table(place.table), place.first_tick < 120 ? before.Hosts() : three);
   }
   AddSomeTicks(journal, 150, 6000);
   journal.Flush();
@@ -142,11 +147,48 @@ TEST_F(JournalSegmentsTest, OtherControllerHostsBeginASegment)
                         [&]
                         {
                           std::vector<JournalPlace> rest = after.Places();
-                          std::erase_if(rest, [](const JournalPlace& place) { return place.hosts == 1; });
-                          rest.push_back({JournalBlockKind::kSnapshot, 150, 0, {}, 0, 0, 2, 3});
+                          std::erase_if(rest, [](const JournalPlace& place) { return place.table == 0; });
+                          rest.push_back({JournalBlockKind::kSnapshot, 150, 0, {}, 0, 0, 2, 1});
                           return rest;
                         }()),
             150U);
+}
+
+// As many as before, with other robots.
+TEST_F(JournalSegmentsTest, TheSameHostsWithOtherRobotsBeginASegment)
+{
+  const HostTable first{2, {0, 0, 1, 1}}, second{2, {0, 1, 0, 1}};
+  const std::vector<char> start = ContentOf(JournalStart{{7, {}}, first, 0});
+  {
+    JournalWriter journal(Path(), start, false, {0, kParts});
+    AddSomeTicks(journal, 0, 130);
+  }
+  const JournalReader before(Path());
+  JournalWriter journal(before, 100, false, {0, kParts});
+  journal.BeginHosts(second, 100);
+  journal.Add(SpaceSnapshot{.tick = 100, .poses = {}, .attributes = {}});
+  journal.Add(100, {kServerPart, {'t'}});
+  journal.Flush();
+  // The engine's part of then is of the first hosts: the two do not make a state.
+  EXPECT_EQ(StateAfter(journal.Places(), 0, kParts), std::nullopt);
+  journal.Add(100, {kParts[1], {'t'}});
+  journal.Flush();
+  EXPECT_EQ(StateAfter(journal.Places(), 0, kParts), 100U);
+  const JournalReader after(Path());
+  EXPECT_EQ(after.Tables(), (std::vector<HostTable>{first, second}));
+  EXPECT_EQ(after.Hosts(), second);
+  // What goes on later is of the second ones as well.
+  JournalWriter later(after, 100, false, {0, kParts});
+  later.AddTick(NoisyState(100), false, {}, {});
+  later.Flush();
+  EXPECT_EQ(later.Table(later.Places().back().table), second);
+}
+
+TEST_F(JournalSegmentsTest, ATableOfHostsThatThereAreNotIsRefused)
+{
+  for (const HostTable& table :
+       {HostTable{0, {}}, HostTable{2, {0}}, HostTable{2, {0, 2}}, HostTable{4000000000, {0, 1}}})
+    EXPECT_THROW(ReadStart(ContentOf(JournalStart{{7, {}}, table, 0})), std::runtime_error);
 }
 
 // Ticks that were added before the state of an earlier one came stand in the segment before that state.

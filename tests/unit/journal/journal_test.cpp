@@ -94,7 +94,10 @@ protected:
 
   std::string File(const std::string& name) const { return (folder_ / name).string(); }
 
-  static std::vector<char> Start() { return ContentOf(JournalStart{{7, {{"libx.so", "abc"}}}, 2, 0}); }
+  static std::vector<char> Start()
+  {
+    return ContentOf(JournalStart{{7, {{"libx.so", "abc"}}}, HostTable{2, {1, 0}}, 0});
+  }
 
   // Each tick in a block of its own, and states saved at tick 4; a part is lacking at tick 6.
   std::vector<TickRecord> WriteSome(const std::string& name, std::size_t count)
@@ -138,7 +141,7 @@ TEST_F(JournalTest, TicksComeBackBitByBitHoweverManyAreInABlock)
   }
   const JournalReader journal(File("j"));
   EXPECT_EQ(journal.TornBytes(), 0U);
-  EXPECT_EQ(journal.Start().hosts, 2U);
+  EXPECT_EQ(journal.Start().hosts, (HostTable{2, {1, 0}}));
   EXPECT_EQ(journal.Start().origin.experiment, 7U);
   ASSERT_EQ(journal.Start().origin.libraries.size(), 1U);
   EXPECT_EQ(journal.Start().origin.libraries[0].build, "abc");

@@ -46,7 +46,7 @@ protected:
   ~RecordedStatesTest() override { fs::remove_all(folder_); }
 
   std::string Path() const { return (folder_ / "0").string(); }
-  static JournalStart Start() { return {{7, {}}, 1, 0}; }
+  static JournalStart Start() { return {{7, {}}, {}, 0}; }
 
   // Robots jump about, and an LED changes now and then. Remembers the hash of each tick.
   void Run(JournalWriter& journal, std::uint64_t ticks)

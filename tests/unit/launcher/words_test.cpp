@@ -64,6 +64,7 @@ TEST(ControlRequest, ReadsMovesOfWorkers)
   EXPECT_EQ(ParseControlRequest({"move-engine", "ground", "beta"}).verb, "move-engine");
   EXPECT_EQ(ParseControlRequest({"drain", "alpha"}).entity, "alpha");
   EXPECT_THAT(ParseControlRequest({"hosts", "+2"}).numbers, ElementsAre(2));
+  EXPECT_THAT(ParseControlRequest({"world", "hosts", "again"}).numbers, ElementsAre(0));
   EXPECT_THAT(ParseControlRequest({"world", "hosts", "-1", "beta"}).numbers, ElementsAre(-1));
   EXPECT_EQ(ParseControlRequest({"world", "hosts", "-1", "beta"}).entity, "beta");
 }
@@ -85,6 +86,7 @@ TEST(ControlRequest, ErrorsSayTheRightForm)
   EXPECT_THAT(ErrorOf({"hosts"}), HasSubstr("write hosts +N or hosts -N"));
   EXPECT_THAT(ErrorOf({"hosts", "2"}), HasSubstr("write hosts +N or hosts -N"));
   EXPECT_THAT(ErrorOf({"hosts", "+0"}), HasSubstr("write hosts +N or hosts -N"));
+  EXPECT_THAT(ErrorOf({"hosts", "again", "beta"}), HasSubstr("or hosts again"));
   EXPECT_THAT(ErrorOf({"paus"}), HasSubstr("did you mean 'pause'?"));
   EXPECT_THAT(ErrorOf({"spede", "2"}), HasSubstr("there is no 'spede'"));
   EXPECT_THAT(ErrorOf({"spede", "2"}), HasSubstr("did you mean 'speed'?"));

@@ -204,6 +204,35 @@ TEST(Assignment, HostsHaveRobotsThatStartNearOneAnother)
   }
 }
 
+// Those of a row that start in order, and have changed their order since.
+TEST(Assignment, RobotsAreDealtByWhereTheyAre)
+{
+  Experiment experiment = Drivers(6);
+  experiment.entities.insert(experiment.entities.begin() + 2, EntityConfiguration{});  // a wall
+  for (EngineConfiguration& engine : experiment.engines) engine.entities = {0, 1, 3, 4, 5, 6};
+  for (std::uint32_t i = 0; i < 7; ++i) experiment.entities[i].pose.position = {i * 1.0, 0, 0};
+  EXPECT_THAT(DealRobots(experiment, 3).of_robots, ElementsAre(0, 0, 1, 1, 2, 2));
+  std::vector<double> poses(6 * 7);
+  for (std::size_t k = 0; k < 6; ++k) poses[k] = static_cast<double>((k * 5 + 2) % 6);  // 2 1 0 5 4 3
+  const HostTable table = DealRobots(experiment, 3, poses);
+  EXPECT_THAT(table.of_robots, ElementsAre(1, 0, 0, 2, 2, 1));
+  const Assignment assignment = MakeAssignment(experiment, table);
+  EXPECT_EQ(assignment.table, table);
+  EXPECT_THAT(assignment.host, ElementsAre(1, 0, -1, 0, 2, 2, 1));
+  EXPECT_THAT(assignment.hosts[1].robots, ElementsAre(0, 6));
+  poses.pop_back();
+  EXPECT_THROW(DealRobots(experiment, 3, poses), std::runtime_error);
+}
+
+TEST(Assignment, ATableIsOfTheRobotsOfTheExperiment)
+{
+  const Experiment experiment = Drivers(3);
+  EXPECT_NO_THROW(MakeAssignment(experiment, HostTable{2, {1, 1, 1}}));
+  for (const HostTable& table : {HostTable{1, {}}, HostTable{2, {0, 1}}, HostTable{4, {0, 1, 2}},
+                                 HostTable{2, {0, 1, 2}}, HostTable{0, {0, 0, 0}}})
+    EXPECT_THROW(MakeAssignment(experiment, table), std::runtime_error);
+}
+
 TEST(Assignment, AnExperimentWithoutRobotsHasOneIdleHost)
 {
   const Experiment experiment;

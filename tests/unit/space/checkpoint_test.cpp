@@ -176,6 +176,7 @@ Experiment ExperimentOf(std::size_t robots)
     robot.id = "fb_" + std::to_string(k);
     robot.kind = EntityKind::kFootbot;
     robot.controller = "c";
+    robot.movable = true;
   }
   return experiment;
 }
@@ -194,6 +195,14 @@ HostState StateOf(const Checkpoint& checkpoint, std::size_t host)
   return state;
 }
 
+// The last one leftmost.
+std::vector<double> InARow(std::size_t robots)
+{
+  std::vector<double> poses(7 * robots);
+  for (std::size_t k = 0; k < robots; ++k) poses[k] = static_cast<double>(robots - k);
+  return poses;
+}
+
 TEST_F(CheckpointFile, OfMoreOrFewerControllerHostsIsSharedOut)
 {
   const Experiment experiment = ExperimentOf(5);
@@ -201,8 +210,13 @@ TEST_F(CheckpointFile, OfMoreOrFewerControllerHostsIsSharedOut)
   checkpoint.origin = OriginOf(experiment);
   checkpoint.parts[2] = HostPart(0, {{{{0, 2}, "radio"}}, {{0, "a"}, {1, "b"}}});
   checkpoint.parts.push_back(HostPart(1, {{{{0, 2}, "radio"}}, {{2, "c"}, {3, "d"}, {4, "e"}}}));
+  checkpoint.snapshot.poses = InARow(5);
   WriteCheckpoint(path_, checkpoint);
-  EXPECT_EQ(ReadCheckpoint(path_, experiment, {2, false}).parts[3].state, checkpoint.parts[3].state);
+  // As many as before, with robots that are near one another now.
+  const Checkpoint two = ReadCheckpoint(path_, experiment, {2, false});
+  EXPECT_EQ(two.parts.size(), 4U);
+  EXPECT_EQ(StateOf(two, 0).robots, (std::map<std::uint32_t, std::string>{{3, "d"}, {4, "e"}}));
+  EXPECT_EQ(StateOf(two, 1).robots, (std::map<std::uint32_t, std::string>{{0, "a"}, {1, "b"}, {2, "c"}}));
 
   const Checkpoint one = ReadCheckpoint(path_, experiment, {1, false});
   EXPECT_EQ(one.parts.size(), 3U);
@@ -228,6 +242,7 @@ TEST_F(CheckpointFile, IsRefusedByOtherControllerHostsIfARobotIsLacking)
   Checkpoint checkpoint = SmallCheckpoint();
   checkpoint.origin = OriginOf(experiment);
   checkpoint.parts[2] = HostPart(0, {{}, {{0, "a"}}});
+  checkpoint.snapshot.poses = InARow(2);
   WriteCheckpoint(path_, checkpoint);
   EXPECT_THAT(
       [&] {

@@ -208,7 +208,18 @@ TEST(WorkerPlaces, HostsComeAndGoAtTheEnd)
   EXPECT_THAT(HostsOf(-1, "here"), HasSubstr("so many controller hosts are not at 'here'; they are at alpha, beta"));
   EXPECT_THAT(HostsOf(4), HasSubstr("the run has 2 controller hosts, and can have 5"));
   EXPECT_THAT(HostsOf(1, "gamma"), HasSubstr("no machine 'gamma'"));
+  EXPECT_EQ(HostsOf(0), "alpha beta ");
   EXPECT_THAT(HostsOf(0.5), HasSubstr("write +N or -N"));
+  EXPECT_THAT(HostsOf(std::nan("")), HasSubstr("write +N or -N"));
+}
+
+TEST(WorkerPlaces, OneHostHasNobodyToShareWith)
+{
+  ControlRequestMessage request = Request("hosts", "");
+  request.numbers = {0};
+  const WorkerPlaces places({"here"}, {"space server=here", "controller host 0=here"});
+  EXPECT_THAT([&] { places.ReadHosts(request, 9); },
+              testing::ThrowsMessage<std::invalid_argument>(HasSubstr("that has all robots")));
 }
 
 TEST(WorkerPlaces, HostsNeedASpaceServerThatCanStartAgain)

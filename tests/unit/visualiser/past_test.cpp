@@ -71,7 +71,6 @@ protected:
                                           << "121,resume,,,,\n";
     JournalStart start;
     start.origin.experiment = FingerprintOf(world_.GetExperiment());
-    start.hosts = 1;
     JournalWriter journal(JournalFile(folder_.string()), ContentOf(start));
     for (SpaceState state; state.tick < kTicks; ++state.tick)
     {
