@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 constexpr auto kFirstLook = 2s;
 constexpr auto kBetweenLooks = 10s;
 // Less of a difference is not worth a start of all processes.
-constexpr double kWorthIt = 1.5;
+constexpr double kWorthIt = 1.25;
 
 }  // namespace
 
