@@ -31,6 +31,7 @@ Visualiser::Visualiser(const RenderConfiguration& configuration, const CSwarmano
   if (entry == nullptr)
     throw ConfigurationError(configuration.location, "no renderer is registered as '" + configuration.tag +
                                                          "'; `swarmanoid list plugins` shows those of this build");
+  context_.Enter();
   RunCodeOf<ConfigurationError>(actor_, ActivityStep::kInit, space.GetTick(),
                                 [&]
                                 {
@@ -40,24 +41,35 @@ Visualiser::Visualiser(const RenderConfiguration& configuration, const CSwarmano
                                 });
 }
 
-Visualiser::~Visualiser() = default;
+Visualiser::~Visualiser()
+{
+  context_.Enter();
+  render_.reset();
+}
+
+template <class Code>
+void Visualiser::Run(ActivityStep step, const Code& code)
+{
+  context_.Enter();
+  RunCodeOf(actor_, step, space_.GetTick(), code);
+}
 
 bool Visualiser::Draw()
 {
-  RunCodeOf(actor_, ActivityStep::kDraw, space_.GetTick(), [&] { render_->Draw(); });
+  Run(ActivityStep::kDraw, [&] { render_->Draw(); });
   return render_->Terminate();
 }
 
 bool Visualiser::Idle()
 {
-  RunCodeOf(actor_, ActivityStep::kIdle, space_.GetTick(), [&] { render_->Idle(); });
+  Run(ActivityStep::kIdle, [&] { render_->Idle(); });
   return render_->Terminate();
 }
 
 void Visualiser::Finish()
 {
   if (std::exchange(finished_, true)) return;
-  RunCodeOf(actor_, ActivityStep::kFinish, space_.GetTick(), [&] { render_->Finish(); });
+  Run(ActivityStep::kFinish, [&] { render_->Finish(); });
 }
 
 }  // namespace swarmanoid

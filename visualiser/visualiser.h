@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "common/activity/failure_report.h"
+#include "visualiser/drawing_context.h"
 #include "visualiser/render.h"
 
 namespace swarmanoid
@@ -28,9 +29,13 @@ public:
   bool IsInteractive() const { return render_->IsInteractive(); }
 
 private:
+  template <class Code>
+  void Run(ActivityStep step, const Code& code);
+
   const CSwarmanoidSpace& space_;
   RenderConfiguration configuration_;
   Actor actor_;
+  DrawingContext context_;
   std::unique_ptr<CRender> render_;
   bool finished_ = false;
 };

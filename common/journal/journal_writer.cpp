@@ -54,8 +54,7 @@ std::optional<std::uint64_t> StateAfter(const std::vector<JournalPlace>& places,
                          [&](const JournalPlace& place)
                          {
                            return place.kind == JournalBlockKind::kPart && place.segment > segment &&
-                                  place.first_tick == snapshot->first_tick && place.name == name &&
-                                  place.table == snapshot->table;
+                                  place.first_tick == snapshot->first_tick && place.name == name;
                          });
     };
     if (std::all_of(parts.begin(), parts.end(), is_there)) return snapshot->first_tick;

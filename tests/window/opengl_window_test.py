@@ -135,6 +135,24 @@ class Window(LauncherTest):
         self.assertEqual(self.display.tool("identify", "-format", "%w %h", picture), f"{WIDTH} {HEIGHT}")
         self.close(run, window)
 
+    def test_beside_pictures_and_other_windows_in_one_process(self):
+        """Each renderer finds its own context current, whatever the others of the thread are drawn by."""
+        pictures = [f'<image_render id="{name}"><directory>{name}</directory><size>320, 240</size></image_render>' for name in ("before", "after")]
+        other = '<opengl_render id="other"><window_size>300, 200</window_size><window_title>The other one</window_title></opengl_render>'
+        run = self.start("run", self.experiment(pictures[0] + self.window_element() + pictures[1] + other), "--output", "out", "--quiet",
+                         "--single-process", "--real-time", 2, environment=self.display.environment)
+        window = self.display.window(TITLE, run=run)
+        self.wait_until("pictures", lambda: len(list((self.folder / "out/after").glob("*.png"))) > 5, run)
+        self.display.window(TITLE, run=run)
+        self.display.ask_to_close(window)
+        self.assertEqual(run.wait(), 0, run.stderr)
+        for tick in range(5):
+            before, after = ((self.folder / f"out/{name}/frame_{tick:06}.png").read_bytes() for name in ("before", "after"))
+            self.assertEqual(before, after)
+        alone = self.run_it("run", self.experiment(pictures[0]), "--output", "alone", "--single-process", "--ticks", 3)
+        self.assertEqual(alone.process.returncode, 0, alone.stderr)
+        self.assertEqual((self.folder / "alone/before/frame_000002.png").read_bytes(), (self.folder / "out/before/frame_000002.png").read_bytes())
+
     def test_pause_and_steps_by_key(self):
         for way in ((), ("--single-process",)):
             run, window = self.start_window("--real-time", 1, *way)

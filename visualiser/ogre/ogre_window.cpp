@@ -81,6 +81,10 @@ MouseButton ButtonOf(unsigned char button)
 OgreWindow::OgreWindow(const std::string& title, int width, int height, int samples)
     : OgreBites::ApplicationContext("swarmanoid"), title_(title), width_(width), height_(height), samples_(samples)
 {
+  if (Ogre::Root::getSingletonPtr() != nullptr)
+    throw std::runtime_error(
+        "a process has one ogre_render at most, since OGRE is in it once; without --single-process each visualisation "
+        "has a process of its own");
   const std::shared_ptr<void> display = ConnectToDisplay();
   // Ctrl-C belongs to the program.
   setenv("SDL_NO_SIGNAL_HANDLERS", "1", 1);

@@ -167,16 +167,13 @@ TEST_F(JournalSegmentsTest, TheSameHostsWithOtherRobotsBeginASegment)
   JournalWriter journal(before, 100, false, {0, kParts});
   journal.BeginHosts(second, 100);
   journal.Add(SpaceSnapshot{.tick = 100, .poses = {}, .attributes = {}});
-  journal.Add(100, {kServerPart, {'t'}});
+  for (const std::string& part : kParts) journal.Add(100, {part, {'t'}});
   journal.Flush();
-  // The engine's part of then is of the first hosts: the two do not make a state.
-  EXPECT_EQ(StateAfter(journal.Places(), 0, kParts), std::nullopt);
-  journal.Add(100, {kParts[1], {'t'}});
-  journal.Flush();
-  EXPECT_EQ(StateAfter(journal.Places(), 0, kParts), 100U);
   const JournalReader after(Path());
   EXPECT_EQ(after.Tables(), (std::vector<HostTable>{first, second}));
   EXPECT_EQ(after.Hosts(), second);
+  EXPECT_EQ(after.CheckpointAt(100, kParts, 0)->StateOf(kServerPart)[0], 's');
+  EXPECT_EQ(after.CheckpointAt(100, kParts, 1)->StateOf(kServerPart)[0], 't');
   // What goes on later is of the second ones as well.
   JournalWriter later(after, 100, false, {0, kParts});
   later.AddTick(NoisyState(100), false, {}, {});
