@@ -5,7 +5,7 @@ import subprocess
 import sys
 import unittest
 
-from harness import CONFIGS, LauncherTest, main
+from harness import CONFIGS, LauncherTest, main, processes_of, words_of
 
 SCENES = CONFIGS.parent / "tests" / "bench" / "scenes"
 
@@ -35,6 +35,22 @@ class Threads(LauncherTest):
         one = self.hash_of(experiment, 1)
         for hosts in (1, 2):
             self.assertEqual(self.hash_of(experiment, 3, "--controller-hosts", hosts, way="--no-journal"), one)
+
+    @unittest.skipIf(len(os.sched_getaffinity(0)) < 2, "needs two cores")
+    def test_processes_that_work_one_after_the_other_share_a_core(self):
+        for number, (share, options) in enumerate(((True, []), (False, ["--controller-hosts", 2]), (False, ["--ahead", 1]),
+                                                   (False, ["--set", "engines.ground.threads=2"]), (False, ["--placement", "spread"]))):
+            with self.subTest(options):
+                run = self.start("run", CONFIGS / "diffusion_1000.xml", "--paused", "--no-visualisers", "--output", f"out{number}", *options)
+                self.wait_for_experiment("diffusion_1000")
+                workers = [pid for pid in processes_of(run.process.pid)
+                           if os.path.basename((words_of(pid) or [""])[0]) in ("space_server", "engine_worker", "controller_host")]
+                self.assertGreaterEqual(len(workers), 3)
+                cores = {frozenset(os.sched_getaffinity(pid)) for pid in workers}
+                self.assertEqual(len(cores), 1, cores)
+                self.assertEqual(len(cores.pop()) == 1, share)
+                self.control("stop")
+                self.assertEqual(run.wait(), 0, run.stderr)
 
     def test_readings_reach_the_hash(self):
         word = "light, 4 bulbs, 500 walls"
