@@ -35,9 +35,7 @@ Replica::Replica(const WorldMessage& world, bool load_controllers)
   LoadOptions options;
   options.check_files = load_controllers;
   experiment = LoadWorld(world, options);
-  assignment = MakeAssignment(*experiment, world.hosts);
   space = std::make_unique<CSwarmanoidSpace>(*experiment);
-  limits = std::make_unique<const TickLimits>(*space, assignment, world.recorded);
 
   // A worker on another machine may have other plug-ins, and so another world, under the same names.
   bool is_same = space->Size() == world.entities.size();
@@ -45,6 +43,15 @@ Replica::Replica(const WorldMessage& world, bool load_controllers)
   if (!is_same)
     throw BusError(
         "the entities made from the experiment differ from those of the space server; use programs of one build");
+  try
+  {
+    assignment = MakeAssignment(*experiment, world.hosts);
+  }
+  catch (const std::runtime_error& error)
+  {
+    throw BusError(error.what());
+  }
+  limits = std::make_unique<const TickLimits>(*space, assignment, world.recorded);
   if (!world.checkpoint.empty()) checkpoint = DecodeCheckpoint(world.checkpoint);
 }
 
