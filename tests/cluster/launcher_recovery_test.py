@@ -15,6 +15,8 @@ PROGRAMS = ["engine_worker", "controller_host", "space_server"]
 KILLS = int(os.environ.get("SWARMANOID_KILLS", "50"))
 ENDS = 8
 SEED = int(os.environ.get("SWARMANOID_KILLS_SEED", "1"))
+# Several share the robots anew, by where they are, each time that all processes start again.
+HOSTS = int(os.environ.get("SWARMANOID_KILLS_HOSTS", "2"))
 EXPERIMENT = CONFIGS / os.environ.get("SWARMANOID_KILLS_EXPERIMENT", "diffusion_10.xml")
 REPLACED = "another process takes its place"
 AGAIN = "all processes start again where the journal ends"
@@ -382,7 +384,7 @@ class Soak(RecoveryTest):
         seed = random.Random(SEED)
         ticks = int(os.environ.get("SWARMANOID_KILLS_TICKS", 8000 * KILLS))
         run = self.start("run", EXPERIMENT, "--ticks", ticks, "--hash-log", "cluster", "--output", "out", "--no-visualisers",
-                         "--retries", 1000, "--lease", 10)
+                         "--retries", 1000, "--lease", 10, "--controller-hosts", HOSTS)
         self.wait_for_tick("cluster", 10, run)
         said, waits = "", []
         for _ in range(KILLS):
