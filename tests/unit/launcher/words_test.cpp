@@ -86,7 +86,7 @@ TEST(ControlRequest, ErrorsSayTheRightForm)
   EXPECT_THAT(ErrorOf({"hosts"}), HasSubstr("write hosts +N or hosts -N"));
   EXPECT_THAT(ErrorOf({"hosts", "2"}), HasSubstr("write hosts +N or hosts -N"));
   EXPECT_THAT(ErrorOf({"hosts", "+0"}), HasSubstr("write hosts +N or hosts -N"));
-  EXPECT_THAT(ErrorOf({"hosts", "again", "beta"}), HasSubstr("or hosts again"));
+  EXPECT_THAT(ErrorOf({"hosts", "again", "beta"}), HasSubstr("takes no machine, but 'beta' is there; write hosts +N"));
   EXPECT_THAT(ErrorOf({"paus"}), HasSubstr("did you mean 'pause'?"));
   EXPECT_THAT(ErrorOf({"spede", "2"}), HasSubstr("there is no 'spede'"));
   EXPECT_THAT(ErrorOf({"spede", "2"}), HasSubstr("did you mean 'speed'?"));
