@@ -83,10 +83,13 @@ void TakeHosts(ControlRequest& request, const std::vector<std::string>& rest)
 {
   const std::string form = "hosts +N or hosts -N, or either with a MACHINE, or hosts again";
   if (rest.empty() || rest.size() > 2) throw UsageError("write " + form);
-  request.numbers = {0};
-  if (rest[0] == "again" && rest.size() == 1) return;
   if (rest[0] == "again")
-    throw UsageError(fmt::format("hosts again takes no machine, but {} is there; write {}", Quoted(rest[1]), form));
+  {
+    if (rest.size() == 2)
+      throw UsageError(fmt::format("hosts again takes no machine, but {} is there; write {}", Quoted(rest[1]), form));
+    request.numbers = {0};
+    return;
+  }
   const auto number = ParseInteger(rest[0][0] == '+' ? rest[0].substr(1) : rest[0]);
   if (!number || *number == 0 || (rest[0][0] != '+' && rest[0][0] != '-') || std::abs(*number) > 1000)
     throw UsageError(

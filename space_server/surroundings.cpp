@@ -18,8 +18,7 @@ constexpr double kMargin_m = 0.5;
 constexpr double kRounding_m = 0.01;
 
 // Where all are, and so about where they will be; who is elsewhere then counts to the nearest cell.
-PlaneCells<double> CellsOver(const CSwarmanoidSpace& space, std::span<const double> x, std::span<const double> y,
-                             double reach_m)
+PlaneCells<double> CellsOver(const CSwarmanoidSpace& space, const PoseArrays& poses, double reach_m)
 {
   double edge = reach_m + kMargin_m + kRounding_m;
   constexpr double kMostCells = 1 << 20;
@@ -27,10 +26,10 @@ PlaneCells<double> CellsOver(const CSwarmanoidSpace& space, std::span<const doub
   double bottom = left, top = right;
   for (const std::uint32_t entity : space.Movable())
   {
-    left = std::min(left, x[entity]);
-    right = std::max(right, x[entity]);
-    bottom = std::min(bottom, y[entity]);
-    top = std::max(top, y[entity]);
+    left = std::min(left, poses.x[entity]);
+    right = std::max(right, poses.x[entity]);
+    bottom = std::min(bottom, poses.y[entity]);
+    top = std::max(top, poses.y[entity]);
   }
   if (left > right) left = right = bottom = top = 0;
   edge = CellEdge<2>({right - left, top - bottom}, edge, kMostCells);
@@ -38,12 +37,12 @@ PlaneCells<double> CellsOver(const CSwarmanoidSpace& space, std::span<const doub
 }
 
 // The cells in which somebody is near one of the robots.
-void MarkNear(const PlaneCells<double>& cells, std::span<const std::uint32_t> robots, std::span<const double> x,
-              std::span<const double> y, std::vector<char>& is_near)
+void MarkNear(const PlaneCells<double>& cells, std::span<const std::uint32_t> robots, const PoseArrays& poses,
+              std::vector<char>& is_near)
 {
   for (const std::uint32_t robot : robots)
   {
-    const std::uint32_t middle = cells.CellOf(x[robot], y[robot]);
+    const std::uint32_t middle = cells.CellOf(poses.x[robot], poses.y[robot]);
     for (const std::uint32_t row : {middle - cells.stride, middle, middle + cells.stride})
       for (const std::uint32_t cell : {row - 1, row, row + 1}) is_near[cell] = 1;
   }
@@ -86,10 +85,7 @@ bool ToldPoses::HasChanged(std::size_t movable)
 }
 
 Surroundings::Surroundings(const CSwarmanoidSpace& space, std::span<const std::uint32_t> robots, double reach_m)
-    : space_(space),
-      robots_(robots),
-      cells_(CellsOver(space, space.Poses().x, space.Poses().y, reach_m)),
-      told_poses_(space)
+    : space_(space), robots_(robots), cells_(CellsOver(space, space.Poses(), reach_m)), told_poses_(space)
 {
   is_near_.resize(cells_.Count());
   is_told_.resize(space.Size(), 1);
@@ -148,7 +144,7 @@ void Surroundings::Search(bool all)
   // A search that tells all says nothing about who will be near.
   holds_ = !all;
   std::fill(is_near_.begin(), is_near_.end(), all);
-  if (!all) MarkNear(cells_, robots_, poses.x, poses.y, is_near_);
+  if (!all) MarkNear(cells_, robots_, poses, is_near_);
   part_.near.assign((movable.size() + 31) / 32, 0);
   for (std::size_t k = 0; k < movable.size(); ++k)
   {
@@ -188,18 +184,18 @@ void Surroundings::AddAttributes(const SpaceState& state)
   for (const std::uint32_t slot : changes.slots) changes.values.push_back(space_.Attributes()[slot]);
 }
 
-std::size_t ToldTogether(const CSwarmanoidSpace& space, const PlanePlaces& places, std::span<const HostLayout> hosts,
+std::size_t ToldTogether(const CSwarmanoidSpace& space, const PoseArrays& poses, std::span<const HostLayout> hosts,
                          double reach_m)
 {
-  const PlaneCells<double> cells = CellsOver(space, places.x, places.y, reach_m);
+  const PlaneCells<double> cells = CellsOver(space, poses, reach_m);
   std::vector<std::size_t> inhabitants(cells.Count());
-  for (const std::uint32_t entity : space.Movable()) ++inhabitants[cells.CellOf(places.x[entity], places.y[entity])];
+  for (const std::uint32_t entity : space.Movable()) ++inhabitants[cells.CellOf(poses.x[entity], poses.y[entity])];
   std::size_t told = 0;
   std::vector<char> is_near;
   for (const HostLayout& host : hosts)
   {
     is_near.assign(cells.Count(), 0);
-    MarkNear(cells, host.robots, places.x, places.y, is_near);
+    MarkNear(cells, host.robots, poses, is_near);
     for (std::size_t cell = 0; cell < is_near.size(); ++cell)
       if (is_near[cell] != 0) told += inhabitants[cell];
   }

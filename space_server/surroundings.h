@@ -11,6 +11,7 @@
 #include "common/math/cells.h"
 #include "common/messages/assignment.h"
 #include "common/messages/messages.h"
+#include "common/space/pose_arrays.h"
 
 namespace swarmanoid
 {
@@ -60,14 +61,9 @@ private:
   LocalState part_;
 };
 
-// Where entities are in the plane.
-struct PlanePlaces
-{
-  std::vector<double> x, y;  // m, of each entity
-};
-
 // How many entities that can move hosts with these robots are told of, all hosts together, if they are so far-reaching.
-std::size_t ToldTogether(const CSwarmanoidSpace& space, const PlanePlaces& places, std::span<const HostLayout> hosts,
+// `poses`: where all are.
+std::size_t ToldTogether(const CSwarmanoidSpace& space, const PoseArrays& poses, std::span<const HostLayout> hosts,
                          double reach_m);
 
 // What an engine is told likewise: the state without the poses of those that it has moved itself.

@@ -177,26 +177,33 @@ std::optional<std::uint64_t> JournalReader::TickToGoOn(const std::function<bool(
   return newest;
 }
 
+const JournalPlace* JournalReader::TicksWith(std::uint64_t tick) const
+{
+  const auto found = std::find_if(places_.begin(), places_.end(),
+                                  [tick](const JournalPlace& place)
+                                  {
+                                    return place.kind == JournalBlockKind::kTicks && tick >= place.first_tick &&
+                                           tick - place.first_tick < place.ticks;
+                                  });
+  return found == places_.end() ? nullptr : &*found;
+}
+
 std::optional<TickRecord> JournalReader::RecordOf(std::uint64_t tick) const
 {
-  for (const JournalPlace& place : places_)
-  {
-    if (place.kind != JournalBlockKind::kTicks || tick < place.first_tick || tick - place.first_tick >= place.ticks)
-      continue;
-    TickRecordReader records(Content(place));
-    TickRecord record;
-    while (records.Next(record))
-      if (record.state.tick == tick) return record;
-  }
+  const JournalPlace* place = TicksWith(tick);
+  if (place == nullptr) return std::nullopt;
+  TickRecordReader records(Content(*place));
+  TickRecord record;
+  while (records.Next(record))
+    if (record.state.tick == tick) return record;
   return std::nullopt;
 }
 
 const HostTable& JournalReader::HostsAt(std::uint64_t tick) const
 {
-  for (const JournalPlace& place : places_)
-    if (place.kind == JournalBlockKind::kTicks && tick >= place.first_tick && tick - place.first_tick < place.ticks)
-      return tables_[place.table];
-  throw std::runtime_error(fmt::format("the journal '{}' has no tick {}", path_, tick));
+  const JournalPlace* place = TicksWith(tick);
+  if (place == nullptr) throw std::runtime_error(fmt::format("the journal '{}' has no tick {}", path_, tick));
+  return tables_[place->table];
 }
 
 std::optional<Checkpoint> JournalReader::CheckpointAt(std::uint64_t tick, const std::vector<std::string>& parts,

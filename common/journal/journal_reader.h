@@ -64,6 +64,8 @@ public:
                                                  const HostTable& hosts) const;
 
 private:
+  // The block that has the tick; none if there is none.
+  const JournalPlace* TicksWith(std::uint64_t tick) const;
   const JournalPlace* PlaceOf(JournalBlockKind kind, std::uint64_t tick, const std::string& name,
                               std::optional<std::uint32_t> table = std::nullopt) const;
 

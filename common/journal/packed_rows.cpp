@@ -13,8 +13,8 @@ namespace
 {
 
 constexpr std::size_t kSide = 8;  // numbers of a row that are packed together: a line of the cache
-constexpr std::size_t kMostNumbers = std::size_t{1}
-                                     << 19U;  // of the ticks that are packed together: what the caches hold
+// Of the ticks that are packed together: what the caches hold.
+constexpr std::size_t kMostNumbers = std::size_t{1} << 19U;
 using Line = std::array<std::uint64_t, kSide>;
 
 // Small differences of either sign as small numbers.

@@ -55,14 +55,14 @@ std::optional<std::string> HostAdvice::Take(Clock::time_point now)
     return std::nullopt;
   }
   std::vector<double> poses;
-  PlanePlaces places;
+  PoseArrays places;
   const CSwarmanoidSpace* space = nullptr;
   lockstep_.WithServer(
       [&](const SpaceServer& server)
       {
         space = &server.Space();
         space->WritePoses(poses);
-        places = {space->Poses().x, space->Poses().y};
+        places = space->Poses();
       });
   const Assignment anew =
       MakeAssignment(experiment_, DealRobots(experiment_, static_cast<unsigned>(assignment_.hosts.size()), poses));

@@ -173,7 +173,7 @@ WorldMessage ServerProgram::World()
   if (restored_)
   {
     // The hosts of a run that goes on elsewhere have other robots than those that it began with.
-    restored_->parts = SharedOut(std::move(restored_->parts), experiment_, assignment_.table);
+    if (GoesOn()) restored_->parts = SharedOut(std::move(restored_->parts), experiment_, assignment_.table);
     restored_->LoadPart(kServerPart, [&](ByteReader& state) { server_.LoadState(restored_->snapshot, state); });
     world.checkpoint = EncodeCheckpoint(*restored_);
     if (!KeepsJournal() || GoesOn()) restored_.reset();

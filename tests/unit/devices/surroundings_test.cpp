@@ -224,9 +224,8 @@ TEST(ToldTogether, GrowsWithRobotsThatMix)
   std::mt19937 random(7);
   const Experiment experiment = Swarm({"footbot_proximity", "generic_footbot_proximity"}, random);
   const CSwarmanoidSpace space(experiment);
-  const PlanePlaces places{space.Poses().x, space.Poses().y};
   const auto told = [&](const HostTable& table, double reach)
-  { return ToldTogether(space, places, MakeAssignment(experiment, table).hosts, reach); };
+  { return ToldTogether(space, space.Poses(), MakeAssignment(experiment, table).hosts, reach); };
   HostTable mixed{kHosts, {}};
   const HostTable near = DealRobots(experiment, kHosts);
   for (std::uint32_t k = 0; k < near.of_robots.size(); ++k) mixed.of_robots.push_back(k % kHosts);
