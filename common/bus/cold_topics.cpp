@@ -107,14 +107,13 @@ unsigned Publisher<Message>::Readers() const
 template <class Message>
 bool Publisher<Message>::WaitUntilRead(double seconds)
 {
-  const auto nanoseconds = static_cast<std::uint32_t>((seconds - static_cast<int>(seconds)) * 1e9);
-  return impl_->writer->wait_for_acknowledgments({static_cast<int>(seconds), nanoseconds}) == ReturnCode::RETCODE_OK;
+  return Succeeded(impl_->writer->wait_for_acknowledgments(Seconds(seconds)));
 }
 
 template <class Message>
 struct Subscription<Message>::Impl : dds::DataReaderListener
 {
-  using Writer = eprosima::fastrtps::rtps::GUID_t;
+  using Writer = rtps::GUID_t;
 
   Impl(Bus& its_bus, const std::string& its_partition, std::function<void(const Message&)> callback,
        const std::optional<ShareChannel>& its_share)
@@ -139,7 +138,7 @@ struct Subscription<Message>::Impl : dds::DataReaderListener
     ColdCall<Message> call;
     call.payload = &payload;
     dds::SampleInfo about;
-    while (source->take_next_sample(&call, &about) == ReturnCode::RETCODE_OK)
+    while (Succeeded(source->take_next_sample(&call, &about)))
     {
       if (about.valid_data) Take(about.sample_identity.writer_guid());
       if (payload.capacity() > kKept) GiveRoomBack();

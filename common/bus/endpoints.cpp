@@ -10,7 +10,7 @@ namespace
 constexpr int kExtraSamples = 4;  // that a reader may hold while the writer goes on
 constexpr int kMaximalProcesses = 4096;
 
-eprosima::fastrtps::Duration_t Milliseconds(double ms) { return {0, static_cast<std::uint32_t>(ms * 1e6)}; }
+DdsDuration Milliseconds(double ms) { return Seconds(ms / 1e3); }
 
 }  // namespace
 
@@ -28,14 +28,14 @@ dds::DataWriterQos WriterQos(const TopicQos& topic)
   qos.resource_limits().allocated_samples = topic.writer_depth;
   qos.resource_limits().extra_samples = kExtraSamples;
   qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
-  qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   qos.data_sharing().off();
   // While somebody has not confirmed a message. Waiting for a lost one is what loss costs.
-  qos.reliable_writer_qos().times.heartbeatPeriod = Milliseconds(topic.hot ? 1 : 5);
+  SetHeartbeatPeriod(qos, Milliseconds(topic.hot ? 1 : 5));
   // Otherwise one goes with every datagram of a message, and is answered with a list of those that are on their way.
   qos.reliable_writer_qos().disable_heartbeat_piggyback = topic.hot;
-  qos.reliable_writer_qos().times.nackResponseDelay = Milliseconds(0);
-  qos.reliable_writer_qos().times.nackSupressionDuration = Milliseconds(0);
+  SetNackResponseDelay(qos, Milliseconds(0));
+  SetNackSuppression(qos, Milliseconds(0));
   return qos;
 }
 
@@ -52,9 +52,9 @@ dds::DataReaderQos ReaderQos(const TopicQos& topic, unsigned writers)
   qos.resource_limits().allocated_samples = qos.history().depth;
   qos.resource_limits().extra_samples = kExtraSamples;
   // Not DYNAMIC_RESERVE: a reader without room made before never confirms an empty message, which a stranger may send.
-  qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   qos.data_sharing().off();
-  qos.reliable_reader_qos().times.heartbeatResponseDelay = Milliseconds(topic.hot ? 0 : 0.2);
+  SetHeartbeatResponseDelay(qos, Milliseconds(topic.hot ? 0 : 0.2));
   return qos;
 }
 

@@ -167,7 +167,7 @@ struct HotSubscription<Message>::Impl : dds::DataReaderListener
     const std::lock_guard lock(mutex);
     HotRead<Message> call{&handler, {}, nullptr, {}, &opener};
     dds::SampleInfo about;
-    while (source->take_next_sample(&call, &about) == ReturnCode::RETCODE_OK)
+    while (Succeeded(source->take_next_sample(&call, &about)))
     {
       if (!about.valid_data) continue;
       const auto& writer = about.sample_identity.writer_guid();

@@ -2,35 +2,25 @@
 // ever thrown into DDS: what is wrong with a payload is kept for the reader, which knows the sender.
 #pragma once
 
-#include <fastrtps/utils/md5.h>
-#include <fastdds/dds/topic/TopicDataType.hpp>
-
 #include <array>
 #include <functional>
 #include <string>
 
+#include "common/bus/dds/data_type.h"
 #include "common/bus/message_bytes.h"
 
 namespace swarmanoid
 {
 
-using Payload = eprosima::fastrtps::rtps::SerializedPayload_t;
-
 template <class Message>
-class MessageType : public eprosima::fastdds::dds::TopicDataType
+class MessageType : public DataType
 {
 public:
-  // `payload_bytes`: room that is made for each message at first.
-  explicit MessageType(std::size_t payload_bytes)
+  // `payload_bytes`: the room that is made before the first message.
+  MessageType(std::size_t payload_bytes, bool keyed)
+      : DataType(std::string("swarmanoid::wire::") + kTopicOf<Message>, payload_bytes, keyed)
   {
-    setName((std::string("swarmanoid::wire::") + kTopicOf<Message>).c_str());
-    m_typeSize = static_cast<std::uint32_t>(payload_bytes);
-    m_isGetKeyDefined = false;
-    auto_fill_type_object(false);
-    auto_fill_type_information(false);
   }
-  bool getKey(void*, eprosima::fastrtps::rtps::InstanceHandle_t*, bool) override { return false; }
-  bool is_plain() const override { return false; }
 
 protected:
   static std::span<const char> BytesOf(const Payload& payload)
@@ -39,7 +29,7 @@ protected:
   }
   // `size`: of the payload before it is sealed. Without a sealer it stays in the clear.
   template <class... Parts>
-  static bool Write(Payload& payload, std::size_t size, Sealer* sealer, const WriterId& writer, const Parts&... parts)
+  static bool WriteParts(Payload& payload, std::size_t size, Sealer* sealer, const WriterId& writer, const Parts&... parts)
   {
     const std::size_t padding = sealer == nullptr ? 0 : PaddingOf(size);
     if (sealer != nullptr) size = SealedBytes(size);
@@ -104,22 +94,22 @@ template <class Message>
 class HotType : public MessageType<Message>
 {
 public:
-  explicit HotType(std::size_t capacity) : MessageType<Message>(capacity) {}
+  explicit HotType(std::size_t capacity) : MessageType<Message>(capacity, false) {}
 
-  bool serialize(void* data, Payload* payload) override
+  bool Write(const void* data, Payload& payload) const override
   {
     const auto& call = *static_cast<const HotWrite<Message>*>(data);
-    return this->Write(*payload, call.size, call.sealer, call.writer, *call.header, *call.message);
+    return this->WriteParts(payload, call.size, call.sealer, call.writer, *call.header, *call.message);
   }
 
-  bool deserialize(Payload* payload, void* data) override
+  bool Read(const Payload& payload, void* data) const override
   {
     auto& call = *static_cast<HotRead<Message>*>(data);
     call.message = nullptr;
     call.error.clear();
     call.refused = nullptr;
     call.opened.reset();
-    std::span<const char> bytes = this->BytesOf(*payload);
+    std::span<const char> bytes = this->BytesOf(payload);
     if (call.opener != nullptr && call.opener->key)
     {
       if (!Unseal(bytes, call)) return true;
@@ -140,16 +130,15 @@ public:
     return true;
   }
 
-  std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override
+  std::size_t SizeOf(const void* data) const override
   {
     const auto& call = *static_cast<const HotWrite<Message>*>(data);
-    const std::size_t size = call.sealer == nullptr ? call.size : SealedBytes(call.size);
-    return [size] { return static_cast<std::uint32_t>(size); };
+    return call.sealer == nullptr ? call.size : SealedBytes(call.size);
   }
 
-  void* createData() override { return new HotRead<Message>(); }
-  void deleteData(void* data) override { delete static_cast<HotRead<Message>*>(data); }
-  bool is_bounded() const override { return true; }
+  void* Make() const override { return new HotRead<Message>(); }
+  void Delete(void* data) const override { delete static_cast<HotRead<Message>*>(data); }
+  bool IsBounded() const override { return true; }
 
 private:
   static bool Unseal(std::span<const char> bytes, HotRead<Message>& call)
@@ -190,27 +179,27 @@ template <class Message>
 class ColdType : public MessageType<Message>
 {
 public:
-  ColdType() : MessageType<Message>(kFirstRoom) { this->m_isGetKeyDefined = KeyOf(Message()) != nullptr; }
+  ColdType() : MessageType<Message>(kFirstRoom, swarmanoid::KeyOf(Message()) != nullptr) {}
 
-  bool serialize(void* data, Payload* payload) override
+  bool Write(const void* data, Payload& payload) const override
   {
     const auto& call = *static_cast<const ColdCall<Message>*>(data);
-    return this->Write(*payload, call.size, call.sealer, call.writer, *call.out);
+    return this->WriteParts(payload, call.size, call.sealer, call.writer, *call.out);
   }
 
-  bool deserialize(Payload* payload, void* data) override
+  bool Read(const Payload& payload, void* data) const override
   {
     auto& call = *static_cast<ColdCall<Message>*>(data);
     call.error.clear();
     if (call.payload != nullptr)
     {
-      const std::span<const char> bytes = this->BytesOf(*payload);
+      const std::span<const char> bytes = this->BytesOf(payload);
       call.payload->assign(bytes.begin(), bytes.end());
       return true;
     }
     try
     {
-      ReadPayload(this->BytesOf(*payload), *call.in);
+      ReadPayload(this->BytesOf(payload), *call.in);
     }
     catch (const std::exception& error)
     {
@@ -219,35 +208,33 @@ public:
     return true;
   }
 
-  std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override
+  std::size_t SizeOf(const void* data) const override
   {
     const auto& call = *static_cast<const ColdCall<Message>*>(data);
-    const std::size_t size = call.sealer == nullptr ? call.size : SealedBytes(call.size);
-    return [size] { return static_cast<std::uint32_t>(size); };
+    return call.sealer == nullptr ? call.size : SealedBytes(call.size);
   }
 
   // The MD5 of the key as big-endian XCDR1: keys that may be longer than 16 bytes are told so (DDSI-RTPS 9.6.3.8).
-  bool getKey(void* data, eprosima::fastrtps::rtps::InstanceHandle_t* handle, bool) override
+  bool KeyOf(const void* data, InstanceHandle& handle) const override
   {
     const auto& call = *static_cast<const ColdCall<Message>*>(data);
     const Message* const message = call.out != nullptr ? call.out : call.in;
-    const std::string* key = message == nullptr ? nullptr : KeyOf(*message);
+    const std::string* key = message == nullptr ? nullptr : swarmanoid::KeyOf(*message);
     if (key == nullptr) return false;
     const auto length = static_cast<std::uint32_t>(key->size() + 1);
     const std::array<char, 4> big_endian{static_cast<char>(length >> 24U), static_cast<char>(length >> 16U),
                                          static_cast<char>(length >> 8U), static_cast<char>(length)};
-    MD5 digest;
+    Md5 digest;
     digest.init();
     digest.update(big_endian.data(), 4);
     digest.update(key->c_str(), length);
     digest.finalize();
-    for (std::size_t i = 0; i < 16; ++i) handle->value[i] = digest.digest[i];
+    for (std::size_t i = 0; i < 16; ++i) handle.value[i] = digest.digest[i];
     return true;
   }
 
-  void* createData() override { return static_cast<ColdCall<Message>*>(new OwnedCall()); }
-  void deleteData(void* data) override { delete static_cast<OwnedCall*>(static_cast<ColdCall<Message>*>(data)); }
-  bool is_bounded() const override { return false; }
+  void* Make() const override { return static_cast<ColdCall<Message>*>(new OwnedCall()); }
+  void Delete(void* data) const override { delete static_cast<OwnedCall*>(static_cast<ColdCall<Message>*>(data)); }
 
 private:
   static constexpr std::size_t kFirstRoom = 1024;

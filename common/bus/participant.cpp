@@ -1,10 +1,5 @@
 #include "common/bus/participant.h"
 
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastrtps/utils/IPLocator.h>
-#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastdds/dds/log/Log.hpp>
-
 #include <arpa/inet.h>
 #include <ifaddrs.h>
 #include <net/if.h>
@@ -33,8 +28,6 @@
 namespace swarmanoid
 {
 
-namespace rtps = eprosima::fastrtps::rtps;
-
 namespace
 {
 
@@ -61,12 +54,6 @@ bool KeepLog()
   return true;
 }
 constexpr unsigned kPeerProcesses = 100;  // looked for on each machine named as a peer
-
-eprosima::fastrtps::Duration_t Seconds(double seconds)
-{
-  const double whole = std::floor(seconds);
-  return {static_cast<std::int32_t>(whole), static_cast<std::uint32_t>((seconds - whole) * 1e9)};
-}
 
 std::string ResolveHost(const std::string& host)
 {
@@ -167,16 +154,13 @@ void UseDiscoveryServer(const BusOptions& options, rtps::BuiltinAttributes& buil
   builtin.discovery_config.discoveryServer_client_syncperiod = Seconds(0.05);
   if (options.serves_discovery)
   {
-    builtin.discovery_config.discoveryProtocol = rtps::DiscoveryProtocol_t::SERVER;
+    builtin.discovery_config.discoveryProtocol = kDiscoveryServer;
     std::istringstream(prefix) >> own_prefix;
     builtin.metatrafficUnicastLocatorList.push_back(locator);
     return;
   }
-  builtin.discovery_config.discoveryProtocol = rtps::DiscoveryProtocol_t::CLIENT;
-  eprosima::fastdds::rtps::RemoteServerAttributes server;
-  server.ReadguidPrefix(prefix.c_str());
-  server.metatrafficUnicastLocatorList.push_back(locator);
-  builtin.discovery_config.m_DiscoveryServers.push_back(server);
+  builtin.discovery_config.discoveryProtocol = kDiscoveryClient;
+  AddDiscoveryServer(builtin, prefix, locator);
 }
 
 }  // namespace
@@ -259,7 +243,7 @@ Bus::Impl::Impl(const BusOptions& options, const std::string& name)
   qos.user_data().setValue({process.begin(), process.end()});
 
   qos.transport().use_builtin_transports = false;
-  auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+  auto udp = std::make_shared<transport::UDPv4TransportDescriptor>();
   udp->sendBufferSize = kSocketBuffer;
   udp->receiveBufferSize = kSocketBuffer;
   udp->maxMessageSize = options.DatagramBytes();
@@ -310,34 +294,32 @@ Bus::Impl::~Impl()
   dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
 }
 
-void Bus::Impl::on_participant_discovery(dds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&& discovery)
+void Bus::Impl::OnParticipant(const DiscoveredParticipant& found)
 {
-  const auto& prefix = discovery.info.m_guid.guidPrefix;
+  const rtps::GuidPrefix_t prefix = found.prefix;
   std::ostringstream who;
   who << prefix;
-  if (discovery.status == rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT ||
-      discovery.status == rtps::ParticipantDiscoveryInfo::CHANGED_QOS_PARTICIPANT)
+  if (found.change == DiscoveredParticipant::Change::kPresent)
   {
     later.Forget(who.str());
     const std::lock_guard lock(mutex);
-    const auto& process = discovery.info.m_userData;
-    processes[prefix] = {{process.begin(), process.end()}, discovery.info.m_participantName.to_string()};
+    processes[prefix] = {found.user_data, found.name};
     return;
   }
-  const bool died = discovery.status == rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT;
+  const bool died = found.change == DiscoveredParticipant::Change::kDropped;
   std::pair<std::string, std::string> gone;
   {
     const std::lock_guard lock(mutex);
-    const auto found = processes.find(prefix);
-    if (found == processes.end()) return;
-    gone = found->second;
+    const auto known = processes.find(prefix);
+    if (known == processes.end()) return;
+    gone = known->second;
     // Anybody can say that his process is one of the run, and go.
     if (!insecure && recognised.count(prefix) == 0)
     {
-      processes.erase(found);
+      processes.erase(known);
       return;
     }
-    if (insecure) processes.erase(found);
+    if (insecure) processes.erase(known);
   }
   if (insecure) return Gone(gone, died);
   // Likewise that it is to be missed after a shorter silence than it wants.
@@ -432,7 +414,7 @@ dds::Topic* Bus::Impl::TopicOf(const std::string& name, const std::function<dds:
   if (const auto found = topics.find(name); found != topics.end()) return found->second;
   dds::TypeSupport type = make_type();
   dds::Topic* topic = nullptr;
-  if (type.register_type(participant) == ReturnCode::RETCODE_OK)
+  if (Succeeded(type.register_type(participant)))
     topic = participant->create_topic(name, type.get_type_name(), dds::TOPIC_QOS_DEFAULT);
   if (topic == nullptr) throw BusError("cannot create topic " + name);
   topics[name] = topic;

@@ -1,25 +1,13 @@
 // The inside of the bus: the DDS participant with what its topics share. Included by the sources of this folder alone.
 #pragma once
 
-#include <fastdds/dds/domain/DomainParticipant.hpp>
-#include <fastdds/dds/domain/DomainParticipantListener.hpp>
-#include <fastdds/dds/publisher/DataWriter.hpp>
-#include <fastdds/dds/publisher/Publisher.hpp>
-#include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
-#include <fastdds/dds/subscriber/DataReader.hpp>
-#include <fastdds/dds/subscriber/DataReaderListener.hpp>
-#include <fastdds/dds/subscriber/SampleInfo.hpp>
-#include <fastdds/dds/subscriber/Subscriber.hpp>
-#include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
-#include <fastdds/dds/topic/Topic.hpp>
-#include <fastdds/dds/topic/TypeSupport.hpp>
-
 #include <atomic>
 #include <map>
 #include <memory>
 #include <set>
 
 #include "common/bus/bus.h"
+#include "common/bus/dds/fast_dds.h"
 #include "common/bus/delayed_calls.h"
 #include "common/bus/key_ring.h"
 #include "common/bus/qos.h"
@@ -29,28 +17,24 @@
 namespace swarmanoid
 {
 
-namespace dds = eprosima::fastdds::dds;
-using ReturnCode = eprosima::fastrtps::types::ReturnCode_t;
-
 void MarkBroken();
 
-struct Bus::Impl : dds::DomainParticipantListener
+struct Bus::Impl : ParticipantListener
 {
   Impl(const BusOptions& options, const std::string& name);
   ~Impl() override;
 
-  void on_participant_discovery(dds::DomainParticipant*,
-                                eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& discovery) override;
+  void OnParticipant(const DiscoveredParticipant& participant) override;
 
   // A message that was dropped for what is wrong with it; it may end the run if its sender belongs to that.
-  void Report(const std::string& topic, const eprosima::fastrtps::rtps::GUID_t& writer, std::uint64_t tick,
+  void Report(const std::string& topic, const rtps::GUID_t& writer, std::uint64_t tick,
               const std::string& what);
   // A message that was dropped because nobody knows whose it is.
-  void Refuse(const std::string& topic, const eprosima::fastrtps::rtps::GUID_t& writer, const std::string& what);
+  void Refuse(const std::string& topic, const rtps::GUID_t& writer, const std::string& what);
   // A datagram that was dropped because somebody without the key spoke in the name of that process, or about it.
   void RefuseDatagram(const GuidPrefix& member, const std::string& sender);
   // A message with a good seal has come from that process.
-  void Recognise(const eprosima::fastrtps::rtps::GUID_t& writer);
+  void Recognise(const rtps::GUID_t& writer);
 
   // The topic of that name; its type is registered by the first who asks.
   dds::Topic* TopicOf(const std::string& name, const std::function<dds::TypeSupport()>& make_type);
@@ -65,9 +49,9 @@ struct Bus::Impl : dds::DomainParticipantListener
       std::make_shared<SignedTransportDescriptor::Listener>();
   std::mutex mutex;  // of the members below
   std::map<std::string, dds::Topic*> topics;
-  std::map<eprosima::fastrtps::rtps::GuidPrefix_t, std::pair<std::string, std::string>> processes;  // "host:pid", name
+  std::map<rtps::GuidPrefix_t, std::pair<std::string, std::string>> processes;  // "host:pid", name
   std::function<void(const std::string&, const std::string&, bool)> on_gone;
-  std::set<eprosima::fastrtps::rtps::GuidPrefix_t> recognised;
+  std::set<rtps::GuidPrefix_t> recognised;
   std::function<bool(const BadMessageReport&)> on_bad;
   std::function<void(const BadMessageReport&)> on_refused;
   std::string own_name;
@@ -76,7 +60,7 @@ struct Bus::Impl : dds::DomainParticipantListener
 
 private:
   void Gone(const std::pair<std::string, std::string>& process, bool died);
-  BadMessageReport Describe(const std::string& topic, const eprosima::fastrtps::rtps::GUID_t& writer,
+  BadMessageReport Describe(const std::string& topic, const rtps::GUID_t& writer,
                             std::uint64_t tick, const std::string& what);
   // True for the first of that sender and topic.
   bool Drop(const BadMessageReport& report);
@@ -87,7 +71,7 @@ private:
   const std::chrono::duration<double> silence_of_dead_;
 };
 
-WriterId IdOf(const eprosima::fastrtps::rtps::GUID_t& writer);
+WriterId IdOf(const rtps::GUID_t& writer);
 
 // One writer or reader with the publisher or subscriber that has its partition.
 class WriterEnd

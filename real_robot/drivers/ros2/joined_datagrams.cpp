@@ -1,10 +1,5 @@
 #include "real_robot/drivers/ros2/joined_datagrams.h"
 
-#include <fastdds/rtps/network/SenderResource.h>
-#include <fastdds/rtps/transport/ChainingTransport.h>
-#include <fastrtps/utils/IPLocator.h>
-#include <fastdds/rtps/common/LocatorList.hpp>
-
 #include <algorithm>
 #include <array>
 
@@ -13,8 +8,6 @@ namespace swarmanoid::ros2
 namespace
 {
 
-namespace transport = eprosima::fastdds::rtps;
-namespace rtps = eprosima::fastrtps::rtps;
 using Byte = unsigned char;
 
 constexpr std::size_t kHeaderBytes = 20;
@@ -55,15 +48,15 @@ bool EndsWhereItSays(std::span<const Byte> submessages)
 // To whom, and by which socket.
 struct Waiting
 {
-  rtps::SenderResource* below;
+  Socket* below;
   std::vector<rtps::Locator_t> locators;
   std::vector<Byte> bytes;
   std::size_t most_bytes;
 
-  bool Send(const std::chrono::steady_clock::time_point& timeout) const
+  bool Send(const Deadline& deadline) const
   {
     rtps::Locators first(locators.begin()), last(locators.end());
-    return below->send(bytes.data(), static_cast<std::uint32_t>(bytes.size()), &first, &last, timeout);
+    return SendDatagram(*below, bytes, first, last, deadline);
   }
 };
 
@@ -78,36 +71,30 @@ Collection& OfThisThread()
   return collection;
 }
 
-class Joining : public transport::ChainingTransport
+class Joining : public FilterTransport
 {
 public:
   explicit Joining(const transport::ChainingTransportDescriptor& descriptor);
   transport::TransportDescriptorInterface* get_configuration() override { return configuration_.get(); }
 
-  bool send(rtps::SenderResource* below, const rtps::octet* bytes, std::uint32_t size, rtps::LocatorsIterator* first,
-            rtps::LocatorsIterator* last, const std::chrono::steady_clock::time_point& timeout) override
+  bool Send(Socket& socket, std::span<const Byte> datagram, rtps::LocatorsIterator& first, rtps::LocatorsIterator& last,
+            const Deadline& deadline) override
   {
     Collection& collection = OfThisThread();
-    if (collection.depth == 0) return below->send(bytes, size, first, last, timeout);
+    if (collection.depth == 0) return SendDatagram(socket, datagram, first, last, deadline);
     std::vector<rtps::Locator_t> locators;
-    for (; *first != *last; ++*first) locators.push_back(**first);
+    for (; first != last; ++first) locators.push_back(*first);
     if (locators.empty()) return true;
     // The latest one to the same is the one that has room.
     const auto open =
         std::find_if(collection.waiting.rbegin(), collection.waiting.rend(),
-                     [&](const Waiting& waiting) { return waiting.below == below && waiting.locators == locators; });
-    if (open != collection.waiting.rend() && Join(open->bytes, {bytes, size}, open->most_bytes)) return true;
+                     [&](const Waiting& waiting) { return waiting.below == &socket && waiting.locators == locators; });
+    if (open != collection.waiting.rend() && Join(open->bytes, datagram, open->most_bytes)) return true;
     const bool stays_here =
         std::ranges::all_of(locators, [](const rtps::Locator_t& to) { return rtps::IPLocator::isLocal(to); });
     collection.waiting.push_back(
-        {below, std::move(locators), {bytes, bytes + size}, stays_here ? kMostOnLoopback : kMostInFrame});
+        {&socket, std::move(locators), {datagram.begin(), datagram.end()}, stays_here ? kMostOnLoopback : kMostInFrame});
     return true;
-  }
-
-  void receive(transport::TransportReceiverInterface* next, const rtps::octet* bytes, std::uint32_t size,
-               const rtps::Locator_t& local, const rtps::Locator_t& remote) override
-  {
-    next->OnDataReceived(bytes, size, local, remote);
   }
 
 private:
@@ -122,7 +109,7 @@ struct Descriptor : transport::ChainingTransportDescriptor
 };
 
 Joining::Joining(const transport::ChainingTransportDescriptor& descriptor)
-    : ChainingTransport(descriptor),
+    : FilterTransport(descriptor),
       configuration_(std::make_unique<Descriptor>(static_cast<const Descriptor&>(descriptor)))
 {
 }
@@ -151,8 +138,8 @@ JoinedDatagrams::~JoinedDatagrams()
 {
   Collection& collection = OfThisThread();
   if (--collection.depth > 0) return;
-  const auto timeout = std::chrono::steady_clock::now() + std::chrono::milliseconds(20);
-  for (const Waiting& waiting : collection.waiting) waiting.Send(timeout);
+  const Deadline deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(20);
+  for (const Waiting& waiting : collection.waiting) waiting.Send(deadline);
   collection.waiting.clear();
 }
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
+#include "common/bus/dds/filter_transport.h"
 
 namespace swarmanoid::ros2
 {
@@ -30,7 +30,7 @@ public:
 bool Join(std::vector<unsigned char>& datagram, std::span<const unsigned char> next, std::size_t most_bytes);
 
 // UDP that does so for participants.
-std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> JoiningTransport(
-    std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> udp);
+std::shared_ptr<transport::TransportDescriptorInterface> JoiningTransport(
+    std::shared_ptr<transport::TransportDescriptorInterface> udp);
 
 }  // namespace swarmanoid::ros2

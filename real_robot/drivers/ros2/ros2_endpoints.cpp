@@ -1,17 +1,5 @@
 #include "real_robot/drivers/ros2/ros2_endpoints.h"
 
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastdds/dds/domain/DomainParticipant.hpp>
-#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastdds/dds/publisher/DataWriter.hpp>
-#include <fastdds/dds/publisher/DataWriterListener.hpp>
-#include <fastdds/dds/publisher/Publisher.hpp>
-#include <fastdds/dds/subscriber/DataReader.hpp>
-#include <fastdds/dds/subscriber/SampleInfo.hpp>
-#include <fastdds/dds/subscriber/Subscriber.hpp>
-#include <fastdds/dds/topic/Topic.hpp>
-#include <fastdds/dds/topic/TypeSupport.hpp>
-
 #include <atomic>
 #include <cstdlib>
 #include <ctime>
@@ -20,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "common/bus/dds/fast_dds.h"
 #include "common/configuration/configuration_tree.h"
 #include "real_robot/drivers/ros2/joined_datagrams.h"
 
@@ -28,16 +17,13 @@ namespace swarmanoid::ros2
 namespace
 {
 
-namespace dds = eprosima::fastdds::dds;
-using ReturnCode = eprosima::fastrtps::types::ReturnCode_t;
-
-const eprosima::fastrtps::Duration_t kFlushTime{0, 500'000'000};
+const DdsDuration kFlushTime{0, 500'000'000};
 constexpr int kRecentMessages = 64;
-const eprosima::fastrtps::Duration_t kSoon{0, 20'000'000};
+const DdsDuration kSoon{0, 20'000'000};
 // Each of these timers of Fast DDS wakes a thread that sorts those of all writers: with hundreds of writers they cost
 // more than the messages, unless they are slow.
-const eprosima::fastrtps::Duration_t kInTime{1, 0};
-const eprosima::fastrtps::Duration_t kWriteTime{0, 20'000'000};  // a step must not wait for a slow listener
+const DdsDuration kInTime{1, 0};
+const DdsDuration kWriteTime{0, 20'000'000};  // a step must not wait for a slow listener
 
 std::uint32_t Domain()
 {
@@ -73,7 +59,7 @@ public:
     qos.name("swarmanoid");
     // UDP alone: all vendors speak it, and no shared memory is left behind when a robot loses power.
     qos.transport().use_builtin_transports = false;
-    auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+    auto udp = std::make_shared<transport::UDPv4TransportDescriptor>();
     if (LocalhostOnly()) udp->interfaceWhiteList = {"127.0.0.1"};
     qos.transport().user_transports.push_back(JoiningTransport(udp));
     participant_ = dds::DomainParticipantFactory::get_instance()->create_participant(Domain(), qos);
@@ -102,7 +88,7 @@ public:
     }
     dds::Topic* topic = nullptr;
     if (!participant_->find_type(type.get_type_name()).empty() ||
-        type.register_type(participant_) == ReturnCode::RETCODE_OK)
+        Succeeded(type.register_type(participant_)))
       topic = participant_->create_topic(name, type.get_type_name(), dds::TOPIC_QOS_DEFAULT);
     if (topic == nullptr) throw DriverError("cannot create topic " + name);
     return topics_[name] = topic;
@@ -180,15 +166,14 @@ Writer::Writer(const std::string& topic, const MessageType& type, Keeps keeps) :
   qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
   qos.reliability().max_blocking_time = kWriteTime;
   const bool recent = keeps == Keeps::kRecent || keeps == Keeps::kAwaited;
-  auto& times = qos.reliable_writer_qos().times;
-  if (recent) times.heartbeatPeriod = keeps == Keeps::kAwaited ? kSoon : kInTime;
-  if (keeps == Keeps::kRecent) times.nackSupressionDuration = kInTime;
+  if (recent) SetHeartbeatPeriod(qos, keeps == Keeps::kAwaited ? kSoon : kInTime);
+  if (keeps == Keeps::kRecent) SetNackSuppression(qos, kInTime);
   // As ROS 2 has it; by default Fast DDS keeps for writers what it does not for readers.
   qos.durability().kind = keeps == Keeps::kLatched ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
   qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
   qos.history().depth = recent ? kRecentMessages : 1;
   qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
-  qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   qos.data_sharing().off();
   qos.user_data().setValue(UserData(type));
   ends_->latched = keeps == Keeps::kLatched;
@@ -232,7 +217,7 @@ Reader::Reader(const std::string& topic, const MessageType& type, bool reliable)
   qos.reliability().kind = reliable ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
   qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
   qos.history().depth = 10;
-  qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   qos.data_sharing().off();
   qos.user_data().setValue(UserData(type));
   ends_->reader = ends_->participant->GetSubscriber()->create_datareader(made, qos);
@@ -244,15 +229,14 @@ Reader::~Reader() { ends_->participant->GetSubscriber()->delete_datareader(ends_
 bool Reader::Take(void* message)
 {
   dds::SampleInfo about;
-  while (ends_->reader->take_next_sample(message, &about) == ReturnCode::RETCODE_OK)
+  while (Succeeded(ends_->reader->take_next_sample(message, &about)))
     if (about.valid_data) return true;
   return false;
 }
 
 void Reader::Wait(double seconds)
 {
-  const auto whole = static_cast<std::int32_t>(seconds);
-  ends_->reader->wait_for_unread_message({whole, static_cast<std::uint32_t>((seconds - whole) * 1e9)});
+  ends_->reader->wait_for_unread_message(Seconds(seconds));
 }
 
 unsigned Reader::Publishers() const
