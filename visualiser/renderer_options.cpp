@@ -69,7 +69,7 @@ void AddOption(CLI::App& app, const std::string& name, const ParameterSpec& spec
 
 }  // namespace
 
-const PluginDescription& FindRenderer(const std::string& kind)
+const PluginDescription& FindRenderer(std::string kind)
 {
   const PluginCatalogue& catalogue = PluginCatalogue::Instance();
   for (const std::string& label : {kind, kind + std::string(kEnding)})

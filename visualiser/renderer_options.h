@@ -16,8 +16,9 @@ namespace swarmanoid
 {
 
 // The description of "text" or "text_render", or of the renderer in a user's library: a path, or a name that is looked
-// for in SWARMANOID_PLUGIN_PATH. Throws ConfigurationError, naming those that there are.
-const PluginDescription& FindRenderer(const std::string& kind);
+// for in SWARMANOID_PLUGIN_PATH. Throws ConfigurationError, naming those that there are. The result stays until the
+// program ends.
+const PluginDescription& FindRenderer(std::string kind);
 
 // Adds --name for every parameter of the renderer; a value given goes to `parameters` as "name=value". Choices of a
 // parameter called `format` are flags too: --csv. A name that the command uses itself is left out.

@@ -29,7 +29,8 @@ protected:
   }
   // `size`: of the payload before it is sealed. Without a sealer it stays in the clear.
   template <class... Parts>
-  static bool WriteParts(Payload& payload, std::size_t size, Sealer* sealer, const WriterId& writer, const Parts&... parts)
+  static bool WriteParts(Payload& payload, std::size_t size, Sealer* sealer, const WriterId& writer,
+                         const Parts&... parts)
   {
     const std::size_t padding = sealer == nullptr ? 0 : PaddingOf(size);
     if (sealer != nullptr) size = SealedBytes(size);

@@ -27,8 +27,7 @@ struct Bus::Impl : ParticipantListener
   void OnParticipant(const DiscoveredParticipant& participant) override;
 
   // A message that was dropped for what is wrong with it; it may end the run if its sender belongs to that.
-  void Report(const std::string& topic, const rtps::GUID_t& writer, std::uint64_t tick,
-              const std::string& what);
+  void Report(const std::string& topic, const rtps::GUID_t& writer, std::uint64_t tick, const std::string& what);
   // A message that was dropped because nobody knows whose it is.
   void Refuse(const std::string& topic, const rtps::GUID_t& writer, const std::string& what);
   // A datagram that was dropped because somebody without the key spoke in the name of that process, or about it.
@@ -60,8 +59,8 @@ struct Bus::Impl : ParticipantListener
 
 private:
   void Gone(const std::pair<std::string, std::string>& process, bool died);
-  BadMessageReport Describe(const std::string& topic, const rtps::GUID_t& writer,
-                            std::uint64_t tick, const std::string& what);
+  BadMessageReport Describe(const std::string& topic, const rtps::GUID_t& writer, std::uint64_t tick,
+                            const std::string& what);
   // True for the first of that sender and topic.
   bool Drop(const BadMessageReport& report);
 

@@ -1,13 +1,12 @@
 #include "common/configuration/xml_outline.h"
 
-#include <expat.h>
-
 #include <algorithm>
 #include <exception>
 #include <memory>
 #include <new>
 #include <stdexcept>
 
+#include "common/configuration/expat_position.h"
 #include "common/configuration/xml_mistake.h"
 #include "common/configuration/xml_reader.h"
 
@@ -52,8 +51,8 @@ private:
     if (self->failure_) return;
     try
     {
-      const auto begin = static_cast<std::size_t>(XML_GetCurrentByteIndex(self->parser_.get())) + self->mark_;
-      const auto count = static_cast<std::size_t>(XML_GetCurrentByteCount(self->parser_.get()));
+      const auto begin = static_cast<std::size_t>(CurrentByteIndex(self->parser_.get())) + self->mark_;
+      const auto count = static_cast<std::size_t>(CurrentByteCount(self->parser_.get()));
       (self->*Method)(TextSpan{begin, begin + count}, arguments...);
     }
     catch (...)

@@ -1,6 +1,5 @@
 #include "common/configuration/xml_reader.h"
 
-#include <expat.h>
 #include <fmt/format.h>
 #include <strings.h>
 
@@ -10,6 +9,7 @@
 #include <new>
 #include <vector>
 
+#include "common/configuration/expat_position.h"
 #include "common/configuration/regular_file.h"
 #include "common/configuration/wording.h"
 #include "common/configuration/xml_mistake.h"
@@ -95,9 +95,9 @@ private:
     if (self->failure_) return;
     try
     {
-      const auto offset = static_cast<std::size_t>(XML_GetCurrentByteIndex(self->parser_.get()));
+      const auto offset = static_cast<std::size_t>(CurrentByteIndex(self->parser_.get()));
       (self->*Method)(offset, arguments...);
-      self->markup_ = offset + static_cast<std::size_t>(XML_GetCurrentByteCount(self->parser_.get()));
+      self->markup_ = offset + static_cast<std::size_t>(CurrentByteCount(self->parser_.get()));
     }
     catch (...)
     {
@@ -114,7 +114,7 @@ private:
   [[noreturn]] void Refuse(XML_Error error)
   {
     if (error == XML_ERROR_NO_MEMORY) throw std::bad_alloc();
-    const auto offset = static_cast<std::size_t>(std::max<XML_Index>(XML_GetCurrentByteIndex(parser_.get()), 0));
+    const auto offset = static_cast<std::size_t>(std::max<long long>(CurrentByteIndex(parser_.get()), 0));
     const auto line = [this](std::size_t at) { return places_.At(at).line; };
     const XmlMistake mistake = ExplainRefusal(text_, {error, offset, markup_, section_, tags_, line});
     Fail(mistake.offset, mistake.message);

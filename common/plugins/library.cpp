@@ -114,7 +114,7 @@ std::string FindPluginLibrary(const std::string& name, const std::vector<std::st
   return {};
 }
 
-const PluginLibrary& LoadPluginLibrary(const std::string& name, const std::vector<std::string>& folders)
+const PluginLibrary& LoadPluginLibrary(std::string name, std::vector<std::string> folders)
 {
   std::string searched;
   std::string before;

@@ -57,14 +57,6 @@ public:
   virtual bool IsBounded() const { return false; }
 
   bool is_bounded() const final { return IsBounded(); }
-  bool Keyed() const
-  {
-#if SWARMANOID_FAST_DDS_MAJOR >= 3
-    return is_compute_key_provided;
-#else
-    return m_isGetKeyDefined;
-#endif
-  }
 
 #if SWARMANOID_FAST_DDS_MAJOR >= 3
   bool serialize(const void* const data, Payload& payload, dds::DataRepresentationId_t) final

@@ -1,8 +1,8 @@
 // The parts of Fast DDS that this project uses, under one set of names for releases 2.9 to 3.1.
 //
 // This folder is the only place that knows which release is installed. All other files include its headers instead of
-// those of Fast DDS, and use the namespaces `dds` and `rtps` and the names below. It has no library of its own: the CMake
-// target `fast_dds` brings the headers and the libraries of the release.
+// those of Fast DDS, and use the namespaces `dds` and `rtps` and the names below. It has no library of its own: the
+// CMake target `fast_dds` brings the headers and the libraries of the release.
 #pragma once
 
 #if __has_include(<fastdds/config.hpp>)

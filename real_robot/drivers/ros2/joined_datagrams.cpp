@@ -92,8 +92,10 @@ public:
     if (open != collection.waiting.rend() && Join(open->bytes, datagram, open->most_bytes)) return true;
     const bool stays_here =
         std::ranges::all_of(locators, [](const rtps::Locator_t& to) { return rtps::IPLocator::isLocal(to); });
-    collection.waiting.push_back(
-        {&socket, std::move(locators), {datagram.begin(), datagram.end()}, stays_here ? kMostOnLoopback : kMostInFrame});
+    collection.waiting.push_back({&socket,
+                                  std::move(locators),
+                                  {datagram.begin(), datagram.end()},
+                                  stays_here ? kMostOnLoopback : kMostInFrame});
     return true;
   }
 

@@ -87,8 +87,7 @@ public:
                                     type.get_type_name(), found->second->get_type_name()));
     }
     dds::Topic* topic = nullptr;
-    if (!participant_->find_type(type.get_type_name()).empty() ||
-        Succeeded(type.register_type(participant_)))
+    if (!participant_->find_type(type.get_type_name()).empty() || Succeeded(type.register_type(participant_)))
       topic = participant_->create_topic(name, type.get_type_name(), dds::TOPIC_QOS_DEFAULT);
     if (topic == nullptr) throw DriverError("cannot create topic " + name);
     return topics_[name] = topic;
@@ -234,10 +233,7 @@ bool Reader::Take(void* message)
   return false;
 }
 
-void Reader::Wait(double seconds)
-{
-  ends_->reader->wait_for_unread_message(Seconds(seconds));
-}
+void Reader::Wait(double seconds) { ends_->reader->wait_for_unread_message(Seconds(seconds)); }
 
 unsigned Reader::Publishers() const
 {

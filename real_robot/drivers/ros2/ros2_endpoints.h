@@ -19,7 +19,7 @@ struct MessageType
 {
   std::string name;    // "geometry_msgs/msg/Twist"
   std::string hash;    // "RIHS01_…": of its fields, by the rule of ROS 2
-  void* type_support;  // a new eprosima::fastdds::dds::TopicDataType
+  void* type_support;  // a new TopicDataType of Fast DDS
 };
 template <class Message>
 MessageType TypeOf();

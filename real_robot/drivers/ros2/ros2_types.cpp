@@ -1,4 +1,5 @@
 // The messages that the drivers and simulations speak, with what Fast DDS needs to send them (generated from idl/ros2).
+#include "common/bus/dds/fast_dds.h"
 #include "geometry_msgsPubSubTypes.h"
 #include "nav_msgsPubSubTypes.h"
 #include "real_robot/drivers/ros2/ros2_endpoints.h"
@@ -9,12 +10,12 @@
 #include "visualization_msgsPubSubTypes.h"
 
 // One line for each message: package, name, and the hash of ROS 2 (tests/repository/type_hashes.py computes it).
-#define ROS2_MESSAGE(PACKAGE, NAME, HASH)                                                                        \
-  template <>                                                                                                    \
-  MessageType TypeOf<::PACKAGE::msg::dds_::NAME##_>()                                                            \
-  {                                                                                                              \
-    return {#PACKAGE "/msg/" #NAME, HASH,                                                                        \
-            static_cast<eprosima::fastdds::dds::TopicDataType*>(new ::PACKAGE::msg::dds_::NAME##_PubSubType())}; \
+#define ROS2_MESSAGE(PACKAGE, NAME, HASH)                                                     \
+  template <>                                                                                 \
+  MessageType TypeOf<::PACKAGE::msg::dds_::NAME##_>()                                         \
+  {                                                                                           \
+    return {#PACKAGE "/msg/" #NAME, HASH,                                                     \
+            static_cast<dds::TopicDataType*>(new ::PACKAGE::msg::dds_::NAME##_PubSubType())}; \
   }
 
 namespace swarmanoid::ros2

@@ -268,14 +268,14 @@ TEST(BadMessages, NeverLeaveTheTypeSupportAsExceptions)
     SpaceState place;
     const HotSubscription<SpaceState>::Handler handler{[&](const MessageHeader&) { return &place; }, {}, {}};
     HotRead<SpaceState> hot{&handler, {}, nullptr, {}};
-    EXPECT_TRUE(HotType<SpaceState>(bytes.size()).deserialize(&payload, &hot));
+    EXPECT_TRUE(HotType<SpaceState>(bytes.size()).Read(payload, &hot));
     EXPECT_EQ(hot.error.empty(), length == bytes.size());
     EXPECT_EQ(hot.message == &place, length == bytes.size());
 
     WorldMessage world;
     ColdCall<WorldMessage> cold;
     cold.in = &world;
-    EXPECT_TRUE(ColdType<WorldMessage>().deserialize(&payload, &cold));
+    EXPECT_TRUE(ColdType<WorldMessage>().Read(payload, &cold));
     EXPECT_FALSE(cold.error.empty() && world.protocol == kProtocolVersion);
   }
 }
@@ -286,7 +286,7 @@ TEST(HotType, RefusesMessagesLargerThanItsRoom)
   const SpaceState state = SampleState();
   HotWrite<SpaceState> write{&header, &state, PayloadSize(header, state)};
   Payload small(60);
-  EXPECT_FALSE(HotType<SpaceState>(60).serialize(&write, &small));
+  EXPECT_FALSE(HotType<SpaceState>(60).Write(&write, small));
 }
 
 }  // namespace

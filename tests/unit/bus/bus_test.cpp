@@ -17,7 +17,6 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <fastdds/dds/log/Log.hpp>
 #include <fstream>
 
 #include "common/bus/domain.h"
@@ -346,7 +345,7 @@ TEST(Bus, WhatFastDdsSaysGoesToTheLog)
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
   EPROSIMA_LOG_ERROR(TEST, "no room for a segment");
-  eprosima::fastdds::dds::Log::Flush();
+  dds::Log::Flush();
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   std::ostringstream text;

@@ -2,15 +2,6 @@
 // the loopback interface alone.
 #pragma once
 
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastdds/dds/domain/DomainParticipant.hpp>
-#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastdds/dds/subscriber/DataReader.hpp>
-#include <fastdds/dds/subscriber/DataReaderListener.hpp>
-#include <fastdds/dds/subscriber/SampleInfo.hpp>
-#include <fastdds/dds/subscriber/Subscriber.hpp>
-#include <fastdds/dds/topic/TopicDataType.hpp>
-
 #include <memory>
 #include <mutex>
 #include <stdexcept>
@@ -18,33 +9,33 @@
 #include <vector>
 
 #include "common/bus/seal.h"
+#include "tests/unit/bus/raw_type.h"
 
 namespace swarmanoid::test
 {
 
-class Listener : eprosima::fastdds::dds::DataReaderListener
+class Listener : dds::DataReaderListener
 {
 public:
   // `topic`: with the id of a share behind a slash, if it is of one.
   Listener(int domain, const std::string& partition, const std::string& topic, const std::string& address = "127.0.0.1")
   {
-    namespace dds = eprosima::fastdds::dds;
     dds::DomainParticipantQos qos;
     qos.transport().use_builtin_transports = false;
-    auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+    auto udp = std::make_shared<transport::UDPv4TransportDescriptor>();
     udp->interfaceWhiteList = {address};
     qos.transport().user_transports.push_back(udp);
     participant_ =
         dds::DomainParticipantFactory::get_instance()->create_participant(static_cast<std::uint32_t>(domain), qos);
     if (participant_ == nullptr) throw std::runtime_error("the listener has no participant");
-    dds::TypeSupport type(new RawType("swarmanoid::wire::" + topic.substr(0, topic.find('/'))));
+    dds::TypeSupport type(new RawType(topic));
     type.register_type(participant_);
     dds::SubscriberQos subscriber;
     subscriber.partition().push_back(partition.c_str());
     dds::DataReaderQos reader;
     reader.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
     reader.durability().kind = dds::VOLATILE_DURABILITY_QOS;
-    reader.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+    reader.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
     reader.data_sharing().off();
     participant_->create_subscriber(subscriber)
         ->create_datareader(participant_->create_topic(topic, type.get_type_name(), dds::TOPIC_QOS_DEFAULT), reader,
@@ -53,7 +44,7 @@ public:
   ~Listener() override
   {
     participant_->delete_contained_entities();
-    eprosima::fastdds::dds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+    dds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
   }
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
@@ -77,11 +68,11 @@ public:
   }
 
 private:
-  void on_data_available(eprosima::fastdds::dds::DataReader* reader) override
+  void on_data_available(dds::DataReader* reader) override
   {
     std::string payload;
-    eprosima::fastdds::dds::SampleInfo about;
-    while (reader->take_next_sample(&payload, &about) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK)
+    dds::SampleInfo about;
+    while (Succeeded(reader->take_next_sample(&payload, &about)))
     {
       if (!about.valid_data) continue;
       const auto& guid = about.sample_identity.writer_guid();
@@ -93,34 +84,7 @@ private:
     }
   }
 
-  class RawType : public eprosima::fastdds::dds::TopicDataType
-  {
-  public:
-    using Payload = eprosima::fastrtps::rtps::SerializedPayload_t;
-    explicit RawType(const std::string& name)
-    {
-      setName(name.c_str());
-      m_typeSize = 4096;
-      m_isGetKeyDefined = false;
-      auto_fill_type_object(false);
-      auto_fill_type_information(false);
-    }
-    bool serialize(void*, Payload*) override { return false; }
-    bool deserialize(Payload* payload, void* data) override
-    {
-      static_cast<std::string*>(data)->assign(reinterpret_cast<const char*>(payload->data), payload->length);
-      return true;
-    }
-    std::function<std::uint32_t()> getSerializedSizeProvider(void*) override
-    {
-      return [] { return 0U; };
-    }
-    void* createData() override { return new std::string(); }
-    void deleteData(void* data) override { delete static_cast<std::string*>(data); }
-    bool getKey(void*, eprosima::fastrtps::rtps::InstanceHandle_t*, bool) override { return false; }
-  };
-
-  eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;
+  dds::DomainParticipant* participant_ = nullptr;
   std::mutex mutex_;
   std::vector<Sample> samples_;
 };

@@ -191,29 +191,29 @@ TEST(MessageBytes, OfWorkersOnOfferedMachinesAreThoseOfTheIdl)
 // Fast DDS of an earlier release and other vendors tell instances by the same hash.
 TEST(MessageKeys, AreThoseOfTheIdl)
 {
-  eprosima::fastrtps::rtps::InstanceHandle_t ours;
-  eprosima::fastrtps::rtps::InstanceHandle_t theirs;
+  InstanceHandle ours;
+  InstanceHandle theirs;
   const JoinMessage join{"some-machine.example:12345", kProtocolVersion, 7, "engine 'ground'", true};
   ColdCall<JoinMessage> call;
   call.out = &join;
-  ASSERT_TRUE(ColdType<JoinMessage>().getKey(&call, &ours, false));
+  ASSERT_TRUE(ColdType<JoinMessage>().KeyOf(&call, ours));
   wire::Join wire_join;
   wire_join.process(join.process);
   wire::JoinPubSubType join_type;
-  ASSERT_TRUE(join_type.getKey(&wire_join, &theirs, false));
+  ASSERT_TRUE(test::GeneratedKey(join_type, &wire_join, theirs));
   EXPECT_EQ(ours, theirs);
 
   const ViewRequestMessage request{"x:1", 7, 30, false, {}};
   ColdCall<ViewRequestMessage> client_request;
   client_request.out = &request;
-  ASSERT_TRUE(ColdType<ViewRequestMessage>().getKey(&client_request, &ours, false));
+  ASSERT_TRUE(ColdType<ViewRequestMessage>().KeyOf(&client_request, ours));
   wire::ViewRequest wire_request;
   wire_request.client("x:1");
   wire::ViewRequestPubSubType request_type;
-  ASSERT_TRUE(request_type.getKey(&wire_request, &theirs, false));
+  ASSERT_TRUE(test::GeneratedKey(request_type, &wire_request, theirs));
   EXPECT_EQ(ours, theirs);
-  EXPECT_FALSE(ColdType<LeaveMessage>().m_isGetKeyDefined);
-  EXPECT_FALSE(wire::LeavePubSubType().m_isGetKeyDefined);
+  EXPECT_FALSE(test::IsKeyed(ColdType<LeaveMessage>()));
+  EXPECT_FALSE(test::IsKeyed(wire::LeavePubSubType()));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include "common/activity/exit_codes.h"
 #include "tests/eventually.h"
-#include "tests/unit/bus/separate_processes.h"
+#include "common/bus/dds/for_tests.h"
 #include "tests/unit/bus/server_fixture.h"
 
 namespace swarmanoid

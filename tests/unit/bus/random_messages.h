@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "common/bus/dds/for_tests.h"
 #include "common/bus/message_type.h"
 #include "swarmanoid.h"
 #include "swarmanoidPubSubTypes.h"
@@ -93,7 +94,7 @@ inline std::string GeneratedBytes(Wire& wire)
 {
   static Support support;  // the largest size of a type takes long to count
   Payload payload(100000);
-  EXPECT_TRUE(support.serialize(&wire, &payload));
+  EXPECT_TRUE(test::GeneratedWrite(support, &wire, payload));
   return {reinterpret_cast<const char*>(payload.data), payload.length};
 }
 

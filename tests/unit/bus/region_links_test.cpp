@@ -11,7 +11,7 @@
 #include "common/bus/region_links.h"
 #include "common/bus/worker_session.h"
 #include "tests/eventually.h"
-#include "tests/unit/bus/separate_processes.h"
+#include "common/bus/dds/for_tests.h"
 #include "tests/unit/bus/server_fixture.h"
 
 namespace swarmanoid

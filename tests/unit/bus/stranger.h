@@ -2,25 +2,16 @@
 // interface alone.
 #pragma once
 
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastdds/dds/domain/DomainParticipant.hpp>
-#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastdds/dds/publisher/DataWriter.hpp>
-#include <fastdds/dds/publisher/Publisher.hpp>
-#include <fastdds/dds/topic/TopicDataType.hpp>
-
 #include <memory>
 #include <stdexcept>
 #include <string>
 
 #include "common/bus/message_bytes.h"
-#include "common/bus/qos.h"
 #include "tests/eventually.h"
+#include "tests/unit/bus/raw_type.h"
 
 namespace swarmanoid::test
 {
-
-namespace dds = eprosima::fastdds::dds;
 
 class Stranger
 {
@@ -29,7 +20,7 @@ public:
   {
     dds::DomainParticipantQos qos;
     qos.transport().use_builtin_transports = false;
-    auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+    auto udp = std::make_shared<transport::UDPv4TransportDescriptor>();
     udp->interfaceWhiteList = {"127.0.0.1"};
     qos.transport().user_transports.push_back(udp);
     participant_ =
@@ -54,8 +45,7 @@ public:
     if (writer == nullptr) return false;
     if (!Met(topic_name, readers)) return false;
     for (std::string payload : payloads) writer->write(&payload);
-    const bool got = writer->wait_for_acknowledgments({static_cast<std::int32_t>(kGenerous.count()), 0}) ==
-                     eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
+    const bool got = Succeeded(writer->wait_for_acknowledgments({static_cast<std::int32_t>(kGenerous.count()), 0}));
     std::size_t cleared = 0;
     writer->clear_history(&cleared);  // nobody who comes later gets them
     return got;
@@ -89,60 +79,23 @@ private:
   dds::DataWriter* WriterOf(const std::string& topic_name)
   {
     if (dds::DataWriter* const known = publisher_->lookup_datawriter(topic_name)) return known;
-    // Of shares: "View/1a2b3c4d".
-    dds::TypeSupport type(new RawType("swarmanoid::wire::" + topic_name.substr(0, topic_name.find('/'))));
+    dds::TypeSupport type(new RawType(topic_name));
     type.register_type(participant_);
     dds::Topic* topic = participant_->create_topic(topic_name, type.get_type_name(), dds::TOPIC_QOS_DEFAULT);
     dds::DataWriterQos qos;
     qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
     qos.durability().kind = dds::TRANSIENT_LOCAL_DURABILITY_QOS;
     qos.history().kind = dds::KEEP_ALL_HISTORY_QOS;
-    qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+    qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
     qos.data_sharing().off();
     // A lost datagram is sent again at once, not after seconds.
-    qos.reliable_writer_qos().times.heartbeatPeriod = {0, 20'000'000};
-    qos.reliable_writer_qos().times.nackSupressionDuration = {0, 0};
+    SetHeartbeatPeriod(qos, {0, 20'000'000});
+    SetNackSuppression(qos, {0, 0});
     return publisher_->create_datawriter(topic, qos);
   }
 
-  // The bytes of a std::string, as they are.
-  class RawType : public eprosima::fastdds::dds::TopicDataType
-  {
-  public:
-    using Payload = eprosima::fastrtps::rtps::SerializedPayload_t;
-    explicit RawType(const std::string& name)
-    {
-      setName(name.c_str());
-      m_typeSize = 4096;
-      m_isGetKeyDefined = QosOf(name.substr(name.rfind(':') + 1)).keyed;
-      auto_fill_type_object(false);
-      auto_fill_type_information(false);
-    }
-    bool serialize(void* data, Payload* payload) override
-    {
-      const auto& bytes = *static_cast<const std::string*>(data);
-      if (bytes.size() > payload->max_size) return false;
-      std::memcpy(payload->data, bytes.data(), bytes.size());
-      payload->length = static_cast<std::uint32_t>(bytes.size());
-      return true;
-    }
-    bool deserialize(Payload*, void*) override { return true; }
-    std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override
-    {
-      const auto size = static_cast<std::uint32_t>(static_cast<const std::string*>(data)->size());
-      return [size] { return size; };
-    }
-    void* createData() override { return new std::string(); }
-    void deleteData(void* data) override { delete static_cast<std::string*>(data); }
-    bool getKey(void*, eprosima::fastrtps::rtps::InstanceHandle_t* handle, bool) override
-    {
-      for (std::size_t k = 0; k < 16; ++k) handle->value[k] = 7;
-      return true;
-    }
-  };
-
-  eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;
-  eprosima::fastdds::dds::Publisher* publisher_ = nullptr;
+  dds::DomainParticipant* participant_ = nullptr;
+  dds::Publisher* publisher_ = nullptr;
 };
 
 // The payload of a message, well-formed.

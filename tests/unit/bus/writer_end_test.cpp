@@ -4,12 +4,12 @@
 #include <atomic>
 #include <cstring>
 #include <filesystem>
-#include <functional>
 
+#include "common/bus/dds/data_type.h"
+#include "common/bus/dds/for_tests.h"
 #include "common/bus/participant.h"
 #include "common/bus/run_directory.h"
 #include "tests/eventually.h"
-#include "tests/unit/bus/separate_processes.h"
 #include "tests/unit/bus/server_fixture.h"
 
 namespace swarmanoid
@@ -19,36 +19,24 @@ namespace
 
 using namespace std::chrono_literals;
 
-class NumberType : public dds::TopicDataType
+class NumberType : public DataType
 {
 public:
-  using Payload = eprosima::fastrtps::rtps::SerializedPayload_t;
-  NumberType()
+  NumberType() : DataType("Number", sizeof(int), false) {}
+  std::size_t SizeOf(const void*) const override { return sizeof(int); }
+  bool Write(const void* data, Payload& payload) const override
   {
-    setName("Number");
-    m_typeSize = sizeof(int);
-    m_isGetKeyDefined = false;
-    auto_fill_type_object(false);
-    auto_fill_type_information(false);
-  }
-  bool serialize(void* data, Payload* payload) override
-  {
-    std::memcpy(payload->data, data, sizeof(int));
-    payload->length = sizeof(int);
+    std::memcpy(payload.data, data, sizeof(int));
+    payload.length = sizeof(int);
     return true;
   }
-  bool deserialize(Payload* payload, void* data) override
+  bool Read(const Payload& payload, void* data) const override
   {
-    std::memcpy(data, payload->data, sizeof(int));
+    std::memcpy(data, payload.data, sizeof(int));
     return true;
   }
-  std::function<std::uint32_t()> getSerializedSizeProvider(void*) override
-  {
-    return [] { return static_cast<std::uint32_t>(sizeof(int)); };
-  }
-  void* createData() override { return new int(0); }
-  void deleteData(void* data) override { delete static_cast<int*>(data); }
-  bool getKey(void*, eprosima::fastrtps::rtps::InstanceHandle_t*, bool) override { return false; }
+  void* Make() const override { return new int(0); }
+  void Delete(void* data) const override { delete static_cast<int*>(data); }
 };
 
 class WriterEndTest : public test::ServerFixture
@@ -69,10 +57,10 @@ protected:
     topic.writer_depth = 2000;
     topic.reader_depth = 2000;
     dds::DataReaderQos reader_qos = ReaderQos(topic, 1);
-    reader_qos.reliable_reader_qos().times.heartbeatResponseDelay = eprosima::fastrtps::Duration_t(100, 0);
+    SetHeartbeatResponseDelay(reader_qos, {100, 0});
     const ReaderEnd reader(of_reader, topic_of(of_reader), "writer_end", reader_qos, nullptr);
     dds::DataWriterQos writer_qos = WriterQos(topic);
-    writer_qos.reliable_writer_qos().times.heartbeatPeriod = eprosima::fastrtps::Duration_t(0, 20'000);
+    SetHeartbeatPeriod(writer_qos, {0, 20'000});
     for (int k = 0; k < count; ++k)
     {
       const WriterEnd writer(of_writers, topic_of(of_writers), "writer_end", writer_qos);
