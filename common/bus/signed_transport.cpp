@@ -1,7 +1,6 @@
 #include "common/bus/signed_transport.h"
 
 #include <fastdds/rtps/network/SenderResource.h>
-#include <fastdds/rtps/transport/TransportReceiverInterface.h>
 #include <fastrtps/utils/IPLocator.h>
 
 #include <exception>
@@ -35,13 +34,6 @@ public:
   {
   }
 
-  // What comes has its signature.
-  bool OpenInputChannel(const rtps::Locator_t& locator, transport::TransportReceiverInterface* receiver,
-                        std::uint32_t max_message_size) override
-  {
-    return ChainingTransport::OpenInputChannel(locator, receiver, max_message_size + kSignatureBytes);
-  }
-
   bool send(rtps::SenderResource* below, const rtps::octet* bytes, std::uint32_t size, rtps::LocatorsIterator* first,
             rtps::LocatorsIterator* last, const std::chrono::steady_clock::time_point& timeout) override
   {
@@ -57,12 +49,13 @@ public:
   void receive(transport::TransportReceiverInterface* next, const rtps::octet* bytes, std::uint32_t size,
                const rtps::Locator_t& local, const rtps::Locator_t& remote) override
   {
+    const auto datagram = Read({reinterpret_cast<const char*>(bytes), size}, kMemberLimits, remote);
+    if (datagram.empty()) return;
     DatagramSignatures::Checked checked;
-    if (!Try([&] { checked = descriptor_.signatures->Check({reinterpret_cast<const char*>(bytes), size}); })) return;
+    if (!Try([&] { checked = descriptor_.signatures->Check(datagram); })) return;
     if (checked.forged) return Tell(*checked.forged, TextOf(remote));
-    if (checked.datagram.empty()) return;
-    next->OnDataReceived(reinterpret_cast<const rtps::octet*>(checked.datagram.data()),
-                         static_cast<std::uint32_t>(checked.datagram.size()), local, remote);
+    if (checked.is_of_stranger) checked.datagram = Read(checked.datagram, kStrangerLimits, remote);
+    if (!checked.datagram.empty()) Pass(next, checked.datagram, local, remote);
   }
 
 private:
@@ -94,10 +87,8 @@ private:
 
 SignedTransportDescriptor::SignedTransportDescriptor(std::shared_ptr<transport::TransportDescriptorInterface> udp,
                                                      std::shared_ptr<DatagramSignatures> its_signatures,
-                                                     std::shared_ptr<Listener> its_listener)
-    : DiscardingTransportDescriptor(std::move(udp)),
-      signatures(std::move(its_signatures)),
-      listener(std::move(its_listener))
+                                                     std::shared_ptr<DatagramListener> its_listener)
+    : DiscardingTransportDescriptor(std::move(udp), std::move(its_listener)), signatures(std::move(its_signatures))
 {
   maxMessageSize -= kSignatureBytes;
 }
