@@ -15,12 +15,6 @@ namespace
 constexpr char kKind = static_cast<char>(0x9d);  // one of those that RTPS leaves to vendors (DDSI-RTPS 2.2, 8.3.3.2.3)
 constexpr char kLittleEndian = 1;
 constexpr char kPad = 0x01;
-constexpr char kGap = 0x08;
-// In a submessage of that kind, with its header: the number of the first message that is lost, then that of the next
-// one that is not.
-constexpr std::size_t kGapFirstAt = 12;
-constexpr std::size_t kGapBytes = kGapFirstAt + 16;
-constexpr std::int64_t kLongestGap = 10'000;
 constexpr char kInfoTimestamp = 0x09;
 constexpr char kInfoDestination = 0x0e;
 constexpr char kData = 0x15;
@@ -36,8 +30,7 @@ constexpr char kFirst[4] = {kKind, kLittleEndian, static_cast<char>(DatagramSign
 constexpr std::array<char, 4> kAnnouncer{0, 1, 0, static_cast<char>(0xc2)};  // writes who a process is
 // In front of whose announcement this one answers.
 constexpr std::array<char, 4> kAnswered{0x0f, static_cast<char>(0x80), 24, 0};
-// What Fast DDS puts at the end of each datagram about the network, and fills in below our transport. One that stands
-// elsewhere, or is of another length, ends the program of whoever gets it by an assertion.
+// What Fast DDS puts at the end of each datagram about the network, and fills in below our transport.
 constexpr char kStatistics = static_cast<char>(0x80);
 constexpr std::size_t kStatisticsBytes = 60;
 constexpr char kStatisticsFirst[4] = {kStatistics, kLittleEndian, kStatisticsBytes - 4, 0};
@@ -66,24 +59,6 @@ std::span<const char> FirstSubmessage(std::span<const char> bytes)
   const bool may_be_empty = bytes[0] == kPad || bytes[0] == kInfoTimestamp;
   if (length == 0 && !may_be_empty) return bytes;
   return bytes.first(std::min(bytes.size(), 4 + ((length + 3) & ~std::size_t{3})));
-}
-
-// Whether it says that more messages are lost than Fast DDS, which counts them one by one, can count at once.
-bool IsEndless(std::span<const char> submessage)
-{
-  if (submessage[0] != kGap || submessage.size() < kGapBytes) return false;
-  const bool is_little_endian = (static_cast<unsigned char>(submessage[1]) & 1U) != 0;
-  const auto word = [&](std::size_t at)
-  {
-    std::uint64_t value = 0;
-    for (std::size_t k = 0; k < 4; ++k)
-      value |= std::uint64_t{static_cast<unsigned char>(submessage[at + (is_little_endian ? k : 3 - k)])} << (8 * k);
-    return value;
-  };
-  const auto number = [&](std::size_t at) { return static_cast<std::int64_t>(word(at) << 32U | word(at + 4)); };
-  const std::int64_t first = number(kGapFirstAt);
-  const std::int64_t end = number(kGapFirstAt + 8);
-  return first < 0 || (end > first && end - first > kLongestGap);
 }
 
 // `code`: room for it, or the one that has to come out.
@@ -176,7 +151,6 @@ DatagramSignatures::Checked DatagramSignatures::CheckUnsigned(std::span<const ch
   while (rest.size() >= 4)
   {
     const std::span<const char> submessage = FirstSubmessage(rest);
-    if (submessage[0] == kStatistics || IsEndless(submessage)) return {datagram.first(datagram.size() - rest.size())};
     // Anybody may speak to a member.
     if (submessage[0] != kInfoDestination)
       if (const auto member = FindMember(submessage)) return Forged(*member);
@@ -186,7 +160,7 @@ DatagramSignatures::Checked DatagramSignatures::CheckUnsigned(std::span<const ch
     if (is_cut && !members_.empty()) return Forged(members_.begin()->first);
     rest = rest.subspan(submessage.size());
   }
-  return {datagram};
+  return {.datagram = datagram, .is_of_stranger = keys_->Own().has_value()};
 }
 
 DatagramSignatures::Checked DatagramSignatures::Forged(const GuidPrefix& member) const

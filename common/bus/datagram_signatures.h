@@ -53,6 +53,8 @@ public:
     std::span<const char> datagram;  // without its signature; empty if nobody may hear it
     // The process that it is about, if somebody else sent it.
     std::optional<GuidPrefix> forged{};
+    // This process has a key, and the sender did not sign with it.
+    bool is_of_stranger = false;
   };
   // Throws BusError.
   Checked Check(std::span<const char> datagram);

@@ -1,13 +1,7 @@
 #include "common/bus/discarding_transport.h"
 
-#include <fastdds/rtps/network/SenderResource.h>
-#include <fastdds/rtps/transport/TransportReceiverInterface.h>
-
 namespace swarmanoid
 {
-
-namespace transport = eprosima::fastdds::rtps;
-namespace rtps = eprosima::fastrtps::rtps;
 
 rtps::Locator_t NowhereLocator()
 {
@@ -23,7 +17,7 @@ transport::TransportInterface* DiscardingTransportDescriptor::create_transport()
 }
 
 DiscardingTransport::DiscardingTransport(const DiscardingTransportDescriptor& descriptor)
-    : ChainingTransport(descriptor), descriptor_(descriptor)
+    : FilterTransport(descriptor), descriptor_(descriptor)
 {
 }
 
@@ -48,17 +42,16 @@ bool DiscardingTransport::HasDestination(rtps::LocatorsIterator& first, const rt
   return first != last;
 }
 
-bool DiscardingTransport::send(rtps::SenderResource* below, const rtps::octet* bytes, std::uint32_t size,
-                               rtps::LocatorsIterator* first, rtps::LocatorsIterator* last,
-                               const std::chrono::steady_clock::time_point& timeout)
+bool DiscardingTransport::Send(Socket& socket, Datagram datagram, rtps::LocatorsIterator& first,
+                               rtps::LocatorsIterator& last, const Deadline& deadline)
 {
-  return !HasDestination(*first, *last) || below->send(bytes, size, first, last, timeout);
+  return !HasDestination(first, last) || SendDatagram(socket, datagram, first, last, deadline);
 }
 
-void DiscardingTransport::receive(transport::TransportReceiverInterface* next, const rtps::octet* bytes,
-                                  std::uint32_t size, const rtps::Locator_t& local, const rtps::Locator_t& remote)
+void DiscardingTransport::Refuse(const std::string& what, const std::string& address)
 {
-  next->OnDataReceived(bytes, size, local, remote);
+  const std::lock_guard lock(descriptor_.listener->mutex);
+  if (descriptor_.listener->malformed) descriptor_.listener->malformed(what, address);
 }
 
 }  // namespace swarmanoid

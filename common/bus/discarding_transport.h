@@ -1,48 +1,64 @@
-// A transport of Fast DDS in which messages to readers without an address are discarded.
+// The transport of the bus: it reports datagrams that CheckRtps refuses, and discards messages to readers without an
+// address.
 //
 // A reader that shares memory has no address. If its memory cannot be opened, since its process has just ended, Fast
 // DDS (2.9) writes to it over the network, and tries for ever to send the fragments of a message that has no
-// destination (StatefulWriter::deliver_sample_to_network goes on only once a fragment was sent to somebody).
+// destination (StatefulWriter::deliver_sample_to_network goes on only after a fragment was sent).
 #pragma once
 
-#include <fastdds/rtps/transport/ChainingTransport.h>
-#include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
-
+#include <functional>
 #include <memory>
+#include <mutex>
+#include <string>
+
+#include "common/bus/datagram_signatures.h"
+#include "common/bus/dds/filter_transport.h"
 
 namespace swarmanoid
 {
 
 // The address of endpoints that hear nobody over the network: of a kind that no transport here speaks.
-eprosima::fastrtps::rtps::Locator_t NowhereLocator();
+rtps::Locator_t NowhereLocator();
 
-struct DiscardingTransportDescriptor : eprosima::fastdds::rtps::ChainingTransportDescriptor
+// Called in threads of the transport. The functions are empty once the bus goes: a participant may outlive it until the
+// program ends.
+struct DatagramListener
 {
-  using ChainingTransportDescriptor::ChainingTransportDescriptor;
-
-  eprosima::fastdds::rtps::TransportInterface* create_transport() const override;
-  std::uint32_t max_message_size() const override { return maxMessageSize; }
+  std::mutex mutex;
+  // A datagram was dropped: what is wrong with it, and the address that it came from.
+  std::function<void(const std::string& what, const std::string& address)> malformed;
+  // A process in whose name somebody spoke, and the address and port of whoever sent that.
+  std::function<void(const GuidPrefix& member, const std::string& sender)> forged;
 };
 
-class DiscardingTransport : public eprosima::fastdds::rtps::ChainingTransport
+struct DiscardingTransportDescriptor : transport::ChainingTransportDescriptor
+{
+  DiscardingTransportDescriptor(std::shared_ptr<transport::TransportDescriptorInterface> udp,
+                                std::shared_ptr<DatagramListener> its_listener)
+      : ChainingTransportDescriptor(std::move(udp)), listener(std::move(its_listener))
+  {
+  }
+
+  transport::TransportInterface* create_transport() const override;
+  std::uint32_t max_message_size() const override { return maxMessageSize; }
+
+  const std::shared_ptr<DatagramListener> listener;
+};
+
+class DiscardingTransport : public FilterTransport
 {
 public:
   explicit DiscardingTransport(const DiscardingTransportDescriptor& descriptor);
 
-  eprosima::fastdds::rtps::TransportDescriptorInterface* get_configuration() override { return &descriptor_; }
-  void select_locators(eprosima::fastrtps::rtps::LocatorSelector& selector) const override;
-  bool send(eprosima::fastrtps::rtps::SenderResource* below, const eprosima::fastrtps::rtps::octet* bytes,
-            std::uint32_t size, eprosima::fastrtps::rtps::LocatorsIterator* first,
-            eprosima::fastrtps::rtps::LocatorsIterator* last,
-            const std::chrono::steady_clock::time_point& timeout) override;
-  void receive(eprosima::fastdds::rtps::TransportReceiverInterface* next, const eprosima::fastrtps::rtps::octet* bytes,
-               std::uint32_t size, const eprosima::fastrtps::rtps::Locator_t& local,
-               const eprosima::fastrtps::rtps::Locator_t& remote) override;
+  transport::TransportDescriptorInterface* get_configuration() override { return &descriptor_; }
+  void select_locators(rtps::LocatorSelector& selector) const override;
+  bool Send(Socket& socket, Datagram datagram, rtps::LocatorsIterator& first, rtps::LocatorsIterator& last,
+            const Deadline& deadline) override;
+  void Refuse(const std::string& what, const std::string& address) override;
 
 protected:
-  // Leaves those without an address out at the begin; false if nobody is left.
-  static bool HasDestination(eprosima::fastrtps::rtps::LocatorsIterator& first,
-                             const eprosima::fastrtps::rtps::LocatorsIterator& last);
+  // Skips the locators at the beginning that are no addresses. Returns false if no other locator is left.
+  static bool HasDestination(rtps::LocatorsIterator& first, const rtps::LocatorsIterator& last);
 
 private:
   DiscardingTransportDescriptor descriptor_;

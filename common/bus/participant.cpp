@@ -249,9 +249,10 @@ Bus::Impl::Impl(const BusOptions& options, const std::string& name)
   udp->maxMessageSize = options.DatagramBytes();
   udp->maxInitialPeersRange = kPeerProcesses;
   udp->interfaceWhiteList = InterfaceAddresses(options.network_interface);
+  datagrams->malformed = [this](const std::string& what, const std::string& address) { RefuseDatagram(what, address); };
   datagrams->forged = [this](const GuidPrefix& member, const std::string& sender) { RefuseDatagram(member, sender); };
   if (insecure)
-    qos.transport().user_transports.push_back(std::make_shared<DiscardingTransportDescriptor>(udp));
+    qos.transport().user_transports.push_back(std::make_shared<DiscardingTransportDescriptor>(udp, datagrams));
   else
     qos.transport().user_transports.push_back(
         std::make_shared<SignedTransportDescriptor>(udp, std::make_shared<DatagramSignatures>(key_ring), datagrams));
@@ -286,6 +287,7 @@ Bus::Impl::~Impl()
   later.Stop();
   {
     const std::lock_guard lock(datagrams->mutex);
+    datagrams->malformed = nullptr;
     datagrams->forged = nullptr;
   }
   for (const auto& [of, count] : dropped_of)
@@ -359,7 +361,11 @@ void Bus::Impl::Report(const std::string& topic, const rtps::GUID_t& writer, std
 
 void Bus::Impl::Refuse(const std::string& topic, const rtps::GUID_t& writer, const std::string& what)
 {
-  const BadMessageReport report = Describe(topic, writer, 0, what);
+  Refuse(Describe(topic, writer, 0, what));
+}
+
+void Bus::Impl::Refuse(const BadMessageReport& report)
+{
   if (!Drop(report)) return;
   std::function<void(const BadMessageReport&)> callback;
   {
@@ -367,6 +373,11 @@ void Bus::Impl::Refuse(const std::string& topic, const rtps::GUID_t& writer, con
     callback = on_refused;
   }
   if (callback) callback(report);
+}
+
+void Bus::Impl::RefuseDatagram(const std::string& what, const std::string& address)
+{
+  Refuse({.topic = "RTPS", .process = {}, .name = {}, .what = what, .sender = address});
 }
 
 void Bus::Impl::RefuseDatagram(const GuidPrefix& member, const std::string& sender)

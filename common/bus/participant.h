@@ -30,6 +30,9 @@ struct Bus::Impl : ParticipantListener
   void Report(const std::string& topic, const rtps::GUID_t& writer, std::uint64_t tick, const std::string& what);
   // A message that was dropped because nobody knows whose it is.
   void Refuse(const std::string& topic, const rtps::GUID_t& writer, const std::string& what);
+  // A datagram that was dropped because of its structure. It may say that it is from any process, so its sender is
+  // known by its address alone.
+  void RefuseDatagram(const std::string& what, const std::string& address);
   // A datagram that was dropped because somebody without the key spoke in the name of that process, or about it.
   void RefuseDatagram(const GuidPrefix& member, const std::string& sender);
   // A message with a good seal has come from that process.
@@ -44,8 +47,7 @@ struct Bus::Impl : ParticipantListener
   const std::optional<ShareChannel> share;
   const std::shared_ptr<KeyRing> key_ring;
   KeyRing& keys = *key_ring;
-  const std::shared_ptr<SignedTransportDescriptor::Listener> datagrams =
-      std::make_shared<SignedTransportDescriptor::Listener>();
+  const std::shared_ptr<DatagramListener> datagrams = std::make_shared<DatagramListener>();
   std::mutex mutex;  // of the members below
   std::map<std::string, dds::Topic*> topics;
   std::map<rtps::GuidPrefix_t, std::pair<std::string, std::string>> processes;  // "host:pid", name
@@ -61,6 +63,7 @@ private:
   void Gone(const std::pair<std::string, std::string>& process, bool died);
   BadMessageReport Describe(const std::string& topic, const rtps::GUID_t& writer, std::uint64_t tick,
                             const std::string& what);
+  void Refuse(const BadMessageReport& report);
   // True for the first of that sender and topic.
   bool Drop(const BadMessageReport& report);
 

@@ -1,11 +1,6 @@
 #include "common/bus/signed_transport.h"
 
-#include <fastdds/rtps/network/SenderResource.h>
-#include <fastdds/rtps/transport/TransportReceiverInterface.h>
-#include <fastrtps/utils/IPLocator.h>
-
 #include <exception>
-#include <span>
 #include <vector>
 
 #include <fmt/format.h>
@@ -16,9 +11,6 @@ namespace swarmanoid
 {
 namespace
 {
-
-namespace transport = eprosima::fastdds::rtps;
-namespace rtps = eprosima::fastrtps::rtps;
 
 constexpr auto kSignatureBytes = static_cast<std::uint32_t>(DatagramSignatures::kBytes);
 
@@ -35,34 +27,24 @@ public:
   {
   }
 
-  // What comes has its signature.
-  bool OpenInputChannel(const rtps::Locator_t& locator, transport::TransportReceiverInterface* receiver,
-                        std::uint32_t max_message_size) override
+  bool Send(Socket& socket, Datagram datagram, rtps::LocatorsIterator& first, rtps::LocatorsIterator& last,
+            const Deadline& deadline) override
   {
-    return ChainingTransport::OpenInputChannel(locator, receiver, max_message_size + kSignatureBytes);
-  }
-
-  bool send(rtps::SenderResource* below, const rtps::octet* bytes, std::uint32_t size, rtps::LocatorsIterator* first,
-            rtps::LocatorsIterator* last, const std::chrono::steady_clock::time_point& timeout) override
-  {
-    if (!HasDestination(*first, *last)) return true;
+    if (!HasDestination(first, last)) return true;
     std::vector<char> room;
-    std::span<const char> datagram;
-    if (!Try([&] { datagram = descriptor_.signatures->Sign({reinterpret_cast<const char*>(bytes), size}, room); }))
-      return false;
-    return below->send(reinterpret_cast<const rtps::octet*>(datagram.data()),
-                       static_cast<std::uint32_t>(datagram.size()), first, last, timeout);
+    Datagram with_signature;
+    if (!Try([&] { with_signature = descriptor_.signatures->Sign(datagram, room); })) return false;
+    return SendDatagram(socket, with_signature, first, last, deadline);
   }
 
-  void receive(transport::TransportReceiverInterface* next, const rtps::octet* bytes, std::uint32_t size,
-               const rtps::Locator_t& local, const rtps::Locator_t& remote) override
+  void Receive(transport::TransportReceiverInterface& next, Datagram datagram, const rtps::Locator_t& local,
+               const rtps::Locator_t& remote) override
   {
     DatagramSignatures::Checked checked;
-    if (!Try([&] { checked = descriptor_.signatures->Check({reinterpret_cast<const char*>(bytes), size}); })) return;
+    if (!Try([&] { checked = descriptor_.signatures->Check(datagram); })) return;
     if (checked.forged) return Tell(*checked.forged, TextOf(remote));
-    if (checked.datagram.empty()) return;
-    next->OnDataReceived(reinterpret_cast<const rtps::octet*>(checked.datagram.data()),
-                         static_cast<std::uint32_t>(checked.datagram.size()), local, remote);
+    if (checked.is_of_stranger) checked.datagram = Check(checked.datagram, kStrangerLimits, remote);
+    if (!checked.datagram.empty()) Pass(next, checked.datagram, local, remote);
   }
 
 private:
@@ -94,10 +76,8 @@ private:
 
 SignedTransportDescriptor::SignedTransportDescriptor(std::shared_ptr<transport::TransportDescriptorInterface> udp,
                                                      std::shared_ptr<DatagramSignatures> its_signatures,
-                                                     std::shared_ptr<Listener> its_listener)
-    : DiscardingTransportDescriptor(std::move(udp)),
-      signatures(std::move(its_signatures)),
-      listener(std::move(its_listener))
+                                                     std::shared_ptr<DatagramListener> its_listener)
+    : DiscardingTransportDescriptor(std::move(udp), std::move(its_listener)), signatures(std::move(its_signatures))
 {
   maxMessageSize -= kSignatureBytes;
 }

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+
+#include "common/logging/log.h"
 
 namespace swarmanoid::ros2
 {
@@ -56,7 +59,7 @@ struct Waiting
   bool Send(const Deadline& deadline) const
   {
     rtps::Locators first(locators.begin()), last(locators.end());
-    return SendDatagram(*below, bytes, first, last, deadline);
+    return SendDatagram(*below, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, first, last, deadline);
   }
 };
 
@@ -77,7 +80,7 @@ public:
   explicit Joining(const transport::ChainingTransportDescriptor& descriptor);
   transport::TransportDescriptorInterface* get_configuration() override { return configuration_.get(); }
 
-  bool Send(Socket& socket, std::span<const Byte> datagram, rtps::LocatorsIterator& first, rtps::LocatorsIterator& last,
+  bool Send(Socket& socket, Datagram datagram, rtps::LocatorsIterator& first, rtps::LocatorsIterator& last,
             const Deadline& deadline) override
   {
     Collection& collection = OfThisThread();
@@ -89,18 +92,24 @@ public:
     const auto open =
         std::find_if(collection.waiting.rbegin(), collection.waiting.rend(),
                      [&](const Waiting& waiting) { return waiting.below == &socket && waiting.locators == locators; });
-    if (open != collection.waiting.rend() && Join(open->bytes, datagram, open->most_bytes)) return true;
+    const std::span<const Byte> bytes(reinterpret_cast<const Byte*>(datagram.data()), datagram.size());
+    if (open != collection.waiting.rend() && Join(open->bytes, bytes, open->most_bytes)) return true;
     const bool stays_here =
         std::ranges::all_of(locators, [](const rtps::Locator_t& to) { return rtps::IPLocator::isLocal(to); });
-    collection.waiting.push_back({&socket,
-                                  std::move(locators),
-                                  {datagram.begin(), datagram.end()},
-                                  stays_here ? kMostOnLoopback : kMostInFrame});
+    collection.waiting.push_back(
+        {&socket, std::move(locators), {bytes.begin(), bytes.end()}, stays_here ? kMostOnLoopback : kMostInFrame});
     return true;
+  }
+
+  void Refuse(const std::string& what, const std::string& address) override
+  {
+    if (!refused_.exchange(true))
+      LogWarning("dropped a bad datagram of {}: {}; further ones are dropped without a word", address, what);
   }
 
 private:
   std::unique_ptr<transport::ChainingTransportDescriptor> configuration_;
+  std::atomic<bool> refused_ = false;
 };
 
 struct Descriptor : transport::ChainingTransportDescriptor

@@ -135,31 +135,15 @@ TEST_F(Datagrams, OfOthersSayNothingForOrAboutAMember)
       EXPECT_EQ(Heard(reader, Header(kStranger) + before + body + own), "");
 }
 
-// They end a process that reads them by an assertion of Fast DDS.
-TEST_F(Datagrams, OfOthersEndBeforeStatisticsThatNobodyExpects)
+// Limits of what strangers may say are for processes that can tell them from members.
+TEST_F(Datagrams, OfStrangersAreKnownToProcessesThatHaveAKey)
 {
   const std::string text = Header(kStranger) + Submessage(kLost, "12345678");
-  for (const std::string& more : {kStatisticsAtEnd + Submessage(kLost, "12345678"), Submessage(kStatisticsOf, "1234")})
-    EXPECT_EQ(Heard(reader, text + more), text);
-}
-
-// They would be counted one by one.
-TEST_F(Datagrams, OfOthersEndBeforeTheLossOfCountlessMessages)
-{
-  const std::string text = Header(kStranger) + Submessage(kLost, "12345678");
-  const auto lost = [](const std::string& first, const std::string& end)
-  { return Submessage(kLost, std::string(8, '\0') + first + end + std::string(4, '\0')); };
-  const std::string zero(4, '\0');
-  const std::string some = lost(zero + std::string("\1\0\0\0", 4), zero + std::string("\0\1\0\0", 4));
-  EXPECT_EQ(Heard(reader, text + some), text + some);
-  EXPECT_EQ(Heard(reader, text + some + lost(zero + std::string("\1\0\0\0", 4), zero + std::string("\0\0\1\0", 4))),
-            text + some);
-  EXPECT_EQ(Heard(reader, text + lost(zero + std::string("\1\0\0\0", 4), std::string("\1\0\0\0", 4) + zero)), text);
-  EXPECT_EQ(Heard(reader, text + lost(std::string(4, '\xff') + zero, zero + zero)), text);
-  std::string big_endian = lost(zero + std::string("\0\0\0\1", 4), std::string("\0\0\0\1", 4) + zero);
-  big_endian[1] = 0;
-  std::swap(big_endian[2], big_endian[3]);
-  EXPECT_EQ(Heard(reader, text + big_endian), text);
+  EXPECT_TRUE(reader.Check(text).is_of_stranger);
+  EXPECT_TRUE(reader.Check(Signed(other, text)).is_of_stranger);
+  EXPECT_FALSE(reader.Check(Signed(member, text)).is_of_stranger);
+  DatagramSignatures outsider(Ring(std::nullopt));
+  EXPECT_FALSE(outsider.Check(text).is_of_stranger);
 }
 
 // What a process sent before it signed may come late: nobody forged it.
