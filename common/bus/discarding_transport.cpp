@@ -88,12 +88,16 @@ std::span<const char> DiscardingTransport::Read(std::span<const char> datagram, 
 {
   const RtpsVerdict verdict = CheckRtps(datagram, limits);
   if (verdict.defect == nullptr) return datagram.first(verdict.bytes);
+  TellMalformed(fmt::format("{}, at byte {} of {}", verdict.defect, verdict.bytes, datagram.size()), remote);
+  return {};
+}
+
+void DiscardingTransport::TellMalformed(const std::string& what, const rtps::Locator_t& remote) const
+{
   const std::lock_guard lock(descriptor_.listener->mutex);
   if (descriptor_.listener->malformed)
-    descriptor_.listener->malformed(fmt::format("{}, at byte {} of {}; it came from port {}", verdict.defect,
-                                                verdict.bytes, datagram.size(), remote.port),
+    descriptor_.listener->malformed(fmt::format("{}; it came from port {}", what, remote.port),
                                     rtps::IPLocator::toIPv4string(remote));
-  return {};
 }
 
 void DiscardingTransport::Pass(transport::TransportReceiverInterface* next, std::span<const char> datagram,

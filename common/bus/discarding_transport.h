@@ -31,7 +31,7 @@ struct DatagramListener
   std::mutex mutex;
   // A datagram was dropped: what is wrong with it, and the address that it came from.
   std::function<void(const std::string& what, const std::string& address)> malformed;
-  // A process in whose name somebody spoke, and the address and port of whoever sent that.
+  // A process in whose name a stranger spoke, and the address and port of the stranger.
   std::function<void(const GuidPrefix& member, const std::string& sender)> forged;
 };
 
@@ -71,9 +71,11 @@ protected:
   // Leaves those without an address out at the begin; false if nobody is left.
   static bool HasDestination(eprosima::fastrtps::rtps::LocatorsIterator& first,
                              const eprosima::fastrtps::rtps::LocatorsIterator& last);
-  // What Fast DDS may read of a datagram: nothing if it was refused, which the listener is told.
+  // Returns the part of a datagram that Fast DDS may read. It is empty if the datagram was refused; the listener is
+  // told.
   std::span<const char> Read(std::span<const char> datagram, const RtpsLimits& limits,
                              const eprosima::fastrtps::rtps::Locator_t& remote) const;
+  void TellMalformed(const std::string& what, const eprosima::fastrtps::rtps::Locator_t& remote) const;
   static void Pass(eprosima::fastdds::rtps::TransportReceiverInterface* next, std::span<const char> datagram,
                    const eprosima::fastrtps::rtps::Locator_t& local, const eprosima::fastrtps::rtps::Locator_t& remote);
 
