@@ -61,6 +61,16 @@ std::span<const char> FirstSubmessage(std::span<const char> bytes)
   return bytes.first(std::min(bytes.size(), 4 + ((length + 3) & ~std::size_t{3})));
 }
 
+bool StandsAt(std::span<const char> bytes, std::span<const char> what, std::size_t at)
+{
+  return at + what.size() <= bytes.size() && std::ranges::equal(what, bytes.subspan(at, what.size()));
+}
+
+bool IsAnnouncement(std::span<const char> submessage)
+{
+  return submessage[0] == kData && StandsAt(submessage, kAnnouncer, kWriterAt);
+}
+
 // `code`: room for it, or the one that has to come out.
 bool Authenticate(EVP_CIPHER_CTX& cipher, std::uint64_t number, std::span<const char> bytes, char* code, bool makes)
 {
@@ -144,9 +154,11 @@ bool DatagramSignatures::IsSigned(std::span<const char>& datagram)
   return false;
 }
 
-DatagramSignatures::Checked DatagramSignatures::CheckUnsigned(std::span<const char> datagram) const
+DatagramSignatures::Checked DatagramSignatures::CheckUnsigned(std::span<const char> datagram)
 {
-  if (const GuidPrefix sender = PrefixAt(datagram, kPrefixAt); members_.count(sender) > 0) return Forged(sender);
+  const GuidPrefix sender = PrefixAt(datagram, kPrefixAt);
+  if (members_.count(sender) > 0) return Forged(sender);
+  const bool has_key = keys_->Own().has_value();
   std::span<const char> rest = datagram.subspan(kHeaderBytes);
   while (rest.size() >= 4)
   {
@@ -158,9 +170,20 @@ DatagramSignatures::Checked DatagramSignatures::CheckUnsigned(std::span<const ch
     const bool is_cut = submessage[0] == kDataFragment && submessage.size() >= kWriterAt + 4 &&
                         (static_cast<unsigned char>(submessage[kWriterAt + 3]) & kOfDdsItself) == kOfDdsItself;
     if (is_cut && !members_.empty()) return Forged(members_.begin()->first);
+    if (has_key && IsAnnouncement(submessage) && !MayAnnounce(sender)) return {.datagram = {}, .is_one_too_many = true};
     rest = rest.subspan(submessage.size());
   }
-  return {.datagram = datagram, .is_of_stranger = keys_->Own().has_value()};
+  return {.datagram = datagram, .is_of_stranger = has_key};
+}
+
+bool DatagramSignatures::MayAnnounce(const GuidPrefix& stranger)
+{
+  const Clock::time_point now = Clock::now();
+  if (strangers_.count(stranger) == 0 && strangers_.size() >= kMostStrangers)
+    std::erase_if(strangers_, [&](const auto& known) { return now - known.second >= absence_; });
+  if (strangers_.count(stranger) == 0 && strangers_.size() >= kMostStrangers) return false;
+  strangers_[stranger] = now;
+  return true;
 }
 
 DatagramSignatures::Checked DatagramSignatures::Forged(const GuidPrefix& member) const
@@ -171,16 +194,15 @@ DatagramSignatures::Checked DatagramSignatures::Forged(const GuidPrefix& member)
 
 std::optional<GuidPrefix> DatagramSignatures::FindMember(std::span<const char> submessage) const
 {
-  const auto stands_at = [&](std::span<const char> what, std::size_t at)
-  { return at + what.size() <= submessage.size() && std::ranges::equal(what, submessage.subspan(at, what.size())); };
-  const bool announces = submessage[0] == kData && stands_at(kAnnouncer, kWriterAt);
+  const bool announces = IsAnnouncement(submessage);
   for (const auto& [member, since] : members_)
     for (auto from = submessage.begin();;)
     {
       const auto found = std::search(from, submessage.end(), member.begin(), member.end());
       if (found == submessage.end()) break;
       const auto at = static_cast<std::size_t>(found - submessage.begin());
-      const bool only_answers = announces && at >= kAnswered.size() && stands_at(kAnswered, at - kAnswered.size());
+      const bool only_answers =
+          announces && at >= kAnswered.size() && StandsAt(submessage, kAnswered, at - kAnswered.size());
       if (!only_answers) return member;
       from = found + 1;
     }

@@ -39,11 +39,16 @@ public:
   static constexpr std::size_t kBytes = 4 + kSaltBytes + 8 + kCodeBytes;
 
   // What a process sent before it signed may come behind what it signed: that is not heard, and not told, for
-  // `settling`.
-  explicit DatagramSignatures(std::shared_ptr<KeyRing> keys, Clock::duration settling = std::chrono::seconds(2))
-      : keys_(std::move(keys)), settling_(settling)
+  // `settling`. A stranger that is silent for `absence` is not counted any more.
+  explicit DatagramSignatures(std::shared_ptr<KeyRing> keys, Clock::duration settling = std::chrono::seconds(2),
+                              Clock::duration absence = std::chrono::seconds(100))
+      : keys_(std::move(keys)), settling_(settling), absence_(absence)
   {
   }
+
+  // Processes without the key that may announce themselves at a time. Each costs a process memory and, when it ends,
+  // tens of milliseconds. With a few hundred a run goes on as without; a thousand make it end half a minute late.
+  static constexpr std::size_t kMostStrangers = 256;
 
   // Itself without a key; otherwise signed, in `room`. Throws BusError.
   std::span<const char> Sign(std::span<const char> datagram, std::vector<char>& room);
@@ -53,6 +58,8 @@ public:
     std::span<const char> datagram;  // without its signature; empty if nobody may hear it
     // The process that it is about, if somebody else sent it.
     std::optional<GuidPrefix> forged{};
+    // There are too many strangers for this one to be heard.
+    bool is_one_too_many = false;
     // This process has a key, and the sender did not sign with it.
     bool is_of_stranger = false;
   };
@@ -63,20 +70,24 @@ private:
   // Cuts off a signature that is there. True if it is good.
   bool IsSigned(std::span<const char>& datagram);
   // Whether it speaks for a member, or names one.
-  Checked CheckUnsigned(std::span<const char> datagram) const;
+  Checked CheckUnsigned(std::span<const char> datagram);
+  // Counts it among the strangers. False if there are too many.
+  bool MayAnnounce(const GuidPrefix& stranger);
   Checked Forged(const GuidPrefix& member) const;
   std::optional<GuidPrefix> FindMember(std::span<const char> submessage) const;
 
   const std::shared_ptr<KeyRing> keys_;
   const Clock::duration settling_;
+  const Clock::duration absence_;
   std::mutex signs_;  // of the next four
   std::optional<RunKey> key_;
   Salt salt_{};
   Cipher signer_;
   std::uint64_t number_ = 0;
-  std::mutex checks_;                                // of what follows
-  std::map<Salt, Cipher> checkers_;                  // of those who signed
-  std::map<GuidPrefix, Clock::time_point> members_;  // likewise, and this process: since when
+  std::mutex checks_;                                  // of what follows
+  std::map<Salt, Cipher> checkers_;                    // of those who signed
+  std::map<GuidPrefix, Clock::time_point> members_;    // likewise, and this process: since when
+  std::map<GuidPrefix, Clock::time_point> strangers_;  // that announced themselves without the key: when last
 };
 
 }  // namespace swarmanoid

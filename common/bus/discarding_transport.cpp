@@ -1,5 +1,7 @@
 #include "common/bus/discarding_transport.h"
 
+#include <fmt/format.h>
+
 namespace swarmanoid
 {
 
@@ -48,10 +50,12 @@ bool DiscardingTransport::Send(Socket& socket, Datagram datagram, rtps::Locators
   return !HasDestination(first, last) || SendDatagram(socket, datagram, first, last, deadline);
 }
 
-void DiscardingTransport::Refuse(const std::string& what, const std::string& address)
+void DiscardingTransport::Refuse(const std::string& what, const rtps::Locator_t& remote)
 {
   const std::lock_guard lock(descriptor_.listener->mutex);
-  if (descriptor_.listener->malformed) descriptor_.listener->malformed(what, address);
+  if (descriptor_.listener->malformed)
+    descriptor_.listener->malformed(fmt::format("{}; it came from port {}", what, remote.port),
+                                    rtps::IPLocator::toIPv4string(remote));
 }
 
 }  // namespace swarmanoid

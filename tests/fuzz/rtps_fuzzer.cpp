@@ -102,7 +102,7 @@ void ReadSet(Reader& from)
   from.Skip((bits + 31) / 32 * 4);
 }
 
-// What Fast DDS takes for the size of a payload: by subtraction, in 32 bits.
+// The size of a payload as Fast DDS computes it, by subtraction in 32 bits.
 std::uint32_t PayloadOf(std::size_t submessage, unsigned to_qos, std::uint32_t qos)
 {
   return static_cast<std::uint32_t>(submessage) - (4U + to_qos + qos);
@@ -203,7 +203,7 @@ void ReadSubmessage(unsigned kind, unsigned flags, std::span<const char> body, b
   }
 }
 
-// As Fast DDS goes from one to the next.
+// Goes from one submessage to the next by the rules of Fast DDS.
 void ReadDatagram(std::span<const char> datagram)
 {
   std::size_t at = 20;

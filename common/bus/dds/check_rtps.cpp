@@ -49,9 +49,9 @@ constexpr unsigned kMulticastFlag = 0x02;      // of INFO_REPLY
 
 constexpr std::size_t kStatisticsBytes = 56;     // behind the header of the submessage
 constexpr std::size_t kDataFixedBytes = 20;      // in front of the inline quality of service
-constexpr std::size_t kFragmentFixedBytes = 32;  // likewise, of DATA_FRAG
+constexpr std::size_t kFragmentFixedBytes = 32;  // the same for DATA_FRAG
 constexpr std::size_t kEncapsulationBytes = 4;   // in front of a payload
-constexpr std::size_t kLivelinessBytes = 24;     // of the least payload of the writer that says who is alive
+constexpr std::size_t kLivelinessBytes = 24;     // the smallest payload of the writer of liveliness
 constexpr std::size_t kLocatorBytes = 24;
 constexpr std::uint32_t kMostBits = 256;  // of a set of numbers (DDSI-RTPS 2.2, 9.4.2.6)
 constexpr std::int64_t kLastNumber = std::int64_t{1}
@@ -301,7 +301,8 @@ Reason CheckParameter(std::uint16_t id, const Bytes& value)
 struct ListEnd
 {
   std::size_t at = 0;        // behind the sentinel
-  bool says_status = false;  // that what it is about is disposed of or unregistered
+  bool says_status = false;  // the instance is disposed of or unregistered
+  bool only_disposes = false;
 };
 
 Reason CheckParameters(const Bytes& list, ListEnd& end)
@@ -320,7 +321,11 @@ Reason CheckParameters(const Bytes& list, ListEnd& end)
     if (length > list.size() - at || length % 4 != 0) return "a parameter that does not fit into its list";
     const Bytes value = list.Part(at, length);
     if (const Reason reason = CheckParameter(id, value)) return reason;
-    if (id == kStatusInfo && (value.Byte(3) & 3U) != 0) end.says_status = true;
+    if (id == kStatusInfo)
+    {
+      end.says_status = (value.Byte(3) & 3U) != 0;
+      end.only_disposes = value.Byte(3) == 1;
+    }
     at += length;
   }
 }
@@ -351,7 +356,7 @@ bool IsSecurity(const EntityId& writer)
   return IsBuiltIn(writer) && (writer[0] == 0xffU || (writer[0] == 0 && writer[1] == 2 && writer[2] == 1));
 }
 
-// What Fast DDS reads of a payload of its own writers.
+// Checks the part of a payload of a built-in writer that Fast DDS reads.
 Reason CheckBuiltInPayload(const EntityId& writer, const Bytes& payload)
 {
   if (IsLiveliness(writer))
@@ -385,6 +390,9 @@ Reason CheckData(const Bytes& body, unsigned flags)
   if (!IsAmong(body.Number(12), 1, kLastNumber)) return "a DATA with a number that does not exist";
   ListEnd qos;
   if (const Reason reason = CheckInlineQos(body, kDataFixedBytes, (flags & kInlineQosFlag) != 0, qos)) return reason;
+  // A reader of Fast DDS asserts that an instance whose writers are gone has no writer, and a disposal adds one.
+  // Members dispose of nothing, and other vendors unregister in the same message.
+  if (!IsBuiltIn(writer) && qos.only_disposes) return "a disposal, which no topic of a run has";
   const bool has_data = (flags & kDataFlag) != 0;
   const bool has_key = (flags & kKeyFlag) != 0;
   if (has_data && has_key) return "a DATA with both data and a key";

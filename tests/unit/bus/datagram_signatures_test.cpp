@@ -146,6 +146,32 @@ TEST_F(Datagrams, OfStrangersAreKnownToProcessesThatHaveAKey)
   EXPECT_FALSE(outsider.Check(text).is_of_stranger);
 }
 
+TEST_F(Datagrams, OfStrangersThatAnnounceThemselvesAreHeardUpToALimit)
+{
+  const auto announces = [](DatagramSignatures& to, std::size_t number)
+  {
+    std::string prefix = kStranger;
+    prefix[0] = static_cast<char>(number);
+    prefix[1] = static_cast<char>(number >> 8U);
+    return to.Check(Header(prefix) + Data(kDataOf, kAnnouncer, "text"));
+  };
+  constexpr std::size_t kMost = DatagramSignatures::kMostStrangers;
+  for (std::size_t k = 0; k < kMost; ++k) EXPECT_FALSE(announces(reader, k).is_one_too_many);
+  EXPECT_TRUE(announces(reader, kMost).is_one_too_many);
+  EXPECT_TRUE(announces(reader, kMost).datagram.empty());
+  EXPECT_FALSE(announces(reader, 0).is_one_too_many);
+  const std::string of_member = Header(kMember) + Data(kDataOf, kAnnouncer, "text");
+  EXPECT_EQ(Heard(reader, Signed(member, of_member)), of_member);
+
+  DatagramSignatures forgetful(Ring(KeyOf(1)), {}, {});
+  DatagramSignatures outsider(Ring(std::nullopt));
+  for (std::size_t k = 0; k <= kMost; ++k)
+  {
+    EXPECT_FALSE(announces(forgetful, k).is_one_too_many);
+    EXPECT_FALSE(announces(outsider, k).is_one_too_many);
+  }
+}
+
 // What a process sent before it signed may come late: nobody forged it.
 TEST_F(Datagrams, FromBeforeTheFirstSignatureAreNotTold)
 {

@@ -47,7 +47,7 @@ inline std::string CdrString(const std::string& text)
   return bytes;
 }
 
-inline const std::string kNobody(4, '\0');
+inline const std::string kUnknown(4, '\0');
 inline const std::string kTellsParticipants = Id(0x000100c2);
 inline const std::string kTellsTheirWriters = Id(0x000003c2);
 inline const std::string kTellsLiveliness = Id(0x000200c2);
@@ -72,7 +72,7 @@ inline const std::string kPlainEncapsulation("\0\1\0\0", 4);
 
 inline std::string Data(const std::string& writer, unsigned flags, const std::string& rest, std::int64_t number = 1)
 {
-  return RtpsSubmessage(0x15, flags, Short(0) + Short(16) + kNobody + writer + SequenceNumber(number) + rest);
+  return RtpsSubmessage(0x15, flags, Short(0) + Short(16) + kUnknown + writer + SequenceNumber(number) + rest);
 }
 inline std::string Announcement(const std::string& parameters)
 {
@@ -92,35 +92,35 @@ struct Fragment
 inline std::string DataFragment(const Fragment& fragment, const std::string& rest)
 {
   return RtpsSubmessage(0x16, fragment.flags,
-                        Short(0) + Short(28) + kNobody + fragment.writer + SequenceNumber(fragment.number) +
+                        Short(0) + Short(28) + kUnknown + fragment.writer + SequenceNumber(fragment.number) +
                             Word(fragment.start) + Short(fragment.count) + Short(fragment.size) +
                             Word(fragment.sample) + rest);
 }
 inline std::string Heartbeat(std::int64_t first, std::int64_t last)
 {
-  return RtpsSubmessage(0x07, 0, kNobody + kUserWriter + SequenceNumber(first) + SequenceNumber(last) + Word(1));
+  return RtpsSubmessage(0x07, 0, kUnknown + kUserWriter + SequenceNumber(first) + SequenceNumber(last) + Word(1));
 }
 // `bits`: how many are said to follow; one word does.
 inline std::string Gap(std::int64_t start, std::int64_t end, std::uint32_t bits = 0)
 {
   return RtpsSubmessage(
       0x08, 0,
-      kNobody + kUserWriter + SequenceNumber(start) + SequenceNumber(end) + Word(bits) + (bits > 0 ? Word(~0U) : ""));
+      kUnknown + kUserWriter + SequenceNumber(start) + SequenceNumber(end) + Word(bits) + (bits > 0 ? Word(~0U) : ""));
 }
 inline std::string AckNack(std::int64_t base, std::uint32_t bits)
 {
   return RtpsSubmessage(
-      0x06, 0, kNobody + kUserWriter + SequenceNumber(base) + Word(bits) + (bits > 0 ? Word(~0U) : "") + Word(1));
+      0x06, 0, kUnknown + kUserWriter + SequenceNumber(base) + Word(bits) + (bits > 0 ? Word(~0U) : "") + Word(1));
 }
 inline std::string NackFragment(std::uint32_t base, std::uint32_t bits, std::int64_t number = 1)
 {
-  return RtpsSubmessage(
-      0x12, 0,
-      kNobody + kUserWriter + SequenceNumber(number) + Word(base) + Word(bits) + (bits > 0 ? Word(~0U) : "") + Word(1));
+  return RtpsSubmessage(0x12, 0,
+                        kUnknown + kUserWriter + SequenceNumber(number) + Word(base) + Word(bits) +
+                            (bits > 0 ? Word(~0U) : "") + Word(1));
 }
 inline std::string Statistics(std::size_t bytes = 56) { return RtpsSubmessage(0x80, 0, std::string(bytes, '\0')); }
 
-// What a process says of itself.
+// The announcement of a process.
 inline std::string OwnParameters()
 {
   const std::string locator = Word(1) + Word(7411) + std::string(12, '\0') + "\x7f" + std::string("\0\0\1", 3);
@@ -170,7 +170,7 @@ inline std::vector<RtpsDatagram> LegalDatagrams()
       {"Acknowledgement", header + AckNack(7, 3)},
       {"MissingFragments", header + NackFragment(1, 2)},
       {"HeartbeatOfFragments",
-       header + RtpsSubmessage(0x13, 0, kNobody + kUserWriter + SequenceNumber(1) + Word(3) + Word(1))},
+       header + RtpsSubmessage(0x13, 0, kUnknown + kUserWriter + SequenceNumber(1) + Word(3) + Word(1))},
       {"Destination", header + RtpsSubmessage(0x0e, 0, std::string(12, 'd')) + Heartbeat(1, 0)},
       {"Source", header + RtpsSubmessage(0x0c, 0, std::string(20, 's')) + Heartbeat(1, 0)},
       {"Time", header + RtpsSubmessage(0x09, 0, std::string(8, 't')) + Data(kUserWriter, kHasData, payload)},
@@ -182,9 +182,9 @@ inline std::vector<RtpsDatagram> LegalDatagrams()
   };
 }
 
-// What the published vulnerabilities of Fast DDS are about, as far as a single datagram shows it, and those that were
-// found here. CVE-2023-50257 has a datagram that is right in itself: a good-bye in the name of another process, which
-// is refused by its signature.
+// Datagrams of the published vulnerabilities of Fast DDS, as far as a single datagram shows them, and of those that
+// were found here. CVE-2023-50257 has a datagram that is right in itself: a good-bye in the name of another process,
+// which is refused by its signature.
 inline std::vector<RtpsDatagram> AttackDatagrams()
 {
   const std::string header = RtpsHeader();
@@ -206,6 +206,12 @@ inline std::vector<RtpsDatagram> AttackDatagrams()
       {"CVE_2023_39947_MorePropertiesThanThere",
        Announcement(guid + Parameter(0x59, Word(~0U) + CdrString("key") + CdrString("value")) + kListEnd),
        "parts do not fit"},
+      {"CVE_2023_39948_AnnouncementWithAnUnknownEncoding",
+       header + Data(kTellsTheirWriters, kHasData, std::string("\0\x0b\0\0", 4) + OwnParameters()), "no list"},
+      {"CVE_2023_42459_DataWithInlineQosThatRunsOut",
+       header + Data(kUserWriter, kHasData | kInlineQos,
+                     Parameter(0x71, std::string("\0\0\0\1", 4)) + Short(0x70) + Short(16)),
+       "does not fit into its list"},
       {"CVE_2023_50716_FragmentWithEmptyInlineQos",
        header + DataFragment({.size = 4, .sample = 4, .writer = Id(0x00000303), .flags = kInlineQos, .number = 31},
                              kListEnd),
@@ -233,6 +239,8 @@ inline std::vector<RtpsDatagram> AttackDatagrams()
       {"HeartbeatUpToTheLast", header + Heartbeat(1, kMost), "a HEARTBEAT of numbers that do not exist"},
       {"FragmentOfAKey", header + DataFragment({.flags = 4}, std::string(1024, 'k')), "a DATA_FRAG of a key"},
       {"MissingFragmentZero", header + NackFragment(0, 32), "fragments that do not exist"},
+      {"DisposalAmongMessages",
+       header + Data(kUserWriter, kInlineQos, Parameter(0x71, std::string("\0\0\0\1", 4)) + kListEnd), "a disposal"},
       {"StatisticsInTheMiddle", header + Statistics() + Heartbeat(1, 0), "statistics of Fast DDS"},
       {"ManyRepresentations", Announcement(Parameter(0x73, Word(~0U)) + kListEnd), "parts do not fit"},
       {"LivelinessOfOneByte",
