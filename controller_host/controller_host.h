@@ -120,6 +120,12 @@ private:
   void TakeFault(Robot& robot, FaultKind kind, std::uint64_t tick, const std::string& text);
   // Throws ActivityError if the controller cannot begin again.
   void Restart(Robot& robot, std::uint64_t tick);
+  // What the devices of a robot remember, before its step and, if the step failed, again after it.
+  void SaveDevices(const Robot& robot);
+  void LoadDevices(const Robot& robot);
+  // Calls use(batch, number of the robot in it) with each sensor and actuator of a robot.
+  template <class Do>
+  void ForEachDevice(const Robot& robot, Do use);
   // Calls use(first, behind) with each place of the robot in ControlCommands::values.
   template <class Do>
   void ForEachCommand(std::uint32_t entity, Do use) const;
@@ -154,6 +160,7 @@ private:
   std::vector<double> sensor_values_;
   const std::uint32_t ahead_;  // framework.ahead
   std::uint64_t stepped_tick_ = 0;
+  ByteWriter before_step_;    // SaveDevices
   ControlCommands commands_;  // of the control steps of that tick
   ControlCommands due_;       // that act in it, where these are of the steps before
   std::optional<std::uint64_t> due_tick_;

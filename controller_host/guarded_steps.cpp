@@ -55,6 +55,8 @@ void ControllerHost::TryStep(Robot& robot, std::uint64_t tick)
   const ControllerConfiguration& configuration = *robot.guard->configuration;
   const std::optional<FaultKind> known = Known(tick, robot.entity);
   if (known == FaultKind::kDied) return TakeFault(robot, FaultKind::kDied, tick, "died");
+  const bool is_restarted = configuration.on_failure == OnFailure::kRestart;
+  if (is_restarted) SaveDevices(robot);
   SetCureOfStep(configuration.MayFail() ? cure_of_death_ : "");
   bool in_time = true;
   std::optional<std::string> thrown;
@@ -68,10 +70,37 @@ void ControllerHost::TryStep(Robot& robot, std::uint64_t tick)
     thrown = CurrentExceptionText();
   }
   SetCureOfStep("");
+  // A process that died in this step has told the devices nothing. An exception must leave the same.
+  if (thrown && is_restarted) LoadDevices(robot);
   if (thrown) return TakeFault(robot, FaultKind::kThrew, tick, "failed: " + *thrown);
   if (in_time && known != FaultKind::kTooSlow) return;
   TakeFault(robot, FaultKind::kTooSlow, tick,
             fmt::format("took more processor time than its {:g} ms (time_budget_ms)", configuration.time_budget_ms));
+}
+
+template <class Do>
+void ControllerHost::ForEachDevice(const Robot& robot, Do use)
+{
+  const auto k = static_cast<std::size_t>(&robot - robots_.data());
+  const auto use_if_its = [&](auto& batch, const std::vector<std::size_t>& robots)
+  {
+    const auto place = std::lower_bound(robots.begin(), robots.end(), k);
+    if (place != robots.end() && *place == k) use(batch, static_cast<std::size_t>(place - robots.begin()));
+  };
+  for (const Batches::Sensor& sensor : batches_->sensors) use_if_its(*sensor.batch, sensor.robots);
+  for (const Batches::Actuator& actuator : batches_->actuators) use_if_its(*actuator.batch, actuator.places);
+}
+
+void ControllerHost::SaveDevices(const Robot& robot)
+{
+  before_step_.Clear();
+  ForEachDevice(robot, [&](const auto& batch, std::size_t n) { batch.SaveState(n, before_step_); });
+}
+
+void ControllerHost::LoadDevices(const Robot& robot)
+{
+  ByteReader before(before_step_.Bytes());
+  ForEachDevice(robot, [&](auto& batch, std::size_t n) { batch.LoadState(n, before); });
 }
 
 bool ControllerHost::StepInTime(Robot& robot, std::uint64_t tick)

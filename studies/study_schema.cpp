@@ -102,10 +102,10 @@ std::vector<ParameterSpec> RegionParameters()
 {
   return {
       Optional(kText, "entity", "", "", "The id of an entity of the floor or a body, whose outline is the region; or:"),
-      Optional(kVector2, "centre", "m", "", "The centre of a disc, with radius; or:"),
+      Place(Optional(kVector2, "centre", "m", "", "The centre of a disc, with radius; or:")),
       InRange(Optional(kNumber, "radius", "m", "", "Of the disc."), 0, kMostMetres),
-      Optional(kVector2, "min", "m", "", "A corner of a rectangle, with max."),
-      Optional(kVector2, "max", "m", "", "The opposite corner."),
+      Place(Optional(kVector2, "min", "m", "", "A corner of a rectangle, with max.")),
+      Place(Optional(kVector2, "max", "m", "", "The opposite corner.")),
   };
 }
 

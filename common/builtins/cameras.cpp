@@ -19,7 +19,8 @@ std::vector<ParameterSpec> ViewParameters(const char* aperture_degrees, const ch
            .unit = "m",
            .default_value = range_m,
            .description = "Distance beyond which blobs are too small to be extracted.",
-           .minimum = 0.001}};
+           .minimum = 0.001,
+           .maximum = 1e6}};
 }
 
 enum class Elevation
@@ -50,7 +51,8 @@ void DescribeCamera(const std::string& label, const char* robot, const std::stri
                                            .default_value = "240",
                                            .description = "Pixels from the middle of the image to the border of the "
                                                           "view.",
-                                           .minimum = 1},
+                                           .minimum = 1,
+                                           .maximum = 1e6},
                                           {.name = "miss_probability",
                                            .default_value = "0",
                                            .description = "Share of the blobs that are not extracted in a tick.",

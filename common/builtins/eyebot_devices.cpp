@@ -13,12 +13,14 @@ void DescribePropellers()
        .unit = "m/s",
        .default_value = "1",
        .description = "Horizontal and vertical speed to which commands are clamped, along each axis.",
-       .minimum = 0},
+       .minimum = 0,
+       .maximum = 1e6},
       {.name = "max_yaw_rate",
        .unit = "rad/s",
        .default_value = "1.57079633",
        .description = "Yaw rate to which commands are clamped.",
-       .minimum = 0}};
+       .minimum = 0,
+       .maximum = 1e6}};
   const std::vector<ParameterSpec> noise = NoiseParameters("each velocity that is not 0", "m/s, rad/s");
   const auto describe = [](const char* implementation, const char* brief, std::vector<ParameterSpec> parameters)
   {
@@ -37,7 +39,8 @@ void DescribePropellers()
                                    .default_value = "1",
                                    .description = "Speed for each metre (and yaw rate for each radian) that is left; "
                                                   "larger values arrive sooner and overshoot more.",
-                                   .minimum = 0}}),
+                                   .minimum = 0,
+                                   .maximum = 1e6}}),
                   noise));
 }
 

@@ -17,7 +17,8 @@ std::vector<ParameterSpec> Argos3WheelParameters()
        .unit = "m/s",
        .default_value = "0",
        .description = "Speed of a wheel on the ground to which commands are clamped; 0: none, as in ARGoS3.",
-       .minimum = 0}};
+       .minimum = 0,
+       .maximum = 1e6}};
   for (const std::string side : {"left", "right"})
   {
     const auto add = [&](const char* name, const char* unit, const char* value, const std::string& description)
@@ -26,7 +27,8 @@ std::vector<ParameterSpec> Argos3WheelParameters()
                             .unit = unit,
                             .default_value = value,
                             .description = description + " of the " + side + " wheel."});
-      if (std::string_view(name).ends_with("stddev")) parameters.back().minimum = 0;
+      parameters.back().minimum = std::string_view(name).ends_with("stddev") ? 0 : -1e6;
+      parameters.back().maximum = 1e6;
     };
     add("bias_avg", "m/s", "0", "Mean of the bias");
     add("bias_stddev", "m/s", "0", "Standard deviation of the bias");
@@ -43,7 +45,8 @@ void DescribeWheels()
                .unit = "m/s",
                .default_value = "0.3",
                .description = "Speed of a wheel on the ground to which commands are clamped; 0.3 on the robot.",
-               .minimum = 0}},
+               .minimum = 0,
+               .maximum = 1e6}},
              NoiseParameters("the speed of each wheel while it moves", "m/s"));
   const auto describe = [](const char* implementation, const char* brief, std::vector<ParameterSpec> parameters)
   {
@@ -56,20 +59,29 @@ void DescribeWheels()
                       .channel_width = 2});
   };
   describe("dummy_footbot_wheels", "wheels that turn at the commanded speed at once, up to max_speed", common);
-  describe(
-      "noisy_footbot_wheels", "wheels with a bias and a factor on their speed while they move",
-      Joined(
-          common,
-          {{.name = "bias_left",
-            .unit = "m/s",
-            .default_value = "0",
-            .description = "Added to the speed of the left wheel while it moves."},
-           {.name = "bias_right",
-            .unit = "m/s",
-            .default_value = "0",
-            .description = "Added to the speed of the right wheel while it moves."},
-           {.name = "factor_left", .default_value = "1", .description = "Multiplies the speed of the left wheel."},
-           {.name = "factor_right", .default_value = "1", .description = "Multiplies the speed of the right wheel."}}));
+  describe("noisy_footbot_wheels", "wheels with a bias and a factor on their speed while they move",
+           Joined(common, {{.name = "bias_left",
+                            .unit = "m/s",
+                            .default_value = "0",
+                            .description = "Added to the speed of the left wheel while it moves.",
+                            .minimum = -1e6,
+                            .maximum = 1e6},
+                           {.name = "bias_right",
+                            .unit = "m/s",
+                            .default_value = "0",
+                            .description = "Added to the speed of the right wheel while it moves.",
+                            .minimum = -1e6,
+                            .maximum = 1e6},
+                           {.name = "factor_left",
+                            .default_value = "1",
+                            .description = "Multiplies the speed of the left wheel.",
+                            .minimum = -1e6,
+                            .maximum = 1e6},
+                           {.name = "factor_right",
+                            .default_value = "1",
+                            .description = "Multiplies the speed of the right wheel.",
+                            .minimum = -1e6,
+                            .maximum = 1e6}}));
   describe("argos3_footbot_wheels",
            "ARGoS3's noise: while a wheel moves, each turns at factor * (speed + bias), a bias drawn once and a factor "
            "drawn in every tick",
@@ -80,12 +92,14 @@ void DescribeWheels()
                     .unit = "s",
                     .default_value = "0.1",
                     .description = "Time in which 63 % of a step in the commanded speed is reached; 0 follows at once.",
-                    .minimum = 0},
+                    .minimum = 0,
+                    .maximum = 1e6},
                    {.name = "max_acceleration",
                     .unit = "m/s^2",
                     .default_value = "0",
                     .description = "Largest change of a wheel's speed on the ground; 0 sets no limit.",
-                    .minimum = 0}}));
+                    .minimum = 0,
+                    .maximum = 1e6}}));
 }
 
 // y = 1 below a contact distance, else a / (d + b), of footbot_proximity.cpp, between contact and 0.1 m by Chebyshev
@@ -101,7 +115,8 @@ void DescribeProximity()
                .unit = "m",
                .default_value = "0.1",
                .description = "Distance from the body beyond which nothing is seen.",
-               .minimum = 0}},
+               .minimum = 0,
+               .maximum = 1e6}},
              NoiseParameters("each reading", ""));
   DescribeSensor({.label = "footbot_proximity",
                   .implementation = "generic_footbot_proximity",
@@ -149,7 +164,8 @@ void DescribeTurret()
                                            .unit = "rad/s",
                                            .default_value = "3.14159265",
                                            .description = "Speed to which commands are clamped.",
-                                           .minimum = 0}},
+                                           .minimum = 0,
+                                           .maximum = 1e6}},
                                          NoiseParameters("the speed while the turret is told to move", "rad/s")),
                     .robots = {"footbot"},
                     .channel = "footbot_turret",

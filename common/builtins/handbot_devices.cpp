@@ -42,7 +42,8 @@ void DescribeHandbotDevices()
                                          .unit = "m",
                                          .default_value = "0.05",
                                          .description = "Distance from the sensor beyond which nothing is seen.",
-                                         .minimum = 0.001}},
+                                         .minimum = 0.001,
+                                         .maximum = 1e6}},
                                        NoiseParameters("each reading", "")),
                   .robots = {"handbot"}});
   DescribeActuator({.label = "handbot_rope",

@@ -10,16 +10,16 @@ PluginDescription ImageRenderDescription()
   description.label = "image_render";
   description.brief = "pictures (PNG) and videos of the arena, drawn without a window or an X server";
   description.parameters = {
-      {"size", ParameterType::kVector2, "pixels", "1024, 768", "Width and height of the pictures."},
+      {"size", ParameterType::kVector2, "pixels", "1024, 768", "Width and height of the pictures.", 1, 32768},
       {"camera", ParameterType::kText, "", "",
        "Where the camera stands: the number of a viewpoint, top (straight above), default (all of the arena), or "
        "x,y,z/heading,pitch,roll in metres and degrees; without it the first viewpoint, or default where there is "
        "none."},
-      {"every", ParameterType::kInteger, "ticks", "1", "A picture is drawn every so many ticks.", 1},
-      {"from", ParameterType::kInteger, "ticks", "0", "The tick of the first picture.", 0},
-      {"to", ParameterType::kInteger, "ticks", "0", "The tick of the last picture; 0: until the run ends.", 0},
+      {"every", ParameterType::kInteger, "ticks", "1", "A picture is drawn every so many ticks.", 1, 1e15},
+      {"from", ParameterType::kInteger, "ticks", "0", "The tick of the first picture.", 0, 1e15},
+      {"to", ParameterType::kInteger, "ticks", "0", "The tick of the last picture; 0: until the run ends.", 0, 1e15},
       {"at", ParameterType::kInteger, "ticks", "-1",
-       "The tick of a single picture; it takes the place of every, from and to.", -1},
+       "The tick of a single picture; it takes the place of every, from and to.", -1, 1e15},
       {"file", ParameterType::kText, "", "",
        "A picture file, taken from the run's folder; each picture replaces the one before, so it shows the last one."},
       {"directory", ParameterType::kText, "", "",

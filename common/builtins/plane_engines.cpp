@@ -14,12 +14,16 @@ std::vector<ParameterSpec> PlaneParameters()
           {.name = "distance",
            .unit = "m",
            .default_value = "0",
-           .description = "Signed distance of the plane from the origin along that axis."},
+           .description = "Signed distance of the plane from the origin along that axis.",
+           .minimum = -1e6,
+           .maximum = 1e6},
           {.name = "tilt",
            .type = ParameterType::kVector3,
            .unit = "deg",
            .default_value = "0, 0, 0",
-           .description = "Turns the plane about the origin of the space: rotations about x, y and z, in this order."}};
+           .description = "Turns the plane about the origin of the space: rotations about x, y and z, in this order.",
+           .minimum = -1e5,
+           .maximum = 1e5}};
 }
 
 std::vector<std::string> WithChannelsOfPlaneRobots(std::vector<std::string> own)

@@ -19,12 +19,13 @@ ParameterSpec Share(const char* name, const char* description)
 
 ParameterSpec Length(const char* name, const char* value, const char* description, double least = 0)
 {
-  return {.name = name, .unit = "m", .default_value = value, .description = description, .minimum = least};
+  return {
+      .name = name, .unit = "m", .default_value = value, .description = description, .minimum = least, .maximum = 1e6};
 }
 
 ParameterSpec Consumption(const char* name, const char* unit, const char* value, const char* description)
 {
-  return {.name = name, .unit = unit, .default_value = value, .description = description, .minimum = 0};
+  return {.name = name, .unit = unit, .default_value = value, .description = description, .minimum = 0, .maximum = 1e6};
 }
 
 void DescribeMotionSensors()
@@ -60,7 +61,8 @@ void DescribeMicrophones()
               {.name = "threshold",
                .default_value = "0.001",
                .description = "Sound pressure below which nothing is heard; 1 is that of intensity 1 at 1 m.",
-               .minimum = 0}},
+               .minimum = 0,
+               .maximum = 1e6}},
              NoiseParameters("the pressure of each sound", "", "loudness_"));
   const std::vector<ParameterSpec> directional =
       Joined(common, NoiseParameters("bearing and elevation of each sound", "rad", "angle_"));
@@ -92,7 +94,9 @@ void DescribeDistanceScanners()
                                          .unit = "rad/s",
                                          .default_value = "0",
                                          .description = "Of the head; while it turns each beam measures six times a "
-                                                        "tick. 0: the short beams look ahead and back."}},
+                                                        "tick. 0: the short beams look ahead and back.",
+                                         .minimum = -1e6,
+                                         .maximum = 1e6}},
                                        NoiseParameters("each distance", "m")),
                   .robots = {"footbot"}});
   DescribeSensor({.label = "footbot_distance_scanner",
@@ -152,7 +156,9 @@ void DescribeDepthCamera()
                 .type = ParameterType::kVector3,
                 .unit = "m",
                 .default_value = "0, 0, 0.1",
-                .description = "Of the camera, in the frame of the robot, which it does not see itself."},
+                .description = "Of the camera, in the frame of the robot, which it does not see itself.",
+                .minimum = -1e6,
+                .maximum = 1e6},
                Angle("pan", "0", "Of its axis to the left of the robot's front.", -180, 180),
                Angle("tilt", "0", "Of its axis above the plane of the robot's base; -90 looks straight down.", -90, 90),
                {.name = "floor_colour",
@@ -175,7 +181,8 @@ void DescribeRadio()
                                            .default_value = "0",
                                            .description = "Packets wait until the ones before are through; 0: one "
                                                           "packet a tick is the only limit.",
-                                           .minimum = 0}},
+                                           .minimum = 0,
+                                           .maximum = 1e6}},
                                          NoiseParameters("each byte that is sent", "1/255")),
                     .robots = {"footbot", "eyebot", "handbot"}});
   DescribeSensor({.label = "radio",

@@ -13,7 +13,7 @@ PluginDescription TextRenderDescription()
        "File to write to, taken from the run's folder; without it the table goes to the screen."},
       {"precision", ParameterType::kInteger, "", "3", "Number of decimals; trailing zeros are left out.", 0, 15},
       {"every", ParameterType::kInteger, "ticks", "1", "A table is written every so many ticks, and at the last one.",
-       1},
+       1, 1e15},
       {.name = "format",
        .type = ParameterType::kChoice,
        .default_value = "table",

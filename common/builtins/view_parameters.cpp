@@ -5,11 +5,11 @@ namespace swarmanoid
 
 std::vector<ParameterSpec> ViewpointParameters()
 {
-  return {
-      {"camera_view_XYZ_n", ParameterType::kVector3, "m", std::nullopt,
-       "Where viewpoint n (0 to 9) stands; the first one given is where the visualisation starts."},
-      {"camera_view_HPR_n", ParameterType::kVector3, "degrees", "0, 0, 0",
-       "Heading, pitch and roll of viewpoint n: heading 0 looks along x, 90 along y; a negative pitch looks down."}};
+  return {{"camera_view_XYZ_n", ParameterType::kVector3, "m", std::nullopt,
+           "Where viewpoint n (0 to 9) stands; the first one given is where the visualisation starts.", -1e6, 1e6},
+          {"camera_view_HPR_n", ParameterType::kVector3, "degrees", "0, 0, 0",
+           "Heading, pitch and roll of viewpoint n: heading 0 looks along x, 90 along y; a negative pitch looks down.",
+           -1e5, 1e5}};
 }
 
 std::vector<ParameterSpec> QualityParameters()

@@ -31,7 +31,7 @@ PluginDescription WebRenderDescription()
        {"linger", ParameterType::kNumber, "s", "-1",
         "Time for which the last state is served after the run; -1: until interrupted where attached, not at all where "
         "the visualisation is part of the experiment.",
-        -1},
+        -1, 1e9},
        {"url_file", ParameterType::kText, "", "",
         "File that gets the address, taken from the run's folder; without it web_render.url where the visualisation is "
         "part of the experiment, none where attached."}},

@@ -27,6 +27,17 @@ std::string RangeMistake(const ParameterSpec& spec, double value, const std::str
   return fmt::format("{} is {}; it must be {}", subject, WithUnit(value, spec.unit), RangeText(spec));
 }
 
+// A large whole number would be rounded to the limit if it were compared as a double.
+std::string RangeMistakeOfInteger(const ParameterSpec& spec, long long value, const std::string& subject)
+{
+  constexpr double kLongest = 9.2e18;  // limits up to here are whole numbers, too
+  const bool is_above = spec.maximum <= kLongest && value > static_cast<long long>(std::floor(spec.maximum));
+  const bool is_below = spec.minimum >= -kLongest && value < static_cast<long long>(std::ceil(spec.minimum));
+  if (!is_above && !is_below) return RangeMistake(spec, static_cast<double>(value), subject);
+  const std::string unit = spec.unit.empty() ? "" : " " + spec.unit;
+  return fmt::format("{} is {}{}; it must be {}", subject, value, unit, RangeText(spec));
+}
+
 std::string VectorMistake(const ParameterSpec& spec, std::string_view text, const std::string& subject)
 {
   const auto numbers = ParseNumbers(text);
@@ -105,7 +116,7 @@ std::string MistakeIn(const ParameterSpec& spec, std::string_view text, const st
     case ParameterType::kInteger:
     {
       const auto number = ParseInteger(text);
-      return number ? RangeMistake(spec, static_cast<double>(*number), subject) : wrong();
+      return number ? RangeMistakeOfInteger(spec, *number, subject) : wrong();
     }
     case ParameterType::kNumber:
     {

@@ -14,6 +14,14 @@ public:
   // How long the charge lasts if it goes on falling as in the last tick, s; infinite if it did not fall.
   virtual double GetTimeLeft() const = 0;
 
+  std::vector<CCI_Column> Columns() const override
+  {
+    return {{"charge", "", 0, 1}, {.name = "time left", .unit = "s", .minimum = 0, .may_be_infinite = true}};
+  }
+  void ReadColumns(std::vector<double>& values) const override
+  {
+    values.insert(values.end(), {GetCharge(), GetTimeLeft()});
+  }
   void Describe(std::vector<CCI_Reading>& readings) const override { readings.push_back({"charge", "", GetCharge()}); }
 };
 

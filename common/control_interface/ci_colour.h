@@ -1,6 +1,7 @@
 // Colours as controllers write and see them: 0xRRGGBB. 0 is off.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 namespace swarmanoid
@@ -26,6 +27,12 @@ struct CCI_Colour
     const std::uint32_t strongest = red > green ? (red > blue ? red : blue) : (green > blue ? green : blue);
     if (strongest < 32) return BLACK;
     return (2 * red > strongest ? RED : 0) | (2 * green > strongest ? GREEN : 0) | (2 * blue > strongest ? BLUE : 0);
+  }
+
+  // The colour of a column of numbers, cut to BLACK..WHITE.
+  static std::uint32_t FromNumber(double number)
+  {
+    return static_cast<std::uint32_t>(std::clamp(number, double{BLACK}, double{WHITE}));
   }
 };
 

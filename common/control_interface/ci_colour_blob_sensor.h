@@ -37,6 +37,16 @@ public:
   }
   const CCI_ColourBlob* GetNearestBlob(std::uint32_t colour) const { return FindNearest(GetAllBlobs(), colour); }
 
+  std::vector<CCI_Column> Rows() const override
+  {
+    return {{"colour", "colour", 0, 0xffffff}, {"distance", "m", 0}, {"angle", "rad"}, {"elevation", "rad"}};
+  }
+  void ReadRows(std::vector<double>& values) const override
+  {
+    for (const CCI_ColourBlob& blob : GetAllBlobs())
+      values.insert(values.end(),
+                    {static_cast<double>(blob.colour), blob.distance_m, blob.angle_rad, blob.elevation_rad});
+  }
   void Describe(std::vector<CCI_Reading>& readings) const override
   {
     for (std::size_t i = 0; i < GetAllBlobs().size(); ++i)

@@ -17,6 +17,16 @@ public:
   virtual std::span<const double> GetAllContacts() const = 0;
   bool IsTouched() const { return !GetAllContacts().empty(); }
 
+  // Whether anything touches it.
+  std::vector<CCI_Column> Columns() const override { return {{"touched", "yes/no", 0, 1}}; }
+  void ReadColumns(std::vector<double>& values) const override { values.push_back(IsTouched() ? 1 : 0); }
+  // Where.
+  std::vector<CCI_Column> Rows() const override { return {{"direction", "rad"}}; }
+  void ReadRows(std::vector<double>& values) const override
+  {
+    const std::span<const double> all = GetAllContacts();
+    values.insert(values.end(), all.begin(), all.end());
+  }
   void Describe(std::vector<CCI_Reading>& readings) const override
   {
     readings.push_back({"touched", "yes/no", IsTouched() ? 1.0 : 0.0});

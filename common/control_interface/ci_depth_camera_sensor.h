@@ -40,6 +40,21 @@ public:
   }
 
   // The middle of the image, and the nearest that is seen.
+  std::vector<CCI_Column> Columns() const override
+  {
+    std::vector<CCI_Column> columns;
+    for (std::size_t i = 0; i < std::size_t{GetWidth()} * GetHeight(); ++i)
+    {
+      columns.push_back({"depth " + std::to_string(i), "m", 0, std::numeric_limits<double>::infinity(), true});
+      columns.push_back({"colour " + std::to_string(i), "colour", 0, 0xffffff});
+    }
+    return columns;
+  }
+  void ReadColumns(std::vector<double>& values) const override
+  {
+    for (const Pixel& pixel : GetAllPixels())
+      values.insert(values.end(), {pixel.depth_m, static_cast<double>(pixel.colour)});
+  }
   void Describe(std::vector<CCI_Reading>& readings) const override
   {
     const Pixel& middle = GetPixel(GetWidth() / 2, GetHeight() / 2);

@@ -28,6 +28,12 @@ public:
   // All readings of the last tick, beam after beam, valid until the next control step.
   virtual std::span<const Reading> GetAllReadings() const = 0;
 
+  std::vector<CCI_Column> Rows() const override { return {{"angle", "rad"}, {"distance", "m", 0}, {"echo", "", 0, 2}}; }
+  void ReadRows(std::vector<double>& values) const override
+  {
+    for (const Reading& reading : GetAllReadings())
+      values.insert(values.end(), {reading.angle_rad, reading.distance_m, static_cast<double>(reading.echo)});
+  }
   void Describe(std::vector<CCI_Reading>& readings) const override
   {
     for (std::size_t i = 0; i < GetAllReadings().size(); ++i)

@@ -3,12 +3,14 @@
 // space_server/robot_messages.h.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
 #include <optional>
 #include <span>
 #include <type_traits>
+#include <utility>
 
 #include "common/control_interface/ci_device.h"
 
@@ -33,6 +35,24 @@ public:
     std::memcpy(bytes.data(), &message, sizeof(Message));
     ReportBytes(bytes);
   }
+
+  // A report in each step while it is reporting: so many of the bytes behind that.
+  std::vector<CCI_Column> Columns() const override
+  {
+    std::vector<CCI_Column> columns{{"reporting", "yes/no", 0, 1}, {"length", "", 0, kMaxMessageBytes}};
+    for (CCI_Column& byte : NumberedColumns(kMaxMessageBytes, "byte ", {{}, {}, 0, 255}))
+      columns.push_back(std::move(byte));
+    return columns;
+  }
+  void SetColumns(std::span<const double> values) override
+  {
+    if (!(values[0] > 0.5)) return;
+    std::array<std::uint8_t, kMaxMessageBytes> bytes{};
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+      bytes[i] = static_cast<std::uint8_t>(std::clamp(values[2 + i], 0.0, 255.0));
+    const auto length = static_cast<std::size_t>(std::clamp(values[1], 0.0, double{kMaxMessageBytes}));
+    ReportBytes(std::span(bytes).first(length));
+  }
 };
 
 class CCI_InstructionSensor : public CCI_Sensor
@@ -53,6 +73,20 @@ public:
     return message;
   }
 
+  std::vector<CCI_Column> Columns() const override
+  {
+    std::vector<CCI_Column> columns{{"new", "yes/no", 0, 1}, {"length", "", 0, kMaxMessageBytes}};
+    for (CCI_Column& byte : NumberedColumns(kMaxMessageBytes, "byte ", {{}, {}, 0, 255}))
+      columns.push_back(std::move(byte));
+    return columns;
+  }
+  void ReadColumns(std::vector<double>& values) const override
+  {
+    const std::span<const std::uint8_t> bytes = GetBytes();
+    values.insert(values.end(), {IsNew() ? 1.0 : 0.0, static_cast<double>(bytes.size())});
+    values.insert(values.end(), bytes.begin(), bytes.end());
+    values.insert(values.end(), kMaxMessageBytes - bytes.size(), 0.0);
+  }
   void Describe(std::vector<CCI_Reading>& readings) const override
   {
     readings.push_back({"new", "yes/no", IsNew() ? 1.0 : 0.0});

@@ -18,10 +18,18 @@ public:
   // The colour of the floor (0xRRGGBB) under the centre of the robot; without noise.
   virtual std::uint32_t GetFloorColour() const = 0;
 
+  std::vector<CCI_Column> Columns() const override
+  {
+    return NumberedColumns(GetAllSensorReadings().size(), "", {.name = {}, .minimum = 0, .maximum = 1});
+  }
+  void ReadColumns(std::vector<double>& values) const override
+  {
+    const auto all = GetAllSensorReadings();
+    values.insert(values.end(), all.begin(), all.end());
+  }
   void Describe(std::vector<CCI_Reading>& readings) const override
   {
-    const std::span<const double> all = GetAllSensorReadings();
-    for (std::size_t i = 0; i < all.size(); ++i) readings.push_back({std::to_string(i), "", all[i]});
+    CCI_Sensor::Describe(readings);
     readings.push_back({"floor", "colour", static_cast<double>(GetFloorColour())});
   }
 };

@@ -16,11 +16,11 @@ public:
   virtual std::span<const double, 3> GetAllSensorReadings() const = 0;
   double GetYawRate() const { return GetAllSensorReadings()[2]; }
 
-  void Describe(std::vector<CCI_Reading>& readings) const override
+  std::vector<CCI_Column> Columns() const override { return {{"roll", "rad/s"}, {"pitch", "rad/s"}, {"yaw", "rad/s"}}; }
+  void ReadColumns(std::vector<double>& values) const override
   {
-    readings.push_back({"roll", "rad/s", GetAllSensorReadings()[0]});
-    readings.push_back({"pitch", "rad/s", GetAllSensorReadings()[1]});
-    readings.push_back({"yaw", "rad/s", GetAllSensorReadings()[2]});
+    const auto all = GetAllSensorReadings();
+    values.insert(values.end(), all.begin(), all.end());
   }
 };
 

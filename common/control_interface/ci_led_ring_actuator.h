@@ -28,6 +28,15 @@ public:
     for (unsigned led = 0; led < GetNumLeds(); ++led) SetColour(led, colours[led]);
   }
   virtual void SetColour(unsigned led, std::uint32_t colour) = 0;
+
+  std::vector<CCI_Column> Columns() const override
+  {
+    return NumberedColumns(GetNumLeds(), "led ", {{}, "colour", 0, 0xffffff});
+  }
+  void SetColumns(std::span<const double> values) override
+  {
+    for (unsigned led = 0; led < GetNumLeds(); ++led) SetColour(led, CCI_Colour::FromNumber(values[led]));
+  }
 };
 
 }  // namespace swarmanoid

@@ -25,6 +25,17 @@ public:
   // control step.
   virtual std::span<const Sound> GetAllSounds() const = 0;
 
+  std::vector<CCI_Column> Columns() const override { return {{"loudness", "", 0}}; }
+  void ReadColumns(std::vector<double>& values) const override { values.push_back(GetLoudness()); }
+  std::vector<CCI_Column> Rows() const override
+  {
+    return {{"loudness", "", 0}, {"bearing", "rad"}, {"elevation", "rad"}};
+  }
+  void ReadRows(std::vector<double>& values) const override
+  {
+    for (const Sound& sound : GetAllSounds())
+      values.insert(values.end(), {sound.loudness, sound.bearing_rad, sound.elevation_rad});
+  }
   void Describe(std::vector<CCI_Reading>& readings) const override
   {
     readings.push_back({"loudness", "", GetLoudness()});

@@ -17,6 +17,16 @@ public:
   // Radians, counter-clockwise from the x axis of the space, -pi..pi.
   double GetHeading() const { return YawOf(GetOrientation()); }
 
+  std::vector<CCI_Column> Columns() const override
+  {
+    return {{"x", "m"}, {"y", "m"}, {"z", "m"}, {"qx"}, {"qy"}, {"qz"}, {"qw"}};
+  }
+  void ReadColumns(std::vector<double>& values) const override
+  {
+    const Vector3 at = GetPosition();
+    const Quaternion turn = GetOrientation();
+    values.insert(values.end(), {at.x(), at.y(), at.z(), turn.x(), turn.y(), turn.z(), turn.w()});
+  }
   void Describe(std::vector<CCI_Reading>& readings) const override
   {
     const Vector3 position = GetPosition();

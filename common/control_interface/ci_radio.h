@@ -2,11 +2,13 @@
 // actuator (sends) and as a sensor (receives). Footbots, eyebots and handbots carry it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "common/control_interface/ci_device.h"
 
@@ -24,6 +26,22 @@ public:
   // Packets that wait.
   virtual unsigned GetWaiting() const = 0;
 
+  // A packet in each step while it is sending: so many of the bytes behind that.
+  std::vector<CCI_Column> Columns() const override
+  {
+    std::vector<CCI_Column> columns{{"sending", "yes/no", 0, 1}, {"length", "", 0, MAX_BYTES}};
+    for (CCI_Column& byte : NumberedColumns(MAX_BYTES, "byte ", {{}, {}, 0, 255})) columns.push_back(std::move(byte));
+    return columns;
+  }
+  void SetColumns(std::span<const double> values) override
+  {
+    if (!(values[0] > 0.5)) return;
+    std::array<std::uint8_t, MAX_BYTES> bytes{};
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+      bytes[i] = static_cast<std::uint8_t>(std::clamp(values[2 + i], 0.0, 255.0));
+    const auto length = static_cast<std::size_t>(std::clamp(values[1], 0.0, double{MAX_BYTES}));
+    Send(std::span(bytes).first(length));
+  }
   void Describe(std::vector<CCI_Reading>& readings) const override
   {
     readings.push_back({"waiting", "", static_cast<double>(GetWaiting())});
@@ -47,6 +65,25 @@ public:
   // the experiment file. Valid until the next control step.
   virtual std::span<const Packet> GetAllPackets() const = 0;
 
+  std::vector<CCI_Column> Rows() const override
+  {
+    std::vector<CCI_Column> columns{{"signal", "dB"}, {"length", "", 0, CCI_RadioActuator::MAX_BYTES}};
+    for (CCI_Column& byte : NumberedColumns(CCI_RadioActuator::MAX_BYTES, "byte ", {{}, {}, 0, 255}))
+      columns.push_back(std::move(byte));
+    return columns;
+  }
+  void ReadRows(std::vector<double>& values) const override
+  {
+    for (const Packet& packet : GetAllPackets())
+    {
+      values.insert(values.end(), {packet.signal_db, static_cast<double>(packet.length)});
+      values.insert(values.end(), packet.bytes.begin(), packet.bytes.end());
+    }
+  }
+  void ReadRowIds(std::vector<std::string>& ids) const override
+  {
+    for (const Packet& packet : GetAllPackets()) ids.emplace_back(packet.sender);
+  }
   void Describe(std::vector<CCI_Reading>& readings) const override
   {
     for (const Packet& packet : GetAllPackets())

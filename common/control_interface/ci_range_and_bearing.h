@@ -35,6 +35,22 @@ public:
     SetMessage(message);
   }
 
+  // Whether it sends, and the first NUM_BYTES of what.
+  std::vector<CCI_Column> Columns() const override
+  {
+    std::vector<CCI_Column> columns{{"sending", "yes/no", 0, 1}};
+    for (CCI_Column& byte : NumberedColumns(NUM_BYTES, "byte ", {{}, {}, 0, 255})) columns.push_back(std::move(byte));
+    return columns;
+  }
+  void SetColumns(std::span<const double> values) override
+  {
+    if (!(values[0] > 0.5)) return StopSending();
+    Message message{};
+    for (std::size_t i = 0; i < message.size(); ++i)
+      message[i] = static_cast<std::uint8_t>(std::clamp(values[1 + i], 0.0, 255.0));
+    SetMessage(message);
+  }
+
 protected:
   void RequireLength(std::size_t bytes) const
   {
@@ -61,6 +77,22 @@ public:
   // The bytes of a packet behind its first NUM_BYTES: none if its sender has no longer messages. Valid as the packets.
   virtual std::span<const std::uint8_t> GetFurtherBytes(const Packet&) const { return {}; }
 
+  // A packet with its first NUM_BYTES.
+  std::vector<CCI_Column> Rows() const override
+  {
+    std::vector<CCI_Column> columns{{"range", "m", 0}, {"bearing", "rad"}, {"vertical bearing", "rad"}};
+    for (CCI_Column& byte : NumberedColumns(CCI_RangeAndBearingActuator::NUM_BYTES, "byte ", {{}, {}, 0, 255}))
+      columns.push_back(std::move(byte));
+    return columns;
+  }
+  void ReadRows(std::vector<double>& values) const override
+  {
+    for (const Packet& packet : GetAllPackets())
+    {
+      values.insert(values.end(), {packet.range_m, packet.bearing_rad, packet.vertical_bearing_rad});
+      values.insert(values.end(), packet.message.begin(), packet.message.end());
+    }
+  }
   void Describe(std::vector<CCI_Reading>& readings) const override
   {
     for (std::size_t i = 0; i < GetAllPackets().size(); ++i)

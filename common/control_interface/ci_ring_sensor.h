@@ -19,10 +19,14 @@ public:
   // there.
   virtual double GetAngle(unsigned sensor) const = 0;
 
-  void Describe(std::vector<CCI_Reading>& readings) const override
+  std::vector<CCI_Column> Columns() const override
   {
-    const std::span<const double> all = GetAllSensorReadings();
-    for (std::size_t i = 0; i < all.size(); ++i) readings.push_back({std::to_string(i), "", all[i]});
+    return NumberedColumns(GetAllSensorReadings().size(), "", {.name = {}, .minimum = 0, .maximum = 1});
+  }
+  void ReadColumns(std::vector<double>& values) const override
+  {
+    const auto all = GetAllSensorReadings();
+    values.insert(values.end(), all.begin(), all.end());
   }
 };
 

@@ -22,6 +22,15 @@ public:
   // All tags that answered in this tick, in no particular order, valid until the next control step.
   virtual std::span<const Tag> GetAllTags() const = 0;
 
+  std::vector<CCI_Column> Rows() const override { return {{"distance", "m", 0}}; }
+  void ReadRows(std::vector<double>& values) const override
+  {
+    for (const Tag& tag : GetAllTags()) values.push_back(tag.distance_m);
+  }
+  void ReadRowIds(std::vector<std::string>& ids) const override
+  {
+    for (const Tag& tag : GetAllTags()) ids.emplace_back(tag.id);
+  }
   void Describe(std::vector<CCI_Reading>& readings) const override
   {
     for (const Tag& tag : GetAllTags()) readings.push_back({std::string(tag.id), "m", tag.distance_m});

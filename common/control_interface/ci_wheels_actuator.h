@@ -20,6 +20,9 @@ public:
   {
     SetAngularVelocity(left / GetWheelRadius(), right / GetWheelRadius());
   }
+
+  std::vector<CCI_Column> Columns() const override { return {{"left", "rad/s"}, {"right", "rad/s"}}; }
+  void SetColumns(std::span<const double> values) override { SetAngularVelocity(values[0], values[1]); }
 };
 
 }  // namespace swarmanoid

@@ -79,6 +79,9 @@ void CheckRobotsWithoutEngine(const std::vector<bool>& owned, Reading& reading)
 // Farther than this from its plane, an entity would jump to it in the first tick (m).
 constexpr double kOnPlane = 1e-3;
 
+// What leans more is straightened in the first tick (rad).
+constexpr double kUpright = 1e-3;
+
 // Where the plane of an engine is, if it has one.
 struct Plane
 {
@@ -113,6 +116,28 @@ bool MovesOnPlane(const EngineConfiguration& engine)
   return takes("perpendicular_axis") && takes("tilt") && takes("distance");
 }
 
+namespace
+{
+
+// On a level plane an entity stands upright. On other planes the engine takes its heading alone.
+void CheckLean(const EntityConfiguration& entity, const EngineConfiguration& engine, const Plane& plane,
+               Reading& reading)
+{
+  if (plane.normal.z() < std::cos(kUpright)) return;
+  const double cosine = (entity.pose.orientation * Vector3::UnitZ()).z();
+  const double lean = std::acos(std::clamp(cosine, -1.0, 1.0));
+  if (!(lean > kUpright)) return;
+  reading.diagnostics.Add(
+      entity.tree.ValueLocation("orientation"),
+      fmt::format("the {} '{}' leans by {:.4g} degrees; it must stand upright on the plane of the engine '{}', which "
+                  "turns it about the vertical only: write the orientation 0, 0, {:.6g}, or use an engine of three "
+                  "dimensions, such as dynamics3d",
+                  TagName(entity.kind), entity.id, RadiansToDegrees(lean), engine.id,
+                  RadiansToDegrees(YawOf(entity.pose.orientation))));
+}
+
+}  // namespace
+
 // Robots and preys stand on the plane of the engine that moves them; blocks keep their height.
 void CheckPlanes(Reading& reading)
 {
@@ -128,6 +153,7 @@ void CheckPlanes(Reading& reading)
       owned[i] = true;
       if (!plane || !ours || !entity.movable || entity.waits || IsBodiless(entity.kind) || IsFreeBox(entity.kind))
         continue;
+      CheckLean(entity, engine, *plane, reading);
       const double height = plane->normal.dot(entity.pose.position) - plane->distance;
       if (!(std::fabs(height) > kOnPlane)) continue;
       const Vector3 foot = entity.pose.position - height * plane->normal;

@@ -67,19 +67,23 @@ std::vector<ParameterSpec> NoiseParameters(const std::string& of, const std::str
       {.name = prefix + "noise_mean",
        .unit = unit,
        .default_value = "0",
-       .description = "Mean of the noise on " + of + ": a systematic error."},
+       .description = "Mean of the noise on " + of + ": a systematic error.",
+       .minimum = -1e6,
+       .maximum = 1e6},
       {.name = prefix + "noise_deviation",
        .unit = unit,
        .default_value = "0",
        .description = "Standard deviation of Gaussian noise on " + of + ".",
-       .minimum = 0},
+       .minimum = 0,
+       .maximum = 1e6},
       {.name = prefix + "noise_range",
        .unit = unit,
        .default_value = "0",
        .description =
            "Uniform noise lies within the mean +- this. Gaussian noise beyond it is put onto its border where it is "
            "not 0; truncated Gaussian noise is drawn from within it.",
-       .minimum = 0}};
+       .minimum = 0,
+       .maximum = 1e6}};
 }
 
 std::vector<ParameterSpec> ColourNoiseParameters()

@@ -1,8 +1,6 @@
-// What a device reads or is told, as a row of numbers: the same columns for every robot, so that those of many robots
-// are one array. Devices whose readings differ in number (cameras, range and bearing) have rows instead.
+// What a device reads or is told, as numbers: the columns that it states itself (common/control_interface/ci_device.h).
 #pragma once
 
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -12,34 +10,35 @@
 namespace swarmanoid::python
 {
 
-struct SensorColumns
-{
-  std::vector<std::string> names;  // "left [m/s]"
-  std::function<void(double* to)> read;
-};
-
-struct ActuatorColumns
-{
-  std::vector<std::string> names;
-  std::function<void(const double* from)> write;
-};
-
-// Readings in rows, as many as there are: blobs, packets, beams, sounds.
-struct SensorRows
-{
-  std::vector<std::string> names;
-  std::function<void(std::vector<double>& to)> read;  // row by row
-};
-
 // The devices of a robot, by type.
 std::map<std::string, CCI_Sensor*> SensorsOf(const CCI_Robot& robot);
 std::map<std::string, CCI_Actuator*> ActuatorsOf(const CCI_Robot& robot);
 
-// Of the device, which outlives what is returned. Without names if it has rows.
-SensorColumns ColumnsOf(CCI_Sensor& sensor);
-// Without names if it has columns.
-SensorRows RowsOf(CCI_Sensor& sensor);
-// Without names for a device that no column can tell what to do.
-ActuatorColumns ColumnsOf(CCI_Actuator& actuator);
+// Of columns, with their units: "left [rad/s]", "colour".
+std::vector<std::string> NamesOf(const std::vector<CCI_Column>& columns);
+
+// A sensor of a robot, which outlives it. A sensor that states neither columns nor rows has those of its Describe.
+class SensorReader
+{
+public:
+  SensorReader() = default;
+  SensorReader(std::string type, const CCI_Sensor& sensor);
+
+  // The names of its columns; empty: it has none.
+  const std::vector<std::string>& Columns() const { return columns_; }
+  const std::vector<std::string>& Rows() const { return rows_; }
+  // The readings in place of `values`: a number for each column, or row after row. Throws std::runtime_error if the
+  // sensor gives another number of them than it states.
+  void ReadColumns(std::vector<double>& values) const;
+  void ReadRows(std::vector<double>& values) const;
+  // The ids of the entities that the rows are about; empty if the sensor does not tell.
+  std::vector<std::string> RowIds() const;
+
+private:
+  std::string type_;
+  const CCI_Sensor* sensor_ = nullptr;
+  bool by_description_ = false;
+  std::vector<std::string> columns_, rows_;
+};
 
 }  // namespace swarmanoid::python

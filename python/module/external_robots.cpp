@@ -1,5 +1,6 @@
 #include "python/module/external_robots.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -50,15 +51,24 @@ std::vector<std::string> ExternalGroup::Ids() const
 std::vector<double> ExternalGroup::Rows(std::size_t robot, const std::string& type) const
 {
   std::vector<double> rows;
-  robots_.at(robot)->rows_.at(type).read(rows);
+  robots_.at(robot)->rows_.at(type).ReadRows(rows);
   return rows;
+}
+
+std::vector<std::string> ExternalGroup::RowIds(std::size_t robot, const std::string& type) const
+{
+  return robots_.at(robot)->rows_.at(type).RowIds();
 }
 
 void ExternalGroup::Read()
 {
+  std::vector<double> values;
   for (ExternalController* robot : robots_)
     for (const ExternalController::Sensor& sensor : robot->sensors_)
-      sensor.device.read(sensor.array->values.data() + robot->place_ * sensor.array->columns.size());
+    {
+      sensor.device.ReadColumns(values);
+      std::copy(values.begin(), values.end(), sensor.array->values.data() + robot->place_ * values.size());
+    }
 }
 
 ExternalController::ExternalController()
@@ -77,17 +87,17 @@ int ExternalController::Init(const TConfigurationTree)
   group_->robots_.push_back(this);
   for (const auto& [type, sensor] : SensorsOf(robot))
   {
-    if (SensorColumns columns = ColumnsOf(*sensor); !columns.names.empty())
-      sensors_.push_back({columns, &WithRow(group_->sensors_, type, columns.names)});
-    if (SensorRows rows = RowsOf(*sensor); !rows.names.empty())
+    const SensorReader reader(type, *sensor);
+    if (!reader.Columns().empty()) sensors_.push_back({reader, &WithRow(group_->sensors_, type, reader.Columns())});
+    if (!reader.Rows().empty())
     {
-      group_->row_sensors_[type] = rows.names;
-      rows_[type] = std::move(rows);
+      group_->row_sensors_[type] = reader.Rows();
+      rows_[type] = reader;
     }
   }
   for (const auto& [type, actuator] : ActuatorsOf(robot))
-    if (ActuatorColumns columns = ColumnsOf(*actuator); !columns.names.empty())
-      actuators_.push_back({type, columns, &WithRow(group_->actuators_, type, columns.names)});
+    if (const std::vector<std::string> columns = NamesOf(actuator->Columns()); !columns.empty())
+      actuators_.push_back({type, actuator, &WithRow(group_->actuators_, type, columns)});
   return RETURN_OK;
 }
 
@@ -101,7 +111,7 @@ void ExternalController::ControlStep()
       if (!std::isfinite(values[i]))
         throw std::invalid_argument("column " + std::to_string(i) + " ('" + actuator.array->columns[i] +
                                     "') of the actuator '" + actuator.type + "' is not a finite number");
-    actuator.device.write(values);
+    actuator.device->SetColumns({values, width});
   }
 }
 

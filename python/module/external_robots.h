@@ -37,8 +37,10 @@ public:
   std::map<std::string, DeviceArray>& Actuators() { return actuators_; }
   // Types of sensors whose readings differ in number, with the names of their columns.
   const std::map<std::string, std::vector<std::string>>& RowSensors() const { return row_sensors_; }
-  // The rows of one robot, row by row. Throws std::out_of_range for a type that is no such sensor.
+  // The rows of one robot, row by row, and the ids of the entities that they are about. Throws std::out_of_range for a
+  // type that is no such sensor.
   std::vector<double> Rows(std::size_t robot, const std::string& type) const;
+  std::vector<std::string> RowIds(std::size_t robot, const std::string& type) const;
 
   // Copies what the sensors read into the arrays.
   void Read();
@@ -90,13 +92,13 @@ private:
   friend class ExternalGroup;
   struct Sensor
   {
-    SensorColumns device;
+    SensorReader device;
     DeviceArray* array;
   };
   struct Actuator
   {
     std::string type;
-    ActuatorColumns device;
+    CCI_Actuator* device;
     DeviceArray* array;
   };
 
@@ -105,7 +107,7 @@ private:
   std::size_t place_ = 0;  // in the group
   std::vector<Sensor> sensors_;
   std::vector<Actuator> actuators_;
-  std::map<std::string, SensorRows> rows_;
+  std::map<std::string, SensorReader> rows_;
 };
 
 }  // namespace swarmanoid::python

@@ -55,22 +55,37 @@ struct GroupHandle
 
   py::dict Columns() const
   {
+    // A sensor and an actuator may have one type: then these are the columns of the sensor.
     py::dict columns;
-    for (auto* arrays : {&group->Sensors(), &group->Actuators()})
-      for (const auto& [type, array] : *arrays) columns[type.c_str()] = array.columns;
+    for (const auto& [type, array] : group->Actuators()) columns[type.c_str()] = array.columns;
     for (const auto& [type, names] : group->RowSensors()) columns[type.c_str()] = names;
+    for (const auto& [type, array] : group->Sensors()) columns[type.c_str()] = array.columns;
     return columns;
+  }
+  py::dict ActuatorColumns() const
+  {
+    py::dict columns;
+    for (const auto& [type, array] : group->Actuators()) columns[type.c_str()] = array.columns;
+    return columns;
+  }
+  const std::vector<std::string>& RowColumns(const std::string& type) const
+  {
+    const auto found = group->RowSensors().find(type);
+    if (found != group->RowSensors().end()) return found->second;
+    std::string known;
+    for (const auto& [name, columns] : group->RowSensors()) known += " " + name;
+    throw py::key_error("no sensor '" + type + "' whose readings are rows; there are:" + known);
+  }
+  std::vector<std::vector<std::string>> RowIds(const std::string& type) const
+  {
+    RowColumns(type);
+    std::vector<std::vector<std::string>> ids;
+    for (std::size_t robot = 0; robot < group->Size(); ++robot) ids.push_back(group->RowIds(robot, type));
+    return ids;
   }
   py::list Rows(const std::string& type) const
   {
-    const auto found = group->RowSensors().find(type);
-    if (found == group->RowSensors().end())
-    {
-      std::string known;
-      for (const auto& [name, columns] : group->RowSensors()) known += " " + name;
-      throw py::key_error("no sensor '" + type + "' whose readings are rows; there are:" + known);
-    }
-    const auto width = static_cast<py::ssize_t>(found->second.size());
+    const auto width = static_cast<py::ssize_t>(RowColumns(type).size());
     py::list all;
     for (std::size_t robot = 0; robot < group->Size(); ++robot)
     {
@@ -110,7 +125,10 @@ void DefineSimulation(py::module_& module)
       .def_property_readonly("actuators", [](const GroupHandle& self)
                              { return Arrays(self.simulation, *self.group, self.group->Actuators(), true); })
       .def_property_readonly("columns", &GroupHandle::Columns)
+      .def_property_readonly("actuator_columns", &GroupHandle::ActuatorColumns)
+      .def_property_readonly("row_columns", [](const GroupHandle& self) { return self.group->RowSensors(); })
       .def("rows", &GroupHandle::Rows, "sensor"_a)
+      .def("row_ids", &GroupHandle::RowIds, "sensor"_a)
       .def("__len__", [](const GroupHandle& self) { return self.group->Size(); });
 
   py::class_<Simulation, Handle>(module, "Simulation")
@@ -199,6 +217,9 @@ void DefineController(py::module_& module)
       .def_property_readonly("time", [](const PythonRobot& self) { return self.Robot().GetTime(); })
       .def_property_readonly("tick_seconds", [](const PythonRobot& self) { return self.Robot().GetTickSeconds(); })
       .def("read", &PythonRobot::Read, "sensor"_a)
+      .def("rows", &PythonRobot::Rows, "sensor"_a)
+      .def("row_ids", &PythonRobot::RowIds, "sensor"_a)
+      .def("row_columns", &PythonRobot::ColumnsOfRows, "sensor"_a)
       .def("set", &PythonRobot::Set, "actuator"_a, "values"_a)
       .def(
           "columns",

@@ -86,62 +86,75 @@ private:
 
 PythonRobot::PythonRobot(CCI_Robot& robot) : robot_(robot)
 {
-  for (const auto& [type, sensor] : SensorsOf(robot))
-  {
-    if (SensorColumns columns = swarmanoid::python::ColumnsOf(*sensor); !columns.names.empty())
-      columns_[type] = std::move(columns);
-    else if (SensorRows rows = RowsOf(*sensor); !rows.names.empty())
-      rows_[type] = std::move(rows);
-  }
+  for (const auto& [type, sensor] : SensorsOf(robot)) sensors_[type] = SensorReader(type, *sensor);
   for (const auto& [type, actuator] : ActuatorsOf(robot))
-    if (ActuatorColumns columns = swarmanoid::python::ColumnsOf(*actuator); !columns.names.empty())
-      actuators_[type] = std::move(columns);
+    if (std::vector<std::string> columns = NamesOf(actuator->Columns()); !columns.empty())
+      actuators_[type] = {actuator, std::move(columns)};
+}
+
+const SensorReader& PythonRobot::ReaderOf(const std::string& type) const
+{
+  const auto found = sensors_.find(type);
+  if (found == sensors_.end()) Refuse(robot_, "sensor", type, sensors_);
+  return found->second;
+}
+
+const SensorReader& PythonRobot::RowReaderOf(const std::string& type) const
+{
+  const SensorReader& sensor = ReaderOf(type);
+  if (sensor.Rows().empty())
+    throw py::key_error("the sensor '" + type + "' of the robot '" + robot_.GetId() +
+                        "' has no rows; read its columns");
+  return sensor;
 }
 
 py::object PythonRobot::Read(const std::string& type) const
 {
-  if (const auto found = columns_.find(type); found != columns_.end())
-  {
-    py::array_t<double> values(static_cast<py::ssize_t>(found->second.names.size()));
-    found->second.read(values.mutable_data());
-    return values;
-  }
-  if (const auto found = rows_.find(type); found != rows_.end())
-  {
-    std::vector<double> rows;
-    found->second.read(rows);
-    const auto width = static_cast<py::ssize_t>(found->second.names.size());
-    py::array_t<double> values({static_cast<py::ssize_t>(rows.size()) / width, width});
-    std::copy(rows.begin(), rows.end(), values.mutable_data());
-    return values;
-  }
-  Refuse(robot_, "sensor", type, SensorsOf(robot_));
+  const SensorReader& sensor = ReaderOf(type);
+  if (sensor.Columns().empty() && !sensor.Rows().empty()) return Rows(type);
+  std::vector<double> values;
+  sensor.ReadColumns(values);
+  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
 }
+
+py::object PythonRobot::Rows(const std::string& type) const
+{
+  const SensorReader& sensor = RowReaderOf(type);
+  std::vector<double> rows;
+  sensor.ReadRows(rows);
+  const auto width = static_cast<py::ssize_t>(sensor.Rows().size());
+  py::array_t<double> values({static_cast<py::ssize_t>(rows.size()) / width, width});
+  std::copy(rows.begin(), rows.end(), values.mutable_data());
+  return values;
+}
+
+std::vector<std::string> PythonRobot::RowIds(const std::string& type) const { return RowReaderOf(type).RowIds(); }
 
 void PythonRobot::Set(const std::string& type, const std::vector<double>& values)
 {
   const auto found = actuators_.find(type);
   if (found == actuators_.end()) Refuse(robot_, "actuator", type, ActuatorsOf(robot_));
-  const std::size_t width = found->second.names.size();
+  const std::size_t width = found->second.columns.size();
   if (values.size() != width)
     throw py::value_error("the actuator '" + type + "' takes " + std::to_string(width) + " numbers, not " +
                           std::to_string(values.size()));
   for (const double value : values)
     if (!std::isfinite(value))
       throw py::value_error("the actuator '" + type + "' was told what is not a finite number");
-  found->second.write(values.data());
+  found->second.device->SetColumns(values);
 }
 
 std::vector<std::string> PythonRobot::ColumnsOfSensor(const std::string& type) const
 {
-  if (const auto found = columns_.find(type); found != columns_.end()) return found->second.names;
-  if (const auto found = rows_.find(type); found != rows_.end()) return found->second.names;
-  Refuse(robot_, "sensor", type, SensorsOf(robot_));
+  const SensorReader& sensor = ReaderOf(type);
+  return sensor.Columns().empty() ? sensor.Rows() : sensor.Columns();
 }
+
+std::vector<std::string> PythonRobot::ColumnsOfRows(const std::string& type) const { return RowReaderOf(type).Rows(); }
 
 std::vector<std::string> PythonRobot::ColumnsOfActuator(const std::string& type) const
 {
-  if (const auto found = actuators_.find(type); found != actuators_.end()) return found->second.names;
+  if (const auto found = actuators_.find(type); found != actuators_.end()) return found->second.columns;
   Refuse(robot_, "actuator", type, ActuatorsOf(robot_));
 }
 

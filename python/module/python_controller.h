@@ -19,18 +19,30 @@ public:
   explicit PythonRobot(CCI_Robot& robot);
 
   const CCI_Robot& Robot() const { return robot_; }
-  // One number a column (1-D), or one row a reading (2-D). Throws KeyError with the types that there are.
+  // One number a column (1-D), or one row a reading (2-D) for a sensor without columns. Throws KeyError with the types
+  // that there are.
   pybind11::object Read(const std::string& type) const;
+  // The same of a sensor that has both. Throws KeyError for a sensor without rows.
+  pybind11::object Rows(const std::string& type) const;
+  std::vector<std::string> RowIds(const std::string& type) const;
   void Set(const std::string& type, const std::vector<double>& values);
   std::vector<std::string> ColumnsOfSensor(const std::string& type) const;
+  std::vector<std::string> ColumnsOfRows(const std::string& type) const;
   std::vector<std::string> ColumnsOfActuator(const std::string& type) const;
   double Uniform(double low, double high) { return robot_.GetRandom().Uniform(low, high); }
 
 private:
+  const SensorReader& ReaderOf(const std::string& type) const;
+  const SensorReader& RowReaderOf(const std::string& type) const;
+
   CCI_Robot& robot_;
-  std::map<std::string, SensorColumns> columns_;
-  std::map<std::string, SensorRows> rows_;
-  std::map<std::string, ActuatorColumns> actuators_;
+  std::map<std::string, SensorReader> sensors_;
+  struct Actuator
+  {
+    CCI_Actuator* device = nullptr;
+    std::vector<std::string> columns{};
+  };
+  std::map<std::string, Actuator> actuators_;
 };
 
 // Makes `type`, a class of Python with control_step(robot), a controller of experiment files: <label …>.

@@ -22,9 +22,15 @@ class Robots:
         """(robots, columns) by type of actuator: views; what stands in them is told in the next step."""
     @property
     def columns(self) -> dict[str, list[str]]:
-        """Names of the columns of each device, with units."""
+        """Names of the columns of each sensor, or of its rows if it has no columns, and of each other actuator."""
+    @property
+    def actuator_columns(self) -> dict[str, list[str]]: ...
+    @property
+    def row_columns(self) -> dict[str, list[str]]: ...
     def rows(self, sensor: str) -> list[npt.NDArray[np.float64]]:
-        """Of each robot (readings, columns). Raises KeyError for a sensor that has columns instead."""
+        """(readings, columns) for each robot. Raises KeyError for a sensor without rows."""
+    def row_ids(self, sensor: str) -> list[list[str]]:
+        """The ids of the entities that the rows of each robot are about: senders of packets, tags; empty if the sensor does not tell."""
     def __len__(self) -> int: ...
 
 class Robot:
@@ -42,7 +48,12 @@ class Robot:
     @property
     def tick_seconds(self) -> float: ...
     def read(self, sensor: str) -> npt.NDArray[np.float64]:
-        """(columns,), or (readings, columns) for sensors whose readings differ in number."""
+        """(columns,), or (readings, columns) for sensors that have only readings that differ in number."""
+    def rows(self, sensor: str) -> npt.NDArray[np.float64]:
+        """(readings, columns). Raises KeyError for a sensor without rows."""
+    def row_ids(self, sensor: str) -> list[str]:
+        """The ids of the entities that the rows are about; empty if the sensor does not tell."""
+    def row_columns(self, sensor: str) -> list[str]: ...
     def set(self, actuator: str, values: Sequence[float]) -> None:
         """All columns of the actuator; it keeps them until it is told others."""
     def columns(self, device: str) -> list[str]: ...

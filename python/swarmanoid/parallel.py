@@ -70,8 +70,8 @@ class ParallelEnvironment(_Interface):
         self.possible_agents = list(robots.ids)
         self.agents = []
         self._row = {agent: row for row, agent in enumerate(self.possible_agents)}
-        self.observation_columns = _columns(robots, self._environment.sensor_types or robots.sensors)
-        self.action_columns = _columns(robots, self._environment.actuator_types or robots.actuators)
+        self.observation_columns = _columns(robots.columns, self._environment.sensor_types or robots.sensors)
+        self.action_columns = _columns(robots.actuator_columns, self._environment.actuator_types or robots.actuators)
         observations, actions = len(self.observation_columns), len(self.action_columns)
         # One object for each agent, always the same: learners seed it.
         self.observation_spaces = {agent: Box(-np.inf, np.inf, (observations,), np.float64) for agent in self.possible_agents}
@@ -147,5 +147,5 @@ class ParallelEnvironment(_Interface):
         return {agent: rows[self._row[agent]] for agent in self.agents}
 
 
-def _columns(robots, types):
-    return [f"{type_}.{column}" for type_ in types for column in robots.columns[type_]]
+def _columns(columns, types):
+    return [f"{type_}.{column}" for type_ in types for column in columns[type_]]

@@ -180,7 +180,8 @@ class Simulation(Entities):
 
         `.sensors[type]`: readings, (robots, columns), views that `sense` brings up to date. `.actuators[type]`: what the
         next step tells the actuators, writable. `.columns[type]`: names of the columns. `.rows(type)`: for sensors whose
-        readings differ in number (cameras, range and bearing), an array (readings, columns) for each robot.
+        readings differ in number (cameras, radio), an array (readings, columns) for each robot; `.row_columns[type]`: their
+        names, `.row_ids(type)`: the ids of the entities that the rows are about.
         """
         return self._simulation.robots
 

@@ -157,6 +157,96 @@ class Arrays(InAFolder):
             robots.rows("footbot_proximity")
 
 
+SCENE_OF_EVERYTHING = """<ahss-config>
+  <framework><clocktick>100</clocktick><maxclock>5</maxclock></framework>
+  <controllers>
+    <{tag} id="l">
+      <actuators><radio implementation="generic_radio"/><report implementation="generic_report"/></actuators>
+      <sensors>
+        <radio implementation="generic_radio" range="4"/>
+        <contact implementation="generic_contact" reach="0.01"/>
+        <tag_reader implementation="generic_tag_reader" range="1"/>
+        <pie_camera implementation="generic_pie_camera" sectors="4"/>
+        <footbot_light implementation="generic_footbot_light"/>
+        <light implementation="generic_light"/>
+        <instruction implementation="generic_instruction"/>
+      </sensors>
+      <parameters/>
+    </{tag}>
+  </controllers>
+  <arena size="4, 4, 2" optimization="2D">
+    <footbot id="fb_0" position="1,1,0" orientation="0,0,180" controller="l"/>
+    <footbot id="fb_1" position="1.175,1,0" controller="l"/>
+    <light_bulb id="bulb" position="1,2,0.3"/>
+  </arena>
+  <engines><dummy_engine id="ground"/></engines>
+  <arena_physics><engine id="ground"><all/></engine></arena_physics>
+</ahss-config>
+"""
+
+
+class Columns(InAFolder):
+    """Each device states its columns itself: no device is without them."""
+
+    def write(self, tag):
+        path = self.folder / f"{tag}.xml"
+        path.write_text(SCENE_OF_EVERYTHING.format(tag=tag))
+        return path
+
+    def test_a_controller_reads_every_sensor_of_its_robot(self):
+        seen = {}
+
+        @swarmanoid.controller("reads_everything")
+        class Reader:
+            def control_step(self, robot):
+                robot.set("radio", [1, 3, 7, 8, 9] + [0] * 27)
+                for sensor in ("radio", "contact", "tag_reader", "pie_camera", "footbot_light", "light", "instruction"):
+                    seen[robot.id, sensor] = robot.read(sensor)
+                    seen[robot.id, sensor, "columns"] = robot.columns(sensor)
+                for sensor in ("radio", "contact", "tag_reader"):
+                    seen[robot.id, sensor, "rows"] = robot.rows(sensor)
+                    seen[robot.id, sensor, "ids"] = robot.row_ids(sensor)
+                try:
+                    robot.rows("light")
+                except KeyError as error:
+                    seen["refusal"] = str(error)
+
+        simulation = swarmanoid.Simulation(self.write("reads_everything"))
+        simulation.step(3)
+        packet = seen["fb_0", "radio", "rows"]
+        self.assertEqual(packet.shape, (1, 32))
+        np.testing.assert_array_equal(packet[0, 1:5], [3, 7, 8, 9])
+        self.assertEqual(seen["fb_0", "radio", "ids"], ["fb_1"])
+        self.assertEqual(seen["fb_0", "radio", "columns"][:3], ["signal [dB]", "length", "byte 0"])
+        np.testing.assert_array_equal(seen["fb_0", "contact"], [1])
+        self.assertEqual(seen["fb_0", "contact", "columns"], ["touched"])
+        for robot in ("fb_0", "fb_1"):  # they stand back to back
+            np.testing.assert_allclose(np.abs(seen[robot, "contact", "rows"]), [[np.pi]], atol=1e-6)
+        self.assertEqual(set(seen["fb_0", "tag_reader", "ids"]), {"fb_1"})
+        np.testing.assert_allclose(seen["fb_0", "tag_reader", "rows"], [[0.175]], atol=1e-9)
+        self.assertEqual(seen["fb_0", "pie_camera"].shape, (7 * 4 * 2,))
+        self.assertEqual(seen["fb_0", "pie_camera", "columns"][:2], ["red 0 distance [m]", "red 0 blobs"])
+        self.assertEqual(seen["fb_0", "footbot_light"].shape, (24,))
+        self.assertEqual(seen["fb_0", "light"].shape, (24,))
+        self.assertGreater(seen["fb_0", "light"].max(), 0)
+        self.assertEqual(seen["fb_0", "instruction"].shape, (32,))
+        self.assertIn("has no rows", seen["refusal"])
+
+    def test_a_program_has_columns_and_rows_of_every_sensor(self):
+        simulation = swarmanoid.Simulation(self.write("external_controller"))
+        robots = simulation.robots["l"]
+        robots.actuators["radio"][1, :3] = [1, 1, 5]
+        simulation.step(2)
+        simulation.sense()
+        self.assertEqual(robots.sensors["pie_camera"].shape, (2, 56))
+        self.assertEqual(robots.sensors["contact"].tolist(), [[1], [1]])
+        self.assertEqual(robots.row_columns["contact"], ["direction [rad]"])
+        self.assertEqual(robots.columns["radio"][0], "signal [dB]")
+        self.assertEqual(robots.actuator_columns["radio"][:2], ["sending", "length"])
+        self.assertEqual(robots.row_ids("radio"), [["fb_1"], []])
+        self.assertEqual(robots.rows("radio")[0][0, 2], 5)
+
+
 class Mistakes(InAFolder):
     def test_mistakes_of_files_have_their_places(self):
         with self.assertRaisesRegex(swarmanoid.ConfigurationError, "nowhere.xml"):

@@ -247,7 +247,7 @@ def gripper(lab):
         front = 0.085 if engine == "dynamics3d" else 0.1
         arena = "".join(footbot(f"fb_{i}", 1.0, 1.0 + i, 0, "c") + prey(f"p{i}", 1.0 + front + gap + 0.1 + 0.0005, 1.0 + i, radius=0.1, height=0.15) for i, gap in enumerate(gaps))
         result = lab.run(arena, who, engine, 4, size="10,50,2")
-        held = [gap + 0.0005 for i, gap in enumerate(gaps) if result.readings(f"fb_{i}", "footbot_gripper")[-1]["grips"]]
+        held = [gap + 0.0005 for i, gap in enumerate(gaps) if result.readings(f"fb_{i}", "footbot_gripper")[-1]["gripping"]]
         yield Row(f"gripper: reach in {engine}", "docs/engines.md", "assumption of the engine", reach, max(held, default=0), 0.001, "steps of 1 mm", "m")
 
 

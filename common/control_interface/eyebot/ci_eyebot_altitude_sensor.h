@@ -13,10 +13,8 @@ public:
   // 0.
   virtual double GetAltitude() const = 0;
 
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    readings.push_back({"altitude", "m", GetAltitude()});
-  }
+  std::vector<CCI_Column> Columns() const override { return {{"altitude", "m", 0}}; }
+  void ReadColumns(std::vector<double>& values) const override { values.push_back(GetAltitude()); }
 };
 
 }  // namespace swarmanoid

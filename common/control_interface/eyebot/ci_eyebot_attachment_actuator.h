@@ -12,6 +12,9 @@ public:
   // Attaches as soon as the top of the robot reaches the ceiling, and stays so until Detach.
   virtual void Attach() = 0;
   virtual void Detach() = 0;
+
+  std::vector<CCI_Column> Columns() const override { return {{"attached", "yes/no", 0, 1}}; }
+  void SetColumns(std::span<const double> values) override { values[0] > 0.5 ? Attach() : Detach(); }
 };
 
 }  // namespace swarmanoid

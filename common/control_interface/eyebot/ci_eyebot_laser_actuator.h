@@ -19,6 +19,17 @@ public:
   // from the front. One that is not finite ends a simulation with an error.
   static constexpr double MAX_TILT = 1.2217304763960306;  // 70 degrees
   virtual void SetDirection(double pan, double tilt) = 0;
+
+  std::vector<CCI_Column> Columns() const override
+  {
+    return {{"on", "yes/no", 0, 1}, {"colour", "colour", 0, 0xffffff}, {"pan", "rad"}, {"tilt", "rad", 0, MAX_TILT}};
+  }
+  void SetColumns(std::span<const double> values) override
+  {
+    values[0] > 0.5 ? SwitchOn() : SwitchOff();
+    SetColour(CCI_Colour::FromNumber(values[1]));
+    SetDirection(values[2], values[3]);
+  }
 };
 
 }  // namespace swarmanoid

@@ -18,6 +18,12 @@ public:
   // CCI_DeviceError.
   virtual void SetPosition(const Vector3& position, double yaw) = 0;
   void Hover() { SetVelocity(0, 0, 0, 0); }
+
+  std::vector<CCI_Column> Columns() const override
+  {
+    return {{"forward", "m/s"}, {"left", "m/s"}, {"up", "m/s"}, {"yaw rate", "rad/s"}};
+  }
+  void SetColumns(std::span<const double> values) override { SetVelocity(values[0], values[1], values[2], values[3]); }
 };
 
 }  // namespace swarmanoid

@@ -15,12 +15,14 @@ public:
   // the robot against gravity is felt.
   virtual std::span<const double, 3> GetAllSensorReadings() const = 0;
 
-  void Describe(std::vector<CCI_Reading>& readings) const override
+  std::vector<CCI_Column> Columns() const override
   {
-    const auto values = GetAllSensorReadings();
-    readings.push_back({"forward", "m/s^2", values[0]});
-    readings.push_back({"left", "m/s^2", values[1]});
-    readings.push_back({"up", "m/s^2", values[2]});
+    return {{"forward", "m/s^2"}, {"left", "m/s^2"}, {"up", "m/s^2"}};
+  }
+  void ReadColumns(std::vector<double>& values) const override
+  {
+    const auto all = GetAllSensorReadings();
+    values.insert(values.end(), all.begin(), all.end());
   }
 };
 

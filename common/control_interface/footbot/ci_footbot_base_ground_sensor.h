@@ -33,9 +33,14 @@ public:
   // 1 where the floor has at least half of the brightness of white, else 0.
   virtual std::span<const double, NUM_SENSORS> GetAllSensorReadings() const = 0;
 
-  void Describe(std::vector<CCI_Reading>& readings) const override
+  std::vector<CCI_Column> Columns() const override
   {
-    for (unsigned i = 0; i < NUM_SENSORS; ++i) readings.push_back({std::to_string(i), "", GetAllSensorReadings()[i]});
+    return NumberedColumns(NUM_SENSORS, "", {.name = {}, .minimum = 0, .maximum = 1});
+  }
+  void ReadColumns(std::vector<double>& values) const override
+  {
+    const auto all = GetAllSensorReadings();
+    values.insert(values.end(), all.begin(), all.end());
   }
 };
 

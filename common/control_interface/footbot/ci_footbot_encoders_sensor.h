@@ -27,10 +27,11 @@ public:
     return GetRightVelocity() * tick_s * CCI_FootBotWheelsActuator::WHEEL_RADIUS_M;
   }
 
-  void Describe(std::vector<CCI_Reading>& readings) const override
+  std::vector<CCI_Column> Columns() const override { return {{"left", "rad/s"}, {"right", "rad/s"}}; }
+  void ReadColumns(std::vector<double>& values) const override
   {
-    readings.push_back({"left", "rad/s", GetLeftVelocity()});
-    readings.push_back({"right", "rad/s", GetRightVelocity()});
+    const auto all = GetAllSensorReadings();
+    values.insert(values.end(), all.begin(), all.end());
   }
 };
 

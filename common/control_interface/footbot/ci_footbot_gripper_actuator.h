@@ -16,6 +16,9 @@ public:
   virtual void SetGripper(double closed) = 0;
   void Grip() { SetGripper(1); }
   void Release() { SetGripper(0); }
+
+  std::vector<CCI_Column> Columns() const override { return {{"closed", "", 0, 1}}; }
+  void SetColumns(std::span<const double> values) override { SetGripper(values[0]); }
 };
 
 }  // namespace swarmanoid

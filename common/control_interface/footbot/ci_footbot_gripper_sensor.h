@@ -19,10 +19,13 @@ public:
   // The id of the entity that it holds, empty for none. Real robots cannot tell: there it is always empty.
   virtual std::string GetHeldId() const { return {}; }
 
-  void Describe(std::vector<CCI_Reading>& readings) const override
+  std::vector<CCI_Column> Columns() const override
   {
-    readings.push_back({"aperture", "rad", GetAperture()});
-    readings.push_back({"grips", "yes/no", IsGripping() ? 1.0 : 0.0});
+    return {{"aperture", "rad", 0, OPEN_APERTURE}, {"gripping", "yes/no", 0, 1}};
+  }
+  void ReadColumns(std::vector<double>& values) const override
+  {
+    values.insert(values.end(), {GetAperture(), IsGripping() ? 1.0 : 0.0});
   }
 };
 

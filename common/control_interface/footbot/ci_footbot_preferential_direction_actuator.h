@@ -17,6 +17,15 @@ public:
   // (0xRRGGBB). A direction that is not a finite number ends a simulation with an error.
   virtual void SetDirection(double angle, std::uint32_t colour) = 0;
   virtual void HideDirection() = 0;
+
+  std::vector<CCI_Column> Columns() const override
+  {
+    return {{"shown", "yes/no", 0, 1}, {"angle", "rad"}, {"colour", "colour", 0, 0xffffff}};
+  }
+  void SetColumns(std::span<const double> values) override
+  {
+    values[0] > 0.5 ? SetDirection(values[1], CCI_Colour::FromNumber(values[2])) : HideDirection();
+  }
 };
 
 }  // namespace swarmanoid

@@ -12,6 +12,9 @@ public:
   // rad/s, positive counter-clockwise; clamped to the limit of the implementation. What is not a number ends a
   // simulation.
   virtual void SetTurretAngularVelocity(double velocity) = 0;
+
+  std::vector<CCI_Column> Columns() const override { return {{"velocity", "rad/s"}}; }
+  void SetColumns(std::span<const double> values) override { SetTurretAngularVelocity(values[0]); }
 };
 
 }  // namespace swarmanoid

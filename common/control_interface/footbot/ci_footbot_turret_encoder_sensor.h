@@ -12,10 +12,8 @@ public:
   // Radians, -pi..pi, counter-clockwise from the front.
   virtual double GetTurretAngle() const = 0;
 
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    readings.push_back({"angle", "rad", GetTurretAngle()});
-  }
+  std::vector<CCI_Column> Columns() const override { return {{"angle", "rad"}}; }
+  void ReadColumns(std::vector<double>& values) const override { values.push_back(GetTurretAngle()); }
 };
 
 }  // namespace swarmanoid

@@ -20,11 +20,14 @@ public:
   double GetLeftTraction() const { return GetAllSensorReadings()[1]; }
   double GetTorque() const { return GetAllSensorReadings()[2]; }
 
-  void Describe(std::vector<CCI_Reading>& readings) const override
+  std::vector<CCI_Column> Columns() const override
   {
-    readings.push_back({"forward traction", "", GetForwardTraction()});
-    readings.push_back({"left traction", "", GetLeftTraction()});
-    readings.push_back({"torque", "", GetTorque()});
+    return {{"forward traction", "", -1, 1}, {"left traction", "", -1, 1}, {"torque", "", -1, 1}};
+  }
+  void ReadColumns(std::vector<double>& values) const override
+  {
+    const auto all = GetAllSensorReadings();
+    values.insert(values.end(), all.begin(), all.end());
   }
 };
 

@@ -27,6 +27,9 @@ public:
   {
     SetFootBotWheelsAngularVelocity(velocities[0], velocities[1]);
   }
+
+  std::vector<CCI_Column> Columns() const override { return {{"left", "rad/s"}, {"right", "rad/s"}}; }
+  void SetColumns(std::span<const double> values) override { SetFootBotWheelsAngularVelocity(values[0], values[1]); }
 };
 
 }  // namespace swarmanoid

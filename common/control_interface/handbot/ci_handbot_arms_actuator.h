@@ -22,6 +22,16 @@ public:
   }
   virtual void SetArmVelocities(double left, double right) = 0;
   virtual void SetWristVelocities(double left, double right) = 0;
+
+  std::vector<CCI_Column> Columns() const override
+  {
+    return {{"left arm", "rad/s"}, {"right arm", "rad/s"}, {"left wrist", "rad/s"}, {"right wrist", "rad/s"}};
+  }
+  void SetColumns(std::span<const double> values) override
+  {
+    SetArmVelocities(values[0], values[1]);
+    SetWristVelocities(values[2], values[3]);
+  }
 };
 
 }  // namespace swarmanoid

@@ -13,6 +13,9 @@ class CCI_HandBotBeaconActuator : public CCI_Actuator
 {
 public:
   virtual void SetColour(std::uint32_t colour) = 0;  // 0xRRGGBB, 0 is off; higher bits are ignored
+
+  std::vector<CCI_Column> Columns() const override { return {{"colour", "colour", 0, 0xffffff}}; }
+  void SetColumns(std::span<const double> values) override { SetColour(CCI_Colour::FromNumber(values[0])); }
 };
 
 }  // namespace swarmanoid

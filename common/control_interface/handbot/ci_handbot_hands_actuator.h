@@ -21,6 +21,15 @@ public:
   }
   virtual void Close(Hand hand) = 0;
   virtual void Open(Hand hand) = 0;
+
+  std::vector<CCI_Column> Columns() const override
+  {
+    return {{"left closed", "yes/no", 0, 1}, {"right closed", "yes/no", 0, 1}};
+  }
+  void SetColumns(std::span<const double> values) override
+  {
+    SetAllActuatorOutputs({values[LEFT] > 0.5, values[RIGHT] > 0.5});
+  }
 };
 
 }  // namespace swarmanoid

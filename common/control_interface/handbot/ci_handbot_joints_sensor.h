@@ -33,25 +33,24 @@ public:
   // The id of the entity that a hand holds, empty for none. Real robots cannot tell: there it is always empty.
   virtual std::string GetHeldId(CCI_HandBotHandsActuator::Hand) const { return {}; }
 
-  void Describe(std::vector<CCI_Reading>& readings) const override
+  std::vector<CCI_Column> Columns() const override
   {
-    static constexpr struct
-    {
-      const char* name;
-      const char* unit;
-    } kReadings[NUM_READINGS] = {{"head", "rad"},
-                                 {"left arm", "rad"},
-                                 {"right arm", "rad"},
-                                 {"left wrist", "rad"},
-                                 {"right wrist", "rad"},
-                                 {"left hand", "rad"},
-                                 {"right hand", "rad"},
-                                 {"left hand holds", "yes/no"},
-                                 {"right hand holds", "yes/no"},
-                                 {"rope attached", "yes/no"},
-                                 {"rope length", "m"}};
-    for (int i = 0; i < NUM_READINGS; ++i)
-      readings.push_back({kReadings[i].name, kReadings[i].unit, GetReading(static_cast<Reading>(i))});
+    return {{"head", "rad"},
+            {"left arm", "rad"},
+            {"right arm", "rad"},
+            {"left wrist", "rad"},
+            {"right wrist", "rad"},
+            {"left hand", "rad"},
+            {"right hand", "rad"},
+            {"left hand holds", "yes/no", 0, 1},
+            {"right hand holds", "yes/no", 0, 1},
+            {"rope attached", "yes/no", 0, 1},
+            {"rope length", "m", 0}};
+  }
+  void ReadColumns(std::vector<double>& values) const override
+  {
+    const auto all = GetAllSensorReadings();
+    values.insert(values.end(), all.begin(), all.end());
   }
 };
 

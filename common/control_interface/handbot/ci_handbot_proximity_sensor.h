@@ -20,12 +20,17 @@ public:
   // claws and 6 to 8 below, from left to right; 9 to 11 on the right claw, the outermost last.
   virtual std::span<const double, NUM_SENSORS> GetAllSensorReadings() const = 0;
 
-  void Describe(std::vector<CCI_Reading>& readings) const override
+  std::vector<CCI_Column> Columns() const override
   {
-    const std::span<const double, NUM_SENSORS> all = GetAllSensorReadings();
-    for (std::size_t i = 0; i < all.size(); ++i)
-      readings.push_back(
-          {(i < SENSORS_OF_HAND ? "left " : "right ") + std::to_string(i % SENSORS_OF_HAND), "", all[i]});
+    const CCI_Column like{.name = {}, .minimum = 0, .maximum = 1};
+    std::vector<CCI_Column> columns = NumberedColumns(SENSORS_OF_HAND, "left ", like);
+    for (CCI_Column& column : NumberedColumns(SENSORS_OF_HAND, "right ", like)) columns.push_back(std::move(column));
+    return columns;
+  }
+  void ReadColumns(std::vector<double>& values) const override
+  {
+    const auto all = GetAllSensorReadings();
+    values.insert(values.end(), all.begin(), all.end());
   }
 };
 

@@ -14,6 +14,13 @@ public:
   virtual void Release() = 0;
   // m/s of rope let out; negative pulls the robot up. Clamped to MAX_WINCH_SPEED; what is no number ends a simulation.
   virtual void SetWinchVelocity(double velocity) = 0;
+
+  std::vector<CCI_Column> Columns() const override { return {{"attached", "yes/no", 0, 1}, {"winch", "m/s"}}; }
+  void SetColumns(std::span<const double> values) override
+  {
+    values[0] > 0.5 ? Launch() : Release();
+    SetWinchVelocity(values[1]);
+  }
 };
 
 }  // namespace swarmanoid

@@ -34,6 +34,7 @@ public:
     if (is_told_) values_[0] += 1;
     is_told_ = false;
   }
+  void Forget() { is_told_ = false; }
 
 private:
   double* values_;
@@ -52,6 +53,11 @@ public:
   {
     for (Report& report : devices_) report.Count();
     AttributeActuator::Commit(channel, changes);
+  }
+  void LoadState(std::size_t k, ByteReader& state) override
+  {
+    AttributeActuator::LoadState(k, state);
+    devices_[k].Forget();
   }
 };
 

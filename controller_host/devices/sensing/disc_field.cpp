@@ -108,10 +108,12 @@ void DiscField::Classify(const NearBodies& discs, float eye, float lowest, float
     heights_ = Heights::kMixed;
 }
 
-// Squares of the radii, less than 0 of those that hide nothing, and heights.
+// Computes the squares of the radii, less than 0 for cylinders that hide nothing, and the heights. Does nothing without
+// cylinders: the arrays are allocated when the first cylinder is measured.
 void DiscField::Measure(float eye, float lowest, float highest)
 {
   const NearBodies& discs = *discs_;
+  if (discs.count == 0) return;
   const bool are_equal = discs.are_alike && all_count_ && heights_ != Heights::kMixed;
   if (are_equal && discs.count <= equal_count_ && square_[0] == discs.radius[0] * discs.radius[0]) return;
   equal_count_ = are_equal ? discs.count : 0;

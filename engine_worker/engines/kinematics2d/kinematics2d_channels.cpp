@@ -20,8 +20,14 @@ using namespace kinematics2d;
 constexpr double kGripThreshold = 0.5;
 constexpr double kGripRange = 0.02;
 constexpr double kOpenAperture = kPi / 2;
-// The speed of a foot-bot's wheels on the ground at full drive (m/s): a traction of 1 is all of it held back.
-constexpr double kFullSpeed = 0.3;
+// The torque sensor. A robot whose wheels are held back wholly at full drive feels what its wheels can exert on the
+// ground, F = friction * mass * g and the torque F b / 2; one that is held back in part feels that part of it. The
+// numbers are the defaults of dynamics2d, so that both engines read the same there.
+constexpr double kFullSpeed = 0.3;                                          // m/s
+constexpr double kFullTurn = 2 * kFullSpeed / kFootbotInterWheel;           // rad/s
+constexpr double kWheelForce = 0.8 * 1.6 * 9.81;                            // N
+constexpr double kFullTraction = kWheelForce / 25;                          // of the 25 N that are read as 1
+constexpr double kFullTorque = kWheelForce * kFootbotInterWheel / 2 / 1.5;  // of the 1.5 N m that are read as 1
 
 }  // namespace
 
@@ -186,8 +192,8 @@ void Kinematics2dEngine::ReadEncoders(const ChannelBlock& block, std::span<doubl
   }
 }
 
-// Traction: what the grip kept the robot from doing, as a part of full drive, in the frame of the turret; there is no
-// torque.
+// What the load does to the robot, in the frame of the turret: it is the way that the grip made the robot go beyond
+// what its wheels commanded, as a part of full drive.
 void Kinematics2dEngine::ReadTurretTorques(const ChannelBlock& block, std::span<double> values) const
 {
   std::fill(values.begin(), values.end(), 0.0);
@@ -198,13 +204,15 @@ void Kinematics2dEngine::ReadTurretTorques(const ChannelBlock& block, std::span<
     const Pose2 wanted = Advanced(tick_start_[static_cast<std::size_t>(&FootbotOf(body) - footbots_.data())],
                                   world_.TwistOf(body), TickSeconds());
     const Placed robot = world_.PlacedAt(body);
-    const double scale = 1 / (kFullSpeed * TickSeconds());
-    const double x = (wanted.x - robot.x) * scale;
-    const double y = (wanted.y - robot.y) * scale;
+    const double scale = kFullTraction / (kFullSpeed * TickSeconds());
+    const double x = (robot.x - wanted.x) * scale;
+    const double y = (robot.y - wanted.y) * scale;
     const double turret_cos = robot.cos * robot.turret_cos - robot.sin * robot.turret_sin;
     const double turret_sin = robot.sin * robot.turret_cos + robot.cos * robot.turret_sin;
     values[3 * k] = std::clamp(turret_cos * x + turret_sin * y, -1.0, 1.0);
     values[3 * k + 1] = std::clamp(turret_cos * y - turret_sin * x, -1.0, 1.0);
+    const double turn = AngleOf(world_.PoseOf(body).heading * Conjugate(wanted.heading));
+    values[3 * k + 2] = std::clamp(turn * kFullTorque / (kFullTurn * TickSeconds()), -1.0, 1.0);
   }
 }
 

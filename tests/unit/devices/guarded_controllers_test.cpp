@@ -30,6 +30,7 @@ public:
   static inline std::function<void(const std::string& id, std::uint64_t tick, int steps)> step;
   static inline std::function<void()> init;
   static inline std::function<void()> destroy;
+  static inline double speed = 0.1;  // m/s
 
   int Init(const TConfigurationTree) override
   {
@@ -38,7 +39,7 @@ public:
   }
   void ControlStep() override
   {
-    GetRobot()->Actuator<CCI_WheelsActuator>("wheels").SetLinearVelocity(0.1, 0.2);
+    GetRobot()->Actuator<CCI_WheelsActuator>("wheels").SetLinearVelocity(speed, 2 * speed);
     GetRobot()->Actuator<CCI_LedRingActuator>("led_ring").SetAllColours(0xff0000);
     ++steps_;
     if (step) step(GetRobot()->GetId(), GetRobot()->GetTick(), steps_);
@@ -191,6 +192,31 @@ TEST_F(GuardedControllers, OneThatIsStartedAgainHasTheStateOfTheLastCanonicalTic
   EXPECT_THAT(commands.values, ElementsAre(Gt(0), Gt(0), Gt(0), Gt(0)));
   run.Tick(15);
   EXPECT_EQ(run.Status(0).text, "11");
+}
+
+// A process that dies in a step has told the actuators nothing; its replacement does the tick without the step.
+TEST_F(GuardedControllers, AStepThatThrowsAndOneThatCrashesLeaveWhatTheTickBeforeSaid)
+{
+  const auto commands_of_fault = [](FaultKind kind)
+  {
+    Guarded::step = [kind](const std::string& id, std::uint64_t tick, int)
+    {
+      if (id == "a" && tick == 3 && kind == FaultKind::kThrew) throw std::runtime_error("no way");
+    };
+    Hosted run(OnFailure::kRestart);
+    for (std::uint64_t tick = 0; tick < 3; ++tick) run.Tick(tick);
+    const std::vector<double> before = run.host.NewestCommands().values;
+    Guarded::speed = 0.15;
+    if (kind == FaultKind::kDied) run.host.KnowTick(3, {{0}, {kind}});
+    const ControlCommands commands = run.Tick(3);
+    Guarded::speed = 0.1;
+    EXPECT_EQ(commands.faults, (ControllerFaults{{0}, {kind}}));
+    EXPECT_EQ(commands.values[0], before[0]) << "what the robot that failed was told in the tick before";
+    EXPECT_GT(commands.values[2], before[2]) << "the other robot is told the new speed";
+    EXPECT_THAT(run.Leds(0), Each(0xff0000));
+    return commands.values;
+  };
+  EXPECT_EQ(commands_of_fault(FaultKind::kThrew), commands_of_fault(FaultKind::kDied));
 }
 
 TEST_F(GuardedControllers, OneThatFailsTooOftenIsStopped)

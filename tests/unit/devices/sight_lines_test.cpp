@@ -36,6 +36,30 @@ Verdict ByBruteForce(const SensorWorld& world, std::uint32_t observer, const Vec
   return verdict;
 }
 
+// The buffers for bodies around are empty until a body was near.
+TEST(SightLines, AnEyeThatNeverHadABodyNearSeesEverything)
+{
+  for (const int blocks : {0, 1})
+  {
+    TestWorld world;
+    const std::uint32_t robot = world.AddFootbot(5, 5);
+    for (int n = 0; n < blocks; ++n) world.AddBlock({9, 9, 0.5}, {0.2, 0.2, 1});
+    SensorWorld sensor_world(world.Space());
+    sensor_world.Refresh();
+    SightLines lines(sensor_world, 1);
+    for (int tick = 0; tick < 2; ++tick)
+    {
+      lines.LookFrom(robot, {5, 5, 0.3}, 1);
+      lines.AddPoint({0.5, 0, -0.3}, SightLines::kNobody);
+      const SeenPoints& seen = lines.Solve();
+      EXPECT_TRUE(seen[0]) << blocks << " blocks far away, tick " << tick;
+      lines.LookFrom(robot, {5, 5, 0.3}, 1);
+      lines.LookAtBodiesAround();
+      lines.Solve();
+    }
+  }
+}
+
 // Few and many bodies (below and above the number from which they are sorted), all kinds, several engines.
 TEST(SightLines, AgreeWithBruteForceInRandomWorlds)
 {

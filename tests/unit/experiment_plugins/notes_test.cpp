@@ -118,5 +118,20 @@ TEST(StartPoses, RobotsStandOnThePlaneOfTheirEngine)
   EXPECT_THAT(NotesOf(Load(robot_at("1,1,1"), kSpace + kPlane, kAllInSpace + kAllInPlane)), IsEmpty());
 }
 
+TEST(StartPoses, RobotsStandUprightOnALevelPlane)
+{
+  const auto turned_by = [](const std::string& orientation)
+  { return "<footbot id='f' position='1,1,0' orientation='" + orientation + "'/>\n"; };
+  EXPECT_THAT(NotesOf(Load(turned_by("0,0,70"), kPlane, kAllInPlane)), IsEmpty());
+  EXPECT_THAT(NotesOf(Load(turned_by("0.01,0,0"), kPlane, kAllInPlane)), IsEmpty());
+  EXPECT_THAT(NotesOf(Load(turned_by("90,0,0"), kPlane, kAllInPlane)),
+              ElementsAre(testing::AllOf(HasSubstr("the footbot 'f' leans by 90 degrees; it must stand upright"),
+                                         HasSubstr("engine 'p'"), HasSubstr("write the orientation 0, 0, 0"))));
+  EXPECT_THAT(NotesOf(Load(turned_by("0,10,30"), kPlane, kAllInPlane)), ElementsAre(HasSubstr("leans by 10 degrees")));
+  EXPECT_THAT(NotesOf(Load(turned_by("90,0,0"), kSpace, kAllInSpace)), IsEmpty());
+  const std::string ceiling = "<note_plane id='p' distance='0' tilt='180,0,0'/>";
+  EXPECT_THAT(NotesOf(Load(turned_by("180,0,0"), ceiling, kAllInPlane)), IsEmpty());
+}
+
 }  // namespace
 }  // namespace swarmanoid

@@ -84,10 +84,32 @@ TEST(Kinematics2dGrip, OpposedRobotsHoldThePreyStillAndFeelTheTraction)
   f.Ticks(20);
   EXPECT_LT((f.PoseOf(prey).position - Vector3(5, 5, 0)).norm(), 1e-12);
   // Each would go backwards at half of full speed and does not.
-  EXPECT_NEAR(f.Sensor(0), -0.5, 1e-9);
+  constexpr double kFullTraction = 0.8 * 1.6 * 9.81 / 25;  // what the wheels can pull, of 25 N
+  EXPECT_NEAR(f.Sensor(0), 0.5 * kFullTraction, 1e-9) << "the load pulls ahead";
   EXPECT_NEAR(f.Sensor(1), 0, 1e-9);
-  EXPECT_NEAR(f.Sensor(3), -0.5, 1e-9);
-  EXPECT_EQ(f.Sensor(2), 0);
+  EXPECT_NEAR(f.Sensor(3), 0.5 * kFullTraction, 1e-9);
+  EXPECT_NEAR(f.Sensor(2), 0, 1e-9);
+}
+
+// One would turn to the left, the other to the right: the prey between them would have to do both.
+TEST(Kinematics2dGrip, RobotsThatTurnAgainstEachOtherFeelTheTorque)
+{
+  EngineFixture f;
+  const auto prey = AddPrey(f, 5, 5);
+  const auto east = AddRobotAround(f, 5, 5, 0);
+  const auto west = AddRobotAround(f, 5, 5, kPi);
+  f.AddCommands("footbot_wheels", 2, {east, west});
+  f.AddCommands("footbot_gripper", 1, {east, west});
+  f.AddSensors("footbot_turret_torque", 3, {east, west});
+  f.Start();
+  f.Command(4) = f.Command(5) = 1;
+  Drive(f, 0, -0.15, 0.15);
+  Drive(f, 1, 0.15, -0.15);
+  f.Ticks(20);
+  EXPECT_LT((f.PoseOf(prey).position - Vector3(5, 5, 0)).norm(), 1e-12);
+  constexpr double kFullTorque = 0.8 * 1.6 * 9.81 * 0.07 / 1.5;  // what the wheels can turn with, of 1.5 N m
+  EXPECT_NEAR(f.Sensor(2), -0.5 * kFullTorque, 1e-9) << "the load turns the one to the right that would turn left";
+  EXPECT_NEAR(f.Sensor(5), 0.5 * kFullTorque, 1e-9);
 }
 
 TEST(Kinematics2dGrip, ThreeRobotsTurnAPreyTogetherRigidly)

@@ -40,9 +40,14 @@ REGISTER_CONTROLLER(
     CEPuckDiffusion,
     {.label = "epuck_diffusion",
      .brief = "drives straight on and turns away from what its proximity sensors see; LEDs green, red while it turns",
-     .parameters = {
-         {.name = "velocity", .unit = "m/s", .default_value = "0.1", .description = "Of the robot that drives on."},
-         {.name = "threshold",
-          .default_value = "0.1",
-          .description = "Sum of the readings ahead, each by the cosine of its angle, that is ignored.",
-          .minimum = 0}}})
+     .parameters = {{.name = "velocity",
+                     .unit = "m/s",
+                     .default_value = "0.1",
+                     .description = "Of the robot that drives on.",
+                     .minimum = 0,
+                     .maximum = 1000},
+                    {.name = "threshold",
+                     .default_value = "0.1",
+                     .description = "Sum of the readings ahead, each by the cosine of its angle, that is ignored.",
+                     .minimum = 0,
+                     .maximum = 1e6}}})

@@ -21,4 +21,6 @@ REGISTER_CONTROLLER(CFootBotChain, {.label = "footbot_chain",
                                     .parameters = {{.name = "velocity",
                                                     .unit = "m/s",
                                                     .default_value = "-0.1",
-                                                    .description = "Of both wheels; negative: backwards, pulling."}}})
+                                                    .description = "Of both wheels; negative: backwards, pulling.",
+                                                    .minimum = -1000,
+                                                    .maximum = 1000}}})

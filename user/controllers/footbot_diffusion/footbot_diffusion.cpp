@@ -69,7 +69,12 @@ REGISTER_CONTROLLER(
     {.label = "footbot_diffusion",
      .brief = "drives straight on and turns away from what its proximity sensors see",
      .parameters = {
-         {.name = "velocity", .unit = "m/s", .default_value = "0.05", .description = "Of the robot that drives on."},
+         {.name = "velocity",
+          .unit = "m/s",
+          .default_value = "0.05",
+          .description = "Of the robot that drives on.",
+          .minimum = 0,
+          .maximum = 1000},
          {.name = "alpha",
           .unit = "degrees",
           .default_value = "7.5",
@@ -79,4 +84,5 @@ REGISTER_CONTROLLER(
          {.name = "delta",
           .default_value = "0.1",
           .description = "Longest sum of the readings, as vectors that point to the obstacles, that is ignored.",
-          .minimum = 0}}})
+          .minimum = 0,
+          .maximum = 1e6}}})

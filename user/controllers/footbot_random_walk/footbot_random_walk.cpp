@@ -26,15 +26,18 @@ void CFootBotRandomWalk::ControlStep()
   wheels_->SetFootBotWheelsLinearVelocity(-speed_m_s, speed_m_s);
 }
 
-REGISTER_CONTROLLER(
-    CFootBotRandomWalk,
-    {.label = "footbot_random_walk",
-     .brief = "a step straight on, a turn by a normally distributed angle, and so on, one tick each",
-     .parameters = {
-         {.name = "step", .unit = "m", .default_value = "0.1", .description = "Length of a step.", .minimum = 0},
-         {.name = "deviation",
-          .unit = "degrees",
-          .default_value = "30",
-          .description = "Standard deviation of the turns about straight ahead.",
-          .minimum = 0,
-          .maximum = 1000}}})
+REGISTER_CONTROLLER(CFootBotRandomWalk,
+                    {.label = "footbot_random_walk",
+                     .brief = "a step straight on, a turn by a normally distributed angle, and so on, one tick each",
+                     .parameters = {{.name = "step",
+                                     .unit = "m",
+                                     .default_value = "0.1",
+                                     .description = "Length of a step.",
+                                     .minimum = 0,
+                                     .maximum = 1e6},
+                                    {.name = "deviation",
+                                     .unit = "degrees",
+                                     .default_value = "30",
+                                     .description = "Standard deviation of the turns about straight ahead.",
+                                     .minimum = 0,
+                                     .maximum = 1000}}})

@@ -92,9 +92,11 @@ REGISTER_CONTROLLER(CHandBotShelf,
                                      .unit = "m",
                                      .default_value = "1",
                                      .description = "Rope to take in until the hands are before the thing.",
-                                     .minimum = 0},
+                                     .minimum = 0,
+                                     .maximum = 1e6},
                                     {.name = "winch",
                                      .unit = "m/s",
                                      .default_value = "0.1",
                                      .description = "Velocity of the rope; the actuator limits it, too.",
-                                     .minimum = 0}}})
+                                     .minimum = 0,
+                                     .maximum = 1000}}})

@@ -79,6 +79,10 @@ REGISTER_CONTROLLER(
     {.label = "kilobot_gradient",
      .brief =
          "tells its neighbours how many hops it is from a seed, shows it by its LED, and wanders while it is alone",
-     .parameters = {
-         {.name = "seed", .type = ParameterType::kText, .description = "The id of the robot that says 0."},
-         {.name = "velocity", .unit = "m/s", .default_value = "0.01", .description = "Of a robot that wanders."}}})
+     .parameters = {{.name = "seed", .type = ParameterType::kText, .description = "The id of the robot that says 0."},
+                    {.name = "velocity",
+                     .unit = "m/s",
+                     .default_value = "0.01",
+                     .description = "Of a robot that wanders.",
+                     .minimum = 0,
+                     .maximum = 1000}}})

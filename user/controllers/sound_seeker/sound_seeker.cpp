@@ -80,4 +80,5 @@ REGISTER_CONTROLLER(CSoundSeeker,
                                      .unit = "m/s",
                                      .default_value = "0.1",
                                      .description = "Of a robot that drives straight on.",
-                                     .minimum = 0}}})
+                                     .minimum = 0,
+                                     .maximum = 1000}}})

@@ -37,4 +37,6 @@ REGISTER_CONTROLLER(CWanderer,
                      .parameters = {{.name = "velocity",
                                      .unit = "m/s",
                                      .default_value = "0.1",
-                                     .description = "Of a wheel, straight on; half of it around."}}})
+                                     .description = "Of a wheel, straight on; half of it around.",
+                                     .minimum = 0,
+                                     .maximum = 1000}}})

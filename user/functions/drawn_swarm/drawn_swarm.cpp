@@ -35,7 +35,8 @@ public:
                                .unit = "ticks",
                                .default_value = "5",
                                .description = "Time between two places of a way.",
-                               .minimum = 1}};
+                               .minimum = 1,
+                               .maximum = 1e6}};
     return description;
   }
 

@@ -1,0 +1,247 @@
+// Every sensor and actuator that is registered, on every kind of robot that can carry it, in every engine that serves
+// it, where there is nothing, or one thing, to be sensed. The tables of plug-ins and kinds make the scenes, so that a
+// new device, kind or engine is covered without a new test.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "common/checkpoint/checkpoint.h"
+#include "common/space/space.h"
+#include "space_server/experiment_functions.h"
+#include "tests/unit/every_plugin/scene.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+bool Has(const std::vector<std::string>& names, const std::string& name)
+{
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool Simulates(const PluginDescription& engine, EntityKind kind)
+{
+  return Has(engine.entity_tags, std::string(TagName(kind))) || (engine.any_kind && !IsBuiltIn(kind));
+}
+
+bool CanHave(const PluginDescription& device, EntityKind robot, const PluginDescription& engine)
+{
+  return (device.robots.empty() || Has(device.robots, std::string(TagName(robot))) || Carries(robot, device.label)) &&
+         (device.channel.empty() || Has(engine.channels, device.channel));
+}
+
+// All but the older name of kinematics2d.
+std::vector<const PluginDescription*> Engines()
+{
+  RegisterEverything();
+  std::vector<const PluginDescription*> engines = PluginCatalogue::Instance().Of(PluginKind::kEngine);
+  std::erase_if(engines, [](const PluginDescription* engine) { return engine->label == "dummy_engine"; });
+  return engines;
+}
+
+// All devices that a robot can have in an engine, one implementation of each at a time: the first of all, the second
+// of those that have one, and so on.
+std::vector<Devices> Sets(EntityKind robot, const PluginDescription& engine)
+{
+  std::vector<Devices> sets;
+  const auto add = [&](PluginKind kind, std::vector<const PluginDescription*> Devices::*list)
+  {
+    std::map<std::string, std::vector<const PluginDescription*>> by_label;
+    for (const PluginDescription* device : PluginCatalogue::Instance().Of(kind))
+      if (CanHave(*device, robot, engine)) by_label[device->label].push_back(device);
+    for (const auto& [label, implementations] : by_label)
+      for (std::size_t i = 0; i < implementations.size(); ++i)
+      {
+        if (sets.size() <= i) sets.resize(i + 1);
+        (sets[i].*list).push_back(implementations[i]);
+      }
+  };
+  add(PluginKind::kSensor, &Devices::sensors);
+  add(PluginKind::kActuator, &Devices::actuators);
+  return sets;
+}
+
+std::string Robot(EntityKind robot) { return EntityElement(robot, "robot", kRobotX_m, kRobotY_m, "c"); }
+
+// Calls use(scene) with each robot, engine and set of devices; the arena is still empty.
+template <class Use>
+void ForEachSet(Use use)
+{
+  for (const PluginDescription* engine : Engines())
+    for (const EntityKind robot : AllRobots())
+    {
+      if (!Simulates(*engine, robot)) continue;
+      for (const Devices& devices : Sets(robot, *engine))
+      {
+        SCOPED_TRACE(fmt::format("{} in {}", TagName(robot), engine->label));
+        use(Scene{.engine = engine->label, .devices = devices, .arena = {}}, robot, *engine);
+      }
+    }
+}
+
+TEST(SimplestScenes, ARobotAloneReadsFiniteNumbersWithinTheirRanges)
+{
+  ForEachSet(
+      [](Scene scene, EntityKind robot, const PluginDescription&)
+      {
+        scene.arena = Robot(robot);
+        RunScene(scene);
+      });
+}
+
+// Where two devices share what they compute, one alone may meet what nobody made ready for it.
+TEST(SimplestScenes, EachDeviceByItselfNeedsNoOther)
+{
+  ForEachSet(
+      [](Scene scene, EntityKind robot, const PluginDescription& engine)
+      {
+        const Devices all = scene.devices;
+        for (const PluginDescription* sensor : all.sensors)
+          for (const EntityKind other : {EntityKind::kGroundPatch, EntityKind::kLightBulb, robot})
+          {
+            if (!sensor->channel.empty() && other != robot) continue;
+            if (sensor->channel.empty() && engine.label != "kinematics2d") continue;
+            SCOPED_TRACE(fmt::format("sensor {} ({}) and a {}", sensor->label, sensor->implementation, TagName(other)));
+            scene.devices = {{sensor}, {}};
+            scene.arena =
+                Robot(robot) + EntityElement(other, "other", kRobotX_m + NearDistance(robot, other), kRobotY_m);
+            RunScene(scene);
+          }
+        for (const PluginDescription* actuator : all.actuators)
+        {
+          SCOPED_TRACE(fmt::format("actuator {} ({})", actuator->label, actuator->implementation));
+          scene.devices = {{}, {actuator}};
+          scene.arena = Robot(robot);
+          RunScene(scene);
+        }
+      });
+}
+
+TEST(SimplestScenes, OneEntityOfEachKindIsSensedNearAndFar)
+{
+  ForEachSet(
+      [](Scene scene, EntityKind robot, const PluginDescription& engine)
+      {
+        for (const EntityKind other : AllKinds())
+        {
+          if (!IsBodiless(other) && !Simulates(engine, other)) continue;
+          SCOPED_TRACE(fmt::format("beside one {}", TagName(other)));
+          for (const double x : {kRobotX_m + NearDistance(robot, other), kFarX_m})
+          {
+            scene.arena = Robot(robot) + EntityElement(other, "other", x, kRobotY_m);
+            RunScene(scene);
+          }
+        }
+      });
+}
+
+TEST(SimplestScenes, WhatComesLaterIsSensedThen)
+{
+  ForEachSet(
+      [](Scene scene, EntityKind robot, const PluginDescription& engine)
+      {
+        for (const EntityKind other : AllKinds())
+        {
+          if (!CanWait(other) || !Simulates(engine, other)) continue;
+          SCOPED_TRACE(fmt::format("a {} that comes later", TagName(other)));
+          scene.arena = Robot(robot) + Waiting(other, "other");
+          const double x = kRobotX_m + NearDistance(robot, other);
+          std::string added;
+          RunScene(scene,
+                   [&](CSimulator& simulator)
+                   {
+                     const bool is_box = DescriptionOf(other).origin == BodyOrigin::kCentre;
+                     const Pose pose{{x, kRobotY_m, is_box ? 0.1 : 0.0}, Quaternion::Identity()};
+                     if (simulator.GetSpace().GetTick() == 2) added = simulator.GetEditor().AddEntity("other", pose);
+                     if (simulator.GetSpace().GetTick() == 6) simulator.GetEditor().RemoveEntity(added);
+                   });
+        }
+      });
+}
+
+TEST(SimplestScenes, TwoRobotsWithTheSameDevicesSenseEachOther)
+{
+  ForEachSet(
+      [](Scene scene, EntityKind robot, const PluginDescription&)
+      {
+        for (const double x : {kRobotX_m + NearDistance(robot, robot), kFarX_m})
+        {
+          scene.arena = Robot(robot) + EntityElement(robot, "second", x, kRobotY_m, "c");
+          RunScene(scene);
+        }
+      });
+}
+
+TEST(SimplestScenes, AnArenaWithoutRobotsRuns)
+{
+  ForEachSet([](Scene scene, EntityKind, const PluginDescription&) { RunScene(scene); });
+}
+
+TEST(SimplestScenes, ARobotInAReserveWaitsAndWorksWhenItIsAdded)
+{
+  ForEachSet(
+      [](Scene scene, EntityKind robot, const PluginDescription&)
+      {
+        scene.arena = Waiting(robot, "robot", "c");
+        RunScene(scene);
+        RunScene(scene,
+                 [](CSimulator& simulator)
+                 {
+                   const Pose pose{{kRobotX_m, kRobotY_m, 0}, Quaternion::Identity()};
+                   if (simulator.GetSpace().GetTick() == 3) simulator.GetEditor().AddEntity("robot", pose);
+                 });
+      });
+}
+
+// The same scene in another way: with threads, and from a checkpoint in its middle.
+TEST(SimplestScenes, ThreadsAndCheckpointsChangeNoBit)
+{
+  const std::string folder = testing::TempDir() + "simplest_scenes_" + std::to_string(getpid());
+  std::filesystem::create_directories(folder);
+  ForEachSet(
+      [&](Scene scene, EntityKind robot, const PluginDescription&)
+      {
+        scene.framework = "<canonical_period>4</canonical_period>";
+        scene.arena =
+            Robot(robot) + EntityElement(robot, "second", kRobotX_m + NearDistance(robot, robot), kRobotY_m, "c");
+        const std::unique_ptr<Experiment> experiment = Read(scene);
+        ASSERT_NE(experiment, nullptr);
+        SimulatorOptions options;
+        options.threads = 1;
+        options.output_folder = folder;
+        options.checkpoint_every = 4;
+        const std::uint64_t hash = RunScene(*experiment, options);
+        options.restore_file = folder + "/" + CheckpointName(4);
+        options.checkpoint_every = 0;
+        EXPECT_EQ(RunScene(*experiment, options), hash) << "from a checkpoint";
+        options.restore_file.clear();
+        options.threads = 3;
+        EXPECT_EQ(RunScene(*experiment, options), hash) << "with 3 threads";
+      });
+  std::filesystem::remove_all(folder);
+}
+
+// A device that no scene above has would be covered by nothing.
+TEST(SimplestScenes, EachDeviceIsCarriedBySomeRobotInSomeEngine)
+{
+  std::map<const PluginDescription*, bool> met;
+  for (const PluginKind kind : {PluginKind::kSensor, PluginKind::kActuator})
+    for (const PluginDescription* device : PluginCatalogue::Instance().Of(kind)) met[device] = false;
+  ForEachSet(
+      [&](const Scene& scene, EntityKind, const PluginDescription&)
+      {
+        for (const PluginDescription* sensor : scene.devices.sensors) met[sensor] = true;
+        for (const PluginDescription* actuator : scene.devices.actuators) met[actuator] = true;
+      });
+  for (const auto& [device, is_met] : met)
+    EXPECT_TRUE(is_met) << NameOfPlugin(PluginKind::kSensor, device->label, device->implementation);
+}
+
+}  // namespace
+}  // namespace swarmanoid

@@ -1,0 +1,269 @@
+#include "tests/unit/every_plugin/scene.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "common/control_interface/ci_controller.h"
+#include "common/experiment/load_experiment.h"
+#include "common/plugins/library.h"
+#include "common/space/space.h"
+#include "roles/builtins.h"
+#include "test_folders.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+std::set<std::string>& Mistakes()
+{
+  static std::set<std::string> mistakes;
+  return mistakes;
+}
+
+// Reads every sensor, and tells every actuator something, by the columns that they state.
+class CSimplestScenesProbe : public CCI_Controller
+{
+public:
+  int Init(const TConfigurationTree) override { return RETURN_OK; }
+
+  void ControlStep() override
+  {
+    for (const std::string& type : GetRobot()->SensorTypes()) Read(type, *GetRobot()->GetSensor(type));
+    for (const std::string& type : GetRobot()->ActuatorTypes()) Tell(type, *GetRobot()->GetActuator(type));
+  }
+  bool HasState() const override { return true; }
+
+private:
+  void Complain(const std::string& device, const std::string& what) const
+  {
+    Mistakes().insert(fmt::format("{} of the {}: {}", device, GetRobot()->GetKind(), what));
+  }
+
+  void Check(const std::string& device, const CCI_Column& column, double value) const
+  {
+    if (std::isnan(value) || (std::isinf(value) && !column.may_be_infinite))
+      Complain(device, fmt::format("'{}' is {}", column.name, value));
+    if (value < column.minimum || value > column.maximum)
+      Complain(device,
+               fmt::format("'{}' is {}, outside of {} to {}", column.name, value, column.minimum, column.maximum));
+    const bool is_whole = value == std::floor(value);
+    if ((column.unit == "colour" && !(is_whole && value >= 0 && value <= 0xffffff)) ||
+        (column.unit == "yes/no" && value != 0 && value != 1))
+      Complain(device, fmt::format("'{}' is {}, which is no {}", column.name, value, column.unit));
+  }
+
+  void Read(const std::string& type, const CCI_Sensor& sensor) const
+  {
+    const std::string device = "sensor " + type;
+    const std::vector<CCI_Column> columns = sensor.Columns();
+    const std::vector<CCI_Column> rows = sensor.Rows();
+    if (columns.empty() && rows.empty()) Complain(device, "it states neither Columns nor Rows");
+    std::vector<double> values;
+    sensor.ReadColumns(values);
+    if (values.size() != columns.size())
+      return Complain(device, fmt::format("{} columns and {} numbers", columns.size(), values.size()));
+    for (std::size_t i = 0; i < values.size(); ++i) Check(device, columns[i], values[i]);
+    values.clear();
+    sensor.ReadRows(values);
+    if (rows.empty() ? !values.empty() : values.size() % rows.size() != 0)
+      return Complain(device, fmt::format("{} numbers in rows of {}", values.size(), rows.size()));
+    for (std::size_t i = 0; i < values.size(); ++i) Check(device, rows[i % rows.size()], values[i]);
+    std::vector<std::string> ids;
+    sensor.ReadRowIds(ids);
+    if (!ids.empty() && ids.size() * rows.size() != values.size())
+      Complain(device, fmt::format("{} ids of {} rows", ids.size(), values.size() / rows.size()));
+    std::vector<CCI_Reading> readings;
+    sensor.Describe(readings);
+    for (const CCI_Reading& reading : readings)
+      if (!std::isfinite(reading.value))
+        Complain(device, fmt::format("Describe: '{}' is {}", reading.name, reading.value));
+  }
+
+  // First in the middle of each range, then at its end; about 1 where there is none.
+  void Tell(const std::string& type, CCI_Actuator& actuator) const
+  {
+    const std::string device = "actuator " + type;
+    const std::vector<CCI_Column> columns = actuator.Columns();
+    if (columns.empty()) return Complain(device, "it states no Columns");
+    std::vector<double> values;
+    for (const CCI_Column& column : columns)
+    {
+      const double low = std::max(column.minimum, -1.0);
+      const double high = std::isfinite(column.maximum) ? column.maximum : 1;
+      const bool is_whole = column.unit == "colour" || column.unit == "yes/no";
+      const double middle = is_whole ? high : 0.3 * low + 0.7 * high;
+      values.push_back(GetRobot()->GetTick() < kTicks / 2 ? middle : high);
+    }
+    actuator.SetColumns(values);
+    std::vector<CCI_Reading> readings;
+    actuator.Describe(readings);
+    for (const CCI_Reading& reading : readings)
+      if (!std::isfinite(reading.value))
+        Complain(device, fmt::format("Describe: '{}' is {}", reading.name, reading.value));
+  }
+};
+REGISTER_CONTROLLER(CSimplestScenesProbe, kProbe)
+
+void RequireDefaults(const std::string& owner, const std::vector<ParameterSpec>& parameters)
+{
+  for (const ParameterSpec& parameter : parameters)
+    EXPECT_TRUE(parameter.default_value || IsNumbered(parameter))
+        << "the parameter '" << parameter.name << "' of " << owner
+        << " has no default, so no scene can be made from its table: give it one, or its value to DeviceElement or "
+           "EntityElement in tests/unit/every_plugin/scene.cpp";
+}
+
+// What an entity needs beside its place: attributes of its element.
+const std::map<std::string, std::string>& ElementsOfKinds()
+{
+  static const std::map<std::string, std::string> attributes = {{"block", " size='0.2,0.2,0.2'"},
+                                                                {"wall", " size='0.2,0.2,0.2'"},
+                                                                {"ground_patch", " radius='0.1'"},
+                                                                {"hole", " radius='0.1'"}};
+  return attributes;
+}
+
+double HalfWidth(EntityKind kind)
+{
+  const EntityKindDescription& row = DescriptionOf(kind);
+  if (row.size.x() == 0) return 0.15;
+  return row.form == BodyForm::kBox ? 0.5 * row.size.head<2>().norm() : row.size.x();
+}
+
+}  // namespace
+
+void RegisterEverything()
+{
+  static const bool done = []
+  {
+    RegisterBuiltins();
+    namespace fs = std::filesystem;
+    for (const char* folder : {"controllers", "entities", "functions"})
+      for (const auto& entry : fs::directory_iterator(fs::path(SWARMANOID_SOURCE_FOLDER) / "user" / folder))
+        EXPECT_EQ(LoadPluginLibrary(entry.path().filename(), {SWARMANOID_BUILD_FOLDER "/lib/swarmanoid"}).error, "");
+    return true;
+  }();
+  static_cast<void>(done);
+}
+
+std::vector<EntityKind> AllKinds()
+{
+  std::vector<EntityKind> kinds;
+  for (std::size_t k = 0; k < EntityKindCount(); ++k)
+    if (static_cast<EntityKind>(k) != EntityKind::kTerrain) kinds.push_back(static_cast<EntityKind>(k));
+  return kinds;
+}
+
+std::vector<EntityKind> AllRobots()
+{
+  std::vector<EntityKind> robots = AllKinds();
+  std::erase_if(robots, [](EntityKind kind) { return !IsRobot(kind); });
+  return robots;
+}
+
+std::string DeviceElement(const PluginDescription& device)
+{
+  RequireDefaults(device.label + " (" + device.implementation + ")", device.parameters);
+  return fmt::format("<{} implementation='{}'/>", device.label, device.implementation);
+}
+
+namespace
+{
+
+// `more`: further attributes.
+std::string ElementOf(EntityKind kind, const std::string& id, const std::string& more, const std::string& controller)
+{
+  const EntityKindDescription& row = DescriptionOf(kind);
+  const auto given = ElementsOfKinds().find(row.tag);
+  if (given == ElementsOfKinds().end()) RequireDefaults("the kind " + row.tag, row.parameters);
+  return fmt::format("<{} id='{}'{}{}{}/>", row.tag, id, more, given == ElementsOfKinds().end() ? "" : given->second,
+                     controller.empty() ? "" : " controller='" + controller + "'");
+}
+
+}  // namespace
+
+std::string EntityElement(EntityKind kind, const std::string& id, double x, double y, const std::string& controller)
+{
+  const EntityKindDescription& row = DescriptionOf(kind);
+  const double z = row.origin == BodyOrigin::kCentre ? 0.1 : row.role == EntityRole::kLight ? 0.3 : 0;
+  return ElementOf(kind, id, fmt::format(" position='{},{},{}'", x, y, z), controller);
+}
+
+std::string Waiting(EntityKind kind, const std::string& id, const std::string& controller)
+{
+  // What comes and goes must be able to move.
+  const std::string movable = DescriptionOf(kind).mobility == Mobility::kIfAsked ? " movable='true'" : "";
+  return "<reserve quantity='1'>" + ElementOf(kind, id, movable, controller) + "</reserve>";
+}
+
+double NearDistance(EntityKind robot, EntityKind other)
+{
+  constexpr double kGap = 0.08;
+  return HalfWidth(robot) + HalfWidth(other) + kGap;
+}
+
+std::unique_ptr<Experiment> Read(const Scene& scene)
+{
+  RegisterEverything();
+  const auto elements = [](const std::vector<const PluginDescription*>& devices)
+  {
+    std::string all;
+    for (const PluginDescription* device : devices) all += DeviceElement(*device);
+    return all;
+  };
+  std::string kinds;
+  for (const EntityKind kind : AllKinds())
+    if (!IsBuiltIn(kind)) kinds += fmt::format("<{0} library='{0}'/>", TagName(kind));
+  const std::string text = fmt::format(
+      "<ahss-config><framework><clocktick>100</clocktick><maxclock>{}</maxclock><plugin_path>{}</plugin_path>{}"
+      "</framework><entity_kinds>{}</entity_kinds><controllers><{} id='c'><actuators>{}</actuators><sensors>{}"
+      "</sensors></{}></controllers><arena size='{},{},3' optimization='2D'>{}</arena><engines><{} id='e'/></engines>"
+      "<arena_physics><engine id='e'><all/></engine></arena_physics><experiment_functions>{}</experiment_functions>"
+      "<visualisations>{}</visualisations></ahss-config>",
+      kTicks, SWARMANOID_BUILD_FOLDER "/lib/swarmanoid", scene.framework, kinds, kProbe,
+      elements(scene.devices.actuators), elements(scene.devices.sensors), kProbe, kArena_m, kArena_m, scene.arena,
+      scene.engine, scene.functions, scene.renderers);
+  LoadedExperiment loaded = LoadExperimentText(text, "scene.xml", SWARMANOID_SOURCE_FOLDER);
+  for (const Diagnostic& error : loaded.errors) ADD_FAILURE() << error.Text() << "\n" << text;
+  return std::move(loaded.experiment);
+}
+
+std::uint64_t RunScene(const Experiment& experiment, const SimulatorOptions& options,
+                       const std::function<void(CSimulator&)>& change)
+{
+  Mistakes().clear();
+  std::uint64_t hash = 0;
+  try
+  {
+    CSimulator simulator(experiment, options);
+    do {
+      if (change) change(simulator);
+    } while (simulator.Step());
+    EXPECT_EQ(simulator.GetSpace().GetTick(), kTicks) << "the run ended too early";
+    hash = simulator.Finish().hash;
+  }
+  catch (const std::exception& error)
+  {
+    ADD_FAILURE() << error.what();
+  }
+  for (const std::string& mistake : Mistakes()) ADD_FAILURE() << mistake;
+  return hash;
+}
+
+std::uint64_t RunScene(const Scene& scene, const std::function<void(CSimulator&)>& change)
+{
+  const std::unique_ptr<Experiment> experiment = Read(scene);
+  if (experiment == nullptr) return 0;
+  SimulatorOptions options;
+  options.threads = 1;
+  return RunScene(*experiment, options, change);
+}
+
+}  // namespace swarmanoid
