@@ -16,13 +16,13 @@
 #include "common/activity/failure_report.h"
 #include "common/activity/print_error.h"
 #include "common/checkpoint/library_builds.h"
-#include "common/program/csv.h"
 #include "common/program/usage_error.h"
 #include "common/space/space.h"
 #include "launcher/load.h"
 #include "launcher/recorded_run.h"
 #include "launcher/single_run.h"
 #include "launcher/watched_simulator.h"
+#include "space_server/event_log.h"
 
 namespace swarmanoid
 {
@@ -36,14 +36,21 @@ constexpr const char* kEventsFile = "branch_events.csv";
 
 [[noreturn]] void RefuseBranch(const std::string& text) { throw UsageError("--branch: " + text); }
 
-void RequireTick(const RecordedRun& run, const BranchRequest& request)
+void WriteText(const std::string& path, const std::string& text)
+{
+  if (!(std::ofstream(path) << text << std::flush))
+    throw std::runtime_error(fmt::format("cannot write '{}': {}", path, std::strerror(errno)));
+}
+
+void RequireTick(RecordedRun& run, const BranchRequest& request)
 {
   const std::uint64_t last = run.LastTick();
   if (request.tick < run.FirstTick() || request.tick > last)
     RefuseBranch(fmt::format("the journal of '{}' has ticks {} to {}, and not {}", request.run, run.FirstTick(), last,
                              request.tick));
   const auto record = run.Journal().RecordOf(request.tick);
-  if (!record) RefuseBranch(fmt::format("the journal of '{}' lacks tick {}", request.run, request.tick));
+  if (!record || !run.Seek(request.tick))
+    RefuseBranch(fmt::format("the journal of '{}' lacks tick {}", request.run, request.tick));
   if (record->state.last)
     RefuseBranch(fmt::format("'{}' ended at tick {}; the last one to branch off is {}", request.run, last, last - 1));
 }
@@ -140,7 +147,8 @@ Branch::Branch(const RunSettings& settings, const Experiment& experiment) : requ
   matters_ = std::any_of(changes_.begin(), changes_.end(), [](const BranchChange& change) { return change.matters; });
   same_fingerprint_ = FingerprintOf(*before) == FingerprintOf(experiment);
   {
-    const RecordedRun run(request_.run);
+    RecordedRun run(request_.run);
+    PrintLoss(run.Loss());
     RequireTick(run, request_);
     RequireBuilds(run.Journal().Start(), *before, settings.any_build);
   }
@@ -208,26 +216,22 @@ void Branch::Compute(const RunSettings& settings, const Experiment& experiment)
         fmt::format("the journal begins at tick {}, and has no state that all processes saved until tick {}",
                     journal.FirstTick(), request_.tick));
   options.events = scratch_.Path() + "/events.csv";
-  std::ofstream(options.events) << EventsBetween(from, request_.tick, request_.run + "/events.csv");
+  WriteText(options.events, EventsBetween(from, request_.tick, request_.run + "/events.csv"));
   const ComputedState found =
       ComputeState(run, experiment, options, settings.controller_hosts, request_.tick, matters_);
   if (found.checkpoint) WriteCheckpoint(scratch_.Path() + "/" + kStateFile, *found.checkpoint);
-  std::ofstream(scratch_.Path() + "/found")
-      << found.hash << ' ' << (found.checkpoint ? found.checkpoint->snapshot.tick : 0) << '\n';
+  WriteText(scratch_.Path() + "/found",
+            fmt::format("{} {}\n", found.hash, found.checkpoint ? found.checkpoint->snapshot.tick : 0));
 }
 
 // Those of the first tick of a run come before its state.
 std::string Branch::EventsBetween(std::uint64_t after, std::uint64_t last, const std::string& file) const
 {
-  std::ifstream lines(file);
+  const EventLines events = ReadEventLines(file);
+  if (!events.damaged.empty()) throw ConfigurationError(events.damaged.front());
   std::string text;
-  for (std::string line; std::getline(lines, line);)
-  {
-    const std::vector<std::string> fields = CsvFields(line);
-    std::uint64_t tick = 0;
-    if (fields.empty() || !(std::istringstream(fields[0]) >> tick)) continue;
+  for (const auto& [tick, line] : events.lines)
     if ((tick > after || after == 0) && tick <= last) text += line + "\n";
-  }
   return text;
 }
 
@@ -238,7 +242,7 @@ void Branch::Install(RunSettings& settings, const Experiment& experiment, const 
                            : std::string();
   if (!settings.events.empty()) events += EventsBetween(request_.tick, UINT64_MAX, settings.events);
   settings.events = folder + "/" + kEventsFile;
-  std::ofstream(settings.events) << events;
+  WriteText(settings.events, events);
   // What was too slow then is not measured again; with changes nobody knows what would be.
   if (same_fingerprint_) settings.faults_of = request_.run;
   const std::string state = scratch_.Path() + "/" + kStateFile;

@@ -24,6 +24,7 @@
 #include "common/messages/assignment.h"
 #include "common/program/program.h"
 #include "common/program/usage_error.h"
+#include "common/threads/start_thread.h"
 #include "launcher/cluster_plan.h"
 #include "launcher/isolation.h"
 #include "launcher/manifest_at_death.h"
@@ -177,15 +178,15 @@ ClusterOutcome RunWatched(const std::vector<MemberPlan>& plans, Interrupts& inte
 {
   InProcessServer server;
   ClusterOutcome outcome;
-  std::thread supervising(
-      [&]
-      {
-        outcome =
-            Supervisor(server, interrupts, display, STDOUT_FILENO, actor_of, times, Supervisor::Clock::now, retries)
-                .Run(plans);
-        if (server.IsStuck()) LeaveStuck(outcome, conclude);
-        server.Cancel();
-      });
+  std::thread supervising = StartThread("supervises the run",
+                                        [&]
+                                        {
+                                          outcome = Supervisor(server, interrupts, display, STDOUT_FILENO, actor_of,
+                                                               times, Supervisor::Clock::now, retries)
+                                                        .Run(plans);
+                                          if (server.IsStuck()) LeaveStuck(outcome, conclude);
+                                          server.Cancel();
+                                        });
   server.Run([&](const auto& words, int status, const auto& stop, const auto& abandon)
              { return ServeHere(words, status, stop, abandon, key, watch); });
   supervising.join();

@@ -1,5 +1,7 @@
 // `swarmanoid convert`: an experiment of ARGoS3 as one of ours.
 #include <fmt/format.h>
+#include <cerrno>
+#include <cstring>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -42,7 +44,8 @@ int Convert(const std::string& file, const std::string& output)
       return kExitDone;
     }
     std::ofstream stream(output);
-    if (!(stream << text).flush()) throw UsageError("--output: the file '" + output + "' cannot be written");
+    if (!(stream << text).flush())
+      throw UsageError("--output: the file '" + output + "' cannot be written: " + std::strerror(errno));
     return kExitDone;
   }
   catch (const ConfigurationError& mistake)

@@ -47,6 +47,8 @@ std::optional<std::uint32_t> OtherCommands(const CSwarmanoidSpace& space, const 
 std::string CauseOf(const RecordedRun& a, const TickRecord& of_a, const RecordedRun& b, const TickRecord& of_b)
 {
   if (of_a.commands.empty() || of_b.commands.empty()) return {};
+  // A damaged journal may not say which controller hosts commanded.
+  if (!a.Journal().KnowsHostsAt(of_a.state.tick) || !b.Journal().KnowsHostsAt(of_b.state.tick)) return {};
   const auto of_one_host = [](const RecordedRun& run, const TickRecord& record, const Assignment& one)
   { return SharedCommands(run.Space(), one).Of(run.Journal().HostsAt(record.state.tick), record.commands).front(); };
   const Assignment all_of_a = MakeAssignment(a.GetExperiment(), 1);
@@ -62,36 +64,52 @@ std::string CauseOf(const RecordedRun& a, const TickRecord& of_a, const Recorded
 int Diff(const std::string& first, const std::string& second)
 {
   RecordedRun a(first), b(second);
+  PrintLoss(a.Loss());
+  PrintLoss(b.Loss());
   if (a.Space().Size() != b.Space().Size() || a.Space().Attributes().size() != b.Space().Attributes().size())
     throw UsageError("the runs are of experiments with other entities");
   // A branch begins later, and so does what a budget has left of a journal.
   const std::uint64_t from = std::max(a.FirstTick(), b.FirstTick());
-  bool more_a = a.Seek(from), more_b = b.Seek(from);
+  bool more_a = a.SeekFrom(from), more_b = b.SeekFrom(from);
   if (!more_a || !more_b)
     throw UsageError(fmt::format("the journals have no tick in common: '{}' ends at tick {}, '{}' begins at {}",
                                  more_a ? second : first, more_a ? b.LastTick() : a.LastTick(), more_a ? first : second,
                                  from));
-  TickRecord before_a, before_b;
-  std::uint64_t ticks = 0;
-  for (; more_a || more_b; more_a = a.Next(), more_b = b.Next())
+  std::optional<TickRecord> before_a, before_b;  // of the tick before, if both runs have it
+  std::uint64_t ticks = 0, last = from;
+  while (more_a && more_b)
   {
-    if (more_a != more_b)
+    const std::uint64_t tick_a = a.Space().GetTick(), tick_b = b.Space().GetTick();
+    if (tick_a != tick_b)
     {
-      fmt::print("equal to the end of {}, at tick {}\n", more_a ? second : first, from + ticks - 1);
-      return kExitHashDiffers;
+      // One of them is damaged there.
+      before_a.reset();
+      if (tick_a < tick_b)
+        more_a = a.Next();
+      else
+        more_b = b.Next();
+      continue;
     }
     if (const std::string difference = FirstDifference(a.Space(), b.Space()); !difference.empty())
     {
       fmt::print("tick {}: {}{}\n", a.Space().GetTick(), difference,
-                 ticks > 0 ? CauseOf(a, before_a, b, before_b) : "");
+                 before_a && before_a->state.tick + 1 == tick_a ? CauseOf(a, *before_a, b, *before_b) : "");
       return kExitHashDiffers;
     }
     before_a = a.Record();
     before_b = b.Record();
+    last = tick_a;
     ++ticks;
+    more_a = a.Next();
+    more_b = b.Next();
+  }
+  if (more_a != more_b)
+  {
+    fmt::print("equal to the end of {}, at tick {}\n", more_a ? second : first, last);
+    return kExitHashDiffers;
   }
   fmt::print("equal: {} states{}\n", ticks, from == 0 ? "" : fmt::format(", from tick {} on", from));
-  return kExitDone;
+  return a.ExitCode(b.ExitCode(kExitDone));
 }
 
 }  // namespace
@@ -103,7 +121,7 @@ void AddDiffCommand(CLI::App& app, int& exit_code)
   verb->add_option("RUN_A", *first, "The folder of a run as a cluster")->required();
   verb->add_option("RUN_B", *second, "The folder of another one of the same experiment")->required();
   verb->footer(
-      "Exit codes: 0 all states of the journals are equal, bit by bit; 5 they differ.\n"
+      "Exit codes: 0 all states of the journals are equal, bit by bit; 4 a journal is damaged; 5 they differ.\n"
       "Example:\n"
       "  swarmanoid diff runs/diffusion_10-20310517-093000 runs/diffusion_10-20310517-094500");
   verb->callback([first, second, &exit_code] { exit_code = Diff(*first, *second); });

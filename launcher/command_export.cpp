@@ -6,15 +6,14 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "common/activity/exit_codes.h"
+#include "common/activity/print_error.h"
 #include "common/configuration/wording.h"
 #include "common/math/elementary.h"
 #include "common/program/csv.h"
@@ -25,6 +24,7 @@
 #include "launcher/export_file.h"
 #include "launcher/mcap_export.h"
 #include "launcher/recorded_run.h"
+#include "space_server/event_log.h"
 
 namespace swarmanoid
 {
@@ -198,35 +198,29 @@ void ExportCsv(const ExportOptions& options, RecordedRun& run, const std::vector
   table.Close();
 }
 
-void ExportMcap(const ExportOptions& options, RecordedRun& run, std::vector<std::size_t> entities)
+// False if some events cannot be read, which standard error says.
+bool ExportMcap(const ExportOptions& options, RecordedRun& run, std::vector<std::size_t> entities)
 {
+  const EventLines events = ReadEventLines(run.Folder() + "/events.csv");
+  for (const std::string& damaged : events.damaged) PrintError("{}\n", damaged);
   ExportFile file("--mcap", options.mcap);
   McapExport mcap(file, run.Space(), std::move(entities));
-  std::ifstream events(run.Folder() + "/events.csv");
-  std::string line;
-  std::getline(events, line);  // the names of its columns
-  std::uint64_t event_tick = 0;
-  const auto next_event = [&]
+  auto next = events.lines.begin();
+  const auto write_events_before = [&](std::uint64_t tick)
   {
-    while (std::getline(events, line))
-    {
-      const std::vector<std::string> fields = CsvFields(line);
-      if (fields.size() < 4 || !(std::istringstream(fields[0]) >> event_tick)) continue;
-      if (event_tick >= options.from && (!options.until || event_tick <= *options.until)) return true;
-    }
-    return false;
+    for (; next != events.lines.end() && next->tick < tick; ++next)
+      if (next->tick >= options.from && (!options.until || next->tick <= *options.until)) mcap.WriteEvent(next->text);
   };
-  bool has_event = next_event();
   ForEachState(options, run,
                [&]
                {
-                 for (; has_event && event_tick < run.Space().GetTick(); has_event = next_event())
-                   mcap.WriteEvent(line);
+                 write_events_before(run.Space().GetTick());
                  mcap.WriteTick();
                });
-  for (; has_event; has_event = next_event()) mcap.WriteEvent(line);
+  write_events_before(UINT64_MAX);
   mcap.Finish();
   file.Close();
+  return events.damaged.empty();
 }
 
 int Export(const ExportOptions& options)
@@ -239,17 +233,20 @@ int Export(const ExportOptions& options)
   if (!options.mcap.empty() && !options.columns.empty())
     throw UsageError("--columns: is of tables, --csv; --mcap has poses and all attributes");
   RecordedRun run(std::filesystem::absolute(options.run).lexically_normal().string());
+  PrintLoss(run.Loss());
   const CSwarmanoidSpace& space = run.Space();
   std::vector<std::size_t> entities;
   for (std::size_t k = 0; k < space.Size(); ++k)
     if (fnmatch(options.entities.c_str(), space.GetEntity(k).GetId().c_str(), FNM_NOESCAPE) == 0) entities.push_back(k);
   if (entities.empty())
     throw UsageError(fmt::format("--entities: no entity of the run matches {}", Quoted(options.entities)));
+  bool is_whole = true;
   if (options.mcap.empty())
     ExportCsv(options, run, entities);
   else
-    ExportMcap(options, run, std::move(entities));
-  return Interrupted() ? kExitInterrupted : kExitDone;
+    is_whole = ExportMcap(options, run, std::move(entities));
+  if (Interrupted()) return kExitInterrupted;
+  return run.ExitCode(is_whole ? kExitDone : kExitProcessFailed);
 }
 
 }  // namespace

@@ -131,6 +131,7 @@ int Inspect(const InspectOptions& options)
     throw UsageError(
         fmt::format("inspect: {} is no run and tick; for example runs/first@500", Quoted(options.run_at_tick)));
   const RecordedRun run(at->run);
+  PrintLoss(run.Loss());
   const auto experiment = LoadOrComplain(at->run + "/experiment.xml", {});
   if (!experiment) return kExitInvalidFile;
   const std::vector<std::uint32_t> robots = RobotsOf(*experiment, options.robots);
@@ -157,7 +158,7 @@ int Inspect(const InspectOptions& options)
     PrintJson(*experiment, *at, found);
   else
     PrintTable(*experiment, found);
-  return kExitDone;
+  return run.ExitCode(kExitDone);
 }
 
 }  // namespace

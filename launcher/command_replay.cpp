@@ -66,14 +66,15 @@ int Verify(RecordedRun& run)
     WriteCheckpoint(options.restore_file, *checkpoint);
   }
   std::uint64_t ticks = 0;
-  bool over = false;
+  bool over = !run.Next();
   std::string difference;
   const auto compare = [&](const CSimulator& simulator)
   {
-    over = over || !run.Next();
-    if (over) return;
-    ++ticks;
     const CSwarmanoidSpace& space = simulator.GetSpace();
+    while (!over && run.Space().GetTick() < space.GetTick()) over = !run.Next();
+    // Ticks that are lost are computed all the same.
+    if (over || run.Space().GetTick() != space.GetTick()) return;
+    ++ticks;
     if (space.Hash() != run.Space().Hash())
       difference = fmt::format("tick {}: {}", space.GetTick(), FirstDifference(run.Space(), space));
   };
@@ -124,10 +125,10 @@ int Show(RecordedRun& run, const ReplayOptions& options)
   const std::uint64_t from = std::max(options.from.value_or(0), run.FirstTick());
   if (options.from && *options.from < from)
     throw UsageError(fmt::format("--from: the journal begins at tick {}{}", from,
-                                 run.Journal().Start().first_tick == from
+                                 run.Journal().StartAsFarAsKnown().first_tick == from
                                      ? ", where the run did"
                                      : "; what was before is more than its --journal-budget"));
-  bool more = run.Seek(from);
+  bool more = run.SeekFrom(from);
   if (!more) throw UsageError(fmt::format("--from: the journal ends before tick {}", from));
   ReplayMonitor monitor(run, options.speed);
   Visualiser visualiser(configuration, run.Space(), assignment, options.output, nullptr, &monitor);
@@ -165,7 +166,8 @@ int Replay(const ReplayOptions& options)
   RecordedRun run(std::filesystem::absolute(options.run).lexically_normal().string());
   try
   {
-    return options.verify ? Verify(run) : Show(run, options);
+    PrintLoss(run.Loss());
+    return run.ExitCode(options.verify ? Verify(run) : Show(run, options));
   }
   catch (const ConfigurationError& error)
   {
@@ -193,7 +195,7 @@ void AddReplayCommand(CLI::App& app, int& exit_code)
   verb->footer(
       "`swarmanoid replay RUN KIND --help` lists the options of that kind too. No controller and no engine runs, "
       "unless --verify is given: for the inside of robots see `swarmanoid inspect`.\n"
-      "Exit codes of --verify: 0 all states are equal, 5 they differ.\n"
+      "Exit codes of --verify: 0 all states are equal, 4 the journal is damaged, 5 they differ.\n"
       "Examples:\n"
       "  swarmanoid replay runs/diffusion_10-20310517-093000 --verify\n"
       "  swarmanoid replay runs/diffusion_10-20310517-093000 web --speed 2\n"

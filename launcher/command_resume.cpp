@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -13,9 +15,11 @@
 #include "common/activity/exit_codes.h"
 #include "common/journal/journal_reader.h"
 #include "launcher/commands.h"
+#include "launcher/journal_loss.h"
 #include "launcher/load.h"
 #include "launcher/recorded_run.h"
 #include "launcher/run_experiment.h"
+#include "launcher/run_folder.h"
 
 namespace swarmanoid
 {
@@ -38,9 +42,20 @@ std::vector<OptionSpec> ResumeOptionTable(RunSettings& settings)
 // Of what it was to repeat, the run has noted only what it came to.
 void RequireEvents(const std::string& run_folder)
 {
-  std::ifstream file(run_folder + "/manifest.json");
-  const auto manifest = nlohmann::json::parse(file, nullptr, false);
-  if (manifest.is_discarded() || !manifest.contains("command")) return;
+  std::error_code none;
+  if (!fs::exists(run_folder + "/manifest.json", none)) return;
+  nlohmann::json manifest;
+  try
+  {
+    manifest = ReadManifest(run_folder);
+  }
+  catch (const std::exception& error)
+  {
+    throw UsageError(fmt::format(
+        "resume: '{}/manifest.json' is damaged, and says what the run repeats; delete it if it repeats no --events: {}",
+        run_folder, error.what()));
+  }
+  if (!manifest.contains("command")) return;
   for (const auto& word : manifest["command"])
     if (word.is_string() && word.get<std::string>().starts_with("--events"))
       throw UsageError("resume: the run repeats the events of a file; name it again with --events");
@@ -50,13 +65,15 @@ void RequireEvents(const std::string& run_folder)
 std::string EventsOf(const std::string& run_folder)
 {
   const std::string path = run_folder + "/events.csv";
-  std::ifstream file(path);
   std::string kept, last;
-  for (std::string line; std::getline(file, line); last = line + "\n") kept += last;
+  // A line that is damaged is passed on: reading the events names it.
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line) && !file.eof(); last = line + "\n") kept += last;
   if (last.find(",stop,,,interrupt,") == std::string::npos) return path;
   std::string without = run_folder + "/journal/events.csv";
   std::ofstream copy(without);
-  if (!(copy << kept << std::flush)) throw UsageError(fmt::format("resume: cannot write '{}'", without));
+  if (!(copy << kept << std::flush))
+    throw UsageError(fmt::format("resume: cannot write '{}': {}", without, std::strerror(errno)));
   return without;
 }
 
@@ -75,6 +92,11 @@ int Resume(const std::string& run_folder, RunSettings options)
   try
   {
     const JournalReader journal(JournalFile(run_folder));
+    if (journal.Start().origin.experiment != FingerprintOf(*experiment))
+      throw std::runtime_error(
+          fmt::format("the journal '{}' is of another experiment than '{}': one of them was changed or damaged",
+                      journal.Path(), options.file));
+    PrintLoss(FindLoss(journal, RecordedEndOf(run_folder)));
     options.controller_hosts = journal.Hosts().hosts;
     const auto checkpoint = journal.WholeCheckpointUntil(UINT64_MAX, *experiment, journal.Hosts());
     if (!checkpoint && journal.FirstTick() != 0)

@@ -11,6 +11,7 @@
 
 #include "common/configuration/wording.h"
 #include "common/program/program.h"
+#include "common/program/standard_output.h"
 #include "launcher/commands.h"
 #include "launcher/completion.h"
 #include "launcher/installation.h"
@@ -77,7 +78,7 @@ int Complete(const std::vector<std::string>& words)
   CLI::App app("", "swarmanoid");
   AddCommands(app, exit_code);
   for (const std::string& line : swarmanoid::Completions(app, words)) fmt::print("{}\n", line);
-  return swarmanoid::kExitDone;
+  return swarmanoid::ExitCodeWithOutput(swarmanoid::kExitDone);
 }
 
 }  // namespace

@@ -82,7 +82,10 @@ PastRobots::PastRobots(const Experiment& experiment, const std::string& run_fold
     const std::vector<ControlCommands> commands = shared.Of(journal.HostsAt(past.state.tick), past.commands);
     for (PastHost& host : hosts) Redo(host, past, commands);
     if (states.Space().GetTick() == tick) break;
-    if (!states.Next()) throw std::runtime_error(fmt::format("the journal lacks tick {}", tick));
+    // The controllers need what they sensed at each tick.
+    const std::uint64_t next = states.Space().GetTick() + 1;
+    if (!states.Next() || states.Space().GetTick() != next)
+      throw std::runtime_error(fmt::format("the journal lacks tick {}", next));
   }
   for (const std::uint32_t robot : robots)
     hosts[place_of_host.at(static_cast<std::uint32_t>(assignment.host[robot]))].role->Describe(robot,

@@ -5,6 +5,7 @@
 #include <bit>
 #include <filesystem>
 
+#include "common/activity/exit_codes.h"
 #include "common/messages/assignment.h"
 #include "common/program/usage_error.h"
 #include "common/space/attributes.h"
@@ -37,10 +38,7 @@ std::unique_ptr<JournalReader> JournalOf(const std::string& folder)
   }
   catch (const std::runtime_error& error)
   {
-    throw UsageError(
-        fmt::format("the journal '{}' cannot be read: {} (runs as a cluster keep one, unless they have "
-                    "--no-journal)",
-                    JournalFile(folder), error.what()));
+    throw UsageError(fmt::format("{} (runs as a cluster keep a journal, unless they have --no-journal)", error.what()));
   }
 }
 
@@ -66,14 +64,25 @@ std::string TextOfSlot(const CSwarmanoidSpace& space, std::uint32_t slot)
 RecordedRun::RecordedRun(const std::string& folder)
     : folder_(folder), experiment_(ExperimentOf(folder)), journal_(JournalOf(folder))
 {
-  if (journal_->Start().origin.experiment != FingerprintOf(*experiment_))
+  if (journal_->HasStart() && journal_->Start().origin.experiment != FingerprintOf(*experiment_))
     throw UsageError(fmt::format("the journal of '{}' is of another experiment", folder));
-  if (EndTickOf(journal_->Start(), journal_->Places()) == FirstTick())
-    throw UsageError(fmt::format("the journal of '{}' has no tick yet", folder));
-  states_.emplace(*experiment_, *journal_, journal_->Start());
+  loss_ = FindLoss(*journal_, RecordedEndOf(folder));
+  const JournalStart& start = journal_->StartAsFarAsKnown();
+  if (ReadableTicks(start, journal_->Places()).empty())
+  {
+    PrintLoss(loss_);
+    throw UsageError(
+        fmt::format("the journal of '{}' has no tick {}", folder, loss_.is_damaged ? "that can be read" : "yet"));
+  }
+  states_.emplace(*experiment_, *journal_, start);
 }
 
-std::uint64_t RecordedRun::LastTick() const { return EndTickOf(journal_->Start(), journal_->Places()) - 1; }
+std::uint64_t RecordedRun::LastTick() const { return EndTickOf(journal_->StartAsFarAsKnown(), journal_->Places()) - 1; }
+
+int RecordedRun::ExitCode(int code) const
+{
+  return code == kExitDone && loss_.is_damaged ? static_cast<int>(kExitProcessFailed) : code;
+}
 
 std::string FirstDifference(const CSwarmanoidSpace& a, const CSwarmanoidSpace& b)
 {

@@ -8,6 +8,7 @@
 
 #include "common/journal/journal_reader.h"
 #include "common/journal/recorded_states.h"
+#include "launcher/journal_loss.h"
 
 namespace swarmanoid
 {
@@ -24,15 +25,22 @@ public:
   // As those of RecordedStates.
   bool Next() { return states_->Next(); }
   bool Seek(std::uint64_t tick) { return states_->Seek(tick); }
+  bool SeekFrom(std::uint64_t tick) { return states_->SeekFrom(tick); }
   const CSwarmanoidSpace& Space() const { return states_->Space(); }
   const TickRecord& Record() const { return states_->Record(); }
   std::uint64_t FirstTick() const { return journal_->FirstTick(); }
   std::uint64_t LastTick() const;
+  // What cannot be read of it.
+  const JournalLoss& Loss() const { return loss_; }
+  // The exit code of a command that has printed the loss: that of a failure if the journal is damaged, unless it has
+  // another one already.
+  int ExitCode(int code) const;
 
 private:
   std::string folder_;
   std::unique_ptr<Experiment> experiment_;
   std::unique_ptr<JournalReader> journal_;
+  JournalLoss loss_;
   std::optional<RecordedStates> states_;
 };
 

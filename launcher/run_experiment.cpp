@@ -17,6 +17,7 @@
 #include "common/checkpoint/library_builds.h"
 #include "common/journal/journal_reader.h"
 #include "common/math/reproducible_math.h"
+#include "common/program/standard_output.h"
 #include "common/program/usage_error.h"
 #include "launcher/branch.h"
 #include "launcher/cluster_run.h"
@@ -169,8 +170,9 @@ int Conclude(const RunSettings& options, const RunResult& result, const RunFolde
     PrintError("swarmanoid: {}\n", error.what());
     if (exit_code == kExitDone) exit_code = kExitProcessFailed;
   }
-  if (ended) fmt::print("{}\n", FinishedLine(*result.summary));
-  return exit_code;
+  if (!ended) return exit_code;
+  std::fputs((FinishedLine(*result.summary) + "\n").c_str(), stdout);
+  return ExitCodeWithOutput(exit_code);
 }
 
 // Told before anything is started.

@@ -1,6 +1,8 @@
 #include "launcher/template_files.h"
 
 #include <fmt/format.h>
+#include <cerrno>
+#include <cstring>
 
 #include <algorithm>
 #include <cctype>
@@ -70,7 +72,8 @@ void WriteFromTemplate(const std::filesystem::path& from, const std::filesystem:
 {
   std::ifstream input(from);
   std::ostringstream text;
-  if (!(text << input.rdbuf())) throw std::runtime_error(fmt::format("cannot read the template '{}'", from.string()));
+  if (!(text << input.rdbuf()))
+    throw std::runtime_error(fmt::format("cannot read the template '{}': {}", from.string(), std::strerror(errno)));
   std::filesystem::create_directories(to.parent_path());
   std::ofstream output(to);
   output << FilledIn(text.str(), values);

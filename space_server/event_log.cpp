@@ -12,6 +12,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "common/activity/print_error.h"
 #include "common/configuration/regular_file.h"
 #include "common/configuration/wording.h"
 #include "common/program/csv.h"
@@ -23,7 +24,9 @@ namespace
 {
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30U;
-constexpr const char* kHeader = "tick,request,entity,numbers,from,number,when";
+constexpr std::string_view kHeader = "tick,request,entity,numbers,from,number,when";
+constexpr std::size_t kFewestFields = 4;
+constexpr std::size_t kMostFields = 7;
 
 // What can be known to be wrong before the run; the place itself is checked when it is moved there.
 std::string ErrorOf(const ControlRequestMessage& request, const Experiment& experiment)
@@ -62,6 +65,45 @@ void SetAsker(ControlRequestMessage& request, const std::string& asker)
   request.client = at == std::string::npos ? asker : asker.substr(at + 1);
 }
 
+std::optional<std::uint64_t> WholeNumber(std::string_view text)
+{
+  std::uint64_t number = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (read.ec != std::errc() || read.ptr != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+// The start of a last line without an end, if the file is one that a run wrote: such a run ends each line. What others
+// write may lack the last end.
+std::size_t CutShortAt(std::string_view text)
+{
+  if (text.empty() || text.back() == '\n' || !text.starts_with(kHeader)) return text.size();
+  return text.rfind('\n') + 1;
+}
+
+std::string ReadEventFile(const std::string& path)
+{
+  try
+  {
+    return ReadRegularFile(path, kMostBytes);
+  }
+  catch (const FileError& error)
+  {
+    throw ConfigurationError(fmt::format("cannot read the events '{}': {}", path, error.what()));
+  }
+}
+
+std::string ReadWithoutCutLine(const std::string& path)
+{
+  std::string text = ReadEventFile(path);
+  const std::size_t end = CutShortAt(text);
+  if (end != text.size())
+    PrintError("{}:{}: note: the last line was cut short, and is left out: {}\n", path,
+               1 + std::count(text.begin(), text.end(), '\n'), Quoted(text.substr(end)));
+  text.resize(end);
+  return text;
+}
+
 std::vector<RecordedEvent> ParseAll(const std::string& text, const std::string& path, const Experiment& experiment)
 {
   std::istringstream file(text);
@@ -76,12 +118,12 @@ std::vector<RecordedEvent> ParseAll(const std::string& text, const std::string& 
     if (line.ends_with('\r')) line.pop_back();
     const std::vector<std::string> fields = CsvFields(line);
     if (line.empty() || (number == 1 && line.starts_with("tick,"))) continue;
-    if (fields.size() < 4)
+    if (fields.size() < kFewestFields || fields.size() > kMostFields)
       throw ConfigurationError(event.location, fmt::format("{} is no event; a line is {}", Quoted(line), kHeader));
 
-    const auto tick = std::from_chars(fields[0].data(), fields[0].data() + fields[0].size(), event.tick);
-    if (tick.ec != std::errc() || tick.ptr != fields[0].data() + fields[0].size())
-      throw ConfigurationError(event.location, fmt::format("{} is no tick", Quoted(fields[0])));
+    const auto tick = WholeNumber(fields[0]);
+    if (!tick) throw ConfigurationError(event.location, fmt::format("{} is no tick", Quoted(fields[0])));
+    event.tick = *tick;
     if (event.tick < last)
       throw ConfigurationError(event.location,
                                fmt::format("tick {} comes after tick {}; events stand in order", event.tick, last));
@@ -93,7 +135,13 @@ std::vector<RecordedEvent> ParseAll(const std::string& text, const std::string& 
       throw ConfigurationError(event.location, fmt::format("{} are no numbers", Quoted(fields[3])));
     if (numbers) event.request.numbers = *numbers;
     if (fields.size() > 4) SetAsker(event.request, fields[4]);
-    if (fields.size() > 5) std::from_chars(fields[5].data(), fields[5].data() + fields[5].size(), event.request.number);
+    if (fields.size() > 5 && !fields[5].empty())
+    {
+      const auto request_number = WholeNumber(fields[5]);
+      if (!request_number || *request_number > UINT32_MAX)
+        throw ConfigurationError(event.location, fmt::format("{} is no number of a request", Quoted(fields[5])));
+      event.request.number = static_cast<std::uint32_t>(*request_number);
+    }
     if (const std::string error = ErrorOf(event.request, experiment); !error.empty())
       throw ConfigurationError(event.location, error);
     events.push_back(std::move(event));
@@ -116,7 +164,7 @@ std::string WholeLines(const std::string& path)
 {
   std::error_code none;
   if (!std::filesystem::exists(path, none)) return {};
-  std::string text = ReadRegularFile(path, kMostBytes);
+  std::string text = ReadEventFile(path);
   const std::size_t end = text.rfind('\n') + 1;
   if (end == text.size()) return text;
   std::filesystem::resize_file(path, end);
@@ -153,14 +201,27 @@ std::string AskerOf(const ControlRequestMessage& request)
 
 std::vector<RecordedEvent> ReadEvents(const std::string& path, const Experiment& experiment)
 {
-  try
+  return ParseEvents(ReadWithoutCutLine(path), path, experiment);
+}
+
+EventLines ReadEventLines(const std::string& path)
+{
+  EventLines events;
+  if (!std::filesystem::exists(path)) return events;
+  std::istringstream file(ReadWithoutCutLine(path));
+  std::string line;
+  for (int number = 1; std::getline(file, line); ++number)
   {
-    return ParseEvents(ReadRegularFile(path, kMostBytes), path, experiment);
+    if (line.ends_with('\r')) line.pop_back();
+    if (line.empty() || (number == 1 && line.starts_with("tick,"))) continue;
+    const std::vector<std::string> fields = CsvFields(line);
+    const auto tick = WholeNumber(fields.empty() ? std::string_view() : std::string_view(fields[0]));
+    if (tick && fields.size() >= kFewestFields && fields.size() <= kMostFields)
+      events.lines.push_back({*tick, line});
+    else
+      events.damaged.push_back(fmt::format("{}:{}: {} is no event; a line is {}", path, number, Quoted(line), kHeader));
   }
-  catch (const FileError& error)
-  {
-    throw ConfigurationError(fmt::format("cannot read the events '{}': {}", path, error.what()));
-  }
+  return events;
 }
 
 std::vector<RecordedEvent> ParseEvents(const std::string& text, const std::string& path, const Experiment& experiment)

@@ -34,10 +34,26 @@ inline constexpr const char* kMachineGone = "gone";
 inline constexpr const char* kFailedController = "failed";
 
 // The events that change the outcome of a run (move, add, remove, keys and selections, stop), in the order of the file.
-// Throws ConfigurationError, with file and line, for what is no event of this experiment.
+// Throws ConfigurationError, with file and line, for what is no event of this experiment. If the last line was cut
+// short, as by the death of the run, it is left out, and standard error says so.
 std::vector<RecordedEvent> ReadEvents(const std::string& path, const Experiment& experiment);
 // The same from the text of the file.
 std::vector<RecordedEvent> ParseEvents(const std::string& text, const std::string& path, const Experiment& experiment);
+
+// A line of a log of events, for what passes it on as it is.
+struct EventLine
+{
+  std::uint64_t tick = 0;
+  std::string text;
+};
+struct EventLines
+{
+  std::vector<EventLine> lines;
+  // What cannot be read, with file and line. A last line that was cut short is not among it.
+  std::vector<std::string> damaged;
+};
+// Those of a file; none if it does not exist. Throws ConfigurationError if it cannot be read.
+EventLines ReadEventLines(const std::string& path);
 
 // A share of the run, as its request has it.
 struct SharedWith

@@ -98,6 +98,22 @@ bool SqlCommand::IsNull(int column) const { return sqlite3_column_type(statement
 
 bool SqlCommand::IsReal(int column) const { return sqlite3_column_type(statement_, column) == SQLITE_FLOAT; }
 
+std::string SqlCommand::Image(int column) const
+{
+  const auto append = [](std::string& image, const auto& number)
+  { image.append(reinterpret_cast<const char*>(&number), sizeof number); };
+  const int type = sqlite3_column_type(statement_, column);
+  std::string image(1, static_cast<char>(type));
+  if (type == SQLITE_INTEGER) append(image, sqlite3_column_int64(statement_, column));
+  if (type == SQLITE_FLOAT) append(image, sqlite3_column_double(statement_, column));
+  if (type != SQLITE_TEXT && type != SQLITE_BLOB) return image;
+  const void* bytes = sqlite3_column_blob(statement_, column);
+  const int count = sqlite3_column_bytes(statement_, column);
+  append(image, count);
+  if (count > 0) image.append(static_cast<const char*>(bytes), static_cast<std::size_t>(count));
+  return image;
+}
+
 std::string SqlCommand::Text(int column) const
 {
   if (IsReal(column)) return fmt::format("{}", Number(column));

@@ -74,6 +74,8 @@ public:
   double Number(int column) const;
   bool IsNull(int column) const;
   bool IsReal(int column) const;
+  // Its type and its bytes, for checksums.
+  std::string Image(int column) const;
   // Of numbers the shortest that is read as the same one; of NULL none.
   std::string Text(int column) const;
 

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "common/activity/print_error.h"
 #include "common/program/csv.h"
 #include "common/version/version.h"
 #include "studies/study_setup.h"
@@ -104,8 +105,72 @@ std::unique_ptr<StudyStore> StudyStore::Open(const std::string& folder)
   store->Connect();
   if (store->Fact("format") != std::to_string(kStoreFormat))
     throw StudyStoreError(fmt::format("'{}/{}' is of another version of Swarmanoid", folder, kDatabase));
+  if (store->Fact(kFactsChecksum) != ChecksumOfFacts(*store->database_))
+    throw StudyStoreError(
+        fmt::format("'{}/{}' is damaged: what it says of the study does not fit its checksum; begin the study again in "
+                    "another folder",
+                    folder, kDatabase));
   store->ReadColumns();
+  store->RequireSameFactors();
+  store->DropDamagedResults();
   return store;
+}
+
+void StudyStore::RequireSameFactors()
+{
+  for (const std::string& factor : factors_)
+  {
+    const auto differs = database_->Prepare(
+        fmt::format("SELECT point FROM runs GROUP BY point HAVING COUNT(DISTINCT {}) > 1", NameInSql(factor)));
+    if (differs->Step())
+      throw StudyStoreError(fmt::format(
+          "'{}/{}' is damaged: the runs of point {} have different values of the factor '{}'; begin the study again in "
+          "another folder",
+          folder_, kDatabase, differs->Whole(0), factor));
+  }
+}
+
+std::string StudyStore::ChecksumOf(const RunName& name)
+{
+  std::string factors;
+  for (const std::string& factor : factors_) factors += ", " + NameInSql(factor);
+  std::string checksum;
+  for (const std::string& rows :
+       {"SELECT point, seed, exit, hash, ticks, failure, wall_s, peak_bytes" + factors + " FROM runs",
+        std::string("SELECT * FROM samples"), std::string("SELECT * FROM grids"), std::string("SELECT * FROM ways")})
+  {
+    const auto found = database_->Prepare(rows + " WHERE point = ? AND seed = ? ORDER BY 1, 2, 3");
+    found->BindWhole(name.point).BindWhole(name.seed);
+    checksum = ChecksumOfRows(*found, checksum);
+  }
+  return checksum;
+}
+
+void StudyStore::DropDamagedResults()
+{
+  const auto kept = database_->Prepare("SELECT checksum FROM runs WHERE point = ? AND seed = ?");
+  for (const RunState& run : Runs())
+  {
+    if (!run.is_done) continue;
+    kept->BindWhole(run.name.point).BindWhole(run.name.seed);
+    const bool fits = kept->Step() && kept->Text(0) == ChecksumOf(run.name);
+    kept->Run();
+    if (fits) continue;
+    PrintError(
+        "swarmanoid: warning: '{}/{}' is damaged: the result of run {} does not fit its checksum; it runs again\n",
+        folder_, kDatabase, run.name.Text());
+    Begin();
+    for (const char* table : {"samples", "grids", "ways"})
+      database_->Prepare(fmt::format("DELETE FROM {} WHERE point = ? AND seed = ?", table))
+          ->BindWhole(run.name.point)
+          .BindWhole(run.name.seed)
+          .Run();
+    database_->Prepare("UPDATE runs SET state = 'waiting', checksum = NULL WHERE point = ? AND seed = ?")
+        ->BindWhole(run.name.point)
+        .BindWhole(run.name.seed)
+        .Run();
+  }
+  Commit();
 }
 
 // Under its name only when it is complete: whoever finds it can read it.
@@ -179,6 +244,16 @@ void StudyStore::Add(const RunOutcome& outcome)
       .Bind(std::string(GitRevision()));
   update_run_->BindWhole(outcome.name.point).BindWhole(outcome.name.seed).Run();
   if (!done) return;
+  AddSamples(outcome);
+  database_->Prepare("UPDATE runs SET checksum = ? WHERE point = ? AND seed = ?")
+      ->Bind(ChecksumOf(outcome.name))
+      .BindWhole(outcome.name.point)
+      .BindWhole(outcome.name.seed)
+      .Run();
+}
+
+void StudyStore::AddSamples(const RunOutcome& outcome)
+{
   const RunSamples& samples = outcome.samples;
   for (std::size_t row = 0; row < samples.ticks.size(); ++row)
   {
@@ -212,7 +287,7 @@ void StudyStore::AddRun(const RunName& name)
   std::string factors;
   for (const std::string& factor : factors_) factors += ", " + NameInSql(factor);
   const auto row = database_->Prepare(fmt::format(
-      "INSERT INTO runs SELECT point, ?, 'waiting', 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL{} FROM "
+      "INSERT INTO runs SELECT point, ?, 'waiting', 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL{} FROM "
       "runs WHERE point = ? LIMIT 1",
       factors));
   row->BindWhole(name.seed).BindWhole(name.point).Run();

@@ -21,7 +21,8 @@ class StudyStore
 public:
   // A new folder, or an empty one. Throws StudyStoreError.
   static std::unique_ptr<StudyStore> Create(const std::string& folder, const Study& study, const Design& design);
-  // One that is there. Throws StudyStoreError if it is no study, or somebody else works on it.
+  // One that is there. Throws StudyStoreError if it is no study, is damaged, or somebody else works on it. Results of
+  // runs that are damaged are dropped, so that these runs wait again, and standard error names them.
   static std::unique_ptr<StudyStore> Open(const std::string& folder);
   ~StudyStore();
 
@@ -67,6 +68,11 @@ private:
   void Connect();
   void ReadColumns();
   void Begin();
+  void AddSamples(const RunOutcome& outcome);
+  // Of all that is kept of a run: its factors, its result and what was measured.
+  std::string ChecksumOf(const RunName& name);
+  void RequireSameFactors();
+  void DropDamagedResults();
 
   std::string folder_;
   int lock_ = -1;

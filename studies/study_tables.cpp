@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
 #include "common/configuration/configuration_tree.h"
 #include "common/version/version.h"
 #include "studies/recorder.h"
@@ -11,7 +14,7 @@ namespace swarmanoid
 namespace
 {
 
-constexpr std::size_t kRunColumns = 12;  // of every study, before those of its factors
+constexpr std::size_t kRunColumns = 13;  // of every study, before those of its factors
 constexpr std::size_t kSampleColumns = 4;
 
 void MakeTables(StudyDatabase& database, const Study& study)
@@ -31,7 +34,7 @@ void MakeTables(StudyDatabase& database, const Study& study)
   database.Execute("CREATE TABLE study (name TEXT PRIMARY KEY, value TEXT)");
   database.Execute(
       "CREATE TABLE runs (point INTEGER, seed INTEGER, state TEXT, attempts INTEGER, exit INTEGER, hash TEXT, ticks "
-      "INTEGER, failure TEXT, wall_s REAL, peak_bytes INTEGER, host TEXT, version TEXT" +
+      "INTEGER, failure TEXT, wall_s REAL, peak_bytes INTEGER, host TEXT, version TEXT, checksum TEXT" +
       factors + ", PRIMARY KEY (point, seed))");
   database.Execute("CREATE TABLE samples (point INTEGER, seed INTEGER, tick INTEGER, time_s REAL" + metrics +
                    ", PRIMARY KEY (point, seed, tick)) WITHOUT ROWID");
@@ -62,6 +65,7 @@ void AddFacts(StudyDatabase& database, const Study& study, const Design& design)
            {"aggregate", study.search ? study.search->aggregate : ""},
            {"seeds", fmt::format("{}", fmt::join(study.seeds, " "))}})
     fact->Bind(name).Bind(value).Run();
+  fact->Bind(std::string(kFactsChecksum)).Bind(ChecksumOfFacts(database)).Run();
 }
 
 void AddAllRuns(StudyDatabase& database, const Study& study, const Design& design)
@@ -113,12 +117,32 @@ std::vector<std::string> MetricColumnsIn(StudyDatabase& database)
   return ColumnsFrom(database, "samples", kSampleColumns);
 }
 
+std::string ChecksumOfRows(SqlCommand& rows, const std::string& before)
+{
+  std::uint64_t hash = XXH3_64bits(before.data(), before.size());
+  while (rows.Step())
+  {
+    std::string row;
+    for (int column = 0; column < rows.Columns(); ++column) row += rows.Image(column);
+    hash = XXH3_64bits_withSeed(row.data(), row.size(), hash);
+  }
+  return fmt::format("{:016x}", hash);
+}
+
+std::string ChecksumOfFacts(StudyDatabase& database)
+{
+  const auto rows = database.Prepare("SELECT name, value FROM study WHERE name != ? ORDER BY name");
+  rows->Bind(std::string(kFactsChecksum));
+  return ChecksumOfRows(*rows, {});
+}
+
 std::unique_ptr<SqlCommand> WaitingRun(StudyDatabase& database, std::size_t factors)
 {
   std::string places;
   for (std::size_t f = 0; f < factors; ++f) places += ", ?";
   return database.Prepare(
-      "INSERT INTO runs VALUES (?, ?, 'waiting', 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL" + places + ")");
+      "INSERT INTO runs VALUES (?, ?, 'waiting', 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL" + places +
+      ")");
 }
 
 void AddWaitingRuns(SqlCommand& waiting_run, std::size_t point, const std::vector<ExpressionValue>& values,

@@ -13,7 +13,7 @@ namespace swarmanoid
 {
 
 // Of the tables; the fact "format".
-constexpr int kStoreFormat = 1;
+constexpr int kStoreFormat = 2;
 
 std::string NameInSql(const std::string& name);
 
@@ -24,6 +24,13 @@ void MakeStudyTables(StudyDatabase& database, const Study& study, const Design& 
 std::vector<std::string> FactorsIn(StudyDatabase& database);
 // Columns of metrics.
 std::vector<std::string> MetricColumnsIn(StudyDatabase& database);
+
+// The checksum of all rows of a query and of the checksum before it. SQLite has none: it reads a flipped bit as another
+// value.
+std::string ChecksumOfRows(SqlCommand& rows, const std::string& before);
+// The name of the fact that has the checksum of the others.
+inline constexpr const char* kFactsChecksum = "checksum";
+std::string ChecksumOfFacts(StudyDatabase& database);
 
 // A command for AddWaitingRuns, of a study with so many factors.
 std::unique_ptr<SqlCommand> WaitingRun(StudyDatabase& database, std::size_t factors);

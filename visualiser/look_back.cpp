@@ -25,13 +25,21 @@ std::vector<TimelineEvent> EventsOf(const std::string& text)
 {
   std::vector<TimelineEvent> events;
   std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line) && !lines.eof();)
+  std::string line;
+  for (int number = 1; std::getline(lines, line) && !lines.eof(); ++number)
   {
     const std::vector<std::string> fields = CsvFields(line);
     TimelineEvent event;
-    if (fields.size() < 3) continue;
-    const auto read = std::from_chars(fields[0].data(), fields[0].data() + fields[0].size(), event.tick);
-    if (read.ec != std::errc()) continue;
+    if (number == 1 && line.starts_with("tick,")) continue;
+    const auto read = fields.empty()
+                          ? std::from_chars_result{nullptr, std::errc::invalid_argument}
+                          : std::from_chars(fields[0].data(), fields[0].data() + fields[0].size(), event.tick);
+    if (fields.size() < 3 || read.ec != std::errc())
+    {
+      events.push_back(
+          {events.empty() ? 0 : events.back().tick, fmt::format("line {} of events.csv is damaged", number), {}, {}});
+      continue;
+    }
     event.what = fields[1];
     event.entity = fields[2];
     if (fields.size() > 4) event.from = fields[4];

@@ -3,7 +3,9 @@
 #include <argos3/core/utility/math/rng.h>
 #include <argos3/core/wrappers/lua/lua_controller.h>
 
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -305,7 +307,7 @@ private:
   {
     std::ifstream file(script_.path, std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (!file) THROW_ARGOSEXCEPTION("cannot read '" << script_.path << "'");
+    if (!file) THROW_ARGOSEXCEPTION("cannot read '" << script_.path << "': " << std::strerror(errno));
     // The line for a shell.
     if (text.starts_with('#')) text.insert(0, "--");
     return text;

@@ -7,6 +7,7 @@
 
 #include "common/activity/current_activity.h"
 #include "common/activity/failure_report.h"
+#include "common/threads/start_thread.h"
 
 namespace swarmanoid
 {
@@ -30,7 +31,7 @@ std::thread StartQuietly(const std::function<void()>& run)
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
-  std::thread thread(run);
+  std::thread thread = StartThread("watches how long steps take", run);
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
   return thread;
 }

@@ -1,4 +1,5 @@
 #include "common/bus/delayed_calls.h"
+#include "common/threads/start_thread.h"
 
 #include <algorithm>
 #include <utility>
@@ -10,8 +11,9 @@ void DelayedCalls::Schedule(const std::string& name, std::chrono::duration<doubl
 {
   const std::lock_guard lock(mutex_);
   if (stopped_) return;
-  calls_.try_emplace(name, Call{Clock::now() + std::chrono::duration_cast<Clock::duration>(delay), std::move(call)});
-  if (!thread_.joinable()) thread_ = std::thread([this] { Work(); });
+  calls_.try_emplace(
+      name, Call{listening_.At(Clock::now()) + std::chrono::duration_cast<Clock::duration>(delay), std::move(call)});
+  if (!thread_.joinable()) thread_ = StartThread("does delayed work of the bus", [this] { Work(); });
   changed_.notify_all();
 }
 
@@ -51,11 +53,10 @@ void DelayedCalls::Work()
       changed_.wait(lock);
       continue;
     }
-    if (Clock::now() < first->second.due)
+    const ListeningClock::Duration left = first->second.due - listening_.At(Clock::now());
+    if (left > ListeningClock::Duration::zero())
     {
-      // A copy: the entry may go meanwhile.
-      const Clock::time_point due = first->second.due;
-      changed_.wait_until(lock, due);
+      changed_.wait_for(lock, std::min(left, ListeningClock::kPeriod));
       continue;
     }
     const std::function<void()> call = std::move(first->second.call);

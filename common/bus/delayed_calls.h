@@ -1,5 +1,6 @@
 // What the bus does a little later, unless it is not needed any more: in a thread of its own, as no thread of DDS may
-// wait, or take apart what it runs in. From any thread.
+// wait, or take apart what it runs in. Delays are times of listening (ListeningClock): a process that could not hear
+// waits longer. From any thread.
 #pragma once
 
 #include <chrono>
@@ -9,6 +10,8 @@
 #include <mutex>
 #include <string>
 #include <thread>
+
+#include "common/bus/listening_clock.h"
 
 namespace swarmanoid
 {
@@ -35,7 +38,7 @@ public:
 private:
   struct Call
   {
-    Clock::time_point due;
+    ListeningClock::Duration due{};
     std::function<void()> call;
   };
 
@@ -43,6 +46,7 @@ private:
 
   std::mutex mutex_;
   std::condition_variable changed_;
+  ListeningClock listening_;
   std::map<std::string, Call> calls_;
   std::string running_;
   bool stopped_ = false;

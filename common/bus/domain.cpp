@@ -6,6 +6,8 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <cerrno>
+#include <cstring>
 
 #include <fmt/format.h>
 #include <string>
@@ -49,7 +51,7 @@ FreeDomain::FreeDomain()
     const int domain = kFirstDomain + (start + k) % (kLastDomain - kFirstDomain + 1);
     if (domain == kDefaultDomain) continue;
     lock_ = open(fmt::format("{}/domain.{}.lock", folder, domain).c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
-    if (lock_ < 0) throw BusError("cannot write in '" + folder + "'");
+    if (lock_ < 0) throw BusError("cannot write in '" + folder + "': " + std::strerror(errno));
     if (flock(lock_, LOCK_EX | LOCK_NB) == 0 && PortIsFree(domain))
     {
       id_ = domain;

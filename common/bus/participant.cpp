@@ -227,9 +227,9 @@ Bus::Impl::Impl(const BusOptions& options, const std::string& name)
       share(options.share),
       key_ring(std::make_shared<KeyRing>(options.domain, GivenKey(options))),
       own_name(name),
-      // Who lives is heard again before, unless several announcements are lost.
+      // A process that lives is heard again before, unless four announcements are lost.
       silence_of_leavers_(std::min(options.lease_s, 4 * kLongestPeriod_s)),
-      silence_of_dead_(std::min(options.lease_s / 2, 2 * kLongestPeriod_s))
+      silence_of_dead_(std::min(options.lease_s / 2, 4 * kLongestPeriod_s))
 {
   if (options.domain < 0 || options.domain > 232)
     throw BusError(fmt::format("domain {}: it must be 0 to 232", options.domain));

@@ -19,6 +19,7 @@
 #include "common/bus/stall_detector.h"
 #include "common/bus/tick_gate.h"
 #include "common/bus/worker_session.h"
+#include "common/threads/start_thread.h"
 
 namespace swarmanoid
 {
@@ -74,7 +75,7 @@ public:
   void Open(Calls calls, std::size_t capacity, unsigned writers)
   {
     calls_ = std::move(calls);
-    if (calls_.step_waits) stepper_ = std::thread([this] { StepAlways(); });
+    if (calls_.step_waits) stepper_ = StartThread("steps", [this] { StepAlways(); });
     writers_ = sources_.empty() ? 0 : writers;
     if (writers_ > 0)
       others_in_.emplace(session_.GetBus(), session_.Scope(capacity, writers),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "common/journal/journal_writer.h"
@@ -19,6 +20,19 @@ public:
   // Throws std::runtime_error if it cannot be read, or is damaged.
   virtual std::vector<char> Content(const JournalPlace& place) const = 0;
 };
+
+// The ticks from `first` up to the one before `end`.
+struct TickRange
+{
+  std::uint64_t first = 0;
+  std::uint64_t end = 0;
+
+  bool operator==(const TickRange&) const = default;
+};
+
+// The ticks whose whole state can be read, ascending. Blocks of ticks say only which attributes change. After blocks
+// that are damaged, reading therefore goes on at the next saved state.
+std::vector<TickRange> ReadableTicks(const JournalStart& start, const std::vector<JournalPlace>& places);
 
 // The first tick of which there is all: that of the run, or where the oldest segment that is left was begun.
 std::uint64_t FirstTickOf(const JournalStart& start, const std::vector<JournalPlace>& places);

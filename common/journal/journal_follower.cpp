@@ -1,7 +1,8 @@
 #include "common/journal/journal_follower.h"
 
-#include <algorithm>
 #include <stdexcept>
+
+#include "common/journal/journal_segment.h"
 
 namespace swarmanoid
 {
@@ -11,42 +12,50 @@ void JournalFollower::Refresh()
   const std::vector<std::uint32_t> segments = SegmentsOf(path_);
   if (segments.empty()) return;
   std::erase_if(places_, [&](const JournalPlace& place) { return place.segment < segments.front(); });
-  if (segment_ < segments.front())
+  for (const std::uint32_t segment : segments)
   {
-    segment_ = segments.front();
-    offset_ = 0;
-  }
-  for (; segment_ <= segments.back(); ++segment_, offset_ = 0)
-  {
-    // The next one is begun when this one is complete.
+    if (segment < segment_) continue;
+    if (segment > segment_) offset_ = 0;
+    segment_ = segment;
     const RegularFile file(SegmentFile(path_, segment_));
-    while (ReadBlock(file)) continue;
-    if (segment_ == segments.back()) return;
+    while (offset_ < file.Size() && ReadBlock(file)) continue;
   }
 }
 
 bool JournalFollower::ReadBlock(const RegularFile& file)
 {
-  const std::vector<char> start = file.Read(offset_, kJournalHeaderBytes);
-  const auto header = JournalBlockAt(start, file.Size() - std::min(offset_, file.Size()));
-  if (!header) return false;
-  const JournalPlace place{
-      header->kind, header->first_tick, header->ticks, {}, offset_, kJournalHeaderBytes + header->stored_bytes,
-      segment_};
-  if (places_.empty())
+  const SegmentPart part = PartAt(file, offset_);
+  const std::uint64_t end = offset_ + part.bytes;
+  if (part.kind == SegmentPart::Kind::kDamaged && end < file.Size())
   {
-    if (place.kind != JournalBlockKind::kStart) throw std::runtime_error("'" + path_ + "' is no journal");
-    start_ = ReadStart(JournalContent(file.Read(offset_, place.bytes)));
+    offset_ = end;
+    return true;
   }
+  if (part.kind != SegmentPart::Kind::kBlock) return false;
+  const JournalPlace place{part.header.kind, part.header.first_tick, part.header.ticks, {}, offset_, part.bytes,
+                           segment_};
+  if (!has_start_ && place.kind != JournalBlockKind::kStart)
+    throw std::runtime_error("the journal '" + path_ + "' is damaged: its first block cannot be read");
+  if (!has_start_) start_ = ReadStart(JournalContent(part.block));
+  has_start_ = true;
   if (place.kind == JournalBlockKind::kGoOn) DropFrom(places_, place.first_tick);
   places_.push_back(place);
-  offset_ += place.bytes;
+  offset_ = end;
   return true;
 }
 
 std::vector<char> JournalFollower::Content(const JournalPlace& place) const
 {
-  return JournalContent(RegularFile(SegmentFile(path_, place.segment)).Read(place.offset, place.bytes));
+  const std::string path = SegmentFile(path_, place.segment);
+  try
+  {
+    return JournalContent(RegularFile(path).Read(place.offset, place.bytes));
+  }
+  catch (const std::runtime_error& error)
+  {
+    throw std::runtime_error("the journal '" + path + "' at byte " + std::to_string(place.offset) + ": " +
+                             error.what());
+  }
 }
 
 }  // namespace swarmanoid

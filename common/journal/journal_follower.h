@@ -1,6 +1,5 @@
-// JournalFollower: the journal of a run that may still go on, for those who look back meanwhile. It looks at the
-// headers of blocks alone; their contents are checked when they are read. Used by one thread of any process of the
-// machine on which the run's folder is.
+// JournalFollower: the journal of a run that may still go on, for those who look back meanwhile. It skips blocks that
+// are damaged. Used by one thread of any process of the machine on which the run's folder is.
 #pragma once
 
 #include <memory>
@@ -31,11 +30,12 @@ public:
   std::uint64_t EndTick() const { return EndTickOf(start_, places_); }
 
 private:
-  // False if it ends there so far.
+  // Takes in what begins at offset_. False if the rest of the file is no whole block yet.
   bool ReadBlock(const RegularFile& file);
 
   std::string path_;
   JournalStart start_;
+  bool has_start_ = false;
   std::vector<JournalPlace> places_;
   std::uint32_t segment_ = 0;
   std::uint64_t offset_ = 0;  // of what was not read yet, in the newest segment

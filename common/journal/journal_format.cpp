@@ -95,12 +95,17 @@ std::optional<JournalBlockHeader> JournalBlockAt(std::span<const char> bytes, st
   return header;
 }
 
-std::vector<char> JournalContent(std::span<const char> block)
+bool IsIntact(std::span<const char> block)
 {
   const auto header = JournalBlockAt(block, block.size());
-  if (!header || block.size() != kJournalHeaderBytes + header->stored_bytes ||
-      NumberAt<std::uint64_t>(block, kChecksumAt) != BlockChecksum(block))
-    throw std::runtime_error("a block of the journal is damaged");
+  return header && block.size() == kJournalHeaderBytes + header->stored_bytes &&
+         NumberAt<std::uint64_t>(block, kChecksumAt) == BlockChecksum(block);
+}
+
+std::vector<char> JournalContent(std::span<const char> block)
+{
+  if (!IsIntact(block)) throw std::runtime_error("a block of the journal is damaged");
+  const auto header = JournalBlockAt(block, block.size());
   std::vector<char> content(header->content_bytes);
   const std::size_t bytes =
       ZSTD_decompress(content.data(), content.size(), block.data() + kJournalHeaderBytes, header->stored_bytes);

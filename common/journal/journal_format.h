@@ -54,6 +54,8 @@ std::span<const char> EncodeJournalBlock(JournalBlockKind kind, std::uint64_t fi
 // The header at the start of the bytes; nothing if there is none of this version, or the block is longer than what is
 // left of its file.
 std::optional<JournalBlockHeader> JournalBlockAt(std::span<const char> bytes, std::uint64_t left);
+// Whether the bytes are one whole block, with the checksum that it was written with.
+bool IsIntact(std::span<const char> block);
 // The content of a whole block. Throws std::runtime_error if it is damaged.
 std::vector<char> JournalContent(std::span<const char> block);
 

@@ -21,15 +21,6 @@ bool IsOfOneRun(const JournalStart& start, JournalStart other)
   return ContentOf(start) == ContentOf(other);
 }
 
-// The block at that place of the file, if it is whole.
-std::vector<char> BlockAt(const RegularFile& file, std::uint64_t offset)
-{
-  std::vector<char> block = file.Read(offset, kJournalHeaderBytes);
-  const auto header = JournalBlockAt(block, file.Size() - std::min(offset, file.Size()));
-  if (!header) return {};
-  return file.Read(offset, kJournalHeaderBytes + header->stored_bytes);
-}
-
 }  // namespace
 
 void DropFrom(std::vector<JournalPlace>& places, std::uint64_t tick)
@@ -62,62 +53,164 @@ std::uint64_t EndTickOf(const JournalStart& start, const std::vector<JournalPlac
   return FirstTickOf(start, places);
 }
 
-JournalReader::JournalReader(const std::string& path) : path_(path)
+std::vector<TickRange> ReadableTicks(const JournalStart& start, const std::vector<JournalPlace>& places)
 {
-  std::vector<std::uint32_t> segments = SegmentsOf(path);
-  if (segments.empty()) segments.push_back(0);
-  for (const std::uint32_t segment : segments)
-    if (!ReadSegment(segment)) break;
-  if (places_.empty())
-    throw std::runtime_error(fmt::format("'{}' is no journal, or one of another version of Swarmanoid",
-                                         SegmentFile(path, segments.front())));
+  std::vector<TickRange> ranges;
+  std::vector<std::uint64_t> saved;
+  for (const JournalPlace& place : places)
+  {
+    if (place.kind == JournalBlockKind::kSnapshot) saved.push_back(place.first_tick);
+    if (place.kind != JournalBlockKind::kTicks) continue;
+    if (ranges.empty() || place.first_tick > ranges.back().end) ranges.push_back({place.first_tick, place.first_tick});
+    ranges.back().end = std::max(ranges.back().end, place.first_tick + place.ticks);
+  }
+  std::sort(saved.begin(), saved.end());
+  std::vector<TickRange> readable;
+  for (TickRange range : ranges)
+  {
+    if (range.first != start.first_tick)
+    {
+      // A state that was saved one tick before is changed by the first tick of the range into the state of that tick.
+      const auto state = std::lower_bound(saved.begin(), saved.end(), range.first == 0 ? 0 : range.first - 1);
+      if (state == saved.end() || *state >= range.end) continue;
+      range.first = std::max(range.first, *state);
+    }
+    readable.push_back(range);
+  }
+  return readable;
 }
 
-bool JournalReader::ReadSegment(std::uint32_t segment)
+JournalReader::JournalReader(const std::string& path) : path_(path)
 {
-  files_.emplace_back(segment, std::make_unique<RegularFile>(SegmentFile(path_, segment)));
-  const RegularFile& file = *files_.back().second;
-  std::uint64_t offset = 0;
-  while (offset < file.Size())
+  try
   {
-    const std::vector<char> block = BlockAt(file, offset);
-    const auto header = JournalBlockAt(block, block.size());
-    if (!header || (offset == 0) != (header->kind == JournalBlockKind::kStart)) break;
-    JournalPlace place{header->kind, header->first_tick, header->ticks, {}, offset, block.size(), segment};
+    ReadAll();
+  }
+  catch (const FileError& error)
+  {
+    throw std::runtime_error(fmt::format("the journal '{}' cannot be read: {}", path, error.what()));
+  }
+}
+
+void JournalReader::ReadAll()
+{
+  // A run that goes on may delete its oldest segments meanwhile. Then the others are looked for again.
+  std::vector<std::uint32_t> segments = SegmentsOf(path_);
+  for (std::vector<std::uint32_t> again = SegmentsOf(path_); again != segments; again = SegmentsOf(path_))
+    segments = std::move(again);
+  if (segments.empty()) segments.push_back(0);
+  for (std::size_t k = 0; k < segments.size(); ++k)
+  {
+    for (std::uint32_t missing = k == 0 ? segments[k] : segments[k - 1] + 1; missing < segments[k]; ++missing)
+      damages_.push_back({SegmentFile(path_, missing), 0, 0});
+    if (!ReadSegment(segments[k], k + 1 == segments.size())) break;
+  }
+  if (places_.empty())
+    throw std::runtime_error(fmt::format("'{}' is no journal, or one of another version of Swarmanoid",
+                                         SegmentFile(path_, segments.front())));
+  if (!HasStart() && places_.front().kind == JournalBlockKind::kSnapshot)
+    start_.first_tick = places_.front().first_tick;
+}
+
+bool JournalReader::ReadSegment(std::uint32_t segment, bool is_newest)
+{
+  const std::string path = SegmentFile(path_, segment);
+  files_.emplace_back(segment, std::make_unique<RegularFile>(path));
+  const RegularFile& file = *files_.back().second;
+  std::uint32_t table = kUnknownTable;
+  std::uint64_t whole = 0;  // bytes up to the end of the newest whole block
+  for (std::uint64_t offset = 0; offset < file.Size();)
+  {
+    const SegmentPart part = PartAt(file, offset);
+    const std::uint64_t end = offset + part.bytes;
+    if (part.kind == SegmentPart::Kind::kTorn && is_newest)
+    {
+      torn_ = part.bytes;
+      break;
+    }
+    const JournalPlace place{
+        part.header.kind, part.header.first_tick, part.header.ticks, {}, offset, part.bytes, segment, table};
+    bool good = part.kind == SegmentPart::Kind::kBlock;
     try
     {
-      const std::vector<char> content = JournalContent(block);
-      if (place.kind == JournalBlockKind::kPart) place.name = ReadPart(content).name;
-      if (offset == 0)
+      if (good && offset == 0 && part.header.kind == JournalBlockKind::kStart)
       {
-        JournalStart start = ReadStart(content);
-        if (places_.empty()) start_ = start;
+        JournalStart start = ReadStart(JournalContent(part.block));
+        if (!HasStart()) start_ = start;
         // Another run may have left its own here.
-        if (!IsOfOneRun(start, start_)) break;
+        if (!IsOfOneRun(start, start_)) return false;
         if (tables_.empty() || start.hosts != tables_.back()) tables_.push_back(std::move(start.hosts));
+        table = static_cast<std::uint32_t>(tables_.size() - 1);
+        places_.push_back(place);
+        places_.back().table = table;
       }
-      place.table = static_cast<std::uint32_t>(tables_.size() - 1);
+      else if (good)
+        good = Take(part, place);
     }
     catch (const std::runtime_error&)
     {
-      break;
+      good = false;
     }
-    if (place.kind == JournalBlockKind::kGoOn) DropFrom(places_, place.first_tick);
-    places_.push_back(std::move(place));
-    offset += block.size();
+    if (good)
+      whole = end;
+    else
+      damages_.push_back({path, offset, part.bytes});
+    offset = end;
   }
-  torn_ = file.Size() - offset;
-  bytes_ += offset;
-  if (offset == 0) return false;
+  bytes_ += is_newest ? whole : file.Size();
+  if (whole == 0 || table == kUnknownTable) return true;
   newest_ = segment;
-  newest_bytes_ = offset;
-  return torn_ == 0;
+  newest_bytes_ = whole;
+  return true;
+}
+
+bool JournalReader::Take(const SegmentPart& part, JournalPlace place)
+{
+  if (place.kind == JournalBlockKind::kStart) return false;
+  if (place.kind == JournalBlockKind::kPart)
+  {
+    place.name = ReadPart(JournalContent(part.block)).name;
+    // What a process saved is of no use if it is not known which robots it had.
+    if (place.table == kUnknownTable) return true;
+  }
+  if (place.kind == JournalBlockKind::kGoOn) DropFrom(places_, place.first_tick);
+  // The block that says that ticks are done again may be damaged.
+  if (place.kind == JournalBlockKind::kTicks)
+  {
+    const auto before = std::find_if(places_.rbegin(), places_.rend(),
+                                     [](const JournalPlace& other) { return other.kind == JournalBlockKind::kTicks; });
+    if (before != places_.rend() && place.first_tick < before->first_tick + before->ticks)
+      DropFrom(places_, place.first_tick);
+  }
+  places_.push_back(std::move(place));
+  return true;
+}
+
+const JournalStart& JournalReader::Start() const
+{
+  if (HasStart()) return start_;
+  throw std::runtime_error(
+      fmt::format("the journal '{}' is damaged: its first block, which says what run it is of, cannot be read", path_));
+}
+
+const HostTable& JournalReader::Hosts() const
+{
+  Start();
+  return tables_.back();
 }
 
 std::vector<char> JournalReader::Content(const JournalPlace& place) const
 {
   for (const auto& [segment, file] : files_)
-    if (segment == place.segment) return JournalContent(file->Read(place.offset, place.bytes));
+    if (segment == place.segment) try
+      {
+        return JournalContent(file->Read(place.offset, place.bytes));
+      }
+      catch (const std::runtime_error& error)
+      {
+        throw std::runtime_error(
+            fmt::format("the journal '{}' at byte {}: {}", SegmentFile(path_, segment), place.offset, error.what()));
+      }
   throw std::runtime_error(fmt::format("the journal '{}' has no segment {}", path_, place.segment));
 }
 
@@ -203,7 +296,16 @@ const HostTable& JournalReader::HostsAt(std::uint64_t tick) const
 {
   const JournalPlace* place = TicksWith(tick);
   if (place == nullptr) throw std::runtime_error(fmt::format("the journal '{}' has no tick {}", path_, tick));
+  if (place->table == kUnknownTable)
+    throw std::runtime_error(fmt::format(
+        "the journal '{}' does not say which controller hosts had the robots at tick {}: it is damaged", path_, tick));
   return tables_[place->table];
+}
+
+bool JournalReader::KnowsHostsAt(std::uint64_t tick) const
+{
+  const JournalPlace* place = TicksWith(tick);
+  return place != nullptr && place->table != kUnknownTable;
 }
 
 std::optional<Checkpoint> JournalReader::CheckpointAt(std::uint64_t tick, const std::vector<std::string>& parts,

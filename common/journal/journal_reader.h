@@ -1,5 +1,5 @@
-// JournalReader: the journal of a run that has ended, however it did. Blocks are found one after the other, in all
-// segments that are there; the first one that is cut short or damaged ends it.
+// JournalReader: the journal of a run that has ended, however it did. It reads all blocks of all segments, skips those
+// that are damaged, and says which bytes it skipped.
 #pragma once
 
 #include <functional>
@@ -12,11 +12,22 @@
 #include "common/configuration/regular_file.h"
 #include "common/journal/journal_blocks.h"
 #include "common/journal/journal_format.h"
+#include "common/journal/journal_segment.h"
 #include "common/journal/journal_writer.h"
 #include "common/journal/tick_records.h"
 
 namespace swarmanoid
 {
+
+// Bytes of a journal that cannot be read.
+struct JournalDamage
+{
+  std::string file;
+  std::uint64_t offset = 0;
+  std::uint64_t bytes = 0;  // 0: the whole file is missing
+
+  bool operator==(const JournalDamage&) const = default;
+};
 
 class JournalReader : public JournalBlocks
 {
@@ -24,22 +35,29 @@ public:
   // Throws std::runtime_error, with the path, if it cannot be read or is no journal of this version.
   explicit JournalReader(const std::string& path);
 
-  const JournalStart& Start() const { return start_; }
-  // The controller hosts at the end; at first there may have been others.
-  const HostTable& Hosts() const { return tables_.back(); }
-  // Those that stepped at a tick that the journal has.
+  // Throws std::runtime_error, with the path, if the block that has it is damaged.
+  const JournalStart& Start() const;
+  // The same. If that block is damaged, it has no origin and no hosts, and a guess at the first tick.
+  const JournalStart& StartAsFarAsKnown() const { return start_; }
+  bool HasStart() const { return !tables_.empty(); }
+  // The controller hosts at the end; at first there may have been others. Throws as Start does.
+  const HostTable& Hosts() const;
+  // Those that stepped at a tick that the journal has. Throws std::runtime_error if they are not known.
   const HostTable& HostsAt(std::uint64_t tick) const;
+  bool KnowsHostsAt(std::uint64_t tick) const;
   // By the numbers that places have.
   const std::vector<HostTable>& Tables() const { return tables_; }
   const std::string& Path() const { return path_; }
   // All whole blocks but those of ticks that were done again, in the order of the file.
   const std::vector<JournalPlace>& Places() const override { return places_; }
-  // Of whole blocks, in all segments and in the newest one.
+  // Up to the end of the newest whole block, in all segments and in the newest one that a run can go on with.
   std::uint64_t Bytes() const { return bytes_; }
   std::uint64_t NewestSegmentBytes() const { return newest_bytes_; }
   std::uint32_t NewestSegment() const { return newest_; }
-  // Bytes after the last whole block: what was being written when the run died.
+  // Bytes after the last whole block that are the start of another one: what was being written when the run died.
   std::uint64_t TornBytes() const { return torn_; }
+  // In the order of the files.
+  const std::vector<JournalDamage>& Damages() const { return damages_; }
   std::vector<char> Content(const JournalPlace& place) const override;
   // The first tick of which there is all: that of the run, or of the oldest segment that is left.
   std::uint64_t FirstTick() const { return FirstTickOf(start_, places_); }
@@ -64,15 +82,17 @@ public:
                                                  const HostTable& hosts) const;
 
 private:
+  void ReadAll();
+  // The blocks of one segment; false if it is of another run.
+  bool ReadSegment(std::uint32_t segment, bool is_newest);
+  // The block of a segment whose table of hosts has that number. False if its content is damaged.
+  bool Take(const SegmentPart& part, JournalPlace place);
   // The block that has the tick; none if there is none.
   const JournalPlace* TicksWith(std::uint64_t tick) const;
   const JournalPlace* PlaceOf(JournalBlockKind kind, std::uint64_t tick, const std::string& name,
                               std::optional<std::uint32_t> table = std::nullopt) const;
 
   std::string path_;
-  // The blocks of one segment; false if another one cannot follow.
-  bool ReadSegment(std::uint32_t segment);
-
   std::vector<std::pair<std::uint32_t, std::unique_ptr<RegularFile>>> files_;
   JournalStart start_;
   std::vector<JournalPlace> places_;
@@ -81,6 +101,7 @@ private:
   std::uint64_t newest_bytes_ = 0;
   std::uint32_t newest_ = 0;
   std::uint64_t torn_ = 0;
+  std::vector<JournalDamage> damages_;
 };
 
 // Whether there is anything of it.

@@ -16,6 +16,7 @@
 
 #include "common/configuration/regular_file.h"
 #include "common/journal/journal_reader.h"
+#include "common/threads/start_thread.h"
 
 namespace swarmanoid
 {
@@ -30,8 +31,10 @@ constexpr std::size_t kMostQueued = 256U << 20U;  // then the run waits for the 
 constexpr auto kLatest = 100ms;                   // a tick stays unwritten
 constexpr auto kLatestOfFew = 500ms;              // likewise, where ticks are slow: a block of few takes much room
 constexpr std::uint32_t kFewTicks = 8;
-constexpr std::uint64_t kSegments = 8;  // that a budget is for
-constexpr int kSavedBeforeTelling = 3;  // states, until a part that is lacking will not come
+constexpr std::uint64_t kSegments = 8;            // that a budget is for
+constexpr std::uint64_t kSavedBeforeTelling = 3;  // states, until a part that is lacking will not come
+constexpr std::size_t kMostPlaces = 4096;         // that are kept in memory; those of the last seconds at least
+constexpr std::size_t kMostSaving = 64;           // states that wait for their parts
 
 // The launcher lets the processes of a small run share one core; this thread need not, and goes where that one may.
 void UseCoresOfLauncher()
@@ -41,26 +44,6 @@ void UseCoresOfLauncher()
 }
 
 }  // namespace
-
-std::optional<std::uint64_t> StateAfter(const std::vector<JournalPlace>& places, std::uint32_t segment,
-                                        const std::vector<std::string>& parts)
-{
-  for (auto snapshot = places.rbegin(); snapshot != places.rend() && snapshot->segment > segment; ++snapshot)
-  {
-    if (snapshot->kind != JournalBlockKind::kSnapshot) continue;
-    const auto is_there = [&](const std::string& name)
-    {
-      return std::any_of(places.begin(), places.end(),
-                         [&](const JournalPlace& place)
-                         {
-                           return place.kind == JournalBlockKind::kPart && place.segment > segment &&
-                                  place.first_tick == snapshot->first_tick && place.name == name;
-                         });
-    };
-    if (std::all_of(parts.begin(), parts.end(), is_there)) return snapshot->first_tick;
-  }
-  return std::nullopt;
-}
 
 std::string SegmentFile(const std::string& path, std::uint32_t segment)
 {
@@ -82,11 +65,7 @@ std::vector<std::uint32_t> SegmentsOf(const std::string& path)
     const auto read = std::from_chars(name.data(), name.data() + name.size(), number);
     if (read.ec == std::errc() && number > 0 && name == std::to_string(number)) numbers.insert(number);
   }
-  std::vector<std::uint32_t> newest;
-  for (auto number = numbers.rbegin(); number != numbers.rend(); ++number)
-    if (newest.empty() || newest.back() == *number + 1) newest.push_back(*number);
-  std::reverse(newest.begin(), newest.end());
-  return newest;
+  return {numbers.begin(), numbers.end()};
 }
 
 JournalWriter::JournalWriter(const std::string& path, std::uint32_t segment, int flags, JournalBudget budget)
@@ -104,6 +83,9 @@ JournalWriter::JournalWriter(const std::string& path, std::span<const char> star
                              JournalBudget budget)
     : JournalWriter(path, 0, O_CREAT | O_TRUNC, std::move(budget))
 {
+  // An earlier run that had the folder may have left segments.
+  for (const std::uint32_t later : SegmentsOf(path_))
+    if (later > 0) std::filesystem::remove(SegmentFile(path_, later));
   start_.assign(start.begin(), start.end());
   tables_.push_back(Start().hosts);
   Block first;
@@ -143,8 +125,9 @@ JournalWriter::JournalWriter(const JournalReader& journal, std::uint64_t tick, b
     while (records.Next(record) && record.state.tick < tick)
       kept.rows.Add(record.state, record.save, record.frames, record.commands);
   }
-  places_ = journal.Places();
-  DropFrom(places_, tick);
+  std::vector<JournalPlace> before = journal.Places();
+  DropFrom(before, tick);
+  for (const JournalPlace& place : before) Note(place);
   Write(mark);
   kept.place.first_tick = kept.rows.FirstTick();
   kept.place.ticks = kept.rows.Ticks();
@@ -154,12 +137,12 @@ JournalWriter::JournalWriter(const JournalReader& journal, std::uint64_t tick, b
 
 void JournalWriter::StartThread(bool beside_launcher)
 {
-  thread_ = std::thread(
-      [this, beside_launcher]
-      {
-        if (beside_launcher) UseCoresOfLauncher();
-        Write();
-      });
+  thread_ = swarmanoid::StartThread("writes the journal",
+                                    [this, beside_launcher]
+                                    {
+                                      if (beside_launcher) UseCoresOfLauncher();
+                                      Write();
+                                    });
 }
 
 JournalWriter::~JournalWriter()
@@ -249,7 +232,10 @@ JournalStart JournalWriter::Start() const
 HostTable JournalWriter::Table(std::uint32_t number) const
 {
   const std::lock_guard lock(mutex_);
-  return tables_.at(number);
+  if (number >= tables_.size())
+    throw std::runtime_error(
+        fmt::format("the journal '{}' does not say which controller hosts had the robots: it is damaged", path_));
+  return tables_[number];
 }
 
 void JournalWriter::QueueRows()
@@ -332,36 +318,76 @@ void JournalWriter::OpenNextSegment(const Block& opening)
   WriteBlock(first);
 }
 
+void JournalWriter::Note(const JournalPlace& place)
+{
+  if (segments_.empty() || segments_.back().number != place.segment) segments_.emplace_back().number = place.segment;
+  Segment& segment = segments_.back();
+  if (place.kind == JournalBlockKind::kTicks)
+    segment.ticks_end = std::max(segment.ticks_end, place.first_tick + place.ticks);
+  if (place.kind == JournalBlockKind::kSnapshot)
+  {
+    ++segment.states;
+    NoteSaved(place.first_tick,
+              [&](SavedState& state)
+              {
+                state.has_space = true;
+                state.segment = std::min(state.segment, place.segment);
+              });
+  }
+  if (place.kind == JournalBlockKind::kPart)
+  {
+    segment.parts.insert(place.name);
+    NoteSaved(place.first_tick,
+              [&](SavedState& state)
+              {
+                state.parts.insert(place.name);
+                state.segment = std::min(state.segment, place.segment);
+              });
+  }
+  places_.push_back(place);
+  if (places_.size() < kMostPlaces) return;
+  places_.erase(places_.begin(), places_.begin() + kMostPlaces / 2);
+  has_forgotten_ = true;
+}
+
+void JournalWriter::NoteSaved(std::uint64_t tick, const std::function<void(SavedState&)>& add)
+{
+  SavedState& state = saving_[tick];
+  add(state);
+  const bool is_complete = state.has_space && std::ranges::all_of(budget_.parts, [&](const std::string& name)
+                                                                  { return state.parts.contains(name); });
+  if (is_complete)
+  {
+    complete_ = tick;
+    complete_segment_ = state.segment;
+    saving_.erase(saving_.begin(), saving_.upper_bound(tick));
+  }
+  while (saving_.size() > kMostSaving) saving_.erase(saving_.begin());
+}
+
 std::string JournalWriter::LackingPart() const
 {
   for (const std::string& name : budget_.parts)
-    if (std::none_of(places_.begin(), places_.end(),
-                     [&](const JournalPlace& place)
-                     { return place.kind == JournalBlockKind::kPart && place.name == name; }))
+    if (std::ranges::none_of(segments_, [&](const Segment& segment) { return segment.parts.contains(name); }))
       return name;
   return {};
 }
 
-// Whole segments before the newest tick at which all processes were saved: everybody goes on from there.
+// Deletes the segments before the newest state that all processes saved, as long as no tick since then is in them.
 void JournalWriter::DropOldSegments()
 {
   const std::lock_guard lock(mutex_);
-  while (all_bytes_ > budget_.bytes && !places_.empty())
+  while (all_bytes_ > budget_.bytes && !segments_.empty())
   {
-    const std::uint32_t oldest = places_.front().segment;
-    const auto state = StateAfter(places_, oldest, budget_.parts);
-    const auto is_needed = [&](const JournalPlace& place)
-    {
-      return place.segment == oldest && place.kind == JournalBlockKind::kTicks &&
-             place.first_tick + place.ticks > *state;
-    };
-    if (!state || std::any_of(places_.begin(), places_.end(), is_needed)) return;
+    const Segment& oldest = segments_.front();
+    if (!complete_ || complete_segment_ <= oldest.number || oldest.ticks_end > *complete_) return;
     std::error_code none;
-    const std::uint64_t bytes = std::filesystem::file_size(SegmentFile(path_, oldest), none);
-    if (none || !std::filesystem::remove(SegmentFile(path_, oldest), none)) return;
-    all_bytes_ -= bytes;
-    segment_from_ -= bytes;
-    std::erase_if(places_, [oldest](const JournalPlace& place) { return place.segment == oldest; });
+    const std::uint64_t bytes = std::filesystem::file_size(SegmentFile(path_, oldest.number), none);
+    if (none || !std::filesystem::remove(SegmentFile(path_, oldest.number), none)) return;
+    all_bytes_ -= std::min(all_bytes_, bytes);
+    segment_from_ -= std::min(segment_from_, bytes);
+    std::erase_if(places_, [&](const JournalPlace& place) { return place.segment == oldest.number; });
+    segments_.erase(segments_.begin());
   }
 }
 
@@ -382,7 +408,7 @@ void JournalWriter::WriteBlock(Block& block)
     const std::lock_guard lock(mutex_);
     all_bytes_ += bytes.size();
     place.table = static_cast<std::uint32_t>(tables_.size() - 1);
-    places_.push_back(std::move(place));
+    Note(place);
     return;
   }
   const int error = errno;
@@ -427,9 +453,8 @@ std::optional<std::string> JournalWriter::TakeExcess()
 {
   const std::lock_guard lock(mutex_);
   if (budget_.bytes == 0 || excess_told_ || all_bytes_ <= 2 * budget_.bytes) return std::nullopt;
-  const auto states =
-      std::count_if(places_.begin(), places_.end(),
-                    [](const JournalPlace& place) { return place.kind == JournalBlockKind::kSnapshot; });
+  std::uint64_t states = 0;
+  for (const Segment& segment : segments_) states += segment.states;
   if (states < kSavedBeforeTelling) return std::nullopt;
   const std::string lacking = LackingPart();
   if (lacking.empty()) return std::nullopt;
@@ -452,10 +477,26 @@ bool JournalWriter::Works() const
   return works_;
 }
 
-std::vector<JournalPlace> JournalWriter::Places() const
+std::vector<JournalPlace> JournalWriter::RecentPlaces() const
 {
   const std::lock_guard lock(mutex_);
   return places_;
+}
+
+std::vector<JournalPlace> JournalWriter::Places() const
+{
+  {
+    const std::lock_guard lock(mutex_);
+    if (!has_forgotten_) return places_;
+  }
+  const JournalReader reader(path_);
+  std::vector<JournalPlace> places = reader.Places();
+  const std::lock_guard lock(mutex_);
+  // The oldest tables may be those of segments that were deleted.
+  const auto older = static_cast<std::uint32_t>(tables_.size() - std::min(tables_.size(), reader.Tables().size()));
+  for (JournalPlace& place : places)
+    if (place.table != kUnknownTable) place.table += older;
+  return places;
 }
 
 std::vector<char> JournalWriter::Read(const JournalPlace& place) const
@@ -463,7 +504,8 @@ std::vector<char> JournalWriter::Read(const JournalPlace& place) const
   const std::string path = SegmentFile(path_, place.segment);
   std::vector<char> bytes = RegularFile(path).Read(place.offset, place.bytes);
   if (bytes.size() != place.bytes)
-    throw std::runtime_error(fmt::format("cannot read the journal '{}' at {}", path, place.offset + bytes.size()));
+    throw std::runtime_error(fmt::format("cannot read the journal '{}' at byte {}: another program made it shorter",
+                                         path, place.offset + bytes.size()));
   return bytes;
 }
 

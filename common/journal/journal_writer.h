@@ -6,9 +6,11 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -33,6 +35,8 @@ struct JournalPlace
   std::uint32_t segment = 0;
   std::uint32_t table = 0;  // of the controller hosts then: its number among the tables of the journal
 };
+// The table of blocks in a segment whose first block, which has the table, is damaged.
+inline constexpr std::uint32_t kUnknownTable = UINT32_MAX;
 
 // How much of a journal is kept.
 struct JournalBudget
@@ -41,13 +45,9 @@ struct JournalBudget
   std::vector<std::string> parts;  // of the processes without whose state nobody goes on
 };
 
-// The newest tick of which segments after that one have the state of the space and all of the parts.
-std::optional<std::uint64_t> StateAfter(const std::vector<JournalPlace>& places, std::uint32_t segment,
-                                        const std::vector<std::string>& parts);
-
 // The file of a segment. `path`: of the first one; the others lie beside it, named by their numbers.
 std::string SegmentFile(const std::string& path, std::uint32_t segment);
-// Of those that are there, without a gap, the oldest first.
+// Of those that are there, the oldest first.
 std::vector<std::uint32_t> SegmentsOf(const std::string& path);
 
 // Takes away what a run that goes on at the tick does again.
@@ -85,7 +85,9 @@ public:
   bool Works() const;
   // Bytes of all segments.
   std::uint64_t Bytes() const;
-  // All blocks that are kept.
+  // The newest blocks that were written. Their number has a limit, however long the run.
+  std::vector<JournalPlace> RecentPlaces() const;
+  // All blocks that are kept. If these are more, the files are read again.
   std::vector<JournalPlace> Places() const;
   std::vector<char> Read(const JournalPlace& place) const;
   const std::string& Path() const { return path_; }
@@ -105,7 +107,26 @@ private:
     std::vector<char> start{};    // of the next segment, if it is the first one of that
   };
 
+  // A segment that is kept.
+  struct Segment
+  {
+    std::uint32_t number = 0;
+    std::uint64_t ticks_end = 0;  // the tick after the newest one
+    std::uint64_t states = 0;     // of the space
+    std::set<std::string> parts;  // names
+  };
+  // What the processes have saved of a tick.
+  struct SavedState
+  {
+    bool has_space = false;
+    std::set<std::string> parts;
+    std::uint32_t segment = UINT32_MAX;  // the oldest one that has some of it
+  };
+
   JournalWriter(const std::string& path, std::uint32_t segment, int flags, JournalBudget budget);
+  // Takes a block that stands in the file into account. With the mutex.
+  void Note(const JournalPlace& place);
+  void NoteSaved(std::uint64_t tick, const std::function<void(SavedState&)>& add);
   void StartThread(bool beside_launcher);
   void Queue(JournalBlockKind kind, std::uint64_t tick, const std::string& name, std::vector<char> content);
   void QueueRows();
@@ -137,12 +158,17 @@ private:
   bool works_ = true;
   std::optional<std::string> trouble_;
   bool excess_told_ = false;
-  std::vector<JournalPlace> places_;
-  std::vector<HostTable> tables_;   // the last one is that of the newest segment
-  std::uint64_t saved_ = 0;         // the newest tick of which some state was added
-  std::uint64_t all_bytes_ = 0;     // of whole blocks in all segments
-  std::uint64_t segment_from_ = 0;  // all_bytes_ when the newest segment was begun, or is to be
-  std::uint64_t size_ = 0;          // of whole blocks of the newest segment; the writer's thread
+  std::vector<JournalPlace> places_;  // the newest; older ones are forgotten
+  bool has_forgotten_ = false;
+  std::vector<Segment> segments_;               // the newest one last
+  std::map<std::uint64_t, SavedState> saving_;  // by tick: states that are not complete yet
+  std::optional<std::uint64_t> complete_;       // the newest tick of which all parts are there
+  std::uint32_t complete_segment_ = 0;          // the oldest one that has some of that state
+  std::vector<HostTable> tables_;               // the last one is that of the newest segment
+  std::uint64_t saved_ = 0;                     // the newest tick of which some state was added
+  std::uint64_t all_bytes_ = 0;                 // of whole blocks in all segments
+  std::uint64_t segment_from_ = 0;              // all_bytes_ when the newest segment was begun, or is to be
+  std::uint64_t size_ = 0;                      // of whole blocks of the newest segment; the writer's thread
   std::thread thread_;
 };
 

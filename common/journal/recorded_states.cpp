@@ -20,8 +20,9 @@ RecordedStates::~RecordedStates() = default;
 
 bool RecordedStates::Next()
 {
-  if (!tick_) return Seek(FirstTickOf(start_, blocks_.Places()));
+  if (!tick_) return SeekFrom(FirstTickOf(start_, blocks_.Places()));
   if (!NextRecord()) return false;
+  if (record_.state.tick != *tick_ + 1) return SeekFrom(*tick_ + 1);
   space_->Apply(record_.state);
   tick_ = record_.state.tick;
   return true;
@@ -65,10 +66,22 @@ void RecordedStates::LoadStateBefore(std::uint64_t tick)
   next_ = start_.first_tick;
 }
 
+bool RecordedStates::SeekFrom(std::uint64_t tick)
+{
+  const std::uint64_t first = std::max(tick, FirstTickOf(start_, blocks_.Places()));
+  for (const TickRange& range : ReadableTicks(start_, blocks_.Places()))
+    if (range.end > first) return Seek(std::max(range.first, first));
+  return false;
+}
+
 bool RecordedStates::Seek(std::uint64_t tick)
 {
   const std::vector<JournalPlace>& places = blocks_.Places();
-  if (tick < FirstTickOf(start_, places) || tick >= EndTickOf(start_, places)) return false;
+  if (tick < FirstTickOf(start_, places)) return false;
+  const std::vector<TickRange> readable = ReadableTicks(start_, places);
+  const auto range = std::find_if(readable.begin(), readable.end(),
+                                  [tick](const TickRange& r) { return tick >= r.first && tick < r.end; });
+  if (range == readable.end()) return false;
   LoadStateBefore(tick);
   // What no message of a tick tells was as at the start of the experiment, or of the whole state.
   if (tick_ == tick) return true;

@@ -20,11 +20,13 @@ public:
   RecordedStates(const Experiment& experiment, const JournalBlocks& blocks, const JournalStart& start);
   ~RecordedStates();
 
-  // To the next tick, at first to the first one; false after the last one. Throws std::runtime_error for what is
-  // damaged, as Seek does; then the space is at some other tick.
+  // To the next tick that can be read, at first to the first one; false after the last one. Throws std::runtime_error
+  // for what is damaged, as the others do; then the space is at some other tick.
   bool Next();
-  // To that tick; false, and nothing happens, if the journal does not have it.
+  // To that tick; false if it cannot be read.
   bool Seek(std::uint64_t tick);
+  // To that tick or the first one after it that can be read; false if none can.
+  bool SeekFrom(std::uint64_t tick);
   // At the tick, as those processes saw it that stepped there.
   const CSwarmanoidSpace& Space() const { return *space_; }
   const TickRecord& Record() const { return record_; }

@@ -1,6 +1,8 @@
 #include "common/program/man_page.h"
 
 #include <fmt/format.h>
+#include <cerrno>
+#include <cstring>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -157,7 +159,7 @@ void Write(const std::string& path, const std::string& text)
   std::ofstream file(path, std::ios::binary);
   file << text;
   file.close();
-  if (!file) throw std::runtime_error("cannot write '" + path + "'");
+  if (!file) throw std::runtime_error("cannot write '" + path + "': " + std::strerror(errno));
 }
 
 }  // namespace

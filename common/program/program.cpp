@@ -4,9 +4,11 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
 #include <exception>
 #include <string_view>
+#include <system_error>
 
 #include "common/activity/failure_report.h"
 #include "common/activity/limits.h"
@@ -16,6 +18,7 @@
 #include "common/program/command_line_complaint.h"
 #include "common/program/interrupts.h"
 #include "common/program/man_page.h"
+#include "common/program/standard_output.h"
 #include "common/program/usage_error.h"
 #include "common/version/version.h"
 
@@ -55,6 +58,10 @@ int Report(const std::string& program)
   }
   catch (const std::exception& error)
   {
+    // Printing throws this if standard output is full or closed; then that is what is said.
+    const auto* const of_system = dynamic_cast<const std::system_error*>(&error);
+    if (of_system != nullptr) errno = of_system->code().value();
+    if (of_system != nullptr && !OutputIsWritten()) return kExitProcessFailed;
     NoteEnd(Interrupted() ? EndReason::kInterrupted : EndReason::kFailed, 0, error.what(), true);
     Complain(program, error.what());
   }
@@ -84,8 +91,11 @@ std::string VersionText(const std::string& program)
 
 }  // namespace
 
-int RunProgram(const ProgramDescription& program, int count, char** arguments,
-               const std::function<void(CLI::App&)>& declare, const std::function<int()>& run)
+namespace
+{
+
+int RunWithoutOutput(const ProgramDescription& program, int count, char** arguments,
+                     const std::function<void(CLI::App&)>& declare, const std::function<int()>& run)
 {
   terminating_program = program.name;
   std::set_terminate(Terminate);
@@ -120,6 +130,17 @@ int RunProgram(const ProgramDescription& program, int count, char** arguments,
   {
     return Report(program.name);
   }
+}
+
+}  // namespace
+
+int RunProgram(const ProgramDescription& program, int count, char** arguments,
+               const std::function<void(CLI::App&)>& declare, const std::function<int()>& run)
+{
+  OpenStandardFiles();
+  const int code = RunWithoutOutput(program, count, arguments, declare, run);
+  // What code of users prints is no result: a log that could not be written ends no run.
+  return program.runs_code_of_users ? code : ExitCodeWithOutput(code);
 }
 
 }  // namespace swarmanoid

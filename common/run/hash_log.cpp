@@ -3,15 +3,36 @@
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <cstdlib>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <utility>
 
+#include "common/configuration/wording.h"
+
 namespace swarmanoid
 {
+
+namespace
+{
+
+// Of "tick hash"; nothing if it is none.
+std::optional<std::uint64_t> TickOfLine(const std::string& line)
+{
+  constexpr std::size_t kHashDigits = 16;
+  std::uint64_t tick = 0, hash = 0;
+  const char* const end = line.data() + line.size();
+  const auto number = std::from_chars(line.data(), end, tick);
+  if (number.ec != std::errc() || number.ptr == end || *number.ptr != ' ') return std::nullopt;
+  const char* const digits = number.ptr + 1;
+  const auto last = std::from_chars(digits, end, hash, 16);
+  if (last.ec != std::errc() || last.ptr != end || end - digits != kHashDigits) return std::nullopt;
+  return tick;
+}
+
+}  // namespace
 
 HashLog::HashLog(const std::string& path, std::optional<std::uint64_t> goes_on_at) : path_(path)
 {
@@ -25,8 +46,19 @@ void HashLog::CutAt(std::uint64_t tick) const
 {
   std::ifstream lines(path_);
   std::uintmax_t kept = 0;
-  for (std::string line; std::getline(lines, line) && !lines.eof() && std::strtoull(line.c_str(), nullptr, 10) < tick;)
+  std::optional<std::uint64_t> before;
+  std::string line;
+  for (int number = 1; std::getline(lines, line) && !lines.eof(); ++number)
+  {
+    const auto at = TickOfLine(line);
+    if (!at || (before && *at != *before + 1))
+      throw std::runtime_error(fmt::format(
+          "{}:{}: the hash log is damaged: {} is not the line of the next tick; delete the file to go on without it",
+          path_, number, Quoted(line)));
+    if (*at >= tick) break;
+    before = at;
     kept += line.size() + 1;
+  }
   std::filesystem::resize_file(path_, kept);
 }
 

@@ -12,6 +12,7 @@
 #include "common/plugins/library.h"
 #include "common/program/usage_error.h"
 #include "common/space/space.h"
+#include "common/threads/start_thread.h"
 #include "launcher/control_request.h"
 #include "launcher/isolation.h"
 #include "roles/builtins.h"
@@ -57,7 +58,7 @@ AttachedRun::AttachedRun(const AttachedRunOptions& given)
   if (!AttachedTo().insert({choice_.experiment, choice_.domain}).second)
     throw UsageError(fmt::format("this program is attached to {} already; use that object, or close it first",
                                  Quoted(choice_.experiment)));
-  thread_ = std::thread([this, options] { Run(options); });
+  thread_ = StartThread("follows the run", [this, options] { Run(options); });
   try
   {
     if (!Await(options.timeout_s, [this] { return ready_ || over_; }))

@@ -15,7 +15,7 @@ from . import _module
 
 
 # Of tables: columns that are no numbers, whatever they look like.
-_TEXTS = ("entity", "kind", "hash", "state", "failure", "host", "version", "user", "machine")
+_TEXTS = ("entity", "kind", "hash", "state", "failure", "host", "version", "checksum", "user", "machine")
 
 
 def _command():
@@ -36,6 +36,9 @@ def _table(file, delimiter=","):
         import pandas
     except ImportError:
         rows = list(csv.reader(file, delimiter=delimiter))
+        for number, row in enumerate(rows, 1):
+            if len(row) != len(rows[0]):
+                raise ValueError(f"line {number} of the table has {len(row)} fields, its header has {len(rows[0])}: {row}")
         columns = zip(*rows[1:]) if len(rows) > 1 else [[] for _ in rows[0]]
         return {name: np.array(column, dtype=str) if name in _TEXTS else _numbers(column) for name, column in zip(rows[0], columns)}
     # Numbers read back as the same bits.

@@ -14,16 +14,17 @@ namespace swarmanoid
 namespace
 {
 
-// The newest state of the process that was saved together with the space. `table`: by the hosts of that number.
+// The newest state of the process that was saved together with the space. `table`: by the hosts of that number, or
+// kUnknownTable: by any.
 std::optional<std::pair<JournalPlace, JournalPlace>> NewestState(const std::vector<JournalPlace>& places,
                                                                  const std::string& name, std::uint64_t after,
-                                                                 std::optional<std::uint32_t> table)
+                                                                 std::uint32_t table)
 {
   for (auto part = places.rbegin(); part != places.rend(); ++part)
   {
     // In the first one it is by itself.
     if (part->kind != JournalBlockKind::kPart || part->name != name || part->first_tick == after) continue;
-    if (table && part->table != *table) continue;
+    if (table != kUnknownTable && part->table != table) continue;
     const auto snapshot =
         std::find_if(places.begin(), places.end(),
                      [&](const JournalPlace& place)
@@ -31,6 +32,13 @@ std::optional<std::pair<JournalPlace, JournalPlace>> NewestState(const std::vect
     if (snapshot != places.end()) return std::pair(*snapshot, *part);
   }
   return std::nullopt;
+}
+
+// Whether the blocks have all ticks of the journal from that one on.
+bool HasTicksFrom(const std::vector<JournalPlace>& places, std::uint64_t tick)
+{
+  return std::ranges::any_of(places, [tick](const JournalPlace& place)
+                             { return place.kind == JournalBlockKind::kTicks && place.first_tick <= tick; });
 }
 
 }  // namespace
@@ -64,14 +72,20 @@ RecoveryService::Plan RecoveryService::MakePlan(const std::string& name)
   const auto [record, is_done] = lockstep_.Withdraw(name, session_.Incarnation(name));
   const std::uint64_t tick = record.state.tick;
   journal_->Flush();
-  const std::vector<JournalPlace> all = journal_->Places();
+  std::vector<JournalPlace> all = journal_->RecentPlaces();
   Plan plan;
   const JournalStart start = journal_->Start();
   std::uint64_t first = start.first_tick;
   const bool is_host = std::ranges::any_of(std::views::iota(std::size_t{0}, assignment_.hosts.size()),
                                            [&](std::size_t h) { return name == HostName(h); });
-  const auto table = is_host && !all.empty() ? std::optional(all.back().table) : std::nullopt;
-  if (const auto state = NewestState(all, name, first, table))
+  const std::uint32_t table = is_host && !all.empty() ? all.back().table : kUnknownTable;
+  auto state = NewestState(all, name, first, table);
+  if (!state || !HasTicksFrom(all, state->second.first_tick))
+  {
+    all = journal_->Places();
+    state = NewestState(all, name, first, table);
+  }
+  if (state)
   {
     plan.places = {state->first, state->second};
     first = state->second.first_tick;

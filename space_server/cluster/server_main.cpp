@@ -1,6 +1,8 @@
 #include "space_server/cluster/server_main.h"
 
 #include <fmt/format.h>
+#include <cerrno>
+#include <cstring>
 
 #include <filesystem>
 #include <fstream>
@@ -102,7 +104,7 @@ int Serve(const ServerOptions& options)
       const std::string file = options.output_folder + "/experiment.xml";
       const std::string draft = file + ".new";
       if (!(std::ofstream(draft) << loaded.experiment->effective_xml << std::flush))
-        throw BusError(fmt::format("cannot write '{}'", draft));
+        throw BusError(fmt::format("cannot write '{}': {}", draft, std::strerror(errno)));
       std::filesystem::rename(draft, file);
     }
     server->options.bus.serves_discovery = true;

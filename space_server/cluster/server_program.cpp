@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 
 #include "common/activity/exit_codes.h"
 #include "common/activity/print_error.h"
+#include "common/program/standard_output.h"
 #include "common/run/run_summary.h"
 #include "common/space/space.h"
 
@@ -265,7 +267,9 @@ void ServerProgram::Close()
   if (const auto& reset = run_control_.Reset())
     status_.Publish(ServerReset{reset->seed, reset->paused, reset->real_time_factor});
   status_.Publish(ServerFinished{result.ticks, result.entities, result.hash, result.wall_s, result.real_time_factor});
-  if (!status_.IsOpen()) fmt::print("{}\n", FinishedLine(result));
+  if (status_.IsOpen()) return;
+  std::fputs((FinishedLine(result) + "\n").c_str(), stdout);
+  if (!OutputIsWritten()) throw std::runtime_error("the result of the run is lost");
 }
 
 void ServerProgram::FinishCheckpoints()

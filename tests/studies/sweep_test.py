@@ -5,6 +5,7 @@ import pathlib
 import re
 import shutil
 import signal
+import sqlite3
 import statistics
 import subprocess
 import time
@@ -123,6 +124,32 @@ class Sweep(StudyCase):
                 self.assertEqual(self.query("out", "SELECT COUNT(*) FROM runs"), [(200,)])
         self.sweep("out", "--resume")
         self.assertEqual((self.folder / "whole/table.csv").read_bytes(), (self.folder / "out/table.csv").read_bytes())
+
+    def test_a_result_that_was_damaged_on_the_disk_is_named_and_computed_again(self):
+        """A flipped bit of a file of SQLite is another value to it."""
+        study = self.study('<factor id="robots" path="arena.distribute.quantity" values="2,3"/><metrics><distance id="way"/></metrics>',
+                           'seeds="1-3"')
+        self.sweep(study, "--output", "out")
+        whole = (self.folder / "out/table.csv").read_bytes()
+        for damage in ("UPDATE samples SET time_s = time_s + 1 WHERE point = 1 AND seed = 2",
+                       "UPDATE runs SET hash = 'f' || substr(hash, 2) WHERE point = 1 AND seed = 2",
+                       "DELETE FROM samples WHERE point = 1 AND seed = 2"):
+            database = sqlite3.connect(self.folder / "out/study.sqlite")
+            with database:
+                database.execute(damage)
+            database.close()
+            told = self.sweep("out", "--resume")
+            self.assertIn("the result of run 1-2 does not fit its checksum; it runs again", told.stderr, damage)
+            self.assertEqual((self.folder / "out/table.csv").read_bytes(), whole, damage)
+        for damage, says in (("UPDATE runs SET robots = 5 WHERE point = 1 AND seed = 2", "different values of the factor 'robots'"),
+                             ("UPDATE study SET value = replace(value, '2,3', '2,4') WHERE name = 'study'", "does not fit its checksum")):
+            database = sqlite3.connect(self.folder / "out/study.sqlite")
+            with database:
+                database.execute(damage)
+            database.close()
+            told = self.sweep("out", "--resume", code=2)
+            self.assertIn("is damaged", told.stderr)
+            self.assertIn(says, told.stderr)
 
     def test_one_that_was_killed_before_it_began_begins_anew(self):
         study = self.study("", 'seeds="1-2"')

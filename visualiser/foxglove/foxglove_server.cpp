@@ -1,4 +1,5 @@
 #include "visualiser/foxglove/foxglove_server.h"
+#include "common/threads/start_thread.h"
 
 #include <fmt/format.h>
 
@@ -84,7 +85,7 @@ public:
   {
     Listen();
     Accept();
-    thread_ = std::thread([this] { context_.run(); });
+    thread_ = StartThread("serves Foxglove", [this] { context_.run(); });
   }
   ~Impl()
   {

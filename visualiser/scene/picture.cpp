@@ -1,6 +1,8 @@
 #include "visualiser/scene/picture.h"
 
 #include <png.h>
+#include <cerrno>
+#include <cstring>
 
 #include <cerrno>
 #include <cstdio>
@@ -36,7 +38,7 @@ void WriteTo(const std::string& file_name, const Picture& picture, const std::st
   if (setjmp(png_jmpbuf(png)) != 0)
   {
     png_destroy_write_struct(&png, &header);
-    Fail(path, "the disk is full, or the file cannot be written");
+    Fail(path, std::strerror(errno));
   }
   png_init_io(png, file.get());
   png_set_compression_level(png, 1);

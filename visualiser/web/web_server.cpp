@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/threads/start_thread.h"
 #include "visualiser/web/web_connection.h"
 
 namespace swarmanoid
@@ -62,12 +63,12 @@ WebServer::Impl::Impl(const WebServerSettings& settings, PageFiles files, WebSer
          std::to_string(port_) + "/";
 
   Accept();
-  thread_ = std::thread(
-      [this]
-      {
-        pthread_setname_np(pthread_self(), "web server");
-        context_.run();
-      });
+  thread_ = StartThread("serves the pages",
+                        [this]
+                        {
+                          pthread_setname_np(pthread_self(), "web server");
+                          context_.run();
+                        });
 }
 
 WebServer::Impl::~Impl()

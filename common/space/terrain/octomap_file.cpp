@@ -1,6 +1,8 @@
 #include "common/space/terrain/octomap_file.h"
 
 #include <fmt/format.h>
+#include <cerrno>
+#include <cstring>
 
 #include <array>
 #include <bit>
@@ -168,7 +170,7 @@ void WriteOctoMap(const std::string& path, const octomap::OcTree& map)
                       map.getResolution());
   if (map.getRoot() != nullptr) map.writeBinaryNode(file, map.getRoot());
   file.flush();
-  if (!file) throw std::runtime_error("cannot write '" + path + "'");
+  if (!file) throw std::runtime_error("cannot write '" + path + "': " + std::strerror(errno));
 }
 
 }  // namespace swarmanoid

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <random>
 
 #include <fmt/format.h>
@@ -267,6 +268,77 @@ TEST_F(JournalSegmentsTest, CutAnywhereInItsNewestSegmentItGoesOn)
     }
     fs::remove(SegmentFile(Path(), newest));
   }
+}
+
+TEST_F(JournalSegmentsTest, AMissingSegmentIsNamedAndThoseBeforeAndAfterItAreRead)
+{
+  {
+    JournalWriter journal(Path(), StartOfRun(), false, {kBudget, kParts});
+    AddSomeTicks(journal, 0, 3000);
+  }
+  const std::vector<std::uint32_t> segments = SegmentsOf(Path());
+  ASSERT_GT(segments.size(), 4U);
+  const std::uint32_t missing = segments[2];
+  const JournalReader whole(Path());
+  fs::remove(SegmentFile(Path(), missing));
+  const JournalReader rest(Path());
+  EXPECT_EQ(rest.Damages(), (std::vector<JournalDamage>{{SegmentFile(Path(), missing), 0, 0}}));
+  std::size_t expected = 0;
+  for (const JournalPlace& place : whole.Places()) expected += place.segment == missing ? 0 : 1;
+  EXPECT_EQ(rest.Places().size(), expected);
+  EXPECT_EQ(ReadableTicks(rest.Start(), rest.Places()).size(), 2U);
+  JournalFollower follower(Path());
+  follower.Refresh();
+  EXPECT_EQ(follower.Places().size(), expected);
+}
+
+// A run goes on before the damage, and does the lost ticks again.
+TEST_F(JournalSegmentsTest, ARunGoesOnWithADamagedJournal)
+{
+  for (const std::size_t hit : {std::size_t{0}, std::size_t{1}, std::size_t{40}})
+  {
+    SCOPED_TRACE(hit);
+    {
+      JournalWriter journal(Path(), StartOfRun(), false, {8 * kBudget, kParts});
+      AddSomeTicks(journal, 0, 2000);
+    }
+    const std::vector<std::uint32_t> segments = SegmentsOf(Path());
+    ASSERT_GT(segments.size(), 2U);
+    const std::vector<JournalPlace> places = JournalReader(Path()).Places();
+    const auto first = std::find_if(places.begin(), places.end(),
+                                    [&](const JournalPlace& place) { return place.segment == segments[1]; });
+    {
+      std::fstream file(SegmentFile(Path(), segments[1]), std::ios::in | std::ios::out | std::ios::binary);
+      file.seekp(static_cast<std::streamoff>((first + static_cast<std::ptrdiff_t>(hit))->offset + 12));
+      file.put('\x7e');
+    }
+    const JournalReader before(Path());
+    ASSERT_EQ(before.Damages().size(), 1U);
+    const auto tick = before.TickToGoOn([](std::uint64_t) { return true; });
+    ASSERT_TRUE(tick);
+    {
+      JournalWriter journal(before, *tick, false, {8 * kBudget, kParts});
+      AddSomeTicks(journal, *tick, 2500);
+    }
+    const JournalReader after(Path());
+    ExpectWhole(after, 2500);
+    EXPECT_EQ(ReadableTicks(after.Start(), after.Places()), (std::vector<TickRange>{{after.FirstTick(), 2500}}));
+    for (const std::uint32_t segment : SegmentsOf(Path())) fs::remove(SegmentFile(Path(), segment));
+  }
+}
+
+TEST_F(JournalSegmentsTest, ANewJournalHasNoSegmentsOfAnEarlierOne)
+{
+  {
+    JournalWriter journal(Path(), StartOfRun(), false, {kBudget, kParts});
+    AddSomeTicks(journal, 0, 3000);
+  }
+  ASSERT_GT(SegmentsOf(Path()).size(), 1U);
+  {
+    JournalWriter journal(Path(), StartOfRun());
+    AddSomeTicks(journal, 0, 100);
+  }
+  ExpectWhole(JournalReader(Path()), 100);
 }
 
 TEST_F(JournalSegmentsTest, WhoeverFollowsItSeesWhatAReaderSees)

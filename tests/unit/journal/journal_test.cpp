@@ -195,26 +195,107 @@ TEST_F(JournalTest, CutAnywhereItLosesTheLastUnfinishedBlockAlone)
   }
 }
 
-TEST_F(JournalTest, ADamagedBlockEndsIt)
+// In each byte of each block: what the block is of, how long it is, its checksum and its content.
+TEST_F(JournalTest, AFlippedBitAnywhereIsFoundAndCostsItsBlockAlone)
 {
   WriteSome("whole", 8);
   const JournalReader whole(File("whole"));
-  const JournalPlace& hit = whole.Places()[5];
+  const std::vector<JournalPlace>& places = whole.Places();
   std::fstream file(File("whole"), std::ios::in | std::ios::out | std::ios::binary);
-  for (std::uint64_t at = hit.offset; at < hit.offset + hit.bytes; ++at)
-  {
-    file.seekg(static_cast<std::streamoff>(at));
-    const auto byte = static_cast<char>(file.get());
-    const auto put = [&](char value)
+  for (std::size_t k = 0; k < places.size(); ++k)
+    for (std::uint64_t at = places[k].offset; at < places[k].offset + places[k].bytes; ++at)
     {
-      file.seekp(static_cast<std::streamoff>(at));
-      file.put(value).flush();
-    };
-    put(static_cast<char>(byte ^ (1 << at % 8)));
-    EXPECT_EQ(JournalReader(File("whole")).Places().size(), 5U) << at - hit.offset;
-    put(byte);
+      file.seekg(static_cast<std::streamoff>(at));
+      const auto byte = static_cast<char>(file.get());
+      const auto put = [&](char value)
+      {
+        file.seekp(static_cast<std::streamoff>(at));
+        file.put(value).flush();
+      };
+      put(static_cast<char>(byte ^ (1 << at % 8)));
+      const JournalReader hit(File("whole"));
+      put(byte);
+      SCOPED_TRACE(fmt::format("byte {} of block {}", at - places[k].offset, k));
+      // The last block may look as if the run had died while it was written.
+      if (k + 1 == places.size() && hit.TornBytes() != 0)
+      {
+        EXPECT_EQ(hit.TornBytes(), places[k].bytes);
+      }
+      else
+      {
+        ASSERT_EQ(hit.Damages(), (std::vector<JournalDamage>{{File("whole"), places[k].offset, places[k].bytes}}));
+      }
+      EXPECT_EQ(hit.HasStart(), k != 0);
+      std::vector<std::uint64_t> left;
+      for (const JournalPlace& place : hit.Places()) left.push_back(place.offset);
+      std::vector<std::uint64_t> expected;
+      for (std::size_t other = 0; other < places.size(); ++other)
+        if (other != k && (k != 0 || places[other].kind != JournalBlockKind::kPart))
+          expected.push_back(places[other].offset);
+      EXPECT_EQ(left, expected);
+    }
+  EXPECT_TRUE(JournalReader(File("whole")).Damages().empty());
+}
+
+// Not even the magic number of a block has to be whole for the next one to be found.
+TEST_F(JournalTest, DamageOfManyBlocksIsOnePlace)
+{
+  WriteSome("j", 8);
+  const std::vector<JournalPlace> places = JournalReader(File("j")).Places();
+  {
+    std::fstream file(File("j"), std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(static_cast<std::streamoff>(places[2].offset));
+    file << std::string(places[5].offset - places[2].offset, 'x');
   }
-  EXPECT_EQ(JournalReader(File("whole")).Places().size(), whole.Places().size());
+  const JournalReader hit(File("j"));
+  EXPECT_EQ(hit.Damages(),
+            (std::vector<JournalDamage>{{File("j"), places[2].offset, places[5].offset - places[2].offset}}));
+  EXPECT_EQ(hit.Places().size(), places.size() - 3);
+}
+
+// A machine that loses its power leaves zeros where it had not written yet.
+TEST_F(JournalTest, ZerosAtTheEndAreATornEnd)
+{
+  WriteSome("j", 4);
+  const std::uint64_t whole = fs::file_size(File("j"));
+  fs::resize_file(File("j"), whole + 4096);
+  const JournalReader torn(File("j"));
+  EXPECT_EQ(torn.TornBytes(), 4096U);
+  EXPECT_TRUE(torn.Damages().empty());
+}
+
+TEST_F(JournalTest, AJournalOfWhichNothingButItsStartIsLostSaysSo)
+{
+  WriteSome("j", 4);
+  {
+    std::fstream file(File("j"), std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(20);
+    file.put('x');
+  }
+  const JournalReader journal(File("j"));
+  EXPECT_EQ(Read(journal).size(), 4U);
+  EXPECT_THROW(journal.Start(), std::runtime_error);
+  EXPECT_THROW(journal.Hosts(), std::runtime_error);
+  EXPECT_THROW(journal.HostsAt(2), std::runtime_error);
+  EXPECT_FALSE(journal.KnowsHostsAt(2));
+}
+
+TEST(ReadableTicks, GoOnAtTheNextSavedStateAfterAGap)
+{
+  const auto ticks = [](std::uint64_t first, std::uint32_t count)
+  { return JournalPlace{JournalBlockKind::kTicks, first, count, {}, 0, 0, 0, 0}; };
+  const auto state = [](std::uint64_t tick)
+  { return JournalPlace{JournalBlockKind::kSnapshot, tick, 0, {}, 0, 0, 0, 0}; };
+  const JournalStart start{};
+  using Ranges = std::vector<TickRange>;
+  EXPECT_EQ(ReadableTicks(start, {ticks(0, 10), ticks(10, 5)}), (Ranges{{0, 15}}));
+  EXPECT_EQ(ReadableTicks(start, {}), Ranges{});
+  EXPECT_EQ(ReadableTicks(start, {ticks(0, 10), ticks(20, 10)}), (Ranges{{0, 10}}));
+  EXPECT_EQ(ReadableTicks(start, {ticks(0, 10), ticks(20, 10), state(25)}), (Ranges{{0, 10}, {25, 30}}));
+  EXPECT_EQ(ReadableTicks(start, {ticks(0, 10), state(20), ticks(20, 10), state(25)}), (Ranges{{0, 10}, {20, 30}}));
+  EXPECT_EQ(ReadableTicks(start, {ticks(0, 10), state(19), ticks(20, 10)}), (Ranges{{0, 10}, {20, 30}}));
+  EXPECT_EQ(ReadableTicks(start, {ticks(0, 10), state(18), ticks(20, 10)}), (Ranges{{0, 10}}));
+  EXPECT_EQ(ReadableTicks(start, {state(5), ticks(3, 10)}), (Ranges{{5, 13}}));
 }
 
 TEST_F(JournalTest, TheNewestCheckpointIsTheNewestThatAllSaved)
@@ -261,7 +342,7 @@ TEST_F(JournalTest, WhatIsDoneAgainTakesThePlaceOfWhatStoodThere)
     journal.Add(400, {kServerPart, {'a'}});
     journal.Add(401, {kServerPart, {'b'}});
   }
-  std::ofstream(File("j"), std::ios::app) << kJournalMagic << "torn";
+  std::ofstream(File("j"), std::ios::app) << kJournalMagic << kJournalVersion << "torn";
   EXPECT_GT(JournalReader(File("j")).TornBytes(), 0U);
   for (const std::uint64_t tick : {400U, 150U})
   {
@@ -308,6 +389,39 @@ TEST_F(JournalTest, FaultsOfControllersAreFoundFromATickOn)
     std::erase_if(expected, [&](const KnownFault& fault) { return fault.tick + 1 == from; });
     EXPECT_EQ(late.faults, expected);
     EXPECT_EQ(late.until, from >= 299 ? 0 : 299);
+  }
+}
+
+TEST_F(JournalTest, WhatTheWriterRemembersHasALimitAndAllBlocksAreFoundAgain)
+{
+  JournalWriter journal(File("j"), Start());
+  SpaceState state;
+  std::size_t most = 0, blocks = 1;
+  for (; state.tick < 12000; ++state.tick, ++blocks)
+  {
+    // Rows of another length than those before begin a block.
+    state.poses.assign(1 + state.tick % 2, 1.0);
+    journal.AddTick(state, false, {}, {});
+    if (state.tick % 1000 != 999) continue;
+    SpaceSnapshot snapshot;
+    snapshot.tick = state.tick;
+    journal.Add(snapshot);
+    journal.Add(state.tick, {kServerPart, {'s'}});
+    blocks += 2;
+    journal.Flush();
+    most = std::max(most, journal.RecentPlaces().size());
+  }
+  EXPECT_LT(most, 4097U);
+  EXPECT_GT(most, 2000U) << "those that a recovery needs are remembered";
+  const std::vector<JournalPlace> all = journal.Places();
+  EXPECT_EQ(all.size(), blocks);
+  const std::vector<JournalPlace> recent = journal.RecentPlaces();
+  for (std::size_t k = 0; k < recent.size(); ++k)
+  {
+    const JournalPlace& same = all[all.size() - recent.size() + k];
+    ASSERT_EQ(recent[k].offset, same.offset);
+    EXPECT_EQ(recent[k].name, same.name);
+    EXPECT_EQ(recent[k].table, same.table);
   }
 }
 

@@ -1,7 +1,9 @@
 // Looking back: whichever tick of a journal is asked for next, the space is as it was there, bit by bit.
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <random>
 
 #include <fmt/format.h>
@@ -123,6 +125,52 @@ TEST_F(RecordedStatesTest, WhatABudgetHasLeft)
   ASSERT_GT(follower.FirstTick(), 0U);
   RecordedStates states(experiment_, follower, follower.Start());
   ExpectSameEverywhere(states, follower.FirstTick(), 3000);
+}
+
+// Attributes that changed in the lost ticks are right again from the next saved state on.
+TEST_F(RecordedStatesTest, AfterDamageTheNextSavedStateIsRight)
+{
+  {
+    JournalWriter journal(Path(), ContentOf(Start()));
+    Run(journal, 1000);
+  }
+  const std::vector<JournalPlace> places = JournalReader(Path()).Places();
+  const auto hit = std::find_if(places.begin(), places.end(),
+                                [](const JournalPlace& place)
+                                { return place.kind == JournalBlockKind::kTicks && place.first_tick > 240; });
+  {
+    std::fstream file(Path(), std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(static_cast<std::streamoff>(hit->offset + 100));
+    file.put('x').put('y');
+  }
+  const std::uint64_t saved = (hit->first_tick + hit->ticks + 99) / 100 * 100;
+  JournalReader reader(Path());
+  JournalFollower follower(Path());
+  follower.Refresh();
+  for (const JournalBlocks* blocks :
+       {static_cast<const JournalBlocks*>(&reader), static_cast<const JournalBlocks*>(&follower)})
+  {
+    RecordedStates states(experiment_, *blocks, reader.Start());
+    std::vector<std::uint64_t> read, expected;
+    while (states.Next())
+    {
+      read.push_back(states.Space().GetTick());
+      ASSERT_EQ(states.Space().Hash(), hashes_[read.back()]) << read.back();
+    }
+    for (std::uint64_t tick = 0; tick < 1000; ++tick)
+    {
+      const bool is_lost = tick >= hit->first_tick && tick < saved;
+      if (!is_lost) expected.push_back(tick);
+      EXPECT_EQ(states.Seek(tick), !is_lost) << tick;
+      if (!is_lost)
+      {
+        EXPECT_EQ(states.Space().Hash(), hashes_[tick]);
+      }
+    }
+    EXPECT_EQ(read, expected);
+    ASSERT_TRUE(states.SeekFrom(hit->first_tick));
+    EXPECT_EQ(states.Space().GetTick(), saved);
+  }
 }
 
 }  // namespace

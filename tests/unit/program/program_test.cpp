@@ -5,7 +5,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
 
 #include "common/activity/exit_codes.h"
 #include "common/configuration/configuration_tree.h"
@@ -51,6 +55,62 @@ TEST(Program, EndsInOrderIfNobodyReadsItsErrors)
   close(errors);
   close(full);
   EXPECT_EQ(code, 4);
+}
+
+// The exit code of a program after `prepare` has changed its standard files.
+int CodeWithOutput(const std::function<void()>& prepare, const std::function<int()>& run)
+{
+  std::fflush(stdout);
+  prepare();
+  return CodeOf(run);
+}
+
+TEST(ProgramDeathTest, FailsIfItsResultCannotBeWritten)
+{
+  const auto print = []
+  {
+    std::fputs("the result\n", stdout);
+    return 0;
+  };
+  const auto is_full = [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); };
+  const auto is_closed = [] { close(STDOUT_FILENO); };
+  const auto ends_with_4 = testing::ExitedWithCode(4);
+  EXPECT_EXIT(std::exit(CodeWithOutput(is_full, print)), ends_with_4, "standard output: No space left on device");
+  EXPECT_EXIT(std::exit(CodeWithOutput(is_closed, print)), ends_with_4, "standard output: Bad file descriptor");
+  EXPECT_EXIT(std::exit(CodeWithOutput(is_full, [] { return 0; })), testing::ExitedWithCode(0), "");
+  EXPECT_EXIT(std::exit(CodeWithOutput(is_full,
+                                       [&]
+                                       {
+                                         print();
+                                         return 5;
+                                       })),
+              testing::ExitedWithCode(5), "standard output");
+  // More than is kept before it is written: printing itself fails.
+  EXPECT_EXIT(std::exit(CodeWithOutput(is_full,
+                                       []
+                                       {
+                                         for (int k = 0; k < 100000; ++k) fmt::print("a long result\n");
+                                         return 0;
+                                       })),
+              ends_with_4, "standard output: No space left on device");
+}
+
+// The next file that is opened must not become its standard output.
+TEST(ProgramDeathTest, OpensNoFileInThePlaceOfItsOutput)
+{
+  const auto opened = []
+  {
+    const int file = open("/dev/null", O_WRONLY);
+    return file > STDERR_FILENO ? 0 : 1;
+  };
+  EXPECT_EXIT(std::exit(CodeWithOutput(
+                  []
+                  {
+                    close(STDIN_FILENO);
+                    close(STDOUT_FILENO);
+                  },
+                  opened)),
+              testing::ExitedWithCode(0), "");
 }
 
 }  // namespace

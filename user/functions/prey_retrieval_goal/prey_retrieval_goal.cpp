@@ -10,7 +10,9 @@
 //     <metrics>retrieval.csv</metrics>
 //   </prey_retrieval_goal>
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <istream>
 #include <limits>
@@ -74,7 +76,7 @@ public:
     {
       const std::string path = (std::filesystem::path(space.GetOutputFolder()) / metrics).string();
       file_.reset(std::fopen(path.c_str(), "w"));
-      if (file_ == nullptr) throw std::runtime_error("cannot write '" + path + "'");
+      if (file_ == nullptr) throw std::runtime_error("cannot write '" + path + "': " + std::strerror(errno));
       std::fputs("tick", file_.get());
       for (const auto* prey : preys_) std::fprintf(file_.get(), ",%s_m", prey->GetId().c_str());
       std::fputs("\n", file_.get());

@@ -10,7 +10,9 @@
 //     <log>supply.csv</log>     file in the folder of the run; empty: none
 //   </prey_supply>
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <istream>
 #include <memory>
@@ -81,7 +83,7 @@ public:
     if (log.empty()) return;
     const std::string path = (std::filesystem::path(space.GetOutputFolder()) / log).string();
     file_.reset(std::fopen(path.c_str(), "w"));
-    if (file_ == nullptr) throw std::runtime_error("cannot write '" + path + "'");
+    if (file_ == nullptr) throw std::runtime_error("cannot write '" + path + "': " + std::strerror(errno));
     std::fputs("tick,event,id\n", file_.get());
   }
 

@@ -1,0 +1,30 @@
+// One file of a journal, read from any byte on, also where it is damaged. Used by JournalReader and JournalFollower.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/configuration/regular_file.h"
+#include "common/journal/journal_format.h"
+
+namespace swarmanoid
+{
+
+struct SegmentPart
+{
+  enum class Kind
+  {
+    kBlock,    // a whole block, whose checksum fits
+    kDamaged,  // bytes that are no block, up to the next whole block or the end of the file
+    kTorn      // the start of a block that the end of the file cuts short
+  };
+  Kind kind{};
+  std::uint64_t bytes = 0;      // at least 1
+  JournalBlockHeader header{};  // of kBlock
+  std::vector<char> block{};    // all bytes of kBlock
+};
+
+// What begins at the offset, which is before the end of the file. Throws FileError if the file cannot be read.
+SegmentPart PartAt(const RegularFile& file, std::uint64_t offset);
+
+}  // namespace swarmanoid

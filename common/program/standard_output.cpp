@@ -1,0 +1,41 @@
+#include "common/program/standard_output.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "common/activity/exit_codes.h"
+#include "common/activity/print_error.h"
+
+namespace swarmanoid
+{
+
+void OpenStandardFiles()
+{
+  // `open` takes the lowest number that is free. Writing to a file that is open for reading is an error.
+  for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(number, F_GETFD) < 0 && errno == EBADF && open("/dev/null", O_RDONLY) != number) return;
+}
+
+bool OutputIsWritten()
+{
+  static std::atomic<bool> told = false;
+  const bool failed_before = std::ferror(stdout) != 0;
+  if (!failed_before) errno = 0;
+  if (std::fflush(stdout) == 0 && !failed_before) return true;
+  if (told.exchange(true)) return false;
+  PrintError("swarmanoid: cannot write the results to standard output{}{}\n", errno == 0 ? "" : ": ",
+             errno == 0 ? "" : std::strerror(errno));
+  return false;
+}
+
+int ExitCodeWithOutput(int code)
+{
+  return OutputIsWritten() || code != kExitDone ? code : static_cast<int>(kExitProcessFailed);
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,30 @@
+// Starts a thread. The exception of the standard library says "Resource temporarily unavailable" and nothing else.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+namespace swarmanoid
+{
+
+// `purpose`: what the thread is for, as in "writes the journal". Throws std::runtime_error with it if there is no room
+// for another thread.
+template <class Call>
+std::thread StartThread(const std::string& purpose, Call&& call)
+{
+  try
+  {
+    return std::thread(std::forward<Call>(call));
+  }
+  catch (const std::system_error& error)
+  {
+    throw std::runtime_error("cannot start the thread that " + purpose + ": " + error.code().message() +
+                             "; the user or the container has as many threads as it may: end other processes, or raise "
+                             "the limit (ulimit -u)");
+  }
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,142 @@
+// Logs of events, whole, cut short and damaged; and logs of hashes that a run goes on with.
+#include "space_server/event_log.h"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "common/configuration/configuration_tree.h"
+#include "common/run/hash_log.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr const char* kHeader = "tick,request,entity,numbers,from,number,when\n";
+constexpr const char* kMove = "5,move,fb_0,1 2 0,user@host:1,1,2031-05-17T09:30:00Z\n";
+constexpr const char* kStop = "9,stop,,,user@host:1,2,2031-05-17T09:30:01Z\n";
+
+class EventLogTest : public testing::Test
+{
+protected:
+  EventLogTest() : folder_(fs::temp_directory_path() / fmt::format("swarmanoid_events_{}", getpid()))
+  {
+    fs::create_directories(folder_);
+    EntityConfiguration& robot = experiment_.entities.emplace_back();
+    robot.kind = EntityKind::kFootbot;
+    robot.id = "fb_0";
+    robot.movable = true;
+  }
+  ~EventLogTest() override { fs::remove_all(folder_); }
+
+  std::string File(const std::string& text) const
+  {
+    const std::string path = (folder_ / "events.csv").string();
+    std::ofstream(path) << text;
+    return path;
+  }
+  std::size_t CountOf(const std::string& text) const { return ReadEvents(File(text), experiment_).size(); }
+  std::string MistakeOf(const std::string& text) const
+  {
+    try
+    {
+      ReadEvents(File(text), experiment_);
+      return "none";
+    }
+    catch (const ConfigurationError& error)
+    {
+      return error.what();
+    }
+  }
+
+  const fs::path folder_;
+  Experiment experiment_;
+};
+
+TEST_F(EventLogTest, ALastLineThatARunDidNotEndIsLeftOutAndTold)
+{
+  const std::string whole = std::string(kHeader) + kMove + kStop;
+  EXPECT_EQ(CountOf(whole), 2U);
+  for (std::size_t length = whole.size() - 1; length > whole.size() - std::string(kStop).size(); --length)
+  {
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(CountOf(whole.substr(0, length)), 1U) << length;
+    EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("events.csv:3: note: the last line was cut short"));
+  }
+  EXPECT_EQ(CountOf("5,stop,,"), 1U) << "by hand, without a header";
+}
+
+TEST_F(EventLogTest, ADamagedLineIsRefusedWithItsPlace)
+{
+  for (const char* line :
+       {"x,move,fb_0,1 2 0,u@h:1,1,\n", "5\n", "5,mXve,fb_0,1 2 0,u@h:1,1,\n", "5,move,fb_1,1 2 0,u@h:1,1,\n",
+        "5,move,fb_0,1 b 0,u@h:1,1,\n", "5,move,fb_0,1 2 0,u@h:1,1x,\n", "5,move,fb_0,1 2 0,u@h:1;1,when\n",
+        "5,move,fb_0,1 2 0,u@h:1,99999999999,\n", "5,move,fb_0,1 2 0,u@h:1,1,when,more\n"})
+    EXPECT_THAT(MistakeOf(std::string(kHeader) + line + kStop), HasSubstr("events.csv:2")) << line;
+}
+
+TEST_F(EventLogTest, LinesThatArePassedOnAreReadAroundDamage)
+{
+  const EventLines events = ReadEventLines(File(std::string(kHeader) + kMove + "what is this\n" + kStop + "10,st"));
+  ASSERT_EQ(events.lines.size(), 2U);
+  EXPECT_EQ(events.lines[0].tick, 5U);
+  EXPECT_EQ(events.lines[1].text + "\n", kStop);
+  EXPECT_THAT(events.damaged, ElementsAre(HasSubstr("events.csv:3: 'what is this' is no event")));
+  EXPECT_THAT(ReadEventLines((folder_ / "none.csv").string()).lines, IsEmpty());
+}
+
+TEST_F(EventLogTest, AHashLogGoesOnAtItsTick)
+{
+  const std::string path = (folder_ / "hashes.txt").string();
+  {
+    HashLog log(path);
+    for (std::uint64_t tick = 3; tick < 10; ++tick) log.Write(tick, tick * 1234567);
+  }
+  std::ofstream(path, std::ios::app) << "10 00";
+  {
+    HashLog log(path, 7);
+    log.Write(7, 1);
+  }
+  std::ifstream file(path);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);) lines.push_back(line);
+  EXPECT_THAT(lines,
+              ElementsAre(HasSubstr("3 "), HasSubstr("4 "), HasSubstr("5 "), HasSubstr("6 "), "7 0000000000000001"));
+}
+
+TEST_F(EventLogTest, ADamagedHashLogIsRefusedWithItsLineAndKept)
+{
+  const std::string path = (folder_ / "hashes.txt").string();
+  for (const char* line :
+       {"4x 0000000000000004\n", "7 0000000000000004\n", "4 000000000000004\n", "4 000000000000000z\n", "\n"})
+  {
+    const std::string text = std::string("3 0000000000000003\n") + line + "5 0000000000000005\n";
+    std::ofstream(path) << text;
+    try
+    {
+      HashLog log(path, 6);
+      ADD_FAILURE() << line;
+    }
+    catch (const std::runtime_error& error)
+    {
+      EXPECT_THAT(error.what(), HasSubstr("hashes.txt:2: the hash log is damaged"));
+    }
+    std::ostringstream left;
+    left << std::ifstream(path).rdbuf();
+    EXPECT_EQ(left.str(), text);
+  }
+}
+
+}  // namespace
+}  // namespace swarmanoid
