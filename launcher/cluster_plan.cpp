@@ -315,4 +315,19 @@ std::vector<MemberPlan> PlanCluster(const RunSettings& options, const Experiment
   return planner.Take();
 }
 
+std::string NoteAboutControllerHosts(unsigned asked, std::size_t robots, std::size_t cores)
+{
+  constexpr std::size_t kHostsOfACore = 8;  // more only wait for each other, and take minutes to find each other
+  const std::size_t made = std::min<std::size_t>(asked, std::max<std::size_t>(robots, 1));
+  if (made < asked)
+    return fmt::format("note: --controller-hosts is {}, and {} robot{} a controller: {} controller host{} started",
+                       asked, robots, robots == 1 ? " has" : "s have", made, made == 1 ? " is" : "s are");
+  if (cores > 0 && made > kHostsOfACore * cores)
+    return fmt::format(
+        "note: --controller-hosts is {}, and {} core{} there for them: fewer start and run faster; "
+        "--controller-hosts auto finds how many pay",
+        asked, cores, cores == 1 ? " is" : "s are");
+  return "";
+}
+
 }  // namespace swarmanoid

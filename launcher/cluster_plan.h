@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/bus/run_key.h"
@@ -19,6 +20,10 @@ namespace swarmanoid
 std::vector<MemberPlan> PlanCluster(const RunSettings& options, const Experiment& experiment,
                                     const Assignment& assignment, const Hosts& hosts, const RunFolder& folder,
                                     int domain, const std::optional<RunKey>& key);
+
+// What to say about --controller-hosts before the start; empty: nothing. `asked`: its value; `robots`: that have
+// controllers; `cores`: of this machine, for all of the hosts, or 0 if some are elsewhere.
+std::string NoteAboutControllerHosts(unsigned asked, std::size_t robots, std::size_t cores);
 
 // Throws UsageError if `hosts` places what the run does not have.
 void RequirePlaces(const RunSettings& options, const Experiment& experiment, const Assignment& assignment,

@@ -227,6 +227,11 @@ RunResult RunCluster(const RunSettings& options, const Experiment& experiment, c
     attendance.console->SetOnChange(
         [&](std::optional<bool> quiet)
         { display.SetStyle(ProgressDisplay::StyleFor(STDERR_FILENO, quiet.value_or(options.quiet))); });
+  if (!options.quiet && attendance.go_on.incarnation == 0)
+    if (const std::string note = NoteAboutControllerHosts(options.controller_hosts, assignment.table.of_robots.size(),
+                                                          hosts.AllHere() ? AvailableCores().size() : 0);
+        !note.empty())
+      display.Note(note);
   const ActorNames actor_of = [&experiment](Actor::Kind kind, std::uint32_t number)
   { return ActorOf(experiment, kind, number); };
   const unsigned retries = options.Replaces() ? options.retries : 0;

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "common/activity/exit_codes.h"
+#include "common/activity/print_error.h"
 #include "common/bus/cluster_options.h"
 #include "common/bus/control_client.h"
 #include "common/bus/share.h"
@@ -62,10 +63,10 @@ int Control(ControlOptions& options, bool domain_given)
   Bus bus(options.bus, "swarmanoid control");
   if (!bus.MaySpeakTo(run.experiment))
   {
-    fmt::print(stderr,
-               "swarmanoid: no run of experiment {} in domain {} on this machine is of user {}, and no key of it is "
-               "given; whoever started it can steer it, or give you its --key (docs/security.md)\n",
-               Quoted(run.experiment), run.domain, UserName());
+    PrintError(
+        "swarmanoid: no run of experiment {} in domain {} on this machine is of user {}, and no key of it is "
+        "given; whoever started it can steer it, or give you its --key (docs/security.md)\n",
+        Quoted(run.experiment), run.domain, UserName());
     return kExitProcessFailed;
   }
   ControlClient client(bus, run.experiment);
@@ -82,7 +83,7 @@ int Control(ControlOptions& options, bool domain_given)
   if (options.json) PrintJson(run.experiment, *reply);
   if (!reply->ok)
   {
-    fmt::print(stderr, "swarmanoid: {}\n", reply->text);
+    PrintError("swarmanoid: {}\n", reply->text);
     return kExitUsage;
   }
   if (options.json) return kExitDone;

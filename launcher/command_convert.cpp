@@ -11,6 +11,7 @@
 
 #include "argos3/files/convert.h"
 #include "common/activity/exit_codes.h"
+#include "common/activity/print_error.h"
 #include "common/configuration/xml_reader.h"
 #include "common/configuration/xml_writer.h"
 #include "launcher/argos3_rehearsal.h"
@@ -33,9 +34,8 @@ int Convert(const std::string& file, const std::string& output)
                                "the root element is <" + root->name + ">; that of ARGoS3 is <argos-configuration>");
     const ConvertedExperiment converted =
         ConvertArgos3(*root, fs::absolute(file).parent_path().string(), RehearseArgos3);
-    for (const Diagnostic& note : converted.notes)
-      fmt::print(stderr, "{}: note: {}\n", note.location.Text(), note.message);
-    for (const Diagnostic& mistake : converted.mistakes) fmt::print(stderr, "{}\n", mistake.Text());
+    for (const Diagnostic& note : converted.notes) PrintError("{}: note: {}\n", note.location.Text(), note.message);
+    for (const Diagnostic& mistake : converted.mistakes) PrintError("{}\n", mistake.Text());
     if (!converted.mistakes.empty()) return kExitInvalidFile;
     const std::string text = WriteXml(*converted.root);
     if (output.empty())
@@ -50,7 +50,7 @@ int Convert(const std::string& file, const std::string& output)
   }
   catch (const ConfigurationError& mistake)
   {
-    fmt::print(stderr, "{}\n", mistake.what());
+    PrintError("{}\n", mistake.what());
     return kExitInvalidFile;
   }
 }

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "common/activity/exit_codes.h"
+#include "common/activity/print_error.h"
 #include "common/configuration/wording.h"
 #include "launcher/commands.h"
 #include "launcher/installation.h"
@@ -67,7 +68,7 @@ int Play(const DemoOptions& options)
   const std::string file = SampleFile(options.name);
   const auto experiment = LoadOrComplain(file, {});
   if (!experiment) return kExitInvalidFile;
-  fmt::print(stderr, "{}: {}\n", options.name, FirstSentence(file));
+  PrintError("{}: {}\n", options.name, FirstSentence(file));
   ShowingKind kind = options.page ? ShowingKind::kPage : options.film ? ShowingKind::kFilm : KindForSession();
   if (kind == ShowingKind::kPage && !options.page) kind = ShowingKind::kOpenedPage;
   try
@@ -82,7 +83,7 @@ int Play(const DemoOptions& options)
   {
     throw UsageError(error.what());
   }
-  fmt::print(stderr, "Next: swarmanoid run {}\n", ShortPath(file));
+  PrintError("Next: swarmanoid run {}\n", ShortPath(file));
   return kExitDone;
 }
 

@@ -75,9 +75,9 @@ int Edit(const EditOptions& options)
     page->Open(parameters, key, session);
     CatchInterrupts(SecondInterrupt::kKills);
     session.Begin();
-    for (const Diagnostic& mistake : session.GetExperiment().Mistakes()) fmt::print(stderr, "{}\n", mistake.Text());
+    for (const Diagnostic& mistake : session.GetExperiment().Mistakes()) PrintError("{}\n", mistake.Text());
     if (const std::string warning = page->Warning(); !warning.empty()) PrintError("warning: {}\n", warning);
-    if (!page->Fingerprint().empty()) fmt::print(stderr, "certificate SHA-256 {}\n", page->Fingerprint());
+    if (!page->Fingerprint().empty()) PrintError("certificate SHA-256 {}\n", page->Fingerprint());
     fmt::print("Edit it: {}\n", page->Url());
     std::fflush(stdout);
     if (options.open) OpenInBrowser(page->Url());
@@ -85,7 +85,7 @@ int Edit(const EditOptions& options)
   }
   catch (const ConfigurationError& error)
   {
-    fmt::print(stderr, "{}\n", error.what());
+    PrintError("{}\n", error.what());
     return kExitInvalidFile;
   }
   return kExitDone;

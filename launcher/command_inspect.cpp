@@ -10,6 +10,7 @@
 #include "common/activity/failure_report.h"
 #include "common/activity/print_error.h"
 #include "common/checkpoint/library_builds.h"
+#include "common/configuration/shown_text.h"
 #include "common/configuration/wording.h"
 #include "launcher/branch.h"
 #include "launcher/commands.h"
@@ -103,7 +104,7 @@ void PrintDevices(const char* kind, const std::vector<DeviceStatus>& devices)
     const std::size_t in_a_line = AreNumbered(device.readings) ? 8 : 1;
     for (std::size_t k = 0; k < device.readings.size(); k += in_a_line)
     {
-      fmt::print("    {:<20}", device.readings[k].name);
+      fmt::print("    {:<20}", Showable(device.readings[k].name));
       const std::size_t end = std::min(k + in_a_line, device.readings.size());
       for (std::size_t i = k; i < end; ++i) fmt::print(" {:>9}", ReadingText(device.readings[i]));
       fmt::print("\n");
@@ -117,8 +118,8 @@ void PrintTable(const Experiment& experiment, const std::vector<RobotStatus>& ro
   {
     fmt::print("{} at tick {}, {:g} s\n  controller {}\n", experiment.entities[robot.entity].id, robot.tick,
                static_cast<double>(robot.tick) * experiment.TickSeconds(), robot.controller);
-    if (!robot.state.empty()) fmt::print("  state {}\n", robot.state);
-    if (!robot.text.empty() && robot.text != robot.state) fmt::print("  says {}\n", robot.text);
+    if (!robot.state.empty()) fmt::print("  state {}\n", Showable(robot.state));
+    if (!robot.text.empty() && robot.text != robot.state) fmt::print("  says {}\n", Showable(robot.text));
     PrintDevices("sensor", robot.sensors);
     PrintDevices("actuator", robot.actuators);
   }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/activity/exit_codes.h"
+#include "common/activity/print_error.h"
 #include "common/bus/run_directory.h"
 #include "common/configuration/wording.h"
 #include "common/experiment/reference.h"
@@ -104,7 +105,7 @@ void LoadAll()
     std::ranges::sort(files);
     for (const std::string& file : files)
       if (const PluginLibrary& library = LoadPluginLibrary(file, {}); !library.error.empty())
-        fmt::print(stderr, "{}\n", library.error);
+        PrintError("{}\n", library.error);
   }
 }
 

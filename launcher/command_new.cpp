@@ -2,10 +2,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "common/activity/exit_codes.h"
-#include "common/configuration/wording.h"
 #include "launcher/commands.h"
 #include "launcher/new_files.h"
 
@@ -139,21 +137,7 @@ void AddNewCommand(CLI::App& app, int& exit_code)
   add("experiment", "An experiment file with a few robots in a walled arena", "NAME",
       std::string("Name of the experiment") + kNameRule, "experiment first_try", NewExperiment);
 
-  // CLI11 would only say that the word was not expected.
-  verb->allow_extras();
-  verb->callback(
-      [verb]
-      {
-        if (!verb->get_subcommands().empty()) return;
-        std::vector<std::string> kinds;
-        for (const CLI::App* kind : verb->get_subcommands([](const CLI::App*) { return true; }))
-          kinds.push_back(kind->get_name());
-        const std::string list = "swarmanoid new makes: " + Listed(kinds);
-        if (verb->remaining().empty())
-          throw UsageError(list + "; name one, for example: swarmanoid new user my_robots");
-        const std::string word = verb->remaining().front();
-        throw UsageError(Quoted(word) + " is not among what " + list + DidYouMean(word, kinds));
-      });
+  verb->require_subcommand(1);
 }
 
 }  // namespace swarmanoid

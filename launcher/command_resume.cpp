@@ -13,6 +13,7 @@
 #include <string>
 
 #include "common/activity/exit_codes.h"
+#include "common/activity/print_error.h"
 #include "common/journal/journal_reader.h"
 #include "launcher/commands.h"
 #include "launcher/journal_loss.h"
@@ -80,6 +81,8 @@ std::string EventsOf(const std::string& run_folder)
 int Resume(const std::string& run_folder, RunSettings options)
 {
   options.file = run_folder + "/experiment.xml";
+  if (!fs::is_regular_file(options.file))
+    throw UsageError(fmt::format("resume: '{}' is no folder of a run: it has no experiment.xml", run_folder));
   const auto experiment = LoadOrComplain(options.file, ChangesOf(options));
   if (!experiment) return kExitInvalidFile;
   if (options.output_folder.empty()) options.output_folder = run_folder + "/resumed";
@@ -88,7 +91,7 @@ int Resume(const std::string& run_folder, RunSettings options)
     RequireEvents(run_folder);
     if (fs::exists(run_folder + "/events.csv")) options.events = EventsOf(run_folder);
   }
-  if (options.faults_of.empty()) options.faults_of = run_folder;
+  if (options.faults_of.empty() && experiment->HasGuards()) options.faults_of = run_folder;
   try
   {
     const JournalReader journal(JournalFile(run_folder));
@@ -107,7 +110,7 @@ int Resume(const std::string& run_folder, RunSettings options)
       options.restore_file = run_folder + "/journal/" + CheckpointName(checkpoint->snapshot.tick);
       WriteCheckpoint(options.restore_file, *checkpoint);
     }
-    fmt::print(stderr, "going on from tick {}\n", checkpoint ? checkpoint->snapshot.tick : 0);
+    PrintError("going on from tick {}\n", checkpoint ? checkpoint->snapshot.tick : 0);
   }
   catch (const std::runtime_error& error)
   {

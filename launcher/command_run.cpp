@@ -9,6 +9,7 @@
 #include <string>
 
 #include "common/activity/exit_codes.h"
+#include "common/activity/print_error.h"
 #include "launcher/commands.h"
 #include "launcher/load.h"
 #include "launcher/run_experiment.h"
@@ -47,11 +48,11 @@ void ShowFirst(const RunSettings& options)
   }
   catch (const std::exception& error)
   {
-    fmt::print(stderr, "It cannot be shown: {}\n", error.what());
+    PrintError("It cannot be shown: {}\n", error.what());
   }
-  fmt::print(stderr,
-             "Next: `swarmanoid demo --list` has more to see, `swarmanoid new user my_robots` makes a place for your "
-             "own controllers\n");
+  PrintError(
+      "Next: `swarmanoid demo --list` has more to see, `swarmanoid new user my_robots` makes a place for your "
+      "own controllers\n");
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/activity/exit_codes.h"
+#include "common/activity/print_error.h"
 #include "common/bus/cluster_options.h"
 #include "common/bus/control_client.h"
 #include "common/bus/run_directory.h"
@@ -83,8 +84,8 @@ void PrintTicket(const ShareTicket& ticket, bool json)
     return;
   }
   fmt::print("{}\n", line);
-  fmt::print(stderr, "{}: whoever has this line may {}{}, {}. `swarmanoid share {} --revoke {}` ends it.\n",
-             share.Name(), share.role == ShareRole::kOperator ? "look at the run and steer it" : "look at the run",
+  PrintError("{}: whoever has this line may {}{}, {}. `swarmanoid share {} --revoke {}` ends it.\n", share.Name(),
+             share.role == ShareRole::kOperator ? "look at the run and steer it" : "look at the run",
              ticket.address.starts_with("127.") ? ", as any user of this machine (the run uses no network)" : "",
              share.ends == 0 ? "as long as it runs" : "until " + UtcText(share.ends), ShellWord(ticket.experiment),
              share.id);
@@ -153,12 +154,12 @@ int ShareRun(ShareOptions& options, bool domain_given)
   const auto reply = client.Ask(verb, id, numbers, kAnswerTime_s);
   if (!reply)
   {
-    fmt::print(stderr, "swarmanoid: experiment {} in domain {} does not answer\n", Quoted(run.experiment), run.domain);
+    PrintError("swarmanoid: experiment {} in domain {} does not answer\n", Quoted(run.experiment), run.domain);
     return kExitProcessFailed;
   }
   if (!reply->ok)
   {
-    fmt::print(stderr, "swarmanoid: {}\n", reply->text);
+    PrintError("swarmanoid: {}\n", reply->text);
     return kExitUsage;
   }
   if (options.list)

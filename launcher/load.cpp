@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "common/activity/print_error.h"
 #include "common/configuration/wording.h"
 #include "common/space/terrain/floor_picture.h"
 #include "common/space/terrain/terrain.h"
@@ -47,7 +48,7 @@ bool FilesAreGood(const Experiment& experiment)
     catch (const ConfigurationError& error)
     {
       good = false;
-      fmt::print(stderr, "{}\n", error.what());
+      PrintError("{}\n", error.what());
     }
   }
   return good;
@@ -57,9 +58,9 @@ std::unique_ptr<Experiment> LoadOrComplain(const std::string& file, const LoadOp
 {
   RegisterBuiltins();
   LoadedExperiment loaded = LoadExperimentFile(file, options);
-  for (const Diagnostic& error : loaded.errors) fmt::print(stderr, "{}{}\n", error.Text(), NearFile(file));
+  for (const Diagnostic& error : loaded.errors) PrintError("{}{}\n", error.Text(), NearFile(file));
   if (!loaded.experiment)
-    fmt::print(stderr, "{}: {}\n", file,
+    PrintError("{}: {}\n", file,
                loaded.errors.size() == 1 ? "1 error" : fmt::format("{} errors", loaded.errors.size()));
   if (loaded.experiment && !FilesAreGood(*loaded.experiment)) return nullptr;
   return std::move(loaded.experiment);

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/activity/print_error.h"
 #include "common/configuration/wording.h"
 #include "common/program/program.h"
 #include "common/program/standard_output.h"
@@ -32,8 +33,8 @@ bool ComplainsAboutVerb(const std::vector<std::string>& words)
   if (words.size() < 2 || words[1].starts_with("-")) return false;
   const std::string& verb = words[1];
   if (std::find(kVerbs.begin(), kVerbs.end(), verb) != kVerbs.end()) return false;
-  fmt::print(stderr, "swarmanoid: there is no command {}; the commands are {}{}\n", swarmanoid::Quoted(verb),
-             swarmanoid::Listed(kVerbs), swarmanoid::DidYouMean(verb, kVerbs));
+  swarmanoid::PrintError("swarmanoid: there is no command {}; the commands are {}{}\n", swarmanoid::Quoted(verb),
+                         swarmanoid::Listed(kVerbs), swarmanoid::DidYouMean(verb, kVerbs));
   return true;
 }
 

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "common/activity/print_error.h"
 #include "common/bus/run_directory.h"
 #include "common/bus/share.h"
 #include "common/configuration/wording.h"
@@ -35,10 +36,10 @@ RunChoice ChoiceOf(const LocalRun& run)
 // Who sits at a terminal says which of several is meant.
 const LocalRun& Ask(const std::vector<LocalRun>& runs)
 {
-  fmt::print(stderr, "several experiments run on this machine:\n");
+  PrintError("several experiments run on this machine:\n");
   for (std::size_t i = 0; i < runs.size(); ++i)
-    fmt::print(stderr, "  {}  {} (domain {})\n", i + 1, runs[i].experiment, runs[i].domain);
-  fmt::print(stderr, "which one, 1 to {}? ", runs.size());
+    PrintError("  {}  {} (domain {})\n", i + 1, runs[i].experiment, runs[i].domain);
+  PrintError("which one, 1 to {}? ", runs.size());
   std::string line;
   std::getline(std::cin, line);
   std::size_t number = 0;
@@ -86,7 +87,7 @@ RunChoice AwaitRun(const std::string& name, std::optional<int> domain, double wa
   {
     if (!Fitting(name, domain).empty()) break;
     if (!told)
-      fmt::print(stderr, "no experiment{} runs on this machine yet; waiting {:g} s for it to start\n",
+      PrintError("no experiment{} runs on this machine yet; waiting {:g} s for it to start\n",
                  name.empty() ? "" : " " + Quoted(name), wait_s);
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
   }

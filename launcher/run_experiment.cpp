@@ -190,13 +190,17 @@ bool EventsAreGood(const std::string& file, const Experiment& experiment)
   }
 }
 
-// Likewise.
+// Checks --faults-of before anything is started.
 void RefuseBadFaults(const RunSettings& options, const Experiment& experiment)
 {
   if (options.faults_of.empty()) return;
   try
   {
-    FaultsOfRun(options.faults_of, experiment, 0);
+    // An experiment without guards has no faults to repeat, but the run must be one of it.
+    if (experiment.HasGuards())
+      FaultsOfRun(options.faults_of, experiment, 0);
+    else if (JournalReader(JournalFile(options.faults_of)).Start().origin.experiment != FingerprintOf(experiment))
+      throw std::runtime_error("its journal is of another experiment, or of other settings of it");
   }
   catch (const std::runtime_error& error)
   {
@@ -309,8 +313,12 @@ int RunExperiment(const RunSettings& given, const WatchFunction& watch)
   if (!experiment) return kExitInvalidFile;
   std::vector<std::string> shown = asked.show;
   if (asked.ros2) shown.emplace_back("ros2");
-  if (!shown.empty()) experiment = WithShown(*experiment, shown);
   RunSettings options = asked;
+  if (!shown.empty())
+  {
+    experiment = WithShown(*experiment, shown, asked.visualisations);
+    options.visualisations = true;
+  }
   if (WantsOneProcess(asked, *experiment))
   {
     options.single_process = true;

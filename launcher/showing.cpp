@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/activity/exit_codes.h"
+#include "common/activity/print_error.h"
 #include "common/configuration/wording.h"
 #include "common/experiment/load_experiment.h"
 #include "common/plugins/catalogue.h"
@@ -103,7 +104,8 @@ std::string WithVisualisation(const std::string& effective_xml, const std::strin
   return text.insert(text.rfind(last), section);
 }
 
-std::unique_ptr<Experiment> WithShown(const Experiment& experiment, const std::vector<std::string>& kinds)
+std::unique_ptr<Experiment> WithShown(const Experiment& experiment, const std::vector<std::string>& kinds,
+                                      bool with_own)
 {
   const std::vector<std::string> known = PluginCatalogue::Instance().Labels(PluginKind::kRenderer);
   std::string text = experiment.effective_xml;
@@ -114,7 +116,8 @@ std::unique_ptr<Experiment> WithShown(const Experiment& experiment, const std::v
       throw UsageError(fmt::format("--show: there is no renderer {}; there are {}", Quoted(tag), Listed(known)));
     const std::string element = fmt::format("<{} id=\"shown{}\"{}/>", tag, k == 0 ? "" : fmt::format("_{}", k + 1),
                                             tag == "web_render" ? " allow_control=\"true\"" : "");
-    if (const std::size_t end = text.find("</visualisations>"); end != std::string::npos)
+    const std::size_t end = text.find("</visualisations>");
+    if (end != std::string::npos && (with_own || k > 0))
       text.insert(end, "  " + element + "\n  ");
     else
       text = WithVisualisation(text, element);
@@ -144,7 +147,7 @@ int Show(const Experiment& experiment, ShowingKind kind, const std::string& fold
   }
   else
   {
-    fmt::print(stderr, "Drawing a picture and a film …\n");
+    PrintError("Drawing a picture and a film …\n");
     const std::uint64_t ticks = TicksOfFilm(experiment, ran > 0 ? ran : LengthOf(experiment, folder));
     const std::uint64_t every = (ticks + kMostPictures - 1) / kMostPictures;
     const double speed = static_cast<double>(every) * experiment.TickSeconds() * kPicturesPerSecond;
@@ -165,7 +168,7 @@ int Show(const Experiment& experiment, ShowingKind kind, const std::string& fold
     while (!child.Ended() && FirstLineOf(url).empty()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
     if (!child.Ended())
     {
-      fmt::print(stderr, "Watch it: {}    (Ctrl-C ends it)\n", FirstLineOf(url));
+      PrintError("Watch it: {}    (Ctrl-C ends it)\n", FirstLineOf(url));
       if (kind == ShowingKind::kOpenedPage) OpenInBrowser(FirstLineOf(url));
     }
   }
@@ -175,11 +178,11 @@ int Show(const Experiment& experiment, ShowingKind kind, const std::string& fold
     if (fs::exists(output / name, none))
     {
       fs::rename(output / name, fs::path(folder) / name);
-      fmt::print(stderr, "{} {}\n", name[0] == 'p' ? "Picture:" : "Film:   ", ShortPath(fs::path(folder) / name));
+      PrintError("{} {}\n", name[0] == 'p' ? "Picture:" : "Film:   ", ShortPath(fs::path(folder) / name));
     }
   const std::string complaint = FirstLineOf(complaints);
   const bool good = exit_code == kExitDone || exit_code == kExitExperimentFailed || exit_code == kExitInterrupted;
-  if (!good) fmt::print(stderr, "It cannot be shown: {}\n", complaint.empty() ? "its process failed" : complaint);
+  if (!good) PrintError("It cannot be shown: {}\n", complaint.empty() ? "its process failed" : complaint);
   fs::remove_all(output, none);
   fs::remove(file, none);
   fs::remove(complaints, none);

@@ -31,8 +31,10 @@ bool HasPictures(const Experiment& experiment);
 // From the current folder, if the file is in it; otherwise the path as it is.
 std::string ShortPath(const std::string& path);
 
-// The experiment with visualisations more: "web", "opengl" … Throws UsageError if there is no such renderer.
-std::unique_ptr<Experiment> WithShown(const Experiment& experiment, const std::vector<std::string>& kinds);
+// The experiment with the visualisations of `kinds`, such as "web" or "opengl". `with_own`: beside its own ones,
+// otherwise instead of them. Throws UsageError if there is no such renderer.
+std::unique_ptr<Experiment> WithShown(const Experiment& experiment, const std::vector<std::string>& kinds,
+                                      bool with_own);
 // The text with the visualisation in the place of its own ones.
 std::string WithVisualisation(const std::string& effective_xml, const std::string& element);
 

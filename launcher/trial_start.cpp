@@ -17,6 +17,7 @@
 
 #include "common/activity/exit_codes.h"
 #include "common/activity/failure_report.h"
+#include "common/activity/print_error.h"
 #include "launcher/scratch_folder.h"
 #include "launcher/simulator.h"
 
@@ -41,17 +42,17 @@ int TryHere(const Experiment& experiment, const Trial& trial)
   }
   catch (const ConfigurationError& error)
   {
-    fmt::print(stderr, "{}\n", error.what());
+    PrintError("{}\n", error.what());
     return kExitInvalidFile;
   }
   catch (const std::exception& error)
   {
-    fmt::print(stderr, "{}\n", error.what());
+    PrintError("{}\n", error.what());
     return kExitProcessFailed;
   }
   catch (...)
   {
-    fmt::print(stderr, "the start threw what is no std::exception\n");
+    PrintError("the start threw what is no std::exception\n");
     return kExitProcessFailed;
   }
 }
@@ -107,12 +108,12 @@ int TryRun(const Experiment& experiment, const Trial& trial)
     ;
   if (trial.is_silent) return said && WIFEXITED(status) ? code : static_cast<int>(kExitProcessFailed);
   if (!in_time)
-    fmt::print(stderr, "the start takes longer than {} s; does Init of a controller return?\n", trial.most.count());
+    PrintError("the start takes longer than {} s; does Init of a controller return?\n", trial.most.count());
   else if (WIFSIGNALED(status))
-    fmt::print(stderr, "the start was ended by signal {} ({}); does Init of a controller crash?\n", WTERMSIG(status),
+    PrintError("the start was ended by signal {} ({}); does Init of a controller crash?\n", WTERMSIG(status),
                strsignal(WTERMSIG(status)));
   else if (!said && WEXITSTATUS(status) != kExitProcessFailed)
-    fmt::print(stderr, "the start was ended by exit({}); does Init of a controller call it?\n", WEXITSTATUS(status));
+    PrintError("the start was ended by exit({}); does Init of a controller call it?\n", WEXITSTATUS(status));
   return said && WIFEXITED(status) ? code : static_cast<int>(kExitProcessFailed);
 }
 

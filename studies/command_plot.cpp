@@ -31,6 +31,7 @@ struct PlotOptions
   std::vector<std::string> comparisons;
   std::string reference;
   std::string format = "svg";
+  std::string ended = "leave-out";
   std::string output;
 };
 
@@ -60,6 +61,13 @@ std::vector<OptionSpec> PlotOptionTable(PlotOptions& o)
       {{.name = "format", .type = kChoice, .description = "Of the picture files", .choices = {"svg", "png"}},
        &o.format,
        "png"},
+      {{.name = "ended",
+        .type = kChoice,
+        .description = "Over time, runs that have ended are left out of the means, keep their last value, or stop the "
+                       "lines at the first end",
+        .choices = {"leave-out", "hold", "stop"}},
+       &o.ended,
+       "hold"},
       {{.name = "output",
         .type = kPath,
         .description = "Folder of the pictures; otherwise pictures/ in that of the study"},
@@ -100,7 +108,8 @@ int Plot(const PlotOptions& options)
         "plot: pictures are drawn by matplotlib, which is not here; as root: apt-get install python3-matplotlib");
   const std::string script =
       (std::filesystem::path(UserFilesFolder()).parent_path() / "studies" / "plot_study.py").string();
-  std::vector<std::string> words{python, "-B", script, options.study, "--format", options.format};
+  std::vector<std::string> words{python,     "-B",           script,    options.study,
+                                 "--format", options.format, "--ended", options.ended};
   for (const std::string& metric : options.metrics) words.insert(words.end(), {"--metric", metric});
   for (const std::string& request : options.comparisons) words.insert(words.end(), {"--compare", request});
   if (!options.reference.empty()) words.insert(words.end(), {"--reference", options.reference});

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "common/program/empty_words.h"
 #include "common/program/options.h"
 #include "studies/commands.h"
 #include "studies/sweep.h"
@@ -96,6 +97,7 @@ void AddSweepCommand(CLI::App& app, int& exit_code)
   auto options = std::make_shared<SweepOptions>();
   CLI::App* verb = app.add_subcommand("sweep", "Run a study: an experiment with many parameters and seeds");
   AddOptions(*verb, SweepOptionTable(*options));
+  AllowEmpty(*verb->get_option("--slurm"));
   verb->footer(
       "The last line on standard output is\n"
       "  finished: <runs> runs, <failed> failed, <wall> s, table <folder>/table.csv\n"

@@ -71,9 +71,10 @@ std::vector<const FactorLevel*> Design::Levels(std::size_t point) const
 
 StudySettings Design::SettingsOf(std::size_t point) const
 {
-  StudySettings settings = study_.settings;
+  StudySettings settings;
+  for (const StudyChange& change : study_.changes) settings.emplace_back(change.path, change.value);
   for (const FactorLevel* level : Levels(point))
-    settings.insert(settings.end(), level->settings.begin(), level->settings.end());
+    for (const StudyChange& change : level->changes) settings.emplace_back(change.path, change.value);
   if (study_.ticks != 0) settings.emplace_back("framework.maxclock", std::to_string(study_.ticks));
   return settings;
 }

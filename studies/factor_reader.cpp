@@ -43,11 +43,10 @@ std::string ResolvedPath(const std::string& folder, const std::string& path)
   return path.empty() ? path : (fs::path(folder) / path).lexically_normal().string();
 }
 
-std::pair<std::string, std::string> ReadSet(const TConfigurationTree& tree, const ElementSpec& spec,
-                                            Diagnostics& diagnostics)
+StudyChange ReadSet(const TConfigurationTree& tree, const ElementSpec& spec, Diagnostics& diagnostics)
 {
   const ElementReader reader(tree, spec, diagnostics);
-  return {reader.Text("path"), reader.Text("value")};
+  return {reader.Text("path"), reader.Text("value"), tree.Location()};
 }
 
 StudyIds::StudyIds(Diagnostics& diagnostics) : diagnostics_(diagnostics)
@@ -108,13 +107,16 @@ void FactorReader::ReadVariant(const TConfigurationTree& tree, Factor& factor)
   const ElementSpec& spec = StudySchema().Child("variants").Child("variant");
   const ElementReader reader(tree, spec, diagnostics_);
   FactorLevel level;
+  level.location = tree.Location();
   level.value = reader.Text("id");
   level.experiment = ResolvedPath(folder_, reader.Text("experiment"));
   for (const TConfigurationTree& child : tree.Children())
-    if (child.Name() == "set") level.settings.push_back(ReadSet(child, spec.Child("set"), diagnostics_));
+    if (child.Name() == "set") level.changes.push_back(ReadSet(child, spec.Child("set"), diagnostics_));
   const auto same = [&](const FactorLevel& other) { return other.value == level.value; };
-  if (std::any_of(factor.levels.begin(), factor.levels.end(), same))
-    diagnostics_.Add(reader.Place("id"), fmt::format("there is a second variant {}", Quoted(level.value)));
+  const auto first = std::find_if(factor.levels.begin(), factor.levels.end(), same);
+  if (first != factor.levels.end())
+    diagnostics_.Add(reader.Place("id"), fmt::format("the variant {} is given a second time; the first is at {}",
+                                                     Quoted(level.value), first->location.Text()));
   factor.levels.push_back(std::move(level));
 }
 
@@ -129,7 +131,8 @@ void FactorReader::ReadPaths(const TConfigurationTree& tree, Factor& factor)
   for (std::string& value : factor.range ? EndsOf(*factor.range) : ReadValues(tree, reader))
   {
     FactorLevel level;
-    for (const std::string& path : paths) level.settings.emplace_back(path, value);
+    level.location = reader.IsGiven("values") ? reader.Place("values") : tree.Location();
+    for (const std::string& path : paths) level.changes.push_back({path, value, tree.Location()});
     level.value = std::move(value);
     factor.levels.push_back(std::move(level));
   }

@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "common/experiment/diagnostics.h"
@@ -34,9 +33,8 @@ private:
 
 // From the folder of the study; "" stays "".
 std::string ResolvedPath(const std::string& folder, const std::string& path);
-// <set> of `spec`: path and value.
-std::pair<std::string, std::string> ReadSet(const TConfigurationTree& tree, const ElementSpec& spec,
-                                            Diagnostics& diagnostics);
+// <set> of `spec`.
+StudyChange ReadSet(const TConfigurationTree& tree, const ElementSpec& spec, Diagnostics& diagnostics);
 
 class FactorReader
 {

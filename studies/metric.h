@@ -20,6 +20,9 @@ public:
   // The values of this tick: one for each entity, NaN for none; or a single one.
   virtual void Measure(CSimulator& simulator, std::vector<double>& values) = 0;
   virtual void AddGrid(RunSamples&) const {}
+  // At the end of a run of `ticks` ticks. Throws ConfigurationError if the run has shown that the metric names what
+  // does not exist.
+  virtual void RequireSeen(std::uint64_t /*ticks*/) const {}
 };
 
 // Indices of the entities that a metric is about, ascending. Throws ConfigurationError if a pattern fits none.

@@ -43,7 +43,7 @@ private:
 class PublishedByFunctions : public Metric
 {
 public:
-  explicit PublishedByFunctions(std::string name) : name_(std::move(name)) {}
+  PublishedByFunctions(std::string name, SourceLocation place) : name_(std::move(name)), place_(std::move(place)) {}
 
   void Look(CSimulator& simulator) override
   {
@@ -54,35 +54,74 @@ public:
     const auto found = numbers_->Values().find(name_);
     if (found != numbers_->Values().end()) values.push_back(found->second);
   }
+  void RequireSeen(std::uint64_t ticks) const override
+  {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : numbers_->Values())
+    {
+      if (name == name_) return;
+      names.push_back(name);
+    }
+    throw ConfigurationError(
+        place_, fmt::format("no experiment function has published {} in the {} ticks of the run; a number that has no "
+                            "value yet is published as 0 from the first tick on; published are: {}{}",
+                            Quoted(name_), ticks, Listed(names), DidYouMean(name_, names)));
+  }
 
 private:
   std::string name_;
+  SourceLocation place_;
   std::optional<PublishedNumbers> numbers_;
 };
 
 class PublishedByControllers : public Metric
 {
 public:
-  PublishedByControllers(Entities entities, const std::string& name) : entities_(std::move(entities)), name_(name) {}
+  PublishedByControllers(Entities entities, std::string name, SourceLocation place)
+      : entities_(std::move(entities)), name_(std::move(name)), place_(std::move(place))
+  {
+  }
 
+  // Only until one robot has published it.
+  void Look(CSimulator& simulator) override
+  {
+    for (std::size_t i = 0; i < entities_.size() && !is_seen_; ++i)
+      is_seen_ = NumberOf(simulator.GetSpace(), entities_[i]).has_value();
+  }
   void Measure(CSimulator& simulator, std::vector<double>& values) override
   {
     const CSwarmanoidSpace& space = simulator.GetSpace();
     for (const std::uint32_t index : entities_)
-    {
-      if (!space.IsPresent(index)) continue;
-      const CSwarmanoidSpaceEntity& entity = space.GetEntity(index);
-      double slots[kPacketSlots - 1];
-      for (std::size_t i = 0; i < kPacketSlots - 1; ++i)
-        slots[i] = entity.GetAttribute("report", static_cast<int>(i) + 1);
-      const AttributePacket packet = UnpackedPacket(slots);
-      values.push_back(PublishedNumberIn(packet.Bytes(), name_).value_or(kNoValue));
-    }
+      if (space.IsPresent(index)) values.push_back(NumberOf(space, index).value_or(kNoValue));
+  }
+  // A report has 16 bits of each name, so that the names that were published are not known.
+  void RequireSeen(std::uint64_t ticks) const override
+  {
+    if (!is_seen_)
+      throw ConfigurationError(
+          place_, fmt::format("no controller of {} has published {} in the {} ticks of the run; compare the name "
+                              "with those that the controllers give to Publish: a number that has no value yet is "
+                              "published as 0 from the first step on",
+                              entities_.size() == 1 ? "the entity" : fmt::format("the {} entities", entities_.size()),
+                              Quoted(name_), ticks));
   }
 
 private:
+  std::optional<double> NumberOf(const CSwarmanoidSpace& space, std::uint32_t index) const
+  {
+    if (!space.IsPresent(index)) return std::nullopt;
+    const CSwarmanoidSpaceEntity& entity = space.GetEntity(index);
+    double slots[kPacketSlots - 1];
+    for (std::size_t i = 0; i < kPacketSlots - 1; ++i)
+      slots[i] = entity.GetAttribute("report", static_cast<int>(i) + 1);
+    const AttributePacket packet = UnpackedPacket(slots);
+    return PublishedNumberIn(packet.Bytes(), name_);
+  }
+
   Entities entities_;
   std::string name_;
+  SourceLocation place_;
+  bool is_seen_ = false;
 };
 
 void RequireAttribute(const MetricChoice& choice, const Entities& entities, const Experiment& experiment)
@@ -139,7 +178,7 @@ std::unique_ptr<Metric> MakeFunctionMetric(const MetricChoice& choice, const Exp
                              "what functions publish is one value, not of entities; leave 'of' out");
   if (experiment.functions.empty())
     throw ConfigurationError(choice.location, "the experiment has no <experiment_functions> that could publish it");
-  return std::make_unique<PublishedByFunctions>(*choice.tree.Value("name"));
+  return std::make_unique<PublishedByFunctions>(*choice.tree.Value("name"), choice.tree.ValueLocation("name"));
 }
 
 std::unique_ptr<Metric> MakeValueMetric(const MetricChoice& choice, const std::vector<std::uint32_t>& entities,
@@ -149,7 +188,7 @@ std::unique_ptr<Metric> MakeValueMetric(const MetricChoice& choice, const std::v
   if (choice.kind == "published")
   {
     RequireReports(choice, entities, experiment);
-    return std::make_unique<PublishedByControllers>(entities, name);
+    return std::make_unique<PublishedByControllers>(entities, name, choice.tree.ValueLocation("name"));
   }
   if (choice.kind != "attribute") return nullptr;
   RequireAttribute(choice, entities, experiment);

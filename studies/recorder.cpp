@@ -173,7 +173,12 @@ void Recorder::AddRow(CSimulator& simulator)
 
 RunSamples Recorder::Take()
 {
-  for (const auto& metric : metrics_) metric->AddGrid(samples_);
+  const std::uint64_t ticks = samples_.ticks.empty() ? 0 : samples_.ticks.back();
+  for (const auto& metric : metrics_)
+  {
+    if (ticks > 0) metric->RequireSeen(ticks);
+    metric->AddGrid(samples_);
+  }
   is_tentative_ = false;
   return std::move(samples_);
 }

@@ -54,6 +54,8 @@ public:
   // Behind Look, at a tick that may be the last one: its row is there whether or not it is due. If another tick comes,
   // a row that is not due is dropped.
   void LookLast(CSimulator& simulator);
+  // At the end of the run. Throws ConfigurationError, with the place in the study, for a published number whose name
+  // the run never published.
   RunSamples Take();
 
 private:

@@ -19,6 +19,7 @@
 #include "common/activity/exit_codes.h"
 #include "common/activity/failure_report.h"
 #include "common/activity/limits.h"
+#include "common/activity/print_error.h"
 #include "common/logging/log.h"
 #include "common/program/usage_error.h"
 #include "launcher/simulation.h"
@@ -95,7 +96,7 @@ void RunClusterMeasured(const Study& study, const std::string& folder, const Run
   outcome.name = order.name;
   const auto failed = [&](int code, const std::string& text)
   {
-    fmt::print(stderr, "{}\n", text);
+    PrintError("{}\n", text);
     outcome.exit_code = code;
     outcome.failure = text;
   };

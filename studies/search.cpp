@@ -13,6 +13,7 @@
 #include <set>
 
 #include "common/activity/exit_codes.h"
+#include "common/activity/print_error.h"
 #include "common/program/interrupts.h"
 #include "common/program/shell_word.h"
 #include "common/space/space.h"
@@ -82,7 +83,7 @@ public:
     catch (const StudyStoreError& error)
     {
       Clear();
-      fmt::print(stderr, "{}; what was stored before stays: mend the cause, then go on: swarmanoid sweep {} --resume\n",
+      PrintError("{}; what was stored before stays: mend the cause, then go on: swarmanoid sweep {} --resume\n",
                  error.what(), store_.Folder());
       return kExitProcessFailed;
     }
@@ -93,7 +94,7 @@ public:
       fmt::print("finished: {} runs, 0 failed, {:.3f} s, table {}/table.csv\n", results_.size(), seconds,
                  store_.Folder());
     else
-      fmt::print(stderr, "{} runs of the search are done; to go on: swarmanoid sweep {} --resume\n", results_.size(),
+      PrintError("{} runs of the search are done; to go on: swarmanoid sweep {} --resume\n", results_.size(),
                  store_.Folder());
     return is_whole ? kExitDone : has_failed_ ? kExitProcessFailed : kExitInterrupted;
   }
@@ -267,7 +268,7 @@ private:
       return;
     }
     Clear();
-    fmt::print(stderr, "run {} ({}) failed with exit code {}: {}; what it left is in {}/runs/{}\n", outcome.name.Text(),
+    PrintError("run {} ({}) failed with exit code {}: {}; what it left is in {}/runs/{}\n", outcome.name.Text(),
                space_.Text(values_[outcome.name.point]), outcome.exit_code, outcome.failure, store_.Folder(),
                outcome.name.Text());
     if (++attempts_[outcome.name] <= options_.retries)
@@ -285,7 +286,7 @@ private:
     if (const auto best = Best())
       line += fmt::format("; best {} {:.6g} ({})", search_.column, *ValueOf(*best), space_.Text(values_[*best]));
     Clear();
-    fmt::print(stderr, "{}{}", line, terminal_ ? "" : "\n");
+    PrintError("{}{}", line, terminal_ ? "" : "\n");
     std::fflush(stderr);
     is_shown_ = terminal_;
   }
@@ -346,13 +347,13 @@ int RunSearch(const SearchOptions& options, const Study& study, const Design& de
   try
   {
     if (!options.quiet)
-      fmt::print(stderr, "study {}: a search of at most {} points, {} seeds each, in {}\n", study.name,
-                 MostPoints(study), study.seeds.size(), store.Folder());
+      PrintError("study {}: a search of at most {} points, {} seeds each, in {}\n", study.name, MostPoints(study),
+                 study.seeds.size(), store.Folder());
     return Searcher(options, study, design, store).Run();
   }
   catch (const ConfigurationError& error)
   {
-    fmt::print(stderr, "{}\n", error.what());
+    PrintError("{}\n", error.what());
     return kExitInvalidFile;
   }
 }
@@ -385,7 +386,7 @@ void DescribeSearch(const Study& study)
   fmt::print("begins at {}\n", space.Text(space.Values(space.Start())));
   fmt::print("{} of {} ({} of {} seeds), by {}\n", search.maximise ? "most" : "least", search.column, search.aggregate,
              study.seeds.size(), search.algorithm);
-  fmt::print(stderr, "at most {} points, {} runs, and {} with fresh seeds\n", MostPoints(study),
+  PrintError("at most {} points, {} runs, and {} with fresh seeds\n", MostPoints(study),
              MostPoints(study) * study.seeds.size(), search.fresh_seeds);
 }
 

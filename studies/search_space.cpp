@@ -96,10 +96,11 @@ bool SearchSpace::Allows(const std::vector<ExpressionValue>& values) const
 
 StudySettings SearchSpace::Settings(const std::vector<ExpressionValue>& values) const
 {
-  StudySettings settings = study_.settings;
+  StudySettings settings;
+  for (const StudyChange& change : study_.changes) settings.emplace_back(change.path, change.value);
   for (std::size_t f = 0; f < factors_.size(); ++f)
-    for (const auto& [path, value] : factors_[f]->levels[0].settings)
-      settings.emplace_back(path, factors_[f]->range ? TextOfValue(values[f]) : value);
+    for (const StudyChange& change : factors_[f]->levels[0].changes)
+      settings.emplace_back(change.path, factors_[f]->range ? TextOfValue(values[f]) : change.value);
   if (study_.ticks != 0) settings.emplace_back("framework.maxclock", std::to_string(study_.ticks));
   return settings;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include "common/configuration/wording.h"
 #include "common/configuration/xml_reader.h"
@@ -20,6 +21,18 @@ namespace
 
 namespace fs = std::filesystem;
 
+// The same for all ways to write one value: 2 and 2.0, or 1,2,0 and 1, 2, 0.
+std::string ComparableValue(const std::string& value)
+{
+  std::string comparable;
+  for (const std::string& word : SplitWords(value, kListed))
+  {
+    const auto number = ParseNumber(word);
+    comparable += (number ? fmt::format("{}", *number + 0.0) : word) + ' ';
+  }
+  return comparable;
+}
+
 class StudyReader
 {
 public:
@@ -30,6 +43,8 @@ public:
     const ElementReader reader(root, StudySchema(), diagnostics_);
     study_.experiment = ResolvedPath(study_.folder, reader.Text("experiment"));
     study_.ticks = static_cast<std::uint64_t>(reader.Integer("ticks"));
+    study_.ticks_location = reader.Place("ticks");
+    study_.seeds_location = reader.Place("seeds");
     study_.cluster = reader.Boolean("cluster");
     study_.controller_hosts = static_cast<unsigned>(reader.Integer("controller_hosts"));
     study_.visualisations = reader.Boolean("visualisations");
@@ -49,17 +64,26 @@ private:
     Dimension searched;
     for (const TConfigurationTree& child : root.Children())
     {
-      if (child.Name() == "set") study_.settings.push_back(ReadSet(child, StudySchema().Child("set"), diagnostics_));
+      if (child.Name() == "set") study_.changes.push_back(ReadSet(child, StudySchema().Child("set"), diagnostics_));
       if (child.Name() == "factor" || child.Name() == "variants")
         if (auto factor = reader.Read(child))
         {
-          if (factor->range)
-            searched.factors.push_back(std::move(*factor));
+          Dimension dimension{{std::move(*factor)}};
+          if (dimension.factors[0].range)
+            searched.factors.push_back(std::move(dimension.factors[0]));
           else
-            study_.dimensions.push_back({{std::move(*factor)}});
+          {
+            // The ids of <variants> are compared when they are read.
+            if (child.Name() == "factor") CheckLevels(dimension);
+            study_.dimensions.push_back(std::move(dimension));
+          }
         }
       if (child.Name() == "zip")
-        if (auto dimension = reader.ReadZip(child)) study_.dimensions.push_back(std::move(*dimension));
+        if (auto dimension = reader.ReadZip(child))
+        {
+          CheckLevels(*dimension);
+          study_.dimensions.push_back(std::move(*dimension));
+        }
       if (child.Name() == "require") ReadCondition(child);
     }
     if (!searched.factors.empty()) study_.dimensions.push_back(std::move(searched));
@@ -166,6 +190,12 @@ private:
     static const std::vector<std::string> kKnown{"mean", "deviation", "min", "max", "sum", "median", "count", "q25"};
     if (aggregates.empty())
       diagnostics_.Add(metric.Place("aggregate"), "'aggregate' names nothing; known: " + Listed(kKnown));
+    for (std::size_t i = 0; i < aggregates.size(); ++i)
+      if (std::find(aggregates.begin(), aggregates.begin() + static_cast<std::ptrdiff_t>(i), aggregates[i]) !=
+          aggregates.begin() + static_cast<std::ptrdiff_t>(i))
+        diagnostics_.Add(metric.Place("aggregate"),
+                         fmt::format("'aggregate' names {} a second time, and would make two columns of one name",
+                                     Quoted(aggregates[i])));
     for (const std::string& name : aggregates)
     {
       const auto quantile = name.starts_with("q") ? ParseInteger(name.substr(1)) : std::nullopt;
@@ -198,6 +228,32 @@ private:
       {
         diagnostics_.Add(condition.location, error.what());
       }
+    }
+  }
+
+  // Two equal values of a factor, or of all factors of a <zip>, would run and count the same runs twice.
+  void CheckLevels(const Dimension& dimension)
+  {
+    std::map<std::string, std::size_t> first_of;
+    for (std::size_t k = 0; k < dimension.Size(); ++k)
+    {
+      std::string values, told;
+      for (const Factor& factor : dimension.factors)
+      {
+        if (factor.range || k >= factor.levels.size()) return;
+        const std::string& value = factor.levels[k].value;
+        values += ComparableValue(value) + '\n';
+        told += fmt::format("{}{}={}", told.empty() ? "" : " ", factor.id, value);
+      }
+      const auto [first, is_new] = first_of.try_emplace(values, k);
+      if (is_new) continue;
+      const FactorLevel& one = dimension.factors[0].levels[first->second];
+      const FactorLevel& other = dimension.factors[0].levels[k];
+      diagnostics_.Add(other.location,
+                       fmt::format("value {} is {}, as is value {} at {}: their runs would be counted twice; leave one "
+                                   "of the two out",
+                                   k + 1, Quoted(told), first->second + 1, one.location.Text()));
+      return;
     }
   }
 

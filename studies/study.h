@@ -19,12 +19,21 @@ namespace swarmanoid
 
 using StudySettings = std::vector<std::pair<std::string, std::string>>;  // as for --set: path and value
 
+// One <set>, or one path of a <factor> with one of its values.
+struct StudyChange
+{
+  std::string path;
+  std::string value;
+  SourceLocation location;
+};
+
 // One value of a factor.
 struct FactorLevel
 {
   std::string value;       // as in tables: "0.05", "kinematic"
   std::string experiment;  // of a variant that has a file of its own; empty: that of the study
-  StudySettings settings;
+  std::vector<StudyChange> changes;
+  SourceLocation location;
 };
 
 // What a search may give to a factor: numbers between two ends.
@@ -97,7 +106,8 @@ struct Study
   bool cluster = false;
   unsigned controller_hosts = 1;
   bool visualisations = false;
-  StudySettings settings;
+  std::vector<StudyChange> changes;  // of all runs
+  SourceLocation ticks_location, seeds_location;
   std::vector<Dimension> dimensions;
   std::vector<StudyCondition> conditions;
   std::uint64_t sample_every = 0;  // ticks; 0: at the last tick alone

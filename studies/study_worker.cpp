@@ -20,6 +20,7 @@
 
 #include "common/activity/exit_codes.h"
 #include "common/activity/failure_report.h"
+#include "common/activity/print_error.h"
 #include "common/configuration/configuration_tree.h"
 #include "common/math/reproducible_math.h"
 #include "common/program/file_descriptor.h"
@@ -264,7 +265,7 @@ int RunStudyWorker(const std::vector<std::string>& words)
   }
   catch (const std::exception& error)
   {
-    fmt::print(stderr, "{}\n", error.what());
+    PrintError("{}\n", error.what());
     return kExitProcessFailed;
   }
 }

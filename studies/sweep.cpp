@@ -16,12 +16,14 @@
 #include <set>
 
 #include "common/activity/exit_codes.h"
+#include "common/activity/print_error.h"
 #include "common/configuration/wording.h"
 #include "common/math/reproducible_math.h"
 #include "common/program/interrupts.h"
 #include "common/program/shell_word.h"
 #include "common/program/usage_error.h"
 #include "roles/builtins.h"
+#include "studies/conflicts.h"
 #include "studies/host_pool.h"
 #include "studies/recorder.h"
 #include "studies/run_pool.h"
@@ -52,17 +54,17 @@ std::string MistakeText(const Study& study, const Design& design, std::size_t po
   const std::vector<const Factor*> factors = study.Factors();
   const std::vector<const FactorLevel*> levels = design.Levels(point);
   for (std::size_t f = 0; f < factors.size(); ++f)
-    for (const auto& [path, value] : levels[f]->settings)
-      if (error.location.file && *error.location.file == "--set " + path)
-        return fmt::format("{}: the value {} of '{}', at {}: {}", factors[f]->location.Text(), levels[f]->value,
-                           factors[f]->id, path, error.message);
+    for (const StudyChange& change : levels[f]->changes)
+      if (error.location.file && *error.location.file == "--set " + change.path)
+        return fmt::format("{}: the value {} of '{}', at {}: {}", change.location.Text(), levels[f]->value,
+                           factors[f]->id, change.path, error.message);
   const std::string values = design.Text(point);
   return error.Text() + (values.empty() ? "" : " (with " + values + ")");
 }
 
 [[nodiscard]] bool Complain(const std::vector<Diagnostic>& errors)
 {
-  for (const Diagnostic& error : errors) fmt::print(stderr, "{}\n", error.Text());
+  for (const Diagnostic& error : errors) PrintError("{}\n", error.Text());
   return !errors.empty();
 }
 
@@ -140,9 +142,14 @@ public:
       }
     }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (is_study_wrong_)
+    {
+      PrintError("the study ends here, with {} of {} runs done: other runs would fail in the same way\n", done_, all_);
+      return kExitInvalidFile;
+    }
     if (done_ + failed_ < all_)
     {
-      fmt::print(stderr, "{} of {} runs are done; to go on: {}\n", done_, all_, GoOn());
+      PrintError("{} of {} runs are done; to go on: {}\n", done_, all_, GoOn());
       return kExitInterrupted;
     }
     fmt::print("finished: {} runs, {} failed, {:.3f} s, table {}/table.csv\n", done_ + failed_, failed_, seconds,
@@ -212,7 +219,7 @@ private:
   // More runs for the points whose interval is wider than asked; false if there are none.
   bool Extend(SweepProgress& progress)
   {
-    if (column_.empty() || Interrupted()) return false;
+    if (column_.empty() || IsEnding()) return false;
     store_.Commit();
     std::map<std::uint32_t, std::vector<std::uint64_t>> seeds;
     for (const auto& [name, attempts] : attempts_) seeds[name.point].push_back(name.seed);
@@ -273,9 +280,9 @@ private:
   void Loop(RunPlace& pool, SweepProgress& progress)
   {
     auto committed = std::chrono::steady_clock::now();
-    while (!pool.IsIdle() || (!queue_.empty() && !Interrupted()) || Extend(progress))
+    while (!pool.IsIdle() || (!queue_.empty() && !IsEnding()) || Extend(progress))
     {
-      while (!Interrupted() && !queue_.empty() && pool.HasRoom())
+      while (!IsEnding() && !queue_.empty() && pool.HasRoom())
       {
         const RunName name = queue_.front();
         queue_.pop_front();
@@ -292,6 +299,9 @@ private:
       Commit(pool);
     }
   }
+
+  // Whether no more runs are started.
+  bool IsEnding() const { return Interrupted() || is_study_wrong_; }
 
   void Take(const RunOutcome& outcome, SweepProgress& progress)
   {
@@ -313,7 +323,9 @@ private:
     progress.Say(fmt::format("run {}{} failed with exit code {}: {}; what it left is in {}/runs/{}",
                              outcome.name.Text(), values.empty() ? "" : " (" + values + ")", outcome.exit_code,
                              outcome.failure, store_.Folder(), outcome.name.Text()));
-    if (++attempts_[outcome.name] <= options_.retries)
+    // The run did its ticks, and a metric then found that the study names what does not exist.
+    if (outcome.exit_code == kExitInvalidFile && outcome.ticks > 0) is_study_wrong_ = true;
+    if (++attempts_[outcome.name] <= options_.retries && !is_study_wrong_)
       Enqueue(outcome.name);
     else
       ++failed_;
@@ -332,6 +344,7 @@ private:
   std::map<RunName, unsigned> attempts_;
   std::vector<std::pair<std::uint32_t, double>> known_times_;
   std::size_t all_ = 0, done_ = 0, failed_ = 0;
+  bool is_study_wrong_ = false;
 };
 
 void ListRuns(const SweepOptions& options, const Study& study, const Design& design)
@@ -353,7 +366,7 @@ void ListRuns(const SweepOptions& options, const Study& study, const Design& des
       fmt::print("{}{}{} seed={}\n", RunName{static_cast<std::uint32_t>(point), seed}.Text(), values.empty() ? "" : " ",
                  values, seed);
     }
-  fmt::print(stderr, "{} runs: {} points, {} seeds\n", runs, design.Points(), study.seeds.size());
+  PrintError("{} runs: {} points, {} seeds\n", runs, design.Points(), study.seeds.size());
 }
 
 // The study, from its file or from the folder that goes on.
@@ -398,7 +411,7 @@ int SweepChecked(const SweepOptions& options)
   RequireReproducibleMath();
   RegisterBuiltins();
   const std::vector<std::string> mistakes = MistakesInRuns(study, design);
-  for (const std::string& mistake : mistakes) fmt::print(stderr, "{}\n", mistake);
+  for (const std::string& mistake : mistakes) PrintError("{}\n", mistake);
   if (!mistakes.empty()) return kExitInvalidFile;
   if (study.search && !(options.only.empty() && options.until_ci.empty()))
     throw UsageError("a study with a <search> chooses its runs itself; leave --only and --until-ci out");
@@ -424,7 +437,7 @@ int SweepChecked(const SweepOptions& options)
     store = StudyStore::Create(options.output.empty() ? NewFolder(study.name) : options.output, study, design);
   if (study.search) return RunSearch({options.jobs, options.retries, options.quiet}, study, design, *store);
   if (!options.quiet)
-    fmt::print(stderr, "study {}: {} points, {} seeds, in {}\n", study.name, design.Points(), study.seeds.size(),
+    PrintError("study {}: {} points, {} seeds, in {}\n", study.name, design.Points(), study.seeds.size(),
                store->Folder());
   return Sweeper(options, study, design, *store).Run();
 }
@@ -433,7 +446,8 @@ int SweepChecked(const SweepOptions& options)
 
 std::vector<std::string> MistakesInRuns(const Study& study, const Design& design)
 {
-  std::vector<std::string> mistakes;
+  std::vector<std::string> mistakes = ConflictsIn(study, design);
+  if (!mistakes.empty()) return mistakes;
   const auto add = [&](std::string text)
   {
     if (std::find(mistakes.begin(), mistakes.end(), text) == mistakes.end()) mistakes.push_back(std::move(text));

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "common/activity/print_error.h"
+
 namespace swarmanoid
 {
 namespace
@@ -49,7 +51,7 @@ void SweepProgress::Clear()
 void SweepProgress::Say(const std::string& line)
 {
   Clear();
-  fmt::print(stderr, "{}\n", line);
+  PrintError("{}\n", line);
 }
 
 // Points differ: where one has been run, its mean counts, else that of all.
@@ -83,9 +85,9 @@ void SweepProgress::Show(const RunPlace& place, const std::map<std::uint32_t, st
                         values.empty() ? "" : " (" + values + ")");
   }
   if (line.size() > kWidth) line = line.substr(0, kWidth) + " …";
-  if (!terminal_) return fmt::print(stderr, "{}\n", line);
+  if (!terminal_) return PrintError("{}\n", line);
   Clear();
-  fmt::print(stderr, "{}", line);
+  PrintError("{}", line);
   std::fflush(stderr);
   is_shown_ = true;
 }

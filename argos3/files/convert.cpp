@@ -1,5 +1,6 @@
 #include "argos3/files/convert.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <set>
@@ -7,6 +8,7 @@
 #include "argos3/files/convert_arena.h"
 #include "argos3/files/convert_code.h"
 #include "argos3/files/node_reader.h"
+#include "common/activity/print_error.h"
 #include "common/experiment/foreign_experiments.h"
 
 namespace swarmanoid
@@ -87,8 +89,14 @@ private:
       Note(at, fmt::format("a tick has whole milliseconds here: {} ms, {:.1f} % less than 1/{} s", tick_ms,
                            100 * missing, ticks));
     const double length = Number(*experiment, "length", 0);
+    constexpr double kMostTicks = 1e15;  // as of <maxclock>
+    // The negation refuses what is no number, too.
+    if (!(length >= 0 && length * static_cast<double>(std::max(ticks, 1LL)) < kMostTicks))
+      Mistake(FindAttributeOf(*experiment, "length")->location,
+              "'length' of <experiment> is '" + NeededText(*experiment, "length") +
+                  "'; it must be a number of seconds from 0 on, with at most 1e15 ticks; 0 is a run without an end");
     // The tick before the first step of controllers is theirs, too.
-    if (length > 0)
+    else if (length > 0)
       SetValue(*made, "maxclock", std::to_string(static_cast<long long>(length * static_cast<double>(ticks)) + 1), at);
     const long long seed = Whole(*experiment, "random_seed", 0);
     if (seed == 0) Note(at, "without a random_seed ARGoS3 takes the time; here it is 1, and --seed gives another one");
@@ -173,8 +181,7 @@ void ReadArgos3Experiments(Argos3Rehearsal rehearse)
                                        const ExperimentSettings& settings, std::vector<Diagnostic>& mistakes)
       {
         ConvertedExperiment converted = ConvertArgos3(root, folder, rehearse, settings);
-        for (const Diagnostic& note : converted.notes)
-          fmt::print(stderr, "{}: note: {}\n", note.location.Text(), note.message);
+        for (const Diagnostic& note : converted.notes) PrintError("{}: note: {}\n", note.location.Text(), note.message);
         mistakes = std::move(converted.mistakes);
         return std::shared_ptr<const ConfigurationNode>(std::move(converted.root));
       });

@@ -56,6 +56,10 @@ void ArenaConverter::ConvertFloor(const ConfigurationNode& theirs, Configuration
 void ArenaConverter::FindArena()
 {
   const Vector3 size = NeededVector(arena_, "size");
+  if (const auto* attribute = FindAttributeOf(arena_, "size");
+      attribute != nullptr && ParseVector(attribute->value) && !(size.x() > 0 && size.y() > 0 && size.z() >= 0))
+    Mistake(attribute->location, "'size' of <arena> is " + Quoted(attribute->value) +
+                                     "; it must be above 0 m along x and y, and from 0 m on along z");
   const Vector3 center = Vector(arena_, "center");
   low_ = center - size / 2;
   high_ = center + size / 2;
@@ -98,12 +102,12 @@ void ArenaConverter::FindBearers(const ConfigurationNode& within)
     if (kind.empty() || controller == nullptr) continue;
     Bearers& bearers = bearers_[NeededText(*controller, "config")];
     bearers.kinds.insert(kind);
-    if (kind == "footbot") bearers.camera_aperture = Number(*child, "omnidirectional_camera_aperture", 70);
+    if (kind == "footbot") bearers.camera_aperture = Positive(*child, "omnidirectional_camera_aperture", 70);
     const bool is_epuck = kind == "argos3_epuck";
-    bearers.perspective_aperture = Number(*child, "perspective_camera_aperture", 30);
-    bearers.perspective_range = Number(*child, "perspective_camera_range", 2);
+    bearers.perspective_aperture = Positive(*child, "perspective_camera_aperture", 30);
+    bearers.perspective_range = Positive(*child, "perspective_camera_range", 2);
     bearers.battery = FindChild(*child, "battery");
-    bearers.radio_range = Number(*child, "rab_range", is_epuck ? 0.8 : 3);
+    bearers.radio_range = Positive(*child, "rab_range", is_epuck ? 0.8 : 3);
     bearers.radio_bytes = Whole(*child, "rab_data_size", is_epuck ? 2 : 10);
     if (bearers.radio_bytes < 1 || bearers.radio_bytes > 10'000)
       Mistake(child->location, "'rab_data_size' is " + std::to_string(bearers.radio_bytes) +
@@ -317,6 +321,8 @@ void ArenaConverter::ConvertDistribute(const ConfigurationNode& theirs, Configur
   ConvertPositions(*position, *positions, what.name == "box" ? NeededVector(what, "size").z() / 2 : 0);
   const std::string id = NeededText(what, "id");
   const long long first = Whole(*entity, "base_num", 0);
+  if (first < 0)
+    Mistake(entity->location, "'base_num' is " + std::to_string(first) + "; entities are numbered from 0 on");
   const std::string ours = OurIdOfDistributed(what, first);
   distributed_ += (distributed_.empty() ? "" : " ") + id + ":" + std::to_string(first) + ":" + ours;
   ConvertEntity(what, ours, *made, false);

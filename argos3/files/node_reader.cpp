@@ -1,5 +1,7 @@
 #include "argos3/files/node_reader.h"
 
+#include <fmt/format.h>
+
 namespace swarmanoid::argos3
 {
 
@@ -33,6 +35,15 @@ std::string NodeReader::NeededText(const ConfigurationNode& node, const std::str
 double NodeReader::Number(const ConfigurationNode& node, const std::string& name, double fallback)
 {
   return Parsed<double>(node, name, fallback, ParseNumber, "a number");
+}
+
+double NodeReader::Positive(const ConfigurationNode& node, const std::string& name, double fallback)
+{
+  const double number = Number(node, name, fallback);
+  if (number > 0) return number;
+  Mistake(FindAttributeOf(node, name)->location,
+          fmt::format("'{}' of <{}> is {}; it must be above 0", name, node.name, number));
+  return fallback;
 }
 
 long long NodeReader::Whole(const ConfigurationNode& node, const std::string& name, long long fallback)

@@ -36,6 +36,8 @@ protected:
     return fallback;
   }
   double Number(const ConfigurationNode& node, const std::string& name, double fallback);
+  // A number that has to be above 0.
+  double Positive(const ConfigurationNode& node, const std::string& name, double fallback);
   long long Whole(const ConfigurationNode& node, const std::string& name, long long fallback);
   bool Flag(const ConfigurationNode& node, const std::string& name, bool fallback);
   static std::optional<Vector3> ParseVector(std::string_view text);

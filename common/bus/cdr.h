@@ -20,7 +20,7 @@
 #include "common/bus/messages.h"
 #include "common/bus/pose_columns.h"
 #include "common/bus/seal.h"
-#include "common/bus/shown_text.h"
+#include "common/configuration/shown_text.h"
 
 namespace swarmanoid
 {

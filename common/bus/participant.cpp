@@ -22,7 +22,7 @@
 #include "common/activity/failure_report.h"
 #include "common/activity/print_error.h"
 #include "common/bus/cluster_options.h"
-#include "common/bus/shown_text.h"
+#include "common/configuration/shown_text.h"
 #include "common/logging/log.h"
 
 namespace swarmanoid

@@ -1,7 +1,10 @@
 // The mistakes found while an experiment file is read. Used by the reader only.
 #pragma once
 
+#include <algorithm>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/experiment/load_experiment.h"
@@ -15,12 +18,27 @@ public:
   void Add(const SourceLocation& location, std::string message);
   bool Empty() const { return count_ == 0; }
   std::size_t Count() const { return count_; }
-  // All of them in the order of the file; beyond a thousand, a last one says how many more there are.
-  std::vector<Diagnostic> Take();
+  // Notes that the kind or entity of that name is missing because of a mistake that is reported. Its absence elsewhere
+  // follows from that mistake and is not reported again.
+  void Lose(std::string name)
+  {
+    if (!name.empty()) lost_.insert(std::move(name));
+  }
+  // Whether the name was lost; entities of a lost <distribute> or <reserve> "fb" have names such as "fb_3".
+  bool IsLost(std::string_view name) const;
+  template <class Fits>
+  bool HasLost(const Fits& fits) const
+  {
+    return std::any_of(lost_.begin(), lost_.end(), fits);
+  }
+  // All of them: those of other files first, such as URDF files, which the experiment only names; then those of the
+  // experiment in the order of the file. Beyond a thousand, a last one says how many more there are.
+  std::vector<Diagnostic> Take(const std::string& experiment_file = "");
 
 private:
   std::vector<Diagnostic> found_;
   std::size_t count_ = 0;
+  std::set<std::string, std::less<>> lost_;
 };
 
 }  // namespace swarmanoid

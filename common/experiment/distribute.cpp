@@ -355,11 +355,12 @@ void PlaceDistributed(Reading& reading)
   }
   placer.AddPlaced(next, reading.experiment.entities.size());
   const std::size_t mistakes = reading.diagnostics.Count();
+  const bool has_no_ground = reading.diagnostics.IsLost(kTerrainMap);
   for (const Distribution& distribution : distributions)
   {
-    if (!placer.Place(distribution)) Unplace(distribution, reading.experiment.entities);
+    if (has_no_ground || !placer.Place(distribution)) Unplace(distribution, reading.experiment.entities);
   }
-  if (reading.diagnostics.Count() != mistakes) return;
+  if (has_no_ground || reading.diagnostics.Count() != mistakes) return;
   for (const Distribution& distribution : distributions)
     if (distribution.by_place) SortByPlace(distribution, reading.experiment);
 }

@@ -103,7 +103,7 @@ void ElementReader::CheckChildren()
       CheckParameterElement(*child, *parameter);
       continue;
     }
-    if (spec_.plugins || open_) continue;
+    if (spec_.plugins || open_ || diagnostics_.IsLost(child->name)) continue;
     diagnostics_.Add(child->location, fmt::format("<{}> has no element <{}>; allowed: {}{}", tree_.Name(), child->name,
                                                   Listed(ChildNames()), DidYouMean(child->name, ChildNames())));
   }

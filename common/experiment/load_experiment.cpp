@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 
 #include "common/configuration/wording.h"
 #include "common/configuration/xml_reader.h"
@@ -48,12 +49,18 @@ std::string NameOfFile(const std::string& file_name)
 
 Node WithSettings(Node root, const LoadOptions& options, Diagnostics& diagnostics)
 {
+  std::map<std::string, std::string> paths;  // by the address of what they set
   for (const auto& [path, value] : options.settings)
   {
     try
     {
       CheckSettingValue(path, value);
+      const auto [first, is_new] = paths.try_emplace(SettingAddress(root, path), path);
       root = WithSetting(root, path, value);
+      if (!is_new)
+        diagnostics.Add(
+            {std::make_shared<const std::string>("--set " + path), 0, 0},
+            fmt::format("{} is set already, by --set {}; leave one of the two out", Quoted(path), first->second));
     }
     catch (const ConfigurationError& error)
     {
@@ -82,6 +89,21 @@ void ReadSections(const TConfigurationTree& root, Reading& reading)
   CheckOverlaps(reading);
 }
 
+std::string FolderOfFile(const std::string& path)
+{
+  return fs::absolute(fs::path(path)).parent_path().lexically_normal().string();
+}
+
+// The root element; if it is that of another simulator, what its converter makes of it.
+Node ReadRoot(const std::string& text, const std::string& file_name, const std::string& folder,
+              const ExperimentSettings& settings, std::vector<Diagnostic>& mistakes)
+{
+  Node root = ReadXmlWithPlaces(text, file_name);
+  if (const ExperimentConverter* convert = FindExperimentConverter(root->name))
+    return (*convert)(*root, folder, settings, mistakes);
+  return root;
+}
+
 }  // namespace
 
 LoadedExperiment LoadExperimentText(const std::string& text, const std::string& file_name, const std::string& folder,
@@ -90,13 +112,9 @@ LoadedExperiment LoadExperimentText(const std::string& text, const std::string& 
   Diagnostics diagnostics;
   try
   {
-    Node file_root = ReadXmlWithPlaces(text, file_name);
-    if (const ExperimentConverter* convert = FindExperimentConverter(file_root->name))
-    {
-      std::vector<Diagnostic> mistakes;
-      file_root = (*convert)(*file_root, folder, options.settings, mistakes);
-      if (!mistakes.empty()) return Refused(std::move(mistakes));
-    }
+    std::vector<Diagnostic> mistakes;
+    const Node file_root = ReadRoot(text, file_name, folder, options.settings, mistakes);
+    if (!mistakes.empty()) return Refused(std::move(mistakes));
     if (file_root->name != ExperimentSchema().Name())
     {
       return Refused(
@@ -111,7 +129,7 @@ LoadedExperiment LoadExperimentText(const std::string& text, const std::string& 
     ReadSections(TConfigurationTree(root), reading);
     if (!diagnostics.Empty())
     {
-      LoadedExperiment wrong = Refused(diagnostics.Take());
+      LoadedExperiment wrong = Refused(diagnostics.Take(file_name));
       if (options.even_if_wrong) wrong.experiment = std::move(experiment);
       return wrong;
     }
@@ -132,13 +150,25 @@ LoadedExperiment LoadExperimentFile(const std::string& path, const LoadOptions& 
 {
   try
   {
-    const std::string text = ReadTextFile(path);
-    return LoadExperimentText(text, path, fs::absolute(fs::path(path)).parent_path().lexically_normal().string(),
-                              options);
+    return LoadExperimentText(ReadTextFile(path), path, FolderOfFile(path), options);
   }
   catch (const ConfigurationError& error)
   {
     return Refused(error);
+  }
+}
+
+Node ReadExperimentTree(const std::string& path)
+{
+  try
+  {
+    std::vector<Diagnostic> mistakes;
+    Node root = ReadRoot(ReadTextFile(path), path, FolderOfFile(path), {}, mistakes);
+    return mistakes.empty() ? root : nullptr;
+  }
+  catch (const ConfigurationError&)
+  {
+    return nullptr;
   }
 }
 

@@ -71,7 +71,7 @@ Ground::Ground(Reading& reading)
   for (std::uint32_t e = 0; e < count; ++e)
   {
     const EntityConfiguration& entity = experiment.entities[e];
-    if (DescriptionOf(entity.kind).role != EntityRole::kTerrain) continue;
+    if (DescriptionOf(entity.kind).role != EntityRole::kTerrain || reading.diagnostics.IsLost(kTerrainMap)) continue;
     Placed placed{nullptr, entity.pose, entity.pose.Inverse(), std::vector<bool>(count), std::vector<bool>(count)};
     for (const EngineConfiguration& engine : experiment.engines)
     {
@@ -91,6 +91,7 @@ Ground::Ground(Reading& reading)
     catch (const ConfigurationError& error)
     {
       reading.diagnostics.Add(error.Location(), error.Message());
+      reading.diagnostics.Lose(kTerrainMap);
     }
   }
 }

@@ -117,7 +117,12 @@ EntityConfiguration ReadEntityBody(const ElementReader& reader, const ElementSpe
   { return std::ranges::find(spec.parameters, name, &ParameterSpec::name) != spec.parameters.end(); };
   const bool is_area = kind.role == EntityRole::kPatch || kind.role == EntityRole::kHole;
   entity.size = is_area ? AreaSize(reader, reading) : BodySize(reader, kind);
-  if (kind.role == EntityRole::kTerrain) CheckTerrain(entity.tree, spec, reading);
+  if (kind.role == EntityRole::kTerrain)
+  {
+    const std::size_t mistakes = reading.diagnostics.Count();
+    CheckTerrain(entity.tree, spec, reading);
+    if (reading.diagnostics.Count() > mistakes) reading.diagnostics.Lose(kTerrainMap);
+  }
   if (has("controller")) entity.controller = reader.Text("controller");
   entity.movable = kind.mobility == Mobility::kIfAsked ? reader.Boolean("movable") : kind.mobility == Mobility::kAlways;
   if (has("mass")) entity.mass_kg = reader.Number("mass");
@@ -170,7 +175,12 @@ public:
     for (const TConfigurationTree& child : tree.Children())
     {
       const ElementSpec* element = spec.FindChild(child.Name());
-      if (element == nullptr) continue;  // reported already
+      if (element == nullptr)
+      {
+        // Reported already.
+        reading_.diagnostics.Lose(child.Value("id").value_or(""));
+        continue;
+      }
       if (element->entity)
       {
         ReadEntity(child, *element);
@@ -200,6 +210,20 @@ private:
     reading_.experiment.entities.push_back(std::move(entity));
   }
 
+  // Loses the ids of all elements of a <distribute> or <reserve>. True if one of them is of no known kind, which is
+  // reported already.
+  bool LoseEntities(const TConfigurationTree& tree, const ElementSpec& spec)
+  {
+    bool is_unknown = false;
+    for (const TConfigurationTree& child : tree.Children())
+      if (const auto id = child.Value("id"))
+      {
+        reading_.diagnostics.Lose(*id);
+        is_unknown |= spec.FindChild(child.Name()) == nullptr;
+      }
+    return is_unknown;
+  }
+
   // The entities of a <distribute> or <reserve>, all alike but for their ids; their poses are still open.
   // Their number; 0 if the element is wrong.
   std::size_t ReadAlike(const ElementReader& reader, const ElementSpec& spec, bool waiting)
@@ -213,9 +237,11 @@ private:
     }
     if (entities.size() != 1)
     {
-      reading_.diagnostics.Add(tree.Location(), fmt::format("<{}> must hold one entity element such as <footbot "
-                                                            "id=\"fb\"/>; it holds {}",
-                                                            tree.Name(), entities.size()));
+      const bool is_consequence = LoseEntities(tree, spec);
+      if (!entities.empty() || !is_consequence)
+        reading_.diagnostics.Add(tree.Location(), fmt::format("<{}> must hold one entity element such as <footbot "
+                                                              "id=\"fb\"/>; it holds {}",
+                                                              tree.Name(), entities.size()));
       return 0;
     }
 
@@ -228,10 +254,12 @@ private:
 
     auto& all = reading_.experiment.entities;
     const auto count = static_cast<std::size_t>(reader.Integer("quantity"));
+    if (count == 0 || (reader.IsGiven("quantity") && !reader.IsGood("quantity"))) reading_.diagnostics.Lose(id);
     if (all.size() + count > kMostEntities)
     {
       reading_.diagnostics.Add(reader.Place("quantity"),
                                fmt::format("more than {} entities; lower the quantity", kMostEntities));
+      reading_.diagnostics.Lose(id);
       return 0;
     }
     if (waiting && DescriptionOf(entity.kind).mobility == Mobility::kIfAsked && !entity.movable)
@@ -240,6 +268,7 @@ private:
                                fmt::format("the {} {} cannot come and go while it cannot move; give it "
                                            "movable=\"true\"",
                                            TagName(entity.kind), Quoted(id)));
+      reading_.diagnostics.Lose(id);
       return 0;
     }
     // Lights and patches have no body: no engine minds where they are.

@@ -83,12 +83,15 @@ private:
       {
         if (FitsPattern(entities_[i].id, id)) fitting.push_back(static_cast<std::uint32_t>(i));
       }
-      if (fitting.empty()) reading_.diagnostics.Add(reader.Place("id"), fmt::format("no entity fits {}", Quoted(id)));
+      const auto fits = [&](const std::string& lost) { return FitsPattern(lost, id) || FitsPattern(lost + "_0", id); };
+      if (fitting.empty() && !reading_.diagnostics.HasLost(fits))
+        reading_.diagnostics.Add(reader.Place("id"), fmt::format("no entity fits {}", Quoted(id)));
       return AddSupported(fitting, reader.Place("id"));
     }
     const auto found = index_of_id_.find(id);
     if (found == index_of_id_.end())
     {
+      if (reading_.diagnostics.IsLost(id)) return;
       // The ids of a large arena are not all listed.
       std::vector<std::string> ids;
       for (const EntityConfiguration& entity : entities_)
@@ -118,6 +121,7 @@ private:
     for (const ElementSpec& element : EntityElements()) tags.push_back(element.Name());
     if (!tag.empty() && !kind)
     {
+      if (reading_.diagnostics.IsLost(tag)) return;
       reading_.diagnostics.Add(reader.Place("kind"), fmt::format("there is no kind of entity {}; known: {}{}",
                                                                  Quoted(tag), Listed(tags), DidYouMean(tag, tags)));
       return;

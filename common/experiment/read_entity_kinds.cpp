@@ -59,17 +59,20 @@ void ReadEntityKinds(const TConfigurationTree& tree, Reading& reading)
     if (std::any_of(kinds.begin(), kinds.end(), same))
       reading.diagnostics.Add(child.Location(), fmt::format("<{}> is listed twice", child.Name()));
     const std::string urdf = reader.Text("urdf");
+    const std::size_t mistakes = reading.diagnostics.Count();
     if (library.empty() == urdf.empty())
     {
       reading.diagnostics.Add(child.Location(), fmt::format("<{0}> needs one of library and urdf: the library that "
                                                             "registers it, or its URDF file",
                                                             child.Name()));
+      reading.diagnostics.Lose(child.Name());
       continue;
     }
     if (urdf.empty())
       LoadKind(child, library, reading);
     else
       LoadUrdf(child, urdf, reading);
+    if (reading.diagnostics.Count() > mistakes) reading.diagnostics.Lose(child.Name());
     kinds.push_back({child.Name(), library});
   }
 }

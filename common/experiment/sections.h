@@ -60,6 +60,9 @@ const PluginDescription* FindPlugin(PluginKind kind, const TConfigurationTree& t
 // Whether an engine moves things on one plane: it takes the parameters that place the plane.
 bool MovesOnPlane(const EngineConfiguration& engine);
 
+// Lost (Diagnostics::Lose) if the map of a terrain could not be read: where bodies would stand on it is unknown.
+inline constexpr const char* kTerrainMap = "<map of a terrain>";
+
 // Gives the entities of all <distribute> elements their poses, around all entities that have theirs already and in the
 // terrain of their engines: after ReadArena and ReadArenaPhysics.
 void PlaceDistributed(Reading& reading);

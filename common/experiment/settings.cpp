@@ -53,6 +53,28 @@ public:
 
   Node ApplyTo(const Node& root) const { return Apply(root, 0); }
 
+  // Each step as tag and number among the elements of that tag. A value that is missing gets the number it would have.
+  std::string AddressIn(const Node& root) const
+  {
+    std::string address;
+    Node node = root;
+    for (const Step& step : steps_)
+    {
+      const std::ptrdiff_t child = Find(*node, step);
+      auto missing = std::make_shared<ConfigurationNode>();
+      missing->name = step.name;
+      const Node found = child < 0 ? missing : node->children[static_cast<std::size_t>(child)];
+      const bool is_value = &step == &steps_.back() && step.key.empty();
+      if (child < 0 && !is_value && !IsAddedOnTheWay(step)) FailToFind(*node, step);
+      std::size_t number = 0;
+      for (std::ptrdiff_t i = 0; i < child; ++i)
+        if (node->children[static_cast<std::size_t>(i)]->name == found->name) ++number;
+      address += fmt::format("/{}[{}]", found->name, number);
+      node = found;
+    }
+    return address;
+  }
+
   void CheckValue() const
   {
     ConfigurationNode element;
@@ -154,9 +176,7 @@ private:
       SetOwnValue(*changed, step.name);
       return changed;
     }
-    const bool section = depth == 0 && ExperimentSchema().FindChild(step.name) != nullptr && step.key.empty();
-    const bool parameters = step.name == "parameters" && step.key.empty();
-    if (section || parameters)
+    if (IsAddedOnTheWay(step))
     {
       auto added = std::make_shared<ConfigurationNode>();
       added->name = step.name;
@@ -164,9 +184,21 @@ private:
       changed->children.push_back(Apply(added, depth + 1));
       return changed;
     }
+    FailToFind(*node, step);
+  }
+
+  // Whether an element that is missing, and is not the last of the path, is added with what the path goes on to.
+  bool IsAddedOnTheWay(const Step& step) const
+  {
+    const bool is_section = &step == &steps_.front() && ExperimentSchema().FindChild(step.name) != nullptr;
+    return step.key.empty() && (is_section || step.name == "parameters");
+  }
+
+  [[noreturn]] void FailToFind(const ConfigurationNode& node, const Step& step) const
+  {
     const std::string wanted = step.key.empty() ? step.name : step.name + "[" + step.key + "]";
-    const auto names = NamesWithin(*node);
-    Fail(fmt::format("<{}> holds no {}; it holds: {}{}", node->name, Quoted(wanted), Listed(names),
+    const auto names = NamesWithin(node);
+    Fail(fmt::format("<{}> holds no {}; it holds: {}{}", node.name, Quoted(wanted), Listed(names),
                      DidYouMean(step.key.empty() ? step.name : step.key, names)));
   }
 
@@ -212,6 +244,8 @@ Node WithSetting(const Node& root, const std::string& path, const std::string& v
 {
   return Setting(path, value).ApplyTo(root);
 }
+
+std::string SettingAddress(const Node& root, const std::string& path) { return Setting(path, "").AddressIn(root); }
 
 void CheckSettingValue(const std::string& path, const std::string& value) { Setting(path, value).CheckValue(); }
 

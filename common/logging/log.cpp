@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "common/configuration/shown_text.h"
+
 namespace swarmanoid
 {
 namespace
@@ -82,8 +84,10 @@ void OpenLog(const LogSettings& settings)
   CurrentLogger() = MakeLogger(settings.process, std::move(sinks));
 }
 
+// Controllers log what they like, and a log may be read on a terminal.
 void Log(LogLevel level, std::string_view text)
 {
+  if (!IsShowable(text)) return Log(level, Showable(text));
   CurrentLogger()->log(SpdlogLevel(level), spdlog::string_view_t(text.data(), text.size()));
 }
 

@@ -21,6 +21,15 @@ std::string CommandLineComplaint(const CLI::App& app, const CLI::Error& error)
     name += " " + command->get_name();
   }
   const std::vector<std::string> left = command->remaining();
+  std::vector<std::string> kinds;
+  for (const CLI::App* kind : command->get_subcommands([](const CLI::App*) { return true; }))
+    kinds.push_back(kind->get_name());
+  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && !kinds.empty())
+  {
+    if (left.empty()) return fmt::format("{} needs one of: {}", name, Listed(kinds));
+    return fmt::format("{} has no {}; it has: {}{}", name, Quoted(left.front()), Listed(kinds),
+                       DidYouMean(left.front(), kinds));
+  }
   if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr || left.empty()) return error.what();
 
   // What follows an unknown option is its value.

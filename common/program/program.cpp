@@ -14,8 +14,10 @@
 #include "common/activity/limits.h"
 #include "common/activity/print_error.h"
 #include "common/configuration/configuration_tree.h"
+#include "common/configuration/shown_text.h"
 #include "common/program/colour.h"
 #include "common/program/command_line_complaint.h"
+#include "common/program/empty_words.h"
 #include "common/program/interrupts.h"
 #include "common/program/man_page.h"
 #include "common/program/standard_output.h"
@@ -31,7 +33,8 @@ std::string terminating_program;
 
 void Complain(const std::string& program, std::string_view what)
 {
-  PrintError("{}: {}\n", Coloured(STDERR_FILENO, Colour::kRed, program), what);
+  // The colour alone may have escape sequences.
+  std::fputs((Coloured(STDERR_FILENO, Colour::kRed, program) + Showable(fmt::format(": {}\n", what))).c_str(), stderr);
 }
 
 // What the exception being handled says, and the exit code that it means.
@@ -107,6 +110,7 @@ int RunWithoutOutput(const ProgramDescription& program, int count, char** argume
   {
     if (program.register_plugins != nullptr) program.register_plugins();
     declare(app);
+    RefuseEmptyWords(app);
     app.set_version_flag("--version", VersionText(program.name), "Print version and commit, then end");
     if (count == 3 && std::string_view(arguments[1]) == kManPagesFlag)
     {

@@ -20,6 +20,10 @@ using enum ParameterType;
 // As for the elements of the experiment file.
 constexpr double kMostTicks = 1e15;
 constexpr double kFastest = 1e6;
+// As the processes of a cluster take it (BusOptionTable).
+constexpr double kShortestLease_s = 0.2;
+constexpr double kLongestLease_s = 3600;
+constexpr double kShortestStep_s = 1e-3;
 constexpr double kLongestStep_s = 1e6;
 constexpr double kLongestOrphan_s = 1e6;
 
@@ -104,6 +108,32 @@ std::optional<std::uint64_t> SizeOf(const std::string& text)
 std::string SizeMistake(const std::string& text)
 {
   return SizeOf(text) ? "" : "write a number of bytes, or one with KiB, MiB, GiB or TiB";
+}
+
+std::string MemoryLimitMistake(const std::string& text)
+{
+  constexpr std::uint64_t kLeastBytes = 64U << 20U;  // no process of a run starts with less
+  const auto bytes = SizeOf(text);
+  if (bytes && *bytes < kLeastBytes) return "a process of a run does not start with less than 64MiB";
+  return SizeMistake(text);
+}
+
+// 0 stands for the default; what lies between is refused here, before a process refuses it.
+std::string LeaseMistake(const std::string& text)
+{
+  const double lease_s = ParseNumber(text).value_or(0);
+  return lease_s == 0 || lease_s >= kShortestLease_s
+             ? ""
+             : fmt::format("it must be 0, or from {:g} to {:g} s", kShortestLease_s, kLongestLease_s);
+}
+
+// Steps are timed in milliseconds; a shorter limit would be none.
+std::string StepTimeoutMistake(const std::string& text)
+{
+  const double step_s = ParseNumber(text).value_or(0);
+  return step_s == 0 || step_s >= kShortestStep_s
+             ? ""
+             : fmt::format("it must be 0, or from {:g} to {:g} s", kShortestStep_s, kLongestStep_s);
 }
 
 std::string BranchMistake(const std::string& text)
@@ -202,11 +232,14 @@ std::vector<RunOption> Table(RunSettings& s)
       {{{.name = "lease",
          .type = kNumber,
          .unit = "s",
-         .description = "Silence after which a process counts as dead; 0: one on this machine is waited for",
+         .description = "Silence after which a process counts as dead, 0.2 or more; 0: one on this machine is waited "
+                        "for",
          .minimum = 0,
-         .maximum = 3600},
+         .maximum = kLongestLease_s},
         &s.lease_s,
-        "5"},
+        "5",
+        "",
+        LeaseMistake},
        For::kLauncher},
       {{{.name = "orphan-timeout",
          .type = kNumber,
@@ -226,10 +259,12 @@ std::vector<RunOption> Table(RunSettings& s)
          .minimum = 0,
          .maximum = kLongestStep_s},
         &s.step_timeout_s,
-        "5"},
+        "5",
+        "",
+        StepTimeoutMistake},
        For::kLauncher},
       {{Text("memory-limit", "Memory that each process may take; otherwise nine tenths of what this machine has"),
-        &s.memory_limit, "2GiB", "SIZE", SizeMistake},
+        &s.memory_limit, "2GiB", "SIZE", MemoryLimitMistake},
        For::kLauncher},
       {{Text("show", "Add a visualisation to those of the file, such as web or opengl, which may steer the run"),
         &s.show, "web", "KIND"},
@@ -324,9 +359,18 @@ LoadOptions ChangesOf(const ExperimentChoice& choice)
 {
   LoadOptions changes;
   for (const std::string& setting : choice.settings) changes.settings.push_back(SplitSetting(setting));
-  if (choice.seed) changes.settings.emplace_back("framework.seed", std::to_string(*choice.seed));
-  if (choice.ticks) changes.settings.emplace_back("framework.maxclock", std::to_string(*choice.ticks));
-  if (choice.ahead) changes.settings.emplace_back("framework.ahead", std::to_string(*choice.ahead));
+  const auto add = [&](const char* option, const char* path, const std::optional<std::uint64_t>& value)
+  {
+    if (!value) return;
+    for (const auto& [set, given] : changes.settings)
+      if (set == path)
+        throw UsageError(fmt::format("--{} {} and --set {}={} set the same value; leave one of the two out", option,
+                                     *value, set, given));
+    changes.settings.emplace_back(path, std::to_string(*value));
+  };
+  add("seed", "framework.seed", choice.seed);
+  add("ticks", "framework.maxclock", choice.ticks);
+  add("ahead", "framework.ahead", choice.ahead);
   return changes;
 }
 

@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <cmath>
 
+#include "common/configuration/shown_text.h"
+
 namespace swarmanoid
 {
 namespace
@@ -47,7 +49,7 @@ void ProgressDisplay::Show(const RunProgress& progress, Clock::time_point now)
 {
   if (style_ == Style::kQuiet) return;
   Follow(progress, now);
-  const std::string text = Text(progress);
+  const std::string text = Showable(Text(progress));
   if (style_ == Style::kTerminal)
   {
     Write(fmt::format("\r{}\x1b[K", text.substr(0, TerminalWidth(descriptor_) - 1)));
@@ -70,7 +72,7 @@ void ProgressDisplay::Clear()
 void ProgressDisplay::Note(std::string_view line)
 {
   Clear();
-  Write(fmt::format("{}\n", line));
+  Write(fmt::format("{}\n", Showable(line)));
 }
 
 void ProgressDisplay::Follow(const RunProgress& progress, Clock::time_point now)

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "common/activity/failure_report.h"
+#include "common/activity/print_error.h"
 #include "common/bus/cluster_options.h"
 #include "common/experiment/load_experiment.h"
 #include "common/program/usage_error.h"
@@ -91,7 +92,7 @@ int Serve(const ServerOptions& options)
     LoadedExperiment& loaded = server->loaded = LoadExperimentFile(options.file, load);
     if (!loaded.experiment)
     {
-      for (const Diagnostic& error : loaded.errors) fmt::print(stderr, "{}\n", error.Text());
+      for (const Diagnostic& error : loaded.errors) PrintError("{}\n", error.Text());
       NoteEnd(EndReason::kInvalid, 0, loaded.errors.front().Text(), true);
       status.Publish(ServerError{fmt::format("the experiment file has {} mistake{}", loaded.errors.size(),
                                              loaded.errors.size() == 1 ? "" : "s")});

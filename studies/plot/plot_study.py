@@ -42,7 +42,8 @@ class Study:
         # The last row of each run.
         self.last = self.rows("SELECT r.* FROM results r JOIN (SELECT point, seed, MAX(tick) AS tick FROM results GROUP BY point, seed) l "
                               "ON r.point = l.point AND r.seed = l.seed AND r.tick = l.tick ORDER BY r.point, r.seed")
-        self.has_time = self.database.execute("SELECT COUNT(DISTINCT tick) FROM samples").fetchone()[0] > 2
+        # Without 'every' each run has one row, at its end, and nothing is known of the time before.
+        self.has_time = any(self.database.execute("SELECT 1 FROM samples GROUP BY point, seed HAVING COUNT(*) > 2 LIMIT 1"))
 
     def rows(self, query, values=()):
         cursor = self.database.execute(query, values)
@@ -95,23 +96,63 @@ def over_factor(study, metric, factor, by=None):
     return figure, f"{metric} at the end of the runs over {factor}" + (f", by {by}" if by else "") + ": means, and confidence intervals of 95 %."
 
 
-def over_time(study, metric, by):
-    """Means over time, a line for each value of a factor."""
-    figure, axes = plt.subplots(figsize=SIZE)
+def courses(rows):
+    """{(point, seed): {time: value}} of rows, in the order of time."""
+    runs = {}
+    for row in rows:
+        runs.setdefault((row["point"], row["seed"]), {})[row["time_s"]] = row["value"]
+    return runs
+
+
+def values_over_time(runs, ended):
+    """Times, and for each the values that its mean is of. runs: {name: {time: value or None}}. ended: what happens to runs that have ended,
+    as --ended says. The last row of a run may stand between the rows of others; a mean there would be of that run alone, so that only times
+    are taken at which each run that goes on has a row."""
+    last = {name: max(course) for name, course in runs.items()}
+    first_end = min(last.values(), default=0)
+    times, values = [], []
+    for time in sorted({time for course in runs.values() for time in course}):
+        if ended == "stop" and time > first_end:
+            break
+        if any(time not in course for name, course in runs.items() if last[name] >= time):
+            continue
+        found = [course[time] if last[name] >= time else course[last[name]] for name, course in runs.items() if last[name] >= time or ended == "hold"]
+        found = [value for value in found if value is not None]
+        if found:
+            times.append(time)
+            values.append(found)
+    return times, values
+
+
+ENDED = {
+    "leave-out": "Each mean is of the runs that have not ended; the lower part says how many.",
+    "hold": "Runs that have ended keep their last value; the lower part says how many runs go on.",
+    "stop": "The lines stop where the first run ends.",
+}
+
+
+def over_time(study, metric, by, ended="leave-out"):
+    """Means over time, a line for each value of a factor, and below them how many runs go on."""
     levels = study.levels[by] if by else [None]
     if len(levels) > MOST_LINES:
         levels = [levels[i] for i in np.unique(np.linspace(0, len(levels) - 1, MOST_LINES).round().astype(int))]
+    figure, (axes, below) = plt.subplots(2, 1, sharex=True, figsize=(SIZE[0], SIZE[1] * 1.25), height_ratios=[4, 1])
     for number, level in enumerate(levels):
         where = f'WHERE "{by}" = ?' if by else ""
-        rows = study.rows(f'SELECT time_s, "{metric}" AS value FROM results {where}', (level,) if by else ())
-        groups = grouped(rows, ["time_s"], "value")
-        if groups:
-            xs = sorted(x for x, in groups)
-            line(axes, number, xs, [groups[(x,)] for x in xs], shown(level) if by else None)
-    axes.set_xlabel("time (s)")
+        runs = courses(study.rows(f'SELECT point, seed, time_s, "{metric}" AS value FROM results {where}', (level,) if by else ()))
+        times, values = values_over_time(runs, ended)
+        if times:
+            line(axes, number, times, values, shown(level) if by else None)
+            ends = sorted(max(course) for course in runs.values())
+            alive = [len(ends) - int(np.searchsorted(ends, time, side="left")) for time in times]
+            below.step(times, alive, where="post", color=COLOURS[number % len(COLOURS)], linestyle=("-", "--", "-.", ":")[number % 4])
     axes.set_ylabel(metric)
+    below.set_ylabel("runs")
+    below.set_ylim(bottom=0)
+    below.yaxis.get_major_locator().set_params(integer=True, nbins=4)
+    below.set_xlabel("time (s)")
     legend(axes, by)
-    return figure, f"{metric} over time" + (f", by {by}" if by else "") + ": means of all runs, and confidence intervals of 95 %."
+    return figure, f"{metric} over time" + (f", by {by}" if by else "") + f": means, and confidence intervals of 95 %. {ENDED[ended]}"
 
 
 def boxes(study, metric, factor):
@@ -201,8 +242,8 @@ def with_reference(study, metric, figure, references):
         legend(figure.axes[0])
 
 
-def pictures(study, metrics):
-    """(name, figure, what it shows), one after the other."""
+def pictures(study, metrics, ended):
+    """(name, figure, what it shows), one after the other. ended: as --ended says."""
     if study.facts.get("search"):
         yield from plot_search.pictures(study)
         metrics = []
@@ -219,7 +260,7 @@ def pictures(study, metrics):
         for x, y in itertools.islice(itertools.combinations(numeric, 2), 3):
             yield f"{metric}_over_{x}_and_{y}", *heat(study, metric, x, y)
         if study.has_time:
-            yield f"{metric}_over_time", *over_time(study, metric, varied[0][0] if varied else None)
+            yield f"{metric}_over_time", *over_time(study, metric, varied[0][0] if varied else None, ended)
     for point in ends(study, "ways"):
         seed = study.database.execute("SELECT MIN(seed) FROM ways WHERE point = ?", (point,)).fetchone()[0]
         yield f"ways_{point}-{seed}", *ways(study, point, seed)
@@ -368,6 +409,7 @@ def main():
     parser.add_argument("--reference", default="")
     parser.add_argument("--compare", action="append", default=[])
     parser.add_argument("--format", choices=["svg", "png"], default="svg")
+    parser.add_argument("--ended", choices=list(ENDED), default="leave-out")
     parser.add_argument("--output", default="")
     options = parser.parse_args()
     study = Study(options.folder)
@@ -386,7 +428,7 @@ def main():
     output = pathlib.Path(options.output) if options.output else study.folder / "pictures"
     output.mkdir(parents=True, exist_ok=True)
     figures = []
-    for name, figure, caption in pictures(study, options.metric or study.metrics):
+    for name, figure, caption in pictures(study, options.metric or study.metrics, options.ended):
         metric = next((m for m in study.metrics if name.startswith(m + "_over_") and "_and_" not in name and not name.endswith("_over_time")), None)
         with_reference(study, metric, figure, references)
         figure.savefig(output / f"{name}.{options.format}", dpi=150, metadata={"Date": None} if options.format == "svg" else None)

@@ -19,6 +19,8 @@ if importlib.util.find_spec("matplotlib") is None:
     if sys.executable != "/usr/bin/python3" and os.path.exists("/usr/bin/python3"):
         os.execv("/usr/bin/python3", ["/usr/bin/python3", *sys.argv])
     sys.exit(77)
+import numpy as np
+
 sys.path.insert(0, str(SCRIPT.parent))
 specification = importlib.util.spec_from_file_location("plot_study", SCRIPT)
 plot_study = importlib.util.module_from_spec(specification)
@@ -53,6 +55,26 @@ class Statistics(unittest.TestCase):
         self.assertEqual(plot_study.mean_and_band([5.0]), (5.0, 0.0))
 
 
+class Courses(unittest.TestCase):
+    # Three runs with a row every 10 s. One ends between two rows, one at a row, and one goes on.
+    RUNS = {(0, 1): {0: 0, 10: 1, 14: 8}, (0, 2): {0: 0, 10: 3, 20: 9}, (0, 3): {0: 0, 10: 5, 20: 7, 30: 6, 40: 5}}
+
+    def test_a_mean_is_of_runs_that_go_on_and_not_of_the_one_that_ends(self):
+        self.assertEqual(plot_study.values_over_time(self.RUNS, "leave-out"), ([0, 10, 20, 30, 40], [[0, 0, 0], [1, 3, 5], [9, 7], [6], [5]]))
+
+    def test_held_runs_keep_their_last_value(self):
+        self.assertEqual(plot_study.values_over_time(self.RUNS, "hold"),
+                         ([0, 10, 20, 30, 40], [[0, 0, 0], [1, 3, 5], [8, 9, 7], [8, 9, 6], [8, 9, 5]]))
+
+    def test_stopped_lines_end_with_the_first_run(self):
+        self.assertEqual(plot_study.values_over_time(self.RUNS, "stop"), ([0, 10], [[0, 0, 0], [1, 3, 5]]))
+
+    def test_a_row_without_a_value_counts_for_nothing(self):
+        runs = {(0, 1): {0: None, 10: 1}, (0, 2): {0: None, 10: 3, 20: None}}
+        self.assertEqual(plot_study.values_over_time(runs, "leave-out"), ([10], [[1, 3]]))
+        self.assertEqual(plot_study.values_over_time({}, "hold"), ([], []))
+
+
 class Plot(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="swarmanoid_plot_"))
@@ -83,6 +105,28 @@ class Plot(unittest.TestCase):
             self.assertNotIn(outside, report)
         self.command("plot", "out", "--compare", "speed=0.05,0.1", "--output", "again")
         self.assertEqual(report, (self.folder / "again/report.html").read_text())
+
+    def test_pictures_over_time_say_how_many_runs_go_on(self):
+        # Runs of 25, 40 and 60 ticks: of robots=3, three runs go on until 25 ticks, two until 40 and one until 60.
+        (self.folder / "study.xml").write_text(f"""<study experiment="{CONFIGS}/diffusion_10.xml">
+          <factor id="robots" path="arena.distribute.quantity" values="3 6"/>
+          <factor id="length" path="framework.maxclock" values="25 40 60"/>
+          <metrics every="10"><distance id="way"/></metrics></study>""")
+        self.command("sweep", "study.xml", "--output", "out", "--quiet")
+        study = plot_study.Study(self.folder / "out")
+        for ended, last, told in (("leave-out", 6, "have not ended"), ("hold", 6, "keep their last value"), ("stop", 2, "the first run ends")):
+            figure, caption = plot_study.over_time(study, "way.mean", "robots", ended)
+            self.assertIn(told, caption)
+            above, below = figure.axes
+            self.assertAlmostEqual(above.lines[0].get_xdata()[-1], last, msg=ended)
+            alive = dict(zip(np.round(below.lines[0].get_xdata(), 6), below.lines[0].get_ydata()))
+            self.assertEqual(alive, {time: count for time, count in ((0, 3), (1, 3), (2, 3), (3, 2), (4, 2), (5, 1), (6, 1)) if time <= last})
+            self.command("plot", "out", "--ended", ended, "--format", "png", "--output", ended)
+            self.assertTrue((self.folder / ended / "way.mean_over_time.png").is_file())
+        # With one row a run there is no time before the end.
+        (self.folder / "study.xml").write_text((self.folder / "study.xml").read_text().replace(' every="10"', ""))
+        self.command("sweep", "study.xml", "--output", "ends", "--quiet")
+        self.assertFalse(plot_study.Study(self.folder / "ends").has_time)
 
     def test_a_search_becomes_its_course(self):
         (self.folder / "study.xml").write_text(f"""<study experiment="{CONFIGS}/diffusion_10.xml" ticks="30" seeds="1-2">

@@ -84,6 +84,27 @@ class Sweep(StudyCase):
         for row in rows[1:]:
             self.assertAlmostEqual(float(row["to_nest"]), written[row["tick"]], delta=5.1e-5)
 
+    def test_a_name_that_is_never_published_ends_the_study(self):
+        inside = '<metrics every="20"><published id="n" name="to_nets"/></metrics>'
+        for attributes in ('seeds="1-50"', 'seeds="1" cluster="true"'):
+            done = self.sweep(self.study(inside, attributes, experiment=CONFIGS / "prey_retrieval.xml"), "--output", f"out{len(attributes)}", "--jobs", "1",
+                              code=3)
+            self.assertIn("study.xml:2:", done.stderr)
+            self.assertIn("no experiment function has published 'to_nets' in the 60 ticks of the run", done.stderr)
+            self.assertIn("published are: to_nest; did you mean 'to_nest'?", done.stderr)
+            self.assertIn("the study ends here, with 0 of", done.stderr)
+        # One, and what its process had been given beside it.
+        self.assertLess(self.query("out12", "SELECT COUNT(*) FROM runs WHERE state = 'failed'")[0][0], 10)
+
+    def test_two_statements_about_one_value_are_refused(self):
+        inside = ('<factor id="a" path="arena.distribute.quantity" values="4 8"/>\n'
+                  '<factor id="b" path="arena.distribute[0].quantity" values="5 6"/>')
+        done = self.sweep(self.study(inside), "--output", "out", code=3)
+        self.assertIn("study.xml:3:1: the factor 'b' sets 'arena.distribute[0].quantity', which the factor 'a' at ", done.stderr)
+        self.assertIn("study.xml:2:1 sets, too", done.stderr)
+        self.assertFalse((self.folder / "out").exists())
+        self.assertIn("'ticks' of <study>", self.sweep(self.study('<set path="framework.maxclock" value="9"/>'), code=3).stderr)
+
     def test_seeds_are_added_until_the_mean_is_known(self):
         inside = ('<factor id="robots" path="arena.distribute.quantity" values="2 10"/>'
                   '<metrics><polarisation id="order"/><coverage id="seen" cell="0.5"/></metrics>')

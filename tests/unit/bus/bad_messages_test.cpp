@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "common/bus/message_type.h"
-#include "common/bus/shown_text.h"
+#include "common/configuration/shown_text.h"
 
 namespace swarmanoid
 {

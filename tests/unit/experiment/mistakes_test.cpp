@@ -1,9 +1,12 @@
 // Each kind of mistake in an experiment file gives its place, what is wrong and what to do.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "common/experiment/diagnostics.h"
 #include "common/mesh/convex_hull.h"
 #include "tests/unit/experiment/fake_plugins.h"
 
@@ -264,6 +267,83 @@ TEST(MistakesTogether, AllAreReportedInTheOrderOfTheFile)
             "test.xml:4:21: 'a' is outside the arena: x is 2 m; it must be from 0 to 1 m\n"
             "test.xml:4:38: there is no controller with the id 'c'; there are: none\n"
             "test.xml:6:12: there is no physics engine <engine>; known: dummy_engine\n");
+}
+
+// One mistake each. What is missing because of it, in the arena, the lists of engines and the places, is not reported.
+TEST(MistakesTogether, ConsequencesOfAMistakeAreLeftOut)
+{
+  const auto told = [](const std::string& kinds, const std::string& arena, const std::string& physics)
+  {
+    return ErrorsOf("<ahss-config><entity_kinds>" + kinds + "</entity_kinds>\n<arena size='9,9,3' optimization='2D'>" +
+                    arena + "</arena>\n<engines><dummy_engine id='e'/></engines>\n<arena_physics><engine id='e'>" +
+                    physics + "</engine></arena_physics></ahss-config>");
+  };
+  // A mistake may have several lines, of which all but the first are indented.
+  const auto count = [](const std::string& errors)
+  {
+    int mistakes = 0;
+    std::istringstream lines(errors);
+    for (std::string line; std::getline(lines, line);) mistakes += line.starts_with(' ') ? 0 : 1;
+    return mistakes;
+  };
+  const std::string rover = "<rover id='r' position='1,1,0'/>";
+  const std::string many = "<distribute quantity='3'><position method='uniform' min='1,1,0' max='2,2,0'/>";
+  // A kind that cannot be read is missing in the arena, and its entities among those of the engine.
+  for (const auto& [arena, physics] : std::vector<std::pair<std::string, std::string>>{
+           {rover, "<entity id='r'/>"},
+           {rover, "<entity id='r*'/>"},
+           {rover, "<all kind='rover'/>"},
+           {many + "<rover id='r'/></distribute>", "<entity id='r_2'/><entity id='r_?'/>"},
+           {"<reserve quantity='3'><rover id='r'/></reserve>", "<entity id='r_0'/>"}})
+  {
+    const std::string errors = told("<rover urdf='none.urdf'/>", arena, physics);
+    EXPECT_THAT(errors, testing::StartsWith("test.xml:1:35: ")) << errors;
+    EXPECT_EQ(count(errors), 1) << errors;
+  }
+  for (const std::string kind : {"<rover library='no_such_library'/>", "<rover/>"})
+  {
+    const std::string errors = told(kind, rover, "<entity id='r'/><all kind='rover'/>");
+    EXPECT_EQ(count(errors), 1) << errors;
+  }
+  // A misspelt entity, and one whose number is wrong.
+  EXPECT_THAT(told("", "<footbt id='f' position='1,1,0'/>", "<entity id='f'/>"),
+              testing::HasSubstr("<arena> has no element <footbt>"));
+  for (const std::string& arena :
+       std::vector<std::string>{"<footbt id='f' position='1,1,0'/>", many + "<footbt id='f'/></distribute>",
+                                "<distribute quantity='-3'><position method='uniform' min='1,1,0' "
+                                "max='2,2,0'/><footbot id='f'/></distribute>"})
+  {
+    const std::string errors = told("", arena, "<entity id='f*'/>");
+    EXPECT_EQ(count(errors), 1) << errors;
+  }
+  // Where things stand on a map that cannot be read is unknown.
+  const std::string errors =
+      told("",
+           "<terrain id='t'><octomap file='none.bt'/></terrain><distribute quantity='3'><position "
+           "method='uniform' drop_from='2' min='1,1,0' max='2,2,0'/><block id='b' size='.1,.1,.1' "
+           "movable='true'/></distribute>",
+           "<all/>");
+  EXPECT_THAT(errors, testing::HasSubstr("none.bt"));
+  EXPECT_EQ(count(errors), 1) << errors;
+  // What has another cause is still reported.
+  EXPECT_THAT(told("<rover urdf='none.urdf'/>", rover, "<entity id='s'/>"),
+              testing::HasSubstr("there is no entity 's'"));
+  EXPECT_THAT(told("<rover urdf='none.urdf'/>", "<rovr id='r'/>", ""), testing::HasSubstr("has no element <rovr>"));
+}
+
+// The experiment only names such a file, so that its mistakes are causes.
+TEST(MistakesTogether, ThoseOfAnotherFileComeFirst)
+{
+  Diagnostics diagnostics;
+  const auto in = [](const char* file, int line) {
+    return SourceLocation{std::make_shared<const std::string>(file), line, 1};
+  };
+  diagnostics.Add(in("test.xml", 9), "third");
+  diagnostics.Add(in("test.xml", 2), "second");
+  diagnostics.Add(in("rover.urdf", 30), "first");
+  std::string order;
+  for (const Diagnostic& one : diagnostics.Take("test.xml")) order += one.message + " ";
+  EXPECT_EQ(order, "first second third ");
 }
 
 TEST(MistakesTogether, AnotherRootElementIsRefused)

@@ -73,6 +73,27 @@ TEST(Settings, RefuseWhatNoFileCanHold)
   }
 }
 
+TEST(Settings, TwoOfOneValueAreRefusedHoweverTheyAreSpelled)
+{
+  const auto complaint = [](const std::string& one, const std::string& other)
+  {
+    LoadOptions options;
+    options.settings = {{one, "1,2,0"}, {other, "1,3,0"}};
+    return ErrorsOf(kChapter4, options);
+  };
+  // By id, by tag and id, by tag alone and by number: all are the position of the only footbot.
+  const std::vector<std::string> spellings{"arena.fb.position", "arena.footbot[fb].position", "arena.footbot.position",
+                                           "arena.footbot[0].position", "arena[0].fb.position"};
+  for (const std::string& one : spellings)
+    for (const std::string& other : spellings)
+      EXPECT_EQ(complaint(one, other), "--set " + other + ": '" + other + "' is set already, by --set " + one +
+                                           "; leave one of the two out\n");
+  // An attribute, a value that the file leaves out, and one in an element that the file leaves out.
+  for (const std::string path : {"arena.size", "framework.seed", "controllers.fc.parameters.gain"})
+    EXPECT_THAT(complaint(path, path), testing::HasSubstr("'" + path + "' is set already"));
+  EXPECT_EQ(complaint("arena.fb.position", "arena.eb.position"), "");
+}
+
 TEST(Settings, MistakesNameThePath)
 {
   EXPECT_EQ(

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "launcher/cluster_plan.h"
 #include "launcher/commands.h"
 
 namespace swarmanoid
@@ -117,6 +118,21 @@ TEST(Hosts, ErrorsNamePlaceAndCure)
   EXPECT_THAT(ErrorOf("engine a b = c"), HasSubstr("hosts.txt:1"));
   EXPECT_THAT(ErrorOf("command = ssh alpha"), HasSubstr("{host}"));
   EXPECT_THROW(Hosts::FromFile("/nowhere/hosts.txt"), UsageError);
+}
+
+TEST(ControllerHosts, MoreThanPayAreNoted)
+{
+  EXPECT_EQ(NoteAboutControllerHosts(1000, 10, 2),
+            "note: --controller-hosts is 1000, and 10 robots have a controller: 10 controller hosts are started");
+  EXPECT_EQ(NoteAboutControllerHosts(2, 1, 2),
+            "note: --controller-hosts is 2, and 1 robot has a controller: 1 controller host is started");
+  EXPECT_EQ(NoteAboutControllerHosts(17, 1000, 2),
+            "note: --controller-hosts is 17, and 2 cores are there for them: fewer start and run faster; "
+            "--controller-hosts auto finds how many pay");
+  EXPECT_EQ(NoteAboutControllerHosts(16, 1000, 2), "");
+  EXPECT_EQ(NoteAboutControllerHosts(17, 1000, 0), "") << "other machines have cores, too";
+  EXPECT_EQ(NoteAboutControllerHosts(1, 0, 2), "") << "one host is always there";
+  EXPECT_EQ(NoteAboutControllerHosts(0, 10, 2), "") << "auto";
 }
 
 }  // namespace

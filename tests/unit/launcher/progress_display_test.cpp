@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "common/activity/print_error.h"
+
 namespace swarmanoid
 {
 namespace
@@ -75,6 +77,23 @@ TEST(DurationText, ReadsAsPeopleSpeak)
   EXPECT_EQ(DurationText(42), "42 s");
   EXPECT_EQ(DurationText(200), "3 min 20 s");
   EXPECT_EQ(DurationText(7500), "2 h 5 min");
+}
+
+TEST_F(ProgressDisplayTest, TextOfOthersMovesNoCursor)
+{
+  ProgressDisplay display(ProgressDisplay::Style::kPlain, ends_[1]);
+  display.Note(
+      "robot \x1b]0;title\x07'fb_0': \x1b[2J\xc2\x9b"
+      "31m failed");
+  EXPECT_EQ(Written(), "robot ?]0;title?'fb_0': ?[2J??31m failed\n");
+}
+
+// Every complaint about a script, an exception, a file or another process goes this way.
+TEST(PrintError, WritesNoControlCharacters)
+{
+  testing::internal::CaptureStderr();
+  PrintError("scene.lua:3: {}\n", "\x1b[31mno\ttarget\r\x1b[0m \xff €");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "scene.lua:3: ?[31mno\ttarget??[0m ? €\n");
 }
 
 }  // namespace

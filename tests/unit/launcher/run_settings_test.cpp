@@ -150,6 +150,58 @@ TEST(RunSettings, NumbersOutsideTheirRangeAreRefusedWithTheCure)
   EXPECT_THAT(ErrorOf({"a.xml", "--restore", "/nowhere"}), HasSubstr("no such file"));
 }
 
+// What the launcher takes, a process that it starts must take, too: 0 alone may stand for a default.
+TEST(RunSettings, NumbersThatTheLauncherTakesAreTakenByItsProcesses)
+{
+  RunSettings run;
+  BusOptions bus;
+  WorkerSettings worker;
+  std::vector<OptionSpec> others;
+  for (const auto& table : {ServerOptionTable(run), BusOptionTable(bus), HostOptionTable(worker),
+                            EngineOptionTable(worker), VisualiserOptionTable(worker)})
+    others.insert(others.end(), table.begin(), table.end());
+  std::size_t compared = 0;
+  for (const OptionSpec& option : RunOptionTable(run))
+  {
+    if (option.value.type != ParameterType::kInteger && option.value.type != ParameterType::kNumber) continue;
+    for (const OptionSpec& other : others)
+      if (other.value.name == option.value.name)
+        for (const char* text : {"1e-300", "1e-9", "0.001", "0.19", "0.2", "1", "2", "65", "232", "233", "1000", "1001",
+                                 "3600", "3601", "1000000", "1e15", "1e300"})
+        {
+          if (MistakeIn(option, text).empty()) EXPECT_EQ(MistakeIn(other, text), "") << text;
+          ++compared;
+        }
+  }
+  EXPECT_GT(compared, 17U * 5) << "seed, ticks, lease, domain, threads … have the same names there";
+}
+
+TEST(RunSettings, NumbersTooSmallForAnyProcessAreRefusedWithTheLimit)
+{
+  EXPECT_THAT(ErrorOf({"a.xml", "--lease", "1e-9"}), HasSubstr("it must be 0, or from 0.2 to 3600 s"));
+  EXPECT_EQ(ErrorOf({"a.xml", "--lease", "0"}), "no error");
+  EXPECT_THAT(ErrorOf({"a.xml", "--step-timeout", "1e-9"}), HasSubstr("it must be 0, or from 0.001 to 1e+06 s"));
+  EXPECT_THAT(ErrorOf({"a.xml", "--memory-limit", "1"}), HasSubstr("does not start with less than 64MiB"));
+}
+
+TEST(RunSettings, ASettingThatAnOptionGivesTooIsRefused)
+{
+  ExperimentChoice choice;
+  choice.settings = {"framework.maxclock=5", "arena.size=1,1,1"};
+  choice.seed = 3;
+  EXPECT_EQ(ChangesOf(choice).settings.size(), 3U);
+  choice.ticks = 7;
+  try
+  {
+    ChangesOf(choice);
+    ADD_FAILURE() << "both were taken";
+  }
+  catch (const UsageError& error)
+  {
+    EXPECT_STREQ(error.what(), "--ticks 7 and --set framework.maxclock=5 set the same value; leave one of the two out");
+  }
+}
+
 TEST(RunSettings, MemoryIsReadInItsUnit)
 {
   const auto bytes_of = [](const std::string& text)

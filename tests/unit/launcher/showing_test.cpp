@@ -72,5 +72,25 @@ TEST(Showing, AFilmHasFewerTicksOfMoreRobots)
   EXPECT_EQ(TicksOfFilm(*many, 0), std::min<std::uint64_t>(many->max_clock, 100));
 }
 
+TEST(Showing, WhatIsAskedForIsShownBesideTheFilesOwnVisualisationsOrInsteadOfThem)
+{
+  RegisterBuiltins();
+  const auto ids = [](const Experiment& experiment)
+  {
+    std::string all;
+    for (const RenderConfiguration& render : experiment.visualisations) all += render.tag + ":" + render.id + " ";
+    return all;
+  };
+  for (const std::string own : {"", "<visualisations><text_render id='own'/></visualisations>"})
+  {
+    const auto experiment = Loaded("<ahss-config><arena size='1,1,1' optimization='2D'/>" + own + "</ahss-config>");
+    ASSERT_NE(experiment, nullptr);
+    const std::string asked = "web_render:shown text_render:shown_2 ";
+    EXPECT_EQ(ids(*WithShown(*experiment, {"web", "text"}, true)), (own.empty() ? "" : "text_render:own ") + asked);
+    EXPECT_EQ(ids(*WithShown(*experiment, {"web", "text"}, false)), asked)
+        << "run --no-visualisers --show web --show text";
+  }
+}
+
 }  // namespace
 }  // namespace swarmanoid

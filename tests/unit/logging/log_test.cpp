@@ -54,6 +54,15 @@ TEST_F(LogTest, TheFileHoldsEveryRecordAtOnceAndStandardErrorTheSeriousOnes)
   EXPECT_THAT(text, testing::Not(testing::HasSubstr("not asked for")));
 }
 
+TEST_F(LogTest, WhatControllersLogMovesNoCursor)
+{
+  testing::internal::CaptureStderr();
+  OpenLog({.process = "worker", .folder = folder_.string()});
+  LogWarning("sees \x1b[2J a wall");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "worker: warning: sees ?[2J a wall\n");
+  EXPECT_THAT(FileText(), testing::HasSubstr(" warning: sees ?[2J a wall\n"));
+}
+
 TEST_F(LogTest, OpeningAgainGoesOnInTheSameFile)
 {
   OpenLog({.process = "worker", .folder = folder_.string()});

@@ -158,6 +158,18 @@ TEST_P(PositionalIndexTest, ACoordinateThatIsNotANumberIsNeverFound)
 INSTANTIATE_TEST_SUITE_P(Arrangements, PositionalIndexTest, testing::Values("flat", "layered", "octree"),
                          [](const auto& param) { return std::string(param.param); });
 
+// The worlds of docs/architecture.md, "Cost of the space", with 10,000 entities. The measurements stand there.
+TEST(PositionalIndex, EachWorldOfTheCostTableHasItsQuickestArrangement)
+{
+  constexpr std::size_t kMany = 10'000;
+  EXPECT_STREQ(MakePositionalIndex(SpaceOptimization::k2D, {100, 100, 1}, kMany)->Name(), "flat grid");
+  EXPECT_STREQ(MakePositionalIndex(SpaceOptimization::k3D, {60, 60, 22}, kMany)->Name(), "layered grid");
+  EXPECT_STREQ(MakePositionalIndex(SpaceOptimization::k3D, {10'000, 10'000, 100}, kMany)->Name(), "oct-tree");
+  // A few eyebots in a hall, and very few in a large one.
+  EXPECT_STREQ(MakePositionalIndex(SpaceOptimization::k3D, {60, 60, 22}, 100)->Name(), "layered grid");
+  EXPECT_STREQ(MakePositionalIndex(SpaceOptimization::k3D, {200, 200, 22}, 100)->Name(), "oct-tree");
+}
+
 TEST(PositionalIndex, TheArenaDecidesTheArrangement)
 {
   EXPECT_STREQ(MakePositionalIndex(SpaceOptimization::k2D, {10, 10, 3}, 100)->Name(), "flat grid");

@@ -248,8 +248,7 @@ TEST(StudyMetrics, WhatIsPublishedJoinsTheTable)
 {
   const auto study = Metrics(
       "<published id='third' name='third'/><published id='when' name='tick' by='controllers' aggregate='max'/>"
-      "<published id='twice' name='double' by='controllers'/><published id='none' name='nothing' by='controllers' "
-      "aggregate='count'/>"
+      "<published id='twice' name='double' by='controllers'/>"
       "<attribute id='reports' name='report' of='a'/>",
       2);
   const auto experiment = Scene(Footbot("a", 2, 2, 0) + Footbot("b", 5, 5, 0), 5);
@@ -261,8 +260,36 @@ TEST(StudyMetrics, WhatIsPublishedJoinsTheTable)
   EXPECT_EQ(row.at("third"), 3.5);
   EXPECT_EQ(row.at("when.max"), 4) << "of the last control step";
   EXPECT_EQ(row.at("twice.mean"), 8);
-  EXPECT_EQ(row.at("none.count"), 0);
   EXPECT_EQ(row.at("reports.mean"), 5) << "one report a step, whatever it holds";
+}
+
+// What the end of a run says about a metric.
+std::string ComplaintAfter(const std::string& metric, int ticks)
+{
+  const auto experiment = Scene(Footbot("a", 2, 2, 0), ticks);
+  const auto study = Metrics(metric, 0);
+  try
+  {
+    Measured(*study, *experiment);
+  }
+  catch (const ConfigurationError& error)
+  {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(StudyMetrics, ANameThatIsNeverPublishedIsAnErrorAtTheEndOfTheRun)
+{
+  EXPECT_EQ(ComplaintAfter("<published id='n' name='third'/>", 5), "");
+  EXPECT_EQ(
+      ComplaintAfter("<published id='n' name='thrid'/>", 5),
+      "s.xml:1:64: no experiment function has published 'thrid' in the 5 ticks of the run; a number that has no value "
+      "yet is published as 0 from the first tick on; published are: third; did you mean 'third'?");
+  EXPECT_THAT(ComplaintAfter("<published id='n' name='third'/>", 1), HasSubstr("published are: none"));
+  EXPECT_EQ(ComplaintAfter("<published id='n' name='tick' by='controllers'/>", 5), "");
+  EXPECT_THAT(ComplaintAfter("<published id='n' name='tack' by='controllers'/>", 5),
+              HasSubstr("s.xml:1:64: no controller of the entity has published 'tack' in the 5 ticks of the run"));
 }
 
 TEST(StudyMetrics, WhoeverCannotKnowTheLastTickHasTheSameRows)

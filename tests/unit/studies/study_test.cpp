@@ -9,6 +9,8 @@
 #include <map>
 #include <set>
 
+#include "launcher/scratch_folder.h"
+#include "studies/conflicts.h"
 #include "studies/design.h"
 #include "test_folders.h"
 
@@ -143,6 +145,99 @@ TEST(StudyFile, WhatIsWrongIsToldWithPlaceAndCure)
   EXPECT_THAT(Complaints("", "seeds='5-2'"), HasSubstr("ends before it begins"));
   EXPECT_THAT(Complaints("", "seeds='1-3, 2'"), HasSubstr("2 a second time"));
   EXPECT_THAT(Complaints("", "seeds='one'"), HasSubstr("'one'"));
+}
+
+TEST(StudyFile, EqualValuesOfAFactorAreRefused)
+{
+  const auto of_factor = [](const std::string& attributes)
+  { return Complaints("<factor id='a' path='p' " + attributes + "/>"); };
+  EXPECT_EQ(
+      of_factor("values='2,2'"),
+      "s.xml:2:25: value 2 is 'a=2', as is value 1 at s.xml:2:25: their runs would be counted twice; leave one of "
+      "the two out\n");
+  EXPECT_THAT(of_factor("values='1 2.0 3 2'"), HasSubstr("value 4 is 'a=2', as is value 2"));
+  EXPECT_THAT(of_factor("values='1,2,0; 1, 2, 0'"), HasSubstr("value 2 is 'a=1, 2, 0', as is value 1"));
+  EXPECT_THAT(of_factor("from='1' to='1' count='3'"), HasSubstr("value 2 is 'a=1', as is value 1"));
+  EXPECT_EQ(of_factor("values='1,2,0; 1,2,1'"), "");
+  EXPECT_EQ(of_factor("values='walk Walk'"), "");
+  // Factors of a <zip> may repeat a value, but not all of them in the same place.
+  EXPECT_EQ(Complaints("<zip><factor id='a' path='p' values='1 1'/><factor id='b' path='q' values='1 2'/></zip>"), "");
+  EXPECT_THAT(Complaints("<zip><factor id='a' path='p' values='1 1'/><factor id='b' path='q' values='2 2'/></zip>"),
+              HasSubstr("value 2 is 'a=1 b=2', as is value 1"));
+  EXPECT_THAT(Complaints("<variants id='v'><variant id='x'/>\n<variant id='x'/></variants>"),
+              HasSubstr("s.xml:3:10: the variant 'x' is given a second time; the first is at s.xml:2:18"));
+  EXPECT_THAT(Complaints("<metrics><distance id='d' aggregate='mean max mean'/></metrics>"),
+              HasSubstr("'aggregate' names 'mean' a second time"));
+}
+
+// Two statements about one value of an experiment with ten distributed robots and two engines.
+class StudyConflicts : public testing::Test
+{
+protected:
+  std::string Told(const std::string& inside, const std::string& attributes = "")
+  {
+    const std::string file = folder_.Path() + "/e.xml";
+    std::ofstream(file) << "<ahss-config><framework maxclock='9'/><arena size='3,3,1' optimization='2D'><distribute "
+                           "id='some' quantity='10'/></arena><engines><dummy_engine id='one'/><dummy_engine "
+                           "id='two'/></engines></ahss-config>";
+    std::ofstream(folder_.Path() + "/other.xml")
+        << "<ahss-config><arena size='3,3,1' optimization='2D'/></ahss-config>";
+    const LoadedStudy loaded = LoadStudyText(
+        "<study experiment='" + file + "' " + attributes + ">\n" + inside + "</study>", "s.xml", folder_.Path());
+    for (const Diagnostic& error : loaded.errors) ADD_FAILURE() << error.Text();
+    if (!loaded.study) return "";
+    std::string all;
+    for (const std::string& conflict : ConflictsIn(*loaded.study, Design(*loaded.study))) all += conflict + "\n";
+    return all;
+  }
+
+private:
+  ScratchFolder folder_;
+};
+
+TEST_F(StudyConflicts, TwoFactorsOfOneValueAreToldWithBothPlaces)
+{
+  EXPECT_EQ(
+      Told("<factor id='a' path='arena.some.quantity' values='1 2'/>\n"
+           "<factor id='b' path='arena.distribute[0].quantity' values='3 4'/>"),
+      "s.xml:3:1: the factor 'b' sets 'arena.distribute[0].quantity', which the factor 'a' at s.xml:2:1 sets, too "
+      "(as 'arena.some.quantity'); leave one of the two out\n");
+  EXPECT_EQ(Told("<set path='engines.two.distance' value='1'/>\n<factor id='b' path='engines.dummy_engine[1].distance' "
+                 "values='3 4'/>"),
+            "s.xml:3:1: the factor 'b' sets 'engines.dummy_engine[1].distance', which <set> at s.xml:2:1 sets, too (as "
+            "'engines.two.distance'); leave one of the two out\n");
+  EXPECT_THAT(Told("<set path='arena.size' value='1,1,1'/>\n<set path='arena.size' value='2,2,1'/>"),
+              HasSubstr("s.xml:3:1: <set> sets 'arena.size', which <set> at s.xml:2:1 sets, too;"));
+  EXPECT_THAT(Told("<factor id='a' path='arena.size arena.size' values='1,1,1; 2,2,1'/>"),
+              HasSubstr("which the factor 'a' at s.xml:2:1 sets, too"));
+  EXPECT_THAT(Told("<set path='framework.maxclock' value='7'/>", "ticks='8'"), HasSubstr("s.xml:1:"));
+  EXPECT_THAT(Told("<factor id='s' path='framework.seed' values='1 2'/>"), HasSubstr("'seeds' of <study>"));
+  EXPECT_EQ(Told("<factor id='a' path='engines.one.distance' values='1 2'/>"
+                 "<factor id='b' path='engines.two.distance' values='3 4'/>",
+                 "ticks='8' seeds='1-3'"),
+            "");
+}
+
+TEST_F(StudyConflicts, VariantsConflictOnlyInRunsThatHaveBoth)
+{
+  const std::string engine =
+      "<variants id='v'><variant id='x'/>\n<variant id='y'><set path='arena.size' value='1,1,1'/></variant>"
+      "<variant id='z'><set path='arena.size' value='2,2,1'/></variant></variants>";
+  EXPECT_EQ(Told(engine), "") << "no run has two variants of one factor";
+  const std::string factor = "\n<factor id='a' path='arena.size' values='3,3,1; 4,4,1'/>";
+  EXPECT_THAT(Told(engine + factor),
+              HasSubstr("s.xml:4:1: the factor 'a' sets 'arena.size', which <set> of the variant "
+                        "'y' of 'v' at s.xml:3:17 sets, too"));
+  EXPECT_EQ(Told(engine + factor + "<require condition=\"v == 'x'\"/>"), "") << "these runs are left out";
+  const auto experiments = [](const std::string& id)
+  { return "<variants id='" + id + "'><variant id='x'/><variant id='y' experiment='other.xml'/></variants>\n"; };
+  EXPECT_THAT(Told(experiments("v") + experiments("w")),
+              HasSubstr("the variant 'y' of 'w' chooses the experiment of runs whose experiment the variant 'y' of 'v' "
+                        "at s.xml:2:35 chooses, too"));
+  // <distribute> is in one of the experiments only.
+  EXPECT_THAT(Told(experiments("v") + "<set path='arena.some.quantity' value='1'/><set path='arena.some.quantity' "
+                                      "value='2'/>"),
+              HasSubstr("leave one of the two out"));
 }
 
 TEST(StudyFile, MoreThanAMillionRunsAreRefused)

@@ -1,7 +1,9 @@
-// Text that other processes send and people read, in logs and on terminals. Used by the bus.
+// Text of other processes, scripts, files and users' code that people read, in logs and on terminals. Used by the bus
+// and by all that prints.
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -12,6 +14,6 @@ namespace swarmanoid
 // change no title.
 bool IsShowable(std::string_view text);
 // The text with a question mark for each byte that is not, cut to `most_bytes` between two characters.
-std::string Showable(std::string_view text, std::size_t most_bytes);
+std::string Showable(std::string_view text, std::size_t most_bytes = std::numeric_limits<std::size_t>::max());
 
 }  // namespace swarmanoid

@@ -1,4 +1,4 @@
-#include "common/bus/shown_text.h"
+#include "common/configuration/shown_text.h"
 
 #include <algorithm>
 #include <cstdint>
