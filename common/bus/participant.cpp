@@ -27,7 +27,7 @@
 #include "common/activity/failure_report.h"
 #include "common/activity/print_error.h"
 #include "common/bus/cluster_options.h"
-#include "common/bus/shown_text.h"
+#include "common/configuration/shown_text.h"
 #include "common/logging/log.h"
 
 namespace swarmanoid
@@ -197,7 +197,7 @@ std::string MachineName()
 std::string UserName()
 {
   const passwd* const user = getpwuid(geteuid());
-  return user != nullptr ? Showable(user->pw_name, kLongestUser) : std::to_string(geteuid());
+  return user != nullptr ? ShowableLine(user->pw_name, kLongestUser) : std::to_string(geteuid());
 }
 
 std::string ProcessId() { return fmt::format("{}:{}", MachineName(), getpid()); }
@@ -410,8 +410,8 @@ BadMessageReport Bus::Impl::Describe(const std::string& topic, const rtps::GUID_
   std::ostringstream guid;
   guid << writer.guidPrefix;
   report.sender = report.process.empty() ? "an unknown process (" + guid.str() + ")"
-                                         : fmt::format("'{}' (process {})", Showable(report.name, kLongestSender),
-                                                       Showable(report.process, kLongestSender));
+                                         : fmt::format("'{}' (process {})", ShowableLine(report.name, kLongestSender),
+                                                       ShowableLine(report.process, kLongestSender));
   return report;
 }
 

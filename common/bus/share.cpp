@@ -15,7 +15,7 @@
 #include <fmt/format.h>
 
 #include "common/bus/cluster_options.h"
-#include "common/bus/shown_text.h"
+#include "common/configuration/shown_text.h"
 
 namespace swarmanoid
 {
