@@ -327,7 +327,7 @@ void CWebRender::Received(std::uint64_t client, std::string_view text)
   {
     PageRequest request = ParseRequest(text);
     if (const auto* answer = std::get_if<ProveRequest>(&request))
-      return host_->Server().Send(client, Shared(AuthorityText(host_->GetVisitors().Prove(client, answer->proof))));
+      return host_->Server().Send(client, Shared(AuthorityText(host_->Prove(client, answer->proof))));
     if (IsCommand(request) && !host_->GetVisitors().MayControl(client))
       throw std::invalid_argument(allow_control_ ? "only the address with the token may control the run"
                                                  : "this page may only look: start it with --allow-control");
