@@ -9,6 +9,7 @@
 #include <string>
 
 #include "common/activity/exit_codes.h"
+#include "common/program/trust_flag.h"
 #include "launcher/commands.h"
 #include "launcher/load.h"
 #include "launcher/run_experiment.h"
@@ -63,6 +64,7 @@ void AddRunCommand(CLI::App& app, int& exit_code)
   std::vector<OptionSpec> table = RunOptionTable(*options);
   for (OptionSpec& option : table) option.required = false;  // --branch has an experiment, too
   AddOptions(*verb, table);
+  AddTrustFlag(*verb);
   verb->footer(
       std::string(
           "The last line on standard output is\n"

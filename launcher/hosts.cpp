@@ -10,6 +10,7 @@
 
 #include "common/configuration/configuration_tree.h"
 #include "common/configuration/regular_file.h"
+#include "common/configuration/trust.h"
 #include "common/configuration/wording.h"
 #include "common/program/shell_word.h"
 #include "launcher/commands.h"
@@ -210,8 +211,11 @@ ProcessCommand Hosts::Placed(const ProcessCommand& command, const std::string& h
   if (host.empty()) return command;
   std::vector<std::string> words{"env"};
   for (const auto& [name, value] : command.environment) words.push_back(name + "=" + value);
+  // Processes of this machine inherit it.
+  if (ExperimentsAreTrusted()) words.push_back(std::string(kTrustVariable) + "=1");
+  const std::size_t place = words.size();
   words.insert(words.end(), command.arguments.begin(), command.arguments.end());
-  std::string& program = words[1 + command.environment.size()];
+  std::string& program = words[place];
   if (!program_folder_.empty())
     program = std::filesystem::path(program_folder_) / std::filesystem::path(program).filename();
 

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/configuration/trust.h"
 #include "common/configuration/wording.h"
 #include "common/program/program.h"
 #include "launcher/commands.h"
@@ -88,7 +89,11 @@ int main(int count, char** arguments)
 
   if (count > 1 && std::string_view(arguments[1]) == kCompleteFlag) return Complete({arguments + 2, arguments + count});
   if (count > 1 && std::string_view(arguments[1]) == kStudyWorkerFlag)
-    return RunStudyWorker({arguments + 2, arguments + count});
+  {
+    const bool trusts = count > 2 && std::string_view(arguments[2]) == kTrustFlag;
+    if (trusts) TrustExperiments();
+    return RunStudyWorker({arguments + (trusts ? 3 : 2), arguments + count});
+  }
   std::vector<std::string> words = WithHelp({arguments, arguments + count});
   if (ComplainsAboutVerb(words)) return kExitUsage;
   std::vector<char*> given;

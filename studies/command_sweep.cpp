@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "common/program/options.h"
+#include "common/program/trust_flag.h"
 #include "studies/commands.h"
 #include "studies/sweep.h"
 
@@ -96,6 +97,7 @@ void AddSweepCommand(CLI::App& app, int& exit_code)
   auto options = std::make_shared<SweepOptions>();
   CLI::App* verb = app.add_subcommand("sweep", "Run a study: an experiment with many parameters and seeds");
   AddOptions(*verb, SweepOptionTable(*options));
+  AddTrustFlag(*verb);
   verb->footer(
       "The last line on standard output is\n"
       "  finished: <runs> runs, <failed> failed, <wall> s, table <folder>/table.csv\n"

@@ -13,6 +13,7 @@
 #include "common/bus/tick_gate.h"
 #include "common/bus/worker_program.h"
 #include "common/bus/worker_session.h"
+#include "common/configuration/output_file.h"
 #include "common/logging/log.h"
 #include "common/program/interrupts.h"
 #include "common/program/usage_error.h"
@@ -149,6 +150,7 @@ int Run(WorkerSettings settings, const std::vector<std::string>& parameters, Bus
   {
     const RenderConfiguration configuration = ConfigureRenderer(FindRenderer(settings.attach), parameters);
     UseShare(settings, bus);
+    LetUserNameFiles();
     WorkerSession session(bus, settings.experiment,
                           fmt::format("attached {} visualiser {}", configuration.id, ProcessId()), settings.server);
     session.LookOn();

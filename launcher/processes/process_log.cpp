@@ -6,11 +6,12 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "common/configuration/output_file.h"
+
 namespace swarmanoid
 {
 
-ProcessLog::ProcessLog(std::string path, bool goes_on)
-    : path_(std::move(path)), file_(std::fopen(path_.c_str(), goes_on ? "ae" : "we"))
+ProcessLog::ProcessLog(std::string path, bool goes_on) : path_(std::move(path)), file_(OpenOutputFile(path_, goes_on))
 {
   if (!file_) throw std::runtime_error(fmt::format("cannot write the log '{}': {}", path_, std::strerror(errno)));
 }

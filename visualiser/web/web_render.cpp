@@ -88,9 +88,10 @@ void CWebRender::Announce(const RenderSetup& setup)
 {
   const std::string url = host_->Url();
   const std::filesystem::path folder = setup.output_folder;
-  std::string file = setup.parameters.Text("url_file");
-  if (file.empty() && std::filesystem::exists(folder / "manifest.json")) file = "web_render.url";
-  if (!file.empty()) WriteUrl((folder / file).string(), url);
+  if (!setup.parameters.Text("url_file").empty())
+    WriteUrl(setup.MakeOutputFile("url_file"), url);
+  else if (std::filesystem::exists(folder / "manifest.json"))
+    WriteUrl((folder / "web_render.url").string(), url);
   fmt::print("web_render: {}\n", url);
   std::fflush(stdout);
   if (!host_->Fingerprint().empty())

@@ -11,7 +11,6 @@
 //   </prey_retrieval_goal>
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <istream>
 #include <limits>
 #include <memory>
@@ -72,7 +71,7 @@ public:
     }
     if (const std::string metrics = t_tree.GetText("metrics"); !metrics.empty())
     {
-      const std::string path = (std::filesystem::path(space.GetOutputFolder()) / metrics).string();
+      const std::string path = space.MakeOutputFile(t_tree, "metrics");
       file_.reset(std::fopen(path.c_str(), "w"));
       if (file_ == nullptr) throw std::runtime_error("cannot write '" + path + "'");
       std::fputs("tick", file_.get());

@@ -11,7 +11,6 @@
 //   </prey_supply>
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <istream>
 #include <memory>
 #include <ostream>
@@ -77,7 +76,7 @@ public:
         throw ConfigurationError(t_tree.ValueLocation(name), "there is no <reserve> of '" + reserve + "' in the arena");
     const std::string log = t_tree.GetText("log");
     if (log.empty()) return;
-    const std::string path = (std::filesystem::path(space.GetOutputFolder()) / log).string();
+    const std::string path = space.MakeOutputFile(t_tree, "log");
     file_.reset(std::fopen(path.c_str(), "w"));
     if (file_ == nullptr) throw std::runtime_error("cannot write '" + path + "'");
     std::fputs("tick,event,id\n", file_.get());
