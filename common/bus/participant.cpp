@@ -27,6 +27,7 @@
 #include "common/activity/failure_report.h"
 #include "common/activity/print_error.h"
 #include "common/bus/cluster_options.h"
+#include "common/bus/dds_environment.h"
 #include "common/configuration/shown_text.h"
 #include "common/logging/log.h"
 
@@ -249,8 +250,6 @@ Bus::Impl::Impl(const BusOptions& options, const std::string& name)
 {
   if (options.domain < 0 || options.domain > 232)
     throw BusError(fmt::format("domain {}: it must be 0 to 232", options.domain));
-  // A profile file in the working folder must not change a run.
-  setenv("SKIP_DEFAULT_XML", "1", 0);
   std::set_terminate(SleepInsteadOfTerminate);
 
   dds::DomainParticipantQos qos;
@@ -288,6 +287,9 @@ Bus::Impl::Impl(const BusOptions& options, const std::string& name)
   }
 
   [[maybe_unused]] static const bool logs = KeepLog();
+  const HiddenDdsVariables hidden;
+  // A profile file in the working folder must not change a run.
+  setenv("SKIP_DEFAULT_XML", "1", 0);
   participant = dds::DomainParticipantFactory::get_instance()->create_participant(
       static_cast<std::uint32_t>(options.domain), qos, this, dds::StatusMask::none());
   if (participant == nullptr)
