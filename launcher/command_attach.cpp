@@ -82,8 +82,8 @@ void Attach(AttachOptions& options, const CLI::App& verb)
     if (why != nullptr)
       throw UsageError(
           fmt::format("{} runs in a network of its own (--isolated), where {}", Quoted(run.experiment), why));
-    EnterNetworkOf(*run.server);
   }
+  UseNetworkOf(run, options.bus);
   std::vector<std::string> command{(std::filesystem::path(ProgramFolder()) / "visualiser").string()};
   for (const std::vector<std::string>& words :
        {WorkerWords(VisualiserOptionTable, options.visualiser), BusWords(options.bus), parameters})

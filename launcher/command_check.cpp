@@ -11,6 +11,7 @@
 #include "common/activity/exit_codes.h"
 #include "common/experiment/notes.h"
 #include "common/program/colour.h"
+#include "common/program/trust_flag.h"
 #include "common/run/run_settings.h"
 #include "launcher/commands.h"
 #include "launcher/load.h"
@@ -139,6 +140,7 @@ void AddCheckCommand(CLI::App& app, int& exit_code)
   CLI::App* verb = app.add_subcommand("check", "Look for mistakes in an experiment file without running it");
   auto json = std::make_shared<bool>(false);
   AddOptions(*verb, ChoiceOptionTable(*options));
+  AddTrustFlag(*verb);
   verb->add_flag("--json", *json,
                  "For programs: what the experiment holds, or its mistakes with file, line and column");
   verb->footer(

@@ -21,7 +21,6 @@
 #include "common/run/run_settings.h"
 #include "launcher/commands.h"
 #include "launcher/control_request.h"
-#include "launcher/isolation.h"
 #include "launcher/run_choice.h"
 
 namespace swarmanoid
@@ -59,7 +58,7 @@ int Control(ControlOptions& options, bool domain_given)
              : ChooseRun(request.experiment, domain_given ? std::optional(options.bus.domain) : std::nullopt);
   CheckInsecure(run, options.bus);
   options.bus.domain = run.domain;
-  if (run.server && !options.bus.Spread()) EnterNetworkOf(*run.server);
+  UseNetworkOf(run, options.bus);
   Bus bus(options.bus, "swarmanoid control");
   if (!bus.MaySpeakTo(run.experiment))
   {

@@ -11,6 +11,7 @@
 #include "common/activity/print_error.h"
 #include "common/builtins/renderers.h"
 #include "common/program/interrupts.h"
+#include "common/program/trust_flag.h"
 #include "common/program/usage_error.h"
 #include "launcher/commands.h"
 #include "launcher/edit_session.h"
@@ -99,6 +100,7 @@ void AddEditCommand(CLI::App& app, int& exit_code)
   CLI::App* verb = app.add_subcommand("edit", "Edit an experiment file on a page in the browser");
   verb->add_option("EXPERIMENT", options->file, "The experiment file (XML)")->required();
   verb->add_flag("--open", options->open, "Open the page in the browser");
+  AddTrustFlag(*verb);
   for (const ParameterSpec& spec : WebRenderDescription().parameters)
     if (const std::string& name = spec.name;
         name == "port" || name == "address" || name == "tls" || name == "certificate")

@@ -12,6 +12,7 @@
 #include "common/checkpoint/library_builds.h"
 #include "common/configuration/shown_text.h"
 #include "common/configuration/wording.h"
+#include "common/program/trust_flag.h"
 #include "launcher/branch.h"
 #include "launcher/commands.h"
 #include "launcher/load.h"
@@ -174,6 +175,7 @@ void AddInspectCommand(CLI::App& app, int& exit_code)
   verb->add_option("ROBOT", options->robots, "Ids of robots that have controllers")->required();
   verb->add_flag("--json", options->json, "For programs: one JSON object, with all digits");
   verb->add_flag("--any-build", options->any_build, "Also if the run was made by another build of a library");
+  AddTrustFlag(*verb);
   verb->footer(
       "The controllers of these robots' hosts do all steps again since the newest state that was saved, and what they\n"
       "command is compared with the journal; what they log and write by themselves is written again.\n"

@@ -8,8 +8,10 @@
 #include <thread>
 
 #include "common/activity/exit_codes.h"
+#include "common/configuration/output_file.h"
 #include "common/messages/assignment.h"
 #include "common/program/interrupts.h"
+#include "common/program/trust_flag.h"
 #include "common/space/space.h"
 #include "launcher/commands.h"
 #include "launcher/load.h"
@@ -118,6 +120,7 @@ private:
 
 int Show(RecordedRun& run, const ReplayOptions& options)
 {
+  LetUserNameFiles();
   std::vector<std::string> parameters = options.words;
   parameters.insert(parameters.end(), options.parameters.begin(), options.parameters.end());
   const RenderConfiguration configuration = ConfigureRenderer(FindRenderer(options.kind), parameters);
@@ -191,6 +194,7 @@ void AddReplayCommand(CLI::App& app, int& exit_code)
                    "Multiple of real time; 0: as fast as possible, for windows and pages real time")
       ->check(CLI::Range(0.0, 1e6));
   verb->add_option("--output", options->output, "Folder for relative output files");
+  AddTrustFlag(*verb);
   AddOptionsOfKind(*verb, 1, options->parameters);
   verb->footer(
       "`swarmanoid replay RUN KIND --help` lists the options of that kind too. No controller and no engine runs, "

@@ -15,6 +15,7 @@
 #include "common/activity/exit_codes.h"
 #include "common/activity/print_error.h"
 #include "common/journal/journal_reader.h"
+#include "common/program/trust_flag.h"
 #include "launcher/commands.h"
 #include "launcher/journal_loss.h"
 #include "launcher/load.h"
@@ -128,6 +129,7 @@ void AddResumeCommand(CLI::App& app, int& exit_code)
   CLI::App* verb = app.add_subcommand("resume", "Go on with a run that died, from its journal");
   verb->add_option("RUN", *folder, "The folder of the run")->required();
   AddOptions(*verb, ResumeOptionTable(*options));
+  AddTrustFlag(*verb);
   verb->footer(
       "The run starts again at the newest tick at which all of its processes saved their states, or at its first, and "
       "does again what users asked. Its end has the hash of a run that never died. Without --output, its files go into "

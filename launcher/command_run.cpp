@@ -10,6 +10,7 @@
 
 #include "common/activity/exit_codes.h"
 #include "common/activity/print_error.h"
+#include "common/program/trust_flag.h"
 #include "launcher/commands.h"
 #include "launcher/load.h"
 #include "launcher/run_experiment.h"
@@ -64,6 +65,7 @@ void AddRunCommand(CLI::App& app, int& exit_code)
   std::vector<OptionSpec> table = RunOptionTable(*options);
   for (OptionSpec& option : table) option.required = false;  // --branch has an experiment, too
   AddOptions(*verb, table);
+  AddTrustFlag(*verb);
   verb->footer(
       std::string(
           "The last line on standard output is\n"

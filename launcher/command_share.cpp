@@ -127,13 +127,10 @@ int ShareRun(ShareOptions& options, bool domain_given)
 
   const RunChoice run = ChooseRun(options.experiment, domain_given ? std::optional(options.bus.domain) : std::nullopt);
   options.bus.domain = run.domain;
-  if (run.server && !options.bus.Spread() && IsInAnotherNetwork(*run.server))
-  {
-    if (options.MakesOne())
-      throw UsageError(fmt::format("{} runs in a network of its own (--isolated), which nobody but its user can reach",
-                                   Quoted(run.experiment)));
-    EnterNetworkOf(*run.server);
-  }
+  if (run.server && run.network == RunNetwork{} && IsInAnotherNetwork(*run.server) && options.MakesOne())
+    throw UsageError(fmt::format("{} runs in a network of its own (--isolated), which nobody but its user can reach",
+                                 Quoted(run.experiment)));
+  UseNetworkOf(run, options.bus);
   const RunKey key = KeyOfChosenRun(run, options.bus);
   options.bus.key = key;
 
@@ -206,8 +203,7 @@ void AddShareCommand(CLI::App& app, int& exit_code)
       "The line is pasted at another machine that reaches this one, or given to another user of this machine. It holds "
       "a "
       "key: send it as you would a password. A run that uses no network can be shared on its own machine alone; "
-      "`options = --interface eth0` in the file of `swarmanoid run --hosts` lets it use one, and `share` needs "
-      "--interface too.\n"
+      "`options = --interface eth0` in the file of `swarmanoid run --hosts` lets it use one.\n"
       "Examples:\n"
       "  swarmanoid share --watch                      a line to look at the experiment that runs on this machine\n"
       "  swarmanoid share diffusion_10 --operate --for 2h\n"

@@ -17,8 +17,10 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "common/activity/exit_codes.h"
+#include "common/bus/dds_environment.h"
 #include "common/bus/run_directory.h"
 #include "common/program/file_descriptor.h"
 #include "launcher/installation.h"
@@ -86,6 +88,22 @@ Finding Cluster(const Trial& here, const Trial& cluster)
             fmt::format("a cluster ends with hash {}, one process with {}", cluster.hash, here.hash),
             "this is a defect: report it with the output of `swarmanoid doctor --json`"};
   return {"DDS", Verdict::kGood, "the processes of a cluster meet, and end with the same hash"};
+}
+
+Finding DdsVariables()
+{
+  std::string set;
+  for (const std::string& name : DdsVariablesThatAreSet())
+    if (name != "SKIP_DEFAULT_XML") set += (set.empty() ? "" : ", ") + name;
+  const char* kept = std::getenv(kKeepDdsVariables);
+  const bool keeps = kept != nullptr && std::string_view(kept) == "1";
+  if (set.empty()) return {"variables of DDS", Verdict::kGood, "none is set"};
+  if (!keeps)
+    return {"variables of DDS", Verdict::kGood,
+            fmt::format("{}: the processes of a run ignore them ({}=1 keeps them)", set, kKeepDdsVariables)};
+  return {"variables of DDS", Verdict::kLimited,
+          fmt::format("{}: the processes of a run obey them, as {} is 1", set, kKeepDdsVariables),
+          fmt::format("unset {} if processes do not meet", kKeepDdsVariables)};
 }
 
 Finding SharedMemory()
@@ -237,17 +255,12 @@ std::vector<Finding> Examine(const std::string& folder)
 {
   const Trial here = TryRun(folder, "here", {"--single-process"});
   const Trial cluster = TryRun(folder, "cluster", {});
-  return {OneProcess(here),
-          Cluster(here, cluster),
-          SharedMemory(),
-          Multicast(),
-          Ports(),
-          Graphics(folder),
-          Display(),
-          Fonts(),
-          Ssh(),
-          Disk(),
-          OpenFiles()};
+  return {OneProcess(here), Cluster(here, cluster),
+          DdsVariables(),   SharedMemory(),
+          Multicast(),      Ports(),
+          Graphics(folder), Display(),
+          Fonts(),          Ssh(),
+          Disk(),           OpenFiles()};
 }
 
 }  // namespace swarmanoid

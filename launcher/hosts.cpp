@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <set>
 #include <sstream>
 
 #include "common/configuration/configuration_tree.h"
 #include "common/configuration/regular_file.h"
+#include "common/configuration/trust.h"
 #include "common/configuration/wording.h"
 #include "common/program/shell_word.h"
 #include "launcher/commands.h"
@@ -30,6 +32,19 @@ bool Holds(const std::vector<std::string>& words, const std::string& word)
 }
 
 bool IsHere(const std::string& host) { return host.empty() || host == "localhost" || host == "here"; }
+
+// The name becomes a word of a command, which must not take it for an option. Throws UsageError.
+void RequireHostName(const std::string& host, const std::string& place)
+{
+  constexpr std::string_view kSigns = "._-:@%[]/+";
+  const auto is_plain = [&](char c)
+  { return std::isalnum(static_cast<unsigned char>(c)) != 0 || kSigns.find(c) != std::string_view::npos; };
+  if (!host.empty() && host[0] != '-' && std::all_of(host.begin(), host.end(), is_plain)) return;
+  throw UsageError(
+      fmt::format("{}: {} is no name of a machine: it must begin with a letter or digit, and have nothing "
+                  "but letters, digits and {}",
+                  place, Quoted(host), kSigns));
+}
 
 unsigned PositiveInteger(const std::string& text, unsigned most, const std::string& what, const std::string& unit)
 {
@@ -86,13 +101,18 @@ void Hosts::TakeLine(const std::string& line, const std::string& place)
 
   if (std::find(kRoles.begin(), kRoles.end(), key[0]) != kRoles.end())
   {
+    RequireHostName(value, place);
     hosts_[{key[0], key.size() == 2 ? key[1] : ""}] = value;
     return;
   }
   if (key[0] == "cores") return TakeCores(key, value, place);
   if (key.size() == 2) throw UsageError(fmt::format("{}: {} takes no second word", place, key[0]));
   if (key[0] == "runs") TakeRunHosts(SplitWords(value), place);
-  if (key[0] == "machines") machines_ = SplitWords(value);
+  if (key[0] == "machines")
+  {
+    machines_ = SplitWords(value);
+    for (const std::string& machine : machines_) RequireHostName(machine, place);
+  }
   if (key[0] == "lease") lease_s_ = PositiveInteger(value, 86'400, place + ": lease", "seconds");
   if (key[0] == "swarmanoid") swarmanoid_ = value;
   if (key[0] == "program_folder") program_folder_ = value;
@@ -113,6 +133,7 @@ void Hosts::TakeRunHosts(const std::vector<std::string>& hosts, const std::strin
 {
   for (const std::string& host : hosts)
   {
+    RequireHostName(host, place);
     if (std::find(run_hosts_.begin(), run_hosts_.end(), host) != run_hosts_.end())
       throw UsageError(fmt::format("{}: runs names {} a second time", place, Quoted(host)));
     run_hosts_.push_back(host);
@@ -151,7 +172,9 @@ void Hosts::AddEngine(const std::string& setting)
   if (sign == std::string::npos || sign == 0 || sign + 1 == setting.size())
     throw UsageError(
         fmt::format("--engine-host {}: write ENGINE=HOST, for example --engine-host ground=alpha", setting));
-  hosts_[{"engine", setting.substr(0, sign)}] = setting.substr(sign + 1);
+  const std::string host = setting.substr(sign + 1);
+  RequireHostName(host, "--engine-host " + setting);
+  hosts_[{"engine", setting.substr(0, sign)}] = host;
 }
 
 std::string Hosts::HostOf(const std::string& role, const std::string& which) const
@@ -188,8 +211,11 @@ ProcessCommand Hosts::Placed(const ProcessCommand& command, const std::string& h
   if (host.empty()) return command;
   std::vector<std::string> words{"env"};
   for (const auto& [name, value] : command.environment) words.push_back(name + "=" + value);
+  // Processes of this machine inherit it.
+  if (ExperimentsAreTrusted()) words.push_back(std::string(kTrustVariable) + "=1");
+  const std::size_t place = words.size();
   words.insert(words.end(), command.arguments.begin(), command.arguments.end());
-  std::string& program = words[1 + command.environment.size()];
+  std::string& program = words[place];
   if (!program_folder_.empty())
     program = std::filesystem::path(program_folder_) / std::filesystem::path(program).filename();
 

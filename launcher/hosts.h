@@ -62,7 +62,7 @@ private:
 
   std::map<std::pair<std::string, std::string>, std::string>
       hosts_;  // role and which one, empty for the rest of the role
-  std::vector<std::string> template_{"ssh", "-tt", "-o", "BatchMode=yes", "{host}", "{shell_command}"};
+  std::vector<std::string> template_{"ssh", "-tt", "-o", "BatchMode=yes", "--", "{host}", "{shell_command}"};
   std::string program_folder_;
   std::vector<std::string> options_;
   std::vector<std::string> run_hosts_;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/activity/print_error.h"
+#include "common/configuration/trust.h"
 #include "common/configuration/wording.h"
 #include "common/program/program.h"
 #include "common/program/standard_output.h"
@@ -90,7 +91,11 @@ int main(int count, char** arguments)
 
   if (count > 1 && std::string_view(arguments[1]) == kCompleteFlag) return Complete({arguments + 2, arguments + count});
   if (count > 1 && std::string_view(arguments[1]) == kStudyWorkerFlag)
-    return RunStudyWorker({arguments + 2, arguments + count});
+  {
+    const bool trusts = count > 2 && std::string_view(arguments[2]) == kTrustFlag;
+    if (trusts) TrustExperiments();
+    return RunStudyWorker({arguments + (trusts ? 3 : 2), arguments + count});
+  }
   std::vector<std::string> words = WithHelp({arguments, arguments + count});
   if (ComplainsAboutVerb(words)) return kExitUsage;
   std::vector<char*> given;

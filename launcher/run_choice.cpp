@@ -15,6 +15,7 @@
 #include "common/bus/share.h"
 #include "common/configuration/wording.h"
 #include "launcher/commands.h"
+#include "launcher/isolation.h"
 
 namespace swarmanoid
 {
@@ -30,7 +31,7 @@ std::string Described(const std::vector<LocalRun>& runs)
 
 RunChoice ChoiceOf(const LocalRun& run)
 {
-  return {run.experiment, run.domain, static_cast<int>(run.server), !run.key.has_value()};
+  return {run.experiment, run.domain, static_cast<int>(run.server), !run.key.has_value(), run.network};
 }
 
 // Who sits at a terminal says which of several is meant.
@@ -77,6 +78,15 @@ void CheckInsecure(const RunChoice& run, const BusOptions& options)
           : fmt::format("the run of {} has a key, and understands only those who use it; leave out "
                         "--insecure: the key is found on this machine",
                         Quoted(run.experiment)));
+}
+
+void UseNetworkOf(const RunChoice& run, BusOptions& options)
+{
+  if (!run.server || options.Spread() || !options.peers.empty() || !options.discovery_server.empty()) return;
+  options.network_interface = run.network.network_interface;
+  options.peers = run.network.peers;
+  options.discovery_server = run.network.discovery_server;
+  EnterNetworkOf(*run.server);
 }
 
 RunChoice AwaitRun(const std::string& name, std::optional<int> domain, double wait_s)

@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "common/bus/run_directory.h"
+
 namespace swarmanoid
 {
 
@@ -16,6 +18,7 @@ struct RunChoice
   int domain = 0;
   std::optional<int> server;     // process id of its space server, if that is on this machine
   bool lets_anybody_in = false;  // likewise: it was started with --insecure
+  RunNetwork network{};          // likewise
 };
 
 // The one on this machine, or the one of that name. With a domain, experiments of other machines can be meant too.
@@ -28,6 +31,10 @@ RunChoice RunOf(const ShareTicket& ticket, const std::string& name);
 // Throws UsageError if the run is on this machine and has a key, while no key is to be used, or the other way round:
 // the two would not understand each other.
 void CheckInsecure(const RunChoice& run, const BusOptions& options);
+
+// Reaches a run of this machine as its processes reach each other: takes its network unless the user names one, and
+// enters the network namespace of an --isolated run.
+void UseNetworkOf(const RunChoice& run, BusOptions& options);
 
 // The same as ChooseRun, but for so many seconds it waits for one to start, and says so on the standard error; of
 // several, who sits at a terminal is asked for one.

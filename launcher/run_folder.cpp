@@ -14,6 +14,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "common/configuration/output_file.h"
 #include "common/version/version.h"
 
 namespace swarmanoid
@@ -61,6 +62,7 @@ std::string MakeAsked(const std::string& asked)
   fs::create_directories(asked, error);
   if (error) Refuse(asked, error.message());
   if (!fs::is_directory(asked)) Refuse(asked, "it is no folder");
+  if (const std::string mistake = OutputFolderMistake(asked); !mistake.empty()) Refuse(asked, mistake);
   if (!fs::is_empty(asked, error)) Refuse(asked, "it is not empty");
   return asked;
 }
@@ -70,6 +72,7 @@ std::string MakeNew(const std::string& experiment)
   std::error_code error;
   fs::create_directories("runs", error);
   if (error) Refuse("runs", error.message());
+  if (const std::string mistake = OutputFolderMistake("runs"); !mistake.empty()) Refuse("runs", mistake);
   const std::string stem = fmt::format("runs/{}-{}", experiment, LocalTime("%Y%m%d-%H%M%S"));
   for (int number = 1;; ++number)
   {
@@ -90,7 +93,7 @@ void RunFolder::Write(const std::string& name, const std::string& text) const
 {
   const std::string path = File(name);
   const std::string draft = path + ".new";
-  std::FILE* file = std::fopen(draft.c_str(), "we");
+  std::FILE* file = OpenOutputFile(draft);
   bool good = file != nullptr;
   if (file != nullptr)
   {

@@ -69,6 +69,7 @@ bool IsAtTerminal() { return isatty(STDOUT_FILENO) == 1 && isatty(STDERR_FILENO)
 
 void OpenInBrowser(const std::string& url)
 {
+  if (!url.starts_with("http://") && !url.starts_with("https://")) return;
   try
   {
     Child({"xdg-open", url}, "/dev/null").Wait();

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/program/program.h"
+#include "common/program/trust_flag.h"
 #include "common/run/run_settings.h"
 #include "launcher/run_experiment.h"
 #include "roles/builtins.h"
@@ -21,7 +22,12 @@ int RunSimulation(int count, char** arguments, const std::function<void(CSimulat
        .footer = "The same options, output and exit codes as those of `swarmanoid run`.",
        .register_plugins = RegisterBuiltins,
        .catches_interrupts = false},
-      count, arguments, [&](CLI::App& app) { AddOptions(app, RunOptionTable(settings)); },
+      count, arguments,
+      [&](CLI::App& app)
+      {
+        AddOptions(app, RunOptionTable(settings));
+        AddTrustFlag(app);
+      },
       [&] { return RunExperiment(settings, watch); });
 }
 

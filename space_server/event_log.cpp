@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "common/activity/print_error.h"
+#include "common/configuration/output_file.h"
 #include "common/configuration/regular_file.h"
 #include "common/configuration/wording.h"
 #include "common/program/csv.h"
@@ -293,7 +294,7 @@ void EventLog::Write(std::uint64_t tick, const ControlRequestMessage& request)
   if (file_ == nullptr)
   {
     goes_on_ = goes_on_ && std::filesystem::exists(path_);
-    file_ = std::fopen(path_.c_str(), goes_on_ ? "ae" : "we");
+    file_ = OpenOutputFile(path_, goes_on_);
     if (file_ != nullptr && !goes_on_) fmt::print(file_, "{}\n", kHeader);
   }
   bool good = file_ != nullptr;

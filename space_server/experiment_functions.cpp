@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "common/configuration/output_file.h"
 #include "common/configuration/wording.h"
 #include "common/space/attributes.h"
 #include "common/space/message_slots.h"
@@ -33,6 +34,18 @@ PluginRegistry<CExperimentFunctions>& PluginRegistry<CExperimentFunctions>::Inst
 }
 
 template class PluginRegistry<CExperimentFunctions>;
+
+std::string SpaceEditor::MakeOutputFile(const TConfigurationTree& tree, const std::string& parameter) const
+{
+  try
+  {
+    return OutputFiles(output_folder_).Claim(tree.GetText(parameter));
+  }
+  catch (const OutputFileError& error)
+  {
+    throw ConfigurationError(tree.ValueLocation(parameter), parameter + ": " + error.what());
+  }
+}
 
 const CSwarmanoidSpace& SpaceEditor::GetSpace() const { return server_.Space(); }
 

@@ -80,6 +80,9 @@ public:
   RandomStream& GetRandom() const { return random_; }
   // The folder of the run: files of the functions go there.
   const std::string& GetOutputFolder() const { return output_folder_; }
+  // Makes the file that a parameter of the functions names, below that folder, and returns its path for writing. Throws
+  // ConfigurationError, with the cure, if the name leaves the folder, or a file is there that this run did not make.
+  std::string MakeOutputFile(const TConfigurationTree& tree, const std::string& parameter) const;
 
   // For the server, before it calls functions, and to go on with the random numbers of who was called before.
   void BeginStep(RandomStream random) { random_ = std::move(random); }

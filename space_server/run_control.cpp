@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "common/configuration/configuration_tree.h"
+#include "common/messages/request_limits.h"
 #include "common/space/space.h"
 #include "space_server/space_changes.h"
 
@@ -222,6 +223,7 @@ void RunControl::Carry(const ControlRequestMessage& request, SpaceServer& server
 
   if (IsAboutOffers(request)) return CarryOffer(request, tick);
   if (IsOnlyNoted(request)) return event_log_.Write(tick, request);
+  if (const std::string error = RequestLimitError(request); !error.empty()) return reply(false, error);
   if (request.verb == "pause")
   {
     DropStep(tick, "a pause was asked for");

@@ -108,12 +108,13 @@ int Plot(const PlotOptions& options)
         "plot: pictures are drawn by matplotlib, which is not here; as root: apt-get install python3-matplotlib");
   const std::string script =
       (std::filesystem::path(UserFilesFolder()).parent_path() / "studies" / "plot_study.py").string();
-  std::vector<std::string> words{python,     "-B",           script,    options.study,
-                                 "--format", options.format, "--ended", options.ended};
-  for (const std::string& metric : options.metrics) words.insert(words.end(), {"--metric", metric});
-  for (const std::string& request : options.comparisons) words.insert(words.end(), {"--compare", request});
-  if (!options.reference.empty()) words.insert(words.end(), {"--reference", options.reference});
-  if (!options.output.empty()) words.insert(words.end(), {"--output", options.output});
+  // Values may begin with a dash.
+  std::vector<std::string> words{python, "-B", script, "--format=" + options.format, "--ended=" + options.ended};
+  for (const std::string& metric : options.metrics) words.push_back("--metric=" + metric);
+  for (const std::string& request : options.comparisons) words.push_back("--compare=" + request);
+  if (!options.reference.empty()) words.push_back("--reference=" + options.reference);
+  if (!options.output.empty()) words.push_back("--output=" + options.output);
+  words.insert(words.end(), {"--", options.study});
   return Run(words);
 }
 

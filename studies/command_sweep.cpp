@@ -4,6 +4,7 @@
 
 #include "common/program/empty_words.h"
 #include "common/program/options.h"
+#include "common/program/trust_flag.h"
 #include "studies/commands.h"
 #include "studies/sweep.h"
 
@@ -98,6 +99,7 @@ void AddSweepCommand(CLI::App& app, int& exit_code)
   CLI::App* verb = app.add_subcommand("sweep", "Run a study: an experiment with many parameters and seeds");
   AddOptions(*verb, SweepOptionTable(*options));
   AllowEmpty(*verb->get_option("--slurm"));
+  AddTrustFlag(*verb);
   verb->footer(
       "The last line on standard output is\n"
       "  finished: <runs> runs, <failed> failed, <wall> s, table <folder>/table.csv\n"

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "common/configuration/trust.h"
 #include "common/program/interrupts.h"
 #include "common/program/usage_error.h"
 #include "launcher/installation.h"
@@ -29,12 +30,13 @@ bool IsThisMachine(const std::string& name) { return name == "here" || name == "
 HostPool::HostPool(const Hosts& hosts, const std::vector<char>& setup, std::string folder)
     : folder_(std::move(folder)), lease_(hosts.LeaseSeconds())
 {
+  std::vector<std::string> words{OwnProgram(), kStudyWorkerFlag};
+  if (ExperimentsAreTrusted()) words.emplace_back(kTrustFlag);
   for (const RunHost& host : hosts.RunHosts())
   {
     Machine& machine = machines_.emplace_back();
     machine.name = host.name;
-    machine.connection =
-        std::make_unique<HostConnection>(hosts.WorkerCommand(host.name, {OwnProgram(), kStudyWorkerFlag}));
+    machine.connection = std::make_unique<HostConnection>(hosts.WorkerCommand(host.name, words));
     ByteWriter head;
     head.Put(static_cast<std::uint32_t>(hosts.LeaseSeconds()));
     head.Put(static_cast<std::uint32_t>(host.cores));

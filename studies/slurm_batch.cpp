@@ -16,6 +16,7 @@
 #include "common/activity/failure_report.h"
 #include "common/configuration/configuration_tree.h"
 #include "common/configuration/regular_file.h"
+#include "common/configuration/trust.h"
 #include "common/program/shell_word.h"
 #include "launcher/installation.h"
 #include "studies/checked_frame.h"
@@ -108,8 +109,9 @@ SlurmBatch SlurmBatch::Create(const std::string& study_folder, const std::vector
     }
     WriteWhole(OrdersFile(batch.folder_, task), Framed(bytes.Bytes()));
   }
-  const std::string script = fmt::format("#!/bin/sh\nexec {} {} {} \"$SLURM_ARRAY_TASK_ID\"\n", ShellWord(OwnProgram()),
-                                         kStudyWorkerFlag, ShellWord(batch.folder_));
+  const std::string script =
+      fmt::format("#!/bin/sh\nexec {} {}{} {} \"$SLURM_ARRAY_TASK_ID\"\n", ShellWord(OwnProgram()), kStudyWorkerFlag,
+                  ExperimentsAreTrusted() ? std::string(" ") + kTrustFlag : "", ShellWord(batch.folder_));
   WriteWhole(batch.Script(), script);
   return batch;
 }

@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "common/activity/print_error.h"
+#include "common/configuration/output_file.h"
 #include "common/program/csv.h"
 #include "common/version/version.h"
 #include "studies/study_setup.h"
@@ -82,6 +83,9 @@ std::unique_ptr<StudyStore> StudyStore::Create(const std::string& folder, const 
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw StudyStoreError(fmt::format("cannot make the folder '{}': {}", folder, error.message()));
+  if (const std::string mistake = OutputFolderMistake(folder); !mistake.empty())
+    throw StudyStoreError(
+        fmt::format("'{}' cannot be the folder of the study: {}; name another one by --output", folder, mistake));
   if (!IsEmpty(folder))
     throw StudyStoreError(
         fmt::format("'{0}' is no empty folder; name another one by --output, or go on with the study there: swarmanoid "

@@ -13,6 +13,7 @@
 #include "common/bus/tick_gate.h"
 #include "common/bus/worker_program.h"
 #include "common/bus/worker_session.h"
+#include "common/configuration/output_file.h"
 #include "common/logging/log.h"
 #include "common/program/interrupts.h"
 #include "common/program/usage_error.h"
@@ -43,14 +44,20 @@ std::uint64_t Begin(WorkerSession& session, Replica& replica, Visualiser& visual
   return Recover(session, replica, steps);
 }
 
+void Send(const ControlRequestMessage& request, ControlClient& client, RemoteMonitor& monitor)
+{
+  const std::string error = client.Send(request.verb, request.entity, request.numbers);
+  if (!error.empty()) monitor.NoteRefusal(error);
+}
+
 void RunSynchronous(WorkerSession& session, const std::string& id, const std::string& output)
 {
   Replica replica(session.World(), false);
   const std::vector<RenderConfiguration>& visualisations = replica.experiment->visualisations;
   const std::size_t number = NumberOf(*replica.experiment, visualisations, "visualisation", id);
   ControlClient client(session.GetBus(), session.World().experiment, session.World().run);
-  RequestControl control([&](const ControlRequestMessage& r) { client.Send(r.verb, r.entity, r.numbers); });
   RemoteMonitor monitor(session.GetBus(), session.World(), true);
+  RequestControl control([&](const ControlRequestMessage& request) { Send(request, client, monitor); });
   Visualiser visualiser(visualisations[number], *replica.space, replica.assignment, output, &control, &monitor);
   SynchronousNode node(session, replica, number, visualiser, control, monitor, Begin(session, replica, visualiser));
   node.WaitForServer();
@@ -74,8 +81,8 @@ bool Show(WorkerSession& session, const WorkerSettings& settings, const RenderCo
 {
   Replica replica(session.World(), false);
   ControlClient client(session.GetBus(), session.World().experiment, session.World().run);
-  RequestControl control([&](const ControlRequestMessage& r) { client.Send(r.verb, r.entity, r.numbers); });
   RemoteMonitor monitor(session.GetBus(), session.World(), false);
+  RequestControl control([&](const ControlRequestMessage& request) { Send(request, client, monitor); });
   Visualiser visualiser(configuration, *replica.space, replica.assignment, settings.output,
                         settings.read_only ? nullptr : &control, &monitor);
   AttachedNode node(session, replica, visualiser, monitor, settings.rate);
@@ -143,6 +150,7 @@ int Run(WorkerSettings settings, const std::vector<std::string>& parameters, Bus
   {
     const RenderConfiguration configuration = ConfigureRenderer(FindRenderer(settings.attach), parameters);
     UseShare(settings, bus);
+    LetUserNameFiles();
     WorkerSession session(bus, settings.experiment,
                           fmt::format("attached {} visualiser {}", configuration.id, ProcessId()), settings.server);
     session.LookOn();

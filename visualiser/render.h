@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "common/configuration/output_file.h"
 #include "common/configuration/parameter.h"
 #include "common/math/pose.h"
 #include "common/messages/assignment.h"
@@ -71,6 +72,28 @@ struct RenderSetup
   std::string output_folder;             // relative output paths start here
   ExperimentControl* control = nullptr;  // nullptr if the renderer may only watch
   RunMonitor* monitor = nullptr;         // nullptr only if a renderer is used outside a run
+
+  // Makes the file that a parameter names and returns its path for writing. Throws ConfigurationError, at the value of
+  // the parameter, if the file must not be written (docs/security.md).
+  std::string MakeOutputFile(const char* parameter) const
+  {
+    CheckFile(parameter, parameters.Text(parameter));
+    return Files().Claim(parameters.Text(parameter));
+  }
+  // The same in two steps, for renderers whose files have names of their own or are written later.
+  OutputFiles Files() const { return OutputFiles(output_folder); }
+  void CheckFile(const char* parameter, const std::string& name) const
+  {
+    try
+    {
+      Files().Check(name);
+    }
+    catch (const OutputFileError& error)
+    {
+      throw ConfigurationError(parameters.Tree().ValueLocation(parameter),
+                               std::string(parameter) + ": " + error.what());
+    }
+  }
 };
 
 class CRender

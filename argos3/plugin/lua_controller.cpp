@@ -13,6 +13,7 @@
 #include "argos3/plugin/lua_devices.h"
 #include "argos3/plugin/lua_stack.h"
 #include "argos3/plugin/lua_vectors.h"
+#include "common/configuration/trust.h"
 
 namespace swarmanoid::argos3
 {
@@ -106,6 +107,92 @@ math.pow = math.pow or function(x, y) return x ^ y end
 unpack = unpack or table.unpack
 loadstring = loadstring or load
 )";
+
+// Runs behind the prelude unless the user trusts the experiment: what starts programs, changes files, reads files that
+// are not beside the script, or loads machine code or bytecode, refuses and names the cure. Bytecode can break out of
+// Lua, and the debug library can reach what is hidden here.
+constexpr const char* kLimits = R"lua(
+local beside = ...
+local raw_open, raw_lines, raw_load, raw_loadfile, searchpath = io.open, io.lines, load, loadfile, package.searchpath
+local type, error, pairs = type, error, pairs
+local cure = " unless the user trusts the experiment: --trust (docs/security.md)"
+
+local function limit(library, name, kept)
+  local names = {}
+  for key, value in pairs(library) do
+    if not kept[key] then names[#names + 1] = key end
+  end
+  for i = 1, #names do
+    local key = names[i]
+    library[key] = type(library[key]) == "function" and function()
+      error(name .. "." .. key .. " is not for scripts" .. cure, 2)
+    end or nil
+  end
+end
+
+local function path_of(name)
+  if type(name) ~= "string" then error("the name of a file must be given", 3) end
+  local path = beside(name)
+  if not path then error("'" .. name .. "' is not below the folder of the script, whose files alone can be read" .. cure, 3) end
+  return path
+end
+
+limit(os, "os", {time = true, clock = true, date = true, difftime = true, getenv = true})
+limit(io, "io", {open = true, lines = true, write = true, type = true, close = true, stdout = true, stderr = true})
+limit(debug, "debug", {traceback = true, getinfo = true})
+limit(package, "package", {path = true, config = true, loaded = true, preload = true, searchers = true})
+
+function io.open(name, mode)
+  local path = path_of(name)
+  if mode ~= nil and mode ~= "r" and mode ~= "rb" then error("'" .. name .. "' can only be read," .. cure, 2) end
+  return raw_open(path, mode)
+end
+function io.lines(name, ...) return raw_lines(path_of(name), ...) end
+function load(chunk, name, mode, ...) return raw_load(chunk, name, "t", ...) end
+loadstring = load
+function loadfile(name, mode, ...) return raw_loadfile(path_of(name), "t", ...) end
+function dofile(name)
+  local chunk, problem = raw_loadfile(path_of(name), "t")
+  if not chunk then error(problem, 2) end
+  return chunk()
+end
+package.searchers[2] = function(name)
+  local found, problem = searchpath(name, package.path)
+  if not found then return problem end
+  local path = beside(found)
+  if not path then return "\n\t'" .. found .. "' is not below the folder of the script, whose modules alone are loaded" .. cure end
+  local chunk, mistake = raw_loadfile(path, "t")
+  if not chunk then error("error loading module '" .. name .. "' from file '" .. found .. "':\n\t" .. mistake) end
+  return chunk, found
+end
+package.searchers[3] = nil
+package.searchers[4] = nil
+)lua";
+
+// The path of a file below the folder of the script; empty if it is elsewhere. Relative names start there, or at the
+// working folder.
+std::string PathBeside(const LuaScript& script, const std::string& name)
+{
+  namespace fs = std::filesystem;
+  std::error_code none;
+  const fs::path folder = fs::weakly_canonical(fs::absolute(script.path, none).parent_path(), none);
+  fs::path path = folder / name;
+  if (!fs::exists(path, none)) path = fs::absolute(name, none);
+  if (!fs::exists(path, none)) path = folder / name;
+  path = fs::weakly_canonical(path, none);
+  const fs::path below = path.lexically_relative(folder);
+  return below.empty() || *below.begin() == ".." ? std::string() : path.string();
+}
+
+int Beside(lua_State* lua)
+{
+  const std::string path = PathBeside(Subject<LuaScript>(lua), luaL_checkstring(lua, 1));
+  if (path.empty())
+    lua_pushnil(lua);
+  else
+    lua_pushstring(lua, path.c_str());
+  return 1;
+}
 
 // robot.random: as CRandom.
 
@@ -247,10 +334,19 @@ private:
     lua_pushcfunction(lua_, LengthOf);
     lua_call(lua_, 3, 0);
     SearchBeside();
+    if (!ExperimentsAreTrusted()) Limit();
     MakeRobot();
     Load();
     Execute();
     CallIfThere("init");
+  }
+
+  void Limit()
+  {
+    luaL_loadbufferx(lua_, kLimits, std::char_traits<char>::length(kLimits), "=limits", "t");
+    lua_pushlightuserdata(lua_, &script_);
+    lua_pushcclosure(lua_, Guarded<Beside>, 1);
+    lua_call(lua_, 1, 0);
   }
 
   // Modules lie beside the script.

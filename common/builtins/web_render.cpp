@@ -27,7 +27,8 @@ PluginDescription WebRenderDescription()
         0.01, 1000},
        {"allow_control", ParameterType::kBoolean, "", "false",
         "Lets whoever has the printed address, with its token, pause, step, change the speed and move entities."},
-       {"clients", ParameterType::kInteger, "", "16", "Pages that may look at the same time.", 1, 256},
+       {"clients", ParameterType::kInteger, "", "16",
+        "Pages without the token that may look at the same time; as many others that have it.", 1, 256},
        {"linger", ParameterType::kNumber, "s", "-1",
         "Time for which the last state is served after the run; -1: until interrupted where attached, not at all where "
         "the visualisation is part of the experiment.",

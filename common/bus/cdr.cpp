@@ -9,8 +9,8 @@ void RefuseField(const char* field, const std::string& why) { throw BadMessage(f
 
 void RefuseName(const char* field, const std::string& name)
 {
-  throw BadMessage(fmt::format("{} '{}' must be UTF-8 text of at most {} bytes without control characters", field,
-                               Showable(name, 60), kLongestName));
+  throw BadMessage(fmt::format("{} '{}' must be one line of UTF-8 text of at most {} bytes without control characters",
+                               field, ShowableLine(name, 60), kLongestName));
 }
 
 void RefuseLength(const char* field, std::size_t count, std::size_t bytes, std::size_t left)

@@ -27,9 +27,6 @@ namespace swarmanoid
 
 static_assert(std::endian::native == std::endian::little, "arrays are copied to the wire as they are in memory");
 
-inline constexpr std::size_t kLongestName = 1024;       // bytes of ids and names of processes
-inline constexpr std::size_t kLongestText = 64 * 1024;  // of what is told to people
-
 [[noreturn]] void RefuseField(const char* field, const std::string& why);
 [[noreturn]] void RefuseName(const char* field, const std::string& name);
 [[noreturn]] void RefuseLength(const char* field, std::size_t count, std::size_t bytes, std::size_t left);
@@ -118,7 +115,7 @@ public:
   void Exact(const char*, const std::string& text) { String(text); }
   void Name(const char* field, const std::string& text)
   {
-    if (text.size() > kLongestName || !IsShowable(text)) RefuseName(field, text);
+    if (text.size() > kLongestName || !IsShowableLine(text)) RefuseName(field, text);
     String(text);
   }
   void Text(const char*, const std::string& text)
@@ -249,8 +246,16 @@ public:
   void AnyNumber(const char* field, double& value) { Get(field, value); }
 
   void Exact(const char* field, std::string& text) { text = String(field); }
-  void Name(const char* field, std::string& text) { Shown(field, text, kLongestName); }
-  void Text(const char* field, std::string& text) { Shown(field, text, kLongestText); }
+  void Name(const char* field, std::string& text)
+  {
+    Bounded(field, text, kLongestName);
+    if (!IsShowableLine(text)) RefuseField(field, "it is no UTF-8 text, or has control characters");
+  }
+  void Text(const char* field, std::string& text)
+  {
+    Bounded(field, text, kLongestText);
+    if (!IsShowable(text)) RefuseField(field, "it is no UTF-8 text, or has control characters");
+  }
   template <class T>
   void Array(const char* field, std::vector<T>& values)
   {
@@ -310,11 +315,10 @@ private:
     at_ += count;
     return text;
   }
-  void Shown(const char* field, std::string& text, std::size_t most)
+  void Bounded(const char* field, std::string& text, std::size_t most)
   {
     const std::string_view given = String(field);
     if (given.size() > most) RefuseLength(field, given.size(), 1, most);
-    if (!IsShowable(given)) RefuseField(field, "it is no UTF-8 text, or has control characters");
     text = given;
   }
 

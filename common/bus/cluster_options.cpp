@@ -105,7 +105,8 @@ std::vector<OptionSpec> BusOptionTable(BusOptions& options)
       {{.name = "discovery-server",
         .type = kText,
         .description = "Where the space server listens for the others, where the network has no multicast; the same "
-                       "for all"},
+                       "for all. Variables of other programs, such as ROS_DISCOVERY_SERVER, are ignored "
+                       "(SWARMANOID_DDS_ENVIRONMENT=1 keeps them)"},
        &options.discovery_server,
        "10.77.0.1:21900",
        "ADDRESS:PORT",

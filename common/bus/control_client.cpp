@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/bus/participant.h"
+#include "common/messages/request_limits.h"
 
 namespace swarmanoid
 {
@@ -44,6 +45,9 @@ std::optional<ControlReplyMessage> ControlClient::Ask(const std::string& verb, c
                                                       const std::vector<double>& numbers, double timeout_s,
                                                       const std::function<bool()>& given_up)
 {
+  ControlRequestMessage request{ProcessId(), 0, verb, entity, numbers, UserName(), 0};
+  if (const std::string error = RequestLimitError(request); !error.empty())
+    return ControlReplyMessage{.client = request.client, .text = error};
   if (statuses_ == nullptr)
     statuses_ = std::make_unique<Subscription<RunStatusMessage>>(
         bus_, experiment_, [this](const RunStatusMessage& message) { Heard(message); });
@@ -72,7 +76,8 @@ std::optional<ControlReplyMessage> ControlClient::Ask(const std::string& verb, c
   while (run_ == 0 && !(by_share && Clock::now() - start > kStatusTime))
     if (answered_.wait_for(lock, 2ms), !is_patient()) return std::nullopt;
   reply_.reset();
-  const ControlRequestMessage request{ProcessId(), ++number_, verb, entity, numbers, UserName(), run_};
+  request.number = ++number_;
+  request.run = run_;
   // We may know the server before it knows us: then its answer finds nobody, and the same request is answered again.
   while (!reply_ && is_patient())
   {
@@ -129,16 +134,17 @@ std::uint64_t ControlClient::StatusesHeard()
   return statuses_heard_;
 }
 
-void ControlClient::Send(const std::string& verb, const std::string& entity, const std::vector<double>& numbers)
+std::string ControlClient::Send(const std::string& verb, const std::string& entity, const std::vector<double>& numbers)
 {
-  std::uint32_t number = 0;
-  std::uint64_t run = 0;
+  ControlRequestMessage request{ProcessId(), 0, verb, entity, numbers, UserName(), 0};
+  if (std::string error = RequestLimitError(request); !error.empty()) return error;
   {
     const std::lock_guard lock(mutex_);
-    number = ++number_;
-    run = run_;
+    request.number = ++number_;
+    request.run = run_;
   }
-  requests_.Write({ProcessId(), number, verb, entity, numbers, UserName(), run});
+  requests_.Write(request);
+  return {};
 }
 
 }  // namespace swarmanoid

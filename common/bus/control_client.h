@@ -25,7 +25,8 @@ public:
   // Sends a request (ControlRequest in idl/swarmanoid.idl) and waits for the answer, as long as the run gets on: the
   // answer to a step comes at its end. nullopt if the run told nothing for `timeout_s` (15 s once its space
   // server has gone, and another one may come), or stood still that long and waits for one of its processes, or
-  // `given_up` returns true, which is called several times a second.
+  // `given_up` returns true, which is called several times a second. A request beyond the limits of a message
+  // (request_limits.h) is not sent: it is refused by a reply that is made here.
   std::optional<ControlReplyMessage> Ask(const std::string& verb, const std::string& entity,
                                          const std::vector<double>& numbers, double timeout_s,
                                          const std::function<bool()>& given_up = nullptr);
@@ -35,8 +36,8 @@ public:
   std::optional<RunStatus> LatestStatus();
   // How often it was heard since the first Ask.
   std::uint64_t StatusesHeard();
-  // Sends without waiting for an answer.
-  void Send(const std::string& verb, const std::string& entity, const std::vector<double>& numbers);
+  // Sends without waiting for an answer. Returns why the request cannot be sent (request_limits.h); empty if it was.
+  std::string Send(const std::string& verb, const std::string& entity, const std::vector<double>& numbers);
 
 private:
   using Clock = std::chrono::steady_clock;

@@ -22,6 +22,7 @@
 #include "common/activity/failure_report.h"
 #include "common/activity/print_error.h"
 #include "common/bus/cluster_options.h"
+#include "common/bus/dds_environment.h"
 #include "common/configuration/shown_text.h"
 #include "common/logging/log.h"
 
@@ -181,7 +182,7 @@ std::string MachineName()
 std::string UserName()
 {
   const passwd* const user = getpwuid(geteuid());
-  return user != nullptr ? Showable(user->pw_name, kLongestUser) : std::to_string(geteuid());
+  return user != nullptr ? ShowableLine(user->pw_name, kLongestUser) : std::to_string(geteuid());
 }
 
 std::string ProcessId() { return fmt::format("{}:{}", MachineName(), getpid()); }
@@ -233,8 +234,6 @@ Bus::Impl::Impl(const BusOptions& options, const std::string& name)
 {
   if (options.domain < 0 || options.domain > 232)
     throw BusError(fmt::format("domain {}: it must be 0 to 232", options.domain));
-  // A profile file in the working folder must not change a run.
-  setenv("SKIP_DEFAULT_XML", "1", 0);
   std::set_terminate(SleepInsteadOfTerminate);
 
   dds::DomainParticipantQos qos;
@@ -273,6 +272,9 @@ Bus::Impl::Impl(const BusOptions& options, const std::string& name)
   }
 
   [[maybe_unused]] static const bool logs = KeepLog();
+  const HiddenDdsVariables hidden;
+  // A profile file in the working folder must not change a run.
+  setenv("SKIP_DEFAULT_XML", "1", 0);
   participant = dds::DomainParticipantFactory::get_instance()->create_participant(
       static_cast<std::uint32_t>(options.domain), qos, this, dds::StatusMask::none());
   if (participant == nullptr)
@@ -403,8 +405,8 @@ BadMessageReport Bus::Impl::Describe(const std::string& topic, const rtps::GUID_
   std::ostringstream guid;
   guid << writer.guidPrefix;
   report.sender = report.process.empty() ? "an unknown process (" + guid.str() + ")"
-                                         : fmt::format("'{}' (process {})", Showable(report.name, kLongestSender),
-                                                       Showable(report.process, kLongestSender));
+                                         : fmt::format("'{}' (process {})", ShowableLine(report.name, kLongestSender),
+                                                       ShowableLine(report.process, kLongestSender));
   return report;
 }
 

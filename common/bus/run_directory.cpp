@@ -32,6 +32,7 @@ constexpr const char* kLockVariable = "XDG_RUNTIME_DIR";
 constexpr const char* kFolderFile = "folder";  // of the run, on the disk
 constexpr const char* kServerFile = "server";
 constexpr const char* kKeyFile = "key";
+constexpr const char* kNetworkFile = "network";
 constexpr const char* kMarkerPrefix = "process.";
 // In every folder that we make for a run: what lacks it is not ours to remove.
 constexpr const char* kRunFile = ".swarmanoid-run";
@@ -219,6 +220,24 @@ std::string FileName(const std::string& experiment, std::uint64_t run)
   return fmt::format("{}-{:016x}", name.substr(0, 100), run);
 }
 
+// One line for the interface, one for the discovery server, one for each peer.
+std::string TextOf(const RunNetwork& network)
+{
+  std::string text = network.network_interface + "\n" + network.discovery_server + "\n";
+  for (const std::string& peer : network.peers) text += peer + "\n";
+  return text;
+}
+
+RunNetwork NetworkOfText(const std::string& text)
+{
+  RunNetwork network;
+  std::istringstream lines(text);
+  if (!std::getline(lines, network.network_interface)) return {};
+  std::getline(lines, network.discovery_server);
+  for (std::string peer; std::getline(lines, peer);) network.peers.push_back(peer);
+  return network;
+}
+
 // A slash at the end would make the kernel follow a link.
 std::string WithoutSlashes(std::string path)
 {
@@ -285,13 +304,16 @@ void RunDirectory::Leave()
   }
 }
 
-void RunDirectory::Announce(const std::string& experiment, int domain, const std::optional<RunKey>& key)
+void RunDirectory::Announce(const std::string& experiment, int domain, const std::optional<RunKey>& key,
+                            const RunNetwork& network)
 {
   const std::string part = std::string(kServerFile) + ".part";
   const Descriptor folder = OpenOwnFolder(AT_FDCWD, path_);
   server_ = true;
   if (folder && key && !WriteText(*folder, kKeyFile, TextOfKey(*key) + "\n"))
     throw BusError("cannot write '" + path_ + "/" + kKeyFile + "': " + std::strerror(errno));
+  if (folder && !WriteText(*folder, kNetworkFile, TextOf(network)))
+    throw BusError("cannot write '" + path_ + "/" + kNetworkFile + "': " + std::strerror(errno));
   if (!folder || !WriteText(*folder, part, fmt::format("{} {}\n{}\n", domain, getpid(), experiment)) ||
       renameat(*folder, part.c_str(), *folder, kServerFile) != 0)
     throw BusError("cannot write '" + path_ + "/" + kServerFile + "': " + std::strerror(errno));
@@ -331,6 +353,7 @@ std::vector<LocalRun> FindLocalRuns()
     text.ignore();
     std::getline(text, run.experiment);
     run.key = KeyOfText(TextOf(*folder, kKeyFile));
+    run.network = NetworkOfText(TextOf(*folder, kNetworkFile));
     if (IsLocked(*folder, fmt::format("{}{}", kMarkerPrefix, run.server))) runs.push_back(run);
   }
   return runs;

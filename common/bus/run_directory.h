@@ -24,6 +24,16 @@ std::string SharedFolder();
 // Throws BusError.
 std::string LockFolder();
 
+// How the processes of a run reach each other, as BusOptions has it.
+struct RunNetwork
+{
+  std::string network_interface = "lo";
+  std::vector<std::string> peers{};
+  std::string discovery_server{};
+
+  bool operator==(const RunNetwork&) const = default;
+};
+
 class RunDirectory
 {
 public:
@@ -35,8 +45,9 @@ public:
   RunDirectory(const RunDirectory&) = delete;
   RunDirectory& operator=(const RunDirectory&) = delete;
 
-  // For the space server: lets FindLocalRuns find this run, and processes of this user its key.
-  void Announce(const std::string& experiment, int domain, const std::optional<RunKey>& key);
+  // For the space server: lets FindLocalRuns find this run with its network, and processes of this user its key.
+  void Announce(const std::string& experiment, int domain, const std::optional<RunKey>& key,
+                const RunNetwork& network = {});
   // Where the run keeps its journal, for FolderOfRun. Throws BusError.
   void AnnounceFolder(const std::string& folder);
   const std::string& Path() const { return path_; }
@@ -57,6 +68,7 @@ struct LocalRun
   long server = 0;  // process id
   std::string directory;
   std::optional<RunKey> key{};  // none: whoever is in the domain belongs to it
+  RunNetwork network{};
 };
 
 std::vector<LocalRun> FindLocalRuns();

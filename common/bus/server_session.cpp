@@ -50,7 +50,8 @@ ServerSession::ServerSession(const BusOptions& options, WorldMessage world, std:
       bus_(WithKey(options, key_), "space server")
 {
   for (const std::string& name : expected_) state_.Lock()->members[name];
-  directory_.Announce(world_.experiment, options.domain, key_);
+  directory_.Announce(world_.experiment, options.domain, key_,
+                      {options.network_interface, options.peers, options.discovery_server});
   world_.host = MachineName();
   const std::string process = ProcessId();
   world_.pid = static_cast<std::uint32_t>(std::stoul(process.substr(process.rfind(':') + 1)));

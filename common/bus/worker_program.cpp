@@ -3,6 +3,7 @@
 #include <initializer_list>
 
 #include "common/bus/offered_machine.h"
+#include "common/program/trust_flag.h"
 #include "common/program/usage_error.h"
 
 namespace swarmanoid
@@ -24,6 +25,7 @@ int RunWithTables(const ProgramDescription& program, int count, char** arguments
       {
         for (const WorkerTable table : tables) AddOptions(app, table(settings));
         AddOptions(app, BusOptionTable(bus));
+        AddTrustFlag(app);
         if (declare) declare(app);
       },
       [&] { return run(settings, bus); });

@@ -10,11 +10,11 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
 #include "common/checkpoint/checkpoint_format.h"
 #include "common/checkpoint/host_state.h"
+#include "common/configuration/output_file.h"
 #include "common/configuration/regular_file.h"
 #include "common/configuration/wording.h"
 #include "common/serialisation/fields.h"
@@ -131,12 +131,12 @@ void WriteCheckpoint(const std::string& path, const Checkpoint& checkpoint)
 {
   const std::vector<char> bytes = EncodeCheckpoint(checkpoint);
   const std::string unfinished = path + ".part";
-  std::ofstream file(unfinished, std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file)
+  std::FILE* const file = OpenOutputFile(unfinished);
+  bool good = file != nullptr && std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  int error = errno;
+  if (file != nullptr && std::fclose(file) != 0) good = false, error = errno;
+  if (!good)
   {
-    const int error = errno;
     std::error_code ignored;
     std::filesystem::remove(unfinished, ignored);
     throw std::runtime_error("cannot write the checkpoint '" + path + "': " + std::strerror(error));

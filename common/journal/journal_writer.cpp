@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/configuration/output_file.h"
 #include "common/configuration/regular_file.h"
 #include "common/journal/journal_reader.h"
 #include "common/threads/start_thread.h"
@@ -71,7 +72,7 @@ std::vector<std::uint32_t> SegmentsOf(const std::string& path)
 JournalWriter::JournalWriter(const std::string& path, std::uint32_t segment, int flags, JournalBudget budget)
     : path_(path),
       budget_(std::move(budget)),
-      file_(open(SegmentFile(path, segment).c_str(), O_RDWR | O_CLOEXEC | flags, 0666)),
+      file_(OpenOutput(SegmentFile(path, segment), O_RDWR | flags)),
       segment_(segment)
 {
   if (file_ < 0)
@@ -294,7 +295,7 @@ void JournalWriter::Write(Block& block)
 void JournalWriter::OpenNextSegment(const Block& opening)
 {
   if (!Works()) return;
-  const int next = open(SegmentFile(path_, segment_ + 1).c_str(), O_RDWR | O_CLOEXEC | O_CREAT | O_TRUNC, 0666);
+  const int next = OpenOutput(SegmentFile(path_, segment_ + 1), O_RDWR | O_CREAT | O_TRUNC);
   if (next < 0)
   {
     const std::string error = std::strerror(errno);

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "common/configuration/output_file.h"
 #include "common/configuration/shown_text.h"
 
 namespace swarmanoid
@@ -72,7 +73,7 @@ void OpenLog(const LogSettings& settings)
   {
     const std::string path = (std::filesystem::path(settings.folder) / (settings.process + ".log")).string();
     // Opened here first, because spdlog tries five times and then tells no cause.
-    std::FILE* file = std::fopen(path.c_str(), "ab");
+    std::FILE* file = OpenOutputFile(path, true);
     if (file == nullptr)
       throw std::runtime_error("cannot write the log " + path + ": " + std::generic_category().message(errno));
     std::fclose(file);

@@ -130,6 +130,17 @@ void AddValue(CLI::App& app, const OptionSpec& option)
   if (option.required) added->required();
 }
 
+// A value that begins with a dash stands in the word of its option, so that it is not read as another option.
+void Append(std::vector<std::string>& words, const OptionSpec& option, const std::string& value)
+{
+  if (IsPositional(option))
+    words.push_back(value);
+  else if (value.starts_with('-'))
+    words.push_back(NameOf(option) + "=" + value);
+  else
+    words.insert(words.end(), {NameOf(option), value});
+}
+
 }  // namespace
 
 void AddOptions(CLI::App& app, const std::vector<OptionSpec>& options)
@@ -170,14 +181,13 @@ std::vector<std::string> WordsOf(const std::vector<OptionSpec>& options, const s
     }
     if (option.joined)
     {
-      words.insert(words.end(), {NameOf(option), fmt::format("{}", fmt::join(texts, ","))});
+      Append(words, option, fmt::format("{}", fmt::join(texts, ",")));
       continue;
     }
     for (const std::string& text : texts)
     {
-      if (!IsPositional(option)) words.push_back(NameOf(option));
       const bool by_word = text == "0" && option.value.type == ParameterType::kInteger && !option.value.choices.empty();
-      words.push_back(by_word ? option.value.choices.front() : text);
+      Append(words, option, by_word ? option.value.choices.front() : text);
     }
   }
   return words;

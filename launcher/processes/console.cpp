@@ -15,6 +15,7 @@
 #include <stdexcept>
 
 #include "common/activity/print_error.h"
+#include "common/configuration/output_file.h"
 
 namespace swarmanoid
 {
@@ -179,7 +180,7 @@ void Console::Orphan()
   console_.reset();
   orphaned_ = Clock::now();
   const std::string path = setup_.folder + "/orphaned.log";
-  FileDescriptor file(open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
+  FileDescriptor file(OpenOutput(path, O_WRONLY | O_CREAT | O_APPEND));
   if (!file.IsOpen()) file.Reset(open("/dev/null", O_WRONLY | O_CLOEXEC));
   Redirect(file.Get(), file.Get());
   if (changed_) changed_(std::nullopt);

@@ -18,6 +18,7 @@ public:
   // `goes_on`: after what is in it.
   explicit ProcessLog(std::string path, bool goes_on = false);
 
+  // Adds a line without the colours that a process by ssh sends, which believes to write to a terminal.
   void Add(std::string_view line);
   const std::string& Path() const { return path_; }
   // At most kLines.

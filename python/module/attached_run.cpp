@@ -107,6 +107,7 @@ void AttachedRun::FindRun(AttachedRunOptions& options)
         fmt::format("{} runs in a network of its own (--isolated), which a program of many threads cannot enter; "
                     "`swarmanoid attach` and `swarmanoid control` can",
                     Quoted(choice_.experiment)));
+  UseNetworkOf(choice_, options.bus);
 }
 
 void AttachedRun::Run(const AttachedRunOptions& options)

@@ -76,10 +76,10 @@ class Run:
         columns: x, y, z in m, alpha, beta, gamma in degrees, qx … qw, attributes as "led", their elements as "led[3]".
         entities: ids, with * and ?. every, first, last: which ticks. Raises ValueError with what `swarmanoid export` says.
         """
-        words = ["export", str(self.folder), "--columns", ",".join(columns), "--entities", entities, "--every", str(every)]
+        words = ["export", str(self.folder.absolute()), "--columns=" + ",".join(columns), f"--entities={entities}", f"--every={every}"]
         for option, tick in (("--from", first), ("--until", last)):
             if tick is not None:
-                words += [option, str(tick)]
+                words.append(f"{option}={tick}")
         with tempfile.TemporaryDirectory(prefix="swarmanoid_") as folder:
             path = pathlib.Path(folder) / "journal.csv"
             done = subprocess.run([_command(), *words, "--csv", str(path)], capture_output=True, text=True, check=False)

@@ -4,14 +4,16 @@
 #include <cerrno>
 #include <cstring>
 
+#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include "common/activity/failure_report.h"
 #include "common/activity/print_error.h"
 #include "common/bus/cluster_options.h"
+#include "common/configuration/output_file.h"
 #include "common/experiment/load_experiment.h"
+#include "common/program/trust_flag.h"
 #include "common/program/usage_error.h"
 
 namespace swarmanoid
@@ -38,6 +40,7 @@ OptionSpec StatusOption(int& descriptor)
 void AddServerOptions(CLI::App& app, ServerOptions& options)
 {
   AddOptions(app, ServerOptionTable(options));
+  AddTrustFlag(app);
   AddOptions(
       app,
       {StatusOption(options.status_fd),
@@ -101,11 +104,17 @@ int Serve(const ServerOptions& options)
     if (!options.output_folder.empty())
     {
       std::filesystem::create_directories(options.output_folder);
-      // Somebody may read it: who started this server has written it, too.
+      if (const std::string mistake = OutputFolderMistake(options.output_folder); !mistake.empty())
+        throw BusError(fmt::format("'{}' cannot be the folder of the run: {}; name another one by --output",
+                                   options.output_folder, mistake));
+      // Another process may read it: the launcher has written it, too.
       const std::string file = options.output_folder + "/experiment.xml";
       const std::string draft = file + ".new";
-      if (!(std::ofstream(draft) << loaded.experiment->effective_xml << std::flush))
-        throw BusError(fmt::format("cannot write '{}': {}", draft, std::strerror(errno)));
+      const std::string& text = loaded.experiment->effective_xml;
+      std::FILE* const output = OpenOutputFile(draft);
+      bool good = output != nullptr && std::fwrite(text.data(), 1, text.size(), output) == text.size();
+      if (output != nullptr) good = std::fclose(output) == 0 && good;
+      if (!good) throw BusError(fmt::format("cannot write '{}': {}", draft, std::strerror(errno)));
       std::filesystem::rename(draft, file);
     }
     server->options.bus.serves_discovery = true;

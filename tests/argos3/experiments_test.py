@@ -284,6 +284,23 @@ class Experiments(RunningTest):
         self.swarmanoid("convert", file, "--output", "lua.xml")
         self.assertEqual(self.hash_of("lua.xml", "--single-process", "--output", "converted"), expected)
 
+    def test_a_script_starts_programs_and_writes_files_only_if_the_user_trusts_it(self):
+        shutil.copytree(HERE / "scripts/modules", self.folder / "modules")
+        shutil.copy(HERE / "scripts/limits.lua", self.folder)
+        (self.folder / "link_to_passwd").symlink_to("/etc/passwd")
+        (self.folder / "trusted.lua").write_text("return false\n")
+        file = self.in_lua("limits.lua")
+        self.swarmanoid("check", file)
+        self.swarmanoid("run", file, "--single-process", "--ticks", 2, "--output", "limited")
+        self.assertFalse((self.folder / "made_by_the_script").exists())
+        (self.folder / "trusted.lua").write_text("return true\n")
+        self.assertRegex(self.swarmanoid("check", file, code=3).stderr, r"limits\.lua:\d+: os\.execute is not for scripts unless .*--trust")
+        self.swarmanoid("check", file, "--trust")
+        for words in (["--single-process"], ["--controller-hosts", 1]):
+            (self.folder / "made_by_the_script").unlink()
+            self.swarmanoid("run", file, "--trust", "--ticks", 2, "--output", "trusted" + words[0], *words)
+            self.assertTrue((self.folder / "made_by_the_script").exists(), words)
+
     def test_what_lua_leaves_open_is_the_same_in_every_process(self):
         shutil.copy(HERE / "scripts/order.lua", self.folder)
         file = self.in_lua("order.lua")

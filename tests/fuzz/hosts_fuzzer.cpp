@@ -19,6 +19,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* input, std::size_t cou
     command.environment = {{"NAME", "a value"}};
     for (const char* role : {"engine", "controller_host", "space_server", "visualiser"})
       if (hosts.Placed(command, hosts.HostOf(role, "ground")).arguments.empty()) std::abort();
+    for (const std::string& machine : hosts.Machines())
+      if (machine.empty() || machine[0] == '-') std::abort();
     for (const std::string& name : hosts.Named("engine"))
       if (name.empty()) std::abort();
   }

@@ -1,9 +1,13 @@
-// Any text that a page sends is a request within its bounds, or is refused with a text for the user.
+// Any text that a page sends is a request within its bounds, or is refused with a text for the user. Each command
+// becomes a control request that can be sent, and that is read as it was sent.
 #include <cmath>
 #include <cstdlib>
 #include <stdexcept>
 
+#include "common/bus/message_bytes.h"
+#include "common/messages/request_limits.h"
 #include "tests/fuzz/fuzz_driver.h"
+#include "visualiser/request_control.h"
 #include "visualiser/web/messages.h"
 
 namespace swarmanoid
@@ -40,6 +44,25 @@ struct Check
   }
 };
 
+// Checks the way of a command from the page to the space server.
+void Send(const PageRequest& command)
+{
+  int sent = 0;
+  RequestControl control(
+      [&](const ControlRequestMessage& request)
+      {
+        ++sent;
+        Promise(RequestLimitError(request).empty());
+        std::vector<char> payload(PayloadSize(request));
+        WritePayload(payload.data(), request);
+        ControlRequestMessage read;
+        ReadPayload(payload, read);
+        Promise(read.verb == request.verb && read.entity == request.entity && read.numbers == request.numbers);
+      });
+  Obey(command, control);
+  Promise(sent == 1);
+}
+
 fuzz::Input InputOf(std::string_view text) { return {text.begin(), text.end()}; }
 
 }  // namespace
@@ -57,6 +80,11 @@ std::vector<fuzz::Input> fuzz::FirstInputs()
           InputOf(R"({"do":"move","entity":"fb_0","position":[1,2.5,0],"angles":[0,0,90]})"),
           InputOf(R"({"do":"add","entity":"reserve","position":[-1e3,2,0],"angles":[1,2,3]})"),
           InputOf(R"({"do":"remove","entity":"\u00fcber \ud834\udd1e"})"),
+          InputOf(R"({"do":"key","key":"Up","pressed":true})"),
+          InputOf(R"({"do":"key","key":"\u0000","pressed":true})"),
+          InputOf(R"({"do":"select","entity":"fb_0"})"),
+          InputOf(R"({"do":"select","entity":")" + std::string(3000, 'x') + "\"}"),
+          InputOf(R"({"do":"reset"})"),
           InputOf(R"({"do":"stop"})")};
 }
 
@@ -68,6 +96,10 @@ std::vector<fuzz::Input> fuzz::Words()
           InputOf("1e999"),
           InputOf("18446744073709551616"),
           InputOf("null"),
+          InputOf("\\u0000"),
+          InputOf("\\n"),
+          InputOf("\\u0085"),
+          InputOf(std::string(1025, 'n')),
           InputOf("\\ud800"),
           InputOf("[[[[[[[[[[[[[[[["),
           InputOf("{\"do\":{\"do\":"),
@@ -83,7 +115,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t cou
   const std::string_view text(reinterpret_cast<const char*>(bytes), count);
   try
   {
-    std::visit(Check(), ParseRequest(text));
+    const PageRequest request = ParseRequest(text);
+    std::visit(Check(), request);
+    if (IsCommand(request)) Send(request);
   }
   catch (const std::invalid_argument& error)
   {

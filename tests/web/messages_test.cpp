@@ -85,6 +85,10 @@ TEST(WebMessages, EverythingElseIsRefusedWithAReason)
               HasSubstr("bounds"));
   EXPECT_THAT(refusal(R"({"do": "prove", "proof": 1})"), HasSubstr("'proof'"));
   EXPECT_THAT(refusal(R"({"do": "marks", "rays": [1]})"), HasSubstr("'bodies'"));
+  EXPECT_THAT(refusal(R"({"do": "key", "key": "\u0000", "pressed": true})"), HasSubstr("without control characters"));
+  EXPECT_THAT(refusal(R"({"do": "select", "entity": "a\nb"})"), HasSubstr("one line"));
+  EXPECT_THAT(refusal(R"({"do": "select", "entity": ")" + std::string(1025, 'x') + "\"}"),
+              HasSubstr("has 1025 bytes; it must have at most 1024"));
   // Deeper than any stack would like.
   EXPECT_THAT(refusal(std::string(60000, '[')), HasSubstr("JSON"));
 }

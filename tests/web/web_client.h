@@ -25,10 +25,12 @@ public:
 
   std::string Host() const { return "127.0.0.1:" + std::to_string(port_); }
 
+  // Sends bytes as they are.
+  void Write(const std::string& bytes) { boost::asio::write(stream_.next_layer(), boost::asio::buffer(bytes)); }
   // The answer to bytes as they are.
   boost::beast::http::response<boost::beast::http::string_body> Ask(const std::string& bytes)
   {
-    boost::asio::write(stream_.next_layer(), boost::asio::buffer(bytes));
+    Write(bytes);
     boost::beast::http::response<boost::beast::http::string_body> response;
     boost::beast::http::read(stream_.next_layer(), buffer_, response);
     return response;

@@ -199,6 +199,103 @@ TEST_F(WebServerTest, ConnectionsThatAskNothingMakeRoomForOthers)
   }
 }
 
+TEST_F(WebServerTest, AClientThatShowsTheTokenHasAPlaceWhenStrangersHoldAllOthers)
+{
+  settings_.max_holders = 1;
+  settings_.proof_time = 1h;
+  Start();
+  server_->SetGreeting(Shared(R"({"type": "world"})"));
+  std::vector<std::unique_ptr<WebClient>> strangers;
+  for (int k = 0; k < 3; ++k)
+  {
+    strangers.push_back(std::make_unique<WebClient>(server_->Port()));
+    ASSERT_EQ(strangers.back()->Open(), 101U);
+  }
+  WebClient owner = Connect();
+  ASSERT_EQ(owner.Open(), 101U);
+  const std::uint64_t id = owner.ReadUntil("welcome")["client"];
+  EXPECT_EQ(server_->Clients(), 3U);
+  // Nothing of the run is sent before the token is shown: the echo comes first.
+  owner.Send("proof");
+  EXPECT_EQ(nlohmann::json::parse(owner.Read())["type"], "echo");
+  server_->Admit(id);
+  owner.ReadUntil("world");
+  EXPECT_EQ(server_->Clients(), 4U);
+  // With the places of holders taken too, nobody else is let in.
+  EXPECT_EQ(Connect().Open(), 503U);
+}
+
+TEST_F(WebServerTest, AClientThatShowsTheTokenLeavesItsFirstPlaceToOthers)
+{
+  settings_.max_clients = 1;
+  settings_.max_holders = 1;
+  settings_.proof_time = 1h;
+  Start();
+  WebClient owner = Connect();
+  ASSERT_EQ(owner.Open(), 101U);
+  server_->Admit(owner.ReadUntil("welcome")["client"]);
+  WebClient watcher = Connect();
+  ASSERT_EQ(watcher.Open(), 101U);
+  watcher.ReadUntil("welcome");
+  EXPECT_TRUE(Eventually([&] { return server_->Clients() == 2; }));
+}
+
+TEST_F(WebServerTest, AClientWithoutAPlaceThatDoesNotShowTheTokenIsSentAway)
+{
+  settings_.max_clients = 0;
+  settings_.max_holders = 1;
+  settings_.proof_time = 0ms;
+  Start();
+  WebClient client = Connect();
+  ASSERT_EQ(client.Open(), 101U);
+  client.ReadUntil("welcome");
+  WebClient::ErrorCode error;
+  client.Read(error);
+  EXPECT_EQ(error, boost::beast::websocket::error::closed);
+  EXPECT_EQ(client.CloseReason().code, boost::beast::websocket::close_code::try_again_later);
+}
+
+TEST_F(WebServerTest, ClientsWithoutAPlaceMakeRoomForOthers)
+{
+  settings_.max_clients = 0;
+  settings_.max_holders = 1;
+  settings_.proof_time = 1h;
+  Start();
+  std::vector<std::unique_ptr<WebClient>> strangers;
+  for (int k = 0; k < 100; ++k)
+  {
+    strangers.push_back(std::make_unique<WebClient>(server_->Port()));
+    ASSERT_EQ(strangers.back()->Open(), 101U) << k;
+  }
+  WebClient owner = Connect();
+  EXPECT_EQ(owner.Get("/").result_int(), 200U);
+  ASSERT_EQ(owner.Open(), 101U);
+  server_->Admit(owner.ReadUntil("welcome")["client"]);
+  EXPECT_TRUE(Eventually([&] { return server_->Clients() == 1; }));
+  for (int k = 0; k < 100; ++k)
+  {
+    strangers.push_back(std::make_unique<WebClient>(server_->Port()));
+    strangers.back()->Get("/");
+  }
+  owner.Send("still here");
+  EXPECT_EQ(owner.ReadUntil("echo")["text"], "still here");
+}
+
+// A stranger asks for files and does not read them.
+TEST_F(WebServerTest, ConnectionsThatDoNotReadMakeRoomForOthers)
+{
+  files_.Add("/large.js", "text/javascript; charset=utf-8", std::string(std::size_t{8} << 20U, ' '));
+  Start();
+  std::vector<std::unique_ptr<WebClient>> slow;
+  for (int k = 0; k < 100; ++k)
+  {
+    slow.push_back(std::make_unique<WebClient>(server_->Port()));
+    slow.back()->Write("GET /large.js HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    if (k % 20 != 19) continue;
+    EXPECT_EQ(Connect().Get("/").result_int(), 200U) << k;
+  }
+}
+
 // Of two machines one takes all that it may; the other one still gets in.
 TEST_F(WebServerTest, OneAddressLeavesConnectionsForOthers)
 {

@@ -53,12 +53,23 @@ std::span<const RunNote> RemoteMonitor::Notes()
           const auto same = [&](const RunNote& note)
           { return note.from == reply.client && note.number == reply.number && note.text == reply.text; };
           if (std::ranges::any_of(heard_notes_, same)) return;
-          heard_notes_.push_back({reply.tick, reply.ok, reply.text, reply.client, reply.number});
-          if (heard_notes_.size() > kNotesKept) heard_notes_.erase(heard_notes_.begin());
+          AddNote({reply.tick, reply.ok, reply.text, reply.client, reply.number});
         });
   const std::lock_guard lock(mutex_);
   notes_ = heard_notes_;
   return notes_;
+}
+
+void RemoteMonitor::AddNote(RunNote note)
+{
+  heard_notes_.push_back(std::move(note));
+  if (heard_notes_.size() > kNotesKept) heard_notes_.erase(heard_notes_.begin());
+}
+
+void RemoteMonitor::NoteRefusal(const std::string& text)
+{
+  const std::lock_guard lock(mutex_);
+  AddNote({.tick = heard_status_.tick, .done = false, .text = text, .from = ProcessId()});
 }
 
 std::string RemoteMonitor::RunFolder() { return FolderOfRun(partition_, run_); }

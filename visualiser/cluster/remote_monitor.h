@@ -28,6 +28,8 @@ public:
   const RobotStatus* Robot(std::uint32_t robot) override;
   std::string RunFolder() override;
 
+  // Adds a note about a request of this process that was not sent.
+  void NoteRefusal(const std::string& text);
   // What was heard, without asking for it: kUnknown unless the renderer shows how the run goes.
   RunStatus::Phase KnownPhase();
   // Asks for this many states a second; 0: none.
@@ -44,6 +46,7 @@ private:
   using Clock = std::chrono::steady_clock;
   void SendRequests();
   void Heard(const RobotStatusMessage& message);
+  void AddNote(RunNote note);  // needs mutex_
 
   Bus& bus_;
   std::string partition_;

@@ -82,7 +82,9 @@ public:
     {
       throw ConfigurationError(parameters.Tree().ValueLocation("file"), error.what());
     }
-    file_ = (std::filesystem::path(setup.output_folder) / file).string();
+    setup.CheckFile("file", file);
+    file_ = file;
+    files_ = setup.Files();
     ticks_ = NumbersOf<std::uint64_t>(parameters, "ticks");
     if (!std::ranges::is_sorted(ticks_, std::less_equal{}) || ticks_.size() > kMostPanels)
       throw ConfigurationError(
@@ -144,16 +146,14 @@ private:
 
   void Write()
   {
-    const std::filesystem::path folder = std::filesystem::path(file_).parent_path();
-    std::error_code ignored;  // what cannot be made cannot be written to either, and that is reported
-    if (!folder.empty()) std::filesystem::create_directories(folder, ignored);
-    WritePlan(file_, panels_, scene_->Legend(), page_);
+    WritePlan(files_.Claim(file_), panels_, scene_->Legend(), page_);
     done_ = true;
   }
 
   const CSwarmanoidSpace* space_ = nullptr;
   std::optional<PlanScene> scene_;
-  std::string file_;
+  OutputFiles files_;
+  std::string file_;  // as the user named it
   std::vector<std::uint64_t> ticks_;
   PlanPageOptions page_;
   std::vector<PlanPanel> panels_;

@@ -21,13 +21,7 @@ constexpr int kSmallest = 16;
 constexpr int kLargest = 16384;
 constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
 
-std::string PathOf(const RenderSetup& setup, const std::string& name)
-{
-  const std::filesystem::path path = std::filesystem::path(setup.output_folder) / name;
-  std::error_code ignored;  // what cannot be made cannot be written to either, and that is reported
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
-  return path.string();
-}
+std::string Numbered(const std::string& name, std::uint64_t tick) { return fmt::format("{}_{:06}.png", name, tick); }
 
 }  // namespace
 
@@ -107,11 +101,16 @@ void CImageRender::ReadOutputs(const RenderSetup& setup)
   const std::string video = parameters.Text("video");
   std::string directory = parameters.Text("directory");
   if (file.empty() && video.empty() && directory.empty()) directory = "frames";
-  if (!file.empty()) file_ = PathOf(setup, file);
+  files_ = setup.Files();
+  file_ = file;
+  if (!file.empty()) setup.CheckFile("file", file);
   if (!directory.empty())
-    numbered_ = PathOf(setup, (std::filesystem::path(directory) / parameters.Text("filename")).string());
+  {
+    numbered_ = (std::filesystem::path(directory) / parameters.Text("filename")).string();
+    setup.CheckFile("directory", Numbered(numbered_, next_));
+  }
   if (video.empty()) return;
-  video_ = PathOf(setup, video);
+  video_ = setup.MakeOutputFile("video");
   const double seconds = static_cast<double>(every_) * space_->GetTickSeconds() / speed_;
   video_writer_ = std::make_unique<VideoWriter>(video_, width_, height_, seconds);
 }
@@ -140,8 +139,8 @@ void CImageRender::Draw()
 
 void CImageRender::Write(const Picture& picture, std::uint64_t tick)
 {
-  if (!file_.empty()) WritePng(picture, file_);
-  if (!numbered_.empty()) WritePng(picture, fmt::format("{}_{:06}.png", numbered_, tick));
+  if (!file_.empty()) WritePng(picture, files_.Claim(file_));
+  if (!numbered_.empty()) WritePng(picture, files_.Claim(Numbered(numbered_, tick)));
   if (video_writer_ == nullptr) return;
   if (!video_start_) video_start_ = tick;
   video_writer_->Add(picture, static_cast<double>(tick - *video_start_) * space_->GetTickSeconds() / speed_);

@@ -43,6 +43,7 @@ private:
   bool done_ = false;
   double speed_ = 1;
 
+  OutputFiles files_;
   std::string file_;                          // empty: none
   std::string numbered_;                      // folder and first part of the name; empty: none
   std::string video_;                         // empty: none

@@ -16,6 +16,8 @@ constexpr int kLargest = 16384;
 
 double Now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
+std::string Numbered(const std::string& name, std::uint64_t tick) { return fmt::format("{}_{:06}.png", name, tick); }
+
 void WriteWithFolder(const std::string& path, const Picture& picture)
 {
   std::error_code ignored;  // what cannot be made cannot be written to either, and that is reported
@@ -35,10 +37,12 @@ void WindowRender::Init(const RenderSetup& setup)
                                          size.x(), size.y(), kSmallest, kLargest));
   output_folder_ = setup.output_folder;
   const bool write_frames = parameters.Boolean("write_frames");
+  files_ = setup.Files();
   if (write_frames)
-    frames_ =
-        (std::filesystem::path(output_folder_) / parameters.Text("frame_directory") / parameters.Text("frame_filename"))
-            .string();
+  {
+    frames_ = (std::filesystem::path(parameters.Text("frame_directory")) / parameters.Text("frame_filename")).string();
+    setup.CheckFile("frame_directory", Numbered(frames_, 0));
+  }
   schedule_ = std::make_unique<FrameSchedule>(static_cast<std::uint64_t>(parameters.Integer("every")),
                                               parameters.Number("max_frame_rate"), write_frames);
 
@@ -86,7 +90,7 @@ void WindowRender::DrawFrame(bool of_a_tick)
       [&](const Picture& picture)
       {
         const std::uint64_t tick = viewer_->Space().GetTick();
-        if (write_frame) WriteWithFolder(fmt::format("{}_{:06}.png", frames_, tick), picture);
+        if (write_frame) WritePng(picture, files_.Claim(Numbered(frames_, tick)));
         if (!write_picture) return;
         const std::string path = fmt::format("{}/picture_{:06}.png", output_folder_, tick);
         WriteWithFolder(path, picture);

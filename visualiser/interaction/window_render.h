@@ -45,6 +45,7 @@ private:
   void DrawFrame(bool of_a_tick);
 
   std::string output_folder_;
+  OutputFiles files_;
   std::string frames_;  // folder and first part of the name; empty: none are written
   std::unique_ptr<FrameSchedule> schedule_;
   std::unique_ptr<Viewer> viewer_;

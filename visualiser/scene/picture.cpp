@@ -11,6 +11,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "common/configuration/output_file.h"
+
 namespace swarmanoid
 {
 namespace
@@ -26,10 +28,11 @@ struct FileCloser
   throw std::runtime_error("cannot write the picture '" + path + "': " + what);
 }
 
-// `path` is for messages.
+// `path` is for messages. A draft beside it is never written through a link.
 void WriteTo(const std::string& file_name, const Picture& picture, const std::string& path)
 {
-  std::unique_ptr<std::FILE, FileCloser> file(std::fopen(file_name.c_str(), "wb"));
+  std::unique_ptr<std::FILE, FileCloser> file(file_name == path ? std::fopen(file_name.c_str(), "wb")
+                                                                : OpenOutputFile(file_name));
   if (file == nullptr) Fail(path, std::strerror(errno));
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop header = png == nullptr ? nullptr : png_create_info_struct(png);

@@ -36,7 +36,7 @@ struct VideoWriter::State
 
   ~State()
   {
-    if (container != nullptr && (container->oformat->flags & AVFMT_NOFILE) == 0) avio_closep(&container->pb);
+    if (container != nullptr) avio_closep(&container->pb);
     sws_freeContext(converter);
     av_packet_free(&packet);
     av_frame_free(&frame);
@@ -75,7 +75,9 @@ void VideoWriter::State::Open(int width, int height, double seconds_per_picture)
 {
   av_log_set_level(AV_LOG_FATAL);
   avformat_alloc_output_context2(&container, nullptr, nullptr, path.c_str());
-  if (container == nullptr) Fail("its name must end in .mp4, .webm, .mkv or another ending of a video");
+  // A format that opens files by itself could write others than this one.
+  if (container == nullptr || (container->oformat->flags & AVFMT_NOFILE) != 0)
+    Fail("its name must end in .mp4, .webm, .mkv or another ending of a video in one file");
   ChooseEncoder();
   duration = std::max<std::int64_t>(1, std::llround(1000 * seconds_per_picture));
   encoder->width = width & ~1;
@@ -113,8 +115,7 @@ void VideoWriter::State::Open(int width, int height, double seconds_per_picture)
   stream->time_base = kMilliseconds;
   stream->avg_frame_rate = encoder->framerate;
   Check(avcodec_parameters_from_context(stream->codecpar, encoder), "the encoder does not fit the file");
-  if ((container->oformat->flags & AVFMT_NOFILE) == 0)
-    Check(avio_open(&container->pb, path.c_str(), AVIO_FLAG_WRITE), "it cannot be opened");
+  Check(avio_open(&container->pb, ("file:" + path).c_str(), AVIO_FLAG_WRITE), "it cannot be opened");
   Check(avformat_write_header(container, nullptr), "its header cannot be written");
 
   frame = av_frame_alloc();

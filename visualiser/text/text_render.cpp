@@ -91,10 +91,7 @@ void CTextRender::Init(const RenderSetup& setup)
   }
   else
   {
-    const std::filesystem::path path = std::filesystem::path(setup.output_folder) / file;
-    std::error_code ignored;
-    if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
-    path_ = path.string();
+    path_ = setup.MakeOutputFile("file");
     file_ = std::fopen(path_.c_str(), "w");
     if (file_ == nullptr)
       throw std::runtime_error("text_render: cannot write '" + path_ + "': " + std::strerror(errno));

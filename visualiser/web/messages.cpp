@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "common/math/elementary.h"
+#include "common/messages/request_limits.h"
 #include "common/space/attributes.h"
 #include "common/space/space.h"
 #include "common/space/terrain/terrain.h"
@@ -246,18 +247,28 @@ ProveRequest ProofIn(const Json& json)
   return {proof->get<std::string>()};
 }
 
+// Returns the name if it can be the entity of a control request.
+std::string Bounded(const std::string& verb, std::string name)
+{
+  ControlRequestMessage request;
+  request.verb = verb;
+  request.entity = std::move(name);
+  if (const std::string error = RequestLimitError(request); !error.empty()) Refuse(error);
+  return request.entity;
+}
+
 std::string EntityIn(const Json& json, const std::string& verb)
 {
   const auto entity = json.find("entity");
   if (entity == json.end() || !entity->is_string()) Refuse(fmt::format("'{}' needs the id of an entity", verb));
-  return entity->get<std::string>();
+  return Bounded(verb, entity->get<std::string>());
 }
 
 std::string KeyIn(const Json& json)
 {
   const auto key = json.find("key");
   if (key == json.end() || !key->is_string()) Refuse("'key' needs the name of a key");
-  return key->get<std::string>().substr(0, 20);
+  return Bounded("press", key->get<std::string>());
 }
 
 bool IsPressedIn(const Json& json)
@@ -479,6 +490,21 @@ bool IsCommand(const PageRequest& request)
   return !std::holds_alternative<WatchRequest>(request) && !std::holds_alternative<LookBackRequest>(request) &&
          !std::holds_alternative<FrameRateRequest>(request) && !std::holds_alternative<ProveRequest>(request) &&
          !std::holds_alternative<MarksRequest>(request);
+}
+
+void Obey(const PageRequest& request, ExperimentControl& control)
+{
+  if (std::holds_alternative<PauseRequest>(request)) control.Pause();
+  if (std::holds_alternative<ResumeRequest>(request)) control.Resume();
+  if (const auto* step = std::get_if<StepRequest>(&request)) control.Step(step->ticks);
+  if (const auto* speed = std::get_if<SpeedRequest>(&request)) control.SetSpeed(speed->factor);
+  if (const auto* move = std::get_if<MoveEntityRequest>(&request)) control.MoveEntity(move->entity, move->pose);
+  if (const auto* add = std::get_if<AddEntityRequest>(&request)) control.AddEntity(add->entity, add->pose);
+  if (const auto* remove = std::get_if<RemoveEntityRequest>(&request)) control.RemoveEntity(remove->entity);
+  if (const auto* key = std::get_if<KeyRequest>(&request)) control.PressKey(key->key, key->pressed);
+  if (const auto* select = std::get_if<SelectRequest>(&request)) control.SelectEntity(select->entity);
+  if (std::holds_alternative<StopRequest>(request)) control.Stop();
+  if (std::holds_alternative<ResetRunRequest>(request)) control.Reset();
 }
 
 }  // namespace swarmanoid

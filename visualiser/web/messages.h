@@ -121,5 +121,7 @@ inline constexpr std::size_t kMostMarked = 1000;  // likewise, of each kind of m
 PageRequest ParseRequest(std::string_view text);
 // Whether it changes the experiment.
 bool IsCommand(const PageRequest& request);
+// Passes a command on to the run; does nothing for other requests.
+void Obey(const PageRequest& request, ExperimentControl& control);
 
 }  // namespace swarmanoid

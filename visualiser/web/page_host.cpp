@@ -35,8 +35,9 @@ PageHost::PageHost(const Parameters& parameters, const std::string& key)
   settings_.address = parameters.Text("address");
   settings_.port = static_cast<std::uint16_t>(parameters.Integer("port"));
   settings_.max_clients = static_cast<std::size_t>(parameters.Integer("clients"));
-  settings_.max_connections = settings_.max_clients + 48;
-  settings_.max_connections_of_address = settings_.max_clients + 24;
+  settings_.max_holders = allow_control_ ? settings_.max_clients : 0;
+  settings_.max_connections = settings_.max_clients + settings_.max_holders + 48;
+  settings_.max_connections_of_address = settings_.max_clients + settings_.max_holders + 24;
   settings_.certificate = CertificateFor(parameters);
   if (settings_.certificate) fingerprint_ = settings_.certificate->fingerprint;
   kept_ = std::make_unique<KeptAddress>(StateFolder(), key);
@@ -73,6 +74,13 @@ void PageHost::Start(const std::string& token, WebServerEvents& events)
   if (allow_control_) token_ = token;
   visitors_ = std::make_unique<Visitors>(AccessRules{allow_control_, token_});
   server_ = std::make_unique<WebServer>(settings_, files, events);
+}
+
+Authority PageHost::Prove(std::uint64_t client, std::string_view proof)
+{
+  const Authority authority = visitors_->Prove(client, proof);
+  if (authority == Authority::kControl) Server().Admit(client);
+  return authority;
 }
 
 std::string PageHost::Url() const { return server_->Url() + (token_.empty() ? "" : "#token=" + token_); }

@@ -29,6 +29,8 @@ public:
     const std::lock_guard lock(opening_);
     return *server_;
   }
+  // Takes the answer of a client to its challenge. For the server's thread alone.
+  Authority Prove(std::uint64_t client, std::string_view proof);
   // For the server's thread alone.
   Visitors& GetVisitors() { return *visitors_; }
   // With the token behind a '#': browsers keep that part of an address for themselves.

@@ -15,7 +15,7 @@ namespace swarmanoid
 namespace http = beast::http;
 namespace websocket = beast::websocket;
 
-class WebServer::Impl::Client final : public std::enable_shared_from_this<Client>
+class WebServer::Impl::Client final : public Droppable, public std::enable_shared_from_this<Client>
 {
   using Clock = std::chrono::steady_clock;
   static constexpr std::size_t kQueueLength = 512;
@@ -23,8 +23,19 @@ class WebServer::Impl::Client final : public std::enable_shared_from_this<Client
   static constexpr int kSocketBytes = 1 << 20;
 
 public:
-  Client(Impl& server, PageStream stream, asio::ip::address address)
-      : server_(server), stream_(std::move(stream)), address_(std::move(address)), pace_(server.context_)
+  enum class Place
+  {
+    kNone,  // all are taken: it must show the token soon
+    kWatcher,
+    kHolder  // of the token
+  };
+
+  Client(Impl& server, PageStream stream, asio::ip::address from)
+      : Droppable(server, std::move(from)),
+        server_(server),
+        stream_(std::move(stream)),
+        pace_(server.context_),
+        proof_(server.context_)
   {
   }
 
@@ -75,8 +86,36 @@ public:
     Write();
   }
 
+  bool HasPlace() const { return place_ != Place::kNone; }
+  void Take(Place place)
+  {
+    HoldPlace();
+    proof_.cancel();
+    if (place_ == Place::kWatcher) --server_.watchers_;
+    if (place_ == Place::kHolder) --server_.holders_;
+    place_ = place;
+    if (place_ == Place::kWatcher) ++server_.watchers_;
+    if (place_ == Place::kHolder) ++server_.holders_;
+  }
+  void WaitForProof()
+  {
+    GivePlace();
+    proof_.expires_after(server_.settings_.proof_time);
+    proof_.async_wait(
+        [self = shared_from_this()](ErrorCode error)
+        {
+          if (error || self->HasPlace()) return;
+          self->reason_ = {websocket::close_code::try_again_later, "as many pages look as may"};
+          self->Close();
+        });
+  }
+  void Drop() override { Gone(); }
+
   void SetFramePeriod(std::chrono::milliseconds period) { frame_period_ = period; }
-  bool IsHungry() const { return open_ && !writing_ && !slots_[Index(Slot::kKey)] && !slots_[Index(Slot::kChange)]; }
+  bool IsHungry() const
+  {
+    return HasPlace() && open_ && !writing_ && !slots_[Index(Slot::kKey)] && !slots_[Index(Slot::kChange)];
+  }
 
   // When everything is sent.
   void Close()
@@ -165,7 +204,7 @@ private:
   void SendClose()
   {
     open_ = false;
-    stream_.async_close(websocket::close_code::going_away, [self = shared_from_this()](ErrorCode) { self->Gone(); });
+    stream_.async_close(reason_, [self = shared_from_this()](ErrorCode) { self->Gone(); });
   }
 
   void Gone()
@@ -173,7 +212,8 @@ private:
     open_ = false;
     if (gone_) return;
     gone_ = true;
-    server_.Gone(address_);
+    Take(Place::kNone);
+    server_.Gone(address);
     ErrorCode ignored;
     beast::get_lowest_layer(stream_).socket().close(ignored);
     if (id != 0) server_.Leave(id);
@@ -181,8 +221,10 @@ private:
 
   Impl& server_;
   websocket::stream<PageStream> stream_;
-  asio::ip::address address_;
-  asio::steady_timer pace_;  // before the next message is read
+  asio::steady_timer pace_;   // before the next message is read
+  asio::steady_timer proof_;  // until a client without a place must have shown the token
+  Place place_ = Place::kNone;
+  websocket::close_reason reason_ = websocket::close_code::going_away;
   Clock::time_point read_until_;
   http::request<http::empty_body> request_;
   beast::flat_buffer buffer_;

@@ -13,26 +13,24 @@ namespace swarmanoid
 {
 
 // With TLS, who speaks plain HTTP is sent to the other address.
-class WebServer::Impl::Connection final : public std::enable_shared_from_this<Connection>
+class WebServer::Impl::Connection final : public Droppable, public std::enable_shared_from_this<Connection>
 {
   static constexpr auto kRequestTime = std::chrono::seconds(15);  // also between two requests
   static constexpr std::size_t kRequestBytes = 8192;
 
 public:
   Connection(Impl& server, PageStream stream, const asio::ip::address& from)
-      : address(from), server_(server), stream_(std::move(stream))
+      : Droppable(server, from), server_(server), stream_(std::move(stream))
   {
   }
-  ~Connection()
+  ~Connection() override
   {
-    StopWaiting();
     if (!handed_over_ && !dropped_) server_.Gone(address);
   }
 
-  // While it waits for a request.
-  void Drop()
+  void Drop() override
   {
-    StopWaiting();
+    HoldPlace();
     dropped_ = true;
     server_.Gone(address);
     ErrorCode ignored;
@@ -48,8 +46,7 @@ public:
                             {
                               if (self->dropped_ || error) return;
                               if (tls) return self->ShakeHands();
-                              self->StopWaiting();
-                              self->handed_over_ = true;
+                              self->HandOver();
                               std::make_shared<Connection>(
                                   self->server_, PageStream(std::move(self->stream_.next_layer())), self->address)
                                   ->Redirect(std::move(self->buffer_));
@@ -72,7 +69,6 @@ public:
     http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](ErrorCode error, std::size_t)
                      {
-                       self->StopWaiting();
                        if (self->dropped_) return;
                        if (error == http::error::header_limit)
                          return self->Refuse(http::status::request_header_fields_too_large, "the request is too long");
@@ -82,28 +78,26 @@ public:
                      });
   }
 
-  asio::ip::address address;
-
 private:
+  // The time is for the request and its answer.
   void Wait()
   {
     beast::get_lowest_layer(stream_).expires_after(kRequestTime);
-    place_ = server_.waiting_.insert(server_.waiting_.end(), this);
+    GivePlace();
   }
 
-  void StopWaiting()
+  // Another object has the stream from now on.
+  void HandOver()
   {
-    if (place_) server_.waiting_.erase(*place_);
-    place_.reset();
+    HoldPlace();
+    handed_over_ = true;
   }
 
-  // Still waiting: who does not end it makes room like others.
   void ShakeHands()
   {
     stream_.ShakeHands(buffer_.data(),
                        [self = shared_from_this()](ErrorCode error, std::size_t used)
                        {
-                         self->StopWaiting();
                          if (self->dropped_ || error) return;
                          self->buffer_.consume(used);
                          self->Read();
@@ -146,9 +140,8 @@ private:
     if (PathOf(target) != "/stream") return Refuse(http::status::not_found, "the stream is at /stream");
     if (!IsOwnOrigin(Field(http::field::origin), Field(http::field::host), stream_.HasTls()))
       return Refuse(http::status::forbidden, "a page of another site may not look");
-    if (server_.clients_.size() >= server_.settings_.max_clients)
-      return Refuse(http::status::service_unavailable, "as many pages look as may");
-    handed_over_ = true;
+    if (!server_.HasRoom()) return Refuse(http::status::service_unavailable, "as many pages look as may");
+    HandOver();
     std::make_shared<Client>(server_, std::move(stream_), address)->Run(parser_->release());
   }
 
@@ -196,6 +189,7 @@ private:
     http::async_write(stream_, *serializer_,
                       [self = shared_from_this(), keep](ErrorCode error, std::size_t)
                       {
+                        if (self->dropped_) return;
                         if (!error && keep) return self->Read();
                         if (!error) self->SayGoodbye();
                       });
@@ -220,8 +214,7 @@ private:
   http::response<http::buffer_body> response_;
   std::optional<http::response_serializer<http::buffer_body>> serializer_;
   std::shared_ptr<const std::string> bytes_;
-  std::optional<std::list<Connection*>::iterator> place_;  // among those that wait
-  std::string location_;                                   // where this request is answered
+  std::string location_;  // where this request is answered
   bool handed_over_ = false;
   bool dropped_ = false;
 };

@@ -109,7 +109,7 @@ private:
       }
       const PageRequest request = ParseRequest(text);
       if (const auto* answer = std::get_if<ProveRequest>(&request))
-        host_->Server().Send(client, SharedText(AuthorityText(host_->GetVisitors().Prove(client, answer->proof))));
+        host_->Server().Send(client, SharedText(AuthorityText(host_->Prove(client, answer->proof))));
       else if (IsCommand(request))
         throw std::invalid_argument("this page edits an experiment: there is no run");
     }

@@ -88,9 +88,10 @@ void CWebRender::Announce(const RenderSetup& setup)
 {
   const std::string url = host_->Url();
   const std::filesystem::path folder = setup.output_folder;
-  std::string file = setup.parameters.Text("url_file");
-  if (file.empty() && std::filesystem::exists(folder / "manifest.json")) file = "web_render.url";
-  if (!file.empty()) WriteUrl((folder / file).string(), url);
+  if (!setup.parameters.Text("url_file").empty())
+    WriteUrl(setup.MakeOutputFile("url_file"), url);
+  else if (std::filesystem::exists(folder / "manifest.json"))
+    WriteUrl((folder / "web_render.url").string(), url);
   fmt::print("web_render: {}\n", url);
   std::fflush(stdout);
   if (!host_->Fingerprint().empty())
@@ -327,7 +328,7 @@ void CWebRender::Received(std::uint64_t client, std::string_view text)
   {
     PageRequest request = ParseRequest(text);
     if (const auto* answer = std::get_if<ProveRequest>(&request))
-      return host_->Server().Send(client, Shared(AuthorityText(host_->GetVisitors().Prove(client, answer->proof))));
+      return host_->Server().Send(client, Shared(AuthorityText(host_->Prove(client, answer->proof))));
     if (IsCommand(request) && !host_->GetVisitors().MayControl(client))
       throw std::invalid_argument(allow_control_ ? "only the address with the token may control the run"
                                                  : "this page may only look: start it with --allow-control");
@@ -422,23 +423,8 @@ void CWebRender::Carry(std::uint64_t client, const PageRequest& request)
     host_->Server().Send(client, Shared(RefusalText("this run cannot be controlled")));
     return;
   }
-  Obey(request);
+  Obey(request, *control_);
   followed_due_ = status_due_ = {};
-}
-
-void CWebRender::Obey(const PageRequest& request)
-{
-  if (std::holds_alternative<PauseRequest>(request)) control_->Pause();
-  if (std::holds_alternative<ResumeRequest>(request)) control_->Resume();
-  if (const auto* step = std::get_if<StepRequest>(&request)) control_->Step(step->ticks);
-  if (const auto* speed = std::get_if<SpeedRequest>(&request)) control_->SetSpeed(speed->factor);
-  if (const auto* move = std::get_if<MoveEntityRequest>(&request)) control_->MoveEntity(move->entity, move->pose);
-  if (const auto* add = std::get_if<AddEntityRequest>(&request)) control_->AddEntity(add->entity, add->pose);
-  if (const auto* remove = std::get_if<RemoveEntityRequest>(&request)) control_->RemoveEntity(remove->entity);
-  if (const auto* key = std::get_if<KeyRequest>(&request)) control_->PressKey(key->key, key->pressed);
-  if (const auto* select = std::get_if<SelectRequest>(&request)) control_->SelectEntity(select->entity);
-  if (std::holds_alternative<StopRequest>(request)) control_->Stop();
-  if (std::holds_alternative<ResetRunRequest>(request)) control_->Reset();
 }
 
 void CWebRender::Log(std::uint64_t tick, const std::string& source, const std::string& level, const std::string& text)

@@ -53,7 +53,6 @@ private:
   void Work();
   void TakeRequests();
   void Carry(std::uint64_t client, const PageRequest& request);
-  void Obey(const PageRequest& request);
   void SendFrame();
   void SendStatus();
   void SendWatched();

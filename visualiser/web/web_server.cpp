@@ -111,7 +111,7 @@ void WebServer::Impl::Accept()
       });
 }
 
-// Who holds connections without asking anything makes room for others, and one address leaves some for others.
+// Connections without a place of their own make room for others, and one address leaves some for others.
 void WebServer::Impl::Welcome(tcp::socket socket)
 {
   ErrorCode error;
@@ -119,8 +119,8 @@ void WebServer::Impl::Welcome(tcp::socket socket)
   if (error) return;
   const auto found = connections_of_.find(address);
   const std::size_t of_address = found == connections_of_.end() ? 0 : found->second;
-  if (of_address >= settings_.max_connections_of_address && !DropWaiting(address)) return;
-  if (connections_ >= settings_.max_connections && !DropWaiting(std::nullopt)) return;
+  if (of_address >= settings_.max_connections_of_address && !DropOne(address)) return;
+  if (connections_ >= settings_.max_connections && !DropOne(std::nullopt)) return;
   ++connections_;
   ++connections_of_[address];
   beast::tcp_stream stream(std::move(socket));
@@ -129,11 +129,11 @@ void WebServer::Impl::Welcome(tcp::socket socket)
       ->Start();
 }
 
-bool WebServer::Impl::DropWaiting(const std::optional<asio::ip::address>& address)
+bool WebServer::Impl::DropOne(const std::optional<asio::ip::address>& address)
 {
-  const auto found = std::find_if(waiting_.begin(), waiting_.end(),
-                                  [&](const Connection* each) { return !address || each->address == *address; });
-  if (found == waiting_.end()) return false;
+  const auto found = std::find_if(droppables_.begin(), droppables_.end(),
+                                  [&](const Droppable* each) { return !address || each->address == *address; });
+  if (found == droppables_.end()) return false;
   (*found)->Drop();
   return true;
 }
@@ -144,17 +144,46 @@ void WebServer::Impl::Gone(const asio::ip::address& address)
   if (--connections_of_.at(address) == 0) connections_of_.erase(address);
 }
 
+bool WebServer::Impl::HasRoom() const { return watchers_ < settings_.max_clients || holders_ < settings_.max_holders; }
+
+// A client without a place has some time to show the token, and is sent nothing but the challenge until then.
 void WebServer::Impl::Join(const std::shared_ptr<Client>& client)
 {
   client->id = ++last_client_;
   clients_.emplace(client->id, client);
+  if (watchers_ < settings_.max_clients) client->Take(Client::Place::kWatcher);
   client->Queue(std::make_shared<const std::string>(events_.Welcome(client->id)));
-  if (greeting_) client->Queue(greeting_);
-  for (const Bytes& text : history_) client->Queue(text);
-  for (std::size_t slot = 0; slot < kSlots; ++slot)
-    if (states_[slot]) client->Put(static_cast<Slot>(slot), states_[slot]);
+  if (client->HasPlace())
+    Greet(*client);
+  else
+    client->WaitForProof();
   if (closing_) client->Close();
   Count();
+}
+
+void WebServer::Impl::Greet(Client& client) const
+{
+  if (greeting_) client.Queue(greeting_);
+  for (const Bytes& text : history_) client.Queue(text);
+  for (std::size_t slot = 0; slot < kSlots; ++slot)
+    if (states_[slot]) client.Put(static_cast<Slot>(slot), states_[slot]);
+}
+
+// With all places of holders taken, a client keeps the one that it has.
+void WebServer::Impl::Admit(Client& client)
+{
+  if (holders_ >= settings_.max_holders) return;
+  const bool had_place = client.HasPlace();
+  client.Take(Client::Place::kHolder);
+  if (!had_place) Greet(client);
+  Count();
+}
+
+void WebServer::Impl::QueueForAll(const Bytes& text)
+{
+  const auto clients = clients_;
+  for (const auto& [id, client] : clients)
+    if (client->HasPlace()) client->Queue(text);
 }
 
 void WebServer::Impl::Leave(std::uint64_t client)
@@ -167,7 +196,7 @@ void WebServer::Impl::Leave(std::uint64_t client)
 
 void WebServer::Impl::Count()
 {
-  client_count_ = clients_.size();
+  client_count_ = watchers_ + holders_;
   hungry_ = static_cast<std::size_t>(
       std::count_if(clients_.begin(), clients_.end(), [](const auto& entry) { return entry.second->IsHungry(); }));
 }
@@ -197,14 +226,18 @@ std::string WebServer::Url() const { return impl_->url_; }
 std::size_t WebServer::Clients() const { return impl_->client_count_; }
 std::size_t WebServer::Hungry() const { return impl_->hungry_; }
 
+void WebServer::Admit(std::uint64_t client)
+{
+  impl_->With(client, [impl = impl_.get()](Impl::Client& c) { impl->Admit(c); });
+}
+
 void WebServer::SetGreeting(Bytes text)
 {
   impl_->Post(
       [impl = impl_.get(), text = std::move(text)]
       {
         impl->greeting_ = text;
-        const auto clients = impl->clients_;
-        for (const auto& [id, client] : clients) client->Queue(text);
+        impl->QueueForAll(text);
       });
 }
 
@@ -216,14 +249,19 @@ void WebServer::Publish(Slot slot, Bytes bytes)
         impl->states_[Index(slot)] = bytes;
         if (slot == Slot::kKey) impl->states_[Index(Slot::kChange)] = nullptr;
         const auto clients = impl->clients_;
-        for (const auto& [id, client] : clients) client->Put(slot, bytes);
+        for (const auto& [id, client] : clients)
+          if (client->HasPlace()) client->Put(slot, bytes);
         impl->Count();
       });
 }
 
 void WebServer::SendState(std::uint64_t client, Slot slot, Bytes bytes)
 {
-  impl_->With(client, [slot, bytes = std::move(bytes)](Impl::Client& c) { c.Put(slot, bytes); });
+  impl_->With(client,
+              [slot, bytes = std::move(bytes)](Impl::Client& c)
+              {
+                if (c.HasPlace()) c.Put(slot, bytes);
+              });
 }
 
 void WebServer::Send(std::uint64_t client, Bytes text)
@@ -238,8 +276,7 @@ void WebServer::SendAll(Bytes text)
       {
         impl->history_.push_back(text);
         if (impl->history_.size() > kHistoryLength) impl->history_.pop_front();
-        const auto clients = impl->clients_;
-        for (const auto& [id, client] : clients) client->Queue(text);
+        impl->QueueForAll(text);
       });
 }
 
@@ -250,7 +287,7 @@ void WebServer::SetFramePeriod(std::uint64_t client, unsigned period_ms)
               {
                 c.SetFramePeriod(std::chrono::milliseconds(period_ms));
                 const Bytes& latest = impl->states_[Index(Slot::kChange)];
-                if (latest) c.Put(Slot::kChange, latest);
+                if (latest && c.HasPlace()) c.Put(Slot::kChange, latest);
               });
 }
 

@@ -6,6 +6,7 @@
 // not at all gets less.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -22,10 +23,13 @@ namespace swarmanoid
 struct WebServerSettings
 {
   std::string address = "127.0.0.1";
-  std::uint16_t port = 0;  // 0: a free one
-  std::size_t max_clients = 16;
+  std::uint16_t port = 0;            // 0: a free one
+  std::size_t max_clients = 16;      // that have not shown the token
+  std::size_t max_holders = 0;       // clients that have shown it, who have places of their own; 0: there is no token
   std::size_t max_connections = 64;  // clients, and requests for files
   std::size_t max_connections_of_address = 40;
+  // When max_clients look, the time that another client has to show the token.
+  std::chrono::milliseconds proof_time{5000};
   std::size_t max_message_bytes = 65536;  // of a client; longer ones end its connection
   // Of each client; after a burst of that many, the others wait unread.
   std::size_t max_messages_per_second = 200;
@@ -75,9 +79,13 @@ public:
   std::uint16_t Port() const;
   // "http://127.0.0.1:8080/", or with a certificate "https://…"
   std::string Url() const;
+  // Clients that have a place.
   std::size_t Clients() const;
   // Clients that have taken their last state: without any, a new one would be made for nobody.
   std::size_t Hungry() const;
+
+  // The client has shown the token: it takes one of the places of max_holders.
+  void Admit(std::uint64_t client);
 
   // The message that follows the welcome; those who are welcomed already get it now.
   void SetGreeting(Bytes text);

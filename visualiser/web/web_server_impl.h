@@ -37,16 +37,53 @@ public:
   class Client;      // one page that looks
   class Connection;  // one that has not become a client
 
+  // A connection without a place of its own: it makes room for a new one when there are too many.
+  class Droppable
+  {
+  public:
+    Droppable(Impl& server, asio::ip::address from) : address(std::move(from)), droppables_(server.droppables_) {}
+    virtual ~Droppable() { HoldPlace(); }
+    Droppable(const Droppable&) = delete;
+    Droppable& operator=(const Droppable&) = delete;
+
+    virtual void Drop() = 0;
+
+    const asio::ip::address address;
+
+  protected:
+    // From now on it is the last one that makes room.
+    void GivePlace()
+    {
+      HoldPlace();
+      entry_ = droppables_.insert(droppables_.end(), this);
+    }
+    // It makes no room any more.
+    void HoldPlace()
+    {
+      if (entry_) droppables_.erase(*entry_);
+      entry_.reset();
+    }
+
+  private:
+    std::list<Droppable*>& droppables_;
+    std::optional<std::list<Droppable*>::iterator> entry_;
+  };
+
   Impl(const WebServerSettings& settings, PageFiles files, WebServerEvents& events);
   ~Impl();
 
   void Post(std::function<void()> work) { asio::post(context_, std::move(work)); }
   void Accept();
   void Welcome(tcp::socket socket);
-  // The longest that has waited, of an address or of any; false if nobody waits.
-  bool DropWaiting(const std::optional<asio::ip::address>& address);
+  // Drops the one that has asked nothing for longest, of an address or of any; false if all have places.
+  bool DropOne(const std::optional<asio::ip::address>& address);
   void Gone(const asio::ip::address& address);
+  bool HasRoom() const;
   void Join(const std::shared_ptr<Client>& client);
+  // Sends a client what it needs to look at the run.
+  void Greet(Client& client) const;
+  void Admit(Client& client);
+  void QueueForAll(const Bytes& text);
   void Leave(std::uint64_t client);
   void Count();
   template <class Work>
@@ -57,7 +94,7 @@ public:
   WebServerEvents& events_;
   std::size_t connections_ = 0;
   std::map<asio::ip::address, std::size_t> connections_of_;
-  std::list<Connection*> waiting_;  // for a request, the longest first
+  std::list<Droppable*> droppables_;  // the next one to make room first
   asio::io_context context_{1};
   std::optional<asio::ssl::context> tls_;
   tcp::acceptor acceptor_{context_};
@@ -65,6 +102,8 @@ public:
   std::uint16_t port_ = 0;
   std::string url_;
   std::map<std::uint64_t, std::shared_ptr<Client>> clients_;
+  std::size_t watchers_ = 0;  // clients with a place that have not shown the token
+  std::size_t holders_ = 0;   // clients that have
   std::uint64_t last_client_ = 0;
   bool closing_ = false;
   Bytes greeting_;

@@ -220,7 +220,12 @@ TEST(BadMessages, TextsThatTerminalsObeyAreRefused)
     EXPECT_THAT(Refusal<StatusMessage>(bytes), HasSubstr("text: it is no UTF-8 text")) << text;
   }
   EXPECT_TRUE(IsShowable("é → 𝄞\n\ttab"));
+  EXPECT_FALSE(IsShowableLine("a\nb"));
+  EXPECT_EQ(ShowableLine("a\nb\tc", 100), "a?b?c");
   std::string bytes = BytesOf(StatusMessage{1, 2, "name", "text"});
+  bytes[bytes.find("name") + 2] = '\n';
+  EXPECT_THAT(Refusal<StatusMessage>(bytes), HasSubstr("name: it is no UTF-8 text, or has control characters"));
+  bytes = BytesOf(StatusMessage{1, 2, "name", "text"});
   bytes[bytes.find("text") + 2] = '\0';
   EXPECT_THAT(Refusal<StatusMessage>(bytes), HasSubstr("text"));
 }
@@ -239,6 +244,7 @@ TEST(Messages, TextsAreMadeShowableAndShortWhenSent)
 TEST(Messages, NamesThatOthersWouldRefuseAreNotSent)
 {
   EXPECT_THROW(PayloadSize(StatusMessage{1, 2, "a\x1b", ""}), BadMessage);
+  EXPECT_THROW(PayloadSize(StatusMessage{1, 2, "a\n2,stop", ""}), BadMessage);
   EXPECT_THROW(PayloadSize(StatusMessage{1, 2, std::string(2000, 'a'), ""}), BadMessage);
 }
 

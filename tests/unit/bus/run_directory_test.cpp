@@ -82,6 +82,17 @@ TEST_F(RunDirectoryTest, IsFoundWhileItsServerLivesAndGoneAfterwards)
   EXPECT_FALSE(fs::exists(path));
 }
 
+TEST_F(RunDirectoryTest, ARunIsFoundWithItsNetwork)
+{
+  RunDirectory directory("far", 255);
+  const RunNetwork network{"eth0", {"alpha", "10.0.0.7"}, "10.0.0.1:21900"};
+  directory.Announce("far", 7, std::nullopt, network);
+  ASSERT_EQ(FindLocalRuns().size(), 1U);
+  EXPECT_EQ(FindLocalRuns()[0].network, network);
+  directory.Announce("far", 7, std::nullopt);
+  EXPECT_EQ(FindLocalRuns()[0].network, RunNetwork{});
+}
+
 TEST_F(RunDirectoryTest, WhatAKilledProcessLeftIsRemovedWhenAsked)
 {
   const std::string left = KilledRun();

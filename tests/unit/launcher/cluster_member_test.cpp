@@ -82,6 +82,20 @@ TEST_F(ClusterMemberTest, TheLastWordsOfAProcessAreInItsLog)
   EXPECT_EQ(text.str(), "one\ntwo\n");
 }
 
+// A process by ssh believes that it writes to a terminal.
+TEST_F(ClusterMemberTest, ColoursOfATerminalDoNotReachTheLog)
+{
+  const MemberPlan plan =
+      Visualiser("printf '\\033[31mred\\033[0m and \\033]0;title\\n\\033[1;33mwarning:\\033[m done\\033' >&2");
+  {
+    ClusterMember member(plan, spawner);
+    member.Collect(spawner);
+  }
+  std::ostringstream text;
+  text << std::ifstream(plan.log_path).rdbuf();
+  EXPECT_EQ(text.str(), "red and 0;title\nwarning: done\n");
+}
+
 // A process of a user's code may leave a child behind, in a session of its own, that keeps the output open.
 TEST_F(ClusterMemberTest, OutputEndsWithItsProcessWhoeverElseHoldsItOpen)
 {

@@ -59,7 +59,7 @@ TEST(Hosts, StartsBySshWithOneQuotedWord)
 {
   const Hosts hosts("hosts.txt", "engine = alpha");
   EXPECT_THAT(hosts.Placed(Worker(), "alpha").arguments,
-              ElementsAre("ssh", "-tt", "-o", "BatchMode=yes", "alpha",
+              ElementsAre("ssh", "-tt", "-o", "BatchMode=yes", "--", "alpha",
                           "env COLOUR=red /opt/bin/engine_worker --engine 'the ground'"));
 }
 
@@ -76,7 +76,7 @@ TEST(Hosts, NamesTheMachinesOfAStudy)
   EXPECT_EQ(hosts.LeaseSeconds(), 5U);
   // Bytes do not pass a terminal as they are.
   EXPECT_THAT(hosts.WorkerCommand("alpha", {"/bin/swarmanoid", "--work"}),
-              ElementsAre("ssh", "-T", "-o", "BatchMode=yes", "alpha", "/opt/swarmanoid --work"));
+              ElementsAre("ssh", "-T", "-o", "BatchMode=yes", "--", "alpha", "/opt/swarmanoid --work"));
   EXPECT_THAT(hosts.WorkerCommand("here", {"/bin/swarmanoid", "--work"}), ElementsAre("/bin/swarmanoid", "--work"));
   EXPECT_THAT(Hosts("hosts.txt", "command = ip netns exec {host} {command}").WorkerCommand("a", {"/bin/x", "--work"}),
               ElementsAre("ip", "netns", "exec", "a", "/bin/x", "--work"));
@@ -108,6 +108,22 @@ TEST(Hosts, KnowsAllMachinesThatWorkersMayGoTo)
   EXPECT_THAT(hosts.Machines(), ElementsAre("alpha", "beta", "gamma"));
   EXPECT_FALSE(Hosts("hosts.txt", "machines = alpha").AllHere());
   EXPECT_TRUE(Hosts("hosts.txt", "machines = here").AllHere());
+}
+
+TEST(Hosts, NamesThatACommandCouldTakeForAnOptionAreRefused)
+{
+  for (const std::string line : {"engine ground = ", "engine = ", "machines = alpha ", "runs = "})
+    for (const std::string name : {"-oProxyCommand=date", "--", "$(date)", "a;b", "a`b", "\x1b[2J"})
+      EXPECT_THAT(ErrorOf("\n" + line + name),
+                  testing::AllOf(testing::StartsWith("hosts.txt:2: "), HasSubstr("is no name of a machine")))
+          << line << name;
+  EXPECT_THAT(ErrorOf("engine = alpha beta"), HasSubstr("'alpha beta' is no name of a machine"));
+  Hosts hosts;
+  EXPECT_THROW(hosts.AddEngine("ground=-oProxyCommand=date"), UsageError);
+  EXPECT_TRUE(hosts.AllHere());
+  for (const std::string name :
+       {"alpha", "alpha.example.org", "me@alpha", "10.0.0.7", "fe80::1%eth0", "node_02", "a-b"})
+    EXPECT_EQ(Hosts("hosts.txt", "engine = " + name).HostOf("engine", "ground"), name);
 }
 
 TEST(Hosts, ErrorsNamePlaceAndCure)

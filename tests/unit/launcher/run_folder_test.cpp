@@ -52,6 +52,24 @@ protected:
   fs::path folder_;
 };
 
+TEST_F(RunFolderTest, AFolderThatOthersCanWriteIsRefused)
+{
+  fs::create_directory("open");
+  fs::permissions("open", fs::perms::all);
+  EXPECT_THAT(ErrorOf("open"), testing::AllOf(HasSubstr("all users can write there"), HasSubstr("--output")));
+  fs::create_directory("runs");
+  fs::permissions("runs", fs::perms::all);
+  EXPECT_THAT(ErrorOf(""), HasSubstr("all users can write there"));
+}
+
+TEST_F(RunFolderTest, WritesNothingThroughALink)
+{
+  const RunFolder run("new", "world");
+  fs::create_symlink(folder_ / "precious", run.File("manifest.json.new"));
+  EXPECT_THROW(run.Write("manifest.json", "{}"), RunFolderError);
+  EXPECT_FALSE(fs::exists(folder_ / "precious"));
+}
+
 TEST_F(RunFolderTest, RunsOfTheSameSecondGetFoldersOfTheirOwn)
 {
   const RunFolder first("", "world");

@@ -117,6 +117,17 @@ TEST(RunSettings, TheServerGetsWhatTheLauncherGot)
   EXPECT_EQ(server.controller_hosts, 3U);
 }
 
+// Ids of an experiment become values of options of its processes.
+TEST(RunSettings, AnIdThatLooksLikeAnOptionStaysTheValueOfItsOption)
+{
+  for (const char* id : {"--insecure", "-h", "--engine"})
+  {
+    WorkerSettings read;
+    Parse(EngineOptionTable(read), WorkerWords(EngineOptionTable, {.engine = id}));
+    EXPECT_EQ(read.engine, id);
+  }
+}
+
 TEST(RunSettings, WordsSayOnlyWhatDiffers)
 {
   RunSettings settings;

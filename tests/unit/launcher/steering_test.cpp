@@ -132,6 +132,27 @@ TEST_F(SteeringTest, AResetIsRefusedWhereNobodyWouldBeginAgain)
   EXPECT_THAT(refused, HasSubstr("nobody would start this run again"));
 }
 
+TEST_F(SteeringTest, RequestsBeyondTheLimitsOfAMessageAreRefusedAndNotWrittenDown)
+{
+  std::vector<std::string> notes;
+  CScriptedRender::on_draw = [&](const RenderSetup& setup)
+  {
+    if (setup.space.GetTick() == 6)
+    {
+      setup.control->PressKey(std::string(1, '\0'), true);
+      setup.control->SelectEntity(std::string(3000, 'x'));
+      setup.control->RemoveEntity("fb_3\n9,stop,,,,0,");
+    }
+    notes.clear();
+    for (const RunNote& note : setup.monitor->Notes()) notes.push_back(note.text);
+  };
+  options_.event_log = (folder_ / "events.csv").string();
+  EXPECT_EQ(RunSingleProcess(*experiment_, options_).ticks, 40U);
+  EXPECT_THAT(notes, testing::ElementsAre(HasSubstr("press: the key '?'"), HasSubstr("has 3000 bytes"),
+                                          HasSubstr("remove: the name 'fb_3?9,stop")));
+  EXPECT_EQ(Read("events.csv"), "");
+}
+
 TEST_F(SteeringTest, MovesAreWrittenDownAndRepeatedWithTheSameHashes)
 {
   const std::uint64_t undisturbed = RunSingleProcess(*experiment_, options_).hash;

@@ -13,7 +13,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <istream>
 #include <limits>
 #include <memory>
@@ -74,7 +73,7 @@ public:
     }
     if (const std::string metrics = t_tree.GetText("metrics"); !metrics.empty())
     {
-      const std::string path = (std::filesystem::path(space.GetOutputFolder()) / metrics).string();
+      const std::string path = space.MakeOutputFile(t_tree, "metrics");
       file_.reset(std::fopen(path.c_str(), "w"));
       if (file_ == nullptr) throw std::runtime_error("cannot write '" + path + "': " + std::strerror(errno));
       std::fputs("tick", file_.get());

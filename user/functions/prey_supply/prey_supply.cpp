@@ -13,7 +13,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <istream>
 #include <memory>
 #include <ostream>
@@ -81,7 +80,7 @@ public:
         throw ConfigurationError(t_tree.ValueLocation(name), "there is no <reserve> of '" + reserve + "' in the arena");
     const std::string log = t_tree.GetText("log");
     if (log.empty()) return;
-    const std::string path = (std::filesystem::path(space.GetOutputFolder()) / log).string();
+    const std::string path = space.MakeOutputFile(t_tree, "log");
     file_.reset(std::fopen(path.c_str(), "w"));
     if (file_ == nullptr) throw std::runtime_error("cannot write '" + path + "': " + std::strerror(errno));
     std::fputs("tick,event,id\n", file_.get());

@@ -1,0 +1,41 @@
+#include "common/bus/dds_environment.h"
+
+#include <cstdlib>
+#include <string_view>
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr const char* kVariables[] = {
+    "ROS_DISCOVERY_SERVER",     "ROS_SUPER_CLIENT",   "FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE",
+    "FASTDDS_ENVIRONMENT_FILE", "FASTDDS_STATISTICS", "FASTDDS_BUILTIN_TRANSPORTS",     "SKIP_DEFAULT_XML"};
+
+}  // namespace
+
+std::vector<std::string> DdsVariablesThatAreSet()
+{
+  std::vector<std::string> names;
+  for (const char* name : kVariables)
+    if (std::getenv(name) != nullptr) names.emplace_back(name);
+  return names;
+}
+
+HiddenDdsVariables::HiddenDdsVariables()
+{
+  const char* kept = std::getenv(kKeepDdsVariables);
+  if (kept != nullptr && std::string_view(kept) == "1") return;
+  for (const std::string& name : DdsVariablesThatAreSet())
+  {
+    hidden_.emplace_back(name, std::getenv(name.c_str()));
+    unsetenv(name.c_str());
+  }
+}
+
+HiddenDdsVariables::~HiddenDdsVariables()
+{
+  for (const auto& [name, value] : hidden_) setenv(name.c_str(), value.c_str(), 1);
+}
+
+}  // namespace swarmanoid
