@@ -62,9 +62,8 @@ public:
   {
     Pass(next, datagram, local, remote);
   }
-  // Called for each datagram that is dropped because of its structure, in a thread of the transport. `what` says what
-  // is wrong with it, and the port that it came from.
-  virtual void Refuse(const std::string& what, const std::string& address) = 0;
+  // Called for each datagram that is dropped because of its structure, in a thread of the transport.
+  virtual void Refuse(const std::string& what, const rtps::Locator_t& remote) = 0;
 
   bool OpenInputChannel(const rtps::Locator_t& locator, transport::TransportReceiverInterface* receiver,
                         std::uint32_t max_message_size) override
@@ -111,8 +110,8 @@ protected:
     const RtpsVerdict verdict = CheckRtps(datagram, limits);
     if (verdict.defect == nullptr) return datagram.first(verdict.bytes);
     Refuse(std::string(verdict.defect) + ", at byte " + std::to_string(verdict.bytes) + " of " +
-               std::to_string(datagram.size()) + "; it came from port " + std::to_string(remote.port),
-           rtps::IPLocator::toIPv4string(remote));
+               std::to_string(datagram.size()),
+           remote);
     return {};
   }
 

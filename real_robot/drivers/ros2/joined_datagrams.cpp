@@ -101,10 +101,11 @@ public:
     return true;
   }
 
-  void Refuse(const std::string& what, const std::string& address) override
+  void Refuse(const std::string& what, const rtps::Locator_t& remote) override
   {
     if (!refused_.exchange(true))
-      LogWarning("dropped a bad datagram of {}: {}; further ones are dropped without a word", address, what);
+      LogWarning("dropped a bad datagram of {}: {}; further ones are dropped without a word",
+                 rtps::IPLocator::toIPv4string(remote), what);
   }
 
 private:
