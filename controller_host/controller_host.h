@@ -117,7 +117,8 @@ private:
   // False if it took more than its time budget.
   bool StepInTime(Robot& robot, std::uint64_t tick);
   std::optional<FaultKind> Known(std::uint64_t tick, std::uint32_t robot) const;
-  void TakeFault(Robot& robot, FaultKind kind, std::uint64_t tick, const std::string& text);
+  // `text` goes to the log of this process, and `thrown`, what an exception said, to the events of the run.
+  void TakeFault(Robot& robot, FaultKind kind, std::uint64_t tick, const std::string& text, const std::string& thrown);
   // Throws ActivityError if the controller cannot begin again.
   void Restart(Robot& robot, std::uint64_t tick);
   // What the devices of a robot remember, before its step and, if the step failed, again after it.

@@ -6,6 +6,7 @@
 #include <exception>
 #include <sstream>
 
+#include "common/configuration/shown_text.h"
 #include "common/control_interface/init_controller.h"
 #include "common/logging/log.h"
 #include "common/messages/attribute_changes.h"
@@ -22,6 +23,7 @@ namespace
 // A controller that fails more often, never with more ticks between, is not started again.
 constexpr std::uint32_t kMostRestarts = 3;
 constexpr std::uint64_t kRestartMemory = 100;
+constexpr std::size_t kLongestFault = 200;  // bytes of the text of an exception that the run is told
 
 // What shows, or is heard, of a robot. Others, such as angles, stay.
 constexpr std::string_view kSilenced[] = {"led", "beacon", "laser", "message", "radio", "report"};
@@ -54,7 +56,7 @@ void ControllerHost::TryStep(Robot& robot, std::uint64_t tick)
 {
   const ControllerConfiguration& configuration = *robot.guard->configuration;
   const std::optional<FaultKind> known = Known(tick, robot.entity);
-  if (known == FaultKind::kDied) return TakeFault(robot, FaultKind::kDied, tick, "died");
+  if (known == FaultKind::kDied) return TakeFault(robot, FaultKind::kDied, tick, "died", "");
   const bool is_restarted = configuration.on_failure == OnFailure::kRestart;
   if (is_restarted) SaveDevices(robot);
   SetCureOfStep(configuration.MayFail() ? cure_of_death_ : "");
@@ -72,10 +74,11 @@ void ControllerHost::TryStep(Robot& robot, std::uint64_t tick)
   SetCureOfStep("");
   // A process that died in this step has told the devices nothing. An exception must leave the same.
   if (thrown && is_restarted) LoadDevices(robot);
-  if (thrown) return TakeFault(robot, FaultKind::kThrew, tick, "failed: " + *thrown);
+  if (thrown) return TakeFault(robot, FaultKind::kThrew, tick, "failed: " + *thrown, *thrown);
   if (in_time && known != FaultKind::kTooSlow) return;
   TakeFault(robot, FaultKind::kTooSlow, tick,
-            fmt::format("took more processor time than its {:g} ms (time_budget_ms)", configuration.time_budget_ms));
+            fmt::format("took more processor time than its {:g} ms (time_budget_ms)", configuration.time_budget_ms),
+            "");
 }
 
 template <class Do>
@@ -140,13 +143,13 @@ std::optional<FaultKind> ControllerHost::Known(std::uint64_t tick, std::uint32_t
   return place->kind;
 }
 
-void ControllerHost::TakeFault(Robot& robot, FaultKind kind, std::uint64_t tick, const std::string& text)
+void ControllerHost::TakeFault(Robot& robot, FaultKind kind, std::uint64_t tick, const std::string& text,
+                               const std::string& thrown)
 {
   Guard& guard = *robot.guard;
   const std::string what = ActivityText(robot.actor, ActivityStep::kControlStep, tick) + " " + text;
   if (!guard.configuration->MayFail()) throw ControllerError(what);
-  commands_.faults.robots.push_back(robot.entity);
-  commands_.faults.kinds.push_back(kind);
+  commands_.faults.Add(robot.entity, kind, ShowableLine(thrown, kLongestFault));
   if (tick - guard.failed_at > kRestartMemory) guard.restarts = 0;
   guard.kind = kind;
   guard.failed_at = tick;

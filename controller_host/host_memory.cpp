@@ -56,8 +56,7 @@ void ControllerHost::LoadCommands(std::uint32_t entity, ByteReader& bytes)
   if (slots.size() != values.size()) throw StateError("there are other attributes than values of them");
   for (std::size_t k = 0; k < slots.size(); ++k) commands_.attributes.Add(slots[k], values[k]);
   if (!bytes.Get<bool>()) return;
-  commands_.faults.robots.push_back(entity);
-  commands_.faults.kinds.push_back(bytes.Get<FaultKind>());
+  commands_.faults.Add(entity, bytes.Get<FaultKind>(), "");
 }
 
 void ControllerHost::SaveState(ByteWriter& state) const

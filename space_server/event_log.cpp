@@ -177,8 +177,14 @@ void AddFault(std::vector<KnownFault>& faults, const RecordedEvent& event, const
 {
   const auto entity = std::find_if(experiment.entities.begin(), experiment.entities.end(),
                                    [&](const EntityConfiguration& e) { return e.id == event.request.entity; });
+  if (entity == experiment.entities.end()) return;
+  // "controller 'c' threw an exception: the text of it".
+  const std::string asker = AskerOf(event.request);
+  const std::size_t id_end = asker.find("' ");
+  if (id_end == std::string::npos) return;
+  const std::string_view what = std::string_view(asker).substr(id_end + 2);
   for (const FaultKind kind : {FaultKind::kThrew, FaultKind::kDied, FaultKind::kTooSlow})
-    if (entity != experiment.entities.end() && AskerOf(event.request).ends_with(FaultText(kind)))
+    if (what.starts_with(FaultText(kind)))
       faults.push_back({event.tick, static_cast<std::uint32_t>(entity - experiment.entities.begin()), kind});
 }
 

@@ -78,9 +78,10 @@ void RunControl::WriteFaults()
     ControlRequestMessage event;
     event.verb = kFailedController;
     event.entity = entity.id;
-    event.client = fmt::format("controller '{}' {}", entity.controller, FaultText(fault.kind));
+    event.client = fmt::format("controller '{}' {}{}{}", entity.controller, FaultText(fault.kind),
+                               fault.text.empty() ? "" : ": ", fault.text);
     event_log_.Write(fault.tick, event);
-    answer_(event, false, fault.tick, fmt::format("'{}': its {} at tick {}", entity.id, event.client, fault.tick));
+    answer_(event, false, fault.tick, fmt::format("'{}' at tick {}: its {}", entity.id, fault.tick, event.client));
   }
 }
 

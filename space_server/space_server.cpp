@@ -145,8 +145,12 @@ void SpaceServer::TellFaults(std::span<const ControlCommands* const> commands) c
   const std::uint64_t tick = space_.GetTick() - std::min<std::uint64_t>(space_.GetTick(), experiment_.ahead);
   std::vector<KnownFault> faults;
   for (const ControlCommands* command : commands)
-    for (std::size_t k = 0; k < command->faults.robots.size(); ++k)
-      faults.push_back({tick, command->faults.robots[k], command->faults.kinds[k]});
+  {
+    if (command->faults.robots.empty()) continue;
+    std::vector<std::string> texts = command->faults.Texts();
+    for (std::size_t k = 0; k < texts.size(); ++k)
+      faults.push_back({tick, command->faults.robots[k], command->faults.kinds[k], std::move(texts[k])});
+  }
   if (faults.empty() || !fault_) return;
   std::sort(faults.begin(), faults.end());
   fault_(faults);

@@ -132,6 +132,7 @@ void Fields(Archive& archive, MessageHeader& header, ControlCommands& message)
   Fields(archive, message.attributes);
   archive.Array("fault_robots", message.faults.robots);
   archive.Array("fault_kinds", message.faults.kinds);
+  archive.Array("fault_texts", message.faults.texts);
   if constexpr (Archive::kReads) message.tick = header.tick, message.host = header.source;
 }
 

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "common/bus/message_bytes.h"
+#include "common/configuration/shown_text.h"
 #include "common/space/space.h"
 
 namespace swarmanoid
@@ -115,6 +116,8 @@ std::size_t TickLimits::CommandBytes() const
   FillSlots(commands.attributes, slots_);
   commands.faults.robots.resize(static_cast<std::size_t>(std::count(may_fail_.begin(), may_fail_.end(), true)));
   commands.faults.kinds.resize(commands.faults.robots.size());
+  if (!commands.faults.robots.empty())
+    commands.faults.texts.resize(commands.faults.robots.size() + ControllerFaults::kMostText);
   return PayloadSize(MessageHeader(), commands);
 }
 
@@ -219,6 +222,8 @@ void TickLimits::CheckSource<SensorFrame>(const MessageHeader& header) const
 void TickLimits::CheckFaults(const ControllerFaults& faults) const
 {
   CheckLength("fault_kinds", faults.kinds.size(), faults.robots.size());
+  if (!IsShowable({faults.texts.data(), faults.texts.size()}))
+    RefuseField("fault_texts", "they have characters that must not be shown");
   for (std::size_t k = 0; k < faults.robots.size(); ++k)
   {
     const std::uint32_t robot = faults.robots[k];

@@ -3,8 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <compare>
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "common/messages/drawing.h"
@@ -85,15 +88,42 @@ inline const char* FaultText(FaultKind kind)
 // Those of a tick.
 struct ControllerFaults
 {
-  std::vector<std::uint32_t> robots;  // entities, ascending
-  std::vector<FaultKind> kinds;
+  // The bytes that the texts of a tick may have, besides the end of each line. Later texts are cut.
+  static constexpr std::size_t kMostText = 4096;
+
+  std::vector<std::uint32_t> robots{};  // entities, ascending
+  std::vector<FaultKind> kinds{};
+  std::vector<char> texts{};  // a line for each: what the exception says. Journals do not keep them
 
   void Clear()
   {
     robots.clear();
     kinds.clear();
+    texts.clear();
   }
-  bool operator==(const ControllerFaults&) const = default;
+  // `text` is one line of UTF-8 that may be shown.
+  void Add(std::uint32_t robot, FaultKind kind, std::string_view text)
+  {
+    const std::size_t used = texts.size() - std::min(texts.size(), robots.size());
+    robots.push_back(robot);
+    kinds.push_back(kind);
+    if (text.size() <= kMostText - std::min(used, kMostText)) texts.insert(texts.end(), text.begin(), text.end());
+    texts.push_back('\n');
+  }
+  // The text of each robot; empty ones where there is none.
+  std::vector<std::string> Texts() const
+  {
+    std::vector<std::string> lines(robots.size());
+    std::size_t k = 0;
+    for (const char c : texts)
+      if (c == '\n')
+        ++k;
+      else if (k < lines.size())
+        lines[k] += c;
+    return lines;
+  }
+  // Texts are for people: they make no difference.
+  bool operator==(const ControllerFaults& other) const { return robots == other.robots && kinds == other.kinds; }
 };
 // What is known of ticks that were done before: the same controllers fail in them, and no time is measured.
 struct KnownFault
@@ -101,7 +131,13 @@ struct KnownFault
   std::uint64_t tick = 0;
   std::uint32_t robot = 0;
   FaultKind kind = FaultKind::kThrew;
-  auto operator<=>(const KnownFault&) const = default;
+  std::string text{};  // what the exception says, if it is known. It is for people, and makes no difference
+
+  auto operator<=>(const KnownFault& other) const
+  {
+    return std::tie(tick, robot, kind) <=> std::tie(other.tick, other.robot, other.kind);
+  }
+  bool operator==(const KnownFault& other) const { return (*this <=> other) == 0; }
 };
 struct KnownFaults
 {

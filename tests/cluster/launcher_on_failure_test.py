@@ -10,7 +10,7 @@ AGAIN = "all processes start again where the journal ends"
 TICKS = 120
 HEADER = "tick,request,entity,numbers,from,number,when\n"
 ROBOTS = ("robot_one", "robot_two", "robot_three")
-THREW, DIED, SLOW = "threw an exception", "died", "took more processor time than it may"
+THREW, DIED, SLOW = "threw an exception: cannot go on", "died", "took more processor time than it may"
 ONE = ("--single-process",)
 
 

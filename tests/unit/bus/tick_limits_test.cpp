@@ -276,10 +276,31 @@ TEST(LimitsOfFaults, TheyAreOfControllersThatMayFailAndAscend)
   for (const ControllerFaults& bad :
        {ControllerFaults{{0}, {}}, {{}, {died}}, {{0}, {FaultKind(0)}}, {{0}, {FaultKind(4)}}})
     EXPECT_THAT(refusal(bad), HasSubstr("fault_kinds: "));
+  ControllerFaults with_text;
+  with_text.Add(0, FaultKind::kThrew, "no map at 3 m, says «plan»");
+  EXPECT_EQ(refusal(with_text), "");
+  with_text.texts[3] = '\x1b';
+  EXPECT_THAT(refusal(with_text), HasSubstr("fault_texts: "));
   const Experiment without = ThreeRobots();
   const CSwarmanoidSpace others(without);
-  const std::size_t bytes_of_two = 2 * (sizeof(std::uint32_t) + sizeof(FaultKind));
+  const std::size_t bytes_of_two = 2 * (sizeof(std::uint32_t) + sizeof(FaultKind) + 1) + ControllerFaults::kMostText;
   EXPECT_EQ(limits.CommandBytes(), TickLimits(others, MakeAssignment(without, 1), false).CommandBytes() + bytes_of_two);
+}
+
+TEST(TextsOfFaults, AreOneLineForEachRobotAndAreCutTogether)
+{
+  ControllerFaults faults;
+  faults.Add(3, FaultKind::kThrew, "first");
+  faults.Add(5, FaultKind::kDied, "");
+  faults.Add(8, FaultKind::kThrew, std::string(ControllerFaults::kMostText - 5, 'x'));
+  faults.Add(9, FaultKind::kThrew, "y");
+  EXPECT_EQ(faults.Texts(),
+            (std::vector<std::string>{"first", "", std::string(ControllerFaults::kMostText - 5, 'x'), ""}));
+  EXPECT_EQ(faults.texts.size(), ControllerFaults::kMostText + 4);
+  ControllerFaults without = faults;
+  without.texts.clear();
+  EXPECT_EQ(without.Texts(), std::vector<std::string>(4));
+  EXPECT_EQ(without, faults);
 }
 
 }  // namespace

@@ -97,6 +97,7 @@ TEST(MessageBytes, OfATickAreThoseOfTheIdl)
     commands.faults.robots = random.Ascending();
     for (std::size_t k = 0; k < commands.faults.robots.size(); ++k)
       commands.faults.kinds.push_back(static_cast<FaultKind>(1 + k % 3));
+    commands.faults.texts = random.Bytes();
     wire::ControlCommands wire_commands;
     wire_commands.values(commands.values);
     wire_commands.flags(FlagsOf(false, header.repeated));
@@ -105,6 +106,7 @@ TEST(MessageBytes, OfATickAreThoseOfTheIdl)
     wire_commands.fault_robots(commands.faults.robots);
     for (const FaultKind kind : commands.faults.kinds)
       wire_commands.fault_kinds().push_back(static_cast<std::uint32_t>(kind));
+    wire_commands.fault_texts().assign(commands.faults.texts.begin(), commands.faults.texts.end());
     ExpectSame<wire::ControlCommandsPubSubType>(header, commands, wire_commands);
 
     UpdateMessage update;
