@@ -20,7 +20,7 @@ struct PluginLibrary
 
 // Finds `name` as lib<name>.so, <name>.so or, if it ends in .so, as it stands, in each folder and its .libs, and
 // loads it. A name with a '/' is a path. Loading a library again yields what the first time yielded. The result stays
-// until the program ends; it refers to none of the arguments, which are values for that reason (compilers warn otherwise).
+// until the program ends. It refers to none of the arguments; they are values, so that no compiler warns of that.
 const PluginLibrary& LoadPluginLibrary(std::string name, std::vector<std::string> folders);
 
 // Called with the path of each library before it is loaded from now on: why it must not be, or an empty text. What an

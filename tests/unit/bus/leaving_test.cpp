@@ -10,9 +10,9 @@
 #include <gtest/gtest.h>
 
 #include "common/activity/exit_codes.h"
+#include "common/bus/dds/for_tests.h"
 #include "common/bus/worker_session.h"
 #include "tests/eventually.h"
-#include "common/bus/dds/for_tests.h"
 #include "tests/unit/bus/server_fixture.h"
 
 namespace swarmanoid

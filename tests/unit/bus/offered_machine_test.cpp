@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 
 #include "common/activity/exit_codes.h"
-#include "tests/eventually.h"
 #include "common/bus/dds/for_tests.h"
+#include "tests/eventually.h"
 #include "tests/unit/bus/server_fixture.h"
 
 namespace swarmanoid

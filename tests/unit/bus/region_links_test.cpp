@@ -8,10 +8,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/bus/dds/for_tests.h"
 #include "common/bus/region_links.h"
 #include "common/bus/worker_session.h"
 #include "tests/eventually.h"
-#include "common/bus/dds/for_tests.h"
 #include "tests/unit/bus/server_fixture.h"
 
 namespace swarmanoid
