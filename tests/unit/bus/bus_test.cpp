@@ -19,6 +19,7 @@
 #include <gmock/gmock.h>
 #include <fstream>
 
+#include "common/bus/dds/fast_dds.h"
 #include "common/bus/domain.h"
 #include "common/bus/run_directory.h"
 #include "common/logging/log.h"
