@@ -10,6 +10,7 @@
 #include <set>
 
 #include "common/control_interface/ci_controller.h"
+#include "common/control_interface/ci_publish.h"
 #include "common/experiment/load_experiment.h"
 #include "common/plugins/library.h"
 #include "common/space/space.h"
@@ -36,7 +37,9 @@ public:
   void ControlStep() override
   {
     for (const std::string& type : GetRobot()->SensorTypes()) Read(type, *GetRobot()->GetSensor(type));
-    for (const std::string& type : GetRobot()->ActuatorTypes()) Tell(type, *GetRobot()->GetActuator(type));
+    const std::vector<std::string> actuators = GetRobot()->ActuatorTypes();
+    for (const std::string& type : actuators) Tell(type, *GetRobot()->GetActuator(type));
+    if (std::ranges::find(actuators, "report") != actuators.end()) Publish(*GetRobot(), {{"probe", 1}});
   }
   bool HasState() const override { return true; }
 
