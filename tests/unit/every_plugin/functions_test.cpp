@@ -121,7 +121,10 @@ void Measure(const ElementSpec& metric, const std::string& arena, bool has_steps
   for (const Diagnostic& error : loaded.errors) ADD_FAILURE() << error.Text();
   if (loaded.study == nullptr) return;
   const PluginDescription* report = PluginCatalogue::Instance().Find(PluginKind::kActuator, "report", "generic_report");
-  const std::unique_ptr<Experiment> experiment = Read(Scene{.devices = {{}, {report}}, .arena = arena});
+  Scene scene;
+  scene.devices.actuators.push_back(report);
+  scene.arena = arena;
+  const std::unique_ptr<Experiment> experiment = Read(scene);
   ASSERT_NE(experiment, nullptr);
   std::unique_ptr<Recorder> recorder;
   try

@@ -48,7 +48,8 @@ protected:
   }
   std::uint64_t OffsetOfTick(std::uint64_t tick) const
   {
-    for (const JournalPlace& place : JournalReader(Path()).Places())
+    const JournalReader journal(Path());
+    for (const JournalPlace& place : journal.Places())
       if (place.kind == JournalBlockKind::kTicks && place.first_tick == tick) return place.offset;
     return 0;
   }
@@ -85,7 +86,8 @@ TEST_F(JournalLossTest, AfterTheLastSavedStateAllIsLost)
 
 TEST_F(JournalLossTest, ADamagedSavedStateCostsNoTick)
 {
-  for (const JournalPlace& place : JournalReader(Path()).Places())
+  const JournalReader journal(Path());
+  for (const JournalPlace& place : journal.Places())
     if (place.kind == JournalBlockKind::kSnapshot) Damage(place.offset + 50);
   EXPECT_TRUE(Loss().is_damaged);
   EXPECT_THAT(Loss().notes, Contains("no state is lost"));

@@ -180,7 +180,10 @@ TEST(RunSettings, NumbersThatTheLauncherTakesAreTakenByItsProcesses)
         for (const char* text : {"1e-300", "1e-9", "0.001", "0.19", "0.2", "1", "2", "65", "232", "233", "1000", "1001",
                                  "3600", "3601", "1000000", "1e15", "1e300"})
         {
-          if (MistakeIn(option, text).empty()) EXPECT_EQ(MistakeIn(other, text), "") << text;
+          if (MistakeIn(option, text).empty())
+          {
+            EXPECT_EQ(MistakeIn(other, text), "") << text;
+          }
           ++compared;
         }
   }
