@@ -80,7 +80,7 @@ void ForEachSet(Use use)
       for (const Devices& devices : Sets(robot, *engine))
       {
         SCOPED_TRACE(fmt::format("{} in {}", TagName(robot), engine->label));
-        use(Scene{.engine = engine->label, .devices = devices, .arena = {}}, robot, *engine);
+        use(SmallScene{.engine = engine->label, .devices = devices, .arena = {}}, robot, *engine);
       }
     }
 }
@@ -88,7 +88,7 @@ void ForEachSet(Use use)
 TEST(SimplestScenes, ARobotAloneReadsFiniteNumbersWithinTheirRanges)
 {
   ForEachSet(
-      [](Scene scene, EntityKind robot, const PluginDescription&)
+      [](SmallScene scene, EntityKind robot, const PluginDescription&)
       {
         scene.arena = Robot(robot);
         RunScene(scene);
@@ -99,7 +99,7 @@ TEST(SimplestScenes, ARobotAloneReadsFiniteNumbersWithinTheirRanges)
 TEST(SimplestScenes, EachDeviceByItselfNeedsNoOther)
 {
   ForEachSet(
-      [](Scene scene, EntityKind robot, const PluginDescription& engine)
+      [](SmallScene scene, EntityKind robot, const PluginDescription& engine)
       {
         const Devices all = scene.devices;
         for (const PluginDescription* sensor : all.sensors)
@@ -126,7 +126,7 @@ TEST(SimplestScenes, EachDeviceByItselfNeedsNoOther)
 TEST(SimplestScenes, OneEntityOfEachKindIsSensedNearAndFar)
 {
   ForEachSet(
-      [](Scene scene, EntityKind robot, const PluginDescription& engine)
+      [](SmallScene scene, EntityKind robot, const PluginDescription& engine)
       {
         for (const EntityKind other : AllKinds())
         {
@@ -144,7 +144,7 @@ TEST(SimplestScenes, OneEntityOfEachKindIsSensedNearAndFar)
 TEST(SimplestScenes, WhatComesLaterIsSensedThen)
 {
   ForEachSet(
-      [](Scene scene, EntityKind robot, const PluginDescription& engine)
+      [](SmallScene scene, EntityKind robot, const PluginDescription& engine)
       {
         for (const EntityKind other : AllKinds())
         {
@@ -168,7 +168,7 @@ TEST(SimplestScenes, WhatComesLaterIsSensedThen)
 TEST(SimplestScenes, TwoRobotsWithTheSameDevicesSenseEachOther)
 {
   ForEachSet(
-      [](Scene scene, EntityKind robot, const PluginDescription&)
+      [](SmallScene scene, EntityKind robot, const PluginDescription&)
       {
         for (const double x : {kRobotX_m + NearDistance(robot, robot), kFarX_m})
         {
@@ -180,13 +180,13 @@ TEST(SimplestScenes, TwoRobotsWithTheSameDevicesSenseEachOther)
 
 TEST(SimplestScenes, AnArenaWithoutRobotsRuns)
 {
-  ForEachSet([](Scene scene, EntityKind, const PluginDescription&) { RunScene(scene); });
+  ForEachSet([](SmallScene scene, EntityKind, const PluginDescription&) { RunScene(scene); });
 }
 
 TEST(SimplestScenes, ARobotInAReserveWaitsAndWorksWhenItIsAdded)
 {
   ForEachSet(
-      [](Scene scene, EntityKind robot, const PluginDescription&)
+      [](SmallScene scene, EntityKind robot, const PluginDescription&)
       {
         scene.arena = Waiting(robot, "robot", "c");
         RunScene(scene);
@@ -205,7 +205,7 @@ TEST(SimplestScenes, ThreadsAndCheckpointsChangeNoBit)
   const std::string folder = testing::TempDir() + "simplest_scenes_" + std::to_string(getpid());
   std::filesystem::create_directories(folder);
   ForEachSet(
-      [&](Scene scene, EntityKind robot, const PluginDescription&)
+      [&](SmallScene scene, EntityKind robot, const PluginDescription&)
       {
         scene.framework = "<canonical_period>4</canonical_period>";
         scene.arena =
@@ -234,7 +234,7 @@ TEST(SimplestScenes, EachDeviceIsCarriedBySomeRobotInSomeEngine)
   for (const PluginKind kind : {PluginKind::kSensor, PluginKind::kActuator})
     for (const PluginDescription* device : PluginCatalogue::Instance().Of(kind)) met[device] = false;
   ForEachSet(
-      [&](const Scene& scene, EntityKind, const PluginDescription&)
+      [&](const SmallScene& scene, EntityKind, const PluginDescription&)
       {
         for (const PluginDescription* sensor : scene.devices.sensors) met[sensor] = true;
         for (const PluginDescription* actuator : scene.devices.actuators) met[actuator] = true;

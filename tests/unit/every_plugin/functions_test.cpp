@@ -71,7 +71,7 @@ TEST(SimplestScenes, EachExperimentFunctionRunsAndDrawsWithAndWithoutARobot)
     for (const std::string& arena : found->second.arenas)
     {
       SCOPED_TRACE(functions->label + " in " + arena);
-      Scene scene;
+      SmallScene scene;
       scene.arena = arena;
       scene.functions = fmt::format("<{} id='f'{}/>", functions->label, found->second.attributes);
       // Their drawings are made for a renderer that looks at each tick.
@@ -121,7 +121,7 @@ void Measure(const ElementSpec& metric, const std::string& arena, bool has_steps
   for (const Diagnostic& error : loaded.errors) ADD_FAILURE() << error.Text();
   if (loaded.study == nullptr) return;
   const PluginDescription* report = PluginCatalogue::Instance().Find(PluginKind::kActuator, "report", "generic_report");
-  Scene scene;
+  SmallScene scene;
   scene.devices.actuators.push_back(report);
   scene.arena = arena;
   const std::unique_ptr<Experiment> experiment = Read(scene);

@@ -212,7 +212,7 @@ double NearDistance(EntityKind robot, EntityKind other)
   return HalfWidth(robot) + HalfWidth(other) + kGap;
 }
 
-std::unique_ptr<Experiment> Read(const Scene& scene)
+std::unique_ptr<Experiment> Read(const SmallScene& scene)
 {
   RegisterEverything();
   const auto elements = [](const std::vector<const PluginDescription*>& devices)
@@ -260,7 +260,7 @@ std::uint64_t RunScene(const Experiment& experiment, const SimulatorOptions& opt
   return hash;
 }
 
-std::uint64_t RunScene(const Scene& scene, const std::function<void(CSimulator&)>& change)
+std::uint64_t RunScene(const SmallScene& scene, const std::function<void(CSimulator&)>& change)
 {
   const std::unique_ptr<Experiment> experiment = Read(scene);
   if (experiment == nullptr) return 0;

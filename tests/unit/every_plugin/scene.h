@@ -24,7 +24,7 @@ struct Devices
   std::vector<const PluginDescription*> sensors, actuators;
 };
 
-struct Scene
+struct SmallScene
 {
   std::string engine = "kinematics2d";
   Devices devices;
@@ -52,11 +52,11 @@ std::string Waiting(EntityKind kind, const std::string& id, const std::string& c
 // How far the middle of an entity is from the robot's if 8 cm are between them, m.
 double NearDistance(EntityKind robot, EntityKind other);
 
-std::unique_ptr<Experiment> Read(const Scene& scene);
+std::unique_ptr<Experiment> Read(const SmallScene& scene);
 // Runs it to its end and returns the hash of its last state. `change` is called before each tick. The readings and
 // columns of the probes are checked; what is wrong with them fails the test.
 std::uint64_t RunScene(const Experiment& experiment, const SimulatorOptions& options = {},
                        const std::function<void(CSimulator&)>& change = {});
-std::uint64_t RunScene(const Scene& scene, const std::function<void(CSimulator&)>& change = {});
+std::uint64_t RunScene(const SmallScene& scene, const std::function<void(CSimulator&)>& change = {});
 
 }  // namespace swarmanoid
