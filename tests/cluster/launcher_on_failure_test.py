@@ -151,7 +151,7 @@ class Dies(OnFailureTest):
                     found, events, said = self.done(experiment, name, "--controller-hosts", hosts)
                     for robot in ROBOTS[:2]:
                         self.assertIn(f"robot '{robot}', controller 'c': ControlStep at tick 7 {what}", said)
-                        self.assertIn(f"'{robot}': its controller 'c' died at tick 7", said)
+                        self.assertIn(f"'{robot}' at tick 7: its controller 'c' died", said)
                     self.assertEqual(said.count(REPLACED), 2)
                     self.assertEqual(events, failed(*((7, robot, DIED) for robot in ROBOTS[:2])))
                     self.assertEqual(found, expected)
