@@ -94,7 +94,7 @@ class Devices(unittest.TestCase):
         # As in the engines, 25 N and 1.5 N m read as 1, and no more.
         self.expect(readings, "footbot_turret_torque", forward_traction=0.2, left_traction=-1, torque=-0.25)
         self.expect(readings, "footbot_turret_encoder", angle=-math.pi / 2)
-        self.expect(readings, "footbot_gripper", aperture=0.3, grips=1)
+        self.expect(readings, "footbot_gripper", aperture=0.3, gripping=1)
         for i, brightness in enumerate((0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 1)):
             self.assertAlmostEqual(readings["footbot_ground"][str(i)][0], brightness, places=6)
         self.expect(readings, "footbot_ground", floor=0xff8000)
