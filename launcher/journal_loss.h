@@ -20,7 +20,7 @@ struct JournalLoss
   std::vector<std::string> notes;
 };
 
-// What the manifest of a run says of its end.
+// The end of a run, according to its manifest.
 struct RecordedEnd
 {
   std::optional<std::uint64_t> last_tick;  // nothing: the run died, or goes on

@@ -30,7 +30,7 @@ public:
   const TickRecord& Record() const { return states_->Record(); }
   std::uint64_t FirstTick() const { return journal_->FirstTick(); }
   std::uint64_t LastTick() const;
-  // What cannot be read of it.
+  // The parts that cannot be read.
   const JournalLoss& Loss() const { return loss_; }
   // The exit code of a command that has printed the loss: that of a failure if the journal is damaged, unless it has
   // another one already.

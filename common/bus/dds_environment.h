@@ -12,7 +12,7 @@ namespace swarmanoid
 
 inline constexpr const char* kKeepDdsVariables = "SWARMANOID_DDS_ENVIRONMENT";
 
-// The names of those that are set.
+// Returns the names of the variables that are set.
 std::vector<std::string> DdsVariablesThatAreSet();
 
 // Hides the variables while it lives, so that participants that others make in this process see them again. For one

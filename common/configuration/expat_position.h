@@ -1,4 +1,4 @@
-// Where an event of expat stands in the text, for all releases of expat: from 2.9 on other functions are asked.
+// The position of an event of expat in the text, for all releases: from 2.9 on, the functions have other names.
 #pragma once
 
 #include <expat.h>

@@ -79,7 +79,7 @@ void CheckRobotsWithoutEngine(const std::vector<bool>& owned, Reading& reading)
 // Farther than this from its plane, an entity would jump to it in the first tick (m).
 constexpr double kOnPlane = 1e-3;
 
-// What leans more is straightened in the first tick (rad).
+// A body that leans more is straightened in the first tick (rad).
 constexpr double kUpright = 1e-3;
 
 // Where the plane of an engine is, if it has one.

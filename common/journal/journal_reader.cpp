@@ -170,7 +170,7 @@ bool JournalReader::Take(const SegmentPart& part, JournalPlace place)
   if (place.kind == JournalBlockKind::kPart)
   {
     place.name = ReadPart(JournalContent(part.block)).name;
-    // What a process saved is of no use if it is not known which robots it had.
+    // The state of a process is of no use if it is not known which robots it had.
     if (place.table == kUnknownTable) return true;
   }
   if (place.kind == JournalBlockKind::kGoOn) DropFrom(places_, place.first_tick);

@@ -47,7 +47,7 @@ struct JournalBudget
 
 // The file of a segment. `path`: of the first one; the others lie beside it, named by their numbers.
 std::string SegmentFile(const std::string& path, std::uint32_t segment);
-// Of those that are there, the oldest first.
+// Returns the numbers of the segments that exist, the oldest first.
 std::vector<std::uint32_t> SegmentsOf(const std::string& path);
 
 // Takes away what a run that goes on at the tick does again.
@@ -115,7 +115,7 @@ private:
     std::uint64_t states = 0;     // of the space
     std::set<std::string> parts;  // names
   };
-  // What the processes have saved of a tick.
+  // The parts of a tick's state that processes have saved.
   struct SavedState
   {
     bool has_space = false;

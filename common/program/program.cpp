@@ -143,7 +143,7 @@ int RunProgram(const ProgramDescription& program, int count, char** arguments,
 {
   OpenStandardFiles();
   const int code = RunWithoutOutput(program, count, arguments, declare, run);
-  // What code of users prints is no result: a log that could not be written ends no run.
+  // Output of users' code is no result: a log that could not be written ends no run.
   return program.runs_code_of_users ? code : ExitCodeWithOutput(code);
 }
 

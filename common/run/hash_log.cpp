@@ -18,7 +18,7 @@ namespace swarmanoid
 namespace
 {
 
-// Of "tick hash"; nothing if it is none.
+// Reads "tick hash"; returns nothing for any other line.
 std::optional<std::uint64_t> TickOfLine(const std::string& line)
 {
   constexpr std::size_t kHashDigits = 16;

@@ -20,7 +20,7 @@ using enum ParameterType;
 // As for the elements of the experiment file.
 constexpr double kMostTicks = 1e15;
 constexpr double kFastest = 1e6;
-// As the processes of a cluster take it (BusOptionTable).
+// The limits are those of the processes of a cluster (BusOptionTable).
 constexpr double kShortestLease_s = 0.2;
 constexpr double kLongestLease_s = 3600;
 constexpr double kShortestStep_s = 1e-3;

@@ -46,7 +46,7 @@ public:
   virtual std::size_t SizeOf(const void* data) const = 0;
   // Writes `data` into the payload, which has room for its `max_size`. Returns false if that is not enough.
   virtual bool Write(const void* data, Payload& payload) const = 0;
-  // Reads the payload into `data`. Must not throw; returns false for a message that nobody can read.
+  // Reads the payload into `data`. Must not throw; returns false for a message that cannot be read.
   virtual bool Read(const Payload& payload, void* data) const = 0;
   // A new object that a message is read into, and its end.
   virtual void* Make() const = 0;

@@ -1,4 +1,4 @@
-// What tests alone ask of Fast DDS.
+// The parts of Fast DDS that only tests use.
 #pragma once
 
 #include "common/bus/dds/data_type.h"
