@@ -16,6 +16,7 @@
 #include "common/program/usage_error.h"
 #include "launcher/installation.h"
 #include "studies/commands.h"
+#include "studies/study_store.h"
 
 namespace swarmanoid
 {
@@ -99,6 +100,14 @@ bool CanImport(const std::string& python, const std::string& module)
 
 int Plot(const PlotOptions& options)
 {
+  try
+  {
+    StudyStore::RequireWhole(options.study);
+  }
+  catch (const StudyStoreError& error)
+  {
+    throw UsageError(error.what());
+  }
   // The first one on the path need not be Debian's.
   std::string python;
   for (const char* candidate : {"python3", "/usr/bin/python3"})

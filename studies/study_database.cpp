@@ -6,10 +6,10 @@
 namespace swarmanoid
 {
 
-StudyDatabase::StudyDatabase(const std::string& path, std::string shown) : shown_(std::move(shown))
+StudyDatabase::StudyDatabase(const std::string& path, std::string shown, Access access) : shown_(std::move(shown))
 {
-  if (sqlite3_open_v2(path.c_str(), &database_, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr) == SQLITE_OK)
-    return;
+  const int flags = access == Access::kRead ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  if (sqlite3_open_v2(path.c_str(), &database_, flags, nullptr) == SQLITE_OK) return;
   const std::string reason = Reason();
   sqlite3_close(database_);
   throw StudyStoreError(reason);

@@ -25,8 +25,13 @@ class SqlCommand;
 class StudyDatabase
 {
 public:
-  // Makes the file if it is not there. `shown`: its path in errors. Throws StudyStoreError, as everything here does.
-  StudyDatabase(const std::string& path, std::string shown);
+  enum class Access
+  {
+    kRead,
+    kWrite,  // makes the file if it is not there
+  };
+  // `shown`: its path in errors. Throws StudyStoreError, as everything here does.
+  StudyDatabase(const std::string& path, std::string shown, Access access = Access::kWrite);
   ~StudyDatabase();
   StudyDatabase(const StudyDatabase&) = delete;
   StudyDatabase& operator=(const StudyDatabase&) = delete;

@@ -41,6 +41,13 @@ bool IsEmpty(const fs::path& folder)
   return !error;
 }
 
+void RequireDatabase(const std::string& folder)
+{
+  std::error_code none;
+  if (!fs::exists(folder + "/" + kDatabase, none))
+    throw StudyStoreError(fmt::format("'{}' is no folder of a study: it has no {}", folder, kDatabase));
+}
+
 }  // namespace
 
 StudyStore::StudyStore(std::string folder) : folder_(std::move(folder)) {}
@@ -96,32 +103,49 @@ std::unique_ptr<StudyStore> StudyStore::Create(const std::string& folder, const 
   store->MakeDatabase(study, design);
   store->Connect();
   store->ReadColumns();
+  store->PrepareCommands();
   return store;
 }
 
 std::unique_ptr<StudyStore> StudyStore::Open(const std::string& folder)
 {
-  std::error_code none;
-  if (!fs::exists(folder + "/" + kDatabase, none))
-    throw StudyStoreError(fmt::format("'{}' is no folder of a study: it has no {}", folder, kDatabase));
+  RequireDatabase(folder);
   std::unique_ptr<StudyStore> store(new StudyStore(folder));
   store->Lock();
   store->Connect();
-  if (store->Fact("format") != std::to_string(kStoreFormat))
-    throw StudyStoreError(fmt::format("'{}/{}' is of another version of Swarmanoid", folder, kDatabase));
-  if (store->Fact(kFactsChecksum) != ChecksumOfFacts(*store->database_))
-    throw StudyStoreError(
-        fmt::format("'{}/{}' is damaged: what it says of the study does not fit its checksum; begin the study again in "
-                    "another folder",
-                    folder, kDatabase));
-  store->ReadColumns();
-  store->RequireSameFactors();
+  store->RequireGoodFacts();
+  store->PrepareCommands();
   store->DropDamagedResults();
   return store;
 }
 
-void StudyStore::RequireSameFactors()
+void StudyStore::RequireWhole(const std::string& folder)
 {
+  RequireDatabase(folder);
+  StudyStore store(folder);
+  store.database_ = std::make_unique<StudyDatabase>(store.PathInFolder(kDatabase), store.PathInFolder(kDatabase),
+                                                    StudyDatabase::Access::kRead);
+  // All that is read is of one moment.
+  store.database_->Execute("PRAGMA busy_timeout=10000; BEGIN");
+  store.RequireGoodFacts();
+  if (const std::vector<RunName> damaged = store.DamagedRuns(); !damaged.empty())
+    throw StudyStoreError(fmt::format(
+        "'{0}/{1}' is damaged: the result of run {2} does not fit its checksum{3}; `swarmanoid sweep {0} --resume` "
+        "computes it again",
+        folder, kDatabase, damaged.front().Text(),
+        damaged.size() == 1 ? "" : fmt::format(", nor do those of {} more runs", damaged.size() - 1)));
+}
+
+void StudyStore::RequireGoodFacts()
+{
+  if (Fact("format") != std::to_string(kStoreFormat))
+    throw StudyStoreError(fmt::format("'{}/{}' is of another version of Swarmanoid", folder_, kDatabase));
+  if (Fact(kFactsChecksum) != ChecksumOfFacts(*database_))
+    throw StudyStoreError(
+        fmt::format("'{}/{}' is damaged: what it says of the study does not fit its checksum; begin the study again in "
+                    "another folder",
+                    folder_, kDatabase));
+  ReadColumns();
   for (const std::string& factor : factors_)
   {
     const auto differs = database_->Prepare(
@@ -150,8 +174,9 @@ std::string StudyStore::ChecksumOf(const RunName& name)
   return checksum;
 }
 
-void StudyStore::DropDamagedResults()
+std::vector<RunName> StudyStore::DamagedRuns()
 {
+  std::vector<RunName> damaged;
   const auto kept = database_->Prepare("SELECT checksum FROM runs WHERE point = ? AND seed = ?");
   for (const RunState& run : Runs())
   {
@@ -159,19 +184,27 @@ void StudyStore::DropDamagedResults()
     kept->BindWhole(run.name.point).BindWhole(run.name.seed);
     const bool fits = kept->Step() && kept->Text(0) == ChecksumOf(run.name);
     kept->Run();
-    if (fits) continue;
+    if (!fits) damaged.push_back(run.name);
+  }
+  return damaged;
+}
+
+void StudyStore::DropDamagedResults()
+{
+  for (const RunName& name : DamagedRuns())
+  {
     PrintError(
         "swarmanoid: warning: '{}/{}' is damaged: the result of run {} does not fit its checksum; it runs again\n",
-        folder_, kDatabase, run.name.Text());
+        folder_, kDatabase, name.Text());
     Begin();
     for (const char* table : {"samples", "grids", "ways"})
       database_->Prepare(fmt::format("DELETE FROM {} WHERE point = ? AND seed = ?", table))
-          ->BindWhole(run.name.point)
-          .BindWhole(run.name.seed)
+          ->BindWhole(name.point)
+          .BindWhole(name.seed)
           .Run();
     database_->Prepare("UPDATE runs SET state = 'waiting', checksum = NULL WHERE point = ? AND seed = ?")
-        ->BindWhole(run.name.point)
-        .BindWhole(run.name.seed)
+        ->BindWhole(name.point)
+        .BindWhole(name.seed)
         .Run();
   }
   Commit();
@@ -194,6 +227,10 @@ void StudyStore::ReadColumns()
 {
   factors_ = FactorsIn(*database_);
   columns_ = MetricColumnsIn(*database_);
+}
+
+void StudyStore::PrepareCommands()
+{
   update_run_ = database_->Prepare(
       "UPDATE runs SET state = ?, attempts = attempts + 1, exit = ?, hash = ?, ticks = ?, failure = ?, wall_s = ?, "
       "peak_bytes = ?, host = ?, version = ? WHERE point = ? AND seed = ?");

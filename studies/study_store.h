@@ -24,6 +24,9 @@ public:
   // One that is there. Throws StudyStoreError if it is no study, is damaged, or somebody else works on it. Results of
   // runs that are damaged are dropped, so that these runs wait again, and standard error names them.
   static std::unique_ptr<StudyStore> Open(const std::string& folder);
+  // Throws StudyStoreError if the folder is no study, or if something in it does not fit its checksum. Changes nothing,
+  // also while another process works on the study.
+  static void RequireWhole(const std::string& folder);
   ~StudyStore();
 
   const std::string& Folder() const { return folder_; }
@@ -67,11 +70,16 @@ private:
   void MakeDatabase(const Study& study, const Design& design);
   void Connect();
   void ReadColumns();
+  void PrepareCommands();
   void Begin();
   void AddSamples(const RunOutcome& outcome);
   // Of all that is kept of a run: its factors, its result and what was measured.
   std::string ChecksumOf(const RunName& name);
-  void RequireSameFactors();
+  // Throws StudyStoreError if what the database says of the study is damaged, or it is of another version. Reads the
+  // columns.
+  void RequireGoodFacts();
+  // The runs that are done, and whose results do not fit their checksums.
+  std::vector<RunName> DamagedRuns();
   void DropDamagedResults();
 
   std::string folder_;

@@ -1,5 +1,7 @@
 #include "studies/study_tables.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #define XXH_INLINE_ALL
@@ -13,9 +15,6 @@ namespace swarmanoid
 {
 namespace
 {
-
-constexpr std::size_t kRunColumns = 13;  // of every study, before those of its factors
-constexpr std::size_t kSampleColumns = 4;
 
 void MakeTables(StudyDatabase& database, const Study& study)
 {
@@ -87,13 +86,15 @@ void AddAllRuns(StudyDatabase& database, const Study& study, const Design& desig
   }
 }
 
-std::vector<std::string> ColumnsFrom(StudyDatabase& database, const char* table, std::size_t from)
+// The columns of the view of results that stand between two of its own.
+std::vector<std::string> ResultsBetween(StudyDatabase& database, const std::string& first, const std::string& last)
 {
   std::vector<std::string> names;
-  const auto rows = database.Prepare(fmt::format("SELECT name FROM pragma_table_info('{}')", table));
-  for (std::size_t i = 0; rows->Step(); ++i)
-    if (i >= from) names.push_back(rows->Text(0));
-  return names;
+  const auto rows = database.Prepare("SELECT name FROM pragma_table_info('results')");
+  while (rows->Step()) names.push_back(rows->Text(0));
+  const auto begin = std::find(names.begin(), names.end(), first);
+  const auto end = std::find(begin, names.end(), last);
+  return begin == end ? std::vector<std::string>{} : std::vector<std::string>(begin + 1, end);
 }
 
 }  // namespace
@@ -110,11 +111,11 @@ void MakeStudyTables(StudyDatabase& database, const Study& study, const Design& 
   database.Execute("COMMIT");
 }
 
-std::vector<std::string> FactorsIn(StudyDatabase& database) { return ColumnsFrom(database, "runs", kRunColumns); }
+std::vector<std::string> FactorsIn(StudyDatabase& database) { return ResultsBetween(database, "point", "seed"); }
 
 std::vector<std::string> MetricColumnsIn(StudyDatabase& database)
 {
-  return ColumnsFrom(database, "samples", kSampleColumns);
+  return ResultsBetween(database, "time_s", "exit");
 }
 
 std::string ChecksumOfRows(SqlCommand& rows, const std::string& before)

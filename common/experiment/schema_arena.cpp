@@ -134,7 +134,7 @@ ElementSpec Distribute()
       "without position and orientation. The places follow from the seed alone.";
   element.repeatable = true;
   element.parameters = {
-      InRange(Required(kInteger, "quantity", "", "How many."), 1, static_cast<double>(kMostEntities)),
+      InRange(Required(kInteger, "quantity", "", "How many; 0 for none."), 0, static_cast<double>(kMostEntities)),
       InRange(Optional(kInteger, "max_trials", "", "100",
                        "How often a place is drawn for an entity before the experiment is refused as too crowded."),
               1, 1e6),

@@ -16,6 +16,7 @@
 #include "python/module/simulation.h"
 #include "python/module/space_rows.h"
 #include "space_server/experiment_functions.h"
+#include "studies/study_store.h"
 
 namespace py = pybind11;
 using namespace py::literals;
@@ -229,6 +230,20 @@ void DefineController(py::module_& module)
       .def("uniform", &PythonRobot::Uniform, "low"_a, "high"_a)
       .def(
           "log", [](const PythonRobot& self, const std::string& text) { self.Robot().Log(text); }, "text"_a);
+  module.def(
+      "check_study",
+      [](const std::string& folder)
+      {
+        try
+        {
+          StudyStore::RequireWhole(folder);
+        }
+        catch (const StudyStoreError& error)
+        {
+          throw py::value_error(error.what());
+        }
+      },
+      "folder"_a);
   module.def("register_controller", &RegisterPythonController, "label"_a, "type"_a);
 }
 

@@ -90,13 +90,15 @@ class Run:
 
 
 class Study:
-    """The folder of a study: `swarmanoid.Study("results/aggregation")`. Raises FileNotFoundError if it is none."""
+    """The folder of a study: `swarmanoid.Study("results/aggregation")`. Raises FileNotFoundError if it is none, and ValueError if it is
+    damaged: the results of each run are compared with their checksum."""
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
         path = self.folder / "study.sqlite"
         if not path.is_file():
             raise FileNotFoundError(f"'{folder}' is no folder of a study: it has no study.sqlite")
+        _module.check_study(str(self.folder))
         self._database = path.resolve().as_uri() + "?mode=ro"
 
     def _rows(self, query, values=()):

@@ -34,8 +34,8 @@ class Study:
             raise StudyError(f"'{folder}' is no folder of a study: it has no study.sqlite")
         self.database = sqlite3.connect(f"file:{path}?mode=ro", uri=True)
         self.facts = dict(self.database.execute("SELECT name, value FROM study"))
-        self.factors = [(row[1], row[2] == "REAL") for row in list(self.database.execute("PRAGMA table_info(runs)"))[12:]]
-        self.metrics = [row[1] for row in list(self.database.execute("PRAGMA table_info(samples)"))[4:]]
+        self.factors = [(name, kind == "REAL") for name, kind in self.results_between("point", "seed")]
+        self.metrics = [name for name, _ in self.results_between("time_s", "exit")]
         self.states = dict(self.database.execute("SELECT state, COUNT(*) FROM runs GROUP BY state"))
         self.levels = {name: [row[0] for row in self.database.execute(f'SELECT "{name}" FROM runs GROUP BY "{name}" ORDER BY MIN(point)')]
                        for name, _ in self.factors}
@@ -44,6 +44,12 @@ class Study:
                               "ON r.point = l.point AND r.seed = l.seed AND r.tick = l.tick ORDER BY r.point, r.seed")
         # Without 'every' each run has one row, at its end, and nothing is known of the time before.
         self.has_time = any(self.database.execute("SELECT 1 FROM samples GROUP BY point, seed HAVING COUNT(*) > 2 LIMIT 1"))
+
+    def results_between(self, first, last):
+        """Name and type of the columns of the view `results` that stand between two of its own."""
+        columns = [(row[1], row[2]) for row in self.database.execute("PRAGMA table_info(results)")]
+        names = [name for name, _ in columns]
+        return columns[names.index(first) + 1:names.index(last)]
 
     def rows(self, query, values=()):
         cursor = self.database.execute(query, values)

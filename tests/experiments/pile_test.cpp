@@ -12,8 +12,8 @@ namespace swarmanoid
 namespace
 {
 
-constexpr double kRadius = 0.085036758;
-constexpr double kPromised = 0.004 * kRadius;  // docs/engines.md
+constexpr double kPreyRadius = 0.085036758;
+constexpr double kPromised = 0.004 * kPreyRadius;  // docs/engines.md
 constexpr double kWall = 0.05;                 // inner faces at 0.05 and 9.95 m
 
 // The outer corners of the square at the front of the turret, which stays ahead.
@@ -30,15 +30,15 @@ double DeepestOverlap(const std::vector<Pose>& poses)
   {
     const Vector2 place = a.position.head<2>();
     const double nearest = std::min(place.minCoeff() - kWall, 10 - kWall - place.maxCoeff());
-    deepest = std::max(deepest, kRadius - nearest);
+    deepest = std::max(deepest, kPreyRadius - nearest);
     for (const Vector2& corner : CornersOf(a))
     {
       deepest = std::max({deepest, kWall - corner.minCoeff(), corner.maxCoeff() - (10 - kWall)});
       for (const Pose& b : poses)
-        if (&a != &b) deepest = std::max(deepest, kRadius - (corner - b.position.head<2>()).norm());
+        if (&a != &b) deepest = std::max(deepest, kPreyRadius - (corner - b.position.head<2>()).norm());
     }
     for (const Pose& b : poses)
-      if (&a < &b) deepest = std::max(deepest, 2 * kRadius - (place - b.position.head<2>()).norm());
+      if (&a < &b) deepest = std::max(deepest, 2 * kPreyRadius - (place - b.position.head<2>()).norm());
   }
   return deepest;
 }
@@ -50,7 +50,7 @@ int InThePile(const std::vector<Pose>& poses)
   for (const Pose& a : poses)
   {
     int neighbours = -1;  // itself
-    for (const Pose& b : poses) neighbours += (a.position - b.position).norm() < 2.6 * kRadius;
+    for (const Pose& b : poses) neighbours += (a.position - b.position).norm() < 2.6 * kPreyRadius;
     in_the_pile += neighbours >= 3;
   }
   return in_the_pile;

@@ -6,7 +6,7 @@ namespace swarmanoid
 namespace
 {
 
-constexpr double kRadius = 0.085036758;
+constexpr double kFootbotRadius = 0.085036758;
 
 TEST(ThreePlanes, EverybodyDiffusesOnTheOwnPlaneAndWithinItsWalls)
 {
@@ -21,7 +21,7 @@ TEST(ThreePlanes, EverybodyDiffusesOnTheOwnPlaneAndWithinItsWalls)
     const Vector3 up = g == 0 ? Vector3(0, 0, 1) : g == 1 ? Vector3(1, 0, 0) : Vector3(0, 0, -1);
     const Vector3 low = g == 1 ? Vector3(0.2, 0.05, 0.1) : Vector3(0.05, 0.05, g == 0 ? 0 : 3);
     const Vector3 high = g == 1 ? Vector3(0.2, 4.95, 2.9) : Vector3(4.95, 4.95, g == 0 ? 0 : 3);
-    const Vector3 body = kRadius * 0.99 * (Vector3::Ones() - up.cwiseAbs());
+    const Vector3 body = kFootbotRadius * 0.99 * (Vector3::Ones() - up.cwiseAbs());
     for (const CSwarmanoidSpaceEntity* robot : run.EntitiesOf(groups[g]))
     {
       const Vector3 p = robot->GetPosition();
@@ -46,10 +46,10 @@ TEST(ThreeEngines, EachKeepsItsRobotsInTheirThirdAndTheyGetAsFar)
     const double west = 3.0 * static_cast<double>(g);
     for (const Vector3& p : run.PositionsOf(groups[g]))
     {
-      EXPECT_GT(p.x(), west + 0.05 + kRadius - 0.003) << groups[g];
-      EXPECT_LT(p.x(), west + 2.95 - kRadius + 0.003) << groups[g];
-      EXPECT_GT(p.y(), 0.05 + kRadius - 0.003) << groups[g];
-      EXPECT_LT(p.y(), 2.95 - kRadius + 0.003) << groups[g];
+      EXPECT_GT(p.x(), west + 0.05 + kFootbotRadius - 0.003) << groups[g];
+      EXPECT_LT(p.x(), west + 2.95 - kFootbotRadius + 0.003) << groups[g];
+      EXPECT_GT(p.y(), 0.05 + kFootbotRadius - 0.003) << groups[g];
+      EXPECT_LT(p.y(), 2.95 - kFootbotRadius + 0.003) << groups[g];
       EXPECT_NEAR(p.z(), 0, 0.003) << groups[g];
     }
     EXPECT_GT(MeanDistance(starts[g], run.PositionsOf(groups[g])), 0.75) << groups[g] << " of 1.5 m without turns";
@@ -73,8 +73,8 @@ TEST(Diffusion, TheSameRobotsSpreadAlikeInEachEngine)
     for (const Vector3& p : run.PositionsOf("fb_"))
       for (const int axis : {0, 1})
       {
-        EXPECT_GT(p[axis], 0.05 + kRadius - 0.003) << file;
-        EXPECT_LT(p[axis], 9.95 - kRadius + 0.003) << file;
+        EXPECT_GT(p[axis], 0.05 + kFootbotRadius - 0.003) << file;
+        EXPECT_LT(p[axis], 9.95 - kFootbotRadius + 0.003) << file;
       }
   }
 }

@@ -1,10 +1,12 @@
 """The module against the command `swarmanoid run`, closed forms, and what it refuses."""
+import contextlib
 import csv
 import gc
 import io
 import os
 import pathlib
 import re
+import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -486,6 +488,10 @@ class Runs(InAFolder):
             study.ways(7, 1)
         with self.assertRaisesRegex(FileNotFoundError, "is no folder of a study"):
             swarmanoid.Study("nothing")
+        with contextlib.closing(sqlite3.connect("out/study.sqlite")) as database, database:
+            database.execute("UPDATE samples SET time_s = time_s + 1 WHERE point = 1 AND seed = 2")
+        with self.assertRaisesRegex(ValueError, "run 1-2 does not fit its checksum"):
+            swarmanoid.Study("out")
 
 
 if __name__ == "__main__":

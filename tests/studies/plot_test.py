@@ -1,9 +1,11 @@
 """Pictures and reports of studies, and the statistics in them against tables and closed forms."""
+import contextlib
 import importlib.util
 import math
 import os
 import pathlib
 import shutil
+import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -105,6 +107,10 @@ class Plot(unittest.TestCase):
             self.assertNotIn(outside, report)
         self.command("plot", "out", "--compare", "speed=0.05,0.1", "--output", "again")
         self.assertEqual(report, (self.folder / "again/report.html").read_text())
+        with contextlib.closing(sqlite3.connect(self.folder / "out/study.sqlite")) as database, database:
+            database.execute("UPDATE samples SET time_s = time_s + 1 WHERE point = 1 AND seed = 2")
+        self.assertIn("is damaged: the result of run 1-2 does not fit its checksum; `swarmanoid sweep out --resume` computes it again",
+                      self.command("plot", "out", code=2).stderr)
 
     def test_pictures_over_time_say_how_many_runs_go_on(self):
         # Runs of 25, 40 and 60 ticks: of robots=3, three runs go on until 25 ticks, two until 40 and one until 60.

@@ -16,7 +16,7 @@ namespace
 
 using namespace argos;
 
-constexpr double kTolerance = 1e-12;
+constexpr double kMatrixTolerance = 1e-12;
 
 CRandom::CRNG& Random()
 {
@@ -92,19 +92,19 @@ TEST(Argos3Matrices, RotationsTurnVectorsAsQuaternions)
     const CQuaternion rotation(i % 4 == 0 ? CRadians::PI : angle, axis.Normalize());
     const CVector3 vector = DrawnVector();
     const CRotationMatrix3 matrix(rotation);
-    EXPECT_LT(Distance(matrix * vector, CVector3(vector).Rotate(rotation)), kTolerance);
+    EXPECT_LT(Distance(matrix * vector, CVector3(vector).Rotate(rotation)), kMatrixTolerance);
     const CQuaternion again = matrix;
     EXPECT_LT(Distance(CVector3(vector).Rotate(again), CVector3(vector).Rotate(rotation)), 1e-9);
-    EXPECT_LT(Distance(CRotationMatrix3(matrix * matrix) * vector, matrix * (matrix * vector)), kTolerance);
+    EXPECT_LT(Distance(CRotationMatrix3(matrix * matrix) * vector, matrix * (matrix * vector)), kMatrixTolerance);
 
     const CVector2 flat(Drawn(), Drawn());
-    EXPECT_LT(Distance(CRotationMatrix2(angle) * flat, CVector2(flat).Rotate(angle)), kTolerance);
+    EXPECT_LT(Distance(CRotationMatrix2(angle) * flat, CVector2(flat).Rotate(angle)), kMatrixTolerance);
   }
   // Fixed axes: x first. The row of z is -sin y, cos y sin x, cos y cos x.
   const CRotationMatrix3 angles(CRadians(0.3), CRadians(0.2), CRadians(0.1));
-  EXPECT_NEAR(angles(2, 0), -std::sin(0.2), kTolerance);
-  EXPECT_NEAR(angles(2, 1), std::cos(0.2) * std::sin(0.1), kTolerance);
-  EXPECT_NEAR(angles(1, 0), std::cos(0.2) * std::sin(0.3), kTolerance);
+  EXPECT_NEAR(angles(2, 0), -std::sin(0.2), kMatrixTolerance);
+  EXPECT_NEAR(angles(2, 1), std::cos(0.2) * std::sin(0.1), kMatrixTolerance);
+  EXPECT_NEAR(angles(1, 0), std::cos(0.2) * std::sin(0.3), kMatrixTolerance);
 }
 
 TEST(Argos3Matrices, TransformationsTurnAndThenMove)
@@ -113,15 +113,15 @@ TEST(Argos3Matrices, TransformationsTurnAndThenMove)
   const CTransformationMatrix3 one(turn, CVector3(1, 2, 3));
   const CTransformationMatrix3 other(CRotationMatrix3(), CVector3(-1, 0, 5));
   const CVector3 vector(0.5, -1, 2);
-  EXPECT_LT(Distance(one * vector, turn * vector + CVector3(1, 2, 3)), kTolerance);
-  EXPECT_LT(Distance((one * other) * vector, one * (other * vector)), kTolerance);
+  EXPECT_LT(Distance(one * vector, turn * vector + CVector3(1, 2, 3)), kMatrixTolerance);
+  EXPECT_LT(Distance((one * other) * vector, one * (other * vector)), kMatrixTolerance);
   EXPECT_EQ(one.GetTranslationVector(), CVector3(1, 2, 3));
   EXPECT_EQ(one.GetRotationMatrix(), turn);
   const CTransformationMatrix3 back = one.GetInverse();
-  EXPECT_LT(Distance(back * (one * vector), vector), kTolerance);
+  EXPECT_LT(Distance(back * (one * vector), vector), kMatrixTolerance);
 
   const CTransformationMatrix2 flat(CRotationMatrix2(CRadians::PI_OVER_TWO), CVector2(1, 1));
-  EXPECT_LT(Distance(flat * CVector2(2, 0), CVector2(1, 3)), kTolerance);
+  EXPECT_LT(Distance(flat * CVector2(2, 0), CVector2(1, 3)), kMatrixTolerance);
   EXPECT_EQ(flat(2, 2), 1);
 }
 
@@ -135,27 +135,27 @@ TEST(Argos3Matrices, VectorsAreRowsAndColumns)
   EXPECT_EQ(CVector3(std::array<Real, 3>{1, 2, 3}), CVector3(1, 2, 3));
   CVector2 shadow;
   EXPECT_EQ(CVector3(1, 2, 3).ProjectOntoYZ(shadow), CVector2(2, 3));
-  EXPECT_LT(Distance(CVector3(1, 0, 1).RotateZ(CVector2(0, 1)), CVector3(0, 1, 1)), kTolerance);
+  EXPECT_LT(Distance(CVector3(1, 0, 1).RotateZ(CVector2(0, 1)), CVector3(0, 1, 1)), kMatrixTolerance);
 }
 
 TEST(Argos3Matrices, PosesOfThePlaneCompose)
 {
   const CPose2 pose(CVector2(1, 2), CRadians::PI_OVER_TWO);
-  EXPECT_LT(Distance(pose * CVector2(1, 0), CVector2(1, 3)), kTolerance);
-  EXPECT_LT(Distance((pose * pose.Inverse()).GetPosition(), CVector2()), kTolerance);
+  EXPECT_LT(Distance(pose * CVector2(1, 0), CVector2(1, 3)), kMatrixTolerance);
+  EXPECT_LT(Distance((pose * pose.Inverse()).GetPosition(), CVector2()), kMatrixTolerance);
   const CPose2 upright(CVector3(1, 2, 5), CQuaternion(CRadians(0.4), CVector3::Z));
   EXPECT_EQ(upright.GetPosition(), CVector2(1, 2));
-  EXPECT_NEAR(upright.GetOrientation().GetValue(), 0.4, kTolerance);
+  EXPECT_NEAR(upright.GetOrientation().GetValue(), 0.4, kMatrixTolerance);
   CPose2 moved = pose;
   moved.Translate(CVector2(0, 1));
-  EXPECT_LT(Distance(moved.GetPosition(), CVector2(0, 2)), kTolerance);
+  EXPECT_LT(Distance(moved.GetPosition(), CVector2(0, 2)), kMatrixTolerance);
 }
 
 TEST(Argos3Matrices, RaysMeetPlanesAndEachOther)
 {
   CVector3 point;
   EXPECT_TRUE(CRay3(CVector3(1, 1, 2), CVector3(3, 1, -2)).Intersects(CPlane(), point));
-  EXPECT_LT(Distance(point, CVector3(2, 1, 0)), kTolerance);
+  EXPECT_LT(Distance(point, CVector3(2, 1, 0)), kMatrixTolerance);
   EXPECT_FALSE(CRay3(CVector3(0, 0, 2), CVector3(0, 0, 1)).Intersects(CPlane(), point));
   EXPECT_FALSE(CRay3(CVector3(0, 0, 2), CVector3(1, 0, 2)).Intersects(CPlane(), point));
 

@@ -12,10 +12,10 @@ namespace swarmanoid
 namespace
 {
 
-TConfigurationTree Tree(const std::string& text) { return TConfigurationTree(ReadXml(text, "f.xml")); }
+TConfigurationTree TreeOf(const std::string& text) { return TConfigurationTree(ReadXml(text, "f.xml")); }
 
 template <class Call>
-std::string ErrorOf(Call call)
+std::string ErrorThrownBy(Call call)
 {
   try
   {
@@ -30,7 +30,7 @@ std::string ErrorOf(Call call)
 
 TEST(ConfigurationTree, ValuesAreAttributesOrElements)
 {
-  const auto tree = Tree("<a speed=' 3 '><turn> 4.5 </turn><on>yes</on><where>1 2,3</where></a>");
+  const auto tree = TreeOf("<a speed=' 3 '><turn> 4.5 </turn><on>yes</on><where>1 2,3</where></a>");
   EXPECT_EQ(tree.GetNumber("speed"), 3);
   EXPECT_EQ(tree.GetInteger("speed"), 3);
   EXPECT_EQ(tree.GetNumber("turn"), 4.5);
@@ -42,10 +42,10 @@ TEST(ConfigurationTree, ValuesAreAttributesOrElements)
 
 TEST(ConfigurationTree, ErrorsHavePlaceAndCure)
 {
-  const auto tree = Tree("<a>\n <n>x</n></a>");
-  EXPECT_EQ(ErrorOf([&] { tree.GetNumber("n"); }), "f.xml:2:2: 'n' is 'x'; it must be a number");
-  EXPECT_EQ(ErrorOf([&] { tree.GetNumber("m"); }), "f.xml:1:1: <a> lacks the parameter 'm'");
-  EXPECT_EQ(ErrorOf([&] { tree.GetVector3("n", Vector3::Zero()); }),
+  const auto tree = TreeOf("<a>\n <n>x</n></a>");
+  EXPECT_EQ(ErrorThrownBy([&] { tree.GetNumber("n"); }), "f.xml:2:2: 'n' is 'x'; it must be a number");
+  EXPECT_EQ(ErrorThrownBy([&] { tree.GetNumber("m"); }), "f.xml:1:1: <a> lacks the parameter 'm'");
+  EXPECT_EQ(ErrorThrownBy([&] { tree.GetVector3("n", Vector3::Zero()); }),
             "f.xml:2:2: 'n' is 'x'; it must be three numbers \"x, y, z\"");
 }
 
@@ -80,8 +80,8 @@ TEST(Parameters, FollowTheirTable)
   colour.type = ParameterType::kColour;
   colour.default_value = "blue";
   const std::vector<ParameterSpec> specs{radius, view, colour};
-  const Parameters parameters(Tree("<a radius='-1' view_12='1,2,3'/>"), specs);
-  EXPECT_EQ(ErrorOf([&] { parameters.Number("radius"); }), "f.xml:1:4: 'radius' is -1 m; it must be at least 0 m");
+  const Parameters parameters(TreeOf("<a radius='-1' view_12='1,2,3'/>"), specs);
+  EXPECT_EQ(ErrorThrownBy([&] { parameters.Number("radius"); }), "f.xml:1:4: 'radius' is -1 m; it must be at least 0 m");
   EXPECT_EQ(parameters.Vector3Of("view_12"), Vector3(1, 2, 3));
   EXPECT_FALSE(parameters.IsGiven("view_0"));
   EXPECT_EQ(parameters.Colour("colour"), 0x0000ffU);

@@ -57,7 +57,7 @@ namespace
 {
 
 constexpr std::uint32_t kColour = 0x804020;
-constexpr std::uint32_t kFootbot = 0, kHandbot = 2, kEyebot = 3;
+constexpr std::uint32_t kFootbotPlace = 0, kHandbotPlace = 2, kEyebotPlace = 3;
 
 // Something for every sensor to see: robots that are lit and send, a light, a prey, a patch, an eyebot above. With
 // `others_first` two entities stand before them in the file, out of sight.
@@ -89,7 +89,7 @@ public:
     AddBlock({4.83, 5.12, 0.1}, {0.06, 0.01, 0.02});  // beside the claws of the handbot's left hand
     for (std::uint32_t e = 0; e < Configuration().entities.size(); ++e)
       Configuration().entities[e].id = e < others ? "other" + std::to_string(e) : "e" + std::to_string(e - others);
-    for (const std::uint32_t robot : {kFootbot, 1U, kHandbot, kEyebot})
+    for (const std::uint32_t robot : {kFootbotPlace, 1U, kHandbotPlace, kEyebotPlace})
     {
       CSwarmanoidSpaceEntity& entity = Space().GetEntity(robot + others);
       for (int led = 0; led < 12; ++led) entity.SetAttribute("led", kColour, led);
@@ -98,7 +98,7 @@ public:
     }
     Space().GetEntity(1 + others).SetAttribute("beacon", kColour);  // high enough for the camera that looks ahead
     Space().GetEntity(4 + others).SetAttribute("intensity", 1);
-    Space().GetEntity(kFootbot + others).SetAttribute("gripper_aperture", 0.8);
+    Space().GetEntity(kFootbotPlace + others).SetAttribute("gripper_aperture", 0.8);
     Space().SetTick(static_cast<std::uint64_t>(tick));
   }
 };
@@ -232,9 +232,9 @@ void Use(CCI_Actuator& actuator)
 
 std::uint32_t RobotFor(const PluginDescription& device)
 {
-  if (device.robots.empty()) return kFootbot;
+  if (device.robots.empty()) return kFootbotPlace;
   const std::string& robot = device.robots.front();
-  return robot == "footbot" ? kFootbot : robot == "eyebot" ? kEyebot : kHandbot;
+  return robot == "footbot" ? kFootbotPlace : robot == "eyebot" ? kEyebotPlace : kHandbotPlace;
 }
 
 struct Run
@@ -370,10 +370,10 @@ TEST(NoiseSweep, SensorAndActuatorOfOneNameDrawDifferentNumbers)
 {
   const TestParameters noise{{"noise_kind", "uniform"}, {"noise_range", "0.05"}, {"noise_mean", "-0.1"}};
   FullWorld world(7, 1);
-  TestActuator actuator(world, "footbot_gripper", "dummy_footbot_gripper", {kFootbot}, noise);
+  TestActuator actuator(world, "footbot_gripper", "dummy_footbot_gripper", {kFootbotPlace}, noise);
   actuator.Of<CCI_FootBotGripperActuator>(0).SetGripper(1);
   actuator.Commit();
-  TestSensor sensor(world, "footbot_gripper", "generic_footbot_gripper", {kFootbot}, noise);
+  TestSensor sensor(world, "footbot_gripper", "generic_footbot_gripper", {kFootbotPlace}, noise);
   sensor.Update();
   const double drawn = actuator.values[0] - 1;
   EXPECT_GT(std::abs(drawn - sensor.Of<CCI_FootBotGripperSensor>(0).GetAperture()), 1e-6);

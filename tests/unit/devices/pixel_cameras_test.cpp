@@ -7,7 +7,7 @@ namespace swarmanoid
 namespace
 {
 
-constexpr int kTicks = 4000;
+constexpr int kPictureTicks = 4000;
 constexpr double kPixels = 3;  // deviation of each coordinate
 
 struct Pixel
@@ -20,7 +20,7 @@ template <class ToImage>
 void CheckImageNoise(TestWorld& world, TestSensor& camera, const Pixel& exact, ToImage to_image)
 {
   double u = 0, v = 0, uu = 0, vv = 0, uv = 0;
-  for (std::uint64_t tick = 1; tick <= kTicks; ++tick)
+  for (std::uint64_t tick = 1; tick <= kPictureTicks; ++tick)
   {
     world.Space().SetTick(tick);
     camera.Update();
@@ -30,19 +30,19 @@ void CheckImageNoise(TestWorld& world, TestSensor& camera, const Pixel& exact, T
     EXPECT_NEAR(pixel.u, std::round(pixel.u), 1e-6) << "whole pixels";
     EXPECT_NEAR(pixel.v, std::round(pixel.v), 1e-6);
     const double du = pixel.u - exact.u, dv = pixel.v - exact.v;
-    u += du / kTicks;
-    v += dv / kTicks;
-    uu += du * du / kTicks;
-    vv += dv * dv / kTicks;
-    uv += du * dv / kTicks;
+    u += du / kPictureTicks;
+    v += dv / kPictureTicks;
+    uu += du * du / kPictureTicks;
+    vv += dv * dv / kPictureTicks;
+    uv += du * dv / kPictureTicks;
   }
   const double deviation = std::sqrt(kPixels * kPixels + 1.0 / 12);  // and that of rounding
-  const double error = 4 * deviation / std::sqrt(kTicks);
+  const double error = 4 * deviation / std::sqrt(kPictureTicks);
   EXPECT_NEAR(u, 0, error);
   EXPECT_NEAR(v, 0, error);
   EXPECT_NEAR(std::sqrt(uu), deviation, error);
   EXPECT_NEAR(std::sqrt(vv), deviation, error);
-  EXPECT_NEAR(uv, 0, 4 * deviation * deviation / std::sqrt(kTicks)) << "the two are independent";
+  EXPECT_NEAR(uv, 0, 4 * deviation * deviation / std::sqrt(kPictureTicks)) << "the two are independent";
 }
 
 const TestParameters kNoise{{"noise_kind", "gaussian"}, {"noise_deviation", std::to_string(kPixels)}};

@@ -26,9 +26,9 @@ bool IsFree(const Dynamics3dTestWorld& world, std::uint32_t entity)
 }
 
 // The same world twice, once with all robots in the solver.
-struct Pair
+struct FreeAndSolved
 {
-  explicit Pair(const std::function<void(Dynamics3dTestWorld&)>& add)
+  explicit FreeAndSolved(const std::function<void(Dynamics3dTestWorld&)>& add)
   {
     solved.Set("solve_all", "true");
     for (Dynamics3dTestWorld* world : {&free, &solved})
@@ -60,7 +60,7 @@ TEST(Dynamics3dFreeRobots, AFreeRobotGoesWhereTheSolverWouldTakeIt)
   for (std::uint32_t trial = 0; trial < 20; ++trial)
   {
     std::uint32_t robot = 0;
-    Pair worlds([&](Dynamics3dTestWorld& world) { robot = world.AddFootbot({5, 5, 0}, 0.4 * trial); });
+    FreeAndSolved worlds([&](Dynamics3dTestWorld& world) { robot = world.AddFootbot({5, 5, 0}, 0.4 * trial); });
     for (int tick = 0; tick < 200; ++tick)
     {
       if (tick % 10 == 0)
@@ -134,7 +134,7 @@ TEST(Dynamics3dFreeRobots, OnAnArcTheyStayOnTheCircle)
 TEST(Dynamics3dFreeRobots, TheyMeetThingsWhereAndAsFastAsSolvedOnesDo)
 {
   std::uint32_t into_wall = 0, into_prey = 0, prey = 0, left = 0, right = 0;
-  Pair worlds(
+  FreeAndSolved worlds(
       [&](Dynamics3dTestWorld& world)
       {
         into_wall = world.AddFootbot({1, 1, 0});

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 
 #include "common/checkpoint/checkpoint.h"
@@ -148,7 +149,7 @@ TEST(SimplestScenes, WhatComesLaterIsSensedThen)
       {
         for (const EntityKind other : AllKinds())
         {
-          if (!CanWait(other) || !Simulates(engine, other)) continue;
+          if (!CanWait(other) || (!IsBodiless(other) && !Simulates(engine, other))) continue;
           SCOPED_TRACE(fmt::format("a {} that comes later", TagName(other)));
           scene.arena = Robot(robot) + Waiting(other, "other");
           const double x = kRobotX_m + NearDistance(robot, other);
@@ -156,13 +157,33 @@ TEST(SimplestScenes, WhatComesLaterIsSensedThen)
           RunScene(scene,
                    [&](CSimulator& simulator)
                    {
-                     const bool is_box = DescriptionOf(other).origin == BodyOrigin::kCentre;
-                     const Pose pose{{x, kRobotY_m, is_box ? 0.1 : 0.0}, Quaternion::Identity()};
+                     const Pose pose{{x, kRobotY_m, HeightOf(other)}, Quaternion::Identity()};
                      if (simulator.GetSpace().GetTick() == 2) added = simulator.GetEditor().AddEntity("other", pose);
                      if (simulator.GetSpace().GetTick() == 6) simulator.GetEditor().RemoveEntity(added);
                    });
         }
       });
+}
+
+// Hills of a millimetre: the robot stands on them where it stood on the floor.
+TEST(SimplestScenes, TerrainIsSensed)
+{
+  std::set<std::string> engines;
+  ForEachSet(
+      [&](SmallScene scene, EntityKind robot, const PluginDescription& engine)
+      {
+        if (!Simulates(engine, EntityKind::kTerrain)) return;
+        engines.insert(engine.label);
+        const std::string terrain = fmt::format(
+            "<terrain id='hills'><heightmap file='configs/terrain/hills.png' size='{0},{0}' height='0.001'/></terrain>",
+            kArena_m);
+        for (const std::string& robots : {std::string(), Robot(robot)})
+        {
+          scene.arena = terrain + robots;
+          RunScene(scene);
+        }
+      });
+  EXPECT_FALSE(engines.empty());
 }
 
 TEST(SimplestScenes, TwoRobotsWithTheSameDevicesSenseEachOther)

@@ -31,7 +31,7 @@ struct Device
   std::vector<double> told{};  // actuators: their columns
 };
 
-struct Robot
+struct CarryingRobot
 {
   std::string id, tag, position, orientation;
   std::vector<Device> actuators, sensors;
@@ -50,7 +50,7 @@ constexpr double kWheelForce = 0.8 * 1.6 * 9.81;          // N: what the wheels 
 constexpr double kFullTraction = kWheelForce / 25;        // of 25 N
 constexpr double kFullTorque = kWheelForce * 0.07 / 1.5;  // of 1.5 N m
 
-const std::vector<Robot>& Robots()
+const std::vector<CarryingRobot>& Robots()
 {
   const Device gripper{"footbot_gripper", "dummy_footbot_gripper", {1}};
   const auto wheels = [](double left, double right) {
@@ -58,7 +58,7 @@ const std::vector<Robot>& Robots()
   };
   const std::vector<Device> grip_sensors = {{"footbot_turret_torque", "engine_footbot_turret_torque"},
                                             {"footbot_gripper", "generic_footbot_gripper"}};
-  static const std::vector<Robot> robots = {
+  static const std::vector<CarryingRobot> robots = {
       {"driver",
        "footbot",
        "1,1,0",
@@ -153,7 +153,7 @@ public:
   void ControlStep() override
   {
     const std::string& id = GetRobot()->GetId();
-    const auto& robot = *std::ranges::find(Robots(), id, &Robot::id);
+    const auto& robot = *std::ranges::find(Robots(), id, &CarryingRobot::id);
     for (const Device& device : robot.actuators)
       if (GetRobot()->HasActuator(device.label) &&
           (device.label != "footbot_wheels" || robot.actuators.size() == 1 || GetRobot()->GetTick() >= kFirstPull))
@@ -179,7 +179,7 @@ std::map<std::string, double> SeenIn(const PluginDescription& engine, const std:
     return channel.empty() || std::ranges::find(engine.channels, channel) != engine.channels.end();
   };
   std::string controllers, arena;
-  for (const Robot& robot : Robots())
+  for (const CarryingRobot& robot : Robots())
   {
     const auto list = [&](PluginKind kind, const std::vector<Device>& devices)
     {
@@ -243,7 +243,7 @@ TEST(SameReadings, EachDeviceOfAnEngineIsInTheScene)
 {
   RegisterEverything();
   std::set<std::string> met;
-  for (const Robot& robot : Robots())
+  for (const CarryingRobot& robot : Robots())
   {
     for (const Device& device : robot.actuators) met.insert("actuator " + device.label);
     for (const Device& device : robot.sensors) met.insert("sensor " + device.label);

@@ -192,11 +192,15 @@ std::string ElementOf(EntityKind kind, const std::string& id, const std::string&
 
 }  // namespace
 
-std::string EntityElement(EntityKind kind, const std::string& id, double x, double y, const std::string& controller)
+double HeightOf(EntityKind kind)
 {
   const EntityKindDescription& row = DescriptionOf(kind);
-  const double z = row.origin == BodyOrigin::kCentre ? 0.1 : row.role == EntityRole::kLight ? 0.3 : 0;
-  return ElementOf(kind, id, fmt::format(" position='{},{},{}'", x, y, z), controller);
+  return row.origin == BodyOrigin::kCentre ? 0.1 : row.role == EntityRole::kLight ? 0.3 : 0;
+}
+
+std::string EntityElement(EntityKind kind, const std::string& id, double x, double y, const std::string& controller)
+{
+  return ElementOf(kind, id, fmt::format(" position='{},{},{}'", x, y, HeightOf(kind)), controller);
 }
 
 std::string Waiting(EntityKind kind, const std::string& id, const std::string& controller)

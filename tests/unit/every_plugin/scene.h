@@ -47,6 +47,8 @@ std::string DeviceElement(const PluginDescription& device);
 // parameter.
 std::string EntityElement(EntityKind kind, const std::string& id, double x, double y,
                           const std::string& controller = "");
+// Where the position of an entity is above the floor that it stands on, m.
+double HeightOf(EntityKind kind);
 // A <reserve> of one of a kind.
 std::string Waiting(EntityKind kind, const std::string& id, const std::string& controller = "");
 // How far the middle of an entity is from the robot's if 8 cm are between them, m.

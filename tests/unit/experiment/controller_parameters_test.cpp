@@ -37,7 +37,7 @@ std::string File(const std::string& parameters, const std::string& functions = "
                      parameters, functions);
 }
 
-constexpr const char* kGood = "<parameters><target>1, 2</target></parameters>";
+constexpr const char* kGoodParameters = "<parameters><target>1, 2</target></parameters>";
 
 LoadOptions With(const std::string& path, const std::string& value)
 {
@@ -49,7 +49,7 @@ LoadOptions With(const std::string& path, const std::string& value)
 TEST(ControllerParameters, AreCompleteInTheExperiment)
 {
   const auto loaded = LoadText(File("<parameters target='1, 2' weights='net.txt'/>", "<declared_functions id='f'/>"));
-  ASSERT_TRUE(loaded.experiment) << ErrorsOf(File(kGood));
+  ASSERT_TRUE(loaded.experiment) << ErrorsOf(File(kGoodParameters));
   const TConfigurationTree& tree = loaded.experiment->controllers.at(0).parameters;
   EXPECT_EQ(tree.GetNumber("velocity"), 0.1);
   EXPECT_EQ(tree.GetVector2("target"), Vector2(1, 2));
@@ -76,28 +76,28 @@ TEST(ControllerParameters, RequiredOnesAreMissedWithoutTheElement)
 
 TEST(ControllerParameters, AreSetFromTheCommandLine)
 {
-  const auto changed = LoadText(File(kGood), With("controllers.w.parameters.velocity", "0.2"));
+  const auto changed = LoadText(File(kGoodParameters), With("controllers.w.parameters.velocity", "0.2"));
   ASSERT_TRUE(changed.experiment);
   EXPECT_EQ(changed.experiment->controllers.at(0).parameters.GetNumber("velocity"), 0.2);
   EXPECT_EQ(ErrorsOf(File(""), With("controllers.w.parameters.target", "1, 2")), "");
-  EXPECT_EQ(ErrorsOf(File(kGood), With("controllers.w.parameters.target_distnce", "0.5")),
+  EXPECT_EQ(ErrorsOf(File(kGoodParameters), With("controllers.w.parameters.target_distnce", "0.5")),
             "--set controllers.w.parameters.target_distnce: the controller <declared_walker> has no parameter "
             "'target_distnce'; it has: velocity, target, weights; did you mean 'target'?\n");
   EXPECT_EQ(
-      ErrorsOf(File(kGood), With("controllers.w.parameters.velocity", "fast")),
+      ErrorsOf(File(kGoodParameters), With("controllers.w.parameters.velocity", "fast")),
       "--set controllers.w.parameters.velocity: 'velocity' of the controller <declared_walker> is 'fast'; it must "
       "be a number in m/s, from 0 to 0.3 m/s\n");
 }
 
 TEST(ControllerParameters, ThoseOfFunctionsLikewise)
 {
-  EXPECT_EQ(ErrorsOf(File(kGood, "<declared_functions id='f'><evry>5</evry></declared_functions>")),
+  EXPECT_EQ(ErrorsOf(File(kGoodParameters, "<declared_functions id='f'><evry>5</evry></declared_functions>")),
             "test.xml:4:50: <declared_functions> has no element <evry>; allowed: id, library, every; did you mean "
             "'every'?\n");
-  EXPECT_EQ(ErrorsOf(File(kGood, "<declared_functions id='f'/>"), With("experiment_functions.f.every", "0")),
+  EXPECT_EQ(ErrorsOf(File(kGoodParameters, "<declared_functions id='f'/>"), With("experiment_functions.f.every", "0")),
             "--set experiment_functions.f.every: 'every' of <declared_functions> is 0 ticks; it must be at least 1 "
             "ticks\n");
-  const auto changed = LoadText(File(kGood, "<declared_functions id='f'/>"), With("experiment_functions.f.every", "7"));
+  const auto changed = LoadText(File(kGoodParameters, "<declared_functions id='f'/>"), With("experiment_functions.f.every", "7"));
   ASSERT_TRUE(changed.experiment);
   EXPECT_EQ(changed.experiment->functions.at(0).tree.GetInteger("every"), 7);
 }

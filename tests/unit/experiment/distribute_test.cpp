@@ -197,9 +197,19 @@ TEST(Distribute, ErrorsSayWhatDoesNotFit)
             "the arena of 10, 10, 3 m\n");
   EXPECT_EQ(ErrorsOf(Arena("<distribute quantity='5'/>")),
             "test.xml:3:1: <distribute> must hold one entity element such as <footbot id=\"fb\"/>; it holds 0\n");
-  EXPECT_EQ(ErrorsOf(Arena("<distribute quantity='0'><footbot id='fb' position='1,1,0'/></distribute>")),
-            "test.xml:3:13: 'quantity' of <distribute> is 0; it must be from 1 to 2000000\n"
-            "test.xml:3:43: <footbot> has no attribute 'position'; allowed: id, controller\n");
+  EXPECT_EQ(ErrorsOf(Arena("<distribute quantity='-1'><footbot id='fb' position='1,1,0'/></distribute>")),
+            "test.xml:3:13: 'quantity' of <distribute> is -1; it must be from 0 to 2000000\n"
+            "test.xml:3:44: <footbot> has no attribute 'position'; allowed: id, controller\n");
+}
+
+TEST(Distribute, NoneIsAQuantityToo)
+{
+  const LoadedExperiment loaded = LoadText(
+      "<ahss-config><arena size='9,9,3' optimization='2D'><distribute quantity='0'><footbot id='fb'/></distribute>"
+      "<footbot id='one' position='1,1,0'/></arena><engines><dummy_engine id='a'/></engines><arena_physics>"
+      "<engine id='a'><entity id='fb_*'/><entity id='one'/></engine></arena_physics></ahss-config>");
+  ASSERT_TRUE(loaded.experiment);
+  EXPECT_EQ(loaded.experiment->entities.size(), 1U);
 }
 
 TEST(Distribute, EnginesTakeThemByPatternOrAll)

@@ -13,7 +13,7 @@ namespace swarmanoid::kinematics2d
 namespace
 {
 
-constexpr double kTick = 0.1;
+constexpr double kCrowdTick = 0.1;
 
 // A disc (one point and a radius) or a convex polygon (no radius), in the frame of its body.
 struct Shape
@@ -52,7 +52,7 @@ CollisionModel ModelOf(const Outline& outline)
   return MakeModel(circles, polygons);
 }
 
-Shape Placed(const Shape& shape, double x, double y, double heading, double turret)
+Shape ShapeAt(const Shape& shape, double x, double y, double heading, double turret)
 {
   const double angle = shape.on_turret ? heading + turret : heading;
   Shape placed{{}, shape.radius};
@@ -99,7 +99,7 @@ double OverlapOf(const Shape& a, const Shape& b)
 }
 
 // A world and the outlines in it.
-struct Scene
+struct Crowd
 {
   KinematicWorld world;
   std::vector<Outline> outlines;  // of each body
@@ -130,7 +130,7 @@ struct Scene
       const Pose2 pose = world.PoseOf(k);
       const double heading = 2 * std::atan2(pose.heading.z, pose.heading.w);
       for (const Shape& shape : outlines[k])
-        placed[k].push_back(Placed(shape, pose.x, pose.y, heading, world.TurretAngle(k)));
+        placed[k].push_back(ShapeAt(shape, pose.x, pose.y, heading, world.TurretAngle(k)));
     }
     return placed;
   }
@@ -146,7 +146,7 @@ double Deepest(const Outline& a, const Outline& b)
 
 // The deepest overlap of any two bodies, and of any with a wall. `skips(a, b)`: pairs that do not count.
 template <class Skips>
-double DeepestOverlap(const Scene& scene, double widest, const Skips& skips)
+double DeepestOverlap(const Crowd& scene, double widest, const Skips& skips)
 {
   const std::vector<Outline> placed = scene.PlacedOutlines();
   double deepest = -std::numeric_limits<double>::infinity();
@@ -172,7 +172,7 @@ TEST(KinematicCrowd, BlindRobotsNeverOverlapAtAnyDensityAndSpeed)
     for (const double speed : {0.05, 0.08, 0.1, 0.12, 0.3})
       for (const double spacing : {0.2, 0.21, 0.25, 0.33})
       {
-        Scene scene;
+        Crowd scene;
         constexpr int kColumns = 9;
         const double side = kColumns * spacing + 0.02;
         for (int k = 0; k < kColumns * kColumns; ++k)
@@ -190,7 +190,7 @@ TEST(KinematicCrowd, BlindRobotsNeverOverlapAtAnyDensityAndSpeed)
             const double right = speed * random.Uniform(0.4, 1);
             scene.world.SetTwist(k, {(left + right) / 2, 0, (right - left) / kFootbotInterWheel});
           }
-          scene.world.Advance(kTick, steps);
+          scene.world.Advance(kCrowdTick, steps);
           ASSERT_LE(DeepestOverlap(scene, 0.2, all), scene.world.AllowedOverlap() + 1e-9)
               << "speed " << speed << " spacing " << spacing << " steps " << steps << " tick " << tick;
         }
@@ -205,7 +205,7 @@ TEST(KinematicCrowd, OutlinesOfAllKindsGripsTurretsAndMirrorsNeverOverlap)
     RandomStream random(31, seed, 0, 0);
     const auto one_of = [&random](std::uint32_t count)
     { return static_cast<std::uint32_t>(random.Uniform(0, 1) * count) % count; };
-    Scene scene;
+    Crowd scene;
     const double spacing = random.Uniform(0.24, 0.3);
     constexpr std::uint32_t kColumns = 8;
     const double width = kColumns * spacing;
@@ -270,7 +270,7 @@ TEST(KinematicCrowd, OutlinesOfAllKindsGripsTurretsAndMirrorsNeverOverlap)
         way = from - pose.y;
         scene.world.Follow(mirror, pose, true);
       }
-      scene.world.Advance(kTick, steps);
+      scene.world.Advance(kCrowdTick, steps);
       ASSERT_LE(DeepestOverlap(scene, 0.3, with_mirrors), scene.world.AllowedOverlap() + 1e-9)
           << "seed " << seed << " tick " << tick;
       // Into whom a mirror comes it comes no faster than it moves.
@@ -284,7 +284,7 @@ TEST(KinematicCrowd, OutlinesOfAllKindsGripsTurretsAndMirrorsNeverOverlap)
 
 TEST(KinematicCrowd, WhoWasPutIntoOthersPartsFromThemAndNeverSinksDeeper)
 {
-  Scene scene;
+  Crowd scene;
   for (int k = 0; k < 36; ++k) scene.Add(Footbot(), 0.25 * (k % 6), 0.25 * (k / 6), 0);
   scene.world.Start({-1, -1, 2, 2});
   scene.world.Place(0, {0.55, 0.6, RotorOf(1)});
@@ -299,7 +299,7 @@ TEST(KinematicCrowd, WhoWasPutIntoOthersPartsFromThemAndNeverSinksDeeper)
       RandomStream random(5, k, 0, tick / 9);
       scene.world.SetTwist(k, {0.05 * random.Uniform(-1, 1), 0, random.Uniform(-1, 1)});
     }
-    scene.world.Advance(kTick, 1);
+    scene.world.Advance(kCrowdTick, 1);
     ASSERT_LE(DeepestOverlap(scene, 0.2, not_the_one), scene.world.AllowedOverlap() + 1e-9) << tick;
     const double now = DeepestOverlap(scene, 0.2, only_the_one);
     ASSERT_LE(now, std::max(before, scene.world.AllowedOverlap()) + 1e-9) << tick;
@@ -311,7 +311,7 @@ TEST(KinematicCrowd, WhoWasPutIntoOthersPartsFromThemAndNeverSinksDeeper)
 TEST(KinematicCrowd, ACrowdThatDrivesOnTogetherIsNotHeldByAJamElsewhere)
 {
   // Twenty in a row, a tenth of a millimetre apart, and five that press one another against a wall.
-  Scene scene;
+  Crowd scene;
   const Outline disc{{{{0, 0}}, 0.085}};
   for (int k = 0; k < 20; ++k) scene.Add(disc, 0.1701 * k, 0, 0);
   for (int k = 0; k < 5; ++k) scene.Add(disc, 0.09 + 0.171 * k, 2, kPi);
@@ -320,7 +320,7 @@ TEST(KinematicCrowd, ACrowdThatDrivesOnTogetherIsNotHeldByAJamElsewhere)
   for (std::uint32_t k = 0; k < 25; ++k) scene.world.SetTwist(k, {0.1, 0, 0});
   for (int tick = 1; tick <= 30; ++tick)
   {
-    scene.world.Advance(kTick, 1);
+    scene.world.Advance(kCrowdTick, 1);
     for (std::uint32_t k = 0; k < 20; ++k) ASSERT_NEAR(scene.world.Poses().x[k], 0.1701 * k + 0.01 * tick, 1e-12);
     for (std::uint32_t k = 20; k < 25; ++k) ASSERT_GT(scene.world.Poses().x[k], 0.084);
   }

@@ -20,8 +20,8 @@ namespace
 {
 
 // By robot, step and tick, and what it was.
-using Record = std::map<std::string, std::vector<double>>;
-Record record;
+using Recording = std::map<std::string, std::vector<double>>;
+Recording record;
 
 class CRecorder : public CCI_Controller
 {
@@ -73,7 +73,7 @@ struct File
   std::string visualisations{};
 };
 
-Record Recorded(const File& file)
+Recording Recorded(const File& file)
 {
   const std::string folder = testing::TempDir() + "common_random_numbers_" + std::to_string(getpid());
   std::filesystem::create_directories(folder);
@@ -106,7 +106,7 @@ Record Recorded(const File& file)
 
 const std::string kFarBlock = "<block id='far' position='15,15,0.25' size='1,1,0.5'/>";
 
-void ExpectAllOf(const Record& expected, const Record& found)
+void ExpectAllOf(const Recording& expected, const Recording& found)
 {
   for (const auto& [name, numbers] : expected)
   {
@@ -117,7 +117,7 @@ void ExpectAllOf(const Record& expected, const Record& found)
 
 TEST(CommonRandomNumbers, StepsOfOneRobotDrawDifferentNumbers)
 {
-  const Record all = Recorded({});
+  const Recording all = Recorded({});
   std::vector<double> drawn;
   for (const char* step :
        {"a Init 0", "a ControlStep 0", "a ControlStep 1", "b Init 0", "b ControlStep 0", "a Destroy 3"})
@@ -129,7 +129,7 @@ TEST(CommonRandomNumbers, StepsOfOneRobotDrawDifferentNumbers)
 
 TEST(CommonRandomNumbers, AnEntityMoreChangesNothing)
 {
-  const Record expected = Recorded({});
+  const Recording expected = Recorded({});
   ExpectAllOf(expected, Recorded({.before = kFarBlock}));
   ExpectAllOf(expected, Recorded({.after = kFarBlock}));
   ExpectAllOf(expected, Recorded({.before = "<footbot id='c' position='10,10,0' controller='c'/>"}));
@@ -137,8 +137,8 @@ TEST(CommonRandomNumbers, AnEntityMoreChangesNothing)
 
 TEST(CommonRandomNumbers, AThirdRobotBesideChangesNothingBetweenTwo)
 {
-  const Record expected = Recorded({});
-  const Record found = Recorded({.before = "<footbot id='c' position='2.5,4,0' controller='c'/>"});
+  const Recording expected = Recorded({});
+  const Recording found = Recorded({.before = "<footbot id='c' position='2.5,4,0' controller='c'/>"});
   for (const auto& [name, numbers] : expected)
   {
     if (name.find("ranges") == std::string::npos) continue;
@@ -171,7 +171,7 @@ TEST(CommonRandomNumbers, AVisualiserChangesNothing)
 
 TEST(CommonRandomNumbers, LengthAndNumberOfTicksChangeNothingUpToThen)
 {
-  Record expected = Recorded({});
+  Recording expected = Recorded({});
   std::erase_if(expected, [](const auto& entry) { return entry.first.find("Destroy") != std::string::npos; });
   ExpectAllOf(expected, Recorded({.framework = "<clocktick>50</clocktick><maxclock>4</maxclock>"}));
   ExpectAllOf(expected, Recorded({.framework = "<clocktick>100</clocktick><maxclock>7</maxclock>"}));
@@ -179,8 +179,8 @@ TEST(CommonRandomNumbers, LengthAndNumberOfTicksChangeNothingUpToThen)
 
 TEST(CommonRandomNumbers, AnotherSeedChangesAll)
 {
-  const Record expected = Recorded({});
-  const Record other = Recorded({.framework = "<clocktick>100</clocktick><maxclock>4</maxclock><seed>2</seed>"});
+  const Recording expected = Recorded({});
+  const Recording other = Recorded({.framework = "<clocktick>100</clocktick><maxclock>4</maxclock><seed>2</seed>"});
   for (const auto& [name, numbers] : expected)
   {
     if (numbers.empty()) continue;
@@ -190,8 +190,8 @@ TEST(CommonRandomNumbers, AnotherSeedChangesAll)
 
 TEST(CommonRandomNumbers, AnotherIdChangesWhatIsItsOwn)
 {
-  const Record expected = Recorded({});
-  const Record renamed = Recorded({.robots = "<footbot id='a' position='2,2,0' controller='c'/><footbot id='z' "
+  const Recording expected = Recorded({});
+  const Recording renamed = Recorded({.robots = "<footbot id='a' position='2,2,0' controller='c'/><footbot id='z' "
                                              "position='3,2,0' controller='c'/>"});
   EXPECT_EQ(renamed.at("a ground 2"), expected.at("a ground 2"));
   EXPECT_EQ(renamed.at("a ControlStep 2"), expected.at("a ControlStep 2"));

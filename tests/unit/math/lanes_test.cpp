@@ -14,13 +14,13 @@ namespace swarmanoid
 namespace
 {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
+constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
+constexpr float kFloatNotANumber = std::numeric_limits<float>::quiet_NaN();
 
 std::vector<float> Numbers()
 {
   RandomStream random(2, 0, 0, 0);
-  std::vector<float> numbers{0, -0.0F, 1, -1, kInfinity, -kInfinity, kNotANumber, 1e-30F};
+  std::vector<float> numbers{0, -0.0F, 1, -1, kFloatInfinity, -kFloatInfinity, kFloatNotANumber, 1e-30F};
   while (numbers.size() < 512) numbers.push_back(static_cast<float>(random.Uniform(-1000, 1000)));
   return numbers;
 }
@@ -77,8 +77,8 @@ TEST(Lanes, ComputeWhatEachNumberWould)
 
 TEST(Lanes, TakeWhatComesFirstOfWhatIsNotANumber)
 {
-  EXPECT_EQ(Maximum(Everywhere(kNotANumber), FloatLanes{})[0], 0);
-  EXPECT_EQ(Minimum(Everywhere(static_cast<double>(kNotANumber)), Everywhere(7.0))[0], 7);
+  EXPECT_EQ(Maximum(Everywhere(kFloatNotANumber), FloatLanes{})[0], 0);
+  EXPECT_EQ(Minimum(Everywhere(static_cast<double>(kFloatNotANumber)), Everywhere(7.0))[0], 7);
 }
 
 TEST(Lanes, AreNumberedFromTheLowestBit)

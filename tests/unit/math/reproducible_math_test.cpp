@@ -30,7 +30,7 @@ namespace
 
 __extension__ typedef __float128 Quad;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSmallest = std::numeric_limits<double>::denorm_min();
 
@@ -142,7 +142,7 @@ double Error(Number result, Quad right)
   const Quad size = fabsq(right);
   if (!(size <= static_cast<Quad>(std::numeric_limits<Number>::max()))) return 0;
   if (size < static_cast<Quad>(std::numeric_limits<Number>::min())) return 0;
-  if (!std::isfinite(result)) return kInfinity;
+  if (!std::isfinite(result)) return kInfinite;
   int exponent = 0;
   frexpq(size, &exponent);
   return static_cast<double>(fabsq(static_cast<Quad>(result) - right) /
@@ -285,62 +285,62 @@ TEST(ReproducibleMath, SpecialValuesAreThoseOfTheStandard)
   };
   const OfOne ones[] = {
       {::sin, -0.0, -0.0},
-      {::sin, kInfinity, kNan},
+      {::sin, kInfinite, kNan},
       {::sin, kSmallest, kSmallest},
       {::sin, 1e22, -0.8522008497671888},
       {::cos, 1e22, 0.52321478539513895},
-      {::cos, -kInfinity, kNan},
+      {::cos, -kInfinite, kNan},
       {::tan, -0.0, -0.0},
       {::asin, 1.0000000000000002, kNan},
       {::asin, -0.0, -0.0},
       {::acos, 1, 0},
       {::acos, -2, kNan},
-      {::atan, kInfinity, 0x1.921fb54442d18p+0},
-      {::sinh, -kInfinity, -kInfinity},
-      {::cosh, -kInfinity, kInfinity},
-      {::tanh, -kInfinity, -1},
+      {::atan, kInfinite, 0x1.921fb54442d18p+0},
+      {::sinh, -kInfinite, -kInfinite},
+      {::cosh, -kInfinite, kInfinite},
+      {::tanh, -kInfinite, -1},
       {::tanh, -0.0, -0.0},
-      {::asinh, -kInfinity, -kInfinity},
+      {::asinh, -kInfinite, -kInfinite},
       {::acosh, 0.5, kNan},
       {::acosh, 1, 0},
-      {::atanh, -1, -kInfinity},
+      {::atanh, -1, -kInfinite},
       {::atanh, 2, kNan},
-      {::exp, -kInfinity, 0},
-      {::exp, 710, kInfinity},
+      {::exp, -kInfinite, 0},
+      {::exp, 710, kInfinite},
       {::exp, -746, 0},
       {::exp, -745, kSmallest},
       {::exp2, -1074, kSmallest},
-      {::exp2, 1024, kInfinity},
+      {::exp2, 1024, kInfinite},
       {::exp10, 22, 1e22},
       {::exp10, -400, 0},
-      {::expm1, -kInfinity, -1},
+      {::expm1, -kInfinite, -1},
       {::expm1, -0.0, -0.0},
-      {::log, -0.0, -kInfinity},
+      {::log, -0.0, -kInfinite},
       {::log, -1, kNan},
       {::log, 1, 0},
-      {::log, kInfinity, kInfinity},
+      {::log, kInfinite, kInfinite},
       {::log2, 8, 3},
       {::log2, kSmallest, -1074},
       {::log10, 1000, 3},
-      {::log10, 0, -kInfinity},
-      {::log1p, -1, -kInfinity},
+      {::log10, 0, -kInfinite},
+      {::log1p, -1, -kInfinite},
       {::log1p, -0.0, -0.0},
       {::cbrt, -27, -3},
       {::cbrt, -0.0, -0.0},
-      {::erf, kInfinity, 1},
-      {::erfc, -kInfinity, 2},
+      {::erf, kInfinite, 1},
+      {::erfc, -kInfinite, 2},
       {::erfc, 30, 0},
       {::lgamma, 1, 0},
-      {::lgamma, -3, kInfinity},
-      {::lgamma, -kInfinity, kInfinity},
+      {::lgamma, -3, kInfinite},
+      {::lgamma, -kInfinite, kInfinite},
       {::tgamma, 5, 24},
       {::tgamma, -1, kNan},
-      {::tgamma, -0.0, -kInfinity},
-      {::tgamma, 172, kInfinity},
+      {::tgamma, -0.0, -kInfinite},
+      {::tgamma, 172, kInfinite},
       {::exp, kNan, kNan},
       {::lgamma, kNan, kNan},
       {::j0, 0, 1},
-      {::y0, 0, -kInfinity},
+      {::y0, 0, -kInfinite},
   };
   int line = 0;
   for (const OfOne& one : ones)
@@ -364,18 +364,18 @@ TEST(ReproducibleMath, SpecialValuesAreThoseOfTheStandard)
       {::atan2, -0.0, 1, -0.0},
       {::atan2, 0, 0, 0},
       {::atan2, -0.0, -0.0, -0x1.921fb54442d18p+1},
-      {::atan2, kInfinity, -kInfinity, 0x1.2d97c7f3321d2p+1},
+      {::atan2, kInfinite, -kInfinite, 0x1.2d97c7f3321d2p+1},
       {::pow, kNan, 0, 1},
       {::pow, 1, kNan, 1},
       {::pow, -2, 3, -8},
       {::pow, -2, 0.5, kNan},
-      {::pow, 0, -3, kInfinity},
-      {::pow, -0.0, -3, -kInfinity},
-      {::pow, -1, kInfinity, 1},
-      {::pow, 0.5, -kInfinity, kInfinity},
+      {::pow, 0, -3, kInfinite},
+      {::pow, -0.0, -3, -kInfinite},
+      {::pow, -1, kInfinite, 1},
+      {::pow, 0.5, -kInfinite, kInfinite},
       {::pow, 10, 22, 1e22},
       {::pow, 2, -1074, kSmallest},
-      {::hypot, kInfinity, kNan, kInfinity},
+      {::hypot, kInfinite, kNan, kInfinite},
       {::hypot, 0x3p600, 0x4p600, 0x5p600},
       {::hypot, kSmallest, 0, kSmallest},
   };

@@ -1,0 +1,62 @@
+"""The experiments of configs/ with no robot and with one, in one process and as a cluster."""
+import re
+
+from harness import CONFIGS, LauncherTest, main
+
+TICKS = 12
+QUANTITY = re.compile(r"(<distribute\b(?:(?!</distribute>).)*?(?:<quantity>|quantity=\"))\d+", re.DOTALL)
+
+
+class Simplest(LauncherTest):
+    def files(self, quantity):
+        """The experiments that distribute entities, with so many in each <distribute>."""
+        for path in sorted(CONFIGS.glob("*.xml")):
+            text, count = QUANTITY.subn(rf"\g<1>{quantity}", path.read_text())
+            if count == 0:
+                continue
+            # Names of files in it are relative to its folder.
+            file = self.folder / "configs" / path.name
+            file.parent.mkdir(exist_ok=True)
+            for other in CONFIGS.iterdir():
+                if other.is_dir() and not (file.parent / other.name).exists():
+                    (file.parent / other.name).symlink_to(other)
+            file.write_text(text)
+            yield file
+
+    def compare(self, quantity, *options):
+        count = 0
+        for file in self.files(quantity):
+            with self.subTest(file=file.name, quantity=quantity):
+                hashes = []
+                for way in (["--single-process"], []):
+                    folder = self.folder / f"{file.stem}{len(way)}"
+                    run = self.run_it("run", file, "--ticks", TICKS, "--quiet", "--output", folder, *options, *way)
+                    self.assertEqual(run.process.returncode, 0, run.stderr)
+                    hashes.append(self.assert_finished(run))
+                self.assertEqual(*hashes)
+            count += 1
+        self.assertGreater(count, 20)
+
+    def test_without_a_robot(self):
+        self.compare(0, "--no-visualisers")
+
+    def test_with_one_robot(self):
+        self.compare(1, "--no-visualisers")
+
+    def test_what_draws_beside_one_robot(self):
+        """A visualiser of a cluster hears of the run by the bus."""
+        for quantity in (0, 1):
+            for file in self.files(quantity):
+                if file.name not in ("diffusion_10.xml", "prey_supply.xml", "epuck_mixed.xml"):
+                    continue
+                for renderer, output in (("image", "*.png"), ("figure", "*.svg")):
+                    with self.subTest(file=file.name, quantity=quantity, renderer=renderer):
+                        folder = self.folder / f"{file.stem}_{quantity}_{renderer}"
+                        run = self.run_it("run", file, "--ticks", TICKS, "--quiet", "--no-visualisers", "--show", renderer, "--output", folder)
+                        self.assertEqual(run.process.returncode, 0, run.stderr)
+                        self.assert_finished(run, TICKS)
+                        self.assertTrue(list(folder.rglob(output)), list(folder.rglob("*")))
+
+
+if __name__ == "__main__":
+    main()
