@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -25,9 +28,34 @@ namespace
 {
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30U;
-constexpr std::string_view kHeader = "tick,request,entity,numbers,from,number,when";
+constexpr std::string_view kHeader = "tick,request,entity,numbers,from,number,when,check";
 constexpr std::size_t kFewestFields = 4;
-constexpr std::size_t kMostFields = 7;
+constexpr std::size_t kMostFields = 8;
+
+// The last field of a line: the checksum of what is before it.
+std::string CheckOf(std::string_view line) { return fmt::format("{:08x}", XXH32(line.data(), line.size(), 0)); }
+
+// Lines of a file whose header has the checksum have one, too, though it may be empty.
+bool IsHeader(const std::string& line, int number, std::size_t& fewest)
+{
+  if (number != 1 || !line.starts_with("tick,")) return false;
+  if (line == kHeader) fewest = kMostFields;
+  return true;
+}
+
+// What is wrong with a line, or nothing. `fewest`: the fields that it must have. A line that a user wrote has no
+// checksum.
+std::string MistakeOfLine(const std::string& line, const std::vector<std::string>& fields, std::size_t fewest)
+{
+  if (fields.size() < fewest || fields.size() > kMostFields)
+    return fmt::format("{} is no event; a line is {}", Quoted(line), kHeader);
+  if (fields.size() < kMostFields || fields.back().empty()) return {};
+  if (fields.back() == CheckOf(std::string_view(line).substr(0, line.rfind(',')))) return {};
+  return fmt::format(
+      "{} does not fit its checksum: it was damaged, or changed by hand; correct it and empty its "
+      "last field",
+      Quoted(line));
+}
 
 // What can be known to be wrong before the run; the place itself is checked when it is moved there.
 std::string ErrorOf(const ControlRequestMessage& request, const Experiment& experiment)
@@ -78,7 +106,7 @@ std::optional<std::uint64_t> WholeNumber(std::string_view text)
 // write may lack the last end.
 std::size_t CutShortAt(std::string_view text)
 {
-  if (text.empty() || text.back() == '\n' || !text.starts_with(kHeader)) return text.size();
+  if (text.empty() || text.back() == '\n' || !text.starts_with("tick,")) return text.size();
   return text.rfind('\n') + 1;
 }
 
@@ -111,16 +139,17 @@ std::vector<RecordedEvent> ParseAll(const std::string& text, const std::string& 
   const auto name = std::make_shared<const std::string>(path);
   std::vector<RecordedEvent> events;
   std::string line;
+  std::size_t fewest = kFewestFields;
   std::uint64_t last = 0;
   for (int number = 1; std::getline(file, line); ++number)
   {
     RecordedEvent event;
     event.location = {name, number, 0};
     if (line.ends_with('\r')) line.pop_back();
+    if (IsHeader(line, number, fewest) || line.empty()) continue;
     const std::vector<std::string> fields = CsvFields(line);
-    if (line.empty() || (number == 1 && line.starts_with("tick,"))) continue;
-    if (fields.size() < kFewestFields || fields.size() > kMostFields)
-      throw ConfigurationError(event.location, fmt::format("{} is no event; a line is {}", Quoted(line), kHeader));
+    if (const std::string mistake = MistakeOfLine(line, fields, fewest); !mistake.empty())
+      throw ConfigurationError(event.location, mistake);
 
     const auto tick = WholeNumber(fields[0]);
     if (!tick) throw ConfigurationError(event.location, fmt::format("{} is no tick", Quoted(fields[0])));
@@ -217,16 +246,19 @@ EventLines ReadEventLines(const std::string& path)
   if (!std::filesystem::exists(path)) return events;
   std::istringstream file(ReadWithoutCutLine(path));
   std::string line;
+  std::size_t fewest = kFewestFields;
   for (int number = 1; std::getline(file, line); ++number)
   {
     if (line.ends_with('\r')) line.pop_back();
-    if (line.empty() || (number == 1 && line.starts_with("tick,"))) continue;
+    if (IsHeader(line, number, fewest) || line.empty()) continue;
     const std::vector<std::string> fields = CsvFields(line);
     const auto tick = WholeNumber(fields.empty() ? std::string_view() : std::string_view(fields[0]));
-    if (tick && fields.size() >= kFewestFields && fields.size() <= kMostFields)
+    std::string mistake = MistakeOfLine(line, fields, fewest);
+    if (mistake.empty() && !tick) mistake = fmt::format("{} is no event; a line is {}", Quoted(line), kHeader);
+    if (mistake.empty())
       events.lines.push_back({*tick, line});
     else
-      events.damaged.push_back(fmt::format("{}:{}: {} is no event; a line is {}", path, number, Quoted(line), kHeader));
+      events.damaged.push_back(fmt::format("{}:{}: {}", path, number, mistake));
   }
   return events;
 }
@@ -307,9 +339,10 @@ void EventLog::Write(std::uint64_t tick, const ControlRequestMessage& request)
   if (good)
   {
     // The shortest numbers that read back as the same bits.
-    fmt::print(file_, "{},{},{},{},{},{},{}\n", tick, request.verb, CsvField(request.entity),
-               fmt::join(request.numbers, " "), CsvField(AskerOf(request)), request.number,
-               request.user.empty() && request.verb != kRefused ? std::string() : NowInUtc());
+    const std::string line = fmt::format("{},{},{},{},{},{},{}", tick, request.verb, CsvField(request.entity),
+                                         fmt::join(request.numbers, " "), CsvField(AskerOf(request)), request.number,
+                                         request.user.empty() && request.verb != kRefused ? std::string() : NowInUtc());
+    fmt::print(file_, "{},{}\n", line, CheckOf(line));
     good = std::fflush(file_) == 0;
   }
   if (!good) throw std::runtime_error(fmt::format("cannot write the events to '{}': {}", path_, std::strerror(errno)));

@@ -15,7 +15,7 @@ from . import _module
 
 
 # Of tables: columns that are no numbers, whatever they look like.
-_TEXTS = ("entity", "kind", "hash", "state", "failure", "host", "version", "checksum", "user", "machine")
+_TEXTS = ("entity", "kind", "hash", "state", "failure", "host", "version", "checksum", "check", "user", "machine")
 
 
 def _command():

@@ -142,7 +142,7 @@ class Attaching(LauncherTest):
         final = self.assert_finished(run, 107)
         self.assertRegex(run.stderr, rf"(?m)^{pwd.getpwuid(os.geteuid()).pw_name}@{socket.gethostname()}:\d+: stopped at tick 107$")
         events = (self.folder / "first" / "events.csv").read_text()
-        self.assertRegex(events, r"\n47,move,fb_1,2.5 1.3 0,[^,]+@[^,]+:\d+,\d+,[^,]+Z\n47,move,fb_1,2.4 1.2 0,")
+        self.assertRegex(events, r"\n47,move,fb_1,2.5 1.3 0,[^,]+@[^,]+:\d+,\d+,[^,]+Z,[0-9a-f]{8}\n47,move,fb_1,2.4 1.2 0,")
         hashes = (self.folder / "hashes").read_text()
         for options in ([], ["--single-process"], ["--controller-hosts", 2]):
             again = self.run_it("run", EXPERIMENT, "--ticks", 200, "--quiet", "--no-visualisers", "--hash-log", "again", "--events",

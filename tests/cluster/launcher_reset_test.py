@@ -92,7 +92,7 @@ class Resets(LauncherTest):
         self.control("step", 100)
         server = next(pid for pid in processes_of(run.process.pid) if os.path.basename((words_of(pid) or [""])[0]) == "space_server")
         with (self.folder / "out/events.csv").open("a") as file:
-            file.write("100,reset,5,,somebody@here:1,1,\n")
+            file.write("100,reset,5,,somebody@here:1,1,,\n")
         os.kill(server, signal.SIGKILL)
         said = self.await_reset(run, 1)
         self.resume(run)

@@ -111,7 +111,7 @@ class Security(LauncherTest):
         self.assertEqual(self.run_it("control", "stop").process.returncode, 0)
         self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
         self.assertRegex(run.stderr, r"(?m)^[^@\s]+@[^:\s]+:\d+: stopped at tick 0$")
-        self.assertRegex((self.folder / "out" / "events.csv").read_text(), r"(?m)^0,stop,,,[^@,]+@[^,]+:\d+,\d+,\d{4}-\d\d-\d\dT[\d:]{8}Z$")
+        self.assertRegex((self.folder / "out" / "events.csv").read_text(), r"(?m)^0,stop,,,[^@,]+@[^,]+:\d+,\d+,\d{4}-\d\d-\d\dT[\d:]{8}Z,[0-9a-f]{8}$")
 
 
 if __name__ == "__main__":

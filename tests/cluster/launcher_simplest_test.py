@@ -4,6 +4,8 @@ import re
 from harness import CONFIGS, LauncherTest, main
 
 TICKS = 12
+# One or two of each engine and of each kind of robot.
+IN_CLUSTERS = ("prey_supply", "epuck_mixed", "kilobots", "rough_holes", "sound_seekers", "three_engines", "urdf_rover")
 QUANTITY = re.compile(r"(<distribute\b(?:(?!</distribute>).)*?(?:<quantity>|quantity=\"))\d+", re.DOTALL)
 
 
@@ -28,12 +30,12 @@ class Simplest(LauncherTest):
         for file in self.files(quantity):
             with self.subTest(file=file.name, quantity=quantity):
                 hashes = []
-                for way in (["--single-process"], []):
+                for way in (["--single-process"], [])[:2 if file.stem in IN_CLUSTERS else 1]:
                     folder = self.folder / f"{file.stem}{len(way)}"
                     run = self.run_it("run", file, "--ticks", TICKS, "--quiet", "--output", folder, *options, *way)
                     self.assertEqual(run.process.returncode, 0, run.stderr)
                     hashes.append(self.assert_finished(run))
-                self.assertEqual(*hashes)
+                self.assertEqual(len(set(hashes)), 1, hashes)
             count += 1
         self.assertGreater(count, 20)
 

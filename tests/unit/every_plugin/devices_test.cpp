@@ -21,64 +21,17 @@ namespace swarmanoid
 namespace
 {
 
-bool Has(const std::vector<std::string>& names, const std::string& name)
-{
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-bool Simulates(const PluginDescription& engine, EntityKind kind)
-{
-  return Has(engine.entity_tags, std::string(TagName(kind))) || (engine.any_kind && !IsBuiltIn(kind));
-}
-
-bool CanHave(const PluginDescription& device, EntityKind robot, const PluginDescription& engine)
-{
-  return (device.robots.empty() || Has(device.robots, std::string(TagName(robot))) || Carries(robot, device.label)) &&
-         (device.channel.empty() || Has(engine.channels, device.channel));
-}
-
-// All but the older name of kinematics2d.
-std::vector<const PluginDescription*> Engines()
-{
-  RegisterEverything();
-  std::vector<const PluginDescription*> engines = PluginCatalogue::Instance().Of(PluginKind::kEngine);
-  std::erase_if(engines, [](const PluginDescription* engine) { return engine->label == "dummy_engine"; });
-  return engines;
-}
-
-// All devices that a robot can have in an engine, one implementation of each at a time: the first of all, the second
-// of those that have one, and so on.
-std::vector<Devices> Sets(EntityKind robot, const PluginDescription& engine)
-{
-  std::vector<Devices> sets;
-  const auto add = [&](PluginKind kind, std::vector<const PluginDescription*> Devices::*list)
-  {
-    std::map<std::string, std::vector<const PluginDescription*>> by_label;
-    for (const PluginDescription* device : PluginCatalogue::Instance().Of(kind))
-      if (CanHave(*device, robot, engine)) by_label[device->label].push_back(device);
-    for (const auto& [label, implementations] : by_label)
-      for (std::size_t i = 0; i < implementations.size(); ++i)
-      {
-        if (sets.size() <= i) sets.resize(i + 1);
-        (sets[i].*list).push_back(implementations[i]);
-      }
-  };
-  add(PluginKind::kSensor, &Devices::sensors);
-  add(PluginKind::kActuator, &Devices::actuators);
-  return sets;
-}
-
 std::string Robot(EntityKind robot) { return EntityElement(robot, "robot", kRobotX_m, kRobotY_m, "c"); }
 
 // Calls use(scene) with each robot, engine and set of devices; the arena is still empty.
 template <class Use>
 void ForEachSet(Use use)
 {
-  for (const PluginDescription* engine : Engines())
+  for (const PluginDescription* engine : AllEngines())
     for (const EntityKind robot : AllRobots())
     {
       if (!Simulates(*engine, robot)) continue;
-      for (const Devices& devices : Sets(robot, *engine))
+      for (const Devices& devices : DeviceSets(robot, *engine))
       {
         SCOPED_TRACE(fmt::format("{} in {}", TagName(robot), engine->label));
         use(SmallScene{.engine = engine->label, .devices = devices, .arena = {}}, robot, *engine);

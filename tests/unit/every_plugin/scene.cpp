@@ -140,6 +140,17 @@ double HalfWidth(EntityKind kind)
   return row.form == BodyForm::kBox ? 0.5 * row.size.head<2>().norm() : row.size.x();
 }
 
+bool Has(const std::vector<std::string>& names, const std::string& name)
+{
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool CanHave(const PluginDescription& device, EntityKind robot, const PluginDescription& engine)
+{
+  return (device.robots.empty() || Has(device.robots, std::string(TagName(robot))) || Carries(robot, device.label)) &&
+         (device.channel.empty() || Has(engine.channels, device.channel));
+}
+
 }  // namespace
 
 void RegisterEverything()
@@ -169,6 +180,39 @@ std::vector<EntityKind> AllRobots()
   std::vector<EntityKind> robots = AllKinds();
   std::erase_if(robots, [](EntityKind kind) { return !IsRobot(kind); });
   return robots;
+}
+
+std::vector<const PluginDescription*> AllEngines()
+{
+  RegisterEverything();
+  std::vector<const PluginDescription*> engines = PluginCatalogue::Instance().Of(PluginKind::kEngine);
+  std::erase_if(engines, [](const PluginDescription* engine) { return engine->label == "dummy_engine"; });
+  return engines;
+}
+
+bool Simulates(const PluginDescription& engine, EntityKind kind)
+{
+  return Has(engine.entity_tags, std::string(TagName(kind))) || (engine.any_kind && !IsBuiltIn(kind));
+}
+
+std::vector<Devices> DeviceSets(EntityKind robot, const PluginDescription& engine)
+{
+  std::vector<Devices> sets;
+  const auto add = [&](PluginKind kind, std::vector<const PluginDescription*> Devices::*list)
+  {
+    std::map<std::string, std::vector<const PluginDescription*>> by_label;
+    for (const PluginDescription* device : PluginCatalogue::Instance().Of(kind))
+      if (CanHave(*device, robot, engine)) by_label[device->label].push_back(device);
+    for (const auto& [label, implementations] : by_label)
+      for (std::size_t i = 0; i < implementations.size(); ++i)
+      {
+        if (sets.size() <= i) sets.resize(i + 1);
+        (sets[i].*list).push_back(implementations[i]);
+      }
+  };
+  add(PluginKind::kSensor, &Devices::sensors);
+  add(PluginKind::kActuator, &Devices::actuators);
+  return sets;
 }
 
 std::string DeviceElement(const PluginDescription& device)
@@ -234,9 +278,9 @@ std::unique_ptr<Experiment> Read(const SmallScene& scene)
       "</sensors></{}></controllers><arena size='{},{},3' optimization='2D'>{}</arena><engines><{} id='e'/></engines>"
       "<arena_physics><engine id='e'><all/></engine></arena_physics><experiment_functions>{}</experiment_functions>"
       "<visualisations>{}</visualisations></ahss-config>",
-      kTicks, SWARMANOID_BUILD_FOLDER "/lib/swarmanoid", scene.framework, kinds, kProbe,
-      elements(scene.devices.actuators), elements(scene.devices.sensors), kProbe, kArena_m, kArena_m, scene.arena,
-      scene.engine, scene.functions, scene.renderers);
+      scene.ticks, SWARMANOID_BUILD_FOLDER "/lib/swarmanoid", scene.framework, kinds, scene.controller,
+      elements(scene.devices.actuators), elements(scene.devices.sensors), scene.controller, kArena_m, kArena_m,
+      scene.arena, scene.engine, scene.functions, scene.renderers);
   LoadedExperiment loaded = LoadExperimentText(text, "scene.xml", SWARMANOID_SOURCE_FOLDER);
   for (const Diagnostic& error : loaded.errors) ADD_FAILURE() << error.Text() << "\n" << text;
   return std::move(loaded.experiment);

@@ -32,6 +32,8 @@ struct SmallScene
   std::string functions{};  // in <experiment_functions>
   std::string renderers{};  // in <visualisations>
   std::string framework{};  // in <framework>
+  std::string controller = kProbe;
+  std::uint64_t ticks = kTicks;
 };
 
 // Registers all plug-ins of the simulator, and the controllers, kinds of entities and functions that it ships.
@@ -40,6 +42,13 @@ void RegisterEverything();
 // Kinds, without terrain, which is no element with a position.
 std::vector<EntityKind> AllKinds();
 std::vector<EntityKind> AllRobots();
+
+// All but the older name of kinematics2d.
+std::vector<const PluginDescription*> AllEngines();
+bool Simulates(const PluginDescription& engine, EntityKind kind);
+// All devices that a robot can have in an engine, one implementation of each at a time: the first of all, the second
+// of those that have one, and so on.
+std::vector<Devices> DeviceSets(EntityKind robot, const PluginDescription& engine);
 
 // <device implementation="…"/>. Fails the test if the table has no default for a parameter.
 std::string DeviceElement(const PluginDescription& device);

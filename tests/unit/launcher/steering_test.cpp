@@ -169,7 +169,7 @@ TEST_F(SteeringTest, MovesAreWrittenDownAndRepeatedWithTheSameHashes)
   options_.hash_log = (folder_ / "first").string();
   const std::uint64_t moved = RunSingleProcess(*experiment_, options_).hash;
   EXPECT_NE(moved, undisturbed);
-  EXPECT_THAT(Read("events.csv"), StartsWith("tick,request,entity,numbers,from,number,when\n7,move,fb_3,"));
+  EXPECT_THAT(Read("events.csv"), StartsWith("tick,request,entity,numbers,from,number,when,check\n7,move,fb_3,"));
   EXPECT_THAT(Read("events.csv"), Not(HasSubstr("nobody")));
 
   CScriptedRender::on_draw = nullptr;

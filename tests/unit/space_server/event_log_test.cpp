@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::SizeIs;
 
 constexpr const char* kHeader = "tick,request,entity,numbers,from,number,when\n";
 constexpr const char* kMove = "5,move,fb_0,1 2 0,user@host:1,1,2031-05-17T09:30:00Z\n";
@@ -84,6 +85,31 @@ TEST_F(EventLogTest, ADamagedLineIsRefusedWithItsPlace)
         "5,move,fb_0,1 b 0,u@h:1,1,\n", "5,move,fb_0,1 2 0,u@h:1,1x,\n", "5,move,fb_0,1 2 0,u@h:1;1,when\n",
         "5,move,fb_0,1 2 0,u@h:1,99999999999,\n", "5,move,fb_0,1 2 0,u@h:1,1,when,more\n"})
     EXPECT_THAT(MistakeOf(std::string(kHeader) + line + kStop), HasSubstr("events.csv:2")) << line;
+}
+
+TEST_F(EventLogTest, AnotherValueInALineDoesNotFitItsChecksum)
+{
+  const std::string path = (folder_ / "written.csv").string();
+  {
+    ControlRequestMessage request;
+    request.verb = "move";
+    request.entity = "fb_0";
+    request.numbers = {1, 2, 0};
+    EventLog log(path);
+    log.Write(5, request);
+  }
+  std::ostringstream written;
+  written << std::ifstream(path).rdbuf();
+  const std::string good = written.str();
+  EXPECT_EQ(CountOf(good), 1U);
+  for (std::size_t at = good.find('\n') + 1; at + 1 < good.size(); ++at)
+  {
+    std::string flipped = good;
+    flipped[at] = static_cast<char>(flipped[at] ^ 1);
+    EXPECT_THAT(MistakeOf(flipped), HasSubstr("events.csv:2")) << flipped;
+    EXPECT_THAT(ReadEventLines(File(flipped)).damaged, SizeIs(1)) << flipped;
+  }
+  EXPECT_EQ(CountOf(good.substr(0, good.rfind(',') + 1) + "\n"), 1U) << "by hand, without a checksum";
 }
 
 TEST_F(EventLogTest, LinesThatArePassedOnAreReadAroundDamage)

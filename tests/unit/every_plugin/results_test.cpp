@@ -1,0 +1,169 @@
+// The result of a scene for each robot in each engine, and for each of its devices: tests/results/scenes.toml. With
+// SWARMANOID_WRITE_RESULTS=1 the table is written again.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <string>
+
+#include "common/control_interface/ci_controller.h"
+#include "test_folders.h"
+#include "tests/unit/every_plugin/scene.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr const char* kReader = "results_reader";
+constexpr const char* kTable = SWARMANOID_SOURCE_FOLDER "/tests/results/scenes.toml";
+constexpr const char* kAbout =
+    "# The results of small scenes after 200 ticks: of each robot in each engine with all its devices, and of each "
+    "device by itself on a\n"
+    "# robot that has it. A hash is of the state and of all that was read. The test Results of unit_every_plugin "
+    "compares; with\n"
+    "# SWARMANOID_WRITE_RESULTS=1 it writes them again. A row that changes is a change of results: the commit says "
+    "why, CHANGELOG.md says\n"
+    "# it to users.\n\n";
+
+std::uint64_t& HashOfReadings()
+{
+  static std::uint64_t hash = 0;
+  return hash;
+}
+
+// Adds all that is read to a hash, and tells each actuator other values in each step.
+class CResultsReader : public CCI_Controller
+{
+public:
+  int Init(const TConfigurationTree) override { return RETURN_OK; }
+
+  void ControlStep() override
+  {
+    for (const std::string& type : GetRobot()->SensorTypes())
+    {
+      std::vector<double> values;
+      GetRobot()->GetSensor(type)->ReadColumns(values);
+      GetRobot()->GetSensor(type)->ReadRows(values);
+      HashOfReadings() = XXH3_64bits_withSeed(values.data(), values.size() * sizeof(double), HashOfReadings());
+    }
+    for (const std::string& type : GetRobot()->ActuatorTypes())
+    {
+      std::vector<double> values;
+      for (const CCI_Column& column : GetRobot()->GetActuator(type)->Columns())
+      {
+        const double low = std::max(column.minimum, -1.0);
+        const double high = std::isfinite(column.maximum) ? column.maximum : 1;
+        // Forwards for some ticks, then with another value of each column.
+        const auto part = static_cast<double>((GetRobot()->GetTick() / 16 * 7 + values.size() * 3 + 4) % 5) / 4;
+        const double value = low + part * (high - low);
+        const bool is_whole = column.unit == "colour" || column.unit == "yes/no";
+        values.push_back(is_whole ? std::floor(value) : value);
+      }
+      GetRobot()->GetActuator(type)->SetColumns(values);
+    }
+  }
+};
+REGISTER_CONTROLLER(CResultsReader, kReader)
+
+std::string ResultOf(const SmallScene& scene)
+{
+  const std::unique_ptr<Experiment> experiment = Read(scene);
+  if (experiment == nullptr) return "";
+  HashOfReadings() = 0;
+  SimulatorOptions options;
+  options.threads = 1;
+  CSimulator simulator(*experiment, options);
+  while (simulator.Step()) continue;
+  const std::uint64_t hash = simulator.Finish().hash;
+  return fmt::format("{:016x}", XXH3_64bits_withSeed(&hash, sizeof hash, HashOfReadings()));
+}
+
+// Two robots that meet, with a wall behind one of them and a prey before the other, and something for each sense.
+std::string ArenaOf(EntityKind robot, const PluginDescription& engine)
+{
+  const double near = NearDistance(robot, robot);
+  std::string arena = EntityElement(robot, "robot", kRobotX_m, kRobotY_m, "c") +
+                      EntityElement(robot, "second", kRobotX_m - near, kRobotY_m + 0.03, "c") +
+                      EntityElement(EntityKind::kLightBulb, "lamp", kRobotX_m + 0.5, kRobotY_m + 1) +
+                      EntityElement(EntityKind::kGroundPatch, "patch", kRobotX_m + 0.1, kRobotY_m);
+  const double beside = kRobotX_m - near - NearDistance(robot, EntityKind::kWall);
+  if (Simulates(engine, EntityKind::kWall)) arena += EntityElement(EntityKind::kWall, "wall", beside, kRobotY_m);
+  const double within_reach = kRobotX_m + NearDistance(robot, EntityKind::kCylindricPrey) - 0.07;
+  if (Simulates(engine, EntityKind::kCylindricPrey))
+    arena += EntityElement(EntityKind::kCylindricPrey, "prey", within_reach, kRobotY_m);
+  if (Simulates(engine, EntityKind::kBlock))
+    arena += EntityElement(EntityKind::kBlock, "block", kRobotX_m, kRobotY_m - 0.6);
+  return arena;
+}
+
+std::map<std::string, std::string> AllResults()
+{
+  std::map<std::string, std::string> results;
+  for (const PluginDescription* engine : AllEngines())
+    for (const EntityKind robot : AllRobots())
+    {
+      if (!Simulates(*engine, robot)) continue;
+      const std::string arena = ArenaOf(robot, *engine);
+      const auto add = [&](const std::string& what, const Devices& devices)
+      {
+        const std::string name = fmt::format("{}, {}", engine->label, what);
+        SCOPED_TRACE(name);
+        if (!results.contains(name))
+          results[name] = ResultOf(
+              {.engine = engine->label, .devices = devices, .arena = arena, .controller = kReader, .ticks = 200});
+      };
+      for (const Devices& devices : DeviceSets(robot, *engine))
+      {
+        add(fmt::format("{}", TagName(robot)), devices);
+        for (const PluginDescription* sensor : devices.sensors)
+          add(fmt::format("sensor {} ({})", sensor->label, sensor->implementation), {{sensor}, {}});
+        for (const PluginDescription* actuator : devices.actuators)
+          add(fmt::format("actuator {} ({})", actuator->label, actuator->implementation), {{}, {actuator}});
+      }
+    }
+  return results;
+}
+
+std::map<std::string, std::string> ReadTable()
+{
+  std::map<std::string, std::string> table;
+  std::ifstream file(kTable);
+  for (std::string line; std::getline(file, line);)
+  {
+    const std::size_t middle = line.find("\" = \"");
+    if (line.starts_with('"') && middle != std::string::npos)
+      table[line.substr(1, middle - 1)] = line.substr(middle + 5, 16);
+  }
+  return table;
+}
+
+TEST(Results, OfSmallScenesAreThoseOfTheTable)
+{
+  const std::map<std::string, std::string> results = AllResults();
+  if (std::getenv("SWARMANOID_WRITE_RESULTS") != nullptr)
+  {
+    std::ofstream file(kTable);
+    file << kAbout;
+    for (const auto& [name, hash] : results) file << fmt::format("\"{}\" = \"{}\"\n", name, hash);
+  }
+  const std::map<std::string, std::string> table = ReadTable();
+  for (const auto& [name, hash] : results)
+  {
+    const auto row = table.find(name);
+    EXPECT_TRUE(row != table.end()) << "tests/results/scenes.toml has no row '" << name << "'";
+    if (row != table.end()) EXPECT_EQ(hash, row->second) << "the result of '" << name << "' changed";
+  }
+  for (const auto& [name, hash] : table)
+    EXPECT_TRUE(results.contains(name)) << "no scene is '" << name << "', which tests/results/scenes.toml has";
+}
+
+}  // namespace
+}  // namespace swarmanoid
