@@ -39,7 +39,10 @@ std::uint64_t& HashOfReadings()
   return hash;
 }
 
-// Adds all that is read to a hash, and tells each actuator other values in each step.
+constexpr std::uint64_t kFirstDrive = 4, kLetsGo = 100;  // ticks
+
+// Adds all that is read to a hash. Actuators get their highest values first, all columns alike, then others; grippers
+// close before anything else moves, and stay closed for half of the time.
 class CResultsReader : public CCI_Controller
 {
 public:
@@ -56,13 +59,16 @@ public:
     }
     for (const std::string& type : GetRobot()->ActuatorTypes())
     {
+      const std::uint64_t tick = GetRobot()->GetTick();
+      const bool is_gripper = type.find("gripper") != std::string::npos;
+      if (tick < kFirstDrive && !is_gripper) continue;
       std::vector<double> values;
       for (const CCI_Column& column : GetRobot()->GetActuator(type)->Columns())
       {
         const double low = std::max(column.minimum, -1.0);
-        const double high = std::isfinite(column.maximum) ? column.maximum : 1;
-        // Forwards for some ticks, then with another value of each column.
-        const auto part = static_cast<double>((GetRobot()->GetTick() / 16 * 7 + values.size() * 3 + 4) % 5) / 4;
+        const double high = std::isfinite(column.maximum) ? column.maximum : column.unit == "rad/s" ? 10 : 1;
+        const std::uint64_t step = tick / 16 * 7 + values.size() * (tick / 48) * 3 + 4;
+        const double part = is_gripper && tick < kLetsGo ? 1 : static_cast<double>(step % 5) / 4;
         const double value = low + part * (high - low);
         const bool is_whole = column.unit == "colour" || column.unit == "yes/no";
         values.push_back(is_whole ? std::floor(value) : value);
@@ -86,7 +92,8 @@ std::string ResultOf(const SmallScene& scene)
   return fmt::format("{:016x}", XXH3_64bits_withSeed(&hash, sizeof hash, HashOfReadings()));
 }
 
-// Two robots that meet, with a wall behind one of them and a prey before the other, and something for each sense.
+// A robot before a prey, with another one at its back, a third one that drives against the corner of a wall, and
+// something for each sense.
 std::string ArenaOf(EntityKind robot, const PluginDescription& engine)
 {
   const double near = NearDistance(robot, robot);
@@ -94,9 +101,12 @@ std::string ArenaOf(EntityKind robot, const PluginDescription& engine)
                       EntityElement(robot, "second", kRobotX_m - near, kRobotY_m + 0.03, "c") +
                       EntityElement(EntityKind::kLightBulb, "lamp", kRobotX_m + 0.5, kRobotY_m + 1) +
                       EntityElement(EntityKind::kGroundPatch, "patch", kRobotX_m + 0.1, kRobotY_m);
-  const double beside = kRobotX_m - near - NearDistance(robot, EntityKind::kWall);
-  if (Simulates(engine, EntityKind::kWall)) arena += EntityElement(EntityKind::kWall, "wall", beside, kRobotY_m);
-  const double within_reach = kRobotX_m + NearDistance(robot, EntityKind::kCylindricPrey) - 0.07;
+  const double before_wall = kRobotX_m + 2;
+  if (Simulates(engine, EntityKind::kWall))
+    arena +=
+        EntityElement(robot, "third", before_wall, kRobotY_m, "c") +
+        EntityElement(EntityKind::kWall, "wall", before_wall + NearDistance(robot, EntityKind::kWall), kRobotY_m + 0.1);
+  const double within_reach = kRobotX_m + NearDistance(robot, EntityKind::kCylindricPrey) - 0.12;
   if (Simulates(engine, EntityKind::kCylindricPrey))
     arena += EntityElement(EntityKind::kCylindricPrey, "prey", within_reach, kRobotY_m);
   if (Simulates(engine, EntityKind::kBlock))
