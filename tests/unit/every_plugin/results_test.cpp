@@ -92,7 +92,7 @@ std::string ResultOf(const SmallScene& scene)
   return fmt::format("{:016x}", XXH3_64bits_withSeed(&hash, sizeof hash, HashOfReadings()));
 }
 
-// A robot before a prey, with another one at its back, a third one that drives against the corner of a wall, and
+// A robot before a prey, with another one at its back, a third one that drives against a wall at an angle, and
 // something for each sense.
 std::string ArenaOf(EntityKind robot, const PluginDescription& engine)
 {
@@ -103,9 +103,9 @@ std::string ArenaOf(EntityKind robot, const PluginDescription& engine)
                       EntityElement(EntityKind::kGroundPatch, "patch", kRobotX_m + 0.1, kRobotY_m);
   const double before_wall = kRobotX_m + 2;
   if (Simulates(engine, EntityKind::kWall))
-    arena +=
-        EntityElement(robot, "third", before_wall, kRobotY_m, "c") +
-        EntityElement(EntityKind::kWall, "wall", before_wall + NearDistance(robot, EntityKind::kWall), kRobotY_m + 0.1);
+    arena += EntityElement(robot, "third", before_wall, kRobotY_m, "c") +
+             fmt::format("<wall id='wall' position='{},{},0.1' orientation='20,0,0' size='0.1,2,0.2'/>",
+                         before_wall + NearDistance(robot, robot) / 2 + 0.1, kRobotY_m);
   const double within_reach = kRobotX_m + NearDistance(robot, EntityKind::kCylindricPrey) - 0.12;
   if (Simulates(engine, EntityKind::kCylindricPrey))
     arena += EntityElement(EntityKind::kCylindricPrey, "prey", within_reach, kRobotY_m);
