@@ -92,7 +92,7 @@ std::string ResultOf(const SmallScene& scene)
   return fmt::format("{:016x}", XXH3_64bits_withSeed(&hash, sizeof hash, HashOfReadings()));
 }
 
-// A robot before a prey, with another one at its back, a third one that drives against a wall at an angle, and
+// A robot before a prey, with another one at its back, a third one that pushes a prey along a wall, and
 // something for each sense.
 std::string ArenaOf(EntityKind robot, const PluginDescription& engine)
 {
@@ -101,14 +101,16 @@ std::string ArenaOf(EntityKind robot, const PluginDescription& engine)
                       EntityElement(robot, "second", kRobotX_m - near, kRobotY_m + 0.03, "c") +
                       EntityElement(EntityKind::kLightBulb, "lamp", kRobotX_m + 0.5, kRobotY_m + 1) +
                       EntityElement(EntityKind::kGroundPatch, "patch", kRobotX_m + 0.1, kRobotY_m);
+  constexpr double kPrey_m = 0.1;  // radius
+  const double within_reach = NearDistance(robot, EntityKind::kCylindricPrey) - 0.12;
   const double before_wall = kRobotX_m + 2;
+  if (Simulates(engine, EntityKind::kCylindricPrey))
+    arena += EntityElement(EntityKind::kCylindricPrey, "prey", kRobotX_m + within_reach, kRobotY_m) +
+             EntityElement(EntityKind::kCylindricPrey, "pushed", before_wall + within_reach + 0.05, kRobotY_m + 0.05);
   if (Simulates(engine, EntityKind::kWall))
     arena += EntityElement(robot, "third", before_wall, kRobotY_m, "c") +
              fmt::format("<wall id='wall' position='{},{},0.1' orientation='20,0,0' size='0.1,2,0.2'/>",
-                         before_wall + NearDistance(robot, robot) / 2 + 0.1, kRobotY_m);
-  const double within_reach = kRobotX_m + NearDistance(robot, EntityKind::kCylindricPrey) - 0.12;
-  if (Simulates(engine, EntityKind::kCylindricPrey))
-    arena += EntityElement(EntityKind::kCylindricPrey, "prey", within_reach, kRobotY_m);
+                         before_wall + within_reach + kPrey_m + 0.2, kRobotY_m);
   if (Simulates(engine, EntityKind::kBlock))
     arena += EntityElement(EntityKind::kBlock, "block", kRobotX_m, kRobotY_m - 0.6);
   return arena;
