@@ -109,8 +109,10 @@ std::string ArenaOf(EntityKind robot, const PluginDescription& engine)
              EntityElement(EntityKind::kCylindricPrey, "pushed", before_wall + within_reach + 0.05, kRobotY_m + 0.05);
   if (Simulates(engine, EntityKind::kWall))
     arena += EntityElement(robot, "third", before_wall, kRobotY_m, "c") +
-             fmt::format("<wall id='wall' position='{},{},0.1' orientation='20,0,0' size='0.1,2,0.2'/>",
-                         before_wall + within_reach + kPrey_m + 0.2, kRobotY_m);
+             fmt::format(
+                 "<wall id='wall' position='{},{},0.1' orientation='20,0,0' size='0.1,2,0.2' friction='0.1' "
+                 "restitution='0.6'/>",
+                 before_wall + within_reach + kPrey_m + 0.2, kRobotY_m);
   if (Simulates(engine, EntityKind::kBlock))
     arena += EntityElement(EntityKind::kBlock, "block", kRobotX_m, kRobotY_m - 0.6);
   return arena;
