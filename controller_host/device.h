@@ -97,11 +97,11 @@ void RegisterBuiltinDevices();
 template <class Interface>
 struct DeviceRegistration
 {
-  DeviceRegistration(PluginDescription description, std::unique_ptr<Interface> (*create)())
+  DeviceRegistration(const PluginDescription& description, std::unique_ptr<Interface> (*create)())
   {
     constexpr bool kIsSensor = std::is_same_v<Interface, SensorBatch>;
     CheckNoiseOf(kIsSensor ? PluginKind::kSensor : PluginKind::kActuator, description);
-    PluginRegistry<Interface>::Instance().Add(std::move(description), create);
+    PluginRegistry<Interface>::Instance().Add(description, create);
   }
 };
 

@@ -124,9 +124,9 @@ PluginRegistry<CPhysicsEngine>& PluginRegistry<CPhysicsEngine>::Instance();
 // Used by REGISTER_PHYSICS_ENGINE.
 struct PhysicsEngineRegistration
 {
-  PhysicsEngineRegistration(PluginDescription description, std::unique_ptr<CPhysicsEngine> (*create)())
+  PhysicsEngineRegistration(const PluginDescription& description, std::unique_ptr<CPhysicsEngine> (*create)())
   {
-    PluginRegistry<CPhysicsEngine>::Instance().Add(std::move(description), create);
+    PluginRegistry<CPhysicsEngine>::Instance().Add(description, create);
   }
 };
 

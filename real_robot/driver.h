@@ -83,9 +83,9 @@ PluginRegistry<CActuatorDriver>& PluginRegistry<CActuatorDriver>::Instance();
 template <class Interface>
 struct DriverRegistration
 {
-  DriverRegistration(PluginDescription description, std::unique_ptr<Interface> (*create)())
+  DriverRegistration(const PluginDescription& description, std::unique_ptr<Interface> (*create)())
   {
-    PluginRegistry<Interface>::Instance().Add(std::move(description), create);
+    PluginRegistry<Interface>::Instance().Add(description, create);
   }
 };
 

@@ -139,9 +139,10 @@ extern template class PluginRegistry<CExperimentFunctions>;
 // Used by REGISTER_EXPERIMENT_FUNCTIONS.
 struct ExperimentFunctionsRegistration
 {
-  ExperimentFunctionsRegistration(PluginDescription description, std::unique_ptr<CExperimentFunctions> (*create)())
+  ExperimentFunctionsRegistration(const PluginDescription& description,
+                                  std::unique_ptr<CExperimentFunctions> (*create)())
   {
-    PluginRegistry<CExperimentFunctions>::Instance().Add(std::move(description), create);
+    PluginRegistry<CExperimentFunctions>::Instance().Add(description, create);
   }
 };
 

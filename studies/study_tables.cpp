@@ -113,10 +113,7 @@ void MakeStudyTables(StudyDatabase& database, const Study& study, const Design& 
 
 std::vector<std::string> FactorsIn(StudyDatabase& database) { return ResultsBetween(database, "point", "seed"); }
 
-std::vector<std::string> MetricColumnsIn(StudyDatabase& database)
-{
-  return ResultsBetween(database, "time_s", "exit");
-}
+std::vector<std::string> MetricColumnsIn(StudyDatabase& database) { return ResultsBetween(database, "time_s", "exit"); }
 
 std::string ChecksumOfRows(SqlCommand& rows, const std::string& before)
 {

@@ -124,9 +124,9 @@ void RegisterBuiltinRenderers();
 
 struct RenderRegistration
 {
-  RenderRegistration(PluginDescription description, std::unique_ptr<CRender> (*create)())
+  RenderRegistration(const PluginDescription& description, std::unique_ptr<CRender> (*create)())
   {
-    PluginRegistry<CRender>::Instance().Add(std::move(description), create);
+    PluginRegistry<CRender>::Instance().Add(description, create);
   }
 };
 

@@ -137,7 +137,7 @@ struct KnownFault
   {
     return std::tie(tick, robot, kind) <=> std::tie(other.tick, other.robot, other.kind);
   }
-  bool operator==(const KnownFault& other) const { return (*this <=> other) == 0; }
+  bool operator==(const KnownFault& other) const { return std::is_eq(*this <=> other); }
 };
 struct KnownFaults
 {

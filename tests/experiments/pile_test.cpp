@@ -14,7 +14,7 @@ namespace
 
 constexpr double kPreyRadius = 0.085036758;
 constexpr double kPromised = 0.004 * kPreyRadius;  // docs/engines.md
-constexpr double kWall = 0.05;                 // inner faces at 0.05 and 9.95 m
+constexpr double kWall = 0.05;                     // inner faces at 0.05 and 9.95 m
 
 // The outer corners of the square at the front of the turret, which stays ahead.
 std::array<Vector2, 2> CornersOf(const Pose& pose)

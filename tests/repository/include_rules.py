@@ -56,7 +56,7 @@ def allowed():
     rules["roles"] = without_bus + ROLES + ["roles"]
     rules["launcher"] = below + ROLES + ["roles", "argos3/files", "launcher"]
     # The module wraps the runner for one process, as a program of a user does, and looks on at runs as a visualiser does.
-    rules["python"] = below + ["controller_host", "space_server", "visualiser", "launcher", "roles", "python"]
+    rules["python"] = below + ["controller_host", "space_server", "visualiser", "launcher", "roles", "studies", "python"]
     # A layer on what programs of users have: no role.
     rules["studies"] = below + ["launcher", "roles", "studies"]
     rules["real_robot"] = INTERFACE + ["common/logging", "common/program", "real_robot"]

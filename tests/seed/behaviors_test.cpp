@@ -1,4 +1,5 @@
 // The listings of behaviours and of state machines do what their text says.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 
 #include "common/space/attributes.h"
 #include "seed_experiment.h"
+#include "tests/results/held_hash.h"
 
 namespace swarmanoid::test
 {
@@ -70,12 +72,13 @@ TEST(SeedBehaviors, AControllerOfBehaviorsWandersAndKeepsOffTheWalls)
 {
   Vector3 low = Vector3::Constant(10);
   Vector3 high = Vector3::Constant(-10);
-  RunSeedExperiment({.controller = "new_controller", .ticks = 3000},
-                    [&](const CSwarmanoidSpace& space)
-                    {
-                      low = low.cwiseMin(PlaceOf(space));
-                      high = high.cwiseMax(PlaceOf(space));
-                    });
+  const std::uint64_t hash = RunSeedExperiment({.controller = "new_controller", .ticks = 3000},
+                                               [&](const CSwarmanoidSpace& space)
+                                               {
+                                                 low = low.cwiseMin(PlaceOf(space));
+                                                 high = high.cwiseMax(PlaceOf(space));
+                                               });
+  EXPECT_EQ(hash, HeldHash("seed_wandering_behaviors")) << fmt::format("{:016x}", hash);
   for (int axis = 0; axis < 2; ++axis)
   {
     EXPECT_GT(high[axis] - low[axis], 1) << "axis " << axis;

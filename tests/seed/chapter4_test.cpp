@@ -13,6 +13,7 @@
 #include "common/experiment/load_experiment.h"
 #include "launcher/simulator.h"
 #include "roles/builtins.h"
+#include "tests/results/held_hash.h"
 #include "visualiser/render.h"
 
 namespace swarmanoid
@@ -84,7 +85,9 @@ TEST_F(SeedChapter4, TheExperimentRuns)
   EXPECT_EQ(space.FindEntity("cp")->GetPosition(), Vector3(8, 8, 0));
 
   while (simulator.Step()) continue;
-  EXPECT_EQ(simulator.Finish().ticks, 500U);
+  const RunSummary summary = simulator.Finish();
+  EXPECT_EQ(summary.ticks, 500U);
+  EXPECT_EQ(summary.hash, test::HeldHash("seed_chapter4")) << fmt::format("{:016x}", summary.hash);
   const std::string table = TextOf(folder_ / "experiment_output.txt");
   EXPECT_NE(table.find("\n0\t\tFootbot\tfb\t9\t9\t0\t0\t0\t45\n"), std::string::npos);
   EXPECT_NE(table.find("\n500\t\tBlock\tobstacle\t5\t5\t0.25\t0\t0\t0\n"), std::string::npos);

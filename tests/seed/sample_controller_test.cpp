@@ -15,6 +15,7 @@
 #include "controller_host/device.h"
 #include "engine_worker/engine_worker.h"
 #include "launcher/single_process.h"
+#include "tests/results/held_hash.h"
 #include "visualiser/render.h"
 
 namespace swarmanoid
@@ -104,6 +105,7 @@ TEST(SampleController, DrivesItsRobotOnACircle)
   options.output_folder = folder.string();
   const RunSummary summary = RunSingleProcess(*loaded.experiment, options);
   EXPECT_EQ(summary.ticks, 962u);
+  EXPECT_EQ(summary.hash, test::HeldHash("seed_sample_controller")) << fmt::format("{:016x}", summary.hash);
   const std::vector<Place> track = ReadTrack(folder / "track.txt");
   std::filesystem::remove_all(folder);
   ASSERT_EQ(track.size(), 963u);

@@ -81,7 +81,8 @@ TEST(Parameters, FollowTheirTable)
   colour.default_value = "blue";
   const std::vector<ParameterSpec> specs{radius, view, colour};
   const Parameters parameters(TreeOf("<a radius='-1' view_12='1,2,3'/>"), specs);
-  EXPECT_EQ(ErrorThrownBy([&] { parameters.Number("radius"); }), "f.xml:1:4: 'radius' is -1 m; it must be at least 0 m");
+  EXPECT_EQ(ErrorThrownBy([&] { parameters.Number("radius"); }),
+            "f.xml:1:4: 'radius' is -1 m; it must be at least 0 m");
   EXPECT_EQ(parameters.Vector3Of("view_12"), Vector3(1, 2, 3));
   EXPECT_FALSE(parameters.IsGiven("view_0"));
   EXPECT_EQ(parameters.Colour("colour"), 0x0000ffU);

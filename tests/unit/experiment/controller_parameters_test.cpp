@@ -97,7 +97,8 @@ TEST(ControllerParameters, ThoseOfFunctionsLikewise)
   EXPECT_EQ(ErrorsOf(File(kGoodParameters, "<declared_functions id='f'/>"), With("experiment_functions.f.every", "0")),
             "--set experiment_functions.f.every: 'every' of <declared_functions> is 0 ticks; it must be at least 1 "
             "ticks\n");
-  const auto changed = LoadText(File(kGoodParameters, "<declared_functions id='f'/>"), With("experiment_functions.f.every", "7"));
+  const auto changed =
+      LoadText(File(kGoodParameters, "<declared_functions id='f'/>"), With("experiment_functions.f.every", "7"));
   ASSERT_TRUE(changed.experiment);
   EXPECT_EQ(changed.experiment->functions.at(0).tree.GetInteger("every"), 7);
 }

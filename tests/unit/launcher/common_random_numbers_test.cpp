@@ -192,7 +192,7 @@ TEST(CommonRandomNumbers, AnotherIdChangesWhatIsItsOwn)
 {
   const Recording expected = Recorded({});
   const Recording renamed = Recorded({.robots = "<footbot id='a' position='2,2,0' controller='c'/><footbot id='z' "
-                                             "position='3,2,0' controller='c'/>"});
+                                                "position='3,2,0' controller='c'/>"});
   EXPECT_EQ(renamed.at("a ground 2"), expected.at("a ground 2"));
   EXPECT_EQ(renamed.at("a ControlStep 2"), expected.at("a ControlStep 2"));
   EXPECT_NE(renamed.at("a ranges 2"), expected.at("a ranges 2"));
