@@ -227,7 +227,7 @@ TEST_F(SteeringTest, TheEndByAVisualisationIsRepeatedToo)
   options_.event_log = (folder_ / "events.csv").string();
   const RunSummary ended = RunSingleProcess(*experiment_, options_);
   EXPECT_EQ(ended.ticks, 11U);
-  EXPECT_THAT(Read("events.csv"), HasSubstr("11,stop,,,visualiser 's',0,\n"));
+  EXPECT_THAT(Read("events.csv"), HasSubstr("11,stop,,,visualiser 's',0,,"));
 
   CScriptedRender::on_draw = nullptr;
   CScriptedRender::terminate = false;
