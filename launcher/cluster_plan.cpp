@@ -1,11 +1,14 @@
 #include "launcher/cluster_plan.h"
 
 #include <fmt/format.h>
+#include <sched.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <memory>
 
@@ -62,15 +65,34 @@ bool AreBestOnOneCore(const RunSettings& options, const Experiment& experiment, 
   return hosts.AllHere() && Robots(experiment) <= (in_turn ? kRobotsInTurnForOneCore : kRobotsForOneCore);
 }
 
-// Runs side by side take different cores.
+// How many runs of this machine have that core for all of their processes.
+std::size_t RunsOn(int core)
+{
+  std::size_t runs = 0;
+  std::error_code error;
+  for (fs::directory_iterator process("/proc", error), end; !error && process != end; process.increment(error))
+  {
+    const pid_t pid = std::atoi(process->path().filename().c_str());
+    std::string name;
+    cpu_set_t cores;
+    if (pid > 0 && std::getline(std::ifstream(process->path() / "comm"), name) && name == "space_server" &&
+        sched_getaffinity(pid, sizeof cores, &cores) == 0 && CPU_COUNT(&cores) == 1 && CPU_ISSET(core, &cores))
+      ++runs;
+  }
+  return runs;
+}
+
+// Runs side by side take different cores. Two of them on one core starve one another while others are idle.
 std::vector<int> CoresOf(const RunSettings& options, const Experiment& experiment, const Assignment& assignment,
                          const Hosts& hosts, int domain)
 {
   const bool one = options.placement == "one-core" ||
                    (options.placement == "auto" && AreBestOnOneCore(options, experiment, assignment, hosts));
-  const std::vector<int> cores = AvailableCores();
+  std::vector<int> cores = AvailableCores();
   if (!one || cores.empty()) return {};
-  return {cores[static_cast<std::size_t>(domain) % cores.size()]};
+  // Those that start together see none of one another, but have different domains.
+  std::ranges::rotate(cores, cores.begin() + domain % static_cast<std::ptrdiff_t>(cores.size()));
+  return {*std::ranges::min_element(cores, {}, RunsOn)};
 }
 
 void RefuseUnknown(const Hosts& hosts, const std::string& role, const std::vector<std::string>& known)

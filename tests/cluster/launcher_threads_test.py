@@ -5,7 +5,7 @@ import subprocess
 import sys
 import unittest
 
-from harness import CONFIGS, LauncherTest, main, processes_of, words_of
+from harness import CONFIGS, LauncherTest, end, main, processes_of, words_of
 
 SCENES = CONFIGS.parent / "tests" / "bench" / "scenes"
 
@@ -35,6 +35,25 @@ class Threads(LauncherTest):
         one = self.hash_of(experiment, 1)
         for hosts in (1, 2):
             self.assertEqual(self.hash_of(experiment, 3, "--controller-hosts", hosts, way="--no-journal"), one)
+
+    @unittest.skipIf(len(os.sched_getaffinity(0)) < 2, "needs two cores")
+    def test_runs_side_by_side_take_different_cores(self):
+        """Another test may have a run, too: the second one of ours takes none of the cores that more runs have."""
+        def cores_of(number):
+            run = self.start("run", CONFIGS / "diffusion_10.xml", "--paused", "--no-visualisers", "--output", f"beside{number}")
+            server = run.find("space_server")
+            self.wait_until("a core", lambda: len(os.sched_getaffinity(server)) == 1, run)
+            return run, os.sched_getaffinity(server)
+
+        _, first = cores_of(0)
+        for number in range(1, 5):
+            run, second = cores_of(number)
+            if self.servers_here() == 2:
+                self.assertNotEqual(second, first)
+            end(run.process)
+
+    def servers_here(self):
+        return sum(os.path.basename((words_of(pid) or [""])[0]) == "space_server" for pid in filter(str.isdigit, os.listdir("/proc")))
 
     @unittest.skipIf(len(os.sched_getaffinity(0)) < 2, "needs two cores")
     def test_processes_that_work_one_after_the_other_share_a_core(self):
