@@ -5,7 +5,7 @@ import subprocess
 import sys
 import unittest
 
-from harness import CONFIGS, LauncherTest, end, main, processes_of, words_of
+from harness import CONFIGS, LauncherTest, end, main, processes_of, stat_of, words_of
 
 SCENES = CONFIGS.parent / "tests" / "bench" / "scenes"
 
@@ -38,19 +38,20 @@ class Threads(LauncherTest):
 
     @unittest.skipIf(len(os.sched_getaffinity(0)) < 2, "needs two cores")
     def test_runs_side_by_side_take_different_cores(self):
-        """Another test may have a run, too: the second one of ours takes none of the cores that more runs have."""
+        """Where another test has a run, too, nothing is known."""
         def cores_of(number):
             run = self.start("run", CONFIGS / "diffusion_10.xml", "--paused", "--no-visualisers", "--output", f"beside{number}")
             server = run.find("space_server")
             self.wait_until("a core", lambda: len(os.sched_getaffinity(server)) == 1, run)
-            return run, os.sched_getaffinity(server)
+            return run, server, os.sched_getaffinity(server)
 
-        _, first = cores_of(0)
+        _, _, first = cores_of(0)
         for number in range(1, 5):
-            run, second = cores_of(number)
+            run, server, second = cores_of(number)
             if self.servers_here() == 2:
                 self.assertNotEqual(second, first)
             end(run.process)
+            self.wait_until("its end", lambda server=server: (stat_of(server) or "Z")[-1] == "Z")
 
     def servers_here(self):
         return sum(os.path.basename((words_of(pid) or [""])[0]) == "space_server" for pid in filter(str.isdigit, os.listdir("/proc")))
