@@ -73,10 +73,11 @@ std::size_t RunsOn(int core)
   for (fs::directory_iterator process("/proc", error), end; !error && process != end; process.increment(error))
   {
     const pid_t pid = std::atoi(process->path().filename().c_str());
-    std::string name;
+    std::string program;  // of a process that has ended and was not awaited: none
     cpu_set_t cores;
-    if (pid > 0 && std::getline(std::ifstream(process->path() / "comm"), name) && name == "space_server" &&
-        sched_getaffinity(pid, sizeof cores, &cores) == 0 && CPU_COUNT(&cores) == 1 && CPU_ISSET(core, &cores))
+    if (pid > 0 && std::getline(std::ifstream(process->path() / "cmdline"), program, '\0') &&
+        fs::path(program).filename() == "space_server" && sched_getaffinity(pid, sizeof cores, &cores) == 0 &&
+        CPU_COUNT(&cores) == 1 && CPU_ISSET(core, &cores))
       ++runs;
   }
   return runs;
