@@ -65,20 +65,23 @@ bool AreBestOnOneCore(const RunSettings& options, const Experiment& experiment, 
   return hosts.AllHere() && Robots(experiment) <= (in_turn ? kRobotsInTurnForOneCore : kRobotsForOneCore);
 }
 
-// How many runs of this machine have that core for all of their processes.
-std::size_t RunsOn(int core)
+// Counts the runs of this machine whose processes share one core, by that core.
+std::map<int, std::size_t> RunsByCore()
 {
-  std::size_t runs = 0;
+  std::map<int, std::size_t> runs;
   std::error_code error;
   for (fs::directory_iterator process("/proc", error), end; !error && process != end; process.increment(error))
   {
     const pid_t pid = std::atoi(process->path().filename().c_str());
-    std::string program;  // of a process that has ended and was not awaited: none
+    std::string program;  // empty for a process that has ended and was not awaited
     cpu_set_t cores;
-    if (pid > 0 && std::getline(std::ifstream(process->path() / "cmdline"), program, '\0') &&
-        fs::path(program).filename() == "space_server" && sched_getaffinity(pid, sizeof cores, &cores) == 0 &&
-        CPU_COUNT(&cores) == 1 && CPU_ISSET(core, &cores))
-      ++runs;
+    if (pid <= 0 || !std::getline(std::ifstream(process->path() / "cmdline"), program, '\0') ||
+        fs::path(program).filename() != "space_server" || sched_getaffinity(pid, sizeof cores, &cores) != 0 ||
+        CPU_COUNT(&cores) != 1)
+      continue;
+    int core = 0;
+    while (!CPU_ISSET(core, &cores)) ++core;
+    ++runs[core];
   }
   return runs;
 }
@@ -91,9 +94,10 @@ std::vector<int> CoresOf(const RunSettings& options, const Experiment& experimen
                    (options.placement == "auto" && AreBestOnOneCore(options, experiment, assignment, hosts));
   std::vector<int> cores = AvailableCores();
   if (!one || cores.empty()) return {};
-  // Those that start together see none of one another, but have different domains.
+  // Runs that start together do not see one another, but they have different domains.
   std::ranges::rotate(cores, cores.begin() + domain % static_cast<std::ptrdiff_t>(cores.size()));
-  return {*std::ranges::min_element(cores, {}, RunsOn)};
+  std::map<int, std::size_t> runs = RunsByCore();
+  return {*std::ranges::min_element(cores, {}, [&](int core) { return runs[core]; })};
 }
 
 void RefuseUnknown(const Hosts& hosts, const std::string& role, const std::vector<std::string>& known)

@@ -43,8 +43,8 @@ bool IsHeader(const std::string& line, int number, std::size_t& fewest)
   return true;
 }
 
-// What is wrong with a line, or nothing. `fewest`: the fields that it must have. A line that a user wrote has no
-// checksum.
+// Returns what is wrong with a line, or nothing. The line must have `fewest` fields at least. A line that a user wrote
+// has no checksum.
 std::string MistakeOfLine(const std::string& line, const std::vector<std::string>& fields, std::size_t fewest)
 {
   if (fields.size() < fewest || fields.size() > kMostFields)

@@ -1,4 +1,5 @@
-# What ScriptTests.cmake has ctest do: looks for the cases of the scripts again if one of them has changed, and adds the tests.
+# ctest includes this file by way of ScriptTests.cmake. It looks for the cases of the scripts again if one of them has changed, and adds
+# a test for each case.
 foreach(source IN LISTS scripts list_cases)
   if("${source}" IS_NEWER_THAN "${cases}")
     execute_process(COMMAND ${python} ${list_cases} ${scripts} OUTPUT_FILE ${cases} COMMAND_ERROR_IS_FATAL ANY)
