@@ -38,6 +38,10 @@ set(SWARMANOID_EXACT -ffp-contract=off)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   list(APPEND SWARMANOID_EXACT -mno-fma)
 endif()
+# GCC 12 loses conversions when it computes two numbers at once: (double)(float)x and (double)(int)x become x. GCC 14 keeps them.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
+  list(APPEND SWARMANOID_EXACT -fno-tree-slp-vectorize)
+endif()
 add_compile_options(${SWARMANOID_EXACT} -fno-trapping-math -fno-math-errno)
 # Nobody replaces a function of ours by one of the same name elsewhere, so those of shared libraries may be inlined.
 add_compile_options(-fno-semantic-interposition)

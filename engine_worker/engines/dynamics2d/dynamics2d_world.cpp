@@ -18,8 +18,7 @@ constexpr float kDriveGain = 0.001F;
 constexpr double kLargestRemainder = 1e-4;  // decimetres
 constexpr double kSlip = 1e-3;              // m/s: slower than this a body on the ground is taken to stand
 
-// Not inlined: GCC 12 takes a number that becomes float and double again for unchanged if it vectorises two of them.
-[[gnu::noinline]] double BeyondSinglePrecision(double x) { return x - static_cast<float>(x); }
+double BeyondSinglePrecision(double x) { return x - static_cast<float>(x); }
 
 }  // namespace
 
