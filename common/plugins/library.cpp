@@ -25,10 +25,10 @@ std::vector<std::string> FileNames(const std::string& name)
 }
 
 // All places where a library may be, in the order of the search.
-std::vector<std::string> Candidates(const std::string& name, const std::vector<std::string>& folders)
+std::vector<std::string> Candidates(std::string_view name, std::span<const std::string> folders)
 {
   std::vector<std::string> candidates;
-  if (name.find('/') != std::string::npos)
+  if (name.find('/') != std::string_view::npos)
   {
     const fs::path path(name);
     const fs::path base = path.is_absolute() || folders.empty() ? fs::path() : fs::path(folders.front());
@@ -40,7 +40,7 @@ std::vector<std::string> Candidates(const std::string& name, const std::vector<s
   }
   for (const std::string& folder : folders)
   {
-    for (const std::string& file : FileNames(name))
+    for (const std::string& file : FileNames(std::string(name)))
     {
       candidates.push_back((fs::path(folder) / file).lexically_normal().string());
       candidates.push_back((fs::path(folder) / ".libs" / file).lexically_normal().string());
@@ -107,14 +107,14 @@ PluginLibrary Load(const std::string& path)
 
 void SetLibraryCheck(std::function<std::string(const std::string& path)> check) { LibraryCheck() = std::move(check); }
 
-std::string FindPluginLibrary(const std::string& name, const std::vector<std::string>& folders)
+std::string FindPluginLibrary(std::string_view name, std::span<const std::string> folders)
 {
   for (const std::string& candidate : Candidates(name, folders))
     if (const std::string file = RealFile(candidate); !file.empty()) return file;
   return {};
 }
 
-const PluginLibrary& LoadPluginLibrary(std::string name, std::vector<std::string> folders)
+const PluginLibrary& LoadPluginLibrary(std::string_view name, std::span<const std::string> folders)
 {
   std::string searched;
   std::string before;
@@ -135,7 +135,7 @@ const PluginLibrary& LoadPluginLibrary(std::string name, std::vector<std::string
     return found != libraries.end() ? found->second : libraries.emplace(file, Load(file)).first->second;
   }
   // Kept under a name that no path has, so that the reference stays valid.
-  PluginLibrary& missing = LoadedLibraries()["missing " + name];
+  PluginLibrary& missing = LoadedLibraries()["missing " + std::string(name)];
   missing.error = "the library " + Quoted(name) +
                   " is not found; build it, or name its folder in <controller_path> or " +
                   "<plugin_path>; searched:" + (searched.empty() ? " nowhere" : searched);

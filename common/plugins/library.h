@@ -3,7 +3,9 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/plugins/catalogue.h"
@@ -20,15 +22,15 @@ struct PluginLibrary
 
 // Finds `name` as lib<name>.so, <name>.so or, if it ends in .so, as it stands, in each folder and its .libs, and
 // loads it. A name with a '/' is a path. Loading a library again yields what the first time yielded. The result stays
-// until the program ends. It refers to none of the arguments; they are values, so that no compiler warns of that.
-const PluginLibrary& LoadPluginLibrary(std::string name, std::vector<std::string> folders);
+// until the program ends. It refers to none of the arguments; they are views, so that no compiler warns of that.
+const PluginLibrary& LoadPluginLibrary(std::string_view name, std::span<const std::string> folders);
 
 // Called with the path of each library before it is loaded from now on: why it must not be, or an empty text. What an
 // experiment names that somebody else sent is not code of this user.
 void SetLibraryCheck(std::function<std::string(const std::string& path)> check);
 
 // The file that LoadPluginLibrary would load, without links; empty if there is none.
-std::string FindPluginLibrary(const std::string& name, const std::vector<std::string>& folders);
+std::string FindPluginLibrary(std::string_view name, std::span<const std::string> folders);
 
 // The folders of a list separated by colons: backslashes at the ends of lines and blanks around the entries are
 // dropped, relative ones start at `base`.
