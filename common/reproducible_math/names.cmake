@@ -25,6 +25,11 @@ foreach(name cabs carg cpow clog10 casin cacos catan casinh cacosh catanh)
   list(APPEND WIDER_FUNCTIONS ${name} ${name}f ${name}l)
 endforeach()
 
+# Where long double has 113 bits, libm computes its functions in integers: they stay libm's.
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
+  list(FILTER WIDER_FUNCTIONS EXCLUDE REGEX "l(_r)?$")
+endif()
+
 # reproducible_math_alias(SYMBOL OUTPUT): which of our functions the symbol of libm is another name of; empty if none.
 function(reproducible_math_alias symbol output)
   set(names ${MUSL_FUNCTIONS} ${WIDER_FUNCTIONS})

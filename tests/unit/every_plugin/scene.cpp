@@ -159,9 +159,10 @@ void RegisterEverything()
   {
     RegisterBuiltins();
     namespace fs = std::filesystem;
+    const std::vector<std::string> folders = {SWARMANOID_BUILD_FOLDER "/lib/swarmanoid"};
     for (const char* folder : {"controllers", "entities", "functions"})
       for (const auto& entry : fs::directory_iterator(fs::path(SWARMANOID_SOURCE_FOLDER) / "user" / folder))
-        EXPECT_EQ(LoadPluginLibrary(entry.path().filename(), {SWARMANOID_BUILD_FOLDER "/lib/swarmanoid"}).error, "");
+        EXPECT_EQ(LoadPluginLibrary(entry.path().filename().string(), folders).error, "");
     return true;
   }();
   static_cast<void>(done);

@@ -24,12 +24,12 @@ void LoadAllPlugins()
 {
   DescribeBuiltins();
   namespace fs = std::filesystem;
-  EXPECT_EQ(LoadPluginLibrary("ros2_controller", {SWARMANOID_BUILD_FOLDER "/lib/swarmanoid"}).error, "");
+  const std::vector<std::string> folders = {SWARMANOID_BUILD_FOLDER "/lib/swarmanoid"};
+  EXPECT_EQ(LoadPluginLibrary("ros2_controller", folders).error, "");
   for (const char* folder : {"controllers", "entities", "functions"})
     for (const auto& entry : fs::directory_iterator(fs::path(SWARMANOID_SOURCE_FOLDER) / "user" / folder))
     {
-      const PluginLibrary& library =
-          LoadPluginLibrary(entry.path().filename(), {SWARMANOID_BUILD_FOLDER "/lib/swarmanoid"});
+      const PluginLibrary& library = LoadPluginLibrary(entry.path().filename().string(), folders);
       EXPECT_EQ(library.error, "");
     }
 }

@@ -1,11 +1,10 @@
 // The functions of libm that this process finds: that they are ours, how precise they are, that their special values
-// are those of IEEE 754, and that their bits never change. Reference: libquadmath, 113 bits.
+// are those of IEEE 754, and that their bits never change. Reference: libquadmath, or long double, of 113 bits.
 #include "common/math/reproducible_math.h"
 
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <math.h>
-#include <quadmath.h>
 
 #include <algorithm>
 #include <bit>
@@ -19,6 +18,23 @@
 #include <vector>
 
 #include "common/math/random.h"
+#if __LDBL_MANT_DIG__ == 113
+// C++ does not declare them.
+extern "C"
+{
+  __extension__ typedef _Complex long double ComplexQuad;
+  ComplexQuad cexpl(ComplexQuad);
+  ComplexQuad clogl(ComplexQuad);
+  ComplexQuad csqrtl(ComplexQuad);
+  ComplexQuad csinl(ComplexQuad);
+  ComplexQuad ctanhl(ComplexQuad);
+  ComplexQuad cacosl(ComplexQuad);
+  ComplexQuad catanhl(ComplexQuad);
+  long double cabsl(ComplexQuad);
+}
+#else
+#include <quadmath.h>
+#endif
 #ifdef __SSE__
 #include <xmmintrin.h>
 #endif
@@ -28,7 +44,14 @@ namespace swarmanoid
 namespace
 {
 
+#if __LDBL_MANT_DIG__ == 113
+typedef long double Quad;
+#define WIDE(name) ::name##l
+#else
 __extension__ typedef __float128 Quad;
+typedef __complex128 ComplexQuad;
+#define WIDE(name) ::name##q
+#endif
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -55,55 +78,55 @@ struct Function
   double low, high;
 };
 
-Quad Exp10Reference(Quad x) { return powq(10, x); }
+Quad Exp10Reference(Quad x) { return WIDE(pow)(10, x); }
 
 constexpr auto kEven = Spread::kEven;
 constexpr auto kPowers = Spread::kPowers;
 constexpr auto kBoth = Spread::kPowersOfBothSigns;
 
 const Function kFunctions[] = {
-    {"sin", ::sin, ::sinf, sinq, 0.85, 0.52, kEven, -100, 100},
-    {"sin", ::sin, ::sinf, sinq, 0.85, 0.52, kBoth, 1e-300, 1e300},
-    {"cos", ::cos, ::cosf, cosq, 0.85, 0.52, kEven, -100, 100},
-    {"cos", ::cos, ::cosf, cosq, 0.85, 0.52, kBoth, 1e-300, 1e300},
-    {"tan", ::tan, ::tanf, tanq, 0.95, 0.9, kEven, -100, 100},
-    {"tan", ::tan, ::tanf, tanq, 0.95, 0.9, kBoth, 1e-300, 1e300},
-    {"asin", ::asin, ::asinf, asinq, 0.9, 0.9, kEven, -1, 1},
-    {"acos", ::acos, ::acosf, acosq, 0.95, 0.95, kEven, -1, 1},
-    {"atan", ::atan, ::atanf, atanq, 0.9, 0.9, kBoth, 1e-10, 1e10},
-    {"sinh", ::sinh, ::sinhf, sinhq, 2.1, 2.1, kEven, -20, 20},
-    {"sinh", ::sinh, ::sinhf, sinhq, 2.1, 2.1, kBoth, 1e-5, 710},
-    {"cosh", ::cosh, ::coshf, coshq, 1.5, 1.5, kEven, -700, 700},
-    {"tanh", ::tanh, ::tanhf, tanhq, 2.3, 2.3, kEven, -20, 20},
-    {"tanh", ::tanh, ::tanhf, tanhq, 2.3, 2.3, kBoth, 1e-10, 10},
-    {"asinh", ::asinh, ::asinhf, asinhq, 1.9, 1.9, kEven, -4, 4},
-    {"asinh", ::asinh, ::asinhf, asinhq, 1.9, 1.9, kBoth, 1e-10, 1e300},
-    {"acosh", ::acosh, ::acoshf, acoshq, 2.0, 2.0, kEven, 1, 4},
-    {"acosh", ::acosh, ::acoshf, acoshq, 2.0, 2.0, kPowers, 1, 1e300},
-    {"atanh", ::atanh, ::atanhf, atanhq, 1.9, 1.9, kEven, -0.999, 0.999},
-    {"atanh", ::atanh, ::atanhf, atanhq, 1.9, 1.9, kBoth, 1e-10, 0.999},
-    {"exp", ::exp, ::expf, expq, 0.53, 0.51, kEven, -708, 709},
-    {"exp2", ::exp2, ::exp2f, exp2q, 0.53, 0.51, kEven, -1022, 1023},
+    {"sin", ::sin, ::sinf, WIDE(sin), 0.85, 0.52, kEven, -100, 100},
+    {"sin", ::sin, ::sinf, WIDE(sin), 0.85, 0.52, kBoth, 1e-300, 1e300},
+    {"cos", ::cos, ::cosf, WIDE(cos), 0.85, 0.52, kEven, -100, 100},
+    {"cos", ::cos, ::cosf, WIDE(cos), 0.85, 0.52, kBoth, 1e-300, 1e300},
+    {"tan", ::tan, ::tanf, WIDE(tan), 0.95, 0.9, kEven, -100, 100},
+    {"tan", ::tan, ::tanf, WIDE(tan), 0.95, 0.9, kBoth, 1e-300, 1e300},
+    {"asin", ::asin, ::asinf, WIDE(asin), 0.9, 0.9, kEven, -1, 1},
+    {"acos", ::acos, ::acosf, WIDE(acos), 0.95, 0.95, kEven, -1, 1},
+    {"atan", ::atan, ::atanf, WIDE(atan), 0.9, 0.9, kBoth, 1e-10, 1e10},
+    {"sinh", ::sinh, ::sinhf, WIDE(sinh), 2.1, 2.1, kEven, -20, 20},
+    {"sinh", ::sinh, ::sinhf, WIDE(sinh), 2.1, 2.1, kBoth, 1e-5, 710},
+    {"cosh", ::cosh, ::coshf, WIDE(cosh), 1.5, 1.5, kEven, -700, 700},
+    {"tanh", ::tanh, ::tanhf, WIDE(tanh), 2.3, 2.3, kEven, -20, 20},
+    {"tanh", ::tanh, ::tanhf, WIDE(tanh), 2.3, 2.3, kBoth, 1e-10, 10},
+    {"asinh", ::asinh, ::asinhf, WIDE(asinh), 1.9, 1.9, kEven, -4, 4},
+    {"asinh", ::asinh, ::asinhf, WIDE(asinh), 1.9, 1.9, kBoth, 1e-10, 1e300},
+    {"acosh", ::acosh, ::acoshf, WIDE(acosh), 2.0, 2.0, kEven, 1, 4},
+    {"acosh", ::acosh, ::acoshf, WIDE(acosh), 2.0, 2.0, kPowers, 1, 1e300},
+    {"atanh", ::atanh, ::atanhf, WIDE(atanh), 1.9, 1.9, kEven, -0.999, 0.999},
+    {"atanh", ::atanh, ::atanhf, WIDE(atanh), 1.9, 1.9, kBoth, 1e-10, 0.999},
+    {"exp", ::exp, ::expf, WIDE(exp), 0.53, 0.51, kEven, -708, 709},
+    {"exp2", ::exp2, ::exp2f, WIDE(exp2), 0.53, 0.51, kEven, -1022, 1023},
     {"exp10", ::exp10, ::exp10f, Exp10Reference, 0.55, 0.51, kEven, -300, 300},
-    {"expm1", ::expm1, ::expm1f, expm1q, 1.0, 1.0, kEven, -40, 700},
-    {"expm1", ::expm1, ::expm1f, expm1q, 1.0, 1.0, kBoth, 1e-10, 1},
-    {"log", ::log, ::logf, logq, 0.53, 0.85, kPowers, 1e-300, 1e300},
-    {"log", ::log, ::logf, logq, 0.53, 0.85, kEven, 0.5, 2},
-    {"log2", ::log2, ::log2f, log2q, 0.56, 0.8, kPowers, 1e-300, 1e300},
-    {"log2", ::log2, ::log2f, log2q, 0.56, 0.8, kEven, 0.5, 2},
-    {"log10", ::log10, ::log10f, log10q, 0.75, 0.9, kPowers, 1e-300, 1e300},
-    {"log10", ::log10, ::log10f, log10q, 0.75, 0.9, kEven, 0.5, 2},
-    {"log1p", ::log1p, ::log1pf, log1pq, 0.95, 0.95, kEven, -0.99, 4},
-    {"log1p", ::log1p, ::log1pf, log1pq, 0.95, 0.95, kPowers, 1e-10, 1e300},
-    {"cbrt", ::cbrt, ::cbrtf, cbrtq, 0.7, 0.51, kBoth, 1e-300, 1e300},
-    {"erf", ::erf, ::erff, erfq, 1.0, 1.0, kEven, -6, 6},
-    {"erfc", ::erfc, ::erfcf, erfcq, 3.2, 3.2, kEven, -6, 9},
-    {"erfc", ::erfc, ::erfcf, erfcq, 3.2, 3.2, kEven, 0, 26},
-    {"lgamma", ::lgamma, ::lgammaf, lgammaq, 2.6, 2.6, kEven, 0.01, 100},
-    {"lgamma", ::lgamma, ::lgammaf, lgammaq, 2.6, 2.6, kPowers, 1e-10, 1e300},
-    {"lgamma", ::lgamma, ::lgammaf, lgammaq, 2.6, 2.6, kEven, -20, 0},
-    {"tgamma", ::tgamma, ::tgammaf, tgammaq, 10, 0.51, kEven, 0.01, 171},
-    {"tgamma", ::tgamma, ::tgammaf, tgammaq, 10, 0.51, kEven, -20, 0},
+    {"expm1", ::expm1, ::expm1f, WIDE(expm1), 1.0, 1.0, kEven, -40, 700},
+    {"expm1", ::expm1, ::expm1f, WIDE(expm1), 1.0, 1.0, kBoth, 1e-10, 1},
+    {"log", ::log, ::logf, WIDE(log), 0.53, 0.85, kPowers, 1e-300, 1e300},
+    {"log", ::log, ::logf, WIDE(log), 0.53, 0.85, kEven, 0.5, 2},
+    {"log2", ::log2, ::log2f, WIDE(log2), 0.56, 0.8, kPowers, 1e-300, 1e300},
+    {"log2", ::log2, ::log2f, WIDE(log2), 0.56, 0.8, kEven, 0.5, 2},
+    {"log10", ::log10, ::log10f, WIDE(log10), 0.75, 0.9, kPowers, 1e-300, 1e300},
+    {"log10", ::log10, ::log10f, WIDE(log10), 0.75, 0.9, kEven, 0.5, 2},
+    {"log1p", ::log1p, ::log1pf, WIDE(log1p), 0.95, 0.95, kEven, -0.99, 4},
+    {"log1p", ::log1p, ::log1pf, WIDE(log1p), 0.95, 0.95, kPowers, 1e-10, 1e300},
+    {"cbrt", ::cbrt, ::cbrtf, WIDE(cbrt), 0.7, 0.51, kBoth, 1e-300, 1e300},
+    {"erf", ::erf, ::erff, WIDE(erf), 1.0, 1.0, kEven, -6, 6},
+    {"erfc", ::erfc, ::erfcf, WIDE(erfc), 3.2, 3.2, kEven, -6, 9},
+    {"erfc", ::erfc, ::erfcf, WIDE(erfc), 3.2, 3.2, kEven, 0, 26},
+    {"lgamma", ::lgamma, ::lgammaf, WIDE(lgamma), 2.6, 2.6, kEven, 0.01, 100},
+    {"lgamma", ::lgamma, ::lgammaf, WIDE(lgamma), 2.6, 2.6, kPowers, 1e-10, 1e300},
+    {"lgamma", ::lgamma, ::lgammaf, WIDE(lgamma), 2.6, 2.6, kEven, -20, 0},
+    {"tgamma", ::tgamma, ::tgammaf, WIDE(tgamma), 10, 0.51, kEven, 0.01, 171},
+    {"tgamma", ::tgamma, ::tgammaf, WIDE(tgamma), 10, 0.51, kEven, -20, 0},
 };
 
 struct FunctionOfTwo
@@ -118,11 +141,11 @@ struct FunctionOfTwo
 };
 
 const FunctionOfTwo kFunctionsOfTwo[] = {
-    {"atan2", ::atan2, ::atan2f, atan2q, 1.6, 1.6, -10, 10, -10, 10},
-    {"pow", ::pow, ::powf, powq, 0.55, 0.85, 0, 10, -20, 20},
-    {"pow", ::pow, ::powf, powq, 0.55, 0.85, 0.9, 1.1, -700, 700},
-    {"hypot", ::hypot, ::hypotf, hypotq, 1.0, 1.0, -10, 10, -10, 10},
-    {"hypot", ::hypot, ::hypotf, hypotq, 1.0, 1.0, -1e300, 1e300, -1e299, 1e299},
+    {"atan2", ::atan2, ::atan2f, WIDE(atan2), 1.6, 1.6, -10, 10, -10, 10},
+    {"pow", ::pow, ::powf, WIDE(pow), 0.55, 0.85, 0, 10, -20, 20},
+    {"pow", ::pow, ::powf, WIDE(pow), 0.55, 0.85, 0.9, 1.1, -700, 700},
+    {"hypot", ::hypot, ::hypotf, WIDE(hypot), 1.0, 1.0, -10, 10, -10, 10},
+    {"hypot", ::hypot, ::hypotf, WIDE(hypot), 1.0, 1.0, -1e300, 1e300, -1e299, 1e299},
 };
 
 constexpr int kArguments = 1500;
@@ -131,7 +154,8 @@ double Argument(RandomStream& random, Spread spread, double low, double high)
 {
   const double share = random.Uniform();
   if (spread == Spread::kEven) return low + (high - low) * share;
-  const double size = static_cast<double>(expq(logq(low) + (logq(high) - logq(low)) * static_cast<Quad>(share)));
+  const double size =
+      static_cast<double>(WIDE(exp)(WIDE(log)(low) + (WIDE(log)(high) - WIDE(log)(low)) * static_cast<Quad>(share)));
   return spread == Spread::kPowersOfBothSigns && random.Bits() % 2 == 0 ? -size : size;
 }
 
@@ -139,14 +163,14 @@ double Argument(RandomStream& random, Spread spread, double low, double high)
 template <class Number>
 double Error(Number result, Quad right)
 {
-  const Quad size = fabsq(right);
+  const Quad size = WIDE(fabs)(right);
   if (!(size <= static_cast<Quad>(std::numeric_limits<Number>::max()))) return 0;
   if (size < static_cast<Quad>(std::numeric_limits<Number>::min())) return 0;
   if (!std::isfinite(result)) return kInfinite;
   int exponent = 0;
-  frexpq(size, &exponent);
-  return static_cast<double>(fabsq(static_cast<Quad>(result) - right) /
-                             ldexpq(1, exponent - std::numeric_limits<Number>::digits));
+  WIDE(frexp)(size, &exponent);
+  return static_cast<double>(WIDE(fabs)(static_cast<Quad>(result) - right) /
+                             WIDE(ldexp)(1, exponent - std::numeric_limits<Number>::digits));
 }
 
 std::string FileOf(const void* function)
@@ -247,26 +271,26 @@ TEST(ReproducibleMath, ComplexNumbersAndLongDoublesArePrecise)
   {
     const char* name;
     Complex (*function)(const Complex&);
-    __complex128 (*reference)(__complex128);
+    ComplexQuad (*reference)(ComplexQuad);
   };
-  const OfComplex functions[] = {{"exp", std::exp<double>, cexpq},      {"log", std::log<double>, clogq},
-                                 {"sqrt", std::sqrt<double>, csqrtq},   {"sin", std::sin<double>, csinq},
-                                 {"tanh", std::tanh<double>, ctanhq},   {"acos", std::acos<double>, cacosq},
-                                 {"atanh", std::atanh<double>, catanhq}};
+  const OfComplex functions[] = {{"exp", std::exp<double>, WIDE(cexp)},      {"log", std::log<double>, WIDE(clog)},
+                                 {"sqrt", std::sqrt<double>, WIDE(csqrt)},   {"sin", std::sin<double>, WIDE(csin)},
+                                 {"tanh", std::tanh<double>, WIDE(ctanh)},   {"acos", std::acos<double>, WIDE(cacos)},
+                                 {"atanh", std::atanh<double>, WIDE(catanh)}};
   for (const OfComplex& f : functions)
     for (int i = 0; i < kArguments / 2; ++i)
     {
       const Complex z(random.Uniform(-3, 3), random.Uniform(-3, 3));
-      __complex128 wide;
+      ComplexQuad wide;
       __real__ wide = z.real();
       __imag__ wide = z.imag();
       wide = f.reference(wide);
       const Complex result = f.function(z);
-      const Quad error = hypotq(result.real() - __real__ wide, result.imag() - __imag__ wide) / cabsq(wide);
+      const Quad error = WIDE(hypot)(result.real() - __real__ wide, result.imag() - __imag__ wide) / WIDE(cabs)(wide);
       EXPECT_LE(static_cast<double>(error), 6 * 0x1p-53) << f.name << z;
     }
   long double (*const of_long_double[])(long double) = {::sinl, ::expl, ::logl, ::tanhl, ::erfl};
-  Quad (*const references[])(Quad) = {sinq, expq, logq, tanhq, erfq};
+  Quad (*const references[])(Quad) = {WIDE(sin), WIDE(exp), WIDE(log), WIDE(tanh), WIDE(erf)};
   for (int i = 0; i < kArguments / 2; ++i)
     for (int f = 0; f < 5; ++f)
     {
