@@ -69,15 +69,15 @@ void AddOption(CLI::App& app, const std::string& name, const ParameterSpec& spec
 
 }  // namespace
 
-const PluginDescription& FindRenderer(std::string kind)
+const PluginDescription& FindRenderer(std::string_view kind)
 {
   const PluginCatalogue& catalogue = PluginCatalogue::Instance();
-  for (const std::string& label : {kind, kind + std::string(kEnding)})
+  for (const std::string& label : {std::string(kind), std::string(kind).append(kEnding)})
     if (const PluginDescription* found = catalogue.Find(PluginKind::kRenderer, label)) return *found;
 
-  const bool is_path = kind.find('/') != std::string::npos;
-  const PluginLibrary& library =
-      LoadPluginLibrary(is_path ? std::filesystem::absolute(kind).string() : kind, StandardPluginFolders());
+  const bool is_path = kind.find('/') != std::string_view::npos;
+  const PluginLibrary& library = LoadPluginLibrary(
+      is_path ? std::filesystem::absolute(kind).string() : std::string(kind), StandardPluginFolders());
   for (const auto& [plugin, label] : library.registrations.labels)
     if (plugin == PluginKind::kRenderer && library.error.empty()) return *catalogue.Find(PluginKind::kRenderer, label);
   if (is_path || !library.path.empty())

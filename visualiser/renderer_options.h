@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "visualiser/render.h"
@@ -18,7 +19,7 @@ namespace swarmanoid
 // The description of "text" or "text_render", or of the renderer in a user's library: a path, or a name that is looked
 // for in SWARMANOID_PLUGIN_PATH. Throws ConfigurationError, naming those that there are. The result stays until the
 // program ends.
-const PluginDescription& FindRenderer(std::string kind);
+const PluginDescription& FindRenderer(std::string_view kind);
 
 // Adds --name for every parameter of the renderer; a value given goes to `parameters` as "name=value". Choices of a
 // parameter called `format` are flags too: --csv. A name that the command uses itself is left out.
