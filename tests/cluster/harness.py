@@ -123,11 +123,15 @@ class LauncherTest(unittest.TestCase):
         shutil.rmtree(self.shared, ignore_errors=True)
 
     def memory(self):
-        """What the runs of this test hold in shared memory, and what Fast DDS has of this user outside folders of runs."""
+        """The shared memory of this test's runs, and files of Fast DDS outside their folders that no process uses."""
+        used = set()
+        for maps in pathlib.Path("/proc").glob("[0-9]*/maps"):
+            with contextlib.suppress(OSError):
+                used |= {line.split()[-1] for line in maps.read_text().splitlines() if "/dev/shm/" in line}
         outside = set()
         for path in pathlib.Path("/dev/shm").iterdir():
             with contextlib.suppress(FileNotFoundError):
-                if path.name.startswith(("fast", "sem.fast")) and path.lstat().st_uid == os.geteuid():
+                if path.name.startswith(("fast", "sem.fast")) and path.lstat().st_uid == os.geteuid() and str(path) not in used:
                     outside.add(str(path))
         return outside | {str(path) for path in self.shared.rglob("*")}
 
