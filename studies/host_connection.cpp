@@ -59,11 +59,7 @@ HostConnection::~HostConnection()
 
 void HostConnection::Send(StudyMessage kind, std::span<const char> content)
 {
-  ByteWriter message;
-  message.Put(kind);
-  std::vector<char> bytes = message.Bytes();
-  bytes.insert(bytes.end(), content.begin(), content.end());
-  const std::vector<char> frame = Framed(bytes);
+  const std::vector<char> frame = FramedMessage(kind, content);
   unsent_.insert(unsent_.end(), frame.begin(), frame.end());
   said_ = Clock::now();
   WriteSome();

@@ -53,11 +53,7 @@ public:
   // False if nobody has taken it for the time of the lease, or nobody is there.
   bool Send(StudyMessage kind, const ByteWriter& content = {})
   {
-    ByteWriter message;
-    message.Put(kind);
-    std::vector<char> bytes = message.Bytes();
-    bytes.insert(bytes.end(), content.Bytes().begin(), content.Bytes().end());
-    const std::vector<char> frame = Framed(bytes);
+    const std::vector<char> frame = FramedMessage(kind, content.Bytes());
     // A pipe that is ready takes that many without waiting.
     for (std::size_t at = 0; at < frame.size();)
     {
@@ -253,6 +249,14 @@ int RunTask(const std::string& folder, std::size_t task)
 }
 
 }  // namespace
+
+std::vector<char> FramedMessage(StudyMessage kind, std::span<const char> content)
+{
+  std::vector<char> message(1 + content.size());
+  message.front() = static_cast<char>(kind);
+  std::ranges::copy(content, message.begin() + 1);
+  return Framed(message);
+}
 
 int RunStudyWorker(const std::vector<std::string>& words)
 {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,5 +25,8 @@ enum class StudyMessage : std::uint8_t
   kRefused,    // from the worker: why
   kOutcome     // from the worker: a RunOutcome, RunFiles
 };
+
+// A message as it goes through a pipe.
+std::vector<char> FramedMessage(StudyMessage kind, std::span<const char> content);
 
 }  // namespace swarmanoid
