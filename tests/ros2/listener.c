@@ -6,7 +6,7 @@
      odom SEC NANOSEC FRAME CHILD X Y VX VY WZ
      marker NS ID TYPE ACTION FRAME X Y Z SX SY SZ R G B
    for each writer that it finds
-     writer TOPIC TYPE USER_DATA
+     writer TOPIC TYPE USER_DATA FIELDS       FIELDS: "known" if the description of the type came and was decoded
    and first "ready". */
 #include <dds/dds.h>
 #include <poll.h>
@@ -45,16 +45,34 @@ static void PrintTransforms(dds_entity_t reader, const char* kind)
   }
 }
 
+/* Exported by Cyclone DDS, whose header for it does not compile by itself. */
+const dds_typeid_t* ddsi_typeinfo_complete_typeid(const dds_typeinfo_t* information);
+
+/* Whether the writer says what its type is made of (XTypes), so that a program without the IDL could read it. */
+static const char* Fields(dds_entity_t reader, dds_builtintopic_endpoint_t* writer)
+{
+  const dds_typeinfo_t* information = NULL;
+  if (dds_builtintopic_get_endpoint_type_info(writer, &information) != DDS_RETCODE_OK || information == NULL)
+    return "unknown";
+  dds_typeobj_t* object = NULL;
+  const dds_return_t result =
+      dds_get_typeobj(dds_get_participant(reader), ddsi_typeinfo_complete_typeid(information), DDS_SECS(10), &object);
+  if (result != DDS_RETCODE_OK || object == NULL) return dds_strretcode(result);
+  dds_free_typeobj(object);
+  return "known";
+}
+
 static void PrintWriters(dds_entity_t reader)
 {
   void* sample;
   while ((sample = Next(reader)) != NULL)
   {
-    const dds_builtintopic_endpoint_t* writer = sample;
+    dds_builtintopic_endpoint_t* writer = sample;
     void* data = NULL;
     size_t size = 0;
     if (writer->qos != NULL) dds_qget_userdata(writer->qos, &data, &size);
-    printf("writer %s %s %.*s\n", writer->topic_name, writer->type_name, (int)size, data != NULL ? (char*)data : "");
+    printf("writer %s %s %.*s %s\n", writer->topic_name, writer->type_name, (int)size, data != NULL ? (char*)data : "",
+           Fields(reader, writer));
     dds_free(data);
     dds_return_loan(reader, &sample, 1);
   }
