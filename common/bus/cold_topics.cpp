@@ -95,7 +95,7 @@ void Publisher<Message>::Write(const Message& message)
   const std::lock_guard lock(impl_->mutex);
   call.sealer = impl_->SealerNow();
   call.writer = IdOf(impl_->writer->guid());
-  if (!impl_->writer->write(&call)) throw BusError(std::string("cannot send ") + kTopicOf<Message>);
+  if (!impl_->writer.Write(&call)) throw BusError(std::string("cannot send ") + kTopicOf<Message>);
 }
 
 template <class Message>

@@ -120,7 +120,7 @@ void HotPublisher<Message>::Write(const MessageHeader& header, const Message& me
   bool written = false;
   try
   {
-    written = impl_->writer->write(&call);
+    written = impl_->writer.Write(&call);
   }
   catch (const std::exception&)
   {

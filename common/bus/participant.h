@@ -85,6 +85,8 @@ public:
   WriterEnd& operator=(const WriterEnd&) = delete;
 
   dds::DataWriter* operator->() const { return writer_; }
+  // Returns false if there is no room for the message.
+  bool Write(void* message) { return WriteMessage(*writer_, message); }
   unsigned Matched() const;
 
 private:

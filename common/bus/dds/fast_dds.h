@@ -79,6 +79,16 @@ inline bool Succeeded(const eprosima::fastrtps::types::ReturnCode_t& code)
 }
 #endif
 
+// Hands a message to a writer. Returns false if the writer has no room for it.
+inline bool WriteMessage(dds::DataWriter& writer, void* message)
+{
+#if SWARMANOID_FAST_DDS_MAJOR >= 3
+  return Succeeded(writer.write(message));
+#else
+  return writer.write(message);
+#endif
+}
+
 // The times of the reliable protocol: of a writer from the last message to its next heartbeat, and how long it waits
 // before it answers a request for a lost message and before it answers the next one; and of a reader, how long it waits
 // before it answers a heartbeat.

@@ -194,7 +194,7 @@ void Writer::Write(void* message)
 {
   if (!ends_->latched && ends_->listeners == 0) return;  // nobody would ever get it
   // A full queue means that a listener is slow; the next value replaces this one.
-  ends_->writer->write(message);
+  WriteMessage(*ends_->writer, message);
 }
 
 void Writer::Flush() { ends_->writer->wait_for_acknowledgments(kFlushTime); }

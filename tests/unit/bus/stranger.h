@@ -44,7 +44,7 @@ public:
     dds::DataWriter* const writer = WriterOf(topic_name);
     if (writer == nullptr) return false;
     if (!Met(topic_name, readers)) return false;
-    for (std::string payload : payloads) writer->write(&payload);
+    for (std::string payload : payloads) WriteMessage(*writer, &payload);
     const bool got = Succeeded(writer->wait_for_acknowledgments({static_cast<std::int32_t>(kGenerous.count()), 0}));
     std::size_t cleared = 0;
     writer->clear_history(&cleared);  // nobody who comes later gets them

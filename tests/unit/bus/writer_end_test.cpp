@@ -65,7 +65,7 @@ protected:
     {
       const WriterEnd writer(of_writers, topic_of(of_writers), "writer_end", writer_qos);
       ASSERT_TRUE(test::Eventually([&] { return writer.Matched() == 1; }));
-      for (int number = 0; number < topic.writer_depth; ++number) writer->write(&number);
+      for (int number = 0; number < topic.writer_depth; ++number) WriteMessage(*writer, &number);
     }
   }
 };
