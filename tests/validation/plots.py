@@ -10,7 +10,7 @@ MARKS = ["o", "s", "^", "D"]
 
 
 def draw(figure, folder):
-    """Writes one figure of a scene; returns its name and caption."""
+    """Writes one figure of a scene; returns its name and caption, and whether it shows a comparison with published numbers."""
     plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "swarmanoid", "font.size": 9, "path.simplify_threshold": 0.5})
     drawn, axes = plt.subplots(figsize=(5, 3))
     for k, (label, xs, ys) in enumerate(figure.get("series", [])):
@@ -34,4 +34,4 @@ def draw(figure, folder):
     folder.mkdir(parents=True, exist_ok=True)
     drawn.savefig(folder / f"{figure['name']}.svg", metadata={"Date": None})
     plt.close(drawn)
-    return figure["name"], figure["caption"]
+    return figure["name"], figure["caption"], figure.get("published", False)

@@ -1,8 +1,10 @@
-"""Rows of the validation page: what was expected, what was measured, whether they agree; and the page itself."""
+"""Rows of the page of verification and validation: what was expected, what was measured, whether they agree; and the page itself."""
 import dataclasses
 import re
 
 SCENES = []
+PUBLISHED = re.compile(r"ARGoS|ITU-R")  # sources of published numbers
+PARTS = (("Verification", "closed form (source)", False), ("Validation", "published figure (source)", True))
 
 
 def scene(group, quick=True):
@@ -16,13 +18,17 @@ def scene(group, quick=True):
 @dataclasses.dataclass
 class Row:
     name: str  # unique: verdicts are compared by it
-    form: str  # the closed form or figure
+    form: str  # the closed form or published figure
     source: str
     expected: float
     measured: float
     tolerance: float  # of the difference
     why: str  # where the tolerance comes from, and where the model ends
     unit: str = ""
+
+    def is_published(self):
+        """Whether the source is a published one: validation. All other rows are verification."""
+        return PUBLISHED.search(self.source) is not None
 
     def verdict(self):
         return "passes" if abs(self.measured - self.expected) <= self.tolerance else "**fails**"
@@ -40,16 +46,21 @@ def line(row):
     return "| " + " | ".join(cell.replace("|", r"\|") for cell in cells) + " |"
 
 
-HEAD = ("| quantity | closed form or figure (source) | expected | measured | error | tolerated, and why | unit | verdict |\n"
-        "|---|---|---|---|---|---|---|---|\n")
+def table(rows, form):
+    head = f"| quantity | {form} | expected | measured | error | tolerance: reason | unit | verdict |\n|---|---|---|---|---|---|---|---|\n"
+    return head + "".join(line(row) + "\n" for row in rows)
 
 
 def tables(groups):
-    """The part of the page that is written by the run: rows by group, and the picture of each group that has one."""
+    """The part of the page that the run writes: verification and validation, each with its rows and pictures by group."""
     text = ""
-    for group, (rows, pictures) in groups.items():
-        text += f"\n## {group}\n\n{HEAD}" + "".join(line(row) + "\n" for row in rows)
-        text += "".join(f"\n![{caption}](pictures/validation/{name}.svg)\n" for name, caption in pictures)
+    for part, form, published in PARTS:
+        text += f"\n## {part}\n"
+        for group, (rows, pictures) in groups.items():
+            chosen = [row for row in rows if row.is_published() == published]
+            if chosen:
+                text += f"\n### {group}\n\n{table(chosen, form)}"
+                text += "".join(f"\n![{caption}](pictures/validation/{name}.svg)\n" for name, caption, shown in pictures if shown == published)
     return text
 
 

@@ -43,7 +43,7 @@ def proximity(lab):
                 drawn.append((distance, reading))
     yield Row("proximity beside a wall: largest error of 7 · 24 readings", "0.0100527 / (d + 0.000163144)", f"{A3} footbot_proximity_default_sensor.cpp@dfa7d4b0", 0, worst, 1e-9, "rounding")
     grid = [0.001 * i for i in range(1, 100)]
-    yield {"name": "proximity", "caption": "Readings of footbot_proximity beside a wall", "x": "distance (m)", "y": "reading",
+    yield {"name": "proximity", "caption": "Readings of footbot_proximity beside a wall", "published": True, "x": "distance (m)", "y": "reading",
            "series": [("readings", *zip(*sorted(drawn)))], "curves": [("ARGoS3's formula", grid, [proximity_of(d) for d in grid])]}
     arena = footbot("a", 2.0, 2.0, 0, "c") + prey("p", 2.0 + RADIUS + 0.08 + 0.05, 2.0, radius=0.08, height=0.15)
     readings = ring(lab.run(arena, who, ENGINE, 2).readings("a", "footbot_proximity")[0])
@@ -395,7 +395,7 @@ def floor(lab):
     motor = ((0.063, 0.0116), (-0.063, 0.0116), (-0.063, -0.0116), (0.063, -0.0116))
     ahead = lambda place: place[0] * math.cos(turn) - place[1] * math.sin(turn) > 0
     now = result.readings("fb", "footbot_base_ground")[0]
-    yield Row("base ground: wrong ones of 8 at the edge of a grey patch", "1 from a brightness of 0.5 on, else 0", f"{A3} footbot_base_ground_rotzonly_sensor.cpp@27e16d78", 0,
+    yield Row("base ground: wrong sensors of 8 at the edge of a grey patch", "1 from a brightness of 0.5 on, else 0", f"{A3} footbot_base_ground_rotzonly_sensor.cpp@27e16d78", 0,
               sum(now[str(i)] != (float(grey >= 0.5) if ahead(place) else 1) for i, place in enumerate(base)), 0, "counts")
     now = result.readings("fb", "footbot_motor_ground")[0]
     yield Row("motor ground: brightness under 4 sensors at the edge of a patch, largest error", "0.299 R + 0.587 G + 0.114 B; places", f"ITU-R BT.601; {A3} footbot_entity.cpp@c6aa94d6", 0,

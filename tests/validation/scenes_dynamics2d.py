@@ -61,7 +61,7 @@ def dynamics2d_friction(lab):
         track = launched(lab, "dynamics2d", prey={"ground_friction": mu}).track("p")
         v, way = stopping(track, 45)
         yield Row(f"dynamics2d: sliding prey, friction {mu}, way to rest", "v² / (2 µ g)", COULOMB, v * v / (2 * mu * G), way, v * 0.0075,
-                  "v h / 2 too short by the scheme and v · 5 ms by when v is known: 1.5 v h for a tick of 10 ms", "m")
+                  "1.5 v h for a tick of 10 ms: v h / 2 of the scheme, v · 5 ms of the time at which v is known", "m")
     for name, part, expected in (("lighter", 0.9, 0.1), ("heavier", 1.1, 0.0)):
         mass = part * 0.8 * 1.6 / 0.5  # wheel friction times weight of the robot over ground friction
         who = probe("c", [(0, 100, "footbot_wheels", 0.1, 0.1)])
@@ -79,7 +79,7 @@ def dynamics2d_collision(lab):
         p, q = speeds(result.track("p")), speeds(result.track("q"))
         before, after, hit = p[100], p[-1], q[-1]
         expected = before * (1 + restitution) / (1 + mass)
-        yield Row(f"dynamics2d: prey hits one of {mass} times its mass, e = {restitution}, speed of that", "v (1 + e) / (1 + M/m)", COLLISION, expected, hit,
+        yield Row(f"dynamics2d: prey hits another of {mass} times its mass, e = {restitution}, speed of the other", "v (1 + e) / (1 + M/m)", COLLISION, expected, hit,
                   0.002 * before, "0.2 %: single precision", "m/s")
         yield Row(f"dynamics2d: the same, M/m = {mass}, e = {restitution}, momentum kept", "m v + M V", COLLISION, before, after + mass * hit, 1e-4 * before,
                   "0.01 %: single precision", "kg m/s")

@@ -141,9 +141,9 @@ def dynamics3d_motor(lab):
     x = [p[0] - 1 for p in lab.run(footbot("fb", 1.0, 5.0, 0, "c"), who, "dynamics3d", 100, 10, size="10,10,2").track("fb")]
     v0, force, mass = 0.6, 2 * 0.73 * 1.6 * G / 2, 3.2
     tau = mass * v0 / force
-    yield Row("dynamics3d: footbot told 2 m/s, way in 1 s", "v₀ (t - τ (1 - e^(-t/τ))), τ = m v₀ / F", "direct-current motor, docs/engines.md", v0 * (1 - tau * (1 - math.exp(-1 / tau))), x[-1],
+    yield Row("dynamics3d: footbot commanded to 2 m/s, way in 1 s", "v₀ (t - τ (1 - e^(-t/τ))), τ = m v₀ / F", "direct-current motor, docs/engines.md", v0 * (1 - tau * (1 - math.exp(-1 / tau))), x[-1],
               0.006, "6 mm, docs/engines.md", "m")
-    yield {"name": "motor", "caption": "A footbot of dynamics3d that is told 2 m/s", "x": "time (s)", "y": "way (m)", "thin": True,
+    yield {"name": "motor", "caption": "A footbot of dynamics3d that is commanded to 2 m/s", "x": "time (s)", "y": "way (m)", "thin": True,
            "series": [("engine", [0.01 * i for i in range(len(x))], x)],
            "curves": [("closed form", [0.01 * i for i in range(len(x))], [v0 * (0.01 * i - tau * (1 - math.exp(-0.01 * i / tau))) for i in range(len(x))])]}
 
@@ -156,7 +156,7 @@ def dynamics3d_collision(lab):
         p, q = speeds(result.track("p")), speeds(result.track("q"))
         before, after, hit = p[120], p[-1], q[-1]
         expected = before * (1 + restitution) / (1 + mass)
-        yield Row(f"dynamics3d: prey hits one of {mass} times its mass, e = {restitution}, speed of that", "v (1 + e) / (1 + M/m)", COLLISION, expected, hit,
+        yield Row(f"dynamics3d: prey hits another of {mass} times its mass, e = {restitution}, speed of the other", "v (1 + e) / (1 + M/m)", COLLISION, expected, hit,
                   0.03 / (1 + mass) + 0.001 * before, "overlaps part at 3 cm/s at most, shared by masses, and 0.1 %", "m/s")
         yield Row(f"dynamics3d: the same, M/m = {mass}, e = {restitution}, momentum kept", "m v + M V", COLLISION, before, after + mass * hit, 1e-3 * before,
                   "0.1 %", "kg m/s")
@@ -176,7 +176,7 @@ def dynamics3d_eyebot(lab):
     track = lab.run(element("eyebot", {"id": "e", "position": "3,5,1", "controller": "c"}), who, "dynamics3d", 200).track("e")
     yield Row("dynamics3d: eyebot hovers 10 s, furthest off", "0", "thrust of its weight", 0, max(math.dist(p[:3], (3, 5, 1)) for p in track[:100]), 1e-4, "0.1 mm, docs/engines.md", "m")
     angles = unwrapped([p[5] for p in track])
-    yield Row("dynamics3d: eyebot's yaw rate", "as told", "docs/engines.md", 0.5, (angles[-1] - angles[150]) / ((len(angles) - 151) * 0.1), 1e-3, "0.2 %", "rad/s")
+    yield Row("dynamics3d: eyebot's yaw rate", "as commanded", "docs/engines.md", 0.5, (angles[-1] - angles[150]) / ((len(angles) - 151) * 0.1), 1e-3, "0.2 %", "rad/s")
 
 
 @scene(GROUP)
@@ -188,7 +188,7 @@ def dynamics3d_sensors(lab):
     up = result.readings("fb", "footbot_accelerometer")[3]["up"]
     yield Row("dynamics3d: accelerometer at rest", "g", "definition", G, up, 0.01, "0.1 %", "m/s²")
     pulls = [now["forward traction"] for now in result.readings("fb", "footbot_turret_torque")[30:]]
-    yield Row("dynamics3d: traction sensor while a prey of 1 kg is dragged", "µ m g / 25 N", COULOMB, 0.3 * G / 25, sum(pulls) / len(pulls), 0.05 * 0.3 * G / 25, "5 %. **The engine is wrong here**: a grip is stiff in pitch, so that the robot leans on what it drags, and how much is left to the solver; dynamics2d reads the closed form")
+    yield Row("dynamics3d: traction sensor while a prey of 1 kg is dragged", "µ m g / 25 N", COULOMB, 0.3 * G / 25, sum(pulls) / len(pulls), 0.05 * 0.3 * G / 25, "5 %: the engine is wrong here, see above")
     x = [p[0] for p in result.track("fb")]
     rolled = [now["left"] * 0.029112741 * 0.1 for now in result.readings("fb", "footbot_encoders")]
     yield Row("dynamics3d: encoders against the way, 3 s", "Σ r ω t", SOURCE, x[55] - x[25], sum(rolled[26:56]), 0.01 * abs(x[55] - x[25]), "1 %: slip under load", "m")

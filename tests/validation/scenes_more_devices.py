@@ -31,7 +31,7 @@ def pie_camera(lab):
     now = lab.run(arena, who, ENGINE, 3).readings("w", "pie_camera")[-1]
     worst = max((abs(now.get(name, math.inf) - distance) for name, distance in expected.items()), default=math.inf)
     yield Row("pie camera: distances of the nearest of 12 beacons in its sector and colour, largest error", "√(Δx² + Δy²)", GEOMETRY, 0, worst, 1e-9, "rounding", "m")
-    yield Row("pie camera: sectors and colours that see something", "of 30° from the front on", "docs/devices.md", len(expected), len(now), 0, "counts")
+    yield Row("pie camera: sectors and colours that see something", "sectors of 30°, the first from the front on", "docs/devices.md", len(expected), len(now), 0, "counts")
 
 
 @scene(GROUP)
