@@ -63,9 +63,9 @@ protected:
     SetHeartbeatPeriod(writer_qos, {0, 20'000});
     for (int k = 0; k < count; ++k)
     {
-      const WriterEnd writer(of_writers, topic_of(of_writers), "writer_end", writer_qos);
+      WriterEnd writer(of_writers, topic_of(of_writers), "writer_end", writer_qos);
       ASSERT_TRUE(test::Eventually([&] { return writer.Matched() == 1; }));
-      for (int number = 0; number < topic.writer_depth; ++number) WriteMessage(*writer, &number);
+      for (int number = 0; number < topic.writer_depth; ++number) writer.Write(&number);
     }
   }
 };
