@@ -1,4 +1,4 @@
-# Compiler settings shared by every target. Determinism rules: docs/determinism.md.
+# This file has the compiler settings of all targets. docs/determinism.md has the rules of determinism.
 option(SWARMANOID_BUILD_TESTS "Build the tests" ON)
 option(SWARMANOID_BUILD_BENCH "Build the benchmarks" ON)
 set(SWARMANOID_CPU "x86-64-v3" CACHE STRING
@@ -13,12 +13,13 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
 set(CMAKE_INSTALL_RPATH "$ORIGIN")
-# A library whose code changed does not make all that use it be linked again: what they see of it is in its headers.
+# Targets are not linked again if only the code of a library that they use changed. They depend on its headers.
 set(CMAKE_LINK_DEPENDS_NO_SHARED ON)
-# Programs that only the others start, and plug-ins: not on the path of users, not among the libraries of the system.
+# The first folder is for programs that only other programs start, so that they are not on the path of users. The second is for
+# plug-ins, so that they are not among the libraries of the system.
 set(SWARMANOID_ROLES_FOLDER ${CMAKE_INSTALL_LIBEXECDIR}/swarmanoid)
 set(SWARMANOID_PLUGINS_FOLDER ${CMAKE_INSTALL_LIBDIR}/swarmanoid)
-# What is installed is of one of these components: runtime, dev, doc, and links, which packages leave out.
+# Each installed file belongs to one of the components runtime, dev, doc and links. Packages leave out links.
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME runtime)
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
@@ -26,14 +27,14 @@ endif()
 
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # Precompiled headers are cached only with this sloppiness; relative paths let all checkouts share what is compiled.
+  # ccache caches precompiled headers only with this sloppiness. Relative paths let all checkouts share the cache.
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros
     CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${CCACHE_PROGRAM})
   add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess>)
 endif()
 
-# Same bits whatever the optimisation level: no contraction, no Eigen vector code (it would use FMA instructions). GCC 12
-# makes fused instructions out of rotations whatever -ffp-contract says (its bug 106902).
+# Results have the same bits at every optimisation level: there is no contraction and no Eigen vector code, which would use FMA
+# instructions. GCC 12 fuses rotations whatever -ffp-contract says (its bug 106902), hence -mno-fma.
 set(SWARMANOID_EXACT -ffp-contract=off)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   list(APPEND SWARMANOID_EXACT -mno-fma)
@@ -43,17 +44,17 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   list(APPEND SWARMANOID_EXACT -fno-tree-slp-vectorize)
 endif()
 add_compile_options(${SWARMANOID_EXACT} -fno-trapping-math -fno-math-errno)
-# Nobody replaces a function of ours by one of the same name elsewhere, so those of shared libraries may be inlined.
+# No other library replaces one of our functions by a function of the same name, so functions of shared libraries may be inlined.
 add_compile_options(-fno-semantic-interposition)
 add_compile_definitions(EIGEN_DONT_VECTORIZE)
-# Fast DDS 3 defines it for all that link it; precompiled headers are read only where all macros are as they were.
+# Fast DDS 3 defines this macro for all targets that link it. GCC reads precompiled headers only if all macros are the same.
 add_compile_definitions(_FILE_OFFSET_BITS=64)
-# GCC looks for memory to free when it has used 1 GiB, not 128 MiB: a tenth less time.
+# GCC collects its memory after 1 GiB and not after 128 MiB. This saves a tenth of the time.
 add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-heapsize=1048576>)
 if(SWARMANOID_CPU AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   separate_arguments(instruction_set UNIX_COMMAND "-march=${SWARMANOID_CPU}")
   add_compile_options(${instruction_set})
-  # From GCC 13 on -O2 has these. Code at -O1 can use a header that was precompiled at -O3 only if both have them.
+  # From GCC 13 on -O2 includes these options. Code at -O1 can use a header that was precompiled at -O3 only if both have them.
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
     add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-munroll-only-small-loops>
       $<$<COMPILE_LANGUAGE:CXX>:-mvzeroupper>)
@@ -73,27 +74,27 @@ if(SWARMANOID_BUILD_FUZZERS)
   add_link_options(-fsanitize=address,undefined)
 endif()
 
-# CMAKE_COMPILE_WARNING_AS_ERROR makes them errors: in the presets of developers and in CI. A user's build with a compiler that came
-# later and warns of more does not fail.
+# CMAKE_COMPILE_WARNING_AS_ERROR makes these warnings errors in the presets of developers and in CI. A user's build with a newer
+# compiler that has more warnings does not fail.
 set(SWARMANOID_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  # False alarms of GCC 12 about std::string's operator+ at -O3 (its bugs 105329 and 105651).
+  # GCC 12 has false alarms about std::string's operator+ at -O3 (its bugs 105329 and 105651).
   list(APPEND SWARMANOID_WARNINGS -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds)
   if(SWARMANOID_SANITIZE)
-    # The second one: in std::regex (its bug 105562).
+    # The second option is for a false alarm in std::regex (its bug 105562).
     list(APPEND SWARMANOID_WARNINGS -Wno-stringop-overread -Wno-maybe-uninitialized)
   endif()
 endif()
 
-# Several sources are compiled as one: the headers, which take most of the time, are read once for all of them.
+# Several sources are compiled together. Headers take most of the time, and are then read once for all of them.
 set(CMAKE_UNITY_BUILD ON CACHE BOOL "Compile several sources of a library or program together")
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 16 CACHE STRING "Sources that are compiled together")
 if(CMAKE_UNITY_BUILD)
-  # They are included by another file, so that GCC takes their own types for those of a header.
+  # Another file includes the sources, so GCC takes their own types for types of a header.
   list(APPEND SWARMANOID_WARNINGS -Wno-subobject-linkage)
 endif()
 
-# swarmanoid_includes_space(FILE RESULT): whether a source includes common/space/space.h, itself or by other headers.
+# swarmanoid_includes_space(FILE RESULT) tells whether a source includes common/space/space.h, directly or through other headers.
 function(swarmanoid_includes_space file result)
   get_property(known GLOBAL PROPERTY SWARMANOID_INCLUDES_SPACE:${file})
   if("${known}" STREQUAL "")
@@ -115,9 +116,9 @@ function(swarmanoid_includes_space file result)
   set(${result} ${known} PARENT_SCOPE)
 endfunction()
 
-# swarmanoid_sort_sources(TARGET [BY_FOLDER]): those sources are compiled together that include the space, which most work on, and those
-# that do not: an edit of its header compiles the former again, not all that happens to stand beside them. BY_FOLDER: only those of one
-# folder together, since those of several have names in common.
+# swarmanoid_sort_sources(TARGET [BY_FOLDER]) compiles sources that include the space, which most sources use, apart from sources that
+# do not. An edit of the header of the space then recompiles only the sources that include it. With BY_FOLDER only sources of one
+# folder are compiled together, because sources of different folders have names in common.
 function(swarmanoid_sort_sources target)
   cmake_parse_arguments(ARG "BY_FOLDER" "" "" ${ARGN})
   get_target_property(sources ${target} SOURCES)
@@ -147,13 +148,13 @@ function(swarmanoid_sort_sources target)
     list(LENGTH in_with_space with)
     list(LENGTH in_without_space without)
     if(with LESS 3 OR without LESS 3)
-      return()  # another unit, which reads all headers again, would cost more
+      return()  # another unit would read all headers again and cost more
     endif()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
   list(REMOVE_DUPLICATES groups)
   foreach(group IN LISTS groups)
-    # As many units as are needed, of like size; a folder is one.
+    # The sources are split into as many units as needed, of similar size. A folder is one unit.
     list(LENGTH in_${group} length)
     set(units 1)
     if(NOT ARG_BY_FOLDER)
@@ -168,33 +169,33 @@ function(swarmanoid_sort_sources target)
   endforeach()
 endfunction()
 
-# What was linked against one minor version goes with no other.
+# swarmanoid_install_library(NAME) installs a library. Code that was linked against one minor version does not load another.
 function(swarmanoid_install_library name)
   set_target_properties(${name} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   install(TARGETS ${name} EXPORT SwarmanoidTargets
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT dev)
 endfunction()
 
-# How well code is optimised in releases: what runs at each tick over all robots as CMake has it, at -O3. GCC needs half the time at
-# -O1, and two thirds at -O2; the bits of results are those of any level.
-# swarmanoid_off_the_tick(TARGETS...): nothing of them runs at each tick.
+# The next two functions set the optimisation of releases. Code that runs in each tick over all robots has CMake's default, -O3. GCC
+# needs half of that time at -O1, and two thirds at -O2. The bits of results are the same at each level.
+# swarmanoid_off_the_tick(TARGETS...) is for targets of which nothing runs in each tick.
 function(swarmanoid_off_the_tick)
   foreach(name ${ARGN})
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   endforeach()
 endfunction()
 
-# swarmanoid_beside_the_tick(TARGETS...): they draw, or pass messages on; they compute nothing for each robot at each tick.
+# swarmanoid_beside_the_tick(TARGETS...) is for targets that draw or pass messages on. They compute nothing for each robot in each tick.
 function(swarmanoid_beside_the_tick)
   foreach(name ${ARGN})
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O2>)
   endforeach()
 endfunction()
 
-# swarmanoid_shared_headers(TARGETS...): Eigen, fmt and the standard library are precompiled once for all of them.
+# swarmanoid_shared_headers(TARGETS...) precompiles Eigen, fmt and the standard library once for all targets.
 function(swarmanoid_shared_headers)
   foreach(name ${ARGN})
-    # No NAME_EXPORTS macro, and no -fPIE: they would keep a target from sharing them.
+    # Targets have no NAME_EXPORTS macro and no -fPIE, because these would keep a target from sharing the headers.
     set_target_properties(${name} PROPERTIES DEFINE_SYMBOL "")
     get_target_property(type ${name} TYPE)
     if(type STREQUAL EXECUTABLE)
@@ -205,16 +206,17 @@ function(swarmanoid_shared_headers)
   endforeach()
 endfunction()
 
-# swarmanoid_library(NAME [STATIC] [BY_FOLDER] SOURCES... [OFF_THE_TICK SOURCES...] [PUBLIC libs...] [PRIVATE libs...]): one library of
-# ours, warnings as errors. Shared ones are installed and exported as Swarmanoid::NAME; static ones stay inside the build. BY_FOLDER: as
-# of swarmanoid_sort_sources.
+# swarmanoid_library(NAME [STATIC] [BY_FOLDER] SOURCES... [OFF_THE_TICK SOURCES...] [PUBLIC libs...] [PRIVATE libs...]) adds a library
+# with the warnings above. Shared libraries are installed and exported as Swarmanoid::NAME. Static libraries stay inside the build.
+# BY_FOLDER is passed to swarmanoid_sort_sources.
 function(swarmanoid_library name)
   cmake_parse_arguments(ARG "STATIC;BY_FOLDER" "" "SOURCES;OFF_THE_TICK;PUBLIC;PRIVATE" ${ARGN})
   if(ARG_STATIC)
     add_library(${name} STATIC ${ARG_SOURCES})
   else()
     add_library(${name} SHARED ${ARG_SOURCES})
-    # Names are looked up when it is loaded: each run of a study is a copy of a process, and would look up its own.
+    # Names are looked up when the library is loaded. Each run of a study is a copy of a process, and would otherwise look them up
+    # again.
     target_link_options(${name} PRIVATE LINKER:-z,now)
     swarmanoid_install_library(${name})
   endif()
@@ -231,7 +233,7 @@ function(swarmanoid_library name)
   endif()
   swarmanoid_sort_sources(${name} ${grouping})
   if(ARG_OFF_THE_TICK)
-    # Options of single sources would keep them from being compiled together.
+    # These sources are a target of their own, because options of single sources would keep them from being compiled together.
     set(part ${name}_off_the_tick)
     add_library(${part} OBJECT ${ARG_OFF_THE_TICK})
     target_compile_options(${part} PRIVATE ${SWARMANOID_WARNINGS})
@@ -242,15 +244,15 @@ function(swarmanoid_library name)
     swarmanoid_off_the_tick(${part})
     target_sources(${name} PRIVATE $<TARGET_OBJECTS:${part}>)
   endif()
-  # Code built outside needs these two of the settings above: they decide the layout of a Pose and the bits of a sum.
+  # Code outside this build needs these two settings, because they decide the layout of a Pose and the bits of a sum.
   target_compile_definitions(${name} INTERFACE EIGEN_DONT_VECTORIZE)
   target_compile_options(${name} INTERFACE ${SWARMANOID_EXACT})
   target_compile_features(${name} INTERFACE cxx_std_20)
   set_property(GLOBAL APPEND PROPERTY SWARMANOID_LIBRARIES ${name})
 endfunction()
 
-# swarmanoid_program(NAME SOURCES... LINK libs... [ROLE]): one program of ours. A role's is started by `swarmanoid`; those who
-# start it by hand find it beside that, too, where packages do not forbid it.
+# swarmanoid_program(NAME SOURCES... LINK libs... [ROLE]) adds a program. `swarmanoid` starts the programs of roles. For users who
+# start them by hand, `bin` has links to them, except in Debian packages.
 function(swarmanoid_program name)
   cmake_parse_arguments(ARG "ROLE" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})

@@ -1,15 +1,16 @@
-# Installs the headers, the CMake package `Swarmanoid` and the pkg-config files, so that controllers are built in any other
-# folder, and the pages. Libraries and programs install themselves (swarmanoid_library, swarmanoid_program). Included last.
+# Installs the headers, the CMake package `Swarmanoid` and the pkg-config files, so that controllers can be built in any other
+# folder. It also installs the pages. swarmanoid_library and swarmanoid_program install libraries and programs. This file is
+# included after all of them.
 include(CMakePackageConfigHelpers)
 
 set(PACKAGE_FOLDER ${CMAKE_INSTALL_LIBDIR}/cmake/Swarmanoid)
 set(HEADER_FOLDER ${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid)
 
-# What only the programs of the cluster use stays out: DDS is no part of the interface.
+# Headers that only the programs of the cluster use are left out, because DDS is not part of the interface.
 install(DIRECTORY common roles engine_worker controller_host visualiser space_server
   DESTINATION ${HEADER_FOLDER} COMPONENT dev
   FILES_MATCHING PATTERN "*.h" PATTERN "bus" EXCLUDE PATTERN "engines" EXCLUDE PATTERN "devices" EXCLUDE)
-# Of the devices, what those of users are made from.
+# Users need these headers for their own devices.
 install(FILES controller_host/devices/device_streams.h controller_host/devices/noise.h controller_host/devices/value_devices.h
   DESTINATION ${HEADER_FOLDER}/controller_host/devices COMPONENT dev)
 
@@ -23,7 +24,7 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/SwarmanoidConfigVersion.cma
 install(FILES ${CMAKE_BINARY_DIR}/SwarmanoidConfig.cmake ${CMAKE_BINARY_DIR}/SwarmanoidConfigVersion.cmake
   cmake/SwarmanoidUser.cmake cmake/config.h.in DESTINATION ${PACKAGE_FOLDER} COMPONENT dev)
 
-# The same for those who build without CMake: swarmanoid for controllers, swarmanoid-simulation for everything else.
+# These pkg-config files are for users without CMake: swarmanoid for controllers, swarmanoid-simulation for everything else.
 foreach(name swarmanoid swarmanoid-simulation)
   string(REPLACE ";" " " PKG_CONFIG_OPTIONS "${SWARMANOID_EXACT}")
   file(RELATIVE_PATH PKG_CONFIG_PREFIX /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
@@ -36,11 +37,11 @@ export(EXPORT SwarmanoidTargets NAMESPACE Swarmanoid:: FILE ${CMAKE_BINARY_DIR}/
 configure_file(cmake/SwarmanoidUser.cmake ${CMAKE_BINARY_DIR}/SwarmanoidUser.cmake COPYONLY)
 configure_file(cmake/config.h.in ${CMAKE_BINARY_DIR}/config.h.in COPYONLY)
 
-# What drivers of robots are made from; and the messages that the ros2 drivers speak.
+# Drivers of robots need this header. The IDL files are the messages of the ros2 drivers.
 install(FILES real_robot/driver.h DESTINATION ${HEADER_FOLDER}/real_robot COMPONENT dev)
 install(DIRECTORY idl DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid COMPONENT dev)
 
-# Experiments, their schema, and what a user copies.
+# These are the experiments, their schema, and the samples and templates that users copy.
 install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid)
 install(FILES docs/experiment.xsd DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid)
 foreach(folder controllers entities functions templates)
@@ -49,7 +50,7 @@ foreach(folder controllers entities functions templates)
 endforeach()
 install(DIRECTORY user/user_scripts DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid/user USE_SOURCE_PERMISSIONS)
 
-# Manual pages are written by the programs themselves, from their tables of options.
+# The programs write their manual pages themselves, from their tables of options.
 foreach(program swarmanoid swarmanoid_robot)
   install(CODE "
     set(folder \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_MANDIR}/man1\")
@@ -60,6 +61,6 @@ install(FILES launcher/completion/swarmanoid.bash DESTINATION ${CMAKE_INSTALL_DA
 install(FILES launcher/completion/_swarmanoid DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
 install(FILES launcher/completion/swarmanoid.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/swarmanoid COMPONENT links)  # Debian packages have a file copyright instead
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/swarmanoid COMPONENT links)  # Debian packages have a file `copyright` instead
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/swarmanoid COMPONENT doc)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/swarmanoid COMPONENT doc)

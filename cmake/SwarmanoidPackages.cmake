@@ -1,5 +1,6 @@
-# Debian packages by CPack (`./build_framework package`): swarmanoid, swarmanoid-dev, swarmanoid-doc and, where the module of
-# Python is built, python3-swarmanoid: a package for each component. cmake/packages has what Debian wants beside what is installed. Included last.
+# CPack makes the Debian packages (`./build_framework package`): swarmanoid, swarmanoid-dev, swarmanoid-doc and, if the Python
+# module is built, python3-swarmanoid. Each component is a package. cmake/packages has the further files that Debian requires. This
+# file is included last.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME swarmanoid)
 set(CPACK_PACKAGE_CONTACT "The Swarmanoid developers <swarmanoid@localhost>" CACHE STRING "Maintainer of the packages")
@@ -16,8 +17,8 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME swarmanoid)
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME swarmanoid-dev)
 set(CPACK_DEBIAN_DOC_PACKAGE_NAME swarmanoid-doc)
 
-# The libraries that the programs load are found by dpkg-shlibdeps. Pictures need a font and a driver of OpenGL; sets that have
-# neither still run.
+# dpkg-shlibdeps finds the libraries that the programs load. Pictures need a font and an OpenGL driver. Installations without them
+# still run.
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "fonts-dejavu-core, libegl1, libgl1-mesa-dri, openssh-client, python3-matplotlib")
@@ -46,7 +47,7 @@ set(CPACK_COMPONENT_DOC_DESCRIPTION "simulator of robot swarms - documentation
 Tutorial, reference of experiment files and plug-ins, and the pages about
 engines, devices, determinism and clusters.")
 
-# The module is of one minor version of Python, as its file name says.
+# The module works with one minor version of Python, which its file name states.
 if(TARGET python_module)
   list(APPEND CPACK_COMPONENTS_ALL python)
   math(EXPR next "${SWARMANOID_PYTHON_MINOR} + 1")

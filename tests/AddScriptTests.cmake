@@ -1,5 +1,5 @@
-# ctest includes this file by way of ScriptTests.cmake. It looks for the cases of the scripts again if one of them has changed, and adds
-# a test for each case.
+# ctest includes this file through the file that ScriptTests.cmake writes. If a script has changed, it lists the cases of the scripts
+# again. It adds a test for each case.
 foreach(source IN LISTS scripts list_cases)
   if("${source}" IS_NEWER_THAN "${cases}")
     execute_process(COMMAND ${python} ${list_cases} ${scripts} OUTPUT_FILE ${cases} COMMAND_ERROR_IS_FATAL ANY)

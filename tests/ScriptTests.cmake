@@ -1,6 +1,6 @@
 # swarmanoid_script_tests(PREFIX SCRIPTS file... TIMEOUT s LABELS label... ENVIRONMENT NAME=value... [PROCESSORS n]
-#   [FIXTURES_REQUIRED name...] [QUICK regex]): each case of each script is a test, PREFIX.SCRIPT.CASE. ctest runs the cases of a script beside one
-# another, and names the one that fails. A case that ends with 77 was skipped. QUICK: which of them have the label quick, too.
+#   [FIXTURES_REQUIRED name...] [QUICK regex]) makes each case of each script a test, PREFIX.SCRIPT.CASE. ctest runs the cases of a script in
+# parallel, and names those that fail. A case that ends with exit code 77 was skipped. Tests that match QUICK also have the label quick.
 function(swarmanoid_script_tests prefix)
   cmake_parse_arguments(ARG "" "TIMEOUT;PROCESSORS;QUICK" "SCRIPTS;LABELS;FIXTURES_REQUIRED;ENVIRONMENT" ${ARGN})
   math(EXPR timeout "${ARG_TIMEOUT} * ${TEST_TIME_FACTOR}")
@@ -8,7 +8,7 @@ function(swarmanoid_script_tests prefix)
   if(NOT ARG_PROCESSORS)
     set(ARG_PROCESSORS 1)
   endif()
-  # ctest includes this file whenever it lists the tests.
+  # ctest includes the generated file whenever it lists the tests.
   set(tests ${CMAKE_CURRENT_BINARY_DIR}/${prefix}_script_tests.cmake)
   file(GENERATE OUTPUT ${tests} CONTENT "\
 set(prefix [==[${prefix}]==])

@@ -1,5 +1,5 @@
-# The names by which CMakeLists.txt of users link the libraries of ARGoS3. Qt user functions are built without Qt; those
-# that need more of it than there is are left out by -DSWARMANOID_ARGOS_QTOPENGL=OFF.
+# Defines the names by which the CMakeLists.txt of users link the libraries of ARGoS3. Qt user functions are built without Qt.
+# If they need parts of Qt that are missing here, -DSWARMANOID_ARGOS_QTOPENGL=OFF leaves them out.
 option(SWARMANOID_ARGOS_QTOPENGL "Build the Qt user functions of code for ARGoS3" ON)
 include(${CMAKE_CURRENT_LIST_DIR}/ARGoSNames.cmake)
 foreach(name IN LISTS ARGOS_LIBRARY_NAMES)

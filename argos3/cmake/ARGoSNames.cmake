@@ -1,4 +1,4 @@
-# The libraries of ARGoS3 that CMakeLists.txt of users link, which are all one here.
+# Lists the libraries of ARGoS3 that the CMakeLists.txt of users link. Here all these names stand for one library.
 set(ARGOS_LIBRARY_NAMES argos3core_simulator argos3plugin_simulator_footbot argos3plugin_simulator_eyebot
   argos3plugin_simulator_epuck argos3plugin_simulator_genericrobot argos3plugin_simulator_entities
   argos3plugin_simulator_dynamics2d argos3plugin_simulator_dynamics3d argos3plugin_simulator_pointmass3d

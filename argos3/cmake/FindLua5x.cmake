@@ -1,5 +1,5 @@
-# For find_package(Lua52) and find_package(Lua53) of users of ARGoS3, whose headers include Lua's. Ours do not: any Lua
-# that is there will do, and none, too.
+# Answers find_package(Lua52) and find_package(Lua53) in projects for ARGoS3, because ARGoS3's headers include Lua's. Our headers
+# do not, so any installed Lua is accepted, and also none.
 find_package(Lua QUIET)
 if(NOT LUA_FOUND)
   unset(LUA_INCLUDE_DIR CACHE)

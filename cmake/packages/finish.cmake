@@ -1,10 +1,10 @@
-# Run by CPack between installing and packing: adds what Debian wants of every package.
+# CPack runs this file between installing and packing. It adds the files that Debian requires in every package.
 set(names_runtime swarmanoid)
 set(names_dev swarmanoid-dev)
 set(names_doc swarmanoid-doc)
 set(names_python python3-swarmanoid)
 
-# One date for all that is written here, that of the sources.
+# All files that are written here have one date: that of the sources.
 if(DEFINED ENV{SOURCE_DATE_EPOCH})
   set(epoch $ENV{SOURCE_DATE_EPOCH})
 else()
@@ -30,7 +30,7 @@ foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   list(APPEND packed ${files})
   execute_process(COMMAND gzip --best --no-name --force ${packed} COMMAND_ERROR_IS_FATAL ANY)
 
-  # The libraries lie where the system looks for them.
+  # The system finds the libraries without a path, so the paths in the files are removed.
   file(GLOB_RECURSE files LIST_DIRECTORIES FALSE ${root}/usr/bin/* ${root}/usr/libexec/* ${root}/usr/lib/*.so ${root}/usr/lib/*.so.*)
   foreach(file IN LISTS files)
     if(IS_SYMLINK ${file})

@@ -1,7 +1,7 @@
-# The functions of <math.h> and <complex.h> whose results differ between C libraries or processors. The others (sqrt,
-# fma, floor, fmod, remainder, ldexp …) are exact by IEEE 754 everywhere and stay those of libm.
+# Lists the functions of <math.h> and <complex.h> whose results differ between C libraries or processors. The other functions
+# (sqrt, fma, floor, fmod, remainder, ldexp …) are exact by IEEE 754 everywhere, and libm computes them.
 
-# From musl: double and float, and the complex ones that it computes as carefully.
+# These functions come from musl: those of double and float, and the complex ones that musl computes with the same care.
 set(MUSL_FUNCTIONS)
 foreach(name sin cos tan sincos asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 expm1 log log2 log10 log1p
     pow cbrt hypot erf erfc tgamma)
@@ -10,7 +10,7 @@ endforeach()
 list(APPEND MUSL_FUNCTIONS lgamma_r lgammaf_r j0 j1 jn y0 y1 yn
   cexp csqrt csin ccos ctan csinh ccosh ctanh)
 
-# From wider.c: where musl's are imprecise, and those of long double and of complex numbers.
+# These functions come from wider.c: those that are imprecise in musl, and those of long double and of complex numbers.
 set(WIDER_FUNCTIONS lgamma lgammaf exp10 exp10f j0f j1f jnf y0f y1f ynf)
 foreach(name sin cos tan sincos asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 exp10 expm1 log log2 log10
     log1p pow cbrt hypot erf erfc tgamma lgamma j0 j1 jn y0 y1 yn)
@@ -25,12 +25,13 @@ foreach(name cabs carg cpow clog10 casin cacos catan casinh cacosh catanh)
   list(APPEND WIDER_FUNCTIONS ${name} ${name}f ${name}l)
 endforeach()
 
-# Where long double has 113 bits, libm computes its functions in integers: they stay libm's.
+# If long double has 113 bits, libm computes its functions in integers, and they stay libm's.
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
   list(FILTER WIDER_FUNCTIONS EXCLUDE REGEX "l(_r)?$")
 endif()
 
-# reproducible_math_alias(SYMBOL OUTPUT): which of our functions the symbol of libm is another name of; empty if none.
+# reproducible_math_alias(SYMBOL OUTPUT) sets OUTPUT to the function of ours that libm's SYMBOL is another name for. It is empty if
+# there is no such function.
 function(reproducible_math_alias symbol output)
   set(names ${MUSL_FUNCTIONS} ${WIDER_FUNCTIONS})
   set(${output} "" PARENT_SCOPE)

@@ -1,4 +1,4 @@
-# Writes OUTPUT, a source with the version and the commit of SOURCE; it is left alone if nothing changed.
+# Writes OUTPUT, a source file with the version and the commit of SOURCE. The file is not touched if nothing changed.
 set(REVISION "")
 find_program(GIT git)
 if(GIT AND EXISTS ${SOURCE}/.git)

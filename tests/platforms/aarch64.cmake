@@ -1,5 +1,5 @@
-# Toolchain file: builds for aarch64 on another processor, with Debian's cross-compilers and libraries of arm64, and runs
-# what was built with QEMU.
+# This toolchain file builds for aarch64 on another processor, with Debian's cross-compilers and arm64 libraries. QEMU runs the
+# built programs.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)

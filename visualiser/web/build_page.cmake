@@ -1,9 +1,9 @@
 # cmake -DESBUILD= -DGZIP= -DPAGE=<source> -DBUILD=<folder> -DOUTPUT=<folder> -P build_page.cmake
-# Fetches three.js from the registry of npm and bundles the page with esbuild. Without a network the build goes on without
-# the page; the next build tries again.
+# This script fetches three.js from the registry of npm and bundles the page with esbuild. Without a network the build continues
+# without the page, and the next build tries again.
 cmake_minimum_required(VERSION 3.25)
 
-# `npm view three@VERSION dist.integrity` states the sum, in base 64.
+# `npm view three@VERSION dist.integrity` prints this sum in base 64.
 set(THREE three-0.187.0)
 set(THREE_SHA512 422bbb47e0a687c0acb59b18d6e24e4969d595fa3b66d34b57b985f0996d9372c1dc0b43bbd71166572744a90093c638cfa28ac37e73ed8ed4addee3598f1eb4)
 set(archive ${BUILD}/${THREE}.tgz)
@@ -42,13 +42,13 @@ if(NOT EXISTS ${modules}/${THREE})
   file(TOUCH ${modules}/${THREE})
 endif()
 
-# Parts of an earlier bundle have other names.
+# Parts of an earlier bundle have other names, so they are removed.
 file(REMOVE_RECURSE ${OUTPUT}/index.html)
 file(GLOB earlier ${OUTPUT}/*.js ${OUTPUT}/*.css ${OUTPUT}/*.js.gz ${OUTPUT}/*.css.gz)
 if(earlier)
   file(REMOVE ${earlier})
 endif()
-# Splitting: the view in three dimensions is loaded when it is wanted.
+# With splitting, the browser loads the three-dimensional view only when it is needed.
 execute_process(
   COMMAND ${CMAKE_COMMAND} -E env NODE_PATH=${modules} ${ESBUILD} ${PAGE}/src/main.js ${PAGE}/src/style.css ${PAGE}/src/view/graphics_worker.js
     --bundle --splitting --minify --format=esm --target=es2022 --legal-comments=none --log-level=warning
@@ -62,7 +62,8 @@ execute_process(COMMAND ${GZIP} --best --no-name --keep --force ${bundled} COMMA
 file(READ ${modules}/three/LICENSE licence)
 file(WRITE ${OUTPUT}/licences.txt "This page contains three.js (https://threejs.org).\n\n${licence}")
 
-# What main.js imports at once is asked for together with it. Last: this file tells the build that all is there.
+# The page requests the direct imports of main.js together with it. index.html is written last, because it tells the build that all
+# files exist.
 file(READ ${BUILD}/parts.json parts)
 string(JSON count LENGTH "${parts}" outputs)
 set(links)

@@ -1,4 +1,4 @@
-# The reference of reproducible_math_test.cpp, with 113 bits; on aarch64 long double has as many.
+# quadmath is the reference of reproducible_math_test.cpp, with 113 bits. On aarch64 long double has as many.
 if(NOT CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
   target_link_libraries(unit_math PRIVATE quadmath)
 endif()

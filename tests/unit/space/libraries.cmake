@@ -1,4 +1,4 @@
-# References that the terrains are checked against.
+# The tests compare the terrains with these reference libraries.
 find_package(octomap 1.9 REQUIRED)
 find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)

@@ -1,8 +1,8 @@
 find_package(nlohmann_json REQUIRED)
 target_link_libraries(unit_visualiser PRIVATE scene interaction nlohmann_json::nlohmann_json)
 
-# What is drawn by `library` and `renderer`; where these are not part of the build, the tests in files that match `pattern` are
-# not either.
+# swarmanoid_renderer_tests(LIBRARY RENDERER PATTERN) links LIBRARY and depends on RENDERER. If these are not part of the build, it
+# leaves out the tests in files that match PATTERN.
 function(swarmanoid_renderer_tests library renderer pattern)
   if(TARGET ${library})
     target_link_libraries(unit_visualiser PRIVATE ${library})
