@@ -54,10 +54,13 @@ add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-heapsize=10
 if(SWARMANOID_CPU AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   separate_arguments(instruction_set UNIX_COMMAND "-march=${SWARMANOID_CPU}")
   add_compile_options(${instruction_set})
-  # From GCC 13 on -O2 includes these options. Code at -O1 can use a header that was precompiled at -O3 only if both have them.
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
-    add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-munroll-only-small-loops>
-      $<$<COMPILE_LANGUAGE:CXX>:-mvzeroupper>)
+endif()
+# These options depend on the level of optimisation. Code at -O1 can use a header that was precompiled at -O3 only if both have the same.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-munroll-only-small-loops> $<$<COMPILE_LANGUAGE:CXX>:-mvzeroupper>)
+  elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 14)
+    add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-mearly-ra=all>)
   endif()
 endif()
 if(SWARMANOID_SANITIZE)

@@ -3,6 +3,7 @@
 // rounded once, and take some microseconds a call. Where long double has 113 bits itself (aarch64), libm's functions of
 // long double are such arithmetic: they are used here, and stay libm's. Compiled without built-in functions: GCC would
 // turn pow(10, x) within exp10 into exp10.
+#define _GNU_SOURCE  // clog10l
 #include <complex.h>
 #if __LDBL_MANT_DIG__ == 113
 #include <math.h>
