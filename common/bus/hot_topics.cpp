@@ -1,6 +1,7 @@
 #include "common/activity/shared_memory.h"
 #include "common/bus/message_type.h"
 #include "common/bus/participant.h"
+#include "common/bus/run_directory.h"
 #include "common/math/random.h"
 
 #include <fmt/format.h>
@@ -70,6 +71,7 @@ template <class Qos>
 void ShareData(Qos& qos, Bus& bus, const HotScope& scope)
 {
   if (!SharesMemory(bus, scope)) return;
+  RequireSameRelease(scope.directory, fmt::format("{}.{}", SWARMANOID_FAST_DDS_MAJOR, SWARMANOID_FAST_DDS_MINOR));
   qos.data_sharing().on(scope.directory, {MachineId()});
   if (bus.Internals().insecure) return;
   qos.endpoint().unicast_locator_list.push_back(NowhereLocator());

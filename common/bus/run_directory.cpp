@@ -33,6 +33,7 @@ constexpr const char* kFolderFile = "folder";  // of the run, on the disk
 constexpr const char* kServerFile = "server";
 constexpr const char* kKeyFile = "key";
 constexpr const char* kNetworkFile = "network";
+constexpr const char* kReleaseFile = "fast_dds";
 constexpr const char* kMarkerPrefix = "process.";
 // In every folder that we make for a run: what lacks it is not ours to remove.
 constexpr const char* kRunFile = ".swarmanoid-run";
@@ -324,6 +325,22 @@ void RunDirectory::AnnounceFolder(const std::string& of_run)
   const Descriptor folder = OpenOwnFolder(AT_FDCWD, path_);
   if (!folder || !WriteText(*folder, kFolderFile, of_run + "\n"))
     throw BusError("cannot write '" + path_ + "/" + kFolderFile + "': " + std::strerror(errno));
+}
+
+void RequireSameRelease(const std::string& directory, const std::string& release)
+{
+  // Processes of a run come at the same time.
+  const FolderLock lock;
+  const Descriptor folder = OpenOwnFolder(AT_FDCWD, directory);
+  std::string of_run = folder ? TextOf(*folder, kReleaseFile) : std::string();
+  if (of_run == release) return;
+  if (folder && of_run.empty() && WriteText(*folder, kReleaseFile, release)) return;
+  if (of_run.empty())
+    throw BusError(fmt::format("cannot write '{}/{}': {}", directory, kReleaseFile, std::strerror(errno)));
+  throw BusError(fmt::format(
+      "this program uses Fast DDS {}, and the run on this machine Fast DDS {}: they cannot share memory; start "
+      "programs of the same build, or let the run use a network (--interface)",
+      release, of_run));
 }
 
 std::string FolderOfRun(const std::string& experiment, std::uint64_t run)

@@ -60,6 +60,10 @@ private:
   bool server_ = false;
 };
 
+// Says that this process shares memory in the folder of a run by messages of Fast DDS. `release`: of Fast DDS, since
+// each release lays its memory out in its own way. Throws BusError if another process of the run has another release.
+void RequireSameRelease(const std::string& directory, const std::string& release);
+
 // An experiment whose space server runs on this machine.
 struct LocalRun
 {

@@ -5,15 +5,7 @@
 // CMake target `fast_dds` brings the headers and the libraries of the release.
 #pragma once
 
-#if __has_include(<fastdds/config.hpp>)
-#include <fastdds/config.hpp>
-#define SWARMANOID_FAST_DDS_MAJOR FASTDDS_VERSION_MAJOR
-#define SWARMANOID_FAST_DDS_MINOR FASTDDS_VERSION_MINOR
-#else
-#include <fastrtps/config.h>
-#define SWARMANOID_FAST_DDS_MAJOR FASTRTPS_VERSION_MAJOR
-#define SWARMANOID_FAST_DDS_MINOR FASTRTPS_VERSION_MINOR
-#endif
+#include "common/bus/dds/release.h"
 
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/bus/bus.h"
@@ -91,6 +92,23 @@ TEST_F(RunDirectoryTest, ARunIsFoundWithItsNetwork)
   EXPECT_EQ(FindLocalRuns()[0].network, network);
   directory.Announce("far", 7, std::nullopt);
   EXPECT_EQ(FindLocalRuns()[0].network, RunNetwork{});
+}
+
+TEST_F(RunDirectoryTest, AnotherReleaseOfFastDdsMayNotShareItsMemory)
+{
+  RunDirectory directory("mixed", 255);
+  RequireSameRelease(directory.Path(), "2.9");
+  RequireSameRelease(directory.Path(), "2.9");
+  try
+  {
+    RequireSameRelease(directory.Path(), "3.1");
+    FAIL() << "it may";
+  }
+  catch (const BusError& error)
+  {
+    EXPECT_THAT(error.what(),
+                testing::HasSubstr("this program uses Fast DDS 3.1, and the run on this machine Fast DDS 2.9"));
+  }
 }
 
 TEST_F(RunDirectoryTest, WhatAKilledProcessLeftIsRemovedWhenAsked)
