@@ -1,8 +1,11 @@
 // Conditions over the factors of a study.
 #include "studies/expression.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <tuple>
 
 namespace swarmanoid
 {
@@ -53,6 +56,19 @@ TEST(StudyExpression, CombinesConditions)
   EXPECT_TRUE(Holds("not robots == 11"));
   EXPECT_FALSE(Holds("not (robots == 10 and rule == 'still')"));
   EXPECT_TRUE(Holds("rule != 'moving'"));
+}
+
+// `robots` is 10. Each comparison is evaluated with 10 below, equal to and above the other side.
+TEST(StudyExpression, ComparisonsAtEqualityAndBesideIt)
+{
+  for (const auto& [comparison, below, equal, above] :
+       {std::tuple("<", true, false, false), std::tuple("<=", true, true, false), std::tuple(">", false, false, true),
+        std::tuple(">=", false, true, true), std::tuple("==", false, true, false), std::tuple("!=", true, false, true)})
+  {
+    EXPECT_EQ(Holds(fmt::format("robots {} 11", comparison)), below) << "10 " << comparison << " 11";
+    EXPECT_EQ(Holds(fmt::format("robots {} 10", comparison)), equal) << "10 " << comparison << " 10";
+    EXPECT_EQ(Holds(fmt::format("robots {} 9", comparison)), above) << "10 " << comparison << " 9";
+  }
 }
 
 TEST(StudyExpression, SaysWhatIsWrong)
