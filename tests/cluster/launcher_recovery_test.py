@@ -285,6 +285,25 @@ class LookingBack(RecoveryTest):
         self.assertRegex(wrong.stdout, r"^tick 120: x of 'fb_7' is 1\.5 and \S+ \(in the journal, and computed again\)\n$")
 
 
+    def test_runs_of_different_length_are_compared_to_the_end_of_the_shorter(self):
+        for name, ticks in (("short", 40), ("long", 60)):
+            run = self.run_it("run", CONFIGS / "diffusion_10.xml", "--ticks", ticks, "--no-visualisers", "--quiet", "--output", name)
+            self.assertEqual(run.process.returncode, 0, run.stderr)
+        for tick, name in ((20, "early"), (50, "late")):
+            run = self.run_it("run", "--branch", f"long@{tick}", "--ticks", 60, "--no-visualisers", "--quiet", "--output", name)
+            self.assertEqual(run.process.returncode, 0, run.stderr)
+        for runs, code, said in ((("short", "long"), 5, "equal to the end of short, at tick 40\n"),
+                                 (("long", "short"), 5, "equal to the end of short, at tick 40\n"),
+                                 (("early", "short"), 5, "equal to the end of short, at tick 40\n"),
+                                 (("long", "late"), 0, "equal: 11 states, from tick 50 on\n")):
+            compared = self.run_it("diff", *runs)
+            self.assertEqual((compared.process.returncode, compared.stdout, compared.stderr), (code, said, ""), runs)
+        for runs in (("short", "late"), ("late", "short")):
+            compared = self.run_it("diff", *runs)
+            self.assertEqual((compared.process.returncode, compared.stdout), (2, ""), runs)
+            self.assertIn("the journals have no tick in common: 'short' ends at tick 40, 'late' begins at 50", compared.stderr)
+
+
 class Exported(RecoveryTest):
     def table(self, *options):
         done = self.run_it("export", "out", "--csv", "-", *options)
