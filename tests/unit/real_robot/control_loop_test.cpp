@@ -3,6 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
+#include "common/configuration/xml_reader.h"
 #include "footbot/ci_footbot_light_sensor.h"
 #include "footbot/ci_footbot_wheels_actuator.h"
 
@@ -115,6 +118,13 @@ protected:
     configuration.actuators = {{"footbot_wheels", "", {}, {}}};
     return configuration;
   }
+  static RobotConfiguration WithTimeout(const std::string& timeout_s)
+  {
+    RobotConfiguration configuration = Configuration();
+    configuration.sensors.front().tree =
+        TConfigurationTree(ReadXml("<footbot_light timeout_s=\"" + timeout_s + "\"/>", "robot.xml"));
+    return configuration;
+  }
 
   World world_;
   LoopOptions options_;
@@ -180,6 +190,30 @@ TEST_F(ControlLoop, StandsWhileASensorIsSilentAndGoesOnAfterwards)
   EXPECT_THAT(world_.events, ElementsAre("poll", "poll", "step", "push 0", "poll", "stop", "poll", "stop", "poll",
                                          "stop", "poll", "step", "push 1", "stop"));
   EXPECT_NEAR(report.silent_s, 0.3, 1e-12);
+}
+
+TEST_F(ControlLoop, ATimeoutOfZeroNeverEndsTheSilenceOfASensor)
+{
+  Robot robot(WithTimeout("0"));
+  world_.silence_s = 1e6;
+  options_.end_on_silence = true;
+  options_.steps = 2;
+  const LoopReport report = Run(robot);
+  EXPECT_THAT(world_.events, ElementsAre("poll", "poll", "step", "push 0", "poll", "step", "push 1", "stop"));
+  EXPECT_EQ(report.silent_s, 0);
+}
+
+TEST_F(ControlLoop, ASensorIsSilentAfterItsTimeoutAndNotAtIt)
+{
+  Robot robot(WithTimeout("2.5"));
+  options_.end_on_silence = true;
+  options_.steps = 2;
+  world_.silence_s = 2.5;
+  EXPECT_EQ(Run(robot).steps, 2U);
+
+  Robot other(WithTimeout("2.5"));
+  world_.silence_s = std::nextafter(2.5, 3);
+  EXPECT_THROW(Run(other), DriverError);
 }
 
 TEST_F(ControlLoop, EndsOnSilenceWhereAsked)
