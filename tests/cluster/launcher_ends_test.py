@@ -1,7 +1,9 @@
 """How runs end as they should: last line, exit codes, Ctrl-C, run folders, full disks, runs side by side."""
+import contextlib
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import time
@@ -10,6 +12,7 @@ import unittest
 from harness import AT_ONCE_S, CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, main
 
 EXPERIMENT = CONFIGS / "diffusion_10.xml"
+NO_MANIFEST = r"cannot write '\S*/manifest.json': No space left on device"
 
 
 class Ends(LauncherTest):
@@ -173,6 +176,43 @@ class Folders(LauncherTest):
             self.assertEqual(run.process.returncode, 4, run.stderr)
             self.assertIn("No space left on device", run.stderr)
             self.assert_nothing_left(run)
+
+    def test_a_disk_that_is_full_before_the_manifest_is_named(self):
+        disk = self.mount("size=1m")
+        for options in ([], ["--single-process"]):
+            self.leave_pages(disk, 1)  # for experiment.xml
+            run = self.run_it("run", EXPERIMENT, "--ticks", 50, "--quiet", "--no-visualisers", "--output", "disk/out", *options)
+            self.assertEqual(run.process.returncode, 2, run.stderr)
+            self.assertRegex(run.stderr, NO_MANIFEST)
+            self.assertEqual(os.listdir(disk / "out"), ["experiment.xml"])
+            self.assert_nothing_left(run)
+            shutil.rmtree(disk / "out")
+
+    def test_a_run_whose_last_manifest_a_full_disk_does_not_take_fails_with_its_result(self):
+        disk = self.mount("size=1m")
+        cluster = self.start("run", EXPERIMENT, "--ticks", 50, "--paused", "--quiet", "--no-visualisers", "--no-journal", "--output", "disk/cluster")
+        self.wait_for_experiment("diffusion_10")
+        self.control("step", 5)  # from here on the log of events has its page
+        self.leave_pages(disk, 0)
+        self.control("resume")
+        cluster.wait()
+        self.leave_pages(disk, 2)  # for experiment.xml and the first manifest
+        single = self.run_it("run", EXPERIMENT, "--ticks", 50, "--quiet", "--no-visualisers", "--single-process", "--output", "disk/single")
+        for run, out in ((cluster, disk / "cluster"), (single, disk / "single")):
+            self.assertEqual(run.process.returncode, 4, run.stderr)
+            self.assertRegex(run.stderr, NO_MANIFEST)
+            self.assert_finished(run, 50)
+            self.assertNotIn("exit_code", json.loads((out / "manifest.json").read_text()), "the first manifest is kept")
+            self.assertFalse((out / "manifest.json.new").exists())
+            self.assert_nothing_left(run)
+
+    def leave_pages(self, disk, count):
+        """Fills a disk but for so many pages, each of which takes a small file."""
+        filler = disk / "filler"
+        with filler.open("ab", buffering=0) as file, contextlib.suppress(OSError):
+            while file.write(bytes(os.sysconf("SC_PAGESIZE"))):
+                pass
+        os.truncate(filler, filler.stat().st_size - count * os.sysconf("SC_PAGESIZE"))
 
 
 class SideBySide(LauncherTest):
