@@ -10,8 +10,8 @@ class Environment:
 
     file, settings, threads: as for Simulation. sensors: types whose columns are the observation, in this order; None: all.
     actuators: types whose columns are the action, likewise. reward: called with the simulation and the robots after each
-    step, returns (agents,). done: likewise, returns bool, for the whole swarm or (agents,). max_ticks: after which an episode is cut; 0:
-    that of the file. frame_skip: ticks a step.
+    step, returns (agents,). done: likewise, returns bool, for the whole swarm or (agents,). max_ticks: an episode is cut
+    there, or at that of the file if it comes first; 0: at that of the file. frame_skip: ticks a step.
 
     `step` returns (observations, rewards, terminations, truncations, infos); after an end, `reset` starts the next
     episode, with the next seed if none is given. Ranges of actions are those of the devices, which cut what is beyond.
@@ -51,7 +51,7 @@ class Environment:
         self.num_envs = len(self.robots)
         self.observation_shape = (self.num_envs, sum(part.shape[1] for part in self._sensors))
         self.action_shape = (self.num_envs, sum(part.shape[1] for part in self._actuators))
-        self._last = self.max_ticks or self.simulation.max_ticks
+        self._last = min((ticks for ticks in (self.max_ticks, self.simulation.max_ticks) if ticks > 0), default=0)
         self._observations = np.empty(self.observation_shape)
 
     def _observe(self):

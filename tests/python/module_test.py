@@ -249,6 +249,57 @@ class Columns(InAFolder):
         self.assertEqual(robots.rows("radio")[0][0, 2], 5)
 
 
+SCENE_OF_HANDBOTS = """<ahss-config>
+  <framework><clocktick>100</clocktick><maxclock>20</maxclock></framework>
+  <controllers>
+    <external_controller id="arms">
+      <actuators>
+        <handbot_arms implementation="dummy_handbot_arms"/>
+        <handbot_head implementation="dummy_handbot_head"/>
+        <handbot_hands implementation="dummy_handbot_hands"/>
+      </actuators>
+      <sensors><handbot_joints implementation="generic_handbot_joints"/></sensors>
+      <parameters/>
+    </external_controller>
+  </controllers>
+  <arena size="4, 4, 2" optimization="2D">
+    <handbot id="hb_0" position="1,1,0" controller="arms"/>
+    <handbot id="hb_1" position="3,3,0" controller="arms"/>
+  </arena>
+  <engines><dummy_engine id="ground"/></engines>
+  <arena_physics><engine id="ground"><all/></engine></arena_physics>
+</ahss-config>
+"""
+
+
+class Handbots(InAFolder):
+    def test_each_joint_of_each_robot_follows_its_own_column(self):
+        path = self.folder / "handbots.xml"
+        path.write_text(SCENE_OF_HANDBOTS)
+        simulation = swarmanoid.Simulation(path)
+        robots = simulation.robots["arms"]
+        self.assertEqual(robots.ids, ["hb_0", "hb_1"])
+        self.assertEqual(robots.actuator_columns["handbot_arms"],
+                         ["left arm [rad/s]", "right arm [rad/s]", "left wrist [rad/s]", "right wrist [rad/s]"])
+        rates = np.array([[0.11, 0.22, 0.33, 0.44], [0.4, 0.3, 0.2, 0.1]])
+        robots.actuators["handbot_arms"][:] = rates
+        robots.actuators["handbot_head"][:, 0] = [0.05, -0.06]
+        robots.actuators["handbot_hands"][:] = [[1, 0], [0, 1]]  # each robot closes another one
+        simulation.step(10)
+        simulation.sense()
+        columns = robots.columns["handbot_joints"]
+        joints = dict(zip(columns, robots.sensors["handbot_joints"].T))
+        for column, name in enumerate(["left arm [rad]", "right arm [rad]", "left wrist [rad]", "right wrist [rad]"]):
+            np.testing.assert_allclose(joints[name], 10 * 0.1 * rates[:, column], atol=1e-9, err_msg=name)
+        np.testing.assert_allclose(joints["head [rad]"], [0.05, -0.06], atol=1e-9)
+        self.assertEqual(joints["left hand [rad]"][0], 0)
+        self.assertEqual(joints["right hand [rad]"][1], 0)
+        self.assertGreater(min(joints["right hand [rad]"][0], joints["left hand [rad]"][1]), 0)
+        # The state has the same angles, by robot and arm.
+        np.testing.assert_allclose(simulation.attribute("arm", "handbot"), rates[:, :2], atol=1e-9)
+        np.testing.assert_allclose(simulation.attribute("wrist", "hb_1"), rates[1:, 2:], atol=1e-9)
+
+
 class Mistakes(InAFolder):
     def test_mistakes_of_files_have_their_places(self):
         with self.assertRaisesRegex(swarmanoid.ConfigurationError, "nowhere.xml"):
@@ -388,6 +439,24 @@ class Learning(InAFolder):
         _, info = environment.reset()
         self.assertEqual(info["seed"], 5)
         self.assertEqual(environment.simulation.tick, 0)
+
+    def test_an_episode_is_cut_at_its_tick_and_not_before(self):
+        for more, cut in (({"max_ticks": 20}, 20), ({"max_ticks": 19, "frame_skip": 5}, 20), ({"max_ticks": 300}, 50), ({}, 50)):
+            with self.subTest(more):
+                environment = self.environment(**more)
+                for _ in range(2):  # the next episode is as long
+                    environment.reset()
+                    truncated = np.zeros(2, dtype=bool)
+                    while not truncated.any():
+                        self.assertLess(environment.simulation.tick, cut)
+                        truncated = environment.step(np.zeros((2, 2)))[3]
+                    self.assertEqual((environment.simulation.tick, list(truncated)), (cut, [True, True]))
+
+    def test_agents_that_are_done_at_the_last_tick_are_not_cut(self):
+        environment = self.environment(max_ticks=3, done=lambda simulation, robots: [simulation.tick >= 3, False])
+        environment.reset()
+        ends = [tuple(map(list, environment.step(np.zeros((2, 2)))[2:4])) for _ in range(3)]
+        self.assertEqual(ends, [([False, False], [False, False])] * 2 + [([True, False], [False, True])])
 
     def test_the_swarm_may_be_done(self):
         environment = self.environment(done=lambda simulation, robots: simulation.tick >= 3)

@@ -72,6 +72,15 @@ class Parallel(unittest.TestCase):
         with self.assertRaisesRegex(RuntimeError, "call reset"):
             environment.step({})
 
+    def test_agents_are_cut_at_the_last_tick_unless_they_are_done(self):
+        environment = self.environment(ticks=4, done=lambda simulation, robots: [False, simulation.tick >= 4])
+        environment.reset()
+        for tick in range(1, 5):
+            _, _, terminations, truncations, _ = environment.step({agent: np.zeros(2) for agent in environment.agents})
+            self.assertEqual(terminations, {"a": False, "b": tick == 4})
+            self.assertEqual(truncations, {"a": tick == 4, "b": False})
+        self.assertEqual(environment.agents, [])
+
     def test_the_bits_of_the_vector_form(self):
         parallel = self.environment(ticks=60)
         vector = swarmanoid.Environment(scene.write(self.folder, ticks=60), sensors=["footbot_proximity"], actuators=["footbot_wheels"])
