@@ -164,6 +164,54 @@ TEST_F(FigureRender, WhatExperimentFunctionsDrawIsAboveIt)
   EXPECT_NE(ColourIn(picture, 3.3, 1.5), 0x00ffffU);
 }
 
+TEST_F(FigureRender, DrawnBoxesAndCylindersAreTurnedByTheirPoses)
+{
+  const auto turned = [](const Vector3& position, const Vector3& axis, double degrees) {
+    return Pose{position, Quaternion(Eigen::AngleAxisd(DegreesToRadians(degrees), axis))};
+  };
+  Drawing drawing;
+  drawing.Box(turned({1, 1, 0}, Vector3::UnitZ(), 30), {0.8, 0.1, 0.1}, {0xff00ff});
+  // Upright at first; turned about y it lies along x, turned about x along y.
+  drawing.Cylinder(turned({2, 0.5, 0}, Vector3::UnitY(), 90), 0.05, 0.6, {0x00ff00});
+  drawing.Cylinder(turned({3.5, 0.5, 0}, Vector3::UnitX(), 90), 0.05, 0.6, {0x0000ff});
+  // Seen from its edge a disc is a line; a turn by 60 degrees halves one of its axes.
+  drawing.Disc(turned({2, 1.5, 0}, Vector3::UnitY(), 60), 0.3, {0xff0000});
+  world_.Space().SwapDrawing(drawing);
+  const Picture picture = Page("");
+  const double x = 0.35 * std::cos(DegreesToRadians(30)), y = 0.35 * std::sin(DegreesToRadians(30));
+  for (const double side : {-1.0, 1.0})
+  {
+    EXPECT_EQ(ColourIn(picture, 1 + side * x, 1 + side * y), 0xff00ffU) << "counterclockwise, as seen from above";
+    EXPECT_EQ(ColourIn(picture, 1 + side * x, 1 - side * y), 0xffffffU);
+    EXPECT_EQ(ColourIn(picture, 2 + side * 0.25, 0.5), 0x00ff00U);
+    EXPECT_EQ(ColourIn(picture, 2, 0.5 + side * 0.1), 0xffffffU);
+    EXPECT_EQ(ColourIn(picture, 3.5, 0.5 + side * 0.25), 0x0000ffU);
+    EXPECT_EQ(ColourIn(picture, 3.5 + side * 0.1, 0.5), 0xffffffU);
+    EXPECT_EQ(ColourIn(picture, 2 + side * 0.12, 1.5), 0xff0000U);
+    EXPECT_EQ(ColourIn(picture, 2 + side * 0.2, 1.5), 0xffffffU);
+    EXPECT_EQ(ColourIn(picture, 2, 1.5 + side * 0.27), 0xff0000U);
+  }
+}
+
+TEST_F(FigureRender, DrawnShapesTurnWithTheEntityWhoseFrameTheyAreIn)
+{
+  // The robot at 3, 1.5 looks along y: a box that is turned by 30 degrees in its frame lies at 120 in the arena.
+  Drawing drawing;
+  drawing.InFrameOf(0);
+  drawing.Box({{0, 0, 0}, QuaternionFromYaw(DegreesToRadians(30))}, {0.8, 0.06, 0.1}, {0xff00ff});
+  drawing.InSpace();
+  drawing.Box({{1, 1.5, 0}, QuaternionFromYaw(DegreesToRadians(30))}, {0.8, 0.06, 0.1}, {0x00ff00});
+  world_.Space().SwapDrawing(drawing);
+  const Picture picture = Page("");
+  const double x = 0.35 * std::cos(DegreesToRadians(30)), y = 0.35 * std::sin(DegreesToRadians(30));
+  for (const double side : {-1.0, 1.0})
+  {
+    EXPECT_EQ(ColourIn(picture, 3 - side * y, 1.5 + side * x), 0xff00ffU);
+    EXPECT_EQ(ColourIn(picture, 3 + side * x, 1.5 + side * y), 0xffffffU);
+    EXPECT_EQ(ColourIn(picture, 1 + side * x, 1.5 + side * y), 0x00ff00U);
+  }
+}
+
 TEST_F(FigureRender, TicksArePanelsWithTheirTimes)
 {
   EXPECT_EQ(Run("file=\"sheet.pdf\" ticks=\"0, 50,100\" stop=\"true\"", 200), 100);
