@@ -1,7 +1,9 @@
-// What the page reads from the binary states, written here by the letter of docs/web_render.md.
+// What the page reads from the binary states, written here by the letter of docs/web_render.md, and how it receives them.
 import assert from "node:assert/strict";
 import test from "node:test";
+import { Connection } from "../../visualiser/web/page/src/connection.js";
 import { FrameDecoder, isPast } from "../../visualiser/web/page/src/protocol.js";
+import { Reception } from "../../visualiser/web/page/src/reception.js";
 
 const KEY = 0x314d5753;
 const CHANGE = 0x324d5753;
@@ -92,4 +94,118 @@ test("what is no state is refused", () => {
   for (const bad of [new ArrayBuffer(0), new ArrayBuffer(40), bytesOf(key()).slice(0, -1), bytesOf(change()).slice(0, -2),
     bytesOf(change({ poses: [{ slot: 2, at: [0, 0, 0], turn: [0, 0, 0, 0] }] })), bytesOf(change({ colours: [{ slot: 9, colour: [0, 0, 0, 0] }] }))])
     assert.throws(() => decoder.decode(bad));
+});
+
+// A page with the world that both robots are in. `calls` has what its parts were told.
+function pageOf() {
+  const calls = [];
+  const told = (part, ...names) => Object.fromEntries(names.map((name) => [name, (...values) => void calls.push(`${part}.${name}`, ...values)]));
+  const frames = [];
+  const state = { frames: 0, world: { robots: [0, 1], isRobot: () => true }, live: null, frame: null, status: null, selected: null };
+  const page = new Reception({
+    state,
+    past: { isOn: false, ...told("past", "show") },
+    picture: { chosen: [], marks: told("marks", "forget"), addFrame: (frame) => frames.push(frame.tick), setDrawing: () => calls.push("picture.setDrawing") },
+    inspector: { addFrame() {} },
+    toolbar: { setFrame() {} },
+    processes: { update() {} },
+    log: { add: ({ text }) => calls.push(text) },
+    banner: told("banner", "itBegan"),
+    showState() {},
+  });
+  page.connected(true);
+  calls.length = 0;
+  return { page, state, calls, frames };
+}
+
+test("after a reconnect, changes of the connection before are not shown", () => {
+  const { page, state, calls, frames } = pageOf();
+  page.frame(bytesOf(key({ tick: 5, key: 1 })));
+  page.frame(bytesOf(change({ tick: 6, key: 1 })));
+  page.connected(false);
+  assert.equal(state.connected, false);
+  assert.deepEqual(calls, [], "the picture stays while the server is away");
+  page.connected(true);
+  assert.equal(state.connected, true);
+  assert.deepEqual(calls, ["marks.forget", "picture.setDrawing"]);
+  page.frame(bytesOf(change({ tick: 8, key: 1 })));
+  assert.deepEqual(frames, [5, 6], "its key came before");
+  page.frame(bytesOf(key({ tick: 9, key: 1 })));
+  page.frame(bytesOf(change({ tick: 10, key: 1 })));
+  assert.deepEqual(frames, [5, 6, 9, 10]);
+  assert.equal(state.live.tick, 10);
+});
+
+test("after a reconnect the run goes on from its tick or a later one, and an earlier tick is of another run", () => {
+  const { page, state, calls, frames } = pageOf();
+  page.frame(bytesOf(key({ tick: 7 })));
+  state.status = { phase: "running" };
+  for (const tick of [7, 9]) {
+    page.connected(true);
+    calls.length = 0;
+    page.frame(bytesOf(key({ tick })));
+    assert.deepEqual(calls, []);
+    assert.deepEqual(state.status, { phase: "running" });
+  }
+  page.connected(true);
+  calls.length = 0;
+  page.frame(bytesOf(key({ tick: 8 })));
+  assert.deepEqual(calls, ["the experiment was started again", "banner.itBegan"]);
+  assert.equal(state.status, null);
+  assert.equal(state.live.tick, 8);
+  assert.deepEqual(frames, [7, 7, 9, 8]);
+});
+
+test("a run that was finished and is not any more has begun again", () => {
+  const { page, state, calls } = pageOf();
+  for (const phase of ["running", "finished", "finished"]) page.message({ type: "status", phase });
+  assert.deepEqual(calls, []);
+  page.message({ type: "status", phase: "paused" });
+  assert.deepEqual(calls, ["the experiment was started again", "banner.itBegan"]);
+  assert.equal(state.status.phase, "paused");
+});
+
+test("the present is kept, not shown, while the page looks back", () => {
+  const { page, state, calls, frames } = pageOf();
+  page.frame(bytesOf(key({ tick: 7 })));
+  page.past.isOn = true;
+  page.frame(bytesOf(key({ tick: 8 })));
+  assert.deepEqual(frames, [7]);
+  assert.equal(state.frame.tick, 7);
+  assert.equal(state.live.tick, 8);
+  page.frame(bytesOf([...header(PAST, 2, { tick: 3 }), ...key().slice(8)]));
+  assert.equal(calls[0], "past.show");
+  assert.equal(calls[1].tick, 3);
+  assert.equal(state.live.tick, 8, "a state of the past is no new run");
+});
+
+test("a page tries to connect again at growing intervals, and soon again after a connection", (context) => {
+  const { setTimeout, location, WebSocket } = globalThis;
+  context.after(() => Object.assign(globalThis, { setTimeout, location, WebSocket }));
+  const sockets = [], delays = [], told = [];
+  globalThis.location = { protocol: "https:", host: "there:1" };
+  globalThis.WebSocket = class {
+    constructor(address) {
+      this.address = address;
+      sockets.push(this);
+    }
+  };
+  globalThis.setTimeout = (connect, delay) => {
+    delays.push(delay);
+    connect();
+  };
+  new Connection({ onOpen: () => told.push("open"), onClose: () => told.push("close"), onText: (message) => told.push(message), onFrame: (buffer) => told.push(buffer) });
+  const fail = () => sockets.at(-1).onclose();
+  for (let k = 0; k < 7; k++) fail();
+  assert.deepEqual(delays.map(Math.round), [300, 480, 768, 1229, 1966, 3000, 3000]);
+  assert.equal(sockets.length, 8);
+  assert.equal(sockets[7].address, "wss://there:1/stream");
+  told.length = 0;
+  sockets[7].onopen();
+  sockets[7].onmessage({ data: '{"type":"welcome"}' });
+  const buffer = new ArrayBuffer(4);
+  sockets[7].onmessage({ data: buffer });
+  fail();
+  assert.deepEqual(told, ["open", { type: "welcome" }, buffer, "close"]);
+  assert.equal(delays.at(-1), 300);
 });
