@@ -376,6 +376,59 @@ TEST_F(ViewerTest, ValuesReadAsPeopleReadThem)
   EXPECT_EQ(text("turret angle"), "0.000 rad");
 }
 
+// What an inspector lists of one entity: "group.value=text", in its order, without the attributes.
+std::vector<std::string> Listed(Viewer& viewer, std::uint32_t entity)
+{
+  std::vector<std::string> texts;
+  for (const ValueGroup& group : ValuesOf(viewer.Space(), entity, viewer.Motion(entity), viewer.Robot(entity)))
+    if (group.source != ValueGroup::Source::kAttributes)
+      for (const EntityValue& value : group.values)
+        texts.push_back(group.name + "." + value.name + "=" + ValueText(viewer.Space(), value));
+  return texts;
+}
+
+TEST_F(ViewerTest, AnInspectorShowsPoseMotionAndTheInsideOfItsRobotAlone)
+{
+  Viewer& viewer = Make();
+  const std::uint32_t robot = Index("fb_1");
+  viewer.Select(robot);
+  monitor_.inside.entity = robot;
+  monitor_.inside.sensors = {{"light", {{"0", "", 0.5}}}, {"wheels", {{"left", "rad/s", -2}}}};
+  monitor_.inside.actuators = {{"wheels", {{"left", "rad/s", 3}, {"right", "rad/s", 4}}}};
+  for (int tick = 0; tick < 2; ++tick)
+  {
+    world_.Space().SetTick(static_cast<std::uint64_t>(tick));
+    world_.Space().SetPose(robot, {{3, 3 - 0.05 * tick, 0}, QuaternionFromYaw(DegreesToRadians(175 + 10 * tick))});
+    viewer.StateCame();
+  }
+  // The heading went from 175 to -175 degrees: by 10, not by 350.
+  EXPECT_THAT(Listed(viewer, robot),
+              ElementsAre("pose.x=3.000 m", "pose.y=2.950 m", "pose.z=0.000 m", "pose.alpha=0.000 degrees",
+                          "pose.beta=0.000 degrees", "pose.gamma=-175.000 degrees", "pose.speed=0.500 m/s",
+                          "pose.turn=100.000 degrees/s", "light.0=0.500", "wheels.left=-2.000 rad/s",
+                          "wheels.left=3.000 rad/s", "wheels.right=4.000 rad/s"));
+  EXPECT_THAT(Listed(viewer, Index("fb_0")), testing::SizeIs(8)) << "of another robot";
+  EXPECT_THAT(Listed(viewer, Index("stone")), testing::SizeIs(6)) << "what cannot move has no speed";
+}
+
+TEST_F(ViewerTest, ASensorAndAnActuatorOfOneTypeAreToldApart)
+{
+  Viewer& viewer = Make();
+  const std::uint32_t robot = Index("fb_0");
+  monitor_.inside.entity = robot;
+  monitor_.inside.sensors = {{"wheels", {{"left", "rad/s", -2}}}};
+  monitor_.inside.actuators = {{"wheels", {{"left", "rad/s", 3}}}};
+  const auto groups = ValuesOf(viewer.Space(), robot, {}, viewer.Robot(robot));
+  const auto value = [&](ValueGroup::Source source, const std::string& group)
+  {
+    const auto found = FindValue(groups, {robot, source, group, "left"});
+    return found ? found->value : 0;
+  };
+  EXPECT_EQ(value(ValueGroup::Source::kSensor, "wheels"), -2);
+  EXPECT_EQ(value(ValueGroup::Source::kActuator, "wheels"), 3);
+  EXPECT_EQ(value(ValueGroup::Source::kActuator, "light"), 0);
+}
+
 TEST_F(ViewerTest, ReadingsMayBeAnyNumber)
 {
   Make();
