@@ -77,8 +77,12 @@ public:
   std::uint32_t Bits();
   // Uniform in [0, 1), 53 random bits.
   double Uniform();
-  // Uniform in [low, high).
-  double Uniform(double low, double high) { return low + (high - low) * Uniform(); }
+  // Uniform in [low, high). Where rounding would give `high`, it gives `low`.
+  double Uniform(double low, double high)
+  {
+    const double value = low + (high - low) * Uniform();
+    return value == high && low < high ? low : value;
+  }
   // Uniform in (-1/2, 1/2), both ends excluded and as near: for those who invert a distribution.
   double Centred();
   // Normal with the given mean and standard deviation; like all distributions here by inversion of one Centred().

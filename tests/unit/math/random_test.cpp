@@ -146,6 +146,28 @@ TEST(Random, DrawsHaveTheirDistributions)
         << range;
 }
 
+TEST(Random, UniformOfARangeHasItsDistribution)
+{
+  RandomStream random(8, 0, 0, 0);
+  for (const auto& [low, high] : {std::pair(-2.0, 3.0), std::pair(0.25, 0.5), std::pair(-9.0, -4.0)})
+    EXPECT_LT(KolmogorovDistance([&, low = low, high = high] { return random.Uniform(low, high); },
+                                 [low = low, high = high](double x) { return (x - low) / (high - low); }),
+              1.95)
+        << low << " " << high;
+}
+
+// Each range holds no other double than its ends. Rounding would give the upper one for half of the draws.
+TEST(Random, UniformOfARangeReachesItsLowerEndAndNeverItsUpperOne)
+{
+  RandomStream random(9, 0, 0, 0);
+  for (const double low : {1.0, -1.0, 1e6})
+  {
+    const double high = std::nextafter(low, 1e9);
+    for (int i = 0; i < 1000; ++i) ASSERT_EQ(random.Uniform(low, high), low) << low << ", draw " << i;
+  }
+  EXPECT_EQ(random.Uniform(3, 3), 3) << "an empty range";
+}
+
 TEST(Random, UniformHas53BitsThatKnowNothingOfEachOther)
 {
   constexpr int kDraws = 4000;
