@@ -142,6 +142,22 @@ class Share(LauncherTest):
         self.assertNotEqual(made.process.returncode, 0)
         self.end(run)
 
+    def test_sixteen_shares_are_open_at_most_and_ended_ones_do_not_count(self):
+        run = self.start_paused()
+        shares = [self.share("--watch") for _ in range(16)]
+        for _ in range(2):
+            refused = self.run_it("share", "--watch")
+            self.assertEqual(refused.process.returncode, 2, refused.stderr)
+            self.assertIn("16 shares of this run are open; revoke one of them first", refused.stderr)
+            self.assertEqual(self.run_it("share", "--revoke", shares.pop()["id"]).process.returncode, 0)
+            self.share("--watch")
+        # A share that has ended cannot be revoked again, which would make room for another one.
+        once_more = shares.pop()["id"]
+        self.assertEqual([self.run_it("share", "--revoke", once_more).process.returncode for _ in range(2)], [0, 2])
+        self.share("--watch")
+        self.assertEqual(self.run_it("share", "--watch").process.returncode, 2)
+        self.end(run)
+
     def test_shares_outlive_the_space_server(self):
         run = self.start("run", EXPERIMENT, "--quiet", "--paused", "--no-visualisers", "--ticks", TICKS, "--output", "out")
         self.wait_for_experiment("diffusion_10")
