@@ -121,6 +121,9 @@ class Window(LauncherTest):
         # The inspector hides what is under it from the mouse, but not the robot beside it.
         self.display.click(*on_screen(3, 1))
         self.wait_for_log("selected 'fb_b'", run)
+        # Inspectors begin 10 pixels from the upper right corner. The cross stands at the right end of the title.
+        self.display.click(WIDTH - 10 - 14, 10 + 10)
+        self.wait_until("the inspector gone", lambda: self.display.colours_now(corner) == before, run)
         self.close(run, window)
 
     def test_keys_switch_what_is_drawn(self):
