@@ -26,8 +26,8 @@ def main():
         if page.startswith("tests/"):
             continue
         for link in LINK.findall(CODE.sub("", text_of(page))):
-            if "://" not in link and not link.startswith("mailto:") and not os.path.exists(os.path.join(os.path.dirname(page), link)):
-                mistakes.append(f"{page}: there is no {link}")
+            if "://" not in link and not link.startswith("mailto:") and not os.path.isfile(os.path.join(os.path.dirname(page), link)):
+                mistakes.append(f"{page}: there is no file {link}")
     report(sorted(set(mistakes)))
 
 

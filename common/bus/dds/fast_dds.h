@@ -135,6 +135,15 @@ inline void AddDiscoveryServer(rtps::BuiltinAttributes& builtin, [[maybe_unused]
 #endif
 }
 
+// Lets a participant send no descriptions of types (XTypes). With that of Fast DDS 3.1, Cyclone DDS 0.10 learns the
+// fields of a type, but does not match readers and writers of types within types. Releases before 3 send none anyway.
+inline void SendNoTypeInformation([[maybe_unused]] dds::DomainParticipantQos& qos)
+{
+#if SWARMANOID_FAST_DDS_MAJOR >= 3
+  qos.properties().properties().emplace_back(dds::parameter_policy_type_propagation, "disabled");
+#endif
+}
+
 // A participant of the domain, as its announcement describes it.
 struct DiscoveredParticipant
 {

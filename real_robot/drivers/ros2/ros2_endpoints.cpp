@@ -57,6 +57,7 @@ public:
   {
     dds::DomainParticipantQos qos;
     qos.name("swarmanoid");
+    SendNoTypeInformation(qos);
     // UDP alone: all vendors speak it, and no shared memory is left behind when a robot loses power.
     qos.transport().use_builtin_transports = false;
     auto udp = std::make_shared<transport::UDPv4TransportDescriptor>();

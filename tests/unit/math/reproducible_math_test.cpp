@@ -187,6 +187,9 @@ TEST(ReproducibleMath, ComesBeforeLibm)
        {"sin",    "cosf",   "tanl", "atan2", "exp", "exp2f", "pow",    "powf",   "log",    "hypot",   "lgamma",
         "tgamma", "sincos", "cexp", "cpowf", "j0",  "expl",  "cacosl", "sinf64", "powf32", "lgamma_r"})
   {
+#if __LDBL_MANT_DIG__ == 113
+    if (const std::string text = name; text == "tanl" || text == "expl" || text == "cacosl") continue;  // libm's own
+#endif
     // Sanitizers stand before these, and call ours.
     if (FileOf(dlsym(RTLD_DEFAULT, name)).find("san.so") != std::string::npos) continue;
     void* const own = dlvsym(RTLD_DEFAULT, name, "SWARMANOID_1");
@@ -473,7 +476,9 @@ TEST(ReproducibleMath, HasTheBitsThatItAlwaysHad)
     }
   for (int i = 0; i < 200; ++i)
   {
-    const std::complex<double> z(between(-2, 2), between(-2, 2));
+    // One after the other: compilers differ in the order of arguments.
+    const double imaginary = between(-2, 2);
+    const std::complex<double> z(between(-2, 2), imaginary);
     for (const auto& result : {std::exp(z), std::log(z), std::sqrt(z), std::tan(z), std::asin(z), std::pow(z, z)})
     {
       add_number(result.real());
