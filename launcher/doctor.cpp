@@ -23,6 +23,7 @@
 #include "common/bus/dds_environment.h"
 #include "common/bus/run_directory.h"
 #include "common/program/file_descriptor.h"
+#include "engine_worker/engines/fused_libraries.h"
 #include "launcher/installation.h"
 #include "launcher/processes/child.h"
 #include "launcher/run_folder.h"
@@ -88,6 +89,16 @@ Finding Cluster(const Trial& here, const Trial& cluster)
             fmt::format("a cluster ends with hash {}, one process with {}", cluster.hash, here.hash),
             "this is a defect: report it with the output of `swarmanoid doctor --json`"};
   return {"DDS", Verdict::kGood, "the processes of a cluster meet, and end with the same hash"};
+}
+
+Finding Rounding()
+{
+  const std::vector<std::string> fused = FusedLibraries();
+  if (fused.empty()) return {"physics", Verdict::kGood, "Box2D and ODE round as on other machines"};
+  return {"physics", Verdict::kLimited,
+          fmt::format("{} use fused multiply-add: experiments with their engines have other results than on x86-64",
+                      fmt::join(fused, " and ")),
+          "build the libraries again without it (docs/installing.md, Systems)"};
 }
 
 Finding DdsVariables()
@@ -255,12 +266,9 @@ std::vector<Finding> Examine(const std::string& folder)
 {
   const Trial here = TryRun(folder, "here", {"--single-process"});
   const Trial cluster = TryRun(folder, "cluster", {});
-  return {OneProcess(here), Cluster(here, cluster),
-          DdsVariables(),   SharedMemory(),
-          Multicast(),      Ports(),
-          Graphics(folder), Display(),
-          Fonts(),          Ssh(),
-          Disk(),           OpenFiles()};
+  return {OneProcess(here), Cluster(here, cluster), Rounding(), DdsVariables(), SharedMemory(), Multicast(),
+          Ports(),          Graphics(folder),       Display(),  Fonts(),        Ssh(),          Disk(),
+          OpenFiles()};
 }
 
 }  // namespace swarmanoid

@@ -1,0 +1,22 @@
+#include "engine_worker/engines/fused_libraries.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace swarmanoid
+{
+namespace
+{
+
+// Debian compiles them for the baseline of x86-64, which cannot fuse, and for aarch64, which does.
+TEST(FusedLibraries, AreThoseOfAarch64)
+{
+#if defined(__aarch64__)
+  EXPECT_THAT(FusedLibraries(), testing::ElementsAre("Box2D", "ODE"));
+#else
+  EXPECT_THAT(FusedLibraries(), testing::IsEmpty());
+#endif
+}
+
+}  // namespace
+}  // namespace swarmanoid
