@@ -80,6 +80,10 @@ endif()
 # CMAKE_COMPILE_WARNING_AS_ERROR makes these warnings errors in the presets of developers and in CI. A user's build with a newer
 # compiler that has more warnings does not fail.
 set(SWARMANOID_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  # Options below are about warnings of GCC alone.
+  list(APPEND SWARMANOID_WARNINGS -Wno-unknown-warning-option)
+endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # GCC 12 has false alarms about std::string's operator+ at -O3 (its bugs 105329 and 105651).
   list(APPEND SWARMANOID_WARNINGS -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds)
