@@ -40,29 +40,30 @@ void WatchExit()
 
 }  // namespace swarmanoid
 
+// GNU attributes: Clang takes the standard ones on a first declaration alone, which these are not.
 extern "C"
 {
-  [[noreturn]] void exit(int code) noexcept
+  __attribute__((noreturn)) void exit(int code) noexcept
   {
     if (swarmanoid::activity::IsMine()) std::fflush(nullptr);
     swarmanoid::DieIfInside("exit", code);
     swarmanoid::GoOn("exit", code);
   }
 
-  [[noreturn]] void quick_exit(int code) noexcept
+  __attribute__((noreturn)) void quick_exit(int code) noexcept
   {
     swarmanoid::DieIfInside("quick_exit", code);
     swarmanoid::GoOn("quick_exit", code);
   }
 
-  [[noreturn]] void _exit(int code)
+  __attribute__((noreturn)) void _exit(int code)
   {
     swarmanoid::DieIfInside("_exit", code);
     syscall(SYS_exit_group, code);
     __builtin_unreachable();
   }
 
-  [[noreturn]] void _Exit(int code) noexcept
+  __attribute__((noreturn)) void _Exit(int code) noexcept
   {
     swarmanoid::DieIfInside("_Exit", code);
     syscall(SYS_exit_group, code);
