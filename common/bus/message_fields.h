@@ -432,7 +432,7 @@ void Fields(Archive& archive, RobotStatusMessage& message)
   archive.Integer("tick", message.tick);
   archive.Integer("source", message.source);
   archive.List("robots", message.robots,
-               [&message](Archive& a, RobotStatus& robot)
+               [](Archive& a, RobotStatus& robot)
                {
                  a.Integer("robots.entity", robot.entity);
                  a.Text("robots.controller", robot.controller);
@@ -440,8 +440,9 @@ void Fields(Archive& archive, RobotStatusMessage& message)
                  a.Text("robots.state", robot.state);
                  Fields(a, robot.sensors);
                  Fields(a, robot.actuators);
-                 if constexpr (Archive::kReads) robot.tick = message.tick;
                });
+  if constexpr (Archive::kReads)
+    for (RobotStatus& robot : message.robots) robot.tick = message.tick;
 }
 
 template <class Archive>

@@ -260,7 +260,7 @@ RegionLink::RegionLink(WorkerSession& session, const Experiment& experiment, std
              {[this](const MessageHeader& header) -> RegionTaskMessage*
               { return header.run == session_.World().run && header.source == engine_ ? &arriving_task_ : nullptr; },
               [this](const MessageHeader& header, RegionTaskMessage& task) { TaskReceived(header, task); },
-              [this](const MessageHeader&, const RegionTaskMessage& task) { RequireParts(task, 1); }})
+              [](const MessageHeader&, const RegionTaskMessage& task) { RequireParts(task, 1); }})
 {
   session.Trust(engine_name_);
   for (unsigned k = 0; k < regions_; ++k)

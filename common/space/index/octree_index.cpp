@@ -1,8 +1,12 @@
 #include "common/space/index/octree_index.h"
 
+// Its iterators are made from std::iterator, which Clang says is deprecated.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
 #include <octomap/AbstractOcTree.h>
 #include <octomap/OcTreeBaseImpl.h>
 #include <octomap/OcTreeDataNode.h>
+#pragma GCC diagnostic pop
 
 #include <algorithm>
 #include <cmath>
