@@ -172,7 +172,7 @@ inline void FootbotProximityRays::AddSide(double way, double c, double s)
     const double meets = way / u;
     const double enter = meets > near ? meets : near;
     const double nearest = distances_.values[i];
-    const double candidate = (meets > 0) & (enter <= far) ? enter - near : nearest;
+    const double candidate = ((meets > 0) & (enter <= far)) ? enter - near : nearest;
     distances_.values[i] = candidate < nearest ? candidate : nearest;
   }
 }

@@ -124,7 +124,7 @@ void DiscField::Measure(float eye, float lowest, float highest)
     const FloatLanes radius = LoadLanes(&discs.radius[i]);
     FloatLanes square = radius * radius;
     if (!all_count_)
-      square = (LoadLanes(&discs.low[i]) - eye <= highest) & (LoadLanes(&discs.high[i]) - eye >= lowest)
+      square = ((LoadLanes(&discs.low[i]) - eye <= highest) & (LoadLanes(&discs.high[i]) - eye >= lowest))
                    ? square
                    : Everywhere(-1.0F);
     StoreLanes(square, &square_[i]);
