@@ -99,6 +99,10 @@ set(CMAKE_UNITY_BUILD_BATCH_SIZE 16 CACHE STRING "Sources that are compiled toge
 if(CMAKE_UNITY_BUILD)
   # Another file includes the sources, so GCC takes their own types for types of a header.
   list(APPEND SWARMANOID_WARNINGS -Wno-subobject-linkage)
+  if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    # Clang warns if a name in a function is also that of an anonymous namespace in another file.
+    list(APPEND SWARMANOID_WARNINGS -Wno-shadow)
+  endif()
 endif()
 
 # swarmanoid_includes_space(FILE RESULT) tells whether a source includes common/space/space.h, directly or through other headers.
