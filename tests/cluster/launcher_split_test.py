@@ -170,10 +170,11 @@ class WhoDies(SplitTest):
             os.kill(pid, signal.SIGKILL)
         late = self.region(run, 0, dead=dead)
         os.kill(late, signal.SIGSTOP)
-        # On a busy machine it may have joined the run already. Then the next one is stopped instead.
+        # On a busy machine it may have joined the run already, and the engine would wait for it. Then the next ones are tried.
         while list(self.shared.rglob(f"process.{late}")):
-            dead.append(late)
-            os.kill(late, signal.SIGKILL)
+            for pid in (late, self.leader(run)):
+                dead.append(pid)
+                os.kill(pid, signal.SIGKILL)
             late = self.region(run, 0, dead=dead)
             os.kill(late, signal.SIGSTOP)
         for _ in range(len(dead)):
