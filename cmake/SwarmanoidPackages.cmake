@@ -35,7 +35,7 @@ or a browser.")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "swarmanoid (= ${PROJECT_VERSION}), libeigen3-dev, libfmt-dev")
-set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "g++, cmake, ninja-build | make, pkg-config")
+set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "g++, cmake, ninja-build | make, pkgconf")
 set(CPACK_COMPONENT_DEV_DESCRIPTION "simulator of robot swarms - development files
 Headers, the CMake package Swarmanoid and the pkg-config files with which
 controllers, devices, physics engines, renderers, experiment functions and
