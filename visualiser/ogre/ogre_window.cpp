@@ -26,7 +26,6 @@ namespace
 
 constexpr const char* kOpenGl = "OpenGL 3+ Rendering Subsystem";
 constexpr const char* kFontGroup = "Swarmanoid";
-constexpr const char* kOverlay = "ImGuiOverlay";
 constexpr float kShadowReach = 40;  // m from the camera
 constexpr Ogre::uint16 kShadowPixels = 1024;
 
