@@ -10,7 +10,7 @@ endforeach()
 list(APPEND MUSL_FUNCTIONS lgamma_r lgammaf_r j0 j1 jn y0 y1 yn
   cexp csqrt csin ccos ctan csinh ccosh ctanh)
 
-# These functions come from wider.c: those that are imprecise in musl, and those of long double and of complex numbers.
+# wider.c has these functions: musl computes some of them imprecisely, and the others are for long double and complex numbers.
 set(WIDER_FUNCTIONS lgamma lgammaf exp10 exp10f j0f j1f jnf y0f y1f ynf)
 foreach(name sin cos tan sincos asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 exp10 expm1 log log2 log10
     log1p pow cbrt hypot erf erfc tgamma lgamma j0 j1 jn y0 y1 yn)
