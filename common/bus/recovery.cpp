@@ -127,7 +127,7 @@ std::uint64_t Recover(WorkerSession& session, Replica& replica, const RecoverySt
     else if (header->kind == JournalBlockKind::kTicks)
     {
       begin();
-      TickRecordReader reader(content);
+      TickRecordReader reader(content, header->ticks);
       for (TickRecord* record = &records[held == &records[0] ? 1 : 0]; reader.Next(*record);)
       {
         const std::uint64_t wanted = held == nullptr ? tick : tick + 1;

@@ -38,8 +38,7 @@ bool JournalFollower::ReadBlock(const RegularFile& file)
     throw std::runtime_error("the journal '" + path_ + "' is damaged: its first block cannot be read");
   if (!has_start_) start_ = ReadStart(JournalContent(part.block));
   has_start_ = true;
-  if (place.kind == JournalBlockKind::kGoOn) DropFrom(places_, place.first_tick);
-  places_.push_back(place);
+  AddPlace(places_, place);
   offset_ = end;
   return true;
 }

@@ -25,7 +25,7 @@ namespace swarmanoid
 
 inline constexpr std::string_view kJournalMagic = "SWARMJB";
 // Another one for each change of the blocks, or of what they mean.
-inline constexpr char kJournalVersion = '8';
+inline constexpr char kJournalVersion = '9';
 inline constexpr std::size_t kJournalHeaderBytes = 48;
 
 enum class JournalBlockKind : std::uint32_t
@@ -35,7 +35,7 @@ enum class JournalBlockKind : std::uint32_t
   kSnapshot = 3,  // the space at a tick: SpaceSnapshot
   kPart = 4,      // what one process remembers before it steps at a tick: SavedPart
   kFrames = 5,    // the sensor frames of a tick that is not done yet; in recoveries alone
-  kGoOn = 6,      // the run goes on at first_tick: what stands before of that and later ticks is done again
+  kGoOn = 6,      // the run goes on at first_tick: what stands before it of later ticks does not count
 };
 
 struct JournalBlockHeader

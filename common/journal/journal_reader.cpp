@@ -23,15 +23,29 @@ bool IsOfOneRun(const JournalStart& start, JournalStart other)
 
 }  // namespace
 
-void DropFrom(std::vector<JournalPlace>& places, std::uint64_t tick)
+void AddPlace(std::vector<JournalPlace>& places, JournalPlace place)
 {
-  std::erase_if(places,
-                [&](const JournalPlace& place)
-                {
-                  if (place.kind == JournalBlockKind::kTicks) return place.first_tick + place.ticks > tick;
-                  const bool saved = place.kind == JournalBlockKind::kSnapshot || place.kind == JournalBlockKind::kPart;
-                  return saved && place.first_tick > tick;
-                });
+  const auto drop = [&](std::uint64_t ticks_from)
+  {
+    std::erase_if(places,
+                  [&](const JournalPlace& other)
+                  {
+                    if (other.kind == JournalBlockKind::kTicks) return other.first_tick >= ticks_from;
+                    return other.kind != JournalBlockKind::kStart && other.kind != JournalBlockKind::kGoOn &&
+                           other.first_tick > place.first_tick;
+                  });
+    for (JournalPlace& other : places)
+      if (other.kind == JournalBlockKind::kTicks && other.first_tick + other.ticks > ticks_from)
+        other.ticks = static_cast<std::uint32_t>(ticks_from - other.first_tick);
+  };
+  if (place.kind == JournalBlockKind::kGoOn) drop(place.first_tick + 1);
+  if (place.kind == JournalBlockKind::kTicks)
+  {
+    const auto before = std::find_if(places.rbegin(), places.rend(),
+                                     [](const JournalPlace& other) { return other.kind == JournalBlockKind::kTicks; });
+    if (before != places.rend() && place.first_tick < before->first_tick + before->ticks) drop(place.first_tick);
+  }
+  places.push_back(std::move(place));
 }
 
 std::uint64_t FirstTickOf(const JournalStart& start, const std::vector<JournalPlace>& places)
@@ -173,16 +187,7 @@ bool JournalReader::Take(const SegmentPart& part, JournalPlace place)
     // The state of a process is of no use if it is not known which robots it had.
     if (place.table == kUnknownTable) return true;
   }
-  if (place.kind == JournalBlockKind::kGoOn) DropFrom(places_, place.first_tick);
-  // The block that says that ticks are done again may be damaged.
-  if (place.kind == JournalBlockKind::kTicks)
-  {
-    const auto before = std::find_if(places_.rbegin(), places_.rend(),
-                                     [](const JournalPlace& other) { return other.kind == JournalBlockKind::kTicks; });
-    if (before != places_.rend() && place.first_tick < before->first_tick + before->ticks)
-      DropFrom(places_, place.first_tick);
-  }
-  places_.push_back(std::move(place));
+  AddPlace(places_, std::move(place));
   return true;
 }
 
@@ -220,7 +225,7 @@ void JournalReader::ForEachTick(const std::function<void(const TickRecord&)>& us
   for (const JournalPlace& place : places_)
   {
     if (place.kind != JournalBlockKind::kTicks) continue;
-    TickRecordReader records(Content(place));
+    TickRecordReader records(Content(place), place.ticks);
     while (records.Next(record)) use(record);
   }
 }
@@ -285,7 +290,7 @@ std::optional<TickRecord> JournalReader::RecordOf(std::uint64_t tick) const
 {
   const JournalPlace* place = TicksWith(tick);
   if (place == nullptr) return std::nullopt;
-  TickRecordReader records(Content(*place));
+  TickRecordReader records(Content(*place), place->ticks);
   TickRecord record;
   while (records.Next(record))
     if (record.state.tick == tick) return record;
@@ -361,6 +366,19 @@ std::optional<Checkpoint> JournalReader::WholeCheckpointUntil(std::uint64_t tick
   for (const std::uint64_t saved : ticks)
     if (auto checkpoint = WholeCheckpointAt(saved, experiment, hosts)) return checkpoint;
   return std::nullopt;
+}
+
+bool JournalReader::NewestHostsSavedUntil(std::uint64_t tick, const std::vector<std::string>& parts) const
+{
+  const auto table = static_cast<std::uint32_t>(tables_.size() - 1);
+  return std::ranges::any_of(places_,
+                             [&](const JournalPlace& place)
+                             {
+                               return place.kind == JournalBlockKind::kSnapshot && place.first_tick <= tick &&
+                                      std::ranges::all_of(
+                                          parts, [&](const std::string& name)
+                                          { return PlaceOf(JournalBlockKind::kPart, place.first_tick, name, table); });
+                             });
 }
 
 bool IsBegun(const std::string& path)

@@ -80,6 +80,8 @@ public:
                                               const HostTable& hosts) const;
   std::optional<Checkpoint> WholeCheckpointUntil(std::uint64_t tick, const Experiment& experiment,
                                                  const HostTable& hosts) const;
+  // Whether the newest controller hosts, and all others of `parts`, saved a tick until then.
+  bool NewestHostsSavedUntil(std::uint64_t tick, const std::vector<std::string>& parts) const;
 
 private:
   void ReadAll();

@@ -115,24 +115,11 @@ JournalWriter::JournalWriter(const JournalReader& journal, std::uint64_t tick, b
   Block mark;
   mark.place.kind = JournalBlockKind::kGoOn;
   mark.place.first_tick = tick;
-  Block kept;  // of the ticks that share a block with later ones
-  kept.place.kind = JournalBlockKind::kTicks;
-  for (const JournalPlace& place : journal.Places())
-  {
-    if (place.kind != JournalBlockKind::kTicks || place.first_tick >= tick || place.first_tick + place.ticks <= tick)
-      continue;
-    TickRecordReader records(journal.Content(place));
-    TickRecord record;
-    while (records.Next(record) && record.state.tick < tick)
-      kept.rows.Add(record.state, record.save, record.frames, record.commands);
-  }
   std::vector<JournalPlace> before = journal.Places();
-  DropFrom(before, tick);
+  AddPlace(before, mark.place);
+  before.pop_back();
   for (const JournalPlace& place : before) Note(place);
   Write(mark);
-  kept.place.first_tick = kept.rows.FirstTick();
-  kept.place.ticks = kept.rows.Ticks();
-  if (!kept.rows.Empty()) Write(kept);
   StartThread(beside_launcher);
 }
 
@@ -345,7 +332,7 @@ void JournalWriter::Note(const JournalPlace& place)
                 state.segment = std::min(state.segment, place.segment);
               });
   }
-  places_.push_back(place);
+  AddPlace(places_, place);
   if (places_.size() < kMostPlaces) return;
   places_.erase(places_.begin(), places_.begin() + kMostPlaces / 2);
   has_forgotten_ = true;

@@ -28,8 +28,8 @@ struct JournalPlace
 {
   JournalBlockKind kind{};
   std::uint64_t first_tick = 0;
-  std::uint32_t ticks = 0;
-  std::string name;  // of a part
+  std::uint32_t ticks = 0;  // that count: later ones of the block may have been done again
+  std::string name;         // of a part
   std::uint64_t offset = 0;
   std::uint64_t bytes = 0;
   std::uint32_t segment = 0;
@@ -50,8 +50,9 @@ std::string SegmentFile(const std::string& path, std::uint32_t segment);
 // Returns the numbers of the segments that exist, the oldest first.
 std::vector<std::uint32_t> SegmentsOf(const std::string& path);
 
-// Takes away what a run that goes on at the tick does again.
-void DropFrom(std::vector<JournalPlace>& places, std::uint64_t tick);
+// Adds a block that was written after the others, and takes away those that do not count because of it: of ticks after
+// the one where the run goes on, and of ticks that it has again.
+void AddPlace(std::vector<JournalPlace>& places, JournalPlace place);
 
 class JournalWriter
 {

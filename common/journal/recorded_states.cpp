@@ -38,7 +38,7 @@ bool RecordedStates::NextRecord(std::uint64_t wanted)
                                     { return p.kind == JournalBlockKind::kTicks && p.first_tick + p.ticks > *next_; });
     if (place == places.end()) return false;
     next_ = place->first_tick + place->ticks;
-    records_.emplace(blocks_.Content(*place), wanted < *next_);
+    records_.emplace(blocks_.Content(*place), place->ticks, wanted < *next_);
   }
   return true;
 }

@@ -71,12 +71,13 @@ std::vector<ControlCommands> SharedCommands::Of(const HostTable& hosts, const st
   return shared;
 }
 
-std::vector<char> SharedCommands::Of(const HostTable& hosts, std::vector<char> block)
+std::vector<char> SharedCommands::Of(const HostTable& hosts, std::vector<char> block, std::uint32_t ticks)
 {
-  if (hosts == to_.table) return block;
+  const auto header = JournalBlockAt(block, block.size());
+  if (hosts == to_.table && header && header->ticks == ticks) return block;
   TickRows rows;
   TickRecord record;
-  for (TickRecordReader records(JournalContent(block)); records.Next(record);)
+  for (TickRecordReader records(JournalContent(block), ticks); records.Next(record);)
     if (!rows.Add(record.state, record.save, record.frames, Of(hosts, record.commands)))
       throw std::runtime_error("the journal has ticks of different lengths in one block");
   Room room;

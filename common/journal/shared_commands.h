@@ -23,8 +23,8 @@ public:
 
   // What `hosts` commanded.
   std::vector<ControlCommands> Of(const HostTable& hosts, const std::vector<ControlCommands>& commands);
-  // A block of ticks.
-  std::vector<char> Of(const HostTable& hosts, std::vector<char> block);
+  // The first `ticks` ticks of a block.
+  std::vector<char> Of(const HostTable& hosts, std::vector<char> block, std::uint32_t ticks);
 
 private:
   struct Copy

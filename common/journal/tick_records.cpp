@@ -122,7 +122,7 @@ std::span<const char> TickRows::Content(Room& room)
   return {room.Bytes(), size};
 }
 
-TickRecordReader::TickRecordReader(std::span<const char> content, bool with_numbers)
+TickRecordReader::TickRecordReader(std::span<const char> content, std::uint64_t ticks, bool with_numbers)
     : with_numbers_(with_numbers), rest_(bytes_)
 {
   ByteReader reader(content);
@@ -138,6 +138,7 @@ TickRecordReader::TickRecordReader(std::span<const char> content, bool with_numb
   if (left_ == 0 || left_ > bytes_.size() || row_ > widths.size() || poses_ > row_)
     throw std::runtime_error("journal: the rows of a block are none");
   if (with_numbers_) numbers_ = UnpackRows(widths, packed, left_, row_, poses_);
+  left_ = std::min(left_, ticks);
 }
 
 bool TickRecordReader::Next(TickRecord& record)

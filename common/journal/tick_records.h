@@ -55,9 +55,10 @@ private:
 class TickRecordReader
 {
 public:
-  // `with_numbers`: else records lack poses, frames and commands, for who wants to know quickly what else there was.
+  // `ticks`: not more than these, of the first ones. `with_numbers`: else records lack poses, frames and commands, for
+  // who wants to know quickly what else there was.
   // Throws std::runtime_error, as Next does, if the content is none.
-  explicit TickRecordReader(std::span<const char> content, bool with_numbers = true);
+  TickRecordReader(std::span<const char> content, std::uint64_t ticks, bool with_numbers = true);
   // False after the last one.
   bool Next(TickRecord& record);
 

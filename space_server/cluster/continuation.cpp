@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include "common/checkpoint/host_state.h"
 #include "space_server/space_server.h"
 
 namespace swarmanoid
@@ -52,8 +53,11 @@ void Continuation::Restore(SpaceServer& server) const
 
 void Continuation::ShareOut(JournalWriter& journal, const Experiment& experiment, const HostTable& hosts) const
 {
-  if (journal.Start().hosts == hosts) return;
-  journal.BeginHosts(hosts, tick_);
+  if (journal.Start().hosts != hosts)
+    journal.BeginHosts(hosts, tick_);
+  else if (journal_->NewestHostsSavedUntil(tick_, PartsOf(experiment, hosts.hosts)))
+    return;
+  // A server that died just here has said whose the robots are, and perhaps not what they remember.
   const auto checkpoint = journal_->WholeCheckpointUntil(tick_, experiment, hosts);
   if (!checkpoint) return;
   journal.Add(checkpoint->snapshot);

@@ -62,7 +62,7 @@ std::vector<char> RecoveryService::BlockAt(const JournalPlace& place)
 {
   std::vector<char> block = journal_->Read(place);
   if (place.kind != JournalBlockKind::kTicks) return block;
-  return shared_.Of(journal_->Table(place.table), std::move(block));
+  return shared_.Of(journal_->Table(place.table), std::move(block), place.ticks);
 }
 
 RecoveryService::Plan RecoveryService::MakePlan(const std::string& name)
@@ -96,9 +96,14 @@ RecoveryService::Plan RecoveryService::MakePlan(const std::string& name)
         fmt::format("{} cannot be replaced: it saves no state, so it would do all ticks again, and of those before {} "
                     "nothing is left (--journal-budget); `swarmanoid resume` goes on from a saved state",
                     name, kept));
-  for (const JournalPlace& place : all)
-    if (place.kind == JournalBlockKind::kTicks && place.first_tick + place.ticks > first && place.first_tick < tick)
-      plan.places.push_back(place);
+  for (JournalPlace& place : all)
+  {
+    if (place.kind != JournalBlockKind::kTicks || place.first_tick + place.ticks <= first || place.first_tick >= tick)
+      continue;
+    // Of the tick itself the journal may have what the server before knew.
+    place.ticks = static_cast<std::uint32_t>(std::min<std::uint64_t>(place.ticks, tick - place.first_tick));
+    plan.places.push_back(std::move(place));
+  }
   std::span<const char> last;
   Room room;
   if (is_done)

@@ -3,6 +3,7 @@ import contextlib
 import os
 import pathlib
 import re
+import select
 import shutil
 import signal
 import subprocess
@@ -99,6 +100,16 @@ class Run:
             said += line
         return said
 
+    def newest_words(self):
+        """What the run has said on stderr and nobody has read. Nothing can be read after it."""
+        said = b""
+        while select.select([self.process.stderr], [], [], 0)[0]:
+            some = os.read(self.process.stderr.fileno(), 1 << 16)
+            if not some:
+                break
+            said += some
+        return said.decode(errors="replace")
+
     def wait(self, timeout=GENEROUS_S):
         self.stdout, self.stderr = self.process.communicate(timeout=timeout)
         return self.process.returncode
@@ -157,7 +168,8 @@ class LauncherTest(unittest.TestCase):
         while not condition():
             if run is not None and run.process.poll() is not None:
                 self.fail(f"the run ended before {what}: {run.process.stderr.read()}")
-            self.assertLess(time.monotonic(), deadline, f"waited for {what}")
+            if time.monotonic() > deadline:
+                self.fail(f"waited for {what}" + (f"; the run says:\n{run.newest_words()}" if run else ""))
             time.sleep(0.02)
 
     def has_table(self, table):

@@ -182,6 +182,53 @@ TEST_F(JournalSegmentsTest, TheSameHostsWithOtherRobotsBeginASegment)
   EXPECT_EQ(later.Table(later.Places().back().table), second);
 }
 
+// A server that dies right after it has said where the run goes on costs none of the ticks before.
+TEST_F(JournalSegmentsTest, TheTicksBeforeAreWholeAsSoonAsTheRunGoesOn)
+{
+  {
+    JournalWriter journal(Path(), StartOfRun(), false, {0, kParts});
+    AddSomeTicks(journal, 0, 130);
+  }
+  {
+    const JournalReader before(Path());
+    const JournalWriter journal(before, 120, false, {0, kParts});
+  }
+  const std::vector<JournalPlace> places = JournalReader(Path()).Places();
+  const auto mark = std::ranges::find(places, JournalBlockKind::kGoOn, &JournalPlace::kind);
+  ASSERT_NE(mark, places.end());
+  fs::resize_file(Path(), mark->offset + mark->bytes);
+  const JournalReader cut(Path());
+  ExpectWhole(cut, 121);
+  EXPECT_EQ(cut.RecordOf(120)->state.tick, 120U);
+  EXPECT_FALSE(cut.RecordOf(121));
+}
+
+// A run may go on several times, each time earlier and with other robots at its hosts.
+TEST_F(JournalSegmentsTest, TicksKeepTheHostsThatSteppedThem)
+{
+  const HostTable first{2, {0, 0, 1, 1}}, second{2, {0, 1, 0, 1}}, third{2, {1, 0, 0, 1}};
+  {
+    JournalWriter journal(Path(), ContentOf(JournalStart{{7, {}}, first, 0}), false, {0, kParts});
+    AddSomeTicks(journal, 0, 130);
+  }
+  const auto go_on = [&](std::uint64_t tick, const HostTable& hosts, std::uint64_t end)
+  {
+    const JournalReader before(Path());
+    JournalWriter journal(before, tick, false, {0, kParts});
+    journal.BeginHosts(hosts, tick);
+    AddSomeTicks(journal, tick, end);
+  };
+  go_on(120, second, 140);
+  go_on(70, third, 160);
+  const JournalReader after(Path());
+  ExpectWhole(after, 160);
+  for (const std::uint64_t tick : {0U, 63U, 64U, 69U}) EXPECT_EQ(after.HostsAt(tick), first) << tick;
+  for (const std::uint64_t tick : {70U, 120U, 159U}) EXPECT_EQ(after.HostsAt(tick), third) << tick;
+  JournalFollower follower(Path());
+  follower.Refresh();
+  EXPECT_EQ(EndTickOf(after.Start(), follower.Places()), 160U);
+}
+
 TEST_F(JournalSegmentsTest, ATableOfHostsThatThereAreNotIsRefused)
 {
   for (const HostTable& table :

@@ -1,0 +1,107 @@
+// A run whose space server has died goes on, wherever it died.
+#include "space_server/cluster/continuation.h"
+
+#include <unistd.h>
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "common/checkpoint/host_state.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+Experiment FourRobots()
+{
+  Experiment experiment;
+  experiment.effective_xml = "<ahss-config><framework><maxclock>100</maxclock></framework></ahss-config>";
+  experiment.engines.resize(1);
+  experiment.controllers.resize(1);
+  experiment.controllers[0].id = "c";
+  for (std::size_t k = 0; k < 4; ++k)
+  {
+    EntityConfiguration& robot = experiment.entities.emplace_back();
+    robot.id = "fb_" + std::to_string(k);
+    robot.kind = EntityKind::kFootbot;
+    robot.controller = "c";
+    robot.movable = true;
+  }
+  return experiment;
+}
+
+SavedPart HostPart(std::size_t host, std::map<std::uint32_t, std::string> robots)
+{
+  ByteWriter bytes;
+  Write(HostState{{}, std::move(robots)}, bytes);
+  return {HostName(host), bytes.Bytes()};
+}
+
+class ContinuationTest : public testing::Test
+{
+protected:
+  ContinuationTest() : folder_(fs::temp_directory_path() / ("continuation_test_" + std::to_string(getpid())))
+  {
+    fs::create_directories(folder_ / "journal");
+    settings_.output_folder = folder_.string();
+  }
+  ~ContinuationTest() override { fs::remove_all(folder_); }
+
+  const fs::path folder_;
+  const Experiment experiment_ = FourRobots();
+  RunSettings settings_;
+};
+
+// The server said which hosts have the robots now, and died before it wrote what these remember.
+TEST_F(ContinuationTest, WhatNewHostsRememberIsWrittenIfTheServerDiedBefore)
+{
+  const HostTable first{2, {0, 0, 1, 1}}, second{2, {0, 1, 0, 1}};
+  const std::string file = JournalFile(settings_.output_folder);
+  {
+    JournalWriter journal(file, ContentOf(JournalStart{OriginOf(experiment_), first, 0}));
+    for (std::uint64_t tick = 0; tick < 12; ++tick)
+    {
+      SpaceState state;
+      state.tick = tick;
+      if (tick == 10)
+      {
+        journal.Add(SpaceSnapshot{.tick = tick, .poses = {}, .attributes = {}});
+        journal.Add(tick, {kServerPart, {'s'}});
+        journal.Add(tick, {EngineName(experiment_, 0), {'e'}});
+        journal.Add(tick, HostPart(0, {{0, "a"}, {1, "b"}}));
+        journal.Add(tick, HostPart(1, {{2, "c"}, {3, "d"}}));
+      }
+      journal.AddTick(state, false, {}, {});
+    }
+  }
+  {
+    const Continuation died(settings_, experiment_);
+    ASSERT_EQ(died.Tick(), 10U);
+    JournalWriter journal(*died.Journal(), died.Tick());
+    journal.BeginHosts(second, died.Tick());
+  }
+  for (int again = 0; again < 2; ++again)
+  {
+    const Continuation continuation(settings_, experiment_);
+    ASSERT_EQ(continuation.Tick(), 10U);
+    ASSERT_EQ(continuation.Journal()->Hosts(), second);
+    JournalWriter journal(*continuation.Journal(), continuation.Tick());
+    const std::size_t before = journal.Places().size();
+    continuation.ShareOut(journal, experiment_, second);
+    journal.Flush();
+    const auto checkpoint = JournalReader(file).CheckpointAt(10, PartsOf(experiment_, 2), 1);
+    ASSERT_TRUE(checkpoint);
+    std::map<std::uint32_t, std::string> robots;
+    checkpoint->LoadPart(HostName(1), [&](ByteReader& bytes) { robots = ReadHostState(bytes).robots; });
+    EXPECT_EQ(robots, (std::map<std::uint32_t, std::string>{{1, "b"}, {3, "d"}}));
+    // A second time there is nothing to write.
+    EXPECT_EQ(journal.Places().size() - before, again == 0 ? 5U : 0U);
+  }
+}
+
+}  // namespace
+}  // namespace swarmanoid
