@@ -6,16 +6,10 @@ include(CMakePackageConfigHelpers)
 set(PACKAGE_FOLDER ${CMAKE_INSTALL_LIBDIR}/cmake/Swarmanoid)
 set(HEADER_FOLDER ${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid)
 
-# Headers that only the programs of the cluster use are left out, because DDS is not part of the interface.
-install(DIRECTORY common roles engine_worker controller_host visualiser space_server
-  DESTINATION ${HEADER_FOLDER} COMPONENT dev
-  FILES_MATCHING PATTERN "*.h" PATTERN "bus" EXCLUDE PATTERN "engines" EXCLUDE PATTERN "devices" EXCLUDE)
-# Users need these headers for their own devices.
-install(FILES controller_host/devices/device_streams.h controller_host/devices/noise.h controller_host/devices/value_devices.h
-  DESTINATION ${HEADER_FOLDER}/controller_host/devices COMPONENT dev)
-
-install(FILES launcher/simulation.h launcher/simulator.h DESTINATION ${HEADER_FOLDER}/launcher COMPONENT dev)
-install(DIRECTORY user/behavior_toolkit DESTINATION ${HEADER_FOLDER}/user COMPONENT dev FILES_MATCHING PATTERN "*.h")
+install(CODE "
+  set(SOURCE \"${CMAKE_SOURCE_DIR}\")
+  set(DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${HEADER_FOLDER}\")
+  include(\"${CMAKE_SOURCE_DIR}/cmake/InstallHeaders.cmake\")" COMPONENT dev)
 
 install(EXPORT SwarmanoidTargets NAMESPACE Swarmanoid:: DESTINATION ${PACKAGE_FOLDER} COMPONENT dev)
 configure_package_config_file(cmake/SwarmanoidConfig.cmake.in ${CMAKE_BINARY_DIR}/SwarmanoidConfig.cmake
@@ -37,8 +31,7 @@ export(EXPORT SwarmanoidTargets NAMESPACE Swarmanoid:: FILE ${CMAKE_BINARY_DIR}/
 configure_file(cmake/SwarmanoidUser.cmake ${CMAKE_BINARY_DIR}/SwarmanoidUser.cmake COPYONLY)
 configure_file(cmake/config.h.in ${CMAKE_BINARY_DIR}/config.h.in COPYONLY)
 
-# Drivers of robots need this header. The IDL files are the messages of the ros2 drivers.
-install(FILES real_robot/driver.h DESTINATION ${HEADER_FOLDER}/real_robot COMPONENT dev)
+# The IDL files are the messages of the ros2 drivers.
 install(DIRECTORY idl DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid COMPONENT dev)
 
 # These are the experiments, their schema, and the samples and templates that users copy.

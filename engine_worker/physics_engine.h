@@ -58,8 +58,10 @@ struct EngineSetup
   const EngineLayout& layout;     // the order of owned entities, command and sensor channels
   // Of an engine that is split in a cluster: those who compute the regions of its world. Otherwise nullptr.
   RegionTeam* team = nullptr;
-  unsigned threads = 1;        // that the process has for its work
-  WorkerPool* pool = nullptr;  // of these, if they are several; at each tick it says whether it Shares()
+  unsigned threads = 1;  // that the process has for its work
+  // The process has a pool (common/threads/worker_pool.h) if it has several threads. Its Shares() says at each tick
+  // whether they help.
+  WorkerPool* pool = nullptr;
 };
 
 // The commands of one step: EngineLayout::commands with the values filled in.

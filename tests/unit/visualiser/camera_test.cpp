@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "common/builtins/builtins.h"
+#include "common/builtins/renderers.h"
 #include "common/configuration/xml_reader.h"
-#include "visualiser/scene/view_parameters.h"
 #include "visualiser/scene/viewpoints.h"
 
 namespace swarmanoid

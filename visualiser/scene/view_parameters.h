@@ -1,4 +1,0 @@
-// The parameters that renderers of pictures share: ViewpointParameters and QualityParameters.
-#pragma once
-
-#include "common/builtins/renderers.h"
