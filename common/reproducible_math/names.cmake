@@ -1,5 +1,5 @@
-# Lists the functions of <math.h> and <complex.h> whose results differ between C libraries or processors. The other functions
-# (sqrt, fma, floor, fmod, remainder, ldexp …) are exact by IEEE 754 everywhere, and libm computes them.
+# Lists the functions of <cmath> and <complex> whose results differ between C libraries or processors. The other functions (sqrt,
+# fma, floor, fmod, remainder, ldexp …) are exact by IEEE 754 everywhere, and libm computes them.
 
 # These functions come from musl: those of double and float, and the complex ones that musl computes with the same care.
 set(MUSL_FUNCTIONS)
@@ -7,13 +7,13 @@ foreach(name sin cos tan sincos asin acos atan atan2 sinh cosh tanh asinh acosh 
     pow cbrt hypot erf erfc tgamma)
   list(APPEND MUSL_FUNCTIONS ${name} ${name}f)
 endforeach()
-list(APPEND MUSL_FUNCTIONS lgamma_r lgammaf_r j0 j1 jn y0 y1 yn
+list(APPEND MUSL_FUNCTIONS lgamma_r lgammaf_r
   cexp csqrt csin ccos ctan csinh ccosh ctanh)
 
 # wider.c has these functions: musl computes some of them imprecisely, and the others are for long double and complex numbers.
-set(WIDER_FUNCTIONS lgamma lgammaf exp10 exp10f j0f j1f jnf y0f y1f ynf)
+set(WIDER_FUNCTIONS lgamma lgammaf exp10 exp10f)
 foreach(name sin cos tan sincos asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 exp10 expm1 log log2 log10
-    log1p pow cbrt hypot erf erfc tgamma lgamma j0 j1 jn y0 y1 yn)
+    log1p pow cbrt hypot erf erfc tgamma lgamma)
   list(APPEND WIDER_FUNCTIONS ${name}l)
 endforeach()
 list(APPEND WIDER_FUNCTIONS lgammal_r)

@@ -21,12 +21,6 @@ float hypotf(float x, float y);
 double atan2(double y, double x);
 float atan2f(float y, float x);
 double pow(double x, double y);
-double j0(double x);
-double j1(double x);
-double jn(int order, double x);
-double y0(double x);
-double y1(double x);
-double yn(int order, double x);
 // musl's, renamed.
 double musl_lgamma_r(double x, int* sign);
 float musl_lgammaf_r(float x, int* sign);
@@ -62,17 +56,11 @@ WIDER(cbrt)
 WIDER(erf)
 WIDER(erfc)
 WIDER(tgamma)
-WIDER(j0)
-WIDER(j1)
-WIDER(y0)
-WIDER(y1)
 WIDER_OF_TWO(atan2)
 WIDER_OF_TWO(pow)
 WIDER_OF_TWO(hypot)
 
 long double exp10l(long double x) { return (long double)WIDE(pow)(10, x); }
-long double jnl(int order, long double x) { return (long double)WIDE(jn)(order, x); }
-long double ynl(int order, long double x) { return (long double)WIDE(yn)(order, x); }
 
 void sincosl(long double x, long double* sine, long double* cosine)
 {
@@ -117,12 +105,6 @@ float lgammaf(float x) { return lgammaf_r(x, &signgam); }
 
 double exp10(double x) { return pow(10, x); }
 float exp10f(float x) { return (float)pow(10, x); }
-float j0f(float x) { return (float)j0(x); }
-float j1f(float x) { return (float)j1(x); }
-float jnf(int order, float x) { return (float)jn(order, x); }
-float y0f(float x) { return (float)y0(x); }
-float y1f(float x) { return (float)y1(x); }
-float ynf(int order, float x) { return (float)yn(order, x); }
 
 // Complex numbers. Those of float are computed in double, those of long double with 113 bits, like the inverse
 // functions.
