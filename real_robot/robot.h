@@ -53,7 +53,6 @@ public:
   // Stop, and Destroy of the controller, once.
   void End();
 
-  std::uint64_t Steps() const { return steps_; }
   const RobotConfiguration& Configuration() const { return configuration_; }
   // A line for each device: its driver, and where its values come from or go to.
   std::vector<std::string> Wiring() const;

@@ -37,7 +37,6 @@ public:
 
   // What to wait for.
   int Output() const { return out_.Get(); }
-  int Errors() const { return err_.Get(); }
   int InputIfFull() const { return unsent_.empty() ? -1 : in_.Get(); }
 
   using Clock = std::chrono::steady_clock;

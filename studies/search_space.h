@@ -16,7 +16,6 @@ public:
   // `study` has a search, and outlives it.
   explicit SearchSpace(const Study& study);
 
-  std::size_t Dimensions() const { return searched_.size(); }
   // Where the search begins.
   std::vector<double> Start() const;
   // Of all factors, fixed ones too, in the order of the study. `place` is in the unit cube. Numbers have twelve digits,

@@ -5,18 +5,6 @@
 
 namespace swarmanoid
 {
-namespace
-{
-
-template <class T>
-const T* FindById(const std::vector<T>& all, const std::string& id)
-{
-  const auto found = std::find_if(all.begin(), all.end(), [&](const T& one) { return one.id == id; });
-  return found == all.end() ? nullptr : &*found;
-}
-
-}  // namespace
-
 std::optional<EngineSplit> EngineSplit::Parse(std::string_view text)
 {
   const auto number = [](std::string_view digits) -> std::optional<unsigned>
@@ -49,7 +37,9 @@ Pose WaitingPose(const EntityConfiguration& entity, std::size_t index)
 
 const ControllerConfiguration* Experiment::FindController(const std::string& id) const
 {
-  return FindById(controllers, id);
+  const auto found = std::find_if(controllers.begin(), controllers.end(),
+                                  [&](const ControllerConfiguration& controller) { return controller.id == id; });
+  return found == controllers.end() ? nullptr : &*found;
 }
 
 bool Experiment::HasGuards() const
@@ -57,7 +47,5 @@ bool Experiment::HasGuards() const
   return std::any_of(controllers.begin(), controllers.end(),
                      [](const ControllerConfiguration& controller) { return controller.IsGuarded(); });
 }
-
-const EngineConfiguration* Experiment::FindEngine(const std::string& id) const { return FindById(engines, id); }
 
 }  // namespace swarmanoid

@@ -160,7 +160,6 @@ struct Experiment
 
   double TickSeconds() const { return clock_tick_ms * 1e-3; }
   const ControllerConfiguration* FindController(const std::string& id) const;
-  const EngineConfiguration* FindEngine(const std::string& id) const;
   // Whether some controller IsGuarded.
   bool HasGuards() const;
 };

@@ -330,16 +330,6 @@ std::optional<Checkpoint> JournalReader::CheckpointAt(std::uint64_t tick, const 
   return checkpoint;
 }
 
-std::optional<Checkpoint> JournalReader::NewestCheckpoint(const std::vector<std::string>& parts) const
-{
-  for (auto snapshot = places_.rbegin(); snapshot != places_.rend(); ++snapshot)
-  {
-    if (snapshot->kind != JournalBlockKind::kSnapshot) continue;
-    if (auto checkpoint = CheckpointAt(snapshot->first_tick, parts)) return checkpoint;
-  }
-  return std::nullopt;
-}
-
 std::optional<Checkpoint> JournalReader::WholeCheckpointAt(std::uint64_t tick, const Experiment& experiment,
                                                            const HostTable& hosts) const
 {

@@ -69,11 +69,10 @@ public:
   std::optional<TickRecord> RecordOf(std::uint64_t tick) const;
   // Of controllers, in the steps from that tick on. `ahead`: ticks until commands, which tell of them, act.
   KnownFaults FaultsFrom(std::uint64_t tick, std::uint32_t ahead) const;
-  // What all `parts` saved at the tick, or at the newest one that has them all, put together; nothing if one is
-  // lacking. `table`: saved by these controller hosts.
+  // What all `parts` saved at the tick, put together. Nothing if one is lacking. `table`: the controller hosts that
+  // saved it.
   std::optional<Checkpoint> CheckpointAt(std::uint64_t tick, const std::vector<std::string>& parts,
                                          std::optional<std::uint32_t> table = std::nullopt) const;
-  std::optional<Checkpoint> NewestCheckpoint(const std::vector<std::string>& parts) const;
   // What all processes saved at the tick, or at the newest one until then at which all did, for these controller hosts,
   // whichever the run had.
   std::optional<Checkpoint> WholeCheckpointAt(std::uint64_t tick, const Experiment& experiment,

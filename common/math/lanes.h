@@ -165,7 +165,6 @@ inline FloatLanes LowestOfFour(FloatLanes lanes)
   return Minimum(lanes, __builtin_shufflevector(lanes, lanes, 1, 0, 3, 2));
 #endif
 }
-inline FloatLanes HighestOfFour(FloatLanes lanes) { return -LowestOfFour(-lanes); }
 // Of all lanes.
 inline float Lowest(FloatLanes lanes)
 {

@@ -28,12 +28,6 @@ inline void UnpackBytes(double value, std::uint8_t* bytes)
 }
 
 // `values`: two numbers.
-inline void PackMessage(const RangeAndBearingMessage& message, double* values)
-{
-  values[0] = PackedBytes(message.data());
-  values[1] = PackedBytes(message.data() + kBytesInNumber);
-}
-
 inline RangeAndBearingMessage UnpackedMessage(const double* values)
 {
   RangeAndBearingMessage message;

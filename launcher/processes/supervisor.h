@@ -82,7 +82,7 @@ public:
   // The first plan is the space server's.
   ClusterOutcome Run(const std::vector<MemberPlan>& plans, const GoOn& go_on = {0, 0});
   // Of all processes that were started; for what they leave behind.
-  const std::vector<pid_t>& Pids() const { return pids_; }
+  const std::vector<pid_t>& PidsForTest() const { return pids_; }
 
 private:
   enum class Phase

@@ -99,7 +99,7 @@ private:
     for (int k = 0; k < points * points; ++k) heights.push_back(random.Uniform(-0.005, 0.005));
     const auto hills =
         std::make_shared<const HeightTerrain>(heights, points, points, (points - 1) * 0.1, (points - 1) * 0.1);
-    terrain_ = AddHeightfield(engine_.World(), dynamics3d::kNoEntity, hills, Pose());
+    terrain_ = AddHeightfield(engine_.WorldForTest(), dynamics3d::kNoEntity, hills, Pose());
   }
   // Four layers of cells of 5 cm, and a cell on top of one in 400.
   void AddCells(double side)
@@ -118,8 +118,8 @@ private:
     tree.updateInnerOccupancy();
     const auto path = std::filesystem::temp_directory_path() / (std::to_string(getpid()) + "dynamics3d_bench.bt");
     tree.writeBinary(path.string());
-    terrain_ =
-        AddVoxels(engine_.World(), dynamics3d::kNoEntity, std::make_shared<const VoxelTerrain>(path.string()), Pose());
+    terrain_ = AddVoxels(engine_.WorldForTest(), dynamics3d::kNoEntity,
+                         std::make_shared<const VoxelTerrain>(path.string()), Pose());
     std::filesystem::remove(path);
   }
 

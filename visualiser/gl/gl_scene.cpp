@@ -94,7 +94,7 @@ std::string GlScene::ContextDescription()
   return text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION);
 }
 
-const DrawStatistics& GlScene::Statistics() const { return state_->statistics; }
+const DrawStatistics& GlScene::StatisticsForTest() const { return state_->statistics; }
 
 void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffer, int width, int height,
                    const DrawOptions& options)

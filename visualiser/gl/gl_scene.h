@@ -40,7 +40,7 @@ public:
   void Draw(const Scene& scene, const Camera& camera, unsigned framebuffer, int width, int height,
             const DrawOptions& options);
 
-  const DrawStatistics& Statistics() const;
+  const DrawStatistics& StatisticsForTest() const;
   // "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa 22.3.6".
   static std::string ContextDescription();
 

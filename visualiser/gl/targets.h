@@ -13,7 +13,6 @@ public:
   // Does nothing if it is so already. Throws std::runtime_error if OpenGL refuses.
   void Resize(int width, int height, int samples);
   GLuint Framebuffer() const { return framebuffer_.Name(); }
-  int Samples() const { return samples_; }
 
 private:
   int width_ = 0, height_ = 0, samples_ = -1;

@@ -119,8 +119,6 @@ public:
   const RobotStatus* Robot(std::uint32_t entity);
   // Whether the run can be asked for anything here.
   bool CanControl() const { return setup_.control != nullptr; }
-  // Whether keys and selections go to experiment functions, not to the window.
-  bool GivesKeys() const { return gives_keys_; }
   // Whether entities can be moved: nobody changes the past.
   bool CanMove() const { return CanControl() && !past_.IsOn(); }
   std::string Owner(std::uint32_t entity) const { return OwnerName(GetExperiment(), setup_.assignment, entity); }

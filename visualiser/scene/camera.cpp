@@ -69,17 +69,6 @@ Vector3 Camera::Project(const Vector3& point, double width, double height) const
   return {width / 2 + scale * to.dot(Right()), height / 2 - scale * to.dot(Up()), distance};
 }
 
-Camera Camera::LookAt(const Vector3& from, const Vector3& at)
-{
-  Camera camera;
-  camera.position = from;
-  const Vector3 to = at - from;
-  const double flat = std::hypot(to.x(), to.y());
-  if (flat > 0) camera.heading = RadiansToDegrees(std::atan2(to.y(), to.x()));
-  if (flat > 0 || to.z() != 0) camera.pitch = RadiansToDegrees(std::atan2(to.z(), flat));
-  return camera;
-}
-
 void Camera::Orbit(const Vector3& about, double right, double up)
 {
   const Vector3 away = TurnOf(*this).conjugate() * (position - about);

@@ -36,8 +36,6 @@ struct Camera
   // behind the camera.
   Vector3 Project(const Vector3& point, double width, double height) const;
 
-  static Camera LookAt(const Vector3& from, const Vector3& at);
-
   // Mouse moves, angles in degrees. Orbit keeps the distance from the point, and the pitch between -89.5 and 89.5.
   void Orbit(const Vector3& about, double right, double up);
   // Moves across the picture, by metres.

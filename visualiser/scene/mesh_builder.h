@@ -30,7 +30,6 @@ public:
   void SetShade(float shade) { shade_ = shade; }
   void SetColour(Colour colour) { colour_ = colour; }  // of Material::kPainted
   void SetSegments(int segments) { segments_ = segments; }
-  int Segments() const { return segments_; }
 
   void Box(const Eigen::Vector3f& low, const Eigen::Vector3f& high, Material material);
   // A profile turned about the z axis. Seen with the axis on the left, a profile that goes upwards has its outside on

@@ -1,8 +1,6 @@
 #include "visualiser/scene/picture.h"
 
 #include <png.h>
-#include <cerrno>
-#include <cstring>
 
 #include <cerrno>
 #include <cstdio>
@@ -76,22 +74,6 @@ void WritePng(const Picture& picture, const std::string& path)
     if (fs::is_regular_file(draft, none)) fs::remove(draft, none);
     throw;
   }
-}
-
-Picture ReadPng(const std::string& path)
-{
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_file(&image, path.c_str()) == 0)
-    throw std::runtime_error("cannot read the picture '" + path + "': " + image.message);
-  image.format = PNG_FORMAT_RGBA;
-  Picture picture;
-  picture.width = static_cast<int>(image.width);
-  picture.height = static_cast<int>(image.height);
-  picture.pixels.resize(PNG_IMAGE_SIZE(image));
-  if (png_image_finish_read(&image, nullptr, picture.pixels.data(), 0, nullptr) == 0)
-    throw std::runtime_error("cannot read the picture '" + path + "': " + image.message);
-  return picture;
 }
 
 }  // namespace swarmanoid

@@ -23,7 +23,5 @@ struct Picture
 // Fast rather than small: about 12 ms for 1024 by 768. Whoever reads meanwhile gets the picture before, whole. Throws
 // std::runtime_error, naming the file.
 void WritePng(const Picture& picture, const std::string& path);
-// Throws std::runtime_error, naming the file.
-Picture ReadPng(const std::string& path);
 
 }  // namespace swarmanoid

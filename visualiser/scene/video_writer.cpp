@@ -192,6 +192,4 @@ void VideoWriter::Finish()
   state.Check(av_write_trailer(state.container), "its end cannot be written");
 }
 
-bool VideoWriter::IsAvailable() { return true; }
-
 }  // namespace swarmanoid

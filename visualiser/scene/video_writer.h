@@ -14,7 +14,7 @@ class VideoWriter
 {
 public:
   // The size is rounded down to even numbers. seconds_per_picture: of the video, for its nominal rate. Throws
-  // std::runtime_error, naming the file.
+  // std::runtime_error, naming the file, also if the build has no FFmpeg libraries.
   VideoWriter(const std::string& path, int width, int height, double seconds_per_picture);
   ~VideoWriter();
 
@@ -23,25 +23,9 @@ public:
   // Writes what is left; without it the destructor does, but cannot report errors.
   void Finish();
 
-  // False if the build has no FFmpeg libraries; the constructor throws then.
-  static bool IsAvailable();
-
 private:
   struct State;
   std::unique_ptr<State> state_;
 };
-
-// What a video holds: for tests and scripts.
-struct VideoContents
-{
-  int width = 0;
-  int height = 0;
-  int pictures = 0;
-  double seconds = 0;  // from the first picture to the last one
-  std::string codec;
-  Picture first, last;
-};
-// Decodes all of it. Throws std::runtime_error, naming the file.
-VideoContents ReadVideo(const std::string& path);
 
 }  // namespace swarmanoid

@@ -25,7 +25,5 @@ VideoWriter::VideoWriter(const std::string& path, int, int, double) { Refuse(pat
 VideoWriter::~VideoWriter() = default;
 void VideoWriter::Add(const Picture&, double) {}
 void VideoWriter::Finish() {}
-bool VideoWriter::IsAvailable() { return false; }
-VideoContents ReadVideo(const std::string& path) { Refuse(path); }
 
 }  // namespace swarmanoid

@@ -45,7 +45,7 @@ public:
   void Refresh();
 
   // Those on the movable body at a place in the grid of the world.
-  std::span<const BlobSource> At(std::uint32_t place) const
+  std::span<const BlobSource> AtForTest(std::uint32_t place) const
   {
     return {sources_.data() + start_[place], start_[place + 1] - start_[place]};
   }

@@ -23,7 +23,7 @@ public:
   // Starts anew: an eye of `observer`, for points within `reach` m in the xy plane. The world must be refreshed.
   void LookFrom(std::uint32_t observer, const Vector3& eye, double reach);
   // The movable bodies around the eye, without the observer: entity indices, and places in the order of the grid.
-  std::span<const std::int32_t> Around() const { return {near_.entity.data(), near_.count}; }
+  std::span<const std::int32_t> AroundForTest() const { return {near_.entity.data(), near_.count}; }
   std::span<const std::int32_t> PlacesAround() const { return {near_.place.data(), near_.count}; }
   // A point by its offset from the eye; `owner`: the entity that it is part of, or kNobody.
   void AddPoint(const Vector3& offset, std::uint32_t owner)
@@ -35,8 +35,8 @@ public:
     points_.z[i] = static_cast<float>(offset.z());
     points_.owner[i] = static_cast<std::int32_t>(owner);
   }
-  // Instead of adding points: one on each movable body around the eye, in the order of Around(), at its origin moved by
-  // the height of the eye above the origin of the observer. For worlds without tilted bodies.
+  // Instead of adding points: one on each movable body around the eye, in the order of PlacesAround(), at its origin
+  // moved by the height of the eye above the origin of the observer. For worlds without tilted bodies.
   void LookAtBodiesAround();
   // If callers put many points at once.
   SightPoints& Points() { return points_; }

@@ -30,9 +30,9 @@ public:
   bool IsAlwaysCanonical() const override { return true; }
   std::string StatusText() const override;
 
-  // The entity's model, for tests; nullptr for entities without a body.
-  const dynamics3d::Model* ModelOf(std::uint32_t entity) const { return scene_->models[entity]; }
-  dynamics3d::OdeWorld& World() { return *world_; }
+  // Returns nullptr for entities without a body.
+  const dynamics3d::Model* ModelForTest(std::uint32_t entity) const { return scene_->models[entity]; }
+  dynamics3d::OdeWorld& WorldForTest() { return *world_; }
   // Of the last step, robots that the solver did not move.
   std::size_t FreeRobotCount() const { return free_robots_ ? free_robots_->Count() : 0; }
 

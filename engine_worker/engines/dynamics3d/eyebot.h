@@ -38,7 +38,7 @@ public:
   void Load(ByteReader& state) override;
 
   // The thrust of the last step in newton.
-  double Thrust() const { return thrust_; }
+  double ThrustForTest() const { return thrust_; }
 
 private:
   dBodyID Body() const { return scene_.world.Body(MainBody()); }

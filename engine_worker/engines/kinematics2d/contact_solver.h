@@ -5,7 +5,6 @@
 // them in any order; inside a block contacts are handled in the order of adding. So threads change no bit.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -27,12 +26,6 @@ public:
   {
     double x, y, reach;
     double bounce;  // metres of overlap that came from approaching in this step and are given back
-
-    double Depth(bool face, double dx, double dy) const
-    {
-      if (face) return reach - (dx * x + dy * y);
-      return reach - std::sqrt((dx + x) * (dx + x) + (dy + y) * (dy + y));
-    }
   };
   struct Ends
   {

@@ -272,12 +272,12 @@ std::vector<std::uint32_t> KinematicWorld::BodiesInBlocks() const
   return in_blocks;
 }
 
-double KinematicWorld::OverlapOf(std::uint32_t a, std::uint32_t b) const
+double KinematicWorld::OverlapForTest(std::uint32_t a, std::uint32_t b) const
 {
   return Overlap(PlaceAt(a, now_), PlaceAt(b, now_));
 }
 
-double KinematicWorld::StaticOverlapOf(std::uint32_t body) const
+double KinematicWorld::StaticOverlapForTest(std::uint32_t body) const
 {
   double deepest = 0;
   for (const CollisionModel& shape : statics_)

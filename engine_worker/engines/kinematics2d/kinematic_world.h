@@ -74,7 +74,7 @@ public:
   // Puts a body elsewhere at once. Its grips stay: those whom it grips, and who grip it, are to be put there with it.
   void Place(std::uint32_t body, const Pose2& pose);
   // Moves everything by `seconds`, in at least `steps` equal steps. Fast bodies make it use more, so that nothing
-  // passes through anything. No two parts of outlines overlap deeper afterwards than AllowedOverlap(), or than they did
+  // passes through anything. No two parts of outlines overlap deeper afterwards than allowed_, or than they did
   // before, but for followers: these may come into a body that has no room to give way.
   // Throws std::runtime_error for speeds beyond all sense.
   void Advance(double seconds, int steps);
@@ -100,15 +100,15 @@ public:
   const CollisionModel& ModelOf(std::uint32_t body) const { return models_[model_[body]]; }
   Placed PlacedAt(std::uint32_t body) const { return PlaceAt(body, now_); }
   // The deepest overlap of two bodies, or of a body and the static shapes.
-  double OverlapOf(std::uint32_t a, std::uint32_t b) const;
-  double StaticOverlapOf(std::uint32_t body) const;
+  double OverlapForTest(std::uint32_t a, std::uint32_t b) const;
+  double StaticOverlapForTest(std::uint32_t body) const;
   // The arc that the body's centre drove forward (m) and its turn (rad) in the last Advance, collisions included.
   // Only kept after KeepTravel().
   void KeepTravel() { keeps_travel_ = true; }
   double TravelForward(std::uint32_t body) const { return travel_forward_[body]; }
   double TravelTurn(std::uint32_t body) const { return travel_turn_[body]; }
   const WorldStatistics& Statistics() const { return statistics_; }
-  double AllowedOverlap() const { return allowed_; }
+  double AllowedOverlapForTest() const { return allowed_; }
 
   // After Start: from now on the regions of the team do what Advance is to do. Each computes some blocks of the plane
   // (MoveCuts; at first region 0 has all), and all bodies go bit by bit as before, wherever the cuts are. `team`

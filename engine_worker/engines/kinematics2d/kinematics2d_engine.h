@@ -16,9 +16,6 @@
 namespace swarmanoid
 {
 
-// Adds the engine to the registry under both of its names. Idempotent.
-void RegisterKinematics2d();
-
 class Kinematics2dEngine : public CPhysicsEngine, private PlaneGrips
 {
 public:
@@ -35,7 +32,7 @@ public:
   std::unique_ptr<EngineRegion> MakeRegion(unsigned region, RegionExchange& exchange) override;
   std::string StatusText() const override;
 
-  const kinematics2d::KinematicWorld& World() const { return world_; }
+  const kinematics2d::KinematicWorld& WorldForTest() const { return world_; }
 
 private:
   struct Mirror

@@ -62,7 +62,7 @@ TEST(ColourCameras, LedsOfOneColourAreOneBlobAtTheirMiddleAndTurnWithTheTurret)
   sources.Refresh();
   const auto bodies = sensor_world.Grid().Sorted();
   const auto place = std::find(bodies.begin(), bodies.end(), 1U) - bodies.begin();
-  const auto on_other = sources.At(static_cast<std::uint32_t>(place));
+  const auto on_other = sources.AtForTest(static_cast<std::uint32_t>(place));
   ASSERT_EQ(on_other.size(), 3U);
   const double ring = kBody + 0.005;
   EXPECT_EQ(on_other[0].colour, CCI_Colour::WHITE);
@@ -89,7 +89,7 @@ TEST(ColourCameras, LedsAndBeaconLeanWithTheirRobot)
   sensor_world.Refresh();
   BlobSources sources(sensor_world);
   sources.Refresh();
-  const auto blobs = sources.At(0);
+  const auto blobs = sources.AtForTest(0);
   ASSERT_EQ(blobs.size(), 2U);
   for (const auto& [blob, height] : {std::pair(blobs[0], 0.174), std::pair(blobs[1], 0.085)})
   {

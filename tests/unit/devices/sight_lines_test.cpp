@@ -100,7 +100,7 @@ TEST(SightLines, AgreeWithBruteForceInRandomWorlds)
         std::uint32_t owner;
       };
       std::vector<Point> points;
-      for (const std::int32_t entity : lines.Around())
+      for (const std::int32_t entity : lines.AroundForTest())
       {
         const auto e = static_cast<std::uint32_t>(entity);
         points.push_back({world.Space().GetPose(e).Apply({0, 0, e % 3 == 0 ? 0.1 : 0.05}), e});
@@ -148,9 +148,9 @@ TEST(SightLines, BodiesAroundAgreeWithBruteForce)
       lines.LookFrom(observer, eye, 3);
       lines.LookAtBodiesAround();
       const SeenPoints& answers = lines.Solve();
-      for (std::size_t i = 0; i < lines.Around().size(); ++i)
+      for (std::size_t i = 0; i < lines.AroundForTest().size(); ++i)
       {
-        const auto owner = static_cast<std::uint32_t>(lines.Around()[i]);
+        const auto owner = static_cast<std::uint32_t>(lines.AroundForTest()[i]);
         const Vector3 point = world.Space().GetPose(owner).position + Vector3(0, 0, height);
         if ((point - eye).head<2>().norm() > 3) continue;  // perhaps hidden by bodies still farther away
         const Verdict verdict = ByBruteForce(sensor_world, observer, eye, point, owner);
@@ -184,7 +184,7 @@ TEST(SightLines, TheBodiesAroundAreAllWithinReach)
       const Vector3 eye = world.Space().GetPose(observer).position;
       const double reach = 0.2 * observer;
       lines.LookFrom(observer, eye, reach);
-      std::vector<std::uint32_t> found(lines.Around().begin(), lines.Around().end());
+      std::vector<std::uint32_t> found(lines.AroundForTest().begin(), lines.AroundForTest().end());
       std::sort(found.begin(), found.end());
       EXPECT_EQ(std::adjacent_find(found.begin(), found.end()), found.end());
       for (std::uint32_t e = 0; e < world.Space().Size(); ++e)

@@ -96,7 +96,7 @@ std::vector<std::uint64_t> HashesOfRun(std::uint64_t seed, int ticks, const std:
     if (std::find(restarts.begin(), restarts.end(), tick) != restarts.end()) world.ReplaceEngineBySavedState();
     world.Advance();
     grips += world.Grips();
-    sleepers += world.engine->World().SleeperCount() > 0 ? 1 : 0;
+    sleepers += world.engine->WorldForTest().SleeperCount() > 0 ? 1 : 0;
     hashes.push_back(world.Space().Hash());
   }
   EXPECT_GT(grips, ticks / 2) << "the run was to have grips";

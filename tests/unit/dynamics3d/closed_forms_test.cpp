@@ -115,9 +115,9 @@ TEST(Dynamics3dClosedForms, AnEyebotHoversWithAThrustOfItsWeight)
   world.Run(100);
   EXPECT_LT((world.Position(eyebot) - Vector3(5, 5, 1)).norm(), 1e-4);
   EXPECT_NEAR(world.Yaw(eyebot), 0.7, 1e-4);
-  const auto* model = dynamic_cast<const dynamics3d::EyebotModel*>(world.engine->ModelOf(eyebot));
+  const auto* model = dynamic_cast<const dynamics3d::EyebotModel*>(world.engine->ModelForTest(eyebot));
   ASSERT_NE(model, nullptr);
-  EXPECT_NEAR(model->Thrust(), dynamics3d::EyebotShape::kMass * kGravity, 1e-3);
+  EXPECT_NEAR(model->ThrustForTest(), dynamics3d::EyebotShape::kMass * kGravity, 1e-3);
 }
 
 TEST(Dynamics3dClosedForms, TheWorkOfAnEyebotsThrustIsTheEnergyThatItGains)
@@ -129,7 +129,7 @@ TEST(Dynamics3dClosedForms, TheWorkOfAnEyebotsThrustIsTheEnergyThatItGains)
   world.Start();
   world.Run(20);
   world.Command("eyebot_propellers", eyebot, {0, 0, 0.4, 0});
-  const auto* model = dynamic_cast<const dynamics3d::EyebotModel*>(world.engine->ModelOf(eyebot));
+  const auto* model = dynamic_cast<const dynamics3d::EyebotModel*>(world.engine->ModelForTest(eyebot));
   ASSERT_NE(model, nullptr);
   const double mass = dynamics3d::EyebotShape::kMass;
   const double start = world.Position(eyebot).z();
@@ -141,7 +141,7 @@ TEST(Dynamics3dClosedForms, TheWorkOfAnEyebotsThrustIsTheEnergyThatItGains)
     world.Tick();
     const double way = world.Position(eyebot).z() - before;
     // x' = x + h v' : the mean speed of the step is half of the old and half of the new one.
-    work += model->Thrust() * (speed + way / 0.005) / 2 * 0.005;
+    work += model->ThrustForTest() * (speed + way / 0.005) / 2 * 0.005;
     speed = way / 0.005;
   }
   const double risen = world.Position(eyebot).z() - start;

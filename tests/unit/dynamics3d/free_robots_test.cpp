@@ -16,12 +16,12 @@ using dynamics3d::OdeWorld;
 
 const dReal* VelocityOf(Dynamics3dTestWorld& world, std::uint32_t entity)
 {
-  return dBodyGetLinearVel(world.engine->World().Body(world.engine->ModelOf(entity)->MainBody()));
+  return dBodyGetLinearVel(world.engine->WorldForTest().Body(world.engine->ModelForTest(entity)->MainBody()));
 }
 
 bool IsFree(const Dynamics3dTestWorld& world, std::uint32_t entity)
 {
-  const auto* robot = dynamic_cast<const dynamics3d::WheeledModel*>(world.engine->ModelOf(entity));
+  const auto* robot = dynamic_cast<const dynamics3d::WheeledModel*>(world.engine->ModelForTest(entity));
   return robot != nullptr && robot->IsFree();
 }
 
@@ -338,8 +338,8 @@ TEST(Dynamics3dFreeRobots, WhoIsPushedFarWithinATickMeetsThoseWhoWereFree)
   world.Start();
   world.Tick();
   EXPECT_TRUE(IsFree(world, robot));
-  OdeWorld& ode = world.engine->World();
-  dBodySetLinearVel(ode.Body(world.engine->ModelOf(heavy)->MainBody()), 0.9, 0, 0);
+  OdeWorld& ode = world.engine->WorldForTest();
+  dBodySetLinearVel(ode.Body(world.engine->ModelForTest(heavy)->MainBody()), 0.9, 0, 0);
   world.Tick();
   // The prey hits the one, which goes nearly twice as fast and meets the other within the tick.
   EXPECT_FALSE(IsFree(world, robot));

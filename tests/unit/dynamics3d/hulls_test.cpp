@@ -50,7 +50,7 @@ TEST(Dynamics3dHulls, ATetrahedronRestsOnItsBaseAndOnTheSideThatItFallsOn)
     // The centre of mass is at a quarter of its height, whichever side it is on.
     const Vector3 centre = world.Position(body) + world.Orientation(body) * Vector3(0, 0, -height / 4);
     EXPECT_NEAR(centre.z(), height / 4, 1e-3) << tilt;
-    EXPECT_EQ(world.engine->World().SleeperCount(), 1U) << tilt;
+    EXPECT_EQ(world.engine->WorldForTest().SleeperCount(), 1U) << tilt;
   }
 }
 
@@ -84,7 +84,7 @@ TEST(Dynamics3dHulls, AHullOfABoxFallsTipsAndRestsAsTheBox)
   world.Run(98);
   EXPECT_NEAR(world.Position(hull).z(), world.Position(box).z(), 1e-3);
   EXPECT_NEAR(world.Position(hull).z(), 0.05, 1e-3);
-  EXPECT_EQ(world.engine->World().SleeperCount(), 2U);
+  EXPECT_EQ(world.engine->WorldForTest().SleeperCount(), 2U);
 }
 
 // On a slope of 20 degrees, tan 0.364.
@@ -117,7 +117,7 @@ TEST(Dynamics3dHulls, AFreeBodyKeepsItsAngularMomentum)
   world.experiment.entities[body].hull = std::make_shared<const ConvexHull>(
       HullOf(std::vector<Vector3>{{0, 0, 0}, {0.4, 0, 0}, {0, 0.2, 0}, {0, 0, 0.3}}));
   world.Start();
-  const dBodyID ode = world.engine->World().Body(0);
+  const dBodyID ode = world.engine->WorldForTest().Body(0);
   dBodySetAngularVel(ode, 1, 0.5, -0.7);
   const auto momentum = [&]() -> Vector3
   {
@@ -151,7 +151,7 @@ TEST(Dynamics3dHulls, APileOfHullsAndBoxesStands)
     EXPECT_LT((world.Position(pile[k]) - Vector3(5, 5, 0)).head<2>().norm(), 0.005) << k;
     EXPECT_NEAR(world.Position(pile[k]).z(), 0.1 + 0.2 * static_cast<double>(k), 0.005) << k;
   }
-  EXPECT_EQ(world.engine->World().SleeperCount(), pile.size());
+  EXPECT_EQ(world.engine->WorldForTest().SleeperCount(), pile.size());
 }
 
 // A robot pushes a hull in front of it, and stands before one that does not move as before a box.
@@ -190,7 +190,7 @@ TEST(Dynamics3dHulls, CylindersAndHullsBearOneAnother)
   EXPECT_LT(world.Tilt(above), 2e-3);
   EXPECT_NEAR(world.Position(on_prey).z(), 0.15, 1e-3);
   EXPECT_LT(world.Tilt(on_prey), 2e-3);
-  EXPECT_EQ(world.engine->World().SleeperCount(), 4U);
+  EXPECT_EQ(world.engine->WorldForTest().SleeperCount(), 4U);
 }
 
 // Many bodies of many corners, thrown together: none goes through the ground, and all come to rest.
@@ -220,7 +220,7 @@ TEST(Dynamics3dHulls, AHeapOfStonesComesToRest)
     EXPECT_GT(world.Position(stone).z(), 0.05);
     EXPECT_LT((world.Position(stone) - Vector3(5, 5, 0)).head<2>().cwiseAbs().maxCoeff(), 0.5);
   }
-  EXPECT_GE(world.engine->World().SleeperCount(), 15U);
+  EXPECT_GE(world.engine->WorldForTest().SleeperCount(), 15U);
 }
 
 // On hills of a height map and on rough ground of cells nothing falls through.
@@ -246,7 +246,7 @@ TEST(Dynamics3dHulls, HullsRestOnTerrain)
     EXPECT_NEAR((world.Position(hull) - world.Position(box)).norm(), 0.1, 2e-3) << cells;
     EXPECT_NEAR(world.Position(box).z(), 0.07, 0.03) << cells;
     EXPECT_GT(world.Position(stone).z(), 0.08) << cells;
-    EXPECT_EQ(world.engine->World().SleeperCount(), 3U) << cells;
+    EXPECT_EQ(world.engine->WorldForTest().SleeperCount(), 3U) << cells;
   }
 }
 

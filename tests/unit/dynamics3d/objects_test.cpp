@@ -106,7 +106,7 @@ TEST(Dynamics3dObjects, APileOfTwentyCubesStandsForAMinute)
     EXPECT_NEAR(world.Position(cubes[k]).z(), 0.1 + 0.2 * static_cast<double>(k), 0.005) << k;
     EXPECT_LT(world.Tilt(cubes[k]), DegreesToRadians(0.2)) << k;
   }
-  EXPECT_EQ(world.engine->World().SleeperCount(), cubes.size());
+  EXPECT_EQ(world.engine->WorldForTest().SleeperCount(), cubes.size());
 }
 
 // A robot drives against a pile that sleeps.
@@ -120,10 +120,10 @@ TEST(Dynamics3dObjects, ARobotWakesAPileAndPushesIt)
   world.AddCommands("footbot_wheels", 2);
   world.Start();
   world.Run(30);
-  EXPECT_EQ(world.engine->World().SleeperCount(), 3U);
+  EXPECT_EQ(world.engine->WorldForTest().SleeperCount(), 3U);
   world.Drive(footbot, 0.2, 0.2);
   world.Run(50);
-  EXPECT_EQ(world.engine->World().SleeperCount(), 1U);
+  EXPECT_EQ(world.engine->WorldForTest().SleeperCount(), 1U);
   const double front = world.Position(footbot).x() + 0.085;
   EXPECT_GT(front, 5.7);
   EXPECT_NEAR(world.Position(lower).x(), front + 0.1, 0.02);
@@ -131,7 +131,7 @@ TEST(Dynamics3dObjects, ARobotWakesAPileAndPushesIt)
   EXPECT_NEAR(world.Position(far).x(), 8, 1e-4);
   world.Drive(footbot, -0.2, -0.2);
   world.Run(20);
-  EXPECT_EQ(world.engine->World().SleeperCount(), 3U);
+  EXPECT_EQ(world.engine->WorldForTest().SleeperCount(), 3U);
 }
 
 TEST(Dynamics3dObjects, AnObjectFallsWhenWhatItSleptOnIsTakenAway)
@@ -141,7 +141,7 @@ TEST(Dynamics3dObjects, AnObjectFallsWhenWhatItSleptOnIsTakenAway)
   const auto upper = world.AddBlock({5, 5, 0.3}, kCube, 1);
   world.Start();
   world.Run(20);
-  ASSERT_EQ(world.engine->World().SleeperCount(), 2U);
+  ASSERT_EQ(world.engine->WorldForTest().SleeperCount(), 2U);
   world.Space().SetPose(lower, {Vector3(8, 5, 0.1), Quaternion::Identity()});
   world.engine->EntityMoved(lower);
   world.Run(10);

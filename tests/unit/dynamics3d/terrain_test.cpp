@@ -59,7 +59,8 @@ TEST(Dynamics3dTerrain, AWheelRollsOverAHeightfieldAtTheSpeedOfTheWheels)
   const auto footbot = world.AddFootbot({1, 1, 0.001});
   world.AddCommands("footbot_wheels", 2);
   world.Start();
-  std::unique_ptr<dynamics3d::TerrainShape> shape = AddHeightfield(world.engine->World(), 0xfffffff0U, hills, Pose());
+  std::unique_ptr<dynamics3d::TerrainShape> shape =
+      AddHeightfield(world.engine->WorldForTest(), 0xfffffff0U, hills, Pose());
   world.Drive(footbot, 0.1, 0.1);
   for (int tick = 0; tick < 150; ++tick)
   {
@@ -84,13 +85,13 @@ TEST(Dynamics3dTerrain, AHeightfieldStandsWhereItsTerrainSays)
   world.AddFootbot({0, 0, 0});
   world.Start();
   const Pose pose{Vector3(3, 4, 0.5), Quaternion::Identity()};
-  auto shape = AddHeightfield(world.engine->World(), 0xfffffff0U, ramp, pose);
+  auto shape = AddHeightfield(world.engine->WorldForTest(), 0xfffffff0U, ramp, pose);
   RandomStream random(1, 0, 0, 0);
   for (int k = 0; k < 200; ++k)
   {
     const double x = random.Uniform(0.05, 0.95);
     const double y = random.Uniform(0.05, 1.95);
-    const double distance = world.engine->World().DistanceToStatic(pose.Apply({x, y, 1}), -Vector3::UnitZ(), 5);
+    const double distance = world.engine->WorldForTest().DistanceToStatic(pose.Apply({x, y, 1}), -Vector3::UnitZ(), 5);
     EXPECT_NEAR(1 - distance, 0.1 * y + 0.02 * x, 1e-9);
   }
   world.engine.reset();
@@ -185,7 +186,7 @@ TEST(Dynamics3dTerrain, WhatIsLargerThanAPillarOfCellsRestsOnItAsOnABlock)
     }
     world.Start();
     world.Run(100);
-    EXPECT_EQ(world.engine->World().SleeperCount(), 3U) << (cells ? "cells" : "blocks");
+    EXPECT_EQ(world.engine->WorldForTest().SleeperCount(), 3U) << (cells ? "cells" : "blocks");
     std::vector<Pose> poses;
     for (const auto thing : things) poses.push_back(world.Space().GetPose(thing));
     return poses;

@@ -49,9 +49,12 @@ TEST(Chapter4, ValuesAreThoseOfTheListing)
   EXPECT_EQ(experiment.entities[3].kind, EntityKind::kCylindricPrey);
   EXPECT_EQ(experiment.entities[3].size, Vector3(0.1, 0.1, 0.1));
 
-  EXPECT_EQ(experiment.FindEngine("ground")->entities, (std::vector<std::uint32_t>{0, 2, 3}));
-  EXPECT_EQ(experiment.FindEngine("sky")->entities, (std::vector<std::uint32_t>{1}));
-  EXPECT_EQ(experiment.FindEngine("sky")->tree.GetNumber("distance"), 1);
+  ASSERT_EQ(experiment.engines.size(), 2U);
+  EXPECT_EQ(experiment.engines[0].id, "ground");
+  EXPECT_EQ(experiment.engines[0].entities, (std::vector<std::uint32_t>{0, 2, 3}));
+  EXPECT_EQ(experiment.engines[1].id, "sky");
+  EXPECT_EQ(experiment.engines[1].entities, (std::vector<std::uint32_t>{1}));
+  EXPECT_EQ(experiment.engines[1].tree.GetNumber("distance"), 1);
   ASSERT_EQ(experiment.visualisations.size(), 2U);
   EXPECT_EQ(experiment.visualisations[1].tree.GetVector3("camera_view_XYZ_1"), Vector3(6.2875, 3.33551, 1.25));
 }

@@ -94,10 +94,8 @@ TEST_F(JournalSegmentsTest, ABudgetKeepsTheNewestAndASavedStateBeforeIt)
     const JournalReader read(Path());
     EXPECT_EQ(read.Bytes(), journal.Bytes());
     ExpectWhole(read, tick + 10 * kPeriod);
-    const auto checkpoint = read.NewestCheckpoint(kParts);
-    ASSERT_TRUE(checkpoint);
-    EXPECT_GE(checkpoint->snapshot.tick, read.FirstTick());
     EXPECT_EQ(read.TickToGoOn([](std::uint64_t) { return true; }), tick + 9 * kPeriod);
+    EXPECT_TRUE(read.CheckpointAt(tick + 9 * kPeriod, kParts));
     all = read.FirstTick();
   }
   EXPECT_GT(all, 4000U) << "the oldest is deleted";
@@ -253,11 +251,10 @@ TEST_F(JournalSegmentsTest, NothingIsDroppedThatFollowsAStateThatCameLate)
     for (const std::string& part : kParts) journal.Add(snapshot.tick, {part, {'s'}});
     journal.Flush();
     const JournalReader read(Path());
-    const auto checkpoint = read.NewestCheckpoint(kParts);
-    ASSERT_TRUE(checkpoint);
-    std::uint64_t next = checkpoint->snapshot.tick;
+    ASSERT_TRUE(read.CheckpointAt(snapshot.tick, kParts));
+    std::uint64_t next = snapshot.tick;
     read.ForEachTick([&](const TickRecord& record) { next += record.state.tick == next ? 1 : 0; });
-    ASSERT_EQ(next, tick + 1) << "of the state of tick " << checkpoint->snapshot.tick;
+    ASSERT_EQ(next, tick + 1) << "of the state of tick " << snapshot.tick;
   }
   EXPECT_FALSE(fs::exists(Path())) << "the oldest is deleted";
 }

@@ -298,18 +298,20 @@ TEST(ReadableTicks, GoOnAtTheNextSavedStateAfterAGap)
   EXPECT_EQ(ReadableTicks(start, {state(5), ticks(3, 10)}), (Ranges{{5, 13}}));
 }
 
-TEST_F(JournalTest, TheNewestCheckpointIsTheNewestThatAllSaved)
+TEST_F(JournalTest, ACheckpointIsWhatAllSavedAtItsTick)
 {
   WriteSome("j", 12);
   const JournalReader journal(File("j"));
-  const auto checkpoint = journal.NewestCheckpoint({kServerPart, "engine 'ground'"});
+  const auto checkpoint = journal.CheckpointAt(4, {kServerPart, "engine 'ground'"});
   ASSERT_TRUE(checkpoint);
   EXPECT_EQ(checkpoint->snapshot.tick, 4U);
   EXPECT_EQ(checkpoint->snapshot.attributes, (std::vector<double>{0, 1, 2}));
   ASSERT_EQ(checkpoint->parts.size(), 2U);
   EXPECT_EQ(checkpoint->parts[1].state, (std::vector<char>{'e', '4'}));
-  EXPECT_EQ(journal.NewestCheckpoint({kServerPart})->snapshot.tick, 6U);
-  EXPECT_FALSE(journal.NewestCheckpoint({kServerPart, "controller host 0"}));
+  EXPECT_EQ(journal.CheckpointAt(6, {kServerPart})->snapshot.tick, 6U);
+  EXPECT_FALSE(journal.CheckpointAt(6, {kServerPart, "engine 'ground'"}));
+  EXPECT_FALSE(journal.CheckpointAt(4, {kServerPart, "controller host 0"}));
+  EXPECT_FALSE(journal.CheckpointAt(5, {kServerPart}));
 }
 
 TEST_F(JournalTest, ARunGoesOnAtTheNewestTickThatTheServerSavedAndOfWhichTheRecordIsThere)

@@ -191,10 +191,10 @@ TEST(KinematicCrowd, BlindRobotsNeverOverlapAtAnyDensityAndSpeed)
             scene.world.SetTwist(k, {(left + right) / 2, 0, (right - left) / kFootbotInterWheel});
           }
           scene.world.Advance(kCrowdTick, steps);
-          ASSERT_LE(DeepestOverlap(scene, 0.2, all), scene.world.AllowedOverlap() + 1e-9)
+          ASSERT_LE(DeepestOverlap(scene, 0.2, all), scene.world.AllowedOverlapForTest() + 1e-9)
               << "speed " << speed << " spacing " << spacing << " steps " << steps << " tick " << tick;
         }
-        EXPECT_LT(scene.world.AllowedOverlap(), 0.35e-3);
+        EXPECT_LT(scene.world.AllowedOverlapForTest(), 0.35e-3);
       }
 }
 
@@ -271,12 +271,12 @@ TEST(KinematicCrowd, OutlinesOfAllKindsGripsTurretsAndMirrorsNeverOverlap)
         scene.world.Follow(mirror, pose, true);
       }
       scene.world.Advance(kCrowdTick, steps);
-      ASSERT_LE(DeepestOverlap(scene, 0.3, with_mirrors), scene.world.AllowedOverlap() + 1e-9)
+      ASSERT_LE(DeepestOverlap(scene, 0.3, with_mirrors), scene.world.AllowedOverlapForTest() + 1e-9)
           << "seed " << seed << " tick " << tick;
       // Into whom a mirror comes it comes no faster than it moves.
       const double in_mirror = DeepestOverlap(
           scene, 0.3, [&](std::uint32_t a, std::uint32_t b) { return a >= mirrors[0] || b < mirrors[0]; });
-      ASSERT_LE(in_mirror, std::max(deepest_in_mirror, scene.world.AllowedOverlap()) + way + 1e-9) << seed;
+      ASSERT_LE(in_mirror, std::max(deepest_in_mirror, scene.world.AllowedOverlapForTest()) + way + 1e-9) << seed;
       deepest_in_mirror = in_mirror;
     }
   }
@@ -300,12 +300,12 @@ TEST(KinematicCrowd, WhoWasPutIntoOthersPartsFromThemAndNeverSinksDeeper)
       scene.world.SetTwist(k, {0.05 * random.Uniform(-1, 1), 0, random.Uniform(-1, 1)});
     }
     scene.world.Advance(kCrowdTick, 1);
-    ASSERT_LE(DeepestOverlap(scene, 0.2, not_the_one), scene.world.AllowedOverlap() + 1e-9) << tick;
+    ASSERT_LE(DeepestOverlap(scene, 0.2, not_the_one), scene.world.AllowedOverlapForTest() + 1e-9) << tick;
     const double now = DeepestOverlap(scene, 0.2, only_the_one);
-    ASSERT_LE(now, std::max(before, scene.world.AllowedOverlap()) + 1e-9) << tick;
+    ASSERT_LE(now, std::max(before, scene.world.AllowedOverlapForTest()) + 1e-9) << tick;
     before = now;
   }
-  EXPECT_LT(before, scene.world.AllowedOverlap() + 1e-9);
+  EXPECT_LT(before, scene.world.AllowedOverlapForTest() + 1e-9);
 }
 
 TEST(KinematicCrowd, ACrowdThatDrivesOnTogetherIsNotHeldByAJamElsewhere)

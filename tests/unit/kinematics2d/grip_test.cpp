@@ -208,7 +208,8 @@ TEST(Kinematics2dGrip, ARobotThatIsMovedWithItsPreyHoldsItToTheLastBit)
     f.Command(0) = 1;
     f.Tick();
     ASSERT_EQ(GrippedBy(f, robot), 1.0 + prey);
-    const auto grip = [&] { return dynamic_cast<Kinematics2dEngine&>(f.Engine()).World().Grips().at(0).relative; };
+    const auto grip = [&]
+    { return dynamic_cast<Kinematics2dEngine&>(f.Engine()).WorldForTest().Grips().at(0).relative; };
     const kinematics2d::Pose2 before = grip();
     if (restored)
     {

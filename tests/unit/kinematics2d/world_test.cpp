@@ -30,8 +30,8 @@ double DeepestOverlap(const KinematicWorld& world)
   double deepest = 0;
   for (std::uint32_t a = 0; a < world.BodyCount(); ++a)
   {
-    deepest = std::max(deepest, world.StaticOverlapOf(a));
-    for (std::uint32_t b = a + 1; b < world.BodyCount(); ++b) deepest = std::max(deepest, world.OverlapOf(a, b));
+    deepest = std::max(deepest, world.StaticOverlapForTest(a));
+    for (std::uint32_t b = a + 1; b < world.BodyCount(); ++b) deepest = std::max(deepest, world.OverlapForTest(a, b));
   }
   return deepest;
 }

@@ -119,7 +119,7 @@ protected:
     const Clock::time_point start = Clock::now();
     ClusterOutcome outcome = supervisor.Run(plans_);
     EXPECT_LT(Clock::now() - start, kGenerous) << "it waited for a process that never ends";
-    for (const pid_t pid : supervisor.Pids())
+    for (const pid_t pid : supervisor.PidsForTest())
       EXPECT_TRUE(GroupIsGone(pid)) << "a process of group " << pid << " is left";
     return outcome;
   }

@@ -203,7 +203,7 @@ TEST_F(SupervisorTest, StartsAllAgainToTryMoreControllerHosts)
   EXPECT_EQ(outcome.kind, ClusterOutcome::kFinished) << outcome.reason;
   EXPECT_EQ(tried, std::vector<unsigned>{2});
   EXPECT_EQ(second_at, "here");
-  for (const pid_t pid : supervisor.Pids()) EXPECT_TRUE(GroupIsGone(pid));
+  for (const pid_t pid : supervisor.PidsForTest()) EXPECT_TRUE(GroupIsGone(pid));
 }
 
 TEST_F(SupervisorTest, OneWhoseOfferedMachineHasGoneIsReplacedHere)

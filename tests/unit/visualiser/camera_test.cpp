@@ -5,6 +5,7 @@
 #include "common/builtins/builtins.h"
 #include "common/builtins/renderers.h"
 #include "common/configuration/xml_reader.h"
+#include "tests/unit/visualiser/look_at.h"
 #include "visualiser/scene/viewpoints.h"
 
 namespace swarmanoid
@@ -63,7 +64,7 @@ TEST(Camera, MatricesAgreeWithProject)
 
 TEST(Camera, LookAtPutsThePointInTheMiddle)
 {
-  const Camera camera = Camera::LookAt({5, -2, 3}, {1, 1, 0.5});
+  const Camera camera = LookAt({5, -2, 3}, {1, 1, 0.5});
   ExpectNear(camera.Project({1, 1, 0.5}, 640, 480), {320, 240, Vector3(4, -3, 2.5).norm()}, 1e-6);
 }
 
@@ -84,7 +85,7 @@ TEST(Camera, OrbitKeepsThePointInPlace)
 
 TEST(Camera, OrbitTurnsTheNearSideWithTheDrag)
 {
-  Camera camera = Camera::LookAt({4, 1, 2}, {4, 4, 0});
+  Camera camera = LookAt({4, 1, 2}, {4, 4, 0});
   const Vector3 about(4, 4, 0);
   const Vector3 near(4, 3, 0);
   const double pitch = camera.pitch;

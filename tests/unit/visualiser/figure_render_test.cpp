@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "common/configuration/xml_reader.h"
+#include "tests/unit/visualiser/read_png.h"
 #include "tests/unit/visualiser/small_world.h"
 #include "visualiser/figure/plan_page.h"
 #include "visualiser/figure/plan_scene.h"

@@ -11,6 +11,8 @@
 
 #include "common/configuration/xml_reader.h"
 #include "test_folders.h"
+#include "tests/unit/visualiser/look_at.h"
+#include "tests/unit/visualiser/read_png.h"
 #include "tests/unit/visualiser/small_world.h"
 #include "visualiser/image/offscreen_context.h"
 #include "visualiser/scene/viewpoints.h"
@@ -112,7 +114,7 @@ SmallWorld ThreeRobots()
   return world;
 }
 
-Camera CloseView() { return Camera::LookAt({0.75, 0.22, 0.75}, {1.46, 1.5, 0.15}); }
+Camera CloseView() { return LookAt({0.75, 0.22, 0.75}, {1.46, 1.5, 0.15}); }
 
 TEST(GlScene, DrawsTheThreeRobots)
 {
@@ -199,7 +201,7 @@ TEST(GlScene, LedsShineInExactlyTheirColour)
   SmallWorld world({2, 2, 1});
   world.Add(EntityKind::kFootbot, "fb", {1, 1, 0}, 0);
   world.SetLeds("fb", 12, 0x12c4e7);
-  const Camera camera = Camera::LookAt({1.6, 1, 0.2}, {1, 1, 0.1});
+  const Camera camera = LookAt({1.6, 1, 0.2}, {1, 1, 0.1});
   DrawOptions options;
   options.samples = 0;
   const int lit = CountColour(DrawWorld(world, camera, {}, options), 0x12c4e7);
@@ -216,7 +218,7 @@ TEST(GlScene, ShadowsTexturesAndSmoothEdgesCanBeSwitchedOff)
 {
   SmallWorld world({2, 2, 1});
   world.AddBody(EntityKind::kBlock, "block", {1, 1, 0.3}, {0.3, 0.3, 0.6});
-  const Camera camera = Camera::LookAt({1, -1.5, 1.5}, {1, 1, 0.2});
+  const Camera camera = LookAt({1, -1.5, 1.5}, {1, 1, 0.2});
   const Picture full = DrawWorld(world, camera);
   DrawOptions options;
   options.shadows = false;
@@ -235,7 +237,7 @@ TEST(GlScene, MarksAreDrawnWhereAsked)
 {
   SmallWorld world({2, 2, 1});
   world.Add(EntityKind::kFootbot, "fb", {1, 1, 0}, 0);
-  const Camera camera = Camera::LookAt({1, -0.2, 0.8}, {1, 1, 0.1});
+  const Camera camera = LookAt({1, -0.2, 0.8}, {1, 1, 0.1});
   const Picture bare = DrawWorld(world, camera);
   const auto difference = [&](bool SceneOptions::*mark)
   {
@@ -258,7 +260,7 @@ TEST(GlScene, OfPatchesThatOverlapTheLaterOneIsOnTop)
     SmallWorld world({2, 2, 1});
     world.AddBody(EntityKind::kGroundPatch, "a", {1, 1, 0}, {1, 1, 0}, red_last ? 0x0000ff : 0xff0000);
     world.AddBody(EntityKind::kGroundPatch, "b", {1, 1, 0}, {1, 1, 0}, red_last ? 0xff0000 : 0x0000ff);
-    const Picture picture = DrawWorld(world, Camera::LookAt({1, -3, 1.5}, {1, 1, 0}));
+    const Picture picture = DrawWorld(world, LookAt({1, -3, 1.5}, {1, 1, 0}));
     int red = 0;
     int blue = 0;
     for (int y = 0; y < picture.height; ++y)
@@ -298,7 +300,7 @@ TEST(GlScene, WhatIsNotInTheArenaChangesNoPixel)
     SceneOptions options;
     options.ids = options.collision_models = options.rays = true;
     if (with_absent) options.selected = 3;
-    return DrawWorld(world, Camera::LookAt({1, -0.2, 0.8}, {1, 1, 0.1}), options);
+    return DrawWorld(world, LookAt({1, -0.2, 0.8}, {1, 1, 0.1}), options);
   };
   EXPECT_EQ(picture(true).pixels, picture(false).pixels);
 }
@@ -309,7 +311,7 @@ TEST(GlScene, AWallThatHidesTheArenaIsGlass)
   world.AddBody(EntityKind::kWall, "south", {1, 0, 0.5}, {2, 0.1, 1});
   world.Add(EntityKind::kFootbot, "fb", {1, 1, 0}, 0);
   world.SetLeds("fb", 12, 0xff0000);
-  const Camera outside = Camera::LookAt({1, -2, 0.5}, {1, 1, 0.1});
+  const Camera outside = LookAt({1, -2, 0.5}, {1, 1, 0.1});
   DrawOptions options;
   options.samples = 0;
   const auto red = [&](const Picture& picture)
@@ -336,8 +338,8 @@ TEST(GlScene, DrawsTenThousandRobotsWithFewTriangles)
   GlScene renderer;
   const PictureBuffer buffer(kWidth, kHeight);
   renderer.Draw(scene, DefaultView(world.GetExperiment(), 4.0 / 3), buffer.Framebuffer(), kWidth, kHeight, {});
-  EXPECT_GE(renderer.Statistics().instances, 20000U);
-  EXPECT_LT(renderer.Statistics().triangles, 1'300'000U);
+  EXPECT_GE(renderer.StatisticsForTest().instances, 20000U);
+  EXPECT_LT(renderer.StatisticsForTest().triangles, 1'300'000U);
 }
 
 }  // namespace

@@ -5,9 +5,10 @@
 #include <functional>
 
 #include "common/configuration/xml_reader.h"
+#include "tests/unit/visualiser/read_png.h"
 #include "tests/unit/visualiser/small_world.h"
+#include "tests/unit/visualiser/video_reader.h"
 #include "visualiser/scene/picture.h"
-#include "visualiser/scene/video_writer.h"
 #include "visualiser/visualiser.h"
 
 namespace swarmanoid
@@ -230,7 +231,7 @@ TEST_F(ImageRender, TwoOfThemShareAProcess)
 
 TEST_F(ImageRender, VideosRunInSimulatedTime)
 {
-  if (!VideoWriter::IsAvailable()) GTEST_SKIP() << "this build has no video";
+  if (!HasVideo()) GTEST_SKIP() << "this build has no video";
   // A tick is 0.1 s.
   Run("video=\"run.mp4\" every=\"2\" speed=\"2\"", 40);
   const VideoContents video = ReadVideo(Path("run.mp4"));
@@ -244,7 +245,7 @@ TEST_F(ImageRender, VideosRunInSimulatedTime)
 
 TEST_F(ImageRender, WebmHoldsThePicturesThatWereDrawn)
 {
-  if (!VideoWriter::IsAvailable()) GTEST_SKIP() << "this build has no video";
+  if (!HasVideo()) GTEST_SKIP() << "this build has no video";
   Run("video=\"run.webm\" directory=\"frames\"", 12);
   const VideoContents video = ReadVideo(Path("run.webm"));
   EXPECT_EQ(video.pictures, 13);
@@ -262,7 +263,7 @@ TEST_F(ImageRender, MistakesAreNamedWithTheirCure)
   EXPECT_THAT(ErrorOf("from=\"9\" to=\"3\""), HasSubstr("the later tick"));
   EXPECT_THAT(ErrorOf("", "<camera_view_XYZ_12>1,2,3</camera_view_XYZ_12>"), HasSubstr("0 to 9"));
   EXPECT_THAT(ErrorOf("", "<camera_view_HPR_1>1,2,3</camera_view_HPR_1>"), HasSubstr("add camera_view_XYZ_1"));
-  if (VideoWriter::IsAvailable())
+  if (HasVideo())
     EXPECT_THAT(ErrorOf("video=\"run.film\""), HasSubstr("must end in .mp4, .webm"));
   else
     EXPECT_THAT(ErrorOf("video=\"run.mp4\""), HasSubstr("install the packages libavcodec-dev"));

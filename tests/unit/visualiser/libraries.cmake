@@ -1,5 +1,6 @@
 find_package(nlohmann_json REQUIRED)
-target_link_libraries(unit_visualiser PRIVATE scene interaction nlohmann_json::nlohmann_json)
+find_package(PNG REQUIRED)
+target_link_libraries(unit_visualiser PRIVATE scene interaction nlohmann_json::nlohmann_json PNG::PNG)
 
 # swarmanoid_renderer_tests(LIBRARY RENDERER PATTERN) links LIBRARY and depends on RENDERER. If these are not part of the build, it
 # leaves out the tests in files that match PATTERN.
@@ -15,3 +16,14 @@ function(swarmanoid_renderer_tests library renderer pattern)
 endfunction()
 swarmanoid_renderer_tests(offscreen image_render "(gl_scene|image_render)_test.cpp$")
 swarmanoid_renderer_tests(figure figure_render "figure_render_test.cpp$")
+
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(LIBAV IMPORTED_TARGET libavformat libavcodec libavutil libswscale)
+get_target_property(SOURCES unit_visualiser SOURCES)
+if(LIBAV_FOUND)
+  list(FILTER SOURCES EXCLUDE REGEX "video_reader_missing.cpp$")
+  target_link_libraries(unit_visualiser PRIVATE PkgConfig::LIBAV)
+else()
+  list(FILTER SOURCES EXCLUDE REGEX "video_reader.cpp$")
+endif()
+set_target_properties(unit_visualiser PROPERTIES SOURCES "${SOURCES}")

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/visualiser/look_at.h"
 #include "tests/unit/visualiser/small_world.h"
 #include "visualiser/scene/scene.h"
 
@@ -25,7 +26,7 @@ SmallWorld TwoRobotsAndAWall()
 TEST(Picking, ClickOnAPixelMeetsTheEntityThatIsDrawnThere)
 {
   SmallWorld world = TwoRobotsAndAWall();
-  const Camera camera = Camera::LookAt({2.3, -2, 2}, {2, 2, 0});
+  const Camera camera = LookAt({2.3, -2, 2}, {2, 2, 0});
   for (const char* id : {"near", "far", "above"})
   {
     const CSwarmanoidSpaceEntity& entity = world[id];

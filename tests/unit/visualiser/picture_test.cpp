@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "tests/unit/visualiser/read_png.h"
+
 namespace swarmanoid
 {
 namespace

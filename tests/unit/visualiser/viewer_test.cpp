@@ -280,13 +280,12 @@ TEST_F(ViewerTest, KeysAndSelectionsGoToExperimentFunctionsUntilTheyAreTheWindow
 {
   Viewer& viewer = Make();
   viewer.Press({keys::kFunction + 8});
-  EXPECT_FALSE(viewer.GivesKeys());
   EXPECT_THAT(viewer.Messages().back().text, HasSubstr("no functions"));
   world_.GetExperiment().functions.emplace_back();
   viewer.Select(Index("fb_0"));
   EXPECT_THAT(control_.asked, IsEmpty());
   viewer.Press({keys::kFunction + 8});
-  EXPECT_TRUE(viewer.GivesKeys());
+  EXPECT_THAT(viewer.Messages().back().text, HasSubstr("go to the experiment functions"));
   viewer.Press({'I'});
   viewer.Press({'I'});  // it is held
   EXPECT_FALSE(viewer.shown.scene.ids) << "which is what it does in the window";
@@ -305,7 +304,7 @@ TEST_F(ViewerTest, KeysAndSelectionsGoToExperimentFunctionsUntilTheyAreTheWindow
   EXPECT_THAT(control_.asked, IsEmpty());
   Viewer& watcher = Make("", false);
   watcher.Press({keys::kFunction + 8});
-  EXPECT_FALSE(watcher.GivesKeys());
+  EXPECT_THAT(watcher.Messages().back().text, HasSubstr("may only watch"));
 }
 
 TEST_F(ViewerTest, FollowsNobodyOutOfTheArena)

@@ -8,7 +8,7 @@ extern "C"
 #include <array>
 #include <stdexcept>
 
-#include "visualiser/scene/video_writer.h"
+#include "tests/unit/visualiser/video_reader.h"
 
 namespace swarmanoid
 {
@@ -48,6 +48,8 @@ Picture PictureOf(const AVFrame& frame)
 }
 
 }  // namespace
+
+bool HasVideo() { return true; }
 
 VideoContents ReadVideo(const std::string& path)
 {

@@ -1,0 +1,26 @@
+// Reads videos, to compare them with what was drawn.
+#pragma once
+
+#include <string>
+
+#include "visualiser/scene/picture.h"
+
+namespace swarmanoid
+{
+
+// Whether this build has FFmpeg's libraries.
+bool HasVideo();
+
+struct VideoContents
+{
+  int width = 0;
+  int height = 0;
+  int pictures = 0;
+  double seconds = 0;  // from the first picture to the last one
+  std::string codec;
+  Picture first, last;
+};
+// Decodes the whole video. Throws std::runtime_error, naming the file.
+VideoContents ReadVideo(const std::string& path);
+
+}  // namespace swarmanoid
