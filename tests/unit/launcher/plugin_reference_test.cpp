@@ -1,5 +1,6 @@
 // docs/plugin_reference.md is generated from the tables of all plug-ins, those of the shipped controllers, kinds of
-// entities and experiment functions too; no engine, device or renderer is needed. After a change of one, write it again:
+// entities and experiment functions too; no engine, device or renderer is needed. After a change of one, write it
+// again:
 //   SWARMANOID_WRITE_REFERENCE=1 build/bin/tests/unit_launcher --gtest_filter='PluginReference.*'
 #include <gtest/gtest.h>
 
