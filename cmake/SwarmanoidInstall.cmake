@@ -34,9 +34,8 @@ configure_file(cmake/config.h.in ${CMAKE_BINARY_DIR}/config.h.in COPYONLY)
 # The IDL files are the messages of the ros2 drivers.
 install(DIRECTORY idl DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid COMPONENT dev)
 
-# These are the experiments, their schema, and the samples and templates that users copy.
+# These are the experiments, and the samples and templates that users copy.
 install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid)
-install(FILES docs/experiment.xsd DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid)
 foreach(folder controllers entities functions templates)
   install(DIRECTORY user/${folder} DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid/user
     USE_SOURCE_PERMISSIONS PATTERN ".clang-format" EXCLUDE)
@@ -50,6 +49,12 @@ foreach(program swarmanoid swarmanoid_robot)
     file(MAKE_DIRECTORY \"\${folder}\")
     execute_process(COMMAND \"$<TARGET_FILE:${program}>\" --man-pages \"\${folder}\" COMMAND_ERROR_IS_FATAL ANY)")
 endforeach()
+# The schema of experiment files comes from the tables of all plug-ins of the build. Plug-ins of the user are not among them.
+install(CODE "
+  set(folder \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/swarmanoid\")
+  file(MAKE_DIRECTORY \"\${folder}\")
+  execute_process(COMMAND \"${CMAKE_COMMAND}\" -E env --unset=SWARMANOID_PLUGIN_PATH \"$<TARGET_FILE:swarmanoid>\" list schema
+    WORKING_DIRECTORY \"${CMAKE_BINARY_DIR}\" OUTPUT_FILE \"\${folder}/experiment.xsd\" COMMAND_ERROR_IS_FATAL ANY)")
 install(FILES launcher/completion/swarmanoid.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME swarmanoid)
 install(FILES launcher/completion/_swarmanoid DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
 install(FILES launcher/completion/swarmanoid.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)

@@ -21,7 +21,7 @@ set(CPACK_DEBIAN_DOC_PACKAGE_NAME swarmanoid-doc)
 # still run.
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "fonts-dejavu-core, libegl1, libgl1-mesa-dri, openssh-client, python3-matplotlib")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "fonts-dejavu-core, libegl1, libgl1-mesa-dri, openssh-client, python3-matplotlib, python3-scipy")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "swarmanoid-dev, swarmanoid-doc")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${CMAKE_SOURCE_DIR}/cmake/packages/triggers)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)

@@ -350,10 +350,8 @@ std::string NoteAboutControllerHosts(unsigned asked, std::size_t robots, std::si
     return fmt::format("note: --controller-hosts is {}, and {} robot{} a controller: {} controller host{} started",
                        asked, robots, robots == 1 ? " has" : "s have", made, made == 1 ? " is" : "s are");
   if (cores > 0 && made > kHostsOfACore * cores)
-    return fmt::format(
-        "note: --controller-hosts is {}, and {} core{} there for them: fewer start and run faster; "
-        "--controller-hosts auto finds how many pay",
-        asked, cores, cores == 1 ? " is" : "s are");
+    return fmt::format("note: --controller-hosts is {}, and {} core{} there for them: fewer start and run faster",
+                       asked, cores, cores == 1 ? " is" : "s are");
   return "";
 }
 

@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <csignal>
-#include <fstream>
 #include <optional>
 #include <string_view>
 #include <thread>
@@ -37,8 +35,6 @@ namespace swarmanoid
 {
 namespace
 {
-
-constexpr unsigned kHostsByMeasurement = 0;  // --controller-hosts auto
 
 void Complain(const ClusterOutcome& outcome)
 {
@@ -116,28 +112,6 @@ unsigned HostsOf(const RunSettings& options, const RunFolder& folder, const Atte
                                                               : options.controller_hosts;
 }
 
-// Of --controller-hosts auto. `cores`: that the processes are bound to; empty: all.
-unsigned MostHosts(const Experiment& experiment, const std::vector<int>& cores)
-{
-  double load = 0;  // of the last minute, in processes
-  std::ifstream("/proc/loadavg") >> load;
-  const auto all = static_cast<double>(cores.empty() ? AvailableCores().size() : cores.size());
-  const auto robots = std::count_if(experiment.entities.begin(), experiment.entities.end(),
-                                    [](const EntityConfiguration& entity) { return !entity.controller.empty(); });
-  return static_cast<unsigned>(std::clamp(std::min(all - std::round(load), static_cast<double>(robots)), 1.0, 1000.0));
-}
-
-void RequireMeasurable(const RunSettings& options, const Hosts& hosts, bool watched)
-{
-  const char* const why = watched || !hosts.HostOf("space_server", "").empty()
-                              ? "its space server cannot: it is this process, or on another machine"
-                          : !options.Replaces() ? "nobody starts again with --no-recovery, --no-journal or --retries 0"
-                                                : nullptr;
-  if (why == nullptr) return;
-  throw UsageError(fmt::format(
-      "--controller-hosts auto: to try another number, all processes start again, and {}; give a number", why));
-}
-
 void Isolate(const RunSettings& options, const Experiment& experiment, const Hosts& hosts, bool watched)
 {
   if (!hosts.AllHere()) throw UsageError("--isolated: the run has processes on other machines");
@@ -203,7 +177,6 @@ RunResult RunCluster(const RunSettings& options, const Experiment& experiment, c
   for (const std::string& setting : options.engine_hosts) hosts.AddEngine(setting);
   if (watch && !hosts.HostOf("space_server", "").empty())
     throw UsageError("--hosts: the space server is this process, which looks at each tick; leave space_server out");
-  if (options.controller_hosts == kHostsByMeasurement) RequireMeasurable(options, hosts, watch != nullptr);
   RemoveDeadRuns();
   if (options.isolated) Isolate(options, experiment, hosts, watch != nullptr);
 
@@ -260,14 +233,6 @@ RunResult RunCluster(const RunSettings& options, const Experiment& experiment, c
               manifest.processes.push_back(process);
           return others;
         });
-    if (options.controller_hosts == kHostsByMeasurement && attendance.go_on.incarnation == 0)
-    {
-      const HostChoice choice(MostHosts(experiment, plans.front().command.cores));
-      if (choice.IsOver())
-        display.Note(choice.Text());
-      else
-        supervisor.SetHostChoice(choice);
-    }
     outcome = supervisor.Run(plans, attendance.go_on);
   }
   if (attendance.console != nullptr) attendance.console->SetOnChange({});

@@ -89,8 +89,6 @@ public:
   // The run ends at `tick` already, because a visualiser of it asked.
   void Stopped(std::uint64_t tick, const std::string& who);
   bool Paused() const { return paused_ && !stop_; }
-  // Whether hosts may be asked for.
-  bool MayShareOut() const { return share_out_ && places_.ServerMayStartAgain(); }
   double Speed() const { return real_time_factor_; }
   // "stopped by <who>", empty unless somebody asked for the end.
   const std::string& WhyStopped() const { return why_stopped_; }

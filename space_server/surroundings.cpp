@@ -184,24 +184,6 @@ void Surroundings::AddAttributes(const SpaceState& state)
   for (const std::uint32_t slot : changes.slots) changes.values.push_back(space_.Attributes()[slot]);
 }
 
-std::size_t ToldTogether(const CSwarmanoidSpace& space, const PoseArrays& poses, std::span<const HostLayout> hosts,
-                         double reach_m)
-{
-  const PlaneCells<double> cells = CellsOver(space, poses, reach_m);
-  std::vector<std::size_t> inhabitants(cells.Count());
-  for (const std::uint32_t entity : space.Movable()) ++inhabitants[cells.CellOf(poses.x[entity], poses.y[entity])];
-  std::size_t told = 0;
-  std::vector<char> is_near;
-  for (const HostLayout& host : hosts)
-  {
-    is_near.assign(cells.Count(), 0);
-    MarkNear(cells, host.robots, poses, is_near);
-    for (std::size_t cell = 0; cell < is_near.size(); ++cell)
-      if (is_near[cell] != 0) told += inhabitants[cell];
-  }
-  return told;
-}
-
 EngineNews::EngineNews(const CSwarmanoidSpace& space, std::span<const std::uint32_t> owned)
     : space_(space), owned_(owned), told_poses_(space)
 {

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "common/math/cells.h"
-#include "common/messages/assignment.h"
 #include "common/messages/messages.h"
 #include "common/space/pose_arrays.h"
 
@@ -60,11 +59,6 @@ private:
   std::vector<std::uint32_t> entered_;  // whom the message before had not
   LocalState part_;
 };
-
-// How many entities that can move hosts with these robots are told of, all hosts together, if they are so far-reaching.
-// `poses`: where all are.
-std::size_t ToldTogether(const CSwarmanoidSpace& space, const PoseArrays& poses, std::span<const HostLayout> hosts,
-                         double reach_m);
 
 // What an engine is told likewise: the state without the poses of those that it has moved itself.
 class EngineNews

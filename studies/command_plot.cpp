@@ -86,11 +86,12 @@ int Run(const std::vector<std::string>& words)
   return WIFEXITED(status) ? WEXITSTATUS(status) : kExitProcessFailed;
 }
 
-bool CanImport(const std::string& python, const std::string& module)
+bool CanDraw(const std::string& python)
 {
   try
   {
-    return Run({python, "-c", "import importlib.util as u, sys; sys.exit(u.find_spec('" + module + "') is None)"}) == 0;
+    return Run({python, "-c",
+                "import importlib.util as u, sys; sys.exit(None in map(u.find_spec, ('matplotlib', 'scipy')))"}) == 0;
   }
   catch (const std::runtime_error&)
   {
@@ -111,10 +112,11 @@ int Plot(const PlotOptions& options)
   // The first one on the path need not be Debian's.
   std::string python;
   for (const char* candidate : {"python3", "/usr/bin/python3"})
-    if (python.empty() && CanImport(candidate, "matplotlib")) python = candidate;
+    if (python.empty() && CanDraw(candidate)) python = candidate;
   if (python.empty())
     throw UsageError(
-        "plot: pictures are drawn by matplotlib, which is not here; as root: apt-get install python3-matplotlib");
+        "plot: pictures are drawn by matplotlib and scipy, which are not both here; as root: apt-get install "
+        "python3-matplotlib python3-scipy");
   const std::string script =
       (std::filesystem::path(UserFilesFolder()).parent_path() / "studies" / "plot_study.py").string();
   // Values may begin with a dash.
@@ -135,7 +137,7 @@ void AddPlotCommand(CLI::App& app, int& exit_code)
   CLI::App* verb = app.add_subcommand("plot", "Draw pictures of a study, and a report with all of them");
   AddOptions(*verb, PlotOptionTable(*options));
   verb->footer(
-      "It needs python3-matplotlib. A study that goes on can be drawn, too.\n"
+      "It needs python3-matplotlib and python3-scipy. A study that goes on can be drawn, too.\n"
       "Examples:\n"
       "  swarmanoid plot results/aggregation\n"
       "  swarmanoid plot results/aggregation --metric dispersion --format png --output figures");

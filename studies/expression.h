@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -14,6 +13,8 @@ namespace swarmanoid
 {
 
 using ExpressionValue = std::variant<double, std::string>;
+// The value of a name, by its place among the names of the expression.
+using NamedValues = std::function<ExpressionValue(std::size_t name)>;
 
 // The text is no expression, or its values do not fit. what() says what is wrong and what would do.
 class ExpressionError : public std::runtime_error
@@ -25,20 +26,16 @@ public:
 class Expression
 {
 public:
-  // Numbers, 'texts', names; or, and, not; < <= > >= == !=; + - * / %; parentheses. Of `names` all that stand in it are
-  // known. Throws ExpressionError.
+  // Numbers, 'texts', `names`; or, and, not; < <= > >= == !=; + - * / %; parentheses. Throws ExpressionError.
   Expression(std::string_view text, const std::vector<std::string>& names);
-  ~Expression();
-  Expression(Expression&&) noexcept;
 
-  // `value_of`: of a name, by its place in `names`. Throws ExpressionError if a text is computed with, or compared with
-  // a number by order.
-  bool Holds(const std::function<ExpressionValue(std::size_t name)>& value_of) const;
+  // Throws ExpressionError if a text is computed with, or compared with a number by order.
+  bool Holds(const NamedValues& value_of) const;
 
-  struct Node;
+  using Term = std::function<ExpressionValue(const NamedValues&)>;
 
 private:
-  std::unique_ptr<Node> root_;
+  Term condition_;
 };
 
 }  // namespace swarmanoid

@@ -7,8 +7,7 @@
 namespace swarmanoid
 {
 
-// Student's t of 97.5 % for a number of degrees of freedom, from 1 on: Hill, algorithm 396, Communications of the ACM
-// 13 (1970), https://doi.org/10.1145/355598.355600; within 0.001.
+// Student's t of 97.5 % for a number of degrees of freedom, from 1 on.
 double StudentsT(std::size_t freedom);
 
 struct MeanInterval

@@ -11,8 +11,8 @@ namespace swarmanoid
 // docs/experiment_reference.md: every element and parameter but those of plug-ins.
 std::string ExperimentReference();
 
-// docs/experiment.xsd: the same as an XML schema, for editors, with the registered plug-ins and their parameters.
-// Elements of other plug-ins may hold anything in it.
+// The same as an XML schema, for editors, with the registered plug-ins and their parameters. `swarmanoid list schema`
+// prints it. Elements of other plug-ins may hold anything in it.
 std::string ExperimentXsd();
 
 // docs/plugin_reference.md: the registered plug-ins of all kinds: labels, robots, channels, parameters.

@@ -1,5 +1,5 @@
 // The table of experiment files: every element and parameter, declared once. The reader, the defaults, the error
-// messages, docs/experiment_reference.md and docs/experiment.xsd all come from it. Plug-ins bring tables of their own.
+// messages, docs/experiment_reference.md and the XML schema all come from it. Plug-ins bring tables of their own.
 #pragma once
 
 #include <optional>

@@ -61,18 +61,9 @@ void Store(const OptionTarget& target, const std::string& text)
              target);
 }
 
-// A number may also be given by a word: the first of its choices stands for 0.
-bool IsWordForZero(const OptionSpec& option, const std::string& text)
-{
-  const std::vector<std::string>& words = option.value.choices;
-  return option.value.type == ParameterType::kInteger && !words.empty() && text == words.front();
-}
-
 std::string TypeText(const OptionSpec& option)
 {
   if (!option.form.empty()) return option.form;
-  if (option.value.type == ParameterType::kInteger && !option.value.choices.empty())
-    return "N|" + option.value.choices.front();
   if (!option.value.choices.empty()) return fmt::format("{}", fmt::join(option.value.choices, "|"));
   if (option.value.type == ParameterType::kPath) return "FILE";
   if (!option.value.unit.empty()) return option.value.unit;
@@ -112,7 +103,7 @@ void AddValue(CLI::App& app, const OptionSpec& option)
     {
       const std::string mistake = MistakeIn(option, text);
       if (!mistake.empty()) throw UsageError(mistake);
-      Store(option.target, IsWordForZero(option, text) ? "0" : text);
+      Store(option.target, text);
     }
     return true;
   };
@@ -156,10 +147,7 @@ void AddOptions(CLI::App& app, const std::vector<OptionSpec>& options)
 
 std::string MistakeIn(const OptionSpec& option, const std::string& text)
 {
-  if (IsWordForZero(option, text)) return {};
-  ParameterSpec value = option.value;
-  if (value.type == ParameterType::kInteger) value.choices.clear();
-  std::string mistake = MistakeIn(value, text, NameOf(option));
+  std::string mistake = MistakeIn(option.value, text, NameOf(option));
   if (mistake.empty() && option.mistake)
     if (const std::string wrong = option.mistake(text); !wrong.empty())
       mistake = fmt::format("{} is {}; {}", NameOf(option), Quoted(text), wrong);
@@ -184,11 +172,7 @@ std::vector<std::string> WordsOf(const std::vector<OptionSpec>& options, const s
       Append(words, option, fmt::format("{}", fmt::join(texts, ",")));
       continue;
     }
-    for (const std::string& text : texts)
-    {
-      const bool by_word = text == "0" && option.value.type == ParameterType::kInteger && !option.value.choices.empty();
-      Append(words, option, by_word ? option.value.choices.front() : text);
-    }
+    for (const std::string& text : texts) Append(words, option, text);
   }
   return words;
 }

@@ -55,13 +55,6 @@ ParameterSpec Flag(const std::string& name, const std::string& description)
   return {.name = name, .type = kBoolean, .description = description};
 }
 
-// Takes a word as well, which stands for 0.
-ParameterSpec ByWord(const std::string& word, ParameterSpec number)
-{
-  number.choices = {word};
-  return number;
-}
-
 ParameterSpec Whole(const std::string& name, const std::string& description, double minimum, double maximum)
 {
   return {.name = name, .type = kInteger, .description = description, .minimum = minimum, .maximum = maximum};
@@ -278,11 +271,7 @@ std::vector<RunOption> Table(RunSettings& s)
               0, 64),
         &s.threads, "2"},
        For::kLauncher},
-      {{ByWord("auto", Whole("controller-hosts",
-                             "Processes that share the robots' controllers; auto: the first seconds are measured, and "
-                             "there are as many as pay",
-                             1, 1000)),
-        &s.controller_hosts, "2"},
+      {{Whole("controller-hosts", "Processes that share the robots' controllers", 1, 1000), &s.controller_hosts, "2"},
        For::kServer},
       {{Text("engine-host", "Run an engine on another machine"), &s.engine_hosts, "ground=alpha", "ENGINE=HOST",
         EngineHostMistake},

@@ -160,7 +160,6 @@ void Supervisor::TakeStatus(const ServerStatus& status)
         break;
       case ServerState::kPaused:
         progress_.phase = "paused";
-        if (choice_) choice_->Disturbed();
         break;
     }
   }
@@ -170,7 +169,6 @@ void Supervisor::TakeStatus(const ServerStatus& status)
     progress_.tick = tick->tick;
     progress_.max = tick->max;
     progress_.real_time_factor = tick->real_time_factor;
-    ChooseHosts();
   }
   else if (const auto* stall = std::get_if<ServerStall>(&status))
   {
@@ -203,7 +201,6 @@ void Supervisor::TakeStatus(const ServerStatus& status)
   }
   else if (const auto* hosts = std::get_if<ServerHosts>(&status))
   {
-    choice_.reset();
     std::istringstream words(hosts->machines);
     ShareOut({std::istream_iterator<std::string>(words), {}});
   }

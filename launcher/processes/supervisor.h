@@ -17,7 +17,6 @@
 #include "common/run/server_status.h"
 #include "launcher/processes/attribution.h"
 #include "launcher/processes/cluster_member.h"
-#include "launcher/processes/host_choice.h"
 #include "launcher/processes/interrupts.h"
 #include "launcher/processes/progress_display.h"
 
@@ -77,8 +76,6 @@ public:
   // The processes of the run with another number of controller hosts, for users who ask for it.
   using PlanAgain = std::function<std::vector<MemberPlan>(unsigned controller_hosts)>;
   void SetPlanAgain(PlanAgain plan_again) { plan_again_ = std::move(plan_again); }
-  // Finds out how many there are to be.
-  void SetHostChoice(const HostChoice& choice) { choice_ = choice; }
   // The first plan is the space server's.
   ClusterOutcome Run(const std::vector<MemberPlan>& plans, const GoOn& go_on = {0, 0});
   // Of all processes that were started; for what they leave behind.
@@ -117,7 +114,6 @@ private:
   void Move(const ServerMove& move);
   // Ends all, to start them again with other controller hosts.
   void ShareOut(const std::vector<std::string>& machines);
-  void ChooseHosts();
   // Whether the member died on its way to another place, which the run waits for.
   bool IsOnItsWay(const ClusterMember& member) const;
   void KillStopped();
@@ -168,7 +164,6 @@ private:
   std::map<pid_t, Clock::time_point> stopped_;  // since when
   std::vector<pid_t> pids_;
   PlanAgain plan_again_;
-  std::optional<HostChoice> choice_;    // until it has decided
   std::vector<MemberPlan> next_plans_;  // if others than now are to start again
   Phase phase_ = Phase::kRunning;
   ClusterOutcome outcome_;

@@ -101,7 +101,6 @@ bool Supervisor::Restart(const ClusterMember& first, Evidence evidence)
 
 void Supervisor::KillToStartAgain()
 {
-  if (choice_) choice_->Disturbed();
   kills_for_memory_ = KernelKillsForMemory();
   phase_ = Phase::kRestarting;
   outcome_.kind = ClusterOutcome::kInterrupted;
@@ -168,24 +167,6 @@ void Supervisor::Move(const ServerMove& move)
     moves_[move.name] = move.machine == kLocalMachine ? "" : move.machine;
     spawner_.Signal(member->Process(), SIGKILL);
   }
-}
-
-void Supervisor::ChooseHosts()
-{
-  if (!choice_ || phase_ != Phase::kRunning) return;
-  if (progress_.phase != "running") return choice_->Disturbed();
-  const auto hosts = choice_->Take(progress_.tick, now_());
-  if (choice_->IsOver())
-  {
-    display_.Note(choice_->Text());
-    choice_.reset();
-  }
-  if (!hosts) return;
-  std::vector<std::string> machines;
-  for (const auto& member : members_)
-    if (member->Plan().may_fail) machines.push_back(member->Plan().host.empty() ? kLocalMachine : member->Plan().host);
-  machines.resize(*hosts, kLocalMachine);
-  ShareOut(machines);
 }
 
 void Supervisor::ShareOut(const std::vector<std::string>& machines)

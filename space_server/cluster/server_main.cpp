@@ -14,7 +14,6 @@
 #include "common/configuration/output_file.h"
 #include "common/experiment/load_experiment.h"
 #include "common/program/trust_flag.h"
-#include "common/program/usage_error.h"
 
 namespace swarmanoid
 {
@@ -72,9 +71,6 @@ void AddServerOptions(CLI::App& app, ServerOptions& options)
 
 int Serve(const ServerOptions& options)
 {
-  if (options.controller_hosts == 0)
-    throw UsageError(
-        "--controller-hosts auto: who starts the processes can find out, as `swarmanoid run`; give a number");
   // All that the program refers to, which may have to outlive a run that failed.
   struct Server
   {

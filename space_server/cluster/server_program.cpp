@@ -114,12 +114,6 @@ void ServerProgram::CheckFailures()
   throw BusError("a process died, or was stopped, while it held shared memory of the run");
 }
 
-void ServerProgram::AdviseUser()
-{
-  if (!run_control_.MayShareOut()) return;
-  if (const auto advice = advice_.Take(Clock::now())) status_.Publish(ServerWarning{*advice});
-}
-
 void ServerProgram::HelpReplacements()
 {
   for (const std::string& name : session_.TakeLost()) status_.Publish(ServerLost{name});
@@ -213,7 +207,6 @@ void ServerProgram::RunTicks()
     }
     checkpoints_.Work();
     ReportProgress();
-    AdviseUser();
     PublishViews();
     if (!lockstep_.Finished() && !lockstep_.Failure()) Sleep(std::min(next, views_.Next()));
   }

@@ -20,7 +20,6 @@
 #include "common/run/run_settings.h"
 #include "space_server/cluster/checkpoint_writer.h"
 #include "space_server/cluster/continuation.h"
-#include "space_server/cluster/host_advice.h"
 #include "space_server/cluster/lockstep.h"
 #include "space_server/cluster/recovery_service.h"
 #include "space_server/cluster/view_publisher.h"
@@ -98,7 +97,6 @@ private:
   void CheckFailures();
   // Those who take the places of others get the journal; the state goes out again for them.
   void HelpReplacements();
-  void AdviseUser();
   void Say(const std::string& text) const;
   // Until all processes of the run are there.
   void Collect();
@@ -143,7 +141,6 @@ private:
   CheckpointWriter checkpoints_;
   Lockstep lockstep_;
   RecoveryService recoveries_;
-  HostAdvice advice_;
 
   Clock::time_point start_;
   Clock::time_point end_;

@@ -102,8 +102,7 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
                    [this] { Wake(); }),
       lockstep_(session_, server_, assignment_, options.visualisations, options.hash_log, options.watch, checkpoints_,
                 Journal(), continuation_ ? &*continuation_ : nullptr, [this] { Wake(); }),
-      recoveries_(session_, lockstep_, server_.Space(), assignment_, Journal()),
-      advice_(session_, lockstep_, experiment, assignment_)
+      recoveries_(session_, lockstep_, server_.Space(), assignment_, Journal())
 {
   if (options.awaits_replacements && journal_) session_.AwaitReplacements();
   if (continuation_)

@@ -27,7 +27,6 @@ class CommandLine(OutsideTest):
             self.refused(*program, file, "--set", "framework.seed", says="PATH=VALUE")
             self.refused(*program, file, "--restore", "/dev/zero", says="a device")
             self.refused(*program, file, "--journal-budget", "plenty", says=["--journal-budget is 'plenty'", "a number of bytes"])
-        self.refused("space_server", file, "--controller-hosts", "auto", says=["--controller-hosts auto", "give a number"])
         self.refused("swarmanoid", "run", file, "--controller-hosts", "many", says=["--controller-hosts is 'many'", "a whole number"])
         self.refused("swarmanoid", "run", "--branch", "runs/first", says=["--branch is 'runs/first'", "RUN@TICK", "for example"])
         self.refused("swarmanoid", "run", says="name an experiment file, or a run to branch off with --branch RUN@TICK")

@@ -115,6 +115,16 @@ class Parameters(OutsideTest):
             done = self.command("/usr/bin/xmllint", "--noout", "--schema", schema, self.walker(parameters))
             self.assertEqual(done.returncode == 0, right, done.stderr)
 
+    def test_the_installed_schema_is_the_printed_one_and_samples_fit_it(self):
+        shared = PREFIX / "share" / "swarmanoid"
+        installed = shared / "experiment.xsd"
+        self.assertEqual(installed.read_text(), self.command("swarmanoid", "list", "schema").stdout)
+        # The others have kinds of robots of their own.
+        samples = [file for file in (shared / "configs").glob("*.xml") if file.stem not in ("meshes", "stones", "urdf_rover")]
+        self.assertGreater(len(samples), 20)
+        done = self.command("/usr/bin/xmllint", "--noout", "--schema", installed, *samples)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
 
 class Robot(OutsideTest):
     def test_the_program_of_the_robot_reads_them_likewise(self):

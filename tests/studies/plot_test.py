@@ -16,8 +16,8 @@ SWARMANOID = os.environ["SWARMANOID"]
 CONFIGS = pathlib.Path(os.environ["SWARMANOID_CONFIGS"])
 SCRIPT = CONFIGS.parent / "studies" / "plot" / "plot_study.py"
 
-if importlib.util.find_spec("matplotlib") is None:
-    # The first Python on the path need not be Debian's, which has it.
+if None in map(importlib.util.find_spec, ("matplotlib", "scipy")):
+    # The first Python on the path need not be Debian's, which has both.
     if sys.executable != "/usr/bin/python3" and os.path.exists("/usr/bin/python3"):
         os.execv("/usr/bin/python3", ["/usr/bin/python3", *sys.argv])
     sys.exit(77)
@@ -27,7 +27,7 @@ sys.path.insert(0, str(SCRIPT.parent))
 specification = importlib.util.spec_from_file_location("plot_study", SCRIPT)
 plot_study = importlib.util.module_from_spec(specification)
 specification.loader.exec_module(plot_study)
-plot_search, study_style = sys.modules["plot_search"], sys.modules["study_style"]
+plot_search = sys.modules["plot_search"]
 
 
 class Statistics(unittest.TestCase):
@@ -43,6 +43,8 @@ class Statistics(unittest.TestCase):
         self.assertAlmostEqual(plot_study.wilcoxon([-1, -2, -3])[1], -1)
 
     def test_many_pairs_are_near_the_normal_limit(self):
+        # Four of equal size have the rank 2.5. Three above: a sum of 7.5, the mean is 5, the variance 4 · 5 · 9 / 24 - (4³ - 4) / 48.
+        self.assertAlmostEqual(plot_study.wilcoxon([2, 2, 2, -2])[0], math.erfc((7.5 - 5 - 0.5) / math.sqrt(7.5 - 1.25) / math.sqrt(2)))
         # 51 pairs whose signs alternate are no evidence; 51 with one sign are.
         self.assertGreater(plot_study.wilcoxon([(k + 1) * (-1) ** k for k in range(51)])[0], 0.5)
         self.assertLess(plot_study.wilcoxon([k + 1 for k in range(51)])[0], 1e-9)
@@ -50,10 +52,12 @@ class Statistics(unittest.TestCase):
     def test_bands_are_those_of_student(self):
         # Student's t of 97.5 %: the closed forms of 1 and 2, tables for others.
         for freedom, quantile in ((1, math.tan(0.475 * math.pi)), (2, 0.95 * math.sqrt(2 / (1 - 0.95**2))), (4, 2.776), (9, 2.262), (29, 2.045)):
-            self.assertAlmostEqual(study_style.t_quantile(freedom), quantile, delta=0.001)
-        mean, half = plot_study.mean_and_band([1.0, 3.0])
-        self.assertAlmostEqual(mean, 2)
-        self.assertAlmostEqual(half, study_style.t_quantile(1))
+            # Half of the values are 1 above their mean, half 1 below, or one is at it: the standard error is known.
+            values = [-1.0, 1.0] * ((freedom + 1) // 2) + [0.0] * ((freedom + 1) % 2)
+            error = math.sqrt(sum(v * v for v in values) / freedom / (freedom + 1))
+            mean, half = plot_study.mean_and_band(values)
+            self.assertAlmostEqual(mean, 0)
+            self.assertAlmostEqual(half / error, quantile, delta=0.0005)
         self.assertEqual(plot_study.mean_and_band([5.0]), (5.0, 0.0))
 
 

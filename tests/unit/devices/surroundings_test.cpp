@@ -219,29 +219,6 @@ INSTANTIATE_TEST_SUITE_P(
                     Sensor{"positioning", "generic_positioning"}),
     [](const auto& of) { return of.param.type; });
 
-TEST(ToldTogether, GrowsWithRobotsThatMix)
-{
-  std::mt19937 random(7);
-  const Experiment experiment = Swarm({"footbot_proximity", "generic_footbot_proximity"}, random);
-  const CSwarmanoidSpace space(experiment);
-  const auto told = [&](const HostTable& table, double reach)
-  { return ToldTogether(space, space.Poses(), MakeAssignment(experiment, table).hosts, reach); };
-  HostTable mixed{kHosts, {}};
-  const HostTable near = DealRobots(experiment, kHosts);
-  for (std::uint32_t k = 0; k < near.of_robots.size(); ++k) mixed.of_robots.push_back(k % kHosts);
-  EXPECT_LT(told(near, 3), told(mixed, 3) * 2 / 3);
-  EXPECT_EQ(told(near, 1000), kHosts * kRobots);
-  EXPECT_EQ(told(DealRobots(experiment, 1), 1000), kRobots);
-  // As a host is told.
-  SpaceState state;
-  space.WritePoses(state.poses);
-  std::size_t counted = 0;
-  const Assignment assignment = MakeAssignment(experiment, near);
-  for (const HostLayout& host : assignment.hosts)
-    counted += Surroundings(space, host.robots, 3).Part(state).entities.size();
-  EXPECT_EQ(told(near, 3), counted);
-}
-
 // Nobody may be left out for them.
 TEST(Reach, OfLightAndSoundIsWithoutEnd)
 {

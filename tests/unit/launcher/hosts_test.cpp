@@ -143,12 +143,10 @@ TEST(ControllerHosts, MoreThanPayAreNoted)
   EXPECT_EQ(NoteAboutControllerHosts(2, 1, 2),
             "note: --controller-hosts is 2, and 1 robot has a controller: 1 controller host is started");
   EXPECT_EQ(NoteAboutControllerHosts(17, 1000, 2),
-            "note: --controller-hosts is 17, and 2 cores are there for them: fewer start and run faster; "
-            "--controller-hosts auto finds how many pay");
+            "note: --controller-hosts is 17, and 2 cores are there for them: fewer start and run faster");
   EXPECT_EQ(NoteAboutControllerHosts(16, 1000, 2), "");
   EXPECT_EQ(NoteAboutControllerHosts(17, 1000, 0), "") << "other machines have cores, too";
   EXPECT_EQ(NoteAboutControllerHosts(1, 0, 2), "") << "one host is always there";
-  EXPECT_EQ(NoteAboutControllerHosts(0, 10, 2), "") << "auto";
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ TEST(StudyExpression, BindsAsInArithmetic)
   EXPECT_TRUE(Holds("robots - 2 - 3 == 5")) << "from the left";
   EXPECT_TRUE(Holds("2 + 3 * 4 == 14"));
   EXPECT_TRUE(Holds("(2 + 3) * 4 == 20"));
-  EXPECT_TRUE(Holds("-robots < -9.5 and 7 % 4 == 3"));
+  EXPECT_TRUE(Holds("-robots < -9.5 and 7 % 4 == 3 and -7 % 4 == -3"));
   EXPECT_TRUE(Holds("1e-3 * 1000 == 1 and robots/4 == 2.5"));
 }
 
@@ -53,7 +53,8 @@ TEST(StudyExpression, CombinesConditions)
   EXPECT_TRUE(Holds("robots > 50 or speed == 0.5"));
   EXPECT_FALSE(Holds("robots > 50 and speed == 0.5"));
   EXPECT_TRUE(Holds("robots > 50 and speed == 0 or robots == 10")) << "and binds tighter than or";
-  EXPECT_TRUE(Holds("not robots == 11"));
+  EXPECT_TRUE(Holds("not robots == 11")) << "not binds weaker than a comparison";
+  EXPECT_TRUE(Holds("not robots % 5 and robots % 3")) << "0 is false, other numbers are true";
   EXPECT_FALSE(Holds("not (robots == 10 and rule == 'still')"));
   EXPECT_TRUE(Holds("rule != 'moving'"));
 }

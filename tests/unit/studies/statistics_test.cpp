@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "common/math/elementary.h"
+
 namespace swarmanoid
 {
 namespace
@@ -12,12 +14,12 @@ namespace
 
 TEST(StudyStatistics, StudentsTIsThatOfTables)
 {
-  // With one and two degrees of freedom it is elementary; the others stand in any table of two-sided 5 %.
-  EXPECT_NEAR(StudentsT(1), 12.706, 1e-3);
-  EXPECT_NEAR(StudentsT(2), 4.3027, 1e-4);
+  // With one and two degrees of freedom there are closed forms. The others stand in any table of two-sided 5 %.
+  EXPECT_NEAR(StudentsT(1), std::tan(0.475 * kPi), 1e-9);
+  EXPECT_NEAR(StudentsT(2), 0.95 * std::sqrt(2 / (1 - 0.95 * 0.95)), 1e-9);
   for (const auto& [freedom, quantile] : {std::pair{3, 3.1824}, {4, 2.7764}, {9, 2.2622}, {29, 2.0452}, {100, 1.9840}})
     EXPECT_NEAR(StudentsT(static_cast<std::size_t>(freedom)), quantile, 1e-4) << freedom;
-  EXPECT_NEAR(StudentsT(1'000'000), 1.95996, 1e-4);
+  EXPECT_NEAR(StudentsT(1'000'000), 1.95996, 1e-5);
 }
 
 TEST(StudyStatistics, AnIntervalIsTTimesTheStandardError)
