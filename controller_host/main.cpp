@@ -252,9 +252,7 @@ int main(int count, char** arguments)
       "Examples:\n"
       "  controller_host                                host 0 of the experiment that runs on this machine\n"
       "  controller_host --host 1 --experiment diffusion_10 --domain 7\n"
-      "  controller_host --host 1 --interface eth0          space server on another machine\n"
-      "  controller_host --offer beta --domain 46           offers this machine to a run of `swarmanoid run`\n"
-      "  controller_host --offer beta --domain 46 --interface eth0 --key run.key      … of another machine",
+      "  controller_host --host 1 --interface eth0          space server on another machine",
       []
       {
         DescribeBuiltins();
@@ -262,5 +260,5 @@ int main(int count, char** arguments)
       },
       true,
       true};
-  return RunMovableWorker(program, count, arguments, HostOptionTable, Run);
+  return RunWorker(program, count, arguments, HostOptionTable, Run);
 }

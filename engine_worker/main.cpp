@@ -334,9 +334,7 @@ int main(int count, char** arguments)
       "  engine_worker --engine ground                              the experiment that runs on this machine\n"
       "  engine_worker --engine ground --experiment diffusion_10 --domain 7\n"
       "  engine_worker --engine ground --region 1                   one region of an engine that is split\n"
-      "  engine_worker --engine ground --interface eth0             space server on another machine\n"
-      "  engine_worker --offer beta --domain 46                     offers this machine to a run of `swarmanoid run`\n"
-      "  engine_worker --offer beta --domain 46 --interface eth0 --key run.key        … of another machine",
+      "  engine_worker --engine ground --interface eth0             space server on another machine",
       []
       {
         DescribeBuiltins();
@@ -344,5 +342,5 @@ int main(int count, char** arguments)
       },
       true,
       true};
-  return RunMovableWorker(program, count, arguments, EngineOptionTable, Run);
+  return RunWorker(program, count, arguments, EngineOptionTable, Run);
 }

@@ -123,10 +123,7 @@ struct CommandMaker
     command.arguments.insert(command.arguments.end(), hosts.Options().begin(), hosts.Options().end());
     command.environment = EnvironmentOf(limits);
     command.input = key;
-    // The run has others only if somebody offers them: a process here stands for the worker.
-    const bool is_offered = !host.empty() && !hosts.Names(host);
-    if (is_offered) command.arguments.insert(command.arguments.end(), {"--through", host});
-    ProcessCommand placed = hosts.Placed(command, is_offered ? "" : host);
+    ProcessCommand placed = hosts.Placed(command, host);
     placed.cores = cores;
     return placed;
   }

@@ -200,12 +200,6 @@ std::vector<std::string> Hosts::Machines() const
   return {machines.begin(), machines.end()};
 }
 
-bool Hosts::Names(const std::string& host) const
-{
-  const std::vector<std::string> machines = Machines();
-  return std::find(machines.begin(), machines.end(), host) != machines.end();
-}
-
 ProcessCommand Hosts::Placed(const ProcessCommand& command, const std::string& host) const
 {
   if (host.empty()) return command;

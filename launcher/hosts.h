@@ -34,8 +34,6 @@ public:
   std::string HostOf(const std::string& role, const std::string& which) const;
   // Whether neither a process nor a machine that one may be moved to is anywhere else.
   bool AllHere() const;
-  // Whether the file or --engine-host names the machine.
-  bool Names(const std::string& host) const;
   // All machines other than this one that are named for processes, each once, in alphabetical order.
   std::vector<std::string> Machines() const;
   // The command as it is started here so that it runs on that machine.

@@ -219,15 +219,9 @@ void AddFault(std::vector<KnownFault>& faults, const RecordedEvent& event, const
 
 }  // namespace
 
-bool IsAboutOffers(const ControlRequestMessage& request)
-{
-  return request.verb == kMachineGone || std::ranges::find(kOfferVerbs, request.verb) != kOfferVerbs.end();
-}
-
 bool IsOnlyNoted(const ControlRequestMessage& request)
 {
-  return request.verb == kRefused || std::ranges::find(kShareVerbs, request.verb) != kShareVerbs.end() ||
-         IsAboutOffers(request);
+  return request.verb == kRefused || std::ranges::find(kShareVerbs, request.verb) != kShareVerbs.end();
 }
 
 std::string AskerOf(const ControlRequestMessage& request)

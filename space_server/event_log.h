@@ -27,8 +27,6 @@ struct RecordedEvent
 // What was refused, because it came from outside of the run, is written as this request, with its topic in the place of
 // the entity.
 inline constexpr const char* kRefused = "refused";
-// A machine that was offered, and whose process has gone.
-inline constexpr const char* kMachineGone = "gone";
 // A controller that failed while the run goes on, with its robot as the entity, and what it did in the place of who
 // asked.
 inline constexpr const char* kFailedController = "failed";
@@ -81,8 +79,6 @@ EarlierRequests ReadEarlierRequests(const std::string& path, const Experiment& e
                                     std::optional<std::uint64_t> pause_at);
 // Those of `repeated` that the run had not done yet, after those that it had.
 void AddUndone(std::vector<RecordedEvent>& done, const std::vector<RecordedEvent>& repeated);
-// Whether it is about a machine that somebody offers.
-bool IsAboutOffers(const ControlRequestMessage& request);
 // Whether it is in the log for people, and nothing to be carried out.
 bool IsOnlyNoted(const ControlRequestMessage& request);
 // "user@host:pid" of who asked, as far as it is known.

@@ -26,7 +26,6 @@ RunControl::RunControl(const Experiment& experiment, RunControlSetup setup, Answ
       pause_at_(setup.pause_at),
       step_(std::move(setup.step)),
       places_(std::move(setup.places)),
-      build_(std::move(setup.build)),
       move_(std::move(setup.move)),
       share_out_(std::move(setup.share_out))
 {
@@ -45,14 +44,6 @@ void RunControl::Refused(const std::string& topic, const std::string& sender)
   refused.entity = topic;
   refused.client = sender;
   Ask(refused);
-}
-
-void RunControl::Gone(const std::string& process)
-{
-  ControlRequestMessage gone;
-  gone.verb = kMachineGone;
-  gone.client = process;
-  Ask(gone);
 }
 
 void RunControl::Note(const ControlRequestMessage& request) { Ask(request); }
@@ -222,7 +213,6 @@ void RunControl::Carry(const ControlRequestMessage& request, SpaceServer& server
   };
   const double number = request.numbers.empty() ? std::nan("") : request.numbers[0];
 
-  if (IsAboutOffers(request)) return CarryOffer(request, tick);
   if (IsOnlyNoted(request)) return event_log_.Write(tick, request);
   if (const std::string error = RequestLimitError(request); !error.empty()) return reply(false, error);
   if (request.verb == "pause")
@@ -345,50 +335,13 @@ void RunControl::MoveWorkers(const ControlRequestMessage& request, std::uint64_t
   if (!moving_.empty())
     throw std::invalid_argument(
         fmt::format("{} is on the way already; ask again when it has arrived", *moving_.begin()));
-  const std::vector<WorkerPlaces::Move> moves =
-      request.verb == "withdraw" ? places_.Withdraw(request.entity, request.client) : places_.Read(request);
+  const std::vector<WorkerPlaces::Move> moves = places_.Read(request);
   event_log_.Write(tick, request);
   if (moves.empty()) return answer_(request, true, tick, "no worker is at " + request.entity);
   move_request_ = request;
   moved_.clear();
   for (const WorkerPlaces::Move& move : moves) moving_.insert(move.worker);
   for (const WorkerPlaces::Move& move : moves) move_(move);
-}
-
-void RunControl::CarryOffer(const ControlRequestMessage& request, std::uint64_t tick)
-{
-  try
-  {
-    if (request.verb == "offer") return TakeOffer(request, tick);
-    if (request.verb == "withdraw") return MoveWorkers(request, tick);
-    ControlRequestMessage gone = request;
-    const auto machine = places_.Gone(request.client);
-    if (!machine) return;
-    gone.entity = *machine;
-    event_log_.Write(tick, gone);
-    answer_(gone, true, tick,
-            fmt::format("machine '{}' is offered no more: process {} has gone", *machine, request.client));
-  }
-  catch (const std::invalid_argument& error)
-  {
-    answer_(request, false, tick, error.what());
-  }
-}
-
-void RunControl::TakeOffer(const ControlRequestMessage& request, std::uint64_t tick)
-{
-  const std::size_t of_build = request.entity.find(kOfBuild);
-  const std::string machine = request.entity.substr(0, of_build);
-  if (of_build == std::string::npos || request.entity.substr(of_build + std::string_view(kOfBuild).size()) != build_)
-    throw std::invalid_argument(fmt::format(
-        "machine '{}' has another build of Swarmanoid than the run, whose results would not be the same; install the "
-        "same package there",
-        machine));
-  if (!places_.Offer(machine, request.client)) return answer_(request, true, tick, "");
-  ControlRequestMessage offer = request;
-  offer.entity = machine;
-  event_log_.Write(tick, offer);
-  answer_(request, true, tick, fmt::format("machine '{}' is offered: workers may be moved there", machine));
 }
 
 void RunControl::ShareOut(const ControlRequestMessage& request, std::uint64_t tick)
@@ -470,7 +423,7 @@ void RunControl::Ended(std::uint64_t tick)
   for (const ControlRequestMessage& request : requests_)
     if (request.verb == kRefused)
       event_log_.Write(tick, request);
-    else if (request.verb != kMachineGone)
+    else
       answer_(request, false, tick, RunEndedText(tick));
   requests_.clear();
 }

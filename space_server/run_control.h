@@ -34,7 +34,6 @@ struct RunControlSetup
   std::optional<ControlRequestMessage> step{};  // that ends there
   std::vector<KnownFault> failed{};             // of controllers, in the log of events already
   WorkerPlaces places{};
-  std::string build{};     // of this program, which those of offered machines must have
   bool may_reset = false;  // whoever started the run begins it again if a user asks
   // Has another process take the place of a worker.
   std::function<void(const WorkerPlaces::Move&)> move{};
@@ -63,9 +62,6 @@ public:
   void Ask(const ControlRequestMessage& request);
   // Likewise: a message on `topic` was refused, of `sender` and for the reason that are told. For the log of events.
   void Refused(const std::string& topic, const std::string& sender);
-
-  // Likewise: a process has left the run's network. If it offered a machine, nobody does any more.
-  void Gone(const std::string& process);
 
   // Likewise: what was asked and done elsewhere. For the log of events.
   void Note(const ControlRequestMessage& request);
@@ -108,9 +104,6 @@ private:
   void BeginAgain(const ControlRequestMessage& request, std::uint64_t tick, bool logged = false);
   // Has workers take other places; the run holds until they have.
   void MoveWorkers(const ControlRequestMessage& request, std::uint64_t tick);
-  // Somebody offers a machine, takes that back, or has gone who did.
-  void CarryOffer(const ControlRequestMessage& request, std::uint64_t tick);
-  void TakeOffer(const ControlRequestMessage& request, std::uint64_t tick);
   // Has the robots shared out among other controller hosts: this process and all others end for it.
   void ShareOut(const ControlRequestMessage& request, std::uint64_t tick);
   void WriteFaults();
@@ -138,7 +131,6 @@ private:
   std::uint64_t pause_at_ = 0;  // tick at which a step ends; 0: none
   std::optional<ControlRequestMessage> step_;
   WorkerPlaces places_;
-  std::string build_;
   std::function<void(const WorkerPlaces::Move&)> move_;
   std::function<void(const std::vector<std::string>&)> share_out_;
   std::optional<ControlRequestMessage> move_request_;

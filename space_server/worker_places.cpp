@@ -16,7 +16,6 @@ namespace
 
 constexpr const char* kServer = "space server";
 constexpr std::string_view kTo = " to ";
-constexpr std::string_view kVisualiser = "visualiser ";  // as VisualiserName has it
 
 // As HostName, EngineName and RegionName have it: a region is one "ground/2".
 std::string WorkerOf(const std::string& verb, const std::string& which)
@@ -47,61 +46,21 @@ WorkerPlaces::WorkerPlaces(std::vector<std::string> machines, const std::vector<
 
 void WorkerPlaces::Put(const Move& move)
 {
-  if (const auto place = places_.find(move.worker); place != places_.end() && !move.machine.empty())
+  if (const auto place = places_.find(move.worker); place != places_.end() && HasMachine(move.machine))
     place->second = move.machine;
+}
+
+bool WorkerPlaces::HasMachine(const std::string& machine) const
+{
+  return std::ranges::find(machines_, machine) != machines_.end();
 }
 
 void WorkerPlaces::RequireMachine(const std::string& machine) const
 {
-  if (std::ranges::find(machines_, machine) != machines_.end()) return;
-  if (std::ranges::find(places_, machine, &std::pair<const std::string, std::string>::second) != places_.end())
-    throw std::invalid_argument(
-        fmt::format("machine {} is not offered now: it was not heard again yet since all processes started, or it has "
-                    "gone and its workers are about to be replaced; ask again in a moment",
-                    Quoted(machine)));
+  if (HasMachine(machine)) return;
   throw std::invalid_argument(fmt::format(
-      "the run has no machine {}; it has {}{}; name others in the file of --hosts, as machines = alpha beta, or "
-      "offer one: controller_host --offer NAME",
+      "the run has no machine {}; it has {}{}; name others in the file of --hosts, as machines = alpha beta",
       Quoted(machine), Listed(machines_), DidYouMean(machine, machines_)));
-}
-
-bool WorkerPlaces::Offer(const std::string& machine, const std::string& process)
-{
-  RequireMoves("offer");
-  if (const std::string mistake = MachineNameMistake(machine); !mistake.empty())
-    throw std::invalid_argument(fmt::format("offer: {} is no name of a machine; {}", Quoted(machine), mistake));
-  const auto offer = offers_.find(machine);
-  if (offer != offers_.end() && offer->second == process) return false;
-  if (offer != offers_.end())
-    throw std::invalid_argument(fmt::format("machine {} is offered already, by process {}; offer it under another name",
-                                            Quoted(machine), offer->second));
-  if (std::find(machines_.begin(), machines_.end(), machine) != machines_.end())
-    throw std::invalid_argument(
-        fmt::format("the run has a machine {} already, which it reaches by itself; offer this one under another name",
-                    Quoted(machine)));
-  machines_.push_back(machine);
-  offers_[machine] = process;
-  return true;
-}
-
-std::vector<WorkerPlaces::Move> WorkerPlaces::Withdraw(const std::string& machine, const std::string& process)
-{
-  // Or nobody does, since the space server that knew has died.
-  if (const auto offer = offers_.find(machine); offer != offers_.end() && offer->second != process)
-    throw std::invalid_argument(fmt::format("machine {} is offered by process {}", Quoted(machine), offer->second));
-  std::vector<Move> moves = Drain(machine);
-  Gone(process);
-  return moves;
-}
-
-std::optional<std::string> WorkerPlaces::Gone(const std::string& process)
-{
-  const auto offer = std::find_if(offers_.begin(), offers_.end(), [&](const auto& o) { return o.second == process; });
-  if (offer == offers_.end()) return std::nullopt;
-  std::string machine = offer->first;
-  std::erase(machines_, machine);
-  offers_.erase(offer);
-  return machine;
 }
 
 std::string WorkerPlaces::Text() const
@@ -110,33 +69,13 @@ std::string WorkerPlaces::Text() const
   std::map<std::string, std::vector<std::string>> workers;
   for (const auto& [worker, place] : places_) workers[place].push_back(worker);
   std::string text;
-  const auto add = [&](const std::string& machine, const std::string& remark)
-  {
-    const std::vector<std::string>& there = workers[machine];
-    text += fmt::format("{}{}{}: {}", text.empty() ? "" : "; ", machine, remark,
-                        there.empty() ? "nobody" : fmt::format("{}", fmt::join(there, ", ")));
-  };
   for (const std::string& machine : machines_)
   {
-    const auto offer = offers_.find(machine);
-    add(machine, offer == offers_.end() ? "" : " (offered by " + offer->second + ")");
-    workers.erase(machine);
+    const std::vector<std::string>& there = workers[machine];
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", machine,
+                        there.empty() ? "nobody" : fmt::format("{}", fmt::join(there, ", ")));
   }
-  for (const auto& [machine, there] : workers) add(machine, " (not offered now)");
   return text;
-}
-
-std::string WorkerPlaces::ForNewHost(const std::vector<std::string>& hosts) const
-{
-  std::string best = kHere;
-  std::optional<std::ptrdiff_t> fewest;
-  for (const auto& [machine, process] : offers_)
-    if (const auto count = std::count(hosts.begin(), hosts.end(), machine); !fewest || count < *fewest)
-    {
-      best = machine;
-      fewest = count;
-    }
-  return best;
 }
 
 void WorkerPlaces::RequireMoves(const std::string& verb) const
@@ -177,7 +116,7 @@ std::vector<std::string> WorkerPlaces::ReadHosts(const ControlRequestMessage& re
         "hosts: the run has {} controller host{}, and can have {}: as many as robots with a controller, and not more "
         "than 1000",
         before.size(), before.size() == 1 ? "" : "s", most));
-  for (double k = 0; k < more; ++k) hosts.push_back(machine.empty() ? ForNewHost(hosts) : machine);
+  for (double k = 0; k < more; ++k) hosts.push_back(machine.empty() ? kHere : machine);
   for (double k = 0; k < -more; ++k)
   {
     const auto last = machine.empty() ? hosts.rbegin() : std::find(hosts.rbegin(), hosts.rend(), machine);
@@ -248,14 +187,7 @@ std::vector<WorkerPlaces::Move> WorkerPlaces::Drain(const std::string& machine) 
   for (const auto& [worker, place] : places_)
   {
     if (place != machine) continue;
-    const bool writes_files = worker.starts_with(kVisualiser);  // in the folder of the run
-    auto least = loads.end();
-    for (auto load = loads.begin(); load != loads.end(); ++load)
-      if ((!writes_files || !offers_.contains(load->first)) && (least == loads.end() || load->second < least->second))
-        least = load;
-    if (least == loads.end())
-      throw std::invalid_argument(fmt::format(
-          "{} writes files, and may not go to a machine that somebody offers; the run has no other one", worker));
+    const auto least = std::ranges::min_element(loads, {}, &std::pair<const std::string, std::size_t>::second);
     ++least->second;
     moves.push_back({worker, least->first});
   }

@@ -5,11 +5,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <new>
 
 #include "common/activity/current_activity.h"
@@ -105,39 +102,6 @@ ActivityPage& OwnActivityPage()
     return of_launcher == nullptr ? &own : of_launcher;
   }();
   return *page;
-}
-
-std::vector<char> BytesOfPage(const ActivityPage& page)
-{
-  const char* const bytes = reinterpret_cast<const char*>(&page);
-  return {bytes, bytes + sizeof page};
-}
-
-bool TakePageOfOther(std::span<const char> bytes)
-{
-  ActivityPage other{};
-  if (bytes.size() != sizeof other) return false;
-  std::memcpy(static_cast<void*>(&other), bytes.data(), bytes.size());
-  if (other.magic != ActivityPage::kMagic || other.kind > Actor::kWatcher ||
-      other.step > static_cast<std::uint32_t>(ActivityStep::kWatch) ||
-      other.end > static_cast<std::uint32_t>(EndReason::kInterrupted) || other.taken > 1)
-    return false;
-  ActivityPage& page = OwnActivityPage();
-  page.taken = other.taken.load();
-  page.tick = other.tick.load();
-  page.kind = other.kind.load();
-  page.number = other.number.load();
-  page.step = other.step.load();
-  page.complete = other.complete.load();
-  std::copy_n(other.cause, ActivityPage::kCauseSize - 1, page.cause);
-  // Its clock is another one.
-  page.ended_ns = other.ended_ns == 0
-                      ? 0
-                      : static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(
-                                                       std::chrono::steady_clock::now().time_since_epoch())
-                                                       .count());
-  page.end.store(other.end, std::memory_order_release);
-  return true;
 }
 
 Activity::Activity(const Actor& actor, ActivityStep step, std::uint64_t tick)

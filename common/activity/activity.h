@@ -5,9 +5,7 @@
 
 #include <atomic>
 #include <cstdint>
-#include <span>
 #include <string>
-#include <vector>
 
 namespace swarmanoid
 {
@@ -115,10 +113,5 @@ static_assert(std::atomic<std::uint64_t>::is_always_lock_free && std::atomic<con
 // nobody else sees.
 ActivityPage& OwnActivityPage();
 inline constexpr const char* kActivityVariable = "SWARMANOID_ACTIVITY_FD";
-
-// Of a process that has ended, for another machine with the same build.
-std::vector<char> BytesOfPage(const ActivityPage& page);
-// Has the page of this process say the same. False, and nothing happens, if it is no page.
-bool TakePageOfOther(std::span<const char> bytes);
 
 }  // namespace swarmanoid

@@ -15,7 +15,6 @@ enum ExitCode
   kExitOthersFailed = 6,  // of a process of a cluster: the run failed elsewhere
   kExitStuck = 7,         // likewise: one that died holds a lock of the run's shared memory
   kExitCutOff = 8,        // likewise: the space server has gone, as far as it can see
-  kExitMachineGone = 9,   // likewise: the machine that was offered to it does not answer, or does not take it
   kExitInterrupted = 130
 };
 

@@ -1,13 +1,11 @@
 #include "common/bus/cluster_options.h"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <limits>
 
 #include "common/configuration/configuration_tree.h"
-#include "common/messages/machine_name.h"
 
 namespace swarmanoid
 {
@@ -228,36 +226,6 @@ std::vector<OptionSpec> VisualiserOptionTable(WorkerSettings& s)
             .maximum = kLargestPid},
            &s.server,
            "17811"}};
-}
-
-std::vector<OptionSpec> OfferOptionTable(WorkerSettings& s)
-{
-  return {{{.name = "offer",
-            .type = kText,
-            .description = "Offers this machine, under that name, to a run of `swarmanoid run`: its controller hosts "
-                           "and engines can be moved here (docs/recovery.md)"},
-           &s.offer,
-           "beta",
-           "NAME",
-           MachineNameMistake},
-          {{.name = "through",
-            .type = kText,
-            .description = "For the launcher: stands for this worker, which runs on the machine that is offered under "
-                           "that name"},
-           &s.through,
-           "beta",
-           "NAME",
-           MachineNameMistake}};
-}
-
-WorkerSettings SettingsOfWords(WorkerTable table, std::vector<std::string> words)
-{
-  WorkerSettings settings;
-  CLI::App app;
-  AddOptions(app, table(settings));
-  std::reverse(words.begin(), words.end());
-  app.parse(std::move(words));
-  return settings;
 }
 
 std::vector<std::string> WorkerWords(WorkerTable table, WorkerSettings settings)

@@ -35,9 +35,6 @@ struct WorkerSettings
   unsigned incarnation = 0;
   std::string machine{};
   unsigned threads = 1;  // of a controller host
-  // An offered machine, that of this process: its name. Or one that this process stands for a worker on.
-  std::string offer{};
-  std::string through{};
   // Controllers that killed the hosts before, "TICK:ROBOT" with the number of the entity.
   std::vector<std::string> faults{};
 };
@@ -48,15 +45,10 @@ std::optional<std::pair<std::uint64_t, std::uint32_t>> ParseFault(const std::str
 std::vector<OptionSpec> EngineOptionTable(WorkerSettings& settings);
 std::vector<OptionSpec> HostOptionTable(WorkerSettings& settings);
 std::vector<OptionSpec> VisualiserOptionTable(WorkerSettings& settings);
-// --offer and --through, of programs whose workers may run on offered machines. Not part of the tables above: nobody is
-// told to offer a machine by a message.
-std::vector<OptionSpec> OfferOptionTable(WorkerSettings& settings);
 
 // The words that give a worker, or its bus, these settings.
 using WorkerTable = std::vector<OptionSpec> (*)(WorkerSettings&);
 std::vector<std::string> WorkerWords(WorkerTable table, WorkerSettings settings);
 std::vector<std::string> BusWords(BusOptions options);
-// What such words say. Throws CLI::Error for anything that the table does not have.
-WorkerSettings SettingsOfWords(WorkerTable table, std::vector<std::string> words);
 
 }  // namespace swarmanoid

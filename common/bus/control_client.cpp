@@ -113,7 +113,6 @@ void ControlClient::Heard(const RunStatusMessage& message)
       std::ranges::any_of(status.processes, [](const ProcessStatus& process) { return process.late_s > kLate_s; });
   if (!waits || !status_ || status.tick != status_->tick) got_on_ = Clock::now();
   status_ = status;
-  ++statuses_heard_;
 }
 
 void ControlClient::FollowRun(std::uint64_t run)
@@ -126,12 +125,6 @@ std::optional<RunStatus> ControlClient::LatestStatus()
 {
   const std::lock_guard lock(mutex_);
   return status_;
-}
-
-std::uint64_t ControlClient::StatusesHeard()
-{
-  const std::lock_guard lock(mutex_);
-  return statuses_heard_;
 }
 
 std::string ControlClient::Send(const std::string& verb, const std::string& entity, const std::vector<double>& numbers)

@@ -34,8 +34,6 @@ public:
   void FollowRun(std::uint64_t run);
   // How the run went when it was heard last; nullopt if no Ask has heard of it.
   std::optional<RunStatus> LatestStatus();
-  // How often it was heard since the first Ask.
-  std::uint64_t StatusesHeard();
   // Sends without waiting for an answer. Returns why the request cannot be sent (request_limits.h); empty if it was.
   std::string Send(const std::string& verb, const std::string& entity, const std::vector<double>& numbers);
 
@@ -50,7 +48,6 @@ private:
   std::mutex mutex_;
   std::condition_variable answered_;
   std::optional<RunStatus> status_;
-  std::uint64_t statuses_heard_ = 0;
   Clock::time_point got_on_;  // when the run was last seen to get on
   std::uint32_t number_;      // of the last request
   std::optional<ControlReplyMessage> reply_;

@@ -206,10 +206,6 @@ inline constexpr const char* kTopicOf<RecoveryRequestMessage> = "RecoveryRequest
 template <>
 inline constexpr const char* kTopicOf<RecoveryBlockMessage> = "RecoveryBlock";
 template <>
-inline constexpr const char* kTopicOf<WorkerRequestMessage> = "WorkerRequest";
-template <>
-inline constexpr const char* kTopicOf<WorkerReportMessage> = "WorkerReport";
-template <>
 inline constexpr const char* kTopicOf<ViewRequestMessage> = "ViewRequest";
 template <>
 inline constexpr const char* kTopicOf<RunStatusMessage> = "RunStatus";
@@ -346,36 +342,6 @@ void Fields(Archive& archive, RecoveryBlockMessage& message)
 }
 
 template <class Archive>
-void Fields(Archive& archive, WorkerRequestMessage& message)
-{
-  archive.Name("client", message.client);
-  archive.Integer("run", message.run);
-  archive.Name("machine", message.machine);
-  archive.Name("program", message.program);
-  archive.List("words", message.words, [](Archive& a, std::string& word) { a.Exact("words", word); });
-  archive.Number("step_timeout", message.step_timeout_s);
-  archive.Integer("memory_limit", message.memory_limit);
-  archive.Integer("signal", message.signal);
-  archive.Integer("taken", message.taken);
-}
-
-template <class Archive>
-void Fields(Archive& archive, WorkerReportMessage& message)
-{
-  archive.Name("client", message.client);
-  archive.Integer("run", message.run);
-  archive.Name("process", message.process);
-  archive.Integer("number", message.number);
-  archive.Array("output", message.output);
-  archive.Array("errors", message.errors);
-  archive.Text("refusal", message.refusal);
-  archive.Bool("ended", message.ended);
-  archive.Integer("exit_code", message.exit_code);
-  archive.Integer("signal", message.signal);
-  archive.Array("activity", message.activity);
-}
-
-template <class Archive>
 void Fields(Archive& archive, ViewRequestMessage& message)
 {
   archive.Name("client", message.client);
@@ -462,8 +428,6 @@ const std::string* KeyOf(const Message&)
   return nullptr;
 }
 inline const std::string* KeyOf(const JoinMessage& message) { return &message.process; }
-inline const std::string* KeyOf(const WorkerRequestMessage& message) { return &message.client; }
-inline const std::string* KeyOf(const WorkerReportMessage& message) { return &message.client; }
 inline const std::string* KeyOf(const ViewRequestMessage& message) { return &message.client; }
 
 }  // namespace swarmanoid

@@ -16,7 +16,7 @@ namespace swarmanoid
 {
 
 // Equal to PROTOCOL_VERSION of the IDL; a test says so.
-inline constexpr std::uint32_t kProtocolVersion = 18;
+inline constexpr std::uint32_t kProtocolVersion = 19;
 
 // What precedes every message of a tick.
 struct MessageHeader
@@ -159,34 +159,6 @@ struct RecoveryBlockMessage
   std::uint32_t number = 0;
   std::uint32_t count = 0;
   std::vector<char> block;
-};
-
-struct WorkerRequestMessage
-{
-  std::string client;
-  std::uint64_t run = 0;
-  std::string machine;
-  std::string program;
-  std::vector<std::string> words;
-  double step_timeout_s = 0;
-  std::uint64_t memory_limit = 0;
-  std::uint32_t signal = 0;
-  std::uint32_t taken = 0;
-};
-
-struct WorkerReportMessage
-{
-  std::string client;
-  std::uint64_t run = 0;
-  std::string process;
-  std::uint32_t number = 0;
-  std::vector<char> output;
-  std::vector<char> errors;
-  std::string refusal;
-  bool ended = false;
-  std::uint32_t exit_code = 0;
-  std::uint32_t signal = 0;
-  std::vector<char> activity;
 };
 
 struct ViewRequestMessage

@@ -39,8 +39,6 @@ inline constexpr TopicQos kTopics[] = {
     {"SavedState", false, false, false, 64, 64},
     {"RecoveryRequest", false, false, false, 16, 64},
     {"RecoveryBlock", false, false, false, 4, 16},
-    {"WorkerRequest", false, true, true, 1, 1},
-    {"WorkerReport", false, true, true, 1, 1},
     {"ViewRequest", false, true, true, 1, 1},
     {"RunStatus", false, true, false, 1, 1},
     {"RobotStatus", false, true, false, 1, 64},

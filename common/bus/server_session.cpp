@@ -332,8 +332,6 @@ void ServerSession::Asked(const ControlRequestMessage& request)
 {
   // What the server before this one has taken is only answered again.
   const bool is_known = state_.Lock()->FindRequest(request) != nullptr;
-  // Said again and again, also while another server takes the place of the one that was meant.
-  if (key_ && request.run != world_.run && request.verb == "offer") return;
   if (key_ && request.run != world_.run && !is_known) throw ForeignMessage("it was asked of another run");
   Ask(request);
 }

@@ -17,11 +17,6 @@ int RunWorker(const ProgramDescription& program, int count, char** arguments, Wo
               const std::function<int(const WorkerSettings&, const BusOptions&)>& run,
               const std::function<void(CLI::App&)>& declare = nullptr);
 
-// The same for workers that may run on offered machines: with --offer the program offers this one, and `run` is not
-// called; likewise with --through (offered_machine.h).
-int RunMovableWorker(const ProgramDescription& program, int count, char** arguments, WorkerTable table,
-                     const std::function<int(const WorkerSettings&, const BusOptions&)>& run);
-
 // The number of the engine or visualisation (`kind`) with that id.
 template <class Part>
 std::size_t NumberOf(const Experiment& experiment, const std::vector<Part>& parts, const char* kind,

@@ -45,22 +45,13 @@ std::string WithoutSeed(std::string_view xml)
   return text.erase(begin, end + kEnd.size() - begin);
 }
 
-// Those of this machine, for whoever looked for one in vain.
-std::string RunsHere()
-{
-  std::string text;
-  for (const LocalRun& run : FindLocalRuns())
-    text += fmt::format("{} '{}' in domain {}", text.empty() ? "; here run" : ",", run.experiment, run.domain);
-  return text;
-}
-
 bool IsAlive(pid_t process) { return kill(process, 0) == 0 || errno == EPERM; }
 
 }  // namespace
 
 WorkerSession::WorkerSession(const BusOptions& options, const std::string& experiment, const std::string& name,
                              std::optional<int> server, unsigned incarnation, const std::string& machine,
-                             const std::atomic<bool>* stop, std::optional<std::chrono::seconds> patience)
+                             const std::atomic<bool>* stop)
     : name_(name),
       incarnation_(incarnation),
       machine_(machine),
@@ -94,17 +85,10 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
                                                          });
   // A share that has ended tells no world, but why it has.
   if (options.share) HearLeaves(experiment);
-  const auto start = Clock::now();
   WaitUntil(
       [&]
       {
         const std::lock_guard lock(mutex_);
-        if (!have_world_ && patience && Clock::now() - start > *patience)
-          throw BusError(fmt::format(
-              "no run of {} was heard in domain {} for {} s: compare --experiment, --domain, --interface and --key "
-              "with "
-              "those of the run{}",
-              experiment.empty() ? "any experiment" : "'" + experiment + "'", domain_, patience->count(), RunsHere()));
         if (!have_world_ && server && !IsAlive(*server))
           throw BusError(
               fmt::format("experiment '{}' has ended: its space server, process {}, has gone", experiment, *server));

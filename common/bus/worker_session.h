@@ -30,10 +30,9 @@ public:
   // `incarnation`: how many processes of that name the run has had before this one. `machine`: as in JoinMessage.
   // `stop`: for a session within a program of somebody else, which sets it where others are interrupted by a signal,
   // and says itself by AllowOnly which libraries may be loaded while it loads some.
-  // `patience`: BusError if no space server is heard for so long.
   WorkerSession(const BusOptions& options, const std::string& experiment, const std::string& name,
                 std::optional<int> server = std::nullopt, unsigned incarnation = 0, const std::string& machine = {},
-                const std::atomic<bool>* stop = nullptr, std::optional<std::chrono::seconds> patience = std::nullopt);
+                const std::atomic<bool>* stop = nullptr);
   ~WorkerSession();
   // For one who only looks on: to whoever started it, a run that failed elsewhere is a process that failed.
   void LookOn();

@@ -16,11 +16,6 @@ inline const std::vector<std::string> kControlVerbs{
 // What members alone ask for: shares of the run (common/bus/share.h).
 inline const std::vector<std::string> kShareVerbs{"share", "shares", "revoke"};
 
-// What a process asks for that offers its machine, and will do so no more. In the place of the entity stands the
-// machine, behind an offer also kOfBuild and the builds of its libraries.
-inline const std::vector<std::string> kOfferVerbs{"offer", "withdraw"};
-inline constexpr const char* kOfBuild = " of build ";
-
 // Whether a verb asks for another place of an entity, or for its presence; the name of the entity follows it.
 inline bool IsSpaceChange(const std::string& verb)
 {

@@ -1,6 +1,6 @@
 // Starting the programs of a cluster and hearing of their ends. ProcessSpawner is a seam: tests put scripts or failures
-// behind it. Used by the launcher, by those who offer a machine, and by visualisers that look back: by one thread,
-// which lives as long as the processes that it starts.
+// behind it. Used by the launcher and by visualisers that look back: by one thread, which lives as long as the
+// processes that it starts.
 #pragma once
 
 #include <memory>

@@ -62,7 +62,7 @@ bool IsStuck(const std::optional<ProcessEnd>& ended) { return ended && ended->ex
 bool MayBeReplaced(const ProcessEnd& ended, const ActivityRecord& record, bool elsewhere)
 {
   constexpr int kKilledThere = 128;  // and more: by a signal, or the connection has failed
-  if (ended.exit_code == kExitCutOff || ended.exit_code == kExitMachineGone) return true;
+  if (ended.exit_code == kExitCutOff) return true;
   switch (record.end)
   {
     case EndReason::kDied:
@@ -103,7 +103,6 @@ std::string FailureText(const FailedProcess& failed, std::uint64_t server_tick, 
   std::string what = "has not ended";
   if (failed.end) what = failed.end->Clean() ? "ended before the last tick" : failed.end->Text();
   if (failed.end && failed.end->exit_code == kExitCutOff) what = "was cut off from the space server";
-  if (failed.end && failed.end->exit_code == kExitMachineGone) what = "has no machine any more: nobody answers there";
   if (failed.end && failed.end->signal == SIGKILL && killed_for_memory)
     what += " by the kernel, since memory was short (--memory-limit sets a limit that tells who takes too much)";
   if (failed.end && failed.end->exit_code == kSshFailed && !failed.host.empty())

@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "common/activity/exit_codes.h"
 #include "launcher/processes/process_state.h"
 #include "launcher/processes/supervisor.h"
 
@@ -51,7 +50,6 @@ bool Supervisor::Replace(const ClusterMember& member)
   }
   else
     display_.Note(fmt::format("{}; another process takes its place", TextOf(member)));
-  if (member.End()->exit_code == kExitMachineGone && move.empty()) plan.host.clear();
   if (strayed) plan.host = came_from_.extract(member.Name()).mapped().first;
   if (plan.place) plan.place(plan.host);
   kills_for_memory_ = KernelKillsForMemory();

@@ -24,19 +24,15 @@ constexpr auto kStallTime = 2s;
 void ServerProgram::Reply(const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)
 {
   session_.Reply(request, done, tick, text);
-  const bool is_refused_offer = request.verb == "offer" && !done;
-  if (request.verb == kFailedController || request.verb == kMachineGone || is_refused_offer)
+  if (request.verb == kFailedController)
   {
-    const std::string warning =
-        is_refused_offer ? fmt::format("refused an offer of {}: {}", AskerOf(request), text) : text;
-    status_.Publish(ServerWarning{warning});
-    Say(warning);
+    status_.Publish(ServerWarning{text});
+    Say(text);
   }
   // Robots that are moved by hand would fill the screen.
   const bool told = request.verb == "pause" || request.verb == "resume" || request.verb == "speed" ||
-                    request.verb == "stop" || request.verb == "reset" || IsWorkerMove(request.verb) ||
-                    std::ranges::find(kOfferVerbs, request.verb) != kOfferVerbs.end();
-  if (!done || !told || text.empty()) return;
+                    request.verb == "stop" || request.verb == "reset" || IsWorkerMove(request.verb);
+  if (!done || !told) return;
   const std::string line = fmt::format("{}: {}", AskerOf(request), text);
   status_.Publish(ServerAsked{line});
   Say(line);

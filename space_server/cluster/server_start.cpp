@@ -72,17 +72,11 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
                   run_control_.Ask(request);
                   Wake();
                 },
-                [this] { Wake(); },
-                [this](const std::string& process)
-                {
-                  views_.Lost(process);
-                  run_control_.Gone(process);
-                },
+                [this] { Wake(); }, [this](const std::string& process) { views_.Lost(process); },
                 [this](const ControlReplyMessage& reply)
                 {
                   shares_.Replied(reply);
-                  // An offer of a machine that is said again is answered without a word, and changes nothing.
-                  if (!reply.text.empty()) views_.Renew();
+                  views_.Renew();
                 }}),
       shares_(session_, options.bus,
               {[this](const ViewRequestMessage& request) { views_.Requested(request); },
@@ -131,7 +125,6 @@ RunControlSetup ServerProgram::Setup()
 {
   RunControlSetup setup = MakeRunControlSetup(options_, experiment_, continuation_);
   setup.may_reset = status_.IsOpen() && options_.abandon == nullptr;
-  setup.build = OwnBuild();
   if (!options_.awaits_replacements) return setup;
   setup.places = WorkerPlaces(options_.machines, options_.worker_places);
   setup.move = [this](const WorkerPlaces::Move& move)

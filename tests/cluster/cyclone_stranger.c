@@ -38,8 +38,6 @@ static swarmanoid_wire_Status status = {.name = engine, .text = forged};
 static swarmanoid_wire_SavedState saved_state = {.name = engine};
 static swarmanoid_wire_RecoveryRequest recovery_request = {.name = engine};
 static swarmanoid_wire_RecoveryBlock recovery_block = {0};
-static swarmanoid_wire_WorkerRequest worker_request = {.machine = engine, .program = engine};
-static swarmanoid_wire_WorkerReport worker_report = {.process = engine, .refusal = forged, .ended = true};
 static swarmanoid_wire_ViewRequest view_request = {.views = 30, .every_tick = true};
 static swarmanoid_wire_RunStatus run_status = {.phase = swarmanoid_wire_PHASE_FINISHED, .ended = forged};
 static swarmanoid_wire_RobotStatus robot_status;
@@ -70,8 +68,6 @@ static struct
     TOPIC(SavedState, saved_state),
     TOPIC(RecoveryRequest, recovery_request),
     TOPIC(RecoveryBlock, recovery_block),
-    TOPIC(WorkerRequest, worker_request),
-    TOPIC(WorkerReport, worker_report),
     TOPIC(ViewRequest, view_request),
     TOPIC(RunStatus, run_status),
     TOPIC(RobotStatus, robot_status),

@@ -70,8 +70,6 @@ constexpr void (*kTries[])(std::span<const char>) = {TryOfTick<SpaceState>,
                                                      TryOther<LeaveMessage>,
                                                      TryOther<RecoveryRequestMessage>,
                                                      TryOther<RecoveryBlockMessage>,
-                                                     TryOther<WorkerRequestMessage>,
-                                                     TryOther<WorkerReportMessage>,
                                                      TryOfTick<RegionTaskMessage>,
                                                      TryOfTick<RegionHaloMessage>,
                                                      TryOfTick<RegionResultMessage>,
@@ -152,9 +150,7 @@ std::vector<fuzz::Input> fuzz::FirstInputs()
           InputOf(15, BytesOf(LeaveMessage{5, 7, "engine 'ground'", "", "über"})),
           InputOf(16, BytesOf(RecoveryRequestMessage{5, "host:1", "engine 'ground'", 2})),
           InputOf(17, BytesOf(RecoveryBlockMessage{5, "host:1", 2, 7, {'a', 'b'}})),
-          InputOf(18, BytesOf(WorkerRequestMessage{"host:1", 5, "beta", "engine_worker", {"--engine", "ground"}, 2.5})),
-          InputOf(19, BytesOf(WorkerReportMessage{"host:1", 5, "host:2", 3, {'a'}, {'b'}, "", true, 4, 0, {'c'}})),
-          InputOf(23, BytesOf(header, local))};
+          InputOf(21, BytesOf(header, local))};
 }
 
 }  // namespace swarmanoid

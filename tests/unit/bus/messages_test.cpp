@@ -1,4 +1,4 @@
-// The messages of processes that join, leave and are offered, constants and keys, are those of the IDL.
+// The messages of processes that join, leave and are replaced, constants and keys, are those of the IDL.
 #include <gtest/gtest.h>
 
 #include "tests/unit/bus/random_messages.h"
@@ -146,45 +146,6 @@ TEST(MessageBytes, OfJoiningAndLeavingAreThoseOfTheIdl)
     wire_block.count(block.count);
     wire_block.block().assign(block.block.begin(), block.block.end());
     ExpectSame<wire::RecoveryBlockPubSubType>(block, wire_block);
-  }
-}
-
-TEST(MessageBytes, OfWorkersOnOfferedMachinesAreThoseOfTheIdl)
-{
-  Random random(5);
-  for (int round = 0; round < kRounds; ++round)
-  {
-    const WorkerRequestMessage request{
-        random.Text(), random.Number(), random.Text(),     random.Text(),    {random.Text(), random.Text()},
-        random.Real(), random.Number(), random.Number32(), random.Number32()};
-    wire::WorkerRequest wire_request;
-    wire_request.client(request.client);
-    wire_request.run(request.run);
-    wire_request.machine(request.machine);
-    wire_request.program(request.program);
-    wire_request.words(request.words);
-    wire_request.step_timeout(request.step_timeout_s);
-    wire_request.memory_limit(request.memory_limit);
-    wire_request.signal(request.signal);
-    wire_request.taken(request.taken);
-    ExpectSame<wire::WorkerRequestPubSubType>(request, wire_request);
-
-    const WorkerReportMessage report{random.Text(),     random.Number(),   random.Text(), random.Number32(),
-                                     random.Bytes(),    random.Bytes(),    random.Text(), random.Flag(),
-                                     random.Number32(), random.Number32(), random.Bytes()};
-    wire::WorkerReport wire_report;
-    wire_report.client(report.client);
-    wire_report.run(report.run);
-    wire_report.process(report.process);
-    wire_report.number(report.number);
-    wire_report.output().assign(report.output.begin(), report.output.end());
-    wire_report.errors().assign(report.errors.begin(), report.errors.end());
-    wire_report.refusal(report.refusal);
-    wire_report.ended(report.ended);
-    wire_report.exit_code(report.exit_code);
-    wire_report.signal(report.signal);
-    wire_report.activity().assign(report.activity.begin(), report.activity.end());
-    ExpectSame<wire::WorkerReportPubSubType>(report, wire_report);
   }
 }
 

@@ -1,9 +1,6 @@
 // Processes that die and are replaced, and clusters that start again.
 #include "launcher/processes/supervisor.h"
 
-#include <fmt/format.h>
-
-#include "common/activity/exit_codes.h"
 #include "tests/unit/launcher/supervisor_fixture.h"
 
 namespace swarmanoid
@@ -203,20 +200,6 @@ TEST_F(SupervisorTest, StartsAllAgainWithAsManyControllerHostsAsAUserAsksFor)
   EXPECT_EQ(tried, std::vector<unsigned>{2});
   EXPECT_EQ(second_at, "here");
   for (const pid_t pid : supervisor.PidsForTest()) EXPECT_TRUE(GroupIsGone(pid));
-}
-
-TEST_F(SupervisorTest, OneWhoseOfferedMachineHasGoneIsReplacedHere)
-{
-  retries_ = 2;
-  std::vector<std::string> placed;
-  AddServer("echo state running; " + Await("second") + kFinishing);
-  Add("controller_host 0", fmt::format("exit {}", static_cast<int>(kExitMachineGone)));
-  ReplaceBy(Tell("second"));
-  plans_.back().host = "beta";
-  plans_.back().place = [&](const std::string& host) { placed.push_back(host.empty() ? "here" : host); };
-  const ClusterOutcome outcome = Run();
-  EXPECT_EQ(outcome.kind, ClusterOutcome::kFinished) << outcome.reason;
-  EXPECT_EQ(placed, std::vector<std::string>{"here"});
 }
 
 TEST_F(SupervisorTest, OneThatIsKilledOnceItHasLeftChangesNothing)

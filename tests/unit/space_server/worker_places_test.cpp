@@ -11,8 +11,8 @@ namespace
 {
 
 using testing::AllOf;
+using testing::EndsWith;
 using testing::HasSubstr;
-using testing::Not;
 
 const WorkerPlaces& Places()
 {
@@ -77,94 +77,14 @@ TEST(WorkerPlaces, RefuseWhatIsNotThere)
   EXPECT_THROW(WorkerPlaces({}, {"engine"}), std::invalid_argument);
 }
 
-// The machine of a worker offers itself anew after all processes have started again.
-TEST(WorkerPlaces, WorkersOfMachinesThatAreNotHeardAreNamed)
+TEST(WorkerPlaces, TheTextNamesEachMachineAndItsWorkers)
 {
-  WorkerPlaces places({"here"}, {"space server=here", "controller host 0=beta", "engine 'ground'=here"});
-  EXPECT_EQ(places.Text(), "here: engine 'ground', space server; beta (not offered now): controller host 0");
-  EXPECT_THAT(MovesOf(places, "drain", "beta"), AllOf(HasSubstr("not offered now"), HasSubstr("in a moment")));
-  EXPECT_TRUE(places.Offer("beta", "host:1"));
-  EXPECT_EQ(places.Text(), "here: engine 'ground', space server; beta (offered by host:1): controller host 0");
-  EXPECT_EQ(MovesOf(places, "drain", "beta"), "controller host 0 > here; ");
-}
-
-std::string HostsAfter(const WorkerPlaces& places, double more)
-{
-  ControlRequestMessage request = Request("hosts", "");
-  request.numbers = {more};
-  std::string text;
-  for (const std::string& machine : places.ReadHosts(request, 10)) text += machine + " ";
-  return text;
-}
-
-TEST(WorkerPlaces, OfferedMachinesAreUsedUntilTheyGo)
-{
-  WorkerPlaces places = Places();
-  EXPECT_TRUE(places.Offer("gamma", "host:1"));
-  EXPECT_FALSE(places.Offer("gamma", "host:1"));
-  EXPECT_THROW(places.Offer("gamma", "host:2"), std::invalid_argument);
-  EXPECT_THROW(places.Offer("alpha", "host:2"), std::invalid_argument);
-  EXPECT_THROW(WorkerPlaces().Offer("gamma", "host:1"), std::invalid_argument);
-  EXPECT_EQ(MovesOf(places, "move-host", "1 to gamma"), "controller host 1 > gamma; ");
-  EXPECT_EQ(places.Text(),
+  EXPECT_EQ(Places().Text(),
             "here: space server, visualiser 'x=y'; alpha: controller host 0, engine 'a to b', engine 'ground'; beta: "
-            "controller host 1; gamma (offered by host:1): nobody");
-
-  // New controller hosts go where somebody offers a machine.
-  EXPECT_TRUE(places.Offer("delta", "host:3"));
-  EXPECT_EQ(HostsAfter(places, 3), "alpha beta delta gamma delta ");
-  EXPECT_EQ(places.Gone("host:3"), "delta");
-  EXPECT_EQ(places.Gone("host:3"), std::nullopt);
-  EXPECT_EQ(HostsAfter(places, 1), "alpha beta gamma ");
-  EXPECT_THAT(MovesOf(places, "move-host", "1 to delta"), HasSubstr("controller_host --offer NAME"));
-
-  places.Put({"controller host 1", "gamma"});
-  EXPECT_THROW(places.Withdraw("gamma", "host:9"), std::invalid_argument);
-  const auto moves = places.Withdraw("gamma", "host:1");
-  ASSERT_EQ(moves.size(), 1U);
-  EXPECT_EQ(moves[0].worker + " > " + moves[0].machine, "controller host 1 > beta");
-  EXPECT_EQ(HostsAfter(places, 1), "alpha gamma here ");
-  // Asked again of a space server that knows nothing of the offer.
-  EXPECT_EQ(places.Withdraw("gamma", "host:1").size(), 1U);
-  places.Put(moves[0]);
-  EXPECT_THAT(places.Text(), Not(HasSubstr("gamma")));
-}
-
-TEST(OfferedMachineName, IsAPlainWord)
-{
-  for (const char* good : {"beta", "a", "lab-7.example_2"}) EXPECT_EQ(MachineNameMistake(good), "");
-  for (const char* bad : {"", "a b", "a=b", "-x", "a/b", "über"})
-    EXPECT_THAT(MachineNameMistake(bad), HasSubstr("letters, digits")) << bad;
-  EXPECT_THAT(MachineNameMistake(std::string(64, 'a')), HasSubstr("up to 63"));
-  for (const char* taken : {"here", "localhost"}) EXPECT_THAT(MachineNameMistake(taken), HasSubstr("launcher's"));
-}
-
-// Whoever offers may be a program that did not look at the name.
-TEST(WorkerPlaces, TakeNoOtherName)
-{
+            "controller host 1");
   WorkerPlaces places = Places();
-  for (const char* bad : {"", "a b", "a=b", "-x", "a/b", "über", "a\nb", "here", "localhost"})
-  {
-    std::string said;
-    try
-    {
-      places.Offer(bad, "host:2");
-    }
-    catch (const std::invalid_argument& error)
-    {
-      said = error.what();
-    }
-    EXPECT_THAT(said, AllOf(HasSubstr("is no name of a machine"), HasSubstr(MachineNameMistake(bad)))) << bad;
-  }
-  EXPECT_THAT(places.Text(), Not(HasSubstr("offered by")));
-}
-
-// They write files in the folder of the run.
-TEST(WorkerPlaces, VisualisersDoNotGoToOfferedMachines)
-{
-  WorkerPlaces places({"here", "alpha"}, {"space server=here", "visualiser 'v'=alpha", "controller host 0=alpha"});
-  EXPECT_TRUE(places.Offer("gamma", "host:1"));
-  EXPECT_EQ(MovesOf(places, "drain", "alpha"), "controller host 0 > gamma; visualiser 'v' > here; ");
+  places.Put({"controller host 1", "alpha"});
+  EXPECT_THAT(places.Text(), EndsWith("; beta: nobody"));
 }
 
 // Two workers are at beta or here each; those of alpha go where the fewest are.
@@ -175,9 +95,10 @@ TEST(WorkerPlaces, DrainGivesToThoseWhoHaveTheFewest)
   WorkerPlaces places = Places();
   places.Put({"controller host 1", "here"});
   EXPECT_EQ(MovesOf(places, "drain", "beta"), "");
-  // Of nobody who moves, and of one who does not say where it is.
+  // The worker is not one that moves, does not say where it is, or names a machine that the run does not have.
   places.Put({"controller host 7", "beta"});
   places.Put({"controller host 0", ""});
+  places.Put({"controller host 0", "gamma"});
   EXPECT_EQ(MovesOf(places, "drain", "beta"), "");
 }
 
