@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -123,6 +124,8 @@ struct CommandMaker
     command.arguments.insert(command.arguments.end(), hosts.Options().begin(), hosts.Options().end());
     command.environment = EnvironmentOf(limits);
     command.input = key;
+    // If the launcher dies, the processes here end in good order (CatchInterrupts).
+    command.signal_at_our_end = SIGTERM;
     ProcessCommand placed = hosts.Placed(command, host);
     placed.cores = cores;
     return placed;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <csignal>
 #include <optional>
 #include <string_view>
 #include <thread>
@@ -14,11 +13,9 @@
 #include "common/activity/exit_codes.h"
 #include "common/activity/failure_report.h"
 #include "common/activity/print_error.h"
-#include "common/bus/domain.h"
 #include "common/bus/replica.h"
 #include "common/bus/run_directory.h"
 #include "common/experiment/actors.h"
-#include "common/journal/journal_reader.h"
 #include "common/messages/assignment.h"
 #include "common/program/program.h"
 #include "common/program/usage_error.h"
@@ -104,14 +101,6 @@ int ServeHere(std::vector<std::string> words, int status, const std::atomic<bool
       });
 }
 
-// Controller hosts, of a run that goes on as many as it had at last.
-unsigned HostsOf(const RunSettings& options, const RunFolder& folder, const Attendance& attendance)
-{
-  const std::string journal = JournalFile(folder.Path());
-  return attendance.go_on.incarnation > 0 && IsBegun(journal) ? JournalReader(journal).Hosts().hosts
-                                                              : options.controller_hosts;
-}
-
 void Isolate(const RunSettings& options, const Experiment& experiment, const Hosts& hosts, bool watched)
 {
   if (!hosts.AllHere()) throw UsageError("--isolated: the run has processes on other machines");
@@ -170,7 +159,7 @@ ClusterOutcome RunWatched(const std::vector<MemberPlan>& plans, Interrupts& inte
 }  // namespace
 
 RunResult RunCluster(const RunSettings& options, const Experiment& experiment, const RunFolder& folder,
-                     Manifest& manifest, const Attendance& attendance, const std::optional<RunKey>& key,
+                     Manifest& manifest, Interrupts& interrupts, const std::optional<RunKey>& key,
                      const WatchFunction& watch, const std::function<int(const RunResult&)>& conclude)
 {
   Hosts hosts = options.hosts_file.empty() ? Hosts() : Hosts::FromFile(options.hosts_file);
@@ -180,11 +169,8 @@ RunResult RunCluster(const RunSettings& options, const Experiment& experiment, c
   RemoveDeadRuns();
   if (options.isolated) Isolate(options, experiment, hosts, watch != nullptr);
 
-  // Kept until the end, so that no other run takes it.
-  std::optional<FreeDomain> free_domain;
-  if (!options.domain) free_domain.emplace();
-  manifest.domain = options.domain ? *options.domain : free_domain->Id();
-  const Assignment assignment = MakeAssignment(experiment, HostsOf(options, folder, attendance));
+  manifest.domain = options.domain;
+  const Assignment assignment = MakeAssignment(experiment, options.controller_hosts);
   RequirePlaces(options, experiment, assignment, hosts);
   const auto plan_with = [&](const Assignment& of)
   { return PlanCluster(options, experiment, of, hosts, folder, *manifest.domain, key); };
@@ -192,15 +178,8 @@ RunResult RunCluster(const RunSettings& options, const Experiment& experiment, c
   for (const MemberPlan& plan : plans) manifest.processes.emplace_back(plan.command.name, plan.log_path);
   folder.Write("manifest.json", manifest.Text());
 
-  // Until the process ends: the last line may find no reader either.
-  std::signal(SIGPIPE, SIG_IGN);
-  Interrupts interrupts(attendance.console);
   ProgressDisplay display(ProgressDisplay::StyleFor(STDERR_FILENO, options.quiet), STDERR_FILENO);
-  if (attendance.console != nullptr)
-    attendance.console->SetOnChange(
-        [&](std::optional<bool> quiet)
-        { display.SetStyle(ProgressDisplay::StyleFor(STDERR_FILENO, quiet.value_or(options.quiet))); });
-  if (!options.quiet && attendance.go_on.incarnation == 0)
+  if (!options.quiet)
     if (const std::string note = NoteAboutControllerHosts(options.controller_hosts, assignment.table.of_robots.size(),
                                                           hosts.AllHere() ? AvailableCores().size() : 0);
         !note.empty())
@@ -233,9 +212,8 @@ RunResult RunCluster(const RunSettings& options, const Experiment& experiment, c
               manifest.processes.push_back(process);
           return others;
         });
-    outcome = supervisor.Run(plans, attendance.go_on);
+    outcome = supervisor.Run(plans);
   }
-  if (attendance.console != nullptr) attendance.console->SetOnChange({});
   RemoveDeadRuns();
   Complain(outcome);
   return ResultOf(outcome);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "common/bus/run_key.h"
-#include "launcher/attended_run.h"
+#include "launcher/processes/interrupts.h"
 #include "launcher/single_run.h"
 #include "launcher/watched_simulator.h"
 
@@ -11,10 +11,10 @@ namespace swarmanoid
 
 // With a `watch`, the space server is this process, and calls it in this thread at each tick. One that never returns is
 // left: then `conclude` gets the result, in another thread, and the process ends with the exit code that it returns.
-// `key`: of the run; none if it is insecure. Adds the domain and the processes to the manifest, and writes it. Throws
-// UsageError.
+// `options` has the domain. `key`: of the run; none if it is insecure. Adds the domain and the processes to the
+// manifest, and writes it. Throws UsageError.
 RunResult RunCluster(const RunSettings& options, const Experiment& experiment, const RunFolder& folder,
-                     Manifest& manifest, const Attendance& attendance, const std::optional<RunKey>& key,
+                     Manifest& manifest, Interrupts& interrupts, const std::optional<RunKey>& key,
                      const WatchFunction& watch, const std::function<int(const RunResult&)>& conclude);
 
 }  // namespace swarmanoid

@@ -18,8 +18,6 @@
 #include "launcher/commands.h"
 #include "launcher/load.h"
 #include "launcher/plugin_text.h"
-#include "launcher/processes/progress_display.h"
-#include "launcher/supervised_runs.h"
 
 namespace swarmanoid
 {
@@ -188,28 +186,18 @@ int ListSettings(const std::string& file, bool as_json)
 int ListExperiments(bool as_json)
 {
   const auto runs = FindLocalRuns();
-  const auto supervised = FindSupervisedRuns();
   auto json = nlohmann::ordered_json::array();
   if (runs.empty() && !as_json) fmt::print("no experiment runs on this machine\n");
   for (const LocalRun& run : runs)
   {
-    const auto found =
-        std::ranges::find_if(supervised, [&](const SupervisedRun& other)
-                             { return other.experiment == run.experiment && other.domain == run.domain; });
-    const SupervisedRun* orphan = found != supervised.end() && found->orphaned_s ? &*found : nullptr;
     if (as_json)
     {
       auto& row = json.emplace_back(
           nlohmann::ordered_json{{"experiment", run.experiment}, {"domain", run.domain}, {"space_server", run.server}});
-      if (found != supervised.end()) row["folder"] = found->folder;
-      row["orphaned"] = orphan != nullptr;
-      if (orphan != nullptr) row["ends_in_s"] = orphan->ends_in_s;
+      if (!run.folder.empty()) row["folder"] = run.folder;
       continue;
     }
-    fmt::print("{:<32} domain {:<4} space server {}", run.experiment, run.domain, run.server);
-    if (orphan != nullptr)
-      fmt::print("   orphaned, ends in {}: swarmanoid adopt {}", DurationText(orphan->ends_in_s), orphan->folder);
-    fmt::print("\n");
+    fmt::print("{:<32} domain {:<4} space server {}\n", run.experiment, run.domain, run.server);
   }
   if (as_json) PrintJson(json);
   return kExitDone;

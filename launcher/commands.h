@@ -14,7 +14,6 @@ namespace swarmanoid
 {
 
 void AddRunCommand(CLI::App& app, int& exit_code);
-void AddAdoptCommand(CLI::App& app, int& exit_code);
 void AddResumeCommand(CLI::App& app, int& exit_code);
 void AddReplayCommand(CLI::App& app, int& exit_code);
 void AddDiffCommand(CLI::App& app, int& exit_code);

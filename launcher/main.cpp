@@ -24,9 +24,9 @@
 namespace
 {
 
-const std::vector<std::string> kVerbs{"run",    "resume",  "adopt",  "replay", "diff", "inspect", "export",
-                                      "attach", "control", "share",  "check",  "edit", "convert", "list",
-                                      "new",    "demo",    "doctor", "sweep",  "plot"};
+const std::vector<std::string> kVerbs{"run",    "resume",  "replay", "diff",   "inspect", "export",
+                                      "attach", "control", "share",  "check",  "edit",    "convert",
+                                      "list",   "new",     "demo",   "doctor", "sweep",   "plot"};
 
 // CLI11 would only say that the word was not expected.
 bool ComplainsAboutVerb(const std::vector<std::string>& words)
@@ -55,7 +55,6 @@ void AddCommands(CLI::App& app, int& exit_code)
   app.require_subcommand(1);
   AddRunCommand(app, exit_code);
   AddResumeCommand(app, exit_code);
-  AddAdoptCommand(app, exit_code);
   AddReplayCommand(app, exit_code);
   AddDiffCommand(app, exit_code);
   AddInspectCommand(app, exit_code);

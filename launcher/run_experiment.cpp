@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
@@ -126,20 +125,6 @@ Begun NextOf(const Begun& first, const Begun& run, const RunSummary& ended, unsi
   return next;
 }
 
-// The newest run that came of `first` by resets, if there is one: a process before this one began it. `number`: how
-// many there are.
-std::optional<Begun> NewestOf(const Begun& first, unsigned& number)
-{
-  namespace fs = std::filesystem;
-  while (fs::exists(FolderOfReset(first.folder, number + 1) + "/manifest.json")) ++number;
-  if (number == 0) return std::nullopt;
-  const std::string folder = FolderOfReset(first.folder, number);
-  const nlohmann::json manifest = ReadManifest(folder);
-  const nlohmann::json& from = manifest.at("reset_of");
-  return BeginAgain(first, {from.at("run"), from.at("tick"), from.at("paused"), from.at("real_time_factor")},
-                    manifest.at("seed"), RunFolder::There(folder));
-}
-
 int Conclude(const RunSettings& options, const RunResult& result, const RunFolder& folder, Manifest& manifest)
 {
   int exit_code = result.exit_code;
@@ -230,15 +215,16 @@ void RefuseContradictions(const RunSettings& options)
 
 // Runs, and runs again as often as users reset it. `run` gets a run and returns how it ended. Returns the exit code of
 // the last one.
-int RunUntilEnd(Begun& first, std::optional<Begun> next, unsigned resets, const std::function<RunResult(Begun&)>& run)
+int RunUntilEnd(Begun& first, const std::function<RunResult(Begun&)>& run)
 {
-  while (true)
+  std::optional<Begun> next;
+  for (unsigned resets = 1;; ++resets)
   {
     Begun& begun = next ? *next : first;
     const RunResult result = run(begun);
     const int exit_code = Conclude(begun.options, result, begun.folder, begun.manifest);
     if (!result.summary || !result.summary->reset) return exit_code;
-    next = NextOf(first, begun, *result.summary, ++resets);
+    next = NextOf(first, begun, *result.summary, resets);
   }
 }
 
@@ -248,33 +234,23 @@ std::optional<RunKey> KeyFor(const RunSettings& options)
   return options.key_file.empty() ? NewRunKey() : KeyOfFile(options.key_file);
 }
 
-// The launcher may die, and so may the process that supervises the run: domain and key are those of both.
 int RunAsCluster(Begun& first, const WatchFunction& watch)
 {
-  RunSettings& options = first.options;
-  const std::optional<RunKey> key = KeyFor(options);
-  const auto run = [&](const Attendance& attendance)
-  {
-    Attendance begins = attendance;
-    unsigned resets = 0;
-    std::optional<Begun> newest = attendance.go_on.incarnation > 0 ? NewestOf(first, resets) : std::nullopt;
-    const auto run_one = [&](Begun& begun)
-    {
-      const auto conclude = [&](const RunResult& result)
-      { return Conclude(begun.options, result, begun.folder, begun.manifest); };
-      RunResult result =
-          RunCluster(begun.options, *begun.experiment, begun.folder, begun.manifest, begins, key, watch, conclude);
-      begins.go_on = {0, 0};
-      return result;
-    };
-    return RunUntilEnd(first, std::move(newest), resets, run_one);
-  };
-  if (watch || options.orphan_timeout_s == 0) return run({});
+  const std::optional<RunKey> key = KeyFor(first.options);
+  // The runs after resets have the same domain. It is kept until the end, so that no other run takes it.
   std::optional<FreeDomain> free_domain;
-  if (!options.domain) options.domain = free_domain.emplace().Id();
-  const auto timeout = std::chrono::milliseconds(static_cast<std::int64_t>(1000 * options.orphan_timeout_s));
-  return RunAttended({first.experiment->name, first.folder.Path(), *options.domain, timeout},
-                     options.Replaces() ? options.retries : 0, run);
+  if (!first.options.domain) first.options.domain = free_domain.emplace().Id();
+  // Until the process ends: the last line may find no reader either.
+  std::signal(SIGPIPE, SIG_IGN);
+  // A signal that comes between two runs ends the second one.
+  Interrupts interrupts;
+  const auto run = [&](Begun& begun)
+  {
+    const auto conclude = [&](const RunResult& result)
+    { return Conclude(begun.options, result, begun.folder, begun.manifest); };
+    return RunCluster(begun.options, *begun.experiment, begun.folder, begun.manifest, interrupts, key, watch, conclude);
+  };
+  return RunUntilEnd(first, run);
 }
 
 // Where the run comes from goes into its folder and onto the console.
@@ -352,7 +328,7 @@ int RunExperiment(const RunSettings& given, const WatchFunction& watch)
       const ManifestAtDeath at_death(begun.folder, begun.manifest);
       return RunHere(begun.options, *begun.experiment, begun.folder, watch);
     };
-    return RunUntilEnd(first, std::nullopt, 0, run_here);
+    return RunUntilEnd(first, run_here);
   }
   catch (const RunFolderError& error)
   {

@@ -26,17 +26,12 @@ public:
   // name and the time under runs/. Throws RunFolderError with the cure.
   RunFolder(const std::string& asked, const std::string& experiment);
 
-  // One that has been made.
-  static RunFolder There(const std::string& path) { return RunFolder(path); }
-
   const std::string& Path() const { return path_; }  // absolute
   std::string File(const std::string& name) const { return path_ + "/" + name; }
   // Writes a whole file, or throws RunFolderError and leaves the one that was there.
   void Write(const std::string& name, const std::string& text) const;
 
 private:
-  explicit RunFolder(std::string path) : path_(std::move(path)) {}
-
   std::string path_;
 };
 

@@ -36,7 +36,7 @@ HostConnection::HostConnection(const std::vector<std::string>& command)
                     .output = out.write.Get(),
                     .errors = err.write.Get(),
                     .leads_group = true,
-                    .dies_with_us = true});
+                    .signal_at_our_end = SIGKILL});
   in_ = std::move(in.write);
   out_ = std::move(out.read);
   err_ = std::move(err.read);

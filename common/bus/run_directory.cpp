@@ -239,6 +239,15 @@ RunNetwork NetworkOfText(const std::string& text)
   return network;
 }
 
+// The folder that AnnounceFolder wrote; empty if none.
+std::string FolderIn(int run)
+{
+  std::istringstream text(TextOf(run, kFolderFile));
+  std::string path;
+  std::getline(text, path);
+  return path;
+}
+
 // A slash at the end would make the kernel follow a link.
 std::string WithoutSlashes(std::string path)
 {
@@ -348,10 +357,7 @@ std::string FolderOfRun(const std::string& experiment, std::uint64_t run)
   const Descriptor shared = OpenSharedFolder();
   const Descriptor folder = shared ? OpenOwnFolder(*shared, FileName(experiment, run)) : Descriptor(-1);
   if (!folder || !IsRun(*folder)) return {};
-  std::istringstream text(TextOf(*folder, kFolderFile));
-  std::string path;
-  std::getline(text, path);
-  return path;
+  return FolderIn(*folder);
 }
 
 std::vector<LocalRun> FindLocalRuns()
@@ -369,6 +375,7 @@ std::vector<LocalRun> FindLocalRuns()
     if (!(text >> run.domain >> run.server)) continue;
     text.ignore();
     std::getline(text, run.experiment);
+    run.folder = FolderIn(*folder);
     run.key = KeyOfText(TextOf(*folder, kKeyFile));
     run.network = NetworkOfText(TextOf(*folder, kNetworkFile));
     if (IsLocked(*folder, fmt::format("{}{}", kMarkerPrefix, run.server))) runs.push_back(run);

@@ -71,6 +71,7 @@ struct LocalRun
   int domain = 0;
   long server = 0;  // process id
   std::string directory;
+  std::string folder{};         // with its journal; empty: it keeps none
   std::optional<RunKey> key{};  // none: whoever is in the domain belongs to it
   RunNetwork network{};
 };

@@ -15,7 +15,8 @@ enum class SecondInterrupt
 };
 
 // From here on SIGINT, SIGTERM and SIGHUP set InterruptFlag, and writing to a closed pipe is an error instead of a
-// death.
+// death. If this process gets one of them because the process that started it has died (SpawnSettings), the kernel
+// kills it two seconds later if it still runs: its code may be stuck, and no other process would end it.
 void CatchInterrupts(SecondInterrupt second = SecondInterrupt::kSame);
 const std::atomic<bool>& InterruptFlag();
 inline bool Interrupted() { return InterruptFlag(); }

@@ -67,7 +67,8 @@ SpawnedProcess SystemSpawner::Start(const ProcessCommand& command)
   settings.errors = errors.write.Get();
   settings.kept = page.descriptor.Get();
   settings.cores = command.cores;
-  settings.leads_group = settings.dies_with_us = true;
+  settings.leads_group = true;
+  settings.signal_at_our_end = command.signal_at_our_end;
   const pid_t pid = Spawn(settings);
   SpawnedProcess process{pid,
                          std::move(output.read),

@@ -3,6 +3,7 @@
 // processes that it starts.
 #pragma once
 
+#include <csignal>
 #include <memory>
 #include <string>
 #include <utility>
@@ -24,6 +25,7 @@ struct ProcessCommand
   std::vector<std::pair<std::string, std::string>> environment;  // added to ours
   std::vector<int> cores;                                        // that it may run on; empty: all
   std::string input{};                                           // what it gets to read when it asks; empty: nothing
+  int signal_at_our_end = SIGKILL;                               // that the kernel sends it when this process ends
 };
 
 // How a process ended.
@@ -61,8 +63,8 @@ public:
   virtual void Signal(const SpawnedProcess& process, int signal) = 0;
 };
 
-// Real processes: each leads a process group of its own and is killed by the kernel when whoever started it ends. They
-// inherit no descriptors but those that are given here.
+// Real processes: each leads a process group of its own, and ends with the process that started it. They inherit no
+// descriptors but those that are given here.
 class SystemSpawner : public ProcessSpawner
 {
 public:

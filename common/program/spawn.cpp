@@ -58,9 +58,9 @@ int Connect(int descriptor, int standard)
 int BecomeProgram(const SpawnSettings& settings, pid_t parent, const cpu_set_t& cores, char** arguments,
                   char** environment)
 {
-  if (settings.dies_with_us)
+  if (settings.signal_at_our_end != 0)
   {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    prctl(PR_SET_PDEATHSIG, settings.signal_at_our_end);
     if (getppid() != parent) return ESRCH;
   }
   if (settings.leads_group) setpgid(0, 0);

@@ -24,8 +24,8 @@ struct SpawnSettings
   std::vector<int> cores{};  // that it may run on; empty: all
   // It leads a process group of its own: Ctrl-C at a terminal is not for it.
   bool leads_group = false;
-  // The kernel kills it when the thread that started it ends.
-  bool dies_with_us = false;
+  // The kernel sends it this signal when the thread that started it ends; 0: none.
+  int signal_at_our_end = 0;
 };
 
 // The program runs when this returns. It inherits no descriptors but those above, ignores and blocks no signals.

@@ -25,7 +25,6 @@ constexpr double kShortestLease_s = 0.2;
 constexpr double kLongestLease_s = 3600;
 constexpr double kShortestStep_s = 1e-3;
 constexpr double kLongestStep_s = 1e6;
-constexpr double kLongestOrphan_s = 1e6;
 
 // Who takes a setting; each is for those before it too.
 enum class For
@@ -233,16 +232,6 @@ std::vector<RunOption> Table(RunSettings& s)
         "5",
         "",
         LeaseMistake},
-       For::kLauncher},
-      {{{.name = "orphan-timeout",
-         .type = kNumber,
-         .unit = "s",
-         .description = "Time that a cluster goes on after its launcher was killed or its terminal was lost, until "
-                        "somebody adopts it (swarmanoid adopt); 0: it ends with its launcher",
-         .minimum = 0,
-         .maximum = kLongestOrphan_s},
-        &s.orphan_timeout_s,
-        "3600"},
        For::kLauncher},
       {{Flag("quiet", "Show no progress"), &s.quiet}, For::kLauncher},
       {{{.name = "step-timeout",

@@ -85,9 +85,7 @@ struct RunSettings : ExperimentChoice, SimulatorOptions
   bool recovery = true;  // processes that die are replaced
   unsigned retries = 3;  // of one process, while the run does not go on
   bool Replaces() const { return recovery && journal && retries > 0; }
-  double lease_s = 0;  // silence after which a process counts as dead; 0: the default
-  // That a cluster goes on after its launcher has died; 0: it ends with it.
-  double orphan_timeout_s = 300;
+  double lease_s = 0;         // silence after which a process counts as dead; 0: the default
   double step_timeout_s = 0;  // that a step of a user's code may take; 0: the environment's limit, or none
   std::string memory_limit;   // of each process, as "2GiB"; empty: the environment's limit, or the default
 };

@@ -38,13 +38,6 @@ ProgressDisplay::Style ProgressDisplay::StyleFor(int descriptor, bool quiet)
   return isatty(descriptor) != 0 ? Style::kTerminal : Style::kPlain;
 }
 
-void ProgressDisplay::SetStyle(Style style)
-{
-  style_ = style;
-  line_shown_ = false;
-  last_plain_.reset();
-}
-
 void ProgressDisplay::Show(const RunProgress& progress, Clock::time_point now)
 {
   if (style_ == Style::kQuiet) return;

@@ -43,9 +43,6 @@ public:
   // kTerminal if the descriptor is one.
   static Style StyleFor(int descriptor, bool quiet);
 
-  // The descriptor is another terminal or file than before.
-  void SetStyle(Style style);
-
   void Show(const RunProgress& progress, Clock::time_point now);
   // Takes the status line away, so that other text can be written.
   void Clear();

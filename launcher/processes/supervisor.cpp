@@ -43,9 +43,9 @@ Supervisor::Supervisor(ProcessSpawner& spawner, Interrupts& interrupts, Progress
 {
 }
 
-ClusterOutcome Supervisor::Run(const std::vector<MemberPlan>& plans, const GoOn& go_on)
+ClusterOutcome Supervisor::Run(const std::vector<MemberPlan>& plans)
 {
-  Start(plans, go_on);
+  Start(plans);
   while (AnyAlive() || MustStartAgain())
   {
     if (phase_ == Phase::kRestarting && !AnyAlive()) StartAgain();
@@ -61,22 +61,16 @@ ClusterOutcome Supervisor::Run(const std::vector<MemberPlan>& plans, const GoOn&
   return outcome_;
 }
 
-void Supervisor::Start(const std::vector<MemberPlan>& plans, const GoOn& go_on)
+void Supervisor::Start(const std::vector<MemberPlan>& plans)
 {
   outcome_.kind = ClusterOutcome::kInterrupted;
-  progress_.phase = go_on.incarnation > 0 ? "starting again" : "starting";
+  progress_.phase = "starting";
   heard_ = now_();
-  if (go_on.incarnation > 0)
-    began_ = heard_ - std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(go_on.taken_s));
   try
   {
     for (const MemberPlan& plan : plans)
     {
-      if (go_on.incarnation > 0 && !plan.replacement)
-        throw std::runtime_error(
-            fmt::format("{} cannot be started again{}", plan.command.name,
-                        plan.host.empty() ? "" : ": it may live on at " + plan.host + ", where nobody sees it"));
-      members_.push_back(std::make_unique<ClusterMember>(plan, spawner_, go_on.incarnation, go_on.taken_s));
+      members_.push_back(std::make_unique<ClusterMember>(plan, spawner_));
       pids_.push_back(members_.back()->Process().pid);
     }
   }
@@ -263,7 +257,7 @@ void Supervisor::WriteScreen(const ClusterMember& member, std::string_view line)
   {
     const ssize_t written = write(screen_, rest.data(), rest.size());
     if (written > 0) rest.remove_prefix(static_cast<std::size_t>(written));
-    if (written >= 0 || errno == EINTR || interrupts_.ConsoleHasGone()) continue;
+    if (written >= 0 || errno == EINTR) continue;
     screen_gone_ = true;
     if (phase_ == Phase::kRunning)
       StopAtTick("nobody reads standard output any more: stopping at the end of this tick");

@@ -67,17 +67,11 @@ public:
              ActorNames actor_of = {}, const SupervisorTimes& times = {},
              std::function<Clock::time_point()> now = Clock::now, unsigned retries = 0);
 
-  // For a run whose processes have all died with the one that supervised them: they take the places of those before.
-  struct GoOn
-  {
-    unsigned incarnation = 0;  // 0: the run begins
-    double taken_s = 0;        // by the run so far
-  };
   // The processes of the run with another number of controller hosts, for users who ask for it.
   using PlanAgain = std::function<std::vector<MemberPlan>(unsigned controller_hosts)>;
   void SetPlanAgain(PlanAgain plan_again) { plan_again_ = std::move(plan_again); }
   // The first plan is the space server's.
-  ClusterOutcome Run(const std::vector<MemberPlan>& plans, const GoOn& go_on = {0, 0});
+  ClusterOutcome Run(const std::vector<MemberPlan>& plans);
   // Of all processes that were started; for what they leave behind.
   const std::vector<pid_t>& PidsForTest() const { return pids_; }
 
@@ -91,7 +85,7 @@ private:
     kDying        // SIGTERM is sent, SIGKILL follows
   };
 
-  void Start(const std::vector<MemberPlan>& plans, const GoOn& go_on);
+  void Start(const std::vector<MemberPlan>& plans);
   void WaitForEvents();
   void ReadMember(ClusterMember& member);
   void TakeStatus(const ServerStatus& status);

@@ -133,8 +133,8 @@ void Supervisor::TakeInterrupts()
 {
   while (const auto signal = interrupts_.Take())
   {
-    // Nobody is there any more, and whatever was begun may come to its end.
-    if (*signal == SIGHUP && phase_ != Phase::kRunning)
+    // A lost terminal sends more than one, and what was begun may come to its end.
+    if (*signal == SIGHUP && phase_ != Phase::kRunning && phase_ != Phase::kRestarting)
     {
       if (phase_ == Phase::kStopping && !deadline_) deadline_ = now_() + times_.forced_stop;
       continue;

@@ -32,7 +32,8 @@ def stat_of(pid):
     return int(parent), int(group), state
 
 
-def children_of(pid):
+def processes_of(pid):
+    """Those of the cluster of a launcher."""
     return [int(entry) for entry in os.listdir("/proc") if entry.isdigit() and (stat_of(entry) or (0,))[0] == pid]
 
 
@@ -43,27 +44,17 @@ def words_of(pid):
         return []
 
 
-def supervisor_of(pid):
-    """The process that supervises the run of a launcher, which is one more process of the same command; or None."""
-    return next((child for child in children_of(pid) if words_of(pid) and words_of(child) == words_of(pid)), None)
-
-
-def processes_of(pid):
-    """Those of the cluster of a launcher, or of the process that supervises it."""
-    return children_of(supervisor_of(pid) or pid)
-
-
 def end(process):
-    """Kills a process, if it still runs, with all that it started in its session, and the run that it supervises."""
+    """Kills a process, if it still runs, with all that it started."""
     if process.poll() is None:
-        supervisor = supervisor_of(process.pid)
-        if supervisor is not None:
-            with contextlib.suppress(ProcessLookupError):
-                os.kill(supervisor, signal.SIGKILL)
+        started = processes_of(process.pid)
         with contextlib.suppress(ProcessLookupError, PermissionError):
             if os.getpgid(process.pid) == process.pid:
                 os.killpg(process.pid, signal.SIGKILL)
         process.kill()
+        for pid in started:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
     process.communicate(timeout=GENEROUS_S)
 
 
@@ -156,6 +147,15 @@ class LauncherTest(unittest.TestCase):
         run = self.start(*arguments, environment=environment, before=before)
         run.wait(timeout)
         return run
+
+    def kill_all(self, run):
+        """All processes of a run die at once, as with their machine."""
+        pids = processes_of(run.process.pid)
+        run.process.kill()
+        for pid in pids:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+        run.wait()
 
     def control(self, *words):
         """What a request that is obeyed says."""

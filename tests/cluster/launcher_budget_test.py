@@ -1,10 +1,9 @@
 """A journal with a budget: the newest is kept, and what that is enough for works as ever."""
-import contextlib
 import os
 import re
 import signal
 
-from harness import CONFIGS, LauncherTest, main, supervisor_of
+from harness import CONFIGS, LauncherTest, main
 
 # A state is saved at each hundredth tick, some 350 kB of the journal after the one before.
 SWARM = [CONFIGS / "diffusion_1000.xml", "--real-time", 20, "--journal-budget", "2MiB"]
@@ -64,13 +63,7 @@ class Budget(LauncherTest):
                 self.assert_nothing_left(run)
 
     def test_a_run_whose_machine_died_is_resumed(self):
-        def kill_all(run):
-            pids = [run.find(program) for program in ("engine_worker", "controller_host", "space_server")]
-            for pid in [run.process.pid, supervisor_of(run.process.pid), *pids]:
-                with contextlib.suppress(ProcessLookupError):
-                    os.kill(pid, signal.SIGKILL)
-        run = self.go_on("died", kill_all)
-        run.wait()
+        self.go_on("died", self.kill_all)
         resumed = self.run_it("resume", "died", "--quiet", "--no-visualisers")
         self.assertEqual(self.assert_finished(resumed, TICKS), self.expected, resumed.stderr)
 

@@ -3,7 +3,7 @@ import csv
 import os
 import signal
 
-from harness import CONFIGS, FINISHED, LauncherTest, main, processes_of, supervisor_of, words_of
+from harness import CONFIGS, FINISHED, LauncherTest, main, processes_of, words_of
 
 EXPERIMENT = CONFIGS / "diffusion_10.xml"
 TICKS = 2000
@@ -240,15 +240,8 @@ class Moves(LauncherTest):
         self.control("step", 777)
         self.control("hosts", "+1")
         self.control("step", 300)
-        # Who goes on with a journal has as many as it ends with: the next supervising process, and `resume`.
-        dead = supervisor_of(run.process.pid)
-        os.kill(dead, signal.SIGKILL)
-        self.wait_until("three hosts again", lambda: supervisor_of(run.process.pid) not in (None, dead) and self.hosts_of(run) == list("012"), run)
-        self.wait_for_experiment("diffusion_10")
-        self.control("step", 100)
-        for pid in (run.process.pid, supervisor_of(run.process.pid)):
-            os.kill(pid, signal.SIGKILL)
-        run.process.wait()
+        # A run that goes on with a journal has as many as the journal ends with.
+        self.kill_all(run)
         resumed = self.run_it("resume", "out")
         one = self.run_it("run", EXPERIMENT, "--ticks", TICKS, "--single-process", "--quiet", "--output", "one_out")
         self.assertEqual(self.assert_finished(resumed, TICKS), self.assert_finished(one, TICKS))

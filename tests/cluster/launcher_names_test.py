@@ -64,7 +64,6 @@ class Names(harness.LauncherTest):
             self.refused(f"run {EXPERIMENT} --single-process --faults-of {name}", f"--faults-of '{name}'")
             self.refused(f"run --branch {name}@5", name)
             self.refused(f"resume {name}", "is no folder of a run")
-            self.refused(f"adopt {name}", "is no folder of a run")
             self.refused(f"replay {name} text", "is no folder of a run")
             self.refused(f"replay {name} --verify", "is no folder of a run")
             self.refused(f"diff {name} {name}", "is no folder of a run")

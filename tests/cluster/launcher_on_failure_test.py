@@ -1,5 +1,4 @@
 """Controllers fail, and the run goes on as on_failure says: the same in one process and as a cluster, where both can survive it; and what was decided once is repeated by whoever does the tick again."""
-import contextlib
 import os
 import re
 import signal
@@ -269,13 +268,8 @@ class OnceDecided(OnFailureTest):
                     os.rename(self.folder / name, self.folder / f"{name}_{program}")
 
     def test_by_a_run_that_is_resumed(self):
-        run = self.paused_after_the_fault("--orphan-timeout", 0)
-        pids = [run.find(program) for program in ("space_server", "engine_worker", "controller_host")]
-        run.process.kill()
-        for pid in pids:
-            with contextlib.suppress(ProcessLookupError):
-                os.kill(pid, signal.SIGKILL)
-        run.wait()
+        run = self.paused_after_the_fault()
+        self.kill_all(run)
         resumed = self.run_it("resume", "out")
         self.assertEqual(resumed.process.returncode, 0, resumed.stderr)
         self.assertEqual(self.assert_finished(resumed, TICKS), self.repeated())

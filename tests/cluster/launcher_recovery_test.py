@@ -369,20 +369,19 @@ class GivingUp(RecoveryTest):
 
 
 class Resumed(RecoveryTest):
-    def test_after_all_were_killed_by_the_death_of_the_launcher(self):
+    def test_after_the_launcher_was_killed_with_all_its_processes(self):
         experiment = CONFIGS / "diffusion_10.xml"
         for moment in (20, 1500):
             with self.subTest(moment):
                 out = f"out{moment}"
                 run = self.start("run", experiment, "--ticks", 2000, "--paused", "--hash-log", "cluster", "--output", out, "--quiet",
-                                 "--checkpoint-every", 400, "--orphan-timeout", 0)
+                                 "--checkpoint-every", 400)
                 self.wait_for_experiment("diffusion_10")
                 self.control("step", 10)
                 self.control("move", "fb_0", "1.5,1.3,0,0,0,91.25")
                 self.control("step", moment - 10)
                 self.control("remove", "fb_1")
-                run.process.kill()
-                run.wait()
+                self.kill_all(run)
                 expected = self.undisturbed(experiment, 2000, "--events", f"{out}/events.csv")
                 shutil.rmtree(self.folder / "one_out")
                 again = self.run_it("resume", out, "--quiet")

@@ -5,7 +5,7 @@ import shutil
 import subprocess
 import unittest
 
-from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, processes_of, main, supervisor_of
+from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, main, processes_of
 
 EXPERIMENT = CONFIGS / "diffusion_10.xml"
 NOBODY = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
@@ -39,7 +39,7 @@ class Security(LauncherTest):
         key = keys[0].read_text().strip()
         self.assertRegex(key, "^[0-9a-f]{64}$")
         self.wait_until("all processes", lambda: len(processes_of(run.process.pid)) == 3)
-        for pid in [run.process.pid, supervisor_of(run.process.pid), *processes_of(run.process.pid)]:
+        for pid in [run.process.pid, *processes_of(run.process.pid)]:
             for name in ("cmdline", "environ"):
                 self.assertNotIn(key, pathlib.Path(f"/proc/{pid}/{name}").read_bytes().decode(errors="replace"))
         self.resume()

@@ -9,7 +9,7 @@ import time
 import unittest
 
 import two_machines
-from harness import CONFIGS, GENEROUS_S, LauncherTest, main, processes_of, supervisor_of, words_of
+from harness import CONFIGS, GENEROUS_S, LauncherTest, main, processes_of, words_of
 
 EXPERIMENT = CONFIGS / "diffusion_1000.xml"
 REPLACED = "another process takes its place"
@@ -117,11 +117,7 @@ class Split(SplitTest):
         expected = self.one_process(EXPERIMENT, 300)
         run = self.begin(300, split=2)
         self.control("step", 170)
-        supervisor = supervisor_of(run.process.pid)
-        pids = [*processes_of(run.process.pid), supervisor, run.process.pid]
-        for pid in reversed(pids):
-            os.kill(pid, signal.SIGKILL)
-        run.wait()
+        self.kill_all(run)
         resumed = self.run_it("resume", "out", "--quiet")
         self.assertEqual(resumed.process.returncode, 0, resumed.stderr)
         self.assertEqual(self.assert_finished(resumed, 300), expected)

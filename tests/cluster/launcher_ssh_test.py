@@ -4,7 +4,7 @@ import os
 import pathlib
 import signal
 
-from harness import CONFIGS, LauncherTest, main, processes_of, supervisor_of, words_of
+from harness import CONFIGS, LauncherTest, main, processes_of, words_of
 from ssh_machines import Machines, require_servers
 
 BUILD = pathlib.Path(os.environ["SWARMANOID_BUILD"])
@@ -42,11 +42,11 @@ class Ssh(LauncherTest):
         run.wait()
         return run
 
-    def endless(self, *lines, options=()):
+    def endless(self, *lines):
         """A run that goes on, with its engine at alpha and its controllers at beta unless said otherwise."""
         hashes = f"hashes{len(self.runs)}"
         run = self.start_on(self.hosts(*(lines or ("engine = alpha", "controller_host = beta"))), "--no-recovery", "--real-time", "20", "--ticks", "0",
-                            "--hash-log", self.folder / hashes, *options)
+                            "--hash-log", self.folder / hashes)
         self.wait_for_tick(hashes, 3, run)
         return run
 
@@ -120,15 +120,13 @@ class Ssh(LauncherTest):
         self.assertIn("engine 'ground' moves to lost", said)
         self.assert_undisturbed(run)
 
-    def test_the_launcher_may_die(self):
+    def test_a_run_whose_launcher_died_is_resumed(self):
         run = self.paused("engine = alpha", "controller_host = beta")
-        supervisor = supervisor_of(run.process.pid)
         run.process.kill()
         run.wait()
-        os.kill(self.beta.find("controller_host"), signal.SIGKILL)
-        adopter = self.start("adopt", environment=self.ssh.environment)
-        self.assert_undisturbed(adopter)
-        self.wait_until("its end", lambda: not words_of(supervisor))
+        self.assert_machines_empty()
+        hosts = self.hosts("engine = alpha", "controller_host = beta")
+        self.assert_undisturbed(self.start("resume", "out0", "--no-visualisers", "--hosts", hosts, environment=self.ssh.environment))
 
     def test_an_interrupt_ends_the_run_at_its_tick(self):
         run = self.endless()
@@ -147,7 +145,7 @@ class Ssh(LauncherTest):
 
     def test_a_second_interrupt_and_a_termination_leave_nothing_there(self):
         for signals in ([signal.SIGTERM], [signal.SIGINT, signal.SIGINT], [signal.SIGKILL]):
-            run = self.endless(options=("--orphan-timeout", "0"))
+            run = self.endless()
             for number in signals:
                 run.process.send_signal(number)
             run.wait()

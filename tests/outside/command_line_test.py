@@ -37,8 +37,6 @@ class CommandLine(OutsideTest):
         self.refused("controller_host", "--threads", "0", says=["--threads is 0", "from 1 to 64"])
         self.refused("visualiser", "--attach", "text", "--hz", "nan", says="--hz is 'nan'")
         self.refused("swarmanoid_robot", file, "--wait", "nan", says="--wait is 'nan'")
-        self.refused("swarmanoid", "run", file, "--orphan-timeout", "-1", says=["--orphan-timeout is -1", "from 0 to"])
-        self.refused("swarmanoid", "adopt", self.folder / "nothing", says="is no folder of a run")
         self.refused("swarmanoid", "control", "move-hsot", "1", says="did you mean 'move-host'?")
         self.refused("swarmanoid", "control", "reset", "7", says="write reset or reset --seed N")
         self.refused("swarmanoid", "control", "pause", "--seed", "7", says="--seed: pause takes none")

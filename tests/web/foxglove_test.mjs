@@ -134,7 +134,7 @@ test('what it tells is what an export has', async () => {
 
 test('attached to a paused run, it tells what is there to everybody who comes', async () => {
   const port = await freePort();
-  const run = start('run', experiment(''), '--paused', '--orphan-timeout', '0', '--output', 'paused');
+  const run = start('run', experiment(''), '--paused', '--output', 'paused');
   await until('the run', () => run.text.includes('paused') || run.exitCode !== null);
   const shown = start('attach', 'foxglove', '--port', String(port));
   for (let round = 0; round < 2; ++round) {
@@ -168,7 +168,7 @@ test('attached to a paused run, it tells what is there to everybody who comes', 
 
 test('who is not let in', async () => {
   const port = await freePort();
-  const run = start('run', experiment(`<foxglove_render id="f" port="${port}" origins="https://a.example, https://b.example"/>`), '--paused', '--orphan-timeout', '0', '--output', 'doors');
+  const run = start('run', experiment(`<foxglove_render id="f" port="${port}" origins="https://a.example, https://b.example"/>`), '--paused', '--output', 'doors');
   (await look(port, [])).client.close();
   const answer = (headers) => new Promise((resolve, reject) => {
     const request = http.request({ host: '127.0.0.1', port, headers: {

@@ -47,6 +47,17 @@ TEST_F(SupervisorTest, OneInterruptStopsAtATickAndKeepsTheResult)
   EXPECT_EQ(outcome.finished->ticks, 8U);
 }
 
+// The kernel and a shell both tell of a closed terminal.
+TEST_F(SupervisorTest, ALostTerminalStopsAtATickAndKeepsTheResult)
+{
+  AddServer(Stoppable());
+  Add("engine_worker ground", "sleep 0.5");
+  const std::jthread press = PressAt({{"running", SIGHUP}, {"running", SIGHUP}});
+  const ClusterOutcome outcome = Run();
+  EXPECT_EQ(outcome.kind, ClusterOutcome::kInterrupted);
+  EXPECT_TRUE(outcome.finished);
+}
+
 TEST_F(SupervisorTest, TwoInterruptsKill)
 {
   // The second one comes once the first was passed on: two signals that are pending at once are one.

@@ -86,7 +86,7 @@ TEST(Spawn, RunsOnTheCoresAndInTheGroupThatAreAskedFor)
 TEST(Spawn, DiesWithTheThreadThatStartedItIfItIsTo)
 {
   pid_t process = 0;
-  std::thread([&] { process = Spawn({.words = {"sleep", "1000"}, .dies_with_us = true}); }).join();
+  std::thread([&] { process = Spawn({.words = {"sleep", "1000"}, .signal_at_our_end = SIGKILL}); }).join();
   int status = 0;
   ASSERT_EQ(waitpid(process, &status, 0), process);
   EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
