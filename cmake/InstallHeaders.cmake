@@ -34,7 +34,7 @@ set(PUBLIC_HEADERS
   # simulators
   common/activity/failure_report.h
   launcher/simulation.h
-  launcher/simulator.h
+  simulation/simulator.h
   # drivers of real robots
   real_robot/driver.h)
 

@@ -12,7 +12,7 @@
 
 #include "common/configuration/parameter.h"
 #include "common/control_interface/ci_device.h"
-#include "common/messages/messages.h"
+#include "common/messages/tick_messages.h"
 #include "common/plugins/registry.h"
 #include "common/serialisation/bytes.h"
 #include "controller_host/devices/noise.h"

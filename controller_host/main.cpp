@@ -4,14 +4,14 @@
 #include <cmath>
 
 #include "common/activity/shared_activity.h"
-#include "common/builtins/builtins.h"
-#include "common/bus/recovery.h"
-#include "common/bus/replica.h"
-#include "common/bus/saved_states.h"
-#include "common/bus/tick_inputs.h"
-#include "common/bus/worker_program.h"
-#include "common/bus/worker_session.h"
+#include "common/bus/membership/recovery.h"
+#include "common/bus/membership/saved_states.h"
+#include "common/bus/membership/tick_inputs.h"
+#include "common/bus/membership/worker_program.h"
+#include "common/bus/membership/worker_session.h"
+#include "common/bus/membership/worker_world.h"
 #include "common/logging/log.h"
+#include "common/plugin_descriptions/describe_builtins.h"
 #include "common/threads/thread_choice.h"
 #include "controller_host/cluster/robot_inspection.h"
 #include "controller_host/controller_host.h"
@@ -26,7 +26,7 @@ class HostNode
 {
 public:
   // `faults`: --fault.
-  HostNode(WorkerSession& session, Replica& replica, std::size_t host, unsigned threads,
+  HostNode(WorkerSession& session, WorkerWorld& replica, std::size_t host, unsigned threads,
            const std::vector<std::string>& faults)
       : session_(session),
         replica_(replica),
@@ -197,7 +197,7 @@ private:
   }
 
   WorkerSession& session_;
-  Replica& replica_;
+  WorkerWorld& replica_;
   std::uint32_t host_;
   WorkerPool pool_;
   SharedTicks sharing_;
@@ -223,7 +223,7 @@ int Run(const WorkerSettings& settings, const BusOptions& bus)
   return session.Work(
       [&]
       {
-        Replica replica(session.World(), true);
+        WorkerWorld replica(session.World(), true);
         session.ReleaseWorld();
         const std::size_t hosts = replica.assignment.hosts.size();
         if (host >= hosts)

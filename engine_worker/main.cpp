@@ -8,14 +8,14 @@
 #include <thread>
 
 #include "common/activity/activity.h"
-#include "common/builtins/builtins.h"
-#include "common/bus/recovery.h"
-#include "common/bus/region_links.h"
-#include "common/bus/replica.h"
-#include "common/bus/saved_states.h"
-#include "common/bus/tick_inputs.h"
-#include "common/bus/worker_program.h"
-#include "common/bus/worker_session.h"
+#include "common/bus/membership/recovery.h"
+#include "common/bus/membership/region_links.h"
+#include "common/bus/membership/saved_states.h"
+#include "common/bus/membership/tick_inputs.h"
+#include "common/bus/membership/worker_program.h"
+#include "common/bus/membership/worker_session.h"
+#include "common/bus/membership/worker_world.h"
+#include "common/plugin_descriptions/describe_builtins.h"
 #include "common/program/usage_error.h"
 #include "common/space/space.h"
 #include "engine_worker/engine_worker.h"
@@ -29,7 +29,7 @@ namespace
 class EngineNode
 {
 public:
-  EngineNode(WorkerSession& session, Replica& replica, std::size_t engine)
+  EngineNode(WorkerSession& session, WorkerWorld& replica, std::size_t engine)
       : session_(session),
         replica_(replica),
         engine_(static_cast<std::uint32_t>(engine)),
@@ -98,7 +98,7 @@ public:
 private:
   using Inputs = TickInputs<ControlCommands>;
 
-  static std::unique_ptr<RegionTeamLink> TeamOf(WorkerSession& session, const Replica& replica, std::size_t engine)
+  static std::unique_ptr<RegionTeamLink> TeamOf(WorkerSession& session, const WorkerWorld& replica, std::size_t engine)
   {
     if (RegionsOf(replica.experiment->engines[engine]) == 0) return nullptr;
     return std::make_unique<RegionTeamLink>(session, *replica.experiment, engine, replica.limits->Regions());
@@ -219,7 +219,7 @@ private:
   }
 
   WorkerSession& session_;
-  Replica& replica_;
+  WorkerWorld& replica_;
   std::uint32_t engine_;
   std::unique_ptr<RegionTeamLink> team_;  // of an engine that is split
   EngineWorker role_;
@@ -309,7 +309,7 @@ int Run(const WorkerSettings& settings, const BusOptions& bus)
   return session.Work(
       [&]
       {
-        Replica replica(session.World(), false);
+        WorkerWorld replica(session.World(), false);
         session.ReleaseWorld();
         const Experiment& experiment = *replica.experiment;
         EngineNode node(session, replica, NumberOf(experiment, experiment.engines, "engine", settings.engine));

@@ -3,7 +3,7 @@
 #include "common/configuration/xml_writer.h"
 #include "launcher/scratch_folder.h"
 #include "launcher/trial_start.h"
-#include "roles/builtins.h"
+#include "simulation/register_all.h"
 
 namespace swarmanoid
 {

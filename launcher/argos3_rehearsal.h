@@ -1,7 +1,7 @@
-// A rehearsal of the Init of ARGoS3's loop functions, for the reader of its files (argos3/files/convert.h).
+// A rehearsal of the Init of ARGoS3's loop functions, for the reader of its files (argos3/converter/convert.h).
 #pragma once
 
-#include "argos3/files/convert.h"
+#include "argos3/converter/convert.h"
 
 namespace swarmanoid
 {

@@ -18,10 +18,10 @@
 #include "common/checkpoint/library_builds.h"
 #include "common/program/usage_error.h"
 #include "common/space/space.h"
-#include "launcher/load.h"
-#include "launcher/recorded_run.h"
 #include "launcher/single_run.h"
-#include "launcher/watched_simulator.h"
+#include "simulation/load.h"
+#include "simulation/playback/recorded_run.h"
+#include "simulation/watched_simulator.h"
 #include "space_server/event_log.h"
 
 namespace swarmanoid

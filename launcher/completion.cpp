@@ -5,11 +5,11 @@
 #include <sstream>
 #include <utility>
 
-#include "common/bus/run_directory.h"
+#include "common/bus/membership/run_directory.h"
 #include "common/experiment/load_experiment.h"
 #include "common/messages/control_request.h"
 #include "common/plugins/catalogue.h"
-#include "launcher/commands.h"
+#include "launcher/command/sub_command.h"
 #include "launcher/installation.h"
 #include "launcher/plugin_text.h"
 

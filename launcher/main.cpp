@@ -14,28 +14,28 @@
 #include "common/configuration/wording.h"
 #include "common/program/program.h"
 #include "common/program/standard_output.h"
-#include "launcher/commands.h"
+#include "launcher/command/sub_command.h"
 #include "launcher/completion.h"
 #include "launcher/installation.h"
-#include "studies/commands.h"
 #include "studies/study_worker.h"
 #include "visualiser/past_inside.h"
 
 namespace
 {
 
-const std::vector<std::string> kVerbs{"run",    "resume",  "replay", "diff",   "inspect", "export",
-                                      "attach", "control", "share",  "check",  "edit",    "convert",
-                                      "list",   "new",     "demo",   "doctor", "sweep",   "plot"};
-
 // CLI11 would only say that the word was not expected.
 bool ComplainsAboutVerb(const std::vector<std::string>& words)
 {
   if (words.size() < 2 || words[1].starts_with("-")) return false;
   const std::string& verb = words[1];
-  if (std::find(kVerbs.begin(), kVerbs.end(), verb) != kVerbs.end()) return false;
+  CLI::App app;
+  int exit_code = 0;
+  swarmanoid::AddSubCommands(app, exit_code);
+  std::vector<std::string> verbs;
+  for (const CLI::App* known : app.get_subcommands({})) verbs.push_back(known->get_name());
+  if (std::find(verbs.begin(), verbs.end(), verb) != verbs.end()) return false;
   swarmanoid::PrintError("swarmanoid: there is no command {}; the commands are {}{}\n", swarmanoid::Quoted(verb),
-                         swarmanoid::Listed(kVerbs), swarmanoid::DidYouMean(verb, kVerbs));
+                         swarmanoid::Listed(verbs), swarmanoid::DidYouMean(verb, verbs));
   return true;
 }
 
@@ -49,35 +49,11 @@ std::vector<std::string> WithHelp(std::vector<std::string> words)
   return words;
 }
 
-void AddCommands(CLI::App& app, int& exit_code)
-{
-  using namespace swarmanoid;
-  app.require_subcommand(1);
-  AddRunCommand(app, exit_code);
-  AddResumeCommand(app, exit_code);
-  AddReplayCommand(app, exit_code);
-  AddDiffCommand(app, exit_code);
-  AddInspectCommand(app, exit_code);
-  AddExportCommand(app, exit_code);
-  AddAttachCommand(app, exit_code);
-  AddControlCommand(app, exit_code);
-  AddShareCommand(app, exit_code);
-  AddCheckCommand(app, exit_code);
-  AddEditCommand(app, exit_code);
-  AddConvertCommand(app, exit_code);
-  AddListCommand(app, exit_code);
-  AddNewCommand(app, exit_code);
-  AddDemoCommand(app, exit_code);
-  AddDoctorCommand(app, exit_code);
-  AddSweepCommand(app, exit_code);
-  AddPlotCommand(app, exit_code);
-}
-
 int Complete(const std::vector<std::string>& words)
 {
   int exit_code = 0;
   CLI::App app("", "swarmanoid");
-  AddCommands(app, exit_code);
+  swarmanoid::AddSubCommands(app, exit_code);
   for (const std::string& line : swarmanoid::Completions(app, words)) fmt::print("{}\n", line);
   return swarmanoid::ExitCodeWithOutput(swarmanoid::kExitDone);
 }
@@ -110,7 +86,12 @@ int main(int count, char** arguments)
                  "--help` explains a command "
                  "with examples.",
        .catches_interrupts = false},
-      static_cast<int>(given.size()), given.data(), [&](CLI::App& app) { AddCommands(app, verb_code); },
+      static_cast<int>(given.size()), given.data(),
+      [&](CLI::App& app)
+      {
+        app.require_subcommand(1);
+        AddSubCommands(app, verb_code);
+      },
       [&] { return verb_code; });
   // The help was not asked for.
   return count == 1 && exit_code == kExitDone ? kExitUsage : exit_code;

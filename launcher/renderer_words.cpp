@@ -6,7 +6,7 @@
 #include "common/plugins/catalogue.h"
 #include "launcher/completion.h"
 #include "launcher/original_command.h"
-#include "roles/builtins.h"
+#include "simulation/register_all.h"
 #include "visualiser/renderer_options.h"
 
 namespace swarmanoid

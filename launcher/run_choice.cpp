@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "common/activity/print_error.h"
-#include "common/bus/run_directory.h"
-#include "common/bus/share.h"
+#include "common/bus/membership/run_directory.h"
+#include "common/bus/security/share.h"
 #include "common/configuration/wording.h"
-#include "launcher/commands.h"
-#include "launcher/isolation.h"
+#include "launcher/command/sub_command.h"
+#include "launcher/network_namespace.h"
 
 namespace swarmanoid
 {

@@ -11,7 +11,7 @@
 
 #include "common/activity/exit_codes.h"
 #include "common/activity/print_error.h"
-#include "common/bus/domain.h"
+#include "common/bus/free_domain.h"
 #include "common/checkpoint/checkpoint.h"
 #include "common/checkpoint/library_builds.h"
 #include "common/journal/journal_reader.h"
@@ -19,11 +19,11 @@
 #include "common/program/standard_output.h"
 #include "common/program/usage_error.h"
 #include "launcher/branch.h"
-#include "launcher/cluster_run.h"
-#include "launcher/load.h"
-#include "launcher/manifest_at_death.h"
 #include "launcher/original_command.h"
 #include "launcher/showing.h"
+#include "launcher/supervision/cluster_run.h"
+#include "launcher/supervision/manifest_at_death.h"
+#include "simulation/load.h"
 #include "space_server/event_log.h"
 
 namespace swarmanoid
@@ -243,7 +243,7 @@ int RunAsCluster(Begun& first, const WatchFunction& watch)
   // Until the process ends: the last line may find no reader either.
   std::signal(SIGPIPE, SIG_IGN);
   // A signal that comes between two runs ends the second one.
-  Interrupts interrupts;
+  SignalDescriptor interrupts;
   const auto run = [&](Begun& begun)
   {
     const auto conclude = [&](const RunResult& result)

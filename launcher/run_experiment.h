@@ -3,7 +3,7 @@
 #pragma once
 
 #include "launcher/single_run.h"
-#include "launcher/watched_simulator.h"
+#include "simulation/watched_simulator.h"
 
 namespace swarmanoid
 {

@@ -7,7 +7,7 @@
 #include "common/program/trust_flag.h"
 #include "common/run/run_settings.h"
 #include "launcher/run_experiment.h"
-#include "roles/builtins.h"
+#include "simulation/register_all.h"
 
 namespace swarmanoid
 {

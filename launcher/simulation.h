@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "launcher/simulator.h"
+#include "simulation/simulator.h"
 
 namespace swarmanoid
 {

@@ -12,7 +12,7 @@
 #include "common/logging/log.h"
 #include "common/program/interrupts.h"
 #include "common/program/usage_error.h"
-#include "launcher/processes/progress_display.h"
+#include "launcher/supervision/progress_display.h"
 
 namespace swarmanoid
 {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "common/run/run_settings.h"
-#include "launcher/run_folder.h"
-#include "launcher/single_process.h"
+#include "simulation/run_folder.h"
+#include "simulation/single_process.h"
 
 namespace swarmanoid
 {

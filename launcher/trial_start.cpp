@@ -19,7 +19,7 @@
 #include "common/activity/failure_report.h"
 #include "common/activity/print_error.h"
 #include "launcher/scratch_folder.h"
-#include "launcher/simulator.h"
+#include "simulation/simulator.h"
 
 namespace swarmanoid
 {

@@ -11,7 +11,7 @@
 
 #include "common/experiment/experiment.h"
 #include "common/messages/control_request.h"
-#include "common/messages/messages.h"
+#include "common/messages/tick_messages.h"
 
 namespace swarmanoid
 {

@@ -1,6 +1,6 @@
 // The program that holds the state and the clock of an experiment: the space server's role at the bus, with the control
 // service and what the launcher is told.
-#include "common/builtins/builtins.h"
+#include "common/plugin_descriptions/describe_builtins.h"
 #include "common/program/interrupts.h"
 #include "common/program/program.h"
 #include "space_server/cluster/server_main.h"

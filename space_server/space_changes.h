@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/messages/control_request.h"
-#include "common/messages/messages.h"
+#include "common/messages/tick_messages.h"
 #include "common/space/entity.h"
 #include "space_server/space_server.h"
 

@@ -12,7 +12,7 @@
 
 #include "common/activity/failure_report.h"
 #include "common/messages/assignment.h"
-#include "common/messages/messages.h"
+#include "common/messages/tick_messages.h"
 #include "common/serialisation/bytes.h"
 #include "common/space/space.h"
 #include "space_server/experiment_functions.h"

@@ -14,8 +14,8 @@
 #include "common/program/options.h"
 #include "common/program/spawn.h"
 #include "common/program/usage_error.h"
+#include "launcher/command/sub_command.h"
 #include "launcher/installation.h"
-#include "studies/commands.h"
 #include "studies/study_store.h"
 
 namespace swarmanoid
@@ -129,8 +129,6 @@ int Plot(const PlotOptions& options)
   return Run(words);
 }
 
-}  // namespace
-
 void AddPlotCommand(CLI::App& app, int& exit_code)
 {
   auto options = std::make_shared<PlotOptions>();
@@ -144,4 +142,7 @@ void AddPlotCommand(CLI::App& app, int& exit_code)
   verb->callback([options, &exit_code] { exit_code = Plot(*options); });
 }
 
+const RegisterSubCommand kPlot(18, AddPlotCommand);
+
+}  // namespace
 }  // namespace swarmanoid

@@ -5,7 +5,7 @@
 #include "common/program/empty_words.h"
 #include "common/program/options.h"
 #include "common/program/trust_flag.h"
-#include "studies/commands.h"
+#include "launcher/command/sub_command.h"
 #include "studies/sweep.h"
 
 namespace swarmanoid
@@ -91,8 +91,6 @@ std::vector<OptionSpec> SweepOptionTable(SweepOptions& o)
   };
 }
 
-}  // namespace
-
 void AddSweepCommand(CLI::App& app, int& exit_code)
 {
   auto options = std::make_shared<SweepOptions>();
@@ -117,4 +115,7 @@ void AddSweepCommand(CLI::App& app, int& exit_code)
   verb->callback([options, &exit_code] { exit_code = Sweep(*options); });
 }
 
+const RegisterSubCommand kSweep(17, AddSweepCommand);
+
+}  // namespace
 }  // namespace swarmanoid

@@ -65,7 +65,7 @@ bool HostPool::HasRoom() const
          std::any_of(machines_.begin(), machines_.end(), [&](const Machine& machine) { return RoomOf(machine) > 0; });
 }
 
-void HostPool::Give(RunOrder order)
+void HostPool::Give(RunTask order)
 {
   waiting_.push_back(std::move(order));
   Distribute();
@@ -194,7 +194,7 @@ void HostPool::TakeOutcome(Machine& machine, ByteReader& bytes, std::vector<RunO
   RunOutcome outcome = RunOutcome::Read(bytes);
   const RunFiles files = RunFiles::Read(bytes);
   const auto order = std::find_if(machine.orders.begin(), machine.orders.end(),
-                                  [&](const RunOrder& one) { return one.name == outcome.name; });
+                                  [&](const RunTask& one) { return one.name == outcome.name; });
   if (order == machine.orders.end()) return;
   machine.orders.erase(order);
   try

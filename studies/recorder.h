@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/serialisation/bytes.h"
-#include "launcher/simulator.h"
+#include "simulation/simulator.h"
 #include "studies/study.h"
 
 namespace swarmanoid

@@ -71,7 +71,7 @@ bool ReadWhole(int socket, char* into, std::size_t count)
     if (!ReadWhole(socket, bytes.data(), size)) break;
     ByteReader reader(bytes);
     ByteWriter answer;
-    RunInCopy(study, folder, RunOrder::Read(reader)).Write(answer);
+    RunInCopy(study, folder, RunTask::Read(reader)).Write(answer);
     if (!SendFrame(socket, answer)) break;
   }
   LeaveAtOnce(0);
@@ -154,7 +154,7 @@ std::size_t RunPool::FreeWorker() const
   return best;
 }
 
-void RunPool::Give(RunOrder order)
+void RunPool::Give(RunTask order)
 {
   Worker& worker = workers_[FreeWorker()];
   Send(worker, order);
@@ -162,7 +162,7 @@ void RunPool::Give(RunOrder order)
 }
 
 // One that has died is noticed when its answer is waited for.
-void RunPool::Send(Worker& worker, const RunOrder& order)
+void RunPool::Send(Worker& worker, const RunTask& order)
 {
   ByteWriter bytes;
   order.Write(bytes);
@@ -246,7 +246,7 @@ void RunPool::Bury(Worker& worker, std::vector<RunOutcome>& outcomes)
     worker.orders.pop_front();
   }
   Start(worker);
-  for (const RunOrder& order : worker.orders) Send(worker, order);
+  for (const RunTask& order : worker.orders) Send(worker, order);
 }
 
 }  // namespace swarmanoid

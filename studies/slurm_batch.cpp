@@ -87,7 +87,7 @@ std::optional<RunName> NameOfResult(const std::string& file)
 }  // namespace
 
 SlurmBatch SlurmBatch::Create(const std::string& study_folder, const std::vector<char>& setup,
-                              const std::vector<RunOrder>& orders, std::size_t runs_per_task)
+                              const std::vector<RunTask>& orders, std::size_t runs_per_task)
 {
   std::error_code error;
   const std::string all = fs::absolute(study_folder, error).lexically_normal() / "slurm";
@@ -134,7 +134,7 @@ std::vector<SlurmBatch> SlurmBatch::FindAll(const std::string& study_folder)
     std::ifstream job(batch.folder_ + "/job");
     if (!(job >> batch.job_)) continue;
     for (std::size_t task = 0; fs::exists(OrdersFile(batch.folder_, task), none); ++task)
-      for (const RunOrder& order : ReadOrders(batch.folder_, task)) batch.outstanding_[task].push_back(order.name);
+      for (const RunTask& order : ReadOrders(batch.folder_, task)) batch.outstanding_[task].push_back(order.name);
     for (fs::directory_iterator result(ResultsFolder(batch.folder_), none); result != end; result.increment(none))
       if (const auto name = NameOfResult(result->path().filename().string()))
         if (fs::file_size(result->path(), none) == 0) batch.Settle(*name);
@@ -219,12 +219,12 @@ void SlurmBatch::KeepLogOfTask(std::size_t task, const RunName& name) const
 
 std::vector<char> SlurmBatch::ReadSetup(const std::string& folder) { return ReadWholeFile(folder + "/setup"); }
 
-std::vector<RunOrder> SlurmBatch::ReadOrders(const std::string& folder, std::size_t task)
+std::vector<RunTask> SlurmBatch::ReadOrders(const std::string& folder, std::size_t task)
 {
   const std::vector<char> content = ReadWholeFile(OrdersFile(folder, task));
   ByteReader bytes(content);
-  std::vector<RunOrder> orders;
-  for (auto count = bytes.Get<std::uint64_t>(); count > 0; --count) orders.push_back(RunOrder::Read(bytes));
+  std::vector<RunTask> orders;
+  for (auto count = bytes.Get<std::uint64_t>(); count > 0; --count) orders.push_back(RunTask::Read(bytes));
   return orders;
 }
 

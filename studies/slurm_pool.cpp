@@ -45,7 +45,7 @@ SlurmPool::SlurmPool(SlurmChoice choice, std::vector<char> setup, std::string st
   for (SlurmBatch& batch : SlurmBatch::FindAll(folder_)) jobs_.push_back({std::move(batch), {}, {}});
 }
 
-void SlurmPool::Give(RunOrder order)
+void SlurmPool::Give(RunTask order)
 {
   for (const Job& job : jobs_)
     for (const auto& [task, names] : job.batch.Outstanding())
@@ -69,7 +69,7 @@ void SlurmPool::Submit()
     {
       const auto end =
           collected_.begin() + static_cast<std::ptrdiff_t>(std::min(collected_.size(), per_task * kMostTasks));
-      const std::vector<RunOrder> orders(collected_.begin(), end);
+      const std::vector<RunTask> orders(collected_.begin(), end);
       SlurmBatch batch = SlurmBatch::Create(folder_, setup_, orders, per_task);
       std::string job;
       try

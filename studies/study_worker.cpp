@@ -26,7 +26,7 @@
 #include "common/program/file_descriptor.h"
 #include "common/program/interrupts.h"
 #include "launcher/scratch_folder.h"
-#include "roles/builtins.h"
+#include "simulation/register_all.h"
 #include "studies/checked_frame.h"
 #include "studies/run_files.h"
 #include "studies/run_pool.h"
@@ -127,7 +127,7 @@ void RunWhatComes(StudyLine& line, const Study& study, const std::string& folder
   ByteWriter ready;
   ready.Put(static_cast<std::uint32_t>(jobs));
   bool goes_on = line.Send(StudyMessage::kReady, ready);
-  std::deque<RunOrder> waiting;
+  std::deque<RunTask> waiting;
   while (goes_on && !Interrupted())
   {
     for (; !waiting.empty() && pool.HasRoom(); waiting.pop_front()) pool.Give(waiting.front());
@@ -136,7 +136,7 @@ void RunWhatComes(StudyLine& line, const Study& study, const std::string& folder
     while (auto content = line.Next())
     {
       ByteReader bytes(*content);
-      if (KindOf(bytes) == StudyMessage::kOrder) waiting.push_back(RunOrder::Read(bytes));
+      if (KindOf(bytes) == StudyMessage::kOrder) waiting.push_back(RunTask::Read(bytes));
     }
     if (goes_on && line.IsDue()) goes_on = line.Send(StudyMessage::kStillHere);
   }
@@ -233,7 +233,7 @@ int RunTask(const std::string& folder, std::size_t task)
   RegisterBuiltins();
   const std::unique_ptr<Study> study = TakeUp(SlurmBatch::ReadSetup(folder));
   const std::string study_folder = std::filesystem::path(folder).parent_path().parent_path();
-  const std::vector<RunOrder> orders = SlurmBatch::ReadOrders(folder, task);
+  const std::vector<RunTask> orders = SlurmBatch::ReadOrders(folder, task);
   RunPool pool(*study, study_folder, study->cluster ? 1 : CoresOfTask());
   for (std::size_t next = 0; next < orders.size() || !pool.IsIdle();)
   {

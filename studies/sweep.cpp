@@ -22,7 +22,7 @@
 #include "common/program/interrupts.h"
 #include "common/program/shell_word.h"
 #include "common/program/usage_error.h"
-#include "roles/builtins.h"
+#include "simulation/register_all.h"
 #include "studies/conflicts.h"
 #include "studies/host_pool.h"
 #include "studies/recorder.h"

@@ -5,22 +5,22 @@
 #include <fmt/format.h>
 #include <thread>
 
-#include "common/builtins/builtins.h"
-#include "common/bus/control_client.h"
-#include "common/bus/recovery.h"
-#include "common/bus/replica.h"
-#include "common/bus/share.h"
-#include "common/bus/tick_gate.h"
-#include "common/bus/worker_program.h"
-#include "common/bus/worker_session.h"
+#include "common/bus/membership/control_client.h"
+#include "common/bus/membership/recovery.h"
+#include "common/bus/membership/tick_gate.h"
+#include "common/bus/membership/worker_program.h"
+#include "common/bus/membership/worker_session.h"
+#include "common/bus/membership/worker_world.h"
+#include "common/bus/security/share.h"
 #include "common/configuration/output_file.h"
 #include "common/logging/log.h"
+#include "common/plugin_descriptions/describe_builtins.h"
 #include "common/program/interrupts.h"
 #include "common/program/usage_error.h"
 #include "visualiser/cluster/attached_node.h"
 #include "visualiser/cluster/synchronous_node.h"
+#include "visualiser/control_by_requests.h"
 #include "visualiser/renderer_options.h"
-#include "visualiser/request_control.h"
 
 namespace swarmanoid
 {
@@ -31,7 +31,7 @@ constexpr auto kIdlePeriod = std::chrono::milliseconds(15);
 
 // To the first tick that is to be drawn, which is returned. One that takes the place of another draws all that came
 // before, too, so that its files are those of a run that nobody disturbed; in a window or page, nobody looks back.
-std::uint64_t Begin(WorkerSession& session, Replica& replica, Visualiser& visualiser)
+std::uint64_t Begin(WorkerSession& session, WorkerWorld& replica, Visualiser& visualiser)
 {
   if (!session.TakesAPlace())
   {
@@ -52,12 +52,12 @@ void Send(const ControlRequestMessage& request, ControlClient& client, RemoteMon
 
 void RunSynchronous(WorkerSession& session, const std::string& id, const std::string& output)
 {
-  Replica replica(session.World(), false);
+  WorkerWorld replica(session.World(), false);
   const std::vector<RenderConfiguration>& visualisations = replica.experiment->visualisations;
   const std::size_t number = NumberOf(*replica.experiment, visualisations, "visualisation", id);
   ControlClient client(session.GetBus(), session.World().experiment, session.World().run);
   RemoteMonitor monitor(session.GetBus(), session.World(), true);
-  RequestControl control([&](const ControlRequestMessage& request) { Send(request, client, monitor); });
+  ControlByRequests control([&](const ControlRequestMessage& request) { Send(request, client, monitor); });
   Visualiser visualiser(visualisations[number], *replica.space, replica.assignment, output, &control, &monitor);
   SynchronousNode node(session, replica, number, visualiser, control, monitor, Begin(session, replica, visualiser));
   node.WaitForServer();
@@ -79,10 +79,10 @@ void RunSynchronous(WorkerSession& session, const std::string& id, const std::st
 // then may stand elsewhere from the start.
 bool Show(WorkerSession& session, const WorkerSettings& settings, const RenderConfiguration& configuration)
 {
-  Replica replica(session.World(), false);
+  WorkerWorld replica(session.World(), false);
   ControlClient client(session.GetBus(), session.World().experiment, session.World().run);
   RemoteMonitor monitor(session.GetBus(), session.World(), false);
-  RequestControl control([&](const ControlRequestMessage& request) { Send(request, client, monitor); });
+  ControlByRequests control([&](const ControlRequestMessage& request) { Send(request, client, monitor); });
   Visualiser visualiser(configuration, *replica.space, replica.assignment, settings.output,
                         settings.read_only ? nullptr : &control, &monitor);
   AttachedNode node(session, replica, visualiser, monitor, settings.rate);

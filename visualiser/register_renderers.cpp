@@ -1,5 +1,5 @@
-// The renderers that come with the simulator; common/builtins describes them.
-#include "common/builtins/builtins.h"
+// The renderers that come with the simulator; common/plugin_descriptions describes them.
+#include "common/plugin_descriptions/describe_builtins.h"
 #include "visualiser/render.h"
 #include "visualiser/renderer_library.h"
 #include "visualiser/text/text_render.h"

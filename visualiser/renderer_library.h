@@ -1,6 +1,6 @@
 // Renderers that need a heavy library (OpenGL, OGRE, a web server) are libraries of their own, loaded when one is made:
 // a process holds only what it shows with, and a build without a renderer's packages still knows its name
-// (common/builtins).
+// (common/plugin_descriptions).
 #pragma once
 
 #include <functional>

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "argos3/files/made_bodies.h"
+#include "argos3/converter/counted_bodies.h"
 #include "common/space/entity.h"
 
 namespace swarmanoid::argos3

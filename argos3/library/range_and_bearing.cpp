@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "argos3/library/running.h"
-#include "common/builtins/antenna.h"
 #include "common/messages/range_and_bearing_message.h"
+#include "common/plugin_descriptions/antenna.h"
 #include "common/space/space.h"
 
 namespace argos

@@ -9,7 +9,7 @@
 //   </argos3_controller>
 
 #include "argos3/library/running.h"
-#include "argos3/plugin/devices.h"
+#include "argos3/plugin/device_adapters.h"
 #include "argos3/plugin/labels.h"
 #include "argos3/plugin/lua_controller.h"
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "argos3/plugin/devices.h"
+#include "argos3/plugin/device_adapters.h"
 #include "common/control_interface/ci_positioning_sensor.h"
 
 namespace swarmanoid::argos3

@@ -1,9 +1,9 @@
 // A run in a program of a user that loads an experiment of ARGoS3 and steps it itself (CSimulator::LoadExperiment):
 // loaded by the library when a program asks for it, so that controllers and loop functions do not need the launcher.
-#include "argos3/files/convert.h"
+#include "argos3/converter/convert.h"
 #include "argos3/library/running.h"
 #include "launcher/argos3_rehearsal.h"
-#include "launcher/simulator.h"
+#include "simulation/simulator.h"
 #include "space_server/experiment_functions.h"
 
 namespace swarmanoid::argos3

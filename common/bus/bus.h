@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "common/bus/messages.h"
-#include "common/bus/run_key.h"
+#include "common/bus/security/run_key.h"
+#include "common/bus/topics/session_messages.h"
 
 namespace swarmanoid
 {

@@ -11,7 +11,7 @@
 #include <string>
 #include <thread>
 
-#include "common/bus/listening_clock.h"
+#include "common/bus/membership/listening_clock.h"
 
 namespace swarmanoid
 {

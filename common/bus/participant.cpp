@@ -21,8 +21,8 @@
 #include "common/activity/exit_codes.h"
 #include "common/activity/failure_report.h"
 #include "common/activity/print_error.h"
-#include "common/bus/cluster_options.h"
 #include "common/bus/dds_environment.h"
+#include "common/bus/membership/cluster_options.h"
 #include "common/configuration/shown_text.h"
 #include "common/logging/log.h"
 

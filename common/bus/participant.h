@@ -9,10 +9,10 @@
 #include "common/bus/bus.h"
 #include "common/bus/dds/fast_dds.h"
 #include "common/bus/delayed_calls.h"
-#include "common/bus/key_ring.h"
-#include "common/bus/qos.h"
-#include "common/bus/seal.h"
-#include "common/bus/signed_transport.h"
+#include "common/bus/security/key_ring.h"
+#include "common/bus/security/seal.h"
+#include "common/bus/security/signed_transport.h"
+#include "common/bus/topics/qos.h"
 
 namespace swarmanoid
 {

@@ -10,7 +10,7 @@
 
 #include "common/checkpoint/library_builds.h"
 #include "common/experiment/experiment.h"
-#include "common/messages/messages.h"
+#include "common/messages/tick_messages.h"
 #include "common/serialisation/bytes.h"
 
 namespace swarmanoid

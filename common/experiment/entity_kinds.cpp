@@ -6,8 +6,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "common/experiment/builtin_kinds.h"
 #include "common/experiment/entity_kind.h"
-#include "common/experiment/own_kinds.h"
 #include "common/math/elementary.h"
 #include "common/mesh/convex_hull.h"
 #include "common/plugins/catalogue.h"

@@ -12,7 +12,7 @@
 #include <new>
 #include <stdexcept>
 
-#include "common/serialisation/room.h"
+#include "common/serialisation/reused_memory.h"
 
 namespace swarmanoid
 {
@@ -54,7 +54,7 @@ struct FreeContext
 std::span<char> Compressed(std::span<const char> content)
 {
   thread_local const std::unique_ptr<ZSTD_CCtx, FreeContext> context(ZSTD_createCCtx());
-  thread_local Room room;
+  thread_local ReusedMemory room;
   if (context == nullptr) throw std::bad_alloc();
   const std::size_t most = ZSTD_compressBound(content.size());
   char* const block = room.AtLeast(kJournalHeaderBytes + most);

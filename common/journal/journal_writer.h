@@ -145,7 +145,7 @@ private:
   std::vector<char> start_;  // the content of the first block of the segment that is added to
   int file_ = -1;            // the newest segment
   std::uint32_t segment_ = 0;
-  Room room_;                 // of the content of a block; likewise
+  ReusedMemory room_;         // of the content of a block; likewise
   mutable std::mutex mutex_;  // of what follows
   std::condition_variable changed_;
   TickRows rows_;               // being filled

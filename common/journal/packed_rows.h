@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "common/serialisation/room.h"
+#include "common/serialisation/reused_memory.h"
 
 namespace swarmanoid
 {
@@ -44,9 +44,9 @@ private:
   std::size_t together_ = 1;
   std::size_t packed_ = 0;   // rows
   std::size_t waiting_ = 0;  // rows
-  Room recent_;              // doubles: the last rows that were packed, then those that wait
+  ReusedMemory recent_;      // doubles: the last rows that were packed, then those that wait
   std::vector<char> widths_;
-  Room room_;
+  ReusedMemory room_;
   std::size_t used_ = 0;  // of the room
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <stdexcept>
 
 #include "common/checkpoint/checkpoint_format.h"
@@ -58,6 +59,11 @@ T Read(std::span<const char> content, const Fields& fields)
 
 }  // namespace
 
+bool SameBits(const std::vector<double>& a, const std::vector<double>& b)
+{
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
+}
+
 bool TickRows::Add(const SpaceState& state, bool save, std::span<const SensorFrame> frames,
                    std::span<const ControlCommands> commands)
 {
@@ -105,7 +111,7 @@ void TickRows::Clear()
   rest_.Clear();
 }
 
-std::span<const char> TickRows::Content(Room& room)
+std::span<const char> TickRows::Content(ReusedMemory& room)
 {
   numbers_.Finish();
   const std::array<std::uint64_t, 4> header{first_tick_, ticks_, poses_, poses_ + others_};

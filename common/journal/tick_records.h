@@ -10,7 +10,7 @@
 #include "common/checkpoint/checkpoint.h"
 #include "common/journal/packed_rows.h"
 #include "common/messages/assignment.h"
-#include "common/messages/messages.h"
+#include "common/messages/tick_messages.h"
 #include "common/serialisation/bytes.h"
 
 namespace swarmanoid
@@ -24,6 +24,9 @@ struct TickRecord
   std::vector<SensorFrame> frames;        // of the tick, of all engines in their order; empty at the first one
   std::vector<ControlCommands> commands;  // of all hosts, in their order; none at the last tick of a run
 };
+
+// Whether both are the same to the last bit.
+bool SameBits(const std::vector<double>& a, const std::vector<double>& b);
 
 // Some ticks in a row. Filled by the thread of the ticks, which allocates nothing once the buffers have grown.
 class TickRows
@@ -39,7 +42,7 @@ public:
            std::span<const ControlCommands> commands);
   void Clear();
   // The content of a block, in `room`, which is kept for the next one. Nothing can be added any more until Clear.
-  std::span<const char> Content(Room& room);
+  std::span<const char> Content(ReusedMemory& room);
 
 private:
   std::uint64_t first_tick_ = 0;

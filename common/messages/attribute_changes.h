@@ -5,7 +5,7 @@
 #include <span>
 
 #include "common/math/zeroed_vector.h"
-#include "common/messages/messages.h"
+#include "common/messages/tick_messages.h"
 
 namespace swarmanoid
 {

@@ -1,6 +1,7 @@
 // Registries of plug-ins: one per interface. A user's plug-in is added, with its description, by the REGISTER_...
-// macros when its library is loaded. The simulator's own are described in every process (common/builtins); the role
-// that runs them binds their code to that (RegisterBuiltin...). Filled before roles start, read-only afterwards.
+// macros when its library is loaded. The simulator's own are described in every process (common/plugin_descriptions);
+// the role that runs them binds their code to that (RegisterBuiltin...). Filled before roles start, read-only
+// afterwards.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
 // Ctrl-C and its kin, for programs that end in good order when asked to. The launcher of a cluster, which waits for
-// them, has launcher/processes/interrupts.h instead.
+// them, has launcher/supervision/signal_descriptor.h instead.
 #pragma once
 
 #include <atomic>

@@ -13,7 +13,7 @@
 
 #include "common/experiment/experiment.h"
 #include "common/math/zeroed_vector.h"
-#include "common/messages/messages.h"
+#include "common/messages/tick_messages.h"
 #include "common/space/attributes.h"
 #include "common/space/make_entity.h"
 #include "common/space/pose_arrays.h"

@@ -11,7 +11,7 @@
 
 #include "common/math/pose.h"
 #include "common/messages/assignment.h"
-#include "common/messages/messages.h"
+#include "common/messages/tick_messages.h"
 
 namespace swarmanoid
 {

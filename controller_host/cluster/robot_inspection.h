@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "common/bus/worker_session.h"
+#include "common/bus/membership/worker_session.h"
 #include "controller_host/controller_host.h"
 
 namespace swarmanoid

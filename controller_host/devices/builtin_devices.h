@@ -1,4 +1,4 @@
-// The code that each file of this folder binds to the descriptions of common/builtins.
+// The code that each file of this folder binds to the descriptions of common/plugin_descriptions.
 #pragma once
 
 namespace swarmanoid

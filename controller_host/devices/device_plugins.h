@@ -22,9 +22,9 @@ public:
   double Reach() const override { return 0; }
 };
 
-// Sensors and actuators that common/builtins describes. Of these all actuators ask for their own robots alone, and so
-// do sensors that hand on what engines or attributes say. What users derive from the same bases says itself how far it
-// reaches.
+// Sensors and actuators that common/plugin_descriptions describes. Of these all actuators ask for their own robots
+// alone, and so do sensors that hand on what engines or attributes say. What users derive from the same bases says
+// itself how far it reaches.
 template <class Batch>
 void BindSensor(const std::string& label, const std::string& implementation)
 {

@@ -1,4 +1,4 @@
-#include "common/builtins/builtins.h"
+#include "common/plugin_descriptions/describe_builtins.h"
 #include "controller_host/device.h"
 #include "controller_host/devices/builtin_devices.h"
 

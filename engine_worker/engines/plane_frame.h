@@ -72,7 +72,8 @@ private:
   Pose inverse_;
 };
 
-// By the parameters that place a plane, the same for all two-dimensional engines (PlaneParameters, common/builtins).
+// By the parameters that place a plane, the same for all two-dimensional engines (PlaneParameters,
+// common/plugin_descriptions).
 PlaneFrame PlaneFrom(const Parameters& parameters);
 
 }  // namespace swarmanoid

@@ -13,9 +13,9 @@
 #include <string_view>
 #include <vector>
 
-#include "common/builtins/robot_parts.h"
 #include "common/messages/assignment.h"
-#include "common/messages/messages.h"
+#include "common/messages/tick_messages.h"
+#include "common/plugin_descriptions/robot_parts.h"
 #include "common/serialisation/bytes.h"
 #include "common/space/entity.h"
 #include "common/space/shape.h"

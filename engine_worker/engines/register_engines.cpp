@@ -1,5 +1,5 @@
-// The engines that come with the simulator; common/builtins describes them.
-#include "common/builtins/builtins.h"
+// The engines that come with the simulator; common/plugin_descriptions describes them.
+#include "common/plugin_descriptions/describe_builtins.h"
 #include "engine_worker/engine_worker.h"
 #include "engine_worker/engines/dynamics2d/dynamics2d_engine.h"
 #include "engine_worker/engines/dynamics3d/dynamics3d_engine.h"

@@ -6,16 +6,16 @@
 #include <utility>
 
 #include "common/activity/failure_report.h"
-#include "common/bus/library_check.h"
-#include "common/bus/share.h"
+#include "common/bus/membership/library_check.h"
+#include "common/bus/security/share.h"
 #include "common/configuration/wording.h"
 #include "common/plugins/library.h"
 #include "common/program/usage_error.h"
 #include "common/space/space.h"
 #include "common/threads/start_thread.h"
-#include "launcher/control_request.h"
-#include "launcher/isolation.h"
-#include "roles/builtins.h"
+#include "launcher/control_words.h"
+#include "launcher/network_namespace.h"
+#include "simulation/register_all.h"
 
 namespace py = pybind11;
 
@@ -135,10 +135,10 @@ void AttachedRun::MakeReplica(const WorldMessage& world)
 {
   const py::gil_scoped_acquire python;
   if (!insecure_) AllowOnly(world.libraries, own_folders_only_);
-  std::unique_ptr<Replica> replica;
+  std::unique_ptr<WorkerWorld> replica;
   try
   {
-    replica = std::make_unique<Replica>(world, false);
+    replica = std::make_unique<WorkerWorld>(world, false);
   }
   catch (...)
   {

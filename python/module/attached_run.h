@@ -21,9 +21,9 @@
 #include <thread>
 #include <vector>
 
-#include "common/bus/control_client.h"
-#include "common/bus/replica.h"
-#include "common/bus/worker_session.h"
+#include "common/bus/membership/control_client.h"
+#include "common/bus/membership/worker_session.h"
+#include "common/bus/membership/worker_world.h"
 #include "launcher/run_choice.h"
 #include "visualiser/cluster/remote_monitor.h"
 
@@ -124,7 +124,7 @@ private:
   std::string failure_;
   std::exception_ptr error_;  // that kept it from looking on
   WorldMessage world_;
-  std::unique_ptr<Replica> replica_;
+  std::unique_ptr<WorkerWorld> replica_;
   SpaceSnapshot snapshot_;
   std::uint64_t states_ = 0;
   std::uint64_t applied_ = 0;

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "launcher/simulator.h"
 #include "python/module/external_robots.h"
+#include "simulation/simulator.h"
 
 namespace swarmanoid::python
 {

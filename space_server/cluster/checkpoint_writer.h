@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "common/bus/server_session.h"
+#include "common/bus/membership/server_session.h"
 #include "common/checkpoint/checkpoint.h"
 #include "common/journal/journal_writer.h"
 

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "common/bus/replica.h"
-#include "space_server/surroundings.h"
+#include "common/bus/membership/worker_world.h"
+#include "space_server/near_entities.h"
 
 namespace swarmanoid
 {

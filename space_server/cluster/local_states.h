@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "common/bus/server_session.h"
-#include "common/bus/tick_limits.h"
+#include "common/bus/membership/server_session.h"
+#include "common/bus/membership/tick_limits.h"
 
 namespace swarmanoid
 {

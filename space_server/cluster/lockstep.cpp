@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "common/activity/failure_report.h"
-#include "common/bus/replica.h"
+#include "common/bus/membership/worker_world.h"
 #include "common/space/space.h"
 #include "space_server/space_server.h"
 

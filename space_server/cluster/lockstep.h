@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "common/bus/server_session.h"
-#include "common/bus/tick_gate.h"
-#include "common/bus/tick_limits.h"
+#include "common/bus/membership/server_session.h"
+#include "common/bus/membership/tick_gate.h"
+#include "common/bus/membership/tick_limits.h"
 #include "common/journal/journal_writer.h"
 #include "common/run/hash_log.h"
 #include "space_server/cluster/checkpoint_writer.h"

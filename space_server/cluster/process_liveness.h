@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/bus/server_session.h"
+#include "common/bus/membership/server_session.h"
 
 namespace swarmanoid
 {

@@ -105,7 +105,7 @@ RecoveryService::Plan RecoveryService::MakePlan(const std::string& name)
     plan.places.push_back(std::move(place));
   }
   std::span<const char> last;
-  Room room;
+  ReusedMemory room;
   if (is_done)
   {
     // The engines may have all that they need of it: then the run goes on as soon as the new process is there.

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "common/bus/server_session.h"
+#include "common/bus/membership/server_session.h"
+#include "common/journal/commands_by_robot.h"
 #include "common/journal/journal_writer.h"
-#include "common/journal/shared_commands.h"
 #include "space_server/cluster/lockstep.h"
 
 namespace swarmanoid
@@ -40,7 +40,7 @@ private:
   ServerSession& session_;
   Lockstep& lockstep_;
   const Assignment& assignment_;
-  SharedCommands shared_;
+  CommandsByRobot shared_;
   JournalWriter* journal_;
   std::map<std::string, Plan> plans_;  // by process
 };

@@ -10,7 +10,7 @@
 
 #include "common/activity/failure_report.h"
 #include "common/activity/print_error.h"
-#include "common/bus/cluster_options.h"
+#include "common/bus/membership/cluster_options.h"
 #include "common/configuration/output_file.h"
 #include "common/experiment/load_experiment.h"
 #include "common/program/trust_flag.h"

@@ -1,5 +1,5 @@
 // All that the program space_server does: its options, and the run. Users' simulations do the same in their own process
-// (launcher/processes/in_process_server.h).
+// (launcher/supervision/in_process_server.h).
 #pragma once
 
 #include "common/program/program.h"

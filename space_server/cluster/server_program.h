@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "common/activity/failure_report.h"
-#include "common/bus/replica.h"
-#include "common/bus/server_session.h"
-#include "common/bus/status_channel.h"
+#include "common/bus/membership/server_session.h"
+#include "common/bus/membership/status_channel.h"
+#include "common/bus/membership/worker_world.h"
 #include "common/run/run_settings.h"
 #include "space_server/cluster/checkpoint_writer.h"
 #include "space_server/cluster/continuation.h"

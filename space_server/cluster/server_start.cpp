@@ -11,7 +11,7 @@
 #include "common/checkpoint/host_state.h"
 #include "common/checkpoint/library_builds.h"
 #include "common/journal/journal_reader.h"
-#include "common/serialisation/trial.h"
+#include "common/serialisation/save_check.h"
 #include "common/space/space.h"
 
 namespace swarmanoid

@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "common/bus/server_session.h"
-#include "common/bus/share.h"
+#include "common/bus/membership/server_session.h"
+#include "common/bus/security/share.h"
 #include "space_server/event_log.h"
 
 namespace swarmanoid

@@ -11,7 +11,7 @@
 #include <mutex>
 #include <string>
 
-#include "common/bus/server_session.h"
+#include "common/bus/membership/server_session.h"
 #include "space_server/cluster/shares.h"
 
 namespace swarmanoid

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "common/experiment/load_experiment.h"
-#include "roles/builtins.h"
+#include "simulation/register_all.h"
 
 namespace swarmanoid::test
 {

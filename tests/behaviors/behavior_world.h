@@ -8,7 +8,7 @@
 #include <string>
 
 #include "common/space/space.h"
-#include "launcher/simulator.h"
+#include "simulation/simulator.h"
 
 namespace swarmanoid::test
 {

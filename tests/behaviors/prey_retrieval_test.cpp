@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "common/control_interface/ci_colour.h"
-#include "launcher/simulator.h"
+#include "simulation/simulator.h"
 #include "test_folders.h"
 
 namespace swarmanoid::test

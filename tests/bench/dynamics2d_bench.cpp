@@ -3,7 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bench_world.h"
-#include "common/builtins/engines.h"
+#include "common/plugin_descriptions/engines.h"
 #include "engine_worker/engines/dynamics2d/dynamics2d_engine.h"
 
 namespace swarmanoid

@@ -9,9 +9,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "common/builtins/engines.h"
 #include "common/math/elementary.h"
 #include "common/math/random.h"
+#include "common/plugin_descriptions/engines.h"
 #include "common/space/space.h"
 #include "engine_worker/engines/dynamics3d/dynamics3d_engine.h"
 

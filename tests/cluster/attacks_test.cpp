@@ -15,9 +15,9 @@
 
 #include <fmt/format.h>
 
-#include "common/bus/control_client.h"
-#include "common/bus/run_directory.h"
-#include "common/bus/share.h"
+#include "common/bus/membership/control_client.h"
+#include "common/bus/membership/run_directory.h"
+#include "common/bus/security/share.h"
 #include "test_folders.h"
 #include "tests/cluster/cluster_fixture.h"
 #include "tests/unit/bus/stranger.h"

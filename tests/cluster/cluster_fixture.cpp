@@ -10,11 +10,11 @@
 #include <sstream>
 
 #include "common/bus/bus.h"
-#include "common/bus/control_client.h"
+#include "common/bus/membership/control_client.h"
 #include "common/experiment/load_experiment.h"
 #include "controller_host/controller_host.h"
 #include "engine_worker/engine_worker.h"
-#include "launcher/single_process.h"
+#include "simulation/single_process.h"
 #include "test_folders.h"
 #include "visualiser/render.h"
 

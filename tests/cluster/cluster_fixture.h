@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/bus/domain.h"
+#include "common/bus/free_domain.h"
 #include "tests/cluster/child_process.h"
 #include "tests/eventually.h"
 

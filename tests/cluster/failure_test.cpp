@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/bus/bus.h"
-#include "common/bus/control_client.h"
+#include "common/bus/membership/control_client.h"
 #include "tests/cluster/cluster_fixture.h"
 
 namespace swarmanoid

@@ -9,10 +9,10 @@
 #include <optional>
 #include <thread>
 
-#include "common/bus/control_client.h"
+#include "common/bus/membership/control_client.h"
 #include "common/experiment/load_experiment.h"
-#include "launcher/past_robots.h"
-#include "roles/builtins.h"
+#include "simulation/playback/past_robots.h"
+#include "simulation/register_all.h"
 #include "tests/cluster/cluster_fixture.h"
 
 namespace swarmanoid

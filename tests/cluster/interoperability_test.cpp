@@ -3,8 +3,8 @@
 #include <map>
 #include <sstream>
 
-#include "common/bus/control_client.h"
-#include "common/bus/share.h"
+#include "common/bus/membership/control_client.h"
+#include "common/bus/security/share.h"
 #include "test_folders.h"
 #include "tests/cluster/cluster_fixture.h"
 

@@ -2,7 +2,7 @@
 #include <atomic>
 
 #include "common/bus/bus.h"
-#include "common/bus/messages.h"
+#include "common/bus/topics/session_messages.h"
 #include "tests/cluster/cluster_fixture.h"
 
 namespace swarmanoid

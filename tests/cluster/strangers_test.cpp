@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "common/bus/control_client.h"
+#include "common/bus/membership/control_client.h"
 #include "tests/cluster/cluster_fixture.h"
 #include "tests/unit/bus/stranger.h"
 #include "visualiser/cluster/remote_monitor.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/math/elementary.h"
-#include "launcher/simulator.h"
+#include "simulation/simulator.h"
 #include "test_folders.h"
 
 namespace swarmanoid

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "common/program/usage_error.h"
-#include "launcher/hosts.h"
+#include "launcher/supervision/hosts.h"
 #include "tests/fuzz/fuzz_driver.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* input, std::size_t count)

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <tuple>
 
-#include "common/bus/message_bytes.h"
+#include "common/bus/topics/message_bytes.h"
 #include "tests/fuzz/fuzz_driver.h"
 
 namespace swarmanoid

@@ -4,11 +4,11 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "common/bus/message_bytes.h"
+#include "common/bus/topics/message_bytes.h"
 #include "common/messages/request_limits.h"
 #include "tests/fuzz/fuzz_driver.h"
-#include "visualiser/request_control.h"
-#include "visualiser/web/messages.h"
+#include "visualiser/control_by_requests.h"
+#include "visualiser/web/page_messages.h"
 
 namespace swarmanoid
 {
@@ -48,7 +48,7 @@ struct Check
 void Send(const PageRequest& command)
 {
   int sent = 0;
-  RequestControl control(
+  ControlByRequests control(
       [&](const ControlRequestMessage& request)
       {
         ++sent;

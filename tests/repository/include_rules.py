@@ -17,7 +17,7 @@ COMMON = [
     ["common/control_interface"],
     ["common/mesh"],
     ["common/experiment"],
-    ["common/builtins"],
+    ["common/plugin_descriptions"],
     ["common/run"],
     ["common/messages"],
     ["common/space"],
@@ -50,15 +50,16 @@ def allowed():
     rules["common/space/terrain"] = experiment + ["common/space/terrain"]
     rules["common/experiment"] = experiment + ["common/space/terrain"]
     # The API of ARGoS3 over ours; its files are read by the launcher.
-    rules["argos3"] = rules["space_server"] + ["argos3", "argos3/files"]
-    rules["argos3/files"] = below[: below.index("common/experiment") + 1] + ["argos3/files"]
-    rules["argos3/program"] = rules["argos3"] + ["launcher", "argos3/program"]
-    rules["roles"] = without_bus + ROLES + ["roles"]
-    rules["launcher"] = below + ROLES + ["roles", "argos3/files", "launcher"]
+    rules["argos3"] = rules["space_server"] + ["argos3", "argos3/converter"]
+    rules["argos3/converter"] = below[: below.index("common/experiment") + 1] + ["argos3/converter"]
+    rules["argos3/program"] = rules["argos3"] + ["simulation", "launcher", "argos3/program"]
+    # The simulator of one process registers all roles.
+    rules["simulation"] = without_bus + ROLES + ["simulation"]
+    rules["launcher"] = below + ROLES + ["simulation", "argos3/converter", "launcher"]
     # The module wraps the runner for one process, as a program of a user does, and looks on at runs as a visualiser does.
-    rules["python"] = below + ["controller_host", "space_server", "visualiser", "launcher", "roles", "studies", "python"]
+    rules["python"] = below + ["controller_host", "space_server", "visualiser", "simulation", "launcher", "studies", "python"]
     # A layer on what programs of users have: no role.
-    rules["studies"] = below + ["launcher", "roles", "studies"]
+    rules["studies"] = below + ["simulation", "launcher", "studies"]
     rules["real_robot"] = INTERFACE + ["common/logging", "common/program", "real_robot"]
     # One folder knows which release of Fast DDS there is; the bus and the ROS 2 drivers see Fast DDS by it.
     rules["common/bus/dds"] = ["common/bus/dds"]

@@ -1,6 +1,6 @@
 """role_libraries.py PROGRAM...: the program of a role loads the libraries of its own role, and of no other.
 
-What a process must know of the others' engines, devices and renderers to read an experiment is in common/builtins.
+What a process must know of the others' engines, devices and renderers to read an experiment is in common/plugin_descriptions.
 """
 import os
 import re
@@ -10,7 +10,7 @@ import sys
 from tracked import report
 
 # Libraries of ours (libswarmanoid_<name>.so) that every role may stand on, and those of one role.
-SHARED = {"builtins", "bus", "common", "control_interface", "experiment", "reproducible_math", "run", "space", "version"}
+SHARED = {"plugin_descriptions", "bus", "common", "control_interface", "experiment", "reproducible_math", "run", "space", "version"}
 OF_ROLE = {
     "space_server": {"space_server_node", "space_server_role"},
     "engine_worker": {"engines", "physics_engine"},

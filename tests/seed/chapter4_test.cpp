@@ -11,8 +11,8 @@
 
 #include "common/control_interface/footbot/ci_footbot_wheels_actuator.h"
 #include "common/experiment/load_experiment.h"
-#include "launcher/simulator.h"
-#include "roles/builtins.h"
+#include "simulation/register_all.h"
+#include "simulation/simulator.h"
 #include "tests/results/held_hash.h"
 #include "visualiser/render.h"
 

@@ -14,7 +14,7 @@
 #include "common/math/elementary.h"
 #include "controller_host/device.h"
 #include "engine_worker/engine_worker.h"
-#include "launcher/single_process.h"
+#include "simulation/single_process.h"
 #include "tests/results/held_hash.h"
 #include "visualiser/render.h"
 

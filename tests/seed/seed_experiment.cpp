@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/experiment/load_experiment.h"
-#include "roles/builtins.h"
+#include "simulation/register_all.h"
 
 namespace swarmanoid::test
 {

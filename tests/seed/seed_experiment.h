@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "launcher/simulator.h"
+#include "simulation/simulator.h"
 
 namespace swarmanoid::test
 {

@@ -1,4 +1,4 @@
-#include "visualiser/web/frame.h"
+#include "visualiser/web/state_frame.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

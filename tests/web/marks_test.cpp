@@ -10,9 +10,9 @@
 #include <random>
 #include <set>
 
-#include "common/builtins/builtins.h"
 #include "common/configuration/xml_reader.h"
 #include "common/math/elementary.h"
+#include "common/plugin_descriptions/describe_builtins.h"
 
 namespace swarmanoid
 {

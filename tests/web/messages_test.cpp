@@ -1,4 +1,4 @@
-#include "visualiser/web/messages.h"
+#include "visualiser/web/page_messages.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 namespace swarmanoid
 {
 
-AttachedNode::AttachedNode(WorkerSession& session, Replica& replica, Visualiser& visualiser, RemoteMonitor& monitor,
+AttachedNode::AttachedNode(WorkerSession& session, WorkerWorld& replica, Visualiser& visualiser, RemoteMonitor& monitor,
                            double rate)
     : session_(session),
       replica_(replica),

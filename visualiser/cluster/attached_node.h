@@ -6,8 +6,8 @@
 #include <chrono>
 #include <mutex>
 
-#include "common/bus/replica.h"
-#include "common/bus/worker_session.h"
+#include "common/bus/membership/worker_session.h"
+#include "common/bus/membership/worker_world.h"
 #include "visualiser/cluster/remote_monitor.h"
 #include "visualiser/visualiser.h"
 
@@ -18,7 +18,8 @@ class AttachedNode
 {
 public:
   // `rate`: pictures a second at most.
-  AttachedNode(WorkerSession& session, Replica& replica, Visualiser& visualiser, RemoteMonitor& monitor, double rate);
+  AttachedNode(WorkerSession& session, WorkerWorld& replica, Visualiser& visualiser, RemoteMonitor& monitor,
+               double rate);
 
   // Called in the main thread when a state has come, and now and then.
   void Work();
@@ -31,7 +32,7 @@ private:
   using Clock = std::chrono::steady_clock;
 
   WorkerSession& session_;
-  Replica& replica_;
+  WorkerWorld& replica_;
   Visualiser& visualiser_;
   RemoteMonitor& monitor_;
   Clock::duration period_;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "common/bus/run_directory.h"
+#include "common/bus/membership/run_directory.h"
 
 namespace swarmanoid
 {

@@ -12,8 +12,9 @@ constexpr double kViewsWhilePaused = 30;  // a second
 
 }  // namespace
 
-SynchronousNode::SynchronousNode(WorkerSession& session, Replica& replica, std::size_t number, Visualiser& visualiser,
-                                 ExperimentControl& control, RemoteMonitor& monitor, std::uint64_t first_tick)
+SynchronousNode::SynchronousNode(WorkerSession& session, WorkerWorld& replica, std::size_t number,
+                                 Visualiser& visualiser, ExperimentControl& control, RemoteMonitor& monitor,
+                                 std::uint64_t first_tick)
     : session_(session),
       replica_(replica),
       number_(static_cast<std::uint32_t>(number)),

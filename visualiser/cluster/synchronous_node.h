@@ -5,8 +5,8 @@
 #include <memory>
 #include <mutex>
 
-#include "common/bus/replica.h"
-#include "common/bus/worker_session.h"
+#include "common/bus/membership/worker_session.h"
+#include "common/bus/membership/worker_world.h"
 #include "visualiser/cluster/remote_monitor.h"
 #include "visualiser/visualiser.h"
 
@@ -16,7 +16,7 @@ namespace swarmanoid
 class SynchronousNode
 {
 public:
-  SynchronousNode(WorkerSession& session, Replica& replica, std::size_t number, Visualiser& visualiser,
+  SynchronousNode(WorkerSession& session, WorkerWorld& replica, std::size_t number, Visualiser& visualiser,
                   ExperimentControl& control, RemoteMonitor& monitor, std::uint64_t first_tick);
 
   void WaitForServer();
@@ -30,7 +30,7 @@ private:
   void ShowHeldState();
 
   WorkerSession& session_;
-  Replica& replica_;
+  WorkerWorld& replica_;
   std::uint32_t number_;
   Visualiser& visualiser_;
   ExperimentControl& control_;

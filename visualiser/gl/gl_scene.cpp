@@ -5,7 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "visualiser/gl/frame.h"
+#include "visualiser/gl/draw_list.h"
 #include "visualiser/gl/label_atlas.h"
 #include "visualiser/gl/mesh_store.h"
 #include "visualiser/gl/quads.h"

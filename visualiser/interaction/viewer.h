@@ -14,7 +14,7 @@
 #include "visualiser/interaction/entity_filter.h"
 #include "visualiser/interaction/entity_values.h"
 #include "visualiser/interaction/keys.h"
-#include "visualiser/interaction/past.h"
+#include "visualiser/interaction/past_cursor.h"
 #include "visualiser/interaction/value_history.h"
 #include "visualiser/render.h"
 #include "visualiser/scene/scene.h"
@@ -111,7 +111,7 @@ public:
   // What is shown: at a tick of the past, or the present.
   const CSwarmanoidSpace& Space() const { return past_.IsOn() && past_.Space() ? *past_.Space() : setup_.space; }
   const CSwarmanoidSpace& Present() const { return setup_.space; }
-  const Past& GetPast() const { return past_; }
+  const PastCursor& GetPast() const { return past_; }
   // At the nearest tick that the journal has; says why if there is none.
   void LookBackAt(std::uint64_t tick);
   const Experiment& GetExperiment() const;
@@ -186,7 +186,7 @@ private:
 
   RenderSetup setup_;
   Scene scene_;
-  Past past_;
+  PastCursor past_;
   std::unique_ptr<Scene> past_scene_;  // once somebody looked back
   std::uint64_t past_tick_ = 0;        // that it showed last
   bool may_look_back_ = true;

@@ -69,7 +69,7 @@ void Panels::ShowInspector(std::size_t number)
     }
     else if (!body.GetConfiguration().controller.empty())
       ImGui::TextDisabled("controller %s", body.GetConfiguration().controller.c_str());
-    if (const Past& past = viewer_.GetPast(); past.IsOn())
+    if (const PastCursor& past = viewer_.GetPast(); past.IsOn())
     {
       const char* inside = "";
       if (!body.GetConfiguration().controller.empty() && robot == nullptr && past.InsideError().empty())

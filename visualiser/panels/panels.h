@@ -53,7 +53,7 @@ private:
   void ShowValue(std::uint32_t entity, const ValueGroup& group, const EntityValue& value);
   void ShowPlots();
   void ShowTimeline();
-  void ShowTrack(const Past& past);
+  void ShowTrack(const PastCursor& past);
   // With the gap below it; 0 if it is not shown.
   float TimelineHeight() const;
   void ShowHelp();

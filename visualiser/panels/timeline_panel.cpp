@@ -33,7 +33,7 @@ float Panels::TimelineHeight() const
 
 void Panels::ShowTimeline()
 {
-  const Past& past = viewer_.GetPast();
+  const PastCursor& past = viewer_.GetPast();
   const auto left = std::max(static_cast<float>(LeftColumn()), Scaled(theme::kGap));
   const float width = std::max(InspectorEdge() - left - Scaled(theme::kGap), Scaled(300));
   const float height = TimelineHeight() - Scaled(theme::kGap);
@@ -69,7 +69,7 @@ void Panels::ShowTimeline()
 }
 
 // Drag anywhere to look at that tick; a click at a mark goes to its event.
-void Panels::ShowTrack(const Past& past)
+void Panels::ShowTrack(const PastCursor& past)
 {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const ImVec2 size(ImGui::GetContentRegionAvail().x, std::max(ImGui::GetContentRegionAvail().y, Scaled(16)));

@@ -1,5 +1,5 @@
 // The footbot: tracks with wheels, a round body of 17 cm, a turret with LED ring and gripper, the camera's tube on top.
-// Lengths: common/experiment/own_kinds.cpp, and the rings of the devices.
+// Lengths: common/experiment/builtin_kinds.cpp, and the rings of the devices.
 
 #include "visualiser/scene/led_ring.h"
 #include "visualiser/scene/robot_meshes.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "common/builtins/led_cones.h"
+#include "common/plugin_descriptions/led_cones.h"
 #include "common/space/collision_models.h"
 #include "common/space/query.h"
 #include "visualiser/scene/drawn_marks.h"

@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "common/builtins/renderers.h"
 #include "common/math/elementary.h"
+#include "common/plugin_descriptions/renderers.h"
 #include "common/program/csv.h"
 #include "common/space/space.h"
 #include "visualiser/status_line.h"

@@ -5,8 +5,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "common/builtins/antenna.h"
 #include "common/mesh/convex_hull.h"
+#include "common/plugin_descriptions/antenna.h"
 #include "common/plugins/catalogue.h"
 #include "common/space/attributes.h"
 #include "common/space/space.h"

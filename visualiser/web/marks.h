@@ -9,7 +9,7 @@
 #include "common/space/collision_models.h"
 #include "common/space/query.h"
 #include "visualiser/scene/proximity_rays.h"
-#include "visualiser/web/messages.h"
+#include "visualiser/web/page_messages.h"
 
 namespace swarmanoid
 {

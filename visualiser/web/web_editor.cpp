@@ -8,9 +8,9 @@
 
 #include "common/space/space.h"
 #include "visualiser/editor_page.h"
-#include "visualiser/web/frame.h"
-#include "visualiser/web/messages.h"
 #include "visualiser/web/page_host.h"
+#include "visualiser/web/page_messages.h"
+#include "visualiser/web/state_frame.h"
 
 namespace swarmanoid
 {

@@ -13,11 +13,11 @@
 
 #include "visualiser/look_back.h"
 #include "visualiser/render.h"
-#include "visualiser/web/frame.h"
 #include "visualiser/web/log_follower.h"
 #include "visualiser/web/marks.h"
-#include "visualiser/web/messages.h"
 #include "visualiser/web/page_host.h"
+#include "visualiser/web/page_messages.h"
+#include "visualiser/web/state_frame.h"
 
 namespace swarmanoid
 {

@@ -4,9 +4,9 @@
 #include <memory>
 #include <optional>
 
-#include "common/builtins/led_cones.h"
 #include "common/control_interface/ci_depth_camera_sensor.h"
 #include "common/math/elementary.h"
+#include "common/plugin_descriptions/led_cones.h"
 #include "common/space/attributes.h"
 #include "common/space/space.h"
 #include "controller_host/devices/builtin_devices.h"

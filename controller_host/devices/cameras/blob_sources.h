@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "common/builtins/led_cones.h"
+#include "common/plugin_descriptions/led_cones.h"
 #include "controller_host/devices/sensing/sensor_world.h"
 
 namespace swarmanoid

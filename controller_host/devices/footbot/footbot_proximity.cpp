@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "common/builtins/devices.h"
+#include "common/plugin_descriptions/device_tables.h"
 #include "common/space/space.h"
 #include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"

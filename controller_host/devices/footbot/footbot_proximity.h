@@ -52,7 +52,7 @@ private:
   void MakeDue() override;
   // All see nothing: the readings before are over.
   void Forget();
-  // Room for the readings of a robot until Forget. What others have stays where it is.
+  // ReusedMemory for the readings of a robot until Forget. What others have stays where it is.
   double* NewReadings(std::size_t k);
   // Where no body has parts that move by themselves, and all stand upright: finds out who is near whom, or will be as
   // long as MovedSince holds; and senses by what was found out.

@@ -3,10 +3,10 @@
 #include <array>
 #include <span>
 
-#include "common/builtins/collision_models.h"
-#include "common/builtins/robot_parts.h"
 #include "common/control_interface/handbot/ci_handbot_proximity_sensor.h"
 #include "common/math/elementary.h"
+#include "common/plugin_descriptions/engine_bodies.h"
+#include "common/plugin_descriptions/robot_parts.h"
 #include "common/space/space.h"
 #include "controller_host/devices/any_robot/proximity_rays.h"
 #include "controller_host/devices/builtin_devices.h"

@@ -25,7 +25,7 @@ public:
     double* flat;                         // m, in the plane of the body
   };
 
-  // Room for so many more, and some lanes.
+  // ReusedMemory for so many more, and some lanes.
   void Reserve(std::size_t more);
   const Lanes& At() const { return lanes_; }
   // Adds so many whose places stand behind the others already, turned to the body of an upright receiver at `own`; no

@@ -4,9 +4,9 @@
 #include <memory>
 #include <utility>
 
-#include "common/builtins/antenna.h"
 #include "common/math/elementary.h"
 #include "common/messages/range_and_bearing_message.h"
+#include "common/plugin_descriptions/antenna.h"
 #include "common/space/message_slots.h"
 #include "common/space/space.h"
 #include "controller_host/devices/builtin_devices.h"

@@ -19,14 +19,14 @@
 namespace swarmanoid
 {
 
-// Points to look at: offsets from the eye in m. Room for kLanes more behind `count`.
+// Points to look at: offsets from the eye in m. ReusedMemory for kLanes more behind `count`.
 struct SightPoints
 {
   std::size_t count = 0;
   std::vector<float> x, y, z;
   std::vector<std::int32_t> owner;  // the entity that a point is part of: it does not hide its own points
 
-  // Room for so many, and the kLanes.
+  // ReusedMemory for so many, and the kLanes.
   void Reserve(std::size_t points);
 };
 

@@ -9,9 +9,9 @@
 #include <optional>
 #include <vector>
 
-#include "common/builtins/robot_parts.h"
+#include "common/plugin_descriptions/robot_parts.h"
 #include "common/serialisation/bytes.h"
-#include "engine_worker/engines/isolation.h"
+#include "engine_worker/engines/lone_bodies.h"
 #include "engine_worker/engines/plane_frame.h"
 
 namespace swarmanoid::dynamics2d
@@ -230,7 +230,7 @@ private:
   std::vector<b2Vec2> positions_;  // before a step
   double last_step_ = 0;           // seconds
 
-  Isolation isolation_;
+  LoneBodies isolation_;
   bool isolation_is_configured_ = false;
   double tick_ = 0;                      // seconds
   std::vector<std::uint32_t> moving_;    // bodies that are not static, ascending: those that isolation_ knows

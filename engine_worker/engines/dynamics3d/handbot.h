@@ -2,7 +2,7 @@
 // of each, a rope to the ceiling with a winch, and fans that keep the heading while the robot hangs on it.
 #pragma once
 
-#include "common/builtins/robot_parts.h"
+#include "common/plugin_descriptions/robot_parts.h"
 #include "engine_worker/engines/dynamics3d/grasp.h"
 
 namespace swarmanoid::dynamics3d

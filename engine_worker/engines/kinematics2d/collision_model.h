@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "common/builtins/robot_parts.h"
 #include "common/math/pose.h"
+#include "common/plugin_descriptions/robot_parts.h"
 
 namespace swarmanoid::kinematics2d
 {

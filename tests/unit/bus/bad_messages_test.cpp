@@ -2,7 +2,7 @@
 // the type support.
 #include <gmock/gmock.h>
 
-#include "common/bus/message_type.h"
+#include "common/bus/topics/message_type.h"
 #include "common/configuration/shown_text.h"
 
 namespace swarmanoid

@@ -20,8 +20,8 @@
 #include <fstream>
 
 #include "common/bus/dds/fast_dds.h"
-#include "common/bus/domain.h"
-#include "common/bus/run_directory.h"
+#include "common/bus/free_domain.h"
+#include "common/bus/membership/run_directory.h"
 #include "common/logging/log.h"
 #include "tests/eventually.h"
 

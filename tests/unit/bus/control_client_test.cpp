@@ -1,5 +1,5 @@
 // ControlClient: what is beyond the limits of a message is refused where it is asked, and never ends the asker.
-#include "common/bus/control_client.h"
+#include "common/bus/membership/control_client.h"
 
 #include <gmock/gmock.h>
 

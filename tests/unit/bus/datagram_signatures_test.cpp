@@ -1,5 +1,5 @@
 // Datagrams of RTPS that are signed, and what is heard of those that are not.
-#include "common/bus/datagram_signatures.h"
+#include "common/bus/security/datagram_signatures.h"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 
 #include "common/activity/exit_codes.h"
 #include "common/bus/dds/for_tests.h"
-#include "common/bus/worker_session.h"
+#include "common/bus/membership/worker_session.h"
 #include "tests/eventually.h"
 #include "tests/unit/bus/server_fixture.h"
 

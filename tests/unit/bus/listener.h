@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "common/bus/seal.h"
+#include "common/bus/security/seal.h"
 #include "tests/unit/bus/raw_type.h"
 
 namespace swarmanoid::test

@@ -1,7 +1,7 @@
 // The silence of others counts only while this process could hear them.
 #include <gtest/gtest.h>
 
-#include "common/bus/listening_clock.h"
+#include "common/bus/membership/listening_clock.h"
 
 namespace swarmanoid
 {

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "common/bus/dds/for_tests.h"
-#include "common/bus/message_type.h"
+#include "common/bus/topics/message_type.h"
 #include "swarmanoid.h"
 #include "swarmanoidPubSubTypes.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "common/bus/dds/data_type.h"
-#include "common/bus/qos.h"
+#include "common/bus/topics/qos.h"
 
 namespace swarmanoid::test
 {

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "common/bus/dds/for_tests.h"
-#include "common/bus/region_links.h"
-#include "common/bus/worker_session.h"
+#include "common/bus/membership/region_links.h"
+#include "common/bus/membership/worker_session.h"
 #include "tests/eventually.h"
 #include "tests/unit/bus/server_fixture.h"
 

@@ -1,5 +1,5 @@
 // Seals: what only those can say who hold the key of the run, once, on one topic and as one writer.
-#include "common/bus/seal.h"
+#include "common/bus/security/seal.h"
 
 #include <fcntl.h>
 #include <openssl/core_names.h>

@@ -1,5 +1,5 @@
 // Shares: what their keys depend on, when they end, and the text of their tickets.
-#include "common/bus/share.h"
+#include "common/bus/security/share.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // StallDetector, with a clock of the test.
-#include "common/bus/stall_detector.h"
+#include "common/bus/membership/stall_detector.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/bus/message_bytes.h"
+#include "common/bus/topics/message_bytes.h"
 #include "tests/eventually.h"
 #include "tests/unit/bus/raw_type.h"
 

@@ -1,4 +1,4 @@
-#include "common/bus/tick_gate.h"
+#include "common/bus/membership/tick_gate.h"
 
 #include <gmock/gmock.h>
 

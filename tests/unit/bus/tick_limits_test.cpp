@@ -1,5 +1,5 @@
 // What arrives in a tick is measured against the experiment: lengths, slots, entities and senders.
-#include "common/bus/tick_limits.h"
+#include "common/bus/membership/tick_limits.h"
 #include "common/space/space.h"
 
 #include <gmock/gmock.h>

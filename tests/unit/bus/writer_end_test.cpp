@@ -7,8 +7,8 @@
 
 #include "common/bus/dds/data_type.h"
 #include "common/bus/dds/for_tests.h"
+#include "common/bus/membership/run_directory.h"
 #include "common/bus/participant.h"
-#include "common/bus/run_directory.h"
 #include "tests/eventually.h"
 #include "tests/unit/bus/server_fixture.h"
 

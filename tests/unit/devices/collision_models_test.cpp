@@ -1,11 +1,11 @@
 // Sensors and queries go by the bodies that the engines tell.
 #include "common/space/collision_models.h"
 
-#include "common/builtins/builtins.h"
-#include "common/builtins/robot_parts.h"
 #include "common/control_interface/ci_colour_blob_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_proximity_sensor.h"
 #include "common/mesh/convex_hull.h"
+#include "common/plugin_descriptions/describe_builtins.h"
+#include "common/plugin_descriptions/robot_parts.h"
 #include "common/space/query.h"
 #include "controller_host/devices/sensing/sensor_world.h"
 #include "tests/unit/devices/test_world.h"

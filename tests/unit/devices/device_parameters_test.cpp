@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "common/builtins/builtins.h"
 #include "common/experiment/load_experiment.h"
+#include "common/plugin_descriptions/describe_builtins.h"
 
 namespace swarmanoid
 {

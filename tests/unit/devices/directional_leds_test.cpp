@@ -3,10 +3,10 @@
 #include <cmath>
 #include <random>
 
-#include "common/builtins/led_cones.h"
 #include "common/control_interface/ci_colour_blob_sensor.h"
 #include "common/control_interface/ci_directional_leds_actuator.h"
 #include "common/control_interface/ci_pie_camera_sensor.h"
+#include "common/plugin_descriptions/led_cones.h"
 #include "tests/unit/devices/test_world.h"
 
 namespace swarmanoid

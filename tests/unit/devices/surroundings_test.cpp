@@ -5,15 +5,15 @@
 #include <random>
 #include <set>
 
-#include "common/builtins/builtins.h"
 #include "common/control_interface/ci_controller.h"
 #include "common/control_interface/ci_led_ring_actuator.h"
 #include "common/control_interface/ci_range_and_bearing.h"
 #include "common/math/random.h"
 #include "common/messages/robot_status.h"
+#include "common/plugin_descriptions/describe_builtins.h"
 #include "common/space/space.h"
 #include "controller_host/controller_host.h"
-#include "space_server/surroundings.h"
+#include "space_server/near_entities.h"
 
 namespace swarmanoid
 {

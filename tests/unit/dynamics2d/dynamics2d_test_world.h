@@ -1,7 +1,7 @@
 // The test world of dynamics2d: bodies by their places on the plane z = 0.
 #pragma once
 
-#include "common/builtins/engines.h"
+#include "common/plugin_descriptions/engines.h"
 #include "engine_worker/engines/dynamics2d/dynamics2d_engine.h"
 #include "tests/unit/engines/engine_test_world.h"
 

@@ -1,8 +1,8 @@
 // The test world of dynamics3d.
 #pragma once
 
-#include "common/builtins/engines.h"
 #include "common/math/elementary.h"
+#include "common/plugin_descriptions/engines.h"
 #include "engine_worker/engines/dynamics3d/dynamics3d_engine.h"
 #include "engine_worker/engines/dynamics3d/footbot.h"
 #include "tests/unit/engines/engine_test_world.h"

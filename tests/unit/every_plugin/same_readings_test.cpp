@@ -13,7 +13,7 @@
 #include "common/control_interface/ci_controller.h"
 #include "common/experiment/load_experiment.h"
 #include "common/space/space.h"
-#include "launcher/simulator.h"
+#include "simulation/simulator.h"
 #include "test_folders.h"
 #include "tests/unit/every_plugin/scene.h"
 

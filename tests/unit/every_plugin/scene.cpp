@@ -14,7 +14,7 @@
 #include "common/experiment/load_experiment.h"
 #include "common/plugins/library.h"
 #include "common/space/space.h"
-#include "roles/builtins.h"
+#include "simulation/register_all.h"
 #include "test_folders.h"
 
 namespace swarmanoid

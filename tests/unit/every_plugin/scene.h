@@ -8,7 +8,7 @@
 
 #include "common/experiment/entity_kind.h"
 #include "common/plugins/catalogue.h"
-#include "launcher/simulator.h"
+#include "simulation/simulator.h"
 
 namespace swarmanoid
 {

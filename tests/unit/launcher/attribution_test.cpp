@@ -1,5 +1,5 @@
 // Which process failed, as told from what each says of itself and how it ended.
-#include "launcher/processes/attribution.h"
+#include "launcher/supervision/attribution.h"
 
 #include <gmock/gmock.h>
 #include <signal.h>

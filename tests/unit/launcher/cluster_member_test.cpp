@@ -1,5 +1,5 @@
 // A process of a cluster and what starts it: its output, its environment, and that it leaves nothing behind.
-#include "launcher/processes/cluster_member.h"
+#include "launcher/supervision/cluster_member.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -12,7 +12,7 @@
 #include "common/control_interface/ci_range_and_bearing.h"
 #include "common/control_interface/footbot/ci_footbot_ground_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_light_sensor.h"
-#include "launcher/simulator.h"
+#include "simulation/simulator.h"
 
 namespace swarmanoid
 {

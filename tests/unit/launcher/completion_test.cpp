@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/run/run_settings.h"
-#include "launcher/commands.h"
+#include "launcher/command/sub_command.h"
 #include "launcher/completion.h"
 #include "test_folders.h"
 

@@ -1,5 +1,5 @@
 // The session of an editor, with a page that only listens: requests, what is told after each, and the file on disk.
-#include "launcher/edit_session.h"
+#include "launcher/editor/edit_session.h"
 #include "common/space/space.h"
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "roles/builtins.h"
+#include "simulation/register_all.h"
 #include "test_folders.h"
 #include "tests/eventually.h"
 

@@ -1,5 +1,5 @@
 // An experiment that is edited: what each change writes, what is refused, and that all else stays, byte for byte.
-#include "launcher/edited_experiment.h"
+#include "launcher/editor/edited_experiment.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 #include "common/configuration/xml_reader.h"
 #include "common/space/space.h"
 #include "launcher/scratch_folder.h"
-#include "launcher/simulator.h"
-#include "roles/builtins.h"
+#include "simulation/register_all.h"
+#include "simulation/simulator.h"
 #include "test_folders.h"
 
 namespace swarmanoid

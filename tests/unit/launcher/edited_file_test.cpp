@@ -1,5 +1,5 @@
 // The file behind the editor: saved as a whole or not at all, and looked at for what others write.
-#include "launcher/edited_file.h"
+#include "launcher/editor/edited_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 #include "common/control_interface/ci_controller.h"
 #include "common/control_interface/ci_functions_channel.h"
 #include "common/space/entities_by_kind.h"
-#include "launcher/simulator.h"
+#include "simulation/simulator.h"
 #include "space_server/robot_messages.h"
 
 namespace swarmanoid

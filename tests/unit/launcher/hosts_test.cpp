@@ -1,9 +1,9 @@
-#include "launcher/hosts.h"
+#include "launcher/supervision/hosts.h"
 
 #include <gmock/gmock.h>
 
-#include "launcher/cluster_plan.h"
-#include "launcher/commands.h"
+#include "launcher/command/sub_command.h"
+#include "launcher/supervision/cluster_plan.h"
 
 namespace swarmanoid
 {

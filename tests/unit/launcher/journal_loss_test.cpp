@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "launcher/journal_loss.h"
+#include "simulation/playback/journal_loss.h"
 
 namespace swarmanoid
 {

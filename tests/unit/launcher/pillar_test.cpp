@@ -7,7 +7,7 @@
 
 #include "common/control_interface/ci_controller.h"
 #include "common/control_interface/footbot/ci_footbot_wheels_actuator.h"
-#include "launcher/simulator.h"
+#include "simulation/simulator.h"
 
 namespace swarmanoid
 {

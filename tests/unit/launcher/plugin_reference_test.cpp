@@ -10,8 +10,8 @@
 #include <iterator>
 #include <string>
 
-#include "common/builtins/builtins.h"
 #include "common/experiment/reference.h"
+#include "common/plugin_descriptions/describe_builtins.h"
 #include "common/plugins/library.h"
 #include "test_folders.h"
 

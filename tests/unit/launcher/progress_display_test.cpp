@@ -1,4 +1,4 @@
-#include "launcher/processes/progress_display.h"
+#include "launcher/supervision/progress_display.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "launcher/run_folder.h"
+#include "simulation/run_folder.h"
 
 #include <gmock/gmock.h>
 #include <sys/wait.h>
@@ -10,7 +10,7 @@
 
 #include "common/activity/activity.h"
 #include "common/activity/failure_report.h"
-#include "launcher/manifest_at_death.h"
+#include "launcher/supervision/manifest_at_death.h"
 
 namespace swarmanoid
 {

@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
-#include "common/bus/cluster_options.h"
+#include "common/bus/membership/cluster_options.h"
 #include "common/program/usage_error.h"
 
 namespace swarmanoid

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/processes/line_splitter.h"
+#include "launcher/supervision/line_splitter.h"
 
 namespace swarmanoid
 {

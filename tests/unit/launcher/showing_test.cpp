@@ -7,7 +7,7 @@
 
 #include "common/experiment/load_experiment.h"
 #include "launcher/showing.h"
-#include "roles/builtins.h"
+#include "simulation/register_all.h"
 #include "test_folders.h"
 
 namespace swarmanoid

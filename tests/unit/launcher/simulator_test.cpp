@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "common/configuration/configuration_tree.h"
-#include "launcher/simulator.h"
+#include "simulation/simulator.h"
 #include "space_server/experiment_functions.h"
 #include "test_folders.h"
 

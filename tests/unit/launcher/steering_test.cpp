@@ -11,8 +11,8 @@
 
 #include "common/experiment/load_experiment.h"
 #include "common/program/usage_error.h"
-#include "launcher/single_process.h"
-#include "roles/builtins.h"
+#include "simulation/register_all.h"
+#include "simulation/single_process.h"
 #include "test_folders.h"
 #include "visualiser/render.h"
 

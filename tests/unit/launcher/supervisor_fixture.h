@@ -11,7 +11,7 @@
 #include <sstream>
 #include <thread>
 
-#include "launcher/processes/supervisor.h"
+#include "launcher/supervision/supervisor.h"
 #include "tests/eventually.h"
 #include "tests/unit/launcher/process_groups.h"
 
@@ -140,7 +140,7 @@ protected:
     return text;
   }
 
-  Interrupts interrupts_;  // first: threads of the tests must not get the signals
+  SignalDescriptor interrupts_;  // first: threads of the tests must not get the signals
   std::filesystem::path folder_;
   SupervisorTimes times_;
   unsigned retries_ = 0;

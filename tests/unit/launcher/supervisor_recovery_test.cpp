@@ -1,5 +1,5 @@
 // Processes that die and are replaced, and clusters that start again.
-#include "launcher/processes/supervisor.h"
+#include "launcher/supervision/supervisor.h"
 
 #include "tests/unit/launcher/supervisor_fixture.h"
 

@@ -1,5 +1,5 @@
 // How the supervisor stops a cluster, and what it shows meanwhile.
-#include "launcher/processes/supervisor.h"
+#include "launcher/supervision/supervisor.h"
 
 #include "tests/unit/launcher/supervisor_fixture.h"
 

@@ -1,5 +1,5 @@
 // What the supervisor says of a cluster: how it ended, and who failed first.
-#include "launcher/processes/supervisor.h"
+#include "launcher/supervision/supervisor.h"
 
 #include "tests/unit/launcher/supervisor_fixture.h"
 

@@ -2,10 +2,10 @@
 #include <gmock/gmock.h>
 
 #include "common/run/run_settings.h"
-#include "launcher/commands.h"
-#include "launcher/control_request.h"
-#include "launcher/load.h"
+#include "launcher/command/sub_command.h"
+#include "launcher/control_words.h"
 #include "launcher/template_files.h"
+#include "simulation/load.h"
 
 namespace swarmanoid
 {

@@ -6,10 +6,10 @@
 #include <map>
 #include <memory>
 
-#include "common/builtins/builtins.h"
 #include "common/experiment/body.h"
 #include "common/experiment/load_experiment.h"
 #include "common/math/random.h"
+#include "common/plugin_descriptions/describe_builtins.h"
 #include "common/space/terrain/terrain.h"
 #include "test_folders.h"
 

@@ -10,7 +10,7 @@
 #include "footbot/ci_footbot_light_sensor.h"
 #include "footbot/ci_footbot_proximity_sensor.h"
 #include "footbot/ci_footbot_wheels_actuator.h"
-#include "launcher/simulator.h"
+#include "simulation/simulator.h"
 #include "space_server/experiment_functions.h"
 
 namespace swarmanoid

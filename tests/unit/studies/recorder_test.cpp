@@ -11,7 +11,7 @@
 #include "common/control_interface/ci_publish.h"
 #include "common/control_interface/ci_wheels_actuator.h"
 #include "common/space/publish.h"
-#include "roles/builtins.h"
+#include "simulation/register_all.h"
 #include "space_server/experiment_functions.h"
 #include "studies/metric.h"
 

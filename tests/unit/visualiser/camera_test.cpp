@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "common/builtins/builtins.h"
-#include "common/builtins/renderers.h"
 #include "common/configuration/xml_reader.h"
+#include "common/plugin_descriptions/describe_builtins.h"
+#include "common/plugin_descriptions/renderers.h"
 #include "tests/unit/visualiser/look_at.h"
 #include "visualiser/scene/viewpoints.h"
 

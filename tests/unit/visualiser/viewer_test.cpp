@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "common/builtins/renderers.h"
 #include "common/configuration/xml_reader.h"
+#include "common/plugin_descriptions/renderers.h"
 #include "tests/unit/visualiser/small_world.h"
 #include "visualiser/interaction/viewer.h"
 

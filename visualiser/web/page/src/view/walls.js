@@ -1,4 +1,4 @@
-// Walls at the edge of the arena, cut open as in the other renderers (visualiser/scene/picking.cpp, visualiser/gl/frame.cpp):
+// Walls at the edge of the arena, cut open as in the other renderers (visualiser/scene/picking.cpp, visualiser/gl/draw_list.cpp):
 // those between the eye and the arena down to a kerb, the others where they are taller than what happens inside.
 import * as THREE from "three";
 

@@ -1,0 +1,363 @@
+#include "argos3/converter/convert_code.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+#include "common/configuration/wording.h"
+#include "common/plugins/library.h"
+
+namespace swarmanoid::argos3
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPlugin = "argos3";
+
+constexpr std::pair<const char*, const char*> kConstructors[]{{"footbot", "14CFootBotEntityC"},
+                                                              {"eyebot", "13CEyeBotEntityC"},
+                                                              {"argos3_epuck", "12CEPuckEntityC"},
+                                                              {"light_bulb", "12CLightEntityC"},
+                                                              {"box", "10CBoxEntityC"},
+                                                              {"cylinder", "15CCylinderEntityC"},
+                                                              {"reset", "10CSimulator5ResetE"},
+                                                              {"reset", "6CSpace5ResetE"},
+                                                              {"configuration", "20GetConfigurationRootE"},
+                                                              {"configuration", "22GetConfigForControllerE"}};
+
+// Of a controller that no robot of the file has: by its devices.
+std::string KindByDevices(const ConfigurationNode& controller)
+{
+  for (const char* list : {"sensors", "actuators"})
+  {
+    const ConfigurationNode* devices = FindChild(controller, list);
+    if (devices == nullptr) continue;
+    for (const auto& device : devices->children)
+    {
+      if (device->name.starts_with("eyebot") || device->name.starts_with("quadrotor")) return "eyebot";
+      if (device->name.starts_with("epuck")) return "argos3_epuck";
+      if (device->name.starts_with("footbot")) return "footbot";
+    }
+  }
+  return "";
+}
+
+constexpr int kSpareRobots = 100;  // of a controller
+constexpr int kSpareLights = 20;
+
+std::string BytesOf(const std::string& file)
+{
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<std::string> LibraryNames(const std::string& library)
+{
+  const fs::path path(library);
+  return {library, library + ".so", (path.parent_path() / ("lib" + path.filename().string() + ".so")).string()};
+}
+
+}  // namespace
+
+void CodeConverter::ConvertControllers(ConfigurationNode& ours)
+{
+  const ConfigurationNode* controllers = Needed(root_, "controllers");
+  if (controllers == nullptr) return;
+  const Made made = AddNode(ours, "controllers", controllers->location);
+  const bool somebody_hears = [&]
+  {
+    for (const auto& controller : controllers->children)
+      if (const ConfigurationNode* sensors = FindChild(*controller, "sensors"))
+        if (FindChild(*sensors, "range_and_bearing") != nullptr) return true;
+    return false;
+  }();
+  made_kinds_ = FindMadeKinds();
+  if (made_kinds_.erase("light_bulb") != 0) arena_.KeepSpareLights(kSpareLights);
+  asks_for_configuration_ = made_kinds_.erase("configuration") != 0;
+  resets_runs_ = made_kinds_.erase("reset") != 0;
+  makes_bodies_ = made_kinds_.erase("box") + made_kinds_.erase("cylinder") != 0;
+  for (const auto& controller : controllers->children) ConvertController(*controller, *made, somebody_hears);
+}
+
+std::set<std::string> CodeConverter::FindMadeKinds() const
+{
+  const ConfigurationNode* functions = FindChild(root_, "loop_functions");
+  std::set<std::string> kinds;
+  if (functions == nullptr) return kinds;
+  const auto* library = FindAttributeOf(*functions, "library");
+  const auto* label = FindAttributeOf(*functions, "label");
+  std::string searched;
+  const auto file = library != nullptr ? Found(Folders(), LibraryNames(library->value), searched)
+                    : label != nullptr ? LibraryThatNames(label->value, searched)
+                                       : std::nullopt;
+  if (!file) return kinds;
+  const std::string bytes = BytesOf(*file);
+  for (const auto& [kind, constructor] : kConstructors)
+    if (bytes.find(constructor) != std::string::npos) kinds.insert(kind);
+  return kinds;
+}
+
+void CodeConverter::KeepSpare(const std::string& controller, const ConfigurationNode& theirs)
+{
+  if (made_kinds_.empty()) return;
+  std::string kind = KindByDevices(theirs);
+  if (kind.empty()) kind = *made_kinds_.begin();
+  const std::set<std::string>& kinds = arena_.BearersOf(controller).kinds;
+  if (!kinds.empty()) kind = *kinds.begin();
+  if (made_kinds_.contains(kind)) arena_.KeepSpare(controller, kind, kSpareRobots);
+}
+
+void CodeConverter::ConvertController(const ConfigurationNode& theirs, ConfigurationNode& parent, bool somebody_hears)
+{
+  const SourceLocation& at = theirs.location;
+  const Made made = AddNode(parent, "argos3_controller", at);
+  const std::string id = NeededText(theirs, "id");
+  SetValue(*made, "id", id, at);
+  SetValue(*made, "library", kPlugin, at);
+  KeepSpare(id, theirs);
+  const Bearers& bearers = arena_.BearersOf(id);
+  if (bearers.kinds.size() > 1 && bearers.kinds.contains("argos3_epuck"))
+    Mistake(at, "robots of several kinds have the controller " + Quoted(id) +
+                    ", and e-pucks have other devices; give each kind a controller of its own");
+  const ConfigurationNode* framework = FindChild(root_, "framework");
+  const ConfigurationNode* experiment = framework == nullptr ? nullptr : FindChild(*framework, "experiment");
+  const double ticks = experiment == nullptr ? 10 : Number(*experiment, "ticks_per_second", 10);
+  const DeviceContext context{bearers, !arena_.FloorId().empty(), ticks,
+                              [this](const SourceLocation& place, const std::string& text) { Mistake(place, text); },
+                              [this](const SourceLocation& place, const std::string& text) { Note(place, text); }};
+  DeviceLists lists;
+  const std::string sensors = ConvertDevices(theirs, "sensors", ConvertSensor, context, lists);
+  std::string actuators = ConvertDevices(theirs, "actuators", ConvertActuator, context, lists);
+  if (somebody_hears && !bearers.kinds.empty() && !lists.actuators.contains("range_and_bearing"))
+  {
+    AddSender(at, context, lists);
+    actuators += " range_and_bearing";
+  }
+  for (const auto& [name, devices] : {std::pair("actuators", &lists.actuators), std::pair("sensors", &lists.sensors)})
+  {
+    const Made list = AddNode(*made, name, at);
+    for (const auto& [type, device] : *devices) list->children.push_back(device);
+  }
+  const Made parameters = AddNode(*made, "parameters", at);
+  const Made options = AddNode(*parameters, "argos3", at);
+  if (theirs.name == "lua_controller")
+  {
+    SetScript(theirs, *options);
+  }
+  else
+  {
+    SetValue(*options, "label", theirs.name, at);
+    SetLibrary(theirs, theirs.name, "library", *options);
+    if (const auto* library = FindAttributeOf(*options, "library"))
+      controller_libraries_ += (controller_libraries_.empty() ? "" : ":") + library->value;
+  }
+  SetValue(*options, "sensors", sensors, at);
+  SetValue(*options, "actuators", actuators, at);
+  if (!arena_.FloorId().empty()) SetValue(*options, "floor", "loop_functions", at);
+  const auto set_noise =
+      [&](const char* name, std::initializer_list<const char*> devices, const char* attribute = "noise_level")
+  {
+    const auto level = ParseNumber(NoiseOf(theirs, devices, attribute));
+    if (level && *level > 0) SetValue(*options, name, TextOf(*level), at);
+  };
+  set_noise("ground_noise", {"footbot_motor_ground", "footbot_base_ground", "ground"});
+  set_noise("proximity_noise", {"proximity", "epuck_proximity", "eyebot_proximity"});
+  set_noise("camera_noise", {"colored_blob_omnidirectional_camera"}, "noise_std_dev");
+  set_noise("radio_noise", {"range_and_bearing"}, "noise_std_dev");
+  for (const auto& [name, sensor, attribute] :
+       {std::tuple("speed", "differential_steering", "vel_noise_range"),
+        std::tuple("distance", "differential_steering", "dist_noise_range"),
+        std::tuple("axis", "positioning", "axis_noise_range"), std::tuple("battery", "battery", "noise_range")})
+  {
+    const std::string range = NoiseOf(theirs, {sensor}, attribute);
+    const std::size_t colon = range.find(':');
+    if (colon == std::string::npos) continue;
+    SetValue(*options, std::string(name) + "_noise_low", range.substr(0, colon), at);
+    SetValue(*options, std::string(name) + "_noise_high", range.substr(colon + 1), at);
+  }
+  const ConfigurationNode* told = FindChild(theirs, "actuators");
+  const ConfigurationNode* wheels = told == nullptr ? nullptr : FindChild(*told, "differential_steering");
+  if (wheels != nullptr && bearers.kinds.contains("argos3_epuck"))
+    for (const std::string name : kWheelNoise)
+      for (const char* side : {"_left", "_right"})
+      {
+        const auto* own = FindAttributeOf(*wheels, name + side);
+        if (own == nullptr) own = FindAttributeOf(*wheels, name);
+        if (own != nullptr) SetValue(*options, name + side, own->value, at);
+      }
+  if (const std::string spare = arena_.SpareOf(id); !spare.empty()) SetValue(*options, "spare", spare, at);
+  if (lists.sensors.contains("footbot_perspective_camera") || lists.sensors.contains("eyebot_pan_tilt_camera"))
+    SetValue(*options, "camera_aperture", TextOf(bearers.perspective_aperture), at);
+  if (bearers.battery != nullptr)
+    for (const char* charge : {"start_charge", "full_charge"})
+      SetValue(*options, charge, TextOf(Number(*bearers.battery, charge, 1)), at);
+  SetValue(*options, "rab_data_size", std::to_string(bearers.radio_bytes), at);
+  options_.push_back(options);
+  for (const auto& child : theirs.children)
+    if (child->name == "params") parameters->children.push_back(child);
+}
+
+std::string CodeConverter::NoiseOf(const ConfigurationNode& controller, std::initializer_list<const char*> names,
+                                   const char* attribute)
+{
+  const ConfigurationNode* sensors = FindChild(controller, "sensors");
+  for (const char* name : names)
+  {
+    const ConfigurationNode* sensor = sensors == nullptr ? nullptr : FindChild(*sensors, name);
+    const auto* noise = sensor == nullptr ? nullptr : FindAttributeOf(*sensor, attribute);
+    if (noise != nullptr) return noise->value;
+  }
+  return "";
+}
+
+void CodeConverter::SetScript(const ConfigurationNode& theirs, ConfigurationNode& options)
+{
+  const ConfigurationNode* params = FindChild(theirs, "params");
+  const auto* script = params == nullptr ? nullptr : FindAttributeOf(*params, "script");
+  if (script == nullptr)
+  {
+    SetValue(options, "script_name", "", theirs.location);
+    return Note(theirs.location, "without <params script=\"FILE.lua\"/> its robots do nothing");
+  }
+  std::string searched;
+  const auto file = Found({fs::current_path(), folder_, fs::path(folder_).parent_path()}, {script->value}, searched);
+  if (!file)
+    return Mistake(script->location, "the script " + Quoted(script->value) +
+                                         " is not found; start in the folder from which the path leads to it; " +
+                                         "searched:" + searched);
+  SetValue(options, "script", *file, script->location);
+  SetValue(options, "script_name", script->value, script->location);
+}
+
+std::vector<fs::path> CodeConverter::Folders() const
+{
+  std::vector<fs::path> folders{fs::current_path()};
+  if (const char* list = std::getenv("ARGOS_PLUGIN_PATH"))
+    for (const std::string& one : SplitSearchPath(list, fs::current_path().string())) folders.emplace_back(one);
+  folders.emplace_back(folder_);
+  folders.push_back(fs::path(folder_).parent_path());
+  return folders;
+}
+
+std::optional<std::string> CodeConverter::LibraryThatNames(const std::string& label, std::string& searched)
+{
+  const char* list = std::getenv("ARGOS_PLUGIN_PATH");
+  if (list == nullptr || label.empty()) return std::nullopt;
+  for (const std::string& folder : SplitSearchPath(list, fs::current_path().string()))
+  {
+    searched += "\n    " + folder;
+    std::error_code none;
+    std::set<std::string> files;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
+      if (entry.is_regular_file(none) && entry.path().extension() == ".so") files.insert(entry.path().string());
+    // As a text of its own among the constants, or as the end of one: compilers keep such texts once.
+    for (const std::string& constant : {std::string(1, '\0') + label + '\0', label + '\0'})
+      for (const std::string& file : files)
+        if (BytesOf(file).find(constant) != std::string::npos) return file;
+  }
+  return std::nullopt;
+}
+
+void CodeConverter::SetLibrary(const ConfigurationNode& theirs, const std::string& label, const char* ours,
+                               ConfigurationNode& options)
+{
+  std::string searched;
+  const auto* attribute = FindAttributeOf(theirs, "library");
+  if (attribute == nullptr)
+  {
+    if (const auto file = LibraryThatNames(label, searched)) return SetValue(options, ours, *file, theirs.location);
+    return Mistake(theirs.location, "<" + theirs.name + "> has no 'library', and no library in the folders of " +
+                                        "ARGOS_PLUGIN_PATH names " + Quoted(label) + "; add the one or the other" +
+                                        (searched.empty() ? "" : "; searched:" + searched));
+  }
+  const std::string& library = attribute->value;
+  const SourceLocation& at = attribute->location;
+  if (const auto file = Found(Folders(), LibraryNames(library), searched)) return SetValue(options, ours, *file, at);
+  Mistake(at, "the library " + Quoted(library) +
+                  " is not found; build it, name its folder in ARGOS_PLUGIN_PATH, or start in the folder from which " +
+                  "the path leads to it; searched:" + searched);
+}
+
+std::optional<std::string> CodeConverter::Found(const std::vector<fs::path>& folders,
+                                                const std::vector<std::string>& names, std::string& searched)
+{
+  for (const fs::path& folder : folders)
+    for (const std::string& name : names)
+    {
+      const fs::path file = (folder / name).lexically_normal();
+      std::error_code none;
+      if (fs::is_regular_file(file, none)) return file.string();
+      const std::string line = "\n    " + file.string();
+      if ((searched + "\n").find(line + "\n") == std::string::npos) searched += line;
+    }
+  return std::nullopt;
+}
+
+// A run that loop functions reset goes on, so they know how long one is, and not the framework.
+void CodeConverter::MoveLength(ConfigurationNode& ours, ConfigurationNode& functions)
+{
+  for (auto& child : ours.children)
+  {
+    const auto* length = child->name == "framework" ? FindAttributeOf(*child, "maxclock") : nullptr;
+    if (length == nullptr) continue;
+    SetValue(functions, "length", length->value, length->location);
+    const auto endless = std::make_shared<ConfigurationNode>(*child);
+    std::erase_if(endless->attributes, [](const auto& attribute) { return attribute.name == "maxclock"; });
+    child = endless;
+  }
+}
+
+const ConfigurationNode* CodeConverter::UserFunctions() const
+{
+  const ConfigurationNode* visualization = FindChild(root_, "visualization");
+  const ConfigurationNode* window = visualization == nullptr ? nullptr : FindChild(*visualization, "qt-opengl");
+  return window == nullptr ? nullptr : FindChild(*window, "user_functions");
+}
+
+void CodeConverter::SetUserFunctions(const ConfigurationNode& theirs, ConfigurationNode& functions)
+{
+  const std::string label = NeededText(theirs, "label");
+  SetLibrary(theirs, label, "user_file", functions);
+  SetValue(functions, "user_label", label, theirs.location);
+  functions.children.push_back(std::make_shared<ConfigurationNode>(theirs));
+}
+
+void CodeConverter::ConvertLoopFunctions(ConfigurationNode& ours, bool for_rehearsal)
+{
+  for (const Made& options : options_)
+  {
+    SetValue(*options, "origin", TextOf(arena_.Origin()), options->location);
+    SetValue(*options, "distributed", arena_.Distributed(), options->location);
+  }
+  const ConfigurationNode* theirs = FindChild(root_, "loop_functions");
+  const ConfigurationNode* user = UserFunctions();
+  if (theirs == nullptr && !arena_.FloorId().empty())
+    Mistake(arena_.Location(), "the source of the floor is loop_functions, and there are none; add them");
+  if (theirs == nullptr && user == nullptr) return;
+  const SourceLocation& at = theirs == nullptr ? user->location : theirs->location;
+  const Made list = AddNode(ours, "experiment_functions", at);
+  const Made made = AddNode(*list, "argos3_loop_functions", at);
+  SetValue(*made, "id", "loop_functions", at);
+  SetValue(*made, "library", kPlugin, at);
+  if (theirs != nullptr)
+  {
+    const std::string label = NeededText(*theirs, "label");
+    SetLibrary(*theirs, label, "file", *made);
+    SetValue(*made, "label", label, at);
+  }
+  SetValue(*made, "origin", TextOf(arena_.Origin()), at);
+  SetValue(*made, "distributed", arena_.Distributed(), at);
+  SetValue(*made, "floor", arena_.FloorId(), at);
+  SetValue(*made, "controllers", controller_libraries_, at);
+  if (resets_runs_) MoveLength(ours, *made);
+  if (for_rehearsal) SetValue(*made, "rehearsal", "true", at);
+  if (theirs != nullptr) made->children.push_back(std::make_shared<ConfigurationNode>(*theirs));
+  if (user != nullptr) SetUserFunctions(*user, *made);
+  if (!asks_for_configuration_) return;
+  const Made configuration = AddNode(*made, "configuration", at);
+  configuration->children = root_.children;
+}
+
+}  // namespace swarmanoid::argos3

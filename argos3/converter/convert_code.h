@@ -1,0 +1,85 @@
+// What runs code of users in a file of ARGoS3, as ours: controllers and loop functions.
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "argos3/converter/convert_arena.h"
+#include "argos3/converter/device_names.h"
+#include "argos3/converter/node_reader.h"
+
+namespace swarmanoid::argos3
+{
+
+class CodeConverter : NodeReader
+{
+public:
+  // All outlive this. `folder`: of the file.
+  CodeConverter(const ConfigurationNode& root, const std::string& folder, ArenaConverter& arena,
+                ConvertedExperiment& result)
+      : NodeReader(result), root_(root), folder_(folder), arena_(arena)
+  {
+  }
+
+  void ConvertControllers(ConfigurationNode& ours);
+  // After the controllers: whether loop functions make boxes or cylinders.
+  bool MakesBodies() const { return makes_bodies_; }
+  // <user_functions> of <qt-opengl>; nullptr: there are none.
+  const ConfigurationNode* UserFunctions() const;
+  // After the controllers and the arena.
+  void ConvertLoopFunctions(ConfigurationNode& ours, bool for_rehearsal);
+
+private:
+  void ConvertController(const ConfigurationNode& theirs, ConfigurationNode& parent, bool somebody_hears);
+  // The attribute of the first of these sensors of the controller that has it; empty: none has.
+  static std::string NoiseOf(const ConfigurationNode& controller, std::initializer_list<const char*> sensors,
+                             const char* attribute);
+  // What the loop functions make, and whether they ask for the experiment file: their constructors are among the names
+  // in the library.
+  std::set<std::string> FindMadeKinds() const;
+  // Keeps robots of the controller ready, for loop functions that add some.
+  void KeepSpare(const std::string& controller, const ConfigurationNode& theirs);
+  // The tags of theirs, with blanks between them.
+  template <class ConvertOne>
+  std::string ConvertDevices(const ConfigurationNode& controller, const char* name, ConvertOne convert,
+                             const DeviceContext& context, DeviceLists& lists)
+  {
+    const ConfigurationNode* theirs = FindChild(controller, name);
+    std::string tags;
+    if (theirs == nullptr) return tags;
+    for (const auto& device : theirs->children)
+    {
+      convert(*device, context, lists);
+      tags += (tags.empty() ? "" : " ") + device->name;
+    }
+    return tags;
+  }
+  static void MoveLength(ConfigurationNode& ours, ConfigurationNode& functions);
+  // Where libraries are looked for.
+  std::vector<std::filesystem::path> Folders() const;
+  void SetScript(const ConfigurationNode& theirs, ConfigurationNode& options);
+  // `label`: what the library registers; ARGoS3 loads all libraries of ARGOS_PLUGIN_PATH, so files need not name one.
+  void SetLibrary(const ConfigurationNode& theirs, const std::string& label, const char* ours,
+                  ConfigurationNode& options);
+  void SetUserFunctions(const ConfigurationNode& theirs, ConfigurationNode& functions);
+  static std::optional<std::string> LibraryThatNames(const std::string& label, std::string& searched);
+  // The first file of one of the names in one of the folders; otherwise where it is not, a line each.
+  static std::optional<std::string> Found(const std::vector<std::filesystem::path>& folders,
+                                          const std::vector<std::string>& names, std::string& searched);
+
+  const ConfigurationNode& root_;
+  const std::string& folder_;
+  ArenaConverter& arena_;
+  std::vector<Made> options_;  // of the controllers
+  std::set<std::string> made_kinds_;
+  bool makes_bodies_ = false;
+  bool resets_runs_ = false;
+  bool asks_for_configuration_ = false;
+  std::string controller_libraries_;  // with colons between them
+};
+
+}  // namespace swarmanoid::argos3

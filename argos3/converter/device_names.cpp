@@ -1,0 +1,335 @@
+#include "argos3/converter/device_names.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "argos3/converter/battery.h"
+#include "common/configuration/wording.h"
+
+namespace swarmanoid::argos3
+{
+namespace
+{
+
+ConfigurationNode& AddDevice(Devices& devices, const std::string& type, const std::string& implementation,
+                             const SourceLocation& location)
+{
+  Made& device = devices[type];
+  if (device == nullptr)
+  {
+    device = MakeNode(type, location);
+    SetValue(*device, "implementation", implementation, location);
+  }
+  return *device;
+}
+
+// The attributes of one device of ARGoS3: what was not asked for at the end has no effect, and is told.
+class Attributes
+{
+public:
+  Attributes(const ConfigurationNode& node, const DeviceContext& context) : node_(node), context_(context)
+  {
+    used_ = {"implementation", "medium", "show_rays", "id", "calibrated"};
+  }
+  ~Attributes()
+  {
+    for (const ConfigurationNode::Attribute& attribute : node_.attributes)
+      if (!used_.contains(attribute.name))
+        context_.note(attribute.location, Quoted(attribute.name) + " of <" + node_.name + "> has no effect here");
+  }
+  Attributes(const Attributes&) = delete;
+  Attributes& operator=(const Attributes&) = delete;
+
+  // nullopt if it is not given, or no number, which is told.
+  std::optional<double> Number(const std::string& name)
+  {
+    used_.insert(name);
+    const ConfigurationNode::Attribute* attribute = FindAttributeOf(node_, name);
+    if (attribute == nullptr) return std::nullopt;
+    const std::optional<double> number = ParseNumber(attribute->value);
+    if (!number) context_.mistake(attribute->location, Quoted(name) + " is '" + attribute->value + "', no number");
+    return number;
+  }
+  // "min:max".
+  std::optional<std::pair<double, double>> Range(const std::string& name)
+  {
+    used_.insert(name);
+    const ConfigurationNode::Attribute* attribute = FindAttributeOf(node_, name);
+    if (attribute == nullptr) return std::nullopt;
+    const std::size_t colon = attribute->value.find(':');
+    const auto low = ParseNumber(std::string_view(attribute->value).substr(0, colon));
+    const auto high =
+        colon == std::string::npos ? std::nullopt : ParseNumber(std::string_view(attribute->value).substr(colon + 1));
+    if (low && high && *low <= *high) return std::pair{*low, *high};
+    context_.mistake(attribute->location, Quoted(name) + " is '" + attribute->value + "'; write min:max");
+    return std::nullopt;
+  }
+  std::string Text(const std::string& name, const std::string& fallback)
+  {
+    used_.insert(name);
+    const ConfigurationNode::Attribute* attribute = FindAttributeOf(node_, name);
+    return attribute == nullptr ? fallback : attribute->value;
+  }
+  // A parameter of ours of the same meaning and unit.
+  void Copy(const std::string& name, const std::string& ours, ConfigurationNode& device)
+  {
+    if (const auto number = Number(name)) SetValue(device, ours, TextOf(*number), node_.location);
+  }
+  // Uniform noise of plus and minus a level.
+  void CopyLevel(ConfigurationNode& device)
+  {
+    const auto level = Number("noise_level");
+    if (level && *level > 0) CopyUniform(device, "", -*level, *level);
+  }
+  void CopyUniform(ConfigurationNode& device, const std::string& prefix, double low, double high)
+  {
+    if (low == 0 && high == 0) return;
+    SetValue(device, prefix + "noise_kind", "uniform", node_.location);
+    SetValue(device, prefix + "noise_mean", TextOf((low + high) / 2), node_.location);
+    SetValue(device, prefix + "noise_range", TextOf((high - low) / 2), node_.location);
+  }
+
+private:
+  const ConfigurationNode& node_;
+  const DeviceContext& context_;
+  std::set<std::string> used_;
+};
+
+constexpr const char* kEPuck = "argos3_epuck";
+
+bool IsForEPucks(const DeviceContext& context) { return context.bearers.kinds.contains(kEPuck); }
+
+void ConvertWheels(Attributes& attributes, ConfigurationNode& device)
+{
+  for (const char* name : kWheelNoise)
+    for (const char* side : {"_left", "_right"})
+    {
+      const std::string both(name);
+      const auto number = attributes.Number(both);
+      const auto own = attributes.Number(both + side);
+      if (own || number) SetValue(device, both + side, TextOf(own ? *own : *number), device.location);
+    }
+}
+
+constexpr std::array<const char*, 17> kSensors{"differential_steering",
+                                               "light",
+                                               "footbot_distance_scanner",
+                                               "proximity",
+                                               "ground",
+                                               "epuck_proximity",
+                                               "eyebot_proximity",
+                                               "footbot_proximity",
+                                               "footbot_light",
+                                               "eyebot_light",
+                                               "footbot_motor_ground",
+                                               "footbot_base_ground",
+                                               "positioning",
+                                               "battery",
+                                               "colored_blob_omnidirectional_camera",
+                                               "colored_blob_perspective_camera",
+                                               "footbot_turret_encoder"};
+constexpr const char* kScanner = "footbot_distance_scanner";
+
+constexpr std::array<const char*, 8> kActuators{kScanner,
+                                                "differential_steering",
+                                                "leds",
+                                                "footbot_gripper",
+                                                "footbot_turret",
+                                                "range_and_bearing",
+                                                "quadrotor_position",
+                                                "quadrotor_speed"};
+
+template <class Names>
+void RefuseUnknown(const ConfigurationNode& node, const char* what, const Names& names, const DeviceContext& context)
+{
+  std::vector<std::string> known(names.begin(), names.end());
+  if (std::string_view(what) == "sensor") known.emplace_back("range_and_bearing");
+  context.mistake(node.location, std::string("the ARGoS3 ") + what + " <" + node.name +
+                                     "> has no counterpart; those that have: " + Listed(known) +
+                                     DidYouMean(node.name, known));
+}
+
+// Without <battery> nothing discharges it.
+void ConvertBattery(const DeviceContext& context, ConfigurationNode& device)
+{
+  double per_second = 0, per_metre = 0, per_radian = 0;
+  if (const ConfigurationNode* node = context.bearers.battery)
+  {
+    Attributes attributes(*node, context);
+    const double full = attributes.Number("full_charge").value_or(1);
+    attributes.Number("start_charge");
+    if (full <= 0) context.mistake(node->location, "'full_charge' of <battery> is more than 0");
+    const std::string model = attributes.Text("discharge_model", "time");
+    if (model != "time" && model != "motion" && model != "time_motion")
+      context.mistake(node->location, Quoted(model) + " is no discharge_model; time, motion and time_motion are");
+    const double scale = 1 / (full * kBatteries);
+    if (model != "motion")
+      per_second = attributes.Number(model == "time" ? "factor" : "time_factor").value_or(1e-5) *
+                   context.ticks_per_second * scale;
+    if (model != "time")
+    {
+      per_metre = attributes.Number("pos_factor").value_or(1e-3) * scale;
+      per_radian = attributes.Number("orient_factor").value_or(1e-3) * scale;
+    }
+  }
+  SetValue(device, "per_second", TextOf(per_second), device.location);
+  SetValue(device, "per_metre", TextOf(per_metre), device.location);
+  SetValue(device, "per_radian", TextOf(per_radian), device.location);
+}
+
+}  // namespace
+
+void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, DeviceLists& ours)
+{
+  const SourceLocation& at = node.location;
+  const std::string& tag = node.name;
+  Attributes attributes(node, context);
+  if (tag == "differential_steering")
+  {
+    // Those of e-pucks read what the wheels were told (argos3/plugin/epuck_devices.cpp).
+    if (!IsForEPucks(context)) AddDevice(ours.sensors, "footbot_encoders", "engine_footbot_encoders", at);
+    // This noise and that of the camera and of range and bearing are added to the readings
+    // (argos3/plugin/noise_parameters.h).
+    attributes.Range("vel_noise_range");
+    attributes.Range("dist_noise_range");
+  }
+  else if (tag == "footbot_proximity")
+    attributes.CopyLevel(AddDevice(ours.sensors, tag, "generic_footbot_proximity", at));
+  else if (tag == "proximity" || tag == "epuck_proximity" || tag == "eyebot_proximity")
+  {
+    // The noise is added to the response, which is theirs (argos3/plugin/device_adapters.cpp).
+    AddDevice(ours.sensors, "proximity", "generic_proximity", at);
+    attributes.Number("noise_level");
+  }
+  else if (tag == "footbot_light" || tag == "eyebot_light")
+    attributes.CopyLevel(AddDevice(ours.sensors, tag, "argos3_" + tag, at));
+  else if (tag == "light" && context.bearers.kinds.contains("eyebot"))
+    context.mistake(at, "<light> has no counterpart here on eye-bots; take eyebot_light");
+  else if (tag == "light")
+  {
+    // epuck_entity.cpp and footbot_entity.cpp of ARGoS3.
+    ConfigurationNode& device = AddDevice(ours.sensors, tag, "generic_light", at);
+    const bool is_epuck = IsForEPucks(context);
+    SetValue(device, "sensors", is_epuck ? "8" : "24", at);
+    SetValue(device, "first_angle", is_epuck ? "22.5" : "7.5", at);
+    SetValue(device, "radius", is_epuck ? "0.035" : "0.085036758", at);
+    SetValue(device, "height", "0.06", at);
+    attributes.CopyLevel(device);
+  }
+  else if (tag == "ground" && !IsForEPucks(context))
+    context.mistake(at,
+                    "<ground> has no counterpart here on robots that are no e-pucks; take footbot_motor_ground or "
+                    "footbot_base_ground");
+  else if ((tag == "footbot_motor_ground" || tag == "footbot_base_ground" || tag == "ground") &&
+           context.floor_is_painted)
+  {
+    AddDevice(ours.sensors, "positioning", "generic_positioning", at);
+    attributes.Number("noise_level");
+  }
+  else if (tag == "footbot_motor_ground" || tag == "footbot_base_ground" || tag == "ground")
+    attributes.CopyLevel(AddDevice(ours.sensors, tag, "generic_" + tag, at));
+  else if (tag == "positioning")
+  {
+    ConfigurationNode& device = AddDevice(ours.sensors, tag, "generic_positioning", at);
+    if (const auto range = attributes.Range("pos_noise_range"))
+      attributes.CopyUniform(device, "position_", range->first, range->second);
+    if (const auto range = attributes.Range("angle_noise_range"))
+      attributes.CopyUniform(device, "heading_", range->first * kRadians, range->second * kRadians);
+    // Added to the reading (argos3/plugin/device_adapters.cpp).
+    attributes.Range("axis_noise_range");
+  }
+  else if (tag == "battery")
+  {
+    ConvertBattery(context, AddDevice(ours.sensors, tag, "generic_battery", at));
+    attributes.Range("noise_range");
+  }
+  else if (tag == "colored_blob_omnidirectional_camera")
+  {
+    ConfigurationNode& device =
+        AddDevice(ours.sensors, "footbot_omnidirectional_camera", "generic_footbot_omnidirectional_camera", at);
+    SetValue(device, "aperture", TextOf(context.bearers.camera_aperture), at);
+    attributes.Number("noise_std_dev");
+  }
+  else if (tag == "colored_blob_perspective_camera" && IsForEPucks(context))
+    context.mistake(at, "<colored_blob_perspective_camera> has no counterpart on e-pucks; leave it out");
+  else if (tag == "colored_blob_perspective_camera")
+  {
+    const std::string type =
+        context.bearers.kinds.contains("eyebot") ? "eyebot_pan_tilt_camera" : "footbot_perspective_camera";
+    ConfigurationNode& device = AddDevice(ours.sensors, type, "generic_" + type, at);
+    SetValue(device, "aperture", TextOf(context.bearers.perspective_aperture), at);
+    SetValue(device, "range", TextOf(context.bearers.perspective_range), at);
+  }
+  else if (tag == kScanner)
+  {
+    ConfigurationNode& device = AddDevice(ours.sensors, tag, "argos3_footbot_distance_scanner", at);
+    // Of readings in cm.
+    if (const auto range = attributes.Range("noise_range"))
+      attributes.CopyUniform(device, "", range->first / 100, range->second / 100);
+  }
+  else if (tag == "footbot_turret_encoder")
+    AddDevice(ours.sensors, tag, "generic_footbot_turret_encoder", at);
+  else if (tag == "range_and_bearing")
+  {
+    ConfigurationNode& device = AddDevice(ours.sensors, tag, "generic_range_and_bearing", at);
+    SetValue(device, "range", TextOf(context.bearers.radio_range), at);
+    attributes.Copy("packet_drop_prob", "loss_probability", device);
+    attributes.Number("noise_std_dev");
+  }
+  else
+    RefuseUnknown(node, "sensor", kSensors, context);
+}
+
+void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context, DeviceLists& ours)
+{
+  const SourceLocation& at = node.location;
+  const std::string& tag = node.name;
+  Attributes attributes(node, context);
+  if (tag == "differential_steering" && IsForEPucks(context))
+  {
+    AddDevice(ours.actuators, "wheels", "generic_wheels", at);
+    // Theirs is computed in argos3/plugin/epuck_devices.cpp.
+    for (const char* name : kWheelNoise)
+      for (const char* side : {"", "_left", "_right"}) attributes.Number(std::string(name) + side);
+  }
+  else if (tag == "differential_steering")
+    ConvertWheels(attributes, AddDevice(ours.actuators, "footbot_wheels", "argos3_footbot_wheels", at));
+  else if (tag == "leds" && context.bearers.kinds.contains("eyebot"))
+    AddDevice(ours.actuators, "eyebot_leds", "generic_eyebot_leds", at);
+  else if (tag == "leds" && IsForEPucks(context))
+    AddDevice(ours.actuators, "led_ring", "generic_led_ring", at);
+  else if (tag == "leds")
+  {
+    AddDevice(ours.actuators, "footbot_leds", "generic_footbot_leds", at);
+    AddDevice(ours.actuators, "footbot_beacon", "generic_footbot_beacon", at);
+  }
+  else if (tag == "footbot_gripper")
+    AddDevice(ours.actuators, tag, "dummy_footbot_gripper", at);
+  else if (tag == kScanner)
+    AddDevice(ours.sensors, tag, "argos3_footbot_distance_scanner", at);
+  else if (tag == "footbot_turret")
+  {
+    AddDevice(ours.actuators, tag, "dummy_footbot_turret", at);
+    AddDevice(ours.sensors, "footbot_turret_encoder", "generic_footbot_turret_encoder", at);
+  }
+  else if (tag == "range_and_bearing")
+    AddSender(at, context, ours);
+  else if (tag == "quadrotor_position" || tag == "quadrotor_speed")
+  {
+    AddDevice(ours.actuators, "eyebot_propellers", "position_eyebot_propellers", at);
+    AddDevice(ours.sensors, "positioning", "generic_positioning", at);
+  }
+  else
+    RefuseUnknown(node, "actuator", kActuators, context);
+}
+
+void AddSender(const SourceLocation& location, const DeviceContext& context, DeviceLists& ours)
+{
+  ConfigurationNode& device = AddDevice(ours.actuators, "range_and_bearing", "generic_range_and_bearing", location);
+  constexpr long long kUsual = 10;
+  if (context.bearers.radio_bytes > kUsual)
+    SetValue(device, "bytes", std::to_string(context.bearers.radio_bytes), location);
+}
+
+}  // namespace swarmanoid::argos3

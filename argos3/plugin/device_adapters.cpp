@@ -1,0 +1,313 @@
+#include "argos3/plugin/device_adapters.h"
+
+#include <argos3/plugins/robots/e-puck/control_interface/ci_epuck_proximity_sensor.h>
+#include <argos3/plugins/robots/eye-bot/control_interface/ci_eyebot_light_sensor.h>
+#include <argos3/plugins/robots/eye-bot/control_interface/ci_eyebot_proximity_sensor.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_battery_sensor.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_leds_actuator.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_light_sensor.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_positioning_sensor.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_proximity_sensor.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_range_and_bearing_actuator.h>
+#include <argos3/plugins/robots/generic/control_interface/ci_range_and_bearing_sensor.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "argos3/converter/battery.h"
+#include "argos3/plugin/device_parts.h"
+#include "argos3/plugin/noise_parameters.h"
+#include "common/control_interface/ci_battery_sensor.h"
+#include "common/control_interface/ci_led_ring_actuator.h"
+#include "common/control_interface/ci_light_sensor.h"
+#include "common/control_interface/ci_positioning_sensor.h"
+#include "common/control_interface/ci_proximity_sensor.h"
+#include "common/control_interface/ci_range_and_bearing.h"
+#include "common/control_interface/eyebot/ci_eyebot_light_sensor.h"
+#include "common/math/elementary.h"
+
+namespace swarmanoid::argos3
+{
+namespace
+{
+
+// A ring of LEDs and nothing else.
+class RingLeds : public ActuatorBridge, public argos::CCI_LEDsActuator
+{
+public:
+  RingLeds(const DeviceSetup& setup, const char* type) : ring_(setup.robot.Actuator<CCI_LedRingActuator>(type))
+  {
+    m_tSettings.resize(ring_.GetNumLeds(), argos::CColor::BLACK);
+  }
+  argos::CCI_Actuator& Actuator() override { return *this; }
+  void Reset() override { SetAllColors(argos::CColor::BLACK); }
+  void Commit() override
+  {
+    for (unsigned led = 0; led < m_tSettings.size(); ++led) ring_.SetColour(led, Lit(m_tSettings[led]));
+  }
+
+private:
+  CCI_LedRingActuator& ring_;
+};
+
+// What ARGoS3's infrared sensors make of a distance, m. Its sensors of that name: generic, e-puck, eye-bot.
+double GenericResponse(double distance) { return std::exp(-distance); }
+double EPuckResponse(double distance)
+{
+  constexpr double kFarthest = 0.05;
+  if (distance > kFarthest) return 0;
+  return std::clamp(298.701 * distance * distance - 36.8961 * distance + 1.08212, 0.0, 1.0);
+}
+double EyeBotResponse(double distance)
+{
+  constexpr double kTouching = 0.009889556;
+  return distance < kTouching ? 1 : 0.0100527 / (distance + 0.000163144);
+}
+
+// Ours fall evenly from 1 at the sensor to 0 at its range, so they tell the distance.
+template <class Theirs>
+class Proximity : public SensorBridge, public Theirs
+{
+public:
+  Proximity(const DeviceSetup& setup, double range_m, double (*response)(double))
+      : robot_(setup.robot),
+        ours_(robot_.Sensor<swarmanoid::CCI_ProximitySensor>("proximity")),
+        range_m_(range_m),
+        response_(response),
+        noise_(setup.options.GetNumber("proximity_noise", 0))
+  {
+    for (unsigned i = 0; i < ours_.GetAllSensorReadings().size(); ++i)
+    {
+      if constexpr (kHasAngles)
+        this->m_tReadings.emplace_back(0, argos::CRadians(ours_.GetAngle(i)).SignedNormalize());
+      else
+        this->m_tReadings.emplace_back(0);
+    }
+  }
+  argos::CCI_Sensor& Sensor() override { return *this; }
+  void Update() override
+  {
+    const auto readings = ours_.GetAllSensorReadings();
+    for (unsigned i = 0; i < readings.size(); ++i)
+    {
+      const double noise = noise_ > 0 ? robot_.GetRandom().Uniform(-noise_, noise_) : 0;
+      const double seen = readings[i] > 0 ? response_(range_m_ * (1 - readings[i])) : 0;
+      const double value = std::clamp(seen + noise, 0.0, 1.0);
+      if constexpr (kHasAngles)
+        this->m_tReadings[i].Value = value;
+      else
+        this->m_tReadings[i] = value;
+    }
+  }
+
+private:
+  static constexpr bool kHasAngles = !std::is_same_v<typename Theirs::TReadings, std::vector<Real>>;
+
+  CCI_Robot& robot_;
+  const swarmanoid::CCI_ProximitySensor& ours_;
+  const double range_m_;
+  double (*const response_)(double);
+  const double noise_;
+};
+
+class Light : public SensorBridge, public argos::CCI_LightSensor
+{
+public:
+  explicit Light(const DeviceSetup& setup) : ours_(setup.robot.Sensor<swarmanoid::CCI_LightSensor>("light"))
+  {
+    m_tReadings.resize(ours_.GetAllSensorReadings().size());
+  }
+  argos::CCI_Sensor& Sensor() override { return *this; }
+  void Update() override { std::ranges::copy(ours_.GetAllSensorReadings(), m_tReadings.begin()); }
+
+private:
+  const swarmanoid::CCI_LightSensor& ours_;
+};
+
+class Positioning : public SensorBridge, public argos::CCI_PositioningSensor
+{
+public:
+  explicit Positioning(const DeviceSetup& setup)
+      : robot_(setup.robot),
+        axis_low_(setup.options.GetNumber("axis_noise_low", 0)),
+        axis_high_(setup.options.GetNumber("axis_noise_high", 0)),
+        translation_(setup.translation),
+        ours_(setup.robot.Sensor<swarmanoid::CCI_PositioningSensor>("positioning"))
+  {
+  }
+  argos::CCI_Sensor& Sensor() override { return *this; }
+  void Update() override
+  {
+    m_sReading.Position = translation_.Argos3Position(ours_.GetPosition());
+    m_sReading.Orientation = Argos3Orientation(ours_.GetOrientation());
+    if (axis_low_ == axis_high_) return;
+    // As there: what comes of it has another length.
+    argos::CRadians angle;
+    argos::CVector3 axis;
+    m_sReading.Orientation.ToAngleAxis(angle, axis);
+    const auto noise = [this] { return robot_.GetRandom().Uniform(axis_low_, axis_high_); };
+    for (UInt32 i = 0; i < 3; ++i) axis[i] += noise();
+    m_sReading.Orientation.FromAngleAxis(angle, axis);
+  }
+
+private:
+  CCI_Robot& robot_;
+  const double axis_low_, axis_high_;
+  const Translation& translation_;
+  const swarmanoid::CCI_PositioningSensor& ours_;
+};
+
+// Discharges as ours does; loop functions may fill it.
+class Battery : public SensorBridge, public argos::CCI_BatterySensor
+{
+public:
+  explicit Battery(const DeviceSetup& setup)
+      : robot_(setup.robot),
+        ours_(setup.robot.Sensor<swarmanoid::CCI_BatterySensor>("battery")),
+        charge_{setup.options.GetNumber("start_charge", 1), setup.options.GetNumber("full_charge", 1),
+                setup.options.GetNumber("start_charge", 1)},
+        noise_low_(setup.options.GetNumber("battery_noise_low", 0)),
+        noise_high_(setup.options.GetNumber("battery_noise_high", 0))
+  {
+    // It tells 0 until it is asked for the first time.
+    if (ours_.GetCharge() > 0) spent_ = Spent();
+    TheRunning().batteries[robot_.GetId()] = &charge_;
+  }
+  ~Battery() override { TheRunning().batteries.erase(robot_.GetId()); }
+  argos::CCI_Sensor& Sensor() override { return *this; }
+  // Ours begins again, too.
+  void Reset() override
+  {
+    charge_.available = charge_.start;
+    spent_ = 0;
+    m_sReading = SReading();
+  }
+  void Update() override
+  {
+    const double spent = Spent();
+    charge_.available = std::max(0.0, charge_.available - (spent - spent_) * charge_.full);
+    spent_ = spent;
+    const Real before = m_sReading.AvailableCharge;
+    m_sReading.AvailableCharge = charge_.available / charge_.full;
+    if (noise_low_ < noise_high_)
+      m_sReading.AvailableCharge =
+          std::clamp(m_sReading.AvailableCharge + robot_.GetRandom().Uniform(noise_low_, noise_high_), 0.0, 1.0);
+    const Real used = before - m_sReading.AvailableCharge;
+    m_sReading.TimeLeft =
+        std::abs(used) > 1e-6 ? before * robot_.GetTickSeconds() / used : std::numeric_limits<double>::infinity();
+  }
+
+private:
+  // Of full ones.
+  double Spent() const { return (1 - ours_.GetCharge()) * kBatteries; }
+
+  CCI_Robot& robot_;
+  const swarmanoid::CCI_BatterySensor& ours_;
+  BatteryCharge charge_;
+  double noise_low_, noise_high_;
+  double spent_ = 0;
+};
+
+class RangeAndBearingSender : public ActuatorBridge, public argos::CCI_RangeAndBearingActuator
+{
+public:
+  explicit RangeAndBearingSender(const DeviceSetup& setup)
+      : ours_(setup.robot.Actuator<swarmanoid::CCI_RangeAndBearingActuator>("range_and_bearing"))
+  {
+    m_cData.Resize(static_cast<size_t>(setup.options.GetInteger("rab_data_size", 10)));
+  }
+  argos::CCI_Actuator& Actuator() override { return *this; }
+  void Reset() override { ClearData(); }
+  void Commit() override { ours_.SetBytes({m_cData.ToCArray(), m_cData.Size()}); }
+
+private:
+  swarmanoid::CCI_RangeAndBearingActuator& ours_;
+};
+
+class RangeAndBearingReceiver : public SensorBridge, public argos::CCI_RangeAndBearingSensor
+{
+public:
+  explicit RangeAndBearingReceiver(const DeviceSetup& setup)
+      : robot_(setup.robot),
+        noise_m_(setup.options.GetNumber("radio_noise", 0)),
+        ours_(setup.robot.Sensor<swarmanoid::CCI_RangeAndBearingSensor>("range_and_bearing")),
+        size_(static_cast<size_t>(setup.options.GetInteger("rab_data_size", 10))),
+        further_(size_ - std::min<size_t>(size_, swarmanoid::CCI_RangeAndBearingActuator::NUM_BYTES))
+  {
+  }
+  argos::CCI_Sensor& Sensor() override { return *this; }
+  void Update() override
+  {
+    const auto packets = ours_.GetAllPackets();
+    m_tReadings.resize(packets.size());
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < packets.size(); ++i)
+    {
+      // Those whose messages have another length are not understood.
+      const std::span<const std::uint8_t> further = ours_.GetFurtherBytes(packets[i]);
+      if (further.size() != further_) continue;
+      SPacket& packet = m_tReadings[count++];
+      packet.Range = kCentimetres * packets[i].range_m;
+      packet.HorizontalBearing.SetValue(packets[i].bearing_rad);
+      packet.VerticalBearing.SetValue(packets[i].vertical_bearing_rad);
+      if (noise_m_ > 0) Disturb(packets[i], packet);
+      packet.Data.Resize(size_);
+      std::copy_n(packets[i].message.begin(), size_ - further_, packet.Data.ToCArray());
+      std::copy(further.begin(), further.end(), packet.Data.ToCArray() + size_ - further_);
+    }
+    m_tReadings.resize(count);
+  }
+
+private:
+  void Disturb(const swarmanoid::CCI_RangeAndBearingSensor::Packet& ours, SPacket& theirs) const
+  {
+    const SinCos bearing = SinCosOf(ours.bearing_rad);
+    const SinCos vertical = SinCosOf(ours.vertical_bearing_rad);
+    Vector3 to_sender = ours.range_m * Vector3(vertical.cos * bearing.cos, vertical.cos * bearing.sin, vertical.sin);
+    DisturbDirection(robot_.GetRandom(), noise_m_, to_sender);
+    theirs.Range = kCentimetres * to_sender.norm();
+    theirs.HorizontalBearing.SetValue(Atan2(to_sender.y(), to_sender.x()));
+    theirs.VerticalBearing.SetValue(Atan2(to_sender.z(), to_sender.head<2>().norm()));
+  }
+
+  CCI_Robot& robot_;
+  const double noise_m_;
+  const swarmanoid::CCI_RangeAndBearingSensor& ours_;
+  const size_t size_;
+  const size_t further_;  // bytes behind those that all have
+};
+
+}  // namespace
+
+std::unique_ptr<SensorBridge> MakeSensor(const std::string& tag, const DeviceSetup& setup)
+{
+  const double proximity_range_m = setup.robot.GetKind() == "eyebot" ? 3 : 0.1;
+  if (tag == "proximity")
+    return std::make_unique<Proximity<argos::CCI_ProximitySensor>>(setup, proximity_range_m, GenericResponse);
+  if (tag == "epuck_proximity")
+    return std::make_unique<Proximity<argos::CCI_EPuckProximitySensor>>(setup, proximity_range_m, EPuckResponse);
+  if (tag == "eyebot_proximity")
+    return std::make_unique<Proximity<argos::CCI_EyeBotProximitySensor>>(setup, proximity_range_m, EyeBotResponse);
+  if (tag == "eyebot_light")
+    return std::make_unique<Ring<argos::CCI_EyeBotLightSensor, CCI_EyeBotLightSensor>>(setup, tag.c_str());
+  if (tag == "colored_blob_perspective_camera") return MakePerspectiveCamera(setup);
+  if (tag == "light") return std::make_unique<Light>(setup);
+  if (tag == "positioning") return std::make_unique<Positioning>(setup);
+  if (tag == "battery") return std::make_unique<Battery>(setup);
+  if (tag == "range_and_bearing") return std::make_unique<RangeAndBearingReceiver>(setup);
+  return setup.robot.GetKind() == "argos3_epuck" ? MakeEPuckSensor(tag, setup) : MakeFootBotSensor(tag, setup);
+}
+
+std::unique_ptr<ActuatorBridge> MakeActuator(const std::string& tag, const DeviceSetup& setup)
+{
+  const bool is_epuck = setup.robot.GetKind() == "argos3_epuck";
+  if (tag == "leds" && setup.robot.GetKind() == "eyebot") return std::make_unique<RingLeds>(setup, "eyebot_leds");
+  if (tag == "leds" && is_epuck) return std::make_unique<RingLeds>(setup, "led_ring");
+  if (tag == "range_and_bearing") return std::make_unique<RangeAndBearingSender>(setup);
+  if (auto flies = MakeEyeBotActuator(tag, setup)) return flies;
+  return is_epuck ? MakeEPuckActuator(tag, setup) : MakeFootBotActuator(tag, setup);
+}
+
+}  // namespace swarmanoid::argos3

@@ -1,0 +1,65 @@
+// The workers' side of checkpoints: tells the server what a role remembers at the ticks that the run takes them. Used
+// by engine_worker and controller_host in the threads of the bus that step the role.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "common/bus/membership/worker_session.h"
+#include "common/serialisation/bytes.h"
+#include "common/serialisation/save_check.h"
+
+namespace swarmanoid
+{
+
+class SavedStates
+{
+public:
+  // Tries once whether the role can be saved. If the run takes checkpoints, it must be, and this throws what its
+  // SaveState throws; if it only keeps a journal, whoever takes the place of this process starts where the run did.
+  template <class Role>
+  SavedStates(WorkerSession& session, const std::string& name, const Role& role) : session_(session), name_(name)
+  {
+    if (session.World().checkpoint_every == 0 && (!session.World().recorded || !CanSave(role))) return;
+    TrySaving(role);
+    publisher_.emplace(session.GetBus(), session.World().experiment);
+  }
+
+  // Whether the server is there.
+  bool Matched() const { return !publisher_ || publisher_->Readers() >= 1; }
+  // The role has stepped and is about to step at `tick`. `wanted`: MessageHeader::save of the step.
+  template <class Role>
+  void Ready(std::uint64_t tick, const Role& role, bool wanted)
+  {
+    if (!publisher_ || !wanted) return;
+    ByteWriter state;
+    role.SaveState(state);
+    publisher_->Write({session_.World().run, tick, name_, state.Bytes()});
+  }
+  // Waits until the server has got all.
+  void Flush()
+  {
+    if (publisher_) publisher_->WaitUntilRead(10);
+  }
+
+private:
+  template <class Role>
+  static bool CanSave(const Role& role)
+  {
+    try
+    {
+      TrySaving(role);
+      return true;
+    }
+    catch (const std::exception&)
+    {
+      return false;
+    }
+  }
+
+  WorkerSession& session_;
+  std::string name_;
+  std::optional<Publisher<SavedStateMessage>> publisher_;
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,85 @@
+#include "common/bus/membership/tick_gate.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "common/bus/bus.h"
+
+namespace swarmanoid
+{
+
+TickGate::TickGate(std::vector<Part> parts, std::uint64_t first_tick)
+    : parts_(std::move(parts)),
+      here_(parts_.size(), 0),
+      ahead_(parts_.size(), 0),
+      incarnations_(parts_.size(), 0),
+      missing_(parts_.size()),
+      tick_(first_tick)
+{
+}
+
+TickGate::Verdict TickGate::Offer(std::size_t part, std::uint64_t tick) const
+{
+  if (tick == tick_) return here_[part] ? Verdict::kDrop : Verdict::kExpected;
+  if (tick + 1 == tick_) return Verdict::kBefore;
+  if (tick < tick_) return Verdict::kDrop;
+  if (tick == tick_ + 1 && parts_[part].may_lead) return ahead_[part] ? Verdict::kDrop : Verdict::kExpected;
+  throw BadMessage(fmt::format("the {} is of tick {}, but tick {} has to come first", parts_[part].name, tick, tick_));
+}
+
+bool TickGate::Arrived(std::size_t part, std::uint64_t tick)
+{
+  if (tick == tick_ + 1)
+    ahead_[part] = 1;
+  else if (!here_[part])
+  {
+    here_[part] = 1;
+    --missing_;
+  }
+  return missing_ == 0;
+}
+
+void TickGate::Next()
+{
+  here_.swap(ahead_);
+  std::fill(ahead_.begin(), ahead_.end(), char{0});
+  missing_ = static_cast<std::size_t>(std::count(here_.begin(), here_.end(), char{0}));
+  ++tick_;
+}
+
+void TickGate::Withdraw(const std::string& name, std::uint32_t incarnation)
+{
+  for (std::size_t part = 0; part < parts_.size(); ++part)
+  {
+    if (parts_[part].name != name) continue;
+    incarnations_[part] = std::max(incarnations_[part], incarnation);
+    ahead_[part] = 0;
+    if (!here_[part]) continue;
+    here_[part] = 0;
+    ++missing_;
+  }
+}
+
+bool TickGate::IsReplaced(std::size_t part, std::uint32_t incarnation)
+{
+  if (incarnation < incarnations_[part]) return true;
+  incarnations_[part] = incarnation;
+  return false;
+}
+
+std::vector<std::string> TickGate::Missing() const
+{
+  std::vector<std::string> names;
+  for (std::size_t part = 0; part < parts_.size(); ++part)
+    if (!here_[part]) names.push_back(parts_[part].name);
+  return names;
+}
+
+std::string Joined(const std::vector<std::string>& names)
+{
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+}  // namespace swarmanoid

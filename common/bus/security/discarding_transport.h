@@ -1,0 +1,67 @@
+// The transport of the bus: it reports datagrams that CheckRtps refuses, and discards messages to readers without an
+// address.
+//
+// A reader that shares memory has no address. If its memory cannot be opened, since its process has just ended, Fast
+// DDS (2.9) writes to it over the network, and tries for ever to send the fragments of a message that has no
+// destination (StatefulWriter::deliver_sample_to_network goes on only after a fragment was sent).
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "common/bus/dds/filter_transport.h"
+#include "common/bus/security/datagram_signatures.h"
+
+namespace swarmanoid
+{
+
+// The address of endpoints that hear nobody over the network: of a kind that no transport here speaks.
+rtps::Locator_t NowhereLocator();
+
+// Called in threads of the transport. The functions are empty once the bus goes: a participant may outlive it until the
+// program ends.
+struct DatagramListener
+{
+  std::mutex mutex;
+  // A datagram was dropped: what is wrong with it, and the address that it came from.
+  std::function<void(const std::string& what, const std::string& address)> malformed;
+  // A process in whose name a stranger spoke, and the address and port of the stranger.
+  std::function<void(const GuidPrefix& member, const std::string& sender)> forged;
+};
+
+struct DiscardingTransportDescriptor : transport::ChainingTransportDescriptor
+{
+  DiscardingTransportDescriptor(std::shared_ptr<transport::TransportDescriptorInterface> udp,
+                                std::shared_ptr<DatagramListener> its_listener)
+      : ChainingTransportDescriptor(std::move(udp)), listener(std::move(its_listener))
+  {
+  }
+
+  transport::TransportInterface* create_transport() const override;
+  std::uint32_t max_message_size() const override { return maxMessageSize; }
+
+  const std::shared_ptr<DatagramListener> listener;
+};
+
+class DiscardingTransport : public FilterTransport
+{
+public:
+  explicit DiscardingTransport(const DiscardingTransportDescriptor& descriptor);
+
+  transport::TransportDescriptorInterface* get_configuration() override { return &descriptor_; }
+  void select_locators(rtps::LocatorSelector& selector) const override;
+  bool Send(Socket& socket, Datagram datagram, rtps::LocatorsIterator& first, rtps::LocatorsIterator& last,
+            const Deadline& deadline) override;
+  void Refuse(const std::string& what, const rtps::Locator_t& remote) override;
+
+protected:
+  // Skips the locators at the beginning that are no addresses. Returns false if no other locator is left.
+  static bool HasDestination(rtps::LocatorsIterator& first, const rtps::LocatorsIterator& last);
+
+private:
+  DiscardingTransportDescriptor descriptor_;
+};
+
+}  // namespace swarmanoid

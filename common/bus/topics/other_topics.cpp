@@ -1,0 +1,260 @@
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "common/bus/participant.h"
+#include "common/bus/topics/message_type.h"
+
+namespace swarmanoid
+{
+
+namespace
+{
+
+// ReusedMemory for messages up to this (bytes) is used again. Worlds come once, and may have a hundred times as much.
+constexpr std::size_t kKept = 1 << 20;
+
+// Those of a share have a name of their own, so that readers of the run do not hear what they cannot open.
+template <class Message>
+std::string TopicName(const std::optional<ShareChannel>& share)
+{
+  return share ? std::string(kTopicOf<Message>) + "/" + share->id : kTopicOf<Message>;
+}
+
+template <class Message>
+dds::Topic* ColdTopic(Bus& bus, const std::string& name)
+{
+  return bus.Internals().TopicOf(name, [] { return dds::TypeSupport(new ColdType<Message>()); });
+}
+
+template <class Message>
+std::uint64_t TickOf(const Message& message)
+{
+  if constexpr (requires { message.tick; })
+    return message.tick;
+  else
+    return 0;
+}
+
+}  // namespace
+
+template <class Message>
+struct Publisher<Message>::Impl
+{
+  Impl(Bus& its_bus, const std::string& its_partition, const std::optional<ShareChannel>& its_share)
+      : bus(its_bus.Internals()),
+        partition(its_partition),
+        share(its_share ? its_share : bus.share),
+        topic(TopicName<Message>(share)),
+        writer(its_bus, ColdTopic<Message>(its_bus, topic), partition, WriterQos(QosOf(kTopicOf<Message>)))
+  {
+  }
+
+  // For the present key of the run; nullptr if anybody is let in.
+  Sealer* SealerNow()
+  {
+    if (bus.insecure || (share && !share->key)) return nullptr;
+    const auto key = share ? share->key : bus.keys.Of(partition);
+    if (!key)
+      throw BusError(fmt::format("cannot send {}: this process has no key of the run of '{}'", topic, partition));
+    if (!sealer || sealer->Key() != *key) sealer.emplace(*key, topic);
+    return &*sealer;
+  }
+
+  Bus::Impl& bus;
+  const std::string partition;
+  const std::optional<ShareChannel> share;
+  const std::string topic;
+  WriterEnd writer;
+  std::mutex mutex;
+  std::optional<Sealer> sealer;
+};
+
+template <class Message>
+Publisher<Message>::Publisher(Bus& bus, const std::string& partition, const std::optional<ShareChannel>& share)
+    : impl_(std::make_unique<Impl>(bus, partition, share))
+{
+}
+
+template <class Message>
+Publisher<Message>::~Publisher() = default;
+
+template <class Message>
+void Publisher<Message>::Write(const Message& message)
+{
+  ColdCall<Message> call;
+  call.out = &message;
+  try
+  {
+    call.size = PayloadSize(message);
+  }
+  catch (const BadMessage& error)
+  {
+    throw BadMessage(std::string("cannot send ") + kTopicOf<Message> + ": " + error.what());
+  }
+  const std::lock_guard lock(impl_->mutex);
+  call.sealer = impl_->SealerNow();
+  call.writer = IdOf(impl_->writer->guid());
+  if (!impl_->writer.Write(&call)) throw BusError(std::string("cannot send ") + kTopicOf<Message>);
+}
+
+template <class Message>
+unsigned Publisher<Message>::Readers() const
+{
+  return impl_->writer.Matched();
+}
+
+template <class Message>
+bool Publisher<Message>::WaitUntilRead(double seconds)
+{
+  return Succeeded(impl_->writer->wait_for_acknowledgments(Seconds(seconds)));
+}
+
+template <class Message>
+struct Subscription<Message>::Impl : dds::DataReaderListener
+{
+  using Writer = rtps::GUID_t;
+
+  Impl(Bus& its_bus, const std::string& its_partition, std::function<void(const Message&)> callback,
+       const std::optional<ShareChannel>& its_share)
+      : bus(its_bus.Internals()),
+        partition(its_partition),
+        share(its_share ? its_share : bus.share),
+        topic(TopicName<Message>(share)),
+        received(std::move(callback)),
+        opener(topic),
+        reader(its_bus,
+               [this, &its_bus]
+               {
+                 return std::make_unique<ReaderEnd>(its_bus, ColdTopic<Message>(its_bus, topic), partition,
+                                                    ReaderQos(QosOf(kTopicOf<Message>), 1), this);
+               })
+  {
+  }
+
+  void on_data_available(dds::DataReader* source) override
+  {
+    const std::lock_guard lock(mutex);
+    ColdCall<Message> call;
+    call.payload = &payload;
+    dds::SampleInfo about;
+    while (Succeeded(source->take_next_sample(&call, &about)))
+    {
+      if (about.valid_data) Take(about.sample_identity.writer_guid());
+      if (payload.capacity() > kKept) GiveRoomBack();
+    }
+  }
+
+  void GiveRoomBack()
+  {
+    std::exchange(payload, {});
+    std::exchange(room, {});
+    message = {};
+  }
+
+  void Take(const Writer& writer)
+  {
+    std::optional<Opener::Opened> opened;
+    std::span<const char> bytes = payload;
+    try
+    {
+      // Nothing of a message is looked at before it is known whose it is.
+      if (!bus.insecure)
+      {
+        opened = Open();
+        if (!opened)
+        {
+          reader.Renew();
+          return bus.Refuse(topic, writer, kNoSeal);
+        }
+        if (opened->writer != IdOf(writer)) return bus.Refuse(topic, writer, kOtherWriter);
+        bus.Recognise(writer);
+        bytes = opened->payload;
+      }
+      ReadPayload(bytes, message);
+      if (opened)
+      {
+        const std::string* const instance = KeyOf(message);
+        const std::string of = instance == nullptr ? std::string() : *instance;
+        if (!opener.IsNew(*opened, of))
+        {
+          if (!reader.WasRenewed()) bus.Refuse(topic, writer, kRepetition);
+          return;
+        }
+        opener.Note(*opened, of);
+      }
+      received(message);
+    }
+    catch (const ForeignMessage& error)
+    {
+      bus.Refuse(topic, writer, error.what());
+    }
+    catch (const BadMessage& error)
+    {
+      bus.Report(topic, writer, TickOf(message), error.what());
+    }
+  }
+
+  std::optional<Opener::Opened> Open()
+  {
+    if (opener.Knows(payload)) return opener.Open(payload, room);
+    if (share) return share->key ? opener.OpenBy(*share->key, payload, room) : std::nullopt;
+    std::optional<Opener::Opened> opened;
+    bus.keys.Try(partition,
+                 [&](const RunKey& key)
+                 {
+                   opened = opener.OpenBy(key, payload, room);
+                   return opened.has_value();
+                 });
+    return opened;
+  }
+
+  Bus::Impl& bus;
+  const std::string partition;
+  const std::optional<ShareChannel> share;
+  const std::string topic;
+  std::function<void(const Message&)> received;
+  std::mutex mutex;
+  std::vector<char> payload;
+  std::vector<char> room;  // for what it holds
+  Message message;
+  Opener opener;
+  RenewedReader reader;
+};
+
+template <class Message>
+Subscription<Message>::Subscription(Bus& bus, const std::string& partition,
+                                    std::function<void(const Message&)> received,
+                                    const std::optional<ShareChannel>& share)
+    : impl_(std::make_unique<Impl>(bus, partition, std::move(received), share))
+{
+}
+
+template <class Message>
+Subscription<Message>::~Subscription() = default;
+
+template <class Message>
+unsigned Subscription<Message>::Writers() const
+{
+  return impl_->reader.Matched();
+}
+
+#define SWARMANOID_INSTANTIATE(MESSAGE) \
+  template class Publisher<MESSAGE>;    \
+  template class Subscription<MESSAGE>;
+SWARMANOID_INSTANTIATE(WorldMessage)
+SWARMANOID_INSTANTIATE(JoinMessage)
+SWARMANOID_INSTANTIATE(ViewMessage)
+SWARMANOID_INSTANTIATE(ControlRequestMessage)
+SWARMANOID_INSTANTIATE(ControlReplyMessage)
+SWARMANOID_INSTANTIATE(StatusMessage)
+SWARMANOID_INSTANTIATE(SavedStateMessage)
+SWARMANOID_INSTANTIATE(RecoveryRequestMessage)
+SWARMANOID_INSTANTIATE(RecoveryBlockMessage)
+SWARMANOID_INSTANTIATE(ViewRequestMessage)
+SWARMANOID_INSTANTIATE(RunStatusMessage)
+SWARMANOID_INSTANTIATE(RobotStatusMessage)
+SWARMANOID_INSTANTIATE(LeaveMessage)
+#undef SWARMANOID_INSTANTIATE
+
+}  // namespace swarmanoid

@@ -1,0 +1,240 @@
+// The devices that any robot can carry, whatever its shape: where it is, what it hears, touches, reads and tells
+// others.
+#include <string>
+#include <utility>
+
+#include "common/plugin_descriptions/device_tables.h"
+#include "common/plugins/noise_parameters.h"
+#include "common/plugins/parameter_checks.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+ParameterSpec Share(const char* name, const char* description)
+{
+  return {.name = name, .default_value = "0", .description = description, .minimum = 0, .maximum = 1};
+}
+
+ParameterSpec Length(const char* name, const char* value, const char* description, double least = 0)
+{
+  return {
+      .name = name, .unit = "m", .default_value = value, .description = description, .minimum = least, .maximum = 1e6};
+}
+
+ParameterSpec Consumption(const char* name, const char* unit, const char* value, const char* description)
+{
+  return {.name = name, .unit = unit, .default_value = value, .description = description, .minimum = 0, .maximum = 1e6};
+}
+
+void DescribeMotionSensors()
+{
+  DescribeSensor({.label = "positioning",
+                  .implementation = "generic_positioning",
+                  .brief = "position and orientation in the space, as a tracking system tells them",
+                  .parameters = Joined(NoiseParameters("each coordinate", "m", "position_"),
+                                       NoiseParameters("the heading", "rad", "heading_"))});
+  DescribeSensor({.label = "gyroscope",
+                  .implementation = "generic_gyroscope",
+                  .brief = "angular velocities about the axes of the robot, mean over the last tick",
+                  .parameters = NoiseParameters("each angular velocity", "rad/s")});
+  DescribeSensor(
+      {.label = "battery",
+       .implementation = "generic_battery",
+       .brief = "a charge that falls with time, way and turning",
+       .parameters = Joined({{.name = "start_charge",
+                              .default_value = "1",
+                              .description = "Charge at the start; 1 is full.",
+                              .minimum = 0,
+                              .maximum = 1},
+                             Consumption("per_second", "1/s", "1e-4", "Charge that a second takes."),
+                             Consumption("per_metre", "1/m", "1e-3", "Charge that a metre of way takes."),
+                             Consumption("per_radian", "1/rad", "1e-3", "Charge that a radian of turning takes.")},
+                            NoiseParameters("the charge that is read", ""))});
+}
+
+void DescribeMicrophones()
+{
+  const std::vector<ParameterSpec> common =
+      Joined({Length("height", "0.1", "Of the microphone above the base."),
+              {.name = "threshold",
+               .default_value = "0.001",
+               .description = "Sound pressure below which nothing is heard; 1 is that of intensity 1 at 1 m.",
+               .minimum = 0,
+               .maximum = 1e6}},
+             NoiseParameters("the pressure of each sound", "", "loudness_"));
+  const std::vector<ParameterSpec> directional =
+      Joined(common, NoiseParameters("bearing and elevation of each sound", "rad", "angle_"));
+  const auto describe = [](const char* model, const char* brief, std::vector<ParameterSpec> parameters)
+  {
+    DescribeSensor({.label = "microphone",
+                    .implementation = model + std::string("_microphone"),
+                    .brief = brief,
+                    .parameters = std::move(parameters)});
+  };
+  describe("generic", "an array that hears each sound source with its direction; pressure is intensity / distance",
+           directional);
+  describe("shadowed", "the same; bodies between muffle the sound",
+           Joined({{.name = "shadow",
+                    .default_value = "0.25",
+                    .description = "Multiplies the pressure of a source that is hidden.",
+                    .minimum = 0,
+                    .maximum = 1}},
+                  directional));
+  describe("capsule", "a single capsule: the pressure of all sounds together, without direction", common);
+}
+
+void DescribeDistanceScanners()
+{
+  DescribeSensor({.label = "footbot_distance_scanner",
+                  .implementation = "generic_footbot_distance_scanner",
+                  .brief = "two beams of 0.26 m and two of 0.12 to 1.42 m on a head that turns",
+                  .parameters = Joined({{.name = "rotation_speed",
+                                         .unit = "rad/s",
+                                         .default_value = "0",
+                                         .description = "Of the head; while it turns each beam measures six times a "
+                                                        "tick. 0: the short beams look ahead and back.",
+                                         .minimum = -1e6,
+                                         .maximum = 1e6}},
+                                       NoiseParameters("each distance", "m")),
+                  .robots = {"footbot"}});
+  DescribeSensor({.label = "footbot_distance_scanner",
+                  .implementation = "argos3_footbot_distance_scanner",
+                  .brief = "two beams of 0.26 m and two of 0.12 to 1.42 m, off until the controller turns the head",
+                  .parameters = NoiseParameters("each distance", "m"),
+                  .robots = {"footbot"}});
+  DescribeSensor({.label = "eyebot_distance_scanner",
+                  .implementation = "generic_eyebot_distance_scanner",
+                  .brief = "32 beams of 15 m all around",
+                  .parameters = NoiseParameters("each distance", "m"),
+                  .robots = {"eyebot"}});
+}
+
+ParameterSpec Count(const char* name, const char* value, const char* description, double most)
+{
+  return {.name = name,
+          .type = ParameterType::kInteger,
+          .default_value = value,
+          .description = description,
+          .minimum = 1,
+          .maximum = most};
+}
+
+ParameterSpec Angle(const char* name, const char* value, const char* description, double least, double most)
+{
+  return {.name = name,
+          .unit = "deg",
+          .default_value = value,
+          .description = description,
+          .minimum = least,
+          .maximum = most};
+}
+
+std::vector<ConfigurationError> MistakesInDepths(const Parameters& parameters)
+{
+  if (parameters.Number("nearest") < parameters.Number("range")) return {};
+  return {ConfigurationError(parameters.Tree().ValueLocation(parameters.IsGiven("nearest") ? "nearest" : "range"),
+                             "'nearest' of <" + parameters.Tree().Name() + "> is " + parameters.Text("nearest") +
+                                 " m and 'range' " + parameters.Text("range") + " m; nearest must be less")};
+}
+
+void DescribeDepthCamera()
+{
+  const PluginDescription camera{
+      .label = "depth_camera",
+      .implementation = "generic_depth_camera",
+      .brief = "a small image of depths and colours, by a ray through the middle of each pixel",
+      .parameters = Joined(
+          Joined(
+              {Count("width", "32", "Pixels of a row.", 256),
+               Count("height", "24", "Rows.", 256),
+               Angle("field_of_view", "60", "Between the left and the right border of the image.", 1, 150),
+               Length("range", "5", "Greatest depth that is measured.", 0.001),
+               Length("nearest", "0", "Least depth; what is nearer is not seen, and hides nothing."),
+               {.name = "position",
+                .type = ParameterType::kVector3,
+                .unit = "m",
+                .default_value = "0, 0, 0.1",
+                .description = "Of the camera, in the frame of the robot, which it does not see itself.",
+                .minimum = -1e6,
+                .maximum = 1e6},
+               Angle("pan", "0", "Of its axis to the left of the robot's front.", -180, 180),
+               Angle("tilt", "0", "Of its axis above the plane of the robot's base; -90 looks straight down.", -90, 90),
+               {.name = "floor_colour",
+                .type = ParameterType::kColour,
+                .default_value = "#ffffff",
+                .description = "Colour of the floor outside all patches."}},
+              NoiseParameters("each depth", "m", "depth_")),
+          NoiseParameters("red, green and blue of each pixel", "1/255", "colour_"))};
+  ParameterChecks::Instance().Add(PluginKind::kSensor, camera, MistakesInDepths);
+  DescribeSensor(camera);
+}
+
+void DescribeRadio()
+{
+  DescribeActuator({.label = "radio",
+                    .implementation = "generic_radio",
+                    .brief = "sends packets of up to 30 bytes, one a tick, within a bandwidth",
+                    .parameters = Joined({{.name = "bandwidth",
+                                           .unit = "bytes/s",
+                                           .default_value = "0",
+                                           .description = "Packets wait until the ones before are through; 0: one "
+                                                          "packet a tick is the only limit.",
+                                           .minimum = 0,
+                                           .maximum = 1e6}},
+                                         NoiseParameters("each byte that is sent", "1/255")),
+                    .robots = {"footbot", "eyebot", "handbot"}});
+  DescribeSensor({.label = "radio",
+                  .implementation = "generic_radio",
+                  .brief = "receives the packets of all radios in range, whatever stands between",
+                  .parameters = Joined({Length("range", "10", "Distance from which packets are received.", 0.001),
+                                        Share("loss_probability", "Share of the packets that get lost."),
+                                        {.name = "latency",
+                                         .unit = "s",
+                                         .default_value = "0",
+                                         .description = "Time that packets take beyond the one tick that everything "
+                                                        "takes; whole ticks, rounded up.",
+                                         .minimum = 0,
+                                         .maximum = 3600}},
+                                       NoiseParameters("each signal strength", "dB")),
+                  .robots = {"footbot", "eyebot", "handbot"}});
+}
+
+}  // namespace
+
+void DescribeSurroundingsDevices()
+{
+  DescribeMotionSensors();
+  DescribeMicrophones();
+  DescribeDistanceScanners();
+  DescribeDepthCamera();
+  DescribeRadio();
+  DescribeActuator({.label = "report",
+                    .implementation = "generic_report",
+                    .brief = "tells the experiment functions something, once a tick",
+                    .robots = {"footbot", "eyebot", "handbot"}});
+  DescribeSensor({.label = "instruction",
+                  .implementation = "generic_instruction",
+                  .brief = "what the experiment functions tell the robot",
+                  .robots = {"footbot", "eyebot", "handbot"}});
+  DescribeSensor({.label = "contact",
+                  .implementation = "generic_contact",
+                  .brief = "a bumper: the directions of all bodies that touch the robot",
+                  .parameters = Joined({Length("reach", "0.002", "Gap up to which bodies count as touching.")},
+                                       NoiseParameters("each direction", "rad"))});
+  DescribeSensor({.label = "tag_reader",
+                  .implementation = "generic_tag_reader",
+                  .brief = "reads the ids of tagged entities near its antenna (RFID)",
+                  .parameters = Joined({Length("range", "0.15", "Distance within which tags answer.", 0.001),
+                                        Length("height", "0", "Of the antenna above the base."),
+                                        {.name = "tagged",
+                                         .type = ParameterType::kText,
+                                         .default_value = "*",
+                                         .description = "Ids of the entities with tags, or patterns such as prey_*, "
+                                                        "with commas between."},
+                                        Share("miss_probability", "Share of the tags that do not answer in a tick.")},
+                                       NoiseParameters("each distance", "m"))});
+}
+
+}  // namespace swarmanoid

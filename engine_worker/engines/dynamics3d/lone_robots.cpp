@@ -1,0 +1,357 @@
+#include "engine_worker/engines/dynamics3d/lone_robots.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include "common/space/space.h"
+
+namespace swarmanoid::dynamics3d
+{
+namespace
+{
+
+// Whoever is nearer than this (m) at the end of a step is solved: robots lean by less.
+constexpr double kTouch = 3e-3;
+// Bodies may be pushed, or speed up, by so much more (m) than they move by themselves.
+constexpr double kPushed = 0.02;
+// Whoever goes faster than this (m/s) has everybody solved: cells for all that it may meet would hold too many.
+constexpr double kFastest = 2;
+constexpr double kArms = 0.2;     // m, by which robots without wheels may grow
+constexpr double kFarAway = 1e4;  // m
+
+bool IsOpposedTo(const dReal* normal) { return normal[2] < -0.999; }
+
+// All of the plane behind a wall that has no end.
+StaticOutline BehindWall(const dReal* plane)
+{
+  const Vector2 normal(plane[0], plane[1]);
+  const Vector2 along(-normal.y(), normal.x());
+  const Vector2 middle = plane[3] * normal;
+  return {.corners = {middle - kFarAway * along, middle + kFarAway * along,
+                      middle + kFarAway * along - kFarAway * normal, middle - kFarAway * along - kFarAway * normal}};
+}
+
+StaticOutline OutlineOf(dGeomID geom, const std::array<double, 6>& box)
+{
+  const dReal* position = dGeomGetPosition(geom);
+  const dReal* rotation = dGeomGetRotation(geom);
+  const bool is_upright = std::abs(rotation[10]) > 1 - 1e-12;
+  const int kind = dGeomGetClass(geom);
+  if (is_upright && kind == dCylinderClass)
+  {
+    dReal radius = 0, length = 0;
+    dGeomCylinderGetParams(geom, &radius, &length);
+    return {{{position[0], position[1]}}, radius};
+  }
+  Vector2 middle((box[0] + box[1]) / 2, (box[2] + box[3]) / 2);
+  Vector2 x((box[1] - box[0]) / 2, 0);
+  Vector2 y(0, (box[3] - box[2]) / 2);
+  if (is_upright && kind == dBoxClass)
+  {
+    dVector3 sides;
+    dGeomBoxGetLengths(geom, sides);
+    middle = {position[0], position[1]};
+    x = Vector2(rotation[0], rotation[4]) * sides[0] / 2;
+    y = Vector2(-rotation[4], rotation[0]) * sides[1] / 2;
+  }
+  return {.corners = {middle - x - y, middle + x - y, middle + x + y, middle - x + y}};
+}
+
+double FarthestCorner(const std::array<double, 6>& box, double x, double y)
+{
+  const double across = std::max(std::abs(box[0] - x), std::abs(box[1] - x));
+  const double along = std::max(std::abs(box[2] - y), std::abs(box[3] - y));
+  return std::sqrt(across * across + along * along);
+}
+
+double DistanceTo(const std::array<double, 6>& box, const Vector2& point)
+{
+  const double x = std::max({box[0] - point.x(), point.x() - box[1], 0.0});
+  const double y = std::max({box[2] - point.y(), point.y() - box[3], 0.0});
+  return std::sqrt(x * x + y * y);
+}
+
+double SpeedInPlane(dBodyID body)
+{
+  const dReal* velocity = dBodyGetLinearVel(body);
+  return std::sqrt(velocity[0] * velocity[0] + velocity[1] * velocity[1]);
+}
+double FallOf(dBodyID body) { return std::max(0.0, -dBodyGetLinearVel(body)[2]); }
+double SpinOf(dBodyID body) { return std::sqrt(VectorOf(dBodyGetAngularVel(body)).squaredNorm()); }
+
+}  // namespace
+
+void LoneRobots::Add(Model& model, bool owned)
+{
+  Body& body =
+      bodies_.emplace_back(Body{.model = &model, .robot = dynamic_cast<WheeledModel*>(&model), .owned = owned});
+  const std::array<double, 6> box = BoxOf(body);
+  const Vector3 sides(box[1] - box[0], box[3] - box[2], box[5] - box[4]);
+  // No rigid body, however it turns, needs more.
+  body.radius = std::sqrt(3 * sides.squaredNorm()) / 2;
+  if (owned && IsRobot(model.GetSpaceEntity().GetKind())) body.radius += kArms;
+  if (body.robot != nullptr) top_ = std::max(top_, body.robot->Height());
+  solids_ = 0;
+}
+
+// A plane that is level, and nothing else to stand on.
+bool LoneRobots::HasLevelGround() const
+{
+  const Vector3& gravity = scene_.world.Settings().gravity;
+  if (!(gravity.z() < 0) || gravity.head<2>().norm() > -1e-9 * gravity.z()) return false;
+  bool has_ground = false;
+  for (const auto& solid : scene_.world.Solids())
+  {
+    has_ground |= solid->surface == ESurface::kGround;
+    if (dGeomGetBody(solid->geom) != nullptr) continue;
+    if (solid->layer == ELayer::kVoxels) return false;
+    if (dGeomGetClass(solid->geom) != dPlaneClass)
+    {
+      if (solid->surface == ESurface::kTerrain) return false;
+      continue;
+    }
+    dVector4 plane;
+    dGeomPlaneGetParams(solid->geom, plane);
+    const bool is_floor = plane[2] > 0.999 && plane[3] <= 0;
+    const bool is_ceiling = IsOpposedTo(plane) && -plane[3] > top_ + kPushed;
+    if (!is_floor && !is_ceiling && std::abs(plane[2]) > 1e-9) return false;
+  }
+  return has_ground;
+}
+
+std::vector<StaticOutline> LoneRobots::StaticOutlines() const
+{
+  std::vector<StaticOutline> outlines = holes_;
+  for (const auto& solid : scene_.world.Solids())
+  {
+    if (dGeomGetBody(solid->geom) != nullptr) continue;
+    if (dGeomGetClass(solid->geom) == dPlaneClass)
+    {
+      dVector4 plane;
+      dGeomPlaneGetParams(solid->geom, plane);
+      if (std::abs(plane[2]) < 1e-9) outlines.push_back(BehindWall(plane));
+      continue;
+    }
+    std::array<double, 6> box;
+    dGeomGetAABB(solid->geom, box.data());
+    if (box[5] > -kPushed && box[4] < top_ + kPushed) outlines.push_back(OutlineOf(solid->geom, box));
+  }
+  return outlines;
+}
+
+void LoneRobots::Configure()
+{
+  solids_ = scene_.world.Solids().size();
+  has_level_ground_ = HasLevelGround();
+  if (!has_level_ground_)
+  {
+    solved_.clear();
+    for (const Body& body : bodies_)
+    {
+      if (body.owned) solved_.push_back(body.model);
+      if (body.robot != nullptr) body.robot->BecomeSolved();
+    }
+    return;
+  }
+  outlines_.assign(bodies_.size(), {});
+  for (std::size_t k = 0; k < bodies_.size(); ++k)
+  {
+    // The cells cover the arena, wherever the bodies are.
+    const Vector3 corner = k % 2 == 0 ? Vector3::Zero() : scene_.space.GetExperiment().arena_size;
+    const Vector3 place = scene_.frame.PointToLocal(corner);
+    outlines_[k].whole = {place.x(), place.y(), bodies_[k].radius, 0};
+  }
+  isolation_.Configure(outlines_, StaticOutlines(), kFastest * steps_ * step_seconds_);
+}
+
+void LoneRobots::BeginTick()
+{
+  if (solids_ != scene_.world.Solids().size()) Configure();
+  if (!has_level_ground_) return;
+  step_ = 0;
+  is_searched_ = false;
+  has_links_.assign(scene_.models.size(), 0);
+  scene_.links.Mark(has_links_);
+  for (Body& body : bodies_)
+  {
+    body.advanced = 0;
+    body.may_be_free = body.robot != nullptr && body.owned && has_links_[body.model->Entity()] == 0;
+  }
+  Search();
+}
+
+void LoneRobots::Search()
+{
+  const double seconds = (steps_ - step_) * step_seconds_;
+  bool are_within = true;
+  for (std::size_t k = 0; k < bodies_.size(); ++k)
+  {
+    Outline(bodies_[k], seconds, outlines_[k]);
+    if (bodies_[k].robot == nullptr)
+    {
+      const MovingCircle& whole = outlines_[k].whole;
+      are_within = are_within && FarthestCorner(BoxOf(bodies_[k]), whole.x, whole.y) <= whole.radius;
+    }
+  }
+  is_searched_ = are_within && isolation_.Find(outlines_, kPushed + kTouch, nearness_, &pairs_);
+  if (!is_searched_) return;
+  const auto may_be_free = [&](std::uint32_t number) { return number < bodies_.size() && bodies_[number].may_be_free; };
+  std::erase_if(pairs_,
+                [&](const kinematics2d::Pair& pair) { return !may_be_free(pair.first) && !may_be_free(pair.second); });
+  for (std::size_t k = 0; k < bodies_.size(); ++k) bodies_[k].is_near = nearness_[k] == Nearness::kNear;
+}
+
+// Where a body is, and how far it gets by itself within so many seconds.
+void LoneRobots::Outline(const Body& body, double seconds, MovingOutline& outline)
+{
+  outline.present = true;
+  outline.part_count = 0;
+  if (body.robot != nullptr && body.robot->IsUpright())
+  {
+    const Vector2 place = body.robot->GroundPoint();
+    const double way = body.robot->LargestSpeed() * seconds;
+    outline.whole = {place.x(), place.y(), body.radius, way};
+    outline.parts[0] = {place.x(), place.y(), body.robot->Radius(), way};
+    outline.part_count = 1;
+    return;
+  }
+  const std::array<double, 6> box = BoxOf(body);
+  const dBodyID main = MainBodyOf(body);
+  outline.whole = {(box[0] + box[1]) / 2, (box[2] + box[3]) / 2, body.radius, SpeedInPlane(main) * seconds};
+  // What flies over all robots, and cannot fall on one.
+  const double falls = FallOf(main) * seconds - scene_.world.Settings().gravity.z() * seconds * seconds / 2;
+  outline.present = box[4] - falls < top_ + kPushed;
+}
+
+// Whether somebody that the solver moves left, or leaves in the next step, what the search took him to need.
+bool LoneRobots::IsSomebodyTooFar() const
+{
+  for (std::size_t k = 0; k < bodies_.size(); ++k)
+    if (!bodies_[k].IsFree() && IsTooFar(bodies_[k], outlines_[k])) return true;
+  return false;
+}
+
+bool LoneRobots::IsTooFar(const Body& body, const MovingOutline& outline) const
+{
+  const MovingCircle& whole = outline.whole;
+  const dBodyID main = MainBodyOf(body);
+  const double next = SpeedInPlane(main) * step_seconds_;
+  if (outline.part_count > 0)
+    return !body.robot->IsUpright() ||
+           (body.robot->GroundPoint() - Vector2(whole.x, whole.y)).norm() + next > whole.way + kPushed;
+  const std::array<double, 6> box = BoxOf(body);
+  if (!outline.present) return box[4] - FallOf(main) * step_seconds_ < top_;
+  return FarthestCorner(box, whole.x, whole.y) + next > whole.radius + whole.way + kPushed;
+}
+
+// By how much a body comes nearer to others in a step at most, m.
+double LoneRobots::LargestStep(const Body& body) const
+{
+  if (body.robot != nullptr && body.robot->IsUpright()) return body.robot->LargestSpeed() * step_seconds_;
+  const dBodyID main = MainBodyOf(body);
+  return (SpeedInPlane(main) + SpinOf(main) * body.radius) * step_seconds_;
+}
+
+double LoneRobots::GapBetween(const Body& robot, std::uint32_t other) const
+{
+  const Vector2 place = robot.robot->GroundPoint();
+  double gap = -robot.robot->Radius();
+  if (other >= bodies_.size()) return gap + swarmanoid::DistanceTo(isolation_.Statics()[other - bodies_.size()], place);
+  const Body& body = bodies_[other];
+  if (body.robot != nullptr && body.robot->IsUpright())
+    return gap + (body.robot->GroundPoint() - place).norm() - body.robot->Radius();
+  return gap + DistanceTo(BoxOf(body), place);
+}
+
+void LoneRobots::FindTouching()
+{
+  for (Body& body : bodies_) body.touches = false;
+  for (const kinematics2d::Pair& pair : pairs_)
+  {
+    Body* first = &bodies_[pair.first];
+    std::uint32_t other = pair.second;
+    if (!first->may_be_free)
+    {
+      first = &bodies_[pair.second];
+      other = pair.first;
+    }
+    double reach = kTouch + LargestStep(*first);
+    if (other < bodies_.size()) reach += LargestStep(bodies_[other]);
+    if (GapBetween(*first, other) >= reach) continue;
+    first->touches = true;
+    if (other < bodies_.size()) bodies_[other].touches = true;
+  }
+}
+
+std::span<Model* const> LoneRobots::BeforeStep()
+{
+  if (!has_level_ground_) return solved_;
+  if (is_searched_ && step_ > 0 && IsSomebodyTooFar())
+  {
+    for (Body& body : bodies_)
+      if (body.IsFree()) AdvanceTo(body, step_);
+    Search();
+  }
+  if (is_searched_) FindTouching();
+  solved_.clear();
+  for (Body& body : bodies_)
+  {
+    if (!body.owned) continue;
+    if (body.robot != nullptr) Decide(body);
+    if (!body.IsFree()) solved_.push_back(body.model);
+  }
+  return solved_;
+}
+
+void LoneRobots::Decide(Body& body)
+{
+  WheeledModel& robot = *body.robot;
+  const bool may_be_free = is_searched_ && body.may_be_free && !(body.is_near && body.touches);
+  if (robot.IsFree())
+  {
+    if (may_be_free) return;
+    AdvanceTo(body, step_);
+    robot.MoveBodies();
+    robot.BecomeSolved();
+  }
+  else if (may_be_free && robot.RollsFreely())
+  {
+    robot.BecomeFree();
+    body.advanced = step_;
+  }
+  else
+    robot.BecomeSolved();
+}
+
+void LoneRobots::AdvanceTo(Body& body, int step) const
+{
+  if (step > body.advanced) body.robot->AdvanceFreely(step - body.advanced, step_seconds_);
+  body.advanced = step;
+}
+
+// Those who can meet nobody do all of their steps at once.
+void LoneRobots::AfterStep()
+{
+  ++step_;
+  if (!has_level_ground_) return;
+  for (Body& body : bodies_)
+    if (body.is_near && body.IsFree()) AdvanceTo(body, step_);
+}
+
+void LoneRobots::EndTick()
+{
+  for (Body& body : bodies_)
+  {
+    if (!body.IsFree()) continue;
+    AdvanceTo(body, steps_);
+    body.robot->MoveBodies();
+  }
+}
+
+std::size_t LoneRobots::Count() const
+{
+  return static_cast<std::size_t>(std::ranges::count_if(bodies_, [](const Body& body) { return body.IsFree(); }));
+}
+
+}  // namespace swarmanoid::dynamics3d

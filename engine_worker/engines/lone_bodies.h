@@ -1,0 +1,84 @@
+// LoneBodies: which bodies can meet nobody within a tick, so that the solver of an engine need not see them. It follows
+// from where the bodies are and how far they can get, and from nothing that was before. Used by the engines of rigid
+// bodies in the thread that steps them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/math/pose.h"
+#include "engine_worker/engines/kinematics2d/broad_phase.h"
+
+namespace swarmanoid
+{
+
+// A part of a body that moves, as a circle that contains it. Metres.
+struct MovingCircle
+{
+  double x = 0;
+  double y = 0;
+  double radius = 0;
+  double way = 0;  // that it may go within the tick
+};
+
+// A body that moves.
+struct MovingOutline
+{
+  MovingCircle whole;                 // around its origin
+  std::array<MovingCircle, 2> parts;  // closer around it
+  int part_count = 0;                 // 0: there is nothing closer than `whole`
+  bool present = true;                // in the way of others
+
+  std::span<const MovingCircle> Parts() const
+  {
+    return part_count == 0 ? std::span(&whole, 1) : std::span(parts).first(static_cast<std::size_t>(part_count));
+  }
+};
+
+// What never moves: a convex polygon in the plane or, with a radius, the circle around its only corner.
+struct StaticOutline
+{
+  std::vector<Vector2> corners;
+  double radius = 0;
+};
+
+enum class Nearness : std::uint8_t
+{
+  kFar,    // more than both distances from all others
+  kClose,  // between them
+  kNear    // less than the smaller one
+};
+
+// Distance of a point from a convex polygon, counter-clockwise, or from what never moves; negative inside.
+double DistanceTo(std::span<const Vector2> polygon, const Vector2& point);
+double DistanceTo(const StaticOutline& outline, const Vector2& point);
+
+class LoneBodies
+{
+public:
+  // `longest_way`: beyond twice that nobody counts as far.
+  void Configure(std::span<const MovingOutline> bodies, std::vector<StaticOutline> statics, double longest_way);
+  // Of each body: what is left between it and others once both have gone their ways, compared with `margin` and with
+  // `margin` + kBand. `near_pairs` gets the pairs with less than `margin` left, numbered as the broad phase does.
+  // False if somebody is so fast that all count as near, without pairs.
+  bool Find(std::span<const MovingOutline> bodies, double margin, std::vector<Nearness>& nearness,
+            std::vector<kinematics2d::Pair>* near_pairs = nullptr);
+  std::span<const StaticOutline> Statics() const { return statics_; }
+
+  // A body becomes isolated later than it would cease to be, so that few change sides.
+  static constexpr double kBand = 0.02;
+
+private:
+  kinematics2d::BroadPhase broad_phase_;
+  kinematics2d::PoseStore places_;
+  kinematics2d::PairList pairs_;
+  std::vector<kinematics2d::Pair> large_pairs_;
+  std::vector<std::uint8_t> present_;
+  std::vector<double> radii_;  // that the broad phase knows
+  std::vector<StaticOutline> statics_;
+  double largest_margin_ = 0;
+};
+
+}  // namespace swarmanoid

@@ -1,0 +1,112 @@
+// `swarmanoid demo`: plays the experiments that come along.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include "common/activity/exit_codes.h"
+#include "common/activity/print_error.h"
+#include "common/configuration/wording.h"
+#include "launcher/command/sub_command.h"
+#include "launcher/installation.h"
+#include "launcher/showing.h"
+#include "simulation/load.h"
+#include "simulation/run_folder.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+struct DemoOptions
+{
+  std::string name = "prey_retrieval";
+  bool list = false;
+  bool page = false;
+  bool film = false;
+  std::string output;
+};
+
+// The first sentence of the comment that the file begins with.
+std::string FirstSentence(const fs::path& file)
+{
+  std::ifstream stream(file);
+  std::string text(std::istreambuf_iterator<char>(stream), {});
+  const std::size_t start = text.find("<!--");
+  const std::size_t end = text.find("-->");
+  if (start == std::string::npos || end == std::string::npos) return {};
+  std::string words;
+  for (const char c : text.substr(start + 4, end - start - 4))
+    if (const bool blank = c == ' ' || c == '\n'; !blank || (!words.empty() && words.back() != ' '))
+      words += blank ? ' ' : c;
+  // "et al. 2014" goes on.
+  std::size_t stop = words.find(". ");
+  while (stop != std::string::npos && stop + 2 < words.size() && (words[stop + 2] < 'A' || words[stop + 2] > 'Z'))
+    stop = words.find(". ", stop + 2);
+  return std::string(TrimBlanks(words.substr(0, stop)));
+}
+
+int List()
+{
+  for (const std::string& name : SampleNames()) fmt::print("{:<24} {}\n", name, FirstSentence(SampleFile(name)));
+  return kExitDone;
+}
+
+int Play(const DemoOptions& options)
+{
+  const std::vector<std::string> names = SampleNames();
+  if (std::ranges::find(names, options.name) == names.end())
+    throw UsageError(fmt::format("there is no sample {}; `swarmanoid demo --list` names them{}", Quoted(options.name),
+                                 DidYouMean(options.name, names)));
+  if (options.page && options.film) throw UsageError("give --page or --film, not both");
+  const std::string file = SampleFile(options.name);
+  const auto experiment = LoadOrComplain(file, {});
+  if (!experiment) return kExitInvalidFile;
+  PrintError("{}: {}\n", options.name, FirstSentence(file));
+  ShowingKind kind = options.page ? ShowingKind::kPage : options.film ? ShowingKind::kFilm : KindForSession();
+  if (kind == ShowingKind::kPage && !options.page) kind = ShowingKind::kOpenedPage;
+  try
+  {
+    const RunFolder folder(options.output, "demo_" + options.name);
+    const int exit_code = Show(*experiment, kind, folder.Path());
+    std::error_code none;
+    fs::remove(folder.Path(), none);  // empty after a page
+    if (exit_code != kExitDone) return exit_code;
+  }
+  catch (const RunFolderError& error)
+  {
+    throw UsageError(error.what());
+  }
+  PrintError("Next: swarmanoid run {}\n", ShortPath(file));
+  return kExitDone;
+}
+
+void AddDemoCommand(CLI::App& app, int& exit_code)
+{
+  auto options = std::make_shared<DemoOptions>();
+  CLI::App* verb = app.add_subcommand(
+      "demo", "Play a sample: on a page in the browser, or without a display as a picture and a film");
+  verb->add_option("NAME", options->name, "The sample")->capture_default_str();
+  verb->add_flag("--list", options->list, "List the samples");
+  verb->add_flag("--page", options->page, "Play it in real time on a page, and only tell its address");
+  verb->add_flag("--film", options->film, "Draw a picture and a film");
+  verb->add_option("--output", options->output, "Folder of picture and film; otherwise runs/demo_<name>-<time>")
+      ->type_name("FILE");
+  verb->footer(
+      "Examples:\n"
+      "  swarmanoid demo\n"
+      "  swarmanoid demo --list\n"
+      "  swarmanoid demo rough_terrain --film");
+  verb->callback([options, &exit_code] { exit_code = options->list ? List() : Play(*options); });
+}
+
+const RegisterSubCommand kDemo(15, AddDemoCommand);
+
+}  // namespace
+}  // namespace swarmanoid

@@ -1,0 +1,126 @@
+// `swarmanoid edit`: an experiment file on the page in the browser.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "common/activity/exit_codes.h"
+#include "common/activity/print_error.h"
+#include "common/plugin_descriptions/renderers.h"
+#include "common/program/interrupts.h"
+#include "common/program/trust_flag.h"
+#include "common/program/usage_error.h"
+#include "launcher/command/sub_command.h"
+#include "launcher/editor/edit_session.h"
+#include "launcher/showing.h"
+#include "simulation/register_all.h"
+#include "visualiser/renderer_options.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+
+constexpr auto kPause = 15ms;
+
+struct EditOptions
+{
+  std::string file;
+  std::vector<std::string> parameters;  // of web_render, "name=value"
+  bool open = false;
+};
+
+// Until Ctrl-C; while there are changes that are not saved, until they are, or a second Ctrl-C.
+void Serve(EditSession& session, EditorPage& page)
+{
+  bool warned = false;
+  while (!Interrupted() || !session.IsSaved())
+  {
+    if (Interrupted() && !warned)
+    {
+      warned = true;
+      PrintError("there are changes that are not saved: save them on the page, or press Ctrl-C again to lose them\n");
+    }
+    page.Idle();
+    session.Idle();
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
+int Edit(const EditOptions& options)
+{
+  RegisterBuiltins();
+  std::vector<std::string> words = options.parameters;
+  words.emplace_back("allow_control=true");
+  const PluginDescription& description = FindRenderer("web_render");
+  TConfigurationTree tree;
+  try
+  {
+    tree = ConfigureRenderer(description, words).tree;
+  }
+  catch (const ConfigurationError& error)
+  {
+    throw UsageError(error.what());
+  }
+  try
+  {
+    const Parameters parameters(tree, description.parameters);
+    const auto page = MakeEditorPage();
+    EditSession session(options.file, *page);
+    const std::string key = std::filesystem::canonical(options.file).string() + " edited";
+    page->Open(parameters, key, session);
+    CatchInterrupts(SecondInterrupt::kKills);
+    session.Begin();
+    for (const Diagnostic& mistake : session.GetExperiment().Mistakes()) PrintError("{}\n", mistake.Text());
+    if (const std::string warning = page->Warning(); !warning.empty()) PrintError("warning: {}\n", warning);
+    if (!page->Fingerprint().empty()) PrintError("certificate SHA-256 {}\n", page->Fingerprint());
+    fmt::print("Edit it: {}\n", page->Url());
+    std::fflush(stdout);
+    if (options.open) OpenInBrowser(page->Url());
+    Serve(session, *page);
+  }
+  catch (const ConfigurationError& error)
+  {
+    PrintError("{}\n", error.what());
+    return kExitInvalidFile;
+  }
+  return kExitDone;
+}
+
+void AddEditCommand(CLI::App& app, int& exit_code)
+{
+  auto options = std::make_shared<EditOptions>();
+  CLI::App* verb = app.add_subcommand("edit", "Edit an experiment file on a page in the browser");
+  verb->add_option("EXPERIMENT", options->file, "The experiment file (XML)")->required();
+  verb->add_flag("--open", options->open, "Open the page in the browser");
+  AddTrustFlag(*verb);
+  for (const ParameterSpec& spec : WebRenderDescription().parameters)
+    if (const std::string& name = spec.name;
+        name == "port" || name == "address" || name == "tls" || name == "certificate")
+      verb->add_option_function<std::string>(
+              "--" + name,
+              [options, name](const std::string& value) { options->parameters.push_back(name + "=" + value); },
+              spec.description)
+          ->type_name(name == "certificate" ? "FILE"
+                      : name == "tls"       ? "auto|on|off"
+                                            : "VALUE");
+  verb->footer(
+      "The page shows the start state: place, move, turn, resize and remove what is there, and fill in controllers, "
+      "devices and engines by forms. Save writes the file; what was not changed stays as it was, byte for byte. Ctrl-C "
+      "ends it.\n"
+      "Examples:\n"
+      "  swarmanoid edit my_experiment.xml --open\n"
+      "  swarmanoid new experiment first_try && swarmanoid edit first_try.xml\n"
+      "  swarmanoid edit my_experiment.xml --port 8080");
+  verb->callback([options, &exit_code] { exit_code = Edit(*options); });
+}
+
+const RegisterSubCommand kEdit(11, AddEditCommand);
+
+}  // namespace
+}  // namespace swarmanoid

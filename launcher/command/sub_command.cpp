@@ -1,0 +1,25 @@
+#include "launcher/command/sub_command.h"
+
+#include <map>
+
+namespace swarmanoid
+{
+namespace
+{
+
+std::multimap<int, RegisterSubCommand::Add>& Registered()
+{
+  static std::multimap<int, RegisterSubCommand::Add> registered;
+  return registered;
+}
+
+}  // namespace
+
+RegisterSubCommand::RegisterSubCommand(int place, Add add) { Registered().emplace(place, add); }
+
+void AddSubCommands(CLI::App& app, int& exit_code)
+{
+  for (const auto& [place, add] : Registered()) add(app, exit_code);
+}
+
+}  // namespace swarmanoid

@@ -1,0 +1,58 @@
+// What pages ask of an experiment that is edited, as JSON (docs/edit.md has the messages), and what they are told of
+// it: the document after each change, the form of an element, the start state. Used by `swarmanoid edit`.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "launcher/editor/edited_experiment.h"
+#include "launcher/editor/edited_file.h"
+#include "launcher/scratch_folder.h"
+#include "launcher/supervision/helper_process.h"
+#include "visualiser/editor_page.h"
+
+namespace swarmanoid
+{
+
+class EditSession : public EditorRequests
+{
+public:
+  // Throws ConfigurationError if the file cannot be edited. The page outlives the session.
+  EditSession(const std::string& file, EditorPage& page);
+
+  // Tells the page everything: once it is open.
+  void Begin();
+  std::string Carry(std::string_view request) override;
+  // To be called now and then: looks at the file on disk and at the check that goes on.
+  void Idle();
+  bool IsSaved() const { return experiment_.Text() == file_.Text(); }
+  const EditedExperiment& GetExperiment() const { return experiment_; }
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  void Edit(std::string_view request);
+  void Save(bool anyway);
+  void Reload();
+  void StartCheck();
+  void FinishCheck();
+  void Show();
+  void Tell();
+
+  EditorPage& page_;
+  EditedFile file_;
+  EditedExperiment experiment_;
+  ElementPath added_;           // by the last change
+  std::uint64_t added_in_ = 0;  // the revision that it was added in
+  bool changed_on_disk_ = false;
+  Clock::time_point disk_due_;
+
+  std::string hidden_;  // why the picture is an older one; empty if it is not
+  ScratchFolder scratch_;
+  std::unique_ptr<HelperProcess> check_;
+  std::string checked_;           // what the last check said
+  std::uint64_t checked_in_ = 0;  // of which revision
+};
+
+}  // namespace swarmanoid

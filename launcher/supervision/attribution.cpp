@@ -1,0 +1,125 @@
+#include "launcher/supervision/attribution.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+
+#include <fstream>
+
+#include "common/activity/exit_codes.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+constexpr int kSshFailed = 255;
+
+}  // namespace
+
+ActivityRecord ReadActivity(const ActivityPage* page)
+{
+  ActivityRecord record;
+  if (page == nullptr || page->taken == 0) return record;
+  record.taken = true;
+  record.end = static_cast<EndReason>(page->end.load(std::memory_order_acquire));
+  record.tick = page->tick;
+  record.kind = static_cast<Actor::Kind>(page->kind.load());
+  record.number = page->number;
+  record.step = static_cast<ActivityStep>(page->step.load());
+  record.ended_ns = page->ended_ns;
+  record.complete = page->complete != 0;
+  if (record.end != EndReason::kUnknown) record.cause = page->cause;
+  return record;
+}
+
+Evidence EvidenceOf(const std::optional<ProcessEnd>& ended, const ActivityRecord& record)
+{
+  if (IsStuck(ended)) return Evidence::kDeath;
+  switch (record.end)
+  {
+    case EndReason::kFailed:
+    case EndReason::kDied:
+      return record.complete ? Evidence::kDeath : Evidence::kFailure;
+    case EndReason::kInvalid:
+    case EndReason::kInterrupted:
+      return Evidence::kFailure;
+    case EndReason::kOthers:
+      return ended ? Evidence::kConsequence : Evidence::kNone;
+    case EndReason::kDone:
+    case EndReason::kUnknown:
+      break;
+  }
+  if (!ended) return Evidence::kNone;
+  if (ended->signal != 0) return Evidence::kDeath;
+  if (ended->exit_code == kExitOthersFailed || ended->exit_code == kExitCutOff) return Evidence::kConsequence;
+  if (ended->exit_code != 0) return Evidence::kFailure;
+  // A program of ours says that its work is done.
+  return record.taken && record.end == EndReason::kUnknown ? Evidence::kDeath : Evidence::kEarlyEnd;
+}
+
+bool IsStuck(const std::optional<ProcessEnd>& ended) { return ended && ended->exit_code == kExitStuck; }
+
+bool MayBeReplaced(const ProcessEnd& ended, const ActivityRecord& record, bool elsewhere)
+{
+  constexpr int kKilledThere = 128;  // and more: by a signal, or the connection has failed
+  if (ended.exit_code == kExitCutOff) return true;
+  switch (record.end)
+  {
+    case EndReason::kDied:
+      return true;
+    case EndReason::kDone:
+      return ended.signal != 0;
+    case EndReason::kOthers:
+      // Given up by the others while it gave them up: a link that is cut is so for both sides.
+      return WasKilled(ended, elsewhere);
+    case EndReason::kUnknown:
+      // The programs' own words: the next one would say the same.
+      if (ended.exit_code == kExitUsage || ended.exit_code == kExitInvalidFile) return false;
+      return ended.signal != 0 || record.taken ||
+             (elsewhere && ended.exit_code >= kKilledThere && ended.exit_code != kExitInterrupted);
+    default:
+      return false;
+  }
+}
+
+bool WasKilled(const ProcessEnd& ended, bool elsewhere)
+{
+  return ended.signal == SIGKILL || (elsewhere && (ended.exit_code == 128 + SIGKILL || ended.exit_code == kSshFailed));
+}
+
+bool DiedAlike(const ActivityRecord& a, const ActivityRecord& b)
+{
+  return a.end == EndReason::kDied && b.end == EndReason::kDied && a.kind == b.kind && a.number == b.number &&
+         a.step == b.step && a.tick == b.tick;
+}
+
+std::string FailureText(const FailedProcess& failed, std::uint64_t server_tick, const ActorNames& actor_of,
+                        bool killed_for_memory)
+{
+  const ActivityRecord& record = failed.record;
+  const bool says = record.end != EndReason::kUnknown && record.end != EndReason::kDone;
+  if (says && !record.cause.empty()) return record.cause;
+
+  std::string what = "has not ended";
+  if (failed.end) what = failed.end->Clean() ? "ended before the last tick" : failed.end->Text();
+  if (failed.end && failed.end->exit_code == kExitCutOff) what = "was cut off from the space server";
+  if (failed.end && failed.end->signal == SIGKILL && killed_for_memory)
+    what += " by the kernel, since memory was short (--memory-limit sets a limit that tells who takes too much)";
+  if (failed.end && failed.end->exit_code == kSshFailed && !failed.host.empty())
+    what += " (by ssh: the connection failed, or a signal ended the process there)";
+  std::string text = fmt::format("{}{}{} {}", failed.name, failed.host.empty() ? "" : " on ", failed.host, what);
+  const Actor actor = actor_of && record.kind != Actor::kNobody ? actor_of(record.kind, record.number) : Actor();
+  if (actor.kind != Actor::kNobody) return text + ", during " + ActivityText(actor, record.step, record.tick);
+  return text + fmt::format(" at tick {}", record.taken && record.tick > 0 ? record.tick : server_tick);
+}
+
+std::uint64_t KernelKillsForMemory()
+{
+  std::ifstream counters("/proc/vmstat");
+  std::string name;
+  for (std::uint64_t value = 0; counters >> name >> value;)
+    if (name == "oom_kill") return value;
+  return 0;
+}
+
+}  // namespace swarmanoid

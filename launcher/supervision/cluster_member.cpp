@@ -1,0 +1,106 @@
+#include "launcher/supervision/cluster_member.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <utility>
+
+#include "common/bus/security/run_key.h"
+
+namespace swarmanoid
+{
+namespace
+{
+
+// Bytes read without waiting; closes the descriptor at its end.
+std::string_view ReadSome(FileDescriptor& descriptor, std::array<char, 4096>& buffer, std::size_t limit)
+{
+  if (!descriptor.IsOpen()) return {};
+  const ssize_t count = read(descriptor.Get(), buffer.data(), std::min(limit, buffer.size()));
+  if (count > 0) return {buffer.data(), static_cast<std::size_t>(count)};
+  if (count == 0 || (errno != EAGAIN && errno != EINTR)) descriptor.Reset();
+  return {};
+}
+
+}  // namespace
+
+ClusterMember::ClusterMember(const MemberPlan& plan, ProcessSpawner& spawner, unsigned incarnation, double taken_s,
+                             std::vector<ControllerDeath> deaths)
+    : plan_(plan),
+      incarnation_(incarnation),
+      deaths_(std::move(deaths)),
+      log_(plan.log_path, incarnation > 0),
+      process_(spawner.Start(incarnation > 0 ? plan.replacement(incarnation, taken_s, deaths_) : plan.command))
+{
+}
+
+std::optional<ControllerDeath> ClusterMember::NewDeath() const
+{
+  const ActivityRecord record = Record();
+  if (record.end != EndReason::kDied || record.kind != Actor::kRobot || record.step != ActivityStep::kControlStep ||
+      !plan_.may_fail || !plan_.may_fail(record.number))
+    return std::nullopt;
+  const ControllerDeath death{record.tick, record.number};
+  if (std::find(deaths_.begin(), deaths_.end(), death) != deaths_.end()) return std::nullopt;
+  return death;
+}
+
+bool ClusterMember::Answers(std::string_view line)
+{
+  if (!process_.input.IsOpen() || line.find(kKeyPrompt) == std::string_view::npos) return false;
+  // Far less than a pipe takes at once.
+  const std::string& input = plan_.command.input;
+  [[maybe_unused]] const ssize_t written = write(process_.input.Get(), input.data(), input.size());
+  process_.input.Reset();
+  return true;
+}
+
+void ClusterMember::ReadOutput(const OnLine& on_line, std::size_t limit)
+{
+  const OnLine take = [&](std::string_view line)
+  {
+    if (Answers(line)) return;
+    if (plan_.output == MemberPlan::kLog)
+      log_.Add(line);
+    else
+      on_line(line);
+  };
+  std::array<char, 4096> buffer;
+  while (limit > 0)
+  {
+    const std::string_view bytes = ReadSome(process_.output, buffer, limit);
+    if (bytes.empty()) break;
+    limit -= bytes.size();
+    output_lines_.Add(bytes, take);
+  }
+  // A process that has ended may have left the descriptor to a child of its own: what is there now is all that counts.
+  if (limit > 0 && end_) process_.output.Reset();
+  if (!OutputClosed() || !end_ || std::exchange(output_taken_, true)) return;
+  // Of one that was killed the last line may be half of one.
+  if (end_->signal == 0) output_lines_.Finish(take);
+}
+
+void ClusterMember::ReadErrors()
+{
+  std::array<char, 4096> buffer;
+  for (int rounds = 0; rounds < 16; ++rounds)
+  {
+    const std::string_view bytes = ReadSome(process_.errors, buffer, buffer.size());
+    if (bytes.empty()) break;
+    error_lines_.Add(bytes,
+                     [this](std::string_view line)
+                     {
+                       if (!Answers(line)) log_.Add(line);
+                     });
+  }
+}
+
+void ClusterMember::Collect(ProcessSpawner& spawner)
+{
+  end_ = spawner.Collect(process_);
+  ReadErrors();
+  process_.errors.Reset();
+  error_lines_.Finish([this](std::string_view line) { log_.Add(line); });
+}
+
+}  // namespace swarmanoid

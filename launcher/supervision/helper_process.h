@@ -1,0 +1,47 @@
+// A process of this program's own that does one thing and ends, such as a run of `swarmanoid` for `demo` and `doctor`:
+// it reads and prints nothing, and its complaints go to a file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace swarmanoid
+{
+
+class HelperProcess
+{
+public:
+  // The program first, by its path or as it is found on the PATH. Throws std::runtime_error if it cannot be started.
+  HelperProcess(std::vector<std::string> words, const std::string& errors);
+  HelperProcess(const HelperProcess&) = delete;
+  HelperProcess& operator=(const HelperProcess&) = delete;
+
+  bool Ended();
+  // The exit code; of a child that a signal ended, that of a process that failed.
+  int Wait();
+
+private:
+  pid_t pid_ = 0;
+  int status_ = 0;
+  bool ended_ = false;
+};
+
+// Empty if there is none.
+std::string FirstLineOf(const std::string& file);
+
+// While an object lives, Ctrl-C is for the children alone.
+class InterruptsLeftToHelper
+{
+public:
+  InterruptsLeftToHelper();
+  ~InterruptsLeftToHelper();
+  InterruptsLeftToHelper(const InterruptsLeftToHelper&) = delete;
+  InterruptsLeftToHelper& operator=(const InterruptsLeftToHelper&) = delete;
+
+private:
+  void (*before_)(int);
+};
+
+}  // namespace swarmanoid

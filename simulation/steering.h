@@ -1,0 +1,63 @@
+// Steering of a run in one process: what users ask through its visualisations is carried out between two ticks, as the
+// space server does it in a cluster, and visualisations are told how the run goes. Used by CSimulator; one thread.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "controller_host/controller_host.h"
+#include "space_server/pace_meter.h"
+#include "space_server/run_control.h"
+#include "visualiser/control_by_requests.h"
+#include "visualiser/visualiser.h"
+
+namespace swarmanoid
+{
+
+class Steering : public RunMonitor
+{
+public:
+  // `stop`: as in SimulatorOptions. The references outlive this.
+  Steering(const Experiment& experiment, SpaceServer& server, RunControlSetup setup, const std::atomic<bool>* stop);
+
+  ExperimentControl& Control() { return control_; }
+  // Whose robots can be watched.
+  void SetHost(const ControllerHost& host) { host_ = &host; }
+
+  // Returns when the state of the space's tick may be shown and stepped: waits while the run is paused or ahead of its
+  // pace, and does what was asked. The visualisers stay alive meanwhile. Whoever asks for the end makes the tick the
+  // last one.
+  void WaitForGo(const std::vector<std::unique_ptr<Visualiser>>& visualisers);
+  // A visualiser asked for the end after the tick was shown.
+  void Stopped(const std::string& visualiser);
+  void Ended();
+  const std::optional<ResetRequest>& Reset() const { return run_control_.Reset(); }
+  bool Interrupted() const { return stop_ != nullptr && *stop_; }
+
+  const RunStatus& Status() override;
+  std::span<const RunNote> Notes() override { return notes_; }
+  void Watch(std::span<const std::uint32_t> robots) override { watched_.assign(robots.begin(), robots.end()); }
+  const RobotStatus* Robot(std::uint32_t robot) override;
+
+private:
+  using Clock = RunControl::Clock;
+
+  SpaceServer& server_;
+  const ControllerHost* host_ = nullptr;
+  const std::atomic<bool>* stop_;
+  RunControl run_control_;
+  ControlByRequests control_;
+  PaceMeter pace_;
+  bool started_ = false;
+  std::uint64_t until_ = 0;
+  bool ended_ = false;
+  RunStatus status_;
+  std::vector<RunNote> notes_;
+  std::vector<std::uint32_t> watched_;
+  std::map<std::uint32_t, RobotStatus> robots_;
+};
+
+}  // namespace swarmanoid
