@@ -25,14 +25,7 @@ const std::string kSample = SWARMANOID_SOURCE_FOLDER "/configs/diffusion_10.xml"
 class Completion : public testing::Test
 {
 protected:
-  Completion()
-  {
-    AddRunCommand(app_, exit_code_);
-    AddAttachCommand(app_, exit_code_);
-    AddControlCommand(app_, exit_code_);
-    AddListCommand(app_, exit_code_);
-    AddNewCommand(app_, exit_code_);
-  }
+  Completion() { AddSubCommands(app_, exit_code_); }
 
   std::vector<std::string> Offered(const std::vector<std::string>& words) const { return Completions(app_, words); }
 
@@ -43,7 +36,7 @@ private:
 
 TEST_F(Completion, OffersCommandsThatBeginSo)
 {
-  EXPECT_THAT(Offered({"co"}), ElementsAre(StartsWith("control\t")));
+  EXPECT_THAT(Offered({"co"}), ElementsAre(StartsWith("control\t"), StartsWith("convert\t")));
   EXPECT_THAT(Offered({""}), Contains(StartsWith("run\t")));
   EXPECT_THAT(Offered({"new", "behavior-"}), ElementsAre(StartsWith("behavior-controller\t")));
 }
