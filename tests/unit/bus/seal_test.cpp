@@ -15,6 +15,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/eventually.h"
+#include "tests/unit/bus/key_of_byte.h"
 #include "tests/unit/bus/listener.h"
 #include "tests/unit/bus/server_fixture.h"
 #include "tests/unit/bus/stranger.h"
@@ -25,16 +26,10 @@ namespace
 {
 
 using test::Eventually;
+using test::KeyOfByte;
 using testing::HasSubstr;
 
 const WriterId kWriter{1, 2, 3};
-
-RunKey KeyOfByte(unsigned char byte)
-{
-  RunKey key;
-  key.fill(byte);
-  return key;
-}
 
 // A payload with that text in the place of its fields.
 std::string Sealed(Sealer& sealer, const std::string& text, const WriterId& writer = kWriter)

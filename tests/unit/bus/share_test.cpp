@@ -6,21 +6,17 @@
 #include <cstdlib>
 #include <ctime>
 
+#include "tests/unit/bus/key_of_byte.h"
+
 namespace swarmanoid
 {
 namespace
 {
 
+using test::KeyOfByte;
 using testing::HasSubstr;
 
 constexpr std::int64_t kFarFuture = 4'000'000'000;  // the year 2096
-
-RunKey KeyOfByte(unsigned char byte)
-{
-  RunKey key;
-  key.fill(byte);
-  return key;
-}
 
 Share ShareUntil(std::int64_t ends) { return {"1a2b3c4d", ShareRole::kWatcher, ends}; }
 
