@@ -10,7 +10,7 @@ namespace
 {
 
 // Where the walk through the tables stands.
-struct Place
+struct SchemaPlace
 {
   const ElementSpec* element = nullptr;  // nullptr: a table of parameters alone, or nothing known
   const PluginDescription* plugin = nullptr;
@@ -33,7 +33,7 @@ const PluginDescription* PluginOf(PluginKind kind, const ConfigurationNode& node
   return PluginCatalogue::Instance().Find(kind, node.name, implementation == nullptr ? "" : *implementation);
 }
 
-Place Into(const Place& above, const ConfigurationNode& node)
+SchemaPlace Into(const SchemaPlace& above, const ConfigurationNode& node)
 {
   if (above.element == nullptr) return {};
   if (const ElementSpec* child = above.element->FindChild(node.name)) return {child, nullptr, {}, nullptr};
@@ -44,7 +44,7 @@ Place Into(const Place& above, const ConfigurationNode& node)
   }
   const bool has_table = above.kind == PluginKind::kController && node.name == "parameters" &&
                          above.plugin != nullptr && above.plugin->declares_parameters;
-  return has_table ? Place{nullptr, nullptr, {}, &above.plugin->parameters} : Place{};
+  return has_table ? SchemaPlace{nullptr, nullptr, {}, &above.plugin->parameters} : SchemaPlace{};
 }
 
 // The implementations that there are, for the elements of devices.
@@ -65,7 +65,7 @@ std::vector<ParameterSpec> RequiredOf(const std::vector<ParameterSpec>& paramete
   return required;
 }
 
-void AddChildren(const Place& place, const ConfigurationNode& node, ElementForm& form)
+void AddChildren(const SchemaPlace& place, const ConfigurationNode& node, ElementForm& form)
 {
   const auto holds = [&](const ElementSpec& spec)
   { return std::ranges::any_of(node.children, [&](const auto& child) { return spec.HasTag(child->name); }); };
@@ -101,7 +101,7 @@ ElementForm FormOf(std::span<const ConfigurationNode* const> path)
 {
   ElementForm form;
   if (path.empty() || path.front()->name != ExperimentSchema().Name()) return form;
-  Place place{&ExperimentSchema(), nullptr, {}, nullptr};
+  SchemaPlace place{&ExperimentSchema(), nullptr, {}, nullptr};
   for (const ConfigurationNode* node : path.subspan(1)) place = Into(place, *node);
   const ConfigurationNode& node = *path.back();
   if (place.table != nullptr)
