@@ -15,8 +15,8 @@ namespace
 {
 
 constexpr std::size_t kEncapsulationBytes = 4;
-constexpr std::size_t kNumberAt = kEncapsulationBytes + kSaltBytes;
-constexpr std::size_t kEncryptedAt = kNumberAt + sizeof(std::uint64_t);
+constexpr std::size_t kSealNumberAt = kEncapsulationBytes + kSaltBytes;
+constexpr std::size_t kEncryptedAt = kSealNumberAt + sizeof(std::uint64_t);
 constexpr std::size_t kNonceBytes = 12;
 
 // Threads of Fast DDS seal until the process has ended: libcrypto must not take itself down in an exit handler before.
@@ -31,7 +31,7 @@ std::string PurposeOf(const std::string& topic) { return "swarmanoid message " +
 bool StartPayload(EVP_CIPHER_CTX& cipher, const char* payload)
 {
   std::uint64_t number = 0;
-  std::memcpy(&number, payload + kNumberAt, sizeof number);
+  std::memcpy(&number, payload + kSealNumberAt, sizeof number);
   return StartMessage(cipher, number, {payload, kEncryptedAt});
 }
 
@@ -85,7 +85,7 @@ void Sealer::Seal(std::span<char> payload, const WriterId& writer)
 {
   ++number_;
   std::memcpy(payload.data() + kEncapsulationBytes, salt_.data(), salt_.size());
-  std::memcpy(payload.data() + kNumberAt, &number_, sizeof number_);
+  std::memcpy(payload.data() + kSealNumberAt, &number_, sizeof number_);
   std::memcpy(payload.data() + kEncryptedAt, writer.data(), writer.size());
   char* const secret = payload.data() + kEncryptedAt;
   const std::size_t size = payload.size() - kEncryptedAt - kCodeBytes;
@@ -139,7 +139,7 @@ std::optional<Opener::Opened> Opener::Decrypt(EVP_CIPHER_CTX& cipher, std::span<
   if (!good) return std::nullopt;
   Opened opened{{}, SaltOf(payload), 0, {}};
   std::memcpy(opened.writer.data(), room.data(), kWriterBytes);
-  std::memcpy(&opened.number, payload.data() + kNumberAt, sizeof opened.number);
+  std::memcpy(&opened.number, payload.data() + kSealNumberAt, sizeof opened.number);
   char* const plain = room.data() + kWriterBytes - kEncapsulationBytes;
   std::memcpy(plain, payload.data(), kEncapsulationBytes);
   opened.payload = {plain, secret.size() - kWriterBytes + kEncapsulationBytes};
