@@ -84,6 +84,8 @@ public:
   void BeginAgain(std::uint64_t first_tick, std::uint32_t variation);
   // The current tick is the last one.
   void Finish() { last_ = true; }
+  // True if Finish was called, or the experiment functions ended the run.
+  bool IsFinished() const { return last_; }
   // Has experiment functions draw, if something changed since they did. Throws as Advance does.
   void Draw();
   // The states that go out have what they drew.

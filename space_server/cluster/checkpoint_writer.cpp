@@ -58,7 +58,10 @@ void CheckpointWriter::Save(const SpaceServer& server)
   SpaceSnapshot snapshot;
   server.WriteSnapshot(snapshot);
   const bool of_file = IsOfFile(snapshot.tick);
-  if (journal_ != nullptr) journal_->Add(snapshot);
+  // A run that goes on from a finished state would end at once. It goes on from the one before.
+  const bool of_journal = journal_ != nullptr && !server.IsFinished();
+  if (!of_file && !of_journal) return;
+  if (of_journal) journal_->Add(snapshot);
   ByteWriter state;
   try
   {
@@ -69,7 +72,7 @@ void CheckpointWriter::Save(const SpaceServer& server)
     if (of_file) throw;
     return;
   }
-  if (journal_ != nullptr) journal_->Add(snapshot.tick, {kServerPart, state.Bytes()});
+  if (of_journal) journal_->Add(snapshot.tick, {kServerPart, state.Bytes()});
   if (!of_file) return;
   const std::lock_guard lock(mutex_);
   Checkpoint& checkpoint = unfinished_[snapshot.tick];

@@ -32,8 +32,8 @@ def stat_of(pid):
     return int(parent), int(group), state
 
 
-def processes_of(pid):
-    """Those of the cluster of a launcher."""
+def children_of(pid):
+    """Of a launcher these are the processes of its cluster."""
     return [int(entry) for entry in os.listdir("/proc") if entry.isdigit() and (stat_of(entry) or (0,))[0] == pid]
 
 
@@ -47,7 +47,7 @@ def words_of(pid):
 def end(process):
     """Kills a process, if it still runs, with all that it started."""
     if process.poll() is None:
-        started = processes_of(process.pid)
+        started = children_of(process.pid)
         with contextlib.suppress(ProcessLookupError, PermissionError):
             if os.getpgid(process.pid) == process.pid:
                 os.killpg(process.pid, signal.SIGKILL)
@@ -71,7 +71,7 @@ class Run:
         """The process id of a program of the run, as soon as it is there."""
         deadline = time.monotonic() + timeout
         while time.monotonic() < deadline:
-            for pid in processes_of(self.process.pid):
+            for pid in children_of(self.process.pid):
                 words = words_of(pid)
                 if words and os.path.basename(words[0]) == program:
                     self.pids[program] = pid
@@ -150,7 +150,7 @@ class LauncherTest(unittest.TestCase):
 
     def kill_all(self, run):
         """All processes of a run die at once, as with their machine."""
-        pids = processes_of(run.process.pid)
+        pids = children_of(run.process.pid)
         run.process.kill()
         for pid in pids:
             with contextlib.suppress(ProcessLookupError):

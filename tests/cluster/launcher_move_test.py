@@ -3,7 +3,7 @@ import csv
 import os
 import signal
 
-from harness import CONFIGS, FINISHED, LauncherTest, main, processes_of, words_of
+from harness import CONFIGS, FINISHED, LauncherTest, children_of, main, words_of
 
 EXPERIMENT = CONFIGS / "diffusion_10.xml"
 TICKS = 2000
@@ -23,8 +23,8 @@ class Moves(LauncherTest):
             self.assertIn(text, answer.stderr)
 
     def pid_of(self, run, program, *words):
-        self.wait_until(program, lambda: any(os.path.basename((words_of(pid) or [""])[0]) == program for pid in processes_of(run.process.pid)), run)
-        return next(pid for pid in processes_of(run.process.pid)
+        self.wait_until(program, lambda: any(os.path.basename((words_of(pid) or [""])[0]) == program for pid in children_of(run.process.pid)), run)
+        return next(pid for pid in children_of(run.process.pid)
                     if os.path.basename((words_of(pid) or [""])[0]) == program and " ".join(words) in " ".join(words_of(pid)))
 
     def assert_undisturbed(self, run, experiment=EXPERIMENT):
@@ -120,7 +120,7 @@ class Moves(LauncherTest):
         self.assert_undisturbed(run, said)
 
     def hosts_of(self, run):
-        return sorted(words[words.index("--host") + 1] if "--host" in words else "0" for words in map(words_of, processes_of(run.process.pid))
+        return sorted(words[words.index("--host") + 1] if "--host" in words else "0" for words in map(words_of, children_of(run.process.pid))
                       if words and os.path.basename(words[0]) == "controller_host")
 
     def test_more_controller_hosts_and_fewer(self):

@@ -7,7 +7,7 @@ import shutil
 import signal
 import subprocess
 
-from harness import AT_ONCE_S, CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, end, main, processes_of, stat_of
+from harness import AT_ONCE_S, CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, children_of, end, main, stat_of
 
 EXPERIMENT = CONFIGS / "diffusion_10.xml"
 # Kills with a random moment each; by hand as many as one likes.
@@ -27,7 +27,7 @@ class OrphanTest(LauncherTest):
         run = self.start("run", experiment, "--ticks", TICKS, "--paused", "--hash-log", self.folder / "cluster", "--output",
                          self.folder / "out", "--quiet", *options)
         self.wait_for_experiment(experiment.stem)
-        return run, processes_of(run.process.pid)
+        return run, children_of(run.process.pid)
 
     def kill(self, run, pids):
         run.process.kill()
@@ -89,7 +89,7 @@ class Killed(OrphanTest):
         self.control("reset")
         self.wait_until("the next run", lambda: "reset-1" in self.run_it("list", "experiments", "--json").stdout, run)
         self.control("step", 300)
-        self.kill(run, processes_of(run.process.pid))
+        self.kill(run, children_of(run.process.pid))
         self.assert_resumed(self.undisturbed(), "out/reset-1")
 
     def test_a_stopped_process_ends_too(self):
@@ -106,7 +106,7 @@ class Killed(OrphanTest):
     def test_a_controller_that_does_not_return_ends_too(self):
         run = self.start("run", self.write_faulty("step_hangs", 50), "--output", "out")
         run.read_until("ControlStep at tick 50")
-        self.kill(run, processes_of(run.process.pid))
+        self.kill(run, children_of(run.process.pid))
         # The next run removes what it left.
         self.assertEqual(self.run_it("run", EXPERIMENT, "--ticks", 10, "--quiet").process.returncode, 0)
         self.assert_nothing_left(run)
@@ -135,7 +135,7 @@ class Terminal(OrphanTest):
         process = self.start_plainly(["setsid", "--ctty"], stdin=theirs, stdout=theirs, stderr=theirs)
         os.close(theirs)
         self.control("step", 500)
-        pids = processes_of(process.pid)
+        pids = children_of(process.pid)
         os.close(ours)
         process.wait(GENEROUS_S)
         self.assert_all_end(pids)

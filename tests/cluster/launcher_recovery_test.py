@@ -7,7 +7,7 @@ import shutil
 import signal
 import time
 
-from harness import CONFIGS, GENEROUS_S, LauncherTest, main, processes_of
+from harness import CONFIGS, GENEROUS_S, LauncherTest, children_of, main
 
 WORKERS = ["engine_worker", "controller_host", "visualiser"]
 PROGRAMS = ["engine_worker", "controller_host", "space_server"]
@@ -391,6 +391,21 @@ class Resumed(RecoveryTest):
                 self.assert_nothing_left(again)
 
 
+    def test_after_an_interrupt_at_a_tick_at_which_all_save_their_states(self):
+        expected = self.undisturbed(CONFIGS / "diffusion_10.xml", 300)
+        run = self.start("run", CONFIGS / "diffusion_10.xml", "--ticks", 300, "--paused", "--quiet", "--output", "out")
+        self.wait_for_experiment("diffusion_10")
+        self.control("step", 99)
+        time.sleep(0.6)  # they save them twice a second
+        self.control("step", 1)
+        run.process.send_signal(signal.SIGINT)
+        self.assertEqual(run.wait(), 130, run.stderr)
+        self.assert_finished(run, 100)
+        again = self.run_it("resume", "out", "--quiet")
+        self.assertEqual(again.process.returncode, 0, again.stderr)
+        self.assertEqual(self.assert_finished(again, 300), expected)
+
+
 class Soak(RecoveryTest):
     def newest(self):
         """The last tick of the hash log, which is cut where a run goes on."""
@@ -437,7 +452,7 @@ class Soak(RecoveryTest):
         for _ in range(ENDS):
             run = self.start("run", EXPERIMENT, "--ticks", ticks, "--hash-log", "cluster", "--output", "out", "--no-visualisers")
             run.find(PROGRAMS[-1])
-            processes = processes_of(run.process.pid)
+            processes = children_of(run.process.pid)
             self.wait_until("the last ticks", lambda: run.process.poll() is not None or self.newest() > 0.95 * ticks)
             time.sleep(seed.random() * 0.1)
             with contextlib.suppress(ProcessLookupError):

@@ -5,7 +5,7 @@ import shutil
 import subprocess
 import unittest
 
-from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, main, processes_of
+from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, children_of, main
 
 EXPERIMENT = CONFIGS / "diffusion_10.xml"
 NOBODY = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
@@ -38,8 +38,8 @@ class Security(LauncherTest):
         self.assertEqual(keys[0].parent.stat().st_mode & 0o777, 0o700)
         key = keys[0].read_text().strip()
         self.assertRegex(key, "^[0-9a-f]{64}$")
-        self.wait_until("all processes", lambda: len(processes_of(run.process.pid)) == 3)
-        for pid in [run.process.pid, *processes_of(run.process.pid)]:
+        self.wait_until("all processes", lambda: len(children_of(run.process.pid)) == 3)
+        for pid in [run.process.pid, *children_of(run.process.pid)]:
             for name in ("cmdline", "environ"):
                 self.assertNotIn(key, pathlib.Path(f"/proc/{pid}/{name}").read_bytes().decode(errors="replace"))
         self.resume()

@@ -9,7 +9,7 @@ import time
 import unittest
 
 import two_machines
-from harness import CONFIGS, GENEROUS_S, LauncherTest, main, processes_of, words_of
+from harness import CONFIGS, GENEROUS_S, LauncherTest, children_of, main, words_of
 
 EXPERIMENT = CONFIGS / "diffusion_1000.xml"
 REPLACED = "another process takes its place"
@@ -36,7 +36,7 @@ class SplitTest(LauncherTest):
         found = []
 
         def is_there():
-            for pid in processes_of(run.process.pid):
+            for pid in children_of(run.process.pid):
                 words = words_of(pid)
                 if "--region" in words and words[words.index("--region") + 1] == str(number) and pid not in dead:
                     found.append(pid)
@@ -46,7 +46,7 @@ class SplitTest(LauncherTest):
         return found[-1]
 
     def leader(self, run):
-        return next(pid for pid in processes_of(run.process.pid)
+        return next(pid for pid in children_of(run.process.pid)
                     if (words := words_of(pid)) and os.path.basename(words[0]) == "engine_worker" and "--region" not in words)
 
     def begin(self, ticks, *options, split=2, experiment=EXPERIMENT, before=()):
@@ -201,7 +201,7 @@ class WhoDies(SplitTest):
         killed = 0
         while killed < KILLS and run.process.poll() is None:
             time.sleep(seed.uniform(0, 0.6))
-            pids = [pid for pid in processes_of(run.process.pid)
+            pids = [pid for pid in children_of(run.process.pid)
                     if (words := words_of(pid)) and os.path.basename(words[0]) in ("engine_worker", "controller_host", "space_server")]
             for pid in seed.sample(pids, min(len(pids), seed.choice([1, 1, 1, 2]))):
                 try:

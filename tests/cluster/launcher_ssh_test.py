@@ -4,7 +4,7 @@ import os
 import pathlib
 import signal
 
-from harness import CONFIGS, LauncherTest, main, processes_of, words_of
+from harness import CONFIGS, LauncherTest, children_of, main, words_of
 from ssh_machines import Machines, require_servers
 
 BUILD = pathlib.Path(os.environ["SWARMANOID_BUILD"])
@@ -190,7 +190,7 @@ class Ssh(LauncherTest):
 
     def test_a_killed_ssh_is_named(self):
         run = self.endless()
-        ssh = next(pid for pid in processes_of(run.process.pid) if "alpha" in words_of(pid))
+        ssh = next(pid for pid in children_of(run.process.pid) if "alpha" in words_of(pid))
         os.kill(ssh, signal.SIGKILL)
         run.wait()
         self.assert_failed(run, "^engine 'ground' on alpha was killed by signal 9")

@@ -5,7 +5,7 @@ import subprocess
 import sys
 import unittest
 
-from harness import CONFIGS, LauncherTest, end, main, processes_of, stat_of, words_of
+from harness import CONFIGS, LauncherTest, children_of, end, main, stat_of, words_of
 
 SCENES = CONFIGS.parent / "tests" / "bench" / "scenes"
 
@@ -63,7 +63,7 @@ class Threads(LauncherTest):
             with self.subTest(options):
                 run = self.start("run", CONFIGS / "diffusion_1000.xml", "--paused", "--no-visualisers", "--output", f"out{number}", *options)
                 self.wait_for_experiment("diffusion_1000")
-                workers = [pid for pid in processes_of(run.process.pid)
+                workers = [pid for pid in children_of(run.process.pid)
                            if os.path.basename((words_of(pid) or [""])[0]) in ("space_server", "engine_worker", "controller_host")]
                 self.assertGreaterEqual(len(workers), 3)
                 cores = {frozenset(os.sched_getaffinity(pid)) for pid in workers}
