@@ -27,8 +27,8 @@ class Moves(LauncherTest):
         return next(pid for pid in children_of(run.process.pid)
                     if os.path.basename((words_of(pid) or [""])[0]) == program and " ".join(words) in " ".join(words_of(pid)))
 
-    def assert_undisturbed(self, run, experiment=EXPERIMENT):
-        self.assertEqual(run.wait(), 0, run.stderr)
+    def assert_undisturbed(self, run, said="", experiment=EXPERIMENT):
+        self.assertEqual(run.wait(), 0, said + run.stderr)
         hash_of_run = self.assert_finished(run)
         ticks = int(FINISHED.match(run.stdout.splitlines()[-1])[1])
         one = self.run_it("run", experiment, "--ticks", ticks, "--single-process", "--quiet", "--hash-log", "one", "--output", "one_out")
