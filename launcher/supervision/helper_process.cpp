@@ -18,7 +18,7 @@
 namespace swarmanoid
 {
 
-HelperProcess::Child(std::vector<std::string> words, const std::string& errors)
+HelperProcess::HelperProcess(std::vector<std::string> words, const std::string& errors)
 {
   const FileDescriptor file(open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
   if (!file.IsOpen())
