@@ -18,7 +18,7 @@ namespace
 {
 
 // What a machine has been given lasts about so long, in seconds, but is no more than so many runs of a core.
-constexpr double kOrdersAhead_s = 0.5;
+constexpr double kJobsAhead_s = 0.5;
 constexpr double kMostAhead = 50;
 // Until it has loaded all experiments, a machine is silent.
 constexpr std::chrono::seconds kPatienceAtStart(600);
@@ -209,7 +209,7 @@ void HostPool::TakeOutcome(Machine& machine, ByteReader& bytes, std::vector<RunO
     notes_.push_back(
         fmt::format("run {}: '{}' is too large to come back from {}", outcome.name.Text(), name, machine.name));
   outcome.host = IsThisMachine(machine.name) ? NameOfThisHost() : machine.name;
-  const double ahead = outcome.wall_s > 0 ? kOrdersAhead_s / outcome.wall_s : kMostAhead;
+  const double ahead = outcome.wall_s > 0 ? kJobsAhead_s / outcome.wall_s : kMostAhead;
   orders_of_slot_ = 1 + static_cast<std::size_t>(std::min(ahead, kMostAhead));
   outcomes.push_back(std::move(outcome));
 }

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostOfFile = 1ULL << 32U;
 
-std::string OrdersFile(const std::string& folder, std::size_t task) { return fmt::format("{}/jobs-{}", folder, task); }
+std::string JobsFile(const std::string& folder, std::size_t task) { return fmt::format("{}/jobs-{}", folder, task); }
 std::string ResultsFolder(const std::string& folder) { return folder + "/results"; }
 std::string LogOfTask(const std::string& folder, std::size_t task)
 {
@@ -104,7 +104,7 @@ SlurmBatch SlurmBatch::Create(const std::string& study_folder, const std::vector
       jobs[k].Write(bytes);
       batch.outstanding_[task].push_back(jobs[k].name);
     }
-    WriteWhole(OrdersFile(batch.folder_, task), Framed(bytes.Bytes()));
+    WriteWhole(JobsFile(batch.folder_, task), Framed(bytes.Bytes()));
   }
   const std::string script =
       fmt::format("#!/bin/sh\nexec {} {}{} {} \"$SLURM_ARRAY_TASK_ID\"\n", ShellWord(OwnProgram()), kStudyWorkerFlag,
@@ -130,7 +130,7 @@ std::vector<SlurmBatch> SlurmBatch::FindAll(const std::string& study_folder)
     // One that was never handed to Slurm, or is done, has nothing that counts.
     std::ifstream job(batch.folder_ + "/job");
     if (!(job >> batch.job_)) continue;
-    for (std::size_t task = 0; fs::exists(OrdersFile(batch.folder_, task), none); ++task)
+    for (std::size_t task = 0; fs::exists(JobsFile(batch.folder_, task), none); ++task)
       for (const RunJob& job : ReadJobs(batch.folder_, task)) batch.outstanding_[task].push_back(job.name);
     for (fs::directory_iterator result(ResultsFolder(batch.folder_), none); result != end; result.increment(none))
       if (const auto name = NameOfResult(result->path().filename().string()))
@@ -218,7 +218,7 @@ std::vector<char> SlurmBatch::ReadSetup(const std::string& folder) { return Read
 
 std::vector<RunJob> SlurmBatch::ReadJobs(const std::string& folder, std::size_t task)
 {
-  const std::vector<char> content = ReadWholeFile(OrdersFile(folder, task));
+  const std::vector<char> content = ReadWholeFile(JobsFile(folder, task));
   ByteReader bytes(content);
   std::vector<RunJob> jobs;
   for (auto count = bytes.Get<std::uint64_t>(); count > 0; --count) jobs.push_back(RunJob::Read(bytes));

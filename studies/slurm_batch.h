@@ -19,7 +19,7 @@ public:
   // Writes the files of a new batch; not its job yet. Throws std::runtime_error that names the file.
   static SlurmBatch Create(const std::string& study_folder, const std::vector<char>& setup,
                            const std::vector<RunJob>& jobs, std::size_t runs_per_task);
-  // Those that are there, in job.
+  // Those that are there, in order.
   static std::vector<SlurmBatch> FindAll(const std::string& study_folder);
 
   const std::string& Job() const { return job_; }
