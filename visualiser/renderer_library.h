@@ -12,7 +12,7 @@
 namespace swarmanoid
 {
 
-inline constexpr const char* kWebPackages = "nodejs npm libboost-dev";
+inline constexpr const char* kWebPackages = "esbuild gzip nlohmann-json3-dev";
 
 // A factory that loads lib<swarmanoid_NAME>.so from the folder swarmanoid beside our own libraries and makes its
 // renderer. `packages`: the Debian packages without which the build leaves it out. The factory throws

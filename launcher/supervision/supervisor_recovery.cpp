@@ -7,13 +7,13 @@
 
 #include "launcher/supervision/process_state.h"
 #include "launcher/supervision/supervisor.h"
+#include "space_server/worker_places.h"
 
 namespace swarmanoid
 {
 namespace
 {
 
-constexpr const char* kLocalMachine = "here";  // in status lines
 
 }  // namespace
 
@@ -162,7 +162,7 @@ void Supervisor::Move(const ServerMove& move)
   for (const auto& member : members_)
   {
     if (member->Name() != move.name || !member->Alive() || !member->Plan().place) continue;
-    moves_[move.name] = move.machine == kLocalMachine ? "" : move.machine;
+    moves_[move.name] = move.machine == kHere ? "" : move.machine;
     spawner_.Signal(member->Process(), SIGKILL);
   }
 }
@@ -178,7 +178,7 @@ void Supervisor::ShareOut(const std::vector<std::string>& machines)
     const auto before = std::find_if(members_.begin(), members_.end(),
                                      [&](const auto& member) { return member->Name() == plan.command.name; });
     if (before != members_.end()) plan.host = (*before)->Plan().host;
-    if (plan.may_fail) plan.host = machines[host] == kLocalMachine ? "" : machines[host];
+    if (plan.may_fail) plan.host = machines[host] == kHere ? "" : machines[host];
     host += plan.may_fail ? 1 : 0;
     plan.place(plan.host);
   }
