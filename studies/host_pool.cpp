@@ -18,7 +18,7 @@ namespace
 {
 
 // What a machine has been given lasts about so long, in seconds, but is no more than so many runs of a core.
-constexpr double kJobsAhead_s = 0.5;
+constexpr double kOrdersAhead_s = 0.5;
 constexpr double kMostAhead = 50;
 // Until it has loaded all experiments, a machine is silent.
 constexpr std::chrono::seconds kPatienceAtStart(600);
@@ -56,7 +56,7 @@ HostPool::~HostPool()
 std::size_t HostPool::RoomOf(const Machine& machine) const
 {
   const std::size_t most = machine.connection ? machine.slots * orders_of_slot_ : 0;
-  return most - std::min(most, machine.jobs.size());
+  return most - std::min(most, machine.orders.size());
 }
 
 bool HostPool::HasRoom() const
@@ -65,9 +65,9 @@ bool HostPool::HasRoom() const
          std::any_of(machines_.begin(), machines_.end(), [&](const Machine& machine) { return RoomOf(machine) > 0; });
 }
 
-void HostPool::Give(RunJob job)
+void HostPool::Give(RunOrder order)
 {
-  waiting_.push_back(std::move(job));
+  waiting_.push_back(std::move(order));
   Distribute();
 }
 
@@ -79,13 +79,13 @@ void HostPool::Distribute()
     Machine* best = nullptr;
     for (Machine& machine : machines_)
       if (RoomOf(machine) > 0 &&
-          (best == nullptr || machine.jobs.size() * best->slots < best->jobs.size() * machine.slots))
+          (best == nullptr || machine.orders.size() * best->slots < best->orders.size() * machine.slots))
         best = &machine;
     if (best == nullptr) return;
     ByteWriter bytes;
     waiting_.front().Write(bytes);
-    best->connection->Send(StudyMessage::kJob, bytes.Bytes());
-    best->jobs.push_back(std::move(waiting_.front()));
+    best->connection->Send(StudyMessage::kOrder, bytes.Bytes());
+    best->orders.push_back(std::move(waiting_.front()));
     waiting_.pop_front();
   }
 }
@@ -93,15 +93,15 @@ void HostPool::Distribute()
 bool HostPool::IsIdle() const
 {
   return waiting_.empty() &&
-         std::all_of(machines_.begin(), machines_.end(), [](const Machine& machine) { return machine.jobs.empty(); });
+         std::all_of(machines_.begin(), machines_.end(), [](const Machine& machine) { return machine.orders.empty(); });
 }
 
 std::vector<RunningRun> HostPool::Running() const
 {
   std::vector<RunningRun> runs;
   for (const Machine& machine : machines_)
-    for (std::size_t i = 0; i < std::min<std::size_t>(machine.jobs.size(), machine.slots); ++i)
-      runs.push_back({machine.jobs[i].name, machine.name});
+    for (std::size_t i = 0; i < std::min<std::size_t>(machine.orders.size(), machine.slots); ++i)
+      runs.push_back({machine.orders[i].name, machine.name});
   return runs;
 }
 
@@ -183,7 +183,7 @@ void HostPool::Take(Machine& machine, const std::vector<char>& message, std::vec
     case StudyMessage::kOutcome:
       return TakeOutcome(machine, bytes, outcomes);
     case StudyMessage::kSetup:
-    case StudyMessage::kJob:
+    case StudyMessage::kOrder:
     case StudyMessage::kStillHere:
       return;
   }
@@ -193,10 +193,10 @@ void HostPool::TakeOutcome(Machine& machine, ByteReader& bytes, std::vector<RunO
 {
   RunOutcome outcome = RunOutcome::Read(bytes);
   const RunFiles files = RunFiles::Read(bytes);
-  const auto job = std::find_if(machine.jobs.begin(), machine.jobs.end(),
-                                [&](const RunJob& one) { return one.name == outcome.name; });
-  if (job == machine.jobs.end()) return;
-  machine.jobs.erase(job);
+  const auto order = std::find_if(machine.orders.begin(), machine.orders.end(),
+                                  [&](const RunOrder& one) { return one.name == outcome.name; });
+  if (order == machine.orders.end()) return;
+  machine.orders.erase(order);
   try
   {
     files.Keep(folder_ + "/runs/" + outcome.name.Text());
@@ -209,7 +209,7 @@ void HostPool::TakeOutcome(Machine& machine, ByteReader& bytes, std::vector<RunO
     notes_.push_back(
         fmt::format("run {}: '{}' is too large to come back from {}", outcome.name.Text(), name, machine.name));
   outcome.host = IsThisMachine(machine.name) ? NameOfThisHost() : machine.name;
-  const double ahead = outcome.wall_s > 0 ? kJobsAhead_s / outcome.wall_s : kMostAhead;
+  const double ahead = outcome.wall_s > 0 ? kOrdersAhead_s / outcome.wall_s : kMostAhead;
   orders_of_slot_ = 1 + static_cast<std::size_t>(std::min(ahead, kMostAhead));
   outcomes.push_back(std::move(outcome));
 }
@@ -220,13 +220,13 @@ void HostPool::Lose(Machine& machine, const std::string& reason)
   machine.connection->Close();
   leaving_.push_back(std::move(machine.connection));
   notes_.push_back(fmt::format("{} is left out: {}{}", machine.name, reason,
-                               machine.jobs.empty() ? ""
-                               : Interrupted()      ? "; its runs are given up"
-                                                    : "; its runs go to the others"));
+                               machine.orders.empty() ? ""
+                               : Interrupted()        ? "; its runs are given up"
+                                                      : "; its runs go to the others"));
   if (!Interrupted())
-    waiting_.insert(waiting_.begin(), std::make_move_iterator(machine.jobs.begin()),
-                    std::make_move_iterator(machine.jobs.end()));
-  machine.jobs.clear();
+    waiting_.insert(waiting_.begin(), std::make_move_iterator(machine.orders.begin()),
+                    std::make_move_iterator(machine.orders.end()));
+  machine.orders.clear();
 }
 
 }  // namespace swarmanoid

@@ -1,4 +1,4 @@
-// Other machines that run a study, each reached by a process of its own (ssh). The jobs of one that is lost go to the
+// Other machines that run a study, each reached by a process of its own (ssh). The orders of one that is lost go to the
 // others. One thread.
 #pragma once
 
@@ -23,7 +23,7 @@ public:
   ~HostPool() override;
 
   bool HasRoom() const override;
-  void Give(RunJob job) override;
+  void Give(RunOrder order) override;
   bool IsIdle() const override;
   std::vector<RunOutcome> Wait(std::chrono::milliseconds longest) override;
   std::vector<RunningRun> Running() const override;
@@ -36,7 +36,7 @@ private:
     std::string name;
     std::unique_ptr<HostConnection> connection;  // none: it is lost
     unsigned slots = 0;                          // 0 until it is ready
-    std::deque<RunJob> jobs;
+    std::deque<RunOrder> orders;
     std::string lost_by;
   };
 
@@ -51,7 +51,7 @@ private:
   std::chrono::seconds lease_;
   std::vector<Machine> machines_;
   std::vector<std::unique_ptr<HostConnection>> leaving_;  // of lost machines, which are waited for at the end
-  std::deque<RunJob> waiting_;                            // for a machine
+  std::deque<RunOrder> waiting_;                          // for a machine
   std::size_t orders_of_slot_ = 1;  // more if runs are short, so that no machine waits for the network
   std::vector<std::string> notes_;
 };

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/run_job.h"
+#include "studies/run_order.h"
 
 namespace swarmanoid
 {
@@ -34,7 +34,7 @@ public:
 
   // Whether it takes another run.
   virtual bool HasRoom() const = 0;
-  virtual void Give(RunJob job) = 0;
+  virtual void Give(RunOrder order) = 0;
   // Whether all runs that it took have their outcome, or were given up because the user interrupted.
   virtual bool IsIdle() const = 0;
   // Waits for some, but not for longer. Throws RunPlaceError.

@@ -71,7 +71,7 @@ bool ReadWhole(int socket, char* into, std::size_t count)
     if (!ReadWhole(socket, bytes.data(), size)) break;
     ByteReader reader(bytes);
     ByteWriter answer;
-    RunInCopy(study, folder, RunJob::Read(reader)).Write(answer);
+    RunInCopy(study, folder, RunOrder::Read(reader)).Write(answer);
     if (!SendFrame(socket, answer)) break;
   }
   LeaveAtOnce(0);
@@ -148,37 +148,37 @@ std::size_t RunPool::FreeWorker() const
       peak_bytes_ == 0 ? workers_.size() : std::max<std::uint64_t>(1, memory_bytes_ / peak_bytes_);
   std::size_t best = workers_.size();
   for (std::size_t w = 0; w < std::min<std::size_t>(workers_.size(), fitting); ++w)
-    if (workers_[w].jobs.size() < orders_of_worker_ &&
-        (best == workers_.size() || workers_[w].jobs.size() < workers_[best].jobs.size()))
+    if (workers_[w].orders.size() < orders_of_worker_ &&
+        (best == workers_.size() || workers_[w].orders.size() < workers_[best].orders.size()))
       best = w;
   return best;
 }
 
-void RunPool::Give(RunJob job)
+void RunPool::Give(RunOrder order)
 {
   Worker& worker = workers_[FreeWorker()];
-  Send(worker, job);
-  worker.jobs.push_back(std::move(job));
+  Send(worker, order);
+  worker.orders.push_back(std::move(order));
 }
 
 // One that has died is noticed when its answer is waited for.
-void RunPool::Send(Worker& worker, const RunJob& job)
+void RunPool::Send(Worker& worker, const RunOrder& order)
 {
   ByteWriter bytes;
-  job.Write(bytes);
+  order.Write(bytes);
   SendFrame(worker.socket, bytes);
 }
 
 bool RunPool::IsIdle() const
 {
-  return std::all_of(workers_.begin(), workers_.end(), [](const Worker& worker) { return worker.jobs.empty(); });
+  return std::all_of(workers_.begin(), workers_.end(), [](const Worker& worker) { return worker.orders.empty(); });
 }
 
 std::vector<RunningRun> RunPool::Running() const
 {
   std::vector<RunningRun> runs;
   for (const Worker& worker : workers_)
-    if (!worker.jobs.empty()) runs.push_back({worker.jobs.front().name, ""});
+    if (!worker.orders.empty()) runs.push_back({worker.orders.front().name, ""});
   return runs;
 }
 
@@ -223,7 +223,7 @@ void RunPool::TakeOutcomes(Worker& worker, std::vector<RunOutcome>& outcomes)
     orders_of_worker_ = outcomes.back().wall_s < kShortRun_s ? 2 : 1;
     const auto end = worker.received.begin() + static_cast<std::ptrdiff_t>(sizeof size + size);
     worker.received.erase(worker.received.begin(), end);
-    worker.jobs.pop_front();
+    worker.orders.pop_front();
   }
 }
 
@@ -235,18 +235,18 @@ void RunPool::Bury(Worker& worker, std::vector<RunOutcome>& outcomes)
   close(worker.socket);
   worker.socket = -1;
   worker.received.clear();
-  if (!worker.jobs.empty())
+  if (!worker.orders.empty())
   {
     RunOutcome& outcome = outcomes.emplace_back();
-    outcome.name = worker.jobs.front().name;
+    outcome.name = worker.orders.front().name;
     outcome.exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : static_cast<int>(kExitProcessFailed);
     outcome.failure = WIFSIGNALED(status) ? fmt::format("its process was killed by signal {} ({})", WTERMSIG(status),
                                                         strsignal(WTERMSIG(status)))
                                           : "its process ended while it read the experiment";
-    worker.jobs.pop_front();
+    worker.orders.pop_front();
   }
   Start(worker);
-  for (const RunJob& job : worker.jobs) Send(worker, job);
+  for (const RunOrder& order : worker.orders) Send(worker, order);
 }
 
 }  // namespace swarmanoid

@@ -24,7 +24,7 @@ public:
   // Whether some process takes another run. Those that would need more memory than there is, as their largest
   // predecessor did, wait until others have ended.
   bool HasRoom() const override { return FreeWorker() != workers_.size(); }
-  void Give(RunJob job) override;
+  void Give(RunOrder order) override;
   bool IsIdle() const override;
   std::vector<RunOutcome> Wait(std::chrono::milliseconds longest) override { return Wait(longest, -1); }
   // The same, but no longer than until there is something to read from `input`.
@@ -37,13 +37,13 @@ private:
   {
     pid_t process = -1;
     int socket = -1;
-    std::deque<RunJob> jobs;  // the first one runs
+    std::deque<RunOrder> orders;  // the first one runs
     std::vector<char> received;
   };
 
   std::size_t FreeWorker() const;
   void Start(Worker& worker);
-  void Send(Worker& worker, const RunJob& job);
+  void Send(Worker& worker, const RunOrder& order);
   bool Receive(Worker& worker);
   void TakeOutcomes(Worker& worker, std::vector<RunOutcome>& outcomes);
   void Bury(Worker& worker, std::vector<RunOutcome>& outcomes);

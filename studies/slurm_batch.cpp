@@ -31,7 +31,10 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostOfFile = 1ULL << 32U;
 
-std::string JobsFile(const std::string& folder, std::size_t task) { return fmt::format("{}/jobs-{}", folder, task); }
+std::string OrdersFile(const std::string& folder, std::size_t task)
+{
+  return fmt::format("{}/orders-{}", folder, task);
+}
 std::string ResultsFolder(const std::string& folder) { return folder + "/results"; }
 std::string LogOfTask(const std::string& folder, std::size_t task)
 {
@@ -84,7 +87,7 @@ std::optional<RunName> NameOfResult(const std::string& file)
 }  // namespace
 
 SlurmBatch SlurmBatch::Create(const std::string& study_folder, const std::vector<char>& setup,
-                              const std::vector<RunJob>& jobs, std::size_t runs_per_task)
+                              const std::vector<RunOrder>& orders, std::size_t runs_per_task)
 {
   std::error_code error;
   const std::string all = fs::absolute(study_folder, error).lexically_normal() / "slurm";
@@ -94,17 +97,17 @@ SlurmBatch SlurmBatch::Create(const std::string& study_folder, const std::vector
   fs::create_directories(ResultsFolder(batch.folder_), error);
   if (error) throw std::runtime_error(fmt::format("cannot make the folder '{}': {}", batch.folder_, error.message()));
   WriteWhole(batch.folder_ + "/setup", Framed(setup));
-  for (std::size_t first = 0, task = 0; first < jobs.size(); first += runs_per_task, ++task)
+  for (std::size_t first = 0, task = 0; first < orders.size(); first += runs_per_task, ++task)
   {
     ByteWriter bytes;
-    const std::size_t end = std::min(first + runs_per_task, jobs.size());
+    const std::size_t end = std::min(first + runs_per_task, orders.size());
     bytes.Put(static_cast<std::uint64_t>(end - first));
     for (std::size_t k = first; k < end; ++k)
     {
-      jobs[k].Write(bytes);
-      batch.outstanding_[task].push_back(jobs[k].name);
+      orders[k].Write(bytes);
+      batch.outstanding_[task].push_back(orders[k].name);
     }
-    WriteWhole(JobsFile(batch.folder_, task), Framed(bytes.Bytes()));
+    WriteWhole(OrdersFile(batch.folder_, task), Framed(bytes.Bytes()));
   }
   const std::string script =
       fmt::format("#!/bin/sh\nexec {} {}{} {} \"$SLURM_ARRAY_TASK_ID\"\n", ShellWord(OwnProgram()), kStudyWorkerFlag,
@@ -130,8 +133,8 @@ std::vector<SlurmBatch> SlurmBatch::FindAll(const std::string& study_folder)
     // One that was never handed to Slurm, or is done, has nothing that counts.
     std::ifstream job(batch.folder_ + "/job");
     if (!(job >> batch.job_)) continue;
-    for (std::size_t task = 0; fs::exists(JobsFile(batch.folder_, task), none); ++task)
-      for (const RunJob& job : ReadJobs(batch.folder_, task)) batch.outstanding_[task].push_back(job.name);
+    for (std::size_t task = 0; fs::exists(OrdersFile(batch.folder_, task), none); ++task)
+      for (const RunOrder& order : ReadOrders(batch.folder_, task)) batch.outstanding_[task].push_back(order.name);
     for (fs::directory_iterator result(ResultsFolder(batch.folder_), none); result != end; result.increment(none))
       if (const auto name = NameOfResult(result->path().filename().string()))
         if (fs::file_size(result->path(), none) == 0) batch.Settle(*name);
@@ -216,13 +219,13 @@ void SlurmBatch::KeepLogOfTask(std::size_t task, const RunName& name) const
 
 std::vector<char> SlurmBatch::ReadSetup(const std::string& folder) { return ReadWholeFile(folder + "/setup"); }
 
-std::vector<RunJob> SlurmBatch::ReadJobs(const std::string& folder, std::size_t task)
+std::vector<RunOrder> SlurmBatch::ReadOrders(const std::string& folder, std::size_t task)
 {
-  const std::vector<char> content = ReadWholeFile(JobsFile(folder, task));
+  const std::vector<char> content = ReadWholeFile(OrdersFile(folder, task));
   ByteReader bytes(content);
-  std::vector<RunJob> jobs;
-  for (auto count = bytes.Get<std::uint64_t>(); count > 0; --count) jobs.push_back(RunJob::Read(bytes));
-  return jobs;
+  std::vector<RunOrder> orders;
+  for (auto count = bytes.Get<std::uint64_t>(); count > 0; --count) orders.push_back(RunOrder::Read(bytes));
+  return orders;
 }
 
 bool SlurmBatch::HasResult(const std::string& folder, const RunName& name)

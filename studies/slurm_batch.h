@@ -1,6 +1,6 @@
 // The files of one array of Slurm's tasks, in `slurm/` of the study's folder, which all machines see: what each task
 // has to run, and the results, each whole or not at all. The process that writes the study makes and removes them;
-// tasks read their jobs and write results.
+// tasks read their orders and write results.
 #pragma once
 
 #include <map>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/run_job.h"
+#include "studies/run_order.h"
 
 namespace swarmanoid
 {
@@ -18,7 +18,7 @@ class SlurmBatch
 public:
   // Writes the files of a new batch; not its job yet. Throws std::runtime_error that names the file.
   static SlurmBatch Create(const std::string& study_folder, const std::vector<char>& setup,
-                           const std::vector<RunJob>& jobs, std::size_t runs_per_task);
+                           const std::vector<RunOrder>& orders, std::size_t runs_per_task);
   // Those that are there, in order.
   static std::vector<SlurmBatch> FindAll(const std::string& study_folder);
 
@@ -42,7 +42,7 @@ public:
 
   // In a task. Both throw std::runtime_error.
   static std::vector<char> ReadSetup(const std::string& folder);
-  static std::vector<RunJob> ReadJobs(const std::string& folder, std::size_t task);
+  static std::vector<RunOrder> ReadOrders(const std::string& folder, std::size_t task);
   static void WriteResult(const std::string& folder, const RunOutcome& outcome);
   // Whether there was one already, taken or not: Slurm may start a task twice.
   static bool HasResult(const std::string& folder, const RunName& name);

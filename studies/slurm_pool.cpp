@@ -45,12 +45,12 @@ SlurmPool::SlurmPool(SlurmChoice choice, std::vector<char> setup, std::string st
   for (SlurmBatch& batch : SlurmBatch::FindAll(folder_)) jobs_.push_back({std::move(batch), {}, {}});
 }
 
-void SlurmPool::Give(RunJob job)
+void SlurmPool::Give(RunOrder order)
 {
   for (const Job& job : jobs_)
     for (const auto& [task, names] : job.batch.Outstanding())
-      if (std::find(names.begin(), names.end(), job.name) != names.end()) return;
-  collected_.push_back(std::move(job));
+      if (std::find(names.begin(), names.end(), order.name) != names.end()) return;
+  collected_.push_back(std::move(order));
 }
 
 bool SlurmPool::IsIdle() const
@@ -69,8 +69,8 @@ void SlurmPool::Submit()
     {
       const auto end =
           collected_.begin() + static_cast<std::ptrdiff_t>(std::min(collected_.size(), per_task * kMostTasks));
-      const std::vector<RunJob> jobs(collected_.begin(), end);
-      SlurmBatch batch = SlurmBatch::Create(folder_, setup_, jobs, per_task);
+      const std::vector<RunOrder> orders(collected_.begin(), end);
+      SlurmBatch batch = SlurmBatch::Create(folder_, setup_, orders, per_task);
       std::string job;
       try
       {
@@ -85,7 +85,7 @@ void SlurmPool::Submit()
         throw;
       }
       notes_.push_back(
-          fmt::format("job {} of Slurm: {} runs in {} tasks", batch.Job(), jobs.size(), batch.Outstanding().size()));
+          fmt::format("job {} of Slurm: {} runs in {} tasks", batch.Job(), orders.size(), batch.Outstanding().size()));
       collected_.erase(collected_.begin(), end);
       jobs_.push_back({std::move(batch), {}, {}});
     }

@@ -29,7 +29,7 @@ public:
   SlurmPool(SlurmChoice choice, std::vector<char> setup, std::string study_folder);
 
   bool HasRoom() const override { return true; }
-  void Give(RunJob job) override;
+  void Give(RunOrder order) override;
   bool IsIdle() const override;
   // Submits what was given since the last call. After an interrupt it cancels the jobs.
   std::vector<RunOutcome> Wait(std::chrono::milliseconds longest) override;
@@ -57,7 +57,7 @@ private:
   SlurmChoice choice_;
   std::vector<char> setup_;
   std::string folder_;
-  std::vector<RunJob> collected_;
+  std::vector<RunOrder> collected_;
   std::vector<Job> jobs_;
   Clock::time_point next_look_, next_question_;
   bool is_silent_ = false;  // Slurm, and that was told

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "studies/design.h"
-#include "studies/run_job.h"
+#include "studies/run_order.h"
 #include "studies/study_database.h"
 
 namespace swarmanoid

@@ -127,7 +127,7 @@ void RunWhatComes(StudyLine& line, const Study& study, const std::string& folder
   ByteWriter ready;
   ready.Put(static_cast<std::uint32_t>(jobs));
   bool goes_on = line.Send(StudyMessage::kReady, ready);
-  std::deque<RunJob> waiting;
+  std::deque<RunOrder> waiting;
   while (goes_on && !Interrupted())
   {
     for (; !waiting.empty() && pool.HasRoom(); waiting.pop_front()) pool.Give(waiting.front());
@@ -136,7 +136,7 @@ void RunWhatComes(StudyLine& line, const Study& study, const std::string& folder
     while (auto content = line.Next())
     {
       ByteReader bytes(*content);
-      if (KindOf(bytes) == StudyMessage::kJob) waiting.push_back(RunJob::Read(bytes));
+      if (KindOf(bytes) == StudyMessage::kOrder) waiting.push_back(RunOrder::Read(bytes));
     }
     if (goes_on && line.IsDue()) goes_on = line.Send(StudyMessage::kStillHere);
   }
@@ -233,12 +233,12 @@ int RunTask(const std::string& folder, std::size_t task)
   RegisterBuiltins();
   const std::unique_ptr<Study> study = TakeUp(SlurmBatch::ReadSetup(folder));
   const std::string study_folder = std::filesystem::path(folder).parent_path().parent_path();
-  const std::vector<RunJob> jobs = SlurmBatch::ReadJobs(folder, task);
+  const std::vector<RunOrder> orders = SlurmBatch::ReadOrders(folder, task);
   RunPool pool(*study, study_folder, study->cluster ? 1 : CoresOfTask());
-  for (std::size_t next = 0; next < jobs.size() || !pool.IsIdle();)
+  for (std::size_t next = 0; next < orders.size() || !pool.IsIdle();)
   {
-    for (; next < jobs.size() && pool.HasRoom(); ++next)
-      if (!SlurmBatch::HasResult(folder, jobs[next].name)) pool.Give(jobs[next]);
+    for (; next < orders.size() && pool.HasRoom(); ++next)
+      if (!SlurmBatch::HasResult(folder, orders[next].name)) pool.Give(orders[next]);
     for (RunOutcome& outcome : pool.Wait(1s))
     {
       outcome.host = NameOfThisHost();

@@ -19,7 +19,7 @@ int RunStudyWorker(const std::vector<std::string>& words);
 enum class StudyMessage : std::uint8_t
 {
   kSetup,      // to the worker: seconds of the lease (u32), runs at a time (u32; 0: as many as cores), the setup
-  kJob,      // to the worker: a RunJob
+  kOrder,      // to the worker: a RunOrder
   kStillHere,  // both ways, so that the other one is known to be there
   kReady,      // from the worker: runs at a time (u32)
   kRefused,    // from the worker: why

@@ -1,4 +1,4 @@
-#include "studies/run_job.h"
+#include "studies/run_order.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -33,11 +33,11 @@ namespace fs = std::filesystem;
 
 constexpr const char* kLogOfRun = "log.txt";
 
-LoadOptions ChangesFor(const RunJob& job)
+LoadOptions ChangesFor(const RunOrder& order)
 {
   LoadOptions changes;
-  changes.settings = job.settings;
-  changes.settings.emplace_back("framework.seed", std::to_string(job.name.seed));
+  changes.settings = order.settings;
+  changes.settings.emplace_back("framework.seed", std::to_string(order.name.seed));
   return changes;
 }
 
@@ -60,12 +60,12 @@ void RunHereMeasured(const Study& study, const std::string& folder, const Experi
   outcome.samples = recorder.Take();
 }
 
-void RunClusterMeasured(const Study& study, const std::string& folder, const RunJob& job, const Experiment& experiment,
-                        RunOutcome& outcome)
+void RunClusterMeasured(const Study& study, const std::string& folder, const RunOrder& order,
+                        const Experiment& experiment, RunOutcome& outcome)
 {
   const std::string own = folder + "/cluster";
-  std::vector<std::string> words{"swarmanoid", job.experiment, "--output", own, "--quiet"};
-  for (const auto& [path, value] : ChangesFor(job).settings) words.insert(words.end(), {"--set", path + "=" + value});
+  std::vector<std::string> words{"swarmanoid", order.experiment, "--output", own, "--quiet"};
+  for (const auto& [path, value] : ChangesFor(order).settings) words.insert(words.end(), {"--set", path + "=" + value});
   if (!study.visualisations) words.emplace_back("--no-visualisers");
   words.insert(words.end(), {"--controller-hosts", std::to_string(study.controller_hosts)});
   std::vector<char*> arguments;
@@ -86,14 +86,14 @@ void RunClusterMeasured(const Study& study, const std::string& folder, const Run
 }
 
 // In the copy of the process. What is wrong is told on standard error, which is the log of the run.
-[[noreturn]] void RunAndLeave(const Study& study, const std::string& folder, const RunJob& job,
+[[noreturn]] void RunAndLeave(const Study& study, const std::string& folder, const RunOrder& order,
                               const Experiment& experiment, int log, int result)
 {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   dup2(log, STDOUT_FILENO);
   dup2(log, STDERR_FILENO);
   RunOutcome outcome;
-  outcome.name = job.name;
+  outcome.name = order.name;
   const auto failed = [&](int code, const std::string& text)
   {
     PrintError("{}\n", text);
@@ -105,7 +105,7 @@ void RunClusterMeasured(const Study& study, const std::string& folder, const Run
     ReportDeaths("swarmanoid");
     ApplyLimits(LimitsOfEnvironment());
     if (study.cluster)
-      RunClusterMeasured(study, folder, job, experiment, outcome);
+      RunClusterMeasured(study, folder, order, experiment, outcome);
     else
       RunHereMeasured(study, folder, experiment, outcome);
   }
@@ -173,14 +173,14 @@ void Tidy(const std::string& folder, bool done)
   rmdir(folder.c_str());  // if it is empty
 }
 
-void RunLoaded(const Study& study, const std::string& folder, const RunJob& job, const Experiment& experiment,
+void RunLoaded(const Study& study, const std::string& folder, const RunOrder& order, const Experiment& experiment,
                RunOutcome& outcome)
 {
   const std::string log_path = folder + "/" + kLogOfRun;
   const int log = open(log_path.c_str(), O_CREAT | O_WRONLY | O_APPEND | O_CLOEXEC, 0666);
   const int result = memfd_create("run", MFD_CLOEXEC);
   const pid_t process = log < 0 || result < 0 ? -1 : fork();
-  if (process == 0) RunAndLeave(study, folder, job, experiment, log, result);
+  if (process == 0) RunAndLeave(study, folder, order, experiment, log, result);
   if (process < 0)
   {
     outcome.exit_code = kExitProcessFailed;
@@ -211,7 +211,7 @@ void RunLoaded(const Study& study, const std::string& folder, const RunJob& job,
 
 }  // namespace
 
-void RunJob::Write(ByteWriter& bytes) const
+void RunOrder::Write(ByteWriter& bytes) const
 {
   bytes.Put(name.point);
   bytes.Put(name.seed);
@@ -224,18 +224,18 @@ void RunJob::Write(ByteWriter& bytes) const
   }
 }
 
-RunJob RunJob::Read(ByteReader& bytes)
+RunOrder RunOrder::Read(ByteReader& bytes)
 {
-  RunJob job;
-  job.name.point = bytes.Get<std::uint32_t>();
-  job.name.seed = bytes.Get<std::uint64_t>();
-  job.experiment = bytes.GetText();
+  RunOrder order;
+  order.name.point = bytes.Get<std::uint32_t>();
+  order.name.seed = bytes.Get<std::uint64_t>();
+  order.experiment = bytes.GetText();
   for (auto count = bytes.Get<std::uint64_t>(); count > 0; --count)
   {
     std::string path = bytes.GetText();
-    job.settings.emplace_back(std::move(path), bytes.GetText());
+    order.settings.emplace_back(std::move(path), bytes.GetText());
   }
-  return job;
+  return order;
 }
 
 void RunOutcome::Write(ByteWriter& bytes) const
@@ -268,18 +268,18 @@ RunOutcome RunOutcome::Read(ByteReader& bytes)
   return outcome;
 }
 
-RunOutcome RunInCopy(const Study& study, const std::string& study_folder, const RunJob& job)
+RunOutcome RunInCopy(const Study& study, const std::string& study_folder, const RunOrder& order)
 {
   const auto start = std::chrono::steady_clock::now();
-  const std::string folder = study_folder + "/runs/" + job.name.Text();
+  const std::string folder = study_folder + "/runs/" + order.name.Text();
   RunOutcome outcome;
   std::error_code error;
   fs::remove_all(folder, error);
   fs::create_directories(folder, error);
-  const LoadedExperiment loaded = error ? LoadedExperiment{} : LoadExperimentFile(job.experiment, ChangesFor(job));
+  const LoadedExperiment loaded = error ? LoadedExperiment{} : LoadExperimentFile(order.experiment, ChangesFor(order));
   if (loaded.experiment)
   {
-    RunLoaded(study, folder, job, *loaded.experiment, outcome);
+    RunLoaded(study, folder, order, *loaded.experiment, outcome);
   }
   else
   {
@@ -288,7 +288,7 @@ RunOutcome RunInCopy(const Study& study, const std::string& study_folder, const 
                       : loaded.errors.empty() ? "the experiment cannot be read"
                                               : loaded.errors[0].Text();
   }
-  outcome.name = job.name;
+  outcome.name = order.name;
   outcome.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   Tidy(folder, outcome.IsDone());
   return outcome;

@@ -11,14 +11,14 @@
 namespace swarmanoid
 {
 
-struct RunJob
+struct RunOrder
 {
   RunName name;
   std::string experiment;  // file
   StudySettings settings;  // without the seed
 
   void Write(ByteWriter& bytes) const;
-  static RunJob Read(ByteReader& bytes);
+  static RunOrder Read(ByteReader& bytes);
 };
 
 struct RunOutcome
@@ -42,6 +42,6 @@ struct RunOutcome
 // Runs it in a process of its own, which is a copy of this one and so has all plug-ins that this one has loaded. The
 // folder of the run is `<study_folder>/runs/<name>`; if the run leaves nothing there, and has a result, it is removed.
 // For a process with one thread.
-RunOutcome RunInCopy(const Study& study, const std::string& study_folder, const RunJob& job);
+RunOutcome RunInCopy(const Study& study, const std::string& study_folder, const RunOrder& order);
 
 }  // namespace swarmanoid
