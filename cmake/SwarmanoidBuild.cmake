@@ -189,15 +189,15 @@ endfunction()
 
 # The next two functions set the optimisation of releases. Code that runs in each tick over all robots has CMake's default, -O3. GCC
 # needs half of that time at -O1, and two thirds at -O2. The bits of results are the same at each level.
-# swarmanoid_off_the_tick(TARGETS...) is for targets of which nothing runs in each tick.
-function(swarmanoid_off_the_tick)
+# swarmanoid_optimise_cold(TARGETS...) is for targets of which nothing runs in each tick.
+function(swarmanoid_optimise_cold)
   foreach(name ${ARGN})
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   endforeach()
 endfunction()
 
-# swarmanoid_beside_the_tick(TARGETS...) is for targets that draw or pass messages on. They compute nothing for each robot in each tick.
-function(swarmanoid_beside_the_tick)
+# swarmanoid_optimise_warm(TARGETS...) is for targets that draw or pass messages on. They compute nothing for each robot in each tick.
+function(swarmanoid_optimise_warm)
   foreach(name ${ARGN})
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O2>)
   endforeach()
@@ -252,7 +252,7 @@ function(swarmanoid_library name)
     target_link_libraries(${part} PRIVATE ${ARG_PUBLIC} ${ARG_PRIVATE})
     swarmanoid_shared_headers(${part})
     swarmanoid_sort_sources(${part})
-    swarmanoid_off_the_tick(${part})
+    swarmanoid_optimise_cold(${part})
     target_sources(${name} PRIVATE $<TARGET_OBJECTS:${part}>)
   endif()
   # Code outside this build needs these two settings, because they decide the layout of a Pose and the bits of a sum.

@@ -56,7 +56,7 @@ public:
   const ControlCommands* Due();
   // What is known of ticks to come: the same controllers fail in them, those that died are not called, and before
   // `until` no time is measured.
-  void Know(KnownFaults known);
+  void Know(RecordedFaults known);
   // The tick to come was done before, with these faults and no others.
   void KnowTick(std::uint64_t tick, const ControllerFaults& faults);
   // If a controller kills this process whose on_failure says otherwise: what its user can do. A literal.
@@ -153,7 +153,7 @@ private:
   std::vector<std::uint32_t> in_turn_;
   std::vector<std::uint32_t> guarded_;
   Silence silence_;
-  KnownFaults known_;  // its faults by tick and robot
+  RecordedFaults known_;  // its faults by tick and robot
   std::optional<std::uint64_t> known_tick_;
   ControllerFaults faults_of_tick_;
   const char* cure_of_death_ = "";

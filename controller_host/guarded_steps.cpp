@@ -115,7 +115,7 @@ bool ControllerHost::StepInTime(Robot& robot, std::uint64_t tick)
   return !measures || ThreadMilliseconds() - before <= budget_ms;
 }
 
-void ControllerHost::Know(KnownFaults known)
+void ControllerHost::Know(RecordedFaults known)
 {
   known_ = std::move(known);
   std::sort(known_.faults.begin(), known_.faults.end());
@@ -136,9 +136,9 @@ std::optional<FaultKind> ControllerHost::Known(std::uint64_t tick, std::uint32_t
     if (place == robots.end() || *place != robot) return std::nullopt;
     return faults_of_tick_.kinds[static_cast<std::size_t>(place - robots.begin())];
   }
-  const auto place =
-      std::lower_bound(known_.faults.begin(), known_.faults.end(), std::pair(tick, robot),
-                       [](const KnownFault& fault, const auto& of) { return std::pair(fault.tick, fault.robot) < of; });
+  const auto place = std::lower_bound(known_.faults.begin(), known_.faults.end(), std::pair(tick, robot),
+                                      [](const RecordedFault& fault, const auto& of)
+                                      { return std::pair(fault.tick, fault.robot) < of; });
   if (place == known_.faults.end() || place->tick != tick || place->robot != robot) return std::nullopt;
   return place->kind;
 }

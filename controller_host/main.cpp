@@ -47,7 +47,7 @@ public:
     const std::size_t engines = role_.Layout().frames_from.size();
     for (auto& frames : frames_) frames.resize(engines);
     frames_here_.resize(engines);
-    KnownFaults known = session.World().known;
+    RecordedFaults known = session.World().known;
     for (const std::string& text : faults)
     {
       const auto fault = ParseFault(text);
@@ -200,7 +200,7 @@ private:
   WorkerWorld& replica_;
   std::uint32_t host_;
   WorkerPool pool_;
-  SharedTicks sharing_;
+  ThreadedTicks sharing_;
   ControllerHost role_;
   SavedStates saved_;
   std::vector<std::uint32_t> near_;                 // LocalState::near of the last state that was told

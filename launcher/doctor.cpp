@@ -26,7 +26,7 @@
 #include "engine_worker/engines/fused_libraries.h"
 #include "launcher/installation.h"
 #include "launcher/showing.h"
-#include "launcher/supervision/helper_process.h"
+#include "launcher/supervision/command_process.h"
 #include "simulation/run_folder.h"
 
 namespace swarmanoid
@@ -66,7 +66,7 @@ Trial TryRun(const fs::path& folder, const std::string& name, const std::vector<
                                  "--ticks",    "50",  "--output",          output};
   words.insert(words.end(), options.begin(), options.end());
   Trial trial;
-  if (HelperProcess(words, errors).Wait() == kExitDone) trial.hash = ReadManifest(output).value("state_hash", "");
+  if (CommandProcess(words, errors).Wait() == kExitDone) trial.hash = ReadManifest(output).value("state_hash", "");
   if (trial.hash.empty()) trial.complaint = FirstLineOf(errors);
   if (trial.hash.empty() && trial.complaint.empty()) trial.complaint = "it ended without a word";
   return trial;
@@ -199,7 +199,7 @@ Finding Graphics(const fs::path& folder)
   std::ofstream(experiment) << WithVisualisation(text,
                                                  R"(<image_render id="drawn" size="64, 64" at="0" file="drawn.png"/>)");
   const int exit_code =
-      HelperProcess(
+      CommandProcess(
           {OwnProgram(), "run", experiment, "--quiet", "--single-process", "--ticks", "1", "--output", output}, errors)
           .Wait();
   if (exit_code == kExitDone && fs::exists(output / "drawn.png"))

@@ -19,7 +19,7 @@
 #include "common/plugins/catalogue.h"
 #include "common/program/usage_error.h"
 #include "launcher/installation.h"
-#include "launcher/supervision/helper_process.h"
+#include "launcher/supervision/command_process.h"
 #include "simulation/run_folder.h"
 
 namespace swarmanoid
@@ -46,9 +46,9 @@ std::uint64_t LengthOf(const Experiment& experiment, const fs::path& folder)
   const fs::path file = folder / "shown.xml", output = folder / "shown";
   std::ofstream(file) << experiment.effective_xml;
   const std::string most = std::to_string(TicksOfFilm(experiment, 0));
-  const int exit_code = HelperProcess({OwnProgram(), "run", file, "--single-process", "--quiet", "--no-visualisers",
-                                       "--ticks", most, "--output", output},
-                                      folder / "shown.log")
+  const int exit_code = CommandProcess({OwnProgram(), "run", file, "--single-process", "--quiet", "--no-visualisers",
+                                        "--ticks", most, "--output", output},
+                                       folder / "shown.log")
                             .Wait();
   const bool ended = exit_code == kExitDone || exit_code == kExitExperimentFailed;
   const std::uint64_t ticks = ended ? ReadManifest(output).value("ticks", std::uint64_t{0}) : 0;
@@ -72,7 +72,7 @@ void OpenInBrowser(const std::string& url)
   if (!url.starts_with("http://") && !url.starts_with("https://")) return;
   try
   {
-    HelperProcess({"xdg-open", url}, "/dev/null").Wait();
+    CommandProcess({"xdg-open", url}, "/dev/null").Wait();
   }
   catch (const std::runtime_error&)
   {
@@ -162,7 +162,7 @@ int Show(const Experiment& experiment, ShowingKind kind, const std::string& fold
   std::ofstream(file) << WithVisualisation(experiment.effective_xml, element);
 
   const InterruptsLeftToHelper interrupts;
-  HelperProcess child(words, complaints);
+  CommandProcess child(words, complaints);
   if (kind != ShowingKind::kFilm)
   {
     const fs::path url = output / "web_render.url";

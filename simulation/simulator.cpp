@@ -158,7 +158,7 @@ struct CSimulator::Roles
   const CSwarmanoidSpace& space;
   Steering steering;
   std::unique_ptr<WorkerPool> pool;  // of the roles, which work one after the other; none for one thread
-  SharedTicks sharing;
+  ThreadedTicks sharing;
   std::vector<std::unique_ptr<EngineWorker>> engines;
   std::vector<std::unique_ptr<ControllerHost>> hosts;
   std::unique_ptr<StepTimeout> time_budgets;

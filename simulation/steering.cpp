@@ -38,7 +38,7 @@ Steering::Steering(const Experiment& experiment, SpaceServer& server, RunControl
       control_([this](const ControlRequestMessage& request) { run_control_.Ask(request); }),
       pace_(experiment.TickSeconds())
 {
-  server_.SetFaultHandler([this](const std::vector<KnownFault>& faults) { run_control_.Failed(faults); });
+  server_.SetFaultHandler([this](const std::vector<RecordedFault>& faults) { run_control_.Failed(faults); });
   status_.processes.push_back({"single process", OwnProcess(), 0, 0, {}});
 }
 

@@ -202,7 +202,7 @@ std::string WholeLines(const std::string& path)
   return text;
 }
 
-void AddFault(std::vector<KnownFault>& faults, const RecordedEvent& event, const Experiment& experiment)
+void AddFault(std::vector<RecordedFault>& faults, const RecordedEvent& event, const Experiment& experiment)
 {
   const auto entity = std::find_if(experiment.entities.begin(), experiment.entities.end(),
                                    [&](const EntityConfiguration& e) { return e.id == event.request.entity; });

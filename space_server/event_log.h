@@ -65,7 +65,7 @@ struct SharedWith
 struct EarlierRequests
 {
   std::vector<RecordedEvent> changes;           // as ReadEvents has them
-  std::vector<KnownFault> failed;               // of controllers
+  std::vector<RecordedFault> failed;            // of controllers
   std::vector<ControlRequestMessage> answered;  // and whether its asker had an answer coming
   std::optional<ControlRequestMessage> step;    // one that is not done yet
   std::optional<std::uint64_t> pause_at;        // the run is paused, or will be at this tick

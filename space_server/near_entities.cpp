@@ -67,12 +67,12 @@ void WritePoses(const PoseArrays& poses, LocalState& part)
 }  // namespace
 
 // No pose has these bits: the first time all have changed.
-ToldPoses::ToldPoses(const CSwarmanoidSpace& space)
+SentPoses::SentPoses(const CSwarmanoidSpace& space)
     : space_(space), told_(space.Movable().size(), {std::numeric_limits<double>::quiet_NaN()})
 {
 }
 
-bool ToldPoses::HasChanged(std::size_t movable)
+bool SentPoses::HasChanged(std::size_t movable)
 {
   const PoseArrays& poses = space_.Poses();
   const std::uint32_t entity = space_.Movable()[movable];

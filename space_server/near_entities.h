@@ -18,10 +18,10 @@ namespace swarmanoid
 class CSwarmanoidSpace;
 
 // Which poses have changed since they were told.
-class ToldPoses
+class SentPoses
 {
 public:
-  explicit ToldPoses(const CSwarmanoidSpace& space);
+  explicit SentPoses(const CSwarmanoidSpace& space);
   // Of a movable entity, by its number among these: whether its pose is another one than when this was last asked.
   bool HasChanged(std::size_t movable);
 
@@ -54,7 +54,7 @@ private:
   std::vector<char> is_always_told_;        // of each that can
   std::vector<std::uint32_t> first_slots_;  // of each entity, and behind the last one that of their presence
   std::vector<double> x_, y_;               // of those that can move, where they were searched
-  ToldPoses told_poses_;
+  SentPoses told_poses_;
   bool holds_ = false;                  // there was a search
   std::vector<std::uint32_t> entered_;  // whom the message before had not
   LocalState part_;
@@ -72,7 +72,7 @@ public:
 private:
   const CSwarmanoidSpace& space_;
   std::span<const std::uint32_t> owned_;
-  ToldPoses told_poses_;
+  SentPoses told_poses_;
   LocalState part_;
 };
 

@@ -48,7 +48,7 @@ void RunControl::Refused(const std::string& topic, const std::string& sender)
 
 void RunControl::Note(const ControlRequestMessage& request) { Ask(request); }
 
-void RunControl::Failed(const std::vector<KnownFault>& faults)
+void RunControl::Failed(const std::vector<RecordedFault>& faults)
 {
   const std::lock_guard lock(mutex_);
   faults_.insert(faults_.end(), faults.begin(), faults.end());
@@ -56,12 +56,12 @@ void RunControl::Failed(const std::vector<KnownFault>& faults)
 
 void RunControl::WriteFaults()
 {
-  std::vector<KnownFault> faults;
+  std::vector<RecordedFault> faults;
   {
     const std::lock_guard lock(mutex_);
     faults.swap(faults_);
   }
-  for (const KnownFault& fault : faults)
+  for (const RecordedFault& fault : faults)
   {
     // Of a tick that is done again.
     if (std::find(logged_faults_.begin(), logged_faults_.end(), fault) != logged_faults_.end()) continue;
@@ -335,13 +335,13 @@ void RunControl::MoveWorkers(const ControlRequestMessage& request, std::uint64_t
   if (!moving_.empty())
     throw std::invalid_argument(
         fmt::format("{} is on the way already; ask again when it has arrived", *moving_.begin()));
-  const std::vector<WorkerPlaces::Move> moves = places_.Read(request);
+  const std::vector<WorkerPlacement::Move> moves = places_.Read(request);
   event_log_.Write(tick, request);
   if (moves.empty()) return answer_(request, true, tick, "no worker is at " + request.entity);
   move_request_ = request;
   moved_.clear();
-  for (const WorkerPlaces::Move& move : moves) moving_.insert(move.worker);
-  for (const WorkerPlaces::Move& move : moves) move_(move);
+  for (const WorkerPlacement::Move& move : moves) moving_.insert(move.worker);
+  for (const WorkerPlacement::Move& move : moves) move_(move);
 }
 
 void RunControl::ShareOut(const ControlRequestMessage& request, std::uint64_t tick)
@@ -363,7 +363,7 @@ void RunControl::ShareOut(const ControlRequestMessage& request, std::uint64_t ti
   share_out_(machines);
 }
 
-void RunControl::Arrived(const WorkerPlaces::Move& worker, const std::string& process, std::uint64_t tick)
+void RunControl::Arrived(const WorkerPlacement::Move& worker, const std::string& process, std::uint64_t tick)
 {
   places_.Put(worker);
   if (moving_.erase(worker.worker) == 0) return;

@@ -16,7 +16,7 @@
 #include "common/run/run_summary.h"
 #include "space_server/event_log.h"
 #include "space_server/space_server.h"
-#include "space_server/worker_places.h"
+#include "space_server/worker_placement.h"
 
 namespace swarmanoid
 {
@@ -32,11 +32,11 @@ struct RunControlSetup
   std::uint64_t asked_from = 0;                 // ticks before are done again: nobody comes in between
   std::uint64_t pause_at = 0;                   // 0: does not
   std::optional<ControlRequestMessage> step{};  // that ends there
-  std::vector<KnownFault> failed{};             // of controllers, in the log of events already
-  WorkerPlaces places{};
+  std::vector<RecordedFault> failed{};          // of controllers, in the log of events already
+  WorkerPlacement places{};
   bool may_reset = false;  // whoever started the run begins it again if a user asks
   // Has another process take the place of a worker.
-  std::function<void(const WorkerPlaces::Move&)> move{};
+  std::function<void(const WorkerPlacement::Move&)> move{};
   // Has all processes start again, with controller hosts on these machines. Empty: nobody can.
   std::function<void(const std::vector<std::string>& machines)> share_out{};
 };
@@ -67,10 +67,10 @@ public:
   void Note(const ControlRequestMessage& request);
 
   // Likewise: controllers failed, and the run goes on.
-  void Failed(const std::vector<KnownFault>& faults);
+  void Failed(const std::vector<RecordedFault>& faults);
 
   // A process has taken the place of a worker, on that machine: elsewhere than asked if none could start there.
-  void Arrived(const WorkerPlaces::Move& worker, const std::string& process, std::uint64_t tick);
+  void Arrived(const WorkerPlacement::Move& worker, const std::string& process, std::uint64_t tick);
 
   // The first tick may start.
   void Start(std::uint64_t tick, Clock::time_point now);
@@ -118,9 +118,9 @@ private:
   std::uint64_t asked_from_;
   mutable std::mutex mutex_;
   std::vector<ControlRequestMessage> requests_;
-  std::vector<KnownFault> faults_;  // that are not told yet
+  std::vector<RecordedFault> faults_;  // that are not told yet
 
-  std::vector<KnownFault> logged_faults_;
+  std::vector<RecordedFault> logged_faults_;
   bool paused_;
   bool stop_ = false;
   std::optional<std::string> stop_unlogged_;  // who asked
@@ -130,8 +130,8 @@ private:
   double real_time_factor_;
   std::uint64_t pause_at_ = 0;  // tick at which a step ends; 0: none
   std::optional<ControlRequestMessage> step_;
-  WorkerPlaces places_;
-  std::function<void(const WorkerPlaces::Move&)> move_;
+  WorkerPlacement places_;
+  std::function<void(const WorkerPlacement::Move&)> move_;
   std::function<void(const std::vector<std::string>&)> share_out_;
   std::optional<ControlRequestMessage> move_request_;
   std::set<std::string> moving_;  // workers

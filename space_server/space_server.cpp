@@ -143,7 +143,7 @@ void SpaceServer::TellFaults(std::span<const ControlCommands* const> commands) c
 {
   // Of the control steps that made the commands.
   const std::uint64_t tick = space_.GetTick() - std::min<std::uint64_t>(space_.GetTick(), experiment_.ahead);
-  std::vector<KnownFault> faults;
+  std::vector<RecordedFault> faults;
   for (const ControlCommands* command : commands)
   {
     if (command->faults.robots.empty()) continue;

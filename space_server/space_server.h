@@ -40,7 +40,7 @@ public:
   void SetWarningHandler(std::function<void(const std::string&)> warn) { warn_ = std::move(warn); }
 
   // Likewise: who hears of controllers that failed while the run goes on.
-  using FaultHandler = std::function<void(const std::vector<KnownFault>& of_a_tick)>;
+  using FaultHandler = std::function<void(const std::vector<RecordedFault>& of_a_tick)>;
   void SetFaultHandler(FaultHandler handler) { fault_ = std::move(handler); }
 
   const CSwarmanoidSpace& Space() const { return space_; }
@@ -59,7 +59,7 @@ public:
   void LoadState(const SpaceSnapshot& snapshot, ByteReader& state);
 
   // After LoadState, for those who have the state of the tick before: these attributes have changed since.
-  void TellAgain(const AttributeChanges& changes) { changed_slots_ = changes.slots; }
+  void Resend(const AttributeChanges& changes) { changed_slots_ = changes.slots; }
 
   // For what comes from another process, before Advance; roles of this process have checked their results themselves.
   // Throw std::runtime_error that names the engine or the host which gave what cannot be part of the state, the entity,

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "launcher/supervision/hosts.h"
+#include "studies/executor.h"
 #include "studies/host_connection.h"
-#include "studies/run_place.h"
 
 namespace swarmanoid
 {
 
-class HostPool final : public RunPlace
+class HostPool final : public Executor
 {
 public:
   // `setup`: as SetupOf says. `folder`: that of the study, for what runs leave. Throws UsageError if the hosts have no

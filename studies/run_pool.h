@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "studies/run_place.h"
+#include "studies/executor.h"
 
 namespace swarmanoid
 {
 
-class RunPool final : public RunPlace
+class RunPool final : public Executor
 {
 public:
   // `jobs`: processes. Both texts and the study outlive it.

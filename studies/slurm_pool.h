@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/run_place.h"
+#include "studies/executor.h"
 #include "studies/slurm.h"
 #include "studies/slurm_batch.h"
 #include "studies/study_store.h"
@@ -22,7 +22,7 @@ struct SlurmChoice
   unsigned runs_per_task = 0;        // 0: so many that there are 200 tasks at most
 };
 
-class SlurmPool final : public RunPlace
+class SlurmPool final : public Executor
 {
 public:
   // Finds the jobs of the study that were submitted before. `setup`: as SetupOf says. Throws std::runtime_error.

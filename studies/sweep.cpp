@@ -113,7 +113,7 @@ public:
     CatchInterrupts(SecondInterrupt::kKills);
     const auto start = std::chrono::steady_clock::now();
     {
-      const std::unique_ptr<RunPlace> place = MakePlace();
+      const std::unique_ptr<Executor> place = MakePlace();
       SweepProgress progress(design_, all_, done_, options_.quiet);
       for (const auto& [point, wall_s] : known_times_) progress.AddTime(point, wall_s);
       const auto stop = [&](const std::string& reason)
@@ -158,7 +158,7 @@ public:
   }
 
 private:
-  std::unique_ptr<RunPlace> MakePlace() const
+  std::unique_ptr<Executor> MakePlace() const
   {
     if (!options_.hosts.empty())
       return std::make_unique<HostPool>(HostsOf(options_), SetupOf(study_, design_), store_.Folder());
@@ -186,7 +186,7 @@ private:
     return fmt::format("swarmanoid sweep {} --resume{}", ShellWord(store_.Folder()), where);
   }
 
-  void Commit(RunPlace& place)
+  void Commit(Executor& place)
   {
     store_.Commit();
     place.Committed();
@@ -277,7 +277,7 @@ private:
     ++waiting_[name.point];
   }
 
-  void Loop(RunPlace& pool, SweepProgress& progress)
+  void Loop(Executor& pool, SweepProgress& progress)
   {
     auto committed = std::chrono::steady_clock::now();
     while (!pool.IsIdle() || (!queue_.empty() && !IsEnding()) || Extend(progress))

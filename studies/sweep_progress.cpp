@@ -69,7 +69,7 @@ double SweepProgress::SecondsLeft(const std::map<std::uint32_t, std::size_t>& wa
   return seconds / std::max(slots, 1U);
 }
 
-void SweepProgress::Show(const RunPlace& place, const std::map<std::uint32_t, std::size_t>& waiting,
+void SweepProgress::Show(const Executor& place, const std::map<std::uint32_t, std::size_t>& waiting,
                          Clock::time_point now)
 {
   if (quiet_ || now < next_) return;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/run_place.h"
+#include "studies/executor.h"
 
 namespace swarmanoid
 {
@@ -27,7 +27,7 @@ public:
   // Something to be read even if the user wants quiet.
   void Say(const std::string& line);
   // `waiting`: for each point, how many of its runs have not begun.
-  void Show(const RunPlace& place, const std::map<std::uint32_t, std::size_t>& waiting, Clock::time_point now);
+  void Show(const Executor& place, const std::map<std::uint32_t, std::size_t>& waiting, Clock::time_point now);
 
 private:
   double SecondsLeft(const std::map<std::uint32_t, std::size_t>& waiting, std::size_t running, unsigned slots) const;

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "common/messages/robot_status.h"
-#include "visualiser/look_back.h"
+#include "visualiser/playback_reader.h"
 
 namespace swarmanoid
 {

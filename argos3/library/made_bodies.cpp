@@ -45,9 +45,9 @@ const CSwarmanoidSpaceEntity* WaitingBody(const CSwarmanoidSpace& space, const B
   return nullptr;
 }
 
-void Rehearsal::Add(argos::CEntity& made) { bodies_[made.GetId()] = &made; }
+void DryRun::Add(argos::CEntity& made) { bodies_[made.GetId()] = &made; }
 
-MadeBodies Rehearsal::Shapes() const
+MadeBodies DryRun::Shapes() const
 {
   MadeBodies shapes;
   for (const auto& [id, body] : bodies_) ++shapes[*ShapeOf(*body)];

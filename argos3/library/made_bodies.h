@@ -24,7 +24,7 @@ std::optional<BodyShape> ShapeOf(const argos::CEntity& made);
 // One of the shape that is not in the arena; nullptr if there is none.
 const CSwarmanoidSpaceEntity* WaitingBody(const CSwarmanoidSpace& space, const BodyShape& shape);
 
-class Rehearsal
+class DryRun
 {
 public:
   // A box or a cylinder.

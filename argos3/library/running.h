@@ -159,7 +159,7 @@ struct Running
   std::uint64_t step = 0;
   std::uint64_t first_step = 0;
   // Only in a rehearsal of Init: boxes and cylinders that the file does not declare.
-  std::optional<Rehearsal> rehearsal;
+  std::optional<DryRun> rehearsal;
   // Whether something was added or removed since this was set to false.
   bool presence_changed = false;
 

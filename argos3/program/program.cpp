@@ -2,7 +2,7 @@
 // loaded by the library when a program asks for it, so that controllers and loop functions do not need the launcher.
 #include "argos3/converter/convert.h"
 #include "argos3/library/running.h"
-#include "launcher/argos3_rehearsal.h"
+#include "launcher/argos3_dry_run.h"
 #include "simulation/simulator.h"
 #include "space_server/experiment_functions.h"
 

@@ -49,7 +49,7 @@ std::vector<ControlCommands> CommandsByRobot::Of(const HostTable& hosts, const s
                 shared[copy.host].values.begin() + static_cast<std::ptrdiff_t>(copy.to));
   const auto of_robot = [&](std::uint32_t robot) -> ControlCommands&
   { return shared.at(static_cast<std::size_t>(to_.host.at(robot))); };
-  std::vector<KnownFault> faults;
+  std::vector<RecordedFault> faults;
   for (const ControlCommands& of_host : commands)
   {
     for (std::size_t i = 0; i < of_host.attributes.slots.size(); ++i)
@@ -61,7 +61,7 @@ std::vector<ControlCommands> CommandsByRobot::Of(const HostTable& hosts, const s
       faults.push_back({of_host.tick, of_host.faults.robots[i], of_host.faults.kinds[i]});
   }
   std::sort(faults.begin(), faults.end());
-  for (const KnownFault& fault : faults)
+  for (const RecordedFault& fault : faults)
   {
     of_robot(fault.robot).faults.robots.push_back(fault.robot);
     of_robot(fault.robot).faults.kinds.push_back(fault.kind);

@@ -230,9 +230,9 @@ void JournalReader::ForEachTick(const std::function<void(const TickRecord&)>& us
   }
 }
 
-KnownFaults JournalReader::FaultsFrom(std::uint64_t tick, std::uint32_t ahead) const
+RecordedFaults JournalReader::FaultsFrom(std::uint64_t tick, std::uint32_t ahead) const
 {
-  KnownFaults known;
+  RecordedFaults known;
   ForEachTick(
       [&](const TickRecord& record)
       {
@@ -257,7 +257,7 @@ const JournalPlace* JournalReader::PlaceOf(JournalBlockKind kind, std::uint64_t 
   return found == places_.rend() ? nullptr : &*found;
 }
 
-std::optional<std::uint64_t> JournalReader::TickToGoOn(const std::function<bool(std::uint64_t)>& usable) const
+std::optional<std::uint64_t> JournalReader::RestartTick(const std::function<bool(std::uint64_t)>& usable) const
 {
   std::uint64_t end = FirstTick();  // of the ticks of which none is lacking
   for (const JournalPlace& place : places_)
@@ -380,7 +380,7 @@ bool IsBegun(const std::string& path)
 
 std::string JournalFile(const std::string& run_folder) { return run_folder + "/journal/0"; }
 
-KnownFaults FaultsOfRun(const std::string& run_folder, const Experiment& experiment, std::uint64_t tick)
+RecordedFaults FaultsOfRun(const std::string& run_folder, const Experiment& experiment, std::uint64_t tick)
 {
   if (!experiment.HasGuards()) return {};
   const JournalReader journal(JournalFile(run_folder));

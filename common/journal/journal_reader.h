@@ -65,10 +65,10 @@ public:
   void ForEachTick(const std::function<void(const TickRecord&)>& use) const;
   // The newest tick at which the space server was saved and before which none is lacking, nor itself; nothing if there
   // is none. `usable`: false for ticks that will not do.
-  std::optional<std::uint64_t> TickToGoOn(const std::function<bool(std::uint64_t)>& usable) const;
+  std::optional<std::uint64_t> RestartTick(const std::function<bool(std::uint64_t)>& usable) const;
   std::optional<TickRecord> RecordOf(std::uint64_t tick) const;
   // Of controllers, in the steps from that tick on. `ahead`: ticks until commands, which tell of them, act.
-  KnownFaults FaultsFrom(std::uint64_t tick, std::uint32_t ahead) const;
+  RecordedFaults FaultsFrom(std::uint64_t tick, std::uint32_t ahead) const;
   // What all `parts` saved at the tick, put together. Nothing if one is lacking. `table`: the controller hosts that
   // saved it.
   std::optional<Checkpoint> CheckpointAt(std::uint64_t tick, const std::vector<std::string>& parts,
@@ -113,6 +113,6 @@ std::string JournalFile(const std::string& run_folder);
 
 // FaultsFrom of the journal of a run of the same experiment; none if no controller has a guard. Throws
 // std::runtime_error, with the path.
-KnownFaults FaultsOfRun(const std::string& run_folder, const Experiment& experiment, std::uint64_t tick);
+RecordedFaults FaultsOfRun(const std::string& run_folder, const Experiment& experiment, std::uint64_t tick);
 
 }  // namespace swarmanoid

@@ -126,25 +126,25 @@ struct ControllerFaults
   bool operator==(const ControllerFaults& other) const { return robots == other.robots && kinds == other.kinds; }
 };
 // What is known of ticks that were done before: the same controllers fail in them, and no time is measured.
-struct KnownFault
+struct RecordedFault
 {
   std::uint64_t tick = 0;
   std::uint32_t robot = 0;
   FaultKind kind = FaultKind::kThrew;
   std::string text{};  // what the exception says, if it is known. It is for people, and makes no difference
 
-  auto operator<=>(const KnownFault& other) const
+  auto operator<=>(const RecordedFault& other) const
   {
     return std::tie(tick, robot, kind) <=> std::tie(other.tick, other.robot, other.kind);
   }
-  bool operator==(const KnownFault& other) const { return std::is_eq(*this <=> other); }
+  bool operator==(const RecordedFault& other) const { return std::is_eq(*this <=> other); }
 };
-struct KnownFaults
+struct RecordedFaults
 {
   std::uint64_t until = 0;  // all ticks before were done
-  std::vector<KnownFault> faults;
+  std::vector<RecordedFault> faults;
 
-  void Add(const KnownFaults& others)
+  void Add(const RecordedFaults& others)
   {
     until = std::max(until, others.until);
     faults.insert(faults.end(), others.faults.begin(), others.faults.end());

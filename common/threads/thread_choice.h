@@ -75,7 +75,7 @@ private:
 
 // Does the ticks of a process whose roles have a pool: with its threads or without. All that a tick has is shared or
 // nothing, since threads that have just worked take up the next part at once, and others are to be woken.
-class SharedTicks
+class ThreadedTicks
 {
 public:
   // `pool`: none for one thread. Whoever works in `tick` asks whether it shares.

@@ -14,7 +14,7 @@
 #include "common/program/trust_flag.h"
 #include "common/run/run_settings.h"
 #include "launcher/command/sub_command.h"
-#include "launcher/trial_start.h"
+#include "launcher/smoke_test.h"
 #include "simulation/load.h"
 
 namespace swarmanoid
@@ -101,7 +101,7 @@ int CheckForPrograms(const RunSettings& options)
   int exit_code = kExitInvalidFile;
   if (loaded.experiment)
   {
-    exit_code = FilesAreGood(*loaded.experiment) ? TrialStart(*loaded.experiment) : int{kExitInvalidFile};
+    exit_code = FilesAreGood(*loaded.experiment) ? SmokeTest(*loaded.experiment) : int{kExitInvalidFile};
     json["valid"] = exit_code == kExitDone;
     json.update(JsonOf(*loaded.experiment));
   }
@@ -113,7 +113,7 @@ int Check(const RunSettings& options)
 {
   const auto experiment = LoadOrComplain(options.file, ChangesOf(options));
   if (!experiment) return kExitInvalidFile;
-  if (const int code = TrialStart(*experiment); code != kExitDone) return code;
+  if (const int code = SmokeTest(*experiment); code != kExitDone) return code;
 
   fmt::print("{} is {}: experiment {}\n", options.file, Coloured(STDOUT_FILENO, Colour::kGreen, "valid"),
              experiment->name);

@@ -14,7 +14,7 @@
 #include "common/activity/print_error.h"
 #include "common/configuration/xml_reader.h"
 #include "common/configuration/xml_writer.h"
-#include "launcher/argos3_rehearsal.h"
+#include "launcher/argos3_dry_run.h"
 #include "launcher/command/sub_command.h"
 
 namespace swarmanoid

@@ -16,7 +16,7 @@
 #include "launcher/branch.h"
 #include "launcher/command/sub_command.h"
 #include "simulation/load.h"
-#include "simulation/playback/past_robots.h"
+#include "simulation/playback/recorded_robot_states.h"
 #include "simulation/playback/recorded_run.h"
 
 namespace swarmanoid
@@ -145,7 +145,7 @@ int Inspect(const InspectOptions& options)
   std::vector<RobotStatus> found;
   try
   {
-    found = PastRobots(*experiment, at->run, at->tick, robots).Robots();
+    found = RecordedRobotStates(*experiment, at->run, at->tick, robots).Robots();
   }
   catch (const ActivityError&)
   {

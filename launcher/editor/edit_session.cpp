@@ -131,8 +131,8 @@ void EditSession::StartCheck()
   std::ofstream(file) << experiment_.GetExperiment()->effective_xml << experiment_.Places();
   checked_in_ = experiment_.History().Revision();
   checked_.clear();
-  check_ = std::make_unique<HelperProcess>(std::vector<std::string>{OwnProgram(), "check", file.string()},
-                                           (fs::path(scratch_.Path()) / "errors").string());
+  check_ = std::make_unique<CommandProcess>(std::vector<std::string>{OwnProgram(), "check", file.string()},
+                                            (fs::path(scratch_.Path()) / "errors").string());
 }
 
 void EditSession::FinishCheck()

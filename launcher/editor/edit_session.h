@@ -9,7 +9,7 @@
 #include "launcher/editor/edited_experiment.h"
 #include "launcher/editor/edited_file.h"
 #include "launcher/scratch_folder.h"
-#include "launcher/supervision/helper_process.h"
+#include "launcher/supervision/command_process.h"
 #include "visualiser/editor_page.h"
 
 namespace swarmanoid
@@ -50,7 +50,7 @@ private:
 
   std::string hidden_;  // why the picture is an older one; empty if it is not
   ScratchFolder scratch_;
-  std::unique_ptr<HelperProcess> check_;
+  std::unique_ptr<CommandProcess> check_;
   std::string checked_;           // what the last check said
   std::uint64_t checked_in_ = 0;  // of which revision
 };

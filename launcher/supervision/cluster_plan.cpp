@@ -18,7 +18,7 @@
 #include "common/configuration/wording.h"
 #include "launcher/command/sub_command.h"
 #include "launcher/installation.h"
-#include "space_server/worker_places.h"
+#include "space_server/worker_placement.h"
 
 namespace swarmanoid
 {

@@ -7,13 +7,12 @@
 
 #include "launcher/supervision/process_state.h"
 #include "launcher/supervision/supervisor.h"
-#include "space_server/worker_places.h"
+#include "space_server/worker_placement.h"
 
 namespace swarmanoid
 {
 namespace
 {
-
 
 }  // namespace
 

@@ -24,10 +24,10 @@ std::vector<std::uint32_t> HostsHeard(const Assignment& assignment)
   return hosts;
 }
 
-std::vector<SensorFrame> FirstFrames(const Continuation* continuation)
+std::vector<SensorFrame> FirstFrames(const RestartPoint* restart_point)
 {
-  if (continuation == nullptr || !continuation->Record()) return {};
-  return continuation->Record()->frames;
+  if (restart_point == nullptr || !restart_point->Record()) return {};
+  return restart_point->Record()->frames;
 }
 
 std::size_t PlaceIn(const std::vector<std::uint32_t>& numbers, std::uint32_t number)
@@ -50,7 +50,7 @@ std::vector<TickGate::Part> Parts(const Experiment& experiment, const std::vecto
 
 Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment& assignment, bool visualisations,
                    const std::string& hash_log, std::function<void(SpaceServer&)> watch, CheckpointWriter& checkpoints,
-                   JournalWriter* journal, const Continuation* continuation, std::function<void()> stopped)
+                   JournalWriter* journal, const RestartPoint* restart_point, std::function<void()> stopped)
     : session_(session),
       server_(server),
       checkpoints_(checkpoints),
@@ -68,9 +68,9 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
       updates_(engines_),
       commands_here_(hosts_.size()),
       drawn_(visualisers_),
-      first_frames_(FirstFrames(continuation)),
+      first_frames_(FirstFrames(restart_point)),
       frames_(journal == nullptr ? 0 : engines_),
-      hash_log_(hash_log, continuation != nullptr ? std::optional(first_tick_) : std::nullopt),
+      hash_log_(hash_log, restart_point != nullptr ? std::optional(first_tick_) : std::nullopt),
       states_(session.GetBus(), session.Scope(limits_.StateBytes(), 1)),
       local_states_(session, server.Space(), assignment, limits_)
 {

@@ -17,8 +17,8 @@
 #include "common/journal/journal_writer.h"
 #include "common/run/hash_log.h"
 #include "space_server/cluster/checkpoint_writer.h"
-#include "space_server/cluster/continuation.h"
 #include "space_server/cluster/local_states.h"
+#include "space_server/cluster/restart_point.h"
 
 namespace swarmanoid
 {
@@ -30,11 +30,11 @@ class Lockstep
 public:
   // `watch`, if there is one: called in the main thread before the state of a tick goes out.
   // `journal`, if there is one: gets all that the processes of a tick took in.
-  // `continuation`, if there is one: the run goes on there.
+  // `restart_point`, if there is one: the run goes on there.
   // `stopped`: called in a thread of the bus when the main thread has to act: the tick is held, or the run failed.
   Lockstep(ServerSession& session, SpaceServer& server, const Assignment& assignment, bool visualisations,
            const std::string& hash_log, std::function<void(SpaceServer&)> watch, CheckpointWriter& checkpoints,
-           JournalWriter* journal, const Continuation* continuation, std::function<void()> stopped);
+           JournalWriter* journal, const RestartPoint* restart_point, std::function<void()> stopped);
   ~Lockstep();
 
   // Whether all workers' topics have met those of the server.

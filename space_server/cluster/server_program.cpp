@@ -187,7 +187,7 @@ void ServerProgram::RunTicks()
   repeat_after_ = kFirstRepeat;
   started_ = true;
   const std::uint64_t tick = lockstep_.Tick();
-  first_tick_ = continuation_ && continuation_->Journal() ? continuation_->Journal()->Start().first_tick : tick;
+  first_tick_ = restart_point_ && restart_point_->Journal() ? restart_point_->Journal()->Start().first_tick : tick;
   run_control_.Start(tick, since_);
   ReportState();
   while (!lockstep_.Finished())

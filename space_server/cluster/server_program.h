@@ -19,9 +19,9 @@
 #include "common/bus/membership/worker_world.h"
 #include "common/run/run_settings.h"
 #include "space_server/cluster/checkpoint_writer.h"
-#include "space_server/cluster/continuation.h"
 #include "space_server/cluster/lockstep.h"
 #include "space_server/cluster/recovery_service.h"
+#include "space_server/cluster/restart_point.h"
 #include "space_server/cluster/view_publisher.h"
 #include "space_server/pace_meter.h"
 #include "space_server/run_control.h"
@@ -128,7 +128,7 @@ private:
   std::mutex wake_mutex_;
   std::condition_variable wake_;
   bool awake_ = false;
-  std::optional<Continuation> continuation_;
+  std::optional<RestartPoint> restart_point_;
   std::optional<Checkpoint> restored_;  // until the journal has it
   Assignment assignment_;
   SpaceServer server_;

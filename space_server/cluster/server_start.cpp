@@ -26,12 +26,12 @@ std::uint64_t NewRun()
 }
 
 RunControlSetup MakeRunControlSetup(const ServerOptions& options, const Experiment& experiment,
-                                    const std::optional<Continuation>& continuation)
+                                    const std::optional<RestartPoint>& restart_point)
 {
   RunControlSetup setup{options.paused, options.real_time_factor, {}, {}};
   if (!options.output_folder.empty()) setup.event_log = options.output_folder + "/events.csv";
   if (!options.events.empty()) setup.repeated = ReadEvents(options.events, experiment);
-  if (continuation) continuation->Prepare(setup);
+  if (restart_point) restart_point->Prepare(setup);
   return setup;
 }
 
@@ -45,10 +45,10 @@ std::string DoneText(const ControlRequestMessage& request, const Assignment& ass
 }
 
 // A step that the run has still to come to the end of.
-bool IsAwaited(const ControlRequestMessage& request, const Continuation& continuation)
+bool IsAwaited(const ControlRequestMessage& request, const RestartPoint& restart_point)
 {
-  const EarlierRequests& requests = continuation.Requests();
-  return requests.step && requests.pause_at && *requests.pause_at > continuation.Tick() &&
+  const EarlierRequests& requests = restart_point.Requests();
+  return requests.step && requests.pause_at && *requests.pause_at > restart_point.Tick() &&
          requests.step->client == request.client && requests.step->number == request.number;
 }
 
@@ -58,7 +58,7 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
     : options_(options),
       experiment_(experiment),
       status_(status),
-      continuation_(GoesOn() ? std::optional<Continuation>(std::in_place, options, experiment) : std::nullopt),
+      restart_point_(GoesOn() ? std::optional<RestartPoint>(std::in_place, options, experiment) : std::nullopt),
       restored_(options.restore_file.empty()
                     ? std::nullopt
                     : std::optional(ReadCheckpoint(options.restore_file, experiment,
@@ -95,16 +95,16 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
                    options.output_folder.empty() ? "." : options.output_folder, (OpenJournal(), Journal()),
                    [this] { Wake(); }),
       lockstep_(session_, server_, assignment_, options.visualisations, options.hash_log, options.watch, checkpoints_,
-                Journal(), continuation_ ? &*continuation_ : nullptr, [this] { Wake(); }),
+                Journal(), restart_point_ ? &*restart_point_ : nullptr, [this] { Wake(); }),
       recoveries_(session_, lockstep_, server_.Space(), assignment_, Journal())
 {
   if (options.awaits_replacements && journal_) session_.AwaitReplacements();
-  if (continuation_)
-    for (const ControlRequestMessage& request : continuation_->Requests().answered)
-      session_.Remember(request, IsAwaited(request, *continuation_), DoneText(request, assignment_));
-  if (continuation_) shares_.Restore(continuation_->Requests().shares);
+  if (restart_point_)
+    for (const ControlRequestMessage& request : restart_point_->Requests().answered)
+      session_.Remember(request, IsAwaited(request, *restart_point_), DoneText(request, assignment_));
+  if (restart_point_) shares_.Restore(restart_point_->Requests().shares);
   server_.SetFaultHandler(
-      [this](const std::vector<KnownFault>& faults)
+      [this](const std::vector<RecordedFault>& faults)
       {
         run_control_.Failed(faults);
         Wake();
@@ -123,11 +123,11 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
 
 RunControlSetup ServerProgram::Setup()
 {
-  RunControlSetup setup = MakeRunControlSetup(options_, experiment_, continuation_);
+  RunControlSetup setup = MakeRunControlSetup(options_, experiment_, restart_point_);
   setup.may_reset = status_.IsOpen() && options_.abandon == nullptr;
   if (!options_.awaits_replacements) return setup;
-  setup.places = WorkerPlaces(options_.machines, options_.worker_places);
-  setup.move = [this](const WorkerPlaces::Move& move)
+  setup.places = WorkerPlacement(options_.machines, options_.worker_places);
+  setup.move = [this](const WorkerPlacement::Move& move)
   {
     session_.Release(move.worker);
     status_.Publish(ServerMove{move.machine, move.worker});
@@ -145,7 +145,7 @@ HostTable ServerProgram::Hosts() const
 {
   std::span<const double> poses;
   if (restored_) poses = restored_->snapshot.poses;
-  if (continuation_ && !continuation_->NewestPoses().empty()) poses = continuation_->NewestPoses();
+  if (restart_point_ && !restart_point_->NewestPoses().empty()) poses = restart_point_->NewestPoses();
   return DealRobots(experiment_, options_.controller_hosts, poses);
 }
 
@@ -170,20 +170,20 @@ WorldMessage ServerProgram::World()
     world.checkpoint = EncodeCheckpoint(*restored_);
     if (!KeepsJournal() || GoesOn()) restored_.reset();
   }
-  if (continuation_) continuation_->Restore(server_);
+  if (restart_point_) restart_point_->Restore(server_);
   if (!experiment_.HasGuards()) return world;
   if (!options_.faults_of.empty())
     world.known = FaultsOfRun(options_.faults_of, experiment_, server_.Space().GetTick());
-  if (continuation_) world.known.Add(continuation_->Faults());
+  if (restart_point_) world.known.Add(restart_point_->Faults());
   return world;
 }
 
 std::set<std::uint64_t> ServerProgram::SavedTicks() const
 {
   std::set<std::uint64_t> ticks;
-  if (!continuation_ || continuation_->Journal() == nullptr) return ticks;
-  for (const JournalPlace& place : continuation_->Journal()->Places())
-    if (place.kind == JournalBlockKind::kSnapshot && place.first_tick <= continuation_->Tick())
+  if (!restart_point_ || restart_point_->Journal() == nullptr) return ticks;
+  for (const JournalPlace& place : restart_point_->Journal()->Places())
+    if (place.kind == JournalBlockKind::kSnapshot && place.first_tick <= restart_point_->Tick())
       ticks.insert(place.first_tick);
   return ticks;
 }
@@ -195,10 +195,10 @@ void ServerProgram::OpenJournal()
   const bool beside_launcher = options_.abandon == nullptr;
   JournalBudget budget{options_.JournalBudgetBytes(), Expected({})};
   budget.parts.push_back(kServerPart);
-  if (continuation_ && continuation_->Journal() != nullptr)
+  if (restart_point_ && restart_point_->Journal() != nullptr)
   {
-    journal_.emplace(*continuation_->Journal(), continuation_->Tick(), beside_launcher, std::move(budget));
-    continuation_->ShareOut(*journal_, experiment_, assignment_.table);
+    journal_.emplace(*restart_point_->Journal(), restart_point_->Tick(), beside_launcher, std::move(budget));
+    restart_point_->ShareOut(*journal_, experiment_, assignment_.table);
     return;
   }
   std::filesystem::create_directories(std::filesystem::path(file).parent_path());

@@ -11,7 +11,7 @@
 
 #include "common/bus/membership/control_client.h"
 #include "common/experiment/load_experiment.h"
-#include "simulation/playback/past_robots.h"
+#include "simulation/playback/recorded_robot_states.h"
 #include "simulation/register_all.h"
 #include "tests/cluster/cluster_fixture.h"
 
@@ -277,13 +277,13 @@ TEST_F(InspectionTest, ThePastOfRobotsIsWhatWasToldOfThemThen)
   ASSERT_TRUE(experiment);
   for (const std::uint64_t tick : {0, 1, 99, 100, 101, 149})
   {
-    const PastRobots past(*experiment, folder_ + "/run", tick, request.robots);
+    const RecordedRobotStates past(*experiment, folder_ + "/run", tick, request.robots);
     ASSERT_EQ(past.Robots().size(), 2U);
     for (const RobotStatus& robot : past.Robots())
       EXPECT_EQ(InsideOf(robot), (told[{tick, robot.entity}])) << "tick " << tick;
   }
   EXPECT_NE((told[{149, request.robots[0]}]), (told[{100, request.robots[0]}]));
-  EXPECT_THROW(PastRobots(*experiment, folder_ + "/run", kTicks + 1, request.robots), std::runtime_error);
+  EXPECT_THROW(RecordedRobotStates(*experiment, folder_ + "/run", kTicks + 1, request.robots), std::runtime_error);
 }
 
 TEST_F(InspectionTest, WatchingIsForgottenWithoutRepetitionAndLeavesTheHashesAlone)

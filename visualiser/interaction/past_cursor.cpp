@@ -52,7 +52,7 @@ void PastCursor::Follow(const std::string& run_folder)
     timeline_ = {};
     run_folder_ = run_folder;
     if (run_folder.empty()) return;
-    look_back_ = std::make_unique<LookBack>(experiment_, run_folder, Answers());
+    look_back_ = std::make_unique<PlaybackReader>(experiment_, run_folder, Answers());
     inside_ = std::make_unique<PastInside>(experiment_, run_folder,
                                            [this](std::uint64_t, const PastInsideAnswer& answer)
                                            {

@@ -1,6 +1,6 @@
 // PastCursor: looking back in a window: which tick of the run's journal is shown, playing from it, and the way back to
-// the present. LookBack reads the journal in a thread of its own; what is wanted meanwhile waits, and only the newest
-// of it is asked for. Held by Viewer, in the thread of Draw and Idle.
+// the present. PlaybackReader reads the journal in a thread of its own; what is wanted meanwhile waits, and only the
+// newest of it is asked for. Held by Viewer, in the thread of Draw and Idle.
 #pragma once
 
 #include <chrono>
@@ -11,8 +11,8 @@
 #include <span>
 #include <string>
 
-#include "visualiser/look_back.h"
 #include "visualiser/past_inside.h"
+#include "visualiser/playback_reader.h"
 
 namespace swarmanoid
 {
@@ -70,7 +70,7 @@ private:
     std::uint64_t tick;
     Clock::time_point since;
   };
-  // From the thread of LookBack.
+  // From the thread of PlaybackReader.
   struct Arrived
   {
     std::optional<JournalTimeline> timeline;
@@ -97,7 +97,7 @@ private:
   std::mutex mutex_;
   Arrived arrived_;
   // Last: their threads use the above.
-  std::unique_ptr<LookBack> look_back_;
+  std::unique_ptr<PlaybackReader> look_back_;
   std::unique_ptr<PastInside> inside_;
 };
 

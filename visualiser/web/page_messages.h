@@ -9,8 +9,8 @@
 #include <variant>
 #include <vector>
 
-#include "visualiser/look_back.h"
 #include "visualiser/past_inside.h"
+#include "visualiser/playback_reader.h"
 #include "visualiser/render.h"
 #include "visualiser/scene/viewpoints.h"
 #include "visualiser/web/access.h"

@@ -268,7 +268,7 @@ void CWebRender::FollowJournal()
     past_inside_.reset();
     look_back_.reset();
     past_frames_.reset();
-    look_back_ = std::make_unique<LookBack>(
+    look_back_ = std::make_unique<PlaybackReader>(
         space_->GetExperiment(), folder,
         LookBackAnswers{[this, folder](const JournalTimeline& timeline)
                         {
@@ -288,7 +288,7 @@ void CWebRender::FollowJournal()
   if (look_back_ && host_->Server().Clients() > 0) look_back_->Refresh();
 }
 
-// In the thread of LookBack.
+// In the thread of PlaybackReader.
 void CWebRender::SendPast(std::uint64_t client, const LookBackRequest& request, const CSwarmanoidSpace& space)
 {
   if (!past_frames_) past_frames_ = std::make_unique<FrameWriter>(space);

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "visualiser/look_back.h"
+#include "visualiser/playback_reader.h"
 #include "visualiser/render.h"
 #include "visualiser/web/log_follower.h"
 #include "visualiser/web/marks.h"
@@ -97,9 +97,9 @@ private:
   std::vector<Request> requests_;
   std::atomic<bool> has_requests_{false};
 
-  std::unique_ptr<PageHost> host_;            // its server's thread calls the above
-  std::unique_ptr<FrameWriter> past_frames_;  // of the thread of look_back_
-  std::unique_ptr<LookBack> look_back_;       // these two last: their threads call the server
+  std::unique_ptr<PageHost> host_;             // its server's thread calls the above
+  std::unique_ptr<FrameWriter> past_frames_;   // of the thread of look_back_
+  std::unique_ptr<PlaybackReader> look_back_;  // these two last: their threads call the server
   std::unique_ptr<PastInside> past_inside_;
   std::string output_folder_;
 };

@@ -249,7 +249,7 @@ void Fields(Archive& archive, WorldMessage& message)
                });
   archive.Integer("known_until", message.known.until);
   archive.List("faults", message.known.faults,
-               [](Archive& a, KnownFault& fault)
+               [](Archive& a, RecordedFault& fault)
                {
                  a.Integer("faults.tick", fault.tick);
                  a.Integer("faults.robot", fault.robot);

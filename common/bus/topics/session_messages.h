@@ -95,7 +95,7 @@ struct WorldMessage
   bool recorded = false;
   std::vector<WorldEntity> entities;
   std::vector<WorldLibrary> libraries{};
-  KnownFaults known{};
+  RecordedFaults known{};
 };
 
 // JoinMessage::reach of those who hear the state of all.

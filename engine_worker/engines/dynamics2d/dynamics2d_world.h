@@ -11,8 +11,8 @@
 
 #include "common/plugin_descriptions/robot_parts.h"
 #include "common/serialisation/bytes.h"
-#include "engine_worker/engines/lone_bodies.h"
 #include "engine_worker/engines/plane_frame.h"
+#include "engine_worker/engines/separation_test.h"
 
 namespace swarmanoid::dynamics2d
 {
@@ -230,7 +230,7 @@ private:
   std::vector<b2Vec2> positions_;  // before a step
   double last_step_ = 0;           // seconds
 
-  LoneBodies isolation_;
+  SeparationTest isolation_;
   bool isolation_is_configured_ = false;
   double tick_ = 0;                      // seconds
   std::vector<std::uint32_t> moving_;    // bodies that are not static, ascending: those that isolation_ knows

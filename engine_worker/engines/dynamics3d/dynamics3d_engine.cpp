@@ -43,7 +43,7 @@ void CDynamics3dEngine::Init(const EngineSetup& setup)
                                          .models = {}});
   scene_->models.assign(space_->Size(), nullptr);
 
-  if (!settings_.solve_all) free_robots_ = std::make_unique<LoneRobots>(*scene_, steps_, step_seconds_);
+  if (!settings_.solve_all) free_robots_ = std::make_unique<ContactFreeSet>(*scene_, steps_, step_seconds_);
 
   AddGround();
   if (settings_.arena_walls) AddArenaWalls();

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "engine_worker/engines/dynamics3d/contact_free_set.h"
 #include "engine_worker/engines/dynamics3d/dynamics3d_parameters.h"
-#include "engine_worker/engines/dynamics3d/lone_robots.h"
 #include "engine_worker/engines/dynamics3d/model.h"
 #include "engine_worker/engines/dynamics3d/objects.h"
 #include "engine_worker/engines/dynamics3d/terrain_shape.h"
@@ -59,8 +59,8 @@ private:
   std::unique_ptr<dynamics3d::OdeWorld> world_;
   std::unique_ptr<dynamics3d::LinkTable> links_;
   std::unique_ptr<dynamics3d::Scene> scene_;
-  std::unique_ptr<dynamics3d::LoneRobots> free_robots_;     // nullptr: all are solved
-  std::vector<std::unique_ptr<dynamics3d::Model>> models_;  // in entity order
+  std::unique_ptr<dynamics3d::ContactFreeSet> free_robots_;  // nullptr: all are solved
+  std::vector<std::unique_ptr<dynamics3d::Model>> models_;   // in entity order
   std::vector<dynamics3d::Model*> owned_;
   std::vector<dynamics3d::MirrorModel*> mirrors_;
   std::vector<const CSwarmanoidSpaceEntity*> holes_;

@@ -49,7 +49,7 @@ TEST(MessageBytes, OfJoiningAndLeavingAreThoseOfTheIdl)
         std::vector<WorldEntity>(random.Length(), {random.Text(), random.Text(), random.Flag(), random.Number32()}),
         std::vector<WorldLibrary>(random.Length(), {random.Text(), random.Text()}),
         {random.Number(),
-         std::vector<KnownFault>(random.Length(), {random.Number(), random.Number32(), FaultKind::kTooSlow})}};
+         std::vector<RecordedFault>(random.Length(), {random.Number(), random.Number32(), FaultKind::kTooSlow})}};
     wire::World wire_world;
     wire_world.protocol(world.protocol);
     wire_world.run(world.run);
@@ -82,7 +82,7 @@ TEST(MessageBytes, OfJoiningAndLeavingAreThoseOfTheIdl)
       wire_world.libraries().back().digest(library.digest);
     }
     wire_world.known_until(world.known.until);
-    for (const KnownFault& fault : world.known.faults)
+    for (const RecordedFault& fault : world.known.faults)
     {
       wire_world.faults().emplace_back();
       wire_world.faults().back().tick(fault.tick);

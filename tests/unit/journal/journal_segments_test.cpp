@@ -94,7 +94,7 @@ TEST_F(JournalSegmentsTest, ABudgetKeepsTheNewestAndASavedStateBeforeIt)
     const JournalReader read(Path());
     EXPECT_EQ(read.Bytes(), journal.Bytes());
     ExpectWhole(read, tick + 10 * kPeriod);
-    EXPECT_EQ(read.TickToGoOn([](std::uint64_t) { return true; }), tick + 9 * kPeriod);
+    EXPECT_EQ(read.RestartTick([](std::uint64_t) { return true; }), tick + 9 * kPeriod);
     EXPECT_TRUE(read.CheckpointAt(tick + 9 * kPeriod, kParts));
     all = read.FirstTick();
   }
@@ -300,7 +300,7 @@ TEST_F(JournalSegmentsTest, CutAnywhereInItsNewestSegmentItGoesOn)
     {
       const fs::path kept = folder_ / "kept";
       fs::copy(folder_, kept);
-      const auto tick = JournalReader((kept / "0").string()).TickToGoOn([](std::uint64_t) { return true; });
+      const auto tick = JournalReader((kept / "0").string()).RestartTick([](std::uint64_t) { return true; });
       ASSERT_TRUE(tick);
       {
         const JournalReader before((kept / "0").string());
@@ -358,7 +358,7 @@ TEST_F(JournalSegmentsTest, ARunGoesOnWithADamagedJournal)
     }
     const JournalReader before(Path());
     ASSERT_EQ(before.Damages().size(), 1U);
-    const auto tick = before.TickToGoOn([](std::uint64_t) { return true; });
+    const auto tick = before.RestartTick([](std::uint64_t) { return true; });
     ASSERT_TRUE(tick);
     {
       JournalWriter journal(before, *tick, false, {8 * kBudget, kParts});
@@ -415,7 +415,7 @@ TEST_F(JournalSegmentsTest, WhoeverFollowsItSeesWhatAReaderSees)
   }
   {
     const JournalReader before(Path());
-    const auto back = before.TickToGoOn([&](std::uint64_t usable) { return usable + 2 * kPeriod < tick; });
+    const auto back = before.RestartTick([&](std::uint64_t usable) { return usable + 2 * kPeriod < tick; });
     ASSERT_LT(*back, tick - 2 * kPeriod) << "some ticks are done again";
     JournalWriter journal(before, *back, false, {kBudget, kParts});
     AddSomeTicks(journal, *back, *back + kPeriod);  // so few that none of before is deleted

@@ -319,8 +319,8 @@ TEST_F(JournalTest, ARunGoesOnAtTheNewestTickThatTheServerSavedAndOfWhichTheReco
   WriteSome("j", 12);
   const JournalReader journal(File("j"));
   const auto any = [](std::uint64_t) { return true; };
-  EXPECT_EQ(journal.TickToGoOn(any), 6U);
-  EXPECT_EQ(journal.TickToGoOn([](std::uint64_t tick) { return tick != 6; }), 4U);
+  EXPECT_EQ(journal.RestartTick(any), 6U);
+  EXPECT_EQ(journal.RestartTick([](std::uint64_t tick) { return tick != 6; }), 4U);
   EXPECT_EQ(journal.RecordOf(6)->state.tick, 6U);
   EXPECT_FALSE(journal.RecordOf(12));
   // A cut before the record of tick 6: who steps again there lacks its sensor frames.
@@ -329,7 +329,7 @@ TEST_F(JournalTest, ARunGoesOnAtTheNewestTickThatTheServerSavedAndOfWhichTheReco
                                   [](const JournalPlace& place)
                                   { return place.kind == JournalBlockKind::kTicks && place.first_tick == 6; });
   fs::resize_file(File("j"), sixth->offset);
-  EXPECT_EQ(JournalReader(File("j")).TickToGoOn(any), 4U);
+  EXPECT_EQ(JournalReader(File("j")).RestartTick(any), 4U);
 }
 
 // Whatever the blocks are that the ticks stand in, however torn the end, and again.
@@ -374,21 +374,21 @@ TEST_F(JournalTest, FaultsOfControllersAreFoundFromATickOn)
   const JournalReader journal(File("j"));
   for (const std::uint64_t from : {0U, 100U, 299U, 300U})
   {
-    std::vector<KnownFault> expected;
+    std::vector<RecordedFault> expected;
     for (std::uint64_t tick = from; tick < records.size(); ++tick)
     {
       const ControllerFaults& faults = records[tick].commands[1].faults;
       for (std::size_t k = 0; k < faults.robots.size(); ++k)
         expected.push_back({tick, faults.robots[k], faults.kinds[k]});
     }
-    const KnownFaults found = journal.FaultsFrom(from, 0);
+    const RecordedFaults found = journal.FaultsFrom(from, 0);
     EXPECT_EQ(found.faults, expected);
     EXPECT_EQ(found.until, from == 300 ? 0 : 300);
     EXPECT_TRUE(!expected.empty() || from > 100);
     // Where commands act a tick later, they are of the steps before.
-    const KnownFaults late = journal.FaultsFrom(from, 1);
-    for (KnownFault& fault : expected) --fault.tick;
-    std::erase_if(expected, [&](const KnownFault& fault) { return fault.tick + 1 == from; });
+    const RecordedFaults late = journal.FaultsFrom(from, 1);
+    for (RecordedFault& fault : expected) --fault.tick;
+    std::erase_if(expected, [&](const RecordedFault& fault) { return fault.tick + 1 == from; });
     EXPECT_EQ(late.faults, expected);
     EXPECT_EQ(late.until, from >= 299 ? 0 : 299);
   }

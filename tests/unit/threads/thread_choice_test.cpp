@@ -162,10 +162,10 @@ TEST(ThreadChoice, OneSlowPieceDoesNotDecide)
 }
 
 // All of a tick is shared or nothing; one thread is never told to share.
-TEST(SharedTicks, ThePoolKnowsWhetherATickIsShared)
+TEST(ThreadedTicks, ThePoolKnowsWhetherATickIsShared)
 {
   WorkerPool pool(2);
-  SharedTicks ticks;
+  ThreadedTicks ticks;
   std::set<bool> shared;
   for (unsigned k = 0; k < 2 * ThreadChoice::kTrials; ++k)
     ticks.Do(&pool,

@@ -1,4 +1,4 @@
-#include "launcher/trial_start.h"
+#include "launcher/smoke_test.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -74,7 +74,7 @@ bool Ended(int pipe, std::chrono::seconds most)
 
 }  // namespace
 
-int TrialStart(const Experiment& experiment, std::chrono::seconds most)
+int SmokeTest(const Experiment& experiment, std::chrono::seconds most)
 {
   const ScratchFolder folder;
   return TryRun(experiment, {.folder = folder.Path(), .most = most});

@@ -1,6 +1,6 @@
-// LoneBodies: which bodies can meet nobody within a tick, so that the solver of an engine need not see them. It follows
-// from where the bodies are and how far they can get, and from nothing that was before. Used by the engines of rigid
-// bodies in the thread that steps them.
+// SeparationTest: which bodies can meet nobody within a tick, so that the solver of an engine need not see them. It
+// follows from where the bodies are and how far they can get, and from nothing that was before. Used by the engines of
+// rigid bodies in the thread that steps them.
 #pragma once
 
 #include <array>
@@ -55,7 +55,7 @@ enum class Nearness : std::uint8_t
 double DistanceTo(std::span<const Vector2> polygon, const Vector2& point);
 double DistanceTo(const StaticOutline& outline, const Vector2& point);
 
-class LoneBodies
+class SeparationTest
 {
 public:
   // `longest_way`: beyond twice that nobody counts as far.

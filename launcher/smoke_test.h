@@ -23,6 +23,6 @@ int TryRun(const Experiment& experiment, const Trial& trial);
 // kExitDone, or another exit code of common/activity/exit_codes.h, with the mistake on standard error. What the code of
 // users prints goes there too; files that experiment functions write go into a folder that is removed. Does not return
 // before the trial ends, which is ended after `most`.
-int TrialStart(const Experiment& experiment, std::chrono::seconds most = std::chrono::seconds(60));
+int SmokeTest(const Experiment& experiment, std::chrono::seconds most = std::chrono::seconds(60));
 
 }  // namespace swarmanoid

@@ -1,6 +1,6 @@
-// LookBack: what the journal of the run has of its past, for the timelines of pages and windows. It reads the journal
-// in the folder of the run, in a thread of its own, so that nobody who looks back slows the run, or those who look at
-// the present. Made and asked by renderers in the thread of Draw and Idle.
+// PlaybackReader: what the journal of the run has of its past, for the timelines of pages and windows. It reads the
+// journal in the folder of the run, in a thread of its own, so that nobody who looks back slows the run, or those who
+// look at the present. Made and asked by renderers in the thread of Draw and Idle.
 #pragma once
 
 #include <condition_variable>
@@ -48,25 +48,25 @@ struct JournalTimeline
   bool operator==(const JournalTimeline&) const = default;
 };
 
-// Called in the thread of LookBack.
+// Called in the thread of PlaybackReader.
 struct LookBackAnswers
 {
   // Whenever it has changed.
   std::function<void(const JournalTimeline&)> timeline;
   // The space as it was at the tick of the request; entities that it does not have are left out. The space is the same
-  // object each time, and is as long as LookBack.
+  // object each time, and is as long as PlaybackReader.
   std::function<void(std::uint64_t client, const LookBackRequest&, const CSwarmanoidSpace&)> past;
   std::function<void(std::uint64_t client, const std::string& text)> refused;
 };
 
-class LookBack
+class PlaybackReader
 {
 public:
   // `run_folder` has the journal, or will have it. The experiment outlives this.
-  LookBack(const Experiment& experiment, std::string run_folder, LookBackAnswers answers);
-  ~LookBack();
-  LookBack(const LookBack&) = delete;
-  LookBack& operator=(const LookBack&) = delete;
+  PlaybackReader(const Experiment& experiment, std::string run_folder, LookBackAnswers answers);
+  ~PlaybackReader();
+  PlaybackReader(const PlaybackReader&) = delete;
+  PlaybackReader& operator=(const PlaybackReader&) = delete;
 
   const std::string& RunFolder() const { return run_folder_; }
   // The newest request of a client counts.

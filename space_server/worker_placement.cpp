@@ -1,4 +1,4 @@
-#include "space_server/worker_places.h"
+#include "space_server/worker_placement.h"
 
 #include <fmt/format.h>
 
@@ -32,7 +32,7 @@ std::string RegionOf(const std::string& which)
 
 }  // namespace
 
-WorkerPlaces::WorkerPlaces(std::vector<std::string> machines, const std::vector<std::string>& places)
+WorkerPlacement::WorkerPlacement(std::vector<std::string> machines, const std::vector<std::string>& places)
     : machines_(std::move(machines))
 {
   for (const std::string& place : places)
@@ -44,18 +44,18 @@ WorkerPlaces::WorkerPlaces(std::vector<std::string> machines, const std::vector<
   }
 }
 
-void WorkerPlaces::Put(const Move& move)
+void WorkerPlacement::Put(const Move& move)
 {
   if (const auto place = places_.find(move.worker); place != places_.end() && HasMachine(move.machine))
     place->second = move.machine;
 }
 
-bool WorkerPlaces::HasMachine(const std::string& machine) const
+bool WorkerPlacement::HasMachine(const std::string& machine) const
 {
   return std::ranges::find(machines_, machine) != machines_.end();
 }
 
-void WorkerPlaces::RequireMachine(const std::string& machine) const
+void WorkerPlacement::RequireMachine(const std::string& machine) const
 {
   if (HasMachine(machine)) return;
   throw std::invalid_argument(fmt::format(
@@ -63,7 +63,7 @@ void WorkerPlaces::RequireMachine(const std::string& machine) const
       Quoted(machine), Listed(machines_), DidYouMean(machine, machines_)));
 }
 
-std::string WorkerPlaces::Text() const
+std::string WorkerPlacement::Text() const
 {
   RequireMoves("machines");
   std::map<std::string, std::vector<std::string>> workers;
@@ -78,7 +78,7 @@ std::string WorkerPlaces::Text() const
   return text;
 }
 
-void WorkerPlaces::RequireMoves(const std::string& verb) const
+void WorkerPlacement::RequireMoves(const std::string& verb) const
 {
   if (places_.empty())
     throw std::invalid_argument(
@@ -87,13 +87,13 @@ void WorkerPlaces::RequireMoves(const std::string& verb) const
                     verb));
 }
 
-bool WorkerPlaces::ServerMayStartAgain() const
+bool WorkerPlacement::ServerMayStartAgain() const
 {
   const auto server = places_.find(kServer);
   return server != places_.end() && server->second == kHere;
 }
 
-std::vector<std::string> WorkerPlaces::ReadHosts(const ControlRequestMessage& request, std::size_t most) const
+std::vector<std::string> WorkerPlacement::ReadHosts(const ControlRequestMessage& request, std::size_t most) const
 {
   RequireMoves(request.verb);
   if (!ServerMayStartAgain())
@@ -131,7 +131,7 @@ std::vector<std::string> WorkerPlaces::ReadHosts(const ControlRequestMessage& re
   return hosts;
 }
 
-std::vector<WorkerPlaces::Move> WorkerPlaces::Read(const ControlRequestMessage& request) const
+std::vector<WorkerPlacement::Move> WorkerPlacement::Read(const ControlRequestMessage& request) const
 {
   RequireMoves(request.verb);
   if (request.verb == "drain")
@@ -168,7 +168,7 @@ std::vector<WorkerPlaces::Move> WorkerPlaces::Read(const ControlRequestMessage& 
   return {{found->first, machine}};
 }
 
-std::vector<WorkerPlaces::Move> WorkerPlaces::Drain(const std::string& machine) const
+std::vector<WorkerPlacement::Move> WorkerPlacement::Drain(const std::string& machine) const
 {
   if (const auto server = places_.find(kServer); server != places_.end() && server->second == machine)
     throw std::invalid_argument(

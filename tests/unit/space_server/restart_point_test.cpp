@@ -1,5 +1,5 @@
 // A run whose space server has died goes on, wherever it died.
-#include "space_server/cluster/continuation.h"
+#include "space_server/cluster/restart_point.h"
 
 #include <unistd.h>
 
@@ -79,19 +79,19 @@ TEST_F(ContinuationTest, WhatNewHostsRememberIsWrittenIfTheServerDiedBefore)
     }
   }
   {
-    const Continuation died(settings_, experiment_);
+    const RestartPoint died(settings_, experiment_);
     ASSERT_EQ(died.Tick(), 10U);
     JournalWriter journal(*died.Journal(), died.Tick());
     journal.BeginHosts(second, died.Tick());
   }
   for (int again = 0; again < 2; ++again)
   {
-    const Continuation continuation(settings_, experiment_);
-    ASSERT_EQ(continuation.Tick(), 10U);
-    ASSERT_EQ(continuation.Journal()->Hosts(), second);
-    JournalWriter journal(*continuation.Journal(), continuation.Tick());
+    const RestartPoint restart_point(settings_, experiment_);
+    ASSERT_EQ(restart_point.Tick(), 10U);
+    ASSERT_EQ(restart_point.Journal()->Hosts(), second);
+    JournalWriter journal(*restart_point.Journal(), restart_point.Tick());
     const std::size_t before = journal.Places().size();
-    continuation.ShareOut(journal, experiment_, second);
+    restart_point.ShareOut(journal, experiment_, second);
     journal.Flush();
     const auto checkpoint = JournalReader(file).CheckpointAt(10, PartsOf(experiment_, 2), 1);
     ASSERT_TRUE(checkpoint);

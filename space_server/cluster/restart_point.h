@@ -1,4 +1,4 @@
-// Continuation: where a space server takes a run up whose space server has died, from the folder of the run. The
+// RestartPoint: where a space server takes a run up whose space server has died, from the folder of the run. The
 // journal says what the state was, the log of events what users asked. Made and used by the main thread of the
 // space_server program before its first tick.
 #pragma once
@@ -17,11 +17,11 @@ namespace swarmanoid
 
 class SpaceServer;
 
-class Continuation
+class RestartPoint
 {
 public:
   // Throws std::runtime_error if the journal is of something else.
-  Continuation(const RunSettings& settings, const Experiment& experiment);
+  RestartPoint(const RunSettings& settings, const Experiment& experiment);
 
   // The newest tick at which the server was saved and whose record is in the journal; otherwise the first one of the
   // run.
@@ -39,7 +39,7 @@ public:
   const std::vector<double>& NewestPoses() const { return newest_poses_; }
   const EarlierRequests& Requests() const { return requests_; }
   // Of controllers, in ticks that are done again. Some may stand there twice.
-  KnownFaults Faults() const;
+  RecordedFaults Faults() const;
   // What is asked of the run from now on, after what was asked before.
   void Prepare(RunControlSetup& setup) const;
 

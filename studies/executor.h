@@ -24,13 +24,13 @@ struct RunningRun
   std::string where;  // empty: this machine
 };
 
-class RunPlace
+class Executor
 {
 public:
-  RunPlace() = default;
-  virtual ~RunPlace() = default;
-  RunPlace(const RunPlace&) = delete;
-  RunPlace& operator=(const RunPlace&) = delete;
+  Executor() = default;
+  virtual ~Executor() = default;
+  Executor(const Executor&) = delete;
+  Executor& operator=(const Executor&) = delete;
 
   // Whether it takes another run.
   virtual bool HasRoom() const = 0;

@@ -1,4 +1,4 @@
-#include "engine_worker/engines/lone_bodies.h"
+#include "engine_worker/engines/separation_test.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,8 +42,8 @@ double DistanceTo(const StaticOutline& outline, const Vector2& point)
   return std::sqrt((point - outline.corners.front()).squaredNorm()) - outline.radius;
 }
 
-void LoneBodies::Configure(std::span<const MovingOutline> bodies, std::vector<StaticOutline> statics,
-                           double longest_way)
+void SeparationTest::Configure(std::span<const MovingOutline> bodies, std::vector<StaticOutline> statics,
+                               double longest_way)
 {
   statics_ = std::move(statics);
   largest_margin_ = 2 * longest_way + kMargin + kBand;
@@ -69,8 +69,8 @@ void LoneBodies::Configure(std::span<const MovingOutline> bodies, std::vector<St
   present_.assign(padded, 1);
 }
 
-bool LoneBodies::Find(std::span<const MovingOutline> bodies, double margin, std::vector<Nearness>& nearness,
-                      std::vector<kinematics2d::Pair>* near_pairs)
+bool SeparationTest::Find(std::span<const MovingOutline> bodies, double margin, std::vector<Nearness>& nearness,
+                          std::vector<kinematics2d::Pair>* near_pairs)
 {
   if (near_pairs != nullptr) near_pairs->clear();
   double longest = 0;

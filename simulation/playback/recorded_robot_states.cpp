@@ -1,4 +1,4 @@
-#include "simulation/playback/past_robots.h"
+#include "simulation/playback/recorded_robot_states.h"
 
 #include <fmt/format.h>
 
@@ -44,8 +44,8 @@ void Redo(PastHost& host, const TickRecord& record, const std::vector<ControlCom
 
 }  // namespace
 
-PastRobots::PastRobots(const Experiment& experiment, const std::string& run_folder, std::uint64_t tick,
-                       std::span<const std::uint32_t> robots)
+RecordedRobotStates::RecordedRobotStates(const Experiment& experiment, const std::string& run_folder,
+                                         std::uint64_t tick, std::span<const std::uint32_t> robots)
 {
   const JournalReader journal(JournalFile(run_folder));
   const auto record = journal.RecordOf(tick);

@@ -1,5 +1,5 @@
 // Where workers may go, and what is told to those who ask for what cannot be.
-#include "space_server/worker_places.h"
+#include "space_server/worker_placement.h"
 
 #include <gmock/gmock.h>
 
@@ -14,11 +14,11 @@ using testing::AllOf;
 using testing::EndsWith;
 using testing::HasSubstr;
 
-const WorkerPlaces& Places()
+const WorkerPlacement& Places()
 {
-  static const WorkerPlaces places({"here", "alpha", "beta"},
-                                   {"space server=here", "engine 'ground'=alpha", "engine 'a to b'=alpha",
-                                    "controller host 0=alpha", "controller host 1=beta", "visualiser 'x=y'=here"});
+  static const WorkerPlacement places({"here", "alpha", "beta"},
+                                      {"space server=here", "engine 'ground'=alpha", "engine 'a to b'=alpha",
+                                       "controller host 0=alpha", "controller host 1=beta", "visualiser 'x=y'=here"});
   return places;
 }
 
@@ -30,7 +30,7 @@ ControlRequestMessage Request(const std::string& verb, const std::string& entity
   return request;
 }
 
-std::string MovesOf(const WorkerPlaces& places, const std::string& verb, const std::string& entity)
+std::string MovesOf(const WorkerPlacement& places, const std::string& verb, const std::string& entity)
 {
   std::string text;
   try
@@ -46,7 +46,7 @@ std::string MovesOf(const WorkerPlaces& places, const std::string& verb, const s
 
 std::string MovesOf(const std::string& verb, const std::string& entity) { return MovesOf(Places(), verb, entity); }
 
-TEST(WorkerPlaces, FindTheWorkerAndItsMachine)
+TEST(WorkerPlacement, FindTheWorkerAndItsMachine)
 {
   EXPECT_EQ(MovesOf("move-host", "1"), "controller host 1 > beta; ");
   EXPECT_EQ(MovesOf("move-host", "1 to alpha"), "controller host 1 > alpha; ");
@@ -55,10 +55,10 @@ TEST(WorkerPlaces, FindTheWorkerAndItsMachine)
   EXPECT_EQ(MovesOf("move-engine", "a to b to beta"), "engine 'a to b' > beta; ");
 }
 
-TEST(WorkerPlaces, FindTheRegionsOfAnEngine)
+TEST(WorkerPlacement, FindTheRegionsOfAnEngine)
 {
-  const WorkerPlaces places({"here", "beta"}, {"engine 'ground'=here", "region 0 of engine 'ground'=here",
-                                               "region 1 of engine 'ground'=beta", "engine 'a/1'=here"});
+  const WorkerPlacement places({"here", "beta"}, {"engine 'ground'=here", "region 0 of engine 'ground'=here",
+                                                  "region 1 of engine 'ground'=beta", "engine 'a/1'=here"});
   EXPECT_EQ(MovesOf(places, "move-engine", "ground/1"), "region 1 of engine 'ground' > beta; ");
   EXPECT_EQ(MovesOf(places, "move-engine", "ground/0 to beta"), "region 0 of engine 'ground' > beta; ");
   EXPECT_EQ(MovesOf(places, "move-engine", "ground to beta"), "engine 'ground' > beta; ");
@@ -67,32 +67,32 @@ TEST(WorkerPlaces, FindTheRegionsOfAnEngine)
   EXPECT_THAT(MovesOf(places, "move-engine", "ground/2"), HasSubstr("region 1 of engine 'ground'"));
 }
 
-TEST(WorkerPlaces, RefuseWhatIsNotThere)
+TEST(WorkerPlacement, RefuseWhatIsNotThere)
 {
   EXPECT_THAT(MovesOf("move-host", "2"), AllOf(HasSubstr("no controller host 2"), HasSubstr("controller host 1")));
   EXPECT_THAT(MovesOf("move-host", "1 to gamma"), AllOf(HasSubstr("no machine 'gamma'"), HasSubstr("machines = ")));
   EXPECT_THAT(MovesOf("drain", "bet"), HasSubstr("did you mean 'beta'?"));
   EXPECT_THAT(MovesOf("drain", "here"), HasSubstr("the space server is at 'here'"));
-  EXPECT_THAT(MovesOf(WorkerPlaces(), "move-host", "0"), HasSubstr("no process of this run can be moved"));
-  EXPECT_THROW(WorkerPlaces({}, {"engine"}), std::invalid_argument);
+  EXPECT_THAT(MovesOf(WorkerPlacement(), "move-host", "0"), HasSubstr("no process of this run can be moved"));
+  EXPECT_THROW(WorkerPlacement({}, {"engine"}), std::invalid_argument);
 }
 
-TEST(WorkerPlaces, TheTextNamesEachMachineAndItsWorkers)
+TEST(WorkerPlacement, TheTextNamesEachMachineAndItsWorkers)
 {
   EXPECT_EQ(Places().Text(),
             "here: space server, visualiser 'x=y'; alpha: controller host 0, engine 'a to b', engine 'ground'; beta: "
             "controller host 1");
-  WorkerPlaces places = Places();
+  WorkerPlacement places = Places();
   places.Put({"controller host 1", "alpha"});
   EXPECT_THAT(places.Text(), EndsWith("; beta: nobody"));
 }
 
 // Two workers are at beta or here each; those of alpha go where the fewest are.
-TEST(WorkerPlaces, DrainGivesToThoseWhoHaveTheFewest)
+TEST(WorkerPlacement, DrainGivesToThoseWhoHaveTheFewest)
 {
   EXPECT_EQ(MovesOf("drain", "alpha"), "controller host 0 > beta; engine 'a to b' > beta; engine 'ground' > here; ");
   EXPECT_EQ(MovesOf("drain", "beta"), "controller host 1 > here; ");
-  WorkerPlaces places = Places();
+  WorkerPlacement places = Places();
   places.Put({"controller host 1", "here"});
   EXPECT_EQ(MovesOf(places, "drain", "beta"), "");
   // The worker is not one that moves, does not say where it is, or names a machine that the run does not have.
@@ -119,7 +119,7 @@ std::string HostsOf(double more, const std::string& machine = "", std::size_t mo
 }
 
 // At first one at alpha, then one at beta.
-TEST(WorkerPlaces, HostsComeAndGoAtTheEnd)
+TEST(WorkerPlacement, HostsComeAndGoAtTheEnd)
 {
   EXPECT_EQ(HostsOf(1), "alpha beta here ");
   EXPECT_EQ(HostsOf(3, "beta"), "alpha beta beta beta beta ");
@@ -134,28 +134,28 @@ TEST(WorkerPlaces, HostsComeAndGoAtTheEnd)
   EXPECT_THAT(HostsOf(std::nan("")), HasSubstr("write +N or -N"));
 }
 
-TEST(WorkerPlaces, OneHostHasNobodyToShareWith)
+TEST(WorkerPlacement, OneHostHasNobodyToShareWith)
 {
   ControlRequestMessage request = Request("hosts", "");
   request.numbers = {0};
-  const WorkerPlaces places({"here"}, {"space server=here", "controller host 0=here"});
+  const WorkerPlacement places({"here"}, {"space server=here", "controller host 0=here"});
   EXPECT_THAT([&] { places.ReadHosts(request, 9); },
               testing::ThrowsMessage<std::invalid_argument>(HasSubstr("that has all robots")));
 }
 
-TEST(WorkerPlaces, HostsNeedASpaceServerThatCanStartAgain)
+TEST(WorkerPlacement, HostsNeedASpaceServerThatCanStartAgain)
 {
   ControlRequestMessage request = Request("hosts", "");
   request.numbers = {1};
-  const WorkerPlaces places({"here", "beta"}, {"space server=beta", "controller host 0=here"});
+  const WorkerPlacement places({"here", "beta"}, {"space server=beta", "controller host 0=here"});
   EXPECT_THAT([&] { places.ReadHosts(request, 9); },
               testing::ThrowsMessage<std::invalid_argument>(HasSubstr("it is on another machine than the launcher")));
-  EXPECT_THROW(WorkerPlaces().ReadHosts(request, 9), std::invalid_argument);
+  EXPECT_THROW(WorkerPlacement().ReadHosts(request, 9), std::invalid_argument);
 }
 
-TEST(WorkerPlaces, DrainNeedsAnotherMachine)
+TEST(WorkerPlacement, DrainNeedsAnotherMachine)
 {
-  const WorkerPlaces alone({"alpha"}, {"controller host 0=alpha"});
+  const WorkerPlacement alone({"alpha"}, {"controller host 0=alpha"});
   EXPECT_THAT(MovesOf(alone, "drain", "alpha"), HasSubstr("nowhere to go"));
 }
 

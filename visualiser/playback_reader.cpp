@@ -1,4 +1,4 @@
-#include "visualiser/look_back.h"
+#include "visualiser/playback_reader.h"
 
 #include <fmt/format.h>
 
@@ -50,7 +50,7 @@ std::vector<TimelineEvent> EventsOf(const std::string& text)
 
 }  // namespace
 
-LookBack::LookBack(const Experiment& experiment, std::string run_folder, LookBackAnswers answers)
+PlaybackReader::PlaybackReader(const Experiment& experiment, std::string run_folder, LookBackAnswers answers)
     : experiment_(experiment),
       run_folder_(std::move(run_folder)),
       answers_(std::move(answers)),
@@ -59,7 +59,7 @@ LookBack::LookBack(const Experiment& experiment, std::string run_folder, LookBac
 {
 }
 
-LookBack::~LookBack()
+PlaybackReader::~PlaybackReader()
 {
   {
     const std::lock_guard lock(mutex_);
@@ -69,27 +69,27 @@ LookBack::~LookBack()
   thread_.join();
 }
 
-void LookBack::Ask(std::uint64_t client, const LookBackRequest& request)
+void PlaybackReader::Ask(std::uint64_t client, const LookBackRequest& request)
 {
   const std::lock_guard lock(mutex_);
   wanted_[client] = request;
   changed_.notify_all();
 }
 
-void LookBack::Forget(std::uint64_t client)
+void PlaybackReader::Forget(std::uint64_t client)
 {
   const std::lock_guard lock(mutex_);
   wanted_.erase(client);
 }
 
-void LookBack::Refresh()
+void PlaybackReader::Refresh()
 {
   const std::lock_guard lock(mutex_);
   refresh_ = true;
   changed_.notify_all();
 }
 
-void LookBack::Work()
+void PlaybackReader::Work()
 {
   std::unique_lock lock(mutex_);
   while (true)
@@ -113,7 +113,7 @@ void LookBack::Work()
   }
 }
 
-bool LookBack::IsOpen()
+bool PlaybackReader::IsOpen()
 {
   if (states_ || refused_) return !refused_;
   journal_.Refresh();
@@ -124,7 +124,7 @@ bool LookBack::IsOpen()
   return true;
 }
 
-void LookBack::Follow()
+void PlaybackReader::Follow()
 {
   if (!IsOpen()) return;
   journal_.Refresh();
@@ -142,7 +142,7 @@ void LookBack::Follow()
   answers_.timeline(timeline_);
 }
 
-void LookBack::Answer(std::uint64_t client, LookBackRequest request)
+void PlaybackReader::Answer(std::uint64_t client, LookBackRequest request)
 {
   try
   {

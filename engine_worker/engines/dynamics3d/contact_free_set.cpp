@@ -1,4 +1,4 @@
-#include "engine_worker/engines/dynamics3d/lone_robots.h"
+#include "engine_worker/engines/dynamics3d/contact_free_set.h"
 
 #include <algorithm>
 #include <array>
@@ -82,7 +82,7 @@ double SpinOf(dBodyID body) { return std::sqrt(VectorOf(dBodyGetAngularVel(body)
 
 }  // namespace
 
-void LoneRobots::Add(Model& model, bool owned)
+void ContactFreeSet::Add(Model& model, bool owned)
 {
   Body& body =
       bodies_.emplace_back(Body{.model = &model, .robot = dynamic_cast<WheeledModel*>(&model), .owned = owned});
@@ -96,7 +96,7 @@ void LoneRobots::Add(Model& model, bool owned)
 }
 
 // A plane that is level, and nothing else to stand on.
-bool LoneRobots::HasLevelGround() const
+bool ContactFreeSet::HasLevelGround() const
 {
   const Vector3& gravity = scene_.world.Settings().gravity;
   if (!(gravity.z() < 0) || gravity.head<2>().norm() > -1e-9 * gravity.z()) return false;
@@ -120,7 +120,7 @@ bool LoneRobots::HasLevelGround() const
   return has_ground;
 }
 
-std::vector<StaticOutline> LoneRobots::StaticOutlines() const
+std::vector<StaticOutline> ContactFreeSet::StaticOutlines() const
 {
   std::vector<StaticOutline> outlines = holes_;
   for (const auto& solid : scene_.world.Solids())
@@ -140,7 +140,7 @@ std::vector<StaticOutline> LoneRobots::StaticOutlines() const
   return outlines;
 }
 
-void LoneRobots::Configure()
+void ContactFreeSet::Configure()
 {
   solids_ = scene_.world.Solids().size();
   has_level_ground_ = HasLevelGround();
@@ -165,7 +165,7 @@ void LoneRobots::Configure()
   isolation_.Configure(outlines_, StaticOutlines(), kFastest * steps_ * step_seconds_);
 }
 
-void LoneRobots::BeginTick()
+void ContactFreeSet::BeginTick()
 {
   if (solids_ != scene_.world.Solids().size()) Configure();
   if (!has_level_ground_) return;
@@ -181,7 +181,7 @@ void LoneRobots::BeginTick()
   Search();
 }
 
-void LoneRobots::Search()
+void ContactFreeSet::Search()
 {
   const double seconds = (steps_ - step_) * step_seconds_;
   bool are_within = true;
@@ -203,7 +203,7 @@ void LoneRobots::Search()
 }
 
 // Where a body is, and how far it gets by itself within so many seconds.
-void LoneRobots::Outline(const Body& body, double seconds, MovingOutline& outline)
+void ContactFreeSet::Outline(const Body& body, double seconds, MovingOutline& outline)
 {
   outline.present = true;
   outline.part_count = 0;
@@ -225,14 +225,14 @@ void LoneRobots::Outline(const Body& body, double seconds, MovingOutline& outlin
 }
 
 // Whether somebody that the solver moves left, or leaves in the next step, what the search took him to need.
-bool LoneRobots::IsSomebodyTooFar() const
+bool ContactFreeSet::IsSomebodyTooFar() const
 {
   for (std::size_t k = 0; k < bodies_.size(); ++k)
     if (!bodies_[k].IsFree() && IsTooFar(bodies_[k], outlines_[k])) return true;
   return false;
 }
 
-bool LoneRobots::IsTooFar(const Body& body, const MovingOutline& outline) const
+bool ContactFreeSet::IsTooFar(const Body& body, const MovingOutline& outline) const
 {
   const MovingCircle& whole = outline.whole;
   const dBodyID main = MainBodyOf(body);
@@ -246,14 +246,14 @@ bool LoneRobots::IsTooFar(const Body& body, const MovingOutline& outline) const
 }
 
 // By how much a body comes nearer to others in a step at most, m.
-double LoneRobots::LargestStep(const Body& body) const
+double ContactFreeSet::LargestStep(const Body& body) const
 {
   if (body.robot != nullptr && body.robot->IsUpright()) return body.robot->LargestSpeed() * step_seconds_;
   const dBodyID main = MainBodyOf(body);
   return (SpeedInPlane(main) + SpinOf(main) * body.radius) * step_seconds_;
 }
 
-double LoneRobots::GapBetween(const Body& robot, std::uint32_t other) const
+double ContactFreeSet::GapBetween(const Body& robot, std::uint32_t other) const
 {
   const Vector2 place = robot.robot->GroundPoint();
   double gap = -robot.robot->Radius();
@@ -264,7 +264,7 @@ double LoneRobots::GapBetween(const Body& robot, std::uint32_t other) const
   return gap + DistanceTo(BoxOf(body), place);
 }
 
-void LoneRobots::FindTouching()
+void ContactFreeSet::FindTouching()
 {
   for (Body& body : bodies_) body.touches = false;
   for (const kinematics2d::Pair& pair : pairs_)
@@ -284,7 +284,7 @@ void LoneRobots::FindTouching()
   }
 }
 
-std::span<Model* const> LoneRobots::BeforeStep()
+std::span<Model* const> ContactFreeSet::BeforeStep()
 {
   if (!has_level_ground_) return solved_;
   if (is_searched_ && step_ > 0 && IsSomebodyTooFar())
@@ -304,7 +304,7 @@ std::span<Model* const> LoneRobots::BeforeStep()
   return solved_;
 }
 
-void LoneRobots::Decide(Body& body)
+void ContactFreeSet::Decide(Body& body)
 {
   WheeledModel& robot = *body.robot;
   const bool may_be_free = is_searched_ && body.may_be_free && !(body.is_near && body.touches);
@@ -324,14 +324,14 @@ void LoneRobots::Decide(Body& body)
     robot.BecomeSolved();
 }
 
-void LoneRobots::AdvanceTo(Body& body, int step) const
+void ContactFreeSet::AdvanceTo(Body& body, int step) const
 {
   if (step > body.advanced) body.robot->AdvanceFreely(step - body.advanced, step_seconds_);
   body.advanced = step;
 }
 
 // Those who can meet nobody do all of their steps at once.
-void LoneRobots::AfterStep()
+void ContactFreeSet::AfterStep()
 {
   ++step_;
   if (!has_level_ground_) return;
@@ -339,7 +339,7 @@ void LoneRobots::AfterStep()
     if (body.is_near && body.IsFree()) AdvanceTo(body, step_);
 }
 
-void LoneRobots::EndTick()
+void ContactFreeSet::EndTick()
 {
   for (Body& body : bodies_)
   {
@@ -349,7 +349,7 @@ void LoneRobots::EndTick()
   }
 }
 
-std::size_t LoneRobots::Count() const
+std::size_t ContactFreeSet::Count() const
 {
   return static_cast<std::size_t>(std::ranges::count_if(bodies_, [](const Body& body) { return body.IsFree(); }));
 }

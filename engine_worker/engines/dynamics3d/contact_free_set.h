@@ -1,4 +1,4 @@
-// LoneRobots: which robots on wheels touch nothing but level ground, so that their closed form moves them and the
+// ContactFreeSet: which robots on wheels touch nothing but level ground, so that their closed form moves them and the
 // solver does not. Once a tick it is searched who can meet nobody until the tick ends; the others compare themselves
 // with those near them in each step. All follows from the bodies at the start of the tick. Owned by the engine.
 #pragma once
@@ -8,15 +8,16 @@
 #include <vector>
 
 #include "engine_worker/engines/dynamics3d/wheeled.h"
-#include "engine_worker/engines/lone_bodies.h"
+#include "engine_worker/engines/separation_test.h"
 
 namespace swarmanoid::dynamics3d
 {
 
-class LoneRobots
+class ContactFreeSet
 {
 public:
-  LoneRobots(Scene& scene, int steps, double step_seconds) : scene_(scene), steps_(steps), step_seconds_(step_seconds)
+  ContactFreeSet(Scene& scene, int steps, double step_seconds)
+      : scene_(scene), steps_(steps), step_seconds_(step_seconds)
   {
   }
 
@@ -76,7 +77,7 @@ private:
 
   std::size_t solids_ = 0;  // that Configure saw
   bool has_level_ground_ = false;
-  LoneBodies isolation_;
+  SeparationTest isolation_;
   std::vector<MovingOutline> outlines_;
   std::vector<Nearness> nearness_;
   std::vector<kinematics2d::Pair> pairs_;  // of which one is a robot on wheels

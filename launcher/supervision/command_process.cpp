@@ -1,4 +1,4 @@
-#include "launcher/supervision/helper_process.h"
+#include "launcher/supervision/command_process.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -18,7 +18,7 @@
 namespace swarmanoid
 {
 
-HelperProcess::HelperProcess(std::vector<std::string> words, const std::string& errors)
+CommandProcess::CommandProcess(std::vector<std::string> words, const std::string& errors)
 {
   const FileDescriptor file(open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
   if (!file.IsOpen())
@@ -26,13 +26,13 @@ HelperProcess::HelperProcess(std::vector<std::string> words, const std::string& 
   pid_ = Spawn({.words = std::move(words), .errors = file.Get()});
 }
 
-bool HelperProcess::Ended()
+bool CommandProcess::Ended()
 {
   if (!ended_ && waitpid(pid_, &status_, WNOHANG) == pid_) ended_ = true;
   return ended_;
 }
 
-int HelperProcess::Wait()
+int CommandProcess::Wait()
 {
   while (!ended_)
   {

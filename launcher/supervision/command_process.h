@@ -10,13 +10,13 @@
 namespace swarmanoid
 {
 
-class HelperProcess
+class CommandProcess
 {
 public:
   // The program first, by its path or as it is found on the PATH. Throws std::runtime_error if it cannot be started.
-  HelperProcess(std::vector<std::string> words, const std::string& errors);
-  HelperProcess(const HelperProcess&) = delete;
-  HelperProcess& operator=(const HelperProcess&) = delete;
+  CommandProcess(std::vector<std::string> words, const std::string& errors);
+  CommandProcess(const CommandProcess&) = delete;
+  CommandProcess& operator=(const CommandProcess&) = delete;
 
   bool Ended();
   // The exit code; of a child that a signal ended, that of a process that failed.

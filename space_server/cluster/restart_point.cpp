@@ -1,4 +1,4 @@
-#include "space_server/cluster/continuation.h"
+#include "space_server/cluster/restart_point.h"
 
 #include <filesystem>
 #include <stdexcept>
@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 }  // namespace
 
-Continuation::Continuation(const RunSettings& settings, const Experiment& experiment) : ahead_(experiment.ahead)
+RestartPoint::RestartPoint(const RunSettings& settings, const Experiment& experiment) : ahead_(experiment.ahead)
 {
   const std::optional<std::uint64_t> paused = settings.paused ? std::optional<std::uint64_t>(0) : std::nullopt;
   requests_ = ReadEarlierRequests(settings.output_folder + "/events.csv", experiment, paused);
@@ -33,7 +33,7 @@ Continuation::Continuation(const RunSettings& settings, const Experiment& experi
     const bool of_file = settings.checkpoint_every != 0 && tick % settings.checkpoint_every == 0;
     return !of_file || fs::exists(settings.output_folder + "/" + CheckpointName(tick));
   };
-  const auto saved = journal_->TickToGoOn(usable);
+  const auto saved = journal_->RestartTick(usable);
   if (!saved && journal_->FirstTick() != start.first_tick)
     throw std::runtime_error("the journal '" + file + "' has no whole state of the space server any more");
   if (!saved) return;
@@ -43,15 +43,15 @@ Continuation::Continuation(const RunSettings& settings, const Experiment& experi
   std::erase_if(requests_.changes, [this](const RecordedEvent& event) { return event.tick <= tick_; });
 }
 
-void Continuation::Restore(SpaceServer& server) const
+void RestartPoint::Restore(SpaceServer& server) const
 {
   if (!record_) return;
   const auto checkpoint = journal_->CheckpointAt(tick_, {kServerPart});
   checkpoint->LoadPart(kServerPart, [&](ByteReader& state) { server.LoadState(checkpoint->snapshot, state); });
-  server.TellAgain(record_->state.attributes);
+  server.Resend(record_->state.attributes);
 }
 
-void Continuation::ShareOut(JournalWriter& journal, const Experiment& experiment, const HostTable& hosts) const
+void RestartPoint::ShareOut(JournalWriter& journal, const Experiment& experiment, const HostTable& hosts) const
 {
   if (journal.Start().hosts != hosts)
     journal.BeginHosts(hosts, tick_);
@@ -64,16 +64,16 @@ void Continuation::ShareOut(JournalWriter& journal, const Experiment& experiment
   for (const SavedPart& part : checkpoint->parts) journal.Add(checkpoint->snapshot.tick, part);
 }
 
-KnownFaults Continuation::Faults() const
+RecordedFaults RestartPoint::Faults() const
 {
-  KnownFaults known = journal_ ? journal_->FaultsFrom(tick_, ahead_) : KnownFaults();
+  RecordedFaults known = journal_ ? journal_->FaultsFrom(tick_, ahead_) : RecordedFaults();
   // The journal may end earlier.
-  for (const KnownFault& fault : requests_.failed)
+  for (const RecordedFault& fault : requests_.failed)
     if (fault.tick >= tick_) known.faults.push_back(fault);
   return known;
 }
 
-void Continuation::Prepare(RunControlSetup& setup) const
+void RestartPoint::Prepare(RunControlSetup& setup) const
 {
   setup.goes_on = true;
   setup.failed = requests_.failed;

@@ -1,5 +1,5 @@
 // Who can meet nobody within a tick, beside a comparison of each with each.
-#include "engine_worker/engines/lone_bodies.h"
+#include "engine_worker/engines/separation_test.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ double DistanceFromSquare(const Vector2& middle, double half, double angle, cons
   return x > 0 && y > 0 ? std::sqrt(x * x + y * y) : std::max(x, y);
 }
 
-TEST(LoneBodies, IsWhatComparingEachWithEachFinds)
+TEST(SeparationTest, IsWhatComparingEachWithEachFinds)
 {
   int count[3] = {};
   for (std::uint32_t trial = 0; trial < 1000; ++trial)
@@ -64,7 +64,7 @@ TEST(LoneBodies, IsWhatComparingEachWithEachFinds)
     const MovingCircle pillar{random.Uniform(0, size), random.Uniform(0, size), 0.3, 0};
     statics.push_back({{{pillar.x, pillar.y}}, pillar.radius});
 
-    LoneBodies isolation;
+    SeparationTest isolation;
     isolation.Configure(outlines, statics, 0.1);
     // Elsewhere than they were when the cells were made, also outside of all cells.
     for (MovingOutline& outline : outlines)
@@ -102,10 +102,10 @@ TEST(LoneBodies, IsWhatComparingEachWithEachFinds)
             for (const MovingCircle& other : outlines[b].Parts())
               note(std::hypot(other.x - part.x, other.y - part.y) - other.radius - other.way);
       }
-      if (std::min(std::abs(gap - margin), std::abs(gap - margin - LoneBodies::kBand)) < 1e-9) continue;
-      const Nearness expected = gap < margin                       ? Nearness::kNear
-                                : gap < margin + LoneBodies::kBand ? Nearness::kClose
-                                                                   : Nearness::kFar;
+      if (std::min(std::abs(gap - margin), std::abs(gap - margin - SeparationTest::kBand)) < 1e-9) continue;
+      const Nearness expected = gap < margin                           ? Nearness::kNear
+                                : gap < margin + SeparationTest::kBand ? Nearness::kClose
+                                                                       : Nearness::kFar;
       ASSERT_EQ(found[a], expected) << "trial " << trial << ", body " << a << ", gap " << gap;
       ++count[static_cast<int>(expected)];
       const bool is_in_pair =
@@ -116,12 +116,12 @@ TEST(LoneBodies, IsWhatComparingEachWithEachFinds)
   EXPECT_GT(*std::ranges::min_element(count), 100) << "all three occur";
 }
 
-TEST(LoneBodies, NobodyIsFarWhereSomebodyIsTooFast)
+TEST(SeparationTest, NobodyIsFarWhereSomebodyIsTooFast)
 {
   std::vector<MovingOutline> outlines(2);
   outlines[0].whole = {0, 0, 0.1, 0};
   outlines[1].whole = {50, 0, 0.1, 0.3};
-  LoneBodies isolation;
+  SeparationTest isolation;
   isolation.Configure(outlines, {}, 0.1);
   std::vector<Nearness> found;
   EXPECT_FALSE(isolation.Find(outlines, 0.02, found));

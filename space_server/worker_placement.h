@@ -14,14 +14,14 @@ namespace swarmanoid
 // The machine that the launcher is on.
 inline constexpr const char* kHere = "here";
 
-class WorkerPlaces
+class WorkerPlacement
 {
 public:
   // Of a run whose processes nobody can move.
-  WorkerPlaces() = default;
+  WorkerPlacement() = default;
   // `machines`: all that workers may be on; `places`: "WORKER=MACHINE", of all workers; of two with one name the last
   // one counts. Throws std::invalid_argument for what is none.
-  WorkerPlaces(std::vector<std::string> machines, const std::vector<std::string>& places);
+  WorkerPlacement(std::vector<std::string> machines, const std::vector<std::string>& places);
 
   struct Move
   {

@@ -1,8 +1,8 @@
-#include "launcher/argos3_rehearsal.h"
+#include "launcher/argos3_dry_run.h"
 
 #include "common/configuration/xml_writer.h"
 #include "launcher/scratch_folder.h"
-#include "launcher/trial_start.h"
+#include "launcher/smoke_test.h"
 #include "simulation/register_all.h"
 
 namespace swarmanoid
