@@ -25,8 +25,8 @@ namespace fs = std::filesystem;
 
 // Those of ours whose code what is saved depends on.
 constexpr std::array kOwnLibraries{
-    "reproducible_math", "common", "builtins",       "control_interface", "behavior_toolkit",
-    "experiment",        "space",  "physics_engine", "engines",           "controller_host_role",
+    "reproducible_math", "common", "plugin_descriptions", "control_interface", "behavior_toolkit",
+    "experiment",        "space",  "physics_engine",      "engines",           "controller_host_role",
     "space_server_role", "argos3"};
 
 std::string BuildOfFile(const std::string& path)

@@ -278,7 +278,7 @@ TEST(LibraryBuilds, KnowSwarmanoidItselfAndNameWhatDiffers)
 
 TEST(LibraryBuilds, SwarmanoidIsAllOfItsLibrariesThatTheStateDependsOn)
 {
-  const std::set<std::string> others{"bus",          "run",           "roles",       "simulation", "space_server_node",
+  const std::set<std::string> others{"bus",          "run",           "simulator",   "simulation", "space_server_node",
                                      "render",       "scene",         "interaction", "real_robot", "web_render",
                                      "image_render", "opengl_render", "ogre_render", "version",    "studies",
                                      "argos3_files"};
