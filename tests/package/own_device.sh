@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# own_device.sh PREFIX: a sensor of one's own, as `swarmanoid new device` makes it, built against the installed package and used by a controller.
+# own_device.sh PREFIX: the sensor that `swarmanoid new device` makes, built against the installed package and used by a controller.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -26,4 +26,4 @@ echo "== the robots go north by it, the same ways in one process and as a cluste
 swarmanoid run experiments/compass.xml --single-process --output one | tee one.txt
 swarmanoid run experiments/compass.xml --controller-hosts 2 --output two | tee two.txt
 [ "$(grep -oE 'hash [0-9a-f]{16}' one.txt)" = "$(grep -oE 'hash [0-9a-f]{16}' two.txt)" ]
-awk '$1 == 200 && $2 == "Footbot" { n++; if ($@ < 80 || $@ > 100) bad = 1 } END { exit n != 4 || bad }' one/compass.txt
+awk '$1 == 200 && $2 == "Footbot" { n++; if ($NF < 80 || $NF > 100) bad = 1 } END { exit n != 4 || bad }' one/compass.txt
