@@ -89,7 +89,8 @@ void RefuseTakenTarget(const fs::path& user, const std::string& name)
                                        "install", "list",  "package", "simulation", "rebuild_cache", "test"};
   if (std::find(taken.begin(), taken.end(), name) != taken.end())
     throw UsageError(fmt::format("'{}' cannot be a name: the build has a target of that name; choose another", name));
-  for (const char* folder : {"controllers", "functions", "engines", "renderers"}) RefuseExisting(user / folder / name);
+  for (const char* folder : {"controllers", "devices", "engines", "entities", "functions", "renderers"})
+    RefuseExisting(user / folder / name);
 }
 
 void RequireIdentifier(const std::string& name)
@@ -130,6 +131,11 @@ std::string ProgramName()
   return own;
 }
 
+void TellRun(const fs::path& experiment)
+{
+  fmt::print("Next:\n  {} run {}\n", ProgramName(), fs::relative(experiment).string());
+}
+
 void TellNext(const fs::path& user, const fs::path& experiment)
 {
   const std::string build = fs::relative(user / "build.sh").string();
@@ -138,19 +144,23 @@ void TellNext(const fs::path& user, const fs::path& experiment)
 }
 
 // A plug-in of the user directory that we are in, in `folder`, and an experiment with it. `templates`: their folder,
-// and the start of their names.
+// and the start of their names. `with_controller`: a controller that uses it, too.
 void NewPlugin(const std::string& name, const char* what, const char* folder, const std::string& templates,
-               const std::vector<std::string>& endings)
+               const std::vector<std::string>& endings, bool with_controller = false)
 {
   RequireIdentifier(name);
   const fs::path user = RequireUserDirectory();
   const fs::path experiment = user / "experiments" / (name + ".xml");
+  const std::string controller = "with_" + name;
   RefuseTakenTarget(user, name);
+  if (with_controller) RefuseTakenTarget(user, controller);
   RefuseExisting(experiment);
-  const TemplateValues values{{"name", name}, {"class", ClassName(name)}};
+  const TemplateValues values{{"name", name}, {"class", ClassName(name)}, {"stem", ClassName(name).substr(1)}};
   fmt::print("Made {} {}:\n", what, name);
   for (const std::string& ending : endings)
     MakeFile(templates + "/" + templates + ending + ".in", user / folder / name / (name + ending), values);
+  if (with_controller)
+    MakeFile(templates + "/controller.cpp.in", user / "controllers" / controller / (controller + ".cpp"), values);
   MakeFile(templates + "/experiment.xml.in", experiment, values);
   TellNext(user, experiment);
 }
@@ -203,7 +213,7 @@ void NewExperiment(const std::string& name)
   RefuseExisting(file);
   fmt::print("Made experiment {}:\n", name);
   MakeFile("experiment/experiment.xml.in", file, {{"name", name}});
-  fmt::print("Next:\n  {} run {}\n", ProgramName(), fs::relative(file).string());
+  TellRun(file);
 }
 
 void NewFunctions(const std::string& name)
@@ -214,6 +224,24 @@ void NewFunctions(const std::string& name)
 void NewEngine(const std::string& name) { NewPlugin(name, "physics engine", "engines", "engine", {".h", ".cpp"}); }
 
 void NewRenderer(const std::string& name) { NewPlugin(name, "visualisation", "renderers", "renderer", {".cpp"}); }
+
+void NewDevice(const std::string& name) { NewPlugin(name, "sensor", "devices", "device", {".h", ".cpp"}, true); }
+
+void NewEntity(const std::string& name) { NewPlugin(name, "kind of robot", "entities", "entity", {".cpp"}, true); }
+
+// The simulator reads the script: there is nothing to build.
+void NewLua(const std::string& name)
+{
+  RequireIdentifier(name);
+  const fs::path user = RequireUserDirectory();
+  const fs::path experiment = user / "experiments" / (name + ".argos");
+  RefuseTakenTarget(user, name);
+  RefuseExisting(experiment);
+  fmt::print("Made Lua controller {}:\n", name);
+  MakeFile("lua/lua.in", user / "controllers" / name / (name + ".lua"), {{"name", name}});
+  MakeFile("lua/experiment.argos.in", experiment, {{"name", name}});
+  TellRun(experiment);
+}
 
 void NewTerrain(const std::string& name, const RoughTerrain& terrain)
 {
@@ -253,7 +281,7 @@ void NewTerrain(const std::string& name, const RoughTerrain& terrain)
                               terrain.depth, terrain.seed)}};
   fmt::print("Made terrain {}:\n  {}\n", name, fs::relative(map).string());
   MakeFile("terrain/experiment.xml.in", experiment, values);
-  fmt::print("Next:\n  {} run {}\n", ProgramName(), fs::relative(experiment).string());
+  TellRun(experiment);
 }
 
 void NewBehaviorController(BehaviorControllerNames names)

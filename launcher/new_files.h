@@ -15,6 +15,9 @@ void NewExperiment(const std::string& name);
 void NewFunctions(const std::string& name);
 void NewEngine(const std::string& name);
 void NewRenderer(const std::string& name);
+void NewDevice(const std::string& name);
+void NewEntity(const std::string& name);
+void NewLua(const std::string& name);
 // An OctoMap file and an experiment on it, here or in the user directory.
 void NewTerrain(const std::string& name, const RoughTerrain& terrain);
 

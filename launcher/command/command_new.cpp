@@ -1,4 +1,4 @@
-// `swarmanoid new`: makes user directories, and in them controllers, behaviours, experiment functions and experiments.
+// `swarmanoid new`: makes user directories, and in them plug-ins of each kind with experiments.
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
@@ -100,6 +100,9 @@ void AddNewCommand(CLI::App& app, int& exit_code)
       "  swarmanoid new user my_robots && cd my_robots\n"
       "  swarmanoid new behavior-controller wall_follower\n"
       "  swarmanoid new controller from_scratch\n"
+      "  swarmanoid new lua avoid\n"
+      "  swarmanoid new device compass\n"
+      "  swarmanoid new entity rover\n"
       "  swarmanoid new engine gliding\n"
       "  swarmanoid new renderer plan\n"
       "  swarmanoid new terrain moor --size 3,2 --seed 7\n"
@@ -126,6 +129,12 @@ void AddNewCommand(CLI::App& app, int& exit_code)
   AddTerrain(*verb, exit_code);
   add("controller", "A footbot controller in one class, and an experiment with it", "NAME",
       std::string("Name of the controller") + kNameRule, "controller wall_follower", NewController);
+  add("lua", "A foot-bot controller in Lua, and an experiment of ARGoS3 with it", "NAME",
+      std::string("Name of the controller") + kNameRule, "lua avoid", NewLua);
+  add("device", "A sensor, a controller that uses it, and an experiment with them", "NAME",
+      std::string("Name of the sensor") + kNameRule, "device compass", NewDevice);
+  add("entity", "A kind of robot, a controller of it, and an experiment with them", "NAME",
+      std::string("Name of the kind") + kNameRule, "entity rover", NewEntity);
   add("functions", "Experiment functions, which measure and decide the end, and an experiment with them", "NAME",
       std::string("Name of the functions") + kNameRule, "functions spreading", NewFunctions);
   add("engine", "A physics engine, and an experiment with it", "NAME", std::string("Name of the engine") + kNameRule,

@@ -38,7 +38,8 @@ class New(LauncherTest):
 
     def test_what_is_written_is_xml_for_other_programs_too(self):
         made = [("user", "mine"), ("experiment", "first_try"), ("terrain", "moor", "--holes", "1", "--seed", "7")]
-        made_inside = [("controller", "follower"), ("functions", "spreading"), ("engine", "gliding"), ("renderer", "plan"),
+        made_inside = [("controller", "follower"), ("functions", "spreading"), ("engine", "gliding"), ("renderer", "plan"), ("device", "compass"),
+                       ("entity", "rover"), ("lua", "avoid"),
                        *(("behavior-controller", f"{robot}_watch", "--robot", robot) for robot in ("footbot", "handbot", "eyebot"))]
         for words in made:
             self.assertEqual(self.run_it("new", *words).process.returncode, 0, words)
@@ -50,8 +51,8 @@ class New(LauncherTest):
         for words in made_inside:
             self.assertEqual(self.run_it("new", *words).process.returncode, 0, words)
         self.folder = outside
-        files = sorted(str(path.relative_to(outside)) for path in outside.rglob("*.xml"))
-        self.assertEqual(len(files), 14, files)
+        files = sorted(str(path.relative_to(outside)) for path in outside.rglob("*") if path.suffix in (".xml", ".argos"))
+        self.assertEqual(len(files), 17, files)
         checked = subprocess.run(["xmllint", "--noout", "--nonet", *files], cwd=outside, capture_output=True, text=True)
         self.assertEqual((checked.returncode, checked.stderr), (0, ""))
 

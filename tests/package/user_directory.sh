@@ -43,8 +43,11 @@ TryUserDirectory()
   sed -i 's|obstacle_avoidance_.Step(cRobotState);|&\n  stop_.Step(cRobotState);|' wall_follower/bt_along_the_wall.cpp
   grep -q 'stop_.Step' wall_follower/bt_along_the_wall.cpp
 
-  echo "== a controller in one class, experiment functions, a physics engine, and a visualisation"
+  echo "== a controller in one class, one in Lua, a sensor, a kind of robot, experiment functions, a physics engine, and a visualisation"
   swarmanoid new controller plain
+  swarmanoid new lua avoid
+  swarmanoid new device compass
+  swarmanoid new entity rover
   swarmanoid new functions spreading
   swarmanoid new engine gliding
   swarmanoid new renderer plan
@@ -76,6 +79,10 @@ TryUserDirectory()
   answer=$(swarmanoid new behavior-controller sky_watch 2>&1) && exit 1
   Expect "$answer" "is there already"
   answer=$(swarmanoid new functions sky_watch 2>&1) && exit 1
+  Expect "$answer" "is there already"
+  answer=$(swarmanoid new entity compass 2>&1) && exit 1
+  Expect "$answer" "is there already"
+  answer=$(swarmanoid new lua with_rover 2>&1) && exit 1
   Expect "$answer" "is there already"
   answer=$(swarmanoid new behavior bt_stop 2>&1) && exit 1
   Expect "$answer" "swarmanoid new behavior-controller NAME"
@@ -113,6 +120,13 @@ TryUserDirectory()
     [ -n "$(Hash "$cluster")" ]
     [ "$(Hash "$cluster")" = "$(Hash "$own")" ]
   done
+  echo "== a Lua controller runs without a build, as a cluster and in one process alike"
+  swarmanoid check experiments/avoid.argos
+  cluster=$(swarmanoid run experiments/avoid.argos --ticks 60 --quiet --output "$runs/avoid")
+  own=$(swarmanoid run experiments/avoid.argos --ticks 60 --quiet --single-process --output "$runs/avoid-one")
+  [ -n "$(Hash "$cluster")" ]
+  [ "$(Hash "$cluster")" = "$(Hash "$own")" ]
+
   echo "== a visualisation of the user draws in the file, and attached"
   # Ten robots at most, those that share a place are one letter.
   awk '/^tick 0$/ { n = 0; seen = 1 } { n += gsub("f", "") } END { exit !(seen && n > 5 && n <= 10) }' "$runs/plan/plan.txt"
@@ -138,6 +152,8 @@ TryUserDirectory()
   awk '$3 == "hb" { z = $6 } END { exit !(z > 0.4) }' "$runs/climber/climber.txt"
   awk '$2 == "Footbot" && $1 == 0 { x[$3] = $4; y[$3] = $5 } $2 == "Footbot" && $1 == 60 { d = (x[$3] - $4)^2 + (y[$3] - $5)^2; if (d > 0.01) n++ }
        END { exit !(n > 3) }' "$runs/wall_follower/wall_follower.txt"
+  awk '$2 == "Rover" && $1 == 0 { x[$3] = $4; y[$3] = $5 } $2 == "Rover" && $1 == 60 { d = (x[$3] - $4)^2 + (y[$3] - $5)^2; if (d > 0.01) n++ }
+       END { exit !(n > 3) }' "$runs/rover/rover.txt"
   awk '$2 == "Eyebot" && $1 == 0 { x[$3] = $4; y[$3] = $5 } $2 == "Eyebot" && $1 == 60 { d = (x[$3] - $4)^2 + (y[$3] - $5)^2; if (d > 0.01) n++ }
        END { exit !(n > 1) }' "$runs/sky_watch/sky_watch.txt"
 

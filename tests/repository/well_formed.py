@@ -14,7 +14,7 @@ def texts(path, text):
     """The XML in a file, as (first line, text)."""
     if path.endswith((".xml", ".svg")):
         return [(1, text)]
-    if path.endswith(".xml.in"):
+    if path.endswith((".xml.in", ".argos.in")):
         return [(1, re.sub(r"@\w+@", "name", text))]
     blocks = (SEED if path == SEED_PAGE else PRINTED).finditer(text)
     return [(text.count("\n", 0, block.start(1)) + 1, block[1]) for block in blocks]
@@ -28,7 +28,7 @@ def fragment(text):
 def main():
     mistakes = []
     count = 0
-    for path in tracked("*.xml", "*.svg", "*.xml.in", "*.md"):
+    for path in tracked("*.xml", "*.svg", "*.xml.in", "*.argos.in", "*.md"):
         with open(path, encoding="utf-8") as source:
             found = texts(path, source.read())
         if path == SEED_PAGE:
