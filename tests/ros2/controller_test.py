@@ -241,9 +241,8 @@ class LockStep(Case):
                         time.sleep(0.01)
 
                 heard(1)
-                children = subprocess.run(["ps", "--ppid", str(process.pid), "-o", "pid="], capture_output=True, text=True).stdout.split()
-                workers = [line.split() for parent in children for line in subprocess.run(
-                    ["ps", "--ppid", parent, "-o", "pid=,args="], capture_output=True, text=True).stdout.splitlines()]
+                workers = [line.split() for line in subprocess.run(
+                    ["ps", "--ppid", str(process.pid), "-o", "pid=,args="], capture_output=True, text=True).stdout.splitlines()]
                 host = next(words[0] for words in workers if "controller_host" in words[1])
                 heard(40)
                 os.kill(int(host), 9)
