@@ -28,7 +28,7 @@ globalThis.ResizeObserver = class {
 };
 const { EntityList, matcher } = await import("../../visualiser/web/page/src/ui/list.js");
 const { Timeline } = await import("../../visualiser/web/page/src/ui/timeline.js");
-const { PastCursor } = await import("../../visualiser/web/page/src/past.js");
+const { Past } = await import("../../visualiser/web/page/src/past.js");
 
 const EVENTS = [
   { tick: 5, what: "move", entity: "fb_1", from: "anna@lab" },
@@ -102,7 +102,7 @@ test("tick 0 is a tick of the past like others", () => {
 function pastOf() {
   const asked = [];
   let ended = 0;
-  return { asked, past: new PastCursor({ ask: (tick) => asked.push(tick), ended: () => ++ended }), ends: () => ended };
+  return { asked, past: new Past({ ask: (tick) => asked.push(tick), ended: () => ++ended }), ends: () => ended };
 }
 
 test("one tick is asked for at a time, and then the newest that is wanted", () => {
