@@ -83,7 +83,7 @@ class Ends(LauncherTest):
         self.assertIn("2 errors", run.stderr)
 
 
-class SignalDescriptor(LauncherTest):
+class Interrupts(LauncherTest):
     def test_once_keeps_a_whole_result(self):
         for options in ([], ["--single-process"]):
             with self.subTest(options):
