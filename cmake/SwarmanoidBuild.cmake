@@ -213,7 +213,11 @@ function(swarmanoid_shared_headers)
       set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
       target_compile_options(${name} PRIVATE -fPIC)
     endif()
-    target_precompile_headers(${name} REUSE_FROM pch)
+    # Clang before 16 refuses precompiled headers of another visibility.
+    get_target_property(visibility ${name} CXX_VISIBILITY_PRESET)
+    if(NOT (CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND visibility STREQUAL "hidden"))
+      target_precompile_headers(${name} REUSE_FROM pch)
+    endif()
   endforeach()
 endfunction()
 

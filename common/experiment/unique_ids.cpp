@@ -11,7 +11,7 @@ namespace swarmanoid
 std::string UniqueIds::Add(const std::string& id, int line)
 {
   if (id.empty()) return {};
-  const auto [place, is_first] = first_.try_emplace(StreamName(id), id, line);
+  const auto [place, is_first] = first_.try_emplace(StreamName(id), First{id, line});
   if (is_first) return {};
   const First& first = place->second;
   if (first.id == id)

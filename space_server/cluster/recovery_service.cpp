@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <ranges>
 #include <stdexcept>
 
 #include "common/journal/journal_blocks.h"
@@ -76,8 +75,8 @@ RecoveryService::Plan RecoveryService::MakePlan(const std::string& name)
   Plan plan;
   const JournalStart start = journal_->Start();
   std::uint64_t first = start.first_tick;
-  const bool is_host = std::ranges::any_of(std::views::iota(std::size_t{0}, assignment_.hosts.size()),
-                                           [&](std::size_t h) { return name == HostName(h); });
+  bool is_host = false;
+  for (std::size_t h = 0; h < assignment_.hosts.size(); ++h) is_host = is_host || name == HostName(h);
   const std::uint32_t table = is_host && !all.empty() ? all.back().table : kUnknownTable;
   auto state = NewestState(all, name, first, table);
   if (!state || !HasTicksFrom(all, state->second.first_tick))

@@ -53,7 +53,7 @@ Mesh Clustered(const Mesh& mesh, const Eigen::AlignedBox3f& box, int cells)
     std::array<std::uint32_t, 3> corners{};
     for (std::size_t k = 0; k < 3; ++k) corners[k] = cell_of[mesh.indices[i + k]];
     if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
-    std::ranges::rotate(corners, std::ranges::min_element(corners));
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
     if (!there.insert(corners).second) continue;
     for (std::size_t k = 0; k < 3; ++k)
     {

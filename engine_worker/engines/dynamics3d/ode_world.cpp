@@ -188,7 +188,7 @@ void OdeWorld::Respect(std::uint32_t a, std::uint32_t b)
 
 bool OdeWorld::IsIgnored(std::uint32_t a, std::uint32_t b) const
 {
-  const auto [low, high] = std::minmax(a, b);
+  const std::uint32_t low = std::min(a, b), high = std::max(a, b);
   return std::any_of(ignored_.begin(), ignored_.end(),
                      [&](const IgnoredPair& pair) { return pair.low == low && pair.high == high; });
 }
