@@ -96,7 +96,7 @@ std::vector<int> CoresOf(const RunSettings& options, const Experiment& experimen
   std::vector<int> cores = AvailableCores();
   if (!one || cores.empty()) return {};
   // Runs that start together do not see one another, but they have different domains.
-  std::ranges::rotate(cores, cores.begin() + domain % static_cast<std::ptrdiff_t>(cores.size()));
+  std::rotate(cores.begin(), cores.begin() + domain % static_cast<std::ptrdiff_t>(cores.size()), cores.end());
   std::map<int, std::size_t> runs = RunsByCore();
   return {*std::ranges::min_element(cores, {}, [&](int core) { return runs[core]; })};
 }

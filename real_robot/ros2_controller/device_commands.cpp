@@ -147,9 +147,9 @@ void Laser(const TopicSetup& setup, const std::string& type, Topics& topics)
                          laser->SetColour(colour);
                          laser->SwitchOn();
                        });
-  for (const auto& [topic, angle] : {std::pair("laser/pan", pan), std::pair("laser/tilt", tilt)})
-    setup.Add<Float64>(topics, topic,
-                       [=](const Float64& message)
+  for (const auto& turn : {std::pair("laser/pan", pan), std::pair("laser/tilt", tilt)})
+    setup.Add<Float64>(topics, turn.first,
+                       [laser, pan, tilt, angle = turn.second](const Float64& message)
                        {
                          *angle = Finite(message.data());
                          laser->SetDirection(*pan, *tilt);
