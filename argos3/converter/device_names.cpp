@@ -190,7 +190,7 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
     // Those of e-pucks read what the wheels were told (argos3/plugin/epuck_devices.cpp).
     if (!IsForEPucks(context)) AddDevice(ours.sensors, "footbot_encoders", "engine_footbot_encoders", at);
     // This noise and that of the camera and of range and bearing are added to the readings
-    // (argos3/plugin/noise_parameters.h).
+    // (argos3/plugin/device_noise.h).
     attributes.Range("vel_noise_range");
     attributes.Range("dist_noise_range");
   }

@@ -17,8 +17,8 @@
 #include <numbers>
 
 #include "argos3/converter/battery.h"
+#include "argos3/plugin/device_noise.h"
 #include "argos3/plugin/device_parts.h"
-#include "argos3/plugin/noise_parameters.h"
 #include "common/control_interface/ci_battery_sensor.h"
 #include "common/control_interface/ci_led_ring_actuator.h"
 #include "common/control_interface/ci_light_sensor.h"

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "argos3/kinds/epuck_ground.h"
-#include "argos3/plugin/noise_parameters.h"
+#include "argos3/plugin/device_noise.h"
 #include "common/control_interface/ci_ground_sensor.h"
 #include "common/control_interface/ci_positioning_sensor.h"
 #include "common/control_interface/ci_wheels_actuator.h"

@@ -18,7 +18,7 @@
 #include <map>
 #include <utility>
 
-#include "argos3/plugin/noise_parameters.h"
+#include "argos3/plugin/device_noise.h"
 #include "common/control_interface/ci_positioning_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_base_ground_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_beacon_actuator.h"

@@ -69,8 +69,8 @@ public:
   std::optional<TickRecord> RecordOf(std::uint64_t tick) const;
   // Of controllers, in the steps from that tick on. `ahead`: ticks until commands, which tell of them, act.
   RecordedFaults FaultsFrom(std::uint64_t tick, std::uint32_t ahead) const;
-  // What all `parts` saved at the tick, put together. Nothing if one is lacking. `table`: the controller hosts that
-  // saved it.
+  // Returns the saved states of all `parts` at the tick, or nothing if one is missing. With `table`, only states that
+  // these controller hosts saved count.
   std::optional<Checkpoint> CheckpointAt(std::uint64_t tick, const std::vector<std::string>& parts,
                                          std::optional<std::uint32_t> table = std::nullopt) const;
   // What all processes saved at the tick, or at the newest one until then at which all did, for these controller hosts,

@@ -28,7 +28,7 @@ struct JournalPlace
 {
   JournalBlockKind kind{};
   std::uint64_t first_tick = 0;
-  std::uint32_t ticks = 0;  // that count: later ones of the block may have been done again
+  std::uint32_t ticks = 0;  // the valid ones; the run may have repeated later ones of the block
   std::string name;         // of a part
   std::uint64_t offset = 0;
   std::uint64_t bytes = 0;
@@ -50,8 +50,8 @@ std::string SegmentFile(const std::string& path, std::uint32_t segment);
 // Returns the numbers of the segments that exist, the oldest first.
 std::vector<std::uint32_t> SegmentsOf(const std::string& path);
 
-// Adds a block that was written after the others, and takes away those that do not count because of it: of ticks after
-// the one where the run goes on, and of ticks that it has again.
+// Adds a block that was written after the others. It removes the blocks that the new one replaces: ticks after the one
+// where the run goes on, and ticks that the new block contains again.
 void AddPlace(std::vector<JournalPlace>& places, JournalPlace place);
 
 class JournalWriter
@@ -145,7 +145,7 @@ private:
   std::vector<char> start_;  // the content of the first block of the segment that is added to
   int file_ = -1;            // the newest segment
   std::uint32_t segment_ = 0;
-  ReusedMemory room_;         // of the content of a block; likewise
+  ReusedMemory room_;         // the content of a block; only the writer's thread uses it
   mutable std::mutex mutex_;  // of what follows
   std::condition_variable changed_;
   TickRows rows_;               // being filled

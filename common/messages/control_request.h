@@ -13,7 +13,7 @@ inline const std::vector<std::string> kControlVerbs{
     "pause",     "resume",      "step",  "speed", "stop",     "reset", "move",    "detach", "add",     "remove",
     "move-host", "move-engine", "drain", "hosts", "machines", "press", "release", "select", "deselect"};
 
-// What members alone ask for: shares of the run (common/bus/security/share.h).
+// Only members of the run may ask for these: shares of the run (common/bus/security/share.h).
 inline const std::vector<std::string> kShareVerbs{"share", "shares", "revoke"};
 
 // Whether a verb asks for another place of an entity, or for its presence; the name of the entity follows it.

@@ -1,6 +1,6 @@
-// SeparationTest: which bodies can meet nobody within a tick, so that the solver of an engine need not see them. It
-// follows from where the bodies are and how far they can get, and from nothing that was before. Used by the engines of
-// rigid bodies in the thread that steps them.
+// SeparationTest finds the bodies that cannot touch any other body within a tick, so that the solver of an engine need
+// not see them. It follows from where the bodies are and how far they can get, and from nothing that was before. Used
+// by the engines of rigid bodies in the thread that steps them.
 #pragma once
 
 #include <array>

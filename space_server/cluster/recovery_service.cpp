@@ -99,7 +99,7 @@ RecoveryService::Plan RecoveryService::MakePlan(const std::string& name)
   {
     if (place.kind != JournalBlockKind::kTicks || place.first_tick + place.ticks <= first || place.first_tick >= tick)
       continue;
-    // Of the tick itself the journal may have what the server before knew.
+    // The journal may have a record of the present tick, written by the space server before this one.
     place.ticks = static_cast<std::uint32_t>(std::min<std::uint64_t>(place.ticks, tick - place.first_tick));
     plan.places.push_back(std::move(place));
   }

@@ -92,7 +92,7 @@ class Run:
         return said
 
     def newest_words(self):
-        """What the run has said on stderr and nobody has read. Nothing can be read after it."""
+        """Returns the unread text of the run's stderr. Later reads of stderr return nothing of it."""
         said = b""
         while select.select([self.process.stderr], [], [], 0)[0]:
             some = os.read(self.process.stderr.fileno(), 1 << 16)

@@ -1,4 +1,4 @@
-// What the processes of a run say to each other beside the messages of a tick (common/messages/tick_messages.h). The
+// The messages between the processes of a run, except the messages of a tick (common/messages/tick_messages.h). The
 // plain side of idl/swarmanoid.idl, where each field is explained.
 #pragma once
 

@@ -1,4 +1,4 @@
-#include "argos3/plugin/noise_parameters.h"
+#include "argos3/plugin/device_noise.h"
 
 #include "common/math/elementary.h"
 
