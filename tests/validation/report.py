@@ -46,13 +46,14 @@ def number(value):
 
 def cells(name, form, source, expected, error, tolerance, why, unit, verdict):
     """The line of a table. All arguments are texts."""
+    form = re.sub(r" ?([-/+±=]) ", r"\1", form).replace("y, Δx", "y,Δx").replace("z, √", "z,√")  # a formula is one word where it can be
     if source not in UNSAID:
         form += f" ({PROMISED.sub(LINK, source)})"
     if why not in UNSAID:
         tolerance += f": {why}"
     if verdict != "passes":
         error += f" {verdict}"
-    return "| " + " | ".join(cell.replace("|", r"\|") for cell in (name, form, f"{expected} {unit}".strip(), error, tolerance)) + " |"
+    return "| " + " | ".join(cell.replace("|", r"\|") for cell in (name, form, f"{expected} {unit}".strip() + f", {error}", tolerance)) + " |"
 
 
 def line(row):
@@ -70,7 +71,7 @@ def ditto(lines):
 
 
 def table(lines, form):
-    return f"\n{HEAD}{form} (source) | expected | error | tolerance: reason |\n|---|---|---|---|---|\n" + "".join(ditto(lines))
+    return f"\n{HEAD}{form} (source) | expected, error | tolerance: reason |\n|---|---|---|---|\n" + "".join(ditto(lines))
 
 
 def page(rows, pictures):
@@ -101,6 +102,6 @@ def verdicts(page):
             prefix = PREFIX.get(text[4:], "")
         in_table = text.startswith("|") and (in_table or text.startswith(HEAD))
         if in_table and not text.startswith((HEAD, "|---")):
-            name, _, _, error, _ = re.split(r" (?<!\\)\| ", text.strip("| "))
+            name, _, error, _ = re.split(r" (?<!\\)\| ", text.strip("| "))
             found[prefix + name] = "**fails**" if error.endswith("**fails**") else "passes"
     return found

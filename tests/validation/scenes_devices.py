@@ -211,8 +211,8 @@ def noise(lab):
         who = probe("c", sensors={"positioning": {"position_noise_kind": kind, **{f"position_noise_{name}": value for name, value in numbers.items()}}})
         found = lab.run(footbot("fb", 5.0, 5.0, 0, "c"), who, ENGINE, ticks, every=ticks).readings("fb", "positioning")
         errors = [now["x"] - 5 for now in found]
-        yield Row(f"positioning: deviation of {kind} noise{' within ± 2 σ' if len(numbers) == 2 else ''}", form, "moments", expected, deviation(errors), 4 * expected / math.sqrt(2 * ticks), "4 s.e.", "m")
-        yield Row(f"positioning: mean of {kind} noise{' within ± 2 σ' if len(numbers) == 2 else ''}", "0", "moments", 0, mean(errors), 4 * expected / math.sqrt(ticks), "4 s.e.", "m")
+        yield Row(f"positioning: deviation of {kind} noise{' within ±2σ' if len(numbers) == 2 else ''}", form, "moments", expected, deviation(errors), 4 * expected / math.sqrt(2 * ticks), "4 s.e.", "m")
+        yield Row(f"positioning: mean of {kind} noise{' within ±2σ' if len(numbers) == 2 else ''}", "0", "moments", 0, mean(errors), 4 * expected / math.sqrt(ticks), "4 s.e.", "m")
 
 
 @scene(GROUP)
