@@ -4,13 +4,15 @@ import matplotlib
 matplotlib.use("svg")
 import matplotlib.pyplot as plt
 
+import report
+
 # Okabe and Ito 2008: told apart by readers with any colour vision; lines and marks differ, too.
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#000000"]
 MARKS = ["o", "s", "^", "D"]
 
 
 def draw(figure, folder):
-    """Writes one figure of a scene; returns its name and caption, and whether it shows a comparison with published numbers."""
+    """Writes one figure of a scene; returns its name, its caption, and its part of the page."""
     plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "swarmanoid", "font.size": 9, "path.simplify_threshold": 0.5})
     drawn, axes = plt.subplots(figsize=(5, 3))
     for k, (label, xs, ys) in enumerate(figure.get("series", [])):
@@ -34,4 +36,4 @@ def draw(figure, folder):
     folder.mkdir(parents=True, exist_ok=True)
     drawn.savefig(folder / f"{figure['name']}.svg", metadata={"Date": None})
     plt.close(drawn)
-    return figure["name"], figure["caption"], figure.get("published", False)
+    return figure["name"], figure["caption"], figure.get("part", report.VERIFICATION)

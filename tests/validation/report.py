@@ -3,8 +3,12 @@ import dataclasses
 import re
 
 SCENES = []
+HEAD = "| quantity | "
 PUBLISHED = re.compile(r"ARGoS|ITU-R")  # sources of published numbers
-PARTS = (("Verification", "closed form (source)", False), ("Validation", "published figure (source)", True))
+PROMISED, LINK = re.compile(r"docs/(\w+)(\.md[\w#-]*)"), r"[\1](\1\2)"  # sources that are pages of this documentation
+VERIFICATION, PROMISES, VALIDATION = "Verification", "Against this documentation", "Validation"
+PREFIX = {"Kinematic engine": "kinematic: ", "2D rigid-body engine": "dynamics2d: ", "3D rigid-body engine": "dynamics3d: "}  # of names, not shown in groups
+UNSAID = ("geometry", "rounding", "counts")  # the page says once what an empty source, 1e-09 and 0 mean
 
 
 def scene(group, quick=True):
@@ -26,9 +30,9 @@ class Row:
     why: str  # where the tolerance comes from, and where the model ends
     unit: str = ""
 
-    def is_published(self):
-        """Whether the source is a published one: validation. All other rows are verification."""
-        return PUBLISHED.search(self.source) is not None
+    def part(self):
+        """The part of the page: closed forms and this documentation are verification, published figures are validation."""
+        return VALIDATION if PUBLISHED.search(self.source) else PROMISES if PROMISED.search(self.source) else VERIFICATION
 
     def verdict(self):
         return "passes" if abs(self.measured - self.expected) <= self.tolerance else "**fails**"
@@ -40,35 +44,64 @@ def number(value):
     return f"{value:.2g}"
 
 
+def cells(name, form, source, expected, error, tolerance, why, unit, verdict):
+    """The line of a table. All arguments are texts."""
+    form = re.sub(r" ?([-/+±=]) ", r"\1", form).replace("y, Δx", "y,Δx").replace("z, √", "z,√")  # a formula is one word where it can be
+    if source not in UNSAID:
+        form += f" ({PROMISED.sub(LINK, source)})"
+    if why not in UNSAID:
+        tolerance += f": {why}"
+    if verdict != "passes":
+        error += f" {verdict}"
+    return "| " + " | ".join(cell.replace("|", r"\|") for cell in (name, form, f"{expected} {unit}".strip() + f", {error}", tolerance)) + " |"
+
+
 def line(row):
-    cells = (row.name, f"{row.form} ({row.source})", number(row.expected), number(row.measured), number(row.measured - row.expected),
-             number(row.tolerance) + ": " + row.why, row.unit or "1", row.verdict())
-    return "| " + " | ".join(cell.replace("|", r"\|") for cell in cells) + " |"
+    return cells(row.name, row.form, row.source, number(row.expected), number(row.measured - row.expected), number(row.tolerance), row.why, row.unit,
+                 row.verdict())
 
 
-def table(rows, form):
-    head = f"| quantity | {form} | expected | measured | error | tolerance: reason | unit | verdict |\n|---|---|---|---|---|---|---|---|\n"
-    return head + "".join(line(row) + "\n" for row in rows)
+def ditto(lines):
+    """The lines, with ″ for the form of the line before."""
+    before = ""
+    for line in lines:
+        name, form, rest = re.split(r" (?<!\\)\| ", line, maxsplit=2)
+        yield f"{name} | {'″' if form == before else form} | {rest}\n"
+        before = form
+
+
+def table(lines, form):
+    return f"\n{HEAD}{form} (source) | expected, error | tolerance: reason |\n|---|---|---|---|\n" + "".join(ditto(lines))
+
+
+def page(rows, pictures):
+    """The part of the page that the run writes. `rows`: part, group, line; `pictures`: part, group, Markdown."""
+    def groups(part, form):
+        text = ""
+        for group in dict.fromkeys(group for found, group, _ in rows if found == part):
+            text += f"\n### {group}\n" + table([line.replace(PREFIX.get(group, ""), "", 1) for found, of, line in rows if (found, of) == (part, group)], form)
+            text += "".join(f"\n{picture}\n" for found, of, picture in pictures if (found, of) == (part, group))
+        return text
+    return (f"\n## {VERIFICATION}\n" + groups(VERIFICATION, "closed form")
+            + f"\n### {PROMISES}\n" + table([line for part, _, line in rows if part == PROMISES], "promise")
+            + "".join(f"\n{picture}\n" for part, _, picture in pictures if part == PROMISES)
+            + f"\n## {VALIDATION}\n" + groups(VALIDATION, "published figure"))
 
 
 def tables(groups):
-    """The part of the page that the run writes: verification and validation, each with its rows and pictures by group."""
-    text = ""
-    for part, form, published in PARTS:
-        text += f"\n## {part}\n"
-        for group, (rows, pictures) in groups.items():
-            chosen = [row for row in rows if row.is_published() == published]
-            if chosen:
-                text += f"\n### {group}\n\n{table(chosen, form)}"
-                text += "".join(f"\n![{caption}](pictures/validation/{name}.svg)\n" for name, caption, shown in pictures if shown == published)
-    return text
+    """`groups`: the rows and pictures of each group."""
+    return page([(row.part(), group, line(row)) for group, (rows, _) in groups.items() for row in rows],
+                [(part, group, f"![{caption}](pictures/validation/{name}.svg)") for group, (_, pictures) in groups.items() for name, caption, part in pictures])
 
 
 def verdicts(page):
     """Verdicts on a page by the names of rows."""
-    found = {}
+    found, prefix, in_table = {}, "", False
     for text in page.splitlines():
-        cells = [cell.strip() for cell in text.strip("| ").split(" | ")]
-        if len(cells) == 8 and re.fullmatch(r"passes|\*\*fails\*\*", cells[7]):
-            found[cells[0]] = cells[7]
+        if text.startswith("### "):
+            prefix = PREFIX.get(text[4:], "")
+        in_table = text.startswith("|") and (in_table or text.startswith(HEAD))
+        if in_table and not text.startswith((HEAD, "|---")):
+            name, _, error, _ = re.split(r" (?<!\\)\| ", text.strip("| "))
+            found[prefix + name] = "**fails**" if error.endswith("**fails**") else "passes"
     return found

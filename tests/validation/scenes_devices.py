@@ -2,7 +2,7 @@
 import math
 
 from experiment import block, deviation, element, footbot, mean, prey, probe
-from report import Row, scene
+from report import VALIDATION, Row, scene
 from scenes_kinematics2d import RADIUS, SOURCE, unwrapped
 
 GROUP = "Devices"
@@ -41,9 +41,9 @@ def proximity(lab):
             worst = max(worst, abs(reading - expected))
             if reading > 0:
                 drawn.append((distance, reading))
-    yield Row("proximity beside a wall: largest error of 7 · 24 readings", "0.0100527 / (d + 0.000163144)", f"{A3} footbot_proximity_default_sensor.cpp@dfa7d4b0", 0, worst, 1e-9, "rounding")
+    yield Row("proximity beside a wall: 7 · 24 readings", "0.0100527 / (d + 0.000163144)", f"{A3} footbot_proximity_default_sensor.cpp@dfa7d4b0", 0, worst, 1e-9, "rounding")
     grid = [0.001 * i for i in range(1, 100)]
-    yield {"name": "proximity", "caption": "Readings of footbot_proximity beside a wall", "published": True, "x": "distance (m)", "y": "reading",
+    yield {"name": "proximity", "caption": "Readings of footbot_proximity beside a wall", "part": VALIDATION, "x": "distance (m)", "y": "reading",
            "series": [("readings", *zip(*sorted(drawn)))], "curves": [("ARGoS3's formula", grid, [proximity_of(d) for d in grid])]}
     arena = footbot("a", 2.0, 2.0, 0, "c") + prey("p", 2.0 + RADIUS + 0.08 + 0.05, 2.0, radius=0.08, height=0.15)
     readings = ring(lab.run(arena, who, ENGINE, 2).readings("a", "footbot_proximity")[0])
@@ -70,8 +70,8 @@ def light(lab):
             for angle, reading in zip(angles(), readings):
                 off = abs(math.remainder(angle - towards, math.tau))
                 worst[implementation] = max(worst[implementation], abs(reading - min(1, strength * max(0, 1 - off / (math.pi / 2)))))
-    yield Row("light: largest error of 3 · 24 readings", "(I / d)² max(0, 1 - |off| / 90°)", "inverse square law", 0, worst["generic_footbot_light"], 1e-9, "rounding")
-    yield Row("light as in ARGoS3: largest error of 3 · 24 readings", "exp(-2 d / I) max(0, 1 - |off| / 90°)", f"{A3} footbot_light_rotzonly_sensor.cpp@de40bf19", 0,
+    yield Row("light: 3 · 24 readings", "(I / d)² max(0, 1 - |off| / 90°)", "inverse square", 0, worst["generic_footbot_light"], 1e-9, "rounding")
+    yield Row("light as in ARGoS3: 3 · 24 readings", "exp(-2 d / I) max(0, 1 - |off| / 90°)", f"{A3} footbot_light_rotzonly_sensor.cpp@de40bf19", 0,
               worst["argos3_footbot_light"], 1e-9, "rounding")
 
 
@@ -85,7 +85,7 @@ def ground(lab):
     turn = math.radians(10)
     now = result.readings("fb", "footbot_ground")[0]
     worst = max(abs(now[str(i)] - (grey if x * math.cos(turn) - y * math.sin(turn) > 0 else 1)) for i, (x, y) in enumerate(places))
-    yield Row("ground: brightness under 8 sensors at the edge of a patch, largest error", "0.299 R + 0.587 G + 0.114 B; places", f"ITU-R BT.601; {A3} footbot_entity.cpp@c6aa94d6", 0, worst, 1e-9, "rounding")
+    yield Row("ground: 8 sensors at the edge of a patch", "0.299 R + 0.587 G + 0.114 B; places", f"ITU-R BT.601; {A3} footbot_entity.cpp@c6aa94d6", 0, worst, 1e-9, "rounding")
 
 
 def lit(name, x, y, colour, heading=0, z=0):
@@ -107,8 +107,8 @@ def cameras(lab):
         distance, angle = found.get(0x100000 * (k + 1) + 0xff, (math.inf, math.inf))
         worst_distance = max(worst_distance, abs(distance - math.hypot(x - 5, y - 5)))
         worst_angle = max(worst_angle, abs(math.remainder(angle - math.atan2(y - 5, x - 5) + math.radians(25), math.tau)))
-    yield Row("omnidirectional camera: distances of 6 beacons, largest error", "√(Δx² + Δy²)", GEOMETRY, 0, worst_distance, 1e-9, "rounding", "m")
-    yield Row("omnidirectional camera: bearings of 6 beacons, largest error", "atan2(Δy, Δx) - heading", GEOMETRY, 0, worst_angle, 1e-9, "rounding", "rad")
+    yield Row("omnidirectional camera: distances of 6 beacons", "√(Δx² + Δy²)", GEOMETRY, 0, worst_distance, 1e-9, "rounding", "m")
+    yield Row("omnidirectional camera: bearings of 6 beacons", "atan2(Δy, Δx) - heading", GEOMETRY, 0, worst_angle, 1e-9, "rounding", "rad")
 
 
 @scene(GROUP)
@@ -140,7 +140,7 @@ def pixels(lab):
         radius = [math.atan2(d, eye) / math.radians(85) * 240 for d in (true, now["blob 0 distance"])]
         directions = (math.atan2(y, 0.25), now["blob 0 angle"])
         worst = max(worst, *(abs(radius[0] * f(directions[0]) - radius[1] * f(directions[1])) for f in (math.cos, math.sin)))
-    yield Row("camera with pixels: furthest off in an image without noise", "at most half a pixel", "rounding to whole pixels", 0.25, worst, 0.25 + 1e-6, "between 0 and 0.5", "pixels")
+    yield Row("camera with pixels: furthest off without noise", "at most half a pixel", "rounding", 0.25, worst, 0.25 + 1e-6, "between 0 and 0.5", "pixels")
 
 
 @scene(GROUP)
@@ -157,14 +157,14 @@ def range_and_bearing(lab):
     eye = element("eyebot", {"id": "h", "position": "5,5,2", "controller": "h"})
     # Describe has no vertical bearing: it follows from range and the place.
     now = lab.run(eye + footbot("s", 6.0, 5.0, 0, "s"), sender + hearer, "dynamics3d", 3, size="10,10,5").readings("h", "range_and_bearing")[-1]
-    yield Row("range and bearing: eyebot 2 m above a footbot, range", "√(Δx² + Δz²)", GEOMETRY, math.sqrt(5), now["packet 0 range"], 1e-3, "the footbot's wheels sink by 0.3 mm", "m")
+    yield Row("range and bearing: eyebot 2 m above a footbot, range", "√(Δx² + Δz²)", GEOMETRY, math.sqrt(5), now["packet 0 range"], 1e-3, "sinking", "m")
     ticks, p = (400, 0.3) if lab.quick else (5000, 0.3)
     hearer = probe("h", sensors={"range_and_bearing": {"loss_probability": p, "range_noise_kind": "gaussian", "range_noise_deviation": 0.05}})
     found = lab.run(footbot("h", 5.0, 5.0, 0, "h") + footbot("s", 6.0, 5.0, 0, "s"), sender + hearer, ENGINE, ticks, every=ticks).readings("h", "range_and_bearing")
     ranges = [now["packet 0 range"] for now in found if "packet 0 range" in now]
     asked = ticks - 1
-    yield Row("range and bearing: share of lost packets", "p", "Bernoulli trials", p, 1 - len(ranges) / asked, 4 * math.sqrt(p * (1 - p) / asked) + 1 / asked, "4 standard errors, one packet")
-    yield Row("range and bearing: deviation of the range", "σ", "normal noise", 0.05, deviation(ranges), 4 * 0.05 / math.sqrt(2 * len(ranges)), "4 standard errors", "m")
+    yield Row("range and bearing: share of lost packets", "p", "Bernoulli", p, 1 - len(ranges) / asked, 4 * math.sqrt(p * (1 - p) / asked) + 1 / asked, "4 s.e., one packet")
+    yield Row("range and bearing: deviation of the range", "σ", "normal", 0.05, deviation(ranges), 4 * 0.05 / math.sqrt(2 * len(ranges)), "4 s.e.", "m")
 
 
 @scene(GROUP)
@@ -174,9 +174,9 @@ def microphone(lab):
     now = lab.run(arena, who, ENGINE, 2).readings("fb", "microphone")[0]
     loud = 2 / math.sqrt(5)
     first = 0 if abs(now["sound 0 loudness"] - loud) < 0.1 else 1
-    yield Row("microphone: pressure of a source of intensity 2 at 2.24 m", "I / d", "spherical wave", loud, now[f"sound {first} loudness"], 1e-9, "rounding")
+    yield Row("microphone: pressure at 2.24 m, I = 2", "I / d", "spherical wave", loud, now[f"sound {first} loudness"], 1e-9, "rounding")
     yield Row("microphone: bearing", "atan2(Δy, Δx) - heading", GEOMETRY, -math.radians(30), now[f"sound {first} bearing"], 1e-9, "rounding", "rad")
-    yield Row("microphone: loudness of both sources", "√(p₁² + p₂²)", "incoherent sources", math.hypot(loud, 1 / 3), now["loudness"], 1e-9, "rounding")
+    yield Row("microphone: loudness of both sources", "√(p₁² + p₂²)", "incoherent", math.hypot(loud, 1 / 3), now["loudness"], 1e-9, "rounding")
 
 
 @scene(GROUP)
@@ -186,7 +186,7 @@ def motion_sensors(lab):
     rate = 0.05 / 0.14
     yield Row("gyroscope: yaw rate on an arc", "(r - l) / b", SOURCE, rate, result.readings("fb", "gyroscope")[50]["yaw"], 1e-9, "rounding", "rad/s")
     yield Row("battery: charge after 10 s on an arc", "1 - 10⁻⁴ t - 10⁻³ d - 10⁻³ α", f"{A3} battery_equipped_entity.cpp@c6aa94d6", 1 - 1e-3 - 0.75e-3 - rate * 10e-3,
-              result.readings("fb", "battery")[100]["charge"], 1e-6, "the way is a chord in each tick")
+              result.readings("fb", "battery")[100]["charge"], 1e-6, "chords")
     x = y = heading = 0
     for now in result.readings("fb", "footbot_encoders")[1:101]:
         left, right = now["left"] * 0.029112741, now["right"] * 0.029112741
@@ -211,8 +211,8 @@ def noise(lab):
         who = probe("c", sensors={"positioning": {"position_noise_kind": kind, **{f"position_noise_{name}": value for name, value in numbers.items()}}})
         found = lab.run(footbot("fb", 5.0, 5.0, 0, "c"), who, ENGINE, ticks, every=ticks).readings("fb", "positioning")
         errors = [now["x"] - 5 for now in found]
-        yield Row(f"positioning: deviation of {kind} noise{' within ± 2 σ' if len(numbers) == 2 else ''}", form, "moments of the distribution", expected, deviation(errors), 4 * expected / math.sqrt(2 * ticks), "4 standard errors of a normal sample", "m")
-        yield Row(f"positioning: mean of {kind} noise{' within ± 2 σ' if len(numbers) == 2 else ''}", "0", "moments of the distribution", 0, mean(errors), 4 * expected / math.sqrt(ticks), "4 standard errors", "m")
+        yield Row(f"positioning: deviation of {kind} noise{' within ±2σ' if len(numbers) == 2 else ''}", form, "moments", expected, deviation(errors), 4 * expected / math.sqrt(2 * ticks), "4 s.e.", "m")
+        yield Row(f"positioning: mean of {kind} noise{' within ±2σ' if len(numbers) == 2 else ''}", "0", "moments", 0, mean(errors), 4 * expected / math.sqrt(ticks), "4 s.e.", "m")
 
 
 @scene(GROUP)
@@ -227,16 +227,16 @@ def radio(lab):
     yield Row("radio: packets in 100 ticks at 9.999 m", "range 10 m, one tick later", "docs/devices.md", 99, sum(bytes_ > 0 for bytes_ in arrived(result, "near")), 0, "counts")
     yield Row("radio: packets in 100 ticks at 10.002 m", "range 10 m", "docs/devices.md", 0, sum(bytes_ > 0 for bytes_ in arrived(result, "far")), 0, "counts")
     result = lab.run(footbot("h", 1.0, 1.0, 0, "h") + footbot("s", 2.0, 1.0, 0, "slow"), slow + hearer, ENGINE, 101, every=100)
-    yield Row("radio: bytes in 10 s through 50 bytes/s", "30 + 50 t", "token bucket, docs/devices.md", 530, sum(arrived(result, "h")), 20, "whole packets of 10 bytes, and the first tick", "bytes")
+    yield Row("radio: bytes in 10 s through 50 bytes/s", "30 + 50 t", "docs/devices.md", 530, sum(arrived(result, "h")), 20, "whole packets, first tick", "bytes")
     result = lab.run(footbot("h", 1.0, 1.0, 0, "late") + footbot("s", 2.0, 1.0, 0, "s"), sender + late, ENGINE, 50, every=50)
-    yield Row("radio: first packet with a latency of 0.5 s", "one tick and the latency", "docs/devices.md", 6, next(i for i, n in enumerate(arrived(result, "h")) if n), 0, "ticks of 0.1 s", "ticks")
+    yield Row("radio: first packet with a latency of 0.5 s", "one tick and the latency", "docs/devices.md", 6, next(i for i, n in enumerate(arrived(result, "h")) if n), 0, "ticks", "ticks")
     ticks, p = (100, 0.2) if lab.quick else (100, 0.2)
     lossy = probe("lossy", sensors={"radio": {"loss_probability": p}})
     arena = footbot("s", 5.0, 5.0, 0, "s") + "".join(footbot(f"h{i}", 3.0 + 0.4 * (i % 10), 1.0 + 0.4 * (i // 10), 0, "lossy") for i in range(50))
     result = lab.run(arena, sender + lossy, ENGINE, ticks, every=ticks)
     got = sum(sum(n > 0 for n in arrived(result, f"h{i}")) for i in range(50))
     asked = 50 * (ticks - 1)
-    yield Row("radio: share of lost packets, 50 receivers", "p, independently", "Bernoulli trials", p, 1 - got / asked, 4 * math.sqrt(p * (1 - p) / asked), "4 standard errors")
+    yield Row("radio: share of lost packets, 50 receivers", "p, independently", "Bernoulli", p, 1 - got / asked, 4 * math.sqrt(p * (1 - p) / asked), "4 s.e.")
 
 
 @scene(GROUP)
@@ -248,7 +248,7 @@ def gripper(lab):
         arena = "".join(footbot(f"fb_{i}", 1.0, 1.0 + i, 0, "c") + prey(f"p{i}", 1.0 + front + gap + 0.1 + 0.0005, 1.0 + i, radius=0.1, height=0.15) for i, gap in enumerate(gaps))
         result = lab.run(arena, who, engine, 4, size="10,50,2")
         held = [gap + 0.0005 for i, gap in enumerate(gaps) if result.readings(f"fb_{i}", "footbot_gripper")[-1]["gripping"]]
-        yield Row(f"gripper: reach in {engine}", "docs/engines.md", "assumption of the engine", reach, max(held, default=0), 0.001, "steps of 1 mm", "m")
+        yield Row(f"gripper: reach in {engine}", "assumption", "docs/engines.md", reach, max(held, default=0), 0.001, "steps of 1 mm", "m")
 
 
 @scene(GROUP)
@@ -264,7 +264,7 @@ def scanner(lab):
             hits = [side / f for side, f in ((0.2, math.cos(angle)), (0.8, math.sin(angle)), (0.8, -math.sin(angle))) if f > 1e-9]
             if hits and distance not in (0, 0.26, 1.42):
                 worst, count = max(worst, abs(distance - (min(hits) - RADIUS))), count + 1
-    yield Row(f"distance scanner between three walls: largest error of {count} readings", "ray and plane", GEOMETRY, 0, worst, 1e-9, "rounding", "m")
+    yield Row(f"distance scanner between three walls: {count} readings", "ray and plane", GEOMETRY, 0, worst, 1e-9, "rounding", "m")
 
 
 @scene(GROUP)
@@ -275,8 +275,8 @@ def eyes(lab):
     result = lab.run(arena, pilot + watcher, "dynamics3d", 5, size="10,10,5")
     x, y = 5 + 2 * math.tan(0.3) * math.cos(0.5), 5 + 2 * math.tan(0.3) * math.sin(0.5)
     now = result.readings("w", "footbot_omnidirectional_camera")[-1]
-    yield Row("laser: distance of its spot from a footbot that sees it", "P = o + h tan(tilt) (cos pan, sin pan)", GEOMETRY, math.hypot(x - 6, y - 5), now["blob 0 distance"], 1e-3, "the eyebot hovers within 0.1 mm", "m")
-    yield Row("altitude of an eyebot", "h", GEOMETRY, 2, result.readings("e", "eyebot_altitude")[-1]["altitude"], 1e-3, "the eyebot hovers within 0.1 mm", "m")
+    yield Row("laser: distance of its spot from a footbot", "P = o + h tan(tilt) (cos pan, sin pan)", GEOMETRY, math.hypot(x - 6, y - 5), now["blob 0 distance"], 1e-3, "hovering", "m")
+    yield Row("altitude of an eyebot", "h", GEOMETRY, 2, result.readings("e", "eyebot_altitude")[-1]["altitude"], 1e-3, "hovering", "m")
 
 
 @scene(GROUP)
@@ -288,7 +288,7 @@ def near(lab):
     now = result.readings("fb", "contact")[0]
     yield Row("contact: direction of a prey 1.1 mm away", "angle of the centre - heading", GEOMETRY, 1 - math.radians(20), now.get("contact 0", math.nan), 1e-9, "rounding", "rad")
     tags = result.readings("fb", "tag_reader")[0]
-    yield Row("tag reader: tags in range, one at 0.149 m, one at 0.151 m, one at 0.136 m", "range 0.15 m", "docs/devices.md", 2, len(set(tags) - {"fb"}), 0, "counts")
+    yield Row("tag reader: tags at 0.149, 0.151 and 0.136 m", "range 0.15 m", "docs/devices.md", 2, len(set(tags) - {"fb"}), 0, "counts")
 
 
 @scene(GROUP)
@@ -307,7 +307,7 @@ def directional_leds(lab):
         way = [distance - led[0], -led[1], 0.2887 - led[2]]
         off = math.acos((way[0] * math.cos(turn) + way[1] * math.sin(turn)) / math.hypot(*way))
         wrong += bool(result.readings(f"w{a}", "footbot_omnidirectional_camera")[-1]) != (off <= math.radians(limit))
-    yield Row("directional LEDs: directions from which one is wrongly seen or not", "angle to the axis ≤ observable angle", f"{A3} camera_sensor_directional_led_detector_algorithm", 0, wrong, 0, "counts")
+    yield Row("directional LEDs: directions with a wrong view", "angle to the axis ≤ observable angle", f"{A3} directional_led_detector", 0, wrong, 0, "counts")
 
 
 @scene(GROUP)
@@ -320,14 +320,14 @@ def depth_camera(lab):
         ahead = math.cos(math.radians(tilt)) * math.cos(math.radians(pan))
         wall, floor = 1.9 / ahead, 0.4 / math.sin(math.radians(-tilt)) if tilt < 0 else math.inf
         worst = max(worst, abs(result.readings("fb", "depth_camera")[0]["depth in the middle"] - min(wall, floor)))
-    yield Row("depth camera: depth of a wall or the floor along the axis, largest error of 4", "ray and plane", GEOMETRY, 0, worst, 1e-9, "rounding", "m")
+    yield Row("depth camera: 4 depths of wall and floor along the axis", "ray and plane", GEOMETRY, 0, worst, 1e-9, "rounding", "m")
     who = probe("c", sensors={"depth_camera": {"width": 101, "height": 1, "position": "0.1,0,0.2"}})
     result = lab.run(footbot("fb", 5.0, 5.0, 0, "c") + prey("p", 7.0, 5.0, radius=0.3, height=0.5), who, ENGINE, 1)
     yield Row("depth camera: nearest of a cylinder", "d - r", GEOMETRY, 1.6, result.readings("fb", "depth_camera")[0]["nearest"], 1e-9, "rounding", "m")
     who = probe("c", sensors={"depth_camera": {"width": 1, "height": 1, "position": "0.1,0,0.2", "depth_noise_kind": "gaussian", "depth_noise_deviation": 0.02}})
     ticks = 2000 if lab.quick else 20000
     depths = [now["depth in the middle"] for now in lab.run(footbot("fb", 5.0, 5.0, 0, "c") + block("w", "7.1,5,1", "0.2,9,2"), who, ENGINE, ticks, every=ticks).readings("fb", "depth_camera")]
-    yield Row("depth camera: deviation of the depth", "σ", "normal noise", 0.02, deviation(depths), 4 * 0.02 / math.sqrt(2 * ticks), "4 standard errors", "m")
+    yield Row("depth camera: deviation of the depth", "σ", "normal", 0.02, deviation(depths), 4 * 0.02 / math.sqrt(2 * ticks), "4 s.e.", "m")
 
 
 @scene(GROUP)
@@ -341,7 +341,7 @@ def hands(lab):
     now = result.readings("h", "handbot_proximity")[0]
     expected = 1 - (0.058 + plate) / 0.1
     worst = max(abs(now[f"{side} {i}"] - expected) for side in ("left", "right") for i in range(3, 9))
-    yield Row("handbot proximity: a wall before the palms, largest error of 12 readings", "1 - d / range", GEOMETRY, 0, worst, 1e-9, "rounding")
+    yield Row("handbot proximity: a wall before the palms, 12 readings", "1 - d / range", GEOMETRY, 0, worst, 1e-9, "rounding")
 
 
 @scene(GROUP)
@@ -355,7 +355,7 @@ def more_eyes(lab):
     blob = next(i for i in range(9) if int(now[f"blob {i} colour"]) == GREEN)
     way = (0.9, 0.5, 0.174249733 - 2)
     bearing = math.atan2(way[1], way[0]) - math.radians(10)
-    height = "the eyebot hovers within 0.1 mm, the footbot sinks by 0.3 mm"
+    height = "hovering, sinking"
     yield Row("camera that turns: distance of a beacon", "√(Δx² + Δy² + Δz²)", GEOMETRY, math.hypot(*way), now[f"blob {blob} distance"], 1e-3, height, "m")
     yield Row("camera that turns: bearing", "atan2(Δy, Δx) - heading", GEOMETRY, bearing, now[f"blob {blob} angle"], 1e-3, height, "rad")
     yield Row("camera that turns: elevation", "atan2(Δz, √(Δx² + Δy²))", GEOMETRY, math.atan2(way[2], math.hypot(way[0], way[1])), now[f"blob {blob} elevation"], 1e-3, height, "rad")
@@ -368,14 +368,14 @@ def more_eyes(lab):
         distance = (2 - 0.255 * math.cos(angle)) / math.cos(angle) if math.cos(angle) > 1e-9 else math.inf
         beside = abs(math.sin(angle)) * (0.255 + distance) if distance < 9 else math.inf
         worst = max(worst, abs(now[str(i)] - (1 - distance / 3 if distance < 3 and beside < 4.5 else 0)))
-    yield Row("proximity of an eyebot beside a wall: largest error of 24 readings", "1 - d / 3 m", GEOMETRY, 0, worst, 1e-3, "the eyebot hovers within 0.1 mm")
+    yield Row("proximity of an eyebot beside a wall: 24 readings", "1 - d / 3 m", GEOMETRY, 0, worst, 1e-3, "hovering")
     now = result.readings("e", "eyebot_distance_scanner")[0]
     worst = 0
     for i in range(32):
         angle, distance = now[f"angle {i}"], now[f"distance {i}"]
         hit = 2 / math.cos(angle) if math.cos(angle) > 1e-9 else math.inf
         worst = max(worst, abs(distance - (hit if abs(hit * math.sin(angle)) < 4.5 else 15)))
-    yield Row("eyebot distance scanner beside a wall: largest error of 32 readings", "ray and plane, 15 m", GEOMETRY, 0, worst, 1e-3, "the eyebot hovers within 0.1 mm", "m")
+    yield Row("eyebot distance scanner beside a wall: 32 readings", "ray and plane, 15 m", GEOMETRY, 0, worst, 1e-3, "hovering", "m")
 
 
 @scene(GROUP)
@@ -398,5 +398,5 @@ def floor(lab):
     yield Row("base ground: wrong sensors of 8 at the edge of a grey patch", "1 from a brightness of 0.5 on, else 0", f"{A3} footbot_base_ground_rotzonly_sensor.cpp@27e16d78", 0,
               sum(now[str(i)] != (float(grey >= 0.5) if ahead(place) else 1) for i, place in enumerate(base)), 0, "counts")
     now = result.readings("fb", "footbot_motor_ground")[0]
-    yield Row("motor ground: brightness under 4 sensors at the edge of a patch, largest error", "0.299 R + 0.587 G + 0.114 B; places", f"ITU-R BT.601; {A3} footbot_entity.cpp@c6aa94d6", 0,
+    yield Row("motor ground: 4 sensors at the edge of a patch", "0.299 R + 0.587 G + 0.114 B; places", f"ITU-R BT.601; {A3} footbot_entity.cpp@c6aa94d6", 0,
               max(abs(now[str(i)] - (grey if ahead(place) else 1)) for i, place in enumerate(motor)), 1e-9, "rounding")

@@ -2,10 +2,10 @@
 import math
 
 from experiment import block, deviation, footbot, mean, probe
-from report import Row, scene
+from report import PROMISES, Row, scene
 
 BASE = 0.14  # m between the wheels
-SOURCE = "unicycle kinematics, Siegwart and Nourbakhsh 2004, chapter 3.2"
+SOURCE = "unicycle"
 RADIUS = 0.085036758
 
 
@@ -29,10 +29,10 @@ def arc(left, right, seconds):
 @scene("Kinematic engine")
 def kinematic_drive(lab):
     x = drive(lab, 0.1, 0.1, "dummy_engine")[-1][0] - 3
-    yield Row("kinematic: straight, 10 s at 0.1 m/s", "v t", SOURCE, 1, x, 1e-9, "rounding of a sum of 100 steps", "m")
+    yield Row("kinematic: straight, 10 s at 0.1 m/s", "v t", SOURCE, 1, x, 1e-9, "rounding", "m")
     poses = drive(lab, 0.05, 0.1, "dummy_engine")
     x, y, angle = arc(0.05, 0.1, 10)
-    yield Row("kinematic: distance from the end of an arc, 10 s", "(v/ω) (sin ωt, 1 - cos ωt), ω = (r - l) / 0.14 m", SOURCE, 0,
+    yield Row("kinematic: end of an arc, 10 s", "(v/ω) (sin ωt, 1 - cos ωt), ω = (r - l) / 0.14 m", SOURCE, 0,
               math.hypot(poses[-1][0] - 3 - x, poses[-1][1] - 5 - y), 1e-9, "rounding", "m")
     yield Row("kinematic: angle of the arc", "ω t", SOURCE, angle, unwrapped([p[5] for p in poses])[-1], 1e-9, "rounding", "rad")
 
@@ -54,11 +54,11 @@ def kinematic_wheel_noise(lab):
         speeds += [math.dist(a[:2], b[:2]) / 0.1 * (turn / 2) / math.sin(turn / 2)
                    for a, b, turn in zip(poses, poses[1:], turns) if turn]
     n = len(rates)
-    yield Row("kinematic: wheel noise, deviation of the yaw rate", "√2 σ / b", "independent noise of two wheels", math.sqrt(2) * sigma / BASE,
-              deviation(rates), 4 * math.sqrt(2) * sigma / BASE / math.sqrt(2 * n), "4 standard errors", "rad/s")
-    yield Row("kinematic: wheel noise, deviation of the speed", "σ / √2", "independent noise of two wheels", sigma / math.sqrt(2),
-              deviation(speeds), 4 * sigma / math.sqrt(2) / math.sqrt(2 * n), "4 standard errors", "m/s")
-    yield Row("kinematic: wheel noise, mean speed", "v", "noise of mean 0", 0.02, mean(speeds), 4 * sigma / math.sqrt(2 * n), "4 standard errors",
+    yield Row("kinematic: wheel noise, deviation of the yaw rate", "√2 σ / b", "independent wheels", math.sqrt(2) * sigma / BASE,
+              deviation(rates), 4 * math.sqrt(2) * sigma / BASE / math.sqrt(2 * n), "4 s.e.", "rad/s")
+    yield Row("kinematic: wheel noise, deviation of the speed", "σ / √2", "independent wheels", sigma / math.sqrt(2),
+              deviation(speeds), 4 * sigma / math.sqrt(2) / math.sqrt(2 * n), "4 s.e.", "m/s")
+    yield Row("kinematic: wheel noise, mean speed", "v", "noise of mean 0", 0.02, mean(speeds), 4 * sigma / math.sqrt(2 * n), "4 s.e.",
               "m/s")
 
 
@@ -70,8 +70,8 @@ def kinematic_symmetry(lab):
     worst = max(abs(p[0] + q[0] - 10) for p, q in zip(a, b))
     yield Row("kinematic: head-on, asymmetry in 40 s", "x₁ + x₂ stays", "symmetry", 0, worst, 1e-9, "rounding", "m")
     gap = min(q[0] - p[0] for p, q in zip(a, b))
-    yield Row("kinematic: head-on, nearest approach", "two grippers of 0.1 m in front", "outline of the footbot, docs/engines.md", 0.2, gap,
-              0.004 * RADIUS, "what docs/engines.md promises: 0.4 % of the smallest radius", "m")
+    yield Row("kinematic: head-on, nearest approach", "two grippers of 0.1 m in front", "docs/engines.md", 0.2, gap,
+              0.004 * RADIUS, "promised", "m")
 
 
 def deepest_overlap(poses):
@@ -110,7 +110,7 @@ def kinematic_crowd(lab):
         worst.append(max(deepest_overlap([result.poses[f"fb_{i}"][tick] for i in range(count)]) for tick in ticks[:: 5 if lab.quick else 3]))
         result.clear()
     for density, depth in zip(densities, worst):
-        yield Row(f"kinematic: crowd of blind footbots, {density} per m², deepest overlap", "at most 0.4 % of the radius", "docs/engines.md", 0, depth,
-                  0.004 * RADIUS + 1e-9, "promised for any density and speed, and rounding; circles, and corners of grippers in circles", "m")
-    yield {"name": "crowd", "caption": "Deepest overlap in crowds of the kinematic engine", "x": "footbots per m²", "y": "deepest overlap (mm)",
+        yield Row(f"kinematic: blind crowd, {density} per m², deepest overlap", "at most 0.4 % of the radius", "docs/engines.md", 0, depth,
+                  0.004 * RADIUS + 1e-9, "promised", "m")
+    yield {"name": "crowd", "part": PROMISES, "caption": "Deepest overlap in crowds of the kinematic engine", "x": "footbots per m²", "y": "deepest overlap (mm)",
            "series": [("measured", densities, [1000 * d for d in worst])], "lines": [("promised", 0.004 * RADIUS * 1000)]}

@@ -8,7 +8,7 @@ from scenes_kinematics2d import RADIUS
 
 BEACON = 0.174  # m above the floor
 HOVER = (0, 10, "eyebot_propellers", 0, 0, 0, 0)
-HOVERS = "the eyebot hovers within 0.1 mm, the footbot sinks by 0.3 mm"
+HOVERS = "hovering, sinking"
 
 
 def eyebot(who, heading=0):
@@ -30,7 +30,7 @@ def pie_camera(lab):
         expected[name] = min(expected.get(name, math.inf), distance)
     now = lab.run(arena, who, ENGINE, 3).readings("w", "pie_camera")[-1]
     worst = max((abs(now.get(name, math.inf) - distance) for name, distance in expected.items()), default=math.inf)
-    yield Row("pie camera: distances of the nearest of 12 beacons in its sector and colour, largest error", "√(Δx² + Δy²)", GEOMETRY, 0, worst, 1e-9, "rounding", "m")
+    yield Row("pie camera: nearest beacon of each sector and colour", "√(Δx² + Δy²)", GEOMETRY, 0, worst, 1e-9, "rounding", "m")
     yield Row("pie camera: sectors and colours that see something", "sectors of 30°, the first from the front on", "docs/devices.md", len(expected), len(now), 0, "counts")
 
 
@@ -60,7 +60,7 @@ def eyebot_light(lab):
     strength = math.exp(-2 * math.sqrt(1 + 0.25 + 0.25) / 0.8)
     off = [abs(math.remainder(angle + turn - math.atan2(0.5, 1), math.tau)) for angle in angles()]
     worst = max(abs(reading - strength * max(0, 1 - a / (math.pi / 2))) for reading, a in zip(ring(now), off))
-    yield Row("light of an eyebot as in ARGoS3: largest error of 24 readings", "exp(-2 d / I) max(0, 1 - |off| / 90°)", "ARGoS3 eyebot_light_rotzonly_sensor.cpp@de40bf19", 0, worst, 1e-4, "the eyebot hovers within 0.1 mm")
+    yield Row("light of an eyebot as in ARGoS3: 24 readings", "exp(-2 d / I) max(0, 1 - |off| / 90°)", "ARGoS3 eyebot_light_rotzonly_sensor.cpp@de40bf19", 0, worst, 1e-4, "hovering")
 
 
 @scene(GROUP)
@@ -72,9 +72,9 @@ def other_microphones(lab):
         heard[kind] = lab.run(arena, probe("c", sensors={"microphone": {"implementation": kind}}), ENGINE, 2).readings("fb", "microphone")[0]
     shadowed = heard["shadowed_microphone"]
     louder = sorted((shadowed[f"sound {i} loudness"] for i in range(2)), reverse=True)
-    yield Row("microphone with shadows: pressure of the source in the open at 3 m", "I / d", "spherical wave", 1 / 3, louder[0], 1e-9, "rounding")
-    yield Row("microphone with shadows: pressure of the source behind a wall at 2 m", "0.25 I / d", "docs/devices.md", 0.25, louder[1], 1e-9, "rounding")
-    yield Row("microphone of one capsule: loudness of both, the wall does not matter", "√(p₁² + p₂²)", "incoherent sources", math.hypot(1, 1 / 3), heard["capsule_microphone"]["loudness"], 1e-9, "rounding")
+    yield Row("microphone with shadows: source in the open, 3 m", "I / d", "spherical wave", 1 / 3, louder[0], 1e-9, "rounding")
+    yield Row("microphone with shadows: source behind a wall, 2 m", "0.25 I / d", "docs/devices.md", 0.25, louder[1], 1e-9, "rounding")
+    yield Row("microphone of one capsule: loudness of both", "√(p₁² + p₂²)", "incoherent", math.hypot(1, 1 / 3), heard["capsule_microphone"]["loudness"], 1e-9, "rounding")
     yield Row("microphone of one capsule: directions", "none", "docs/devices.md", 0, sum("bearing" in name for name in heard["capsule_microphone"]), 0, "counts")
 
 
@@ -85,12 +85,12 @@ def joints(lab):
     handbot = element("handbot", {"id": "h", "position": "5,5,0", "controller": "c"})
     now = lab.run(handbot, who, ENGINE, 12).readings("h", "handbot_joints")[10]
     errors = [now["head"] - 0.2] + [now[name] - speed for name, speed in zip(("left arm", "right arm", "left wrist", "right wrist"), speeds)]
-    yield Row("handbot joints: angles of head, arms and wrists after 1 s, largest error of 5", "ω t", GEOMETRY, 0, max(map(abs, errors)), 1e-9, "rounding", "rad")
+    yield Row("handbot joints: 5 angles after 1 s", "ω t", GEOMETRY, 0, max(map(abs, errors)), 1e-9, "rounding", "rad")
     who = probe("c", [(0, 100, "handbot_arms", 3, 3, 3, 3)], sensors={"handbot_joints": {}})
     now = lab.run(handbot, who, ENGINE, 30).readings("h", "handbot_joints")[-1]
     limits = (math.pi / 3, math.pi / 3, math.pi / 2, math.pi / 2)
     worst = max(abs(now[name] - limit) for name, limit in zip(("left arm", "right arm", "left wrist", "right wrist"), limits))
-    yield Row("handbot joints: arms and wrists at their stops, largest error of 4", "60° and 90°", "ARGoS 2", 0, worst, 5e-6, "the engines stop at 1.0472 and 1.5708", "rad")
+    yield Row("handbot joints: arms and wrists at their stops", "60° and 90°", "ARGoS 2", 0, worst, 5e-6, "stops are rounded", "rad")
 
 
 @scene(GROUP)
@@ -101,5 +101,5 @@ def shown_direction(lab):
     now = lab.run(footbot("w", 5.0, 5.0, 0, "w") + footbot("s", 6.0, 5.5, 90, "s"), watcher + shower, ENGINE, 3).readings("w", "footbot_omnidirectional_camera")[-1]
     shown, out = math.radians(60 + 90), (RADIUS + 0.005) * math.cos(math.radians(15))
     place = (1 + out * math.cos(shown), 0.5 + out * math.sin(shown))
-    yield Row("preferential direction: distance of the blob of its two LEDs", "middle of the LEDs within 30° of it", GEOMETRY, math.hypot(*place), now["blob 0 distance"], 1e-9, "rounding", "m")
-    yield Row("preferential direction: bearing of that blob", "atan2(Δy, Δx)", GEOMETRY, math.atan2(place[1], place[0]), now["blob 0 angle"], 1e-9, "rounding", "rad")
+    yield Row("preferential direction: distance of its blob", "middle of the LEDs within 30° of it", GEOMETRY, math.hypot(*place), now["blob 0 distance"], 1e-9, "rounding", "m")
+    yield Row("preferential direction: bearing of its blob", "atan2(Δy, Δx)", GEOMETRY, math.atan2(place[1], place[0]), now["blob 0 angle"], 1e-9, "rounding", "rad")

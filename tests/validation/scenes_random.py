@@ -28,7 +28,7 @@ def streams(lab):
         return [u for now in run.readings(robot, "random") for u in now[kind]]
     first = numbers(runs[0], "a", "uniform")
     n = len(first)
-    yield Row("uniform numbers: Kolmogorov's √n D", "below 1.95 with probability 0.999", "Kolmogorov 1933, limiting distribution", 0.975, furthest(sorted(first)), 0.975, "p = 0.001")
+    yield Row("uniform numbers: Kolmogorov's √n D", "below 1.95 with probability 0.999", "Kolmogorov 1933", 0.975, furthest(sorted(first)), 0.975, "p = 0.001")
     bins = [0] * 100
     for u in first:
         bins[int(100 * u)] += 1
@@ -36,7 +36,7 @@ def streams(lab):
     yield Row("uniform numbers: χ² of 100 equal bins", "99 ± √198 z", "Pearson 1900", 99, chi, 3.3 * math.sqrt(198), "p ≈ 0.001")
     gaussian = numbers(runs[0], "a", "gaussian")
     through = sorted(0.5 * (1 + math.erf(g / math.sqrt(2))) for g in gaussian)
-    yield Row("normal numbers: Kolmogorov's √n D", "below 1.95 with probability 0.999", "Kolmogorov 1933, limiting distribution", 0.975, furthest(through), 0.975, "p = 0.001")
+    yield Row("normal numbers: Kolmogorov's √n D", "below 1.95 with probability 0.999", "Kolmogorov 1933", 0.975, furthest(through), 0.975, "p = 0.001")
     for name, other in (("two robots", numbers(runs[0], "b", "uniform")), ("two seeds", numbers(runs[1], "a", "uniform")),
                         ("neighbours of a stream", first[1:] + first[:1]), ("two ticks", first[draws:] + first[:draws])):
         yield Row(f"uniform numbers: correlation of {name}", "0 ± z / √n", "independence", 0, correlation(first, other), 3.3 / math.sqrt(n), "p ≈ 0.001")

@@ -32,8 +32,8 @@ def diffusions(lab):
         for engine in engines:
             found = [diffusion(lab, rule, engine, 100, 100, seed, delta) for seed in (1, 2)]
             speed, turn = mean([s for s, _ in found]), mean([t for _, t in found])
-            yield Row(f"{engine}: 100 footbots by {rule}, delta {delta}, mean speed", "v - |ω| b / 2", "straight on both wheels or turning on one, never held by a wall or robot",
-                      0.05 - turn * 0.14 / 2, speed, 0.0005, f"1 %; mean size of ω is {turn:.4f} rad/s; see above for robots that are held", "m/s")
+            yield Row(f"{engine}: {rule}, delta {delta}, mean speed", "v - |ω| b / 2", "nothing holds",
+                      0.05 - turn * 0.14 / 2, speed, 0.0005, f"1 %, mean |ω| {turn:.4f} rad/s", "m/s")
 
 
 # Of the angle between the way and the middles of two discs, radii L in all: docs/engines.md.
@@ -52,11 +52,11 @@ def pushed_prey(lab):
         result = lab.run(arena, who, engine, 300, friction=friction)
         aside = next((q[0] - 2 for p, q in zip(result.track("p"), result.track("fb")) if abs(p[1] - q[1]) > p[0] - q[0]), math.inf)
         expected = way_until_45(offset, reach, 1 if friction == 0 else 1 + 4 / 9)
-        yield Row(f"{engine}: a prey pushed {1000 * offset:.0f} mm off its middle, friction {friction}, way until it is 45° aside", "L (1 + 4/9) ln(tan 22.5° / tan(a₀/2)), without friction L ln(…)",
+        yield Row(f"{engine}: prey pushed {1000 * offset:.0f} mm off its middle, friction {friction}, way to 45°", "L ln(…)" if friction == 0 else "(1 + 4/9) L ln(…)",
                   "docs/engines.md#a-prey-that-is-pushed-off-its-middle", expected, aside, (0.02 if engine == "dynamics2d" else 0.06) * expected,
-                  "2 %" if engine == "dynamics2d" else "6 %: see above", "m")
+                  "2 %" if engine == "dynamics2d" else "6 %, see above", "m")
     for engine, form, way in (("dummy_engine", "v t / 2: equal weights", 6 / 2 + 0.005), ("dynamics2d", "v t: carried along by a flat front", 6)):
         who = probe("c", [(0, 1000, "footbot_wheels", 0.1, 0.1)])
         arena = footbot("fb", 2.0, 5.0, 0, "c") + prey("p", 2.2, 5.01, radius=0.1, height=0.1)
         track = lab.run(arena, who, engine, 600, size="20,10,2").track("p")
-        yield Row(f"{engine}: a prey pushed 10 mm off its middle by a gripper's front, way in 60 s", form, "docs/engines.md", way, track[-1][0] - 2.2, 0.02, "a start of 10 ms, and one tick", "m")
+        yield Row(f"{engine}: prey pushed 10 mm off its middle by a gripper, way in 60 s", form, "docs/engines.md", way, track[-1][0] - 2.2, 0.02, "start and one tick", "m")
