@@ -52,9 +52,19 @@ std::string FirstSentence(const fs::path& file)
   return std::string(TrimBlanks(words.substr(0, stop)));
 }
 
+// The samples that show most come first, the others follow by name.
 int List()
 {
-  for (const std::string& name : SampleNames()) fmt::print("{:<24} {}\n", name, FirstSentence(SampleFile(name)));
+  std::vector<std::string> names = SampleNames();
+  auto next = names.begin();
+  for (const char* first : {"prey_retrieval", "aggregation", "convoy", "prey_supply", "sound_seekers", "kilobots",
+                            "handbot_shelf", "three_engines", "rough_terrain", "stones", "crowd_in_regions"})
+    if (const auto found = std::find(next, names.end(), first); found != names.end())
+    {
+      std::rotate(next, found, found + 1);
+      ++next;
+    }
+  for (const std::string& name : names) fmt::print("{:<24} {}\n", name, FirstSentence(SampleFile(name)));
   return kExitDone;
 }
 
