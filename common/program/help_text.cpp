@@ -28,8 +28,9 @@ std::size_t TerminalWidth()
 }
 
 // One row of a list: the name, and the description in a column beside it.
-std::string Row(const std::string& name, const std::string& description, std::size_t width)
+std::string Row(const std::string& name, std::string description, std::size_t width)
 {
+  std::replace(description.begin(), description.end(), '\n', ' ');
   std::string row = "  " + name;
   const std::string text = Wrapped(description, width - kColumn);
   if (text.empty()) return row + "\n";

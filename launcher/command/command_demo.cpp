@@ -33,7 +33,7 @@ struct DemoOptions
   std::string output;
 };
 
-// The first sentence of the comment that the file begins with.
+// The first line of the comment that the file begins with if that is a sentence, otherwise its first sentence.
 std::string FirstSentence(const fs::path& file)
 {
   std::ifstream stream(file);
@@ -41,6 +41,8 @@ std::string FirstSentence(const fs::path& file)
   const std::size_t start = text.find("<!--");
   const std::size_t end = text.find("-->");
   if (start == std::string::npos || end == std::string::npos) return {};
+  const std::string line(TrimBlanks(text.substr(start + 4, std::min(text.find('\n', start), end) - start - 4)));
+  if (line.ends_with('.')) return line.substr(0, line.size() - 1);
   std::string words;
   for (const char c : text.substr(start + 4, end - start - 4))
     if (const bool blank = c == ' ' || c == '\n'; !blank || (!words.empty() && words.back() != ' '))
