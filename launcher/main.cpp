@@ -82,9 +82,10 @@ int main(int count, char** arguments)
   const int exit_code = RunProgram(
       {.name = "swarmanoid",
        .purpose = "Runs swarm-robotics experiments, and looks at those that run.",
-       .footer = "Start with:\n  swarmanoid demo\n  swarmanoid run configs/diffusion_10.xml\n`swarmanoid COMMAND "
-                 "--help` explains a command "
-                 "with examples.",
+       .footer = "`swarmanoid COMMAND --help` explains a command, with examples.\n"
+                 "Examples:\n"
+                 "  swarmanoid demo\n"
+                 "  swarmanoid run configs/diffusion_10.xml",
        .catches_interrupts = false},
       static_cast<int>(given.size()), given.data(),
       [&](CLI::App& app)

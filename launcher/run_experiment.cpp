@@ -125,7 +125,17 @@ Begun NextOf(const Begun& first, const Begun& run, const RunSummary& ended, unsi
   return next;
 }
 
-int Conclude(const RunSettings& options, const RunResult& result, const RunFolder& folder, Manifest& manifest)
+// Why a run ended with the exit code of a failed experiment. Only experiment functions decide that.
+std::string FailureOf(const Experiment& experiment)
+{
+  std::vector<std::string> names;
+  for (const auto& functions : experiment.functions) names.push_back(Quoted(functions.id));
+  return fmt::format("the experiment failed by its own measure: {}experiment functions {} ended it as failed",
+                     names.size() > 1 ? "one of the " : "", Listed(names));
+}
+
+int Conclude(const RunSettings& options, const Experiment& experiment, const RunResult& result, const RunFolder& folder,
+             Manifest& manifest)
 {
   int exit_code = result.exit_code;
   const bool ended = result.summary && !result.summary->reset;
@@ -139,6 +149,11 @@ int Conclude(const RunSettings& options, const RunResult& result, const RunFolde
   manifest.ended = TimeStamp();
   manifest.exit_code = exit_code;
   manifest.failure = result.failure;
+  if (exit_code == kExitExperimentFailed)
+  {
+    manifest.failure = FailureOf(experiment);
+    PrintError("{}\n", manifest.failure);
+  }
   if (result.summary)
   {
     manifest.ticks = result.summary->ticks;
@@ -222,7 +237,7 @@ int RunUntilEnd(Begun& first, const std::function<RunResult(Begun&)>& run)
   {
     Begun& begun = next ? *next : first;
     const RunResult result = run(begun);
-    const int exit_code = Conclude(begun.options, result, begun.folder, begun.manifest);
+    const int exit_code = Conclude(begun.options, *begun.experiment, result, begun.folder, begun.manifest);
     if (!result.summary || !result.summary->reset) return exit_code;
     next = NextOf(first, begun, *result.summary, resets);
   }
@@ -247,7 +262,7 @@ int RunAsCluster(Begun& first, const WatchFunction& watch)
   const auto run = [&](Begun& begun)
   {
     const auto conclude = [&](const RunResult& result)
-    { return Conclude(begun.options, result, begun.folder, begun.manifest); };
+    { return Conclude(begun.options, *begun.experiment, result, begun.folder, begun.manifest); };
     return RunCluster(begun.options, *begun.experiment, begun.folder, begun.manifest, interrupts, key, watch, conclude);
   };
   return RunUntilEnd(first, run);
@@ -321,6 +336,7 @@ int RunExperiment(const RunSettings& given, const WatchFunction& watch)
     // The space server reads our files alone.
     if (IsOfArgos3(asked) || !shown.empty()) options.file = folder.File("experiment.xml");
     folder.Write("manifest.json", manifest.Text());
+    folder.BecomeLatest();
     Begun first{std::move(options), std::move(experiment), folder, std::move(manifest)};
     if (!first.options.single_process) return RunAsCluster(first, watch);
     const auto run_here = [&](Begun& begun)

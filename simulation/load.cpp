@@ -17,18 +17,44 @@ namespace swarmanoid
 namespace
 {
 
-// For a file that is not there: the one beside it that may be meant.
+namespace fs = std::filesystem;
+
+std::vector<std::string> ExperimentsIn(const fs::path& folder)
+{
+  std::error_code none;
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
+    if (entry.path().extension() == ".xml") names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+// A folder is no experiment. Its content tells what the user wants instead.
+std::string AdviceAboutFolder(const fs::path& folder)
+{
+  std::error_code none;
+  const std::string name = folder.string();
+  if (fs::exists(folder / "manifest.json", none))
+    return fmt::format(
+        "the folder of a run. See the run: swarmanoid replay {0}; go on with it: swarmanoid resume {0}; "
+        "run it again: swarmanoid run {1}",
+        name, (folder / "experiment.xml").string());
+  if (fs::exists(folder / "study.sqlite", none))
+    return fmt::format("the folder of a study. Go on with it: swarmanoid sweep {} --resume", name);
+  const std::vector<std::string> files = ExperimentsIn(folder);
+  if (files.empty()) return "a folder without experiment files. Make one: swarmanoid new experiment NAME";
+  return fmt::format("a folder. Name an experiment file in it, such as {}", (folder / files.front()).string());
+}
+
+// The file beside a missing one that may be meant.
 std::string NearFile(const std::string& file)
 {
-  namespace fs = std::filesystem;
   std::error_code none;
   const fs::path path(file);
   if (fs::exists(path, none)) return {};
   std::vector<std::string> names;
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
-    if (entry.path().extension() == ".xml") names.push_back((path.parent_path() / entry.path().filename()).string());
-  std::sort(names.begin(), names.end());
+  for (const std::string& name : ExperimentsIn(path.has_parent_path() ? path.parent_path() : fs::path(".")))
+    names.push_back((path.parent_path() / name).string());
   return DidYouMean(file, names);
 }
 
@@ -57,6 +83,12 @@ bool FilesAreGood(const Experiment& experiment)
 std::unique_ptr<Experiment> LoadOrComplain(const std::string& file, const LoadOptions& options)
 {
   RegisterBuiltins();
+  std::error_code none;
+  if (fs::is_directory(file, none))
+  {
+    PrintError("{}: this is {}\n", file, AdviceAboutFolder(file));
+    return nullptr;
+  }
   LoadedExperiment loaded = LoadExperimentFile(file, options);
   for (const Diagnostic& error : loaded.errors) PrintError("{}{}\n", error.Text(), NearFile(file));
   if (!loaded.experiment)

@@ -85,8 +85,22 @@ std::string MakeNew(const std::string& experiment)
 }  // namespace
 
 RunFolder::RunFolder(const std::string& asked, const std::string& experiment)
-    : path_(fs::absolute(asked.empty() ? MakeNew(experiment) : MakeAsked(asked)).lexically_normal())
+    : path_(fs::absolute(asked.empty() ? MakeNew(experiment) : MakeAsked(asked)).lexically_normal()),
+      is_under_runs_(asked.empty())
 {
+}
+
+void RunFolder::BecomeLatest() const
+{
+  if (!is_under_runs_) return;
+  const fs::path path(path_), link = path.parent_path() / "latest";
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(link, error)) && !fs::is_symlink(link, error)) return;
+  // A renamed link replaces the old one at once, so that other runs never miss it.
+  const fs::path draft = path.parent_path() / fmt::format(".latest-{}", getpid());
+  fs::create_symlink(path.filename(), draft, error);
+  if (!error) fs::rename(draft, link, error);
+  if (error) fs::remove(draft, error);
 }
 
 void RunFolder::Write(const std::string& name, const std::string& text) const

@@ -30,9 +30,12 @@ public:
   std::string File(const std::string& name) const { return path_ + "/" + name; }
   // Writes a whole file, or throws RunFolderError and leaves the one that was there.
   void Write(const std::string& name, const std::string& text) const;
+  // Lets the link `latest` beside a folder under runs/ name this run. It costs only the link if that is not possible.
+  void BecomeLatest() const;
 
 private:
   std::string path_;
+  bool is_under_runs_;
 };
 
 // The run that another one branched off.

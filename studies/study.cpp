@@ -315,8 +315,12 @@ LoadedStudy LoadStudyText(const std::string& text, const std::string& file_name,
   {
     const TConfigurationTree root(ReadXml(text, file_name));
     if (root.Name() != StudySchema().Name())
-      throw ConfigurationError(root.Location(), fmt::format("the root element is <{}>; that of a study is <{}>",
-                                                            root.Name(), StudySchema().Name()));
+      throw ConfigurationError(
+          root.Location(),
+          fmt::format("the root element is <{}>; that of a study is <{}>{}", root.Name(), StudySchema().Name(),
+                      root.Name() == "ahss-config" || root.Name() == "argos-configuration"
+                          ? "; an experiment is run by: swarmanoid run " + file_name
+                          : ""));
     StudyReader(*study, diagnostics).Read(root);
   }
   catch (const ConfigurationError& error)

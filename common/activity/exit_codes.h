@@ -20,7 +20,7 @@ enum ExitCode
 
 // For the --help of each program.
 inline constexpr const char* kExitCodesText =
-    "Exit codes: 0 done, 1 the experiment failed by its own measure, 2 usage, 3 the experiment file is invalid,\n"
-    "4 a process failed, 5 the hash differs, 130 interrupted.\n";
+    "Exit codes: 0 done, 1 the experiment failed by its own measure, 2 usage,\n"
+    "3 the experiment file is invalid, 4 a process failed, 5 the hash differs, 130 interrupted.\n";
 
 }  // namespace swarmanoid

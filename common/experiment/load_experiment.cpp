@@ -117,9 +117,10 @@ LoadedExperiment LoadExperimentText(const std::string& text, const std::string& 
     if (!mistakes.empty()) return Refused(std::move(mistakes));
     if (file_root->name != ExperimentSchema().Name())
     {
-      return Refused(
-          std::vector<Diagnostic>{{file_root->location, fmt::format("the root element is <{}>; it must be <{}>",
-                                                                    file_root->name, ExperimentSchema().Name())}});
+      const std::string advice = file_root->name == "study" ? "; a study is run by: swarmanoid sweep " + file_name : "";
+      return Refused(std::vector<Diagnostic>{
+          {file_root->location, fmt::format("the root element is <{}>; it must be <{}>{}", file_root->name,
+                                            ExperimentSchema().Name(), advice)}});
     }
     const Node root = WithSettings(file_root, options, diagnostics);
     auto experiment = std::make_unique<Experiment>();

@@ -6,10 +6,36 @@
 #include <algorithm>
 #include <vector>
 
+#include "common/configuration/configuration_tree.h"
 #include "common/configuration/wording.h"
+#include "common/program/help_text.h"
 
 namespace swarmanoid
 {
+
+namespace
+{
+
+// The first required option without a value.
+const CLI::Option* MissingOption(const CLI::App& command)
+{
+  for (const CLI::Option* option : command.get_options())
+    if (option->get_required() && option->count() == 0) return option;
+  return nullptr;
+}
+
+// Says what the missing option is, and gives the first example of the command.
+std::string MissingText(const std::string& name, const CLI::App& command, const CLI::Option& missing)
+{
+  std::string text = fmt::format("{} needs {}: {}", name, missing.get_name(), missing.get_description());
+  const std::string examples = SplitFooter(command.get_footer()).second;
+  std::string first(TrimBlanks(examples.substr(0, examples.find('\n'))));
+  first.erase(std::min(first.find("   "), first.size()));  // a remark stands behind some blanks
+  if (!first.empty()) text += "; for example: " + first;
+  return text;
+}
+
+}  // namespace
 
 std::string CommandLineComplaint(const CLI::App& app, const CLI::Error& error)
 {
@@ -30,6 +56,8 @@ std::string CommandLineComplaint(const CLI::App& app, const CLI::Error& error)
     return fmt::format("{} has no {}; it has: {}{}", name, Quoted(left.front()), Listed(kinds),
                        DidYouMean(left.front(), kinds));
   }
+  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && left.empty())
+    if (const CLI::Option* missing = MissingOption(*command)) return MissingText(name, *command, *missing);
   if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr || left.empty()) return error.what();
 
   // What follows an unknown option is its value.
@@ -45,9 +73,12 @@ std::string CommandLineComplaint(const CLI::App& app, const CLI::Error& error)
     }
     for (const std::string& long_name : each->get_lnames()) options.push_back("--" + long_name);
   }
-  taken.insert(taken.end(), options.begin(), options.end());
-  return fmt::format("{} does not take {}; it takes {}{}", name, Quoted(word), Listed(taken),
-                     DidYouMean(word, options));
+  const std::string near = DidYouMean(word, options);
+  if (!near.empty()) return fmt::format("{} does not take {}{} All options: {} --help", name, Quoted(word), near, name);
+  if (option == left.end() && !taken.empty())
+    return fmt::format("{} does not take {}; it takes {}. All options: {} --help", name, Quoted(word), Listed(taken),
+                       name);
+  return fmt::format("{} does not take {}. All options: {} --help", name, Quoted(word), name);
 }
 
 }  // namespace swarmanoid

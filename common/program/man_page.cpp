@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "common/program/help_text.h"
 #include "common/version/version.h"
 
 namespace swarmanoid
@@ -92,15 +93,6 @@ std::string Options(const CLI::App& app)
       text += Plain("Default: " + standard) + ".\n";
   }
   return text;
-}
-
-// What stands before the examples, and these.
-std::pair<std::string, std::string> SplitFooter(const std::string& footer)
-{
-  for (const std::string head : {"Examples:\n", "Example:\n"})
-    if (const std::size_t at = footer.find(head); at != std::string::npos)
-      return {footer.substr(0, at), footer.substr(at + head.size())};
-  return {footer, ""};
 }
 
 // A command of a command, or the whole page without its head.

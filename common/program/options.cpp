@@ -88,13 +88,13 @@ std::string WithExample(const OptionSpec& option, const std::string& mistake)
   return fmt::format("{}; for example {}{}", mistake, name, option.example);
 }
 
-void AddFlag(CLI::App& app, const OptionSpec& option, bool* target)
+CLI::Option* AddFlag(CLI::App& app, const OptionSpec& option, bool* target)
 {
-  app.add_flag_callback(
+  return app.add_flag_callback(
       NameOf(option), [target, to = !*target] { *target = to; }, HelpText(option));
 }
 
-void AddValue(CLI::App& app, const OptionSpec& option)
+CLI::Option* AddValue(CLI::App& app, const OptionSpec& option)
 {
   const auto take = [option](const CLI::results_t& results)
   {
@@ -119,6 +119,7 @@ void AddValue(CLI::App& app, const OptionSpec& option)
     added->default_str(texts[0]);
   }
   if (option.required) added->required();
+  return added;
 }
 
 // A value that begins with a dash stands in the word of its option, so that it is not read as another option.
@@ -138,10 +139,9 @@ void AddOptions(CLI::App& app, const std::vector<OptionSpec>& options)
 {
   for (const OptionSpec& option : options)
   {
-    if (bool* const* flag = std::get_if<bool*>(&option.target))
-      AddFlag(app, option, *flag);
-    else
-      AddValue(app, option);
+    bool* const* flag = std::get_if<bool*>(&option.target);
+    CLI::Option* added = flag != nullptr ? AddFlag(app, option, *flag) : AddValue(app, option);
+    if (!option.group.empty()) added->group(option.group);
   }
 }
 

@@ -35,6 +35,7 @@ struct OptionSpec
   std::function<std::string(const std::string&)> mistake{};
   bool required = false;
   bool joined = false;  // several values are written as A,B instead of one after the other
+  std::string group{};  // the heading of the help that it stands under; empty: "Options"
 };
 
 // Adds them to a command line, with their help. Bad values throw UsageError from its parse function.

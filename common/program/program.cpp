@@ -18,6 +18,7 @@
 #include "common/program/colour.h"
 #include "common/program/command_line_complaint.h"
 #include "common/program/empty_words.h"
+#include "common/program/help_text.h"
 #include "common/program/interrupts.h"
 #include "common/program/man_page.h"
 #include "common/program/standard_output.h"
@@ -64,6 +65,11 @@ int Report(const std::string& program)
     // Printing throws this if standard output is full or closed; then that is what is said.
     const auto* const of_system = dynamic_cast<const std::system_error*>(&error);
     if (of_system != nullptr) errno = of_system->code().value();
+    if (of_system != nullptr && std::ferror(stdout) != 0 && errno == EPIPE)
+    {
+      ReaderOfOutputHasGone();
+      return kExitDone;
+    }
     if (of_system != nullptr && !OutputIsWritten()) return kExitProcessFailed;
     NoteEnd(Interrupted() ? EndReason::kInterrupted : EndReason::kFailed, 0, error.what(), true);
     Complain(program, error.what());
@@ -106,6 +112,7 @@ int RunWithoutOutput(const ProgramDescription& program, int count, char** argume
   app.failure_message([&](const CLI::App* failed, const CLI::Error& error)
                       { return fmt::format("{}: {}\n", program.name, CommandLineComplaint(*failed, error)); });
   app.footer(program.footer);
+  app.formatter(MakeHelpFormatter());
   try
   {
     if (program.register_plugins != nullptr) program.register_plugins();

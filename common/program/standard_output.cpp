@@ -14,6 +14,15 @@
 namespace swarmanoid
 {
 
+namespace
+{
+
+std::atomic<bool> reader_has_gone = false;
+
+}  // namespace
+
+void ReaderOfOutputHasGone() { reader_has_gone = true; }
+
 void OpenStandardFiles()
 {
   // `open` takes the lowest number that is free. Writing to a file that is open for reading is an error.
@@ -27,6 +36,7 @@ bool OutputIsWritten()
   const bool failed_before = std::ferror(stdout) != 0;
   if (!failed_before) errno = 0;
   if (std::fflush(stdout) == 0 && !failed_before) return true;
+  if (errno == EPIPE || reader_has_gone) return true;
   if (told.exchange(true)) return false;
   PrintError("swarmanoid: cannot write the results to standard output{}{}\n", errno == 0 ? "" : ": ",
              errno == 0 ? "" : std::strerror(errno));

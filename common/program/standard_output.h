@@ -8,8 +8,12 @@ namespace swarmanoid
 // opens would get their numbers, and what is printed would go into that file. What is printed then is an error.
 void OpenStandardFiles();
 
-// Writes out what was printed. False if anything that this process printed is lost; the first call that finds it says
-// so on standard error.
+// Tells that the program which read the output has closed it, as `head` does. It has seen enough: what is printed from
+// then on is not missed.
+void ReaderOfOutputHasGone();
+
+// Writes out what was printed. Returns false if anything that this process printed is lost, unless its reader has gone.
+// The first call that finds it prints an error.
 bool OutputIsWritten();
 
 // The exit code of a program that has printed its results: that of a failed process if they are lost, unless it has

@@ -33,7 +33,7 @@ struct DemoOptions
   std::string output;
 };
 
-// The first sentence of the comment that the file begins with.
+// The first line of the comment that the file begins with if that is a sentence, otherwise its first sentence.
 std::string FirstSentence(const fs::path& file)
 {
   std::ifstream stream(file);
@@ -41,6 +41,8 @@ std::string FirstSentence(const fs::path& file)
   const std::size_t start = text.find("<!--");
   const std::size_t end = text.find("-->");
   if (start == std::string::npos || end == std::string::npos) return {};
+  const std::string line(TrimBlanks(text.substr(start + 4, std::min(text.find('\n', start), end) - start - 4)));
+  if (line.ends_with('.')) return line.substr(0, line.size() - 1);
   std::string words;
   for (const char c : text.substr(start + 4, end - start - 4))
     if (const bool blank = c == ' ' || c == '\n'; !blank || (!words.empty() && words.back() != ' '))
@@ -52,9 +54,19 @@ std::string FirstSentence(const fs::path& file)
   return std::string(TrimBlanks(words.substr(0, stop)));
 }
 
+// The samples that show most come first, the others follow by name.
 int List()
 {
-  for (const std::string& name : SampleNames()) fmt::print("{:<24} {}\n", name, FirstSentence(SampleFile(name)));
+  std::vector<std::string> names = SampleNames();
+  auto next = names.begin();
+  for (const char* first : {"prey_retrieval", "aggregation", "convoy", "prey_supply", "sound_seekers", "kilobots",
+                            "handbot_shelf", "three_engines", "rough_terrain", "stones", "crowd_in_regions"})
+    if (const auto found = std::find(next, names.end(), first); found != names.end())
+    {
+      std::rotate(next, found, found + 1);
+      ++next;
+    }
+  for (const std::string& name : names) fmt::print("{:<24} {}\n", name, FirstSentence(SampleFile(name)));
   return kExitDone;
 }
 

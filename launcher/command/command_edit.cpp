@@ -1,20 +1,24 @@
 // `swarmanoid edit`: an experiment file on the page in the browser.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <thread>
 
 #include "common/activity/exit_codes.h"
 #include "common/activity/print_error.h"
+#include "common/configuration/wording.h"
 #include "common/plugin_descriptions/renderers.h"
 #include "common/program/interrupts.h"
 #include "common/program/trust_flag.h"
 #include "common/program/usage_error.h"
 #include "launcher/command/sub_command.h"
 #include "launcher/editor/edit_session.h"
+#include "launcher/new_files.h"
 #include "launcher/showing.h"
 #include "simulation/register_all.h"
 #include "visualiser/renderer_options.h"
@@ -52,9 +56,29 @@ void Serve(EditSession& session, EditorPage& page)
   }
 }
 
+// Offers to make a missing file. Without a terminal it only says how.
+void OfferToMake(const std::string& file)
+{
+  const std::filesystem::path path(file);
+  std::error_code none;
+  if (std::filesystem::exists(path, none)) return;
+  const std::string make = "swarmanoid new experiment " + path.stem().string();
+  const bool can_make = path.extension() == ".xml" && !path.has_parent_path();
+  if (!can_make || isatty(STDIN_FILENO) != 1 || isatty(STDERR_FILENO) != 1)
+    throw UsageError(fmt::format("there is no file {}; make one: {}", Quoted(file), make));
+  PrintError("There is no file {}. Make it, with a robot and walls? [Y/n] ", Quoted(file));
+  std::string answer;
+  std::getline(std::cin, answer);
+  if (!answer.empty() && answer[0] != 'y' && answer[0] != 'Y') throw UsageError("nothing was made");
+  NewExperiment(path.stem().string());
+  // In a user directory it belongs to the folder of its experiments.
+  if (!std::filesystem::exists(path, none)) throw UsageError("edit it there");
+}
+
 int Edit(const EditOptions& options)
 {
   RegisterBuiltins();
+  OfferToMake(options.file);
   std::vector<std::string> words = options.parameters;
   words.emplace_back("allow_control=true");
   const PluginDescription& description = FindRenderer("web_render");

@@ -160,12 +160,13 @@ int Show(RecordedRun& run, const ReplayOptions& options)
   return Interrupted() ? kExitInterrupted : kExitDone;
 }
 
-int Replay(const ReplayOptions& options)
+int Replay(ReplayOptions options)
 {
   RegisterBuiltins();
   CatchInterrupts();
-  if (options.verify != options.kind.empty())
-    throw UsageError("replay: name a kind of visualiser, as `swarmanoid replay RUN text`, or give --verify");
+  if (options.kind.empty() && !options.verify) options.kind = "web";
+  if (options.verify && !options.kind.empty())
+    throw UsageError(fmt::format("--verify shows nothing: leave out it or {}", Quoted(options.kind)));
   RecordedRun run(std::filesystem::absolute(options.run).lexically_normal().string());
   try
   {
@@ -183,7 +184,8 @@ void AddReplayCommand(CLI::App& app, int& exit_code)
   auto options = std::make_shared<ReplayOptions>();
   CLI::App* verb = app.add_subcommand("replay", "Show a run again from its journal, or compute it again and compare");
   verb->add_option("RUN", options->run, "The folder of a run as a cluster")->required();
-  verb->add_option("KIND", options->kind, "text, image, figure, opengl, ogre, web, ros2 or foxglove, as for `attach`");
+  verb->add_option("KIND", options->kind,
+                   "text, image, figure, opengl, ogre, web (the default), ros2 or foxglove, as for `attach`");
   verb->add_option("PARAMETERS", options->words, "name=value for the visualiser");
   verb->add_flag("--verify", options->verify,
                  "Compute all ticks again, in this process, and name the first entity that differs, and in what");
@@ -199,7 +201,8 @@ void AddReplayCommand(CLI::App& app, int& exit_code)
       "unless --verify is given: for the inside of robots see `swarmanoid inspect`.\n"
       "Exit codes of --verify: 0 all states are equal, 4 the journal is damaged, 5 they differ.\n"
       "Examples:\n"
-      "  swarmanoid replay runs/diffusion_10-20310517-093000 --verify\n"
+      "  swarmanoid replay runs/latest                              on a page\n"
+      "  swarmanoid replay runs/latest --verify\n"
       "  swarmanoid replay runs/diffusion_10-20310517-093000 web --speed 2\n"
       "  swarmanoid replay runs/diffusion_10-20310517-093000 image --video film.mp4 --from 500\n"
       "  swarmanoid replay runs/diffusion_10-20310517-093000 figure --file figure.pdf --show-trails");

@@ -45,7 +45,8 @@ void ShowFirst(const RunSettings& options)
   try
   {
     for (const fs::directory_entry& run : fs::directory_iterator(kRuns))
-      Show(*experiment, KindForSession(), fs::absolute(run.path()), TicksOf(fs::absolute(run.path())));
+      if (!run.is_symlink())
+        Show(*experiment, KindForSession(), fs::absolute(run.path()), TicksOf(fs::absolute(run.path())));
   }
   catch (const std::exception& error)
   {

@@ -80,10 +80,13 @@ class First(harness.LauncherTest):
 
     def test_demo_lists_each_sample_with_a_line(self):
         said = self.command("demo", "--list").stdout.splitlines()
-        self.assertTrue(any("(Gauci et al. 2014, " in line and "on a circle" in line for line in said), "a whole sentence")
-        self.assertEqual([line.split()[0] for line in said], sorted(path.stem for path in harness.CONFIGS.glob("*.xml")))
+        self.assertTrue(any(line.endswith("(Gauci et al. 2014)") for line in said), "a whole sentence")
+        names = [line.split()[0] for line in said]
+        self.assertEqual(sorted(names), sorted(path.stem for path in harness.CONFIGS.glob("*.xml")))
+        self.assertEqual(names[:2], ["prey_retrieval", "aggregation"], "what shows most comes first")
         for line in said:
             self.assertGreater(len(line.split()), 3, line)
+            self.assertLessEqual(len(line), 100, "a line of a terminal")
         wrong = self.command("demo", "prey_retreival")
         self.assertEqual(wrong.returncode, 2)
         self.assertIn("did you mean 'prey_retrieval'?", wrong.stderr)

@@ -29,6 +29,14 @@ class CommandLine(OutsideTest):
             self.refused(*program, file, "--journal-budget", "plenty", says=["--journal-budget is 'plenty'", "a number of bytes"])
         self.refused("swarmanoid", "run", file, "--controller-hosts", "many", says=["--controller-hosts is 'many'", "a whole number"])
         self.refused("swarmanoid", "run", "--branch", "runs/first", says=["--branch is 'runs/first'", "RUN@TICK", "for example"])
+        self.refused("swarmanoid", "run", file, "--sed", "3",
+                     says="swarmanoid run does not take '--sed'; did you mean '--set'? All options: swarmanoid run --help")
+        self.refused("swarmanoid", "attach", says=["attach needs KIND: text, ", "for example: swarmanoid attach text\n"])
+        self.refused("swarmanoid", "replay", self.folder, "text", "--verify", says="leave out it or 'text'")
+        self.refused("swarmanoid", "edit", "first_try.xml", says="make one: swarmanoid new experiment first_try")
+        self.refused("swarmanoid", "run", "--no-such", says="All options: swarmanoid run --help")
+        self.refused("swarmanoid", "run", self.folder, says="this is a folder", code=3)
+        self.refused("swarmanoid", "sweep", file, says="an experiment is run by: swarmanoid run", code=3)
         self.refused("swarmanoid", "run", says="name an experiment file, or a run to branch off with --branch RUN@TICK")
         self.assertFalse((self.folder / "runs").exists())
         self.refused("engine_worker", "--engine", "ground", "--discovery-server", "127.0.0.1:11811junk",

@@ -115,7 +115,7 @@ class Packages(unittest.TestCase):
 
     def test_there_is_a_manual_page_for_each_command(self):
         said = output_of(BUILD / "bin" / "swarmanoid", "--help")
-        commands = re.findall(r"^  (\w+) +[A-Z]", said.split("Subcommands:")[1], re.MULTILINE)
+        commands = re.findall(r"^  ([a-z]+)  +[A-Z]", said, re.MULTILINE)
         self.assertGreater(len(commands), 6)
         for name in ["swarmanoid", "swarmanoid_robot"] + [f"swarmanoid-{command}" for command in commands]:
             self.assertIn(f"usr/share/man/man1/{name}.1.gz", self.files["swarmanoid"])

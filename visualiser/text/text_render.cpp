@@ -1,5 +1,7 @@
 #include "visualiser/text/text_render.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
@@ -11,9 +13,11 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "common/configuration/wording.h"
 #include "common/math/elementary.h"
 #include "common/plugin_descriptions/renderers.h"
 #include "common/program/csv.h"
+#include "common/program/standard_output.h"
 #include "common/space/space.h"
 #include "visualiser/status_line.h"
 
@@ -120,7 +124,7 @@ void CTextRender::Idle()
     AppendStatus();
     Write();
   }
-  std::fflush(file_);
+  if (!reader_has_gone_) std::fflush(file_);
 }
 
 void CTextRender::Finish()
@@ -129,8 +133,7 @@ void CTextRender::Finish()
   if (is_left_out_) AppendTable();
   is_left_out_ = false;
   Write();
-  if (std::fflush(file_) != 0)
-    throw std::runtime_error("text_render: cannot write '" + path_ + "': " + std::strerror(errno));
+  if (!reader_has_gone_ && std::fflush(file_) != 0) FailToWrite();
 }
 
 std::vector<CTextRender::Column> CTextRender::Columns() const
@@ -332,12 +335,21 @@ void CTextRender::MendCell(std::size_t start, bool is_number)
   buffer_.replace(start, std::string::npos, mended);
 }
 
+// A reader that closes the pipe, such as `head`, has seen enough. That ends the watching, and is no error.
+void CTextRender::FailToWrite()
+{
+  if (file_ != stdout || errno != EPIPE)
+    throw std::runtime_error(fmt::format("text_render: cannot write {}: {}",
+                                         path_.empty() ? "to standard output" : Quoted(path_), std::strerror(errno)));
+  reader_has_gone_ = true;
+  ReaderOfOutputHasGone();
+}
+
 void CTextRender::Write()
 {
-  if (buffer_.empty()) return;
+  if (buffer_.empty() || reader_has_gone_) return;
   const std::size_t written = std::fwrite(buffer_.data(), 1, buffer_.size(), file_);
-  if (written != buffer_.size() || (file_ == stdout && std::fflush(file_) != 0))
-    throw std::runtime_error("text_render: cannot write '" + path_ + "': " + std::strerror(errno));
+  if (written != buffer_.size() || (file_ == stdout && std::fflush(file_) != 0)) FailToWrite();
   buffer_.clear();
 }
 

@@ -20,6 +20,7 @@ public:
   ~CTextRender() override;
   void Init(const RenderSetup& setup) override;
   void Draw() override;
+  bool Terminate() override { return reader_has_gone_; }
   // What is drawn can be read while the run is paused or slow.
   void Idle() override;
   void Finish() override;
@@ -65,6 +66,7 @@ private:
   // Makes what was appended from `start` on one cell of the format.
   void MendCell(std::size_t start, bool is_number);
   void Write();
+  void FailToWrite();
 
   const CSwarmanoidSpace* space_ = nullptr;
   const Assignment* assignment_ = nullptr;
@@ -75,6 +77,7 @@ private:
   std::vector<bool> shown_kinds_;  // by EntityKind
   Format format_ = Format::kTable;
   std::string path_;  // empty: the screen
+  bool reader_has_gone_ = false;
   std::FILE* file_ = nullptr;
   std::string buffer_;
   std::vector<std::string> keys_;  // the titles of the columns as JSON has them

@@ -13,6 +13,8 @@
 
 #include "common/activity/exit_codes.h"
 #include "common/configuration/configuration_tree.h"
+#include "common/program/help_text.h"
+#include "common/program/options.h"
 #include "common/program/usage_error.h"
 
 namespace swarmanoid
@@ -111,6 +113,48 @@ TEST(ProgramDeathTest, OpensNoFileInThePlaceOfItsOutput)
                   },
                   opened)),
               testing::ExitedWithCode(0), "");
+}
+
+TEST(Help, LinesAreBrokenAtBlanksAndNoWordIsLost)
+{
+  EXPECT_EQ(Wrapped("", 10), "");
+  EXPECT_EQ(Wrapped("one two three", 20), "one two three");
+  EXPECT_EQ(Wrapped("one two three", 7), "one two\nthree");
+  EXPECT_EQ(Wrapped("one two three", 8, 2), "one two\n  three");
+  EXPECT_EQ(Wrapped("alongword two", 4), "alongword\ntwo");
+  EXPECT_EQ(Wrapped("  an example that is not broken\nbut this", 5), "  an example that is not broken\nbut\nthis");
+}
+
+std::string HelpOf(const std::function<void(CLI::App&)>& declare)
+{
+  CLI::App app("Tries something", "trial");
+  app.formatter(MakeHelpFormatter());
+  declare(app);
+  return app.help();
+}
+
+TEST(Help, PurposeUsageAndExamplesComeFirstAndOptionsStandInGroups)
+{
+  std::string file, log;
+  unsigned tries = 3;
+  const std::string help = HelpOf(
+      [&](CLI::App& app)
+      {
+        OptionSpec place{{.name = "FILE", .type = ParameterType::kPath, .description = "What is tried"}, &file, "a"};
+        place.required = true;
+        OptionSpec rare{{.name = "log", .type = ParameterType::kPath, .description = "Where it is written"}, &log, "b"};
+        rare.group = "Rare";
+        AddOptions(
+            app,
+            {place, {{.name = "tries", .type = ParameterType::kInteger, .description = "How often"}, &tries}, rare});
+        app.footer("It ends by itself.\nExamples:\n  trial first");
+      });
+  EXPECT_EQ(help,
+            "Tries something.\n\nUsage: trial FILE [OPTIONS]\n\nExamples:\n  trial first\n\n"
+            "Arguments:\n  FILE                     What is tried\n\n"
+            "Options:\n  -h --help                Print this help message and exit\n"
+            "  --tries N                How often [3]\n\n"
+            "Rare:\n  --log FILE               Where it is written, for example --log b\n\nIt ends by itself.\n");
 }
 
 }  // namespace
