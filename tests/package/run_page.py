@@ -1,22 +1,19 @@
 #!/usr/bin/env python3
 """run_page.py PAGE PREFIX: runs the ```sh blocks of a page, as one shell would, in an empty folder that is its home, where
 `swarmanoid` is the installed package. A ```text block after one is the output, in which … stands for anything; more may be
-printed before, between and after its lines. Any other block after a comment is typed into a file, as a reader would:
+printed before, between and after its lines. Any other block shows a part of a file beside the page:
 
-    <!-- file PATH -->                 it is the whole file
-    <!-- below "TEXT" in PATH -->      below the one line that has the text; likewise above
-    <!-- for "TEXT" in PATH -->        in place of that line
+    <!-- shown in FILE -->
 """
 import os
 import pathlib
 import re
-import shlex
 import shutil
 import subprocess
 import sys
 import tempfile
 
-BLOCK = re.compile(r"^(?:<!-- (file|below|above|for) (?:\"([^\"]+)\" in )?(\S+) -->\n)?```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"^(?:<!-- shown in (\S+) -->\n)?```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 MARK = "---- block "
 
 
@@ -33,41 +30,19 @@ def first_missing(expected, output):
     return None
 
 
-def type_into(how, text, path, typed):
-    """What a reader does with a block of code."""
-    file = pathlib.Path(path)
-    if how == "file":
-        file.write_text(typed)
-        return
-    lines = file.read_text().splitlines(keepends=True)
-    found = [number for number, line in enumerate(lines) if text in line]
-    if len(found) != 1:
-        sys.exit(f"'{text}' is in {len(found)} lines of {path}, not in one")
-    first = found[0] + (how == "below")
-    lines[first:first + (how == "for")] = [typed]
-    file.write_text("".join(lines))
-
-
-def typing(how, text, path, typed):
-    """The command that does so."""
-    return f"{sys.executable} {pathlib.Path(__file__).resolve()} --type {how} {shlex.quote(text)} {path} <<'END OF BLOCK'\n{typed}END OF BLOCK\n"
-
-
 def main():
-    if sys.argv[1] == "--type":
-        type_into(*sys.argv[2:5], sys.stdin.read())
-        return
     page, prefix = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve()
     blocks = []  # (commands, expected output)
-    for how, place, path, language, text in BLOCK.findall(page.read_text()):
-        if how:
-            blocks.append([typing(how, place, path, text), ""])
+    for file, language, text in BLOCK.findall(page.read_text()):
+        if file:
+            if text not in (page.parent / file).read_text():
+                sys.exit(f"{file} does not have what {page.name} shows of it:\n{text}")
         elif language == "sh":
             blocks.append([text, ""])
         elif language == "text":
             blocks[-1][1] = text
         else:
-            sys.exit(f"{page.name}: where does this go?\n{text}")
+            sys.exit(f"{page.name}: which file has this?\n{text}")
     script = "set -euo pipefail\n"
     for number, (commands, _) in enumerate(blocks):
         script += f"echo '{MARK}{number}'\n{commands}\n"
