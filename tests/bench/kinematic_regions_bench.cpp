@@ -3,7 +3,7 @@
 // square metre, regions.
 #include <benchmark/benchmark.h>
 
-#include "engine_worker/engines/kinematics2d/plane_cuts.h"
+#include "engine_worker/engines/kinematics2d/region_cuts.h"
 #include "kinematic_crowd.h"
 #include "tests/unit/kinematics2d/region_hub.h"
 

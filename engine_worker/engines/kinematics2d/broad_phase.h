@@ -81,6 +81,13 @@ public:
   // Calls act(first, last) with the first and the last cell of each row of a block.
   template <class Act>
   void ForEachRowOf(std::uint32_t block, const Act& act) const;
+  // Sets the entries of a block's cells in an array of all cells.
+  template <class Value>
+  void FillBlock(std::uint32_t block, Value value, std::vector<Value>& of_cells) const
+  {
+    ForEachRowOf(block, [&](std::uint32_t first, std::uint32_t last)
+                 { std::fill(of_cells.begin() + first, of_cells.begin() + last + 1, value); });
+  }
   // Whether a body of this radius is too big for the cells.
   bool IsLarge(double radius) const { return radius > grid_.largest_radius; }
   // Those bodies, ascending.

@@ -8,7 +8,8 @@
 #include "common/math/elementary.h"
 #include "common/space/shape.h"
 #include "common/space/space.h"
-#include "engine_worker/engines/kinematics2d/plane_cuts.h"
+#include "engine_worker/engines/kinematics2d/plane_region.h"
+#include "engine_worker/engines/kinematics2d/region_cuts.h"
 #include "engine_worker/engines/plane_frame.h"
 #include "engine_worker/engines/terrain_walls.h"
 

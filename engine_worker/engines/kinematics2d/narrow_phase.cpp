@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine_worker/engines/kinematics2d/kinematic_limits.h"
+#include "engine_worker/engines/kinematics2d/step_constants.h"
 
 namespace swarmanoid::kinematics2d
 {

@@ -1,4 +1,4 @@
-#include "engine_worker/engines/kinematics2d/plane_cuts.h"
+#include "engine_worker/engines/kinematics2d/region_cuts.h"
 
 #include <algorithm>
 
