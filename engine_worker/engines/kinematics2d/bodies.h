@@ -12,10 +12,22 @@
 #include "engine_worker/engines/kinematics2d/collision_model.h"
 #include "engine_worker/engines/kinematics2d/motion.h"
 #include "engine_worker/engines/kinematics2d/narrow_phase.h"
-#include "engine_worker/engines/kinematics2d/renumbering.h"
 
 namespace swarmanoid::kinematics2d
 {
+
+inline constexpr std::uint32_t kNobody = ~0U;
+
+// values[k] becomes values[from[k]]; `added` for new bodies and behind all.
+template <class Values>
+void Gather(std::span<const std::uint32_t> from, std::size_t size, typename Values::value_type added, Values& values)
+{
+  Values old;
+  old.swap(values);
+  values.resize(size, added);
+  for (std::size_t k = 0; k < from.size(); ++k)
+    if (from[k] != kNobody) values[k] = old[from[k]];
+}
 
 // A turret that turns against its body.
 struct Turret
@@ -63,8 +75,8 @@ struct Bodies
   std::uint32_t Add(std::uint32_t model_number, const Pose2& pose, bool follower);
   // Sizes all arrays for `count` bodies, and fills what lies behind them.
   void MakeRoom();
-  // Gives the bodies new numbers. Those between the runs keep old values, for the caller to set.
-  void Renumber(std::span<const Run> runs, std::size_t new_count);
+  // Gives the bodies new numbers: body k was from[k], or is new if that is kNobody.
+  void Renumber(std::span<const std::uint32_t> from);
 
   void SetTurretRate(std::uint32_t body, double rate);
   void SetTurretAngle(std::uint32_t body, double angle);

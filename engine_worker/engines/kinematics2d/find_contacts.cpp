@@ -133,10 +133,16 @@ void FindNearPairs(PlaneState& plane, std::span<const std::uint32_t> held_blocks
   Contacts& contacts = plane.contacts;
   const Bodies& bodies = plane.bodies;
   const double margin = 2 * plane.lengths.reach;
+  for (Contacts::Part& part : contacts.parts)
+  {
+    part.pairs.pairs.clear();
+    part.contacts.Clear();
+    part.of_groups.Clear();
+  }
   contacts.is_listed =
       contacts.verlet_list.Update(contacts.broad, held_blocks, bodies.before, bodies.is_present, margin, plane.Pool());
   if (!contacts.is_listed) contacts.broad.Sort(bodies.before, bodies.is_present, plane.Pool());
-  PairList& large = contacts.pairs_of_large;
+  PairList& large = contacts.PairsOfLarge();
   contacts.broad.FindPairsOfLarge(margin, bodies.before, bodies.is_present, large.pairs);
   large.ends.assign(1, static_cast<std::uint32_t>(large.pairs.size()));
 }
@@ -145,13 +151,7 @@ void FindContacts(PlaneState& plane)
 {
   Contacts& contacts = plane.contacts;
   const bool alone = plane.bodies.count < kLeastBodies || plane.Pool() == nullptr;
-  contacts.broad.ShareOut(contacts.blocks, alone ? 1 : contacts.parts.size(), contacts.parts);
-  for (Contacts::Part& part : contacts.parts)
-  {
-    part.pairs.pairs.clear();
-    part.contacts.Clear();
-    part.of_groups.Clear();
-  }
+  contacts.broad.ShareOut(contacts.blocks, alone ? 1 : plane.threads, contacts.parts);
   plane.ForEachPart(
       [&](unsigned k)
       {
@@ -167,12 +167,13 @@ void FindContacts(PlaneState& plane)
   ContactList& shared = contacts.shared;
   shared.Clear();
   for (const Contacts::Part& part : contacts.parts) shared.Append(part.of_groups);
-  if (!contacts.pairs_of_large.pairs.empty())
+  const PairList& large = contacts.PairsOfLarge();
+  if (!large.pairs.empty())
   {
-    contacts.of_large.resize(contacts.pairs_of_large.ends.size());
-    FindContactsOf(plane, contacts.pairs_of_large, contacts.of_large.data(), shared, shared);
+    contacts.of_large.resize(large.ends.size());
+    FindContactsOf(plane, large, contacts.of_large.data(), shared, shared);
   }
-  plane.statistics.pairs = contacts.pairs_of_large.pairs.size();
+  plane.statistics.pairs = 0;
   plane.statistics.contacts = shared.AllEnds().size();
   for (const Contacts::Part& part : contacts.parts)
   {

@@ -61,8 +61,6 @@ void Groups::Rebuild(const Bodies& bodies)
 {
   leader.resize(bodies.count + 1);
   mobility.resize(bodies.count + 1);
-  Trim(leader);
-  Trim(mobility);
   for (std::uint32_t k = 0; k <= bodies.count; ++k)
   {
     leader[k] = k;

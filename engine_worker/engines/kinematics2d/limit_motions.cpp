@@ -273,7 +273,7 @@ bool FindOverlaps(PlaneState& plane)
   std::ranges::fill(plane.limits.is_involved, std::uint8_t{0});
   std::atomic<bool> more = false;
   plane.ForEachPart([&](unsigned k) { FindOverlapsOf(plane, plane.contacts.parts[k].pairs.pairs, more); });
-  FindOverlapsOf(plane, plane.contacts.pairs_of_large.pairs, more);
+  FindOverlapsOf(plane, plane.contacts.PairsOfLarge().pairs, more);
   return more;
 }
 
@@ -299,10 +299,10 @@ void BeginLimits(PlaneState& plane, double seconds)
 bool AddLimits(PlaneState& plane, double seconds, bool is_first)
 {
   std::atomic<bool> more = false;
-  const auto add = [&](const PairList& pairs, Limits::Part& part)
-  { AddLimitsOf(plane, pairs.pairs, is_first, seconds, part, more); };
-  plane.ForEachPart([&](unsigned k) { add(plane.contacts.parts[k].pairs, plane.limits.parts[k]); });
-  add(plane.contacts.pairs_of_large, plane.limits.parts.back());
+  const auto add = [&](unsigned k)
+  { AddLimitsOf(plane, plane.contacts.parts[k].pairs.pairs, is_first, seconds, plane.limits.parts[k], more); };
+  plane.ForEachPart(add);
+  add(plane.threads);
   return more;
 }
 

@@ -95,10 +95,6 @@ void RegionBodies::SetGrips(std::vector<Grip> grips)
   if (grips.size() == grips_.size() && (bytes == 0 || std::memcmp(grips.data(), grips_.data(), bytes) == 0)) return;
   is_shared_out_ = false;
   grips_ = std::move(grips);
-  grouped_.clear();
-  for (const Grip& grip : grips_) grouped_.insert(grouped_.end(), {grip.body, grip.prey});
-  std::sort(grouped_.begin(), grouped_.end());
-  grouped_.erase(std::unique(grouped_.begin(), grouped_.end()), grouped_.end());
 }
 
 std::uint32_t RegionBodies::Find(std::uint32_t number_in_whole) const
@@ -137,11 +133,9 @@ void RegionBodies::MarkEverywhere()
   is_everywhere_.assign(bodies_.count, 0);
   for (const Follower& follower : bodies_.followers) is_everywhere_[follower.body] = 1;
   for (const std::uint32_t body : broad_.Large()) is_everywhere_[body] = 1;
-  for (const std::uint32_t number : grouped_)
-  {
-    const std::uint32_t body = Find(number);
-    if (body != kNobody) is_everywhere_[body] = 1;
-  }
+  for (const Grip& grip : grips_)
+    for (const std::uint32_t body : {Find(grip.body), Find(grip.prey)})
+      if (body != kNobody) is_everywhere_[body] = 1;
 }
 
 void RegionBodies::FindCells()
@@ -238,13 +232,17 @@ void RegionBodies::SwapBodies()
 void RegionBodies::TakeArrived()
 {
   const bool others = Merge();
-  if (others) Renumber();
+  if (others)
+  {
+    bodies_.Renumber(from_);
+    for (std::vector<std::uint32_t>* values : {&numbers_, &cells_}) Gather(from_, from_.size(), 0U, *values);
+    Gather(from_, from_.size(), std::uint8_t{0}, is_own_);
+  }
   for (std::size_t k = 0; k < arrived_.size(); ++k) Settle(arrived_at_[k], arrived_[k]);
   if (others)
   {
     plane_.contacts.broad.SetBodies(bodies_.Radii());
     plane_.contacts.verlet_list.Forget();
-    plane_.groups.grips.clear();
     plane_.BodiesChanged();
   }
   FindCommon();
@@ -253,59 +251,42 @@ void RegionBodies::TakeArrived()
 // Merges the bodies that stay with those that arrived, by number. Returns whether other bodies are held than before.
 bool RegionBodies::Merge()
 {
-  arrived_at_.resize(arrived_.size());
-  runs_.clear();
-  new_count_ = 0;
-  const auto count = static_cast<std::uint32_t>(bodies_.count);
-  std::uint32_t body = 0;
-  const auto keep = [&]
-  {
-    const bool goes_on = !runs_.empty() && runs_.back().from + runs_.back().count == body &&
-                         runs_.back().to + runs_.back().count == new_count_;
-    if (!goes_on) runs_.push_back({body, new_count_, 0});
-    ++runs_.back().count;
-    ++body;
-    ++new_count_;
-  };
+  from_.clear();
+  arrived_at_.clear();
   auto gone = gone_.begin();
   bool others = false;
-  for (std::size_t n = 0; body < count || n < arrived_.size();)
+  // Bodies with a smaller number than the one that arrives next.
+  std::uint32_t body = 0;
+  const auto keep_before = [&](std::uint32_t number)
   {
-    const bool is_gone = gone != gone_.end() && *gone == body;
-    if (n == arrived_.size() || (body < count && numbers_[body] < arrived_[n].body.number))
+    for (; body < numbers_.size() && numbers_[body] < number; ++body)
     {
-      // The body did not arrive again.
-      if (!is_gone)
+      if (gone == gone_.end() || *gone != body)
       {
-        keep();
+        from_.push_back(body);
         continue;
       }
-      others = true;
       ++gone;
-      ++body;
-      continue;
-    }
-    const std::uint32_t number = arrived_[n].body.number;
-    if (n > 0 && arrived_[n - 1].body.number == number) RefuseRegion("a body was sent by two of them");
-    arrived_at_[n++] = new_count_;
-    if (body == count || numbers_[body] != number)
-    {
       others = true;
-      ++new_count_;
-      continue;
     }
-    if (!is_gone) RefuseRegion("a body was sent by a region that does not compute it");
+  };
+  for (const BodyMessage& arrived : arrived_)
+  {
+    const std::uint32_t number = arrived.body.number;
+    if (&arrived != arrived_.data() && (&arrived)[-1].body.number == number)
+      RefuseRegion("a body was sent by two of them");
+    keep_before(number);
+    arrived_at_.push_back(static_cast<std::uint32_t>(from_.size()));
+    const bool is_known = body < numbers_.size() && numbers_[body] == number;
+    from_.push_back(is_known ? body : kNobody);
+    others |= !is_known;
+    if (!is_known) continue;
+    if (gone == gone_.end() || *gone != body) RefuseRegion("a body was sent by a region that does not compute it");
     ++gone;
-    keep();
+    ++body;
   }
+  keep_before(kNobody);
   return others;
-}
-
-void RegionBodies::Renumber()
-{
-  bodies_.Renumber(runs_, new_count_);
-  for (std::vector<std::uint32_t>* values : {&numbers_, &cells_}) MoveRuns(runs_, new_count_, 0U, *values);
-  MoveRuns(runs_, new_count_, std::uint8_t{0}, is_own_);
 }
 
 // Sets all values of a body that arrived.

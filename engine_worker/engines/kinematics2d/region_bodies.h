@@ -52,8 +52,6 @@ private:
 class RegionBodies
 {
 public:
-  static constexpr std::uint32_t kNobody = ~0U;
-
   // `plane` has the followers alone, which have these numbers in the whole plane. It outlives this object.
   RegionBodies(PlaneState& plane, std::vector<std::uint32_t> followers, unsigned number, RegionExchange& exchange,
                unsigned halo);
@@ -97,7 +95,6 @@ private:
   void SwapBodies();
   void TakeArrived();
   bool Merge();
-  void Renumber();
   void Settle(std::uint32_t body, const BodyMessage& arrived);
   void FindCommon();
 
@@ -125,14 +122,11 @@ private:
   std::vector<std::uint32_t> border_;  // bodies that any other region holds
   std::vector<std::uint32_t> own_;     // of ListOwn
 
-  std::vector<Grip> grips_;             // of the whole plane
-  std::vector<std::uint32_t> grouped_;  // numbers in the whole plane of bodies in groups, ascending
-
+  std::vector<Grip> grips_;                // of the whole plane
   std::vector<BodyMessage> arrived_;       // by number
   std::vector<std::uint32_t> arrived_at_;  // the body that each of them is
   std::vector<std::uint32_t> gone_;        // bodies that are not held any more, unless they arrive again
-  std::vector<Run> runs_;                  // of the bodies that stay
-  std::uint32_t new_count_ = 0;
+  std::vector<std::uint32_t> from_;        // of Bodies::Renumber
 };
 
 }  // namespace swarmanoid::kinematics2d

@@ -18,8 +18,6 @@ namespace swarmanoid::kinematics2d
 namespace
 {
 
-constexpr std::uint32_t kNobody = RegionBodies::kNobody;
-
 // The motion of another leader: number_of(leader) instead of its own.
 template <class NumberOf>
 std::uint32_t Renamed(std::uint32_t motion, const NumberOf& number_of)
@@ -64,7 +62,7 @@ void RegionBorder::ChoosePairsOfLarge()
   order_of_large_.clear();
   const Bodies& bodies = plane_.bodies;
   const BroadPhase& broad = plane_.contacts.broad;
-  PairList& large_pairs = plane_.contacts.pairs_of_large;
+  PairList& large_pairs = plane_.contacts.PairsOfLarge();
   const auto is_large = [&](std::uint32_t body) { return broad.IsLarge(bodies.RadiusOf(body)); };
   const auto behind_cells = static_cast<std::uint32_t>(broad.Cells().Count());
   std::erase_if(large_pairs.pairs,

@@ -80,7 +80,7 @@ private:
   RegionMail& mail_;
 
   bool overlaps_anywhere_ = false;
-  std::vector<Order> order_of_large_;  // of each pair of Contacts::pairs_of_large
+  std::vector<Order> order_of_large_;  // of each pair of Contacts::PairsOfLarge
   std::vector<SharedContact> shared_contacts_;
   // Of each leader in a shared contact, by number in the whole plane; one more for static shapes.
   std::vector<std::uint32_t> shared_numbers_;

@@ -6,20 +6,6 @@
 
 namespace swarmanoid::kinematics2d
 {
-namespace
-{
-
-// A model without its polygons.
-struct ModelImage
-{
-  CollisionModel::PartValues x, y, radius;
-  std::array<std::uint8_t, 8> on_turret;
-  std::uint32_t parts, circles;
-  double bounding_radius, core_radius;
-};
-
-}  // namespace
-
 void RefuseRegion(const char* reason)
 {
   throw std::runtime_error(std::string("the regions of a plane do not agree: ") + reason);
@@ -36,34 +22,18 @@ void CheckCuts(const BroadPhase& broad, std::span<const std::uint8_t> region_of_
 
 void PutModel(const CollisionModel& model, ByteWriter& message)
 {
-  ModelImage image{model.part_x,
-                   model.part_y,
-                   model.part_radius,
-                   {},
-                   static_cast<std::uint32_t>(model.parts),
-                   static_cast<std::uint32_t>(model.circles),
-                   model.bounding_radius,
-                   model.core_radius};
-  std::ranges::copy(model.on_turret, image.on_turret.begin());
-  message.Put(image);
+  message.Put<ModelParts>(model);
   message.PutArray(model.polygons);
 }
 
 CollisionModel GetModel(ByteReader& message)
 {
-  const auto image = message.Get<ModelImage>();
   CollisionModel model;
-  model.part_x = image.x;
-  model.part_y = image.y;
-  model.part_radius = image.radius;
-  for (std::size_t k = 0; k < model.on_turret.size(); ++k) model.on_turret[k] = image.on_turret[k] != 0;
-  model.parts = static_cast<int>(image.parts);
-  model.circles = static_cast<int>(image.circles);
-  model.bounding_radius = image.bounding_radius;
-  model.core_radius = image.core_radius;
+  static_cast<ModelParts&>(model) = message.Get<ModelParts>();
   model.polygons = message.GetArray<Polygon>();
-  const bool is_model = image.parts <= CollisionModel::kMaximumParts &&
-                        image.circles + model.polygons.size() == image.parts &&
+  const auto polygons = static_cast<int>(model.polygons.size());
+  const bool is_model = model.parts >= polygons && model.parts <= CollisionModel::kMaximumParts &&
+                        model.circles == model.parts - polygons &&
                         std::ranges::all_of(model.polygons, [](const Polygon& p)
                                             { return p.count >= 3 && p.count <= Polygon::kMaximumVertices; });
   if (!is_model) RefuseRegion("a model has other parts than a model may have");

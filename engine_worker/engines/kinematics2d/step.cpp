@@ -81,8 +81,6 @@ void PlaneState::Start(const PlaneGrid& grid, unsigned thread_count, WorkerPool*
   bodies.MakeRoom();
   for (std::uint32_t k = 0; k < bodies.count; ++k) bodies.inverse_limit[k] = 1 / bodies.LimitOf(bodies.ModelOf(k));
   bodies.turrets.reserve(bodies.count);
-  groups.grips.reserve(bodies.count);
-  groups.starts.reserve(bodies.count + 1);
 
   BroadPhase& broad = contacts.broad;
   broad.Configure(grid, bodies.Radii());
@@ -91,18 +89,20 @@ void PlaneState::Start(const PlaneGrid& grid, unsigned thread_count, WorkerPool*
   broad.SetStatics(boxes);
   contacts.blocks.assign(broad.Blocks().begin(), broad.Blocks().end());
   contacts.of_blocks.resize(contacts.blocks.size());
-  contacts.parts.resize(threads);
+  contacts.parts.resize(threads + 1);
   contacts.verlet_list.Configure(threads);
   limits.parts.resize(threads + 1);
   limits.limiter.Configure(bodies.count + 1);
   BodiesChanged();
+  groups.grips.reserve(bodies.count);
+  groups.starts.reserve(bodies.count + 1);
 }
 
 void PlaneState::BodiesChanged()
 {
+  groups = Groups();
   groups.Rebuild(bodies);
-  limits.way.resize(PaddedCount(bodies.count));
-  Trim(limits.way);
+  limits.way = std::vector<double>(PaddedCount(bodies.count));
   limits.is_involved.resize(bodies.count + 1);
   limits.limiter.Clear();
   limits.limiter.MakeRoom(bodies.count + 1);

@@ -47,13 +47,14 @@ struct Contacts
   bool is_listed = false;               // the Verlet list has the pairs of this substep
   std::vector<std::uint32_t> blocks;    // those that are computed here, ascending
   std::vector<ContactBlock> of_blocks;  // one for each of them
-  std::vector<Part> parts;              // one for each thread
-  PairList pairs_of_large;              // pairs of bodies that are too large for the cells
-  std::vector<ContactBlock> of_large;   // one for each part of pairs_of_large
+  std::vector<Part> parts;              // one for each thread, then one for bodies too large for the cells
+  std::vector<ContactBlock> of_large;   // one for each part of the pairs of large bodies
   ContactList shared;                   // contacts of large bodies and of groups: they may reach into many blocks
   // By colour of their blocks; the shared contacts are the last colour.
   std::array<std::vector<ContactBlock>, BroadPhase::kColours + 1> colours;
   ContactSolver solver;
+
+  PairList& PairsOfLarge() { return parts.back().pairs; }
 };
 
 // How far leaders may go and turn.
@@ -67,7 +68,7 @@ struct Limits
 
   std::vector<double> way;                // m that a body wants to go in this substep
   std::vector<std::uint8_t> is_involved;  // by leader: it may be limited in this substep
-  std::vector<Part> parts;                // one for each thread, then one for the pairs of large bodies
+  std::vector<Part> parts;                // as Contacts::parts
   MotionLimiter limiter;
 };
 
@@ -94,7 +95,7 @@ struct PlaneState
 
   // After all bodies and shapes were added. The threads of `shared_pool` work, or those of a pool of its own.
   void Start(const PlaneGrid& grid, unsigned thread_count, WorkerPool* shared_pool);
-  // After the bodies got other numbers or came and went.
+  // After the bodies came, went or got other numbers: ends all grips.
   void BodiesChanged();
 
   WorkerPool* Pool() const { return IfItShares(pool); }
