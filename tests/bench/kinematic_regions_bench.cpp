@@ -24,10 +24,10 @@ void AdvanceRegions(benchmark::State& state)
   HubTeam team(regions);
   if (regions > 1)
   {
-    world.Divide(team);
+    world.Split(team);
     world.MoveCuts(CutPlane(world.BodiesInBlocks(), world.BlockColumns(), {regions, 0}));
   }
-  // Returns the processor time of all regions, and of the world that is divided (s).
+  // Returns the processor time of all regions, and of the world that is split (s).
   std::uint32_t tick = 0;
   double of_world = 0;
   double slowest = 0;

@@ -12,7 +12,7 @@
 // docs/engines.md, "Crowds".
 #include <algorithm>
 
-#include "engine_worker/engines/kinematics2d/step.h"
+#include "engine_worker/engines/kinematics2d/plane_step.h"
 
 namespace swarmanoid::kinematics2d
 {

@@ -118,7 +118,7 @@ double KinematicWorld::StaticOverlapForTest(std::uint32_t body) const
   return deepest;
 }
 
-void KinematicWorld::Divide(RegionTeam& team) { regions_ = std::make_unique<RegionTasks>(plane_, team); }
+void KinematicWorld::Split(RegionTeam& team) { regions_ = std::make_unique<RegionTasks>(plane_, team); }
 
 void KinematicWorld::MoveCuts(std::span<const std::uint8_t> region_of_block)
 {

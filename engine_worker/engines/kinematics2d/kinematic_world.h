@@ -2,7 +2,7 @@
 // other elastically and without friction, and grip preys. It knows nothing of the simulator. The kinematic engine calls
 // it in its worker's thread. Lengths are in metres, angles in radians, times in seconds.
 //
-// The world is the interface to a PlaneState; step.h lists the stages that move it.
+// The world is the interface to a PlaneState; plane_step.h lists the stages that move it.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 #include "common/messages/regions.h"
 #include "common/serialisation/bytes.h"
-#include "engine_worker/engines/kinematics2d/step.h"
+#include "engine_worker/engines/kinematics2d/plane_step.h"
 
 namespace swarmanoid::kinematics2d
 {
@@ -90,7 +90,7 @@ public:
   // After Start: from now on the regions of the team do the work of Advance. Each computes some blocks of the plane
   // (MoveCuts; at first region 0 has all), and all bodies go bit by bit as before, wherever the cuts are. `team`
   // outlives the world.
-  void Divide(RegionTeam& team);
+  void Split(RegionTeam& team);
   // Blocks of cells, row by row: a plane can be cut along their borders.
   std::uint32_t BlockColumns() const { return plane_.contacts.broad.BlockColumns(); }
   std::uint32_t BlockCount() const { return plane_.contacts.broad.BlockCount(); }

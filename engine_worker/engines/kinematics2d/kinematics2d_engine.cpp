@@ -155,7 +155,7 @@ void Kinematics2dEngine::Start()
     world_.SetTurretAngle(footbot.body, space_->Attributes()[footbot.turret_slot]);
   writer_ = PlaneWriter(frame_, owned_.size(), std::move(stances));
   std::vector<const CSwarmanoidSpaceEntity*>().swap(owned_);
-  if (team_ != nullptr) world_.Divide(*team_);
+  if (team_ != nullptr) world_.Split(*team_);
 }
 
 std::unique_ptr<EngineRegion> Kinematics2dEngine::MakeRegion(unsigned region, RegionExchange& exchange)

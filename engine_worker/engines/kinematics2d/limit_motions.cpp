@@ -15,8 +15,8 @@
 #include <cmath>
 
 #include "common/math/lanes.h"
+#include "engine_worker/engines/kinematics2d/plane_step.h"
 #include "engine_worker/engines/kinematics2d/separating_planes.h"
-#include "engine_worker/engines/kinematics2d/step.h"
 
 namespace swarmanoid::kinematics2d
 {

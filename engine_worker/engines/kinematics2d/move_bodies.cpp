@@ -8,7 +8,7 @@
 //
 // Invariant: each body has slots of its own, so that threads change no bit.
 #include "common/math/elementary.h"
-#include "engine_worker/engines/kinematics2d/step.h"
+#include "engine_worker/engines/kinematics2d/plane_step.h"
 
 namespace swarmanoid::kinematics2d
 {

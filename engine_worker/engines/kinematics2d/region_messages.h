@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "common/messages/regions.h"
-#include "engine_worker/engines/kinematics2d/step.h"
+#include "engine_worker/engines/kinematics2d/plane_step.h"
 
 namespace swarmanoid::kinematics2d
 {

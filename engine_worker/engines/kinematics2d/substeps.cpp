@@ -12,7 +12,7 @@
 #include <string>
 
 #include "common/math/lanes.h"
-#include "engine_worker/engines/kinematics2d/step.h"
+#include "engine_worker/engines/kinematics2d/plane_step.h"
 #include "engine_worker/engines/kinematics2d/step_constants.h"
 
 namespace swarmanoid::kinematics2d

@@ -8,7 +8,7 @@
 // which gives v = mean of v_k and w = sum of ((p_k - p) x v_k + a^2 w_k) / sum of (|p_k - p|^2 + a^2).
 //
 // Invariant: grips are in the order of IsBefore, so that sums have one order in all processes.
-#include "engine_worker/engines/kinematics2d/groups.h"
+#include "engine_worker/engines/kinematics2d/gripped_groups.h"
 
 #include <tuple>
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "engine_worker/engines/kinematics2d/bodies.h"
+#include "engine_worker/engines/kinematics2d/plane_bodies.h"
 
 namespace swarmanoid::kinematics2d
 {
@@ -55,7 +55,7 @@ struct Groups
 // The order of grips.
 bool IsBefore(const Grip& a, const Grip& b);
 
-// Stage: fills in Groups::with_groups.
+// Fills in Groups::with_groups: a stage at the start of a tick.
 void FindGroupTwists(const Bodies& bodies, Groups& groups);
 
 }  // namespace swarmanoid::kinematics2d

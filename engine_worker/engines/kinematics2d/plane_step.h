@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "common/threads/worker_pool.h"
-#include "engine_worker/engines/kinematics2d/bodies.h"
 #include "engine_worker/engines/kinematics2d/broad_phase.h"
 #include "engine_worker/engines/kinematics2d/contact_solver.h"
-#include "engine_worker/engines/kinematics2d/groups.h"
+#include "engine_worker/engines/kinematics2d/gripped_groups.h"
 #include "engine_worker/engines/kinematics2d/motion_limiter.h"
+#include "engine_worker/engines/kinematics2d/plane_bodies.h"
 #include "engine_worker/engines/kinematics2d/verlet_list.h"
 
 namespace swarmanoid::kinematics2d
@@ -112,37 +112,42 @@ struct PlaneState
   }
 };
 
+struct Region;
 // Moves all bodies by `seconds`, in at least `steps` equal substeps. `region`: nullptr for a plane that is not cut.
 // Throws std::runtime_error for speeds that would need too many substeps.
-struct Region;
 void Advance(PlaneState& plane, double seconds, int steps, Region* region = nullptr);
 
-// The longest way of a tick, and the largest part of a way to what its body may go in one substep.
+// The longest way of a tick (m), and the largest way against the limit of its body.
 struct LongestWay
 {
   double metres = 0;
   double limits = 0;
 };
 
-// The stages of a tick: group twists (groups.cpp), the number of substeps (substeps.cpp).
+// A tick begins with the twists of groups (FindGroupTwists) and the number of substeps (substeps.cpp).
 LongestWay FindLongestWay(const Bodies& bodies, const Groups& groups, double seconds);
 int ChooseSubsteps(const LongestWay& way, double seconds, int steps, const Bodies& bodies, StepLengths& lengths);
 
-// The stages of a substep of `seconds`, which ends at a fraction (0 to 1) of the tick.
-// move_bodies.cpp: moves all bodies freely. At the end of a substep, adds up how they travelled.
+// The stages of a substep of `seconds`, in order. It ends at a fraction (0 to 1) of the tick.
+// 1. Moves all bodies as they are told, wherever others are (move_bodies.cpp).
 void MoveBodies(PlaneState& plane, double seconds, double fraction);
-void MeasureTravel(PlaneState& plane, double seconds);
-// find_contacts.cpp: the pairs that can meet, looked for in some blocks; their contacts; the contacts by colour, and
-// whether any bodies overlap.
+// 2. Finds the pairs of bodies in these blocks that can meet (find_contacts.cpp).
 void FindNearPairs(PlaneState& plane, std::span<const std::uint32_t> held_blocks);
+// 3. Finds where the outlines of these pairs touch.
 void FindContacts(PlaneState& plane);
+// 4. Lists the contacts by the colour of their blocks. Returns whether any overlap; if not, stage 10 is next.
 bool SortContactsByColour(Contacts& contacts);
-// limit_motions.cpp: limits pushes to the reach; whether bodies overlap then; planes between these and their
-// neighbours, round by round while there are more; the motions under these planes, and planes of other regions.
+// 5. ContactSolver::Solve pushes the leaders of contacts apart (contact_solver.cpp).
+// 6. Shortens the ways of leaders that were pushed beyond the reach (limit_motions.cpp).
 void LimitPushes(PlaneState& plane, double seconds);
+// 7. Involves the leaders of bodies that still overlap. Returns whether there are any; if not, stage 10 is next.
 bool FindOverlaps(PlaneState& plane);
+// 8. Puts planes between involved bodies and their neighbours. AddLimits is called until it involves no more leaders.
 void BeginLimits(PlaneState& plane, double seconds);
 bool AddLimits(PlaneState& plane, double seconds, bool is_first);
+// 9. Does the parts of all motions that these planes allow, and those of other regions if there are any.
 void LimitMotions(PlaneState& plane, double seconds, const LimitList* of_others);
+// 10. Adds up how each body travelled (move_bodies.cpp).
+void MeasureTravel(PlaneState& plane, double seconds);
 
 }  // namespace swarmanoid::kinematics2d

@@ -1,4 +1,4 @@
-#include "engine_worker/engines/kinematics2d/bodies.h"
+#include "engine_worker/engines/kinematics2d/plane_bodies.h"
 
 #include <algorithm>
 

@@ -6,7 +6,7 @@
 // its blocks, and exchanges with the other regions at the named places.
 //
 // Source: docs/engines.md, "Model"; docs/scaling.md for regions.
-#include "engine_worker/engines/kinematics2d/step.h"
+#include "engine_worker/engines/kinematics2d/plane_step.h"
 
 #include "engine_worker/engines/kinematics2d/region_border.h"
 #include "engine_worker/engines/kinematics2d/step_constants.h"

@@ -1,9 +1,10 @@
 // The bodies of a plane: outlines, poses, velocities, turrets and mirrors, one array a property. The stages of a step
-// (step.h) read and write these arrays; Box2D calls the like a body simulation set.
+// (plane_step.h) read and write these arrays.
 //
 // Lengths are in metres, angles in radians, times in seconds. `now` and `before` are padded for the vector loops.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,8 +26,14 @@ void Gather(std::span<const std::uint32_t> from, std::size_t size, typename Valu
   Values old;
   old.swap(values);
   values.resize(size, added);
-  for (std::size_t k = 0; k < from.size(); ++k)
-    if (from[k] != kNobody) values[k] = old[from[k]];
+  // Rows of bodies that keep their order are copied as a whole.
+  for (std::size_t begin = 0, end = 0; begin < from.size(); begin = end)
+  {
+    end = begin + 1;
+    if (from[begin] == kNobody) continue;
+    while (end < from.size() && from[end] == from[end - 1] + 1) ++end;
+    std::copy_n(old.begin() + from[begin], end - begin, values.begin() + static_cast<std::ptrdiff_t>(begin));
+  }
 }
 
 // A turret that turns against its body.

@@ -1,5 +1,5 @@
 // A gripped group moves as its members together would like best.
-#include "engine_worker/engines/kinematics2d/groups.h"
+#include "engine_worker/engines/kinematics2d/gripped_groups.h"
 
 #include <gtest/gtest.h>
 
