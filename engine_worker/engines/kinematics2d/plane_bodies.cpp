@@ -1,6 +1,7 @@
 #include "engine_worker/engines/kinematics2d/plane_bodies.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "common/math/elementary.h"
 #include "engine_worker/engines/kinematics2d/step_constants.h"
@@ -52,32 +53,32 @@ void Bodies::MakeRoom()
   for (const CollisionModel& shape : statics) placed.push_back({.model = &shape});
 }
 
-void Bodies::Renumber(std::span<const std::uint32_t> from)
+void Bodies::Renumber(std::span<const Run> runs, std::size_t new_count)
 {
   std::vector<std::uint32_t> number_of(count, kNobody);
-  for (std::uint32_t k = 0; k < from.size(); ++k)
-    if (from[k] != kNobody) number_of[from[k]] = k;
+  for (const Run& run : runs) std::iota(number_of.begin() + run.from, number_of.begin() + run.from + run.count, run.to);
   std::erase_if(turrets, [&](const Turret& turret) { return number_of[turret.body] == kNobody; });
   for (Turret& turret : turrets) turret.body = number_of[turret.body];
   for (Follower& follower : followers) follower.body = number_of[follower.body];
 
-  count = from.size();
+  count = new_count;
   const std::size_t padded = PaddedCount(count);
   for (std::vector<double>* values : {&now.x, &now.y, &now.z, &twists.forward, &twists.left, &twists.turn})
-    Gather(from, padded, 0.0, *values);
-  for (std::vector<double>* values : {&now.w, &inverse_limit}) Gather(from, padded, 1.0, *values);
+    MoveRuns(runs, count, padded, 0.0, *values);
+  for (std::vector<double>* values : {&now.w, &inverse_limit}) MoveRuns(runs, count, padded, 1.0, *values);
   for (ZeroedVector<double>* values : {&turret_angle, &turret_sin, &travel_forward, &travel_turn})
-    Gather(from, count, 0.0, *values);
-  if (!turret_cos.empty()) Gather(from, count, 1.0, turret_cos);
-  Gather(from, count, 0U, model);
-  for (std::vector<std::uint8_t>* values : {&is_follower, &is_present}) Gather(from, count, std::uint8_t{0}, *values);
+    MoveRuns(runs, count, count, 0.0, *values);
+  if (!turret_cos.empty()) MoveRuns(runs, count, count, 1.0, turret_cos);
+  MoveRuns(runs, count, count, 0U, model);
+  for (std::vector<std::uint8_t>* values : {&is_follower, &is_present})
+    MoveRuns(runs, count, count, std::uint8_t{0}, *values);
   turret_cos_before = turret_cos;
   turret_sin_before = turret_sin;
-  // Cuts may move most bodies away: what these arrays took is given back.
-  before = PoseStore();
-  placed = std::vector<Placed>();
-  turret_way = ZeroedVector<double>();
+  placed.resize(count);
   MakeRoom();
+  for (std::vector<double>* values : {&before.x, &before.y, &before.z, &before.w}) Trim(*values);
+  Trim(placed);
+  Trim(turret_way);
 }
 
 namespace

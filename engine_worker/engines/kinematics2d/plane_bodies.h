@@ -19,21 +19,36 @@ namespace swarmanoid::kinematics2d
 
 inline constexpr std::uint32_t kNobody = ~0U;
 
-// values[k] becomes values[from[k]]; `added` for new bodies and behind all.
-template <class Values>
-void Gather(std::span<const std::uint32_t> from, std::size_t size, typename Values::value_type added, Values& values)
+// Bodies that get new numbers as a whole. Runs keep their order.
+struct Run
 {
-  Values old;
-  old.swap(values);
-  values.resize(size, added);
-  // Rows of bodies that keep their order are copied as a whole.
-  for (std::size_t begin = 0, end = 0; begin < from.size(); begin = end)
-  {
-    end = begin + 1;
-    if (from[begin] == kNobody) continue;
-    while (end < from.size() && from[end] == from[end - 1] + 1) ++end;
-    std::copy_n(old.begin() + from[begin], end - begin, values.begin() + static_cast<std::ptrdiff_t>(begin));
-  }
+  std::uint32_t from, to, count;
+};
+
+// Gives memory back that far more bodies took before.
+template <class Values>
+void Trim(Values& values)
+{
+  if (values.capacity() > 2 * values.size()) values.shrink_to_fit();
+}
+
+// Moves the values of runs, in place. Values of bodies between the runs are left over, for the caller to set; those
+// from `count` on are `behind`.
+template <class Values>
+void MoveRuns(std::span<const Run> runs, std::size_t count, std::size_t size, typename Values::value_type behind,
+              Values& values)
+{
+  values.resize(std::max(values.size(), size), behind);
+  const auto at = [&](std::uint32_t place) { return values.begin() + static_cast<std::ptrdiff_t>(place); };
+  // Runs that go to the front move from the first one on, the others from the last one on: none is overwritten.
+  for (const Run& run : runs)
+    if (run.to < run.from) std::copy_n(at(run.from), run.count, at(run.to));
+  for (std::size_t k = runs.size(); k-- > 0;)
+    if (runs[k].to > runs[k].from)
+      std::copy_backward(at(runs[k].from), at(runs[k].from + runs[k].count), at(runs[k].to + runs[k].count));
+  values.resize(size, behind);
+  std::fill(at(static_cast<std::uint32_t>(count)), values.end(), behind);
+  Trim(values);
 }
 
 // A turret that turns against its body.
@@ -82,8 +97,8 @@ struct Bodies
   std::uint32_t Add(std::uint32_t model_number, const Pose2& pose, bool follower);
   // Sizes all arrays for `count` bodies, and fills what lies behind them.
   void MakeRoom();
-  // Gives the bodies new numbers: body k was from[k], or is new if that is kNobody.
-  void Renumber(std::span<const std::uint32_t> from);
+  // Gives the bodies new numbers. The caller sets the values of bodies between the runs.
+  void Renumber(std::span<const Run> runs, std::size_t new_count);
 
   void SetTurretRate(std::uint32_t body, double rate);
   void SetTurretAngle(std::uint32_t body, double angle);

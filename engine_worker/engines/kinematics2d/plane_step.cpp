@@ -100,9 +100,12 @@ void PlaneState::Start(const PlaneGrid& grid, unsigned thread_count, WorkerPool*
 
 void PlaneState::BodiesChanged()
 {
-  groups = Groups();
+  groups.grips.clear();
   groups.Rebuild(bodies);
-  limits.way = std::vector<double>(PaddedCount(bodies.count));
+  limits.way.resize(PaddedCount(bodies.count));
+  Trim(groups.leader);
+  Trim(groups.mobility);
+  Trim(limits.way);
   limits.is_involved.resize(bodies.count + 1);
   limits.limiter.Clear();
   limits.limiter.MakeRoom(bodies.count + 1);

@@ -234,9 +234,10 @@ void RegionBodies::TakeArrived()
   const bool others = Merge();
   if (others)
   {
-    bodies_.Renumber(from_);
-    for (std::vector<std::uint32_t>* values : {&numbers_, &cells_}) Gather(from_, from_.size(), 0U, *values);
-    Gather(from_, from_.size(), std::uint8_t{0}, is_own_);
+    bodies_.Renumber(runs_, new_count_);
+    for (std::vector<std::uint32_t>* values : {&numbers_, &cells_})
+      MoveRuns(runs_, new_count_, new_count_, 0U, *values);
+    MoveRuns(runs_, new_count_, new_count_, std::uint8_t{0}, is_own_);
   }
   for (std::size_t k = 0; k < arrived_.size(); ++k) Settle(arrived_at_[k], arrived_[k]);
   if (others)
@@ -251,22 +252,33 @@ void RegionBodies::TakeArrived()
 // Merges the bodies that stay with those that arrived, by number. Returns whether other bodies are held than before.
 bool RegionBodies::Merge()
 {
-  from_.clear();
+  runs_.clear();
+  new_count_ = 0;
   arrived_at_.clear();
   auto gone = gone_.begin();
   bool others = false;
-  // Bodies with a smaller number than the one that arrives next.
   std::uint32_t body = 0;
+  const auto keep = [&]
+  {
+    const auto goes_on = [&](const Run& run)
+    { return run.from + run.count == body && run.to + run.count == new_count_; };
+    if (runs_.empty() || !goes_on(runs_.back())) runs_.push_back({body, new_count_, 0});
+    ++runs_.back().count;
+    ++body;
+    ++new_count_;
+  };
+  // Keeps or removes the bodies with a smaller number than the one that arrives next.
   const auto keep_before = [&](std::uint32_t number)
   {
-    for (; body < numbers_.size() && numbers_[body] < number; ++body)
+    while (body < numbers_.size() && numbers_[body] < number)
     {
       if (gone == gone_.end() || *gone != body)
       {
-        from_.push_back(body);
+        keep();
         continue;
       }
       ++gone;
+      ++body;
       others = true;
     }
   };
@@ -276,14 +288,16 @@ bool RegionBodies::Merge()
     if (&arrived != arrived_.data() && (&arrived)[-1].body.number == number)
       RefuseRegion("a body was sent by two of them");
     keep_before(number);
-    arrived_at_.push_back(static_cast<std::uint32_t>(from_.size()));
-    const bool is_known = body < numbers_.size() && numbers_[body] == number;
-    from_.push_back(is_known ? body : kNobody);
-    others |= !is_known;
-    if (!is_known) continue;
+    arrived_at_.push_back(new_count_);
+    if (body == numbers_.size() || numbers_[body] != number)
+    {
+      ++new_count_;
+      others = true;
+      continue;
+    }
     if (gone == gone_.end() || *gone != body) RefuseRegion("a body was sent by a region that does not compute it");
     ++gone;
-    ++body;
+    keep();
   }
   keep_before(kNobody);
   return others;

@@ -126,7 +126,8 @@ private:
   std::vector<BodyMessage> arrived_;       // by number
   std::vector<std::uint32_t> arrived_at_;  // the body that each of them is
   std::vector<std::uint32_t> gone_;        // bodies that are not held any more, unless they arrive again
-  std::vector<std::uint32_t> from_;        // of Bodies::Renumber
+  std::vector<Run> runs_;                  // of the bodies that stay
+  std::uint32_t new_count_ = 0;
 };
 
 }  // namespace swarmanoid::kinematics2d
