@@ -3,7 +3,7 @@
 // square metre, regions.
 #include <benchmark/benchmark.h>
 
-#include "engine_worker/engines/kinematics2d/plane_cuts.h"
+#include "engine_worker/engines/kinematics2d/region_cuts.h"
 #include "kinematic_crowd.h"
 #include "tests/unit/kinematics2d/region_hub.h"
 
@@ -24,10 +24,10 @@ void AdvanceRegions(benchmark::State& state)
   HubTeam team(regions);
   if (regions > 1)
   {
-    world.Divide(team);
+    world.Split(team);
     world.MoveCuts(CutPlane(world.BodiesInBlocks(), world.BlockColumns(), {regions, 0}));
   }
-  // Returns the processor time of all regions, and of the world that is divided (s).
+  // Returns the processor time of all regions, and of the world that is split (s).
   std::uint32_t tick = 0;
   double of_world = 0;
   double slowest = 0;

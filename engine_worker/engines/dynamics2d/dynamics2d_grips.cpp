@@ -1,4 +1,10 @@
-// Grippers, turrets and grips of Dynamics2dWorld: what a gripper can take, the joint that holds it, and its load.
+// Grippers, turrets and grips: which body a gripper can take, the joint that holds it, and its load.
+//
+// Method: a grip is a revolute joint about the axis of the turret if a motor turns the turret, else a rigid one. A held
+// turret returns to its angle with limited speed, and slips when the load exceeds the torque of its motor.
+//
+// Invariants: grips lead from body to body without a loop. The joint's angle is stated against reference_angle, so that
+// whole turns of the bodies do not count.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,7 +43,6 @@ public:
 
 }  // namespace
 
-// A revolute joint about the axis of the turret if a motor turns it, a rigid one if none does.
 void Dynamics2dWorld::BuildGrip(Body& body)
 {
   b2Body* target = bodies_[Index(body.gripped)].b2;
@@ -91,7 +96,7 @@ void Dynamics2dWorld::ApplyTurret(Body& body, double seconds)
 
 void Dynamics2dWorld::TurnGripper(Body& body)
 {
-  if (body.gripper == nullptr) return;  // what grips otherwise: a handbot
+  if (body.gripper == nullptr) return;  // a handbot has none
   const SinCos turret = SinCosOf(TurretAngleOf(static_cast<int>(&body - bodies_.data())));
   const auto point = [&](double forward, double left)
   { return ToUnits(turret.cos * forward - turret.sin * left, turret.sin * forward + turret.cos * left); };
@@ -117,7 +122,7 @@ double Dynamics2dWorld::TurretAngleOf(int number) const
   return WrapAngle(static_cast<b2RevoluteJoint*>(body.joint)->GetJointAngle());
 }
 
-// Headings come without whole turns: those that its bodies had made are taken from the angle of a grip.
+// Headings come without whole turns: the turns that the bodies had made are taken from the angle of the grip.
 void Dynamics2dWorld::CountTurns(Body& body)
 {
   const double angle = static_cast<double>(bodies_[Index(body.gripped)].b2->GetAngle()) - body.b2->GetAngle() -
@@ -138,7 +143,7 @@ bool Dynamics2dWorld::LeadsTo(int from, int to) const
 int Dynamics2dWorld::FindGrippable(int number) const
 {
   const Body& body = bodies_[Index(number)];
-  if (body.b2 == nullptr) return kNoBody;  // nobody is near
+  if (body.b2 == nullptr) return kNoBody;  // no body is near
   const SinCos turret = SinCosOf(body.b2->GetAngle() + body.turret_angle);
   const b2Vec2 centre = body.b2->GetPosition();
   const double x = centre.x / kUnitsPerMetre + kGripperReach * turret.cos;

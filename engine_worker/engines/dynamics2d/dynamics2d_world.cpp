@@ -1,8 +1,18 @@
+// Problem: keep Box2D's bodies so that a saved state gives the bits of a run that never stopped.
+//
+// Method: Box2D remembers more than positions and velocities (contacts, impulses, the order of its lists), and it
+// cannot be given that back. So a state is only the bits below. A world is made from them in the order of the bodies,
+// whether it was just loaded or goes on (Rebuild). Box2D has single precision; what its positions lack is kept beside
+// them (remainder_x, remainder_y).
+//
+// Invariants: Build depends on the bodies alone. Bodies that are isolated when a tick begins (isolated_bodies.cpp) are
+// not in Box2D, so Build leaves out each body that may be.
 #include "engine_worker/engines/dynamics2d/dynamics2d_world.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 #include "common/math/elementary.h"
 
@@ -10,13 +20,6 @@ namespace swarmanoid::dynamics2d
 {
 namespace
 {
-
-// The part of a ground joint's position error that becomes velocity. Drives are expressed through it; a small value
-// puts the target far ahead, where the rounding of large coordinates does not matter.
-constexpr float kDriveGain = 0.001F;
-// A remainder beyond this goes to Box2D's position.
-constexpr double kLargestRemainder = 1e-4;  // decimetres
-constexpr double kSlip = 1e-3;              // m/s: slower than this a body on the ground is taken to stand
 
 double BeyondSinglePrecision(double x) { return x - static_cast<float>(x); }
 
@@ -47,7 +50,7 @@ void Dynamics2dWorld::Build()
   ways_.clear();
   isolation_is_configured_ = false;
   MarkGripped();
-  // Who may be isolated is built when a tick begins and he is not.
+  // A body that may be isolated is built when a tick begins in which it is not.
   for (Body& body : bodies_)
   {
     LeaveOut(body);
@@ -137,42 +140,6 @@ b2PolygonShape Dynamics2dWorld::ShapeOf(const std::vector<Vector2>& outline)
   return polygon;
 }
 
-void Dynamics2dWorld::Step(double seconds)
-{
-  if (!isolated_.empty() && IsSomebodyTooFar(seconds))
-    for (const std::uint32_t number : std::vector(isolated_)) EndIsolation(static_cast<int>(number));
-  positions_.clear();
-  for (const std::uint32_t number : solved_)
-  {
-    Body& body = bodies_[number];
-    ApplyDrive(body, seconds);
-    if (body.gripper != nullptr) ApplyTurret(body, seconds);
-    positions_.push_back(body.b2->GetPosition());
-  }
-  world_->Step(static_cast<float>(seconds), settings_.velocity_iterations, settings_.position_iterations);
-  for (std::size_t i = 0; i < solved_.size(); ++i)
-    if (bodies_[solved_[i]].solid) KeepRemainder(bodies_[solved_[i]], positions_[i], seconds);
-  for (const std::uint32_t number : isolated_) AdvanceIsolated(bodies_[number], seconds);
-  last_step_ = seconds;
-}
-
-// Box2D moves by x += h v in single precision: what the rounding takes or adds is carried on.
-void Dynamics2dWorld::KeepRemainder(Body& body, const b2Vec2& before, double seconds) const
-{
-  const auto h = static_cast<float>(seconds);
-  const auto lost = [&](float x, float v)
-  {
-    const float moved = x + h * v;
-    return x + seconds * v - moved;
-  };
-  const b2Vec2 velocity = body.b2->GetLinearVelocity();
-  body.remainder_x += lost(before.x, velocity.x);
-  body.remainder_y += lost(before.y, velocity.y);
-  if (std::max(std::abs(body.remainder_x), std::abs(body.remainder_y)) < kLargestRemainder) return;
-  const b2Vec2 now = body.b2->GetPosition();
-  SetPosition(body, now.x + body.remainder_x, now.y + body.remainder_y, body.b2->GetAngle());
-}
-
 void Dynamics2dWorld::SetPosition(Body& body, double x, double y, float angle)
 {
   body.remainder_x = BeyondSinglePrecision(x);
@@ -186,47 +153,6 @@ void Dynamics2dWorld::SetPosition(Body& body, double x, double y, float angle)
   }
   else if (position != body.b2->GetPosition() || angle != body.b2->GetAngle())
     body.b2->SetTransform(position, angle);
-}
-
-// Units a second, along the chord of the arc that a step of so many seconds leads along.
-PlaneVelocity Dynamics2dWorld::WantedVelocity(const Body& body, double seconds) const
-{
-  const double turn = body.drive.turn * seconds;
-  if (body.drive.forward == 0 && body.drive.left == 0) return {0, 0, body.drive.turn};
-  const SinCos middle = SinCosOf(StateOf(body).angle + turn / 2);
-  const double shortening = std::abs(turn) > 1e-6 ? Sin(turn / 2) / (turn / 2) : 1;
-  const double scale = shortening * kUnitsPerMetre;
-  return {scale * (middle.cos * body.drive.forward - middle.sin * body.drive.left),
-          scale * (middle.sin * body.drive.forward + middle.cos * body.drive.left), body.drive.turn};
-}
-
-// The ground joint is given an error that asks for the wanted velocity. Solved together with contacts and grips, so
-// what cannot move stands still.
-void Dynamics2dWorld::ApplyDrive(Body& body, double seconds)
-{
-  const PlaneVelocity wanted = WantedVelocity(body, seconds);
-  const double ahead = seconds / kDriveGain;
-  const b2Vec2 position = body.b2->GetWorldCenter();
-  body.ground->SetLinearOffset(
-      {static_cast<float>(position.x + ahead * wanted.u), static_cast<float>(position.y + ahead * wanted.v)});
-  body.ground->SetAngularOffset(static_cast<float>(body.b2->GetAngle() + ahead * wanted.turn));
-  if (!body.model.lies || body.model.ground_force <= 0) return;
-  const FrictionShares shares = SharesOf(body.model, StateOf(body));
-  body.ground->SetMaxForce(static_cast<float>(shares.sliding * body.model.ground_force * kForceUnits));
-  body.ground->SetMaxTorque(static_cast<float>(shares.turning * body.model.ground_torque * kTorqueUnits));
-}
-
-// Friction under a face opposes the slip at each of its points, so that sliding and turning share one limit: nearly an
-// ellipsoid (Howe and Cutkosky, "Practical force-motion models for sliding manipulation", 1996). What slides gives way
-// to the smallest push across, and to the smallest torque.
-Dynamics2dWorld::FrictionShares Dynamics2dWorld::SharesOf(const BodyModel& model, const BodyState& state)
-{
-  const double x = state.vx / kUnitsPerMetre;
-  const double y = state.vy / kUnitsPerMetre;
-  const double turn = state.turn * model.ground_torque / model.ground_force;
-  const double slip = std::sqrt(x * x + y * y + turn * turn);
-  if (slip <= kSlip) return {1, 1};
-  return {std::sqrt(x * x + y * y) / slip, std::abs(turn) / slip};
 }
 
 PlanePose Dynamics2dWorld::PoseOf(int number) const
@@ -244,7 +170,7 @@ PlaneVelocity Dynamics2dWorld::VelocityOf(int number) const
 
 void Dynamics2dWorld::Place(int number, const PlanePose& pose)
 {
-  // The float next to half a turn is a little more than that, so its heading is told from the other side.
+  // The float next to half a turn is a little more than that, so the heading is stated from the other side.
   constexpr auto kHalfTurn = static_cast<float>(kPi);
   const double other = pose.heading - std::copysign(2 * kPi, pose.heading);
   const bool is_half_turn = std::abs(static_cast<double>(kHalfTurn) - std::abs(other)) < 1e-12;
@@ -301,4 +227,88 @@ int Dynamics2dWorld::ContactCount() const
     count += contact->IsTouching() ? 1 : 0;
   return count;
 }
+
+Dynamics2dWorld::BodyState Dynamics2dWorld::StateOf(const Body& body)
+{
+  if (body.b2 == nullptr) return body.start;
+  const b2Body& b2 = *body.b2;
+  return {b2.GetPosition().x,       b2.GetPosition().y,       b2.GetAngle(),
+          b2.GetLinearVelocity().x, b2.GetLinearVelocity().y, b2.GetAngularVelocity()};
+}
+
+void Dynamics2dWorld::Rebuild()
+{
+  for (Body& body : bodies_) body.start = StateOf(body);
+  WrapAngles();
+  Build();
+}
+
+void Dynamics2dWorld::BeginAgain()
+{
+  for (Body& body : bodies_) body.start = StateOf(body);
+  Build();
+}
+
+// Angles grow with every turn and lose precision; here they come back to -pi..pi, and the grips' angles with them.
+void Dynamics2dWorld::WrapAngles()
+{
+  const auto wrap = [](float angle) { return std::abs(angle) > kPi ? static_cast<float>(WrapAngle(angle)) : angle; };
+  for (Body& body : bodies_)
+  {
+    if (body.gripped == kNoBody) continue;
+    const float own = body.start.angle;
+    const float other = bodies_[Index(body.gripped)].start.angle;
+    const double joint = static_cast<double>(other) - own - body.grip.reference_angle;
+    if (wrap(own) == own && wrap(other) == other && std::abs(joint) <= kPi) continue;
+    body.grip.reference_angle = static_cast<float>(static_cast<double>(wrap(other)) - wrap(own) - WrapAngle(joint));
+  }
+  for (Body& body : bodies_) body.start.angle = wrap(body.start.angle);
+}
+
+void Dynamics2dWorld::SaveState(ByteWriter& state) const
+{
+  state.Put(static_cast<std::uint64_t>(bodies_.size()));
+  for (const Body& body : bodies_)
+  {
+    if (body.model.motion == EMotion::kStatic) continue;
+    state.Put(StateOf(body));
+    state.Put(body.remainder_x);
+    state.Put(body.remainder_y);
+    state.Put(static_cast<std::uint8_t>(body.solid ? 1 : 0));
+    if (!body.model.has_gripper) continue;
+    state.Put(body.turret_angle);
+    state.Put(static_cast<std::uint8_t>(body.held_angle ? 1 : 0));
+    if (body.held_angle) state.Put(*body.held_angle);
+    state.Put(static_cast<std::int32_t>(body.gripped));
+    state.Put(body.grip.anchor.x);
+    state.Put(body.grip.anchor.y);
+    state.Put(body.grip.reference_angle);
+  }
+}
+
+void Dynamics2dWorld::LoadState(ByteReader& state)
+{
+  if (state.Get<std::uint64_t>() != bodies_.size())
+    throw std::runtime_error("saved state of dynamics2d: it is of an experiment with another number of bodies");
+  for (Body& body : bodies_)
+  {
+    if (body.model.motion == EMotion::kStatic) continue;
+    body.start = state.Get<BodyState>();
+    body.remainder_x = state.Get<double>();
+    body.remainder_y = state.Get<double>();
+    body.solid = state.Get<std::uint8_t>() != 0;
+    if (!body.model.has_gripper) continue;
+    body.turret_angle = state.Get<double>();
+    const bool held = state.Get<std::uint8_t>() != 0;
+    body.held_angle = held ? std::optional(state.Get<double>()) : std::nullopt;
+    body.gripped = state.Get<std::int32_t>();
+    if (body.gripped < kNoBody || body.gripped >= static_cast<int>(bodies_.size()))
+      throw std::runtime_error("saved state of dynamics2d: a gripper holds a body that does not exist");
+    body.grip.anchor.x = state.Get<float>();
+    body.grip.anchor.y = state.Get<float>();
+    body.grip.reference_angle = state.Get<float>();
+  }
+  Build();
+}
+
 }  // namespace swarmanoid::dynamics2d

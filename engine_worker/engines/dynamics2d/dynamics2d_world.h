@@ -1,6 +1,6 @@
 // Dynamics2dWorld: rigid bodies on a plane, solved by Box2D. Metres, kilograms, newtons and radians outside; inside one
-// unit is a decimetre, so that Box2D's tolerances, made for things of a metre, fit robots. Bodies that can meet nobody
-// within a tick are not in Box2D: their motion is that of its solver without contacts. Used by CDynamics2dEngine alone.
+// unit is a decimetre, so that Box2D's tolerances, made for things of a metre, fit robots. Isolated bodies, which meet
+// no other one within a tick, are not in Box2D: they move as its solver moves them without contacts.
 #pragma once
 
 #include <box2d/box2d.h>
@@ -66,7 +66,7 @@ struct WorldSettings
   double grip_distance = 0;  // m, from the face of the gripper to what it can take
 };
 
-// The load on a turret: what the gripped body exerts on it, in the frame of the turret.
+// The load of the gripped body on a turret, in the frame of the turret.
 struct TurretLoad
 {
   double force_x = 0;  // N
@@ -78,7 +78,7 @@ struct TurretLoad
 inline constexpr double kGripperSide = GripperSquare::kSide;
 inline constexpr double kGripperReach = GripperSquare::kReach;
 inline constexpr int kNoBody = -1;
-// Inside.
+// Box2D's units.
 inline constexpr double kUnitsPerMetre = 10;
 inline constexpr double kForceUnits = kUnitsPerMetre;                    // per newton
 inline constexpr double kTorqueUnits = kUnitsPerMetre * kUnitsPerMetre;  // per newton metre
@@ -97,17 +97,17 @@ public:
   int AddBody(BodyModel model, const PlanePose& pose);
   void Build();
 
-  // A tick of so many seconds begins, in which bodies may be placed, driven and gripped no more: decides who is
-  // isolated.
+  // Begins a tick of so many seconds: decides which bodies are isolated. Until it ends, bodies may not be placed,
+  // driven or gripped.
   void BeginTick(double seconds);
   // Advances by `seconds`, a part of the tick.
   void Step(double seconds);
-  // How many bodies are isolated in this tick.
+  // The number of bodies that are isolated in this tick.
   std::size_t IsolatedCount() const { return isolated_.size(); }
 
   PlanePose PoseOf(int body) const;
   PlaneVelocity VelocityOf(int body) const;
-  // Grips stay: those whom it grips, and who grip it, are to be put there with it.
+  // Grips stay: the caller also puts those bodies there that it grips or that grip it.
   void Place(int body, const PlanePose& pose);
   void SetVelocity(int body, const PlaneVelocity& velocity);
   // Another polygon for a body that has one; the old one stays if no corner is farther off than `tolerance` (m).
@@ -129,7 +129,7 @@ public:
   // True if a grip of this body on the target would make a loop.
   bool WouldClose(int body, int target) const { return LeadsTo(target, body); }
   void Release(int body);
-  // Of the grips of a body and on it, those for which `ends(body, gripped)` is true.
+  // Ends those grips of a body and on it for which `ends(body, gripped)` is true.
   template <class Ends>
   void ReleaseIf(int body, const Ends& ends)
   {
@@ -147,7 +147,7 @@ public:
   void SaveState(ByteWriter& state) const;
   void LoadState(ByteReader& state);
   void Rebuild();
-  // As one that was just made with the bodies as they are; angles stay, which grow with each turn.
+  // Makes the world again with the bodies as they are. Angles, which grow with each turn, stay.
   void BeginAgain();
 
 private:
@@ -182,7 +182,7 @@ private:
     b2Joint* joint = nullptr;  // to the gripped body
   };
 
-  // How far a body is to get in a tick, and where it began.
+  // How far a body may get in a tick, and where it began.
   struct Way
   {
     double x, y, angle;  // decimetres, radians
@@ -201,8 +201,8 @@ private:
   void EndIsolation(int number);
   void MarkGripped();
   void AdvanceIsolated(Body& body, double seconds) const;
-  // Whether somebody was pushed farther than anybody thought when the tick began, or is about to be.
-  bool IsSomebodyTooFar(double seconds) const;
+  // Returns whether a body was pushed farther than was allowed for when the tick began, or is about to be.
+  bool IsAnyTooFar(double seconds) const;
   b2FixtureDef FixtureOf(const Body& body) const;
   static b2PolygonShape ShapeOf(const std::vector<Vector2>& outline);
   void BuildGrip(Body& body);

@@ -1,7 +1,6 @@
-// Which bodies are near each other: a uniform grid filled anew at each step by a counting sort, with float copies of
-// the positions in the order of the cells. Used by the kinematic world. Remembers nothing from step to step, so that
-// the pairs and their order follow from the positions alone. Finding may be shared among threads. What it would find
-// can be told without it, pair by pair (VerletList).
+// Finds bodies that are near each other: a uniform grid, filled in each step by a counting sort, with float copies of
+// the positions in the order of the cells. It remembers nothing from step to step, so that the pairs and their order
+// follow from the positions alone. Threads may share the search.
 #pragma once
 
 #include <algorithm>
@@ -39,17 +38,17 @@ struct PairList
   std::vector<std::uint32_t> ends;  // of each block: where its pairs end
 };
 
-// Into which cells a plane is cut, and for which bodies.
+// The cells of a plane.
 struct PlaneGrid
 {
   Bounds area;
   double edge = 1;                  // of a cell (m)
-  double largest_margin = 0;        // the most that FindPairs will ever be asked for
-  double largest_radius = 0;        // of a body that is not large
-  double largest_small_radius = 0;  // of those that there are at first
+  double largest_margin = 0;        // the largest margin that FindPairs can take
+  double largest_radius = 0;        // bodies of a larger radius are too large for the cells
+  double largest_small_radius = 0;  // the largest radius of the other bodies at the start
 
-  // For bodies of these radii (of the circles around them). Bodies may leave `area`; many of them far outside cost
-  // time, nothing else.
+  // Makes cells for bodies with circles of these radii around them. Bodies may leave `area`; many of them far outside
+  // only cost time.
   static PlaneGrid For(const Bounds& area, std::span<const double> radii, double largest_margin);
   // Whether Configure can take it.
   bool IsSound() const;
@@ -67,23 +66,30 @@ public:
   const PlaneGrid& Grid() const { return grid_; }
   // The static shapes by their boxes. After Configure.
   void SetStatics(std::span<const Bounds> boxes);
-  // Other bodies from now on, in the same cells.
+  // Replaces the bodies; the cells stay.
   void SetBodies(std::span<const double> radii);
 
-  // Puts the bodies into cells. `present[k]` is 0 for those that are not to be found. The threads of `pool`, if there
-  // is one, share the work.
+  // Puts the bodies into cells. A body with present[k] = 0 is not found. The threads of `pool`, if there is one, share
+  // the work.
   void Sort(const PoseStore& poses, std::span<const std::uint8_t> present, WorkerPool* pool = nullptr);
   const PlaneCells<double>& Cells() const { return cells_; }
   std::uint32_t BlockCount() const { return block_columns_ * block_rows_; }
-  // The numbers of all of them, ascending.
+  // The numbers of all blocks, ascending.
   std::span<const std::uint32_t> Blocks() const { return blocks_; }
   std::uint32_t BlockColumns() const { return block_columns_; }
   // Calls act(first, last) with the first and the last cell of each row of a block.
   template <class Act>
   void ForEachRowOf(std::uint32_t block, const Act& act) const;
+  // Sets the entries of a block's cells in an array of all cells.
+  template <class Value>
+  void FillBlock(std::uint32_t block, Value value, std::vector<Value>& of_cells) const
+  {
+    ForEachRowOf(block, [&](std::uint32_t first, std::uint32_t last)
+                 { std::fill(of_cells.begin() + first, of_cells.begin() + last + 1, value); });
+  }
   // Whether a body of this radius is too big for the cells.
   bool IsLarge(double radius) const { return radius > grid_.largest_radius; }
-  // Those bodies, ascending.
+  // The bodies that are too big, ascending.
   std::span<const std::uint32_t> Large() const { return large_; }
   std::uint32_t ColourOf(std::uint32_t block) const
   {
@@ -125,7 +131,7 @@ public:
     return {cells_.Cell(column, row),
             (row + missing_rows_) / kBlock * block_columns_ + (column + missing_columns_) / kBlock};
   }
-  // Those of large bodies with all others.
+  // The pairs of large bodies with all others.
   void FindPairsOfLarge(double margin, const PoseStore& poses, std::span<const std::uint8_t> present,
                         std::vector<Pair>& pairs) const;
 
@@ -142,8 +148,8 @@ private:
     }
   };
 
-  // Those of the sorted bodies `from`, `from` + 1, ... before `to` whose circle is less than `reach` from that of a
-  // sorted body: one bit each, for as many as fit a vector.
+  // Returns a bit for each of the sorted bodies from `from` to before `to` whose circle is less than `reach` from that
+  // of a sorted body, for as many as fit a vector.
   unsigned Within(std::uint32_t body, float reach, std::uint32_t from, std::uint32_t to) const
   {
     const FloatLanes dx = LoadLanes(&x_[from]) - x_[body];

@@ -61,7 +61,7 @@ CollisionModel MakeModel(std::span<const Circle> circles, std::vector<Polygon> p
     model.part_x[part] = polygon.centre_x;
     model.part_y[part] = polygon.centre_y;
     model.part_radius[part] = polygon.radius;
-    model.on_turret[part] = polygon.on_turret;
+    model.on_turret[part] = polygon.on_turret ? 1 : 0;
     double inside = 1e30;
     for (int k = 0; k < polygon.count; ++k)
     {

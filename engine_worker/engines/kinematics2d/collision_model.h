@@ -33,20 +33,24 @@ struct Polygon
   bool on_turret = false;                         // turns with the turret about the origin of the body
 };
 
-struct CollisionModel
+// A model without its polygons, as it also goes to regions.
+struct ModelParts
 {
   static constexpr int kMaximumParts = 4;
   using PartValues = std::array<double, kMaximumParts>;
 
   // The circles, then circles around the polygons.
   PartValues part_x{}, part_y{}, part_radius{};
-  std::array<bool, kMaximumParts> on_turret{};
+  std::array<std::uint8_t, kMaximumParts> on_turret{};
   int parts = 0;
   int circles = 0;
-  std::vector<Polygon> polygons;
   double bounding_radius = 0;  // about the origin of the body, at every angle of the turret
-  double core_radius =
-      0;  // of a circle about the origin that the model fills; a step never leads further than half of it
+  double core_radius = 0;      // of a circle about the origin that the model fills
+};
+
+struct CollisionModel : ModelParts
+{
+  std::vector<Polygon> polygons;
 };
 
 // 3 to kMaximumVertices points of a convex outline, counter-clockwise. Throws std::invalid_argument for others.

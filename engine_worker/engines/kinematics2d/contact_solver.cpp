@@ -1,3 +1,14 @@
+// Problem: contacts of a crowd depend on each other, since parting one pair pushes others together.
+//
+// Method: Gauss-Seidel. Each contact in turn parts its leaders by the overlap that they have now, shared by mobility.
+// In its first visit, a contact that overlapped also gives the approach back. Contacts come in blocks of cells, and the
+// blocks have four colours. The colours take turns; a visit sweeps up to kMostSweeps times over the contacts of a
+// block whose leaders moved. A stamp on each leader says when it was pushed last, so that resting contacts cost little.
+//
+// Invariants: blocks of one colour share no leader, so threads may take them in any order. Inside a block contacts have
+// the order in which they were added. Equal and opposite pushes keep the weighted sum of all ways.
+// Source: M. F. Adams, A distributed memory unstructured Gauss-Seidel algorithm for multigrid smoothers, SC 2001;
+// docs/engines.md, "Crowds: how".
 #include "engine_worker/engines/kinematics2d/contact_solver.h"
 
 #include <algorithm>
@@ -48,7 +59,7 @@ void ContactSolver::Configure(std::size_t bodies, unsigned threads)
   active_.resize(threads);
 }
 
-// Whether the contact is deeper than `limit`; if so, how deep and in which direction it pushes.
+// Returns whether the contact is deeper than `limit`; if so, sets how deep it is and in which direction it pushes.
 inline bool ContactSolver::IsDeep(const ContactList::Outline& outline, bool face, double limit, double dx, double dy,
                                   Push& push)
 {
@@ -104,8 +115,8 @@ inline void ContactSolver::Prefetch(ContactList::Ends ends, const Leaders& leade
   __builtin_prefetch(&leaders.y[ends.second]);
 }
 
-// `since`: pushes from then on are news to the block; 0 for its first visit, in which overlaps bounce. Returns whether
-// anything moved.
+// `since`: pushes from then on are news to the block; 0 in its first visit, in which overlaps bounce. Returns whether
+// a leader moved.
 bool ContactSolver::Visit(const ContactBlock& block, Stamp begin, Stamp since, double tolerance, const Leaders& leaders,
                           std::vector<std::uint32_t>& active)
 {

@@ -1,8 +1,6 @@
-// Pushes overlapping bodies apart: an elastic, frictionless exchange of the ways that they made within a step. Used by
-// the kinematic world. Contacts act on leaders: a body on its own, or the prey of a gripped group, which moves as one.
-//
-// Contacts come in blocks, and blocks in colours. Those of one colour share no leader, so that threads can take any of
-// them in any order; inside a block contacts are handled in the order of adding. So threads change no bit.
+// Pushes overlapping bodies apart: an elastic, frictionless exchange of the ways that they made within a step. Contacts
+// act on leaders: a body on its own, or the prey of a gripped group, which moves as one. The derivation is in
+// contact_solver.cpp.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +14,12 @@
 namespace swarmanoid::kinematics2d
 {
 
-// Touches between two leaders, in terms of their positions. The second of a contact with a static shape is the index of
-// a body at the origin that cannot move.
+// Touches between two leaders, in terms of their positions. The second leader of a contact with a static shape is the
+// index of a body at the origin that cannot move.
 class ContactList
 {
 public:
-  // As in Touch.
+  // The form of the contact, as in Touch.
   struct Outline
   {
     double x, y, reach;
@@ -33,7 +31,7 @@ public:
     std::uint32_t second : 31, face : 1;
   };
 
-  // Makes room for this many, at least.
+  // Makes room for at least this many contacts.
   void Grow(std::size_t contacts);
   void Clear() { count_ = overlaps_ = 0; }
   void Add(std::uint32_t first, std::uint32_t second, const Touch& touch, double bounce)
@@ -47,21 +45,21 @@ public:
   }
   void Append(const ContactList& others);
 
-  // One entry of both for each contact: ends are searched as a whole several times.
+  // Each contact has one entry in both arrays, since the solver often searches ends alone.
   std::span<const Ends> AllEnds() const { return {ends_.data(), count_}; }
   std::span<const Outline> Outlines() const { return {outlines_.data(), count_}; }
   // The contacts that overlapped when they were found, ascending.
   std::span<const std::uint32_t> Overlapping() const { return {overlapping_.data(), overlaps_}; }
 
 private:
-  // As long as there is room; those behind `count_` and `overlaps_` mean nothing.
+  // The arrays have room for more; entries behind `count_` and `overlaps_` mean nothing.
   std::vector<Ends> ends_;
   std::vector<Outline> outlines_;
   std::vector<std::uint32_t> overlapping_;
   std::uint32_t count_ = 0, overlaps_ = 0;
 };
 
-// Contacts of one list, and those of them that overlapped: from the first to before the last.
+// A range of contacts of one list, and the range of those that overlapped: from the first to before the last.
 struct ContactBlock
 {
   const ContactList* list = nullptr;
@@ -76,7 +74,7 @@ public:
   // When a push happens: visits are numbered by round and colour, each with kMostSweeps sweeps.
   using Stamp = std::uint16_t;
 
-  // What the solver works on, of each leader.
+  // The arrays of leaders that the solver works on.
   struct Leaders
   {
     const double* mobility;  // nullptr if those of all bodies are 1
@@ -96,31 +94,30 @@ public:
     }
   };
 
-  // Of a world that is cut into regions: each solves the blocks of its own, and all of them alike the last colour.
+  // The border of a region in a cut plane. Each region solves its own blocks, and all of them solve the last colour.
   class Border
   {
   public:
     virtual ~Border() = default;
-    // After each colour but the last one: those with pushes from `begin` on are told to all regions that hold them.
+    // After each colour but the last one: sends the leaders with pushes from `begin` on to all regions that hold them.
     // Returns whether `moved` is true in any region.
     virtual bool AfterColour(Stamp begin, bool moved) = 0;
-    // What the contacts of the last colour act on, as it is now; then those of it with pushes from `begin` on are put
-    // back.
+    // Returns the leaders of the last colour as they are now; PutShared puts back those with pushes from `begin` on.
     virtual Leaders TakeShared(double most) = 0;
     virtual void PutShared(Stamp begin) = 0;
   };
 
   void Configure(std::size_t bodies, unsigned threads);
 
-  // Moves the leaders until no contact is deeper than `tolerance` or the visits are used up; shares follow `mobility`,
-  // the inverse of a weight; empty if all bodies have the same. One push parts by up to `most` (metres), so that bodies
-  // that were put deep into each other do not jump past others.
+  // Moves the leaders until no contact is deeper than `tolerance` or the visits are used up. Their shares follow
+  // `mobility`, the inverse of a weight; it is empty if all weigh the same. A push parts by up to `most` (m), so that
+  // bodies that were put deep into each other do not jump past others.
   void Solve(std::span<const std::vector<ContactBlock>> colours, std::span<const double> mobility, double tolerance,
              double most, std::vector<double>& x, std::vector<double>& y, WorkerPool* pool, Border* border = nullptr);
 
   // Whether the last Solve moved it.
   bool IsPushed(std::uint32_t leader) const { return last_push_[leader] != 0; }
-  // In the threads of `pool`, if there is one.
+  // Calls act(leader) for each leader that the last Solve moved, in the threads of `pool` if there is one.
   template <class Act>
   void ForEachPushed(WorkerPool* pool, const Act& act) const
   {

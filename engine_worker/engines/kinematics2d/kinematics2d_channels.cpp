@@ -58,9 +58,9 @@ bool Kinematics2dEngine::Hold(std::uint32_t robot, std::uint32_t object)
   return true;
 }
 
-// `sum` of a robot's values: not finite if one of them is not.
 double Kinematics2dEngine::TickSeconds() const { return space_->GetTickSeconds(); }
 
+// `sum` of a robot's values: it is not finite if one of them is not.
 void Kinematics2dEngine::CheckCommand(double sum, std::uint32_t entity, const ChannelBlock& block) const
 {
   if (!std::isfinite(sum))
@@ -158,8 +158,8 @@ void Kinematics2dEngine::GripNearest(std::uint32_t body)
   if (found != body) world_.AddGrip(body, found);
 }
 
-// What footbots show lies far apart in memory. Where nobody commands turrets and grippers, it differs from the space
-// only if somebody changed it there.
+// The attributes of footbots lie far apart in memory. If no controller commands turrets and grippers, they differ from
+// the space only if it was changed there.
 void Kinematics2dEngine::ReportFootbots(AttributeChanges& changes)
 {
   if (!footbots_change_ && reported_ == space_->AttributeRevision()) return;
@@ -192,8 +192,8 @@ void Kinematics2dEngine::ReadEncoders(const ChannelBlock& block, std::span<doubl
   }
 }
 
-// What the load does to the robot, in the frame of the turret: it is the way that the grip made the robot go beyond
-// what its wheels commanded, as a part of full drive.
+// The force of the load on the robot, in the frame of the turret: the way that the grip made the robot go beyond the
+// command of its wheels, as a part of full drive.
 void Kinematics2dEngine::ReadTurretTorques(const ChannelBlock& block, std::span<double> values) const
 {
   std::fill(values.begin(), values.end(), 0.0);

@@ -8,7 +8,8 @@
 #include "common/math/elementary.h"
 #include "common/space/shape.h"
 #include "common/space/space.h"
-#include "engine_worker/engines/kinematics2d/plane_cuts.h"
+#include "engine_worker/engines/kinematics2d/plane_region.h"
+#include "engine_worker/engines/kinematics2d/region_cuts.h"
 #include "engine_worker/engines/plane_frame.h"
 #include "engine_worker/engines/terrain_walls.h"
 
@@ -154,7 +155,7 @@ void Kinematics2dEngine::Start()
     world_.SetTurretAngle(footbot.body, space_->Attributes()[footbot.turret_slot]);
   writer_ = PlaneWriter(frame_, owned_.size(), std::move(stances));
   std::vector<const CSwarmanoidSpaceEntity*>().swap(owned_);
-  if (team_ != nullptr) world_.Divide(*team_);
+  if (team_ != nullptr) world_.Split(*team_);
 }
 
 std::unique_ptr<EngineRegion> Kinematics2dEngine::MakeRegion(unsigned region, RegionExchange& exchange)

@@ -1,4 +1,4 @@
-// Poses of bodies on a plane and their exact first-order motion. Used by the kinematic world alone.
+// Poses of bodies on a plane and their exact first-order motion.
 #pragma once
 
 #include <cstddef>

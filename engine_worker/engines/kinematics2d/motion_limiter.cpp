@@ -11,7 +11,7 @@ namespace
 constexpr int kMostRounds = 64;
 // Parts that rise by less change nothing that can be seen.
 constexpr double kLeastRise = 1e-3;
-// Metres. What approaches by less is rounding: two that slide along each other.
+// Metres. A smaller approach is rounding: two bodies slide along each other.
 constexpr double kNothing = 1e-14;
 
 }  // namespace

@@ -1,5 +1,4 @@
-// How much of what it wants to do in a step each body may do, so that outlines that are apart stay apart. Used by the
-// kinematic world.
+// The part of its wanted motion that each body may do in a step, so that outlines that are apart stay apart.
 //
 // A leader wants to go a way and to turn by an angle, straight from where the step began. It does a part of each, 0 to
 // 1: these are the motions. Between two parts of outlines that are near lies a plane. Each motion brings them nearer
@@ -7,9 +6,9 @@
 //     sum of rate * part  <=  gap,
 // no two outlines meet: along the normal, they are as far apart as that leaves.
 //
-// The parts are raised from 0. In each round a motion gets as much as its planes allow if those that make room do no
-// more than they did after the last round. As no motion ever does less later, all planes hold after any round; more
-// rounds let bodies go further that follow one another closely. Sources: docs/engines.md, "Crowds".
+// The parts are raised from 0. In each round a motion gets as much as its planes allow if motions that make room do no
+// more than they did after the last round. No motion ever does less later, so all planes hold after any round. More
+// rounds let bodies go further that follow each other closely. Source: docs/engines.md, "Crowds: how".
 #pragma once
 
 #include <array>
@@ -27,7 +26,7 @@ constexpr std::uint32_t WayMotion(std::uint32_t leader) { return 2 * leader; }
 constexpr std::uint32_t TurnMotion(std::uint32_t leader) { return 2 * leader + 1; }
 constexpr std::uint32_t LeaderOfMotion(std::uint32_t motion) { return motion / 2; }
 
-// What a motion does to the two sides of a plane: metres that they come nearer if all of it is done.
+// How much nearer (m) a motion brings the two sides of a plane if all of it is done.
 struct Approach
 {
   std::uint32_t motion;
@@ -43,7 +42,7 @@ public:
     std::uint32_t motion;
     double most;
   };
-  // part <= base + slope * part of those that make room.
+  // part <= base + sum of slope * part of the motions that make room.
   struct Chase
   {
     std::uint32_t motion;
@@ -70,25 +69,25 @@ class MotionLimiter
 {
 public:
   void Configure(std::size_t leaders);
-  // For so many leaders: after Clear, or for more before theirs are added.
+  // Changes the number of leaders: after Clear, or to more leaders before their limits are added.
   void MakeRoom(std::size_t leaders);
-  // Everybody may do all again.
+  // Ends all limits.
   void Clear();
   void Add(const LimitList& limits);
   // Finds the parts under all limits that were added. Depends on their set, not on their order.
   void Raise();
 
   double PartOf(std::uint32_t motion) const { return part_[place_[motion]]; }
-  // Those of whose motions one is limited, after Raise; each once.
+  // The leaders with a limited motion, after Raise; each once.
   const std::vector<std::uint32_t>& Limited() const { return limited_; }
 
 private:
-  // Its place, from now on one of its own.
+  // Gives the motion a place of its own if it has none.
   std::uint32_t Touch(std::uint32_t motion);
 
   std::vector<LimitList::Chase> chases_;
   std::vector<LimitList::Chase> by_place_;  // the same with places for motions
-  // Of motions with limits, one behind the other; in front is that of all others, which is 1.
+  // One entry for each motion with limits. The entry in front is that of all others, which is 1.
   std::vector<double> most_, part_, next_;
   std::vector<std::uint32_t> touched_;  // the motion of each of these, but the first
   ZeroedVector<std::uint32_t> place_;   // of each motion in these; 0: nothing limits it

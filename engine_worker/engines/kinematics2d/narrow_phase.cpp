@@ -1,8 +1,16 @@
+// Problem: find where two outlines of circles and convex polygons are near each other, and how that depends on their
+// positions.
+//
+// Method: two parts are apart by the largest separation along the normals of their faces, and for a circle beyond the
+// end of a face by its distance from the corner. Parts whose circles are not near are left out. All tests run on
+// kDoubleLanes pairs at once; lanes with another case are masked.
+//
+// Invariant: the result of a lane does not depend on the others, so batches may be filled in any way.
 #include "engine_worker/engines/kinematics2d/narrow_phase.h"
 
 #include <algorithm>
 
-#include "engine_worker/engines/kinematics2d/kinematic_limits.h"
+#include "engine_worker/engines/kinematics2d/step_constants.h"
 
 namespace swarmanoid::kinematics2d
 {

@@ -1,5 +1,5 @@
 // Exact contacts between collision models at given poses, for a few pairs side by side: one in each lane of a vector.
-// Used by the kinematic world for the pairs whose bounding circles meet; each batch within one thread.
+// A batch is used by one thread.
 #pragma once
 
 #include <array>

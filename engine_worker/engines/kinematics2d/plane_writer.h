@@ -22,7 +22,7 @@ public:
   };
 
   PlaneWriter() = default;
-  // The first bodies are written. `stances`, by body, are of those that may stand otherwise than upright on the plane.
+  // Writes the first `bodies` bodies. `stances`, by body, are those of bodies that may not stand upright on the plane.
   PlaneWriter(const PlaneFrame& frame, std::size_t bodies, std::vector<Stance> stances);
 
   // poses: 7 doubles a body, structure of arrays x y z qx qy qz qw.

@@ -42,7 +42,7 @@ bool VerletList::Update(BroadPhase& broad, std::span<const std::uint32_t> blocks
   return true;
 }
 
-// Whether nobody has moved further than half of `slack` (metres), appeared or gone.
+// Returns whether no body has moved further than half of `slack` (m), appeared or gone.
 bool VerletList::Holds(const PoseStore& poses, std::span<const std::uint8_t> present, double slack, WorkerPool* pool)
 {
   if (slack < 0 || x_.size() != poses.x.size() || !std::ranges::equal(present_, present)) return false;

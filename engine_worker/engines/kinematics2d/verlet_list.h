@@ -1,6 +1,7 @@
-// Who may come near whom: the pairs of a search with a wider margin, which last until somebody has moved by half of
-// what it is wider (a Verlet list, https://doi.org/10.1103/PhysRev.159.98). Gives the same pairs in the same order as
-// a search at each step. Used by the kinematic world.
+// Near pairs without a search in each step: the pairs of a search with a wider margin last until a body has moved by
+// half of the difference (a Verlet list, https://doi.org/10.1103/PhysRev.159.98).
+//
+// Invariant: it gives the same pairs in the same order as a search, so that it changes no bit.
 #pragma once
 
 #include <cstdint>
@@ -19,19 +20,19 @@ class VerletList
 public:
   // `threads`: of the pools that it will get.
   void Configure(unsigned threads) { parts_.resize(threads); }
-  // Brings the list to where the bodies are now, by a search of its own in these blocks where that is needed. False if
-  // it is not worth while, or if some bodies are large: then the pairs are to be searched for.
+  // Brings the list up to date, by a search of its own in these blocks if one is needed. Returns false if a list does
+  // not pay, or if some bodies are large: then the caller must search for the pairs.
   bool Update(BroadPhase& broad, std::span<const std::uint32_t> blocks, const PoseStore& poses,
               std::span<const std::uint8_t> present, double margin, WorkerPool* pool);
   // The bodies have other numbers now.
   void Forget() { x_.clear(); }
-  // After an update that was true: what BroadPhase::FindPairs finds in these blocks. Several threads may ask for
-  // different ones.
+  // After an update that was true: gives the pairs that BroadPhase::FindPairs finds in these blocks. Several threads
+  // may ask for different blocks.
   void TakePairs(std::span<const std::uint32_t> blocks, PairList& found);
 
 private:
-  // A pair at its place in the order of a search: whose cell comes first, then the other one's, each with the number
-  // of the body. Static shapes come after all bodies of a block, and have no cell.
+  // A pair at its place in the order of a search: the body whose cell comes first, then the other one, each as cell and
+  // number. Static shapes come after all bodies of a block, and have no cell.
   struct Near
   {
     std::uint64_t first, second;
@@ -41,7 +42,7 @@ private:
       return first != other.first ? first < other.first : second < other.second;
     }
   };
-  // What one thread looks after.
+  // The work of one thread.
   struct Part
   {
     std::span<const std::uint32_t> blocks;  // that it searches

@@ -7,7 +7,7 @@
 
 #include "common/math/elementary.h"
 #include "common/math/random.h"
-#include "engine_worker/engines/kinematics2d/kinematic_limits.h"
+#include "engine_worker/engines/kinematics2d/step_constants.h"
 
 namespace swarmanoid::kinematics2d
 {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "engine_worker/engines/kinematics2d/kinematic_world.h"
+#include "engine_worker/engines/kinematics2d/plane_region.h"
 
 namespace swarmanoid::kinematics2d
 {

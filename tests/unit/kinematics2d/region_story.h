@@ -255,7 +255,7 @@ inline void CompareTick(const Scene& scene, const KinematicWorld& world, const T
   }
 }
 
-// The same with the world divided, compared after each tick. `replaced`: a region that becomes another one then.
+// The same with the world split, compared after each tick. `replaced`: a region that becomes another one then.
 inline Outcome Retell(const Scene& scene, const Story& story, unsigned regions, const Cuts& cuts,
                       unsigned halo = PlaneRegion::kHalo,
                       const std::function<std::optional<unsigned>(std::uint64_t tick)>& replaced = nullptr)
@@ -264,7 +264,7 @@ inline Outcome Retell(const Scene& scene, const Story& story, unsigned regions, 
   KinematicWorld world = Build(scene);
   world.KeepTravel();
   HubTeam team(regions, halo);
-  world.Divide(team);
+  world.Split(team);
   ByteReader saved(story.saved);
   world.LoadState(saved);
   try

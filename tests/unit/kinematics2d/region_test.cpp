@@ -186,22 +186,22 @@ TEST(KinematicRegions, AnyNumberOfWallsIsToldPieceByPiece)
                  });
   };
   KinematicWorld one = build();
-  KinematicWorld divided = build();
+  KinematicWorld split = build();
   HubTeam team(3);
-  divided.Divide(team);
-  divided.MoveCuts(Strips(3, divided.BlockColumns(), divided.BlockCount()));
+  split.Split(team);
+  split.MoveCuts(Strips(3, split.BlockColumns(), split.BlockCount()));
   // When some of it has been told.
   team.ReplaceAt(3, 1);
   for (std::uint64_t tick = 0; tick < 20; ++tick)
   {
-    for (KinematicWorld* world : {&one, &divided})
+    for (KinematicWorld* world : {&one, &split})
     {
       for (std::uint32_t body = 0; body < scene.Bodies(); ++body) Command(scene, *world, body, tick);
       world->Advance(kTick, 1);
     }
     for (std::uint32_t body = 0; body < scene.Bodies(); ++body)
-      ASSERT_TRUE(SameBits(one.PoseOf(body).x, divided.PoseOf(body).x) &&
-                  SameBits(one.PoseOf(body).y, divided.PoseOf(body).y))
+      ASSERT_TRUE(SameBits(one.PoseOf(body).x, split.PoseOf(body).x) &&
+                  SameBits(one.PoseOf(body).y, split.PoseOf(body).y))
           << body << " at tick " << tick;
   }
   EXPECT_GE(team.Works(), 20U + 5) << "it has all gone into one message";
@@ -225,11 +225,11 @@ TEST(KinematicRegions, ASpeedBeyondAllSenseIsRefusedAsInOneWorld)
     }
   };
   KinematicWorld one = Build(scene);
-  KinematicWorld divided = Build(scene);
+  KinematicWorld split = Build(scene);
   HubTeam team(2);
-  divided.Divide(team);
-  divided.MoveCuts(Strips(2, divided.BlockColumns(), divided.BlockCount()));
-  EXPECT_EQ(refusal(divided), refusal(one));
+  split.Split(team);
+  split.MoveCuts(Strips(2, split.BlockColumns(), split.BlockCount()));
+  EXPECT_EQ(refusal(split), refusal(one));
   EXPECT_NE(refusal(one).find("is told to move 100000"), std::string::npos);
 }
 
@@ -238,9 +238,9 @@ TEST(KinematicRegions, WhatIsNoTaskIsRefused)
   Scene scene;
   scene.side = 4;
   HubTeam team(1);
-  KinematicWorld divided = Build(scene);
-  divided.Divide(team);
-  divided.Advance(kTick, 1);
+  KinematicWorld split = Build(scene);
+  split.Split(team);
+  split.Advance(kTick, 1);
   std::vector<std::vector<char>> results(1);
   const auto refused = [&](const std::function<void(ByteWriter&)>& write)
   {

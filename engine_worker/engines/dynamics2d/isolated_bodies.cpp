@@ -1,5 +1,12 @@
-// Bodies that can meet nobody in a tick: who they are, and how they move. Alone between its ground joint and nothing, a
-// body needs no iterations: in each step its velocity comes as near to the wanted one as force and torque allow.
+// Problem: most bodies of a sparse swarm meet no other one in a tick, and Box2D spends as much time on them as on a
+// pile.
+//
+// Method: when a tick begins, each body gets an outline and the way that it can go by itself. Bodies whose outlines and
+// ways are apart (separation_test.h) are isolated: they leave Box2D, and dynamics2d_step.cpp moves them in closed form.
+// If a solved body was pushed farther than was allowed for, all isolated bodies return at once.
+//
+// Invariants: the set follows from the state at the start of the tick. A body is isolated at a larger gap than that at
+// which it stays isolated, so that few change sides. Source: docs/engines.md, "Bodies that meet nobody".
 #include <algorithm>
 #include <cmath>
 
@@ -11,9 +18,9 @@ namespace swarmanoid::dynamics2d
 namespace
 {
 
-// Bodies that are solved may be pushed, by so much more than they move by themselves (m).
+// Solved bodies may be pushed by this much (m) farther than they move by themselves.
 constexpr double kPushed = 0.02;
-// Whoever goes faster than this (m/s) has everybody solved: cells for all that it may meet would hold too many.
+// If a body goes faster than this (m/s), all bodies are solved: the cells around it would hold too many.
 constexpr double kFastestIsolated = 2;
 
 double Length(double x, double y) { return std::sqrt(x * x + y * y); }
@@ -29,7 +36,7 @@ double RadiusOf(const BodyModel& model)
   return radius;
 }
 
-// From the origin to what of a body turning moves farthest.
+// The distance from the origin to the point that turning moves farthest.
 double ArmOf(const BodyModel& model) { return model.has_gripper ? Length(kGripperReach, kGripperSide / 2) : 0; }
 
 StaticOutline OutlineIn(const BodyModel& model, double x, double y, double angle)
@@ -117,7 +124,7 @@ Dynamics2dWorld::Way Dynamics2dWorld::WayFrom(const Body& body, double metres)
   return {state.x, state.y, state.angle, (metres + kPushed) * kUnitsPerMetre};
 }
 
-// Where a body is, and how far it gets by itself within so many seconds.
+// Sets the place of a body, and how far it gets by itself within so many seconds.
 void Dynamics2dWorld::Outline(const Body& body, double seconds, MovingOutline& outline) const
 {
   const BodyModel& model = body.model;
@@ -168,7 +175,7 @@ void Dynamics2dWorld::EndIsolation(int number)
   solved_.insert(place, static_cast<std::uint32_t>(number));
 }
 
-bool Dynamics2dWorld::IsSomebodyTooFar(double seconds) const
+bool Dynamics2dWorld::IsAnyTooFar(double seconds) const
 {
   for (std::size_t i = 0; i < solved_.size(); ++i)
   {
@@ -181,42 +188,6 @@ bool Dynamics2dWorld::IsSomebodyTooFar(double seconds) const
     if (gone + seconds * next > way.most) return true;
   }
   return false;
-}
-
-// As Box2D has it: first the velocities, then x += h v, within its limits for a step.
-void Dynamics2dWorld::AdvanceIsolated(Body& body, double seconds) const
-{
-  const BodyModel& model = body.model;
-  BodyState& state = body.start;
-  const PlaneVelocity wanted = WantedVelocity(body, seconds);
-  FrictionShares shares{1, 1};
-  if (model.lies && model.ground_force > 0) shares = SharesOf(model, state);
-
-  const double most_turn = seconds * shares.turning * model.ground_torque / model.inertia;
-  const double turn = std::clamp(wanted.turn, state.turn - most_turn, state.turn + most_turn);
-  double change_x = wanted.u - state.vx;
-  double change_y = wanted.v - state.vy;
-  const double change = Length(change_x, change_y);
-  const double most = seconds * shares.sliding * model.ground_force / model.mass * kUnitsPerMetre;
-  if (change > most)
-  {
-    change_x *= most / change;
-    change_y *= most / change;
-  }
-  double vx = state.vx + change_x;
-  double vy = state.vy + change_y;
-  const double way = seconds * Length(vx, vy);
-  if (way > b2_maxTranslation)
-  {
-    vx *= b2_maxTranslation / way;
-    vy *= b2_maxTranslation / way;
-  }
-  state.vx = static_cast<float>(vx);
-  state.vy = static_cast<float>(vy);
-  state.turn = static_cast<float>(std::clamp<double>(turn, -b2_maxRotation / seconds, b2_maxRotation / seconds));
-  SetPosition(body, state.x + body.remainder_x + seconds * state.vx, state.y + body.remainder_y + seconds * state.vy,
-              static_cast<float>(state.angle + seconds * state.turn));
-  if (body.turret_speed != 0) body.turret_angle = WrapAngle(body.turret_angle + body.turret_speed * seconds);
 }
 
 }  // namespace swarmanoid::dynamics2d

@@ -1,5 +1,5 @@
 // The regions of a plane have about as much to do as one another.
-#include "engine_worker/engines/kinematics2d/plane_cuts.h"
+#include "engine_worker/engines/kinematics2d/region_cuts.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ std::vector<std::uint64_t> BodiesOf(const Cut& cut, const std::vector<std::uint3
   return of_regions;
 }
 
-TEST(PlaneCuts, HalveAnEvenPlaneAcrossItsLongerSide)
+TEST(RegionCuts, HalveAnEvenPlaneAcrossItsLongerSide)
 {
   const std::vector<std::uint32_t> bodies(8, 10);
   EXPECT_EQ(CutPlane(bodies, 4, Split("1")), Cut(8, 0));
@@ -31,7 +31,7 @@ TEST(PlaneCuts, HalveAnEvenPlaneAcrossItsLongerSide)
   EXPECT_EQ(CutPlane(bodies, 2, Split("2")), (Cut{0, 0, 0, 0, 1, 1, 1, 1}));
 }
 
-TEST(PlaneCuts, AreAGridWhereOneIsWanted)
+TEST(RegionCuts, AreAGridWhereOneIsWanted)
 {
   const std::vector<std::uint32_t> bodies(16, 10);
   EXPECT_EQ(CutPlane(bodies, 4, Split("2x2")), (Cut{0, 0, 2, 2, 0, 0, 2, 2, 1, 1, 3, 3, 1, 1, 3, 3}));
@@ -39,7 +39,7 @@ TEST(PlaneCuts, AreAGridWhereOneIsWanted)
   EXPECT_EQ(CutPlane(bodies, 4, Split("4x1")), (Cut{0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3}));
 }
 
-TEST(PlaneCuts, FollowTheBodies)
+TEST(RegionCuts, FollowTheBodies)
 {
   // All of them in one corner.
   std::vector<std::uint32_t> bodies(20UL * 20UL, 0);
@@ -57,7 +57,7 @@ TEST(PlaneCuts, FollowTheBodies)
   EXPECT_EQ(CutPlane(line, 6, Split("2")), (Cut{0, 1, 1, 1, 1, 1}));
 }
 
-TEST(PlaneCuts, LeaveRegionsEmptyIfThereAreTooFewBlocks)
+TEST(RegionCuts, LeaveRegionsEmptyIfThereAreTooFewBlocks)
 {
   const std::vector<std::uint32_t> bodies{7, 7};
   const Cut cut = CutPlane(bodies, 2, Split("8"));

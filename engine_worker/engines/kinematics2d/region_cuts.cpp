@@ -1,4 +1,4 @@
-#include "engine_worker/engines/kinematics2d/plane_cuts.h"
+#include "engine_worker/engines/kinematics2d/region_cuts.h"
 
 #include <algorithm>
 
@@ -7,8 +7,8 @@ namespace swarmanoid::kinematics2d
 namespace
 {
 
-// What a body costs grows with those around it: 212 instructions in a tick at 1 per square metre, where some 21 are in
-// a block, and 782 at 10 (docs/scaling.md). Cells that are empty cost a little, too.
+// The cost of a body grows with the number around it: 212 instructions in a tick at 1 per square metre, where some 21
+// are in a block, and 782 at 10 (docs/scaling.md). Cells that are empty cost a little, too.
 std::uint64_t LoadOf(std::uint64_t bodies) { return 1 + bodies * (150 + 3 * bodies); }
 
 // A rectangle of blocks, from the first to the one behind the last.

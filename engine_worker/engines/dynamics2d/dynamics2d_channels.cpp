@@ -1,4 +1,4 @@
-// What dynamics2d takes from commands and gives to the space and the sensors.
+// Commands, poses, attributes and sensors of the engine dynamics2d.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using namespace dynamics2d;
 namespace
 {
 
-// Beyond these no robot moves, and single precision would not hold.
+// No robot moves faster than this, and single precision would not hold.
 constexpr double kFastest = 100;           // m/s
 constexpr double kFastestTurn = 1000;      // rad/s
 constexpr double kOpenAperture = kPi / 2;  // rad, of an open gripper
