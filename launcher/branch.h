@@ -10,6 +10,7 @@
 #include "common/experiment/experiment.h"
 #include "common/run/run_settings.h"
 #include "launcher/branch_changes.h"
+#include "launcher/run_request.h"
 #include "launcher/scratch_folder.h"
 
 namespace swarmanoid
@@ -25,9 +26,9 @@ std::optional<BranchRequest> ReadRunAtTick(const std::string& text);
 // Likewise. Throws UsageError.
 BranchRequest ReadBranchRequest(const std::string& text);
 
-// The settings of a run that branches off, with what it takes from the other one: the experiment, if none is named, and
+// The request for a run that branches off, with what it takes from the other one: the experiment, if none is named, and
 // the number of controller hosts. Throws UsageError.
-RunSettings SettingsOfBranch(const RunSettings& asked);
+RunRequest RequestOfBranch(const RunRequest& request);
 
 class Branch
 {

@@ -117,7 +117,7 @@ int Resume(const std::string& run_folder, RunSettings options)
   {
     throw UsageError(fmt::format("resume: {}", error.what()));
   }
-  return RunExperiment(options);
+  return RunExperiment(RunRequest(std::move(options)));
 }
 
 void AddResumeCommand(CLI::App& app, int& exit_code)

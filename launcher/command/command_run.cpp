@@ -85,7 +85,7 @@ void AddRunCommand(CLI::App& app, int& exit_code)
       [options, &exit_code]
       {
         const bool is_first = IsFirst(*options);
-        exit_code = RunExperiment(*options);
+        exit_code = RunExperiment(RunRequest(*options));
         if (is_first && (exit_code == kExitDone || exit_code == kExitExperimentFailed)) ShowFirst(*options);
       });
 }

@@ -10,6 +10,7 @@
 
 #include "common/activity/activity.h"
 #include "common/program/process.h"
+#include "space_server/worker_placement.h"
 
 namespace swarmanoid
 {
@@ -58,7 +59,7 @@ bool DiedAlike(const ActivityRecord& a, const ActivityRecord& b);
 struct FailedProcess
 {
   std::string name;
-  std::string host;  // the other machine that it was started on, or empty
+  std::string machine = kHere;
   std::optional<ProcessEnd> end;
   ActivityRecord record;
 };
