@@ -21,9 +21,9 @@ struct BranchRequest
   std::string run;  // its folder
   std::uint64_t tick = 0;
 };
-// From "RUN@TICK"; nothing if it is none.
+// From "RUN@TICK"; nullopt for anything else.
 std::optional<BranchRequest> ReadRunAtTick(const std::string& text);
-// Likewise. Throws UsageError.
+// The same, but throws UsageError.
 BranchRequest ReadBranchRequest(const std::string& text);
 
 // The request for a run that branches off, with what it takes from the other one: the experiment, if none is named, and
@@ -38,7 +38,7 @@ public:
   // UsageError if there is no such tick, or the state does not fit the experiment.
   Branch(const RunSettings& settings, const Experiment& experiment);
 
-  // Not kExitDone: that process failed, and has said why.
+  // If it is not kExitDone, that process failed and has said why.
   int ExitCode() const { return exit_code_; }
   const BranchRequest& Of() const { return request_; }
   std::uint64_t Hash() const { return hash_; }  // of the state at the tick

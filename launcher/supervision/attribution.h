@@ -46,8 +46,8 @@ Evidence EvidenceOf(const std::optional<ProcessEnd>& ended, const ActivityRecord
 // process gets further in this memory.
 bool IsStuck(const std::optional<ProcessEnd>& ended);
 
-// Whether a process has died, rather than said what is wrong: another one in its place may get further. `elsewhere`: it
-// was started on another machine.
+// Whether a process has died, rather than said what is wrong, so that a process that replaces it may get further.
+// `elsewhere`: it was started on another machine.
 bool MayBeReplaced(const ProcessEnd& ended, const ActivityRecord& record, bool elsewhere);
 // Whether somebody else ended it, or the connection to it: not by what it did.
 bool WasKilled(const ProcessEnd& ended, bool elsewhere);

@@ -684,7 +684,7 @@ void Supervisor::Fail(const ClusterMember& member, const std::string& text, bool
   outcome_.kind = invalid ? ClusterOutcome::kInvalid : ClusterOutcome::kFailed;
   outcome_.finished.reset();
   outcome_.reason = text;
-  // A mistake of the experiment file has its place: nobody has to look for it in a log.
+  // The text of a mistake in the experiment file has its position, so users need no log.
   if (invalid && member.Record().end == EndReason::kInvalid) return Die(now_() + times_.terminate);
   const bool told = text.find(server_error_) != std::string::npos || member.Record().end != EndReason::kUnknown;
   if (!told) outcome_.reason += fmt::format(" ({})", server_error_);
