@@ -60,7 +60,7 @@ void ReadCheckpointOf(const RunRequest& request, const Experiment& experiment)
         difference);
 }
 
-// Before the folder of the run is made and processes are started.
+// Checks checkpoints before the folder of the run is made and processes are started.
 void RefuseBadCheckpoints(const RunRequest& request, const Experiment& experiment)
 {
   try

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -44,37 +45,16 @@ void Complain(const ClusterOutcome& outcome)
 
 RunResult ResultOf(const ClusterOutcome& outcome)
 {
-  RunResult result;
-  switch (outcome.kind)
-  {
-    case ClusterOutcome::kFinished:
-      result.exit_code = kExitDone;
-      break;
-    case ClusterOutcome::kUnsuccessful:
-      result.exit_code = kExitExperimentFailed;
-      break;
-    case ClusterOutcome::kInterrupted:
-      result.exit_code = kExitInterrupted;
-      break;
-    case ClusterOutcome::kFailed:
-      result.exit_code = kExitProcessFailed;
-      break;
-    case ClusterOutcome::kInvalid:
-      result.exit_code = kExitInvalidFile;
-      break;
-  }
-  result.failure = outcome.reason;
+  // In the order of ClusterOutcome::Kind.
+  constexpr std::array kCodes{kExitDone, kExitExperimentFailed, kExitInterrupted, kExitProcessFailed, kExitInvalidFile};
+  RunResult result{.exit_code = kCodes[outcome.kind], .summary = {}, .failure = outcome.reason};
   if (!outcome.finished) return result;
-  result.summary.emplace();
-  result.summary->ticks = outcome.finished->ticks;
-  result.summary->entities = outcome.finished->entities;
-  result.summary->hash = outcome.finished->hash;
-  result.summary->wall_s = outcome.finished->wall_s;
-  result.summary->real_time_factor = outcome.finished->real_time_factor;
+  const auto& [ticks, entities, hash, wall_s, real_time_factor] = *outcome.finished;
+  result.summary = {ticks, entities, hash, wall_s, real_time_factor};
+  result.summary->interrupted = outcome.kind == ClusterOutcome::kInterrupted;
   result.summary->failed = outcome.kind == ClusterOutcome::kUnsuccessful;
   if (outcome.reset && outcome.kind == ClusterOutcome::kFinished)
     result.summary->reset = ResetRequest{outcome.reset->seed, outcome.reset->paused, outcome.reset->real_time_factor};
-  result.summary->interrupted = outcome.kind == ClusterOutcome::kInterrupted;
   return result;
 }
 

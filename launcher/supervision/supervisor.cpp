@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <tuple>
 #include <utility>
+#include <variant>
 
 #include "common/activity/exit_codes.h"
 #include "launcher/supervision/process_state.h"
@@ -125,72 +126,18 @@ void Supervisor::ReadMember(ClusterMember& member)
   member.ReadOutput(
       [this, &member](std::string_view line)
       {
-        const auto status = ParseServerStatus(line);
-        if (const auto* warning = status ? std::get_if<ServerWarning>(&*status) : nullptr)
-          TakeWarning(member, *warning);
-        else if (status)
-          TakeStatus(*status);
+        if (const auto status = ParseServerStatus(line))
+        {
+          heard_ = now_();
+          std::visit([this](const auto& word) { Take(word); }, *status);
+        }
         else
           member.AddToLog(line);
       },
       kOutputBytes);
 }
 
-void Supervisor::TakeStatus(const ServerStatus& status)
-{
-  heard_ = now_();
-  if (const auto* state = std::get_if<ServerState>(&status))
-  {
-    TakeState(*state);
-  }
-  else if (const auto* tick = std::get_if<ServerTick>(&status))
-  {
-    progress_.waiting_for.clear();
-    progress_.tick = tick->tick;
-    progress_.max = tick->max;
-    progress_.real_time_factor = tick->real_time_factor;
-  }
-  else if (const auto* stall = std::get_if<ServerStall>(&status))
-  {
-    progress_.waiting_for = stall->name;
-    progress_.waited_s = stall->seconds;
-  }
-  else if (const auto* asked = std::get_if<ServerAsked>(&status))
-  {
-    display_.Note(asked->text);
-  }
-  else if (const auto* error = std::get_if<ServerError>(&status))
-  {
-    server_error_ = error->text;
-  }
-  else if (const auto* left = std::get_if<ServerLeft>(&status))
-  {
-    left_.insert(left->name);
-  }
-  else if (const auto* lost = std::get_if<ServerLost>(&status))
-  {
-    KillLost(lost->name);
-  }
-  else if (const auto* move = std::get_if<ServerMove>(&status))
-  {
-    Move(*move);
-  }
-  else if (const auto* reset = std::get_if<ServerReset>(&status))
-  {
-    outcome_.reset = *reset;
-  }
-  else if (const auto* hosts = std::get_if<ServerHosts>(&status))
-  {
-    std::istringstream words(hosts->machines);
-    ShareOut({std::istream_iterator<std::string>(words), {}});
-  }
-  else if (const auto* finished = std::get_if<ServerFinished>(&status))
-  {
-    TakeResult(*finished);
-  }
-}
-
-void Supervisor::TakeState(const ServerState& state)
+void Supervisor::Take(const ServerState& state)
 {
   if (phase_ != Phase::kRunning) return;
   switch (state.phase)
@@ -211,7 +158,21 @@ void Supervisor::TakeState(const ServerState& state)
   }
 }
 
-void Supervisor::TakeResult(const ServerFinished& finished)
+void Supervisor::Take(const ServerTick& tick)
+{
+  progress_.waiting_for.clear();
+  progress_.tick = tick.tick;
+  progress_.max = tick.max;
+  progress_.real_time_factor = tick.real_time_factor;
+}
+
+void Supervisor::Take(const ServerStall& stall)
+{
+  progress_.waiting_for = stall.name;
+  progress_.waited_s = stall.seconds;
+}
+
+void Supervisor::Take(const ServerFinished& finished)
 {
   // A server that has failed already has no result.
   if (phase_ == Phase::kDying || phase_ == Phase::kRestarting) return;
@@ -224,10 +185,10 @@ void Supervisor::TakeResult(const ServerFinished& finished)
   deadline_ = heard_ + times_.finish;
 }
 
-// As a run in one process says it.
-void Supervisor::TakeWarning(ClusterMember& member, const ServerWarning& warning)
+// Shows the warning as a run in one process does.
+void Supervisor::Take(const ServerWarning& warning)
 {
-  member.AddToLog(fmt::format("warning: {}", warning.text));
+  members_.front()->AddToLog(fmt::format("warning: {}", warning.text));
   display_.Note(fmt::format("swarmanoid: warning: {}", warning.text));
 }
 
@@ -484,7 +445,7 @@ bool Supervisor::IsOnItsWay(const ClusterMember& member) const
 }
 
 // Kills a worker, so that Replace starts another process on the machine that a user wants.
-void Supervisor::Move(const ServerMove& move)
+void Supervisor::Take(const ServerMove& move)
 {
   for (const auto& member : members_)
   {
@@ -496,10 +457,10 @@ void Supervisor::Move(const ServerMove& move)
 }
 
 // A lost worker may be stopped or cut off. It must not come back.
-void Supervisor::KillLost(const std::string& name)
+void Supervisor::Take(const ServerLost& lost)
 {
   for (const auto& member : members_)
-    if (member->Name() == name && member->Alive()) spawner_.Signal(member->Process(), SIGKILL);
+    if (member->Name() == lost.name && member->Alive()) spawner_.Signal(member->Process(), SIGKILL);
 }
 
 // No lease runs for a process that was stopped before others met it.
@@ -537,8 +498,10 @@ bool Supervisor::Restart(const ClusterMember& first, Evidence evidence)
 }
 
 // Ends all processes, to start them again with one controller host on each of the machines.
-void Supervisor::ShareOut(const std::vector<std::string>& machines)
+void Supervisor::Take(const ServerHosts& hosts)
 {
+  std::istringstream words(hosts.machines);
+  const std::vector<std::string> machines{std::istream_iterator<std::string>(words), {}};
   if (phase_ != Phase::kRunning || !members_.front()->Planned().replaceable) return;
   const auto before = std::ranges::count(plan_.processes, ProcessRole::kControllerHost, &PlannedProcess::role);
   SetControllerHosts(plan_, machines);
@@ -563,11 +526,11 @@ void Supervisor::KillToStartAgain()
   progress_.phase = "starting again";
   progress_.waiting_for.clear();
   ended_.clear();
-  // Some may be stuck.
+  // Stuck processes do not react to SIGTERM.
   SignalAll(SIGKILL);
 }
 
-// All have ended.
+// Whether the processes, which have all ended, must start again.
 bool Supervisor::MustStartAgain()
 {
   if (attribute_at_ && phase_ != Phase::kDying) Attribute();

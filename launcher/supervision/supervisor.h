@@ -124,13 +124,23 @@ private:
   std::unique_ptr<ClusterMember> StartProcess(std::size_t process, Incarnation incarnation);
   void WaitForEvents();
   void ReadMember(ClusterMember& member);
-  void TakeStatus(const ServerStatus& status);
-  void TakeState(const ServerState& state);
-  void TakeResult(const ServerFinished& finished);
-  void TakeWarning(ClusterMember& member, const ServerWarning& warning);
   void WriteScreen(const ClusterMember& member, std::string_view line);
   void ShowProgress();
   bool AnyAlive() const;
+
+  // Status lines of the space server.
+  void Take(const ServerState& state);
+  void Take(const ServerTick& tick);
+  void Take(const ServerStall& stall);
+  void Take(const ServerAsked& asked) { display_.Note(asked.text); }
+  void Take(const ServerWarning& warning);
+  void Take(const ServerError& error) { server_error_ = error.text; }
+  void Take(const ServerLeft& left) { left_.insert(left.name); }
+  void Take(const ServerLost& lost);
+  void Take(const ServerMove& move);
+  void Take(const ServerHosts& hosts);
+  void Take(const ServerReset& reset) { outcome_.reset = reset; }
+  void Take(const ServerFinished& finished);
 
   // Ends, and which process failed first.
   void CollectEnds();
@@ -150,13 +160,10 @@ private:
   std::optional<ControllerDeath> NewDeath(const ClusterMember& member) const;
   // Whether the process died on its way to another machine, which the run waits for.
   bool IsOnItsWay(const ClusterMember& member) const;
-  void Move(const ServerMove& move);
-  void KillLost(const std::string& name);
   void KillStopped();
 
   // Replacing all processes.
   bool Restart(const ClusterMember& first, Evidence evidence);  // false if that is no use
-  void ShareOut(const std::vector<std::string>& machines);
   void KillToStartAgain();
   bool MustStartAgain();
   void StartAgain();

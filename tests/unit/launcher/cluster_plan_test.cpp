@@ -2,6 +2,7 @@
 #include "launcher/supervision/cluster_plan.h"
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -15,7 +16,6 @@ namespace
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsSupersetOf;
 
 // `robots` footbots with controllers in a row, on one engine for each of the tags.
 Experiment Swarm(std::size_t robots, const std::vector<std::string>& engines = {"kinematics2d"})
@@ -50,15 +50,17 @@ RunSettings Settings()
   return settings;
 }
 
-// What the file of --hosts says, in a file.
+// A file of --hosts.
 class HostsFile
 {
 public:
-  explicit HostsFile(const std::string& text) : path_(testing::TempDir() + "swarmanoid_plan_hosts")
+  explicit HostsFile(const std::string& text)
+      : path_(testing::TempDir() + "swarmanoid_hosts_" + std::to_string(getpid()))
   {
     std::ofstream(path_) << text;
   }
   ~HostsFile() { std::remove(path_.c_str()); }
+  const std::string& Path() const { return path_; }
   RunRequest Request(RunSettings settings = Settings()) const
   {
     settings.hosts_file = path_;
@@ -313,8 +315,7 @@ TEST(RunRequest, ContradictionsAreRefusedWithTheCure)
   EXPECT_EQ(error_of([](RunSettings& s) { s.isolated = true; }, [](CSimulator&) {}),
             "--isolated: the space server is this process, which would lose its network");
   const HostsFile file("space_server = alpha");
-  EXPECT_THAT(error_of([&](RunSettings& s) { s.hosts_file = testing::TempDir() + "swarmanoid_plan_hosts"; },
-                       [](CSimulator&) {}),
+  EXPECT_THAT(error_of([&](RunSettings& s) { s.hosts_file = file.Path(); }, [](CSimulator&) {}),
               HasSubstr("--hosts: the space server is this process"));
 }
 
