@@ -3,19 +3,89 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ctime>
 #include <exception>
+#include <sstream>
 
+#include "common/activity/shared_activity.h"
+#include "common/checkpoint/host_state.h"
+#include "common/configuration/shown_text.h"
 #include "common/control_interface/init_controller.h"
 #include "common/experiment/actors.h"
 #include "common/logging/log.h"
+#include "common/messages/attribute_changes.h"
+#include "common/space/attributes.h"
 #include "common/space/collision_models.h"
 #include "common/space/shape.h"
 #include "common/space/space.h"
-#include "controller_host/batches.h"
+#include "common/space/state_checks.h"
+#include "common/threads/worker_pool.h"
+#include "controller_host/device.h"
+#include "controller_host/on_demand_sensor.h"
 #include "controller_host/split_sensor.h"
 
 namespace swarmanoid
 {
+
+// The slice of a host's channel values that belongs to the robots of one batch.
+struct ChannelSlice
+{
+  std::vector<std::size_t> offsets;  // of each robot within the values of the message
+  int width = 0;
+};
+
+// The devices of the host: each is a batch over all robots of a controller.
+struct ControllerHost::Batches
+{
+  static constexpr int kWhole = -1;
+
+  struct Sensor
+  {
+    std::unique_ptr<SensorBatch> batch;
+    ChannelSlice slice;
+    Actor actor;
+    int part = kWhole;                                 // of a device that is split among threads: which of them runs it
+    std::pair<std::uint32_t, std::uint32_t> number{};  // of the controller, and of its sensor
+    std::vector<std::size_t> robots{};                 // places in robots_
+    OnDemandSensor* on_demand = nullptr;               // the batch, if its readings are made so
+  };
+  struct Actuator
+  {
+    std::unique_ptr<ActuatorBatch> batch;
+    ChannelSlice slice;
+    Actor actor;
+    const DeviceConfiguration* device = nullptr;
+    std::vector<std::uint32_t> robots;
+    std::vector<std::size_t> places{};  // in robots_
+  };
+  struct Failure
+  {
+    std::exception_ptr what;
+    Actor actor;
+  };
+
+  std::vector<Sensor> sensors;
+  std::vector<Actuator> actuators;
+  AttributeOrder order;
+  WorkerPool* pool = nullptr;               // none: one thread does it all
+  bool split = false;                       // some sensor is
+  std::vector<Failure> failures;            // of sensors, by thread
+  std::vector<std::exception_ptr> stopped;  // what stopped the controllers of a thread
+};
+
+template <class Do>
+void ControllerHost::ForEachCommand(std::uint32_t entity, Do use) const
+{
+  for (const ChannelBlock& block : layout_.commands)
+  {
+    const auto place = std::lower_bound(block.entities.begin(), block.entities.end(), entity);
+    if (place == block.entities.end() || *place != entity) continue;
+    const auto width = static_cast<std::size_t>(block.width);
+    const std::size_t first = block.offset + static_cast<std::size_t>(place - block.entities.begin()) * width;
+    use(first, first + width);
+  }
+}
+
 namespace
 {
 
@@ -41,6 +111,21 @@ std::size_t PartsOf(std::size_t robots, unsigned threads)
 {
   constexpr std::size_t kLeast = 400;  // robots of a part
   return std::clamp<std::size_t>(robots / kLeast, 1, threads);
+}
+
+// A controller that fails more often, never with more ticks between, is not started again.
+constexpr std::uint32_t kMostRestarts = 3;
+constexpr std::uint64_t kRestartMemory = 100;
+constexpr std::size_t kLongestFault = 200;  // bytes of the text of an exception that the run is told
+
+// What shows, or is heard, of a robot. Others, such as angles, stay.
+constexpr std::string_view kSilenced[] = {"led", "beacon", "laser", "message", "radio", "report"};
+
+double ThreadMilliseconds()
+{
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
 }
 
 }  // namespace
@@ -282,6 +367,604 @@ void ControllerHost::Destroy()
         {space_.GetExperiment().seed, StreamName(robot.interface->GetId()), kDestroyStream, tick});
     RunCodeOf(robot.actor, ActivityStep::kDestroy, tick, [&] { robot.controller->Destroy(); });
   }
+}
+
+// The next functions are the tick: sensors, control steps, commands.
+
+void ControllerHost::Sense(std::span<const SensorFrame* const> frames)
+{
+  const std::uint64_t tick = space_.GetTick();
+  if (sensed_tick_ == tick) return;
+  sensed_tick_ = tick;
+  // What the engines sensed.
+  if (!frames.empty())
+    for (const ValueCopy& copy : layout_.sensor_copies)
+    {
+      const auto source = std::find(layout_.frames_from.begin(), layout_.frames_from.end(), copy.source);
+      const SensorFrame& frame = *frames[static_cast<std::size_t>(source - layout_.frames_from.begin())];
+      std::copy_n(frame.values.begin() + static_cast<std::ptrdiff_t>(copy.from), copy.count,
+                  sensor_values_.begin() + static_cast<std::ptrdiff_t>(copy.to));
+    }
+  UpdateSensors(tick);
+}
+
+const ControlCommands& ControllerHost::Tick(std::span<const SensorFrame* const> frames)
+{
+  const std::uint64_t tick = space_.GetTick();
+  Due();
+  Sense(frames);
+  RunControllers(tick);
+  for (const Batches::Sensor& sensor : batches_->sensors)
+    if (sensor.on_demand != nullptr) sensor.on_demand->EndSteps();
+
+  stepped_tick_ = tick;
+  commands_.tick = tick + ahead_;
+  CommitActuators();
+  return Commands();
+}
+
+const ControlCommands* ControllerHost::Due()
+{
+  if (ahead_ == 0) return nullptr;
+  const std::uint64_t tick = space_.GetTick();
+  if (due_tick_ == tick) return &due_;
+  due_tick_ = tick;
+  due_ = commands_;
+  due_.tick = tick;
+  return &due_;
+}
+
+void ControllerHost::UpdateSensors(std::uint64_t tick)
+{
+  for (Batches::Sensor& sensor : batches_->sensors)
+    if (sensor.part == Batches::kWhole)
+      RunCodeOf(sensor.actor, ActivityStep::kUpdate, tick,
+                [&] {
+                  sensor.batch->Update({sensor_values_, sensor.slice.offsets, sensor.slice.width});
+                });
+  if (batches_->split) UpdateParts(tick);
+}
+
+void ControllerHost::UpdateParts(std::uint64_t tick)
+{
+  std::vector<Batches::Failure>& failures = batches_->failures;
+  WorkerPool& pool = *batches_->pool;
+  failures.assign(pool.Threads(), {});
+  const auto update = [&](unsigned part)
+  {
+    for (Batches::Sensor& sensor : batches_->sensors)
+    {
+      if (sensor.part != static_cast<int>(part)) continue;
+      try
+      {
+        sensor.batch->Update({sensor_values_, sensor.slice.offsets, sensor.slice.width});
+      }
+      catch (...)
+      {
+        failures[part] = {std::current_exception(), sensor.actor};
+        return;
+      }
+    }
+  };
+  const auto refresh = [&](WorkerPool* by)
+  {
+    for (Batches::Sensor& sensor : batches_->sensors)
+      if (sensor.part != Batches::kWhole)
+        RunCodeOf(sensor.actor, ActivityStep::kUpdate, tick,
+                  [&] { dynamic_cast<SplitSensor&>(*sensor.batch).RefreshShared(by); });
+  };
+  refresh(IfItShares(&pool));
+  if (pool.Shares())
+    pool.Run(update);
+  else
+    for (unsigned part = 0; part < pool.Threads(); ++part) update(part);
+  // The first of the robots, whichever thread was first.
+  for (const Batches::Failure& failure : failures)
+    if (failure.what != nullptr)
+      RunCodeOf(failure.actor, ActivityStep::kUpdate, tick, [&] { std::rethrow_exception(failure.what); });
+}
+
+void ControllerHost::CommitActuators()
+{
+  commands_.attributes.Clear();
+  for (Batches::Actuator& actuator : batches_->actuators)
+  {
+    const std::size_t first = commands_.attributes.slots.size();
+    RunCodeOf(actuator.actor, ActivityStep::kUpdate, stepped_tick_,
+              [&] {
+                actuator.batch->Commit({commands_.values, actuator.slice.offsets, actuator.slice.width},
+                                       commands_.attributes);
+              });
+    // Nobody would hear them: commands of channels go to the engines alone.
+    if (actuator.slice.width > 0 && commands_.attributes.slots.size() > first)
+      throw ControllerError("actuator '" + actuator.device->type + "' (" + actuator.device->implementation +
+                            "): it has a channel, so it must not change attributes");
+    CheckAttributesOf(*actuator.device, actuator.robots, first);
+  }
+  if (!silence_.robots.empty()) SilenceStopped();
+  batches_->order.Apply(commands_.attributes);
+  CheckCommands();
+}
+
+// What a device has just added, from `first` on.
+void ControllerHost::CheckAttributesOf(const DeviceConfiguration& device, std::span<const std::uint32_t> robots,
+                                       std::size_t first) const
+{
+  const AttributeChanges& changes = commands_.attributes;
+  for (std::size_t k = first; k < changes.slots.size(); ++k)
+  {
+    try
+    {
+      CheckAttribute(space_, changes.slots[k], changes.values[k]);
+      CheckIsNoHold(space_, changes.slots[k]);
+    }
+    catch (const StateError& error)
+    {
+      const std::uint32_t entity = EntityOfSlot(space_, changes.slots[k]);
+      if (!AllFinite({&changes.values[k], 1}) && std::binary_search(robots.begin(), robots.end(), entity))
+        FailCommand(entity, device, changes.values[k]);
+      throw ControllerError("actuator '" + device.type + "' (" + device.implementation + ") at tick " +
+                            std::to_string(stepped_tick_) + ": " + error.what());
+    }
+  }
+}
+
+void ControllerHost::CheckCommands()
+{
+  if (AllFinite(commands_.values)) return;
+  // Devices may share a channel: the one that does it again is the one.
+  for (Batches::Actuator& actuator : batches_->actuators)
+    for (std::size_t k = 0; k < actuator.slice.offsets.size(); ++k)
+      for (int i = 0; i < actuator.slice.width; ++i)
+      {
+        double& value = commands_.values[actuator.slice.offsets[k] + static_cast<std::size_t>(i)];
+        if (AllFinite({&value, 1})) continue;
+        const double found = value;
+        value = 0;
+        AttributeChanges again;
+        actuator.batch->Commit({commands_.values, actuator.slice.offsets, actuator.slice.width}, again);
+        if (!AllFinite({&value, 1})) FailCommand(actuator.robots[k], *actuator.device, found);
+        value = found;
+      }
+  throw ControllerError("the commands at tick " + std::to_string(stepped_tick_) + " are not finite");
+}
+
+void ControllerHost::FailCommand(std::uint32_t robot, const DeviceConfiguration& device, double value) const
+{
+  const CSwarmanoidSpaceEntity& entity = space_.GetEntity(robot);
+  throw ControllerError("robot '" + entity.GetId() + "': its controller '" + entity.GetConfiguration().controller +
+                        "' commanded " + std::to_string(value) + " to the actuator '" + device.type + "' at tick " +
+                        std::to_string(stepped_tick_) + "; commands must be finite numbers");
+}
+
+// Those that may step in parallel come first, however many threads there are, and those with a guard last.
+void ControllerHost::RunControllers(std::uint64_t tick)
+{
+  if (IfItShares(batches_->pool) != nullptr && parallel_.size() > 1)
+    StepInParallel(tick);
+  else
+    StepInTurn(parallel_, tick);
+  StepInTurn(in_turn_, tick);
+  if (!guarded_.empty()) StepGuarded(tick);
+}
+
+void ControllerHost::StepInTurn(std::span<const std::uint32_t> robots, std::uint64_t tick)
+{
+  if (robots.empty()) return;
+  Activity activity(robots_[robots.front()].actor, ActivityStep::kControlStep, tick);
+  ControlSteps(robots, tick, activity);
+}
+
+void ControllerHost::StepInParallel(std::uint64_t tick)
+{
+  const SharedActivity activity(ActivityStep::kControlStep, tick);
+  const std::size_t threads = batches_->pool->Threads();
+  batches_->stopped.assign(threads, nullptr);
+  batches_->pool->Run(
+      [&](unsigned k)
+      {
+        const std::size_t begin = parallel_.size() * k / threads;
+        const std::size_t end = parallel_.size() * (k + 1) / threads;
+        SharedActivity::Thread of_thread(k);
+        try
+        {
+          ControlSteps(std::span(parallel_).subspan(begin, end - begin), tick, of_thread);
+        }
+        catch (...)
+        {
+          batches_->stopped[k] = std::current_exception();
+        }
+      });
+  // The first of the robots, whichever thread was first.
+  for (const std::exception_ptr& stopped : batches_->stopped)
+    if (stopped != nullptr) std::rethrow_exception(stopped);
+}
+
+template <class ActivityOfThread>
+void ControllerHost::ControlSteps(std::span<const std::uint32_t> robots, std::uint64_t tick, ActivityOfThread& activity)
+{
+  const Actor* running = nullptr;
+  try
+  {
+    for (const std::uint32_t k : robots)
+    {
+      Robot& robot = robots_[k];
+      if (!space_.IsPresent(robot.entity)) continue;
+      robot.interface->BeginControlStep(tick, space_.StreamTick());
+      running = &robot.actor;
+      activity.Next(*running);
+      robot.controller->ControlStep();
+    }
+  }
+  catch (...)
+  {
+    RethrowFor(*running, ActivityStep::kControlStep, tick);
+  }
+}
+
+// The next functions run controllers that may fail or have a time budget (docs/recovery.md).
+
+void ControllerHost::StepGuarded(std::uint64_t tick)
+{
+  commands_.faults.Clear();
+  Activity activity(robots_[guarded_.front()].actor, ActivityStep::kControlStep, tick);
+  for (const std::uint32_t k : guarded_)
+  {
+    Robot& guarded = robots_[k];
+    if (!space_.IsPresent(guarded.entity) || guarded.guard->stopped) continue;
+    guarded.interface->BeginControlStep(tick, space_.StreamTick());
+    activity.Next(guarded.actor);
+    TryStep(guarded, tick);
+  }
+  SaveLastStates(tick + 1);
+}
+
+void ControllerHost::TryStep(Robot& robot, std::uint64_t tick)
+{
+  const ControllerConfiguration& configuration = *robot.guard->configuration;
+  const std::optional<FaultKind> known = Known(tick, robot.entity);
+  if (known == FaultKind::kDied) return TakeFault(robot, FaultKind::kDied, tick, "died", "");
+  const bool is_restarted = configuration.on_failure == OnFailure::kRestart;
+  if (is_restarted) SaveDevices(robot);
+  SetCureOfStep(configuration.MayFail() ? cure_of_death_ : "");
+  bool in_time = true;
+  std::optional<std::string> thrown;
+  try
+  {
+    in_time = StepInTime(robot, tick);
+  }
+  catch (...)
+  {
+    if (!configuration.MayFail()) RethrowFor(robot.actor, ActivityStep::kControlStep, tick);
+    thrown = CurrentExceptionText();
+  }
+  SetCureOfStep("");
+  // A process that died in this step has told the devices nothing. An exception must leave the same.
+  if (thrown && is_restarted) LoadDevices(robot);
+  if (thrown) return TakeFault(robot, FaultKind::kThrew, tick, "failed: " + *thrown, *thrown);
+  if (in_time && known != FaultKind::kTooSlow) return;
+  TakeFault(robot, FaultKind::kTooSlow, tick,
+            fmt::format("took more processor time than its {:g} ms (time_budget_ms)", configuration.time_budget_ms),
+            "");
+}
+
+template <class Do>
+void ControllerHost::ForEachDevice(const Robot& robot, Do use)
+{
+  const auto k = static_cast<std::size_t>(&robot - robots_.data());
+  const auto use_if_its = [&](auto& batch, const std::vector<std::size_t>& robots)
+  {
+    const auto place = std::lower_bound(robots.begin(), robots.end(), k);
+    if (place != robots.end() && *place == k) use(batch, static_cast<std::size_t>(place - robots.begin()));
+  };
+  for (const Batches::Sensor& sensor : batches_->sensors) use_if_its(*sensor.batch, sensor.robots);
+  for (const Batches::Actuator& actuator : batches_->actuators) use_if_its(*actuator.batch, actuator.places);
+}
+
+void ControllerHost::SaveDevices(const Robot& robot)
+{
+  before_step_.Clear();
+  ForEachDevice(robot, [&](const auto& batch, std::size_t n) { batch.SaveState(n, before_step_); });
+}
+
+void ControllerHost::LoadDevices(const Robot& robot)
+{
+  ByteReader before(before_step_.Bytes());
+  ForEachDevice(robot, [&](auto& batch, std::size_t n) { batch.LoadState(n, before); });
+}
+
+bool ControllerHost::StepInTime(Robot& robot, std::uint64_t tick)
+{
+  const double budget_ms = robot.guard->configuration->time_budget_ms;
+  const bool measures = budget_ms > 0 && tick >= known_.until && tick != known_tick_;
+  const double before = measures ? ThreadMilliseconds() : 0;
+  robot.controller->ControlStep();
+  return !measures || ThreadMilliseconds() - before <= budget_ms;
+}
+
+void ControllerHost::Know(RecordedFaults known)
+{
+  known_ = std::move(known);
+  std::sort(known_.faults.begin(), known_.faults.end());
+}
+
+void ControllerHost::KnowTick(std::uint64_t tick, const ControllerFaults& faults)
+{
+  known_tick_ = tick;
+  faults_of_tick_ = faults;
+}
+
+std::optional<FaultKind> ControllerHost::Known(std::uint64_t tick, std::uint32_t robot) const
+{
+  if (known_tick_ == tick)
+  {
+    const auto& robots = faults_of_tick_.robots;
+    const auto place = std::lower_bound(robots.begin(), robots.end(), robot);
+    if (place == robots.end() || *place != robot) return std::nullopt;
+    return faults_of_tick_.kinds[static_cast<std::size_t>(place - robots.begin())];
+  }
+  const auto place = std::lower_bound(known_.faults.begin(), known_.faults.end(), std::pair(tick, robot),
+                                      [](const RecordedFault& fault, const auto& of)
+                                      { return std::pair(fault.tick, fault.robot) < of; });
+  if (place == known_.faults.end() || place->tick != tick || place->robot != robot) return std::nullopt;
+  return place->kind;
+}
+
+void ControllerHost::TakeFault(Robot& robot, FaultKind kind, std::uint64_t tick, const std::string& text,
+                               const std::string& thrown)
+{
+  Guard& guard = *robot.guard;
+  const std::string what = ActivityText(robot.actor, ActivityStep::kControlStep, tick) + " " + text;
+  if (!guard.configuration->MayFail()) throw ControllerError(what);
+  commands_.faults.Add(robot.entity, kind, ShowableLine(thrown, kLongestFault));
+  if (tick - guard.failed_at > kRestartMemory) guard.restarts = 0;
+  guard.kind = kind;
+  guard.failed_at = tick;
+  if (guard.configuration->on_failure != OnFailure::kRestart || guard.restarts >= kMostRestarts)
+  {
+    LogWarning("{}; the robot is stopped", what);
+    return Stop(robot);
+  }
+  LogWarning("{}; the controller starts again", what);
+  ++guard.restarts;
+  try
+  {
+    Restart(robot, tick);
+  }
+  catch (const ActivityError& error)
+  {
+    LogWarning("{}; the robot is stopped", error.what());
+    Stop(robot);
+  }
+}
+
+void ControllerHost::Restart(Robot& robot, std::uint64_t tick)
+{
+  const Guard& guard = *robot.guard;
+  const auto* entry = PluginRegistry<CCI_Controller>::Instance().Find(guard.configuration->tag);
+  robot.interface->BeginStep(
+      tick, space_.GetTickSeconds(),
+      {space_.GetExperiment().seed, StreamName(robot.interface->GetId()), kInitStream, space_.StreamTick()});
+  RunCodeOf(robot.actor, ActivityStep::kInit, tick,
+            [&]
+            {
+              robot.controller = entry->create();
+              robot.controller->SetRobot(robot.interface.get());
+              const int result = InitController(*robot.controller, entry->description, guard.configuration->id,
+                                                guard.configuration->parameters);
+              if (result != CCI_Controller::RETURN_OK) throw std::runtime_error(fmt::format("it returned {}", result));
+            });
+  if (!robot.controller->HasState() || guard.state.empty()) return;
+  std::istringstream text(guard.state);
+  RunCodeOf(robot.actor, ActivityStep::kLoadState, tick, [&] { robot.controller->LoadState(text); });
+}
+
+void ControllerHost::SaveLastStates(std::uint64_t tick)
+{
+  if (tick % space_.GetExperiment().canonical_period != 0) return;
+  for (const std::uint32_t k : guarded_)
+  {
+    const Robot& robot = robots_[k];
+    Guard& guard = *robot.guard;
+    if (guard.configuration->on_failure != OnFailure::kRestart || guard.stopped || !robot.controller->HasState())
+      continue;
+    std::ostringstream text;
+    RunCodeOf(robot.actor, ActivityStep::kSaveState, tick, [&] { robot.controller->SaveState(text); });
+    guard.state = text.str();
+  }
+}
+
+void ControllerHost::Stop(const Robot& robot)
+{
+  robot.guard->stopped = true;
+  silence_.robots.insert(std::lower_bound(silence_.robots.begin(), silence_.robots.end(), robot.entity), robot.entity);
+  const CSwarmanoidSpaceEntity& entity = space_.GetEntity(robot.entity);
+  for (const AttributeSpec& spec : AttributesOf(entity.GetKind()))
+    if (std::find(std::begin(kSilenced), std::end(kSilenced), spec.name) != std::end(kSilenced))
+      for (int element = 0; element < spec.count; ++element)
+        silence_.slots.push_back(entity.SlotOf(spec.name, element));
+  ForEachCommand(robot.entity,
+                 [&](std::size_t first, std::size_t behind) { silence_.commands.emplace_back(first, behind); });
+}
+
+void ControllerHost::SilenceStopped()
+{
+  AttributeChanges& changes = commands_.attributes;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < changes.slots.size(); ++k)
+  {
+    const std::uint32_t entity = EntityOfSlot(space_, changes.slots[k]);
+    if (std::binary_search(silence_.robots.begin(), silence_.robots.end(), entity)) continue;
+    changes.slots[kept] = changes.slots[k];
+    changes.values[kept++] = changes.values[k];
+  }
+  changes.slots.resize(kept);
+  changes.values.resize(kept);
+  for (const std::uint32_t slot : silence_.slots)
+    if (space_.Attributes()[slot] != 0) changes.Add(slot, 0);
+  for (const auto& [first, behind] : silence_.commands)
+    std::fill(commands_.values.begin() + static_cast<std::ptrdiff_t>(first),
+              commands_.values.begin() + static_cast<std::ptrdiff_t>(behind), 0.0);
+}
+
+std::unique_ptr<StepTimeout> WatchTimeBudgets(const Experiment& experiment, const HostLayout& layout)
+{
+  constexpr double kLeast_s = 10;
+  constexpr double kBudgets = 100;
+  double limit_s = 0;
+  for (const std::uint32_t robot : layout.robots)
+  {
+    const double budget_ms = experiment.FindController(experiment.entities[robot].controller)->time_budget_ms;
+    if (budget_ms > 0) limit_s = std::max({limit_s, kLeast_s, kBudgets * budget_ms / 1000});
+  }
+  if (limit_s == 0) return nullptr;
+  return std::make_unique<StepTimeout>(
+      StepTimeout::Settings{std::chrono::milliseconds(static_cast<std::int64_t>(limit_s * 1000)),
+                            {},
+                            "time_budget_ms",
+                            ActivityStep::kControlStep});
+}
+
+// The next functions save and load the memory of controllers and devices, robot by robot, so that another number of
+// hosts can go on with it.
+
+// Changes of entities other than the robots belong to the first robot.
+std::vector<AttributeChanges> ControllerHost::ChangesByRobot() const
+{
+  std::vector<AttributeChanges> by_robot(robots_.size());
+  const AttributeChanges& changes = commands_.attributes;
+  for (std::size_t k = 0; k < changes.slots.size(); ++k)
+  {
+    const std::uint32_t entity = EntityOfSlot(space_, changes.slots[k]);
+    const auto place = std::ranges::lower_bound(layout_.robots, entity);
+    const bool ours = place != layout_.robots.end() && *place == entity;
+    by_robot[ours ? static_cast<std::size_t>(place - layout_.robots.begin()) : 0].Add(changes.slots[k],
+                                                                                      changes.values[k]);
+  }
+  return by_robot;
+}
+
+void ControllerHost::SaveCommands(std::uint32_t entity, const AttributeChanges& changes, ByteWriter& bytes) const
+{
+  ForEachCommand(entity,
+                 [&](std::size_t first, std::size_t behind)
+                 {
+                   for (std::size_t k = first; k < behind; ++k) bytes.Put(commands_.values[k]);
+                 });
+  bytes.PutArray(changes.slots);
+  bytes.PutArray(changes.values);
+  const auto& failed = commands_.faults.robots;
+  const auto fault = std::ranges::lower_bound(failed, entity);
+  const bool has_failed = fault != failed.end() && *fault == entity;
+  bytes.Put(has_failed);
+  if (has_failed) bytes.Put(commands_.faults.kinds[static_cast<std::size_t>(fault - failed.begin())]);
+}
+
+void ControllerHost::LoadCommands(std::uint32_t entity, ByteReader& bytes)
+{
+  ForEachCommand(entity,
+                 [&](std::size_t first, std::size_t behind)
+                 {
+                   for (std::size_t k = first; k < behind; ++k) commands_.values[k] = bytes.Get<double>();
+                 });
+  const auto slots = bytes.GetArray<std::uint32_t>();
+  const auto values = bytes.GetArray<double>();
+  if (slots.size() != values.size()) throw StateError("there are other attributes than values of them");
+  for (std::size_t k = 0; k < slots.size(); ++k) commands_.attributes.Add(slots[k], values[k]);
+  if (!bytes.Get<bool>()) return;
+  commands_.faults.Add(entity, bytes.Get<FaultKind>(), "");
+}
+
+void ControllerHost::SaveState(ByteWriter& state) const
+{
+  std::vector<ByteWriter> of_robot(robots_.size());
+  const std::vector<AttributeChanges> changes = ahead_ > 0 ? ChangesByRobot() : std::vector<AttributeChanges>();
+  for (std::size_t k = 0; k < robots_.size(); ++k)
+  {
+    const Robot& robot = robots_[k];
+    ByteWriter& bytes = of_robot[k];
+    if (ahead_ > 0) SaveCommands(robot.entity, changes[k], bytes);
+    if (const Guard* guard = robot.guard.get())
+    {
+      bytes.Put(guard->stopped);
+      bytes.Put(guard->kind);
+      bytes.Put(guard->failed_at);
+      bytes.Put(guard->restarts);
+      if (guard->stopped) continue;
+    }
+    if (!robot.controller->HasState())
+      throw ControllerError("robot '" + robot.interface->GetId() +
+                            "': its controller cannot be saved; it must override HasState, " +
+                            "SaveState and LoadState");
+    std::ostringstream text;
+    RunCodeOf(robot.actor, ActivityStep::kSaveState, space_.GetTick(), [&] { robot.controller->SaveState(text); });
+    bytes.PutText(text.str());
+  }
+  HostState all;
+  for (const Batches::Sensor& sensor : batches_->sensors)
+  {
+    ByteWriter common;
+    sensor.batch->SaveCommon(common);
+    if (!common.Bytes().empty()) all.sensors[sensor.number].assign(common.Bytes().begin(), common.Bytes().end());
+    for (std::size_t n = 0; n < sensor.robots.size(); ++n) sensor.batch->SaveState(n, of_robot[sensor.robots[n]]);
+  }
+  for (const Batches::Actuator& actuator : batches_->actuators)
+    for (std::size_t n = 0; n < actuator.robots.size(); ++n) actuator.batch->SaveState(n, of_robot[actuator.places[n]]);
+  for (std::size_t k = 0; k < robots_.size(); ++k)
+    all.robots[robots_[k].entity].assign(of_robot[k].Bytes().begin(), of_robot[k].Bytes().end());
+  Write(all, state);
+}
+
+void ControllerHost::LoadState(ByteReader& state)
+{
+  sensed_tick_.reset();
+  due_tick_.reset();
+  silence_ = {};
+  commands_.attributes.Clear();
+  commands_.faults.Clear();
+  const HostState all = ReadHostState(state);
+  std::vector<ByteReader> of_robot;
+  for (const Robot& robot : robots_)
+  {
+    const auto found = all.robots.find(robot.entity);
+    if (found == all.robots.end() || all.robots.size() != robots_.size())
+      throw std::runtime_error("saved state: a controller host has other robots");
+    of_robot.emplace_back(std::span<const char>(found->second));
+  }
+  for (std::size_t k = 0; k < robots_.size(); ++k)
+  {
+    Robot& robot = robots_[k];
+    ByteReader& bytes = of_robot[k];
+    if (ahead_ > 0) LoadCommands(robot.entity, bytes);
+    if (Guard* guard = robot.guard.get())
+    {
+      guard->stopped = bytes.Get<bool>();
+      guard->kind = bytes.Get<FaultKind>();
+      guard->failed_at = bytes.Get<std::uint64_t>();
+      guard->restarts = bytes.Get<std::uint32_t>();
+      if (guard->stopped)
+      {
+        Stop(robot);
+        continue;
+      }
+    }
+    const std::string saved = bytes.GetText();
+    if (robot.guard != nullptr) robot.guard->state = saved;
+    std::istringstream text(saved);
+    RunCodeOf(robot.actor, ActivityStep::kLoadState, space_.GetTick(), [&] { robot.controller->LoadState(text); });
+  }
+  for (Batches::Sensor& sensor : batches_->sensors)
+  {
+    const auto common = all.sensors.find(sensor.number);
+    ByteReader bytes(common == all.sensors.end() ? std::span<const char>() : std::span<const char>(common->second));
+    sensor.batch->LoadCommon(bytes);
+    for (std::size_t n = 0; n < sensor.robots.size(); ++n) sensor.batch->LoadState(n, of_robot[sensor.robots[n]]);
+  }
+  for (Batches::Actuator& actuator : batches_->actuators)
+    for (std::size_t n = 0; n < actuator.robots.size(); ++n) actuator.batch->LoadState(n, of_robot[actuator.places[n]]);
+  batches_->order.Apply(commands_.attributes);
+  for (const ByteReader& bytes : of_robot)
+    if (!bytes.AtEnd()) throw std::runtime_error("saved state: what a robot saved is longer than what it loads");
 }
 
 }  // namespace swarmanoid

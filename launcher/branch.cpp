@@ -126,17 +126,17 @@ BranchRequest ReadBranchRequest(const std::string& text)
   return *request;
 }
 
-RunSettings SettingsOfBranch(const RunSettings& asked)
+RunRequest RequestOfBranch(const RunRequest& request)
 {
-  if (!asked.restore_file.empty()) RefuseBranch("a run begins with one state; leave out --restore");
-  if (!asked.faults_of.empty()) RefuseBranch("controllers fail as in the run that it is of; leave out --faults-of");
-  RunSettings settings = asked;
-  const BranchRequest request = ReadBranchRequest(asked.branch);
-  if (settings.file.empty()) settings.file = request.run + "/experiment.xml";
-  const RecordedRun run(request.run);
-  if (!settings.single_process && settings.controller_hosts == 1)
-    settings.controller_hosts = run.Journal().Hosts().hosts;
-  return settings;
+  const BranchRequest branch = ReadBranchRequest(request->branch);
+  const RecordedRun run(branch.run);
+  return request.With(
+      [&](RunSettings& settings)
+      {
+        if (settings.file.empty()) settings.file = branch.run + "/experiment.xml";
+        if (!settings.single_process && settings.controller_hosts == 1)
+          settings.controller_hosts = run.Journal().Hosts().hosts;
+      });
 }
 
 Branch::Branch(const RunSettings& settings, const Experiment& experiment) : request_(ReadBranchRequest(settings.branch))

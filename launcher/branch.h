@@ -10,6 +10,7 @@
 #include "common/experiment/experiment.h"
 #include "common/run/run_settings.h"
 #include "launcher/branch_changes.h"
+#include "launcher/run_request.h"
 #include "launcher/scratch_folder.h"
 
 namespace swarmanoid
@@ -20,14 +21,14 @@ struct BranchRequest
   std::string run;  // its folder
   std::uint64_t tick = 0;
 };
-// From "RUN@TICK"; nothing if it is none.
+// From "RUN@TICK"; nullopt for anything else.
 std::optional<BranchRequest> ReadRunAtTick(const std::string& text);
-// Likewise. Throws UsageError.
+// The same, but throws UsageError.
 BranchRequest ReadBranchRequest(const std::string& text);
 
-// The settings of a run that branches off, with what it takes from the other one: the experiment, if none is named, and
+// The request for a run that branches off, with what it takes from the other one: the experiment, if none is named, and
 // the number of controller hosts. Throws UsageError.
-RunSettings SettingsOfBranch(const RunSettings& asked);
+RunRequest RequestOfBranch(const RunRequest& request);
 
 class Branch
 {
@@ -37,7 +38,7 @@ public:
   // UsageError if there is no such tick, or the state does not fit the experiment.
   Branch(const RunSettings& settings, const Experiment& experiment);
 
-  // Not kExitDone: that process failed, and has said why.
+  // If it is not kExitDone, that process failed and has said why.
   int ExitCode() const { return exit_code_; }
   const BranchRequest& Of() const { return request_; }
   std::uint64_t Hash() const { return hash_; }  // of the state at the tick

@@ -23,19 +23,19 @@ std::string AttributeOf(const Node& node, const std::string& name)
 }
 
 // Where a change is: the tags from the section down, and how --set names it.
-struct Place
+struct TreePath
 {
   std::vector<std::string> tags;
   std::string path;
 
-  Place Below(const std::string& tag, const std::string& name) const
+  TreePath Below(const std::string& tag, const std::string& name) const
   {
-    Place below = *this;
+    TreePath below = *this;
     below.tags.push_back(tag);
     below.path += (path.empty() ? "" : ".") + name;
     return below;
   }
-  Place Below(const Node& node) const
+  TreePath Below(const Node& node) const
   {
     const std::string id = AttributeOf(node, "id");
     return Below(node.name, id.empty() ? node.name : id);
@@ -44,27 +44,27 @@ struct Place
 };
 
 // Why that may not change once a run has begun; empty if it may. `whole`: an element came or went.
-std::string ReasonAgainst(const Place& place, bool whole)
+std::string ReasonAgainst(const TreePath& at, bool whole)
 {
-  const std::string section = place.Tag(0), last = place.tags.back();
+  const std::string section = at.Tag(0), last = at.tags.back();
   if (section == "visualisations") return {};
   if (section == "framework")
   {
     for (const char* free : {"maxclock", "seed", "name", "folder"})
-      if (place.Tag(1) == free) return {};
+      if (at.Tag(1) == free) return {};
     return "it is the same for a whole run";
   }
   if (section == "controllers")
   {
-    if (place.Tag(2) == "parameters") return {};
-    const bool device = place.Tag(2) == "sensors" || place.Tag(2) == "actuators";
-    if (device && place.tags.size() > 4 && last != "implementation") return {};
+    if (at.Tag(2) == "parameters") return {};
+    const bool device = at.Tag(2) == "sensors" || at.Tag(2) == "actuators";
+    if (device && at.tags.size() > 4 && last != "implementation") return {};
     if (device) return "the robots were built with these devices, which have saved what they remember";
     return "which code steps the robots, and how it may fail, is the same for a whole run";
   }
-  if (section == "engines") return whole && place.tags.size() <= 2 ? "what an engine remembers is of that engine" : "";
+  if (section == "engines") return whole && at.tags.size() <= 2 ? "what an engine remembers is of that engine" : "";
   if (section == "experiment_functions")
-    return place.tags.size() > 2 && last != "library" ? "" : "what functions remember is of their code";
+    return at.tags.size() > 2 && last != "library" ? "" : "what functions remember is of their code";
   if (section == "arena")
     return "what stands in the arena is part of the state; move, add or remove it by `swarmanoid control` while the "
            "branch runs";
@@ -76,27 +76,27 @@ class Comparison
 public:
   std::vector<BranchChange> changes;
 
-  void Compare(const Node& before, const Node& after, const Place& place)
+  void Compare(const Node& before, const Node& after, const TreePath& at)
   {
-    if (before.text != after.text) Note(place, fmt::format("{} instead of {}", Shown(after.text), Shown(before.text)));
+    if (before.text != after.text) Note(at, fmt::format("{} instead of {}", Shown(after.text), Shown(before.text)));
     for (const Node::Attribute& attribute : before.attributes)
-      CompareValues(attribute.value, AttributeOf(after, attribute.name), place.Below(attribute.name, attribute.name));
+      CompareValues(attribute.value, AttributeOf(after, attribute.name), at.Below(attribute.name, attribute.name));
     for (const Node::Attribute& attribute : after.attributes)
       if (AttributeOf(before, attribute.name).empty())
-        CompareValues({}, attribute.value, place.Below(attribute.name, attribute.name));
-    CompareChildren(before, after, place);
+        CompareValues({}, attribute.value, at.Below(attribute.name, attribute.name));
+    CompareChildren(before, after, at);
   }
 
 private:
   static std::string Shown(const std::string& text) { return text.empty() ? "nothing" : text; }
 
-  void CompareValues(const std::string& before, const std::string& after, const Place& place)
+  void CompareValues(const std::string& before, const std::string& after, const TreePath& at)
   {
-    if (before != after) Note(place, fmt::format("{} instead of {}", Shown(after), Shown(before)));
+    if (before != after) Note(at, fmt::format("{} instead of {}", Shown(after), Shown(before)));
   }
 
   // Elements with one tag and id, in their order.
-  void CompareChildren(const Node& before, const Node& after, const Place& place)
+  void CompareChildren(const Node& before, const Node& after, const TreePath& at)
   {
     std::vector<const Node*> left;
     for (const auto& node : after.children) left.push_back(node.get());
@@ -108,22 +108,22 @@ private:
                        { return other->name == node->name && AttributeOf(*other, "id") == AttributeOf(*node, "id"); });
       if (same == left.end())
       {
-        Note(place.Below(*node), "left out", true);
+        Note(at.Below(*node), "left out", true);
         continue;
       }
-      Compare(*node, **same, place.Below(*node));
+      Compare(*node, **same, at.Below(*node));
       left.erase(same);
     }
-    for (const Node* node : left) Note(place.Below(*node), "new", true);
+    for (const Node* node : left) Note(at.Below(*node), "new", true);
   }
 
-  void Note(const Place& place, const std::string& value, bool whole = false)
+  void Note(const TreePath& at, const std::string& value, bool whole = false)
   {
-    if (const std::string reason = ReasonAgainst(place, whole); !reason.empty())
+    if (const std::string reason = ReasonAgainst(at, whole); !reason.empty())
       throw UsageError(
-          fmt::format("--branch: {} cannot change in the middle of a run ({}): {}", place.path, value, reason));
-    const bool outside = place.Tag(0) == "visualisations" || (place.Tag(0) == "framework" && place.Tag(1) != "seed");
-    changes.push_back({place.path, value, !outside});
+          fmt::format("--branch: {} cannot change in the middle of a run ({}): {}", at.path, value, reason));
+    const bool outside = at.Tag(0) == "visualisations" || (at.Tag(0) == "framework" && at.Tag(1) != "seed");
+    changes.push_back({at.path, value, !outside});
   }
 };
 

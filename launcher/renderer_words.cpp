@@ -12,7 +12,7 @@
 namespace swarmanoid
 {
 
-void AddOptionsOfKind(CLI::App& verb, std::size_t place, std::vector<std::string>& parameters)
+void AddOptionsOfKind(CLI::App& verb, std::size_t position, std::vector<std::string>& parameters)
 {
   std::vector<std::string> words = OriginalCommand();
   if (words.size() > 1 && words[1] == kCompleteFlag) words.erase(words.begin() + 1);
@@ -22,10 +22,10 @@ void AddOptionsOfKind(CLI::App& verb, std::size_t place, std::vector<std::string
     for (const std::string& label : PluginCatalogue::Instance().Labels(PluginKind::kRenderer))
       if (label == words[i] || label == words[i] + "_render")
         return AddRendererOptions(verb, FindRenderer(label), parameters);
-  if (words.size() < place + 3 || words[place + 2].starts_with("-")) return;
+  if (words.size() < position + 3 || words[position + 2].starts_with("-")) return;
   try
   {
-    AddRendererOptions(verb, FindRenderer(words[place + 2]), parameters);
+    AddRendererOptions(verb, FindRenderer(words[position + 2]), parameters);
   }
   catch (const ConfigurationError&)
   {

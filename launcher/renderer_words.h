@@ -14,7 +14,8 @@ namespace swarmanoid
 {
 
 // Adds the options of the kind that stands behind `verb` in the command of this process; a value given goes to
-// `parameters` as "name=value". `place`: where the kind stands, from 0 behind the verb, if it is a library of a user.
-void AddOptionsOfKind(CLI::App& verb, std::size_t place, std::vector<std::string>& parameters);
+// `parameters` as "name=value". `position`: where the kind stands, from 0 behind the verb, if it is a library of a
+// user.
+void AddOptionsOfKind(CLI::App& verb, std::size_t position, std::vector<std::string>& parameters);
 
 }  // namespace swarmanoid

@@ -34,7 +34,7 @@ RunChoice ChoiceOf(const LocalRun& run)
   return {run.experiment, run.domain, static_cast<int>(run.server), !run.key.has_value(), run.network};
 }
 
-// Who sits at a terminal says which of several is meant.
+// Asks the user at the terminal for one of several runs.
 const LocalRun& Ask(const std::vector<LocalRun>& runs)
 {
   PrintError("several experiments run on this machine:\n");

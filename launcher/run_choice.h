@@ -1,4 +1,4 @@
-// Which running experiment a user means.
+// Finds the running experiment that a user means.
 #pragma once
 
 #include <optional>
@@ -17,27 +17,27 @@ struct RunChoice
   std::string experiment;
   int domain = 0;
   std::optional<int> server;     // process id of its space server, if that is on this machine
-  bool lets_anybody_in = false;  // likewise: it was started with --insecure
-  RunNetwork network{};          // likewise
+  bool lets_anybody_in = false;  // whether a run of this machine was started with --insecure
+  RunNetwork network{};          // of a run of this machine
 };
 
-// The one on this machine, or the one of that name. With a domain, experiments of other machines can be meant too.
-// Throws UsageError, listing those that run, if there is none or more than one.
+// The only run on this machine, or the run of that name. With a domain, it may be on another machine. Throws
+// UsageError, with a list of the runs, if there is none or more than one.
 RunChoice ChooseRun(const std::string& name, std::optional<int> domain);
 
-// The one of a share; `name` is empty or its name, or UsageError.
+// The run of a share. Throws UsageError unless `name` is empty or its name.
 RunChoice RunOf(const ShareTicket& ticket, const std::string& name);
 
-// Throws UsageError if the run is on this machine and has a key, while no key is to be used, or the other way round:
-// the two would not understand each other.
+// Throws UsageError if the run is on this machine, and either the run or `options` has no key: they would not
+// understand each other.
 void CheckInsecure(const RunChoice& run, const BusOptions& options);
 
 // Reaches a run of this machine as its processes reach each other: takes its network unless the user names one, and
 // enters the network namespace of an --isolated run.
 void UseNetworkOf(const RunChoice& run, BusOptions& options);
 
-// The same as ChooseRun, but for so many seconds it waits for one to start, and says so on the standard error; of
-// several, who sits at a terminal is asked for one.
+// The same as ChooseRun, but waits up to `wait_s` for a run to start, and says so on standard error. At a terminal, the
+// user chooses one of several.
 RunChoice AwaitRun(const std::string& name, std::optional<int> domain, double wait_s);
 
 }  // namespace swarmanoid

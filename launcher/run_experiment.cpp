@@ -14,15 +14,18 @@
 #include "common/bus/free_domain.h"
 #include "common/checkpoint/checkpoint.h"
 #include "common/checkpoint/library_builds.h"
+#include "common/configuration/wording.h"
 #include "common/journal/journal_reader.h"
 #include "common/math/reproducible_math.h"
 #include "common/program/standard_output.h"
 #include "common/program/usage_error.h"
 #include "launcher/branch.h"
 #include "launcher/original_command.h"
+#include "launcher/prepared_run.h"
 #include "launcher/showing.h"
+#include "launcher/single_run.h"
+#include "launcher/supervision/cluster_plan.h"
 #include "launcher/supervision/cluster_run.h"
-#include "launcher/supervision/manifest_at_death.h"
 #include "simulation/load.h"
 #include "space_server/event_log.h"
 
@@ -31,24 +34,25 @@ namespace swarmanoid
 namespace
 {
 
-Manifest StartOfManifest(const RunSettings& options, const Experiment& experiment)
+Manifest StartOfManifest(const RunRequest& request, const Experiment& experiment)
 {
   Manifest manifest;
   manifest.experiment = experiment.name;
-  manifest.file = std::filesystem::absolute(options.file).lexically_normal();
+  manifest.file = std::filesystem::absolute(request->file).lexically_normal();
   manifest.experiment_hash = TextHash(experiment.effective_xml);
   manifest.seed = experiment.seed;
   manifest.command = OriginalCommand();
+  manifest.domain = request->domain;
   for (const LibraryBuild& library : LibraryBuildsOf(experiment))
     manifest.libraries.emplace_back(library.name, library.build);
   manifest.started = TimeStamp();
   return manifest;
 }
 
-void ReadCheckpointOf(const RunSettings& options, const Experiment& experiment)
+void ReadCheckpointOf(const RunRequest& request, const Experiment& experiment)
 {
   const Checkpoint checkpoint =
-      ReadCheckpoint(options.restore_file, experiment, {options.controller_hosts, options.any_build});
+      ReadCheckpoint(request->restore_file, experiment, {request->controller_hosts, request->any_build});
   const std::string difference = DifferenceOfBuilds(checkpoint.origin.libraries, LibraryBuildsOf(experiment));
   if (!difference.empty())
     PrintError(
@@ -57,13 +61,13 @@ void ReadCheckpointOf(const RunSettings& options, const Experiment& experiment)
         difference);
 }
 
-// Before the folder of the run is made and processes are started.
-void RefuseBadCheckpoints(const RunSettings& options, const Experiment& experiment)
+// Checks checkpoints before the folder of the run is made and processes are started.
+void RefuseBadCheckpoints(const RunRequest& request, const Experiment& experiment)
 {
   try
   {
-    CheckCheckpointPeriod(options.checkpoint_every, experiment);
-    if (!options.restore_file.empty()) ReadCheckpointOf(options, experiment);
+    CheckCheckpointPeriod(request->checkpoint_every, experiment);
+    if (!request->restore_file.empty()) ReadCheckpointOf(request, experiment);
   }
   catch (const std::invalid_argument& error)
   {
@@ -75,54 +79,54 @@ void RefuseBadCheckpoints(const RunSettings& options, const Experiment& experime
   }
 }
 
-// A run: what was asked, and where it is.
-struct Begun
+// Makes the folder `output`, or a new one if that is empty, and writes experiment and manifest into it. `ready` changes
+// the settings and the manifest once the folder exists.
+PreparedRun Prepare(const RunRequest& request, std::unique_ptr<const Experiment> experiment, const std::string& output,
+                    const std::function<void(RunSettings&, Manifest&, const RunFolder&)>& ready)
 {
-  RunSettings options;
-  std::unique_ptr<const Experiment> experiment;
-  RunFolder folder;
-  Manifest manifest;
-};
-
-std::string FolderOfReset(const RunFolder& first, unsigned number)
-{
-  return first.File(fmt::format("reset-{}", number));
+  const RunFolder folder(output, experiment->name);
+  Manifest manifest = StartOfManifest(request, *experiment);
+  RunRequest prepared = request.With(
+      [&](RunSettings& settings)
+      {
+        settings.output_folder = folder.Path();
+        ready(settings, manifest, folder);
+      });
+  folder.Write("experiment.xml", experiment->effective_xml);
+  folder.Write("manifest.json", manifest.Text());
+  folder.BecomeLatest();
+  return {std::move(prepared), std::move(experiment), folder, std::move(manifest)};
 }
 
-// The experiment of the first run at tick 0, as `swarmanoid run` with that seed begins it.
-Begun BeginAgain(const Begun& first, const ResetOrigin& from, std::uint64_t seed, RunFolder folder)
+// The run after `run`, which a user has reset: the experiment of the first run at tick 0, as `swarmanoid run` with that
+// seed begins it.
+PreparedRun PrepareReset(const PreparedRun& first, const PreparedRun& run, const RunSummary& ended, unsigned number)
 {
-  RunSettings options = first.options;
-  options.file = first.folder.File("experiment.xml");
-  options.settings.clear();
-  options.ticks.reset();
-  options.seed = seed;
-  options.paused = from.paused;
-  options.real_time_factor = from.real_time_factor;
-  options.restore_file.clear();
-  options.any_build = false;
-  options.branch.clear();
-  options.faults_of.clear();
-  auto experiment = LoadOrComplain(options.file, ChangesOf(options));
-  if (!experiment) throw RunFolderError(fmt::format("the run cannot begin again: see '{}'", options.file));
-  Manifest manifest = StartOfManifest(options, *experiment);
-  manifest.domain = first.manifest.domain;
-  manifest.reset_of = from;
-  return {std::move(options), std::move(experiment), std::move(folder), std::move(manifest)};
-}
-
-// After `run`, the last one that came of `first`, has ended.
-Begun NextOf(const Begun& first, const Begun& run, const RunSummary& ended, unsigned number)
-{
-  const ResetRequest& asked = *ended.reset;
-  const ResetOrigin from{run.folder.Path(), ended.ticks, asked.paused, asked.real_time_factor};
-  RunFolder folder(FolderOfReset(first.folder, number), first.experiment->name);
-  if (!first.options.quiet)
-    PrintError("reset at tick {}: it begins again with seed {}, in {}\n", ended.ticks, asked.seed, folder.Path());
-  Begun next = BeginAgain(first, from, asked.seed, std::move(folder));
-  next.folder.Write("experiment.xml", next.experiment->effective_xml);
-  next.folder.Write("manifest.json", next.manifest.Text());
-  return next;
+  const ResetRequest& reset = *ended.reset;
+  const RunRequest request = first.request.With(
+      [&](RunSettings& settings)
+      {
+        settings.file = first.folder.File("experiment.xml");
+        settings.settings.clear();
+        settings.ticks.reset();
+        settings.seed = reset.seed;
+        settings.paused = reset.paused;
+        settings.real_time_factor = reset.real_time_factor;
+        settings.restore_file.clear();
+        settings.any_build = false;
+        settings.faults_of.clear();
+      });
+  auto experiment = LoadOrComplain(request->file, request.Changes());
+  if (!experiment) throw RunFolderError(fmt::format("the run cannot begin again: see '{}'", request->file));
+  const std::string output = first.folder.File(fmt::format("reset-{}", number));
+  return Prepare(request, std::move(experiment), output,
+                 [&](RunSettings&, Manifest& manifest, const RunFolder& folder)
+                 {
+                   manifest.reset_of = {run.folder.Path(), ended.ticks, reset.paused, reset.real_time_factor};
+                   if (!request->quiet)
+                     PrintError("reset at tick {}: it begins again with seed {}, in {}\n", ended.ticks, reset.seed,
+                                folder.Path());
+                 });
 }
 
 // Why a run ended with the exit code of a failed experiment. Only experiment functions decide that.
@@ -134,15 +138,17 @@ std::string FailureOf(const Experiment& experiment)
                      names.size() > 1 ? "one of the " : "", Listed(names));
 }
 
-int Conclude(const RunSettings& options, const Experiment& experiment, const RunResult& result, const RunFolder& folder,
-             Manifest& manifest)
+// Completes the manifest and prints the last line. Returns the exit code of the run.
+int Conclude(PreparedRun& run, const RunResult& result)
 {
+  Manifest& manifest = run.manifest;
+  const std::string& expected = run.request->expected_hash;
   int exit_code = result.exit_code;
   const bool ended = result.summary && !result.summary->reset;
-  if (ended && !options.expected_hash.empty() && exit_code == kExitDone &&
-      result.summary->hash != std::stoull(options.expected_hash, nullptr, 16))
+  if (ended && !expected.empty() && exit_code == kExitDone &&
+      result.summary->hash != std::stoull(expected, nullptr, 16))
   {
-    PrintError("the hash differs: expected {:0>16}, got {:016x}\n", options.expected_hash, result.summary->hash);
+    PrintError("the hash differs: expected {:0>16}, got {:016x}\n", expected, result.summary->hash);
     exit_code = kExitHashDiffers;
   }
 
@@ -151,7 +157,7 @@ int Conclude(const RunSettings& options, const Experiment& experiment, const Run
   manifest.failure = result.failure;
   if (exit_code == kExitExperimentFailed)
   {
-    manifest.failure = FailureOf(experiment);
+    manifest.failure = FailureOf(*run.experiment);
     PrintError("{}\n", manifest.failure);
   }
   if (result.summary)
@@ -163,7 +169,7 @@ int Conclude(const RunSettings& options, const Experiment& experiment, const Run
   }
   try
   {
-    folder.Write("manifest.json", manifest.Text());
+    run.folder.Write("manifest.json", manifest.Text());
   }
   catch (const RunFolderError& error)
   {
@@ -175,7 +181,7 @@ int Conclude(const RunSettings& options, const Experiment& experiment, const Run
   return ExitCodeWithOutput(exit_code);
 }
 
-// Told before anything is started.
+// Reports mistakes before anything is started.
 bool EventsAreGood(const std::string& file, const Experiment& experiment)
 {
   try
@@ -191,92 +197,75 @@ bool EventsAreGood(const std::string& file, const Experiment& experiment)
 }
 
 // Checks --faults-of before anything is started.
-void RefuseBadFaults(const RunSettings& options, const Experiment& experiment)
+void RefuseBadFaults(const RunRequest& request, const Experiment& experiment)
 {
-  if (options.faults_of.empty()) return;
+  if (request->faults_of.empty()) return;
   try
   {
     // An experiment without guards has no faults to repeat, but the run must be one of it.
     if (experiment.HasGuards())
-      FaultsOfRun(options.faults_of, experiment, 0);
-    else if (JournalReader(JournalFile(options.faults_of)).Start().origin.experiment != FingerprintOf(experiment))
+      FaultsOfRun(request->faults_of, experiment, 0);
+    else if (JournalReader(JournalFile(request->faults_of)).Start().origin.experiment != FingerprintOf(experiment))
       throw std::runtime_error("its journal is of another experiment, or of other settings of it");
   }
   catch (const std::runtime_error& error)
   {
     throw UsageError(fmt::format("--faults-of '{}': {}; name the folder of a run as a cluster that kept its journal",
-                                 options.faults_of, error.what()));
+                                 request->faults_of, error.what()));
   }
 }
 
-void RefuseContradictions(const RunSettings& options)
+// Runs, and runs again as often as users reset it. `run` returns how a run ended. Returns the exit code of the last
+// one.
+int RunUntilEnd(PreparedRun& first, const std::function<RunResult(PreparedRun&)>& run)
 {
-  if (options.any_build && options.restore_file.empty())
-    throw UsageError("--any-build is about a checkpoint; name it with --restore");
-  if (options.file.empty() && options.branch.empty())
-    throw UsageError("name an experiment file, or a run to branch off with --branch RUN@TICK");
-  if (!options.journal_budget.empty() && (options.single_process || !options.journal))
-    throw UsageError("--journal-budget: the run keeps no journal; leave out --single-process and --no-journal");
-  if (!options.key_file.empty() && options.insecure)
-    throw UsageError("--key and --insecure: a run has a key, or lets anybody in; give one of them");
-  if (!options.single_process) return;
-  const std::string why = "; leave out --single-process to run a cluster";
-  if (options.controller_hosts != 1) throw UsageError("--controller-hosts: a single process has one" + why);
-  if (!options.hosts_file.empty() || !options.engine_hosts.empty())
-    throw UsageError("--hosts and --engine-host: a single process runs on this machine" + why);
-  if (options.domain) throw UsageError("--domain: a single process uses no DDS" + why);
-  if (!options.key_file.empty()) throw UsageError("--key: a single process needs none" + why);
-}
-
-// Runs, and runs again as often as users reset it. `run` gets a run and returns how it ended. Returns the exit code of
-// the last one.
-int RunUntilEnd(Begun& first, const std::function<RunResult(Begun&)>& run)
-{
-  std::optional<Begun> next;
+  std::optional<PreparedRun> next;
   for (unsigned resets = 1;; ++resets)
   {
-    Begun& begun = next ? *next : first;
-    const RunResult result = run(begun);
-    const int exit_code = Conclude(begun.options, *begun.experiment, result, begun.folder, begun.manifest);
+    PreparedRun& current = next ? *next : first;
+    const RunResult result = run(current);
+    const int exit_code = Conclude(current, result);
     if (!result.summary || !result.summary->reset) return exit_code;
-    next = NextOf(first, begun, *result.summary, resets);
+    next = PrepareReset(first, current, *result.summary, resets);
   }
 }
 
-std::optional<RunKey> KeyFor(const RunSettings& options)
+std::optional<RunKey> KeyFor(const RunSettings& settings)
 {
-  if (options.insecure) return std::nullopt;
-  return options.key_file.empty() ? NewRunKey() : KeyOfFile(options.key_file);
+  if (settings.insecure) return std::nullopt;
+  return settings.key_file.empty() ? NewRunKey() : KeyOfFile(settings.key_file);
 }
 
-int RunAsCluster(Begun& first, const WatchFunction& watch)
+int RunAsCluster(PreparedRun& first)
 {
-  const std::optional<RunKey> key = KeyFor(first.options);
+  const std::optional<RunKey> key = KeyFor(first.request.Settings());
   // The runs after resets have the same domain. It is kept until the end, so that no other run takes it.
   std::optional<FreeDomain> free_domain;
-  if (!first.options.domain) first.options.domain = free_domain.emplace().Id();
+  if (!first.request->domain)
+    first.request = first.request.With([&](RunSettings& settings) { settings.domain = free_domain.emplace().Id(); });
+  first.manifest.domain = first.request->domain;
   // Until the process ends: the last line may find no reader either.
   std::signal(SIGPIPE, SIG_IGN);
   // A signal that comes between two runs ends the second one.
   SignalDescriptor interrupts;
-  const auto run = [&](Begun& begun)
-  {
-    const auto conclude = [&](const RunResult& result)
-    { return Conclude(begun.options, *begun.experiment, result, begun.folder, begun.manifest); };
-    return RunCluster(begun.options, *begun.experiment, begun.folder, begun.manifest, interrupts, key, watch, conclude);
-  };
-  return RunUntilEnd(first, run);
+  return RunUntilEnd(first,
+                     [&](PreparedRun& run)
+                     {
+                       const auto conclude = [&run](const RunResult& result) { return Conclude(run, result); };
+                       const ClusterPlan plan = MakePlan(run.request, *run.experiment);
+                       return RunCluster(plan, run, key, interrupts, conclude);
+                     });
 }
 
-// Where the run comes from goes into its folder and onto the console.
-void Begin(const Branch& branch, const Experiment& experiment, const RunFolder& folder, RunSettings& options,
-           Manifest& manifest)
+// The folder and the terminal get the origin of the run.
+void Install(const Branch& branch, const Experiment& experiment, const RunFolder& folder, RunSettings& settings,
+             Manifest& manifest)
 {
-  branch.Install(options, experiment, folder.Path());
+  branch.Install(settings, experiment, folder.Path());
   manifest.branch_of = {branch.Of().run, branch.Of().tick, branch.Hash(), branch.FirstTick(), {}};
   for (const BranchChange& change : branch.Changes())
     manifest.branch_of->changes.push_back(change.path + ": " + change.value);
-  if (options.quiet) return;
+  if (settings.quiet) return;
   PrintError("branch of {} at tick {}, hash {:016x}{}\n", branch.Of().run, branch.Of().tick, branch.Hash(),
              branch.FirstTick() == branch.Of().tick
                  ? ""
@@ -284,67 +273,60 @@ void Begin(const Branch& branch, const Experiment& experiment, const RunFolder& 
                                branch.FirstTick()));
 }
 
-bool IsOfArgos3(const RunSettings& asked) { return std::filesystem::path(asked.file).extension() == ".argos"; }
+bool IsOfArgos3(const RunRequest& request) { return std::filesystem::path(request->file).extension() == ".argos"; }
 
 // Loop functions of ARGoS3 may reach into controllers, which takes one process.
-bool WantsOneProcess(const RunSettings& asked, const Experiment& experiment)
+bool WantsOneProcess(const RunRequest& request, const Experiment& experiment)
 {
-  return IsOfArgos3(asked) && !experiment.functions.empty() && !asked.single_process && asked.controller_hosts == 1 &&
-         asked.hosts_file.empty() && asked.engine_hosts.empty() && !asked.domain;
+  return IsOfArgos3(request) && !experiment.functions.empty() && !request->single_process &&
+         request->controller_hosts == 1 && request->hosts_file.empty() && request->engine_hosts.empty() &&
+         !request->domain;
 }
 
 }  // namespace
 
-int RunExperiment(const RunSettings& given, const WatchFunction& watch)
+int RunExperiment(RunRequest request)
 {
   RequireReproducibleMath();
-  RefuseContradictions(given);
-  const RunSettings asked = given.branch.empty() ? given : SettingsOfBranch(given);
-  auto experiment = LoadOrComplain(asked.file, ChangesOf(asked));
+  if (!request->branch.empty()) request = RequestOfBranch(request);
+  auto experiment = LoadOrComplain(request->file, request.Changes());
   if (!experiment) return kExitInvalidFile;
-  std::vector<std::string> shown = asked.show;
-  if (asked.ros2) shown.emplace_back("ros2");
-  RunSettings options = asked;
+  std::vector<std::string> shown = request->show;
+  if (request->ros2) shown.emplace_back("ros2");
   if (!shown.empty())
   {
-    experiment = WithShown(*experiment, shown, asked.visualisations);
-    options.visualisations = true;
+    experiment = WithShown(*experiment, shown, request->visualisations);
+    request = request.With([](RunSettings& settings) { settings.visualisations = true; });
   }
-  if (WantsOneProcess(asked, *experiment))
+  if (WantsOneProcess(request, *experiment))
   {
-    options.single_process = true;
+    request = request.With([](RunSettings& settings) { settings.single_process = true; });
     PrintError(
         "{}: note: it has loop functions or user functions, so it runs in one process; `swarmanoid convert` makes an "
         "experiment "
         "that runs as a cluster if they reach into no controller\n",
-        asked.file);
+        request->file);
   }
-  RefuseBadCheckpoints(options, *experiment);
-  RefuseBadFaults(options, *experiment);
-  if (!options.events.empty() && !EventsAreGood(options.events, *experiment)) return kExitInvalidFile;
+  RefuseBadCheckpoints(request, *experiment);
+  RefuseBadFaults(request, *experiment);
+  if (!request->events.empty() && !EventsAreGood(request->events, *experiment)) return kExitInvalidFile;
 
   std::optional<Branch> branch;
-  if (!options.branch.empty()) branch.emplace(options, *experiment);
+  if (!request->branch.empty()) branch.emplace(request.Settings(), *experiment);
   if (branch && branch->ExitCode() != kExitDone) return branch->ExitCode();
 
   try
   {
-    const RunFolder folder(options.output_folder, experiment->name);
-    Manifest manifest = StartOfManifest(options, *experiment);
-    if (branch) Begin(*branch, *experiment, folder, options, manifest);
-    folder.Write("experiment.xml", experiment->effective_xml);
-    // The space server reads our files alone.
-    if (IsOfArgos3(asked) || !shown.empty()) options.file = folder.File("experiment.xml");
-    folder.Write("manifest.json", manifest.Text());
-    folder.BecomeLatest();
-    Begun first{std::move(options), std::move(experiment), folder, std::move(manifest)};
-    if (!first.options.single_process) return RunAsCluster(first, watch);
-    const auto run_here = [&](Begun& begun)
-    {
-      const ManifestAtDeath at_death(begun.folder, begun.manifest);
-      return RunHere(begun.options, *begun.experiment, begun.folder, watch);
-    };
-    return RunUntilEnd(first, run_here);
+    const Experiment& loaded = *experiment;
+    PreparedRun run = Prepare(request, std::move(experiment), request->output_folder,
+                              [&](RunSettings& settings, Manifest& manifest, const RunFolder& folder)
+                              {
+                                if (branch) Install(*branch, loaded, folder, settings, manifest);
+                                // The space server reads our files alone.
+                                if (IsOfArgos3(request) || !shown.empty())
+                                  settings.file = folder.File("experiment.xml");
+                              });
+    return run.request->single_process ? RunUntilEnd(run, RunHere) : RunAsCluster(run);
   }
   catch (const RunFolderError& error)
   {

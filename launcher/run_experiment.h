@@ -1,15 +1,13 @@
-// What surrounds a run, however it is run: reading the experiment, its folder, the manifest, the last line, the exit
-// code.
+// A run from the request to the exit code, in this process or as a cluster: reads the experiment, makes the folder and
+// the manifest, runs, and writes the last line.
 #pragma once
 
-#include "launcher/single_run.h"
-#include "simulation/watched_simulator.h"
+#include "launcher/run_request.h"
 
 namespace swarmanoid
 {
 
-// Runs an experiment, in this process or as a cluster, and tells the user how it went. `watch`, if there is one, is
-// called at each tick. Returns the exit code. Throws UsageError.
-int RunExperiment(const RunSettings& options, const WatchFunction& watch = {});
+// Returns the exit code. Throws UsageError.
+int RunExperiment(RunRequest request);
 
 }  // namespace swarmanoid

@@ -28,7 +28,7 @@ int RunSimulation(int count, char** arguments, const std::function<void(CSimulat
         AddOptions(app, RunOptionTable(settings));
         AddTrustFlag(app);
       },
-      [&] { return RunExperiment(settings, watch); });
+      [&] { return RunExperiment(RunRequest(settings, watch)); });
 }
 
 }  // namespace swarmanoid

@@ -12,39 +12,42 @@
 #include "common/logging/log.h"
 #include "common/program/interrupts.h"
 #include "common/program/usage_error.h"
+#include "launcher/supervision/manifest_at_death.h"
 #include "launcher/supervision/progress_display.h"
+#include "simulation/single_process.h"
 
 namespace swarmanoid
 {
 
-void ApplyLimitsHere(const RunSettings& options)
+void ApplyLimitsHere(const RunSettings& settings)
 {
   std::function<void(const std::string&, double)> stalled;
-  if (!options.quiet)
+  if (!settings.quiet)
     stalled = [](const std::string& activity, double seconds)
     { PrintError("waiting since {} for {}\n", DurationText(seconds), activity); };
-  ApplyLimits(LimitsOf(options), stalled);
+  ApplyLimits(LimitsOf(settings), stalled);
 }
 
-RunResult RunHere(const RunSettings& options, const Experiment& experiment, const RunFolder& folder,
-                  const std::function<void(CSimulator&)>& watch)
+RunResult RunHere(const PreparedRun& prepared)
 {
   using Clock = ProgressDisplay::Clock;
 
+  const RunRequest& request = prepared.request;
+  const Experiment& experiment = *prepared.experiment;
+  const ManifestAtDeath at_death(prepared.folder, prepared.manifest);
   CatchInterrupts(SecondInterrupt::kKills);
   ReportDeaths("swarmanoid");
-  OpenLog({.process = "swarmanoid", .folder = folder.Path()});
-  ApplyLimitsHere(options);
-  ProgressDisplay display(ProgressDisplay::StyleFor(STDERR_FILENO, options.quiet), STDERR_FILENO);
+  OpenLog({.process = "swarmanoid", .folder = prepared.folder.Path()});
+  ApplyLimitsHere(request.Settings());
+  ProgressDisplay display(ProgressDisplay::StyleFor(STDERR_FILENO, request->quiet), STDERR_FILENO);
   const Clock::time_point start = Clock::now();
 
   SingleProcessOptions run;
-  static_cast<SimulatorOptions&>(run) = options;
-  run.output_folder = folder.Path();
-  run.event_log = folder.File("events.csv");
+  static_cast<SimulatorOptions&>(run) = request.Settings();
+  run.event_log = prepared.folder.File("events.csv");
   run.stop = &InterruptFlag();
-  run.watch = watch;
-  run.may_reset = !watch;
+  run.watch = request.Watch();
+  run.may_reset = !request.Watch();
   run.progress = [&](std::uint64_t tick)
   {
     const Clock::time_point now = Clock::now();

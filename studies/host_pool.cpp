@@ -27,19 +27,19 @@ bool IsThisMachine(const std::string& name) { return name == "here" || name == "
 
 }  // namespace
 
-HostPool::HostPool(const Hosts& hosts, const std::vector<char>& setup, std::string folder)
-    : folder_(std::move(folder)), lease_(hosts.LeaseSeconds())
+HostPool::HostPool(const Machines& machines, const std::vector<char>& setup, std::string folder)
+    : folder_(std::move(folder)), lease_(machines.LeaseSeconds())
 {
   std::vector<std::string> words{OwnProgram(), kStudyWorkerFlag};
   if (ExperimentsAreTrusted()) words.emplace_back(kTrustFlag);
-  for (const RunHost& host : hosts.RunHosts())
+  for (const RunMachine& run_machine : machines.ForRuns())
   {
     Machine& machine = machines_.emplace_back();
-    machine.name = host.name;
-    machine.connection = std::make_unique<HostConnection>(hosts.WorkerCommand(host.name, words));
+    machine.name = run_machine.name;
+    machine.connection = std::make_unique<HostConnection>(machines.WorkerCommand(run_machine.name, words));
     ByteWriter head;
-    head.Put(static_cast<std::uint32_t>(hosts.LeaseSeconds()));
-    head.Put(static_cast<std::uint32_t>(host.cores));
+    head.Put(static_cast<std::uint32_t>(machines.LeaseSeconds()));
+    head.Put(static_cast<std::uint32_t>(run_machine.cores));
     std::vector<char> content = head.Bytes();
     content.insert(content.end(), setup.begin(), setup.end());
     machine.connection->Send(StudyMessage::kSetup, content);

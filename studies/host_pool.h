@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "launcher/supervision/hosts.h"
+#include "launcher/supervision/machines.h"
 #include "studies/executor.h"
 #include "studies/host_connection.h"
 
@@ -19,7 +19,7 @@ class HostPool final : public Executor
 public:
   // `setup`: as SetupOf says. `folder`: that of the study, for what runs leave. Throws UsageError if the hosts have no
   // machine for runs.
-  HostPool(const Hosts& hosts, const std::vector<char>& setup, std::string folder);
+  HostPool(const Machines& machines, const std::vector<char>& setup, std::string folder);
   ~HostPool() override;
 
   bool HasRoom() const override;

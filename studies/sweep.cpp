@@ -83,13 +83,13 @@ std::string NewFolder(const std::string& study)
 }
 
 // Throws UsageError.
-Hosts HostsOf(const SweepOptions& options)
+Machines MachinesOf(const SweepOptions& options)
 {
-  Hosts hosts = Hosts::FromFile(options.hosts);
-  if (hosts.RunHosts().empty())
+  Machines machines = Machines::FromFile(options.hosts);
+  if (machines.ForRuns().empty())
     throw UsageError(fmt::format("--hosts: '{}' names no machine for runs; write a line such as `runs = alpha beta`",
                                  options.hosts));
-  return hosts;
+  return machines;
 }
 
 class Sweeper
@@ -161,7 +161,7 @@ private:
   std::unique_ptr<Executor> MakePlace() const
   {
     if (!options_.hosts.empty())
-      return std::make_unique<HostPool>(HostsOf(options_), SetupOf(study_, design_), store_.Folder());
+      return std::make_unique<HostPool>(MachinesOf(options_), SetupOf(study_, design_), store_.Folder());
     if (!options_.slurm.empty())
     {
       // Its jobs go on without this process.
@@ -392,7 +392,7 @@ void RefuseWrongTogether(const SweepOptions& options)
         "--hosts and --slurm: runs are either on machines that you name or on those that Slurm gives; keep one");
   if (options.runs_per_task != 0 && options.slurm.empty())
     throw UsageError("--runs-per-task: only Slurm has tasks; give --slurm, too, or leave it out");
-  if (!options.hosts.empty()) HostsOf(options);
+  if (!options.hosts.empty()) MachinesOf(options);
   if (!options.slurm.empty()) SlurmOptions(options.slurm.front());
   if (!options.hosts.empty() && options.jobs != 0)
     throw UsageError(

@@ -20,12 +20,12 @@ namespace swarmanoid
 // What a process is started with.
 struct ProcessCommand
 {
-  std::string name;                                              // for the user: "engine_worker ground"
-  std::vector<std::string> arguments;                            // the program's path first
-  std::vector<std::pair<std::string, std::string>> environment;  // added to ours
-  std::vector<int> cores;                                        // that it may run on; empty: all
-  std::string input{};                                           // what it gets to read when it asks; empty: nothing
-  int signal_at_our_end = SIGKILL;                               // that the kernel sends it when this process ends
+  std::string name{};                                              // for the user: "engine_worker ground"
+  std::vector<std::string> arguments{};                            // the program's path first
+  std::vector<std::pair<std::string, std::string>> environment{};  // added to ours
+  std::vector<int> cores{};                                        // that it may run on; empty: all
+  std::string input{};                                             // what it gets to read when it asks; empty: nothing
+  int signal_at_our_end = SIGKILL;                                 // that the kernel sends it when this process ends
 };
 
 // How a process ended.

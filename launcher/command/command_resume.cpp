@@ -30,7 +30,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-// What the journal says itself.
+// The journal has these.
 constexpr std::array kOfTheRun{"EXPERIMENT", "seed", "ahead", "set", "restore", "branch", "controller-hosts"};
 
 std::vector<OptionSpec> ResumeOptionTable(RunSettings& settings)
@@ -41,7 +41,7 @@ std::vector<OptionSpec> ResumeOptionTable(RunSettings& settings)
   return options;
 }
 
-// Of what it was to repeat, the run has noted only what it came to.
+// The folder has only those events of --events that the run came to, so the user must name the file again.
 void RequireEvents(const std::string& run_folder)
 {
   std::error_code none;
@@ -63,12 +63,12 @@ void RequireEvents(const std::string& run_folder)
       throw UsageError("resume: the run repeats the events of a file; name it again with --events");
 }
 
-// The requests of its users, without the signal that ended it: the run is to go on after that.
+// The file of the users' requests, without the signal that ended the run, which goes on after it.
 std::string EventsOf(const std::string& run_folder)
 {
   const std::string path = run_folder + "/events.csv";
   std::string kept, last;
-  // A line that is damaged is passed on: reading the events names it.
+  // Damaged lines are kept: the reader of events reports them.
   std::ifstream file(path);
   for (std::string line; std::getline(file, line) && !file.eof(); last = line + "\n") kept += last;
   if (last.find(",stop,,,interrupt,") == std::string::npos) return path;
@@ -117,7 +117,7 @@ int Resume(const std::string& run_folder, RunSettings options)
   {
     throw UsageError(fmt::format("resume: {}", error.what()));
   }
-  return RunExperiment(options);
+  return RunExperiment(RunRequest(std::move(options)));
 }
 
 void AddResumeCommand(CLI::App& app, int& exit_code)

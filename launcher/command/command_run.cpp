@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kRuns = "runs";
 
-// Somebody at a terminal who has no runs yet, and asked for nothing that scripts ask for.
+// Whether the user is at a terminal, has no runs yet, and gives no option of scripts.
 bool IsFirst(const RunSettings& options)
 {
   std::error_code none;
@@ -37,7 +37,7 @@ bool IsFirst(const RunSettings& options)
 
 std::uint64_t TicksOf(const fs::path& run) { return ReadManifest(run).value("ticks", std::uint64_t{0}); }
 
-// Of the only run there is. What goes wrong here is no failure of the run.
+// Shows the first run. Errors here do not change its exit code.
 void ShowFirst(const RunSettings& options)
 {
   const auto experiment = LoadOrComplain(options.file, ChangesOf(options));
@@ -62,7 +62,7 @@ void AddRunCommand(CLI::App& app, int& exit_code)
   auto options = std::make_shared<RunSettings>();
   CLI::App* verb = app.add_subcommand("run", "Run an experiment");
   std::vector<OptionSpec> table = RunOptionTable(*options);
-  for (OptionSpec& option : table) option.required = false;  // --branch has an experiment, too
+  for (OptionSpec& option : table) option.required = false;  // a run that branches off has its experiment
   AddOptions(*verb, table);
   AddTrustFlag(*verb);
   verb->footer(
@@ -86,7 +86,7 @@ void AddRunCommand(CLI::App& app, int& exit_code)
       [options, &exit_code]
       {
         const bool is_first = IsFirst(*options);
-        exit_code = RunExperiment(*options);
+        exit_code = RunExperiment(RunRequest(*options));
         if (is_first && (exit_code == kExitDone || exit_code == kExitExperimentFailed)) ShowFirst(*options);
       });
 }

@@ -15,11 +15,11 @@ std::multimap<int, RegisterSubCommand::Add>& Registered()
 
 }  // namespace
 
-RegisterSubCommand::RegisterSubCommand(int place, Add add) { Registered().emplace(place, add); }
+RegisterSubCommand::RegisterSubCommand(int order, Add add) { Registered().emplace(order, add); }
 
 void AddSubCommands(CLI::App& app, int& exit_code)
 {
-  for (const auto& [place, add] : Registered()) add(app, exit_code);
+  for (const auto& [order, add] : Registered()) add(app, exit_code);
 }
 
 }  // namespace swarmanoid

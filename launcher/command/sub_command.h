@@ -18,8 +18,8 @@ public:
   // Adds the sub-command. When it is the one that was asked for, it leaves its exit code in `exit_code`.
   using Add = void (*)(CLI::App& app, int& exit_code);
 
-  // `place`: in the help, where those with smaller numbers come first.
-  RegisterSubCommand(int place, Add add);
+  // `order`: the help lists sub-commands with smaller numbers first.
+  RegisterSubCommand(int order, Add add);
 };
 
 // Adds all that are registered.

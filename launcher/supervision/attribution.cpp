@@ -105,9 +105,10 @@ std::string FailureText(const FailedProcess& failed, std::uint64_t server_tick, 
   if (failed.end && failed.end->exit_code == kExitCutOff) what = "was cut off from the space server";
   if (failed.end && failed.end->signal == SIGKILL && killed_for_memory)
     what += " by the kernel, since memory was short (--memory-limit sets a limit that tells who takes too much)";
-  if (failed.end && failed.end->exit_code == kSshFailed && !failed.host.empty())
+  const bool is_here = failed.machine == kHere;
+  if (failed.end && failed.end->exit_code == kSshFailed && !is_here)
     what += " (by ssh: the connection failed, or a signal ended the process there)";
-  std::string text = fmt::format("{}{}{} {}", failed.name, failed.host.empty() ? "" : " on ", failed.host, what);
+  std::string text = fmt::format("{}{} {}", failed.name, is_here ? "" : " on " + failed.machine, what);
   const Actor actor = actor_of && record.kind != Actor::kNobody ? actor_of(record.kind, record.number) : Actor();
   if (actor.kind != Actor::kNobody) return text + ", during " + ActivityText(actor, record.step, record.tick);
   return text + fmt::format(" at tick {}", record.taken && record.tick > 0 ? record.tick : server_tick);

@@ -10,6 +10,7 @@
 
 #include "common/activity/activity.h"
 #include "common/program/process.h"
+#include "space_server/worker_placement.h"
 
 namespace swarmanoid
 {
@@ -45,8 +46,8 @@ Evidence EvidenceOf(const std::optional<ProcessEnd>& ended, const ActivityRecord
 // process gets further in this memory.
 bool IsStuck(const std::optional<ProcessEnd>& ended);
 
-// Whether a process has died, rather than said what is wrong: another one in its place may get further. `elsewhere`: it
-// was started on another machine.
+// Whether a process has died, rather than said what is wrong, so that a process that replaces it may get further.
+// `elsewhere`: it was started on another machine.
 bool MayBeReplaced(const ProcessEnd& ended, const ActivityRecord& record, bool elsewhere);
 // Whether somebody else ended it, or the connection to it: not by what it did.
 bool WasKilled(const ProcessEnd& ended, bool elsewhere);
@@ -58,7 +59,7 @@ bool DiedAlike(const ActivityRecord& a, const ActivityRecord& b);
 struct FailedProcess
 {
   std::string name;
-  std::string host;  // the other machine that it was started on, or empty
+  std::string machine = kHere;
   std::optional<ProcessEnd> end;
   ActivityRecord record;
 };

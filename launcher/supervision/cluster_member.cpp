@@ -24,46 +24,35 @@ std::string_view ReadSome(FileDescriptor& descriptor, std::array<char, 4096>& bu
 
 }  // namespace
 
-ClusterMember::ClusterMember(const MemberPlan& plan, ProcessSpawner& spawner, unsigned incarnation, double taken_s,
-                             std::vector<ControllerDeath> deaths)
-    : plan_(plan),
-      incarnation_(incarnation),
-      deaths_(std::move(deaths)),
-      log_(plan.log_path, incarnation > 0),
-      process_(spawner.Start(incarnation > 0 ? plan.replacement(incarnation, taken_s, deaths_) : plan.command))
+ClusterMember::ClusterMember(PlannedProcess planned, const ProcessCommand& command, ProcessSpawner& spawner,
+                             Incarnation incarnation)
+    : planned_(std::move(planned)),
+      incarnation_(std::move(incarnation)),
+      input_(command.input),
+      log_(planned_.log_path, incarnation_.number > 0),
+      process_(spawner.Start(command))
 {
-}
-
-std::optional<ControllerDeath> ClusterMember::NewDeath() const
-{
-  const ActivityRecord record = Record();
-  if (record.end != EndReason::kDied || record.kind != Actor::kRobot || record.step != ActivityStep::kControlStep ||
-      !plan_.may_fail || !plan_.may_fail(record.number))
-    return std::nullopt;
-  const ControllerDeath death{record.tick, record.number};
-  if (std::find(deaths_.begin(), deaths_.end(), death) != deaths_.end()) return std::nullopt;
-  return death;
 }
 
 bool ClusterMember::Answers(std::string_view line)
 {
   if (!process_.input.IsOpen() || line.find(kKeyPrompt) == std::string_view::npos) return false;
   // Far less than a pipe takes at once.
-  const std::string& input = plan_.command.input;
-  [[maybe_unused]] const ssize_t written = write(process_.input.Get(), input.data(), input.size());
+  [[maybe_unused]] const ssize_t written = write(process_.input.Get(), input_.data(), input_.size());
   process_.input.Reset();
   return true;
 }
 
 void ClusterMember::ReadOutput(const OnLine& on_line, std::size_t limit)
 {
+  const bool is_shown = planned_.role == ProcessRole::kSpaceServer || planned_.role == ProcessRole::kVisualiser;
   const OnLine take = [&](std::string_view line)
   {
     if (Answers(line)) return;
-    if (plan_.output == MemberPlan::kLog)
-      log_.Add(line);
-    else
+    if (is_shown)
       on_line(line);
+    else
+      log_.Add(line);
   };
   std::array<char, 4096> buffer;
   while (limit > 0)

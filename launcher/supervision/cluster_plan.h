@@ -1,32 +1,100 @@
-// Which processes an experiment is run by: their command lines, machines, cores and logs.
+// ClusterPlan: which processes run an experiment, what each of them does, and on which machine.
+//
+// MakePlan derives the plan from the request and the experiment alone. It starts nothing, reads no file, and asks this
+// machine nothing. CommandOf turns a process of the plan into the command that starts it. The supervisor owns the plan
+// of a running cluster: if a worker moves or the number of controller hosts changes, the supervisor changes the plan,
+// and all later commands follow from it.
 #pragma once
 
-#include <optional>
+#include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "common/bus/security/run_key.h"
+#include "common/bus/membership/cluster_options.h"
 #include "common/experiment/experiment.h"
-#include "common/messages/assignment.h"
+#include "common/program/process.h"
 #include "common/run/run_settings.h"
-#include "launcher/supervision/cluster_member.h"
-#include "launcher/supervision/hosts.h"
-#include "simulation/run_folder.h"
+#include "launcher/run_request.h"
+#include "launcher/supervision/machines.h"
+#include "space_server/worker_placement.h"
 
 namespace swarmanoid
 {
 
-// The space server's plan is the first. All get the key of the run; none: whoever is in the domain belongs to it.
-std::vector<MemberPlan> PlanCluster(const RunSettings& options, const Experiment& experiment,
-                                    const Assignment& assignment, const Hosts& hosts, const RunFolder& folder,
-                                    int domain, const std::optional<RunKey>& key);
+enum class ProcessRole
+{
+  kSpaceServer,
+  kEngine,
+  kRegion,
+  kControllerHost,
+  kVisualiser
+};
 
-// What to say about --controller-hosts before the start; empty: nothing. `asked`: its value; `robots`: that have
-// controllers; `cores`: of this machine, for all of the hosts, or 0 if some are elsewhere.
-std::string NoteAboutControllerHosts(unsigned asked, std::size_t robots, std::size_t cores);
+struct PlannedProcess
+{
+  std::string name;  // for users and the space server: "engine 'ground'"
+  ProcessRole role = ProcessRole::kEngine;
+  std::string id{};  // in the file of --hosts: "ground", "ground/2", "0"
+  std::string machine = kHere;
+  std::string log_path{};
+  WorkerSettings worker{};  // of all but the space server
+  bool replaceable = true;  // whether another process may take over after its death
 
-// Throws UsageError if `hosts` places what the run does not have.
-void RequirePlaces(const RunSettings& options, const Experiment& experiment, const Assignment& assignment,
-                   const Hosts& hosts);
+  bool IsHere() const { return machine == kHere; }
+};
+
+struct ClusterPlan
+{
+  RunSettings settings{};  // for the space server
+  Machines machines{};
+  BusOptions bus{};                         // without the key
+  std::vector<PlannedProcess> processes{};  // the space server first
+  std::size_t robots = 0;
+  std::size_t controlled_robots = 0;  // robots that have controllers
+  bool is_serial = false;             // one engine in one thread, and no tick ahead: only controller hosts run at once
+};
+
+// Throws UsageError if the machines are given for processes that the run does not have, or if the experiment needs the
+// network that --isolated takes from it. The request has the domain.
+ClusterPlan MakePlan(const RunRequest& request, const Experiment& experiment);
+
+// Changes the plan to one controller host on each of the machines.
+void SetControllerHosts(ClusterPlan& plan, const std::vector<std::string>& machines);
+
+// Whether all processes but visualisers run fastest, or are requested to run, on one core of this machine.
+bool SharesOneCore(const ClusterPlan& plan);
+
+// Tells the user before the start that --controller-hosts, `requested`, is more than the robots need or than `cores`
+// can run. 0 cores: some hosts are on other machines. Empty: nothing to tell.
+std::string NoteAboutControllerHosts(unsigned requested, std::size_t robots, std::size_t cores);
+
+// A controller that took its process with it.
+struct ControllerDeath
+{
+  std::uint64_t tick = 0;
+  std::uint32_t robot = 0;
+  bool operator==(const ControllerDeath&) const = default;
+};
+
+// How often a process has died and was replaced, and by what.
+struct Incarnation
+{
+  unsigned number = 0;
+  double taken_s = 0;                   // by the run, if all processes start again
+  std::vector<ControllerDeath> deaths;  // of controllers in the earlier processes
+};
+
+// What is known only when the processes start.
+struct ClusterStart
+{
+  std::string program_folder;
+  std::vector<std::pair<std::string, std::string>> environment;
+  std::vector<int> cores;  // of the processes, if they share one; empty: all
+  std::string key;         // a process reads it from its standard input; empty: the run has no key
+};
+
+ProcessCommand CommandOf(const ClusterPlan& plan, const ClusterStart& start, std::size_t process,
+                         const Incarnation& incarnation = {});
 
 }  // namespace swarmanoid

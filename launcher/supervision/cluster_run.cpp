@@ -1,27 +1,28 @@
 #include "launcher/supervision/cluster_run.h"
 
 #include <fmt/format.h>
+#include <sched.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <optional>
-#include <string_view>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
 #include <thread>
 
 #include "common/activity/exit_codes.h"
 #include "common/activity/failure_report.h"
 #include "common/activity/print_error.h"
 #include "common/bus/membership/run_directory.h"
-#include "common/bus/membership/worker_world.h"
 #include "common/experiment/actors.h"
-#include "common/messages/assignment.h"
 #include "common/program/program.h"
-#include "common/program/usage_error.h"
 #include "common/threads/start_thread.h"
+#include "launcher/installation.h"
 #include "launcher/network_namespace.h"
-#include "launcher/supervision/cluster_plan.h"
+#include "launcher/single_run.h"
 #include "launcher/supervision/in_process_server.h"
 #include "launcher/supervision/manifest_at_death.h"
 #include "launcher/supervision/supervisor.h"
@@ -33,6 +34,8 @@ namespace swarmanoid
 namespace
 {
 
+namespace fs = std::filesystem;
+
 void Complain(const ClusterOutcome& outcome)
 {
   if (outcome.reason.empty()) return;
@@ -42,37 +45,16 @@ void Complain(const ClusterOutcome& outcome)
 
 RunResult ResultOf(const ClusterOutcome& outcome)
 {
-  RunResult result;
-  switch (outcome.kind)
-  {
-    case ClusterOutcome::kFinished:
-      result.exit_code = kExitDone;
-      break;
-    case ClusterOutcome::kUnsuccessful:
-      result.exit_code = kExitExperimentFailed;
-      break;
-    case ClusterOutcome::kInterrupted:
-      result.exit_code = kExitInterrupted;
-      break;
-    case ClusterOutcome::kFailed:
-      result.exit_code = kExitProcessFailed;
-      break;
-    case ClusterOutcome::kInvalid:
-      result.exit_code = kExitInvalidFile;
-      break;
-  }
-  result.failure = outcome.reason;
+  // In the order of ClusterOutcome::Kind.
+  constexpr std::array kCodes{kExitDone, kExitExperimentFailed, kExitInterrupted, kExitProcessFailed, kExitInvalidFile};
+  RunResult result{.exit_code = kCodes[outcome.kind], .summary = {}, .failure = outcome.reason};
   if (!outcome.finished) return result;
-  result.summary.emplace();
-  result.summary->ticks = outcome.finished->ticks;
-  result.summary->entities = outcome.finished->entities;
-  result.summary->hash = outcome.finished->hash;
-  result.summary->wall_s = outcome.finished->wall_s;
-  result.summary->real_time_factor = outcome.finished->real_time_factor;
+  const auto& [ticks, entities, hash, wall_s, real_time_factor] = *outcome.finished;
+  result.summary = {ticks, entities, hash, wall_s, real_time_factor};
+  result.summary->interrupted = outcome.kind == ClusterOutcome::kInterrupted;
   result.summary->failed = outcome.kind == ClusterOutcome::kUnsuccessful;
   if (outcome.reset && outcome.kind == ClusterOutcome::kFinished)
     result.summary->reset = ResetRequest{outcome.reset->seed, outcome.reset->paused, outcome.reset->real_time_factor};
-  result.summary->interrupted = outcome.kind == ClusterOutcome::kInterrupted;
   return result;
 }
 
@@ -101,27 +83,6 @@ int ServeHere(std::vector<std::string> words, int status, const std::atomic<bool
       });
 }
 
-void Isolate(const RunSettings& options, const Experiment& experiment, const Hosts& hosts, bool watched)
-{
-  if (!hosts.AllHere()) throw UsageError("--isolated: the run has processes on other machines");
-  if (watched) throw UsageError("--isolated: the space server is this process, which would lose its network");
-  // What is of no use without others in the network.
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kReached{
-      {{"web_render", "no browser could reach the page of"},
-       {"foxglove_render", "nobody could open a connection to"},
-       {"ros2_render", "no node of ROS 2 could hear"}}};
-  for (const RenderConfiguration& render : experiment.visualisations)
-    for (const auto& [tag, why] : kReached)
-      if (options.visualisations && render.tag == tag)
-        throw UsageError(fmt::format("--isolated: {} {}; give --no-visualisers, or leave --isolated out", why,
-                                     VisualiserName(render)));
-  for (const ControllerConfiguration& controller : experiment.controllers)
-    if (controller.tag == "ros2_controller")
-      throw UsageError(fmt::format(
-          "--isolated: no node of ROS 2 could reach the robots of the controller '{}'; leave it out", controller.id));
-  IsolateNetwork();
-}
-
 // The thread of the run does not come back.
 [[noreturn]] void LeaveStuck(const ClusterOutcome& outcome, const std::function<int(const RunResult&)>& conclude)
 {
@@ -132,21 +93,18 @@ void Isolate(const RunSettings& options, const Experiment& experiment, const Hos
   LeaveAtOnce(conclude(ResultOf(outcome)));
 }
 
-// Watched, the space server's role is this thread's; the supervisor has one of its own, for which the signals are
-// blocked already.
-ClusterOutcome RunWatched(const std::vector<MemberPlan>& plans, SignalDescriptor& interrupts, ProgressDisplay& display,
-                          const ActorNames& actor_of, const SupervisorTimes& times, unsigned retries,
-                          const std::optional<RunKey>& key, const WatchFunction& watch,
-                          const std::function<int(const RunResult&)>& conclude)
+// Runs the supervisor in a thread of its own, for which the signals are blocked already. This thread is the space
+// server's.
+ClusterOutcome ServeAndSupervise(const std::function<ClusterOutcome(ProcessSpawner&)>& supervise,
+                                 const std::optional<RunKey>& key, const WatchFunction& watch,
+                                 const std::function<int(const RunResult&)>& conclude)
 {
   InProcessServer server;
   ClusterOutcome outcome;
   std::thread supervising = StartThread("supervises the run",
                                         [&]
                                         {
-                                          outcome = Supervisor(server, interrupts, display, STDOUT_FILENO, actor_of,
-                                                               times, Supervisor::Clock::now, retries)
-                                                        .Run(plans);
+                                          outcome = supervise(server);
                                           if (server.IsStuck()) LeaveStuck(outcome, conclude);
                                           server.Cancel();
                                         });
@@ -156,64 +114,95 @@ ClusterOutcome RunWatched(const std::vector<MemberPlan>& plans, SignalDescriptor
   return outcome;
 }
 
+// Whether the run goes on if the controller of a robot fails.
+std::function<bool(std::uint32_t)> MayFailOf(const Experiment& experiment)
+{
+  return [&experiment](std::uint32_t robot)
+  {
+    if (robot >= experiment.entities.size()) return false;
+    const ControllerConfiguration* controller = experiment.FindController(experiment.entities[robot].controller);
+    return controller != nullptr && controller->MayFail();
+  };
+}
+
+// The clusters of this machine whose processes share one core, counted by core.
+std::map<int, std::size_t> RunsByCore()
+{
+  std::map<int, std::size_t> runs;
+  std::error_code error;
+  for (fs::directory_iterator process("/proc", error), end; !error && process != end; process.increment(error))
+  {
+    const pid_t pid = std::atoi(process->path().filename().c_str());
+    std::string program;  // empty for a process that has ended and was not awaited
+    cpu_set_t cores;
+    if (pid <= 0 || !std::getline(std::ifstream(process->path() / "cmdline"), program, '\0') ||
+        fs::path(program).filename() != "space_server" || sched_getaffinity(pid, sizeof cores, &cores) != 0 ||
+        CPU_COUNT(&cores) != 1)
+      continue;
+    int core = 0;
+    while (!CPU_ISSET(core, &cores)) ++core;
+    ++runs[core];
+  }
+  return runs;
+}
+
+// The core for a cluster whose processes share one. Two clusters on one core would starve each other while other cores
+// are idle. Clusters that start at the same time do not see each other, but they have different domains.
+std::vector<int> ChooseCore(int domain)
+{
+  std::vector<int> cores = AvailableCores();
+  if (cores.empty()) return {};
+  std::rotate(cores.begin(), cores.begin() + domain % static_cast<std::ptrdiff_t>(cores.size()), cores.end());
+  std::map<int, std::size_t> runs = RunsByCore();
+  return {*std::ranges::min_element(cores, {}, [&](int core) { return runs[core]; })};
+}
+
 }  // namespace
 
-RunResult RunCluster(const RunSettings& options, const Experiment& experiment, const RunFolder& folder,
-                     Manifest& manifest, SignalDescriptor& interrupts, const std::optional<RunKey>& key,
-                     const WatchFunction& watch, const std::function<int(const RunResult&)>& conclude)
+RunResult RunCluster(const ClusterPlan& plan, PreparedRun& run, const std::optional<RunKey>& key,
+                     SignalDescriptor& interrupts, const std::function<int(const RunResult&)>& conclude)
 {
-  Hosts hosts = options.hosts_file.empty() ? Hosts() : Hosts::FromFile(options.hosts_file);
-  for (const std::string& setting : options.engine_hosts) hosts.AddEngine(setting);
-  if (watch && !hosts.HostOf("space_server", "").empty())
-    throw UsageError("--hosts: the space server is this process, which looks at each tick; leave space_server out");
+  const RunRequest& request = run.request;
   RemoveDeadRuns();
-  if (options.isolated) Isolate(options, experiment, hosts, watch != nullptr);
+  if (request->isolated) IsolateNetwork();
 
-  manifest.domain = options.domain;
-  const Assignment assignment = MakeAssignment(experiment, options.controller_hosts);
-  RequirePlaces(options, experiment, assignment, hosts);
-  const auto plan_with = [&](const Assignment& of)
-  { return PlanCluster(options, experiment, of, hosts, folder, *manifest.domain, key); };
-  std::vector<MemberPlan> plans = plan_with(assignment);
-  for (const MemberPlan& plan : plans) manifest.processes.emplace_back(plan.command.name, plan.log_path);
-  folder.Write("manifest.json", manifest.Text());
+  for (const PlannedProcess& process : plan.processes)
+    run.manifest.processes.emplace_back(process.name, process.log_path);
+  run.folder.Write("manifest.json", run.manifest.Text());
 
-  ProgressDisplay display(ProgressDisplay::StyleFor(STDERR_FILENO, options.quiet), STDERR_FILENO);
-  if (!options.quiet)
-    if (const std::string note = NoteAboutControllerHosts(options.controller_hosts, assignment.table.of_robots.size(),
-                                                          hosts.AllHere() ? AvailableCores().size() : 0);
-        !note.empty())
-      display.Note(note);
-  const ActorNames actor_of = [&experiment](Actor::Kind kind, std::uint32_t number)
-  { return ActorOf(experiment, kind, number); };
-  const unsigned retries = options.Replaces() ? options.retries : 0;
+  ProgressDisplay display(ProgressDisplay::StyleFor(STDERR_FILENO, request->quiet), STDERR_FILENO);
+  const std::size_t cores = plan.machines.AllHere() ? AvailableCores().size() : 0;
+  const std::string note = NoteAboutControllerHosts(request->controller_hosts, plan.controlled_robots, cores);
+  if (!note.empty() && !request->quiet) display.Note(note);
+
+  const ClusterStart start{.program_folder = ProgramFolder(),
+                           .environment = EnvironmentOf(LimitsOf(request.Settings())),
+                           .cores = ChooseCore(plan.bus.domain),
+                           .key = key ? TextOfKey(*key) + "\n" : std::string()};
+  const SupervisedRun supervised{
+      .command_of = [&start](const ClusterPlan& now, std::size_t process, const Incarnation& incarnation)
+      { return CommandOf(now, start, process, incarnation); },
+      .actor_of = [&run](Actor::Kind kind, std::uint32_t number) { return ActorOf(*run.experiment, kind, number); },
+      .may_fail = MayFailOf(*run.experiment),
+      .retries = request->Replaces() ? request->retries : 0};
   SupervisorTimes times;
-  if (retries > 0) times.stopped = std::chrono::milliseconds(static_cast<long>(1000 * options.lease_s));
+  if (supervised.retries > 0) times.stopped = std::chrono::milliseconds(static_cast<long>(1000 * request->lease_s));
+  const auto supervise = [&](ProcessSpawner& spawner)
+  { return Supervisor(spawner, interrupts, display, STDOUT_FILENO, supervised, times).Run(plan); };
+
   ClusterOutcome outcome;
-  if (watch)
+  if (request.Watch())
   {
-    const ManifestAtDeath at_death(folder, manifest);
-    ApplyLimitsHere(options);
-    plans.front().replacement = nullptr;  // it is this process
-    outcome = RunWatched(plans, interrupts, display, actor_of, times, retries, key, watch, conclude);
+    const ManifestAtDeath at_death(run.folder, run.manifest);
+    ApplyLimitsHere(request.Settings());
+    outcome = ServeAndSupervise(supervise, key, request.Watch(), conclude);
   }
   else
   {
     SystemSpawner spawner;
-    Supervisor supervisor(spawner, interrupts, display, STDOUT_FILENO, actor_of, times, Supervisor::Clock::now,
-                          retries);
-    supervisor.SetPlanAgain(
-        [&](unsigned controller_hosts)
-        {
-          std::vector<MemberPlan> others = plan_with(MakeAssignment(experiment, controller_hosts));
-          for (const MemberPlan& plan : others)
-            if (const std::pair process(plan.command.name, plan.log_path);
-                std::ranges::find(manifest.processes, process) == manifest.processes.end())
-              manifest.processes.push_back(process);
-          return others;
-        });
-    outcome = supervisor.Run(plans);
+    outcome = supervise(spawner);
   }
+  run.manifest.processes = outcome.processes;
   RemoveDeadRuns();
   Complain(outcome);
   return ResultOf(outcome);

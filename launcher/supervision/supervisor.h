@@ -1,7 +1,18 @@
-// Supervisor: starts the processes of a cluster, watches them until the last one has ended, and says how it went. Who
-// dies is replaced by another process, or if that is no use, as for the space server, all of them are; when one fails,
-// or dies again and again, all are stopped at once. Owns the processes; used by the launcher's main thread, which it
-// blocks.
+// Supervisor: starts the processes of a plan, watches them until the last one has ended, and says how it went. A
+// process that dies is replaced. If that does not help, as for the space server, all processes are replaced. If a
+// process fails, or dies again and again, all are stopped. The supervisor owns the processes and the plan. One thread,
+// which it blocks.
+//
+// Each turn of its loop waits for an event, reads all outputs, collects the processes that ended, and then looks at
+// signals and times. `Phase` says what the run is at; every change of the phase is one of these:
+//
+//   kRunning    -> kStopping    a user asks for the end, or standard output has no reader
+//               -> kRestarting  a process died that cannot be replaced alone, or the number of controller hosts changes
+//   kRestarting -> kRunning     all processes have ended, and start again
+//   kRunning, kStopping -> kFinishing   the space server has told the result
+//   kFinishing  -> kRestarting  the space server died before its exit code was known
+//   all         -> kDying       a process failed, a user asks again, or a time is over: SIGTERM is sent, SIGKILL
+//   follows
 #pragma once
 
 #include <chrono>
@@ -11,12 +22,15 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "common/program/process.h"
 #include "common/run/server_status.h"
 #include "launcher/supervision/attribution.h"
 #include "launcher/supervision/cluster_member.h"
+#include "launcher/supervision/cluster_plan.h"
 #include "launcher/supervision/progress_display.h"
 #include "launcher/supervision/signal_descriptor.h"
 
@@ -35,9 +49,20 @@ struct ClusterOutcome
   };
   Kind kind = kFailed;
   std::optional<ServerFinished> finished;  // if the space server came to its end
-  std::optional<ServerReset> reset;        // it is to begin again
-  std::string reason;                      // of a failure: one line that names who failed, the tick and the log
+  std::optional<ServerReset> reset;        // the run begins again on request
+  std::string reason;                      // of a failure: one line that names the process, the tick and the log
   std::vector<std::string> log_lines;      // the last ones of that process
+  std::vector<std::pair<std::string, std::string>> processes;  // names and logs of all that were planned
+};
+
+// What the supervisor needs to know of a run beside its plan.
+struct SupervisedRun
+{
+  std::function<ProcessCommand(const ClusterPlan& plan, std::size_t process, const Incarnation& incarnation)>
+      command_of;
+  ActorNames actor_of{};
+  std::function<bool(std::uint32_t robot)> may_fail{};  // whether the run goes on if its controller fails; empty: never
+  unsigned retries = 0;  // how often a process is replaced while the run makes no progress
 };
 
 // Times that users notice; tests shorten them.
@@ -61,86 +86,32 @@ public:
   using Clock = std::chrono::steady_clock;
 
   // All references outlive the supervisor. `screen`: descriptor that gets what visualisers write to standard output.
-  // `actor_of`: of the experiment. `now`: by which all times are measured. `retries`: how often a process is replaced
-  // while the run does not go on.
+  // `now`: the clock by which all times are measured.
   Supervisor(ProcessSpawner& spawner, SignalDescriptor& interrupts, ProgressDisplay& display, int screen,
-             ActorNames actor_of = {}, const SupervisorTimes& times = {},
-             std::function<Clock::time_point()> now = Clock::now, unsigned retries = 0);
+             SupervisedRun run, const SupervisorTimes& times = {}, std::function<Clock::time_point()> now = Clock::now);
 
-  // The processes of the run with another number of controller hosts, for users who ask for it.
-  using PlanAgain = std::function<std::vector<MemberPlan>(unsigned controller_hosts)>;
-  void SetPlanAgain(PlanAgain plan_again) { plan_again_ = std::move(plan_again); }
-  // The first plan is the space server's.
-  ClusterOutcome Run(const std::vector<MemberPlan>& plans);
-  // Of all processes that were started; for what they leave behind.
+  ClusterOutcome Run(ClusterPlan plan);
+  // The processes that were started, to look for what they leave behind.
   const std::vector<pid_t>& PidsForTest() const { return pids_; }
 
 private:
   enum class Phase
   {
     kRunning,
-    kRestarting,  // all are killed, and start again where the journal ends
-    kStopping,    // asked for once: the space server ends at its tick
+    kRestarting,  // all are killed to start again where the journal ends
+    kStopping,    // the end is requested: the space server ends at its tick
     kFinishing,   // the last tick is done, processes end
     kDying        // SIGTERM is sent, SIGKILL follows
   };
 
-  void Start(const std::vector<MemberPlan>& plans);
-  void WaitForEvents();
-  void ReadMember(ClusterMember& member);
-  void TakeStatus(const ServerStatus& status);
-  void TakeWarning(ClusterMember& member, const ServerWarning& warning);
-  void CollectEnds();
-  void TakeEnd(const ClusterMember& member);
-  void AttributeWithin(std::chrono::milliseconds patience);
-  bool IsDone(const ClusterMember& member) const;
-  // Starts another process in the place of one that died; false if that is no use.
-  bool Replace(const ClusterMember& member);
-  // Ends all, to start them again; false if that is no use.
-  bool Restart(const ClusterMember& first, Evidence evidence);
-  void KillToStartAgain();
-  void StartAgain();
-  bool MustStartAgain();
-  // Another one that died while the run did not go on. False if it is one too many, or dies of the same again.
-  bool CountDeath(const ClusterMember& member);
-  void KillLost(const std::string& name);
-  // Kills a worker, so that another process takes its place where a user wants it.
-  void Move(const ServerMove& move);
-  // Ends all, to start them again with other controller hosts.
-  void ShareOut(const std::vector<std::string>& machines);
-  // Whether the member died on its way to another place, which the run waits for.
-  bool IsOnItsWay(const ClusterMember& member) const;
-  void KillStopped();
-  // Ends the run by the fault of the process that failed first, if any of those that have ended, or said so, failed.
-  void Attribute();
-  void TakeInterrupts();
-  void StopAtTick(std::string_view why);
-  void CheckDeadlines();
-  void Fail(const ClusterMember& member, const std::string& text, bool complete);
-  void Die(Clock::time_point kill_at);
-  void KillAll();
-  void SignalAll(int signal);
-  std::string TextOf(const ClusterMember& failed) const;
-  void ShowProgress();
-  void WriteScreen(const ClusterMember& member, std::string_view line);
-  bool AnyAlive() const;
-
-  ProcessSpawner& spawner_;
-  SignalDescriptor& interrupts_;
-  ProgressDisplay& display_;
-  int screen_;
-  SupervisorTimes times_;
-  std::function<Clock::time_point()> now_;
-
-  // Of one name, while the run does not go on.
+  // The deaths of a process while the run makes no progress.
   struct Deaths
   {
     unsigned count = 0;
     std::uint64_t tick = 0;
     ActivityRecord last;
   };
-
-  // Of one name: lines that the process has written, and those that were shown.
+  // The lines that a visualiser has written, and those that were shown.
   struct Screen
   {
     unsigned incarnation = 0;
@@ -148,33 +119,102 @@ private:
     std::uint64_t lines = 0;
   };
 
-  std::vector<std::unique_ptr<ClusterMember>> members_;
-  std::map<std::string, Screen> screens_;
-  unsigned retries_;
-  std::map<std::string, Deaths> deaths_;
-  std::map<std::string, std::string> moves_;  // of workers that were killed for it, to which machine
-  // Of workers that were moved while the run was at the tick: where they came from.
-  std::map<std::string, std::pair<std::string, std::uint64_t>> came_from_;
-  std::map<pid_t, Clock::time_point> stopped_;  // since when
-  std::vector<pid_t> pids_;
-  PlanAgain plan_again_;
-  std::vector<MemberPlan> next_plans_;  // if others than now are to start again
+  // Starting and reading.
+  void Start();
+  std::unique_ptr<ClusterMember> StartProcess(std::size_t process, Incarnation incarnation);
+  void WaitForEvents();
+  void ReadMember(ClusterMember& member);
+  void WriteScreen(const ClusterMember& member, std::string_view line);
+  void ShowProgress();
+  bool AnyAlive() const;
+
+  // Status lines of the space server.
+  void Take(const ServerState& state);
+  void Take(const ServerTick& tick);
+  void Take(const ServerStall& stall);
+  void Take(const ServerAsked& asked) { display_.Note(asked.text); }
+  void Take(const ServerWarning& warning);
+  void Take(const ServerError& error) { server_error_ = error.text; }
+  void Take(const ServerLeft& left) { left_.insert(left.name); }
+  void Take(const ServerLost& lost);
+  void Take(const ServerMove& move);
+  void Take(const ServerHosts& hosts);
+  void Take(const ServerReset& reset) { outcome_.reset = reset; }
+  void Take(const ServerFinished& finished);
+
+  // Ends, and which process failed first.
+  void CollectEnds();
+  void TakeEnd(const ClusterMember& member);
+  // Whether nothing that happens to the process changes the run: it has left in good order.
+  bool IsDone(const ClusterMember& member) const;
+  void AttributeWithin(std::chrono::milliseconds patience);
+  // Ends the run by the fault of the process that failed first, if one of those that have ended, or said so, failed.
+  void Attribute();
+  std::string TextOf(const ClusterMember& failed) const;
+
+  // Replacing one process.
+  bool Replace(const ClusterMember& member);  // false if that is no use
+  // Counts the death of a process. False if it is one too many, or of the same cause again.
+  bool CountDeath(const ClusterMember& member);
+  // A controller that died with the process, that may fail, and that has not died there before.
+  std::optional<ControllerDeath> NewDeath(const ClusterMember& member) const;
+  // Whether the process died on its way to another machine, which the run waits for.
+  bool IsOnItsWay(const ClusterMember& member) const;
+  void KillStopped();
+
+  // Replacing all processes.
+  bool Restart(const ClusterMember& first, Evidence evidence);  // false if that is no use
+  void KillToStartAgain();
+  bool MustStartAgain();
+  void StartAgain();
+
+  // Ending the run.
+  void TakeInterrupts();
+  void StopAtTick(std::string_view why);
+  void CheckDeadlines();
+  void Fail(const ClusterMember& member, const std::string& text, bool complete);
+  void Die(Clock::time_point kill_at);
+  void KillAll();
+  void SignalAll(int signal);
+
+  // Constant after construction.
+  ProcessSpawner& spawner_;
+  SignalDescriptor& interrupts_;
+  ProgressDisplay& display_;
+  const int screen_;
+  const SupervisedRun run_;
+  const SupervisorTimes times_;
+  const std::function<Clock::time_point()> now_;
+
   Phase phase_ = Phase::kRunning;
   ClusterOutcome outcome_;
-  RunProgress progress_;
+  std::optional<Clock::time_point> deadline_;  // of the phase
+
+  ClusterPlan plan_;
+  std::vector<std::unique_ptr<ClusterMember>> members_;  // in the order of the plan, but while all start again
+  std::vector<pid_t> pids_;
+
+  // What the space server has said.
+  std::optional<Clock::time_point> began_;  // its first tick
+  Clock::time_point heard_{};               // when it last said anything
   std::string server_error_;
+  std::set<std::string> left_;  // workers that may end
+
+  std::map<std::string, Deaths> deaths_;
+  std::map<std::string, std::string> moves_;  // machines of workers that were killed to move them there
+  // The former machines of workers that were moved while the run was at the tick.
+  std::map<std::string, std::pair<std::string, std::uint64_t>> came_from_;
+  std::map<pid_t, Clock::time_point> stopped_;  // since when
+  std::vector<const ClusterMember*> ended_;     // too early or badly, in the order in which that was noticed
+  std::optional<Clock::time_point> attribute_at_;
+  std::uint64_t kills_for_memory_;  // by the kernel, before the run
+
+  RunProgress progress_;
   Clock::time_point shown_{};
   std::string shown_phase_;
+  std::map<std::string, Screen> screens_;
   bool screen_full_ = false;  // it takes no more for now: visualisers wait
   bool screen_gone_ = false;
-  std::optional<Clock::time_point> began_;   // its first tick
-  Clock::time_point heard_{};                // when the server last said anything
-  std::set<std::string> left_;               // said so to the server, and may end
-  std::vector<const ClusterMember*> ended_;  // too early or badly, in the order in which that was noticed
-  std::optional<Clock::time_point> attribute_at_;
-  ActorNames actor_of_;
-  std::uint64_t kills_for_memory_;             // by the kernel, before the run
-  std::optional<Clock::time_point> deadline_;  // of the phase
 };
 
 }  // namespace swarmanoid

@@ -1,9 +1,9 @@
-// Any text is refused as a file of hosts with its line, or places processes whose commands have words.
+// Any text is refused as a file of hosts with its line, or names machines for processes whose commands have words.
 #include <cstdlib>
 #include <string>
 
 #include "common/program/usage_error.h"
-#include "launcher/supervision/hosts.h"
+#include "launcher/supervision/machines.h"
 #include "tests/fuzz/fuzz_driver.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* input, std::size_t count)
@@ -12,16 +12,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* input, std::size_t cou
   const std::string text(reinterpret_cast<const char*>(input), count);
   try
   {
-    const Hosts hosts("hosts", text);
+    const Machines machines("hosts", text);
     ProcessCommand command;
     command.name = "engine 'ground'";
     command.arguments = {"/usr/bin/engine_worker", "--engine", "ground"};
     command.environment = {{"NAME", "a value"}};
     for (const char* role : {"engine", "controller_host", "space_server", "visualiser"})
-      if (hosts.Placed(command, hosts.HostOf(role, "ground")).arguments.empty()) std::abort();
-    for (const std::string& machine : hosts.Machines())
+      if (machines.CommandOn(command, machines.MachineOf(role, "ground")).arguments.empty()) std::abort();
+    for (const std::string& machine : machines.Names())
       if (machine.empty() || machine[0] == '-') std::abort();
-    for (const std::string& name : hosts.Named("engine"))
+    for (const std::string& name : machines.Named("engine"))
       if (name.empty()) std::abort();
   }
   catch (const UsageError& error)

@@ -103,23 +103,23 @@ TEST(Attribution, AKilledProcessIsToldByWhomItRan)
     return Actor{kind, number, "fb_3", "diffusion"};
   };
   EXPECT_EQ(
-      FailureText({"controller host 0", "", Killed(SIGKILL), record}, 51, actor_of, false),
+      FailureText({"controller host 0", kHere, Killed(SIGKILL), record}, 51, actor_of, false),
       "controller host 0 was killed by signal 9 (Killed), during robot 'fb_3', controller 'diffusion': ControlStep at "
       "tick 50");
   EXPECT_NE(
-      FailureText({"controller host 0", "", Killed(SIGKILL), record}, 51, actor_of, true).find("memory was short"),
+      FailureText({"controller host 0", kHere, Killed(SIGKILL), record}, 51, actor_of, true).find("memory was short"),
       std::string::npos);
 }
 
 TEST(Attribution, TheCauseThatAProcessTellsIsTheHeadline)
 {
-  EXPECT_EQ(FailureText({"controller host 0", "", std::nullopt, Record(EndReason::kFailed, true)}, 51, {}, false),
+  EXPECT_EQ(FailureText({"controller host 0", kHere, std::nullopt, Record(EndReason::kFailed, true)}, 51, {}, false),
             "the cause");
 }
 
 TEST(Attribution, TheTickIsThatOfTheProcessWhereItTellsOne)
 {
-  EXPECT_EQ(FailureText({"engine 'ground'", "", Exited(1), Record(EndReason::kUnknown)}, 51, {}, false),
+  EXPECT_EQ(FailureText({"engine 'ground'", kHere, Exited(1), Record(EndReason::kUnknown)}, 51, {}, false),
             "engine 'ground' ended with exit code 1 at tick 50");
 }
 
@@ -129,9 +129,9 @@ TEST(Attribution, WithoutAWordTheTickIsTheServers)
             "engine 'ground' on alpha ended with exit code 4 at tick 51");
   EXPECT_THAT(FailureText({"engine 'ground'", "alpha", Exited(255), ActivityRecord()}, 51, {}, false),
               testing::HasSubstr("by ssh: the connection failed"));
-  EXPECT_THAT(FailureText({"engine 'ground'", "", Exited(255), ActivityRecord()}, 51, {}, false),
+  EXPECT_THAT(FailureText({"engine 'ground'", kHere, Exited(255), ActivityRecord()}, 51, {}, false),
               testing::Not(testing::HasSubstr("ssh")));
-  EXPECT_EQ(FailureText({"engine 'ground'", "", Exited(1), ActivityRecord()}, 51, {}, false),
+  EXPECT_EQ(FailureText({"engine 'ground'", kHere, Exited(1), ActivityRecord()}, 51, {}, false),
             "engine 'ground' ended with exit code 1 at tick 51");
 }
 

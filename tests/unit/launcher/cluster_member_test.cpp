@@ -55,14 +55,19 @@ protected:
   ClusterMemberTest() { std::filesystem::create_directories(folder_); }
   ~ClusterMemberTest() override { std::filesystem::remove_all(folder_); }
 
-  MemberPlan Visualiser(const std::string& script) const
+  PlannedProcess Visualiser() const
   {
-    MemberPlan plan;
-    plan.command.name = "visualiser";
-    plan.command.arguments = {"/bin/sh", "-c", script};
-    plan.log_path = folder_ / "visualiser.log";
-    plan.output = MemberPlan::kScreen;
-    return plan;
+    return {.name = "visualiser", .role = ProcessRole::kVisualiser, .log_path = folder_ / "visualiser.log"};
+  }
+  static ProcessCommand Script(const std::string& script)
+  {
+    return {.name = "visualiser", .arguments = {"/bin/sh", "-c", script}};
+  }
+  std::string LogText() const
+  {
+    std::ostringstream text;
+    text << std::ifstream(folder_ / "visualiser.log").rdbuf();
+    return text.str();
   }
 
   const std::filesystem::path folder_ = testing::TempDir() + "swarmanoid_member_" + std::to_string(getpid());
@@ -71,35 +76,30 @@ protected:
 
 TEST_F(ClusterMemberTest, TheLastWordsOfAProcessAreInItsLog)
 {
-  const MemberPlan plan = Visualiser("echo one >&2; printf two >&2; exit 3");
   {
-    ClusterMember member(plan, spawner);
+    ClusterMember member(Visualiser(), Script("echo one >&2; printf two >&2; exit 3"), spawner);
     member.Collect(spawner);
     EXPECT_EQ(member.End()->exit_code, 3);
   }
-  std::ostringstream text;
-  text << std::ifstream(plan.log_path).rdbuf();
-  EXPECT_EQ(text.str(), "one\ntwo\n");
+  EXPECT_EQ(LogText(), "one\ntwo\n");
 }
 
 // A process by ssh believes that it writes to a terminal.
 TEST_F(ClusterMemberTest, ColoursOfATerminalDoNotReachTheLog)
 {
-  const MemberPlan plan =
-      Visualiser("printf '\\033[31mred\\033[0m and \\033]0;title\\n\\033[1;33mwarning:\\033[m done\\033' >&2");
   {
-    ClusterMember member(plan, spawner);
+    ClusterMember member(
+        Visualiser(),
+        Script("printf '\\033[31mred\\033[0m and \\033]0;title\\n\\033[1;33mwarning:\\033[m done\\033' >&2"), spawner);
     member.Collect(spawner);
   }
-  std::ostringstream text;
-  text << std::ifstream(plan.log_path).rdbuf();
-  EXPECT_EQ(text.str(), "red and 0;title\nwarning: done\n");
+  EXPECT_EQ(LogText(), "red and 0;title\nwarning: done\n");
 }
 
 // A process of a user's code may leave a child behind, in a session of its own, that keeps the output open.
 TEST_F(ClusterMemberTest, OutputEndsWithItsProcessWhoeverElseHoldsItOpen)
 {
-  ClusterMember member(Visualiser("setsid sh -c 'echo $$; exec sleep 600' & exec sleep 600"), spawner);
+  ClusterMember member(Visualiser(), Script("setsid sh -c 'echo $$; exec sleep 600' & exec sleep 600"), spawner);
   std::vector<std::string> lines;
   const auto read_output = [&]
   { member.ReadOutput([&](std::string_view line) { lines.emplace_back(line); }, 100'000); };

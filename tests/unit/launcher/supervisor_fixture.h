@@ -8,6 +8,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <thread>
 
@@ -45,27 +46,33 @@ protected:
   }
   ~SupervisorTest() override { std::filesystem::remove_all(folder_); }
 
-  void Add(const std::string& name, const std::string& script, MemberPlan::Output output = MemberPlan::kLog)
+  static ProcessRole RoleOf(const std::string& name)
   {
-    MemberPlan plan;
-    plan.command.name = name;
-    plan.command.arguments = {"/bin/sh", "-c", script};
-    plan.log_path = folder_ / (name + ".log");
-    plan.output = output;
-    plan.visualiser = name == "visualiser";
-    plans_.push_back(plan);
+    if (name == "space_server") return ProcessRole::kSpaceServer;
+    if (name == "visualiser") return ProcessRole::kVisualiser;
+    return name.starts_with("controller") ? ProcessRole::kControllerHost : ProcessRole::kEngine;
   }
-  void AddServer(const std::string& script)
+  void Add(const std::string& name, const std::string& script)
   {
-    Add("space_server", "echo $$ > " + Mark("server") + "; " + script, MemberPlan::kStatus);
+    plan_.processes.push_back(
+        {.name = name, .role = RoleOf(name), .log_path = folder_ / (name + ".log"), .replaceable = false});
+    scripts_[name].first = script;
   }
+  void AddServer(const std::string& script) { Add("space_server", "echo $$ > " + Mark("server") + "; " + script); }
 
-  // What takes the place of the process that was added last; `script` may use $1, which is its incarnation.
+  // Another process may replace the one that was added last; `script` may use $1, which is its incarnation.
   void ReplaceBy(const std::string& script)
   {
-    plans_.back().replacement = [script](unsigned incarnation, double, const std::vector<ControllerDeath>&) {
-      return ProcessCommand{"", {"/bin/sh", "-c", script, "sh", std::to_string(incarnation)}, {}, {}};
-    };
+    plan_.processes.back().replaceable = true;
+    scripts_[plan_.processes.back().name].second = script;
+  }
+  ProcessCommand ScriptOf(const PlannedProcess& process, unsigned incarnation)
+  {
+    if (process.role == ProcessRole::kEngine && !program_.empty())
+      return {.name = process.name, .arguments = {program_}};
+    const auto& [first, others] = scripts_[process.name];
+    return {.name = process.name,
+            .arguments = {"/bin/sh", "-c", incarnation == 0 ? first : others, "sh", std::to_string(incarnation)}};
   }
 
   // Scripts, and the test itself, tell one another how far they are by files.
@@ -114,10 +121,16 @@ protected:
   ClusterOutcome Run()
   {
     ProgressDisplay display(ProgressDisplay::Style::kQuiet, 2);
-    Supervisor supervisor(
-        spawner_, interrupts_, display, screen_write_.Get(), {}, times_, [this] { return Now(); }, retries_);
+    const SupervisedRun run{.command_of =
+                                [this](const ClusterPlan& plan, std::size_t process, const Incarnation& incarnation)
+                            {
+                              last_plan_ = plan;
+                              return ScriptOf(plan.processes[process], incarnation.number);
+                            },
+                            .retries = retries_};
+    Supervisor supervisor(spawner_, interrupts_, display, screen_write_.Get(), run, times_, [this] { return Now(); });
     const Clock::time_point start = Clock::now();
-    ClusterOutcome outcome = supervisor.Run(plans_);
+    ClusterOutcome outcome = supervisor.Run(plan_);
     EXPECT_LT(Clock::now() - start, kGenerous) << "it waited for a process that never ends";
     for (const pid_t pid : supervisor.PidsForTest())
       EXPECT_TRUE(GroupIsGone(pid)) << "a process of group " << pid << " is left";
@@ -146,7 +159,10 @@ protected:
   unsigned retries_ = 0;
   int looks_ = 0;  // at the clock, since an hour passed
   SystemSpawner spawner_;
-  std::vector<MemberPlan> plans_;
+  ClusterPlan plan_;
+  ClusterPlan last_plan_;                                               // when the last process was started
+  std::string program_;                                                 // of engines, instead of their scripts
+  std::map<std::string, std::pair<std::string, std::string>> scripts_;  // by name: the first process, and all others
   FileDescriptor screen_read_, screen_write_;
 };
 

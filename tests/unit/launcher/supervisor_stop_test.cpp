@@ -12,7 +12,7 @@ TEST_F(SupervisorTest, WhatIsOnTheScreenAlreadyIsNotShownAgain)
 {
   retries_ = 1;
   AddServer("echo state running; " + Await("second") + kFinishing);
-  Add("visualiser", "echo one; echo two; printf half; sleep 0.2; kill -9 $$", MemberPlan::kScreen);
+  Add("visualiser", "echo one; echo two; printf half; sleep 0.2; kill -9 $$");
   ReplaceBy("echo one; echo two; echo half and half; " + Tell("second"));
   EXPECT_EQ(Run().kind, ClusterOutcome::kFinished);
   EXPECT_EQ(ScreenText(), "one\ntwo\nhalf and half\n");
@@ -82,8 +82,7 @@ TEST_F(SupervisorTest, ShowsWhatVisualisersWriteToTheScreen)
 {
   AddServer(std::string("echo a line for the log; ") + kFinishing + "; " + Tell("finished"));
   // It ends after the server, as visualisers do; one that ends before is a failure.
-  Add("visualiser", "echo one; echo two; echo aside >&2; " + Await("finished") + AwaitEndOfServer(),
-      MemberPlan::kScreen);
+  Add("visualiser", "echo one; echo two; echo aside >&2; " + Await("finished") + AwaitEndOfServer());
   EXPECT_EQ(Run().kind, ClusterOutcome::kFinished);
   EXPECT_EQ(ScreenText(), "one\ntwo\n");
   EXPECT_EQ(LogText("visualiser"), "aside\n");
@@ -94,7 +93,7 @@ TEST_F(SupervisorTest, AFullScreenDoesNotDeafenIt)
 {
   AddServer("trap '" + Tell("asked") + "' INT; echo state running; " + Await("writing") + Tell("running") +
             "while true; do sleep 0.05; done");
-  Add("visualiser", "trap 'exit 0' TERM; " + Tell("writing") + "yes", MemberPlan::kScreen);
+  Add("visualiser", "trap 'exit 0' TERM; " + Tell("writing") + "yes");
   const std::jthread press = PressAt({{"running", SIGINT}, {"asked", SIGINT}});
   EXPECT_EQ(Run().kind, ClusterOutcome::kInterrupted);
 }
@@ -102,7 +101,7 @@ TEST_F(SupervisorTest, AFullScreenDoesNotDeafenIt)
 TEST_F(SupervisorTest, StopsWhenNobodyReadsTheScreen)
 {
   AddServer(Stoppable());
-  Add("visualiser", Await("running") + "for i in 1 2 3; do echo line; sleep 0.05; done", MemberPlan::kScreen);
+  Add("visualiser", Await("running") + "for i in 1 2 3; do echo line; sleep 0.05; done");
   screen_read_.Reset();
   const ClusterOutcome outcome = Run();
   EXPECT_EQ(outcome.kind, ClusterOutcome::kInterrupted);

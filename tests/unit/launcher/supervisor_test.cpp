@@ -143,7 +143,7 @@ TEST_F(SupervisorTest, AnExperimentMayFailByItsOwnMeasure)
 TEST_F(SupervisorTest, AKilledVisualiserSpoilsAFinishedRun)
 {
   AddServer(kFinishing);
-  Add("visualiser", "sleep 0.1; kill -9 $$", MemberPlan::kScreen);
+  Add("visualiser", "sleep 0.1; kill -9 $$");
   EXPECT_EQ(Run().kind, ClusterOutcome::kFailed);
 }
 
@@ -151,7 +151,7 @@ TEST_F(SupervisorTest, WaitsLongerForVisualisersThanForWorkers)
 {
   times_.finish_visualiser = std::chrono::hours(2);
   AddServer(std::string(kFinishing) + "; " + Tell("finished"));
-  Add("visualiser", Await("finished") + AwaitEndOfServer() + LetAnHourPass(), MemberPlan::kScreen);
+  Add("visualiser", Await("finished") + AwaitEndOfServer() + LetAnHourPass());
   EXPECT_EQ(Run().kind, ClusterOutcome::kFinished);
 }
 
@@ -169,7 +169,7 @@ TEST_F(SupervisorTest, AMissingProgramIsNamedAndNothingIsLeft)
 {
   AddServer(Running());
   Add("engine_worker ground", "");
-  plans_.back().command.arguments = {"/nowhere/engine_worker"};
+  program_ = "/nowhere/engine_worker";
   const ClusterOutcome outcome = Run();
   EXPECT_EQ(outcome.kind, ClusterOutcome::kFailed);
   EXPECT_EQ(outcome.reason, "cannot start engine_worker ground: '/nowhere/engine_worker': No such file or directory");
