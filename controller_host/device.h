@@ -94,29 +94,51 @@ PluginRegistry<ActuatorBatch>& PluginRegistry<ActuatorBatch>::Instance();
 // Adds the devices of this folder to the registries. Idempotent.
 void RegisterBuiltinDevices();
 
-template <class Interface>
+// What the objects declare that a batch gives to controllers: its Sensor or Actuator returns their class. nullptr if it
+// returns the base of all.
+template <class Batch>
+const CCI_Columns* ColumnsOf()
+{
+  const auto columns = []<class Device, class Owner>(Device* (Owner::*)(std::size_t)) -> const CCI_Columns*
+  {
+    if constexpr (requires { Device::AllColumns(); })
+      return &Device::AllColumns();
+    else
+      return nullptr;
+  };
+  if constexpr (std::is_base_of_v<SensorBatch, Batch>)
+    return columns(&Batch::Sensor);
+  else
+    return columns(&Batch::Actuator);
+}
+
+// What the interface of a type of device declares, for programs that have no device: nullptr if that is not known, or
+// nothing. The registration of a batch sets it.
+const CCI_Columns* FindColumns(PluginKind kind, const std::string& label);
+void SetColumns(PluginKind kind, const std::string& label, const CCI_Columns* columns);
+
+template <class Interface, class Batch>
 struct DeviceRegistration
 {
-  DeviceRegistration(const PluginDescription& description, std::unique_ptr<Interface> (*create)())
+  explicit DeviceRegistration(const PluginDescription& description)
   {
-    constexpr bool kIsSensor = std::is_same_v<Interface, SensorBatch>;
-    CheckNoiseOf(kIsSensor ? PluginKind::kSensor : PluginKind::kActuator, description);
-    PluginRegistry<Interface>::Instance().Add(description, create);
+    constexpr auto kKind = std::is_same_v<Interface, SensorBatch> ? PluginKind::kSensor : PluginKind::kActuator;
+    CheckNoiseOf(kKind, description);
+    SetColumns(kKind, description.label, ColumnsOf<Batch>());
+    PluginRegistry<Interface>::Instance().Add(description, [] { return std::make_unique<Batch>(); });
   }
 };
 
 }  // namespace swarmanoid
 
 // REGISTER_SENSOR(CMySensorBatch, description), REGISTER_ACTUATOR(...): for devices in a user's library.
-#define REGISTER_SENSOR(CLASS, ...)                                                                           \
-  namespace                                                                                                   \
-  {                                                                                                           \
-  const ::swarmanoid::DeviceRegistration<::swarmanoid::SensorBatch> registration_of_##CLASS(                  \
-      __VA_ARGS__, []() -> std::unique_ptr<::swarmanoid::SensorBatch> { return std::make_unique<CLASS>(); }); \
+#define REGISTER_SENSOR(CLASS, ...)                                                                              \
+  namespace                                                                                                      \
+  {                                                                                                              \
+  const ::swarmanoid::DeviceRegistration<::swarmanoid::SensorBatch, CLASS> registration_of_##CLASS(__VA_ARGS__); \
   }
-#define REGISTER_ACTUATOR(CLASS, ...)                                                                           \
-  namespace                                                                                                     \
-  {                                                                                                             \
-  const ::swarmanoid::DeviceRegistration<::swarmanoid::ActuatorBatch> registration_of_##CLASS(                  \
-      __VA_ARGS__, []() -> std::unique_ptr<::swarmanoid::ActuatorBatch> { return std::make_unique<CLASS>(); }); \
+#define REGISTER_ACTUATOR(CLASS, ...)                                                                              \
+  namespace                                                                                                        \
+  {                                                                                                                \
+  const ::swarmanoid::DeviceRegistration<::swarmanoid::ActuatorBatch, CLASS> registration_of_##CLASS(__VA_ARGS__); \
   }

@@ -14,6 +14,7 @@
 #include "common/configuration/xml_reader.h"
 #include "common/experiment/reference.h"
 #include "common/experiment/schema.h"
+#include "controller_host/device.h"
 
 namespace swarmanoid
 {
@@ -74,6 +75,44 @@ void AppendPlugin(std::string& rows, const std::string& path, const TConfigurati
   if (plugin != nullptr) AppendSettings(rows, path, tree, plugin->parameters);
 }
 
+// "left [rad/s], right [rad/s]"; of those that are numbered the first and the last: "0 … 23".
+std::string ColumnsText(const std::vector<CCI_ColumnGroup>& groups)
+{
+  std::string text;
+  for (const CCI_ColumnGroup& group : groups)
+    for (CCI_Column column : group.columns)
+    {
+      const std::size_t place = column.name.find('#');
+      const std::string name = column.name;
+      const auto numbered = [&](std::size_t number)
+      {
+        column.name = std::string(name).replace(place, 1, std::to_string(number));
+        return column.Title();
+      };
+      text += (text.empty() ? "" : ", ");
+      if (place == std::string::npos)
+        text += column.Title();
+      else
+        text += numbered(0) + " …" + (group.count == 0 ? "" : " " + numbered(group.count - 1));
+    }
+  return text;
+}
+
+nlohmann::ordered_json ColumnsJson(const std::vector<CCI_ColumnGroup>& groups)
+{
+  auto list = nlohmann::ordered_json::array();
+  for (const CCI_ColumnGroup& group : groups)
+    for (const CCI_Column& column : group.columns)
+    {
+      nlohmann::ordered_json each{{"name", column.name}, {"unit", column.unit}};
+      if (column.name.find('#') != std::string::npos && group.count != 0) each["count"] = group.count;
+      if (std::isfinite(column.minimum)) each["minimum"] = column.minimum;
+      if (std::isfinite(column.maximum)) each["maximum"] = column.maximum;
+      list.push_back(each);
+    }
+  return list;
+}
+
 }  // namespace
 
 std::string PluginKindTitle(PluginKind kind)
@@ -93,6 +132,13 @@ std::string PluginDetails(PluginKind kind, const PluginDescription& plugin)
   std::string text = fmt::format("{} {}\n  {}\n", PluginKindName(kind), PluginName(plugin), plugin.brief);
   if (!plugin.robots.empty()) text += fmt::format("  for {}\n", Listed(plugin.robots));
   if (!plugin.channel.empty()) text += fmt::format("  needs {} of the engine\n", plugin.channel);
+  if (const CCI_Columns* columns = FindColumns(kind, plugin.label))
+  {
+    if (!columns->settings.empty()) text += fmt::format("  takes {}\n", ColumnsText(columns->settings));
+    if (!columns->readings.empty()) text += fmt::format("  reads {}\n", ColumnsText(columns->readings));
+    if (!columns->row.empty())
+      text += fmt::format("  reads of each {}: {}\n", columns->row_name, ColumnsText(columns->row));
+  }
   if (!plugin.entity_tags.empty()) text += fmt::format("  simulates {}\n", Listed(plugin.entity_tags));
   if (!plugin.channels.empty()) text += fmt::format("  offers {}\n", Listed(plugin.channels));
   if (!plugin.declares_parameters) return text + "  it declares no parameters: what its Init asks for decides\n";
@@ -127,6 +173,11 @@ nlohmann::ordered_json PluginJson(PluginKind kind, const PluginDescription& plug
                               {"implementation", plugin.implementation},
                               {"brief", plugin.brief},
                               {"robots", plugin.robots}};
+  if (const CCI_Columns* columns = FindColumns(kind, plugin.label))
+  {
+    json["columns"] = ColumnsJson(kind == PluginKind::kActuator ? columns->settings : columns->readings);
+    if (!columns->row.empty()) json["rows"] = ColumnsJson(columns->row);
+  }
   json["parameters"] = nlohmann::ordered_json::array();
   for (const ParameterSpec& parameter : plugin.parameters)
   {

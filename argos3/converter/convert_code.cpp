@@ -130,6 +130,8 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, Configura
   DeviceLists lists;
   const std::string sensors = ConvertDevices(theirs, "sensors", ConvertSensor, context, lists);
   std::string actuators = ConvertDevices(theirs, "actuators", ConvertActuator, context, lists);
+  const std::string own_sensors = TakeOwn(theirs, "sensors", lists.sensors);
+  const std::string own_actuators = TakeOwn(theirs, "actuators", lists.actuators);
   if (somebody_hears && !bearers.kinds.empty() && !lists.actuators.contains("range_and_bearing"))
   {
     AddSender(at, context, lists);
@@ -155,6 +157,8 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, Configura
   }
   SetValue(*options, "sensors", sensors, at);
   SetValue(*options, "actuators", actuators, at);
+  if (!own_sensors.empty()) SetValue(*options, "own_sensors", own_sensors, at);
+  if (!own_actuators.empty()) SetValue(*options, "own_actuators", own_actuators, at);
   if (!arena_.FloorId().empty()) SetValue(*options, "floor", "loop_functions", at);
   const auto set_noise =
       [&](const char* name, std::initializer_list<const char*> devices, const char* attribute = "noise_level")
@@ -258,6 +262,23 @@ std::optional<std::string> CodeConverter::LibraryThatNames(const std::string& la
         if (BytesOf(file).find(constant) != std::string::npos) return file;
   }
   return std::nullopt;
+}
+
+std::string CodeConverter::TakeOwn(const ConfigurationNode& controller, const char* name, Devices& devices)
+{
+  const ConfigurationNode* theirs = FindChild(controller, name);
+  std::string tags;
+  if (theirs == nullptr) return tags;
+  for (const auto& device : theirs->children)
+  {
+    if (FindAttributeOf(*device, "library") == nullptr) continue;
+    const Made own = devices[device->name] = MakeNode(device->name, device->location);
+    SetLibrary(*device, device->name, "library", *own);
+    for (const ConfigurationNode::Attribute& attribute : device->attributes)
+      if (attribute.name != "library") own->attributes.push_back(attribute);
+    tags += (tags.empty() ? "" : " ") + device->name;
+  }
+  return tags;
 }
 
 void CodeConverter::SetLibrary(const ConfigurationNode& theirs, const std::string& label, const char* ours,

@@ -53,11 +53,15 @@ private:
     if (theirs == nullptr) return tags;
     for (const auto& device : theirs->children)
     {
+      if (FindAttributeOf(*device, "library") != nullptr) continue;
       convert(*device, context, lists);
       tags += (tags.empty() ? "" : " ") + device->name;
     }
     return tags;
   }
+  // Devices that name a library are ours, for scripts: they are taken as they are. Their tags, with blanks between
+  // them.
+  std::string TakeOwn(const ConfigurationNode& controller, const char* name, Devices& devices);
   static void MoveLength(ConfigurationNode& ours, ConfigurationNode& functions);
   // Where libraries are looked for.
   std::vector<std::filesystem::path> Folders() const;

@@ -379,6 +379,8 @@ private:
       AddFunctions(lua_, tag, *sensor);
       AddReadings(lua_, tag, *sensor);
     }
+    for (const auto& [type, actuator] : script_.actuators) AddColumns(lua_, type, *actuator);
+    for (const auto& [type, sensor] : script_.sensors) ReadColumns(lua_, type, *sensor);
     lua_setglobal(lua_, "robot");
   }
 
@@ -422,7 +424,10 @@ private:
     lua_getglobal(lua_, "robot");
     // A script may have put something else in its place.
     if (lua_istable(lua_, -1))
+    {
       for (const auto& [tag, sensor] : GetAllSensors()) AddReadings(lua_, tag, *sensor);
+      for (const auto& [type, sensor] : script_.sensors) ReadColumns(lua_, type, *sensor);
+    }
     Leave(lua_);
     lua_getglobal(lua_, "step");
     lua_call(lua_, 0, 0);

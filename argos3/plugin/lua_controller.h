@@ -5,8 +5,11 @@
 #include <argos3/core/control_interface/ci_controller.h>
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
+
+#include "common/control_interface/ci_device.h"
 
 namespace swarmanoid::argos3
 {
@@ -17,6 +20,9 @@ struct LuaScript
   std::string path;
   // Simulated time, s.
   std::function<double()> clock;
+  // The devices that ARGoS3 does not have, by type.
+  std::map<std::string, CCI_Sensor*> sensors{};
+  std::map<std::string, CCI_Actuator*> actuators{};
 };
 
 // Its Init runs the script and its init(). Init and ControlStep throw CARGoSException with file and line of the script.

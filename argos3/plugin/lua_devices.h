@@ -7,6 +7,8 @@
 #include <lua.hpp>
 #include <string>
 
+#include "common/control_interface/ci_device.h"
+
 namespace swarmanoid::argos3
 {
 
@@ -15,5 +17,9 @@ void AddFunctions(lua_State* lua, const std::string& tag, argos::CCI_Actuator& a
 void AddFunctions(lua_State* lua, const std::string& tag, argos::CCI_Sensor& sensor);
 // What the sensor reads now.
 void AddReadings(lua_State* lua, const std::string& tag, argos::CCI_Sensor& sensor);
+
+// The same for devices that ARGoS3 does not have, by their columns (lua_columns.cpp).
+void AddColumns(lua_State* lua, const std::string& type, CCI_Actuator& actuator);
+void ReadColumns(lua_State* lua, const std::string& type, const CCI_Sensor& sensor);
 
 }  // namespace swarmanoid::argos3

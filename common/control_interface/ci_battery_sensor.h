@@ -6,7 +6,7 @@
 namespace swarmanoid
 {
 
-class CCI_BatterySensor : public CCI_Sensor
+class CCI_BatterySensor : public CCI_SensorOf<CCI_BatterySensor>
 {
 public:
   // 1 full, 0 empty.
@@ -14,15 +14,12 @@ public:
   // How long the charge lasts if it goes on falling as in the last tick, s; infinite if it did not fall.
   virtual double GetTimeLeft() const = 0;
 
-  std::vector<CCI_Column> Columns() const override
+  static void Declare(Declaration& columns)
   {
-    return {{"charge", "", 0, 1}, {.name = "time left", .unit = "s", .minimum = 0, .may_be_infinite = true}};
+    columns.Add({"charge", "", 0, 1}, &CCI_BatterySensor::GetCharge)
+        .Add({.name = "time left", .unit = "s", .minimum = 0, .may_be_infinite = true},
+             &CCI_BatterySensor::GetTimeLeft);
   }
-  void ReadColumns(std::vector<double>& values) const override
-  {
-    values.insert(values.end(), {GetCharge(), GetTimeLeft()});
-  }
-  void Describe(std::vector<CCI_Reading>& readings) const override { readings.push_back({"charge", "", GetCharge()}); }
 };
 
 }  // namespace swarmanoid

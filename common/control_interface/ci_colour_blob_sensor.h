@@ -19,7 +19,7 @@ struct CCI_ColourBlob
   double elevation_rad = 0;  // cameras that look ahead: above the horizontal; 0 for those that see the floor
 };
 
-class CCI_ColourBlobSensor : public CCI_Sensor
+class CCI_ColourBlobSensor : public CCI_SensorOf<CCI_ColourBlobSensor>
 {
 public:
   // All blobs in view, in no particular order, valid until the next control step.
@@ -37,27 +37,14 @@ public:
   }
   const CCI_ColourBlob* GetNearestBlob(std::uint32_t colour) const { return FindNearest(GetAllBlobs(), colour); }
 
-  std::vector<CCI_Column> Rows() const override
+  static void Declare(Declaration& columns)
   {
-    return {{"colour", "colour", 0, 0xffffff}, {"distance", "m", 0}, {"angle", "rad"}, {"elevation", "rad"}};
-  }
-  void ReadRows(std::vector<double>& values) const override
-  {
-    for (const CCI_ColourBlob& blob : GetAllBlobs())
-      values.insert(values.end(),
-                    {static_cast<double>(blob.colour), blob.distance_m, blob.angle_rad, blob.elevation_rad});
-  }
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    for (std::size_t i = 0; i < GetAllBlobs().size(); ++i)
-    {
-      const CCI_ColourBlob& blob = GetAllBlobs()[i];
-      const std::string name = "blob " + std::to_string(i);
-      readings.push_back({name + " colour", "colour", static_cast<double>(blob.colour)});
-      readings.push_back({name + " distance", "m", blob.distance_m});
-      readings.push_back({name + " angle", "rad", blob.angle_rad});
-      if (blob.elevation_rad != 0) readings.push_back({name + " elevation", "rad", blob.elevation_rad});
-    }
+    columns.AddRows(
+        "blob", &CCI_ColourBlobSensor::GetAllBlobs,
+        CCI_Field({"colour", "colour", 0, 0xffffff}, &CCI_ColourBlob::colour),
+        CCI_Field({"distance", "m", 0}, &CCI_ColourBlob::distance_m),
+        CCI_Field({"angle", "rad"}, &CCI_ColourBlob::angle_rad),
+        CCI_Field({.name = "elevation", .unit = "rad", .hides_zero = true}, &CCI_ColourBlob::elevation_rad));
   }
 };
 

@@ -14,7 +14,7 @@
 namespace swarmanoid
 {
 
-class CCI_DepthCameraSensor : public CCI_Sensor
+class CCI_DepthCameraSensor : public CCI_SensorOf<CCI_DepthCameraSensor>
 {
 public:
   struct Pixel
@@ -39,30 +39,28 @@ public:
     return GetAllPixels()[static_cast<std::size_t>(row) * GetWidth() + column];
   }
 
-  // The middle of the image, and the nearest that is seen.
-  std::vector<CCI_Column> Columns() const override
+  static void Declare(Declaration& columns)
   {
-    std::vector<CCI_Column> columns;
-    for (std::size_t i = 0; i < std::size_t{GetWidth()} * GetHeight(); ++i)
-    {
-      columns.push_back({"depth " + std::to_string(i), "m", 0, std::numeric_limits<double>::infinity(), true});
-      columns.push_back({"colour " + std::to_string(i), "colour", 0, 0xffffff});
-    }
-    return columns;
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    constexpr auto kPrograms = CCI_Column::For::kPrograms, kPeople = CCI_Column::For::kPeople;
+    columns
+        .AddEach(&CCI_DepthCameraSensor::GetAllPixels,
+                 CCI_Field({"depth #", "m", 0, kFar, true, false, kPrograms}, &Pixel::depth_m),
+                 CCI_Field({"colour #", "colour", 0, 0xffffff, false, false, kPrograms}, &Pixel::colour))
+        .Add({"depth in the middle", "m", 0, kFar, true, false, kPeople},
+             [](const CCI_DepthCameraSensor& camera) { return camera.GetMiddle().depth_m; })
+        .Add({"colour in the middle", "colour", 0, 0xffffff, false, false, kPeople},
+             [](const CCI_DepthCameraSensor& camera) { return camera.GetMiddle().colour; })
+        .Add({"nearest", "m", 0, kFar, true, false, kPeople}, &CCI_DepthCameraSensor::GetNearestDepth);
   }
-  void ReadColumns(std::vector<double>& values) const override
+
+private:
+  const Pixel& GetMiddle() const { return GetPixel(GetWidth() / 2, GetHeight() / 2); }
+  double GetNearestDepth() const
   {
-    for (const Pixel& pixel : GetAllPixels())
-      values.insert(values.end(), {pixel.depth_m, static_cast<double>(pixel.colour)});
-  }
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    const Pixel& middle = GetPixel(GetWidth() / 2, GetHeight() / 2);
     double nearest = std::numeric_limits<double>::infinity();
     for (const Pixel& pixel : GetAllPixels()) nearest = std::min(nearest, pixel.depth_m);
-    if (std::isfinite(middle.depth_m)) readings.push_back({"depth in the middle", "m", middle.depth_m});
-    readings.push_back({"colour in the middle", "colour", static_cast<double>(middle.colour)});
-    if (std::isfinite(nearest)) readings.push_back({"nearest", "m", nearest});
+    return nearest;
   }
 };
 

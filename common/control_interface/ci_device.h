@@ -4,10 +4,11 @@
 // _sensor and _actuator: footbot/ci_footbot_wheels_actuator.h declares the actuator "footbot_wheels".
 #pragma once
 
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "common/control_interface/ci_columns.h"
 
 namespace swarmanoid
 {
@@ -15,68 +16,85 @@ namespace swarmanoid
 // One value of a device as people are shown it.
 struct CCI_Reading
 {
-  std::string name;  // "left", "7"
-  // "m/s", "rad"; empty for plain numbers. "colour": 0xRRGGBB, 0 is off. "yes/no": 1 or 0.
-  std::string unit;
+  std::string name;  // "left", "7", "blob 0 distance"
+  std::string unit;  // as of CCI_Column
   double value = 0;
 };
 
-// One of the numbers that a device reads or is told, as a column of a table. It is the same at every tick, and for all
-// robots that carry the device alike.
-struct CCI_Column
-{
-  std::string name;    // "left", "7"
-  std::string unit{};  // as in CCI_Reading
-  // What the values lie between, noise included.
-  double minimum = -std::numeric_limits<double>::infinity();
-  double maximum = std::numeric_limits<double>::infinity();
-  bool may_be_infinite = false;  // infinity is a reading, too: nothing was found
-};
-
-// Columns <prefix>0, <prefix>1 and so on, in all else like `like`.
-std::vector<CCI_Column> NumberedColumns(std::size_t count, const std::string& prefix = "", CCI_Column like = {});
-
-// Base of all sensor interfaces. Readings in a control step are those of its start, whenever they are asked for.
-//
-// An interface states its readings as columns of numbers, so that programs can read every sensor in the same way: the
-// arrays of Python, tables, tests. The sensor of a user states its own by overriding Columns and ReadColumns, or Rows
-// and ReadRows.
-class CCI_Sensor
+// A device as everybody sees it who does not know its interface. Its columns follow from the declaration of its
+// interface, which is CCI_SensorOf or CCI_ActuatorOf of itself.
+class CCI_Device
 {
 public:
-  virtual ~CCI_Sensor() = default;
-  // The readings that every tick has. Empty: there are none.
-  virtual std::vector<CCI_Column> Columns() const { return {}; }
-  // Appends one number for each column.
-  virtual void ReadColumns(std::vector<double>&) const {}
-  // The readings whose number differs from tick to tick, such as blobs or packets: the columns of one of them.
-  virtual std::vector<CCI_Column> Rows() const { return {}; }
-  // Appends row after row, each with one number for each column of Rows().
-  virtual void ReadRows(std::vector<double>&) const {}
-  // Appends the ids of the entities that the rows are about, one for each row. Nothing if the sensor does not tell.
-  virtual void ReadRowIds(std::vector<std::string>&) const {}
-  // For people who watch the robot: appends the present readings. Never called if nobody watches. These are the columns
-  // unless the sensor overrides it.
-  virtual void Describe(std::vector<CCI_Reading>& readings) const;
+  virtual ~CCI_Device() = default;
+
+  // What the interface declares; nothing if it declares nothing.
+  virtual const CCI_Columns& Declared() const;
+
+  // The readings that every tick has, and appends one number for each.
+  std::vector<CCI_Column> Columns() const;
+  void ReadColumns(std::vector<double>& values) const;
+  // The columns of one of the readings whose number differs from tick to tick, and appends row after row.
+  std::vector<CCI_Column> Rows() const;
+  void ReadRows(std::vector<double>& values) const;
+  // Appends the ids of the entities that the rows are about, one for each row. Nothing if the device does not tell.
+  void ReadRowIds(std::vector<std::string>& ids) const;
+
+  // For people who watch the robot: appends the present readings, and what the device was told last.
+  void Describe(std::vector<CCI_Reading>& readings) const;
+
+protected:
+  // Of actuators: appends what was set last, a number for each column. Nothing: the implementation does not keep it.
+  virtual void ReadSettings(std::vector<double>&) const {}
+
+private:
+  void DescribeRows(std::vector<CCI_Reading>& readings) const;
+};
+
+// Base of all sensor interfaces. Readings in a control step are those of its start, whenever they are asked for.
+class CCI_Sensor : public CCI_Device
+{
 };
 
 // Base of all actuator interfaces. Values set in a control step take effect when it ends, and stay until set again.
-class CCI_Actuator
+class CCI_Actuator : public CCI_Device
 {
 public:
-  virtual ~CCI_Actuator() = default;
   // The numbers that the actuator can be told by SetColumns. Empty: there are none.
-  virtual std::vector<CCI_Column> Columns() const { return {}; }
+  std::vector<CCI_Column> Columns() const;
   // Sets all columns at once. `values` has a finite number for each of them; what is beyond a range is cut to it.
   // Switches are on above 0.5.
-  virtual void SetColumns(std::span<const double>) {}
-  // For people who watch the robot: appends the values set last. Never called if nobody watches.
-  virtual void Describe(std::vector<CCI_Reading>&) const {}
+  void SetColumns(std::span<const double> values) { Declared().set(*this, values); }
 };
+
+// The bases of an interface that declares columns by Interface::Declare.
+template <class Interface, class Device>
+class CCI_Declaring : public Device
+{
+public:
+  using Declaration = CCI_ColumnsOf<Interface>;
+
+  static const CCI_Columns& AllColumns()
+  {
+    static const Declaration columns = []
+    {
+      Declaration all;
+      Interface::Declare(all);
+      return all;
+    }();
+    return columns;
+  }
+  const CCI_Columns& Declared() const override { return AllColumns(); }
+};
+template <class Interface>
+using CCI_SensorOf = CCI_Declaring<Interface, CCI_Sensor>;
+template <class Interface>
+using CCI_ActuatorOf = CCI_Declaring<Interface, CCI_Actuator>;
 
 }  // namespace swarmanoid
 
 using swarmanoid::CCI_Actuator;
-using swarmanoid::CCI_Column;
+using swarmanoid::CCI_ActuatorOf;
 using swarmanoid::CCI_Reading;
 using swarmanoid::CCI_Sensor;
+using swarmanoid::CCI_SensorOf;

@@ -9,7 +9,7 @@
 namespace swarmanoid
 {
 
-class CCI_DistanceScannerSensor : public CCI_Sensor
+class CCI_DistanceScannerSensor : public CCI_SensorOf<CCI_DistanceScannerSensor>
 {
 public:
   enum class Echo
@@ -28,19 +28,11 @@ public:
   // All readings of the last tick, beam after beam, valid until the next control step.
   virtual std::span<const Reading> GetAllReadings() const = 0;
 
-  std::vector<CCI_Column> Rows() const override { return {{"angle", "rad"}, {"distance", "m", 0}, {"echo", "", 0, 2}}; }
-  void ReadRows(std::vector<double>& values) const override
+  static void Declare(Declaration& columns)
   {
-    for (const Reading& reading : GetAllReadings())
-      values.insert(values.end(), {reading.angle_rad, reading.distance_m, static_cast<double>(reading.echo)});
-  }
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    for (std::size_t i = 0; i < GetAllReadings().size(); ++i)
-    {
-      readings.push_back({"angle " + std::to_string(i), "rad", GetAllReadings()[i].angle_rad});
-      readings.push_back({"distance " + std::to_string(i), "m", GetAllReadings()[i].distance_m});
-    }
+    columns.AddRows(
+        "reading", &CCI_DistanceScannerSensor::GetAllReadings, CCI_Field({"angle", "rad"}, &Reading::angle_rad),
+        CCI_Field({"distance", "m", 0}, &Reading::distance_m), CCI_Field({"echo", "", 0, 2}, &Reading::echo));
   }
 };
 

@@ -20,7 +20,7 @@ namespace swarmanoid
 // The largest message, bytes.
 inline constexpr unsigned kMaxMessageBytes = 30;
 
-class CCI_ReportActuator : public CCI_Actuator
+class CCI_ReportActuator : public CCI_ActuatorOf<CCI_ReportActuator>
 {
 public:
   // The report of this tick; the last one counts. The functions have it in their PostStep of the tick. Throws
@@ -36,26 +36,22 @@ public:
     ReportBytes(bytes);
   }
 
-  // A report in each step while it is reporting: so many of the bytes behind that.
-  std::vector<CCI_Column> Columns() const override
+  static void Declare(Declaration& columns)
   {
-    std::vector<CCI_Column> columns{{"reporting", "yes/no", 0, 1}, {"length", "", 0, kMaxMessageBytes}};
-    for (CCI_Column& byte : NumberedColumns(kMaxMessageBytes, "byte ", {{}, {}, 0, 255}))
-      columns.push_back(std::move(byte));
-    return columns;
+    columns.Set({{"reporting", "yes/no", 0, 1}, {"length", "", 0, kMaxMessageBytes}, ByteColumn()}, &SetNumbers,
+                kMaxMessageBytes);
   }
-  void SetColumns(std::span<const double> values) override
+
+private:
+  // A report in each step while it is reporting: so many of the bytes behind that.
+  static void SetNumbers(CCI_ReportActuator& report, std::span<const double> values)
   {
-    if (!(values[0] > 0.5)) return;
-    std::array<std::uint8_t, kMaxMessageBytes> bytes{};
-    for (std::size_t i = 0; i < bytes.size(); ++i)
-      bytes[i] = static_cast<std::uint8_t>(std::clamp(values[2 + i], 0.0, 255.0));
-    const auto length = static_cast<std::size_t>(std::clamp(values[1], 0.0, double{kMaxMessageBytes}));
-    ReportBytes(std::span(bytes).first(length));
+    if (values[0] > 0.5)
+      SendNumbers<kMaxMessageBytes>(values.subspan(1), [&](auto bytes) { report.ReportBytes(bytes); });
   }
 };
 
-class CCI_InstructionSensor : public CCI_Sensor
+class CCI_InstructionSensor : public CCI_SensorOf<CCI_InstructionSensor>
 {
 public:
   // Whether an instruction arrived in this tick; the last one stays readable.
@@ -73,24 +69,12 @@ public:
     return message;
   }
 
-  std::vector<CCI_Column> Columns() const override
+  static void Declare(Declaration& columns)
   {
-    std::vector<CCI_Column> columns{{"new", "yes/no", 0, 1}, {"length", "", 0, kMaxMessageBytes}};
-    for (CCI_Column& byte : NumberedColumns(kMaxMessageBytes, "byte ", {{}, {}, 0, 255}))
-      columns.push_back(std::move(byte));
-    return columns;
-  }
-  void ReadColumns(std::vector<double>& values) const override
-  {
-    const std::span<const std::uint8_t> bytes = GetBytes();
-    values.insert(values.end(), {IsNew() ? 1.0 : 0.0, static_cast<double>(bytes.size())});
-    values.insert(values.end(), bytes.begin(), bytes.end());
-    values.insert(values.end(), kMaxMessageBytes - bytes.size(), 0.0);
-  }
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    readings.push_back({"new", "yes/no", IsNew() ? 1.0 : 0.0});
-    readings.push_back({"bytes", "", static_cast<double>(GetBytes().size())});
+    columns.Add({"new", "yes/no", 0, 1}, &CCI_InstructionSensor::IsNew)
+        .Add({"length", "", 0, kMaxMessageBytes},
+             [](const CCI_InstructionSensor& sensor) { return sensor.GetBytes().size(); })
+        .Add(ByteColumn(), &CCI_InstructionSensor::GetBytes, kMaxMessageBytes);
   }
 };
 

@@ -10,7 +10,7 @@
 namespace swarmanoid
 {
 
-class CCI_GroundSensor : public CCI_Sensor
+class CCI_GroundSensor : public CCI_SensorOf<CCI_GroundSensor>
 {
 public:
   // Brightness of the floor under each sensor, 0 (black, or a hole) to 1 (white).
@@ -18,19 +18,10 @@ public:
   // The colour of the floor (0xRRGGBB) under the centre of the robot; without noise.
   virtual std::uint32_t GetFloorColour() const = 0;
 
-  std::vector<CCI_Column> Columns() const override
+  static void Declare(Declaration& columns)
   {
-    return NumberedColumns(GetAllSensorReadings().size(), "", {.name = {}, .minimum = 0, .maximum = 1});
-  }
-  void ReadColumns(std::vector<double>& values) const override
-  {
-    const auto all = GetAllSensorReadings();
-    values.insert(values.end(), all.begin(), all.end());
-  }
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    CCI_Sensor::Describe(readings);
-    readings.push_back({"floor", "colour", static_cast<double>(GetFloorColour())});
+    columns.Add({"#", "", 0, 1}, &CCI_GroundSensor::GetAllSensorReadings)
+        .Add({"floor", "colour", 0, 0xffffff}, &CCI_GroundSensor::GetFloorColour);
   }
 };
 

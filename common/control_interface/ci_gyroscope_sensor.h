@@ -8,7 +8,7 @@
 namespace swarmanoid
 {
 
-class CCI_GyroscopeSensor : public CCI_Sensor
+class CCI_GyroscopeSensor : public CCI_SensorOf<CCI_GyroscopeSensor>
 {
 public:
   // {roll, pitch, yaw}: angular velocities in rad/s about the axes of the robot ahead, to the left and up, mean over
@@ -16,11 +16,10 @@ public:
   virtual std::span<const double, 3> GetAllSensorReadings() const = 0;
   double GetYawRate() const { return GetAllSensorReadings()[2]; }
 
-  std::vector<CCI_Column> Columns() const override { return {{"roll", "rad/s"}, {"pitch", "rad/s"}, {"yaw", "rad/s"}}; }
-  void ReadColumns(std::vector<double>& values) const override
+  static void Declare(Declaration& columns)
   {
-    const auto all = GetAllSensorReadings();
-    values.insert(values.end(), all.begin(), all.end());
+    columns.AddAll({{"roll", "rad/s"}, {"pitch", "rad/s"}, {"yaw", "rad/s"}},
+                   &CCI_GyroscopeSensor::GetAllSensorReadings);
   }
 };
 

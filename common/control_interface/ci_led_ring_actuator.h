@@ -12,7 +12,7 @@
 namespace swarmanoid
 {
 
-class CCI_LedRingActuator : public CCI_Actuator
+class CCI_LedRingActuator : public CCI_ActuatorOf<CCI_LedRingActuator>
 {
 public:
   virtual unsigned GetNumLeds() const = 0;
@@ -29,13 +29,15 @@ public:
   }
   virtual void SetColour(unsigned led, std::uint32_t colour) = 0;
 
-  std::vector<CCI_Column> Columns() const override
+  static void Declare(Declaration& columns)
   {
-    return NumberedColumns(GetNumLeds(), "led ", {{}, "colour", 0, 0xffffff});
-  }
-  void SetColumns(std::span<const double> values) override
-  {
-    for (unsigned led = 0; led < GetNumLeds(); ++led) SetColour(led, CCI_Colour::FromNumber(values[led]));
+    columns.Set(
+        {{"led #", "colour", 0, 0xffffff}},
+        [](CCI_LedRingActuator& ring, std::span<const double> values)
+        {
+          for (unsigned led = 0; led < values.size(); ++led) ring.SetColour(led, CCI_Colour::FromNumber(values[led]));
+        },
+        &CCI_LedRingActuator::GetNumLeds);
   }
 };
 

@@ -10,7 +10,7 @@
 namespace swarmanoid
 {
 
-class CCI_LightRingSensor : public CCI_Sensor
+class CCI_LightRingSensor : public CCI_SensorOf<CCI_LightRingSensor>
 {
 public:
   static constexpr unsigned NUM_SENSORS = 24;
@@ -28,14 +28,9 @@ public:
   }
   static double AngleOf(unsigned sensor) { return FIRST_ANGLE + sensor * SPACING; }
 
-  std::vector<CCI_Column> Columns() const override
+  static void Declare(Declaration& columns)
   {
-    return NumberedColumns(NUM_SENSORS, "", {.name = {}, .minimum = 0, .maximum = 1});
-  }
-  void ReadColumns(std::vector<double>& values) const override
-  {
-    const auto all = GetAllSensorReadings();
-    values.insert(values.end(), all.begin(), all.end());
+    columns.Add({"#", "", 0, 1}, &CCI_LightRingSensor::GetAllSensorReadings);
   }
 };
 

@@ -9,7 +9,7 @@
 namespace swarmanoid
 {
 
-class CCI_MicrophoneSensor : public CCI_Sensor
+class CCI_MicrophoneSensor : public CCI_SensorOf<CCI_MicrophoneSensor>
 {
 public:
   struct Sound
@@ -25,27 +25,12 @@ public:
   // control step.
   virtual std::span<const Sound> GetAllSounds() const = 0;
 
-  std::vector<CCI_Column> Columns() const override { return {{"loudness", "", 0}}; }
-  void ReadColumns(std::vector<double>& values) const override { values.push_back(GetLoudness()); }
-  std::vector<CCI_Column> Rows() const override
+  static void Declare(Declaration& columns)
   {
-    return {{"loudness", "", 0}, {"bearing", "rad"}, {"elevation", "rad"}};
-  }
-  void ReadRows(std::vector<double>& values) const override
-  {
-    for (const Sound& sound : GetAllSounds())
-      values.insert(values.end(), {sound.loudness, sound.bearing_rad, sound.elevation_rad});
-  }
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    readings.push_back({"loudness", "", GetLoudness()});
-    for (std::size_t i = 0; i < GetAllSounds().size(); ++i)
-    {
-      const Sound& sound = GetAllSounds()[i];
-      const std::string name = "sound " + std::to_string(i);
-      readings.push_back({name + " loudness", "", sound.loudness});
-      readings.push_back({name + " bearing", "rad", sound.bearing_rad});
-    }
+    columns.Add({"loudness", "", 0}, &CCI_MicrophoneSensor::GetLoudness)
+        .AddRows("sound", &CCI_MicrophoneSensor::GetAllSounds, CCI_Field({"loudness", "", 0}, &Sound::loudness),
+                 CCI_Field({"bearing", "rad"}, &Sound::bearing_rad),
+                 CCI_Field({"elevation", "rad"}, &Sound::elevation_rad));
   }
 };
 

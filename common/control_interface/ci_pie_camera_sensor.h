@@ -15,7 +15,7 @@
 namespace swarmanoid
 {
 
-class CCI_PieCameraSensor : public CCI_Sensor
+class CCI_PieCameraSensor : public CCI_SensorOf<CCI_PieCameraSensor>
 {
 public:
   static constexpr double NOTHING = std::numeric_limits<double>::infinity();
@@ -38,44 +38,17 @@ public:
     return GetAllSlices(colour)[sector];
   }
 
-  // For each colour, for each sector.
-  std::vector<CCI_Column> Columns() const override
+  static void Declare(Declaration& columns)
   {
-    std::vector<CCI_Column> columns;
-    for (const NamedColour& colour : kNamedColours)
-      for (unsigned sector = 0; sector < GetNumSectors(); ++sector)
-      {
-        const std::string name = colour.name + (" " + std::to_string(sector));
-        columns.push_back({name + " distance", "m", 0, NOTHING, true});
-        columns.push_back({name + " blobs", "", 0});
-      }
-    return columns;
+    const std::pair<std::string, std::uint32_t> colours[] = {
+        {"red", CCI_Colour::RED},       {"green", CCI_Colour::GREEN}, {"blue", CCI_Colour::BLUE},
+        {"yellow", CCI_Colour::YELLOW}, {"cyan", CCI_Colour::CYAN},   {"magenta", CCI_Colour::MAGENTA},
+        {"white", CCI_Colour::WHITE}};
+    for (const auto& [name, colour] : colours)
+      columns.AddEach([colour = colour](const CCI_PieCameraSensor& camera) { return camera.GetAllSlices(colour); },
+                      CCI_Field({name + " # distance", "m", 0, NOTHING, true}, &Slice::distance_m),
+                      CCI_Field({.name = name + " # blobs", .minimum = 0, .hides_zero = true}, &Slice::blobs));
   }
-  void ReadColumns(std::vector<double>& values) const override
-  {
-    for (const NamedColour& colour : kNamedColours)
-      for (const Slice& slice : GetAllSlices(colour.colour))
-        values.insert(values.end(), {slice.distance_m, static_cast<double>(slice.blobs)});
-  }
-  // Only what is seen.
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    for (const NamedColour& colour : kNamedColours)
-      for (unsigned sector = 0; sector < GetNumSectors(); ++sector)
-        if (const Slice& slice = GetSlice(colour.colour, sector); slice.blobs > 0)
-          readings.push_back({colour.name + (" " + std::to_string(sector)), "m", slice.distance_m});
-  }
-
-private:
-  struct NamedColour
-  {
-    const char* name;
-    std::uint32_t colour;
-  };
-  static constexpr NamedColour kNamedColours[] = {{"red", CCI_Colour::RED},    {"green", CCI_Colour::GREEN},
-                                                  {"blue", CCI_Colour::BLUE},  {"yellow", CCI_Colour::YELLOW},
-                                                  {"cyan", CCI_Colour::CYAN},  {"magenta", CCI_Colour::MAGENTA},
-                                                  {"white", CCI_Colour::WHITE}};
 };
 
 }  // namespace swarmanoid

@@ -7,7 +7,7 @@
 namespace swarmanoid
 {
 
-class CCI_PositioningSensor : public CCI_Sensor
+class CCI_PositioningSensor : public CCI_SensorOf<CCI_PositioningSensor>
 {
 public:
   // In the space, m: of the base of the robot.
@@ -17,23 +17,25 @@ public:
   // Radians, counter-clockwise from the x axis of the space, -pi..pi.
   double GetHeading() const { return YawOf(GetOrientation()); }
 
-  std::vector<CCI_Column> Columns() const override
+  static void Declare(Declaration& columns)
   {
-    return {{"x", "m"}, {"y", "m"}, {"z", "m"}, {"qx"}, {"qy"}, {"qz"}, {"qw"}};
-  }
-  void ReadColumns(std::vector<double>& values) const override
-  {
-    const Vector3 at = GetPosition();
-    const Quaternion turn = GetOrientation();
-    values.insert(values.end(), {at.x(), at.y(), at.z(), turn.x(), turn.y(), turn.z(), turn.w()});
-  }
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    const Vector3 position = GetPosition();
-    readings.push_back({"x", "m", position.x()});
-    readings.push_back({"y", "m", position.y()});
-    readings.push_back({"z", "m", position.z()});
-    readings.push_back({"heading", "rad", GetHeading()});
+    constexpr auto kPrograms = CCI_Column::For::kPrograms;
+    const auto part = [](const char* name) { return CCI_Column{.name = name, .audience = kPrograms}; };
+    columns
+        .AddAll({{"x", "m"}, {"y", "m"}, {"z", "m"}},
+                [](const CCI_PositioningSensor& sensor) -> std::array<double, 3>
+                {
+                  const Vector3 at = sensor.GetPosition();
+                  return {at.x(), at.y(), at.z()};
+                })
+        .AddAll({part("qx"), part("qy"), part("qz"), part("qw")},
+                [](const CCI_PositioningSensor& sensor) -> std::array<double, 4>
+                {
+                  const Quaternion turn = sensor.GetOrientation();
+                  return {turn.x(), turn.y(), turn.z(), turn.w()};
+                })
+        .Add({.name = "heading", .unit = "rad", .audience = CCI_Column::For::kPeople},
+             &CCI_PositioningSensor::GetHeading);
   }
 };
 

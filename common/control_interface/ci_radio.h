@@ -15,7 +15,7 @@
 namespace swarmanoid
 {
 
-class CCI_RadioActuator : public CCI_Actuator
+class CCI_RadioActuator : public CCI_ActuatorOf<CCI_RadioActuator>
 {
 public:
   static constexpr unsigned MAX_BYTES = 30;  // of a packet
@@ -26,29 +26,21 @@ public:
   // Packets that wait.
   virtual unsigned GetWaiting() const = 0;
 
+  static void Declare(Declaration& columns)
+  {
+    columns.Set({{"sending", "yes/no", 0, 1}, {"length", "", 0, MAX_BYTES}, ByteColumn()}, &SetNumbers, MAX_BYTES)
+        .Add({.name = "waiting", .audience = CCI_Column::For::kPeople}, &CCI_RadioActuator::GetWaiting);
+  }
+
+private:
   // A packet in each step while it is sending: so many of the bytes behind that.
-  std::vector<CCI_Column> Columns() const override
+  static void SetNumbers(CCI_RadioActuator& radio, std::span<const double> values)
   {
-    std::vector<CCI_Column> columns{{"sending", "yes/no", 0, 1}, {"length", "", 0, MAX_BYTES}};
-    for (CCI_Column& byte : NumberedColumns(MAX_BYTES, "byte ", {{}, {}, 0, 255})) columns.push_back(std::move(byte));
-    return columns;
-  }
-  void SetColumns(std::span<const double> values) override
-  {
-    if (!(values[0] > 0.5)) return;
-    std::array<std::uint8_t, MAX_BYTES> bytes{};
-    for (std::size_t i = 0; i < bytes.size(); ++i)
-      bytes[i] = static_cast<std::uint8_t>(std::clamp(values[2 + i], 0.0, 255.0));
-    const auto length = static_cast<std::size_t>(std::clamp(values[1], 0.0, double{MAX_BYTES}));
-    Send(std::span(bytes).first(length));
-  }
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    readings.push_back({"waiting", "", static_cast<double>(GetWaiting())});
+    if (values[0] > 0.5) SendNumbers<MAX_BYTES>(values.subspan(1), [&](auto bytes) { radio.Send(bytes); });
   }
 };
 
-class CCI_RadioSensor : public CCI_Sensor
+class CCI_RadioSensor : public CCI_SensorOf<CCI_RadioSensor>
 {
 public:
   struct Packet
@@ -65,29 +57,13 @@ public:
   // the experiment file. Valid until the next control step.
   virtual std::span<const Packet> GetAllPackets() const = 0;
 
-  std::vector<CCI_Column> Rows() const override
+  static void Declare(Declaration& columns)
   {
-    std::vector<CCI_Column> columns{{"signal", "dB"}, {"length", "", 0, CCI_RadioActuator::MAX_BYTES}};
-    for (CCI_Column& byte : NumberedColumns(CCI_RadioActuator::MAX_BYTES, "byte ", {{}, {}, 0, 255}))
-      columns.push_back(std::move(byte));
-    return columns;
-  }
-  void ReadRows(std::vector<double>& values) const override
-  {
-    for (const Packet& packet : GetAllPackets())
-    {
-      values.insert(values.end(), {packet.signal_db, static_cast<double>(packet.length)});
-      values.insert(values.end(), packet.bytes.begin(), packet.bytes.end());
-    }
-  }
-  void ReadRowIds(std::vector<std::string>& ids) const override
-  {
-    for (const Packet& packet : GetAllPackets()) ids.emplace_back(packet.sender);
-  }
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    for (const Packet& packet : GetAllPackets())
-      readings.push_back({"bytes from " + std::string(packet.sender), "", static_cast<double>(packet.length)});
+    columns
+        .AddRows("packet", &CCI_RadioSensor::GetAllPackets, CCI_Field({"signal", "dB"}, &Packet::signal_db),
+                 CCI_Field({"length", "", 0, CCI_RadioActuator::MAX_BYTES}, &Packet::length),
+                 CCI_Field(ByteColumn(), &Packet::bytes))
+        .AddRowIds(&CCI_RadioSensor::GetAllPackets, &Packet::sender);
   }
 };
 

@@ -15,7 +15,7 @@
 namespace swarmanoid
 {
 
-class CCI_RangeAndBearingActuator : public CCI_Actuator
+class CCI_RangeAndBearingActuator : public CCI_ActuatorOf<CCI_RangeAndBearingActuator>
 {
 public:
   static constexpr unsigned NUM_BYTES = 10;
@@ -35,23 +35,23 @@ public:
     SetMessage(message);
   }
 
-  // Whether it sends, and the first NUM_BYTES of what.
-  std::vector<CCI_Column> Columns() const override
+  static void Declare(Declaration& columns)
   {
-    std::vector<CCI_Column> columns{{"sending", "yes/no", 0, 1}};
-    for (CCI_Column& byte : NumberedColumns(NUM_BYTES, "byte ", {{}, {}, 0, 255})) columns.push_back(std::move(byte));
-    return columns;
-  }
-  void SetColumns(std::span<const double> values) override
-  {
-    if (!(values[0] > 0.5)) return StopSending();
-    Message message{};
-    for (std::size_t i = 0; i < message.size(); ++i)
-      message[i] = static_cast<std::uint8_t>(std::clamp(values[1 + i], 0.0, 255.0));
-    SetMessage(message);
+    columns.Set({{"sending", "yes/no", 0, 1}, ByteColumn()}, &SetNumbers, &CCI_RangeAndBearingActuator::GetNumBytes);
   }
 
 protected:
+  static void SetNumbers(CCI_RangeAndBearingActuator& sender, std::span<const double> values)
+  {
+    if (!(values[0] > 0.5)) return sender.StopSending();
+    const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(std::clamp(values[1 + i], 0.0, 255.0)); };
+    Message message{};
+    for (std::size_t i = 0; i < message.size(); ++i) message[i] = byte(i);
+    if (values.size() == 1 + message.size()) return sender.SetMessage(message);
+    std::vector<std::uint8_t> bytes(values.size() - 1);
+    for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = byte(i);
+    sender.SetBytes(bytes);
+  }
   void RequireLength(std::size_t bytes) const
   {
     if (bytes > GetNumBytes())
@@ -60,7 +60,7 @@ protected:
   }
 };
 
-class CCI_RangeAndBearingSensor : public CCI_Sensor
+class CCI_RangeAndBearingSensor : public CCI_SensorOf<CCI_RangeAndBearingSensor>
 {
 public:
   struct Packet
@@ -76,37 +76,27 @@ public:
   virtual std::span<const Packet> GetAllPackets() const = 0;
   // The bytes of a packet behind its first NUM_BYTES: none if its sender has no longer messages. Valid as the packets.
   virtual std::span<const std::uint8_t> GetFurtherBytes(const Packet&) const { return {}; }
+  // How many there are in the longest message that any robot of the experiment can send.
+  virtual unsigned GetMostFurtherBytes() const { return 0; }
 
-  // A packet with its first NUM_BYTES.
-  std::vector<CCI_Column> Rows() const override
+  static void Declare(Declaration& columns)
   {
-    std::vector<CCI_Column> columns{{"range", "m", 0}, {"bearing", "rad"}, {"vertical bearing", "rad"}};
-    for (CCI_Column& byte : NumberedColumns(CCI_RangeAndBearingActuator::NUM_BYTES, "byte ", {{}, {}, 0, 255}))
-      columns.push_back(std::move(byte));
-    return columns;
-  }
-  void ReadRows(std::vector<double>& values) const override
-  {
-    for (const Packet& packet : GetAllPackets())
+    // As many for each packet, so that rows are equally long.
+    const auto further = [](const CCI_RangeAndBearingSensor& sensor, const Packet& packet)
     {
-      values.insert(values.end(), {packet.range_m, packet.bearing_rad, packet.vertical_bearing_rad});
-      values.insert(values.end(), packet.message.begin(), packet.message.end());
-    }
-  }
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    for (std::size_t i = 0; i < GetAllPackets().size(); ++i)
-    {
-      const Packet& packet = GetAllPackets()[i];
-      const std::string name = "packet " + std::to_string(i);
-      readings.push_back({name + " range", "m", packet.range_m});
-      readings.push_back({name + " bearing", "rad", packet.bearing_rad});
-      for (std::size_t byte = 0; byte < packet.message.size(); ++byte)
-        if (packet.message[byte] != 0)
-          readings.push_back({name + " byte " + std::to_string(byte), "", static_cast<double>(packet.message[byte])});
-      if (const std::size_t further = GetFurtherBytes(packet).size(); further != 0)
-        readings.push_back({name + " further bytes", "", static_cast<double>(further)});
-    }
+      const std::span<const std::uint8_t> bytes = sensor.GetFurtherBytes(packet);
+      std::vector<std::uint8_t> all(bytes.begin(), bytes.end());
+      all.resize(sensor.GetMostFurtherBytes());
+      return all;
+    };
+    const auto count = [](const CCI_RangeAndBearingSensor& sensor, const Packet& packet)
+    { return sensor.GetFurtherBytes(packet).size(); };
+    columns.AddRows("packet", &CCI_RangeAndBearingSensor::GetAllPackets, CCI_Field({"range", "m", 0}, &Packet::range_m),
+                    CCI_Field({"bearing", "rad"}, &Packet::bearing_rad),
+                    CCI_Field({"vertical bearing", "rad"}, &Packet::vertical_bearing_rad),
+                    CCI_Field(ByteColumn(), &Packet::message),
+                    CCI_Field({"further byte #", "", 0, 255, false, false, CCI_Column::For::kPrograms}, further),
+                    CCI_Field({"further bytes", "", 0, 1e9, false, true, CCI_Column::For::kPeople}, count));
   }
 };
 

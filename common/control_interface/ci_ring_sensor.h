@@ -10,7 +10,7 @@
 namespace swarmanoid
 {
 
-class CCI_RingSensor : public CCI_Sensor
+class CCI_RingSensor : public CCI_SensorOf<CCI_RingSensor>
 {
 public:
   // All readings, 0 to 1, valid until the next control step.
@@ -19,15 +19,7 @@ public:
   // there.
   virtual double GetAngle(unsigned sensor) const = 0;
 
-  std::vector<CCI_Column> Columns() const override
-  {
-    return NumberedColumns(GetAllSensorReadings().size(), "", {.name = {}, .minimum = 0, .maximum = 1});
-  }
-  void ReadColumns(std::vector<double>& values) const override
-  {
-    const auto all = GetAllSensorReadings();
-    values.insert(values.end(), all.begin(), all.end());
-  }
+  static void Declare(Declaration& columns) { columns.Add({"#", "", 0, 1}, &CCI_RingSensor::GetAllSensorReadings); }
 };
 
 }  // namespace swarmanoid

@@ -10,7 +10,7 @@
 namespace swarmanoid
 {
 
-class CCI_TagReaderSensor : public CCI_Sensor
+class CCI_TagReaderSensor : public CCI_SensorOf<CCI_TagReaderSensor>
 {
 public:
   struct Tag
@@ -22,18 +22,10 @@ public:
   // All tags that answered in this tick, in no particular order, valid until the next control step.
   virtual std::span<const Tag> GetAllTags() const = 0;
 
-  std::vector<CCI_Column> Rows() const override { return {{"distance", "m", 0}}; }
-  void ReadRows(std::vector<double>& values) const override
+  static void Declare(Declaration& columns)
   {
-    for (const Tag& tag : GetAllTags()) values.push_back(tag.distance_m);
-  }
-  void ReadRowIds(std::vector<std::string>& ids) const override
-  {
-    for (const Tag& tag : GetAllTags()) ids.emplace_back(tag.id);
-  }
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    for (const Tag& tag : GetAllTags()) readings.push_back({std::string(tag.id), "m", tag.distance_m});
+    columns.AddRows("tag", &CCI_TagReaderSensor::GetAllTags, CCI_Field({"distance", "m", 0}, &Tag::distance_m))
+        .AddRowIds(&CCI_TagReaderSensor::GetAllTags, &Tag::id);
   }
 };
 

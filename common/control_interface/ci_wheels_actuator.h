@@ -6,7 +6,7 @@
 namespace swarmanoid
 {
 
-class CCI_WheelsActuator : public CCI_Actuator
+class CCI_WheelsActuator : public CCI_ActuatorOf<CCI_WheelsActuator>
 {
 public:
   // Metres.
@@ -21,8 +21,10 @@ public:
     SetAngularVelocity(left / GetWheelRadius(), right / GetWheelRadius());
   }
 
-  std::vector<CCI_Column> Columns() const override { return {{"left", "rad/s"}, {"right", "rad/s"}}; }
-  void SetColumns(std::span<const double> values) override { SetAngularVelocity(values[0], values[1]); }
+  static void Declare(Declaration& columns)
+  {
+    columns.Set({{"left", "rad/s"}, {"right", "rad/s"}}, &CCI_WheelsActuator::SetAngularVelocity);
+  }
 };
 
 }  // namespace swarmanoid

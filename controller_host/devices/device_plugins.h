@@ -14,6 +14,14 @@
 namespace swarmanoid
 {
 
+// The code of the devices of one file of this folder. `bind` calls BindSensor and BindActuator; RegisterBuiltinDevices
+// calls it when the devices are described.
+class DeviceCode
+{
+public:
+  explicit DeviceCode(void (*bind)());
+};
+
 // A device that asks for nothing but its own robots.
 template <class Batch>
 class OfOwnRobots : public Batch
@@ -31,6 +39,7 @@ void BindSensor(const std::string& label, const std::string& implementation)
   constexpr bool kOfOwnRobots = std::derived_from<Batch, ChannelSensor> || std::derived_from<Batch, AttributeSensor>;
   using Made = std::conditional_t<kOfOwnRobots, OfOwnRobots<Batch>, Batch>;
   PluginRegistry<SensorBatch>::Instance().Bind(label, implementation, [] { return std::make_unique<Made>(); });
+  SetColumns(PluginKind::kSensor, label, ColumnsOf<Batch>());
 }
 
 template <class Batch>
@@ -38,6 +47,7 @@ void BindActuator(const std::string& label, const std::string& implementation)
 {
   PluginRegistry<ActuatorBatch>::Instance().Bind(label, implementation,
                                                  [] { return std::make_unique<OfOwnRobots<Batch>>(); });
+  SetColumns(PluginKind::kActuator, label, ColumnsOf<Batch>());
 }
 
 }  // namespace swarmanoid

@@ -11,7 +11,6 @@
 #include "common/math/cells.h"
 #include "common/space/space.h"
 #include "controller_host/devices/any_robot/kind_of_batch.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/sensing/engine_membership.h"
 #include "controller_host/devices/sensing/floor_patches.h"
@@ -102,7 +101,7 @@ public:
     for (std::size_t k = 0; k < robots_.size(); ++k) devices_.emplace_back(ValuesOf(k), points_.size());
   }
 
-  CCI_Sensor* Sensor(std::size_t k) override { return &devices_[k]; }
+  Device* Sensor(std::size_t k) override { return &devices_[k]; }
 
   // Patches of the floor are there for everybody.
   double Reach() const override { return 0; }
@@ -231,16 +230,17 @@ private:
 
 }  // namespace
 
-void RegisterGround()
-{
-  BindSensor<GroundSensor<FootbotGround>>("footbot_ground", "generic_footbot_ground");
-  using Base = CCI_FootBotBaseGroundSensor;
-  BindSensor<GroundSensor<FixedGround<Base>, AsTheInterfaceSays<Base, true>>>("footbot_base_ground",
-                                                                              "generic_footbot_base_ground");
-  using Motor = CCI_FootBotMotorGroundSensor;
-  BindSensor<GroundSensor<FixedGround<Motor>, AsTheInterfaceSays<Motor, false>>>("footbot_motor_ground",
-                                                                                 "generic_footbot_motor_ground");
-  BindSensor<GroundSensor<AnyGround>>("ground", "generic_ground");
-}
+const DeviceCode kGroundCode(
+    []
+    {
+      BindSensor<GroundSensor<FootbotGround>>("footbot_ground", "generic_footbot_ground");
+      using Base = CCI_FootBotBaseGroundSensor;
+      BindSensor<GroundSensor<FixedGround<Base>, AsTheInterfaceSays<Base, true>>>("footbot_base_ground",
+                                                                                  "generic_footbot_base_ground");
+      using Motor = CCI_FootBotMotorGroundSensor;
+      BindSensor<GroundSensor<FixedGround<Motor>, AsTheInterfaceSays<Motor, false>>>("footbot_motor_ground",
+                                                                                     "generic_footbot_motor_ground");
+      BindSensor<GroundSensor<AnyGround>>("ground", "generic_ground");
+    });
 
 }  // namespace swarmanoid

@@ -11,7 +11,6 @@
 #include "common/control_interface/handbot/ci_handbot_leds_actuator.h"
 #include "common/math/elementary.h"
 #include "controller_host/devices/any_robot/kind_of_batch.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/value_devices.h"
 
@@ -23,23 +22,18 @@ namespace
 constexpr std::uint32_t kColourBits = 0xffffff;
 
 template <class Interface>
-class RingOf : public Interface
+class RingOf : public CommandsOf<Interface>
 {
 public:
-  RingOf(double* colours, unsigned leds) : colours_(colours), leds_(leds) {}
-  void SetAllColours(std::uint32_t colour) override { std::fill_n(colours_, leds_, colour & kColourBits); }
+  RingOf(double* colours, unsigned leds) : CommandsOf<Interface>(colours), leds_(leds) {}
+  void SetAllColours(std::uint32_t colour) override { std::fill_n(this->values_, leds_, colour & kColourBits); }
   void SetColour(unsigned led, std::uint32_t colour) override
   {
     if (led >= leds_) throw std::out_of_range("LED " + std::to_string(led) + " of a ring of " + std::to_string(leds_));
-    colours_[led] = colour & kColourBits;
-  }
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    for (unsigned led = 0; led < leds_; ++led) readings.push_back({std::to_string(led), "colour", colours_[led]});
+    this->values_[led] = colour & kColourBits;
   }
 
 protected:
-  double* colours_;
   unsigned leds_;
 };
 
@@ -85,7 +79,7 @@ public:
     const double angle = DegreesToRadians(setup.parameters.Number("observable_angle"));
     for (std::size_t k = 0; k < Robots(); ++k) rings_.emplace_back(ValuesOf(k), leds, angle);
   }
-  CCI_Actuator* Actuator(std::size_t k) override { return &rings_[k]; }
+  DirectionalRing* Actuator(std::size_t k) override { return &rings_[k]; }
 
 private:
   std::vector<DirectionalRing> rings_;
@@ -101,27 +95,19 @@ public:
     colour_noise_ = NoiseFrom(setup.parameters);
     for (std::size_t k = 0; k < Robots(); ++k) rings_.emplace_back(ValuesOf(k), leds);
   }
-  CCI_Actuator* Actuator(std::size_t k) override { return &rings_[k]; }
+  AnyRing* Actuator(std::size_t k) override { return &rings_[k]; }
 
 private:
   std::vector<AnyRing> rings_;
 };
 
 template <class Interface>
-class Beacon : public Interface
+class Beacon : public CommandsOf<Interface>
 {
 public:
   static constexpr const char* kAttribute = "beacon";
-  explicit Beacon(double* colour) : colour_(colour) {}
-  void SetColour(std::uint32_t colour) override { *colour_ = colour & kColourBits; }
-
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    readings.push_back({"colour", "colour", *colour_});
-  }
-
-private:
-  double* colour_;
+  using CommandsOf<Interface>::CommandsOf;
+  void SetColour(std::uint32_t colour) override { *this->values_ = colour & kColourBits; }
 };
 
 template <class Device>
@@ -138,15 +124,16 @@ public:
 
 }  // namespace
 
-void RegisterLeds()
-{
-  BindActuator<LightActuator<Ring<CCI_FootBotLedsActuator>>>("footbot_leds", "generic_footbot_leds");
-  BindActuator<LightActuator<Beacon<CCI_FootBotBeaconActuator>>>("footbot_beacon", "generic_footbot_beacon");
-  BindActuator<LightActuator<Ring<CCI_EyeBotLedsActuator>>>("eyebot_leds", "generic_eyebot_leds");
-  BindActuator<LightActuator<Beacon<CCI_HandBotBeaconActuator>>>("handbot_beacon", "generic_handbot_beacon");
-  BindActuator<LightActuator<Ring<CCI_HandBotLedsActuator>>>("handbot_leds", "generic_handbot_leds");
-  BindActuator<AnyRingActuator>("led_ring", "generic_led_ring");
-  BindActuator<DirectionalRingActuator>("directional_leds", "generic_directional_leds");
-}
+const DeviceCode kLedsCode(
+    []
+    {
+      BindActuator<LightActuator<Ring<CCI_FootBotLedsActuator>>>("footbot_leds", "generic_footbot_leds");
+      BindActuator<LightActuator<Beacon<CCI_FootBotBeaconActuator>>>("footbot_beacon", "generic_footbot_beacon");
+      BindActuator<LightActuator<Ring<CCI_EyeBotLedsActuator>>>("eyebot_leds", "generic_eyebot_leds");
+      BindActuator<LightActuator<Beacon<CCI_HandBotBeaconActuator>>>("handbot_beacon", "generic_handbot_beacon");
+      BindActuator<LightActuator<Ring<CCI_HandBotLedsActuator>>>("handbot_leds", "generic_handbot_leds");
+      BindActuator<AnyRingActuator>("led_ring", "generic_led_ring");
+      BindActuator<DirectionalRingActuator>("directional_leds", "generic_directional_leds");
+    });
 
 }  // namespace swarmanoid

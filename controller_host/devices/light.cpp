@@ -9,7 +9,6 @@
 #include "common/math/elementary.h"
 #include "common/math/lanes.h"
 #include "common/space/space.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/sensing/sensor_world.h"
 #include "controller_host/devices/sensing/shadows.h"
@@ -79,7 +78,7 @@ public:
     devices_.reserve(this->robots_.size());
     for (std::size_t k = 0; k < this->robots_.size(); ++k) devices_.emplace_back(this->ValuesOf(k), *this, k);
   }
-  CCI_Sensor* Sensor(std::size_t k) override { return &devices_[k]; }
+  Interface* Sensor(std::size_t k) override { return &devices_[k]; }
 
   void RefreshShared(WorkerPool* pool) override { world_->Refresh(pool); }
   void Update(const ChannelView&) override { MakeAhead(); }
@@ -203,12 +202,13 @@ private:
 
 }  // namespace
 
-void RegisterLight()
-{
-  BindSensor<LightSensor<CCI_FootBotLightSensor, InverseSquare>>("footbot_light", "generic_footbot_light");
-  BindSensor<LightSensor<CCI_FootBotLightSensor, Argos3>>("footbot_light", "argos3_footbot_light");
-  BindSensor<LightSensor<CCI_EyeBotLightSensor, InverseSquare>>("eyebot_light", "generic_eyebot_light");
-  BindSensor<LightSensor<CCI_EyeBotLightSensor, Argos3>>("eyebot_light", "argos3_eyebot_light");
-}
+const DeviceCode kLightCode(
+    []
+    {
+      BindSensor<LightSensor<CCI_FootBotLightSensor, InverseSquare>>("footbot_light", "generic_footbot_light");
+      BindSensor<LightSensor<CCI_FootBotLightSensor, Argos3>>("footbot_light", "argos3_footbot_light");
+      BindSensor<LightSensor<CCI_EyeBotLightSensor, InverseSquare>>("eyebot_light", "generic_eyebot_light");
+      BindSensor<LightSensor<CCI_EyeBotLightSensor, Argos3>>("eyebot_light", "argos3_eyebot_light");
+    });
 
 }  // namespace swarmanoid

@@ -1,48 +1,29 @@
+#include <vector>
+
 #include "common/plugin_descriptions/describe_builtins.h"
-#include "controller_host/device.h"
-#include "controller_host/devices/builtin_devices.h"
+#include "controller_host/devices/device_plugins.h"
 
 namespace swarmanoid
 {
+namespace
+{
+
+std::vector<void (*)()>& CodeOfDevices()
+{
+  static std::vector<void (*)()> all;
+  return all;
+}
+
+}  // namespace
+
+DeviceCode::DeviceCode(void (*bind)()) { CodeOfDevices().push_back(bind); }
 
 void RegisterBuiltinDevices()
 {
   static const bool registered = []
   {
     DescribeBuiltinDevices();
-    RegisterFootbotWheels();
-    RegisterFootbotProximity();
-    RegisterFootbotGripper();
-    RegisterFootbotTurret();
-    RegisterFootbotEncoders();
-    RegisterFootbotAccelerometer();
-    RegisterLight();
-    RegisterLightRing();
-    RegisterGround();
-    RegisterProximity();
-    RegisterWheels();
-    RegisterLeds();
-    RegisterPreferentialDirection();
-    RegisterColourCameras();
-    RegisterPieCamera();
-    RegisterMotionSensors();
-    RegisterMicrophones();
-    RegisterDistanceScanners();
-    RegisterDepthCameras();
-    RegisterContact();
-    RegisterTagReader();
-    RegisterFunctionsChannel();
-    RegisterRadioSender();
-    RegisterRadioReceiver();
-    RegisterRangeAndBearingSender();
-    RegisterRangeAndBearingReceiver();
-    RegisterEyebotPropellers();
-    RegisterEyebotAttachment();
-    RegisterEyebotAltitude();
-    RegisterEyebotLaser();
-    RegisterHandbotJoints();
-    RegisterHandbotProximity();
-    RegisterHandbotRope();
+    for (void (*const bind)() : CodeOfDevices()) bind();
     PluginRegistry<SensorBatch>::Instance().RequireCode();
     PluginRegistry<ActuatorBatch>::Instance().RequireCode();
     return true;

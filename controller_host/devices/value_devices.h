@@ -143,6 +143,22 @@ private:
   std::size_t k_;
 };
 
+// What a controller holds of an actuator whose columns are its numbers, in the same order.
+template <class Interface>
+class CommandsOf : public Interface
+{
+public:
+  explicit CommandsOf(double* values) : values_(values) {}
+
+protected:
+  void ReadSettings(std::vector<double>& values) const override
+  {
+    values.insert(values.end(), values_, values_ + this->Columns().size());
+  }
+
+  double* values_;
+};
+
 // Actuator batches and sensor batches of one kind of object, made from the numbers of a robot.
 template <class Base, class Device>
 class DevicesOf : public Base
@@ -161,14 +177,14 @@ template <class Base, class Device>
 class ActuatorsOf : public DevicesOf<Base, Device>
 {
 public:
-  CCI_Actuator* Actuator(std::size_t k) override { return &this->devices_[k]; }
+  Device* Actuator(std::size_t k) override { return &this->devices_[k]; }
 };
 
 template <class Base, class Device>
 class SensorsOf : public DevicesOf<Base, Device>
 {
 public:
-  CCI_Sensor* Sensor(std::size_t k) override { return &this->devices_[k]; }
+  Device* Sensor(std::size_t k) override { return &this->devices_[k]; }
 };
 
 // A specific actuator that sends what was set on it: COUNT numbers from place FIRST of the channel on, with their noise

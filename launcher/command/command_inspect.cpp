@@ -89,12 +89,14 @@ std::string ReadingText(const CCI_Reading& reading)
   return fmt::format("{:.6g}{}{}", reading.value, reading.unit.empty() ? "" : " ", reading.unit);
 }
 
-// Of a ring or a row: they are called by their numbers.
+// Of a ring: "0", "1" or "led 0", "led 1" and so on.
 bool AreNumbered(const std::vector<CCI_Reading>& readings)
 {
+  if (readings.size() < 2 || !readings.front().name.ends_with('0')) return false;
+  const std::string start = readings.front().name.substr(0, readings.front().name.size() - 1);
   for (std::size_t k = 0; k < readings.size(); ++k)
-    if (readings[k].name != std::to_string(k)) return false;
-  return readings.size() > 1;
+    if (readings[k].name != start + std::to_string(k)) return false;
+  return true;
 }
 
 void PrintDevices(const char* kind, const std::vector<DeviceStatus>& devices)

@@ -13,7 +13,7 @@ namespace
 [[noreturn]] void RefuseCount(const std::string& type, std::size_t given, const std::string& stated)
 {
   throw std::runtime_error("the sensor '" + type + "' gave " + std::to_string(given) + " numbers and states " + stated +
-                           "; Columns and Rows must fit what ReadColumns and ReadRows append");
+                           "; what its interface declares must have the same size at every tick");
 }
 
 }  // namespace
@@ -37,37 +37,19 @@ std::map<std::string, CCI_Actuator*> ActuatorsOf(const CCI_Robot& robot)
 std::vector<std::string> NamesOf(const std::vector<CCI_Column>& columns)
 {
   std::vector<std::string> names;
-  for (const CCI_Column& column : columns)
-  {
-    const bool has_unit = !column.unit.empty() && column.unit != "colour" && column.unit != "yes/no";
-    names.push_back(has_unit ? column.name + " [" + column.unit + "]" : column.name);
-  }
+  for (const CCI_Column& column : columns) names.push_back(column.Title());
   return names;
 }
 
 SensorReader::SensorReader(std::string type, const CCI_Sensor& sensor)
     : type_(std::move(type)), sensor_(&sensor), columns_(NamesOf(sensor.Columns())), rows_(NamesOf(sensor.Rows()))
 {
-  if (!columns_.empty() || !rows_.empty()) return;
-  by_description_ = true;
-  std::vector<CCI_Reading> readings;
-  sensor.Describe(readings);
-  std::vector<CCI_Column> columns;
-  for (const CCI_Reading& reading : readings) columns.push_back({reading.name, reading.unit});
-  columns_ = NamesOf(columns);
 }
 
 void SensorReader::ReadColumns(std::vector<double>& values) const
 {
   values.clear();
-  if (by_description_)
-  {
-    std::vector<CCI_Reading> readings;
-    sensor_->Describe(readings);
-    for (const CCI_Reading& reading : readings) values.push_back(reading.value);
-  }
-  else
-    sensor_->ReadColumns(values);
+  sensor_->ReadColumns(values);
   if (values.size() != columns_.size()) RefuseCount(type_, values.size(), std::to_string(columns_.size()) + " columns");
 }
 

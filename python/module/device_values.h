@@ -1,4 +1,4 @@
-// What a device reads or is told, as numbers: the columns that it states itself (common/control_interface/ci_device.h).
+// What a device reads or is told, as numbers: the columns that its interface declares (ci_columns.h).
 #pragma once
 
 #include <map>
@@ -17,7 +17,7 @@ std::map<std::string, CCI_Actuator*> ActuatorsOf(const CCI_Robot& robot);
 // Of columns, with their units: "left [rad/s]", "colour".
 std::vector<std::string> NamesOf(const std::vector<CCI_Column>& columns);
 
-// A sensor of a robot, which outlives it. A sensor that states neither columns nor rows has those of its Describe.
+// A sensor of a robot, which outlives it.
 class SensorReader
 {
 public:
@@ -37,7 +37,6 @@ public:
 private:
   std::string type_;
   const CCI_Sensor* sensor_ = nullptr;
-  bool by_description_ = false;
   std::vector<std::string> columns_, rows_;
 };
 

@@ -173,6 +173,21 @@ void Sender(const TopicSetup& setup, const std::string& type, Topics& topics)
       });
 }
 
+// Any other actuator: a number for each of its columns.
+void AllColumns(const TopicSetup& setup, const std::string& type, Topics& topics)
+{
+  CCI_Actuator* actuator = setup.robot.GetActuator(type);
+  setup.Add<Float32MultiArray>(topics, type + "/set",
+                               [actuator, width = actuator->Columns().size()](const Float32MultiArray& message)
+                               {
+                                 const std::vector<double> values(message.data().begin(), message.data().end());
+                                 if (values.size() != width)
+                                   Refuse(fmt::format("a command has {} numbers; it takes {}", values.size(), width));
+                                 for (const double value : values) Finite(value);
+                                 actuator->SetColumns(values);
+                               });
+}
+
 using TopicMaker = void (*)(const TopicSetup& setup, const std::string& type, Topics& topics);
 
 const std::map<std::string, TopicMaker>& TopicMakers()
@@ -187,20 +202,16 @@ const std::map<std::string, TopicMaker>& TopicMakers()
 
 }  // namespace
 
-std::vector<std::string> CommandedActuators()
-{
-  std::vector<std::string> types;
-  for (const auto& [type, maker] : TopicMakers()) types.push_back(type);
-  return types;
-}
-
 std::vector<std::unique_ptr<CommandTopic>> MakeCommandTopics(const CCI_Robot& robot, const DriverSetup& setup,
                                                              bool reliable)
 {
   Topics topics;
   for (const std::string& type : robot.ActuatorTypes())
-    if (const auto maker = TopicMakers().find(type); maker != TopicMakers().end())
-      maker->second({robot, setup, reliable}, type, topics);
+    if (std::ranges::find(kDrivingActuators, type) == kDrivingActuators.end())
+    {
+      const auto maker = TopicMakers().find(type);
+      (maker == TopicMakers().end() ? AllColumns : maker->second)({robot, setup, reliable}, type, topics);
+    }
   return topics;
 }
 

@@ -3,8 +3,10 @@
 // ros2_controller, in the thread of the controllers.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/control_interface/ci_robot.h"
@@ -26,9 +28,10 @@ public:
   virtual std::string Name() const = 0;
 };
 
-// The types of actuators that have topics, in ascending order.
-std::vector<std::string> CommandedActuators();
-// For all actuators of a robot that have topics. `reliable`: no command is lost.
+// Actuators that `cmd_vel` drives.
+inline constexpr std::array<std::string_view, 3> kDrivingActuators{"eyebot_propellers", "footbot_wheels", "wheels"};
+
+// For all other actuators of a robot. `reliable`: no command is lost.
 std::vector<std::unique_ptr<CommandTopic>> MakeCommandTopics(const CCI_Robot& robot, const DriverSetup& setup,
                                                              bool reliable);
 

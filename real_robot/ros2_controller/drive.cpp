@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "common/configuration/wording.h"
@@ -24,14 +23,9 @@ bool IsFinite(const Twist& twist)
 
 Drive::Drive(const CCI_Robot& robot)
 {
-  const std::vector<std::string> known{"eyebot_propellers", "footbot_wheels", "wheels"};
-  std::vector<std::string> all = CommandedActuators();
-  all.insert(all.end(), known.begin(), known.end());
-  std::ranges::sort(all);
   for (const std::string& type : robot.ActuatorTypes())
-    if (std::ranges::find(all, type) == all.end())
-      throw DriverError(
-          fmt::format("ros2_controller has no topic for the actuator <{}>; those that have: {}", type, Listed(all)));
+    if (robot.GetActuator(type)->Columns().empty())
+      throw DriverError(fmt::format("the actuator <{}> declares no columns, so it has no topic", type));
   if (robot.HasActuator("footbot_wheels"))
     footbot_ = &robot.Actuator<CCI_FootBotWheelsActuator>("footbot_wheels");
   else if (robot.HasActuator("wheels"))
@@ -39,7 +33,8 @@ Drive::Drive(const CCI_Robot& robot)
   else if (robot.HasActuator("eyebot_propellers"))
     propellers_ = &robot.Actuator<CCI_EyeBotPropellersActuator>("eyebot_propellers");
   else
-    throw DriverError(fmt::format("ros2_controller needs one of the actuators {}", Listed(known)));
+    throw DriverError(fmt::format("ros2_controller needs one of the actuators {}",
+                                  Listed({kDrivingActuators.begin(), kDrivingActuators.end()})));
 }
 
 void Drive::Command(const Twist& twist)

@@ -409,6 +409,66 @@ private:
   }
 };
 
+// The columns of a sensor that no message of ROS 2 is made for, and its rows behind them on a topic of their own.
+class Table : public ReadingPublisher
+{
+public:
+  Table(const ReadingSetup& setup, const std::string& type) : sensor_(*setup.robot->GetSensor(type))
+  {
+    Open(columns_, setup, type, sensor_.Columns());
+    Open(rows_, setup, type + "/rows", sensor_.Rows());
+  }
+  void Publish(const Header&) override
+  {
+    values_.clear();
+    sensor_.ReadColumns(values_);
+    Publish(columns_);
+    values_.clear();
+    sensor_.ReadRows(values_);
+    Publish(rows_);
+  }
+  unsigned Listeners() const override
+  {
+    return (columns_ ? columns_->topic.Listeners() : 0) + (rows_ ? rows_->topic.Listeners() : 0);
+  }
+
+private:
+  struct Part
+  {
+    Part(const ReadingSetup& setup, const std::string& name) : topic(setup, name) {}
+    ReadingTopic<Float32MultiArray> topic;
+    Float32MultiArray message{};
+  };
+
+  // The columns are named by the label of the second dimension, with commas between them.
+  static void Open(std::optional<Part>& part, const ReadingSetup& setup, const std::string& topic,
+                   const std::vector<CCI_Column>& columns)
+  {
+    if (columns.empty()) return;
+    part.emplace(setup, topic);
+    std::string titles;
+    for (const CCI_Column& column : columns) titles += (titles.empty() ? "" : ", ") + column.Title();
+    part->message.layout().dim().resize(2);
+    part->message.layout().dim()[0].label("row");
+    part->message.layout().dim()[1].label(titles);
+    part->message.layout().dim()[1].size(static_cast<std::uint32_t>(columns.size()));
+    part->message.layout().dim()[1].stride(static_cast<std::uint32_t>(columns.size()));
+  }
+  void Publish(std::optional<Part>& part)
+  {
+    if (!part) return;
+    auto& dimensions = part->message.layout().dim();
+    dimensions[0].stride(static_cast<std::uint32_t>(values_.size()));
+    dimensions[0].size(dimensions[0].stride() / dimensions[1].size());
+    part->message.data().assign(values_.begin(), values_.end());
+    part->topic.Publish(part->message);
+  }
+
+  const CCI_Sensor& sensor_;
+  std::optional<Part> columns_, rows_;
+  std::vector<double> values_;
+};
+
 template <class Reading, class... Further>
 std::unique_ptr<ReadingPublisher> Make(const ReadingSetup& setup, Further... further)
 {
@@ -417,7 +477,8 @@ std::unique_ptr<ReadingPublisher> Make(const ReadingSetup& setup, Further... fur
 
 using Maker = std::function<std::unique_ptr<ReadingPublisher>(const ReadingSetup&)>;
 
-// Sensors that share a message share a name of the maker: it is made once.
+// The sensors that messages of ROS 2 are made for. Those that share a message share a name of the maker: it is made
+// once.
 struct Source
 {
   std::string publisher;
@@ -454,20 +515,19 @@ const std::map<std::string, Source>& Sources()
 
 }  // namespace
 
-std::vector<std::string> PublishedSensors()
-{
-  std::vector<std::string> types;
-  for (const auto& [type, source] : Sources()) types.push_back(type);
-  return types;
-}
-
 std::vector<std::unique_ptr<ReadingPublisher>> MakeReadings(const ReadingSetup& setup)
 {
   std::vector<std::unique_ptr<ReadingPublisher>> readings;
   std::vector<std::string> made;
   for (const std::string& type : setup.robot->SensorTypes())
   {
-    const Source& source = Sources().at(type);
+    const auto found = Sources().find(type);
+    if (found == Sources().end())
+    {
+      readings.push_back(Make<Table>(setup, type));
+      continue;
+    }
+    const Source& source = found->second;
     if (!source.make || std::ranges::find(made, source.publisher) != made.end()) continue;
     made.push_back(source.publisher);
     readings.push_back(source.make(setup));

@@ -44,10 +44,8 @@ public:
   }
 };
 
-// The types of sensors that have topics, in ascending order. `positioning` has none of its own: it is part of `odom`.
-std::vector<std::string> PublishedSensors();
-// For all sensors of a robot that have topics, and behind them its odometry, if it has wheels or `positioning`. Throws
-// DriverError.
+// For all sensors of a robot, and behind them its odometry, if it has wheels or `positioning`, which has no topic of
+// its own. Throws DriverError.
 std::vector<std::unique_ptr<ReadingPublisher>> MakeReadings(const ReadingSetup& setup);
 
 }  // namespace swarmanoid::ros2

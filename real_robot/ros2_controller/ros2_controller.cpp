@@ -162,11 +162,9 @@ private:
     parameters_ = parameters;
     const CCI_Robot& robot = *GetRobot();
     drive_.emplace(robot);
-    const std::vector<std::string> published = PublishedSensors();
     for (const std::string& type : robot.SensorTypes())
-      if (std::ranges::find(published, type) == published.end())
-        throw DriverError(fmt::format("ros2_controller has no topic for the sensor <{}>; those that have: {}", type,
-                                      Listed(published)));
+      if (robot.GetSensor(type)->Columns().empty() && robot.GetSensor(type)->Rows().empty())
+        throw DriverError(fmt::format("the sensor <{}> declares no columns, so it has no topic", type));
     if (robot.HasSensor("footbot_encoders")) encoders_ = &robot.Sensor<CCI_FootBotEncodersSensor>("footbot_encoders");
     if (drive_->HasWheels()) odometry_.emplace(drive_->Radius(), drive_->Distance());
     name_space_ = parameters.GetText("namespace");

@@ -107,7 +107,7 @@ class Devices(unittest.TestCase):
         self.assertNotIn("packet 1 byte 1", packets)
         self.assertNotIn("packet 0 byte 10", packets)
         # Twelve sectors of 30 degrees, counter-clockwise from the front.
-        self.assertEqual({name for name in readings["pie_camera"]}, {"red 1", "blue 9"})
+        self.assertEqual(set(readings["pie_camera"]), {"red 1 distance", "red 1 blobs", "blue 9 distance", "blue 9 blobs"})
 
     def test_proximity_from_a_scan(self):
         readings, _ = self.run_robot("footbot", ["footbot_proximity"])

@@ -389,10 +389,22 @@ class Devices(Case):
                 (robot, tick + 1, [robots.index(other) * 80, tick, 0, 255, 1, 2, 3, 4, 5, 6]) for robot in robots for other in robots
                 if other != robot for tick in range(TICKS - 1) if not 20 <= tick < 30))
 
+    def test_columns_of_a_device_without_a_message_of_its_own(self):
+        file = self.world(footbots([2], {"directional_leds": "generic"}, ["battery"]))
+        for heard in self.commanded(file, "columns", ("fb_0",)):
+            tables = [words for words in heard if words[0] == "table"]
+            self.assertEqual(len(tables), TICKS)
+            self.assertEqual(set(" ".join(words[3:]) for words in tables), {"charge, time left [s]"})
+            for tick, words in enumerate(tables):  # it falls by 1e-4 a second
+                self.assertAlmostEqual(float(words[2]), 1 - 1e-5 * tick, 6)
+        for tick, leds in enumerate(self.table("fb_0", "led[0],led[1],led[2]")):
+            self.assertEqual(leds, [tick, 0xff8040, 0])
+
     def test_wrong_commands(self):
         # For tick 12 the node says nine bytes, and numbers that are none.
         for ground, sky, words, robot, text in (
                 ({"range_and_bearing": "generic"}, None, "bytes", "fb_0", "rt/fb_0/range_and_bearing/send .*a command has 9 bytes; it takes 10, or none"),
+                ({"directional_leds": "generic"}, None, "columns", "fb_0", "rt/fb_0/directional_leds/set .*a command has 11 numbers; it takes 12"),
                 ({"footbot_turret": "dummy"}, None, "turret", "fb_0", "rt/fb_0/turret/velocity .*a command is not a finite number"),
                 ({"footbot_gripper": "dummy"}, None, "gripper", "fb_0", "rt/fb_0/gripper/command .*a command is not a finite number"),
                 (None, {"eyebot_laser": "generic"}, "laser", "eb_0", "rt/eb_0/laser/pan .*a command is not a finite number")):
@@ -448,12 +460,8 @@ class Refused(Case):
             self.assertEqual(run.returncode, 2, run.stderr)
             self.assertIn(f"--isolated: {text} ", run.stderr)
 
-    def test_what_has_no_topic(self):
+    def test_names_and_settings(self):
         for parameters, text in (
-                ({"sensors": ("footbot_proximity", "battery")},
-                 "ros2_controller has no topic for the sensor <battery>; those that have: eyebot_altitude, "),
-                ({"actuators": ("report",)},
-                 "ros2_controller has no topic for the actuator <report>; those that have: eyebot_attachment, "),
                 ({"namespace": "a//b"}, "'/a//b/fb_0/cmd_vel' cannot be the name of a ROS 2 topic"),
                 ({"on_timeout": "wait"}, "'on_timeout' of the controller <ros2_controller> is 'wait'; it must be one of hold, stop, abort")):
             run = self.run_it(self.experiment(robots=1, **parameters), "--single-process")

@@ -71,8 +71,8 @@ struct Robot
   uint8_t number; /* 80 times its place among the arguments */
   dds_entity_t scans, odometries, commands, leds, beacon;
   /* 0 where the device is not commanded. */
-  dds_entity_t gripper, turret, bytes, laser_colour, laser_pan, laser_tilt, attach;
-  dds_entity_t altitudes, packets, joints, holdings;
+  dds_entity_t gripper, turret, bytes, laser_colour, laser_pan, laser_tilt, attach, columns;
+  dds_entity_t altitudes, packets, joints, holdings, tables;
   int holding;                              /* as printed last; negative: not yet */
   std_msgs_msg_dds__Header_ scan, odometry; /* of what came last, until it is answered */
   bool has_scan, has_odometry;
@@ -155,6 +155,11 @@ static void CommandDevices(dds_entity_t participant, struct Robot* robot)
     robot->bytes = WriterOf(participant, robot, &std_msgs_msg_dds__UInt8MultiArray__desc, "range_and_bearing/send");
     robot->packets = ReaderOf(participant, robot, &sensor_msgs_msg_dds__PointCloud2__desc, "range_and_bearing");
   }
+  if (IsCommanded("columns"))
+  {
+    robot->columns = WriterOf(participant, robot, &std_msgs_msg_dds__Float32MultiArray__desc, "directional_leds/set");
+    robot->tables = ReaderOf(participant, robot, &std_msgs_msg_dds__Float32MultiArray__desc, "battery");
+  }
   if (robot->is_eyebot)
   {
     if (IsCommanded("laser"))
@@ -205,6 +210,15 @@ static void Command(struct Robot* robot)
     message.data._length = message.data._maximum = is_wrong ? 9 : tick >= 20 && tick < 30 ? 0 : 10;
     dds_write(robot->bytes, &message);
   }
+  if (robot->columns != 0)
+  {
+    float colours[12] = {(float)tick, 0xff8040};
+    std_msgs_msg_dds__Float32MultiArray_ message;
+    memset(&message, 0, sizeof message);
+    message.data._buffer = colours;
+    message.data._length = message.data._maximum = is_wrong ? 11 : 12;
+    dds_write(robot->columns, &message);
+  }
   if (robot->laser_colour != 0)
   {
     const Colour colour = {0.2F, 1, tick >= 15 ? 0.6F : 0, tick >= 5 && tick < 25 ? 1 : 0};
@@ -251,6 +265,13 @@ static bool Hear(struct Robot* robot)
       puts("");
     }
     dds_return_loan(robot->packets, &sample, 1);
+  }
+  while (robot->tables != 0 && (sample = Next(robot->tables)) != NULL)
+  {
+    heard = true;
+    const std_msgs_msg_dds__Float32MultiArray_* table = sample;
+    printf("table %s %.9g %s\n", robot->name, table->data._buffer[0], table->layout.dim._buffer[1].label);
+    dds_return_loan(robot->tables, &sample, 1);
   }
   while (robot->joints != 0 && (sample = Next(robot->joints)) != NULL)
   {

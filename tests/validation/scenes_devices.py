@@ -155,7 +155,6 @@ def range_and_bearing(lab):
     yield Row("range and bearing: bearing", "atan2(Δy, Δx) - heading", GEOMETRY, math.atan2(-0.9, 1.2) - math.radians(40), now["packet 0 bearing"], 1e-9, "rounding", "rad")
     yield Row("range and bearing: packets, one sender hidden, one at 3.001 m", "line of sight, 3 m", f"{A3} footbot_entity.cpp@c6aa94d6", 1, sum("range" in name for name in now), 0, "counts")
     eye = element("eyebot", {"id": "h", "position": "5,5,2", "controller": "h"})
-    # Describe has no vertical bearing: it follows from range and the place.
     now = lab.run(eye + footbot("s", 6.0, 5.0, 0, "s"), sender + hearer, "dynamics3d", 3, size="10,10,5").readings("h", "range_and_bearing")[-1]
     yield Row("range and bearing: eyebot 2 m above a footbot, range", "√(Δx² + Δz²)", GEOMETRY, math.sqrt(5), now["packet 0 range"], 1e-3, "sinking", "m")
     ticks, p = (400, 0.3) if lab.quick else (5000, 0.3)
@@ -223,7 +222,7 @@ def radio(lab):
     late = probe("late", sensors={"radio": {"latency": 0.5}})
     arena = footbot("near", 1.0, 1.0, 0, "h") + footbot("s", 10.999, 1.0, 0, "s") + footbot("far", 21.001, 1.0, 0, "h")
     result = lab.run(arena, sender + hearer, ENGINE, 100, size="40,40,2", every=100)
-    arrived = lambda result, robot: [sum(value if isinstance(value, (int, float)) else sum(value) for value in now.values()) for now in result.readings(robot, "radio")]
+    arrived = lambda result, robot: [sum(value if isinstance(value, (int, float)) else sum(value) for name, value in now.items() if name.endswith(" length")) for now in result.readings(robot, "radio")]
     yield Row("radio: packets in 100 ticks at 9.999 m", "range 10 m, one tick later", "docs/devices.md", 99, sum(bytes_ > 0 for bytes_ in arrived(result, "near")), 0, "counts")
     yield Row("radio: packets in 100 ticks at 10.002 m", "range 10 m", "docs/devices.md", 0, sum(bytes_ > 0 for bytes_ in arrived(result, "far")), 0, "counts")
     result = lab.run(footbot("h", 1.0, 1.0, 0, "h") + footbot("s", 2.0, 1.0, 0, "slow"), slow + hearer, ENGINE, 101, every=100)
@@ -258,9 +257,9 @@ def scanner(lab):
     worst, count = 0, 0
     for now in lab.run(arena, who, ENGINE, 60).readings("fb", "footbot_distance_scanner"):
         for i in range(24):
-            if f"angle {i}" not in now:
+            if f"reading {i} angle" not in now:
                 continue
-            angle, distance = now[f"angle {i}"], now[f"distance {i}"]
+            angle, distance = now[f"reading {i} angle"], now[f"reading {i} distance"]
             hits = [side / f for side, f in ((0.2, math.cos(angle)), (0.8, math.sin(angle)), (0.8, -math.sin(angle))) if f > 1e-9]
             if hits and distance not in (0, 0.26, 1.42):
                 worst, count = max(worst, abs(distance - (min(hits) - RADIUS))), count + 1
@@ -288,7 +287,7 @@ def near(lab):
     now = result.readings("fb", "contact")[0]
     yield Row("contact: direction of a prey 1.1 mm away", "angle of the centre - heading", GEOMETRY, 1 - math.radians(20), now.get("contact 0", math.nan), 1e-9, "rounding", "rad")
     tags = result.readings("fb", "tag_reader")[0]
-    yield Row("tag reader: tags at 0.149, 0.151 and 0.136 m", "range 0.15 m", "docs/devices.md", 2, len(set(tags) - {"fb"}), 0, "counts")
+    yield Row("tag reader: tags at 0.149, 0.151 and 0.136 m", "range 0.15 m", "docs/devices.md", 2, len(set(tags) - {"tag fb"}), 0, "counts")
 
 
 @scene(GROUP)
@@ -372,7 +371,7 @@ def more_eyes(lab):
     now = result.readings("e", "eyebot_distance_scanner")[0]
     worst = 0
     for i in range(32):
-        angle, distance = now[f"angle {i}"], now[f"distance {i}"]
+        angle, distance = now[f"reading {i} angle"], now[f"reading {i} distance"]
         hit = 2 / math.cos(angle) if math.cos(angle) > 1e-9 else math.inf
         worst = max(worst, abs(distance - (hit if abs(hit * math.sin(angle)) < 4.5 else 15)))
     yield Row("eyebot distance scanner beside a wall: 32 readings", "ray and plane, 15 m", GEOMETRY, 0, worst, 1e-3, "hovering", "m")

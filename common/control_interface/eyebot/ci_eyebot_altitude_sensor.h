@@ -6,15 +6,17 @@
 namespace swarmanoid
 {
 
-class CCI_EyeBotAltitudeSensor : public CCI_Sensor
+class CCI_EyeBotAltitudeSensor : public CCI_SensorOf<CCI_EyeBotAltitudeSensor>
 {
 public:
   // Metres from the base of the robot down to the first thing of its engines below it: floor, block, robot; never below
   // 0.
   virtual double GetAltitude() const = 0;
 
-  std::vector<CCI_Column> Columns() const override { return {{"altitude", "m", 0}}; }
-  void ReadColumns(std::vector<double>& values) const override { values.push_back(GetAltitude()); }
+  static void Declare(Declaration& columns)
+  {
+    columns.Add({"altitude", "m", 0}, &CCI_EyeBotAltitudeSensor::GetAltitude);
+  }
 };
 
 }  // namespace swarmanoid

@@ -6,15 +6,18 @@
 namespace swarmanoid
 {
 
-class CCI_EyeBotAttachmentActuator : public CCI_Actuator
+class CCI_EyeBotAttachmentActuator : public CCI_ActuatorOf<CCI_EyeBotAttachmentActuator>
 {
 public:
   // Attaches as soon as the top of the robot reaches the ceiling, and stays so until Detach.
   virtual void Attach() = 0;
   virtual void Detach() = 0;
 
-  std::vector<CCI_Column> Columns() const override { return {{"attached", "yes/no", 0, 1}}; }
-  void SetColumns(std::span<const double> values) override { values[0] > 0.5 ? Attach() : Detach(); }
+  static void Declare(Declaration& columns)
+  {
+    columns.Set({{"attached", "yes/no", 0, 1}}, [](CCI_EyeBotAttachmentActuator& it, std::span<const double> values)
+                { values[0] > 0.5 ? it.Attach() : it.Detach(); });
+  }
 };
 
 }  // namespace swarmanoid

@@ -9,7 +9,7 @@
 namespace swarmanoid
 {
 
-class CCI_EyeBotLaserActuator : public CCI_Actuator
+class CCI_EyeBotLaserActuator : public CCI_ActuatorOf<CCI_EyeBotLaserActuator>
 {
 public:
   virtual void SwitchOn() = 0;
@@ -20,15 +20,16 @@ public:
   static constexpr double MAX_TILT = 1.2217304763960306;  // 70 degrees
   virtual void SetDirection(double pan, double tilt) = 0;
 
-  std::vector<CCI_Column> Columns() const override
+  static void Declare(Declaration& columns)
   {
-    return {{"on", "yes/no", 0, 1}, {"colour", "colour", 0, 0xffffff}, {"pan", "rad"}, {"tilt", "rad", 0, MAX_TILT}};
-  }
-  void SetColumns(std::span<const double> values) override
-  {
-    values[0] > 0.5 ? SwitchOn() : SwitchOff();
-    SetColour(CCI_Colour::FromNumber(values[1]));
-    SetDirection(values[2], values[3]);
+    columns.Set(
+        {{"on", "yes/no", 0, 1}, {"colour", "colour", 0, 0xffffff}, {"pan", "rad"}, {"tilt", "rad", 0, MAX_TILT}},
+        [](CCI_EyeBotLaserActuator& it, std::span<const double> values)
+        {
+          values[0] > 0.5 ? it.SwitchOn() : it.SwitchOff();
+          it.SetColour(CCI_Colour::FromNumber(values[1]));
+          it.SetDirection(values[2], values[3]);
+        });
   }
 };
 

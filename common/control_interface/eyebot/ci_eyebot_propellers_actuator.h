@@ -1,13 +1,16 @@
 // The propulsion of an eyebot, by velocity or by position.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "common/control_interface/ci_device.h"
 #include "common/math/pose.h"
 
 namespace swarmanoid
 {
 
-class CCI_EyeBotPropellersActuator : public CCI_Actuator
+class CCI_EyeBotPropellersActuator : public CCI_ActuatorOf<CCI_EyeBotPropellersActuator>
 {
 public:
   // Velocity in the frame of the robot: forward, left, up in m/s; yaw rate in rad/s, positive counter-clockwise.
@@ -18,12 +21,29 @@ public:
   // CCI_DeviceError.
   virtual void SetPosition(const Vector3& position, double yaw) = 0;
   void Hover() { SetVelocity(0, 0, 0, 0); }
-
-  std::vector<CCI_Column> Columns() const override
+  // Where it flies; nothing if it flies by velocity.
+  struct Target
   {
-    return {{"forward", "m/s"}, {"left", "m/s"}, {"up", "m/s"}, {"yaw rate", "rad/s"}};
+    double x_m, y_m, z_m, yaw_rad;
+  };
+  virtual std::optional<Target> GetTarget() const { return std::nullopt; }
+
+  static void Declare(Declaration& columns)
+  {
+    const auto shown = [](const char* name, const char* unit)
+    { return CCI_Column{.name = name, .unit = unit, .audience = CCI_Column::For::kPeople}; };
+    columns
+        .Set({{"forward", "m/s"}, {"left", "m/s"}, {"up", "m/s"}, {"yaw rate", "rad/s"}},
+             &CCI_EyeBotPropellersActuator::SetVelocity)
+        .AddEach(
+            [](const CCI_EyeBotPropellersActuator& propellers)
+            {
+              const std::optional<Target> target = propellers.GetTarget();
+              return target ? std::vector<Target>{*target} : std::vector<Target>{};
+            },
+            CCI_Field(shown("target x", "m"), &Target::x_m), CCI_Field(shown("target y", "m"), &Target::y_m),
+            CCI_Field(shown("target z", "m"), &Target::z_m), CCI_Field(shown("target yaw", "rad"), &Target::yaw_rad));
   }
-  void SetColumns(std::span<const double> values) override { SetVelocity(values[0], values[1], values[2], values[3]); }
 };
 
 }  // namespace swarmanoid

@@ -8,21 +8,17 @@
 namespace swarmanoid
 {
 
-class CCI_FootBotAccelerometerSensor : public CCI_Sensor
+class CCI_FootBotAccelerometerSensor : public CCI_SensorOf<CCI_FootBotAccelerometerSensor>
 {
 public:
   // {forward, left, up} in m/s^2 in the frame of the body, mean over the last tick; at rest {0, 0, 9.81}: what holds
   // the robot against gravity is felt.
   virtual std::span<const double, 3> GetAllSensorReadings() const = 0;
 
-  std::vector<CCI_Column> Columns() const override
+  static void Declare(Declaration& columns)
   {
-    return {{"forward", "m/s^2"}, {"left", "m/s^2"}, {"up", "m/s^2"}};
-  }
-  void ReadColumns(std::vector<double>& values) const override
-  {
-    const auto all = GetAllSensorReadings();
-    values.insert(values.end(), all.begin(), all.end());
+    columns.AddAll({{"forward", "m/s^2"}, {"left", "m/s^2"}, {"up", "m/s^2"}},
+                   &CCI_FootBotAccelerometerSensor::GetAllSensorReadings);
   }
 };
 

@@ -10,7 +10,7 @@
 namespace swarmanoid
 {
 
-class CCI_FootBotBaseGroundSensor : public CCI_Sensor
+class CCI_FootBotBaseGroundSensor : public CCI_SensorOf<CCI_FootBotBaseGroundSensor>
 {
 public:
   static constexpr unsigned NUM_SENSORS = 8;
@@ -33,14 +33,9 @@ public:
   // 1 where the floor has at least half of the brightness of white, else 0.
   virtual std::span<const double, NUM_SENSORS> GetAllSensorReadings() const = 0;
 
-  std::vector<CCI_Column> Columns() const override
+  static void Declare(Declaration& columns)
   {
-    return NumberedColumns(NUM_SENSORS, "", {.name = {}, .minimum = 0, .maximum = 1});
-  }
-  void ReadColumns(std::vector<double>& values) const override
-  {
-    const auto all = GetAllSensorReadings();
-    values.insert(values.end(), all.begin(), all.end());
+    columns.Add({"#", "", 0, 1}, &CCI_FootBotBaseGroundSensor::GetAllSensorReadings);
   }
 };
 

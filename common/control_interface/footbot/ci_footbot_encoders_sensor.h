@@ -10,7 +10,7 @@
 namespace swarmanoid
 {
 
-class CCI_FootBotEncodersSensor : public CCI_Sensor
+class CCI_FootBotEncodersSensor : public CCI_SensorOf<CCI_FootBotEncodersSensor>
 {
 public:
   // {left, right}: mean angular velocity over the last tick in rad/s.
@@ -27,11 +27,9 @@ public:
     return GetRightVelocity() * tick_s * CCI_FootBotWheelsActuator::WHEEL_RADIUS_M;
   }
 
-  std::vector<CCI_Column> Columns() const override { return {{"left", "rad/s"}, {"right", "rad/s"}}; }
-  void ReadColumns(std::vector<double>& values) const override
+  static void Declare(Declaration& columns)
   {
-    const auto all = GetAllSensorReadings();
-    values.insert(values.end(), all.begin(), all.end());
+    columns.AddAll({{"left", "rad/s"}, {"right", "rad/s"}}, &CCI_FootBotEncodersSensor::GetAllSensorReadings);
   }
 };
 

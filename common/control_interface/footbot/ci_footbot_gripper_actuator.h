@@ -6,7 +6,7 @@
 namespace swarmanoid
 {
 
-class CCI_FootBotGripperActuator : public CCI_Actuator
+class CCI_FootBotGripperActuator : public CCI_ActuatorOf<CCI_FootBotGripperActuator>
 {
 public:
   // 0 opens it, 1 closes it; beyond LOCK_THRESHOLD it takes hold of what it touches and keeps it (ARGoS3, foot-bot).
@@ -17,8 +17,10 @@ public:
   void Grip() { SetGripper(1); }
   void Release() { SetGripper(0); }
 
-  std::vector<CCI_Column> Columns() const override { return {{"closed", "", 0, 1}}; }
-  void SetColumns(std::span<const double> values) override { SetGripper(values[0]); }
+  static void Declare(Declaration& columns)
+  {
+    columns.Set({{"closed", "", 0, 1}}, &CCI_FootBotGripperActuator::SetGripper);
+  }
 };
 
 }  // namespace swarmanoid

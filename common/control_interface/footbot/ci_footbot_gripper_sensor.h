@@ -8,7 +8,7 @@
 namespace swarmanoid
 {
 
-class CCI_FootBotGripperSensor : public CCI_Sensor
+class CCI_FootBotGripperSensor : public CCI_SensorOf<CCI_FootBotGripperSensor>
 {
 public:
   static constexpr double OPEN_APERTURE = 1.5707963267948966;  // 90 degrees
@@ -19,13 +19,10 @@ public:
   // The id of the entity that it holds, empty for none. Real robots cannot tell: there it is always empty.
   virtual std::string GetHeldId() const { return {}; }
 
-  std::vector<CCI_Column> Columns() const override
+  static void Declare(Declaration& columns)
   {
-    return {{"aperture", "rad", 0, OPEN_APERTURE}, {"gripping", "yes/no", 0, 1}};
-  }
-  void ReadColumns(std::vector<double>& values) const override
-  {
-    values.insert(values.end(), {GetAperture(), IsGripping() ? 1.0 : 0.0});
+    columns.Add({"aperture", "rad", 0, OPEN_APERTURE}, &CCI_FootBotGripperSensor::GetAperture)
+        .Add({"gripping", "yes/no", 0, 1}, &CCI_FootBotGripperSensor::IsGripping);
   }
 };
 

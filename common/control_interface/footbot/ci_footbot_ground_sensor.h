@@ -9,7 +9,7 @@
 namespace swarmanoid
 {
 
-class CCI_FootBotGroundSensor : public CCI_Sensor
+class CCI_FootBotGroundSensor : public CCI_SensorOf<CCI_FootBotGroundSensor>
 {
 public:
   static constexpr unsigned NUM_SENSORS = 8;
@@ -20,19 +20,10 @@ public:
   // The colour of the floor (0xRRGGBB) under the centre of the robot; without noise.
   virtual std::uint32_t GetFloorColour() const = 0;
 
-  std::vector<CCI_Column> Columns() const override
+  static void Declare(Declaration& columns)
   {
-    return NumberedColumns(NUM_SENSORS, "", {.name = {}, .minimum = 0, .maximum = 1});
-  }
-  void ReadColumns(std::vector<double>& values) const override
-  {
-    const auto all = GetAllSensorReadings();
-    values.insert(values.end(), all.begin(), all.end());
-  }
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    CCI_Sensor::Describe(readings);
-    readings.push_back({"floor", "colour", static_cast<double>(GetFloorColour())});
+    columns.Add({"#", "", 0, 1}, &CCI_FootBotGroundSensor::GetAllSensorReadings)
+        .Add({"floor", "colour", 0, 0xffffff}, &CCI_FootBotGroundSensor::GetFloorColour);
   }
 };
 

@@ -10,7 +10,7 @@
 namespace swarmanoid
 {
 
-class CCI_FootBotMotorGroundSensor : public CCI_Sensor
+class CCI_FootBotMotorGroundSensor : public CCI_SensorOf<CCI_FootBotMotorGroundSensor>
 {
 public:
   static constexpr unsigned NUM_SENSORS = 4;
@@ -29,14 +29,9 @@ public:
   // Brightness of the floor, 0 (black, or a hole) to 1 (white).
   virtual std::span<const double, NUM_SENSORS> GetAllSensorReadings() const = 0;
 
-  std::vector<CCI_Column> Columns() const override
+  static void Declare(Declaration& columns)
   {
-    return NumberedColumns(NUM_SENSORS, "", {.name = {}, .minimum = 0, .maximum = 1});
-  }
-  void ReadColumns(std::vector<double>& values) const override
-  {
-    const auto all = GetAllSensorReadings();
-    values.insert(values.end(), all.begin(), all.end());
+    columns.Add({"#", "", 0, 1}, &CCI_FootBotMotorGroundSensor::GetAllSensorReadings);
   }
 };
 

@@ -10,7 +10,7 @@
 namespace swarmanoid
 {
 
-class CCI_FootBotPreferentialDirectionActuator : public CCI_Actuator
+class CCI_FootBotPreferentialDirectionActuator : public CCI_ActuatorOf<CCI_FootBotPreferentialDirectionActuator>
 {
 public:
   // Lights the LEDs around this direction, radians counter-clockwise from the front of the body, in a colour
@@ -18,13 +18,12 @@ public:
   virtual void SetDirection(double angle, std::uint32_t colour) = 0;
   virtual void HideDirection() = 0;
 
-  std::vector<CCI_Column> Columns() const override
+  static void Declare(Declaration& columns)
   {
-    return {{"shown", "yes/no", 0, 1}, {"angle", "rad"}, {"colour", "colour", 0, 0xffffff}};
-  }
-  void SetColumns(std::span<const double> values) override
-  {
-    values[0] > 0.5 ? SetDirection(values[1], CCI_Colour::FromNumber(values[2])) : HideDirection();
+    columns.Set({{"shown", "yes/no", 0, 1}, {"angle", "rad"}, {"colour", "colour", 0, 0xffffff}},
+                [](CCI_FootBotPreferentialDirectionActuator& it, std::span<const double> values) {
+                  values[0] > 0.5 ? it.SetDirection(values[1], CCI_Colour::FromNumber(values[2])) : it.HideDirection();
+                });
   }
 };
 

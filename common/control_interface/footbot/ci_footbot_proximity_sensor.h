@@ -11,7 +11,7 @@
 namespace swarmanoid
 {
 
-class CCI_FootBotProximitySensor : public CCI_Sensor
+class CCI_FootBotProximitySensor : public CCI_SensorOf<CCI_FootBotProximitySensor>
 {
 public:
   static constexpr unsigned NUM_SENSORS = 24;
@@ -36,14 +36,9 @@ public:
   }
   static double AngleOf(unsigned sensor) { return FIRST_ANGLE + sensor * SPACING; }
 
-  std::vector<CCI_Column> Columns() const override
+  static void Declare(Declaration& columns)
   {
-    return NumberedColumns(NUM_SENSORS, "", {.name = {}, .minimum = 0, .maximum = 1});
-  }
-  void ReadColumns(std::vector<double>& values) const override
-  {
-    const auto all = GetAllSensorReadings();
-    values.insert(values.end(), all.begin(), all.end());
+    columns.Add({"#", "", 0, 1}, &CCI_FootBotProximitySensor::GetAllSensorReadings);
   }
 };
 

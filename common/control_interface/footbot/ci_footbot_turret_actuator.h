@@ -6,15 +6,17 @@
 namespace swarmanoid
 {
 
-class CCI_FootBotTurretActuator : public CCI_Actuator
+class CCI_FootBotTurretActuator : public CCI_ActuatorOf<CCI_FootBotTurretActuator>
 {
 public:
   // rad/s, positive counter-clockwise; clamped to the limit of the implementation. What is not a number ends a
   // simulation.
   virtual void SetTurretAngularVelocity(double velocity) = 0;
 
-  std::vector<CCI_Column> Columns() const override { return {{"velocity", "rad/s"}}; }
-  void SetColumns(std::span<const double> values) override { SetTurretAngularVelocity(values[0]); }
+  static void Declare(Declaration& columns)
+  {
+    columns.Set({{"velocity", "rad/s"}}, &CCI_FootBotTurretActuator::SetTurretAngularVelocity);
+  }
 };
 
 }  // namespace swarmanoid

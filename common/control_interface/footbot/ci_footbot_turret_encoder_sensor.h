@@ -6,14 +6,16 @@
 namespace swarmanoid
 {
 
-class CCI_FootBotTurretEncoderSensor : public CCI_Sensor
+class CCI_FootBotTurretEncoderSensor : public CCI_SensorOf<CCI_FootBotTurretEncoderSensor>
 {
 public:
   // Radians, -pi..pi, counter-clockwise from the front.
   virtual double GetTurretAngle() const = 0;
 
-  std::vector<CCI_Column> Columns() const override { return {{"angle", "rad"}}; }
-  void ReadColumns(std::vector<double>& values) const override { values.push_back(GetTurretAngle()); }
+  static void Declare(Declaration& columns)
+  {
+    columns.Add({"angle", "rad"}, &CCI_FootBotTurretEncoderSensor::GetTurretAngle);
+  }
 };
 
 }  // namespace swarmanoid

@@ -9,7 +9,7 @@
 namespace swarmanoid
 {
 
-class CCI_FootBotTurretTorqueSensor : public CCI_Sensor
+class CCI_FootBotTurretTorqueSensor : public CCI_SensorOf<CCI_FootBotTurretTorqueSensor>
 {
 public:
   // {pull along the turret's front, pull to its left, torque about the vertical, counter-clockwise}: what the gripped
@@ -20,14 +20,10 @@ public:
   double GetLeftTraction() const { return GetAllSensorReadings()[1]; }
   double GetTorque() const { return GetAllSensorReadings()[2]; }
 
-  std::vector<CCI_Column> Columns() const override
+  static void Declare(Declaration& columns)
   {
-    return {{"forward traction", "", -1, 1}, {"left traction", "", -1, 1}, {"torque", "", -1, 1}};
-  }
-  void ReadColumns(std::vector<double>& values) const override
-  {
-    const auto all = GetAllSensorReadings();
-    values.insert(values.end(), all.begin(), all.end());
+    columns.AddAll({{"forward traction", "", -1, 1}, {"left traction", "", -1, 1}, {"torque", "", -1, 1}},
+                   &CCI_FootBotTurretTorqueSensor::GetAllSensorReadings);
   }
 };
 

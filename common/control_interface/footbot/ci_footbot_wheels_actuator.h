@@ -6,7 +6,7 @@
 namespace swarmanoid
 {
 
-class CCI_FootBotWheelsActuator : public CCI_Actuator
+class CCI_FootBotWheelsActuator : public CCI_ActuatorOf<CCI_FootBotWheelsActuator>
 {
 public:
   static constexpr unsigned NUM_WHEELS = 2;
@@ -28,8 +28,10 @@ public:
     SetFootBotWheelsAngularVelocity(velocities[0], velocities[1]);
   }
 
-  std::vector<CCI_Column> Columns() const override { return {{"left", "rad/s"}, {"right", "rad/s"}}; }
-  void SetColumns(std::span<const double> values) override { SetFootBotWheelsAngularVelocity(values[0], values[1]); }
+  static void Declare(Declaration& columns)
+  {
+    columns.Set({{"left", "rad/s"}, {"right", "rad/s"}}, &CCI_FootBotWheelsActuator::SetFootBotWheelsAngularVelocity);
+  }
 };
 
 }  // namespace swarmanoid

@@ -6,7 +6,7 @@
 namespace swarmanoid
 {
 
-class CCI_HandBotArmsActuator : public CCI_Actuator
+class CCI_HandBotArmsActuator : public CCI_ActuatorOf<CCI_HandBotArmsActuator>
 {
 public:
   // Angular velocities in rad/s, clamped to MAX_SPEED; what is no number ends a simulation. An arm opens from 0
@@ -23,14 +23,14 @@ public:
   virtual void SetArmVelocities(double left, double right) = 0;
   virtual void SetWristVelocities(double left, double right) = 0;
 
-  std::vector<CCI_Column> Columns() const override
+  static void Declare(Declaration& columns)
   {
-    return {{"left arm", "rad/s"}, {"right arm", "rad/s"}, {"left wrist", "rad/s"}, {"right wrist", "rad/s"}};
-  }
-  void SetColumns(std::span<const double> values) override
-  {
-    SetArmVelocities(values[0], values[1]);
-    SetWristVelocities(values[2], values[3]);
+    columns.Set({{"left arm", "rad/s"}, {"right arm", "rad/s"}, {"left wrist", "rad/s"}, {"right wrist", "rad/s"}},
+                [](CCI_HandBotArmsActuator& it, std::span<const double> values)
+                {
+                  it.SetArmVelocities(values[0], values[1]);
+                  it.SetWristVelocities(values[2], values[3]);
+                });
   }
 };
 

@@ -9,13 +9,15 @@
 namespace swarmanoid
 {
 
-class CCI_HandBotBeaconActuator : public CCI_Actuator
+class CCI_HandBotBeaconActuator : public CCI_ActuatorOf<CCI_HandBotBeaconActuator>
 {
 public:
   virtual void SetColour(std::uint32_t colour) = 0;  // 0xRRGGBB, 0 is off; higher bits are ignored
 
-  std::vector<CCI_Column> Columns() const override { return {{"colour", "colour", 0, 0xffffff}}; }
-  void SetColumns(std::span<const double> values) override { SetColour(CCI_Colour::FromNumber(values[0])); }
+  static void Declare(Declaration& columns)
+  {
+    columns.Set({{"colour", "colour", 0, 0xffffff}}, &CCI_HandBotBeaconActuator::SetColour);
+  }
 };
 
 }  // namespace swarmanoid

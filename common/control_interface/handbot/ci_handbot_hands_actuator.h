@@ -6,7 +6,7 @@
 namespace swarmanoid
 {
 
-class CCI_HandBotHandsActuator : public CCI_Actuator
+class CCI_HandBotHandsActuator : public CCI_ActuatorOf<CCI_HandBotHandsActuator>
 {
 public:
   enum Hand
@@ -22,13 +22,12 @@ public:
   virtual void Close(Hand hand) = 0;
   virtual void Open(Hand hand) = 0;
 
-  std::vector<CCI_Column> Columns() const override
+  static void Declare(Declaration& columns)
   {
-    return {{"left closed", "yes/no", 0, 1}, {"right closed", "yes/no", 0, 1}};
-  }
-  void SetColumns(std::span<const double> values) override
-  {
-    SetAllActuatorOutputs({values[LEFT] > 0.5, values[RIGHT] > 0.5});
+    columns.Set({{"left closed", "yes/no", 0, 1}, {"right closed", "yes/no", 0, 1}},
+                [](CCI_HandBotHandsActuator& it, std::span<const double> values) {
+                  it.SetAllActuatorOutputs({values[LEFT] > 0.5, values[RIGHT] > 0.5});
+                });
   }
 };
 

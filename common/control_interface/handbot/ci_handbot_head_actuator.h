@@ -6,15 +6,17 @@
 namespace swarmanoid
 {
 
-class CCI_HandBotHeadActuator : public CCI_Actuator
+class CCI_HandBotHeadActuator : public CCI_ActuatorOf<CCI_HandBotHeadActuator>
 {
 public:
   static constexpr double MAX_SPEED = 3;  // rad/s
   // rad/s, positive raises the left arm; clamped to MAX_SPEED. What is not a number ends a simulation.
   virtual void SetHeadAngularVelocity(double velocity) = 0;
 
-  std::vector<CCI_Column> Columns() const override { return {{"velocity", "rad/s"}}; }
-  void SetColumns(std::span<const double> values) override { SetHeadAngularVelocity(values[0]); }
+  static void Declare(Declaration& columns)
+  {
+    columns.Set({{"velocity", "rad/s"}}, &CCI_HandBotHeadActuator::SetHeadAngularVelocity);
+  }
 };
 
 }  // namespace swarmanoid

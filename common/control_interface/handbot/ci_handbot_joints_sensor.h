@@ -10,7 +10,7 @@
 namespace swarmanoid
 {
 
-class CCI_HandBotJointsSensor : public CCI_Sensor
+class CCI_HandBotJointsSensor : public CCI_SensorOf<CCI_HandBotJointsSensor>
 {
 public:
   enum Reading
@@ -33,24 +33,20 @@ public:
   // The id of the entity that a hand holds, empty for none. Real robots cannot tell: there it is always empty.
   virtual std::string GetHeldId(CCI_HandBotHandsActuator::Hand) const { return {}; }
 
-  std::vector<CCI_Column> Columns() const override
+  static void Declare(Declaration& columns)
   {
-    return {{"head", "rad"},
-            {"left arm", "rad"},
-            {"right arm", "rad"},
-            {"left wrist", "rad"},
-            {"right wrist", "rad"},
-            {"left hand", "rad"},
-            {"right hand", "rad"},
-            {"left hand holds", "yes/no", 0, 1},
-            {"right hand holds", "yes/no", 0, 1},
-            {"rope attached", "yes/no", 0, 1},
-            {"rope length", "m", 0}};
-  }
-  void ReadColumns(std::vector<double>& values) const override
-  {
-    const auto all = GetAllSensorReadings();
-    values.insert(values.end(), all.begin(), all.end());
+    columns.AddAll({{"head", "rad"},
+                    {"left arm", "rad"},
+                    {"right arm", "rad"},
+                    {"left wrist", "rad"},
+                    {"right wrist", "rad"},
+                    {"left hand", "rad"},
+                    {"right hand", "rad"},
+                    {"left hand holds", "yes/no", 0, 1},
+                    {"right hand holds", "yes/no", 0, 1},
+                    {"rope attached", "yes/no", 0, 1},
+                    {"rope length", "m", 0}},
+                   &CCI_HandBotJointsSensor::GetAllSensorReadings);
   }
 };
 

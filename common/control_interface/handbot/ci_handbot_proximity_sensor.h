@@ -9,7 +9,7 @@
 namespace swarmanoid
 {
 
-class CCI_HandBotProximitySensor : public CCI_Sensor
+class CCI_HandBotProximitySensor : public CCI_SensorOf<CCI_HandBotProximitySensor>
 {
 public:
   static constexpr unsigned SENSORS_OF_HAND = 12;
@@ -20,17 +20,16 @@ public:
   // claws and 6 to 8 below, from left to right; 9 to 11 on the right claw, the outermost last.
   virtual std::span<const double, NUM_SENSORS> GetAllSensorReadings() const = 0;
 
-  std::vector<CCI_Column> Columns() const override
+  static void Declare(Declaration& columns)
   {
-    const CCI_Column like{.name = {}, .minimum = 0, .maximum = 1};
-    std::vector<CCI_Column> columns = NumberedColumns(SENSORS_OF_HAND, "left ", like);
-    for (CCI_Column& column : NumberedColumns(SENSORS_OF_HAND, "right ", like)) columns.push_back(std::move(column));
-    return columns;
-  }
-  void ReadColumns(std::vector<double>& values) const override
-  {
-    const auto all = GetAllSensorReadings();
-    values.insert(values.end(), all.begin(), all.end());
+    using Hand = std::span<const double, SENSORS_OF_HAND>;
+    columns
+        .Add({"left #", "", 0, 1},
+             [](const CCI_HandBotProximitySensor& sensor) -> Hand
+             { return sensor.GetAllSensorReadings().first<SENSORS_OF_HAND>(); })
+        .Add({"right #", "", 0, 1},
+             [](const CCI_HandBotProximitySensor& sensor) -> Hand
+             { return sensor.GetAllSensorReadings().last<SENSORS_OF_HAND>(); });
   }
 };
 

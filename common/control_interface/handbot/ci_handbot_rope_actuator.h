@@ -6,7 +6,7 @@
 namespace swarmanoid
 {
 
-class CCI_HandBotRopeActuator : public CCI_Actuator
+class CCI_HandBotRopeActuator : public CCI_ActuatorOf<CCI_HandBotRopeActuator>
 {
 public:
   static constexpr double MAX_WINCH_SPEED = 0.15;  // m/s
@@ -15,11 +15,14 @@ public:
   // m/s of rope let out; negative pulls the robot up. Clamped to MAX_WINCH_SPEED; what is no number ends a simulation.
   virtual void SetWinchVelocity(double velocity) = 0;
 
-  std::vector<CCI_Column> Columns() const override { return {{"attached", "yes/no", 0, 1}, {"winch", "m/s"}}; }
-  void SetColumns(std::span<const double> values) override
+  static void Declare(Declaration& columns)
   {
-    values[0] > 0.5 ? Launch() : Release();
-    SetWinchVelocity(values[1]);
+    columns.Set({{"attached", "yes/no", 0, 1}, {"winch", "m/s"}},
+                [](CCI_HandBotRopeActuator& it, std::span<const double> values)
+                {
+                  values[0] > 0.5 ? it.Launch() : it.Release();
+                  it.SetWinchVelocity(values[1]);
+                });
   }
 };
 

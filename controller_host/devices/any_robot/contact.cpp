@@ -8,7 +8,6 @@
 #include "common/control_interface/ci_contact_sensor.h"
 #include "common/math/elementary.h"
 #include "common/space/space.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/sensing/sensor_world.h"
 
@@ -119,7 +118,7 @@ public:
     names_ = world_->Names();
     contacts_.resize(robots_.size());
   }
-  CCI_Sensor* Sensor(std::size_t k) override { return &contacts_[k]; }
+  Contacts* Sensor(std::size_t k) override { return &contacts_[k]; }
   double Reach() const override { return widest_ + reach_; }
 
   void Update(const ChannelView&) override
@@ -170,6 +169,6 @@ private:
 
 }  // namespace
 
-void RegisterContact() { BindSensor<ContactSensor>("contact", "generic_contact"); }
+const DeviceCode kContactCode([] { BindSensor<ContactSensor>("contact", "generic_contact"); });
 
 }  // namespace swarmanoid

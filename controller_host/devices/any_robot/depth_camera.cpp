@@ -9,7 +9,6 @@
 #include "common/plugin_descriptions/led_cones.h"
 #include "common/space/attributes.h"
 #include "common/space/space.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/device_streams.h"
 #include "controller_host/devices/sensing/floor_patches.h"
@@ -96,7 +95,7 @@ public:
     cameras_.reserve(robots_.size());
     for (std::size_t k = 0; k < robots_.size(); ++k) cameras_.emplace_back(*this, k, width, height, field_of_view);
   }
-  CCI_Sensor* Sensor(std::size_t k) override { return &cameras_[k]; }
+  DepthCamera* Sensor(std::size_t k) override { return &cameras_[k]; }
   // The depth is along the axis; the rays of the corners are the longest.
   double Reach() const override
   {
@@ -282,6 +281,6 @@ private:
 
 }  // namespace
 
-void RegisterDepthCameras() { BindSensor<DepthCameraSensor>("depth_camera", "generic_depth_camera"); }
+const DeviceCode kDepthCamerasCode([] { BindSensor<DepthCameraSensor>("depth_camera", "generic_depth_camera"); });
 
 }  // namespace swarmanoid

@@ -11,7 +11,6 @@
 #include "common/math/elementary.h"
 #include "common/space/space.h"
 #include "controller_host/devices/any_robot/kind_of_batch.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/sensing/sensor_world.h"
 #include "controller_host/split_sensor.h"
@@ -109,7 +108,7 @@ public:
     beams_ = Head::Beams(KindOfBatch(setup));
     scanners_.resize(robots_.size());
   }
-  CCI_Sensor* Sensor(std::size_t k) override { return &scanners_[k]; }
+  Scanner* Sensor(std::size_t k) override { return &scanners_[k]; }
   double Reach() const override
   {
     double reach = 0;
@@ -253,11 +252,12 @@ private:
 
 }  // namespace
 
-void RegisterDistanceScanners()
-{
-  BindSensor<DistanceScannerSensor<FootbotHead>>("footbot_distance_scanner", "generic_footbot_distance_scanner");
-  BindSensor<TurningScannerSensor>("footbot_distance_scanner", "argos3_footbot_distance_scanner");
-  BindSensor<DistanceScannerSensor<EyebotRing>>("eyebot_distance_scanner", "generic_eyebot_distance_scanner");
-}
+const DeviceCode kDistanceScannersCode(
+    []
+    {
+      BindSensor<DistanceScannerSensor<FootbotHead>>("footbot_distance_scanner", "generic_footbot_distance_scanner");
+      BindSensor<TurningScannerSensor>("footbot_distance_scanner", "argos3_footbot_distance_scanner");
+      BindSensor<DistanceScannerSensor<EyebotRing>>("eyebot_distance_scanner", "generic_eyebot_distance_scanner");
+    });
 
 }  // namespace swarmanoid

@@ -2,10 +2,10 @@
 // the state, and its hash and checkpoints have them.
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "common/control_interface/ci_functions_channel.h"
 #include "common/space/packet_attribute.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/value_devices.h"
 
@@ -32,13 +32,21 @@ public:
   void Count()
   {
     if (is_told_) values_[0] += 1;
-    is_told_ = false;
+    was_told_ = std::exchange(is_told_, false);
   }
   void Forget() { is_told_ = false; }
 
 private:
+  void ReadSettings(std::vector<double>& values) const override
+  {
+    const AttributePacket packet = UnpackedPacket(values_ + 1);
+    values.insert(values.end(), {was_told_ ? 1.0 : 0.0, static_cast<double>(packet.length)});
+    values.insert(values.end(), packet.bytes.begin(), packet.bytes.end());
+  }
+
   double* values_;
-  bool is_told_ = false;
+  bool is_told_ = false;   // in this step
+  bool was_told_ = false;  // in the one before
 };
 
 class ReportBatch : public ActuatorsOf<AttributeActuator, Report>
@@ -104,10 +112,11 @@ private:
 
 }  // namespace
 
-void RegisterFunctionsChannel()
-{
-  BindActuator<ReportBatch>("report", "generic_report");
-  BindSensor<InstructionBatch>("instruction", "generic_instruction");
-}
+const DeviceCode kFunctionsChannelCode(
+    []
+    {
+      BindActuator<ReportBatch>("report", "generic_report");
+      BindSensor<InstructionBatch>("instruction", "generic_instruction");
+    });
 
 }  // namespace swarmanoid

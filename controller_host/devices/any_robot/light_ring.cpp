@@ -8,7 +8,6 @@
 #include "common/math/elementary.h"
 #include "common/space/space.h"
 #include "controller_host/devices/any_robot/ring_readings.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/sensing/sensor_world.h"
 #include "controller_host/devices/sensing/shadows.h"
@@ -49,7 +48,7 @@ public:
     devices_.reserve(robots_.size());
     for (std::size_t k = 0; k < robots_.size(); ++k) devices_.emplace_back(ValuesOf(k), angles_, *this, k);
   }
-  CCI_Sensor* Sensor(std::size_t k) override { return &devices_[k]; }
+  RingReadings<CCI_LightSensor>* Sensor(std::size_t k) override { return &devices_[k]; }
 
   void RefreshShared(WorkerPool* pool) override { world_->Refresh(pool); }
   void Update(const ChannelView&) override { MakeAhead(); }
@@ -130,6 +129,6 @@ private:
 
 }  // namespace
 
-void RegisterLightRing() { BindSensor<LightRing>("light", "generic_light"); }
+const DeviceCode kLightRingCode([] { BindSensor<LightRing>("light", "generic_light"); });
 
 }  // namespace swarmanoid

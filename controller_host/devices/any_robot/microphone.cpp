@@ -7,7 +7,6 @@
 #include "common/control_interface/ci_microphone_sensor.h"
 #include "common/math/elementary.h"
 #include "common/space/space.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/sensing/sensor_world.h"
 
@@ -60,7 +59,7 @@ public:
     microphones_.resize(robots_.size());
     for (Microphone& microphone : microphones_) microphone.sounds.reserve(sources_.size());
   }
-  CCI_Sensor* Sensor(std::size_t k) override { return &microphones_[k]; }
+  Microphone* Sensor(std::size_t k) override { return &microphones_[k]; }
 
   void Update(const ChannelView&) override
   {
@@ -132,11 +131,12 @@ private:
 
 }  // namespace
 
-void RegisterMicrophones()
-{
-  BindSensor<MicrophoneSensor<MicrophoneModel::kFreeField>>("microphone", "generic_microphone");
-  BindSensor<MicrophoneSensor<MicrophoneModel::kShadowed>>("microphone", "shadowed_microphone");
-  BindSensor<MicrophoneSensor<MicrophoneModel::kCapsule>>("microphone", "capsule_microphone");
-}
+const DeviceCode kMicrophonesCode(
+    []
+    {
+      BindSensor<MicrophoneSensor<MicrophoneModel::kFreeField>>("microphone", "generic_microphone");
+      BindSensor<MicrophoneSensor<MicrophoneModel::kShadowed>>("microphone", "shadowed_microphone");
+      BindSensor<MicrophoneSensor<MicrophoneModel::kCapsule>>("microphone", "capsule_microphone");
+    });
 
 }  // namespace swarmanoid

@@ -11,7 +11,6 @@
 #include "common/control_interface/ci_positioning_sensor.h"
 #include "common/math/elementary.h"
 #include "common/space/space.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/value_devices.h"
 
@@ -214,11 +213,12 @@ private:
 
 }  // namespace
 
-void RegisterMotionSensors()
-{
-  BindSensor<PositioningSensor>("positioning", "generic_positioning");
-  BindSensor<GyroscopeSensor>("gyroscope", "generic_gyroscope");
-  BindSensor<BatterySensor>("battery", "generic_battery");
-}
+const DeviceCode kMotionSensorsCode(
+    []
+    {
+      BindSensor<PositioningSensor>("positioning", "generic_positioning");
+      BindSensor<GyroscopeSensor>("gyroscope", "generic_gyroscope");
+      BindSensor<BatterySensor>("battery", "generic_battery");
+    });
 
 }  // namespace swarmanoid

@@ -7,7 +7,6 @@
 #include "controller_host/devices/any_robot/kind_of_batch.h"
 #include "controller_host/devices/any_robot/proximity_rays.h"
 #include "controller_host/devices/any_robot/ring_readings.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 
 namespace swarmanoid
@@ -35,7 +34,7 @@ public:
     for (std::size_t k = 0; k < robots_.size(); ++k) sensors_.emplace_back(ValuesOf(k), angles_, *this, k);
   }
 
-  CCI_Sensor* Sensor(std::size_t k) override { return &sensors_[k]; }
+  RingReadings<CCI_ProximitySensor>* Sensor(std::size_t k) override { return &sensors_[k]; }
 
 protected:
   std::span<const ProximitySensorRay> RaysOf(std::size_t) override { return rays_; }
@@ -48,6 +47,6 @@ private:
 
 }  // namespace
 
-void RegisterProximity() { BindSensor<ProximitySensor>("proximity", "generic_proximity"); }
+const DeviceCode kProximityCode([] { BindSensor<ProximitySensor>("proximity", "generic_proximity"); });
 
 }  // namespace swarmanoid

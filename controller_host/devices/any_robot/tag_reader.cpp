@@ -10,7 +10,6 @@
 #include "common/control_interface/ci_tag_reader_sensor.h"
 #include "common/space/query.h"
 #include "common/space/space.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 
 namespace swarmanoid
@@ -41,7 +40,7 @@ public:
     readers_.resize(robots_.size());
     FindTagged(setup.parameters);
   }
-  CCI_Sensor* Sensor(std::size_t k) override { return &readers_[k]; }
+  TagReader* Sensor(std::size_t k) override { return &readers_[k]; }
   double Reach() const override { return std::abs(height_) + range_; }
 
   void Update(const ChannelView&) override
@@ -102,6 +101,6 @@ private:
 
 }  // namespace
 
-void RegisterTagReader() { BindSensor<TagReaderSensor>("tag_reader", "generic_tag_reader"); }
+const DeviceCode kTagReaderCode([] { BindSensor<TagReaderSensor>("tag_reader", "generic_tag_reader"); });
 
 }  // namespace swarmanoid

@@ -4,7 +4,6 @@
 
 #include "common/control_interface/ci_wheels_actuator.h"
 #include "controller_host/devices/any_robot/kind_of_batch.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/value_devices.h"
 
@@ -13,26 +12,20 @@ namespace swarmanoid
 namespace
 {
 
-class Wheels : public CCI_WheelsActuator
+class Wheels : public CommandsOf<CCI_WheelsActuator>
 {
 public:
-  Wheels(double* speeds, const WheelDrive& drive, double limit) : speeds_(speeds), drive_(drive), limit_(limit) {}
+  Wheels(double* speeds, const WheelDrive& drive, double limit) : CommandsOf(speeds), drive_(drive), limit_(limit) {}
   double GetWheelRadius() const override { return drive_.radius_m; }
   double GetInterwheelDistance() const override { return drive_.axle_m; }
   void SetAngularVelocity(double left, double right) override
   {
     // A NaN stays one: the host says whose it is.
-    speeds_[0] = std::clamp(left, -limit_, limit_);
-    speeds_[1] = std::clamp(right, -limit_, limit_);
-  }
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    readings.push_back({"left", "rad/s", speeds_[0]});
-    readings.push_back({"right", "rad/s", speeds_[1]});
+    values_[0] = std::clamp(left, -limit_, limit_);
+    values_[1] = std::clamp(right, -limit_, limit_);
   }
 
 private:
-  double* speeds_;
   const WheelDrive& drive_;
   double limit_;  // rad/s
 };
@@ -49,7 +42,7 @@ public:
     const double limit = (asked > 0 ? asked : drive.max_speed_m_s) / drive.radius_m;
     for (std::size_t k = 0; k < Robots(); ++k) wheels_.emplace_back(ValuesOf(k), drive, limit);
   }
-  CCI_Actuator* Actuator(std::size_t k) override { return &wheels_[k]; }
+  Wheels* Actuator(std::size_t k) override { return &wheels_[k]; }
 
 private:
   std::vector<Wheels> wheels_;
@@ -57,6 +50,6 @@ private:
 
 }  // namespace
 
-void RegisterWheels() { BindActuator<WheelsActuator>("wheels", "generic_wheels"); }
+const DeviceCode kWheelsCode([] { BindActuator<WheelsActuator>("wheels", "generic_wheels"); });
 
 }  // namespace swarmanoid

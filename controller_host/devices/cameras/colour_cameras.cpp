@@ -10,7 +10,6 @@
 #include "common/control_interface/handbot/ci_handbot_camera_sensor.h"
 #include "common/math/elementary.h"
 #include "common/space/space.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/cameras/colour_camera.h"
 #include "controller_host/devices/device_plugins.h"
 
@@ -86,7 +85,7 @@ template <class Traits>
 class CameraBatch : public ColourCamera
 {
 public:
-  CCI_Sensor* Sensor(std::size_t k) override { return &cameras_[k]; }
+  Camera<typename Traits::Interface>* Sensor(std::size_t k) override { return &cameras_[k]; }
 
 protected:
   void InitBatch(const DeviceSetup& setup)
@@ -277,13 +276,14 @@ void BindCameras()
 
 }  // namespace
 
-void RegisterColourCameras()
-{
-  BindCameras<FootbotCamera>();
-  BindCameras<FootbotPerspectiveCamera>();
-  BindCameras<EyebotCamera>();
-  BindCameras<EyebotPanTiltCamera>();
-  BindCameras<HandbotCamera>();
-}
+const DeviceCode kColourCamerasCode(
+    []
+    {
+      BindCameras<FootbotCamera>();
+      BindCameras<FootbotPerspectiveCamera>();
+      BindCameras<EyebotCamera>();
+      BindCameras<EyebotPanTiltCamera>();
+      BindCameras<HandbotCamera>();
+    });
 
 }  // namespace swarmanoid

@@ -5,7 +5,6 @@
 
 #include "common/control_interface/ci_pie_camera_sensor.h"
 #include "common/math/elementary.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/cameras/colour_camera.h"
 #include "controller_host/devices/device_plugins.h"
 
@@ -70,7 +69,7 @@ public:
     pies_.reserve(setup.robots.size());
     for (std::size_t k = 0; k < setup.robots.size(); ++k) pies_.emplace_back(*this, k, sectors_);
   }
-  CCI_Sensor* Sensor(std::size_t k) override { return &pies_[k]; }
+  Pie* Sensor(std::size_t k) override { return &pies_[k]; }
 
 protected:
   void Measure(const Seen& seen) override
@@ -126,6 +125,6 @@ private:
 
 }  // namespace
 
-void RegisterPieCamera() { BindSensor<PieCamera>("pie_camera", "generic_pie_camera"); }
+const DeviceCode kPieCameraCode([] { BindSensor<PieCamera>("pie_camera", "generic_pie_camera"); });
 
 }  // namespace swarmanoid

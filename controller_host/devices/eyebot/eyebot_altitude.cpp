@@ -5,7 +5,6 @@
 
 #include "common/control_interface/eyebot/ci_eyebot_altitude_sensor.h"
 #include "common/space/space.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/sensing/sensor_world.h"
 #include "controller_host/devices/value_devices.h"
@@ -60,6 +59,6 @@ private:
 
 }  // namespace
 
-void RegisterEyebotAltitude() { BindSensor<AltitudeSensor>("eyebot_altitude", "generic_eyebot_altitude"); }
+const DeviceCode kEyebotAltitudeCode([] { BindSensor<AltitudeSensor>("eyebot_altitude", "generic_eyebot_altitude"); });
 
 }  // namespace swarmanoid

@@ -3,7 +3,6 @@
 
 #include "common/control_interface/eyebot/ci_eyebot_laser_actuator.h"
 #include "common/math/elementary.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/value_devices.h"
 
@@ -12,10 +11,10 @@ namespace swarmanoid
 namespace
 {
 
-class Laser : public CCI_EyeBotLaserActuator
+class Laser : public CommandsOf<CCI_EyeBotLaserActuator>
 {
 public:
-  explicit Laser(double* values) : values_(values) {}
+  using CommandsOf::CommandsOf;
   void SwitchOn() override { values_[0] = 1; }
   void SwitchOff() override { values_[0] = 0; }
   void SetColour(std::uint32_t colour) override { values_[1] = colour & 0xffffff; }
@@ -24,17 +23,6 @@ public:
     values_[2] = WrapAngle(pan);
     values_[3] = std::clamp(tilt, 0.0, MAX_TILT);
   }
-
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    readings.push_back({"on", "yes/no", values_[0]});
-    readings.push_back({"colour", "colour", values_[1]});
-    readings.push_back({"pan", "rad", values_[2]});
-    readings.push_back({"tilt", "rad", values_[3]});
-  }
-
-private:
-  double* values_;  // laser, laser_colour, laser_pan, laser_tilt
 };
 
 class LaserActuator : public ActuatorsOf<AttributeActuator, Laser>
@@ -66,6 +54,6 @@ private:
 
 }  // namespace
 
-void RegisterEyebotLaser() { BindActuator<LaserActuator>("eyebot_laser", "generic_eyebot_laser"); }
+const DeviceCode kEyebotLaserCode([] { BindActuator<LaserActuator>("eyebot_laser", "generic_eyebot_laser"); });
 
 }  // namespace swarmanoid

@@ -1,12 +1,12 @@
 // Propulsion of the eyebot: velocities to the engine on channel "eyebot_propellers": forward, left, up in m/s, yaw rate
 // in rad/s. The position-controlled implementation closes its loop on the robot's own pose.
 #include <algorithm>
+#include <optional>
 
 #include "common/control_interface/ci_robot.h"
 #include "common/control_interface/eyebot/ci_eyebot_propellers_actuator.h"
 #include "common/math/elementary.h"
 #include "common/space/space.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/value_devices.h"
 
@@ -38,17 +38,10 @@ void PutVelocity(double* values, const Limits& limits, double forward, double le
   values[3] = Clamped(yaw_rate, limits.yaw_rate);
 }
 
-void DescribeVelocity(const double* velocity, std::vector<CCI_Reading>& readings)
-{
-  constexpr const char* kNames[] = {"forward", "left", "up", "yaw rate"};
-  for (std::size_t axis = 0; axis < kAxes; ++axis)
-    readings.push_back({kNames[axis], axis == 3 ? "rad/s" : "m/s", velocity[axis]});
-}
-
-class VelocityPropellers : public CCI_EyeBotPropellersActuator
+class VelocityPropellers : public CommandsOf<CCI_EyeBotPropellersActuator>
 {
 public:
-  explicit VelocityPropellers(double* values) : values_(values) {}
+  using CommandsOf::CommandsOf;
   void SetVelocity(double forward, double left, double up, double yaw_rate) override
   {
     PutVelocity(values_, limits, forward, left, up, yaw_rate);
@@ -59,11 +52,7 @@ public:
         "dummy_eyebot_propellers take velocities only; for SetPosition choose <implementation> "
         "position_eyebot_propellers");
   }
-  void Describe(std::vector<CCI_Reading>& readings) const override { DescribeVelocity(values_, readings); }
   Limits limits;
-
-private:
-  double* values_;
 };
 
 class VelocityActuator : public ChannelCommands<VelocityPropellers, kAxes>
@@ -85,10 +74,10 @@ struct Flight
 };
 constexpr std::size_t kFlightWidth = sizeof(Flight) / sizeof(double);
 
-class PositionPropellers : public CCI_EyeBotPropellersActuator
+class PositionPropellers : public CommandsOf<CCI_EyeBotPropellersActuator>
 {
 public:
-  explicit PositionPropellers(double* values) : values_(values) {}
+  using CommandsOf::CommandsOf;
   void SetVelocity(double forward, double left, double up, double yaw_rate) override
   {
     PutVelocity(values_, limits, forward, left, up, yaw_rate);
@@ -100,17 +89,20 @@ public:
     for (int axis = 0; axis < 3; ++axis) values_[kAxes + 1 + static_cast<std::size_t>(axis)] = position[axis];
     values_[kAxes + 4] = yaw;
   }
-  void Describe(std::vector<CCI_Reading>& readings) const override
+  std::optional<Target> GetTarget() const override
   {
-    if (values_[kAxes] == 0) return DescribeVelocity(values_, readings);
-    constexpr const char* kNames[] = {"target x", "target y", "target z", "target yaw"};
-    for (std::size_t i = 0; i < kAxes; ++i)
-      readings.push_back({kNames[i], i == 3 ? "rad" : "m", values_[kAxes + 1 + i]});
+    if (values_[kAxes] == 0) return std::nullopt;
+    const double* target = values_ + kAxes + 1;
+    return Target{target[0], target[1], target[2], target[3]};
   }
   Limits limits;
 
-private:
-  double* values_;  // laid out as Flight
+protected:
+  // The numbers are laid out as Flight.
+  void ReadSettings(std::vector<double>& values) const override
+  {
+    if (values_[kAxes] == 0) CommandsOf::ReadSettings(values);
+  }
 };
 
 // v = gain * (target - position), turned into the frame of the robot and clamped; likewise the yaw rate.
@@ -166,10 +158,11 @@ private:
 
 }  // namespace
 
-void RegisterEyebotPropellers()
-{
-  BindActuator<VelocityActuator>("eyebot_propellers", "dummy_eyebot_propellers");
-  BindActuator<PositionActuator>("eyebot_propellers", "position_eyebot_propellers");
-}
+const DeviceCode kEyebotPropellersCode(
+    []
+    {
+      BindActuator<VelocityActuator>("eyebot_propellers", "dummy_eyebot_propellers");
+      BindActuator<PositionActuator>("eyebot_propellers", "position_eyebot_propellers");
+    });
 
 }  // namespace swarmanoid

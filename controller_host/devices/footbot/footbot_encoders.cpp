@@ -2,7 +2,6 @@
 // the engine sends on channel "footbot_encoders".
 #include "common/control_interface/footbot/ci_footbot_encoders_sensor.h"
 #include "common/space/space.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/value_devices.h"
 
@@ -35,6 +34,7 @@ private:
 
 }  // namespace
 
-void RegisterFootbotEncoders() { BindSensor<EncodersSensor>("footbot_encoders", "engine_footbot_encoders"); }
+const DeviceCode kFootbotEncodersCode([]
+                                      { BindSensor<EncodersSensor>("footbot_encoders", "engine_footbot_encoders"); });
 
 }  // namespace swarmanoid

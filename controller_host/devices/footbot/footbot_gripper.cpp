@@ -5,7 +5,6 @@
 #include "common/control_interface/footbot/ci_footbot_gripper_actuator.h"
 #include "common/control_interface/footbot/ci_footbot_gripper_sensor.h"
 #include "common/space/space.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/value_devices.h"
 
@@ -14,16 +13,11 @@ namespace swarmanoid
 namespace
 {
 
-class Gripper : public CCI_FootBotGripperActuator
+class Gripper : public CommandsOf<CCI_FootBotGripperActuator>
 {
 public:
-  explicit Gripper(double* closed) : closed_(closed) {}
-  void SetGripper(double closed) override { *closed_ = std::clamp(closed, 0.0, 1.0); }
-
-  void Describe(std::vector<CCI_Reading>& readings) const override { readings.push_back({"closed", "", *closed_}); }
-
-private:
-  double* closed_;
+  using CommandsOf::CommandsOf;
+  void SetGripper(double closed) override { *values_ = std::clamp(closed, 0.0, 1.0); }
 };
 
 class GripperState : public CCI_FootBotGripperSensor
@@ -71,10 +65,11 @@ private:
 
 }  // namespace
 
-void RegisterFootbotGripper()
-{
-  BindActuator<ChannelCommands<Gripper, 1, 1>>("footbot_gripper", "dummy_footbot_gripper");
-  BindSensor<GripperSensor>("footbot_gripper", "generic_footbot_gripper");
-}
+const DeviceCode kFootbotGripperCode(
+    []
+    {
+      BindActuator<ChannelCommands<Gripper, 1, 1>>("footbot_gripper", "dummy_footbot_gripper");
+      BindSensor<GripperSensor>("footbot_gripper", "generic_footbot_gripper");
+    });
 
 }  // namespace swarmanoid

@@ -6,7 +6,6 @@
 
 #include "common/plugin_descriptions/device_tables.h"
 #include "common/space/space.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 
 namespace swarmanoid
@@ -388,10 +387,11 @@ void PolynomialProximity::Respond(const double* distances, double* readings) con
   for (unsigned i = 0; i < kRays; ++i) readings[i] = distances[i] <= Range() ? readings[i] : 0;
 }
 
-void RegisterFootbotProximity()
-{
-  BindSensor<RayCastProximity>("footbot_proximity", "generic_footbot_proximity");
-  BindSensor<PolynomialProximity>("footbot_proximity", "generic_footbot_polynomial_proximity");
-}
+const DeviceCode kFootbotProximityCode(
+    []
+    {
+      BindSensor<RayCastProximity>("footbot_proximity", "generic_footbot_proximity");
+      BindSensor<PolynomialProximity>("footbot_proximity", "generic_footbot_polynomial_proximity");
+    });
 
 }  // namespace swarmanoid

@@ -22,7 +22,7 @@ class FootbotProximity : public SensorBatch, public OnDemandSensor
 {
 public:
   void Init(const DeviceSetup& setup) override;
-  CCI_Sensor* Sensor(std::size_t k) override { return &sensors_[k]; }
+  CCI_FootBotProximitySensor* Sensor(std::size_t k) override { return &sensors_[k]; }
   void Update(const ChannelView&) override
   {
     Forget();

@@ -7,7 +7,6 @@
 #include "common/control_interface/footbot/ci_footbot_turret_encoder_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_turret_torque_sensor.h"
 #include "common/math/elementary.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/value_devices.h"
 
@@ -16,20 +15,13 @@ namespace swarmanoid
 namespace
 {
 
-class Turret : public CCI_FootBotTurretActuator
+class Turret : public CommandsOf<CCI_FootBotTurretActuator>
 {
 public:
-  explicit Turret(double* velocity) : velocity_(velocity) {}
-  void SetTurretAngularVelocity(double velocity) override { *velocity_ = std::clamp(velocity, -limit, limit); }
+  using CommandsOf::CommandsOf;
+  void SetTurretAngularVelocity(double velocity) override { *values_ = std::clamp(velocity, -limit, limit); }
 
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    readings.push_back({"velocity", "rad/s", *velocity_});
-  }
   double limit = 0;  // rad/s
-
-private:
-  double* velocity_;
 };
 
 class TurretActuator : public ChannelCommands<Turret, 1>
@@ -75,11 +67,12 @@ public:
 
 }  // namespace
 
-void RegisterFootbotTurret()
-{
-  BindActuator<TurretActuator>("footbot_turret", "dummy_footbot_turret");
-  BindSensor<TurretEncoder>("footbot_turret_encoder", "generic_footbot_turret_encoder");
-  BindSensor<TorqueSensor>("footbot_turret_torque", "engine_footbot_turret_torque");
-}
+const DeviceCode kFootbotTurretCode(
+    []
+    {
+      BindActuator<TurretActuator>("footbot_turret", "dummy_footbot_turret");
+      BindSensor<TurretEncoder>("footbot_turret_encoder", "generic_footbot_turret_encoder");
+      BindSensor<TorqueSensor>("footbot_turret_torque", "engine_footbot_turret_torque");
+    });
 
 }  // namespace swarmanoid

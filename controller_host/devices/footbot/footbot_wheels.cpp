@@ -6,7 +6,6 @@
 
 #include "common/math/elementary.h"
 #include "common/space/space.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 
 namespace swarmanoid
@@ -149,12 +148,13 @@ void PidFootbotWheels::LoadState(std::size_t k, ByteReader& state)
   velocity_[k] = state.Get<std::array<double, 2>>();
 }
 
-void RegisterFootbotWheels()
-{
-  BindActuator<DummyFootbotWheels>("footbot_wheels", "dummy_footbot_wheels");
-  BindActuator<NoisyFootbotWheels>("footbot_wheels", "noisy_footbot_wheels");
-  BindActuator<Argos3FootbotWheels>("footbot_wheels", "argos3_footbot_wheels");
-  BindActuator<PidFootbotWheels>("footbot_wheels", "pid_footbot_wheels");
-}
+const DeviceCode kFootbotWheelsCode(
+    []
+    {
+      BindActuator<DummyFootbotWheels>("footbot_wheels", "dummy_footbot_wheels");
+      BindActuator<NoisyFootbotWheels>("footbot_wheels", "noisy_footbot_wheels");
+      BindActuator<Argos3FootbotWheels>("footbot_wheels", "argos3_footbot_wheels");
+      BindActuator<PidFootbotWheels>("footbot_wheels", "pid_footbot_wheels");
+    });
 
 }  // namespace swarmanoid

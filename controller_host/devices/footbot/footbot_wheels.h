@@ -21,12 +21,13 @@ class SimulatedFootbotWheels : public CCI_FootBotWheelsActuator
 public:
   void SetFootBotWheelsAngularVelocity(double left, double right) override { wanted = {left, right}; }
 
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    readings.push_back({"left", "rad/s", wanted[0]});
-    readings.push_back({"right", "rad/s", wanted[1]});
-  }
   std::array<double, NUM_WHEELS> wanted{};  // rad/s
+
+protected:
+  void ReadSettings(std::vector<double>& values) const override
+  {
+    values.insert(values.end(), wanted.begin(), wanted.end());
+  }
 };
 
 // The speed asked for, clamped to the fastest one. The base of the others.
@@ -34,7 +35,7 @@ class DummyFootbotWheels : public ActuatorBatch
 {
 public:
   void Init(const DeviceSetup& setup) override;
-  CCI_Actuator* Actuator(std::size_t k) override { return &wheels_[k]; }
+  SimulatedFootbotWheels* Actuator(std::size_t k) override { return &wheels_[k]; }
   void Commit(const ChannelView& channel, AttributeChanges& changes) override;
   void SaveState(std::size_t k, ByteWriter& state) const override;
   void LoadState(std::size_t k, ByteReader& state) override;

@@ -4,7 +4,6 @@
 #include "common/control_interface/footbot/ci_footbot_preferential_direction_actuator.h"
 #include "common/math/elementary.h"
 #include "common/space/space.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/value_devices.h"
 
@@ -30,14 +29,14 @@ public:
   }
   void HideDirection() override { colour_ = 0; }
 
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    readings.push_back({"angle", "rad", angle_});
-    readings.push_back({"colour", "colour", static_cast<double>(colour_)});
-  }
-
   double angle_ = 0;
   std::uint32_t colour_ = 0;
+
+protected:
+  void ReadSettings(std::vector<double>& values) const override
+  {
+    values.insert(values.end(), {colour_ != 0 ? 1.0 : 0.0, angle_, static_cast<double>(colour_)});
+  }
 };
 
 class DirectionActuator : public AttributeActuator
@@ -53,7 +52,7 @@ public:
     for (const std::uint32_t robot : setup.robots)
       turret_slots_.push_back(setup.space.GetEntity(robot).SlotOf("turret_angle"));
   }
-  CCI_Actuator* Actuator(std::size_t k) override { return &directions_[k]; }
+  Direction* Actuator(std::size_t k) override { return &directions_[k]; }
 
   void Commit(const ChannelView& channel, AttributeChanges& changes) override
   {
@@ -100,9 +99,7 @@ private:
 
 }  // namespace
 
-void RegisterPreferentialDirection()
-{
-  BindActuator<DirectionActuator>("footbot_preferential_direction", "led_ring_preferential_direction");
-}
+const DeviceCode kPreferentialDirectionCode(
+    [] { BindActuator<DirectionActuator>("footbot_preferential_direction", "led_ring_preferential_direction"); });
 
 }  // namespace swarmanoid

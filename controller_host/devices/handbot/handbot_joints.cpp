@@ -8,7 +8,6 @@
 #include "common/control_interface/handbot/ci_handbot_head_actuator.h"
 #include "common/control_interface/handbot/ci_handbot_joints_sensor.h"
 #include "common/space/space.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/value_devices.h"
 
@@ -23,61 +22,35 @@ double Clamped(double velocity)
   return std::clamp(velocity, -kLimit, kLimit);
 }
 
-class Head : public CCI_HandBotHeadActuator
+class Head : public CommandsOf<CCI_HandBotHeadActuator>
 {
 public:
-  explicit Head(double* velocity) : velocity_(velocity) {}
-  void SetHeadAngularVelocity(double velocity) override { *velocity_ = Clamped(velocity); }
-
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    readings.push_back({"velocity", "rad/s", *velocity_});
-  }
-
-private:
-  double* velocity_;
+  using CommandsOf::CommandsOf;
+  void SetHeadAngularVelocity(double velocity) override { *values_ = Clamped(velocity); }
 };
 
-class Arms : public CCI_HandBotArmsActuator
+class Arms : public CommandsOf<CCI_HandBotArmsActuator>
 {
 public:
-  explicit Arms(double* velocities) : velocities_(velocities) {}
+  using CommandsOf::CommandsOf;
   void SetArmVelocities(double left, double right) override
   {
-    velocities_[0] = Clamped(left);
-    velocities_[1] = Clamped(right);
+    values_[0] = Clamped(left);
+    values_[1] = Clamped(right);
   }
   void SetWristVelocities(double left, double right) override
   {
-    velocities_[2] = Clamped(left);
-    velocities_[3] = Clamped(right);
+    values_[2] = Clamped(left);
+    values_[3] = Clamped(right);
   }
-
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    static constexpr const char* kNames[] = {"left arm", "right arm", "left wrist", "right wrist"};
-    for (int i = 0; i < 4; ++i) readings.push_back({kNames[i], "rad/s", velocities_[i]});
-  }
-
-private:
-  double* velocities_;
 };
 
-class Hands : public CCI_HandBotHandsActuator
+class Hands : public CommandsOf<CCI_HandBotHandsActuator>
 {
 public:
-  explicit Hands(double* closed) : closed_(closed) {}
-  void Close(Hand hand) override { closed_[hand] = 1; }
-  void Open(Hand hand) override { closed_[hand] = 0; }
-
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    readings.push_back({"left closed", "yes/no", closed_[LEFT]});
-    readings.push_back({"right closed", "yes/no", closed_[RIGHT]});
-  }
-
-private:
-  double* closed_;
+  using CommandsOf::CommandsOf;
+  void Close(Hand hand) override { values_[hand] = 1; }
+  void Open(Hand hand) override { values_[hand] = 0; }
 };
 
 class Joints : public ReadingsOf<CCI_HandBotJointsSensor, CCI_HandBotJointsSensor::NUM_READINGS>
@@ -128,12 +101,13 @@ private:
 
 }  // namespace
 
-void RegisterHandbotJoints()
-{
-  BindActuator<ChannelCommands<Head, 1>>("handbot_head", "dummy_handbot_head");
-  BindActuator<ChannelCommands<Arms, 4, 0, 1>>("handbot_arms", "dummy_handbot_arms");
-  BindActuator<ChannelCommands<Hands, 2, 1>>("handbot_hands", "dummy_handbot_hands");
-  BindSensor<JointsSensor>("handbot_joints", "generic_handbot_joints");
-}
+const DeviceCode kHandbotJointsCode(
+    []
+    {
+      BindActuator<ChannelCommands<Head, 1>>("handbot_head", "dummy_handbot_head");
+      BindActuator<ChannelCommands<Arms, 4, 0, 1>>("handbot_arms", "dummy_handbot_arms");
+      BindActuator<ChannelCommands<Hands, 2, 1>>("handbot_hands", "dummy_handbot_hands");
+      BindSensor<JointsSensor>("handbot_joints", "generic_handbot_joints");
+    });
 
 }  // namespace swarmanoid

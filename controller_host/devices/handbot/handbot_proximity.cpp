@@ -9,7 +9,6 @@
 #include "common/plugin_descriptions/robot_parts.h"
 #include "common/space/space.h"
 #include "controller_host/devices/any_robot/proximity_rays.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 
 namespace swarmanoid
@@ -60,7 +59,7 @@ public:
     }
   }
 
-  CCI_Sensor* Sensor(std::size_t k) override { return &sensors_[k]; }
+  HandProximity* Sensor(std::size_t k) override { return &sensors_[k]; }
 
 protected:
   std::span<const ProximitySensorRay> RaysOf(std::size_t k) override
@@ -92,9 +91,7 @@ private:
 
 }  // namespace
 
-void RegisterHandbotProximity()
-{
-  BindSensor<HandbotProximitySensor>("handbot_proximity", "generic_handbot_proximity");
-}
+const DeviceCode kHandbotProximityCode(
+    [] { BindSensor<HandbotProximitySensor>("handbot_proximity", "generic_handbot_proximity"); });
 
 }  // namespace swarmanoid

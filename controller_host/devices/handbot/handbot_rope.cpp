@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "common/control_interface/handbot/ci_handbot_rope_actuator.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/value_devices.h"
 
@@ -12,25 +11,16 @@ namespace swarmanoid
 namespace
 {
 
-class Rope : public CCI_HandBotRopeActuator
+class Rope : public CommandsOf<CCI_HandBotRopeActuator>
 {
 public:
-  explicit Rope(double* values) : values_(values) {}
+  using CommandsOf::CommandsOf;
   void Launch() override { values_[0] = 1; }
   void Release() override { values_[0] = 0; }
   void SetWinchVelocity(double velocity) override
   {
     values_[1] = std::clamp(velocity, -MAX_WINCH_SPEED, MAX_WINCH_SPEED);
   }
-
-  void Describe(std::vector<CCI_Reading>& readings) const override
-  {
-    readings.push_back({"launched", "yes/no", values_[0]});
-    readings.push_back({"winch velocity", "m/s", values_[1]});
-  }
-
-private:
-  double* values_;
 };
 
 class RopeActuator : public ActuatorsOf<ChannelActuator, Rope>
@@ -61,6 +51,6 @@ private:
 
 }  // namespace
 
-void RegisterHandbotRope() { BindActuator<RopeActuator>("handbot_rope", "dummy_handbot_rope"); }
+const DeviceCode kHandbotRopeCode([] { BindActuator<RopeActuator>("handbot_rope", "dummy_handbot_rope"); });
 
 }  // namespace swarmanoid

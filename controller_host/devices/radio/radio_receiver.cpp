@@ -8,7 +8,6 @@
 #include "common/space/packet_attribute.h"
 #include "common/space/query.h"
 #include "common/space/space.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 
 namespace swarmanoid
@@ -49,7 +48,7 @@ public:
     receivers_.resize(robots_.size());
     flying_.resize(robots_.size());
   }
-  CCI_Sensor* Sensor(std::size_t k) override { return &receivers_[k]; }
+  RobotReceiver* Sensor(std::size_t k) override { return &receivers_[k]; }
 
   void Update(const ChannelView&) override
   {
@@ -147,6 +146,6 @@ private:
 
 }  // namespace
 
-void RegisterRadioReceiver() { BindSensor<RadioReceiver>("radio", "generic_radio"); }
+const DeviceCode kRadioReceiverCode([] { BindSensor<RadioReceiver>("radio", "generic_radio"); });
 
 }  // namespace swarmanoid

@@ -6,7 +6,6 @@
 #include "common/control_interface/ci_radio.h"
 #include "common/space/packet_attribute.h"
 #include "common/space/space.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/value_devices.h"
 
@@ -106,6 +105,6 @@ private:
 
 }  // namespace
 
-void RegisterRadioSender() { BindActuator<RadioSender>("radio", "generic_radio"); }
+const DeviceCode kRadioSenderCode([] { BindActuator<RadioSender>("radio", "generic_radio"); });
 
 }  // namespace swarmanoid

@@ -9,7 +9,6 @@
 #include "common/plugin_descriptions/antenna.h"
 #include "common/space/message_slots.h"
 #include "common/space/space.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/noise.h"
 #include "controller_host/devices/range_and_bearing/heard_senders.h"
@@ -35,6 +34,12 @@ public:
   {
     batch_.Want(k_);
     return {packets.data(), count};
+  }
+  unsigned GetMostFurtherBytes() const override
+  {
+    std::size_t most = 0;
+    for (const auto& bytes : further_) most = std::max(most, bytes.size());
+    return static_cast<unsigned>(most);
   }
   std::span<const std::uint8_t> GetFurtherBytes(const Packet& packet) const override
   {
@@ -96,7 +101,7 @@ public:
         further_of_entity_[e] = static_cast<std::uint32_t>(further_bytes_.size());
       }
   }
-  CCI_Sensor* Sensor(std::size_t k) override { return &receivers_[k]; }
+  Receiver* Sensor(std::size_t k) override { return &receivers_[k]; }
 
   void RefreshShared(WorkerPool* pool) override
   {
@@ -415,6 +420,7 @@ private:
 
 }  // namespace
 
-void RegisterRangeAndBearingReceiver() { BindSensor<ReceiverBatch>("range_and_bearing", "generic_range_and_bearing"); }
+const DeviceCode kRangeAndBearingReceiverCode(
+    [] { BindSensor<ReceiverBatch>("range_and_bearing", "generic_range_and_bearing"); });
 
 }  // namespace swarmanoid

@@ -4,7 +4,6 @@
 #include "common/messages/range_and_bearing_message.h"
 #include "common/space/message_slots.h"
 #include "common/space/space.h"
-#include "controller_host/devices/builtin_devices.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/value_devices.h"
 
@@ -33,17 +32,15 @@ public:
   }
   void StopSending() override { std::fill_n(values_, numbers_, 0.0); }
 
-  void Describe(std::vector<CCI_Reading>& readings) const override
+private:
+  void ReadSettings(std::vector<double>& values) const override
   {
-    readings.push_back({"sends", "yes/no", values_[0]});
-    if (values_[0] == 0) return;
     std::vector<std::uint8_t> message(bytes_);
     UnpackBytes(values_ + 1, message);
-    for (std::size_t i = 0; i < message.size(); ++i)
-      readings.push_back({"byte " + std::to_string(i), "", static_cast<double>(message[i])});
+    values.push_back(values_[0]);
+    values.insert(values.end(), message.begin(), message.end());
   }
 
-private:
   double* values_;
   unsigned bytes_ = NUM_BYTES;
   std::size_t numbers_ = 3;  // with that which says whether it sends
@@ -89,6 +86,7 @@ private:
 
 }  // namespace
 
-void RegisterRangeAndBearingSender() { BindActuator<SenderBatch>("range_and_bearing", "generic_range_and_bearing"); }
+const DeviceCode kRangeAndBearingSenderCode(
+    [] { BindActuator<SenderBatch>("range_and_bearing", "generic_range_and_bearing"); });
 
 }  // namespace swarmanoid

@@ -1,0 +1,281 @@
+// The columns of a device: the numbers that it reads or is told, each with a name, a unit and a range, and with what
+// reads it from the interface of the device. The interface declares them once. Python, Lua, the topics of ROS 2, the
+// inspectors, `swarmanoid inspect`, `swarmanoid list plugins` and the tests are written over this declaration.
+//
+//   class CCI_CompassSensor : public CCI_SensorOf<CCI_CompassSensor>
+//   {
+//   public:
+//     virtual double GetHeading() const = 0;
+//     static void Declare(Declaration& columns) { columns.Add({"heading", "rad"}, &CCI_CompassSensor::GetHeading); }
+//   };
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <span>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "common/control_interface/ci_colour.h"
+
+namespace swarmanoid
+{
+
+class CCI_Device;
+
+// One of the numbers that a device reads or is told, as a column of a table. It is the same at every tick, and for all
+// robots that carry the device alike.
+struct CCI_Column
+{
+  enum class For
+  {
+    kEverybody,
+    kPrograms,  // people are shown something shorter
+    kPeople     // follows from columns for programs
+  };
+
+  std::string name;    // "left"; "led #": one of several, whose number from 0 takes the place of '#'
+  std::string unit{};  // "m/s"; empty for plain numbers. "colour": 0xRRGGBB, 0 is off. "yes/no": 1 or 0
+  // What the values lie between, noise included.
+  double minimum = -std::numeric_limits<double>::infinity();
+  double maximum = std::numeric_limits<double>::infinity();
+  bool may_be_infinite = false;  // infinity is a reading, too: nothing was found. People are not shown it
+  bool hides_zero = false;       // people are not shown zeros
+  For audience = For::kEverybody;
+
+  // "left [rad/s]", "colour".
+  std::string Title() const
+  {
+    const bool has_unit = !unit.empty() && unit != "colour" && unit != "yes/no";
+    return has_unit ? name + " [" + unit + "]" : name;
+  }
+  bool IsFor(For reader) const { return audience == For::kEverybody || audience == reader; }
+};
+
+// Each byte of a message.
+inline CCI_Column ByteColumn() { return {.name = "byte #", .minimum = 0, .maximum = 255, .hides_zero = true}; }
+
+// Calls send(bytes) with the message that stands in numbers: how long it is, and its bytes.
+template <std::size_t kMost, class Send>
+void SendNumbers(std::span<const double> numbers, Send send)
+{
+  std::array<std::uint8_t, kMost> bytes{};
+  for (std::size_t i = 0; i < kMost; ++i) bytes[i] = static_cast<std::uint8_t>(std::clamp(numbers[1 + i], 0.0, 255.0));
+  send(std::span<const std::uint8_t>(bytes).first(static_cast<std::size_t>(std::clamp<double>(numbers[0], 0, kMost))));
+}
+
+// Neighbouring columns that are repeated together: "depth 0", "colour 0", "depth 1" and so on.
+struct CCI_ColumnGroup
+{
+  std::vector<CCI_Column> columns;
+  std::size_t count = 1;                                                // repetitions; 0: count_of says it
+  std::function<std::size_t(const CCI_Device&)> count_of{};             // where it differs from device to device
+  std::function<void(const CCI_Device&, std::vector<double>&)> read{};  // of readings: appends the numbers
+
+  std::size_t CountOf(const CCI_Device& device) const { return count == 0 ? count_of(device) : count; }
+  bool IsFor(CCI_Column::For audience) const { return columns.front().IsFor(audience); }
+};
+
+// The declaration of an interface, as all who show devices see it.
+struct CCI_Columns
+{
+  // The readings that every tick has.
+  std::vector<CCI_ColumnGroup> readings;
+  // The readings whose number differs from tick to tick, such as blobs or packets: what one of them is called, and its
+  // columns. `read_rows` appends row after row, `read_row_ids` the ids of the entities that the rows are about.
+  std::string row_name;
+  std::vector<CCI_ColumnGroup> row;
+  std::function<void(const CCI_Device&, CCI_Column::For, std::vector<double>&)> read_rows;
+  std::function<void(const CCI_Device&, std::vector<std::string>&)> read_row_ids;
+  // What an actuator is told, all at once.
+  std::vector<CCI_ColumnGroup> settings;
+  std::function<void(CCI_Device&, std::span<const double>)> set;
+};
+
+// How many numbers a reading of a type has; 0: its size says it.
+template <class Value>
+inline constexpr std::size_t kNumbersIn = std::is_arithmetic_v<Value> || std::is_enum_v<Value> ? 1 : 0;
+template <class Number, std::size_t kSize>
+inline constexpr std::size_t kNumbersIn<std::array<Number, kSize>> = kSize;
+template <class Number, std::size_t kSize>
+inline constexpr std::size_t kNumbersIn<std::span<Number, kSize>> = kSize == std::dynamic_extent ? 0 : kSize;
+
+// A column of the items of a list, and what reads it: a member or a function of the item, or a function of the device
+// and the item. A range has the same size for all items.
+template <class Get>
+struct CCI_Field
+{
+  CCI_Field(CCI_Column of, Get by) : column(std::move(of)), get(std::move(by)) {}
+
+  CCI_Column column;
+  Get get;
+};
+
+// What the interface `Device` writes its declaration with. Readings are numbers, switches, enumerations, or ranges.
+template <class Device>
+class CCI_ColumnsOf : public CCI_Columns
+{
+public:
+  // A reading, or each number of a range. `count`: so many numbers are taken of a range whose size differs; zeros
+  // follow.
+  template <class Get>
+  CCI_ColumnsOf& Add(CCI_Column column, Get get, std::size_t count = kNumbersIn<ResultOf<Get>>)
+  {
+    const auto read = [get, count](const CCI_Device& device, std::vector<double>& values)
+    {
+      const std::size_t end = values.size() + count;
+      Append(values, std::invoke(get, This(device)));
+      if (count != 0) values.resize(end, 0);
+    };
+    readings.push_back({{std::move(column)}, count, SizeOf(get), read});
+    return *this;
+  }
+  // A range with a number for each of these columns.
+  template <class Get>
+  CCI_ColumnsOf& AddAll(std::vector<CCI_Column> columns, Get get)
+  {
+    const auto read = [get](const CCI_Device& device, std::vector<double>& values)
+    { Append(values, std::invoke(get, This(device))); };
+    readings.push_back({std::move(columns), 1, {}, read});
+    return *this;
+  }
+  // The fields of each item of a range, which has as many items at every tick.
+  template <class Get, class... Gets>
+  CCI_ColumnsOf& AddEach(Get get, CCI_Field<Gets>... fields)
+  {
+    std::vector<CCI_Column> columns{fields.column...};
+    const auto read = [read_all = ReadItems(get, fields...), audience = columns.front().audience](
+                          const CCI_Device& device, std::vector<double>& values)
+    { read_all(device, audience, values); };
+    readings.push_back({std::move(columns), 0, SizeOf(get), read});
+    return *this;
+  }
+
+  // The rows: the items of a range. `name`: of one of them, "blob".
+  template <class Get, class... Gets>
+  CCI_ColumnsOf& AddRows(std::string name, Get get, CCI_Field<Gets>... fields)
+  {
+    using Item = std::remove_cvref_t<decltype(*std::begin(std::declval<const ResultOf<Get>&>()))>;
+    row_name = std::move(name);
+    (row.push_back(RowGroup<Item>(fields)), ...);
+    read_rows = ReadItems(get, fields...);
+    return *this;
+  }
+  // `id`: of the entity that an item is about.
+  template <class Get, class Id>
+  CCI_ColumnsOf& AddRowIds(Get get, Id id)
+  {
+    read_row_ids = [get, id](const CCI_Device& device, std::vector<std::string>& ids)
+    {
+      for (const auto& item : std::invoke(get, This(device))) ids.emplace_back(std::invoke(id, item));
+    };
+    return *this;
+  }
+
+  // What an actuator is told. `by`: a function of it with an argument for each column; colours are std::uint32_t.
+  template <class... Arguments>
+  CCI_ColumnsOf& Set(const std::vector<CCI_Column>& columns, void (Device::*by)(Arguments...))
+  {
+    return Set(columns,
+               [by](Device& device, std::span<const double> values)
+               {
+                 auto next = values.begin();
+                 const std::tuple<Arguments...> all{Argument<Arguments>(next)...};
+                 std::apply([&](const auto&... each) { (device.*by)(each...); }, all);
+               });
+  }
+  // `by`: a function of the actuator and a number for each column. `count`: how often a column whose name has a '#' is
+  // repeated, an integer or a function of the actuator.
+  template <class By, class Count = std::size_t>
+  CCI_ColumnsOf& Set(const std::vector<CCI_Column>& columns, By by, Count count = {})
+  {
+    for (const CCI_Column& column : columns)
+    {
+      CCI_ColumnGroup& group = settings.emplace_back(CCI_ColumnGroup{{column}});
+      if (column.name.find('#') == std::string::npos) continue;
+      if constexpr (std::is_integral_v<Count>)
+        group.count = count;
+      else
+        group = {{column}, 0, [count](const CCI_Device& device) { return std::invoke(count, This(device)); }};
+    }
+    set = [by](CCI_Device& device, std::span<const double> values) { by(static_cast<Device&>(device), values); };
+    return *this;
+  }
+
+private:
+  template <class Get>
+  using ResultOf = std::remove_cvref_t<std::invoke_result_t<Get, const Device&>>;
+
+  static const Device& This(const CCI_Device& device) { return static_cast<const Device&>(device); }
+
+  template <class Value>
+  static void Append(std::vector<double>& values, const Value& value)
+  {
+    if constexpr (std::is_arithmetic_v<Value> || std::is_enum_v<Value>)
+      values.push_back(static_cast<double>(value));
+    else
+      values.insert(values.end(), std::begin(value), std::end(value));
+  }
+  // Of a range whose type does not have its size.
+  template <class Get>
+  static std::function<std::size_t(const CCI_Device&)> SizeOf(Get get)
+  {
+    if constexpr (kNumbersIn<ResultOf<Get>> != 0)
+      return {};
+    else
+      return [get](const CCI_Device& device) { return std::size(std::invoke(get, This(device))); };
+  }
+
+  template <class Get, class Item>
+  static decltype(auto) FieldOf(const Get& get, const CCI_Device& device, const Item& item)
+  {
+    if constexpr (std::is_invocable_v<const Get&, const Item&>)
+      return std::invoke(get, item);
+    else
+      return std::invoke(get, This(device), item);
+  }
+  template <class Get, class... Gets>
+  static auto ReadItems(Get get, CCI_Field<Gets>... fields)
+  {
+    return [get, fields...](const CCI_Device& device, CCI_Column::For audience, std::vector<double>& values)
+    {
+      for (const auto& item : std::invoke(get, This(device)))
+        ((fields.column.IsFor(audience) ? Append(values, FieldOf(fields.get, device, item)) : void()), ...);
+    };
+  }
+  template <class Item, class Get>
+  static CCI_ColumnGroup RowGroup(const CCI_Field<Get>& field)
+  {
+    using Value = std::remove_cvref_t<decltype(FieldOf(field.get, std::declval<const CCI_Device&>(),
+                                                       std::declval<const Item&>()))>;
+    if constexpr (kNumbersIn<Value> != 0)
+      return {{field.column}, kNumbersIn<Value>};
+    else
+      return {{field.column}, 0, [get = field.get](const CCI_Device& device) {
+                return std::size(FieldOf(get, device, Item{}));
+              }};
+  }
+
+  template <class Type>
+  static Type Argument(std::span<const double>::iterator& next)
+  {
+    const double value = *next++;
+    if constexpr (std::is_same_v<Type, std::uint32_t>)
+      return CCI_Colour::FromNumber(value);
+    else
+      return value;
+  }
+};
+
+}  // namespace swarmanoid
+
+using swarmanoid::CCI_Column;
+using swarmanoid::CCI_Field;
