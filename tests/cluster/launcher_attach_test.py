@@ -11,7 +11,7 @@ import subprocess
 import time
 import unittest
 
-from harness import CONFIGS, GENEROUS_S, LauncherTest, end, main
+from harness import CONFIGS, GENEROUS_S, LauncherTest, end
 
 EXPERIMENT = CONFIGS / "diffusion_10.xml"
 
@@ -183,7 +183,3 @@ class AcrossNetworks(LauncherTest):
         end(watcher)
         run.process.send_signal(signal.SIGINT)
         self.assertEqual(run.wait(GENEROUS_S), 130, run.stderr)
-
-
-if __name__ == "__main__":
-    main()

@@ -5,7 +5,7 @@ import shutil
 import subprocess
 import unittest
 
-from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, children_of, main
+from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, children_of
 
 EXPERIMENT = CONFIGS / "diffusion_10.xml"
 NOBODY = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
@@ -114,7 +114,3 @@ class Security(LauncherTest):
         self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
         self.assertRegex(run.stderr, r"(?m)^[^@\s]+@[^:\s]+:\d+: stopped at tick 0$")
         self.assertRegex((self.folder / "out" / "events.csv").read_text(), r"(?m)^0,stop,,,[^@,]+@[^,]+:\d+,\d+,\d{4}-\d\d-\d\dT[\d:]{8}Z,[0-9a-f]{8}$")
-
-
-if __name__ == "__main__":
-    main()

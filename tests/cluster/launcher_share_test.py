@@ -5,7 +5,7 @@ import subprocess
 import time
 import unittest
 
-from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, main
+from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest
 
 EXPERIMENT = CONFIGS / "diffusion_10.xml"
 TICKS = 60
@@ -199,7 +199,3 @@ class Share(LauncherTest):
         broken = self.run_it("control", "stop", environment={"SWARMANOID_SHARE": "1,2,3"})
         self.assertNotEqual(broken.process.returncode, 0)
         self.assertIn("paste the whole line", broken.stderr)
-
-
-if __name__ == "__main__":
-    main()

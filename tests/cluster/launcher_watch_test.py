@@ -4,9 +4,8 @@ import os
 import pty
 import signal
 import subprocess
-import unittest
 
-from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, main
+from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest
 
 EXPERIMENT = CONFIGS / "diffusion_10.xml"
 
@@ -128,7 +127,3 @@ class Terminal(LauncherTest):
         self.assertNotIn("\n", text)
         self.assertTrue(text.endswith("\r\x1b[K"))
         self.assertRegex(text, r"running: tick \d+ of 300 \(\d+ %\), [\d.]+x real time, .* left, 4 processes")
-
-
-if __name__ == "__main__":
-    main()
