@@ -4,11 +4,10 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "tests/unit/launcher/process_groups.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -52,9 +51,6 @@ TEST(SystemSpawner, WhatAProcessStartedItselfEndsWithIt)
 class ClusterMemberTest : public testing::Test
 {
 protected:
-  ClusterMemberTest() { std::filesystem::create_directories(folder_); }
-  ~ClusterMemberTest() override { std::filesystem::remove_all(folder_); }
-
   MemberPlan Visualiser(const std::string& script) const
   {
     MemberPlan plan;
@@ -65,7 +61,7 @@ protected:
     return plan;
   }
 
-  const std::filesystem::path folder_ = testing::TempDir() + "swarmanoid_member_" + std::to_string(getpid());
+  const test::TemporaryFolder folder_;
   SystemSpawner spawner;
 };
 
@@ -77,9 +73,7 @@ TEST_F(ClusterMemberTest, TheLastWordsOfAProcessAreInItsLog)
     member.Collect(spawner);
     EXPECT_EQ(member.End()->exit_code, 3);
   }
-  std::ostringstream text;
-  text << std::ifstream(plan.log_path).rdbuf();
-  EXPECT_EQ(text.str(), "one\ntwo\n");
+  EXPECT_EQ(test::TextOf(plan.log_path), "one\ntwo\n");
 }
 
 // A process by ssh believes that it writes to a terminal.
@@ -91,9 +85,7 @@ TEST_F(ClusterMemberTest, ColoursOfATerminalDoNotReachTheLog)
     ClusterMember member(plan, spawner);
     member.Collect(spawner);
   }
-  std::ostringstream text;
-  text << std::ifstream(plan.log_path).rdbuf();
-  EXPECT_EQ(text.str(), "red and 0;title\nwarning: done\n");
+  EXPECT_EQ(test::TextOf(plan.log_path), "red and 0;title\nwarning: done\n");
 }
 
 // A process of a user's code may leave a child behind, in a session of its own, that keeps the output open.

@@ -4,6 +4,7 @@
 
 #include "launcher/command/sub_command.h"
 #include "launcher/supervision/cluster_plan.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid
 {
@@ -15,15 +16,7 @@ using testing::HasSubstr;
 
 std::string ErrorOf(const std::string& text)
 {
-  try
-  {
-    Hosts("hosts.txt", text);
-  }
-  catch (const UsageError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return test::MessageOf<UsageError>([&] { Hosts("hosts.txt", text); });
 }
 
 ProcessCommand Worker()

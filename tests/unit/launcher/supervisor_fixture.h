@@ -8,12 +8,12 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <thread>
 
 #include "launcher/supervision/supervisor.h"
 #include "tests/eventually.h"
 #include "tests/unit/launcher/process_groups.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -31,8 +31,6 @@ class SupervisorTest : public testing::Test
 protected:
   SupervisorTest()
   {
-    folder_ = std::filesystem::temp_directory_path() / ("swarmanoid_supervisor_" + std::to_string(getpid()));
-    std::filesystem::create_directories(folder_);
     times_.refresh = milliseconds(20);
     times_.terminate = milliseconds(100);
     // If all processes end by themselves, nothing waits for these.
@@ -43,7 +41,6 @@ protected:
     screen_read_.Reset(ends[0]);
     screen_write_.Reset(ends[1]);
   }
-  ~SupervisorTest() override { std::filesystem::remove_all(folder_); }
 
   void Add(const std::string& name, const std::string& script, MemberPlan::Output output = MemberPlan::kLog)
   {
@@ -124,12 +121,7 @@ protected:
     return outcome;
   }
 
-  std::string LogText(const std::string& name) const
-  {
-    std::ostringstream text;
-    text << std::ifstream(folder_ / (name + ".log")).rdbuf();
-    return text.str();
-  }
+  std::string LogText(const std::string& name) const { return folder_.Read(name + ".log"); }
   std::string ScreenText()
   {
     screen_write_.Reset();
@@ -141,7 +133,7 @@ protected:
   }
 
   SignalDescriptor interrupts_;  // first: threads of the tests must not get the signals
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_;
   SupervisorTimes times_;
   unsigned retries_ = 0;
   int looks_ = 0;  // at the clock, since an hour passed
