@@ -14,6 +14,7 @@ from world.case import controller, experiment, shared_folder, temporary_folder
 
 SWARMANOID = os.environ["SWARMANOID"]
 CONFIGS = pathlib.Path(os.environ["SWARMANOID_CONFIGS"])
+DIFFUSION = CONFIGS / "diffusion_10.xml"
 TEST_CONTROLLERS = os.environ["TEST_CONTROLLERS"]
 FINISHED = re.compile(r"^finished: (\d+) ticks, (\d+) entities, hash ([0-9a-f]{16}), [0-9.]+ s, [0-9.]+x real time$")
 # From a kill to the end of everything: a second is promised, the rest is for a machine that stands still meanwhile. Beside a longer lease.
@@ -143,6 +144,12 @@ class LauncherTest(unittest.TestCase):
     def run_it(self, *arguments, timeout=GENEROUS_S, environment=None, before=()):
         run = self.start(*arguments, environment=environment, before=before)
         run.wait(timeout)
+        return run
+
+    def start_paused(self, *options):
+        """A run of DIFFUSION that waits before its first tick."""
+        run = self.start("run", DIFFUSION, "--quiet", "--paused", "--hash-log", "hashes", "--no-visualisers", *options)
+        self.wait_for_experiment("diffusion_10")
         return run
 
     def kill_all(self, run):

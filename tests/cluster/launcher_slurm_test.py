@@ -7,8 +7,7 @@ import subprocess
 
 from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, children_of, words_of
 import slurm
-from slurm import NODE, Slurm
-from world.case import temporary_folder
+from slurm import NODE
 
 setUpModule = slurm.require
 
@@ -19,12 +18,7 @@ STEP = "srun --overlap --quiet --nodes=1 --ntasks=1 --nodelist={host} {command}"
 class OneJob(LauncherTest):
     @classmethod
     def setUpClass(cls):
-        cls.top = temporary_folder(cls, "slurm")
-        # Others reach the socket of munge.
-        cls.top.chmod(0o755)
-        (cls.top / "slurm").mkdir()
-        cls.slurm = Slurm(cls.top / "slurm")
-        cls.addClassCleanup(cls.slurm.stop)
+        cls.top, cls.slurm = slurm.running_for(cls)
 
     def job(self, ticks, *options):
         """salloc waits for the job, and ends it with the command."""

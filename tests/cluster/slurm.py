@@ -9,7 +9,7 @@ import subprocess
 import time
 
 from harness import GENEROUS_S, end, skip, words_of
-from world.case import free_ports
+from world.case import free_ports, temporary_folder
 
 DAEMONS = {name: shutil.which(name, path="/usr/sbin:" + os.environ["PATH"]) for name in ("munged", "slurmctld", "slurmd")}
 NODE = socket.gethostname().split(".")[0]
@@ -119,3 +119,14 @@ def require():
     missing = [name for name, path in DAEMONS.items() if path is None]
     if missing or shutil.which("sbatch") is None:
         skip(f"there is no {', '.join(missing) or 'sbatch'} (packages slurmctld, slurmd, slurm-client and munge)")
+
+
+def running_for(case):
+    """A folder for a class of tests, and Slurm, which runs in it until they end."""
+    top = temporary_folder(case, "slurm")
+    # Others reach the socket of munge.
+    top.chmod(0o755)
+    (top / "slurm").mkdir()
+    running = Slurm(top / "slurm")
+    case.addClassCleanup(running.stop)
+    return top, running

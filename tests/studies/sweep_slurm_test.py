@@ -5,11 +5,9 @@ import signal
 import subprocess
 
 import slurm
-from slurm import Slurm
-from world.case import temporary_folder
+from study_case import StartedStudyCase
 
 setUpModule = slurm.require
-from study_case import StartedStudyCase
 
 FINISHED = re.compile(r"^finished: (\d+) runs, (\d+) failed, [0-9.]+ s, table (\S+)$", re.MULTILINE)
 
@@ -17,12 +15,7 @@ FINISHED = re.compile(r"^finished: (\d+) runs, (\d+) failed, [0-9.]+ s, table (\
 class SweepSlurm(StartedStudyCase):
     @classmethod
     def setUpClass(cls):
-        cls.top = temporary_folder(cls, "slurm")
-        # Others reach the socket of munge.
-        cls.top.chmod(0o755)
-        (cls.top / "slurm").mkdir()
-        cls.slurm = Slurm(cls.top / "slurm")
-        cls.addClassCleanup(cls.slurm.stop)
+        cls.top, cls.slurm = slurm.running_for(cls)
 
     def setUp(self):
         self.folder = self.top / self.id().rsplit(".", 1)[1]

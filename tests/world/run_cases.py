@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """run_cases.py SCRIPT [-v] [CLASS[.CASE] ...]: runs the test cases of a Python script, or some of them. The script can import its
-neighbours, and the modules of tests, tests/world and tests/cluster. If a case was skipped and none failed, the exit code is 77, so that ctest does not count it as passed."""
+neighbours, and the modules of tests, tests/world and tests/cluster. If a case was skipped and none failed, the exit code is 77, so
+that ctest does not count it as passed."""
 import importlib
 import pathlib
 import sys
