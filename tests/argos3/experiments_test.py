@@ -3,7 +3,6 @@ import math
 import re
 import shutil
 import struct
-import unittest
 import xml.etree.ElementTree
 import zlib
 from pathlib import Path
@@ -388,7 +387,3 @@ class Experiments(RunningTest):
         for words in (["--single-process"], []):
             result = self.swarmanoid("run", file, *words, "--output", "run" + str(len(words)), code=4)
             self.assertRegex(result.stderr, r"robot 'fb_0', controller 'w': ControlStep at tick 1 failed: mine\.lua:3: there is no byte 11; they are 1 to 10")
-
-
-if __name__ == "__main__":
-    unittest.main()

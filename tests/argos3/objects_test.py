@@ -1,6 +1,5 @@
 """Objects of ARGoS3's experiments: with LEDs, distributed, and made by loop functions."""
 import re
-import unittest
 
 from running import HERE, RunningTest
 
@@ -89,7 +88,3 @@ class Objects(RunningTest):
     def test_robots_on_a_grid_may_stand_as_near_as_their_bodies_allow(self):
         near = self.changed("collect.argos", ('distances="1,1,0"', 'distances="0.2,0.2,0"'))
         self.swarmanoid("check", near)
-
-
-if __name__ == "__main__":
-    unittest.main()

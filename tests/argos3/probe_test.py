@@ -1,7 +1,6 @@
 """Long messages, light sensors, noisy wheels, rays, and vectors of scripts, in experiments of ARGoS3."""
 import math
 import re
-import unittest
 
 from running import HERE, RunningTest
 
@@ -108,7 +107,3 @@ class Probe(RunningTest):
     def test_noise_that_argos3_does_not_have_is_told(self):
         file = self.changed("noise.argos", ("</sensors>", '<footbot_distance_scanner implementation="rot_z_only" noise_std_dev="0.1"/></sensors>'))
         self.assertRegex(self.swarmanoid("check", file).stderr, r"noise.argos:17:\d+: note: 'noise_std_dev' of <footbot_distance_scanner> has no effect")
-
-
-if __name__ == "__main__":
-    unittest.main()

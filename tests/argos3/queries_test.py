@@ -1,5 +1,4 @@
 """What loop functions of ARGoS3 ask about entities."""
-import unittest
 
 from running import HERE, RunningTest
 
@@ -44,7 +43,3 @@ class Queries(RunningTest):
         # What was written before the second step is heard in it; then b sends zeros again.
         heard = [line for line in lines if line.startswith("heard")]
         self.assertEqual(heard[:3], ["heard 1: 0", "heard 2: 77", "heard 3: 0"])
-
-
-if __name__ == "__main__":
-    unittest.main()

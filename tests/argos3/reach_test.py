@@ -1,6 +1,5 @@
 """What loop functions of ARGoS3 reach into: scripts, grippers, the experiment file."""
 import re
-import unittest
 
 from running import HERE, RunningTest
 
@@ -21,7 +20,3 @@ class Reach(RunningTest):
                          self.hash_of(HERE / "read.argos", "--output", "direct"))
         # Others do not carry it.
         self.assertNotIn("<configuration", self.swarmanoid("convert", HERE / "make.argos").stdout)
-
-
-if __name__ == "__main__":
-    unittest.main()

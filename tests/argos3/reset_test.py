@@ -2,7 +2,6 @@
 import os
 import re
 import subprocess
-import unittest
 
 from running import HERE, RunningTest
 
@@ -97,7 +96,3 @@ class Reset(RunningTest):
         self.swarmanoid("convert", self.changed("repeat.argos", ('label="repeater"', 'label="blind"')), "--output", "repeat.xml")
         result = self.swarmanoid("run", "repeat.xml", "--output", "cluster", code=4)
         self.assertRegex(result.stdout + result.stderr, r"controller of 'fb' is not in this process[^\n]*--single-process")
-
-
-if __name__ == "__main__":
-    unittest.main()

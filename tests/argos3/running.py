@@ -1,20 +1,13 @@
 """What tests of experiments in ARGoS3's XML share: a folder for each, and `swarmanoid` in it."""
 import os
-import re
 import subprocess
-import tempfile
-import unittest
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
+from world.case import FolderCase
 
 
-class RunningTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
+class RunningTest(FolderCase):
     def swarmanoid(self, *words, code=0):
         result = subprocess.run([os.environ["SWARMANOID"], *map(str, words)], cwd=self.folder, text=True,
                                 capture_output=True)
@@ -22,7 +15,7 @@ class RunningTest(unittest.TestCase):
         return result
 
     def hash_of(self, *words):
-        return re.search(r"hash ([0-9a-f]{16})", self.swarmanoid("run", *words).stdout).group(1)
+        return self.hash_in(self.swarmanoid("run", *words).stdout)
 
     def changed(self, name, *changes):
         text = (HERE / name).read_text()

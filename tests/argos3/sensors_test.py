@@ -2,7 +2,6 @@
 import math
 import re
 import statistics
-import unittest
 
 from running import HERE, RunningTest
 
@@ -72,7 +71,3 @@ class Sensors(RunningTest):
         result = self.swarmanoid("check", wrong, code=3)
         self.assertRegex(result.stderr, r"noise\.argos:14:\d+: 'vel_noise_range' is '4:-2'; write min:max")
         self.assertRegex(result.stderr, r"noise\.argos:16:\d+: 'noise_std_dev' is 'much', no number")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -2,7 +2,6 @@
 import re
 import shutil
 import struct
-import unittest
 import zlib
 
 from running import HERE, RunningTest
@@ -160,7 +159,3 @@ class UserFunctions(RunningTest):
         self.assertRegex(early.stdout + early.stderr, r"DrawPoint is called outside of what draws")
         meddler = self.swarmanoid("run", self.labelled("meddler"), "--show", "text", "--output", "c", code=4)
         self.assertRegex(meddler.stdout + meddler.stderr, r"Draw at tick \d+ failed: entities are changed by loop functions")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -9,6 +9,8 @@
 
 #include "common/space/space.h"
 #include "simulation/simulator.h"
+#include "tests/world/experiment_text.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid::test
 {
@@ -19,13 +21,10 @@ public:
   // size: of the arena in m. In 2D footbots and things are on the ground and eyebots on a plane at 1.5 m; in 3D all are
   // in one engine with a ceiling.
   explicit BehaviorWorld(const char* size = "10,10,3", bool three_dimensional = false)
-      : size_(size), three_dimensional_(three_dimensional)
+      : three_dimensional_(three_dimensional)
   {
+    text_.size = size;
   }
-
-  ~BehaviorWorld();
-  BehaviorWorld(const BehaviorWorld&) = delete;
-  BehaviorWorld& operator=(const BehaviorWorld&) = delete;
 
   // behavior: a name in probe_controllers.cpp; heading in degrees.
   BehaviorWorld& Footbot(const std::string& id, const std::string& behavior, double x, double y, double heading = 0);
@@ -65,16 +64,13 @@ private:
   void Robot(const std::string& kind, const std::string& id, const std::string& behavior, const std::string& place);
   void Start();
 
-  std::string size_;
+  TemporaryFolder folder_;
+  ExperimentText text_;
   bool three_dimensional_;
   int seed_ = 1;
   std::set<std::string> known_controllers_;
-  std::string controllers_;
-  std::string arena_;
   std::string ground_;
   std::string sky_;
-  std::string functions_;
-  std::string folder_;
   std::unique_ptr<Experiment> experiment_;
   std::unique_ptr<CSimulator> simulator_;
 };

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "common/control_interface/ci_colour.h"
-#include "fake_devices.h"
+#include "tests/world/fake_devices.h"
 
 namespace swarmanoid::test
 {

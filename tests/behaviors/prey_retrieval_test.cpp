@@ -1,10 +1,8 @@
 // The sample experiment is the one that the documentation tells, over several seeds, as seen from outside.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
@@ -12,6 +10,7 @@
 #include "common/control_interface/ci_colour.h"
 #include "simulation/simulator.h"
 #include "test_folders.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid::test
 {
@@ -63,10 +62,8 @@ Story Watch(int seed)
                                          {{"framework.seed", std::to_string(seed)}});
   SimulatorOptions options;
   options.visualisations = false;
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("swarmanoid_retrieval_" + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
-  options.output_folder = folder.string();
+  const test::TemporaryFolder folder;
+  options.output_folder = folder.Path();
   CSimulator simulator(*experiment, options);
   const CSwarmanoidSpace& space = simulator.GetSpace();
   Story story;
@@ -89,7 +86,6 @@ Story Watch(int seed)
   for (const char* prey : {"prey_yellow", "prey_magenta"})
     if (GroundDistance(*space.FindEntity(prey), *space.FindEntity("nest")) < 0.75) story.prey = prey;
   story.done = !simulator.Finish().failed;
-  std::filesystem::remove_all(folder);
   return story;
 }
 

@@ -11,14 +11,6 @@ using namespace swarmanoid;
 class CStage : public CExperimentFunctions
 {
 public:
-  static PluginDescription Description()
-  {
-    PluginDescription description;
-    description.label = "stage";
-    description.brief = "paints, moves, measures, ends";
-    return description;
-  }
-
   void Init(const TConfigurationTree, SpaceEditor& space) override
   {
     metrics_.open(space.GetOutputFolder() + "/stage.csv");
@@ -47,6 +39,6 @@ private:
   std::ofstream metrics_;
 };
 
-REGISTER_EXPERIMENT_FUNCTIONS(CStage, CStage::Description())
+REGISTER_EXPERIMENT_FUNCTIONS(CStage, {.label = "stage", .brief = "paints, moves, measures, ends"})
 
 }  // namespace

@@ -10,11 +10,10 @@
 #include "common/math/elementary.h"
 #include "common/math/random.h"
 #include "controller_host/device.h"
+#include "tests/world/small_experiment.h"
 
 namespace swarmanoid
 {
-
-using BenchParameters = std::vector<std::pair<std::string, std::string>>;
 
 class BenchWorld
 {
@@ -39,18 +38,10 @@ public:
     RandomStream random(1, 2, 3, 4);
     for (int n = 0; n < robots; ++n)
     {
-      EntityConfiguration robot;
-      robot.kind = kind;
-      robot.id = "fb" + std::to_string(n);
-      robot.size = {0.085036758, 0.085036758, 0.146899733};
-      if (kind == EntityKind::kHandbot) robot.size = {0.22, 0.17, 0.16};
-      if (kind == EntityKind::kEyebot) robot.size = {0.25, 0.25, 0.566};
-      robot.movable = true;
       const double x = 0.2 + (n % per_side + 0.5) * pitch + random.Uniform(-shake, shake);
       const double y = 0.2 + (n / per_side + 0.5) * pitch + random.Uniform(-shake, shake);
-      robot.pose = {{x, y, 0}, QuaternionFromYaw(random.Uniform(-kPi, kPi))};
-      robots_.push_back(static_cast<std::uint32_t>(experiment_.entities.size()));
-      Add(robot);
+      robots_.push_back(
+          test::Add(experiment_, test::Entity(kind, "fb" + std::to_string(n), {x, y, 0}, random.Uniform(-kPi, kPi))));
     }
     // Entity numbers do not follow places in a real run.
     for (std::size_t n = robots_.size() - 1; n > 0; --n)
@@ -62,8 +53,7 @@ public:
       robot.id = "late" + std::to_string(n);
       robot.waits = true;
       robot.pose = WaitingPose(robot, experiment_.entities.size());
-      robots_.push_back(static_cast<std::uint32_t>(experiment_.entities.size()));
-      Add(robot);
+      robots_.push_back(test::Add(experiment_, robot));
     }
     space_ = std::make_unique<CSwarmanoidSpace>(experiment_);
   }
@@ -78,37 +68,20 @@ public:
   const std::vector<std::uint32_t>& Robots() const { return robots_; }
 
   std::unique_ptr<SensorBatch> MakeSensor(const std::string& type, const std::string& implementation,
-                                          const BenchParameters& parameters = {})
+                                          const test::TestParameters& parameters = {})
   {
-    auto node = std::make_shared<ConfigurationNode>();
-    for (const auto& [name, value] : parameters)
-    {
-      auto child = std::make_shared<ConfigurationNode>();
-      child->name = name;
-      child->text = value;
-      node->children.push_back(child);
-    }
     const auto* entry = PluginRegistry<SensorBatch>::Instance().Find(type, implementation);
     auto sensor = entry->create();
     sensor->Init(
-        {Parameters(TConfigurationTree(node), entry->description.parameters), *space_, robots_, SensorStream(type)});
+        {Parameters(test::TreeOf(parameters), entry->description.parameters), *space_, robots_, SensorStream(type)});
     return sensor;
   }
 
 private:
   void AddWall(const Vector3& centre, const Vector3& size)
   {
-    EntityConfiguration wall;
-    wall.kind = EntityKind::kBlock;
-    wall.id = "wall" + std::to_string(experiment_.entities.size());
-    wall.pose.position = centre;
-    wall.size = size;
-    Add(wall);
-  }
-  void Add(const EntityConfiguration& entity)
-  {
-    experiment_.engines[0].entities.push_back(static_cast<std::uint32_t>(experiment_.entities.size()));
-    experiment_.entities.push_back(entity);
+    test::Add(experiment_, test::Entity(EntityKind::kBlock, "wall" + std::to_string(experiment_.entities.size()),
+                                        centre, size, false));
   }
 
   Experiment experiment_;

@@ -4,16 +4,16 @@
 //   build/bin/bench/dynamics3d_bench
 #include <benchmark/benchmark.h>
 #include <octomap/octomap.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "common/math/elementary.h"
 #include "common/math/random.h"
 #include "common/plugin_descriptions/engines.h"
 #include "common/space/space.h"
 #include "engine_worker/engines/dynamics3d/dynamics3d_engine.h"
+#include "tests/world/small_experiment.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -40,12 +40,9 @@ public:
     ChannelBlock wheels{"footbot_wheels", 2, {}, 0};
     for (int k = 0; k < robots; ++k)
     {
-      EntityConfiguration robot;
-      robot.id = "robot" + std::to_string(k);
-      robot.kind = k % 10 == 9 ? EntityKind::kEyebot : EntityKind::kFootbot;
-      const bool flies = robot.kind == EntityKind::kEyebot;
-      robot.size = flies ? Vector3(0.25, 0.25, 0.566) : Vector3(0.085036758, 0.085036758, 0.146899733);
-      robot.movable = true;
+      const bool flies = k % 10 == 9;
+      EntityConfiguration robot =
+          test::Entity(flies ? EntityKind::kEyebot : EntityKind::kFootbot, "robot" + std::to_string(k));
       robot.pose = {{1 + k % per_side + random.Uniform(-0.2, 0.2), 1 + k / per_side + random.Uniform(-0.2, 0.2),
                      flies ? 2.0 : 0.02},
                     QuaternionFromYaw(random.Uniform(-kPi, kPi))};
@@ -55,12 +52,10 @@ public:
     }
     for (int k = 0; objects && k < robots; ++k)
     {
-      EntityConfiguration thing;
-      thing.id = "thing" + std::to_string(k);
-      thing.kind = k % 2 == 0 ? EntityKind::kCylindricPrey : EntityKind::kBlock;
-      thing.size = k % 2 == 0 ? Vector3(0.1, 0.1, 0.1) : Vector3(0.3, 0.3, 0.05);
-      thing.movable = true;
-      thing.pose = {{0.5 + k % per_side, 0.5 + k / per_side, 0.05}, Quaternion::Identity()};
+      const EntityConfiguration thing =
+          test::Entity(k % 2 == 0 ? EntityKind::kCylindricPrey : EntityKind::kBlock, "thing" + std::to_string(k),
+                       {0.5 + k % per_side, 0.5 + k / per_side, 0.05},
+                       k % 2 == 0 ? Vector3(0.1, 0.1, 0.1) : Vector3(0.3, 0.3, 0.05), true);
       layout.owned.push_back(static_cast<std::uint32_t>(experiment_.entities.size()));
       experiment_.entities.push_back(thing);
     }
@@ -116,11 +111,11 @@ private:
       for (int y = 0; y < cells; ++y)
         for (int z = -4; z < (random.Uniform() < 1.0 / 400 ? 1 : 0); ++z) fill(x, y, z);
     tree.updateInnerOccupancy();
-    const auto path = std::filesystem::temp_directory_path() / (std::to_string(getpid()) + "dynamics3d_bench.bt");
-    tree.writeBinary(path.string());
-    terrain_ = AddVoxels(engine_.WorldForTest(), dynamics3d::kNoEntity,
-                         std::make_shared<const VoxelTerrain>(path.string()), Pose());
-    std::filesystem::remove(path);
+    const test::TemporaryFolder folder;
+    const std::string path = folder / "floor.bt";
+    tree.writeBinary(path);
+    terrain_ =
+        AddVoxels(engine_.WorldForTest(), dynamics3d::kNoEntity, std::make_shared<const VoxelTerrain>(path), Pose());
   }
 
   Experiment experiment_;

@@ -7,6 +7,7 @@
 #include "common/math/random.h"
 #include "common/space/space.h"
 #include "engine_worker/engines/plane_robots.h"
+#include "tests/world/small_experiment.h"
 
 namespace swarmanoid
 {
@@ -30,17 +31,8 @@ Experiment Field(std::uint32_t handbots)
   const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(handbots)));
   const double side = 2.0 * columns;
   experiment.arena_size = {side, side, 3};
-  experiment.engines.emplace_back();
-  const auto add = [&](EntityKind kind, const Vector3& position, const Vector3& size)
-  {
-    EntityConfiguration entity;
-    entity.kind = kind;
-    entity.id = "e" + std::to_string(experiment.entities.size());
-    entity.pose.position = position;
-    entity.size = size;
-    entity.movable = true;
-    experiment.engines[0].entities.push_back(static_cast<std::uint32_t>(experiment.entities.size()));
-    experiment.entities.push_back(entity);
+  const auto add = [&](EntityKind kind, const Vector3& position, const Vector3& size) {
+    test::Add(experiment, test::Entity(kind, "e" + std::to_string(experiment.entities.size()), position, size, true));
   };
   for (std::uint32_t k = 0; k < handbots; ++k)
     add(EntityKind::kHandbot, {2.0 * (k % columns) + 0.5, 2.0 * (k / columns) + 0.5, 0}, {0.22, 0.17, 0.16});

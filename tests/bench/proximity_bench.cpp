@@ -11,7 +11,7 @@ namespace swarmanoid
 namespace
 {
 
-void Proximity(benchmark::State& state, const char* implementation, const BenchParameters& parameters)
+void Proximity(benchmark::State& state, const char* implementation, const test::TestParameters& parameters)
 {
   BenchWorld world(static_cast<int>(state.range(0)), static_cast<double>(state.range(1)) / 10);
   const auto sensor = world.MakeSensor("footbot_proximity", implementation, parameters);
@@ -25,21 +25,21 @@ void Proximity(benchmark::State& state, const char* implementation, const BenchP
                          benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-BENCHMARK_CAPTURE(Proximity, rays, "generic_footbot_proximity", BenchParameters{})
+BENCHMARK_CAPTURE(Proximity, rays, "generic_footbot_proximity", test::TestParameters{})
     ->ArgsProduct({{10, 100, 1000, 10000, 100000}, {10}})
     ->Args({1000, 1})
     ->Args({1000, 40})
     ->Args({1000, 100})
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(Proximity, polynomial, "generic_footbot_polynomial_proximity", BenchParameters{})
+BENCHMARK_CAPTURE(Proximity, polynomial, "generic_footbot_polynomial_proximity", test::TestParameters{})
     ->Args({1000, 10})
     ->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(Proximity, rays_with_noise, "generic_footbot_proximity",
-                  BenchParameters{{"noise_kind", "uniform"}, {"noise_range", "0.05"}})
+                  test::TestParameters{{"noise_kind", "uniform"}, {"noise_range", "0.05"}})
     ->Args({1000, 10})
     ->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(Proximity, rays_with_gaussian_noise, "generic_footbot_proximity",
-                  BenchParameters{{"noise_kind", "gaussian"}, {"noise_deviation", "0.05"}})
+                  test::TestParameters{{"noise_kind", "gaussian"}, {"noise_deviation", "0.05"}})
     ->Args({1000, 10})
     ->Unit(benchmark::kMicrosecond);
 

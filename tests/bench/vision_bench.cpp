@@ -9,7 +9,8 @@ namespace swarmanoid
 namespace
 {
 
-void Sense(benchmark::State& state, const char* type, const char* implementation, const BenchParameters& parameters)
+void Sense(benchmark::State& state, const char* type, const char* implementation,
+           const test::TestParameters& parameters)
 {
   BenchWorld world(static_cast<int>(state.range(0)), static_cast<double>(state.range(1)) / 10);
   for (const std::uint32_t robot : world.Robots())
@@ -34,30 +35,30 @@ void Densities(benchmark::internal::Benchmark* bench)
   bench->Args({1000, 10})->Args({10000, 10})->Args({1000, 100})->Unit(benchmark::kMicrosecond);
 }
 
-BENCHMARK_CAPTURE(Sense, range_and_bearing, "range_and_bearing", "generic_range_and_bearing", BenchParameters{})
+BENCHMARK_CAPTURE(Sense, range_and_bearing, "range_and_bearing", "generic_range_and_bearing", test::TestParameters{})
     ->Apply(Densities);
-BENCHMARK_CAPTURE(Sense, pie_camera, "pie_camera", "generic_pie_camera", BenchParameters{{"aperture", "88"}})
+BENCHMARK_CAPTURE(Sense, pie_camera, "pie_camera", "generic_pie_camera", test::TestParameters{{"aperture", "88"}})
     ->Apply(Densities);
 BENCHMARK_CAPTURE(Sense, omnidirectional_camera, "footbot_omnidirectional_camera",
-                  "generic_footbot_omnidirectional_camera", BenchParameters{})
+                  "generic_footbot_omnidirectional_camera", test::TestParameters{})
     ->Apply(Densities);
 BENCHMARK_CAPTURE(Sense, range_and_bearing_with_noise, "range_and_bearing", "generic_range_and_bearing",
-                  BenchParameters{{"range_noise_kind", "gaussian"},
-                                  {"range_noise_deviation", "0.05"},
-                                  {"bearing_noise_kind", "gaussian"},
-                                  {"bearing_noise_deviation", "0.05"}})
+                  test::TestParameters{{"range_noise_kind", "gaussian"},
+                                       {"range_noise_deviation", "0.05"},
+                                       {"bearing_noise_kind", "gaussian"},
+                                       {"bearing_noise_deviation", "0.05"}})
     ->Args({1000, 10})
     ->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(Sense, omnidirectional_camera_with_noise, "footbot_omnidirectional_camera",
                   "generic_footbot_omnidirectional_camera",
-                  BenchParameters{{"distance_noise_kind", "gaussian"},
-                                  {"distance_noise_deviation", "0.02"},
-                                  {"angle_noise_kind", "gaussian"},
-                                  {"angle_noise_deviation", "0.02"}})
+                  test::TestParameters{{"distance_noise_kind", "gaussian"},
+                                       {"distance_noise_deviation", "0.02"},
+                                       {"angle_noise_kind", "gaussian"},
+                                       {"angle_noise_deviation", "0.02"}})
     ->Args({1000, 10})
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(Sense, ground, "footbot_ground", "generic_footbot_ground", BenchParameters{})->Args({1000, 10});
-BENCHMARK_CAPTURE(Sense, light, "footbot_light", "generic_footbot_light", BenchParameters{})->Args({1000, 10});
+BENCHMARK_CAPTURE(Sense, ground, "footbot_ground", "generic_footbot_ground", test::TestParameters{})->Args({1000, 10});
+BENCHMARK_CAPTURE(Sense, light, "footbot_light", "generic_footbot_light", test::TestParameters{})->Args({1000, 10});
 
 }  // namespace
 }  // namespace swarmanoid

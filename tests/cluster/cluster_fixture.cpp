@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "common/bus/bus.h"
 #include "common/bus/membership/control_client.h"
@@ -16,6 +14,7 @@
 #include "engine_worker/engine_worker.h"
 #include "simulation/single_process.h"
 #include "test_folders.h"
+#include "tests/world/experiment_text.h"
 #include "visualiser/render.h"
 
 namespace swarmanoid
@@ -35,71 +34,46 @@ std::string SharedFolderOfTest()
 
 }  // namespace
 
-ClusterTest::ClusterTest()
-    : folder_((fs::temp_directory_path() / ("swarmanoid-cluster-" + std::to_string(getpid()))).string()),
-      shared_folder_(SharedFolderOfTest())
+ClusterTest::ClusterTest() : shared_folder_(SharedFolderOfTest())
 {
-  fs::create_directories(folder_);
   RegisterBuiltinEngines();
   RegisterBuiltinDevices();
   RegisterBuiltinRenderers();
 }
 
-ClusterTest::~ClusterTest()
-{
-  fs::remove_all(folder_);
-  fs::remove_all(shared_folder_);
-}
+ClusterTest::~ClusterTest() { fs::remove_all(shared_folder_); }
 
 std::string ClusterTest::WriteExperiment(const std::string& name, int engines, int ticks,
                                          const std::string& visualisation)
 {
-  std::string robots;
-  std::string engine_list;
-  std::string physics;
+  test::ExperimentText text{
+      .framework = fmt::format("<maxclock>{}</maxclock><controller_path>{}</controller_path>", ticks,
+                               SWARMANOID_BUILD_FOLDER "/lib/controllers"),
+      .controllers = test::Controller({.tag = "footbot_diffusion",
+                                       .id = "diffusion",
+                                       .actuators = {"dummy_footbot_wheels", "generic_footbot_leds"},
+                                       .sensors = {"generic_footbot_proximity", "engine_footbot_encoders"},
+                                       .parameters = "<velocity>0.1</velocity><alpha>7.5</alpha><delta>0.1</delta>",
+                                       .attributes = R"(library="footbot_diffusion")"}),
+      .size = "3,3,1",
+      .arena =
+          "<block id='wall_0' position='0,1.5,0.25' size='0.1,3,0.5'/>"
+          "<block id='wall_1' position='3,1.5,0.25' size='0.1,3,0.5'/>"
+          "<block id='wall_2' position='1.5,0,0.25' size='3,0.1,0.5'/>"
+          "<block id='wall_3' position='1.5,3,0.25' size='3,0.1,0.5'/>",
+      .engines = "",
+      .physics = "",
+      .visualisations = visualisation};
   for (int e = 0; e < engines; ++e)
   {
-    robots += fmt::format(
+    text.arena += fmt::format(
         "<distribute quantity='{}'><position method='uniform'/><orientation method='uniform'/>"
-        "<footbot id='robots{}'><controller>diffusion</controller></footbot></distribute>\n",
+        "<footbot id='robots{}' controller='diffusion'/></distribute>",
         12 / engines, e);
-    engine_list += fmt::format("<dummy_engine id='e{}'/>\n", e);
-    physics += fmt::format("<engine id='e{0}'><entity id='wall_*'/><entity id='robots{0}_*'/></engine>\n", e);
+    text.engines += fmt::format("<dummy_engine id='e{}'/>", e);
+    text.physics += fmt::format("<engine id='e{0}'><entity id='wall_*'/><entity id='robots{0}_*'/></engine>", e);
   }
-  std::string walls;
-  const char* const places[] = {"0, 1.5, 0.25", "3, 1.5, 0.25", "1.5, 0, 0.25", "1.5, 3, 0.25"};
-  for (int w = 0; w < 4; ++w)
-    walls += fmt::format("<block id='wall_{}'><position>{}</position><size>{}</size></block>\n", w, places[w],
-                         w < 2 ? "0.1, 3, 0.5" : "3, 0.1, 0.5");
-  const std::string file = folder_ + "/" + name + ".xml";
-  std::ofstream(file) << fmt::format(
-      R"(<?xml version="1.0"?>
-<ahss-config>
-  <framework><clocktick>100</clocktick><maxclock>{}</maxclock><controller_path>{}</controller_path></framework>
-  <controllers>
-    <footbot_diffusion id="diffusion" library="footbot_diffusion">
-      <actuators>
-        <footbot_wheels><implementation>dummy_footbot_wheels</implementation></footbot_wheels>
-        <footbot_leds><implementation>generic_footbot_leds</implementation></footbot_leds>
-      </actuators>
-      <sensors>
-        <footbot_proximity><implementation>generic_footbot_proximity</implementation></footbot_proximity>
-        <footbot_encoders><implementation>engine_footbot_encoders</implementation></footbot_encoders>
-      </sensors>
-      <parameters><velocity>0.1</velocity><alpha>7.5</alpha><delta>0.1</delta></parameters>
-    </footbot_diffusion>
-  </controllers>
-  <arena size="3, 3, 1" optimization="2D">
-{}{}  </arena>
-  <engines>
-{}  </engines>
-  <arena_physics>
-{}  </arena_physics>
-  <visualisations>{}</visualisations>
-</ahss-config>
-)",
-      ticks, SWARMANOID_BUILD_FOLDER "/lib/controllers", walls, robots, engine_list, physics, visualisation);
-  return file;
+  return temporary_.Write(name + ".xml", text.Text());
 }
 
 ChildProcess ClusterTest::Start(const std::string& program, const std::vector<std::string>& options)
@@ -145,13 +119,7 @@ bool ClusterTest::Ask(const std::string& experiment, const std::string& verb) co
   return reply && reply->ok;
 }
 
-std::string ClusterTest::Read(const std::string& file) const
-{
-  std::ifstream stream(folder_ + "/" + file);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
+std::string ClusterTest::Read(const std::string& file) const { return temporary_.Read(file); }
 
 bool ClusterTest::Reaches(std::ptrdiff_t ticks, const std::string& hash_log) const
 {

@@ -9,6 +9,7 @@
 #include "common/bus/free_domain.h"
 #include "tests/cluster/child_process.h"
 #include "tests/eventually.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -43,7 +44,8 @@ protected:
   // No process has left anything in shared memory.
   void ExpectNothingLeft() const;
 
-  std::string folder_;
+  test::TemporaryFolder temporary_;
+  const std::string folder_ = temporary_.Path();
   std::string shared_folder_;
   FreeDomain domain_;
   std::vector<std::string> options_;  // of every program

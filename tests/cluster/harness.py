@@ -4,16 +4,17 @@ import os
 import pathlib
 import re
 import select
-import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
+from world.case import controller, experiment, shared_folder, temporary_folder
+
 SWARMANOID = os.environ["SWARMANOID"]
 CONFIGS = pathlib.Path(os.environ["SWARMANOID_CONFIGS"])
+DIFFUSION = CONFIGS / "diffusion_10.xml"
 TEST_CONTROLLERS = os.environ["TEST_CONTROLLERS"]
 FINISHED = re.compile(r"^finished: (\d+) ticks, (\d+) entities, hash ([0-9a-f]{16}), [0-9.]+ s, [0-9.]+x real time$")
 # From a kill to the end of everything: a second is promised, the rest is for a machine that stands still meanwhile. Beside a longer lease.
@@ -108,11 +109,10 @@ class Run:
 
 class LauncherTest(unittest.TestCase):
     def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="swarmanoid_test_"))
+        self.folder = temporary_folder(self)
         self.runs = []
         self.mounts = []
-        # Shared memory of its own: other runs on the machine come and go.
-        self.shared = pathlib.Path(f"/dev/shm/swarmanoid-test-{os.getpid()}-{time.monotonic_ns()}")
+        self.shared = shared_folder(self)
         os.environ["SWARMANOID_SHARED_FOLDER"] = str(self.shared)
         self.memory_before = self.memory()
 
@@ -121,8 +121,6 @@ class LauncherTest(unittest.TestCase):
             end(run.process)
         for place in self.mounts:
             subprocess.run(["umount", "-l", place], check=False)
-        shutil.rmtree(self.folder, ignore_errors=True)
-        shutil.rmtree(self.shared, ignore_errors=True)
 
     def memory(self):
         """The shared memory of this test's runs, and files of Fast DDS outside their folders that no process uses."""
@@ -146,6 +144,12 @@ class LauncherTest(unittest.TestCase):
     def run_it(self, *arguments, timeout=GENEROUS_S, environment=None, before=()):
         run = self.start(*arguments, environment=environment, before=before)
         run.wait(timeout)
+        return run
+
+    def start_paused(self, *options):
+        """A run of DIFFUSION that waits before its first tick."""
+        run = self.start("run", DIFFUSION, "--quiet", "--paused", "--hash-log", "hashes", "--no-visualisers", *options)
+        self.wait_for_experiment("diffusion_10")
         return run
 
     def kill_all(self, run):
@@ -212,33 +216,9 @@ class LauncherTest(unittest.TestCase):
 
     def write_faulty(self, fault, tick=0, name="faulty"):
         """An experiment of one robot whose controller fails."""
-        path = self.folder / f"{name}.xml"
-        path.write_text(f"""<ahss-config>
-  <framework><clocktick>100</clocktick><maxclock>300</maxclock><controller_path>{TEST_CONTROLLERS}</controller_path></framework>
-  <controllers>
-    <faulty_controller id="c" library="faulty_controller">
-      <actuators/><sensors/>
-      <parameters><fault>{fault}</fault><tick>{tick}</tick></parameters>
-    </faulty_controller>
-  </controllers>
-  <arena size="2,2,1" optimization="2D">
-    <footbot id="robot_one"><position>1,1,0</position><orientation>0,0,0</orientation><controller>c</controller></footbot>
-  </arena>
-  <engines>
-    <dummy_engine id="ground"><subclock>1</subclock><perpendicular_axis>z</perpendicular_axis><distance>0</distance></dummy_engine>
-  </engines>
-  <arena_physics><engine id="ground"><entity id="robot_one"/></engine></arena_physics>
-</ahss-config>
-""")
-        return path
-
-
-def main():
-    """Runs the tests of a file. If one of them was skipped, ctest says so, instead of counting it among those that passed."""
-    result = unittest.main(exit=False).result
-    for test, reason in result.skipped:
-        print(f"skipped: {test}: {reason}")
-    sys.exit(1 if not result.wasSuccessful() else 77 if result.skipped else 0)
+        return experiment(self.folder / f"{name}.xml", f"<maxclock>300</maxclock><controller_path>{TEST_CONTROLLERS}</controller_path>",
+                          controller("faulty_controller", parameters=f"<fault>{fault}</fault><tick>{tick}</tick>", library="faulty_controller"),
+                          '<footbot id="robot_one" position="1,1,0" controller="c"/>', size="2,2,1")
 
 
 def skip(reason):

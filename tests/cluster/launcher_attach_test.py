@@ -11,22 +11,15 @@ import subprocess
 import time
 import unittest
 
-from harness import CONFIGS, GENEROUS_S, LauncherTest, end, main
-
-EXPERIMENT = CONFIGS / "diffusion_10.xml"
+from harness import DIFFUSION, GENEROUS_S, LauncherTest, end
 
 
 class Attaching(LauncherTest):
-    def start_paused(self, *options):
-        run = self.start("run", EXPERIMENT, "--quiet", "--paused", "--hash-log", "hashes", "--no-visualisers", *options)
-        self.wait_for_experiment("diffusion_10")
-        return run
-
     def watch(self, table, *options):
         return self.start("attach", "text", "--file", table, "--output", self.folder, *options)
 
     def test_stopped_and_killed_visualisers_leave_the_run_alone(self):
-        plain = self.assert_finished(self.run_it("run", EXPERIMENT, "--ticks", 4000, "--quiet", "--hash-log", "plain"), 4000)
+        plain = self.assert_finished(self.run_it("run", DIFFUSION, "--ticks", 4000, "--quiet", "--hash-log", "plain"), 4000)
         run = self.start_paused("--ticks", 4000)
         watchers = [self.watch(f"table_{k}", "--hz", 10, "--columns", "clock,Entity id,X,State") for k in range(4)]
         for k in range(4):
@@ -98,7 +91,7 @@ class Attaching(LauncherTest):
 
     def test_a_renderer_of_a_users_library_in_the_file_and_attached(self):
         library = pathlib.Path(os.environ["TEST_CONTROLLERS"]) / "libdistance_render.so"
-        text = EXPERIMENT.read_text()
+        text = DIFFUSION.read_text()
         path = self.folder / "own.xml"
         element = f'<visualisations><distance_render id="own" library="{library}" file="distances" every="10"/></visualisations>'
         text = re.sub(r"<visualisations>.*</visualisations>|<visualisations/>", "", text, flags=re.S)
@@ -145,7 +138,7 @@ class Attaching(LauncherTest):
         self.assertRegex(events, r"\n47,move,fb_1,2.5 1.3 0,[^,]+@[^,]+:\d+,\d+,[^,]+Z,[0-9a-f]{8}\n47,move,fb_1,2.4 1.2 0,")
         hashes = (self.folder / "hashes").read_text()
         for options in ([], ["--single-process"], ["--controller-hosts", 2]):
-            again = self.run_it("run", EXPERIMENT, "--ticks", 200, "--quiet", "--no-visualisers", "--hash-log", "again", "--events",
+            again = self.run_it("run", DIFFUSION, "--ticks", 200, "--quiet", "--no-visualisers", "--hash-log", "again", "--events",
                                 "first/events.csv", *options)
             self.assertEqual(again.process.returncode, 0, again.stderr)
             self.assertEqual(self.assert_finished(again, 107), final)
@@ -172,7 +165,7 @@ class AcrossNetworks(LauncherTest):
             self.ip("-n", space, *words)
         hosts = self.folder / "hosts"
         hosts.write_text(f"options = --interface {here}\n")
-        run = self.start("run", EXPERIMENT, "--quiet", "--ticks", 0, "--real-time", 2, "--hosts", hosts, "--no-visualisers",
+        run = self.start("run", DIFFUSION, "--quiet", "--ticks", 0, "--real-time", 2, "--hosts", hosts, "--no-visualisers",
                          "--hash-log", "hashes")
         self.wait_for_tick("hashes", 5, run)
         watcher = subprocess.Popen(["ip", "netns", "exec", space, os.environ["SWARMANOID"], "attach", "text", "--interface", there,
@@ -183,7 +176,3 @@ class AcrossNetworks(LauncherTest):
         end(watcher)
         run.process.send_signal(signal.SIGINT)
         self.assertEqual(run.wait(GENEROUS_S), 130, run.stderr)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,7 +1,7 @@
 """Branches: runs that begin as an earlier run was at one of its ticks."""
 import json
 
-from harness import CONFIGS, LauncherTest, main
+from harness import CONFIGS, LauncherTest
 
 ONE = ["--single-process"]
 
@@ -172,5 +172,3 @@ class Changed(Branches):
 
 
 del Branches
-if __name__ == "__main__":
-    main()

@@ -3,7 +3,7 @@ import os
 import re
 import signal
 
-from harness import CONFIGS, LauncherTest, main
+from harness import CONFIGS, LauncherTest
 
 # A state is saved at each hundredth tick, some 350 kB of the journal after the one before.
 SWARM = [CONFIGS / "diffusion_1000.xml", "--real-time", 20, "--journal-budget", "2MiB"]
@@ -98,7 +98,3 @@ class Refused(LauncherTest):
                 run = self.run_it("run", CONFIGS / "diffusion_10.xml", *words)
                 self.assertEqual(run.process.returncode, 2)
                 self.assertIn(says, run.stderr)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,9 +1,8 @@
 """Runs that go on from a checkpoint end as if nothing had happened, in one process and as a cluster, whichever took it."""
 import re
 import shutil
-import unittest
 
-from harness import CONFIGS, LauncherTest, main
+from harness import CONFIGS, LauncherTest
 
 
 class Checkpoints(LauncherTest):
@@ -113,7 +112,3 @@ class Checkpoints(LauncherTest):
             self.assertEqual(refused.process.returncode, 4)
             self.assertIn("robot 'robot_one': its controller cannot be saved", refused.stderr)
             self.assert_nothing_left(refused)
-
-
-if __name__ == "__main__":
-    main()

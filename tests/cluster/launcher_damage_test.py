@@ -5,7 +5,7 @@ import signal
 import struct
 import subprocess
 
-from harness import CONFIGS, GENEROUS_S, LauncherTest, SWARMANOID, main
+from harness import CONFIGS, GENEROUS_S, LauncherTest, SWARMANOID
 
 START, TICKS, SNAPSHOT = 1, 2, 3
 HEADER_BYTES = 48
@@ -118,7 +118,3 @@ class Damage(LauncherTest):
                                       timeout=GENEROUS_S, check=False)
             self.assertEqual(done.returncode, 4, (words, done.stderr))
             self.assertIn("cannot write the results to standard output", done.stderr, words)
-
-
-if __name__ == "__main__":
-    main()

@@ -7,10 +7,11 @@ import os
 import pathlib
 import subprocess
 import sys
-import unittest
 
 import two_machines
 from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest
+
+setUpModule = two_machines.require
 
 FUZZER = pathlib.Path(__file__).resolve().parent / "rtps_fuzzer.py"
 EXPERIMENT = CONFIGS / "diffusion_10.xml"
@@ -86,10 +87,3 @@ class Datagrams(LauncherTest):
         self.machines.connect(0, 0)
         self.addCleanup(self.machines.disconnect)
         self.attack(["10.78.0.1", "10.78.0.2"], "--hosts", hosts, network=["--interface", "link0"])
-
-
-if __name__ == "__main__":
-    if not two_machines.possible():
-        print("skipped: network namespaces with a relay need root and /dev/net/tun")
-        sys.exit(77)
-    unittest.main()

@@ -7,9 +7,8 @@ import shutil
 import signal
 import subprocess
 import time
-import unittest
 
-from harness import AT_ONCE_S, CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, main
+from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest
 
 EXPERIMENT = CONFIGS / "diffusion_10.xml"
 NO_MANIFEST = r"cannot write '\S*/manifest.json': No space left on device"
@@ -229,7 +228,3 @@ class SideBySide(LauncherTest):
         # Of one name in one domain they would hear each other.
         domains = {json.loads((folder / "manifest.json").read_text())["domain"] for folder in folders}
         self.assertEqual(len(domains), 2)
-
-
-if __name__ == "__main__":
-    main()

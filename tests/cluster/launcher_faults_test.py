@@ -1,15 +1,11 @@
 """Processes of a run are killed, stopped, or fail by themselves: the run ends at once, says why, and leaves nothing."""
 import os
-import pathlib
 import signal
-import sys
 import time
-import unittest
 
-from harness import AT_ONCE_S, CONFIGS, LauncherTest, main, stat_of
+from harness import AT_ONCE_S, CONFIGS, LauncherTest, stat_of
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-from signals import send_and_wait  # noqa: E402
+from signals import send_and_wait
 
 PROGRAMS = ["space_server", "engine_worker", "controller_host", "visualiser"]
 LONG = ["--ticks", "0", "--hash-log", "hashes", "--output", "out", "--no-recovery", "--lease", "60"]
@@ -187,7 +183,3 @@ class Controllers(LauncherTest):
         self.assertRegex(run.stderr, rf"{path}:\d+:\d+: ")
         self.assertIn("no_such_library", run.stderr)
         self.assertFalse((self.folder / "runs").exists())
-
-
-if __name__ == "__main__":
-    main()

@@ -6,7 +6,6 @@ import pty
 import re
 import signal
 import subprocess
-import sys
 import unittest
 import urllib.request
 
@@ -214,7 +213,3 @@ class First(harness.LauncherTest):
         notes = subprocess.run(["readelf", "-n", library], capture_output=True, text=True, check=True).stdout
         self.assertEqual(manifest["libraries"]["libfootbot_diffusion.so"], re.search(r"Build ID: ([0-9a-f]+)", notes).group(1))
         self.assertRegex(manifest["libraries"]["Swarmanoid"], r"^([0-9a-f]{16}\.)+$")
-
-
-if __name__ == "__main__":
-    sys.exit(unittest.main())

@@ -2,7 +2,7 @@
 import json
 import math
 
-from harness import CONFIGS, LauncherTest, main
+from harness import CONFIGS, LauncherTest
 
 
 class Inspect(LauncherTest):
@@ -51,7 +51,3 @@ class Inspect(LauncherTest):
         told = self.run_it("inspect", "run@21", "fb_1")
         self.assertEqual(told.process.returncode, 4)
         self.assertIn("ticks 0 to 20, and not 21", told.stderr)
-
-
-if __name__ == "__main__":
-    main()

@@ -3,7 +3,8 @@ import csv
 import os
 import signal
 
-from harness import CONFIGS, FINISHED, LauncherTest, children_of, main, words_of
+from harness import CONFIGS, FINISHED, LauncherTest, children_of, words_of
+from world.case import controller, experiment
 
 EXPERIMENT = CONFIGS / "diffusion_10.xml"
 TICKS = 2000
@@ -173,24 +174,13 @@ class Moves(LauncherTest):
     def test_hosts_that_share_mixed_robots_again_over_a_network(self):
         """Hosts hear of what is near their robots. Two groups, far apart, of one host each; then half of each changes places."""
         place_of = {f"fb_{k}": f"{1 + 30 * (k // 4)},{1 + k % 4},0" for k in range(8)}
-        robots = "".join(f'<footbot id="{robot}"><position>{place}</position><orientation>0,0,0</orientation><controller>c</controller></footbot>'
-                         for robot, place in place_of.items())
-        experiment = self.folder / "groups.xml"
-        experiment.write_text(f"""<ahss-config>
-  <framework><clocktick>100</clocktick><maxclock>0</maxclock></framework>
-  <controllers><footbot_diffusion id="c" library="footbot_diffusion">
-    <actuators><footbot_wheels><implementation>dummy_footbot_wheels</implementation></footbot_wheels></actuators>
-    <sensors><footbot_proximity><implementation>generic_footbot_proximity</implementation></footbot_proximity></sensors>
-    <parameters><velocity>0.01</velocity><alpha>7.5</alpha><delta>0.1</delta></parameters>
-  </footbot_diffusion></controllers>
-  <arena size="40,6,1" optimization="2D">{robots}</arena>
-  <engines><dummy_engine id="ground"/></engines>
-  <arena_physics><engine id="ground"><all/></engine></arena_physics>
-  <visualisations/>
-</ahss-config>""")
+        robots = "".join(f'<footbot id="{robot}" position="{place}" controller="c"/>' for robot, place in place_of.items())
+        file = experiment(self.folder / "groups.xml", "<maxclock>0</maxclock>",
+                          controller("footbot_diffusion", ["dummy_footbot_wheels"], ["generic_footbot_proximity"],
+                                     "<velocity>0.01</velocity><alpha>7.5</alpha><delta>0.1</delta>", library="footbot_diffusion"), robots, "40,6,1")
         network = ["--interface", "127.0.0.1"]
         (self.folder / "hosts.txt").write_text(f"options = {' '.join(network)}\n")
-        run = self.start("run", experiment, "--controller-hosts", 2, "--real-time", 20, "--hosts", "hosts.txt", "--output", "out")
+        run = self.start("run", file, "--controller-hosts", 2, "--real-time", 20, "--hosts", "hosts.txt", "--output", "out")
         self.wait_until("the run", lambda: self.run_it("control", "machines", *network).process.returncode == 0, run)
         for robot, place in (("fb_0", "31,5,0"), ("fb_1", "32,5,0"), ("fb_4", "1,5,0"), ("fb_5", "2,5,0")):
             self.control("move", robot, place, *network)
@@ -203,27 +193,18 @@ class Moves(LauncherTest):
 
     def test_hosts_of_controllers_that_cannot_be_saved(self):
         """They do all ticks again, whose commands other hosts gave, and find the same."""
-        robots = "".join(f'<footbot id="fb_{k}"><position>{k % 3}.5,{k // 3}.5,0</position><orientation>0,0,{40 * k}</orientation>'
-                         '<controller>c</controller></footbot>' for k in range(6))
-        experiment = self.folder / "stateless.xml"
-        experiment.write_text(f"""<ahss-config>
-  <framework><clocktick>100</clocktick><maxclock>{TICKS}</maxclock></framework>
-  <controllers><sample_footbot_controller id="c" library="sample_footbot_controller">
-    <actuators><footbot_wheels><implementation>noisy_footbot_wheels</implementation></footbot_wheels></actuators><sensors/><parameters/>
-  </sample_footbot_controller></controllers>
-  <arena size="3,2,1" optimization="2D">{robots}</arena>
-  <engines><kinematics2d id="ground"/></engines>
-  <arena_physics><engine id="ground"><all/></engine></arena_physics>
-  <visualisations><text_render id="positions" file="positions.txt" every="10"/></visualisations>
-</ahss-config>""")
+        robots = "".join(f'<footbot id="fb_{k}" position="{k % 3}.5,{k // 3}.5,0" orientation="0,0,{40 * k}" controller="c"/>' for k in range(6))
+        file = experiment(self.folder / "stateless.xml", f"<maxclock>{TICKS}</maxclock>",
+                          controller("sample_footbot_controller", ["noisy_footbot_wheels"], library="sample_footbot_controller"), robots, "3,2,1",
+                          "kinematics2d", more='<visualisations><text_render id="positions" file="positions.txt" every="10"/></visualisations>')
         # So slow that the space server and the engine, which can be saved, are in between: all go on from there, the hosts from the start.
-        run = self.begin("--real-time", 20, experiment=experiment, ticks=1200)
+        run = self.begin("--real-time", 20, experiment=file, ticks=1200)
         for words in (["+1"], ["-2"], ["+3"]):
             self.control("step", 333)
             self.control("hosts", *words)
         self.control("move-host", "3")
         self.run_it("control", "resume")
-        self.assert_undisturbed(run, experiment=experiment)
+        self.assert_undisturbed(run, experiment=file)
 
     def test_more_controller_hosts_while_it_runs(self):
         run = self.begin("--real-time", 20, ticks=0)
@@ -252,7 +233,3 @@ class Moves(LauncherTest):
         self.refused("move-host", "0", says=["no process of this run can be moved"])
         self.control("stop")
         self.assertEqual(run.wait(), 0, run.stderr)
-
-
-if __name__ == "__main__":
-    main()

@@ -4,7 +4,6 @@ import os
 import pathlib
 import re
 import subprocess
-import unittest
 
 import harness
 
@@ -133,7 +132,3 @@ class Names(harness.LauncherTest):
                 self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
                 self.assertRegex(done.stderr, r"bad\.argos:\d+:\d+: ")
                 self.assertIn(says, done.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -3,12 +3,12 @@
 Needs root and /dev/net/tun; skipped otherwise."""
 import os
 import signal
-import sys
 import time
-import unittest
 
 import two_machines
 from harness import CONFIGS, LauncherTest
+
+setUpModule = two_machines.require
 
 TICKS = 60
 REPLACED = "another process takes its place"
@@ -128,10 +128,3 @@ class Network(LauncherTest):
 
     def test_a_link_that_is_cut_for_longer_than_the_lease(self):
         self.assertIn(REPLACED, self.cut(3))
-
-
-if __name__ == "__main__":
-    if not two_machines.possible():
-        print("skipped: network namespaces with a relay need root and /dev/net/tun")
-        sys.exit(77)
-    unittest.main()

@@ -2,9 +2,8 @@
 import os
 import re
 import subprocess
-import unittest
 
-from harness import CONFIGS, LauncherTest, main
+from harness import CONFIGS, LauncherTest
 
 BUILD = os.environ["SWARMANOID_BUILD"]
 
@@ -85,7 +84,3 @@ class New(LauncherTest):
         answer = self.run_it("new", "controller", "follower")
         self.assertEqual(answer.process.returncode, 2)
         self.assertIn("swarmanoid new user", answer.stderr)
-
-
-if __name__ == "__main__":
-    main()

@@ -3,7 +3,8 @@ import os
 import re
 import signal
 
-from harness import LauncherTest, main
+from harness import TEST_CONTROLLERS, LauncherTest
+from world.case import controller, experiment
 
 REPLACED = "another process takes its place"
 AGAIN = "all processes start again where the journal ends"
@@ -24,23 +25,16 @@ class OnFailureTest(LauncherTest):
 
     def write(self, fault, tick, policy, budget="", period=100, robots=2):
         """Robots that drive with their LEDs on, and whose controllers fail."""
-        path = self.write_faulty(fault, tick, name=f"{fault}_{policy or 'none'}")
-        text = path.read_text()
-        policy = f'on_failure="{policy}" ' if policy else ""
-        devices = "".join(f"<{name}><implementation>generic_{name}</implementation></{name}>" for name in ("wheels", "led_ring"))
-        others = "".join(f'<footbot id="{name}"><position>{3 * n + 4},3,0</position><orientation>0,0,0</orientation><controller>c</controller></footbot>'
-                         for n, name in enumerate(ROBOTS[1:robots]))
-        for old, new in (('<faulty_controller id="c"', f'<faulty_controller id="c" {policy}{budget}'),
-                         ("<actuators/>", f"<actuators>{devices}</actuators>"),
-                         ("</tick>", f"</tick><drives>1</drives><mark>{self.folder / 'mark'}</mark>"),
-                         ("<maxclock>300</maxclock>", f"<maxclock>{TICKS}</maxclock><canonical_period>{period}</canonical_period><ahead>{self.AHEAD}</ahead>"),
-                         ("2,2,1", "12,12,1"),
-                         ("</arena>", f"{others}</arena>"),
-                         ('<entity id="robot_one"/>', "".join(f'<entity id="{name}"/>' for name in ROBOTS[:robots]))):
-            self.assertEqual(text.count(old), 1, old)
-            text = text.replace(old, new)
-        path.write_text(text)
-        return path
+        policy_attribute = f'on_failure="{policy}" ' if policy else ""
+        places = {robot: f"{3 * n + 1},3,0" if n else "1,1,0" for n, robot in enumerate(ROBOTS[:robots])}
+        return experiment(
+            self.folder / f"{fault}_{policy or 'none'}.xml",
+            f"<maxclock>{TICKS}</maxclock><canonical_period>{period}</canonical_period><ahead>{self.AHEAD}</ahead>"
+            f"<controller_path>{TEST_CONTROLLERS}</controller_path>",
+            controller("faulty_controller", ["generic_wheels", "generic_led_ring"], library="faulty_controller",
+                       attributes=policy_attribute + budget,
+                       parameters=f"<fault>{fault}</fault><tick>{tick}</tick><drives>1</drives><mark>{self.folder / 'mark'}</mark>"),
+            "".join(f'<footbot id="{robot}" position="{place}" controller="c"/>' for robot, place in places.items()), "12,12,1")
 
     def done(self, experiment, name, *options):
         """The hash and the events of a run, and what it said."""
@@ -286,7 +280,3 @@ class DiesAhead(Dies):
 
 class OnceDecidedAhead(OnceDecided):
     AHEAD = 1
-
-
-if __name__ == "__main__":
-    main()

@@ -7,7 +7,7 @@ import shutil
 import signal
 import subprocess
 
-from harness import AT_ONCE_S, CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, children_of, end, main, stat_of
+from harness import AT_ONCE_S, CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, children_of, end, stat_of
 
 EXPERIMENT = CONFIGS / "diffusion_10.xml"
 # Kills with a random moment each; by hand as many as one likes.
@@ -152,7 +152,3 @@ class Terminal(OrphanTest):
         stdout, stderr = process.communicate(timeout=GENEROUS_S)
         self.assertEqual(process.returncode, 0, stderr)
         self.assertRegex(stdout, "finished: 100 ticks")
-
-
-if __name__ == "__main__":
-    main()

@@ -7,7 +7,7 @@ import shutil
 import signal
 import time
 
-from harness import CONFIGS, GENEROUS_S, LauncherTest, children_of, main
+from harness import CONFIGS, GENEROUS_S, LauncherTest, children_of
 
 WORKERS = ["engine_worker", "controller_host", "visualiser"]
 PROGRAMS = ["engine_worker", "controller_host", "space_server"]
@@ -462,7 +462,3 @@ class Soak(RecoveryTest):
             shutil.rmtree(self.folder / "out")
             os.unlink(self.folder / "cluster")
         self.assertGreater(killed, 0)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,7 +1,7 @@
 """Entities that are added and removed while an experiment runs: the same in one process and in a cluster, and over a
 checkpoint."""
 
-from harness import CONFIGS, GENEROUS_S, LauncherTest, main
+from harness import CONFIGS, GENEROUS_S, LauncherTest
 
 ENGINES = {
     "dummy_engine": "<dummy_engine id=\"ground\"><perpendicular_axis>z</perpendicular_axis><distance>0</distance></dummy_engine>",
@@ -96,7 +96,3 @@ class Reserve(LauncherTest):
         lines = (self.folder / "shown" / "positions.txt").read_text().splitlines()
         self.assertEqual([line for line in lines if line.startswith("0\t") and ("late" in line or "prey" in line)], [])
         self.assertEqual(len([line for line in lines if line.startswith("600\t") and "late" in line]), 2)
-
-
-if __name__ == "__main__":
-    main()

@@ -4,7 +4,7 @@ import json
 import os
 import signal
 
-from harness import CONFIGS, LauncherTest, children_of, main, words_of
+from harness import CONFIGS, LauncherTest, children_of, words_of
 
 EXPERIMENT = CONFIGS / "diffusion_10.xml"
 TICKS = 600
@@ -118,7 +118,3 @@ class Resets(LauncherTest):
 
 def manifest_hash(folder):
     return json.loads((folder / "manifest.json").read_text())["state_hash"]
-
-
-if __name__ == "__main__":
-    main()

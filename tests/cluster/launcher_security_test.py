@@ -5,9 +5,8 @@ import shutil
 import subprocess
 import unittest
 
-from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, children_of, main
+from harness import DIFFUSION, GENEROUS_S, SWARMANOID, LauncherTest, children_of
 
-EXPERIMENT = CONFIGS / "diffusion_10.xml"
 NOBODY = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
 
 
@@ -18,17 +17,14 @@ def can_isolate():
 
 class Security(LauncherTest):
     def start_paused(self, *options):
-        run = self.start("run", EXPERIMENT, "--quiet", "--paused", "--hash-log", "hashes", "--no-visualisers", "--ticks", 50, "--real-time", 5,
-                         "--output", "out", *options)
-        self.wait_for_experiment("diffusion_10")
-        return run
+        return super().start_paused("--ticks", 50, "--real-time", 5, "--output", "out", *options)
 
     def resume(self):
         answer = self.run_it("control", "resume")
         self.assertEqual(answer.process.returncode, 0, answer.stderr)
 
     def plain(self):
-        return self.assert_finished(self.run_it("run", EXPERIMENT, "--ticks", 50, "--quiet", "--single-process", "--no-visualisers"), 50)
+        return self.assert_finished(self.run_it("run", DIFFUSION, "--ticks", 50, "--quiet", "--single-process", "--no-visualisers"), 50)
 
     def test_the_key_is_told_to_processes_alone(self):
         run = self.start_paused()
@@ -114,7 +110,3 @@ class Security(LauncherTest):
         self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
         self.assertRegex(run.stderr, r"(?m)^[^@\s]+@[^:\s]+:\d+: stopped at tick 0$")
         self.assertRegex((self.folder / "out" / "events.csv").read_text(), r"(?m)^0,stop,,,[^@,]+@[^,]+:\d+,\d+,\d{4}-\d\d-\d\dT[\d:]{8}Z,[0-9a-f]{8}$")
-
-
-if __name__ == "__main__":
-    main()

@@ -5,18 +5,14 @@ import subprocess
 import time
 import unittest
 
-from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, main
+from harness import DIFFUSION, GENEROUS_S, SWARMANOID, LauncherTest
 
-EXPERIMENT = CONFIGS / "diffusion_10.xml"
 TICKS = 60
 
 
 class Share(LauncherTest):
     def start_paused(self, *options):
-        run = self.start("run", EXPERIMENT, "--quiet", "--paused", "--hash-log", "hashes", "--no-visualisers", "--ticks", TICKS, "--output", "out",
-                         *options)
-        self.wait_for_experiment("diffusion_10")
-        return run
+        return super().start_paused("--ticks", TICKS, "--output", "out", *options)
 
     def share(self, *words):
         made = self.run_it("share", *words, "--json")
@@ -34,7 +30,7 @@ class Share(LauncherTest):
         resumed = self.run_it("control", "resume")
         self.assertEqual(resumed.process.returncode, 0, resumed.stderr)
         self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
-        one = self.run_it("run", EXPERIMENT, "--ticks", TICKS, "--quiet", "--single-process", "--no-visualisers", "--hash-log", "one")
+        one = self.run_it("run", DIFFUSION, "--ticks", TICKS, "--quiet", "--single-process", "--no-visualisers", "--hash-log", "one")
         self.assertEqual(self.assert_finished(run, TICKS), self.assert_finished(one, TICKS))
         self.assertEqual((self.folder / "hashes").read_text(), (self.folder / "one").read_text())
 
@@ -159,7 +155,7 @@ class Share(LauncherTest):
         self.end(run)
 
     def test_shares_outlive_the_space_server(self):
-        run = self.start("run", EXPERIMENT, "--quiet", "--paused", "--no-visualisers", "--ticks", TICKS, "--output", "out")
+        run = self.start("run", DIFFUSION, "--quiet", "--paused", "--no-visualisers", "--ticks", TICKS, "--output", "out")
         self.wait_for_experiment("diffusion_10")
         kept, revoked = self.share("--operate"), self.share("--operate")
         self.assertEqual(self.run_it("share", "--revoke", revoked["id"]).process.returncode, 0)
@@ -199,7 +195,3 @@ class Share(LauncherTest):
         broken = self.run_it("control", "stop", environment={"SWARMANOID_SHARE": "1,2,3"})
         self.assertNotEqual(broken.process.returncode, 0)
         self.assertIn("paste the whole line", broken.stderr)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,7 +1,7 @@
 """The experiments of configs/ with no robot and with one, in one process and as a cluster."""
 import re
 
-from harness import CONFIGS, LauncherTest, main
+from harness import CONFIGS, LauncherTest
 
 TICKS = 12
 # One or two of each engine and of each kind of robot.
@@ -58,7 +58,3 @@ class Simplest(LauncherTest):
                         self.assertEqual(run.process.returncode, 0, run.stderr)
                         self.assert_finished(run, TICKS)
                         self.assertTrue(list(folder.rglob(output)), list(folder.rglob("*")))
-
-
-if __name__ == "__main__":
-    main()

@@ -2,13 +2,14 @@
 """A cluster as one job of Slurm: the launcher runs in the job, and has srun start each process as a step of it."""
 import os
 import pathlib
-import shutil
 import signal
 import subprocess
-import tempfile
 
 from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, children_of, words_of
-from slurm import NODE, Slurm, main
+import slurm
+from slurm import NODE
+
+setUpModule = slurm.require
 
 EXPERIMENT = CONFIGS / "crowd_in_regions.xml"
 STEP = "srun --overlap --quiet --nodes=1 --ntasks=1 --nodelist={host} {command}"
@@ -17,13 +18,7 @@ STEP = "srun --overlap --quiet --nodes=1 --ntasks=1 --nodelist={host} {command}"
 class OneJob(LauncherTest):
     @classmethod
     def setUpClass(cls):
-        cls.top = pathlib.Path(tempfile.mkdtemp(prefix="swarmanoid_slurm_"))
-        cls.addClassCleanup(shutil.rmtree, cls.top, ignore_errors=True)
-        # Others reach the socket of munge.
-        cls.top.chmod(0o755)
-        (cls.top / "slurm").mkdir()
-        cls.slurm = Slurm(cls.top / "slurm")
-        cls.addClassCleanup(cls.slurm.stop)
+        cls.top, cls.slurm = slurm.running_for(cls)
 
     def job(self, ticks, *options):
         """salloc waits for the job, and ends it with the command."""
@@ -80,7 +75,3 @@ class OneJob(LauncherTest):
         self.assertIn("stopping", said)
         self.wait_until("the end of all steps", lambda: not self.steps("crowd_in_regions"))
         self.wait_until("the end of the job", lambda: not self.slurm.live())
-
-
-if __name__ == "__main__":
-    main()

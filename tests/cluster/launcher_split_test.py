@@ -9,7 +9,7 @@ import time
 import unittest
 
 import two_machines
-from harness import CONFIGS, GENEROUS_S, LauncherTest, children_of, main, words_of
+from harness import CONFIGS, GENEROUS_S, LauncherTest, children_of, words_of
 
 EXPERIMENT = CONFIGS / "diffusion_1000.xml"
 REPLACED = "another process takes its place"
@@ -249,7 +249,3 @@ class OverANetwork(SplitTest):
                                   "--output", f"out{loss}", "--no-visualisers", before=("ip", "netns", "exec", network.names[0]), timeout=3 * GENEROUS_S)
                 self.assert_same(run, 200, expected)
                 network.disconnect()
-
-
-if __name__ == "__main__":
-    main()

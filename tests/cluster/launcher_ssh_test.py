@@ -1,12 +1,14 @@
 """Clusters on two machines by ssh, with real servers of it: two sshd on this machine. What happens there has to be told here, and nothing
 may be left there."""
+import functools
 import os
 import pathlib
 import signal
 
-from harness import CONFIGS, LauncherTest, children_of, main, words_of
+from harness import CONFIGS, LauncherTest, children_of, words_of
 from ssh_machines import Machines, require_servers
 
+setUpModule = functools.partial(require_servers, terminals=True)
 BUILD = pathlib.Path(os.environ["SWARMANOID_BUILD"])
 TICKS = 40
 MOVED_TICKS = 400
@@ -217,8 +219,3 @@ class Ssh(LauncherTest):
         (programs / "engine_worker").symlink_to(BUILD / "bin" / "tests" / "other_version_worker")
         run = self.run_on(self.hosts("engine = alpha", f"program_folder = {programs}"), "--ticks", TICKS)
         self.assert_failed(run, "^engine 'ground' ", "on alpha", r"protocol version (\d+), the space server version (?!\1)\d+")
-
-
-if __name__ == "__main__":
-    require_servers(terminals=True)
-    main()

@@ -5,7 +5,7 @@ import subprocess
 import sys
 import unittest
 
-from harness import CONFIGS, LauncherTest, children_of, end, main, stat_of, words_of
+from harness import CONFIGS, LauncherTest, children_of, end, stat_of, words_of
 
 SCENES = CONFIGS.parent / "tests" / "bench" / "scenes"
 
@@ -77,7 +77,3 @@ class Threads(LauncherTest):
         [steered] = self.write(self.folder / "steered", word, "--steer-by-all")
         [blind] = self.write(self.folder / "blind", word)
         self.assertNotEqual(self.hash_of(steered, 1), self.hash_of(blind, 1))
-
-
-if __name__ == "__main__":
-    main()

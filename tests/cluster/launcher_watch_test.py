@@ -4,19 +4,11 @@ import os
 import pty
 import signal
 import subprocess
-import unittest
 
-from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, main
-
-EXPERIMENT = CONFIGS / "diffusion_10.xml"
+from harness import CONFIGS, DIFFUSION, GENEROUS_S, SWARMANOID, LauncherTest
 
 
 class Watching(LauncherTest):
-    def start_paused(self, *options):
-        run = self.start("run", EXPERIMENT, "--quiet", "--paused", "--hash-log", "hashes", "--no-visualisers", *options)
-        self.wait_for_experiment("diffusion_10")
-        return run
-
     def test_pause_step_resume_and_stop(self):
         run = self.start_paused("--ticks", 0)
         self.assertIn("at tick 3", self.control("step", 3))
@@ -32,7 +24,7 @@ class Watching(LauncherTest):
         self.assert_nothing_left(run)
 
     def test_control_leaves_results_alone_unless_it_moves_something(self):
-        plain = self.assert_finished(self.run_it("run", EXPERIMENT, "--ticks", 300, "--quiet"), 300)
+        plain = self.assert_finished(self.run_it("run", DIFFUSION, "--ticks", 300, "--quiet"), 300)
         run = self.start_paused("--ticks", 300)
         self.control("step", 7)
         self.control("resume")
@@ -114,7 +106,7 @@ class Watching(LauncherTest):
 class Terminal(LauncherTest):
     def test_progress_is_one_line_that_is_taken_away(self):
         reader, terminal = pty.openpty()
-        process = subprocess.Popen([SWARMANOID, "run", str(EXPERIMENT), "--real-time", "20", "--ticks", "300"], cwd=self.folder,
+        process = subprocess.Popen([SWARMANOID, "run", str(DIFFUSION), "--real-time", "20", "--ticks", "300"], cwd=self.folder,
                                    stdout=subprocess.PIPE, stderr=terminal)
         os.close(terminal)
         shown = b""
@@ -128,7 +120,3 @@ class Terminal(LauncherTest):
         self.assertNotIn("\n", text)
         self.assertTrue(text.endswith("\r\x1b[K"))
         self.assertRegex(text, r"running: tick \d+ of 300 \(\d+ %\), [\d.]+x real time, .* left, 4 processes")
-
-
-if __name__ == "__main__":
-    main()

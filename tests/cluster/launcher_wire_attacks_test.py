@@ -8,10 +8,11 @@ import pathlib
 import shutil
 import subprocess
 import sys
-import unittest
 
 import two_machines
 from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest
+
+setUpModule = two_machines.require
 
 ATTACKER = pathlib.Path(__file__).resolve().parent / "rtps_attacker.py"
 PROGRAMS = pathlib.Path(os.environ["SWARMANOID_BUILD"]) / "bin"
@@ -196,10 +197,3 @@ class WireAttacks(LauncherTest):
         self.steer("resume")
         self.assertEqual(watcher.wait(GENEROUS_S), 0, watcher.stderr)
         self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
-
-
-if __name__ == "__main__":
-    if not two_machines.possible():
-        print("skipped: network namespaces with a relay need root and /dev/net/tun")
-        sys.exit(77)
-    unittest.main()

@@ -7,22 +7,12 @@ import signal
 import socket
 import subprocess
 import time
-import unittest
 
 from harness import GENEROUS_S, end, skip, words_of
+from world.case import free_ports, temporary_folder
 
 DAEMONS = {name: shutil.which(name, path="/usr/sbin:" + os.environ["PATH"]) for name in ("munged", "slurmctld", "slurmd")}
 NODE = socket.gethostname().split(".")[0]
-
-
-def free_ports(count):
-    probes = [socket.socket() for _ in range(count)]
-    for probe in probes:
-        probe.bind(("127.0.0.1", 0))
-    ports = [probe.getsockname()[1] for probe in probes]
-    for probe in probes:
-        probe.close()
-    return ports
 
 
 class Slurm:
@@ -124,9 +114,19 @@ PartitionName=short Nodes={NODE} Default=YES MaxTime=60 State=UP
             return False
 
 
-def main():
-    """Runs the tests of the script, or skips them where there is no Slurm."""
+def require():
+    """Leaves the test if there is no Slurm."""
     missing = [name for name, path in DAEMONS.items() if path is None]
     if missing or shutil.which("sbatch") is None:
         skip(f"there is no {', '.join(missing) or 'sbatch'} (packages slurmctld, slurmd, slurm-client and munge)")
-    unittest.main()
+
+
+def running_for(case):
+    """A folder for a class of tests, and Slurm, which runs in it until they end."""
+    top = temporary_folder(case, "slurm")
+    # Others reach the socket of munge.
+    top.chmod(0o755)
+    (top / "slurm").mkdir()
+    running = Slurm(top / "slurm")
+    case.addClassCleanup(running.stop)
+    return top, running

@@ -7,22 +7,16 @@ import os
 import shlex
 import shutil
 import signal
-import socket
 import subprocess
 import time
 
 from harness import GENEROUS_S, children_of, end, skip, stat_of, words_of
+from world.case import free_ports
 
 SSHD = shutil.which("sshd", path="/usr/sbin:/usr/local/sbin:" + os.environ["PATH"])
 SSH = shutil.which("ssh")
 # Settings of the preset that the programs are built with.
 OF_SANITIZERS = " ".join(f'"{name}={os.environ[name]}"' for name in ("ASAN_OPTIONS", "TSAN_OPTIONS") if name in os.environ)
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
 
 
 def make_key(file):
@@ -43,7 +37,7 @@ class Machine:
         self.log = self.folder / "sshd.log"
         # Another may take the port between the look and the start.
         for _ in range(20):
-            self.port = free_port()
+            (self.port,) = free_ports(1)
             (self.folder / "sshd_config").write_text(
                 f"Port {self.port}\nListenAddress 127.0.0.1\nHostKey {self.folder}/host_key\nPidFile none\n"
                 f"AuthorizedKeysFile {user_key}.pub\nPubkeyAuthentication yes\nPasswordAuthentication no\n"
@@ -110,7 +104,7 @@ class Machines:
         self.known_hosts.write_text("".join(m.known_host() for m in self.all))
         config = folder / "ssh_config"
         config.write_text("".join(f"Host {m.name}\n  HostName 127.0.0.1\n  Port {m.port}\n" for m in self.all) +
-                          "Host lost\n  HostName 127.0.0.1\n" f"  Port {free_port()}\n"
+                          "Host lost\n  HostName 127.0.0.1\n" f"  Port {free_ports(1)[0]}\n"
                           f"Host *\n  User {getpass.getuser()}\n  IdentityFile {key}\n  IdentitiesOnly yes\n"
                           f"  UserKnownHostsFile {self.known_hosts}\n  GlobalKnownHostsFile none\n"
                           "  StrictHostKeyChecking yes\n")

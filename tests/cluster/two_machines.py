@@ -4,6 +4,7 @@ import fcntl
 import os
 import struct
 import subprocess
+import unittest
 
 TUNSETIFF = 0x400454CA
 IFF_TAP = 0x0002
@@ -12,6 +13,11 @@ IFF_NO_PI = 0x1000
 
 def possible():
     return os.geteuid() == 0 and os.path.exists("/dev/net/tun")
+
+
+def require():
+    if not possible():
+        raise unittest.SkipTest("network namespaces with a relay need root and /dev/net/tun")
 
 
 def ip(*words):

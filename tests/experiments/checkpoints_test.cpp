@@ -1,11 +1,9 @@
 // Runs that go on from a checkpoint, at ticks at which something is held. tests/cluster/launcher_checkpoint_test.py
 // does the same with these files and ticks, as clusters too.
-#include <unistd.h>
-
-#include <filesystem>
 
 #include "common/checkpoint/checkpoint.h"
 #include "tests/experiments/running_experiment.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -32,12 +30,10 @@ TEST_P(HeldThings, GoOnFromACheckpointWithTheSameHash)
 {
   const auto [name, tick, last] = GetParam();
   const std::string file = std::string(name) + ".xml";
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / (std::string(name) + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
+  const test::TemporaryFolder folder;
   const RunningExperiment::Settings settings{{"framework.maxclock", std::to_string(last)}};
   SimulatorOptions options;
-  options.output_folder = folder.string();
+  options.output_folder = folder.Path();
   options.checkpoint_every = 100;
   RunningExperiment whole(file, settings, options);
   whole.Run(tick);
@@ -45,10 +41,9 @@ TEST_P(HeldThings, GoOnFromACheckpointWithTheSameHash)
   const std::uint64_t expected = whole.HashAtTheEnd();
 
   SimulatorOptions restored;
-  restored.output_folder = folder.string();
+  restored.output_folder = folder.Path();
   restored.restore_file = (folder / CheckpointName(static_cast<std::uint64_t>(tick))).string();
   EXPECT_EQ(RunningExperiment(file, settings, restored).HashAtTheEnd(), expected);
-  std::filesystem::remove_all(folder);
 }
 
 INSTANTIATE_TEST_SUITE_P(Experiments, HeldThings,

@@ -1,6 +1,6 @@
 // Kinds of robots and objects that libraries add, in the engines of the simulator: the e-puck of user/entities, and the
 // plain ones of tests/libraries.
-#include <fstream>
+#include <fmt/format.h>
 
 #include "common/control_interface/ci_colour_blob_sensor.h"
 #include "common/control_interface/ci_controller.h"
@@ -9,7 +9,9 @@
 #include "common/control_interface/ci_proximity_sensor.h"
 #include "common/control_interface/ci_wheels_actuator.h"
 #include "common/control_interface/footbot/ci_footbot_proximity_sensor.h"
+#include "simulation/register_all.h"
 #include "tests/experiments/running_experiment.h"
+#include "tests/world/experiment_text.h"
 
 namespace swarmanoid
 {
@@ -86,27 +88,27 @@ protected:
   void Start(const std::string& arena, double left = 0, double right = 0)
   {
     sensed = {};
-    const std::string file = testing::TempDir() + "kinds_" + std::to_string(getpid()) + ".xml";
-    std::ofstream(file) << "<ahss-config><framework plugin_path='" SWARMANOID_BUILD_FOLDER
-                           "/lib/swarmanoid:" SWARMANOID_BUILD_FOLDER
-                           "/tests/libraries'/>"
-                           "<entity_kinds><epuck library='epuck'/><pillar library='plain_kinds'/>"
-                           "<crate library='plain_kinds'/><plain_robot library='plain_kinds'/></entity_kinds>"
-                           "<controllers><test_driver id='drive'><actuators>"
-                           "<wheels implementation='generic_wheels'/><led_ring implementation='generic_led_ring'/>"
-                           "</actuators><sensors><proximity implementation='generic_proximity'/>"
-                           "<ground implementation='generic_ground'/></sensors>"
-                        << "<parameters left='" << left << "' right='" << right << "'/></test_driver>"
-                        << "<test_watcher id='watch'><sensors>"
-                           "<footbot_proximity implementation='generic_footbot_proximity'/>"
-                           "<footbot_omnidirectional_camera "
-                           "implementation='generic_footbot_omnidirectional_camera'/></sensors></test_watcher>"
-                           "</controllers><arena size='3,3,1' optimization='2D'>"
-                        << arena << "</arena><engines><" << GetParam()
-                        << " id='e'/></engines><arena_physics><engine id='e'><all/></engine></arena_physics>"
-                           "</ahss-config>";
-    experiment_ = ReadExperiment(file);
-    std::remove(file.c_str());
+    RegisterBuiltins();
+    experiment_ =
+        test::ExperimentText{
+            .framework = "<plugin_path>" SWARMANOID_BUILD_FOLDER "/lib/swarmanoid:" SWARMANOID_BUILD_FOLDER
+                         "/tests/libraries</plugin_path>",
+            .kinds =
+                "<epuck library='epuck'/><pillar library='plain_kinds'/><crate library='plain_kinds'/>"
+                "<plain_robot library='plain_kinds'/>",
+            .controllers =
+                test::Controller({.tag = "test_driver",
+                                  .id = "drive",
+                                  .actuators = {"generic_wheels", "generic_led_ring"},
+                                  .sensors = {"generic_proximity", "generic_ground"},
+                                  .parameters = fmt::format("<left>{}</left><right>{}</right>", left, right)}) +
+                test::Controller({.tag = "test_watcher",
+                                  .id = "watch",
+                                  .sensors = {"generic_footbot_proximity", "generic_footbot_omnidirectional_camera"}}),
+            .size = "3,3,1",
+            .arena = arena,
+            .engines = std::string("<") + GetParam() + " id='e'/>"}
+            .Load();
     SimulatorOptions options;
     options.visualisations = false;
     simulator_ = std::make_unique<CSimulator>(*experiment_, options);

@@ -1,10 +1,8 @@
 // Experiments in which commands act a tick late (framework.ahead).
-#include <unistd.h>
-
-#include <filesystem>
 
 #include "common/checkpoint/checkpoint.h"
 #include "tests/experiments/running_experiment.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -28,18 +26,15 @@ TEST(CommandsATickLate, RobotsBeginToMoveATickLater)
 
 TEST(CommandsATickLate, ACheckpointHasThoseThatHaveNotActedYet)
 {
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("late_commands" + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
+  const test::TemporaryFolder folder;
   SimulatorOptions options;
-  options.output_folder = folder.string();
+  options.output_folder = folder.Path();
   options.checkpoint_every = 100;
   const std::uint64_t expected = RunningExperiment("diffusion_10.xml", kLate, options).HashAtTheEnd();
   EXPECT_NE(RunningExperiment("diffusion_10.xml", {{"framework.maxclock", "300"}}).HashAtTheEnd(), expected);
   options.checkpoint_every = 0;
   options.restore_file = (folder / CheckpointName(100)).string();
   EXPECT_EQ(RunningExperiment("diffusion_10.xml", kLate, options).HashAtTheEnd(), expected);
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <cctype>
-#include <filesystem>
 
 #include "common/checkpoint/checkpoint.h"
 #include "common/messages/assignment.h"
@@ -13,6 +12,7 @@
 #include "space_server/space_server.h"
 #include "tests/experiments/running_experiment.h"
 #include "tests/unit/engines/saved_state_bytes.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -22,14 +22,10 @@ namespace
 class SavedParts : public testing::TestWithParam<std::tuple<const char*, int>>
 {
 protected:
-  SavedParts()
-      : name_(std::get<0>(GetParam())),
-        tick_(std::get<1>(GetParam())),
-        folder_(std::filesystem::temp_directory_path() / ("saved_parts_" + name_ + std::to_string(getpid())))
+  SavedParts() : name_(std::get<0>(GetParam())), tick_(std::get<1>(GetParam()))
   {
-    std::filesystem::create_directories(folder_);
     SimulatorOptions options;
-    options.output_folder = folder_.string();
+    options.output_folder = folder_.Path();
     options.checkpoint_every = 100;
     RunningExperiment run(name_ + ".xml", {}, options);
     run.Run(tick_);
@@ -37,11 +33,10 @@ protected:
     checkpoint_ = ReadCheckpoint((folder_ / CheckpointName(static_cast<std::uint64_t>(tick_))).string(), *experiment_,
                                  {.hosts = 1, .any_build = false});
     assignment_ = MakeAssignment(*experiment_, 1);
-    server_ = std::make_unique<SpaceServer>(*experiment_, assignment_, folder_.string());
+    server_ = std::make_unique<SpaceServer>(*experiment_, assignment_, folder_.Path());
     checkpoint_.LoadPart(kServerPart, [&](ByteReader& state) { server_->LoadState(checkpoint_.snapshot, state); });
     host_ = std::make_unique<ControllerHost>(server_->Space(), assignment_, 0);
   }
-  ~SavedParts() override { std::filesystem::remove_all(folder_); }
 
   std::vector<char> Part(const std::string& name) const
   {
@@ -89,7 +84,7 @@ protected:
 
   const std::string name_;
   const int tick_;
-  const std::filesystem::path folder_;
+  const test::TemporaryFolder folder_;
   std::unique_ptr<Experiment> experiment_;
   Checkpoint checkpoint_;
   Assignment assignment_;

@@ -1,13 +1,10 @@
 // What holds together, as experiment functions see and move it while an engine runs.
-#include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
 #include <functional>
-#include <sstream>
 
 #include "space_server/experiment_functions.h"
 #include "tests/experiments/running_experiment.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -22,22 +19,12 @@ public:
   void PreStep(SpaceEditor& space) override { before_tick(space); }
 };
 
-PluginDescription DescribeScript()
-{
-  PluginDescription description;
-  description.label = "structure_script";
-  description.brief = "for tests";
-  return description;
-}
-REGISTER_EXPERIMENT_FUNCTIONS(StructureScript, DescribeScript())
+REGISTER_EXPERIMENT_FUNCTIONS(StructureScript, {.label = "structure_script", .brief = "for tests"})
 
 // The gripped chain with these functions, in that engine.
 std::unique_ptr<Experiment> ChainIn(const std::string& engine)
 {
-  std::ifstream file(SWARMANOID_SOURCE_FOLDER "/configs/gripped_chain.xml");
-  std::stringstream text;
-  text << file.rdbuf();
-  std::string xml = text.str();
+  std::string xml = test::TextOf(SWARMANOID_SOURCE_FOLDER "/configs/gripped_chain.xml");
   for (std::size_t at = 0; (at = xml.find("dynamics2d", at)) != std::string::npos; at += engine.size())
     xml.replace(at, 10, engine);
   if (engine == "dynamics3d")
@@ -45,12 +32,8 @@ std::unique_ptr<Experiment> ChainIn(const std::string& engine)
       xml.erase(xml.find(plane), plane.size());
   xml.insert(xml.rfind("</ahss-config>"),
              "<experiment_functions><structure_script id=\"script\"/></experiment_functions>");
-  const std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("chain_" + engine + std::to_string(getpid()) + ".xml");
-  std::ofstream(path) << xml;
-  auto experiment = ReadExperiment(path.string());
-  std::filesystem::remove(path);
-  return experiment;
+  const test::TemporaryFolder folder;
+  return ReadExperiment(folder.Write("chain.xml", xml));
 }
 
 TEST(Structure, ACompoundThatIsMovedKeepsItsShapeAndItsGrips)

@@ -3,7 +3,7 @@ import re
 import signal
 import subprocess
 
-from outside import PREFIX, WAYS, OutsideTest, main
+from outside import PREFIX, WAYS, OutsideTest
 
 PROGRAMS = ["swarmanoid", "space_server", "engine_worker", "controller_host", "visualiser", "swarmanoid_robot"]
 
@@ -107,7 +107,3 @@ class CommandLine(OutsideTest):
         _, errors = watcher.communicate(timeout=100)
         self.assertEqual(watcher.returncode, 4)
         self.assertIn("experiment 'nobody' has ended", errors)
-
-
-if __name__ == "__main__":
-    main()

@@ -7,7 +7,7 @@ import re
 import shutil
 import struct
 
-from outside import BUILT, WAYS, OutsideTest, main
+from outside import BUILT, WAYS, OutsideTest
 
 FLAT_PNG = bytes.fromhex("89504e470d0a1a0a0000000d494844520000000200000002080000000057dd52f8")
 
@@ -162,7 +162,3 @@ class Damage(OutsideTest):
         self.assertEqual(refused.returncode, 4, refused.stderr)
         self.assertIn("is a link or a file, not a folder", refused.stderr)
         self.assertEqual(os.listdir(self.shared), ["thesis"])
-
-
-if __name__ == "__main__":
-    main()

@@ -8,14 +8,12 @@ import resource
 import signal
 import statistics
 import subprocess
-import sys
 import tempfile
 import time
 
-from outside import PREFIX, WAYS, OutsideTest, main
+from outside import PREFIX, WAYS, OutsideTest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-from signals import send_and_wait  # noqa: E402
+from signals import send_and_wait
 
 TICK = 17
 # What the first line says of each fault. None: as the C++ library or the kernel words it.
@@ -229,7 +227,3 @@ class Surroundings(OutsideTest):
             first = done.stderr.splitlines()[0]
             self.assertIn("visualisation 'window'", first)
             self.assertIn("DISPLAY", first)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,15 +1,13 @@
 """What a controller computes with <cmath> and <complex> has the same bits however the experiment is started, on any processor."""
 import ctypes
 import os
-import pathlib
 import shutil
 import subprocess
 import sys
 
-from outside import BUILT, PREFIX, WAYS, OutsideTest, main
+from outside import BUILT, PREFIX, WAYS, OutsideTest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-import free_domain as domains  # noqa: E402
+import free_domain as domains
 
 LIBRARY = BUILT / "controllers" / "liboutside_mathematics.so"
 # What changes the choice among the variants of libm, and when its functions are looked up.
@@ -189,7 +187,3 @@ int main(int count, char**)
         ours = next(PREFIX.glob("lib*/**/libswarmanoid_reproducible_math.so"))
         cured = self.command(BUILT / "simulation", self.file, environment={"LD_PRELOAD": f"{ours} {libm}"})
         self.hash_of(cured)
-
-
-if __name__ == "__main__":
-    main()

@@ -2,31 +2,21 @@
 of one robot in a folder of each test's own."""
 import os
 import pathlib
-import re
-import shutil
 import subprocess
-import tempfile
-import time
-import unittest
+
+from world.case import FolderCase
 
 PREFIX = pathlib.Path(os.environ["SWARMANOID_PREFIX"])
 USER = pathlib.Path(os.environ["SWARMANOID_USER"])
 SWARMANOID = PREFIX / "bin" / "swarmanoid"
 BUILT = USER / "simulation_build"
-HASH = re.compile(r"^finished: .* hash ([0-9a-f]{16})", re.MULTILINE)
 # Every fault is tried in both ways.
 WAYS = {"one process": ["--single-process"], "cluster": []}
 
 
-class OutsideTest(unittest.TestCase):
-    def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="swarmanoid_outside_"))
-        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
-        self.shared = pathlib.Path(f"/dev/shm/swarmanoid-test-{os.getpid()}-{time.monotonic_ns()}")
-        self.addCleanup(shutil.rmtree, self.shared, ignore_errors=True)
-
+class OutsideTest(FolderCase):
     def environment(self, changes=None):
-        return {**os.environ, "SWARMANOID_SHARED_FOLDER": str(self.shared), **(changes or {})}
+        return {**self.variables, **(changes or {})}
 
     def command(self, *arguments, timeout=60, environment=None):
         """Runs a command of the package, or any program, in the folder of the test."""
@@ -41,9 +31,7 @@ class OutsideTest(unittest.TestCase):
 
     def hash_of(self, done):
         self.assertEqual(done.returncode, 0, done.stderr)
-        match = HASH.search(done.stdout)
-        self.assertIsNotNone(match, done.stdout)
-        return match[1]
+        return self.hash_in(done.stdout)
 
     def experiment(self, name="experiment", controller="outside_still", parameters="", sensors="", actuators="", ticks=20,
                    functions="", arena="", engine="dummy_engine", entities="", framework=""):
@@ -72,7 +60,3 @@ class OutsideTest(unittest.TestCase):
 </ahss-config>
 """)
         return path
-
-
-def main():
-    unittest.main()

@@ -6,15 +6,13 @@ import pathlib
 import re
 import signal
 import subprocess
-import sys
 import tempfile
 import time
 
 from failures_test import FAULTS
-from outside import BUILT, WAYS, OutsideTest, main
+from outside import BUILT, WAYS, OutsideTest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-from signals import send_and_wait  # noqa: E402
+from signals import send_and_wait
 
 TICKS = 20
 WATCH = "the function that looks at each tick: Watch at tick 7"
@@ -119,7 +117,3 @@ class OwnSimulator(OutsideTest):
         self.assertEqual(run.returncode, 4)
         manifest = json.loads((output / "manifest.json").read_text())
         self.assertEqual([manifest["exit_code"], manifest["failure"]], [4, said[0]])
-
-
-if __name__ == "__main__":
-    main()

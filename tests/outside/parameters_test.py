@@ -1,6 +1,6 @@
 """Parameters of a stranger's controllers and experiment functions: what is misspelt or wrong is a mistake of the file, found
 before anything starts where they are declared, and after Init where they are not, with the same words in all ways."""
-from outside import BUILT, PREFIX, WAYS, OutsideTest, main
+from outside import BUILT, PREFIX, WAYS, OutsideTest
 
 WHEELS = "<footbot_wheels><implementation>dummy_footbot_wheels</implementation></footbot_wheels>"
 KNOWN = "it has: velocity, backwards, target_distance"
@@ -138,7 +138,3 @@ class Robot(OutsideTest):
         done = self.command(robot, file, "--robot", "robot_one", "--steps", "1")
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertIn("the controller 'c' (outside_still) never reads the parameter 'speed'; it reads: none", done.stderr)
-
-
-if __name__ == "__main__":
-    main()

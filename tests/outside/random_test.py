@@ -4,7 +4,7 @@ import collections
 import subprocess
 import time
 
-from outside import PREFIX, WAYS, OutsideTest, main
+from outside import PREFIX, WAYS, OutsideTest
 
 TICKS = 12
 
@@ -133,7 +133,3 @@ class Random(OutsideTest):
         _, found = self.run_one("more", "--single-process", before=block)
         for key, numbers in expected.items():
             self.assertEqual(found[key], numbers, key)
-
-
-if __name__ == "__main__":
-    main()

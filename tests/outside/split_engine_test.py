@@ -6,7 +6,7 @@ import signal
 import subprocess
 import time
 
-from outside import PREFIX, WAYS, OutsideTest, main
+from outside import PREFIX, WAYS, OutsideTest
 
 
 class SplitEngine(OutsideTest):
@@ -60,7 +60,3 @@ class SplitEngine(OutsideTest):
                 regions.append(pid)
         # Its parent is the launcher, or that of a process that stands between.
         return next((pid for pid in regions if launcher in (parents.get(pid), parents.get(parents.get(pid)))), None)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,5 +1,5 @@
 """An installed package runs a stranger's controller, with the same bits in one process and as a cluster."""
-from outside import WAYS, OutsideTest, main
+from outside import WAYS, OutsideTest
 
 
 class Start(OutsideTest):
@@ -7,7 +7,3 @@ class Start(OutsideTest):
         file = self.experiment()
         hashes = {way: self.hash_of(self.run_experiment(file, *options)) for way, options in WAYS.items()}
         self.assertEqual(len(set(hashes.values())), 1, hashes)
-
-
-if __name__ == "__main__":
-    main()

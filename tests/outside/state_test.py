@@ -1,7 +1,6 @@
 """What functions, engines and controllers of strangers hand over is checked before it enters the state: the run ends with the
 one who gave it, the entity, the tick and the value, in one process and as a cluster alike."""
-from outside import WAYS, OutsideTest, main
-
+from outside import WAYS, OutsideTest
 
 
 class State(OutsideTest):
@@ -110,7 +109,3 @@ class State(OutsideTest):
         if engine == "dynamics3d":
             file.write_text(file.read_text().replace("<perpendicular_axis>z</perpendicular_axis><distance>0</distance>", ""))
         self.fails(file, "robot 'robot_one'", device, "nan", "at tick 5", ways=ways or {"one process": WAYS["one process"]})
-
-
-if __name__ == "__main__":
-    main()

@@ -222,7 +222,3 @@ class Attached(unittest.TestCase):
         self.assertEqual((ended.returncode, ended.stdout, ended.stderr), (0, "3 3\n", ""))
         self.attach().stop()
         self.hash_of(cluster)
-
-
-if __name__ == "__main__":
-    unittest.main()

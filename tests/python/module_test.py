@@ -9,7 +9,6 @@ import re
 import sqlite3
 import subprocess
 import sys
-import tempfile
 import threading
 import unittest
 import unittest.mock
@@ -18,6 +17,7 @@ import numpy as np
 
 import scene
 import swarmanoid
+from world.case import InFolderCase, controller, devices, experiment
 
 CONFIGS = pathlib.Path(os.environ["SWARMANOID_CONFIGS"])
 AXLE_M, RADIUS_M = 0.14, 0.029112741
@@ -30,16 +30,7 @@ def hash_of_run(file, *options):
     return re.search(r"hash ([0-9a-f]{16})", run.stdout).group(1)
 
 
-class InAFolder(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="swarmanoid_python_")
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        self.addCleanup(os.chdir, os.getcwd())
-        os.chdir(folder.name)
-
-
-class Equality(InAFolder):
+class Equality(InFolderCase):
     def test_same_bits_as_the_command(self):
         # Each engine: the libraries of ODE and Box2D, too, must not take libm's functions.
         for name, ticks in (("diffusion_10", 300), ("diffusion_100_dynamics2d", 50), ("diffusion_100_dynamics3d", 20)):
@@ -78,7 +69,7 @@ class Equality(InAFolder):
             self.assertEqual(hashes[seed], again)
 
 
-class Arrays(InAFolder):
+class Arrays(InFolderCase):
     def test_views_follow_the_simulation_without_copies(self):
         simulation = swarmanoid.Simulation(scene.write(self.folder))
         x = simulation.x
@@ -159,41 +150,17 @@ class Arrays(InAFolder):
             robots.rows("footbot_proximity")
 
 
-SCENE_OF_EVERYTHING = """<ahss-config>
-  <framework><clocktick>100</clocktick><maxclock>5</maxclock></framework>
-  <controllers>
-    <{tag} id="l">
-      <actuators><radio implementation="generic_radio"/><report implementation="generic_report"/></actuators>
-      <sensors>
-        <radio implementation="generic_radio" range="4"/>
-        <contact implementation="generic_contact" reach="0.01"/>
-        <tag_reader implementation="generic_tag_reader" range="1"/>
-        <pie_camera implementation="generic_pie_camera" sectors="4"/>
-        <footbot_light implementation="generic_footbot_light"/>
-        <light implementation="generic_light"/>
-        <instruction implementation="generic_instruction"/>
-      </sensors>
-      <parameters/>
-    </{tag}>
-  </controllers>
-  <arena size="4, 4, 2" optimization="2D">
-    <footbot id="fb_0" position="1,1,0" orientation="0,0,180" controller="l"/>
-    <footbot id="fb_1" position="1.175,1,0" controller="l"/>
-    <light_bulb id="bulb" position="1,2,0.3"/>
-  </arena>
-  <engines><dummy_engine id="ground"/></engines>
-  <arena_physics><engine id="ground"><all/></engine></arena_physics>
-</ahss-config>
-"""
-
-
-class Columns(InAFolder):
+class Columns(InFolderCase):
     """Each device states its columns itself: no device is without them."""
 
     def write(self, tag):
-        path = self.folder / f"{tag}.xml"
-        path.write_text(SCENE_OF_EVERYTHING.format(tag=tag))
-        return path
+        sensors = """<radio implementation="generic_radio" range="4"/><contact implementation="generic_contact" reach="0.01"/>
+            <tag_reader implementation="generic_tag_reader" range="1"/><pie_camera implementation="generic_pie_camera" sectors="4"/>"""
+        return experiment(self.folder / f"{tag}.xml", "<maxclock>5</maxclock>",
+                          controller(tag, ["generic_radio", "generic_report"],
+                                     sensors + devices(["generic_footbot_light", "generic_light", "generic_instruction"]), name="l"),
+                          """<footbot id="fb_0" position="1,1,0" orientation="0,0,180" controller="l"/>
+                          <footbot id="fb_1" position="1.175,1,0" controller="l"/><light_bulb id="bulb" position="1,2,0.3"/>""")
 
     def test_a_controller_reads_every_sensor_of_its_robot(self):
         seen = {}
@@ -249,33 +216,12 @@ class Columns(InAFolder):
         self.assertEqual(robots.rows("radio")[0][0, 2], 5)
 
 
-SCENE_OF_HANDBOTS = """<ahss-config>
-  <framework><clocktick>100</clocktick><maxclock>20</maxclock></framework>
-  <controllers>
-    <external_controller id="arms">
-      <actuators>
-        <handbot_arms implementation="dummy_handbot_arms"/>
-        <handbot_head implementation="dummy_handbot_head"/>
-        <handbot_hands implementation="dummy_handbot_hands"/>
-      </actuators>
-      <sensors><handbot_joints implementation="generic_handbot_joints"/></sensors>
-      <parameters/>
-    </external_controller>
-  </controllers>
-  <arena size="4, 4, 2" optimization="2D">
-    <handbot id="hb_0" position="1,1,0" controller="arms"/>
-    <handbot id="hb_1" position="3,3,0" controller="arms"/>
-  </arena>
-  <engines><dummy_engine id="ground"/></engines>
-  <arena_physics><engine id="ground"><all/></engine></arena_physics>
-</ahss-config>
-"""
-
-
-class Handbots(InAFolder):
+class Handbots(InFolderCase):
     def test_each_joint_of_each_robot_follows_its_own_column(self):
-        path = self.folder / "handbots.xml"
-        path.write_text(SCENE_OF_HANDBOTS)
+        path = experiment(self.folder / "handbots.xml", "<maxclock>20</maxclock>",
+                          controller("external_controller", ["dummy_handbot_arms", "dummy_handbot_head", "dummy_handbot_hands"],
+                                     ["generic_handbot_joints"], name="arms"),
+                          '<handbot id="hb_0" position="1,1,0" controller="arms"/><handbot id="hb_1" position="3,3,0" controller="arms"/>')
         simulation = swarmanoid.Simulation(path)
         robots = simulation.robots["arms"]
         self.assertEqual(robots.ids, ["hb_0", "hb_1"])
@@ -300,7 +246,7 @@ class Handbots(InAFolder):
         np.testing.assert_allclose(simulation.attribute("wrist", "hb_1"), rates[1:, 2:], atol=1e-9)
 
 
-class Mistakes(InAFolder):
+class Mistakes(InFolderCase):
     def test_mistakes_of_files_have_their_places(self):
         with self.assertRaisesRegex(swarmanoid.ConfigurationError, "nowhere.xml"):
             swarmanoid.Simulation("nowhere.xml")
@@ -365,7 +311,7 @@ class Driver:
         return f"{self.steps} steps"
 
 
-class Controllers(InAFolder):
+class Controllers(InFolderCase):
     def test_a_controller_in_python_does_what_the_same_rule_does_from_outside(self):
         inside = swarmanoid.Simulation(scene.write(self.folder, "python_driver", parameters="<speed>6</speed>"))
         outside = swarmanoid.Simulation(scene.write(self.folder))
@@ -416,7 +362,7 @@ class Controllers(InAFolder):
             swarmanoid.Simulation(scene.write(self.folder, "python_misspelt")).step()
 
 
-class Learning(InAFolder):
+class Learning(InFolderCase):
     def environment(self, **more):
         return swarmanoid.Environment(scene.write(self.folder, ticks=50), sensors=["footbot_proximity"],
                                       actuators=["footbot_wheels"], reward=lambda simulation, robots: simulation.x[simulation.of_kind("footbot")],
@@ -484,7 +430,7 @@ class Learning(InAFolder):
             swarmanoid.Environment(CONFIGS / "diffusion_10.xml")
 
 
-class Runs(InAFolder):
+class Runs(InFolderCase):
     """With pandas, or what stands for it."""
 
     def test_hashes_are_texts_and_numbers_keep_their_bits(self):
@@ -561,7 +507,3 @@ class Runs(InAFolder):
             database.execute("UPDATE samples SET time_s = time_s + 1 WHERE point = 1 AND seed = 2")
         with self.assertRaisesRegex(ValueError, "run 1-2 does not fit its checksum"):
             swarmanoid.Study("out")
-
-
-if __name__ == "__main__":
-    unittest.main()

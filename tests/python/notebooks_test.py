@@ -67,7 +67,3 @@ class Notebooks(unittest.TestCase):
         self.assertGreater(names["course"][-1][0], names["course"][0][0])
         self.assertGreater(names["learnt"], names["standing"])
         self.assertGreater(names["learnt"], names["blind"])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,24 +1,14 @@
 """ParallelEnvironment against the contract of PettingZoo's parallel interface (https://pettingzoo.farama.org/api/parallel), as
 its own parallel_api_test checks it, and against swarmanoid.Environment."""
-import os
-import pathlib
-import tempfile
-import unittest
 
 import numpy as np
 
 import scene
 import swarmanoid
+from world.case import InFolderCase
 
 
-class Parallel(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="swarmanoid_parallel_")
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        self.addCleanup(os.chdir, os.getcwd())
-        os.chdir(folder.name)
-
+class Parallel(InFolderCase):
     def environment(self, ticks=20, **more):
         options = {"sensors": ["footbot_proximity"], "actuators": ["footbot_wheels"],
                    "reward": lambda simulation, robots: simulation.x[simulation.of_kind("footbot")], **more}
@@ -122,7 +112,3 @@ class Parallel(unittest.TestCase):
             environment.step({"a": np.zeros(2), "b": np.zeros(2), "wall": np.zeros(2)})
         with self.assertRaisesRegex(ValueError, r"'b': an action of the shape \(3,\); it takes \(2,\)"):
             environment.step({"a": np.zeros(2), "b": np.zeros(3)})
-
-
-if __name__ == "__main__":
-    unittest.main()

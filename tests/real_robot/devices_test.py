@@ -188,7 +188,3 @@ class Devices(unittest.TestCase):
         self.assertEqual(told["rope/attach"], ["no", "yes"])
         self.assertEqual(told["beacon"], ["1 1 1 1", "0 0 0 0"])
         self.assertEqual(told["leds"][0], "led 12 rgb 3" + " 001" * 12)
-
-
-if __name__ == "__main__":
-    unittest.main()

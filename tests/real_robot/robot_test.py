@@ -4,12 +4,10 @@ import pathlib
 import shutil
 import signal
 import subprocess
-import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-import free_domain as domains  # noqa: E402
+import free_domain as domains
 
 BUILD = pathlib.Path(os.environ["SWARMANOID_BUILD"])
 SOURCE = pathlib.Path(os.environ["SWARMANOID_SOURCE"])
@@ -267,7 +265,3 @@ class RobotTest(unittest.TestCase):
         self.assertEqual(code, 0)
         self.assertIn("footbot_wheels / ros2", output)
         self.assertEqual(self.run_it()[0], 2)
-
-
-if __name__ == "__main__":
-    unittest.main()

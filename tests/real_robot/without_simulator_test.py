@@ -51,7 +51,3 @@ class WithoutSimulator(unittest.TestCase):
     def test_only_the_drivers_load_dds(self):
         for path in (BUILD / "bin" / "swarmanoid_robot", BUILD / "lib" / "libswarmanoid_real_robot.so"):
             self.assertEqual([name for name in libraries_of(path) if "fastrtps" in name], [])
-
-
-if __name__ == "__main__":
-    unittest.main()

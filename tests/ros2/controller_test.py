@@ -6,15 +6,13 @@ import os
 import pathlib
 import re
 import subprocess
-import sys
 import tempfile
 import time
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-import stacks  # noqa: E402
-from free_domain import free_domain, release  # noqa: E402
-from peer import Peer  # noqa: E402
+import stacks
+from free_domain import free_domain, release
+from peer import Peer
 
 CONFIGS = pathlib.Path(os.environ["SWARMANOID_CONFIGS"])
 SWARMANOID = os.environ["SWARMANOID"]
@@ -467,7 +465,3 @@ class Refused(Case):
             run = self.run_it(self.experiment(robots=1, **parameters), "--single-process")
             self.assertEqual(run.returncode, 3, run.stderr)
             self.assertIn(text, run.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,11 +1,8 @@
 """Programs of another vendor's DDS that the tests of ROS 2 talk to. Each wait has a limit, behind which they say where they hang."""
-import pathlib
 import subprocess
-import sys
 import threading
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-import stacks  # noqa: E402
+import stacks
 
 
 class Peer:

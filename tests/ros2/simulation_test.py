@@ -5,14 +5,12 @@ import csv
 import math
 import os
 import pathlib
-import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-import stacks  # noqa: E402
-from free_domain import free_domain  # noqa: E402
-from peer import Peer  # noqa: E402
+import stacks
+from free_domain import free_domain
+from peer import Peer
 
 CONFIGS = pathlib.Path(os.environ["SWARMANOID_CONFIGS"])
 TICK_S = 0.1
@@ -120,7 +118,3 @@ class Simulation(unittest.TestCase):
 
     def test_as_a_cluster(self):
         self.check(*self.run_with("--ros2", "--show", "text"))
-
-
-if __name__ == "__main__":
-    unittest.main()

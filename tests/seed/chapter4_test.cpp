@@ -2,11 +2,8 @@
 // form of the printed figure.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "common/control_interface/footbot/ci_footbot_wheels_actuator.h"
@@ -14,6 +11,7 @@
 #include "simulation/register_all.h"
 #include "simulation/simulator.h"
 #include "tests/results/held_hash.h"
+#include "tests/world/temporary_folder.h"
 #include "visualiser/render.h"
 
 namespace swarmanoid
@@ -21,34 +19,21 @@ namespace swarmanoid
 namespace
 {
 
-namespace fs = std::filesystem;
-
-std::string TextOf(const fs::path& file)
-{
-  std::ifstream input(file);
-  return {std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
-}
-
 class SeedChapter4 : public testing::Test
 {
 protected:
-  SeedChapter4() : folder_(fs::temp_directory_path() / fmt::format("swarmanoid_chapter4_{}", getpid()))
-  {
-    RegisterBuiltins();
-    fs::create_directories(folder_);
-  }
-  ~SeedChapter4() override { fs::remove_all(folder_); }
+  SeedChapter4() { RegisterBuiltins(); }
 
   std::unique_ptr<Experiment> Load(const std::string& text) const
   {
     LoadOptions options;
     options.settings = {{"framework.controller_path", SEED_CONTROLLERS}};
-    LoadedExperiment loaded = LoadExperimentText(text, "chapter4.xml", folder_.string(), options);
+    LoadedExperiment loaded = LoadExperimentText(text, "chapter4.xml", folder_.Path(), options);
     for (const Diagnostic& error : loaded.errors) ADD_FAILURE() << error.Text();
     return std::move(loaded.experiment);
   }
 
-  const fs::path folder_;
+  const test::TemporaryFolder folder_;
 };
 
 // The window of the listing is left out where nobody could look at it.
@@ -63,15 +48,15 @@ std::string WithoutWindow(std::string text)
 TEST_F(SeedChapter4, TheExperimentIsValidAsPrinted)
 {
   if (PluginRegistry<CRender>::Instance().Find("opengl_render") == nullptr) GTEST_SKIP() << "no opengl_render here";
-  EXPECT_TRUE(Load(TextOf(CHAPTER4_XML)));
+  EXPECT_TRUE(Load(test::TextOf(CHAPTER4_XML)));
 }
 
 TEST_F(SeedChapter4, TheExperimentRuns)
 {
-  const auto experiment = Load(WithoutWindow(TextOf(CHAPTER4_XML)));
+  const auto experiment = Load(WithoutWindow(test::TextOf(CHAPTER4_XML)));
   ASSERT_TRUE(experiment);
   SimulatorOptions options;
-  options.output_folder = folder_.string();
+  options.output_folder = folder_.Path();
   CSimulator simulator(*experiment, options);
   const CSwarmanoidSpace& space = simulator.GetSpace();
   for (int tick = 0; tick < 10; ++tick) ASSERT_TRUE(simulator.Step());
@@ -88,7 +73,7 @@ TEST_F(SeedChapter4, TheExperimentRuns)
   const RunSummary summary = simulator.Finish();
   EXPECT_EQ(summary.ticks, 500U);
   EXPECT_EQ(summary.hash, test::HeldHash("seed_chapter4")) << fmt::format("{:016x}", summary.hash);
-  const std::string table = TextOf(folder_ / "experiment_output.txt");
+  const std::string table = folder_.Read("experiment_output.txt");
   EXPECT_NE(table.find("\n0\t\tFootbot\tfb\t9\t9\t0\t0\t0\t45\n"), std::string::npos);
   EXPECT_NE(table.find("\n500\t\tBlock\tobstacle\t5\t5\t0.25\t0\t0\t0\n"), std::string::npos);
 }
@@ -96,7 +81,7 @@ TEST_F(SeedChapter4, TheExperimentRuns)
 // Byte for byte: the lines of the figure.
 TEST_F(SeedChapter4, TheTextVisualizationWritesTheTableOfTheFigure)
 {
-  std::istringstream figure(TextOf(FIGURE_3_11));
+  std::istringstream figure(test::TextOf(FIGURE_3_11));
   std::string entities;
   std::string expected;
   for (std::string line; std::getline(figure, line);)
@@ -121,11 +106,11 @@ TEST_F(SeedChapter4, TheTextVisualizationWritesTheTableOfTheFigure)
                                            entities));
   ASSERT_TRUE(experiment);
   SimulatorOptions options;
-  options.output_folder = folder_.string();
+  options.output_folder = folder_.Path();
   CSimulator simulator(*experiment, options);
   while (simulator.Step()) continue;
   simulator.Finish();
-  const std::string table = TextOf(folder_ / "figure.txt");
+  const std::string table = folder_.Read("figure.txt");
   EXPECT_EQ(table.substr(0, table.find('\n')), "#\tclock\tEntity type\tEntity id\tX\tY\tZ\tAlpha\tBeta\tGamma");
   EXPECT_EQ(table.substr(table.find("\n10\t") + 1), expected);
 }

@@ -1,7 +1,6 @@
 // The sample controller of the documentation, compiled from the printed listing, drives its robot on a circle.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -16,48 +15,14 @@
 #include "engine_worker/engine_worker.h"
 #include "simulation/single_process.h"
 #include "tests/results/held_hash.h"
+#include "tests/world/experiment_text.h"
+#include "tests/world/temporary_folder.h"
 #include "visualiser/render.h"
 
 namespace swarmanoid
 {
 namespace
 {
-
-constexpr const char* kExperiment = R"(<ahss-config>
-  <framework>
-    <clocktick>100</clocktick>
-    <maxclock>962</maxclock>
-  </framework>
-  <controllers>
-    <sample_footbot_controller id="fc" library="{}">
-      <actuators>
-        <footbot_wheels><implementation> dummy_footbot_wheels </implementation></footbot_wheels>
-      </actuators>
-      <sensors/>
-    </sample_footbot_controller>
-  </controllers>
-  <arena size="2,2,1" optimization="2D">
-    <footbot id="fb">
-      <position>1, 1, 0</position>
-      <orientation>0, 0, 0</orientation>
-      <controller>fc</controller>
-    </footbot>
-  </arena>
-  <engines>
-    <dummy_engine id="ground">
-      <subclock>1</subclock>
-      <perpendicular_axis>z</perpendicular_axis>
-      <distance>0</distance>
-    </dummy_engine>
-  </engines>
-  <arena_physics>
-    <engine id="ground"><entity id="fb"/></engine>
-  </arena_physics>
-  <visualisations>
-    <text_render id="track"><file>track.txt</file><precision>9</precision></text_render>
-  </visualisations>
-</ahss-config>
-)";
 
 struct Place
 {
@@ -94,20 +59,26 @@ TEST(SampleController, DrivesItsRobotOnACircle)
   RegisterBuiltinEngines();
   RegisterBuiltinDevices();
   RegisterBuiltinRenderers();
-  const auto folder = std::filesystem::temp_directory_path() / fmt::format("swarmanoid_sample_{}", getpid());
-  std::filesystem::create_directories(folder);
-
-  const LoadedExperiment loaded =
-      LoadExperimentText(fmt::format(kExperiment, SAMPLE_CONTROLLER), "sample.xml", folder.string());
-  for (const Diagnostic& error : loaded.errors) ADD_FAILURE() << error.Text();
-  ASSERT_TRUE(loaded.experiment);
+  const test::TemporaryFolder folder;
+  test::ExperimentText text;
+  text.framework = "<maxclock>962</maxclock>";
+  text.controllers = test::Controller({.tag = "sample_footbot_controller",
+                                       .id = "fc",
+                                       .actuators = {"dummy_footbot_wheels"},
+                                       .attributes = "library='" SAMPLE_CONTROLLER "'"});
+  text.size = "2,2,1";
+  text.arena = "<footbot id='fb' position='1,1,0' controller='fc'/>";
+  text.engines = "<dummy_engine id='ground'/>";
+  text.physics = "<engine id='ground'><all/></engine>";
+  text.visualisations = "<text_render id='track' file='track.txt' precision='9'/>";
+  const auto experiment = text.Load(folder.Path());
+  ASSERT_TRUE(experiment);
   SingleProcessOptions options;
-  options.output_folder = folder.string();
-  const RunSummary summary = RunSingleProcess(*loaded.experiment, options);
+  options.output_folder = folder.Path();
+  const RunSummary summary = RunSingleProcess(*experiment, options);
   EXPECT_EQ(summary.ticks, 962u);
   EXPECT_EQ(summary.hash, test::HeldHash("seed_sample_controller")) << fmt::format("{:016x}", summary.hash);
   const std::vector<Place> track = ReadTrack(folder / "track.txt");
-  std::filesystem::remove_all(folder);
   ASSERT_EQ(track.size(), 963u);
 
   // Differential drive with the wheel speeds of the listing.

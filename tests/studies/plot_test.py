@@ -4,15 +4,11 @@ import importlib.util
 import math
 import os
 import pathlib
-import shutil
 import sqlite3
-import subprocess
 import sys
-import tempfile
 import unittest
 import xml.etree.ElementTree as xml
 
-SWARMANOID = os.environ["SWARMANOID"]
 CONFIGS = pathlib.Path(os.environ["SWARMANOID_CONFIGS"])
 SCRIPT = CONFIGS.parent / "studies" / "plot" / "plot_study.py"
 
@@ -22,6 +18,8 @@ if None in map(importlib.util.find_spec, ("matplotlib", "scipy")):
         os.execv("/usr/bin/python3", ["/usr/bin/python3", *sys.argv])
     sys.exit(77)
 import numpy as np
+
+from study_case import StudyCase  # noqa: E402
 
 sys.path.insert(0, str(SCRIPT.parent))
 specification = importlib.util.spec_from_file_location("plot_study", SCRIPT)
@@ -81,16 +79,7 @@ class Courses(unittest.TestCase):
         self.assertEqual(plot_study.values_over_time({}, "hold"), ([], []))
 
 
-class Plot(unittest.TestCase):
-    def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="swarmanoid_plot_"))
-        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
-
-    def command(self, *words, code=0):
-        done = subprocess.run([SWARMANOID, *map(str, words)], cwd=self.folder, capture_output=True, text=True, timeout=200)
-        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
-        return done
-
+class Plot(StudyCase):
     def test_a_study_becomes_pictures_and_a_report(self):
         (self.folder / "study.xml").write_text(f"""<study experiment="{CONFIGS}/diffusion_10.xml" ticks="40" seeds="1-6">
           <factor id="robots" path="arena.distribute.quantity" values="3 6"/>
@@ -167,7 +156,3 @@ class Plot(unittest.TestCase):
         self.assertIn("write FACTOR=A,B", self.command("plot", "out", "--compare", "speed", code=2).stderr)
         (self.folder / "curves.json").write_text('[{"metric": "way.mean", "name": "theirs", "x": [1], "y": []}]')
         self.assertIn("of the same length", self.command("plot", "out", "--reference", "curves.json", code=2).stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

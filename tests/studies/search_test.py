@@ -7,7 +7,6 @@ import sqlite3
 import statistics
 import subprocess
 import time
-import unittest
 
 from study_case import CONFIGS, SWARMANOID, StudyCase
 
@@ -129,7 +128,3 @@ class Search(StudyCase):
         nowhere = FACTORS.replace("<metrics>", '<metrics><time_to_region id="late" centre="0.2,0.2" radius="0.001" aggregate="min"/>')
         self.assertRegex(self.command("sweep", self.study('metric="late.min" runs="30"', nowhere), "--output", "none", code=3).stderr,
                          r"study\.xml:3:1: where the search begins, .* not all runs have a value")
-
-
-if __name__ == "__main__":
-    unittest.main()

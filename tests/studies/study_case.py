@@ -2,23 +2,22 @@
 import csv
 import os
 import pathlib
-import shutil
 import sqlite3
 import subprocess
 import tempfile
 import time
-import unittest
+
+from world.case import FolderCase
 
 SWARMANOID = os.environ["SWARMANOID"]
 CONFIGS = pathlib.Path(os.environ["SWARMANOID_CONFIGS"])
 LIMIT_S = 250
 
 
-class StudyCase(unittest.TestCase):
+class StudyCase(FolderCase):
     def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="swarmanoid_study_"))
-        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
-        self.environment = {**os.environ, "SWARMANOID_SHARED_FOLDER": str(self.folder)}
+        super().setUp()
+        self.environment = self.variables
 
     def command(self, *words, code=0):
         done = subprocess.run([SWARMANOID, *map(str, words)], cwd=self.folder, capture_output=True, text=True, timeout=LIMIT_S,

@@ -1,23 +1,20 @@
 """Studies on two machines by ssh: two sshd on this machine. The table has to be that of one machine whatever happens to the others, and
 nothing may be left there."""
 import contextlib
+import functools
 import os
 import pathlib
 import re
 import shutil
 import signal
 import subprocess
-import sys
 import time
-import unittest
 
-TESTS = pathlib.Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(TESTS / "cluster"))
+from harness import children_of, words_of
+from ssh_machines import Machines, require_servers
+from study_case import CONFIGS, SWARMANOID, StartedStudyCase
 
-from harness import children_of, words_of  # noqa: E402
-from ssh_machines import Machines, require_servers  # noqa: E402
-from study_case import CONFIGS, SWARMANOID, StartedStudyCase  # noqa: E402
-
+setUpModule = functools.partial(require_servers, terminals=False)
 FINISHED = re.compile(r"^finished: (\d+) runs, (\d+) failed, [0-9.]+ s, table (\S+)$", re.MULTILINE)
 
 
@@ -254,8 +251,3 @@ class SweepHosts(StartedStudyCase):
         out, _ = self.sweep("small/out", "--resume", "--hosts", self.hosts("runs = alpha beta"))
         self.assertEqual(FINISHED.search(out)[1], "200")
         self.assertGreater(done, 0)
-
-
-if __name__ == "__main__":
-    require_servers(terminals=False)
-    unittest.main()

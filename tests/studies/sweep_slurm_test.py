@@ -1,19 +1,13 @@
 """Studies by Slurm, which runs on this machine."""
 import os
-import pathlib
 import re
-import shutil
 import signal
 import subprocess
-import sys
-import tempfile
 
-TESTS = pathlib.Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(TESTS / "cluster"))
+import slurm
+from study_case import StartedStudyCase
 
-from harness import end  # noqa: E402
-from slurm import Slurm, main  # noqa: E402
-from study_case import StartedStudyCase  # noqa: E402
+setUpModule = slurm.require
 
 FINISHED = re.compile(r"^finished: (\d+) runs, (\d+) failed, [0-9.]+ s, table (\S+)$", re.MULTILINE)
 
@@ -21,13 +15,7 @@ FINISHED = re.compile(r"^finished: (\d+) runs, (\d+) failed, [0-9.]+ s, table (\
 class SweepSlurm(StartedStudyCase):
     @classmethod
     def setUpClass(cls):
-        cls.top = pathlib.Path(tempfile.mkdtemp(prefix="swarmanoid_slurm_"))
-        cls.addClassCleanup(shutil.rmtree, cls.top, ignore_errors=True)
-        # Others reach the socket of munge.
-        cls.top.chmod(0o755)
-        (cls.top / "slurm").mkdir()
-        cls.slurm = Slurm(cls.top / "slurm")
-        cls.addClassCleanup(cls.slurm.stop)
+        cls.top, cls.slurm = slurm.running_for(cls)
 
     def setUp(self):
         self.folder = self.top / self.id().rsplit(".", 1)[1]
@@ -180,7 +168,3 @@ class SweepSlurm(StartedStudyCase):
         out, _ = self.sweep("small/out", "--resume", "--slurm", "", "--retries", "3")
         self.assertEqual(FINISHED.search(out).groups()[:2], ("40", "0"))
         self.assertEqual((self.folder / "small/out/table.csv").read_bytes(), self.here(study))
-
-
-if __name__ == "__main__":
-    main()

@@ -9,7 +9,6 @@ import sqlite3
 import statistics
 import subprocess
 import time
-import unittest
 
 from study_case import CONFIGS, SWARMANOID, StudyCase
 
@@ -238,7 +237,3 @@ class Sweep(StudyCase):
         with open(self.folder / "mine.xml", "a") as file:
             file.write("<!-- another one -->\n")
         self.assertIn("has changed since 'out' was begun", self.sweep("out", "--resume", code=2).stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

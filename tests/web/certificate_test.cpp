@@ -11,9 +11,10 @@
 #include <boost/beast/websocket/ssl.hpp>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
-#include "tests/web/web_client.h"
+#include "tests/web/blocking_client.h"
+#include "tests/world/message_of.h"
+#include "tests/world/temporary_folder.h"
 #include "visualiser/web/web_server.h"
 
 namespace swarmanoid
@@ -32,12 +33,9 @@ class CertificateTest : public testing::Test, public WebServerEvents
 protected:
   CertificateTest()
   {
-    folder_ = std::filesystem::temp_directory_path() / ("swarmanoid_certificate_" + std::to_string(getpid()));
-    file_ = folder_ / "certificate.pem";
     files_.Add("/index.html", "text/html; charset=utf-8", "<p>page</p>");
     context_.set_verify_mode(asio::ssl::verify_peer);
   }
-  ~CertificateTest() override { std::filesystem::remove_all(folder_); }
 
   void Start(const Certificate& certificate)
   {
@@ -63,20 +61,14 @@ protected:
   }
   void Left(std::uint64_t) override {}
 
-  std::filesystem::path folder_, file_;
+  test::TemporaryFolder folder_;
+  std::filesystem::path file_ = folder_ / "certificate.pem";
   PageFiles files_;
   WebServerSettings settings_;
   std::unique_ptr<WebServer> server_;
   asio::io_context io_;
   asio::ssl::context context_{asio::ssl::context::tls_client};
 };
-
-std::string TextOf(const std::filesystem::path& path)
-{
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
 
 TEST_F(CertificateTest, IsKeptForTheNextRunAndOnlyForItsUser)
 {
@@ -97,11 +89,10 @@ TEST_F(CertificateTest, IsKeptForTheNextRunAndOnlyForItsUser)
 
 TEST_F(CertificateTest, ABrokenFileIsMadeAnew)
 {
-  std::filesystem::create_directories(folder_);
   std::ofstream(file_) << "no certificate";
   std::filesystem::permissions(file_, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
   const Certificate made = OwnCertificate(file_, {"localhost"});
-  EXPECT_EQ(TextOf(file_), made.chain);
+  EXPECT_EQ(test::TextOf(file_), made.chain);
   EXPECT_THAT(OwnCertificate({}, {"localhost"}).chain, StartsWith("-----BEGIN CERTIFICATE-----"));
 }
 
@@ -113,15 +104,7 @@ TEST_F(CertificateTest, AGivenOneIsCheckedWhenTheServerStarts)
   const auto mistake = [&](const std::string& text)
   {
     std::ofstream(folder_ / "given.pem") << text;
-    try
-    {
-      GivenCertificate(folder_ / "given.pem");
-    }
-    catch (const std::runtime_error& error)
-    {
-      return std::string(error.what());
-    }
-    return std::string();
+    return test::MessageOf<std::runtime_error>([&] { GivenCertificate(folder_ / "given.pem"); });
   };
   const std::string end = "-----END CERTIFICATE-----\n";
   const std::string chain = one.chain.substr(0, one.chain.find(end) + end.size());
@@ -129,15 +112,8 @@ TEST_F(CertificateTest, AGivenOneIsCheckedWhenTheServerStarts)
   EXPECT_THAT(mistake("nothing"), HasSubstr("given.pem' has no certificate"));
   EXPECT_THAT(mistake(chain), HasSubstr("given.pem' has no private key"));
   EXPECT_THAT(mistake(chain + key), HasSubstr("the private key is not that of the first certificate"));
-  try
-  {
-    GivenCertificate(folder_ / "missing.pem");
-    FAIL();
-  }
-  catch (const std::runtime_error& error)
-  {
-    EXPECT_THAT(error.what(), HasSubstr("missing.pem': No such file or directory"));
-  }
+  EXPECT_THAT(test::MessageOf<std::runtime_error>([&] { GivenCertificate(folder_ / "missing.pem"); }),
+              HasSubstr("missing.pem': No such file or directory"));
 }
 
 TEST_F(CertificateTest, PageAndStreamAreServedByTls)
@@ -194,12 +170,12 @@ TEST_F(CertificateTest, AnotherServerIsNotTakenForThisOne)
 TEST_F(CertificateTest, PlainHttpIsSentToTheOtherAddressAndOldTlsIsRefused)
 {
   Start(OwnCertificate({}, {"127.0.0.1"}));
-  WebClient plain(server_->Port());
+  BlockingClient plain(server_->Port());
   const auto answer = plain.Get("/?x=1");
   EXPECT_EQ(answer.result_int(), 308U);
   EXPECT_EQ(answer["Location"], "https://" + Host() + "/?x=1");
-  EXPECT_EQ(WebClient(server_->Port()).Open(), 308U);
-  EXPECT_EQ(WebClient(server_->Port()).Get("/", "evil.example").result_int(), 403U);
+  EXPECT_EQ(BlockingClient(server_->Port()).Open(), 308U);
+  EXPECT_EQ(BlockingClient(server_->Port()).Get("/", "evil.example").result_int(), 403U);
 
   SSL_CTX_set_security_level(context_.native_handle(), 0);
   SSL_CTX_set_min_proto_version(context_.native_handle(), TLS1_1_VERSION);

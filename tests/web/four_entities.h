@@ -3,6 +3,7 @@
 
 #include "common/messages/assignment.h"
 #include "common/space/space.h"
+#include "tests/world/small_experiment.h"
 
 namespace swarmanoid
 {
@@ -18,28 +19,13 @@ struct FourEntities
     Experiment experiment;
     experiment.name = "small";
     experiment.arena_size = {4, 4, 2};
-    experiment.entities = {Entity(EntityKind::kFootbot, "fb_0", {1, 1, 0}, {0.085, 0.085, 0.147}, true),
-                           Entity(EntityKind::kEyebot, "eb_0", {2, 2, 1.5}, {0.25, 0.25, 0.566}, true),
-                           Entity(EntityKind::kCylindricPrey, "prey", {3, 2, 0}, {0.1, 0.1, 0.2}, true),
-                           Entity(EntityKind::kGroundPatch, "nest", {3, 3, 0}, {1, 1, 0}, false)};
-    EngineConfiguration engine;
-    engine.tag = "dummy_engine";
-    engine.id = "ground";
-    engine.entities = {0, 1, 2, 3};
-    experiment.engines = {engine};
+    test::Add(experiment, test::Entity(EntityKind::kFootbot, "fb_0", {1, 1, 0}, {0.085, 0.085, 0.147}, true));
+    test::Add(experiment, test::Entity(EntityKind::kEyebot, "eb_0", {2, 2, 1.5}));
+    test::Add(experiment, test::Entity(EntityKind::kCylindricPrey, "prey", {3, 2, 0}, {0.1, 0.1, 0.2}, true));
+    test::Add(experiment, test::Entity(EntityKind::kGroundPatch, "nest", {3, 3, 0}, {1, 1, 0}, false));
+    experiment.engines[0].tag = "dummy_engine";
+    experiment.engines[0].id = "ground";
     return experiment;
-  }
-
-  static EntityConfiguration Entity(EntityKind kind, const std::string& id, const Vector3& position,
-                                    const Vector3& size, bool movable)
-  {
-    EntityConfiguration entity;
-    entity.kind = kind;
-    entity.id = id;
-    entity.pose.position = position;
-    entity.size = size;
-    entity.movable = movable;
-    return entity;
   }
 };
 

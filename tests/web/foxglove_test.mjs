@@ -1,65 +1,27 @@
 // foxglove_render, heard by the public client of its protocol: what it tells is what `export --mcap` writes of the same run; who
 // comes late, goes, or asks for nonsense; who is not let in.
-import { execFileSync, spawn, spawnSync } from 'node:child_process';
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import http from 'node:http';
-import { createRequire } from 'node:module';
-import net from 'node:net';
-import os from 'node:os';
 import path from 'node:path';
-import { after, before, test } from 'node:test';
+import { after, test } from 'node:test';
+import { endAll, eventually, folder, freePort, load, Process, textOf, wait, write } from './harness.mjs';
 
-const require = createRequire(path.join(process.env.PAGE_MODULES, 'none.js'));
-const { FoxgloveClient } = require('@foxglove/ws-protocol');
-const { McapIndexedReader } = require('@mcap/core');
-const WebSocket = require('ws');
-const fzstd = require('fzstd');
+const { FoxgloveClient } = load('@foxglove/ws-protocol');
+const { McapIndexedReader } = load('@mcap/core');
+const WebSocket = load('ws');
+const fzstd = load('fzstd');
 
 const decompressHandlers = { zstd: (bytes, size) => fzstd.decompress(bytes, new Uint8Array(Number(size))) };
-let folder, environment;
-const processes = [];
+after(() => endAll('SIGKILL'));
 
-before(() => {
-  folder = fs.mkdtempSync(path.join(os.tmpdir(), 'swarmanoid_foxglove_'));
-  environment = { ...process.env, SWARMANOID_SHARED_FOLDER: path.join(folder, 'shared') };
-});
-after(() => {
-  for (const one of processes) if (one.exitCode === null) one.kill('SIGKILL');
-  fs.rmSync(folder, { recursive: true, force: true });
-});
+const experiment = (visualisation) =>
+  write('experiment.xml', textOf('epuck_mixed').replace(/<visualisations>[^]*<\/visualisations>/, visualisation ? `<visualisations>${visualisation}</visualisations>` : ''));
 
-async function freePort() {
-  const server = net.createServer().listen(0, '127.0.0.1');
-  await new Promise((resolve) => server.once('listening', resolve));
-  const { port } = server.address();
-  await new Promise((resolve) => server.close(resolve));
-  return port;
-}
-
-function experiment(visualisation) {
-  const file = path.join(folder, 'experiment.xml');
-  const text = fs.readFileSync(path.join(process.env.SWARMANOID_CONFIGS, 'epuck_mixed.xml'), 'utf8');
-  fs.writeFileSync(file, text.replace(/<visualisations>[^]*<\/visualisations>/, visualisation ? `<visualisations>${visualisation}</visualisations>` : ''));
-  return file;
-}
-
-function start(...words) {
-  const started = spawn(process.env.SWARMANOID, words, { cwd: folder, env: environment, stdio: ['ignore', 'pipe', 'pipe'] });
-  started.text = '';
-  for (const stream of [started.stdout, started.stderr]) stream.on('data', (data) => { started.text += data; });
-  started.ended = new Promise((resolve) => started.once('close', resolve));
-  processes.push(started);
-  return started;
-}
-
-async function until(what, condition) {
-  for (let k = 0; k < 10000; ++k) {
-    const found = condition();
-    if (found) return found;
-    await new Promise((resolve) => setTimeout(resolve, 10));
-  }
-  throw new Error(`${what} does not come; said so far: ${processes.map(({ text }) => text).join('; ')}`);
+// The command, until its end.
+async function command(...words) {
+  const done = new Process(...words);
+  assert.equal(await done.ended, 0, done.output);
 }
 
 // Whoever listens at a port; its messages by topic.
@@ -86,18 +48,18 @@ async function look(port, topics) {
       return seen;
     } catch (error) {
       if (k > 1000) throw error;
-      await new Promise((resolve) => setTimeout(resolve, 10));
+      await wait(10);
     }
   }
 }
 
 test('what it tells is what an export has', async () => {
   const port = await freePort();
-  const run = start('run', experiment(`<foxglove_render id="f" port="${port}"/>`), '--ticks', '200', '--real-time', '5', '--paused', '--output', 'run');
+  const run = new Process('run', experiment(`<foxglove_render id="f" port="${port}"/>`), '--ticks', '200', '--real-time', '5', '--paused', '--output', 'run');
   const seen = await look(port, ['/tf_static', '/tf', '/scene', '/attributes']);
-  await until('the first tick', () => seen.messages['/tf']);
-  execFileSync(process.env.SWARMANOID, ['control', 'resume'], { cwd: folder, env: environment });
-  assert.equal(await run.ended, 0, run.text);
+  await eventually('the first tick', () => seen.messages['/tf']);
+  await command('control', 'resume');
+  assert.equal(await run.ended, 0, run.output);
   assert.equal(seen.info.name, 'Swarmanoid: experiment');
   assert.deepEqual(seen.info.supportedEncodings, ['json']);
   assert.deepEqual([...seen.channels.values()].map((channel) => [channel.topic, channel.schemaName, channel.encoding, channel.schemaEncoding]), [
@@ -105,7 +67,7 @@ test('what it tells is what an export has', async () => {
     ['/scene', 'foxglove.SceneUpdate', 'json', 'jsonschema'], ['/attributes', 'swarmanoid.Attributes', 'json', 'jsonschema']]);
   for (const channel of seen.channels.values()) assert.equal(JSON.parse(channel.schema).title, channel.schemaName);
 
-  execFileSync(process.env.SWARMANOID, ['export', 'run', '--mcap', 'run.mcap'], { cwd: folder, env: environment });
+  await command('export', 'run', '--mcap', 'run.mcap');
   const bytes = fs.readFileSync(path.join(folder, 'run.mcap'));
   const reader = await McapIndexedReader.Initialize({
     readable: { size: async () => BigInt(bytes.length), read: async (offset, length) => new Uint8Array(bytes.subarray(Number(offset), Number(offset + length))) },
@@ -134,41 +96,39 @@ test('what it tells is what an export has', async () => {
 
 test('attached to a paused run, it tells what is there to everybody who comes', async () => {
   const port = await freePort();
-  const run = start('run', experiment(''), '--paused', '--output', 'paused');
-  await until('the run', () => run.text.includes('paused') || run.exitCode !== null);
-  const shown = start('attach', 'foxglove', '--port', String(port));
+  const run = new Process('run', experiment(''), '--paused', '--output', 'paused');
+  await eventually('the run', () => run.output.includes('paused') || run.code !== undefined);
+  const shown = new Process('attach', 'foxglove', '--port', String(port));
   for (let round = 0; round < 2; ++round) {
     const seen = await look(port, ['/tf', '/scene']);
-    await until('a message', () => seen.messages['/tf'] && seen.messages['/scene']);
+    await eventually('a message', () => seen.messages['/tf'] && seen.messages['/scene']);
     assert.equal(seen.messages['/tf'][0].timestamp, BigInt(round) * 500_000_000n);
     assert.equal(JSON.parse(seen.messages['/tf'][0].text).transforms.length, 17);
 
     seen.socket.send('{"op": "dance"}');
     seen.socket.send('{"op": "subscribe", "subscriptions": [{"id": 77, "channelId": 9}]}');
     seen.socket.send('nonsense');
-    await until('a complaint', () => seen.complaints.length === 3);
+    await eventually('a complaint', () => seen.complaints.length === 3);
     assert.deepEqual(seen.complaints.map(({ level }) => level), [1, 2, 2]);
     assert.equal(seen.complaints[0].message, "this server does not do 'dance'");
     assert.equal(seen.complaints[1].message, 'there is no channel 9');
 
     seen.client.unsubscribe(seen.subscriptions['/tf']);
     seen.socket.send('{"op": "dance"}');  // answered after that
-    await until('an answer', () => seen.complaints.length === 4);
+    await eventually('an answer', () => seen.complaints.length === 4);
     const count = seen.messages['/tf'].length;
-    execFileSync(process.env.SWARMANOID, ['control', 'step', '5'], { cwd: folder, env: environment });
-    await until('the time', () => seen.times.includes(BigInt(round + 1) * 500_000_000n));
+    await command('control', 'step', '5');
+    await eventually('the time', () => seen.times.includes(BigInt(round + 1) * 500_000_000n));
     assert.equal(seen.messages['/tf'].length, count);
     seen.client.close();
   }
-  shown.kill('SIGINT');
-  assert.equal(await shown.ended, 130, shown.text);
-  run.kill('SIGINT');
-  await run.ended;
+  assert.equal(await shown.end(), 130, shown.output);
+  await run.end();
 });
 
 test('who is not let in', async () => {
   const port = await freePort();
-  const run = start('run', experiment(`<foxglove_render id="f" port="${port}" origins="https://a.example, https://b.example"/>`), '--paused', '--output', 'doors');
+  const run = new Process('run', experiment(`<foxglove_render id="f" port="${port}" origins="https://a.example, https://b.example"/>`), '--paused', '--output', 'doors');
   (await look(port, [])).client.close();
   const answer = (headers) => new Promise((resolve, reject) => {
     const request = http.request({ host: '127.0.0.1', port, headers: {
@@ -190,10 +150,8 @@ test('who is not let in', async () => {
   assert.deepEqual(await answer({ 'Sec-WebSocket-Protocol': 'other.v1' }), [400, 'the subprotocol is foxglove.websocket.v1\n']);
   assert.equal((await answer({ Connection: 'close', Upgrade: '' }))[0], 426);
 
-  const second = spawnSync(process.env.SWARMANOID, ['run', experiment(`<foxglove_render id="f" port="${port}"/>`), '--single-process', '--output', 'second'],
-                           { cwd: folder, env: environment, encoding: 'utf8' });
-  assert.notEqual(second.status, 0);
-  assert.match(second.stderr, new RegExp(`cannot listen at 127.0.0.1:${port}: Address already in use; choose another <port>`));
-  run.kill('SIGINT');
-  await run.ended;
+  const second = new Process('run', experiment(`<foxglove_render id="f" port="${port}"/>`), '--single-process', '--output', 'second');
+  assert.notEqual(await second.ended, 0);
+  assert.match(second.output, new RegExp(`cannot listen at 127.0.0.1:${port}: Address already in use; choose another <port>`));
+  await run.end();
 });

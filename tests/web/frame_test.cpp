@@ -1,13 +1,13 @@
 #include "visualiser/web/state_frame.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>
 #include <random>
 
 #include "tests/web/four_entities.h"
+#include "tests/world/small_experiment.h"
 
 namespace swarmanoid
 {
@@ -36,8 +36,8 @@ Experiment AThousandFootbots()
   Experiment experiment;
   experiment.arena_size = {100, 100, 1};
   for (int i = 0; i < 1000; ++i)
-    experiment.entities.push_back(FourEntities::Entity(EntityKind::kFootbot, "fb_" + std::to_string(i), {i * 0.1, 1, 0},
-                                                       {0.085, 0.085, 0.147}, true));
+    experiment.entities.push_back(
+        test::Entity(EntityKind::kFootbot, "fb_" + std::to_string(i), {i * 0.1, 1, 0}, {0.085, 0.085, 0.147}, true));
   return experiment;
 }
 

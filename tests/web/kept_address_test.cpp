@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "tests/world/temporary_folder.h"
 #include "visualiser/web/access.h"
 
 namespace swarmanoid
@@ -17,16 +18,10 @@ namespace
 class KeptAddressTest : public testing::Test
 {
 protected:
-  KeptAddressTest()
-  {
-    std::string name = (std::filesystem::temp_directory_path() / "swarmanoid_kept_XXXXXX").string();
-    folder_ = std::filesystem::path(mkdtemp(name.data())) / "state";
-  }
-  ~KeptAddressTest() override { std::filesystem::remove_all(folder_.parent_path()); }
-
   std::filesystem::path File() const { return std::filesystem::directory_iterator(folder_)->path(); }
 
-  std::filesystem::path folder_;
+  test::TemporaryFolder parent_;
+  std::filesystem::path folder_ = parent_ / "state";
 };
 
 TEST_F(KeptAddressTest, TheNextStartOfAnExperimentHasPortAndTokenOfTheLast)

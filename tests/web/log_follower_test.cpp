@@ -1,11 +1,11 @@
 #include "visualiser/web/log_follower.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <vector>
+
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -18,9 +18,6 @@ using testing::IsEmpty;
 class LogFollowerTest : public testing::Test
 {
 protected:
-  LogFollowerTest() { std::filesystem::create_directories(folder_); }
-  ~LogFollowerTest() override { std::filesystem::remove_all(folder_); }
-
   void Append(const std::string& name, const std::string& text)
   {
     std::ofstream(folder_ / name, std::ios::app | std::ios::binary) << text;
@@ -32,8 +29,7 @@ protected:
     return lines;
   }
 
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("swarmanoid_logs_" + std::to_string(getpid()));
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(LogFollowerTest, WholeLinesComeOnceAndOnlyFromLogs)

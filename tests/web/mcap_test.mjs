@@ -2,19 +2,16 @@
 import { execFileSync, spawnSync } from 'node:child_process';
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
-import { createRequire } from 'node:module';
-import os from 'node:os';
 import path from 'node:path';
-import { after, before, test } from 'node:test';
+import { before, test } from 'node:test';
+import { folder, experiment, load, textOf, write } from './harness.mjs';
 
-const require = createRequire(path.join(process.env.PAGE_MODULES, 'none.js'));
-const { McapIndexedReader, McapStreamReader, McapConstants } = require('@mcap/core');
-const fzstd = require('fzstd');
+const { McapIndexedReader, McapStreamReader, McapConstants } = load('@mcap/core');
+const fzstd = load('fzstd');
 
 const decompressHandlers = { zstd: (bytes, size) => fzstd.decompress(bytes, new Uint8Array(Number(size))) };
 const TICKS = 400;
 const NS_PER_TICK = 100_000_000n;
-let folder;
 
 function swarmanoid(...words) {
   return execFileSync(process.env.SWARMANOID, words, { cwd: folder, encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] });
@@ -47,16 +44,11 @@ function table(...words) {
 }
 
 before(() => {
-  folder = fs.mkdtempSync(path.join(os.tmpdir(), 'swarmanoid_mcap_'));
-  process.env.SWARMANOID_SHARED_FOLDER = folder;
-  process.env.XDG_STATE_HOME = folder;
-  fs.writeFileSync(path.join(folder, 'events.csv'), 'tick,request,entity,numbers\n120,move,fb_3,1.5 1.25 0\n');
-  const experiment = fs.readFileSync(path.join(process.env.SWARMANOID_CONFIGS, 'diffusion_10.xml'), 'utf8');
-  fs.writeFileSync(path.join(folder, 'experiment.xml'), experiment);
+  write('events.csv', 'tick,request,entity,numbers\n120,move,fb_3,1.5 1.25 0\n');
+  write('experiment.xml', textOf('diffusion_10'));
   swarmanoid('run', 'experiment.xml', '--ticks', TICKS, '--quiet', '--no-visualisers', '--events', 'events.csv', '--output', 'out');
   swarmanoid('export', 'out', '--mcap', 'run.mcap');
 });
-after(() => fs.rmSync(folder, { recursive: true, force: true }));
 
 test('the indexes lead to all messages, and the checksums are right', async () => {
   const reader = await open('run.mcap');
@@ -103,8 +95,7 @@ test('poses and LEDs are those of the table, bit by bit', async () => {
 });
 
 test('the scene is written whole whenever LEDs change, which are where their robots have them', async () => {
-  const experiment = path.join(process.env.SWARMANOID_CONFIGS, 'prey_retrieval.xml');
-  swarmanoid('run', experiment, '--quiet', '--no-visualisers', '--output', 'prey');
+  swarmanoid('run', experiment('prey_retrieval'), '--quiet', '--no-visualisers', '--output', 'prey');
   swarmanoid('export', 'prey', '--mcap', 'prey.mcap', '--until', 400);
   const all = await messages(await open('prey.mcap'));
   const at = (topic) => new Map(all.filter((message) => message.topic === topic).map((message) => [message.logTime, message.content]));

@@ -1,7 +1,6 @@
 #include "visualiser/web/page_messages.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
@@ -9,6 +8,8 @@
 #include <stdexcept>
 
 #include "tests/web/four_entities.h"
+#include "tests/world/fake_run.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid
 {
@@ -53,17 +54,7 @@ TEST(WebMessages, RequestsAreRead)
 TEST(WebMessages, EverythingElseIsRefusedWithAReason)
 {
   const auto refusal = [](const std::string& text) -> std::string
-  {
-    try
-    {
-      ParseRequest(text);
-    }
-    catch (const std::invalid_argument& error)
-    {
-      return error.what();
-    }
-    return "";
-  };
+  { return test::MessageOf<std::invalid_argument>([&] { ParseRequest(text); }); };
   EXPECT_THAT(refusal("{"), HasSubstr("JSON"));
   EXPECT_THAT(refusal("[1]"), HasSubstr("JSON"));
   EXPECT_THAT(refusal("\xff\xfe"), HasSubstr("JSON"));
@@ -209,26 +200,12 @@ TEST(WebMessages, WhoeverLooksMayLookBack)
 TEST(WebMessages, ReadingsMayBeAnyNumber)
 {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  class Monitor : public RunMonitor
-  {
-  public:
-    const RunStatus& Status() override { return status_; }
-    std::span<const RunNote> Notes() override { return {}; }
-    void Watch(std::span<const std::uint32_t>) override {}
-    const RobotStatus* Robot(std::uint32_t) override { return &robot_; }
-
-  private:
-    RunStatus status_;
-    RobotStatus robot_{.controller = "c",
-                       .text = {},
-                       .state = {},
-                       .sensors = {{"eyebot_altitude",
-                                    {{"ground", "m", kInfinity}, {"drift", "rad", std::nan("")}, {"sum", "", 1.5}}}},
-                       .actuators = {{"footbot_wheels", {{"left", "rad/s", -kInfinity}}}}};
-  };
   const FourEntities world;
   const std::vector<std::uint32_t> watched{0};
-  Monitor monitor;
+  test::FakeMonitor monitor;
+  monitor.inside.sensors = {
+      {"eyebot_altitude", {{"ground", "m", kInfinity}, {"drift", "rad", std::nan("")}, {"sum", "", 1.5}}}};
+  monitor.inside.actuators = {{"footbot_wheels", {{"left", "rad/s", -kInfinity}}}};
   const auto json = nlohmann::json::parse(WatchedText(world.space, watched, &monitor))["entities"][0];
   EXPECT_EQ(json["sensors"][0]["values"], nlohmann::json({nullptr, nullptr, 1.5}));
   EXPECT_EQ(json["actuators"][0]["values"], nlohmann::json::array({nullptr}));

@@ -1,8 +1,7 @@
 // The parts of the page's plan that need no browser.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { floorGrid, gridStep, palette } from "../../visualiser/web/page/src/view/look.js";
@@ -10,6 +9,7 @@ import { outline } from "../../visualiser/web/page/src/view/plan/bodies.js";
 import { DotSprites } from "../../visualiser/web/page/src/view/plan/dots.js";
 import { scaleLength } from "../../visualiser/web/page/src/view/overlay.js";
 import { TrailRecord } from "../../visualiser/web/page/src/view/trail_record.js";
+import { folder } from "./harness.mjs";
 
 globalThis.window = { addEventListener() {} };
 const { PlanCamera } = await import("../../visualiser/web/page/src/view/plan/camera.js");
@@ -132,10 +132,8 @@ test("no grid has more than 14 cells along a side, nor so few that it tells noth
 });
 
 test("palette and grid are those of all renderers", { skip: !process.env.WRITE_MESHES }, () => {
-  const folder = mkdtempSync(join(tmpdir(), "swarmanoid_palette_"));
   execFileSync(process.env.WRITE_MESHES, [join(folder, "meshes.json")]);
   const meshes = JSON.parse(readFileSync(join(folder, "meshes.json"), "utf8"));
   assert.deepEqual(palette, meshes.palette);
   assert.deepEqual(floorGrid, meshes.floor_grid);
-  rmSync(folder, { recursive: true });
 });

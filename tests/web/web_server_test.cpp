@@ -7,7 +7,8 @@
 #include <thread>
 
 #include "tests/eventually.h"
-#include "tests/web/web_client.h"
+#include "tests/web/blocking_client.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid
 {
@@ -31,7 +32,7 @@ protected:
     settings_.max_message_bytes = 1000;
   }
   void Start() { server_ = std::make_unique<WebServer>(settings_, files_, *this); }
-  WebClient Connect() { return WebClient(server_->Port()); }
+  BlockingClient Connect() { return BlockingClient(server_->Port()); }
 
   std::string Welcome(std::uint64_t client) override
   {
@@ -52,7 +53,7 @@ protected:
 TEST_F(WebServerTest, FilesAreServedWithTheirTypesAndNothingElseIs)
 {
   Start();
-  WebClient client = Connect();
+  BlockingClient client = Connect();
   const auto page = client.Get("/");
   EXPECT_EQ(page.result_int(), 200u);
   EXPECT_EQ(page.body(), "<p>page</p>");
@@ -110,7 +111,7 @@ TEST_F(WebServerTest, OddRequestsAreRefused)
 TEST_F(WebServerTest, PagesOfOtherSitesMayNotLook)
 {
   Start();
-  WebClient own = Connect();
+  BlockingClient own = Connect();
   EXPECT_EQ(own.Open("/stream", "http://" + own.Host()), 101u);
   EXPECT_EQ(Connect().Open("/stream", "http://evil.example"), 403u);
   EXPECT_EQ(Connect().Open("/stream", "null"), 403u);
@@ -126,7 +127,7 @@ TEST_F(WebServerTest, WhoComesLateGetsGreetingHistoryAndLatestState)
   server_->SendAll(Shared(R"({"type": "log", "text": "one"})"));
   server_->Publish(WebServer::Slot::kStatus, Shared(R"({"type": "status", "tick": 1})"));
   server_->Publish(WebServer::Slot::kStatus, Shared(R"({"type": "status", "tick": 2})"));
-  WebClient client = Connect();
+  BlockingClient client = Connect();
   ASSERT_EQ(client.Open(), 101u);
   EXPECT_EQ(nlohmann::json::parse(client.Read())["type"], "welcome");
   EXPECT_EQ(nlohmann::json::parse(client.Read())["type"], "world");
@@ -137,8 +138,8 @@ TEST_F(WebServerTest, WhoComesLateGetsGreetingHistoryAndLatestState)
 TEST_F(WebServerTest, AClientThatDoesNotReadGetsTheLatestFrameAndHoldsUpNobody)
 {
   Start();
-  WebClient slow = Connect();
-  WebClient fast = Connect();
+  BlockingClient slow = Connect();
+  BlockingClient fast = Connect();
   ASSERT_EQ(slow.Open(), 101u);
   ASSERT_EQ(fast.Open(), 101u);
   fast.ReadUntil("welcome");
@@ -169,9 +170,9 @@ TEST_F(WebServerTest, AClientThatDoesNotReadGetsTheLatestFrameAndHoldsUpNobody)
 TEST_F(WebServerTest, ClientsAboveTheLimitAreRefusedUntilOneLeaves)
 {
   Start();
-  auto first = std::make_unique<WebClient>(server_->Port());
-  WebClient second = Connect();
-  WebClient third = Connect();
+  auto first = std::make_unique<BlockingClient>(server_->Port());
+  BlockingClient second = Connect();
+  BlockingClient third = Connect();
   EXPECT_EQ(first->Open(), 101u);
   EXPECT_EQ(second.Open(), 101u);
   EXPECT_EQ(third.Open(), 101u);
@@ -187,14 +188,14 @@ TEST_F(WebServerTest, ClientsAboveTheLimitAreRefusedUntilOneLeaves)
 TEST_F(WebServerTest, ConnectionsThatAskNothingMakeRoomForOthers)
 {
   Start();
-  std::vector<std::unique_ptr<WebClient>> idle;
+  std::vector<std::unique_ptr<BlockingClient>> idle;
   for (int k = 0; k < 300; ++k)
   {
-    idle.push_back(std::make_unique<WebClient>(server_->Port()));
+    idle.push_back(std::make_unique<BlockingClient>(server_->Port()));
     if (k % 50 != 49) continue;
-    WebClient asking(server_->Port());
+    BlockingClient asking(server_->Port());
     EXPECT_EQ(asking.Get("/").result_int(), 200U) << k;
-    WebClient looking(server_->Port());
+    BlockingClient looking(server_->Port());
     EXPECT_EQ(looking.Open(), 101U) << k;
   }
 }
@@ -205,13 +206,13 @@ TEST_F(WebServerTest, AClientThatShowsTheTokenHasAPlaceWhenStrangersHoldAllOther
   settings_.proof_time = 1h;
   Start();
   server_->SetGreeting(Shared(R"({"type": "world"})"));
-  std::vector<std::unique_ptr<WebClient>> strangers;
+  std::vector<std::unique_ptr<BlockingClient>> strangers;
   for (int k = 0; k < 3; ++k)
   {
-    strangers.push_back(std::make_unique<WebClient>(server_->Port()));
+    strangers.push_back(std::make_unique<BlockingClient>(server_->Port()));
     ASSERT_EQ(strangers.back()->Open(), 101U);
   }
-  WebClient owner = Connect();
+  BlockingClient owner = Connect();
   ASSERT_EQ(owner.Open(), 101U);
   const std::uint64_t id = owner.ReadUntil("welcome")["client"];
   EXPECT_EQ(server_->Clients(), 3U);
@@ -231,10 +232,10 @@ TEST_F(WebServerTest, AClientThatShowsTheTokenLeavesItsFirstPlaceToOthers)
   settings_.max_holders = 1;
   settings_.proof_time = 1h;
   Start();
-  WebClient owner = Connect();
+  BlockingClient owner = Connect();
   ASSERT_EQ(owner.Open(), 101U);
   server_->Admit(owner.ReadUntil("welcome")["client"]);
-  WebClient watcher = Connect();
+  BlockingClient watcher = Connect();
   ASSERT_EQ(watcher.Open(), 101U);
   watcher.ReadUntil("welcome");
   EXPECT_TRUE(Eventually([&] { return server_->Clients() == 2; }));
@@ -246,10 +247,10 @@ TEST_F(WebServerTest, AClientWithoutAPlaceThatDoesNotShowTheTokenIsSentAway)
   settings_.max_holders = 1;
   settings_.proof_time = 0ms;
   Start();
-  WebClient client = Connect();
+  BlockingClient client = Connect();
   ASSERT_EQ(client.Open(), 101U);
   client.ReadUntil("welcome");
-  WebClient::ErrorCode error;
+  BlockingClient::ErrorCode error;
   client.Read(error);
   EXPECT_EQ(error, boost::beast::websocket::error::closed);
   EXPECT_EQ(client.CloseReason().code, boost::beast::websocket::close_code::try_again_later);
@@ -261,20 +262,20 @@ TEST_F(WebServerTest, ClientsWithoutAPlaceMakeRoomForOthers)
   settings_.max_holders = 1;
   settings_.proof_time = 1h;
   Start();
-  std::vector<std::unique_ptr<WebClient>> strangers;
+  std::vector<std::unique_ptr<BlockingClient>> strangers;
   for (int k = 0; k < 100; ++k)
   {
-    strangers.push_back(std::make_unique<WebClient>(server_->Port()));
+    strangers.push_back(std::make_unique<BlockingClient>(server_->Port()));
     ASSERT_EQ(strangers.back()->Open(), 101U) << k;
   }
-  WebClient owner = Connect();
+  BlockingClient owner = Connect();
   EXPECT_EQ(owner.Get("/").result_int(), 200U);
   ASSERT_EQ(owner.Open(), 101U);
   server_->Admit(owner.ReadUntil("welcome")["client"]);
   EXPECT_TRUE(Eventually([&] { return server_->Clients() == 1; }));
   for (int k = 0; k < 100; ++k)
   {
-    strangers.push_back(std::make_unique<WebClient>(server_->Port()));
+    strangers.push_back(std::make_unique<BlockingClient>(server_->Port()));
     strangers.back()->Get("/");
   }
   owner.Send("still here");
@@ -286,10 +287,10 @@ TEST_F(WebServerTest, ConnectionsThatDoNotReadMakeRoomForOthers)
 {
   files_.Add("/large.js", "text/javascript; charset=utf-8", std::string(std::size_t{8} << 20U, ' '));
   Start();
-  std::vector<std::unique_ptr<WebClient>> slow;
+  std::vector<std::unique_ptr<BlockingClient>> slow;
   for (int k = 0; k < 100; ++k)
   {
-    slow.push_back(std::make_unique<WebClient>(server_->Port()));
+    slow.push_back(std::make_unique<BlockingClient>(server_->Port()));
     slow.back()->Write("GET /large.js HTTP/1.1\r\nHost: localhost\r\n\r\n");
     if (k % 20 != 19) continue;
     EXPECT_EQ(Connect().Get("/").result_int(), 200U) << k;
@@ -303,10 +304,10 @@ TEST_F(WebServerTest, OneAddressLeavesConnectionsForOthers)
   settings_.max_connections = 12;
   settings_.max_connections_of_address = 8;
   Start();
-  std::vector<std::unique_ptr<WebClient>> looking;
+  std::vector<std::unique_ptr<BlockingClient>> looking;
   for (int k = 0; k < 8; ++k)
   {
-    looking.push_back(std::make_unique<WebClient>(server_->Port()));
+    looking.push_back(std::make_unique<BlockingClient>(server_->Port()));
     EXPECT_EQ(looking.back()->Open(), 101U);
   }
   boost::asio::io_context context;
@@ -334,7 +335,7 @@ TEST_F(WebServerTest, WhoSendsWithoutEndIsReadAtAPace)
 {
   settings_.max_messages_per_second = 50;
   Start();
-  WebClient client = Connect();
+  BlockingClient client = Connect();
   ASSERT_EQ(client.Open(), 101U);
   client.ReadUntil("welcome");
   const auto start = std::chrono::steady_clock::now();
@@ -346,12 +347,12 @@ TEST_F(WebServerTest, WhoSendsWithoutEndIsReadAtAPace)
 TEST_F(WebServerTest, MessagesAreHeardAndTooLongOnesEndTheConnection)
 {
   Start();
-  WebClient client = Connect();
+  BlockingClient client = Connect();
   ASSERT_EQ(client.Open(), 101u);
   client.Send("join");
   EXPECT_EQ(client.ReadUntil("echo")["text"], "join");
   client.Send(std::string(1001, 'x'));
-  WebClient::ErrorCode error;
+  BlockingClient::ErrorCode error;
   for (int i = 0; i < 3 && !error; ++i) client.Read(error);
   EXPECT_TRUE(error);
   ASSERT_TRUE(Eventually([&] { return server_->Clients() == 0; }));
@@ -360,7 +361,7 @@ TEST_F(WebServerTest, MessagesAreHeardAndTooLongOnesEndTheConnection)
 TEST_F(WebServerTest, AHiddenPageGetsFewerFramesAndTheLatestWhenItIsShownAgain)
 {
   Start();
-  WebClient client = Connect();
+  BlockingClient client = Connect();
   ASSERT_EQ(client.Open(), 101u);
   client.ReadUntil("welcome");
   server_->SetFramePeriod(1, 60000);
@@ -376,7 +377,7 @@ TEST_F(WebServerTest, AKeyComesBeforeItsChangesAndEndsThoseOfTheOneBefore)
   const auto publish = [&](WebServer::Slot slot, const char* text) { server_->Publish(slot, Shared(text)); };
   publish(WebServer::Slot::kKey, "key 1");
   publish(WebServer::Slot::kChange, "change of 1");
-  WebClient late = Connect();
+  BlockingClient late = Connect();
   ASSERT_EQ(late.Open(), 101u);
   late.ReadUntil("welcome");
   EXPECT_EQ(late.Read(), "key 1");
@@ -384,7 +385,7 @@ TEST_F(WebServerTest, AKeyComesBeforeItsChangesAndEndsThoseOfTheOneBefore)
   publish(WebServer::Slot::kKey, "key 2");
   EXPECT_EQ(late.Read(), "key 2");
   // There is no change of it yet.
-  WebClient later = Connect();
+  BlockingClient later = Connect();
   ASSERT_EQ(later.Open(), 101u);
   later.ReadUntil("welcome");
   EXPECT_EQ(later.Read(), "key 2");
@@ -396,7 +397,7 @@ TEST_F(WebServerTest, AKeyComesBeforeItsChangesAndEndsThoseOfTheOneBefore)
 TEST_F(WebServerTest, AHiddenPageGetsEachKeyForTheChangesThatItWillGet)
 {
   Start();
-  WebClient client = Connect();
+  BlockingClient client = Connect();
   ASSERT_EQ(client.Open(), 101u);
   client.ReadUntil("welcome");
   server_->SetFramePeriod(1, 60000);
@@ -418,7 +419,7 @@ TEST_F(WebServerTest, AHiddenPageGetsEachKeyForTheChangesThatItWillGet)
 TEST_F(WebServerTest, AClosingServerSendsWhatIsReadyAndSaysGoodbye)
 {
   Start();
-  WebClient client = Connect();
+  BlockingClient client = Connect();
   ASSERT_EQ(client.Open(), 101u);
   client.ReadUntil("welcome");
   std::thread closing(
@@ -428,7 +429,7 @@ TEST_F(WebServerTest, AClosingServerSendsWhatIsReadyAndSaysGoodbye)
         server_.reset();
       });
   EXPECT_EQ(client.Read(), "the last");
-  WebClient::ErrorCode error;
+  BlockingClient::ErrorCode error;
   client.Read(error);
   EXPECT_EQ(error, boost::beast::websocket::error::closed);
   EXPECT_EQ(client.CloseReason().code, boost::beast::websocket::close_code::going_away);
@@ -438,7 +439,7 @@ TEST_F(WebServerTest, AClosingServerSendsWhatIsReadyAndSaysGoodbye)
 TEST_F(WebServerTest, AClosingServerWaitsForNobodyWhoDoesNotRead)
 {
   Start();
-  WebClient client = Connect();
+  BlockingClient client = Connect();
   ASSERT_EQ(client.Open(), 101u);
   ASSERT_TRUE(Eventually([&] { return server_->Clients() == 1; }));
   for (int i = 0; i < 20; ++i)
@@ -455,31 +456,16 @@ TEST_F(WebServerTest, ATakenPortIsAnErrorWithItsCure)
   Start();
   WebServerSettings same = settings_;
   same.port = server_->Port();
-  try
-  {
-    WebServer second(same, files_, *this);
-    FAIL() << "two servers on one port";
-  }
-  catch (const std::runtime_error& error)
-  {
-    EXPECT_THAT(error.what(), HasSubstr("Address already in use"));
-    EXPECT_THAT(error.what(), HasSubstr("port 0 takes a free one"));
-  }
+  const std::string mistake = test::MessageOf<std::runtime_error>([&] { WebServer second(same, files_, *this); });
+  EXPECT_THAT(mistake, HasSubstr("Address already in use"));
+  EXPECT_THAT(mistake, HasSubstr("port 0 takes a free one"));
   same.address = "nowhere";
   EXPECT_THROW(WebServer(same, files_, *this), std::runtime_error);
 }
 
 TEST(PageFiles, AFolderWithoutAPageIsAnErrorWithItsCure)
 {
-  try
-  {
-    const PageFiles files("/nonexistent");
-    FAIL() << "a page from nowhere";
-  }
-  catch (const std::runtime_error& error)
-  {
-    EXPECT_THAT(error.what(), HasSubstr("nodejs"));
-  }
+  EXPECT_THAT(test::MessageOf<std::runtime_error>([&] { const PageFiles files("/nonexistent"); }), HasSubstr("nodejs"));
 }
 
 }  // namespace

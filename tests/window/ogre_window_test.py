@@ -4,7 +4,6 @@ import display
 display.need("ogre_render")
 
 import opengl_window_test  # noqa: E402
-from harness import main  # noqa: E402
 
 
 class OgreWindow(opengl_window_test.Window):
@@ -15,7 +14,3 @@ class OgreWindow(opengl_window_test.Window):
                           environment=self.display.environment)
         self.assertEqual(run.process.returncode, 4)
         self.assertIn("'other' (ogre_render): Init at tick 0 failed: a process has one ogre_render at most", run.stderr)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,14 +1,13 @@
 """The window of opengl_render on an X server without a screen, driven by keys and mouse as a person does it."""
 import contextlib
 import math
-import os
 import re
 import shutil
 import time
-import unittest
 
 import display
-from harness import CONFIGS, LauncherTest, main
+from harness import CONFIGS, LauncherTest
+from world.case import experiment
 
 display.need("opengl_render")
 
@@ -38,21 +37,9 @@ class Window(LauncherTest):
 
     def experiment(self, render="", name="window_test"):
         """Two footbots without a controller, fb_a at 2, 2 and fb_b at 3, 1."""
-        path = self.folder / f"{name}.xml"
-        robots = "".join(f'<footbot id="{i}"><position>{p}, 0</position><orientation>0, 0, 0</orientation></footbot>'
-                         for i, p in (("fb_a", "2, 2"), ("fb_b", "3, 1")))
-        path.write_text(f"""<ahss-config>
-  <framework><clocktick>100</clocktick><maxclock>0</maxclock></framework>
-  <controllers/>
-  <arena size="4, 4, 1" optimization="2D">{robots}</arena>
-  <engines>
-    <dummy_engine id="ground"><subclock>1</subclock><perpendicular_axis>z</perpendicular_axis><distance>0</distance></dummy_engine>
-  </engines>
-  <arena_physics><engine id="ground"><entity id="fb_a"/><entity id="fb_b"/></engine></arena_physics>
-  <visualisations>{render}</visualisations>
-</ahss-config>
-""")
-        return path
+        return experiment(self.folder / f"{name}.xml", "<maxclock>0</maxclock>",
+                          arena='<footbot id="fb_a" position="2,2,0"/><footbot id="fb_b" position="3,1,0"/>', size="4,4,1",
+                          more=f"<visualisations>{render}</visualisations>")
 
     def window_element(self, extra=""):
         return (f'<{self.KIND}_render id="mainwindow"><window_size>{WIDTH}, {HEIGHT}</window_size><window_title>{TITLE}</window_title>'
@@ -324,7 +311,3 @@ class Window(LauncherTest):
         path.write_text(text.replace("</ahss-config>", f"<visualisations>{self.window_element()}</visualisations></ahss-config>"))
         watched = self.run_it("run", path, *options, environment=self.display.environment)
         self.assertEqual(self.assert_finished(watched, 8), self.assert_finished(plain, 8))
-
-
-if __name__ == "__main__":
-    main()

@@ -5,7 +5,6 @@ import subprocess
 import unittest
 
 import display
-from harness import main
 
 display.need("opengl_render")
 
@@ -19,7 +18,3 @@ class SimplestScenes(unittest.TestCase):
                              capture_output=True, text=True, timeout=500)
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
         self.assertIn("[  PASSED  ] 1 test", run.stdout)
-
-
-if __name__ == "__main__":
-    main()

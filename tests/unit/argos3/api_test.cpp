@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "argos3/library/running.h"
+#include "tests/world/message_of.h"
 
 namespace
 {
@@ -203,16 +204,8 @@ TEST(Argos3Api, ElementsGiveTypedAttributesAndNameTheirPlace)
   Real number = 0;
   GetNodeAttributeOrDefault(params, "none", number, 4.5);
   EXPECT_EQ(number, 4.5);
-  try
-  {
-    GetNodeAttribute(params, "word", number);
-    ADD_FAILURE() << "a word was read as a number";
-  }
-  catch (const CARGoSException& mistake)
-  {
-    EXPECT_EQ(std::string(mistake.what()),
-              "file.argos:3:5: 'word' of <params>: 'three' is not of the type that is asked for");
-  }
+  EXPECT_EQ(swarmanoid::test::MessageOf<CARGoSException>([&] { GetNodeAttribute(params, "word", number); }),
+            "file.argos:3:5: 'word' of <params>: 'three' is not of the type that is asked for");
 
   for (const char* name : {"a", "b", "a"}) params.InsertEndChild(TConfigurationNode(name));
   int all = 0, some = 0;

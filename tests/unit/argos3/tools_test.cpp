@@ -9,10 +9,13 @@
 #include <argos3/core/utility/profiler/profiler.h>
 #include <argos3/core/utility/rate.h>
 #include <argos3/core/utility/signal_processing.h>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <sys/socket.h>
 
 #include <thread>
+
+#include "tests/world/message_of.h"
+#include "tests/world/temporary_folder.h"
 
 namespace
 {
@@ -127,31 +130,22 @@ TEST(Argos3Tools, RatesKeepTheirPeriod)
 
 TEST(Argos3Tools, ProfilesAreWritten)
 {
-  const std::string file = testing::TempDir() + "argos3_profile.txt";
+  const swarmanoid::test::TemporaryFolder folder;
+  const std::string file = folder / "profile.txt";
   {
     CProfiler profiler(file);
     profiler.Start();
     profiler.Stop();
     profiler.Flush(true);
   }
-  std::ifstream stream(file);
-  std::string line;
-  std::getline(stream, line);
-  EXPECT_EQ(line.rfind("wall clock, s: ", 0), 0U) << line;
+  EXPECT_THAT(folder.Read("profile.txt"), testing::StartsWith("wall clock, s: "));
   EXPECT_THROW(CProfiler("/nowhere/profile"), CARGoSException);
 }
 
 TEST(Argos3Tools, LibrariesThatAreNotThereAreNamed)
 {
-  try
-  {
-    CDynamicLoading::LoadLibrary("no_such_library");
-    FAIL();
-  }
-  catch (const CARGoSException& error)
-  {
-    EXPECT_NE(std::string(error.what()).find("./no_such_library.so"), std::string::npos) << error.what();
-  }
+  EXPECT_THAT(swarmanoid::test::MessageOf<CARGoSException>([&] { CDynamicLoading::LoadLibrary("no_such_library"); }),
+              testing::HasSubstr("./no_such_library.so"));
 }
 
 TEST(Argos3Tools, SocketsCarryByteArrays)

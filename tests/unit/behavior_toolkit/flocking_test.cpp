@@ -7,7 +7,7 @@
 #include "common/control_interface/ci_robot.h"
 #include "common/math/elementary.h"
 #include "footbot/bt_footbot_flocking.h"
-#include "tests/unit/behavior_toolkit/fake_wheels.h"
+#include "tests/world/fake_devices.h"
 
 namespace swarmanoid
 {
@@ -16,20 +16,6 @@ namespace
 
 constexpr double kWanted = 0.4;  // m
 constexpr double kSpeed = 0.1;   // m/s
-
-class FakeCamera : public CCI_FootBotOmnidirectionalCameraSensor
-{
-public:
-  std::span<const CCI_ColourBlob> GetAllBlobs() const override { return blobs; }
-  std::vector<CCI_ColourBlob> blobs;
-};
-
-class FakeLight : public CCI_FootBotLightSensor
-{
-public:
-  std::span<const double, NUM_SENSORS> GetAllSensorReadings() const override { return readings; }
-  std::array<double, NUM_SENSORS> readings{};
-};
 
 // A red neighbour: m, radians from the front.
 CCI_ColourBlob Neighbour(double distance, double angle) { return {CCI_Colour::RED, distance, angle, 0}; }
@@ -59,7 +45,7 @@ protected:
     state.ReadSensors();
     flocking_.Step(state);
     state.WriteActuators();
-    return wheels_.speeds;
+    return wheels_.Speeds();
   }
   // How fast it goes: that of the faster wheel.
   double SpeedFor(std::vector<CCI_ColourBlob> blobs)
@@ -69,9 +55,9 @@ protected:
   }
 
   CCI_Robot robot_;
-  FakeCamera camera_;
-  FakeLight light_;
-  FakeWheels wheels_;
+  test::FakeCamera camera_;
+  test::FakeLight light_;
+  test::FakeWheels wheels_;
   CBTFootbotFlocking flocking_;
 };
 

@@ -6,7 +6,7 @@
 
 #include "common/control_interface/ci_robot.h"
 #include "footbot/bt_footbot_random_walk.h"
-#include "tests/unit/behavior_toolkit/fake_wheels.h"
+#include "tests/world/fake_devices.h"
 
 namespace swarmanoid
 {
@@ -31,13 +31,13 @@ protected:
       state.Init();
       walk.Step(state);
       state.WriteActuators();
-      told.push_back(wheels_.speeds);
+      told.push_back(wheels_.Speeds());
     }
     return told;
   }
 
   CCI_Robot robot_{"fb", "footbot"};
-  FakeWheels wheels_;
+  test::FakeWheels wheels_;
 };
 
 TEST_F(RandomWalk, GoesOnAsBeforeFromEachTickThatItIsSavedAt)

@@ -4,6 +4,7 @@
 
 #include "common/bus/topics/message_type.h"
 #include "common/configuration/shown_text.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid
 {
@@ -25,15 +26,7 @@ template <class Message>
 std::string Refusal(const std::string& bytes)
 {
   Message message;
-  try
-  {
-    ReadPayload(bytes, message);
-  }
-  catch (const BadMessage& error)
-  {
-    return error.what();
-  }
-  return {};
+  return test::MessageOf<BadMessage>([&] { ReadPayload(bytes, message); });
 }
 
 template <class Message>
@@ -41,16 +34,12 @@ std::string TickRefusal(const std::string& bytes)
 {
   MessageHeader header;
   Message message;
-  try
-  {
-    ReadTickPayload<Message>(
-        bytes, header, [&](const MessageHeader&) { return &message; }, [](const MessageHeader&, const Message&) {});
-  }
-  catch (const BadMessage& error)
-  {
-    return error.what();
-  }
-  return {};
+  return test::MessageOf<BadMessage>(
+      [&]
+      {
+        ReadTickPayload<Message>(
+            bytes, header, [&](const MessageHeader&) { return &message; }, [](const MessageHeader&, const Message&) {});
+      });
 }
 
 void Put(std::string& bytes, std::size_t at, std::uint32_t value)

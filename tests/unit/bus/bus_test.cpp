@@ -17,13 +17,14 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <fstream>
 
 #include "common/bus/dds/fast_dds.h"
 #include "common/bus/free_domain.h"
 #include "common/bus/membership/run_directory.h"
 #include "common/logging/log.h"
 #include "tests/eventually.h"
+#include "tests/world/message_of.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -310,15 +311,8 @@ TEST(Bus, RefusesInterfacesThatDoNotExistByName)
 {
   BusOptions options = Options();
   options.network_interface = "nonesuch0";
-  try
-  {
-    Bus bus(options, "x");
-    FAIL() << "the interface was accepted";
-  }
-  catch (const BusError& error)
-  {
-    EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("nonesuch0"), testing::HasSubstr("127.0.0.1")));
-  }
+  EXPECT_THAT(test::MessageOf<BusError>([&] { Bus bus(options, "x"); }),
+              testing::AllOf(testing::HasSubstr("nonesuch0"), testing::HasSubstr("127.0.0.1")));
 }
 
 TEST(Bus, RefusesDomainsThatWouldEndTheProgram)
@@ -338,9 +332,8 @@ TEST(FreeDomain, GivesEveryCallerAnotherOne)
 // Standard output is for the results of a run.
 TEST(Bus, WhatFastDdsSaysGoesToTheLog)
 {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("bus_log_" + std::to_string(getpid()));
-  std::filesystem::create_directory(folder);
-  OpenLog({.process = "bus_test", .folder = folder.string()});
+  const test::TemporaryFolder folder;
+  OpenLog({.process = "bus_test", .folder = folder.Path()});
   const BusOptions options = Options();
   Bus bus(options, "x");
   testing::internal::CaptureStdout();
@@ -349,10 +342,7 @@ TEST(Bus, WhatFastDdsSaysGoesToTheLog)
   dds::Log::Flush();
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
-  std::ostringstream text;
-  text << std::ifstream(folder / "bus_test.log").rdbuf();
-  EXPECT_THAT(text.str(), testing::HasSubstr("info: Fast DDS, TEST: no room for a segment"));
-  std::filesystem::remove_all(folder);
+  EXPECT_THAT(folder.Read("bus_test.log"), testing::HasSubstr("info: Fast DDS, TEST: no room for a segment"));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "common/bus/bus.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid
 {
@@ -99,16 +100,8 @@ TEST_F(RunDirectoryTest, AnotherReleaseOfFastDdsMayNotShareItsMemory)
   RunDirectory directory("mixed", 255);
   RequireSameRelease(directory.Path(), "2.9");
   RequireSameRelease(directory.Path(), "2.9");
-  try
-  {
-    RequireSameRelease(directory.Path(), "3.1");
-    FAIL() << "it may";
-  }
-  catch (const BusError& error)
-  {
-    EXPECT_THAT(error.what(),
-                testing::HasSubstr("this program uses Fast DDS 3.1, and the run on this machine Fast DDS 2.9"));
-  }
+  EXPECT_THAT(test::MessageOf<BusError>([&] { RequireSameRelease(directory.Path(), "3.1"); }),
+              testing::HasSubstr("this program uses Fast DDS 3.1, and the run on this machine Fast DDS 2.9"));
 }
 
 TEST_F(RunDirectoryTest, WhatAKilledProcessLeftIsRemovedWhenAsked)
@@ -207,17 +200,9 @@ TEST_F(RunDirectoryTest, OnlyThisUserMayWriteThere)
   }
   fs::create_directory(folder_);
   fs::permissions(folder_, fs::perms::all);
-  try
-  {
-    RunDirectory directory("ours", 1);
-    FAIL() << "it was taken";
-  }
-  catch (const BusError& error)
-  {
-    EXPECT_EQ(std::string(error.what()),
-              "'" + folder_ +
-                  "' can be written by other users; remove it, or name another folder by SWARMANOID_SHARED_FOLDER");
-  }
+  EXPECT_EQ(
+      test::MessageOf<BusError>([&] { RunDirectory directory("ours", 1); }),
+      "'" + folder_ + "' can be written by other users; remove it, or name another folder by SWARMANOID_SHARED_FOLDER");
 }
 
 }  // namespace

@@ -9,9 +9,7 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "tests/eventually.h"
@@ -19,6 +17,7 @@
 #include "tests/unit/bus/listener.h"
 #include "tests/unit/bus/server_fixture.h"
 #include "tests/unit/bus/stranger.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -168,9 +167,8 @@ TEST(RunKeys, AreReadFromTextsAndFilesOfOneUser)
   for (const std::string& text : {std::string(), std::string(63, '0'), std::string(65, '0'), std::string(64, 'g')})
     EXPECT_FALSE(KeyOfText(text).has_value()) << text;
 
-  const std::string file =
-      (std::filesystem::temp_directory_path() / fmt::format("swarmanoid-key-{}", getpid())).string();
-  std::ofstream(file) << TextOfKey(key) << "\n";
+  const test::TemporaryFolder folder;
+  const std::string file = folder.Write("key", TextOfKey(key) + "\n");
   std::filesystem::permissions(file, std::filesystem::perms(0600));
   EXPECT_EQ(KeyOfFile(file), key);
   const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
@@ -185,9 +183,8 @@ TEST(RunKeys, AreReadFromTextsAndFilesOfOneUser)
 
 TEST(Digests, AreThoseOfSha256)
 {
-  const std::string file =
-      (std::filesystem::temp_directory_path() / fmt::format("swarmanoid-digest-{}", getpid())).string();
-  std::ofstream(file) << "abc";
+  const test::TemporaryFolder folder;
+  const std::string file = folder.Write("file", "abc");
   EXPECT_EQ(DigestOfFile(file), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");  // FIPS 180-4
   std::filesystem::remove(file);
   EXPECT_EQ(DigestOfFile(file), "");

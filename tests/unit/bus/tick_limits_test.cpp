@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 
 #include "common/bus/bus.h"
+#include "tests/world/message_of.h"
+#include "tests/world/small_experiment.h"
 
 namespace swarmanoid
 {
@@ -19,15 +21,8 @@ Experiment ThreeRobots()
   Experiment experiment;
   experiment.arena_size = {10, 10, 1};
   experiment.engines.resize(2);
-  for (std::uint32_t k = 0; k < 3; ++k)
-  {
-    EntityConfiguration robot;
-    robot.kind = EntityKind::kFootbot;
-    robot.id = std::string(1, static_cast<char>('a' + k));
-    robot.movable = true;
-    experiment.entities.push_back(robot);
-    experiment.engines[k / 2].entities.push_back(k);
-  }
+  for (int k = 0; k < 3; ++k)
+    test::Add(experiment, test::Entity(EntityKind::kFootbot, std::string(1, static_cast<char>('a' + k))), k / 2);
   return experiment;
 }
 
@@ -38,15 +33,7 @@ protected:
   template <class Message>
   std::string Refusal(const Message& message, std::uint32_t source = 0) const
   {
-    try
-    {
-      limits_.Check({1, 1, source, false}, message);
-    }
-    catch (const BadMessage& error)
-    {
-      return error.what();
-    }
-    return {};
+    return test::MessageOf<BadMessage>([&] { limits_.Check({1, 1, source, false}, message); });
   }
   SpaceState State() const
   {
@@ -170,18 +157,7 @@ TEST_F(LimitsOfATick, DrawingsAreChecked)
   SpaceSnapshot view;
   view.poses.resize(7 * 3);
   view.attributes.resize(Slots());
-  const auto refusal = [&]() -> std::string
-  {
-    try
-    {
-      limits_.Check(view);
-    }
-    catch (const BadMessage& error)
-    {
-      return error.what();
-    }
-    return {};
-  };
+  const auto refusal = [&]() -> std::string { return test::MessageOf<BadMessage>([&] { limits_.Check(view); }); };
   Drawing good;
   const Vector3 corners[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   good.Points(corners);
@@ -256,15 +232,7 @@ TEST(LimitsOfFaults, TheyAreOfControllersThatMayFailAndAscend)
   {
     ControlCommands commands;
     commands.faults = faults;
-    try
-    {
-      limits.Check({1, 1, 0, false}, commands);
-    }
-    catch (const BadMessage& error)
-    {
-      return std::string(error.what());
-    }
-    return std::string();
+    return test::MessageOf<BadMessage>([&] { limits.Check({1, 1, 0, false}, commands); });
   };
   const FaultKind died = FaultKind::kDied;
   for (const ControllerFaults& good :

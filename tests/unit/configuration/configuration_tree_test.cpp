@@ -6,6 +6,7 @@
 #include "common/configuration/parameter.h"
 #include "common/configuration/wording.h"
 #include "common/configuration/xml_reader.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid
 {
@@ -17,15 +18,7 @@ TConfigurationTree TreeOf(const std::string& text) { return TConfigurationTree(R
 template <class Call>
 std::string ErrorThrownBy(Call call)
 {
-  try
-  {
-    call();
-    return "";
-  }
-  catch (const ConfigurationError& error)
-  {
-    return error.what();
-  }
+  return test::MessageOf<ConfigurationError>(call);
 }
 
 TEST(ConfigurationTree, ValuesAreAttributesOrElements)

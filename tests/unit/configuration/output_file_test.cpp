@@ -8,7 +8,9 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <iterator>
+
+#include "tests/world/message_of.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -21,39 +23,25 @@ using testing::HasSubstr;
 class OutputFileTest : public testing::Test
 {
 protected:
-  OutputFileTest() : folder_(fs::temp_directory_path() / ("output_file_" + std::to_string(getpid())))
+  OutputFileTest()
   {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_ / "run");
-    std::ofstream(folder_ / "precious") << "kept";
+    fs::create_directory(folder_ / "run");
+    folder_.Write("precious", "kept");
   }
-  ~OutputFileTest() override { fs::remove_all(folder_); }
 
   OutputFiles OfExperiment() const { return OutputFiles((folder_ / "run").string()); }
   static std::string ErrorOf(const std::function<void()>& call)
   {
-    try
-    {
-      call();
-    }
-    catch (const OutputFileError& error)
-    {
-      return error.what();
-    }
-    return "no error";
+    return test::MessageOf<OutputFileError>(call, "no error");
   }
   void ExpectRefused(const std::string& name, const std::string& why) const
   {
     EXPECT_THAT(ErrorOf([&] { OfExperiment().Check(name); }), testing::AllOf(HasSubstr(why), HasSubstr("--trust")));
     EXPECT_THAT(ErrorOf([&] { OfExperiment().Claim(name); }), HasSubstr(why)) << name;
   }
-  std::string Read(const std::string& name) const
-  {
-    std::ifstream file(folder_ / name);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  std::string Read(const std::string& name) const { return folder_.Read(name); }
 
-  const fs::path folder_;
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(OutputFileTest, NamesBelowTheFolderAreMadeWithTheirFolders)
@@ -149,9 +137,9 @@ TEST_F(OutputFileTest, AFolderThatOthersCanWriteOrOwnIsNoFolderForARun)
 
 TEST(OutputFiles, TheUserMayNameAnyFile)
 {
-  const fs::path folder = fs::temp_directory_path() / ("named_by_user_" + std::to_string(getpid()));
-  fs::create_directories(folder / "run");
-  std::ofstream(folder / "precious") << "replaced";
+  const test::TemporaryFolder folder;
+  fs::create_directory(folder / "run");
+  folder.Write("precious", "replaced");
   // In a process of its own: the rest of this one stays as it is.
   EXPECT_EXIT(
       {
@@ -163,7 +151,6 @@ TEST(OutputFiles, TheUserMayNameAnyFile)
         std::exit(same && fs::is_directory(folder / "run/new") ? 0 : 1);
       },
       testing::ExitedWithCode(0), "");
-  fs::remove_all(folder);
 }
 
 }  // namespace

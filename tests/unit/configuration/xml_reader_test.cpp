@@ -1,6 +1,7 @@
 // Reading XML: places of elements and attributes, and refusal of malformed, huge, deep and entity-bombed files.
 #include "common/configuration/xml_reader.h"
 #include "common/configuration/xml_writer.h"
+#include "tests/world/message_of.h"
 
 #include <gtest/gtest.h>
 
@@ -13,15 +14,7 @@ namespace
 
 std::string ErrorOf(const std::string& text, const XmlLimits& limits = {})
 {
-  try
-  {
-    ReadXml(text, "f.xml", limits);
-    return "";
-  }
-  catch (const ConfigurationError& error)
-  {
-    return error.what();
-  }
+  return test::MessageOf<ConfigurationError>([&] { ReadXml(text, "f.xml", limits); });
 }
 
 std::string Repeated(const std::string& text, int count)

@@ -1,38 +1,18 @@
 // What behaviours mean: sensors are read once, later behaviours override earlier ones, copies are independent.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "common/control_interface/behavior/ci_behavior_controller.h"
 #include "common/control_interface/behavior/ci_footbot_state.h"
+#include "tests/world/fake_devices.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid
 {
 namespace
 {
 
-class FakeWheels : public CCI_FootBotWheelsActuator
-{
-public:
-  void SetFootBotWheelsAngularVelocity(double left, double right) override
-  {
-    velocity = {left, right};
-    ++writes;
-  }
-  std::array<double, 2> velocity{};
-  int writes = 0;
-};
-
-class FakeProximity : public CCI_FootBotProximitySensor
-{
-public:
-  std::span<const double, NUM_SENSORS> GetAllSensorReadings() const override
-  {
-    ++reads;
-    return readings;
-  }
-  std::array<double, NUM_SENSORS> readings{};
-  mutable int reads = 0;
-};
+using test::FakeProximity;
+using test::FakeWheels;
 
 class Drive : public CCI_Behavior<CCI_FootBotState>
 {
@@ -142,16 +122,16 @@ protected:
 TEST_F(BehaviorTest, TheLaterBehaviorOverridesTheEarlierOnlyWhereItDecides)
 {
   Run<Sequential>(1);
-  EXPECT_THAT(wheels.velocity, testing::ElementsAre(2, 3));
+  EXPECT_THAT(std::pair(wheels.left, wheels.right), testing::Pair(2, 3));
   proximity.readings[0] = 0.9;
   Run<Sequential>(1);
-  EXPECT_THAT(wheels.velocity, testing::ElementsAre(-1, -1));
+  EXPECT_THAT(std::pair(wheels.left, wheels.right), testing::Pair(-1, -1));
 }
 
 TEST_F(BehaviorTest, BehaviorsOnCopiesAreIndependent)
 {
   Run<Parallel>(1);
-  EXPECT_THAT(wheels.velocity, testing::ElementsAre(1, 2));
+  EXPECT_THAT(std::pair(wheels.left, wheels.right), testing::Pair(1, 2));
 }
 
 TEST_F(BehaviorTest, SensorsAreReadOnceAndActuatorsWrittenOnceATick)
@@ -165,18 +145,10 @@ TEST_F(BehaviorTest, ADeviceThatIsNotListedIsNamed)
 {
   CCI_FootBotState state(&robot);
   state.Init();
-  try
-  {
-    state.SetGripper(1);
-    FAIL();
-  }
-  catch (const CCI_DeviceError& error)
-  {
-    EXPECT_STREQ(
-        error.what(),
-        "robot 'fb' has no actuator 'footbot_gripper'; its controller lists footbot_wheels. Add <footbot_gripper> to "
-        "<actuators> of the controller in the experiment file");
-  }
+  EXPECT_EQ(
+      test::MessageOf<CCI_DeviceError>([&] { state.SetGripper(1); }),
+      "robot 'fb' has no actuator 'footbot_gripper'; its controller lists footbot_wheels. Add <footbot_gripper> to "
+      "<actuators> of the controller in the experiment file");
 }
 
 }  // namespace

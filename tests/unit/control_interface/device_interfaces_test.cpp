@@ -15,6 +15,7 @@
 #include "common/control_interface/footbot/ci_footbot_proximity_sensor.h"
 #include "common/control_interface/handbot/ci_handbot_arms_actuator.h"
 #include "common/control_interface/handbot/ci_handbot_hands_actuator.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid
 {
@@ -98,15 +99,7 @@ TEST(DeviceInterfaces, SingleReadingsAreThoseOfTheGroupAndEndWithIt)
 
 std::string ErrorOf(const CCI_Robot& robot, const std::string& sensor)
 {
-  try
-  {
-    robot.GetSensor(sensor);
-    return "none";
-  }
-  catch (const CCI_DeviceError& error)
-  {
-    return error.what();
-  }
+  return test::MessageOf<CCI_DeviceError>([&] { robot.GetSensor(sensor); }, "none");
 }
 
 TEST(DeviceInterfaces, ADeviceThatIsNotListedIsNamedWithThoseListedAndTheCure)

@@ -1,6 +1,5 @@
 // What controllers command is checked by their host: a value that is no number is a mistake of the controller.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <functional>
 
@@ -16,6 +15,8 @@
 #include "common/control_interface/handbot/ci_handbot_rope_actuator.h"
 #include "common/space/attributes.h"
 #include "controller_host/controller_host.h"
+#include "tests/world/message_of.h"
+#include "tests/world/small_experiment.h"
 
 namespace swarmanoid
 {
@@ -54,42 +55,18 @@ private:
   std::vector<CCI_Actuator> devices_;
 };
 
-PluginDescription PainterDescription()
-{
-  PluginDescription description;
-  description.label = "commands_test_paint";
-  description.implementation = "painter";
-  return description;
-}
-
-REGISTER_ACTUATOR(Painter, PainterDescription())
+REGISTER_ACTUATOR(Painter, {.label = "commands_test_paint", .implementation = "painter"})
 
 // Two robots of a kind with these actuators, type and implementation.
 Experiment TwoRobots(EntityKind kind, const std::vector<std::pair<std::string, std::string>>& actuators)
 {
   RegisterBuiltinDevices();
-  Experiment experiment;
-  experiment.arena_size = {10, 10, 2};
-  experiment.controllers.resize(1);
-  ControllerConfiguration& controller = experiment.controllers[0];
-  controller.tag = "commands_test";
-  controller.id = "driver";
+  Experiment experiment = test::RobotsOf("commands_test", {"robot_0", "robot_1"}, {}, {}, kind);
   for (const auto& [type, implementation] : actuators)
   {
-    DeviceConfiguration& device = controller.actuators.emplace_back();
+    DeviceConfiguration& device = experiment.controllers[0].actuators.emplace_back();
     device.type = type;
     device.implementation = implementation;
-  }
-  experiment.engines.resize(1);
-  for (std::uint32_t i = 0; i < 2; ++i)
-  {
-    EntityConfiguration& entity = experiment.entities.emplace_back();
-    entity.kind = kind;
-    entity.id = "robot_" + std::to_string(i);
-    entity.controller = "driver";
-    entity.movable = true;
-    entity.pose.position = {1.0 + i, 1, 0};
-    experiment.engines[0].entities.push_back(i);
   }
   return experiment;
 }
@@ -107,20 +84,12 @@ std::string Mistake(EntityKind kind, const std::vector<std::pair<std::string, st
   {
     if (robot.GetId() == "robot_1") command(robot);
   };
-  try
-  {
-    host.Tick({});
-  }
-  catch (const ActivityError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return test::MessageOf<ActivityError>([&] { host.Tick({}); });
 }
 
 std::string NoNumber(const std::string& device)
 {
-  return "robot 'robot_1': its controller 'driver' commanded nan to the actuator '" + device +
+  return "robot 'robot_1': its controller 'c' commanded nan to the actuator '" + device +
          "' at tick 5; commands must be finite numbers";
 }
 

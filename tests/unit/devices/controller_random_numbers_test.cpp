@@ -5,6 +5,7 @@
 
 #include "common/control_interface/ci_controller.h"
 #include "controller_host/controller_host.h"
+#include "tests/world/small_experiment.h"
 
 namespace swarmanoid
 {
@@ -35,23 +36,8 @@ Drawn DrawnBy(const std::vector<std::string>& robots, std::uint64_t seed)
 {
   Drawn all;
   drawn = &all;
-  Experiment experiment;
+  Experiment experiment = test::RobotsOf("controller_random_numbers_test", robots);
   experiment.seed = seed;
-  experiment.arena_size = {10, 10, 2};
-  experiment.controllers.resize(1);
-  experiment.controllers[0].tag = "controller_random_numbers_test";
-  experiment.controllers[0].id = "drawer";
-  experiment.engines.resize(1);
-  for (const std::string& id : robots)
-  {
-    EntityConfiguration& entity = experiment.entities.emplace_back();
-    entity.kind = EntityKind::kFootbot;
-    entity.id = id;
-    entity.controller = "drawer";
-    entity.movable = true;
-    entity.pose.position = {1.0 + static_cast<double>(all.size()), 1, 0};
-    experiment.engines[0].entities.push_back(static_cast<std::uint32_t>(experiment.entities.size() - 1));
-  }
   const Assignment assignment = MakeAssignment(experiment, 1);
   CSwarmanoidSpace space(experiment);
   ControllerHost host(space, assignment, 0);

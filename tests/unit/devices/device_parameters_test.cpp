@@ -6,6 +6,7 @@
 
 #include "common/experiment/load_experiment.h"
 #include "common/plugin_descriptions/describe_builtins.h"
+#include "tests/world/experiment_text.h"
 
 namespace swarmanoid
 {
@@ -18,11 +19,10 @@ std::string MistakesOf(const std::string& type, const std::string& implementatio
 {
   DescribeBuiltinDevices();
   const std::string text =
-      "<ahss-config><framework><clocktick>100</clocktick><maxclock>1</maxclock></framework>"
-      "<controllers><any id=\"c\" library=\"none\"><" +
-      group + ">\n<" + type + " implementation=\"" + implementation + "\" " + parameters + "/></" + group +
-      "></any></controllers>"
-      "<arena size=\"1,1,1\" optimization=\"2D\"/><engines/><arena_physics/></ahss-config>";
+      test::ExperimentText{.controllers = "<any id='c' library='none'><" + group + ">\n<" + type + " implementation='" +
+                                          implementation + "' " + parameters + "/></" + group + "></any>",
+                           .engines = ""}
+          .Text();
   LoadOptions options;
   options.check_files = false;
   std::string mistakes;
@@ -39,7 +39,7 @@ std::string TurretEncoder(const std::string& parameters)
 TEST(DeviceParameters, NoiseWithoutAKindIsRefused)
 {
   EXPECT_EQ(TurretEncoder("noise_range=\"0.1\""),
-            "test.xml:2:73: 'noise_range' of <footbot_turret_encoder> has no effect without 'noise_kind'; give that "
+            "test.xml:3:73: 'noise_range' of <footbot_turret_encoder> has no effect without 'noise_kind'; give that "
             "too: uniform, gaussian or truncated_gaussian, or none to switch the noise off\n");
   EXPECT_EQ(TurretEncoder(""), "");
   EXPECT_EQ(TurretEncoder("noise_kind=\"none\" noise_range=\"0.1\""), "") << "switched off";
@@ -48,10 +48,10 @@ TEST(DeviceParameters, NoiseWithoutAKindIsRefused)
 TEST(DeviceParameters, AKindOfNoiseWithoutItsNumbersIsRefused)
 {
   EXPECT_EQ(TurretEncoder("noise_kind=\"gaussian\" noise_range=\"0.1\""),
-            "test.xml:2:73: 'noise_kind' of <footbot_turret_encoder> is gaussian, which changes nothing without "
+            "test.xml:3:73: 'noise_kind' of <footbot_turret_encoder> is gaussian, which changes nothing without "
             "'noise_deviation'; give that, or 'noise_mean'\n");
   EXPECT_EQ(TurretEncoder("noise_kind=\"uniform\" noise_deviation=\"0.1\""),
-            "test.xml:2:73: 'noise_kind' of <footbot_turret_encoder> is uniform, which changes nothing without "
+            "test.xml:3:73: 'noise_kind' of <footbot_turret_encoder> is uniform, which changes nothing without "
             "'noise_range'; give that, or 'noise_mean'\n");
   EXPECT_EQ(TurretEncoder("noise_kind=\"uniform\" noise_range=\"0\""), "") << "one end of a series of runs";
   EXPECT_EQ(TurretEncoder("noise_kind=\"gaussian\" noise_mean=\"0.1\""), "") << "a systematic error";
@@ -61,7 +61,7 @@ TEST(DeviceParameters, EachSetOfNoiseIsJudgedByItself)
 {
   EXPECT_EQ(MistakesOf("eyebot_camera", "generic_eyebot_camera",
                        "distance_noise_kind=\"uniform\" distance_noise_range=\"0.1\" angle_noise_deviation=\"0.1\""),
-            "test.xml:2:112: 'angle_noise_deviation' of <eyebot_camera> has no effect without 'angle_noise_kind'; give "
+            "test.xml:3:112: 'angle_noise_deviation' of <eyebot_camera> has no effect without 'angle_noise_kind'; give "
             "that too: uniform, gaussian or truncated_gaussian, or none to switch the noise off\n");
 }
 
@@ -69,7 +69,7 @@ TEST(DeviceParameters, NoiseOfActuatorsIsJudgedToo)
 {
   EXPECT_EQ(
       MistakesOf("footbot_turret", "dummy_footbot_turret", "noise_mean=\"0.1\"", "actuators"),
-      "test.xml:2:55: 'noise_mean' of <footbot_turret> has no effect without 'noise_kind'; give that too: uniform, "
+      "test.xml:3:55: 'noise_mean' of <footbot_turret> has no effect without 'noise_kind'; give that too: uniform, "
       "gaussian or truncated_gaussian, or none to switch the noise off\n");
 }
 
@@ -79,12 +79,12 @@ TEST(DeviceParameters, ThePolynomialIsNotUsedBeyondItsFit)
   { return MistakesOf("footbot_proximity", "generic_footbot_polynomial_proximity", parameters); };
   EXPECT_EQ(
       polynomial("range=\"0.2\""),
-      "test.xml:2:74: 'range' of <footbot_proximity> is 0.2 m, but the default coefficients are a fit up to 0.1 m; "
+      "test.xml:3:74: 'range' of <footbot_proximity> is 0.2 m, but the default coefficients are a fit up to 0.1 m; "
       "give <coefficients> too, or use generic_footbot_proximity\n");
   EXPECT_EQ(polynomial("range=\"0.05\""), "");
   EXPECT_EQ(polynomial("range=\"0.2\" coefficients=\"1, -5\""), "");
   EXPECT_EQ(polynomial("coefficients=\"1, two\""),
-            "test.xml:2:74: <coefficients> '1, two' is not a list of numbers; write \"c0, c1, c2\"\n");
+            "test.xml:3:74: <coefficients> '1, two' is not a list of numbers; write \"c0, c1, c2\"\n");
 }
 
 TEST(DeviceParameters, ADepthCameraSeesSomething)
@@ -93,7 +93,7 @@ TEST(DeviceParameters, ADepthCameraSeesSomething)
   { return MistakesOf("depth_camera", "generic_depth_camera", parameters); };
   EXPECT_EQ(camera("nearest=\"0.5\" range=\"0.6\""), "");
   EXPECT_EQ(camera("nearest=\"5\""),
-            "test.xml:2:53: 'nearest' of <depth_camera> is 5 m and 'range' 5 m; nearest must "
+            "test.xml:3:53: 'nearest' of <depth_camera> is 5 m and 'range' 5 m; nearest must "
             "be less\n");
 }
 

@@ -2,13 +2,12 @@
 #include <png.h>
 #include <unistd.h>
 
-#include <filesystem>
-
 #include "common/control_interface/footbot/ci_footbot_base_ground_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_ground_sensor.h"
 #include "common/math/random.h"
 #include "common/space/terrain/floor_picture.h"
 #include "tests/unit/devices/test_world.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -19,7 +18,6 @@ class PictureFile
 {
 public:
   PictureFile(int columns, const std::vector<std::uint32_t>& pixels)
-      : path_(std::filesystem::temp_directory_path() / (std::to_string(getpid()) + "_floor.png"))
   {
     std::vector<std::uint8_t> bytes;
     for (const std::uint32_t pixel : pixels)
@@ -29,16 +27,13 @@ public:
     image.width = static_cast<png_uint_32>(columns);
     image.height = static_cast<png_uint_32>(pixels.size() / static_cast<std::size_t>(columns));
     image.format = PNG_FORMAT_RGB;
-    if (png_image_write_to_file(&image, path_.c_str(), 0, bytes.data(), 0, nullptr) == 0)
-      throw std::runtime_error("cannot write " + path_.string());
+    if (png_image_write_to_file(&image, Path().c_str(), 0, bytes.data(), 0, nullptr) == 0)
+      throw std::runtime_error("cannot write " + Path());
   }
-  ~PictureFile() { std::filesystem::remove(path_); }
-  PictureFile(const PictureFile&) = delete;
-  PictureFile& operator=(const PictureFile&) = delete;
-  std::string Path() const { return path_.string(); }
+  std::string Path() const { return folder_ / "floor.png"; }
 
 private:
-  std::filesystem::path path_;
+  test::TemporaryFolder folder_;
 };
 
 TEST(FloorPicture, ColoursSeenThroughATintAreProducts)

@@ -10,7 +10,8 @@
 #include "common/control_interface/ci_wheels_actuator.h"
 #include "common/space/attributes.h"
 #include "controller_host/controller_host.h"
-#include "two_footbots.h"
+#include "tests/world/message_of.h"
+#include "tests/world/small_experiment.h"
 
 namespace swarmanoid
 {
@@ -67,7 +68,9 @@ void Spin(double ms)
 
 Experiment TwoRobots(OnFailure on_failure, double time_budget_ms)
 {
-  Experiment experiment = TwoFootbots("guarded_controllers_test");
+  RegisterBuiltinDevices();
+  Experiment experiment =
+      test::RobotsOf("guarded_controllers_test", {"a", "b"}, {"generic_wheels", "generic_led_ring"});
   experiment.canonical_period = 10;
   experiment.controllers[0].on_failure = on_failure;
   experiment.controllers[0].time_budget_ms = time_budget_ms;
@@ -134,15 +137,8 @@ TEST_F(GuardedControllers, WhatThrowsEndsTheRunUnlessTheFileSaysOtherwise)
   Hosted run(OnFailure::kAbort, 1000);
   run.Tick(0);
   run.Tick(1);
-  try
-  {
-    run.Tick(2);
-    FAIL();
-  }
-  catch (const ActivityError& error)
-  {
-    EXPECT_STREQ(error.what(), "robot 'a', controller 'c': ControlStep at tick 2 failed: no way");
-  }
+  EXPECT_EQ(test::MessageOf<ActivityError>([&] { run.Tick(2); }),
+            "robot 'a', controller 'c': ControlStep at tick 2 failed: no way");
 }
 
 TEST_F(GuardedControllers, OneThatIsStoppedCommandsNothingAndIsDark)

@@ -6,7 +6,7 @@
 #include "common/control_interface/ci_wheels_actuator.h"
 #include "common/space/attributes.h"
 #include "controller_host/controller_host.h"
-#include "two_footbots.h"
+#include "tests/world/small_experiment.h"
 
 namespace swarmanoid
 {
@@ -39,7 +39,8 @@ REGISTER_CONTROLLER(Counter, "late_commands_test")
 
 Experiment TwoCounters(std::uint32_t ahead)
 {
-  Experiment experiment = TwoFootbots("late_commands_test");
+  RegisterBuiltinDevices();
+  Experiment experiment = test::RobotsOf("late_commands_test", {"a", "b"}, {"generic_wheels", "generic_led_ring"});
   experiment.ahead = ahead;
   experiment.controllers[0].on_failure = OnFailure::kStopRobot;
   return experiment;

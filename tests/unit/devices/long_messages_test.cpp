@@ -8,6 +8,7 @@
 #include "common/space/message_slots.h"
 #include "common/space/state_checks.h"
 #include "tests/unit/devices/test_world.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid
 {
@@ -154,16 +155,10 @@ TEST(LongMessages, MoreBytesThanAMessageHasAreRefused)
     TestActuator actuator(world, kType, kImplementation, {0}, {{"bytes", std::to_string(bytes)}});
     auto& sender = actuator.Of<CCI_RangeAndBearingActuator>(0);
     sender.SetBytes(Numbered(static_cast<std::size_t>(bytes), 0));
-    try
-    {
-      sender.SetBytes(Numbered(static_cast<std::size_t>(bytes) + 1, 0));
-      FAIL() << bytes;
-    }
-    catch (const std::length_error& error)
-    {
-      EXPECT_EQ(error.what(), "a message of range and bearing has " + std::to_string(bytes) + " bytes, and " +
-                                  std::to_string(bytes + 1) + " are given");
-    }
+    EXPECT_EQ(
+        test::MessageOf<std::length_error>([&] { sender.SetBytes(Numbered(static_cast<std::size_t>(bytes) + 1, 0)); }),
+        "a message of range and bearing has " + std::to_string(bytes) + " bytes, and " + std::to_string(bytes + 1) +
+            " are given");
   }
 }
 

@@ -11,6 +11,8 @@
 #include "common/activity/current_activity.h"
 #include "common/control_interface/ci_controller.h"
 #include "controller_host/controller_host.h"
+#include "tests/world/message_of.h"
+#include "tests/world/small_experiment.h"
 
 namespace swarmanoid
 {
@@ -83,20 +85,13 @@ std::string ErrorOf(Seen& into, unsigned threads, int in_turn, int parallel)
   seen = &into;
   Experiment experiment;
   experiment.arena_size = {10, 10, 2};
-  experiment.controllers.resize(2);
-  experiment.controllers[0].tag = "parallel_controllers_test_in_turn";
-  experiment.controllers[0].id = "a";
-  experiment.controllers[1].tag = "parallel_controllers_test_parallel";
-  experiment.controllers[1].id = "b";
-  experiment.engines.resize(1);
+  test::AddController(experiment, "parallel_controllers_test_in_turn", "a");
+  test::AddController(experiment, "parallel_controllers_test_parallel", "b");
   const auto add = [&](const std::string& controller, int number)
   {
-    EntityConfiguration& entity = experiment.entities.emplace_back();
-    entity.kind = EntityKind::kFootbot;
-    entity.id = controller + std::to_string(number);
-    entity.controller = controller;
-    entity.movable = true;
-    experiment.engines[0].entities.push_back(static_cast<std::uint32_t>(experiment.entities.size() - 1));
+    EntityConfiguration robot = test::Entity(EntityKind::kFootbot, controller + std::to_string(number));
+    robot.controller = controller;
+    test::Add(experiment, robot);
   };
   for (int k = 0; k < std::max(in_turn, parallel); ++k)
   {
@@ -107,19 +102,15 @@ std::string ErrorOf(Seen& into, unsigned threads, int in_turn, int parallel)
   CSwarmanoidSpace space(experiment);
   WorkerPool pool(threads);
   ControllerHost host(space, assignment, 0, &pool);
-  try
-  {
-    for (std::uint64_t tick = 0; tick < 2 * 4; ++tick)
-    {
-      space.SetTick(tick);
-      host.Tick({});
-    }
-  }
-  catch (const ActivityError& error)
-  {
-    return error.what();
-  }
-  return {};
+  return test::MessageOf<ActivityError>(
+      [&]
+      {
+        for (std::uint64_t tick = 0; tick < 2 * 4; ++tick)
+        {
+          space.SetTick(tick);
+          host.Tick({});
+        }
+      });
 }
 
 TEST(ParallelControllers, StepAtTheSameTime)

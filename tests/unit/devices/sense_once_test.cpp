@@ -4,6 +4,7 @@
 #include "common/control_interface/ci_controller.h"
 #include "common/control_interface/ci_radio.h"
 #include "controller_host/controller_host.h"
+#include "tests/world/small_experiment.h"
 
 namespace swarmanoid
 {
@@ -30,28 +31,7 @@ REGISTER_CONTROLLER(Talker, "sense_once_test")
 std::size_t Heard(bool look)
 {
   RegisterBuiltinDevices();
-  Experiment experiment;
-  experiment.arena_size = {10, 10, 2};
-  ControllerConfiguration& controller = experiment.controllers.emplace_back();
-  controller.tag = "sense_once_test";
-  controller.id = "c";
-  for (auto* devices : {&controller.actuators, &controller.sensors})
-  {
-    DeviceConfiguration& device = devices->emplace_back();
-    device.type = "radio";
-    device.implementation = "generic_radio";
-  }
-  experiment.engines.resize(1);
-  for (const std::uint32_t k : {0U, 1U})
-  {
-    EntityConfiguration& entity = experiment.entities.emplace_back();
-    entity.kind = EntityKind::kFootbot;
-    entity.id = k == 0 ? "a" : "b";
-    entity.controller = "c";
-    entity.movable = true;
-    entity.pose.position = {2.0 + k, 5, 0};
-    experiment.engines[0].entities.push_back(k);
-  }
+  const Experiment experiment = test::RobotsOf("sense_once_test", {"a", "b"}, {"generic_radio"}, {"generic_radio"});
   const Assignment assignment = MakeAssignment(experiment, 1);
   CSwarmanoidSpace space(experiment);
   ControllerHost host(space, assignment, 0);

@@ -14,6 +14,7 @@
 #include "common/space/space.h"
 #include "controller_host/controller_host.h"
 #include "space_server/near_entities.h"
+#include "tests/world/small_experiment.h"
 
 namespace swarmanoid
 {
@@ -51,33 +52,22 @@ Experiment Swarm(const Sensor& sensor, std::mt19937& random)
   RegisterBuiltinDevices();
   Experiment experiment;
   experiment.arena_size = {kSide, kSide, 2};
-  ControllerConfiguration& controller = experiment.controllers.emplace_back();
-  controller.tag = "surroundings_test";
-  controller.id = "c";
-  controller.actuators.resize(2);
-  controller.actuators[0].type = "led_ring";
-  controller.actuators[0].implementation = "generic_led_ring";
-  controller.actuators[1].type = "range_and_bearing";
-  controller.actuators[1].implementation = "generic_range_and_bearing";
-  controller.sensors.resize(1);
-  controller.sensors[0].type = sensor.type;
-  controller.sensors[0].implementation = sensor.implementation;
+  test::AddController(experiment, "surroundings_test", "c", {"generic_led_ring", "generic_range_and_bearing"})
+      .sensors = {test::Device(sensor.implementation)};
   experiment.engines.resize(1);
   experiment.engines[0].tag = "kinematics2d";
   std::uniform_real_distribution<double> place(0.3, kSide - 0.3);
   for (std::uint32_t k = 0; k < kRobots; ++k)
   {
-    EntityConfiguration& entity = experiment.entities.emplace_back();
     // Some are things of another size that robots see and bump into.
-    entity.kind = k % 10 == 9 ? EntityKind::kCylindricPrey : EntityKind::kFootbot;
-    entity.id = "e" + std::to_string(k);
-    if (entity.kind == EntityKind::kFootbot) entity.controller = "c";
-    entity.size = entity.kind == EntityKind::kFootbot ? DescriptionOf(entity.kind).size : Vector3(1.2, 1.2, 0.3);
-    entity.movable = true;
-    entity.pose.position = {place(random), place(random), 0};
+    const bool is_prey = k % 10 == 9;
+    EntityConfiguration entity = test::Entity(is_prey ? EntityKind::kCylindricPrey : EntityKind::kFootbot,
+                                              "e" + std::to_string(k), {place(random), place(random), 0});
+    if (is_prey) entity.size = {1.2, 1.2, 0.3};
+    if (!is_prey) entity.controller = "c";
     // Half of them close together: there is something to sense.
     if (k % 2 == 0) entity.pose.position = {place(random) / 6 + (k % 3) * 15, place(random) / 6 + (k % 5) * 8, 0};
-    experiment.engines[0].entities.push_back(k);
+    test::Add(experiment, entity);
   }
   return experiment;
 }

@@ -1,8 +1,5 @@
 // Sensors and terrain: an OctoMap wall and floor, made for the test.
 #include <octomap/octomap.h>
-#include <unistd.h>
-
-#include <filesystem>
 
 #include "common/control_interface/ci_range_and_bearing.h"
 #include "common/control_interface/eyebot/ci_eyebot_altitude_sensor.h"
@@ -11,6 +8,8 @@
 #include "common/control_interface/footbot/ci_footbot_omnidirectional_camera_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_proximity_sensor.h"
 #include "tests/unit/devices/test_world.h"
+#include "tests/world/small_experiment.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -39,18 +38,13 @@ public:
     tree.updateInnerOccupancy();
     tree.writeBinary(path_);
 
-    auto file = std::make_shared<ConfigurationNode>();
-    file->name = "octomap";
-    file->attributes.push_back({"file", path_, {}});
-    auto node = std::make_shared<ConfigurationNode>();
-    node->children.push_back(file);
     const auto terrain = Add(EntityKind::kTerrain, {0, 0, 0}, 0, {0, 0, 0}, false);
-    Configuration().entities[terrain].tree = TConfigurationTree(node);
+    Configuration().entities[terrain].tree = test::TerrainTree("octomap", {{"file", path_}});
   }
-  ~TerrainWorld() { std::filesystem::remove(path_); }
 
 private:
-  std::string path_ = std::filesystem::temp_directory_path() / ("swarmanoid_map_" + std::to_string(getpid()) + ".bt");
+  test::TemporaryFolder folder_;
+  std::string path_ = folder_ / "map.bt";
 };
 
 TEST(TerrainSensing, ProximityRaysEndAtAVoxelWall)

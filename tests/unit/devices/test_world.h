@@ -12,6 +12,7 @@
 #include "common/math/random.h"
 #include "common/space/space.h"
 #include "controller_host/device.h"
+#include "tests/world/small_experiment.h"
 
 namespace swarmanoid
 {
@@ -29,10 +30,9 @@ public:
 
   std::size_t AddEngine(const std::string& id)
   {
-    EngineConfiguration engine;
+    EngineConfiguration& engine = experiment_.engines.emplace_back();
     engine.tag = "dummy_engine";
     engine.id = id;
-    experiment_.engines.push_back(engine);
     return experiment_.engines.size() - 1;
   }
 
@@ -40,24 +40,18 @@ public:
   std::uint32_t Add(EntityKind kind, const Vector3& position, double yaw = 0, const Vector3& size = {0, 0, 0},
                     bool movable = true, int engine = 0)
   {
-    EntityConfiguration entity;
-    entity.kind = kind;
-    entity.id = "e" + std::to_string(experiment_.entities.size());
-    entity.pose = {position, QuaternionFromYaw(yaw)};
-    entity.size = size;
-    entity.movable = movable;
-    experiment_.entities.push_back(entity);
-    const auto index = static_cast<std::uint32_t>(experiment_.entities.size() - 1);
-    if (engine >= 0) experiment_.engines[static_cast<std::size_t>(engine)].entities.push_back(index);
-    return index;
+    EntityConfiguration entity =
+        test::Entity(kind, "e" + std::to_string(experiment_.entities.size()), position, size, movable);
+    entity.pose.orientation = QuaternionFromYaw(yaw);
+    return test::Add(experiment_, entity, engine);
   }
   std::uint32_t AddFootbot(double x, double y, double yaw = 0, double z = 0, int engine = 0)
   {
-    return Add(EntityKind::kFootbot, {x, y, z}, yaw, {0.085036758, 0.085036758, 0.146899733}, true, engine);
+    return Add(EntityKind::kFootbot, {x, y, z}, yaw, DescriptionOf(EntityKind::kFootbot).size, true, engine);
   }
   std::uint32_t AddEyebot(double x, double y, double z, double yaw = 0, int engine = 0)
   {
-    return Add(EntityKind::kEyebot, {x, y, z}, yaw, {0.25, 0.25, 0.566}, true, engine);
+    return Add(EntityKind::kEyebot, {x, y, z}, yaw, DescriptionOf(EntityKind::kEyebot).size, true, engine);
   }
   std::uint32_t AddBlock(const Vector3& centre, const Vector3& size, double yaw = 0, int engine = 0)
   {
@@ -87,20 +81,8 @@ private:
   std::unique_ptr<CSwarmanoidSpace> space_;
 };
 
-using TestParameters = std::vector<std::pair<std::string, std::string>>;
-
-inline TConfigurationTree TreeOf(const TestParameters& values)
-{
-  auto node = std::make_shared<ConfigurationNode>();
-  for (const auto& [name, value] : values)
-  {
-    auto child = std::make_shared<ConfigurationNode>();
-    child->name = name;
-    child->text = value;
-    node->children.push_back(child);
-  }
-  return TConfigurationTree(node);
-}
+using test::TestParameters;
+using test::TreeOf;
 
 // A batch over `robots` with the channel of a specific device, all values 0.
 template <class Interface>

@@ -21,12 +21,7 @@ public:
     MakeMirror(mirror_);
     AddWall({2.6, 1.5, 0.2}, {0.1, 3, 0.4}, 0.1);
     AddWall({0.7, 2.4, 0.2}, {0.1, 3, 0.4}, -0.2);
-    AddCommands("footbot_wheels", 2);
-    AddCommands("footbot_gripper", 1);
-    AddCommands("footbot_turret", 1);
-    AddSensors("footbot_encoders", 2);
-    AddSensors("footbot_turret_torque", 3);
-    AddSensors("footbot_accelerometer", 3);
+    UseTurrets();
     Start();
   }
 
@@ -45,7 +40,7 @@ public:
     Space().SetPose(mirror_, {Vector3(0.5 + along, 0.5 + along, 0), QuaternionFromYaw(along)});
     Tick();
   }
-  int Grips() const
+  int Grips()
   {
     int count = 0;
     for (const auto robot : robots_) count += Attribute(robot, "gripped") > 0 ? 1 : 0;
@@ -140,8 +135,6 @@ TEST(Dynamics2d, SpinningForeverKeepsItsPrecision)
 {
   Dynamics2dTestWorld world;
   const auto robot = world.AddFootbot(1, 1);
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   world.Drive(robot, -0.3, 0.3);
   world.Run(2);
   for (int i = 0; i < 100; ++i)

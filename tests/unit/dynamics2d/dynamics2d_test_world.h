@@ -11,7 +11,13 @@ namespace swarmanoid
 class Dynamics2dTestWorld : public EngineTestWorld<CDynamics2dEngine>
 {
 public:
-  Dynamics2dTestWorld() : EngineTestWorld("dynamics2d", Dynamics2dDescription().parameters) {}
+  Dynamics2dTestWorld() : EngineTestWorld(Dynamics2dDescription()) {}
+  template <class... More>
+  Dynamics2dTestWorld(const std::string& parameter, const std::string& value, const More&... more)
+      : Dynamics2dTestWorld()
+  {
+    Set(parameter, value, more...);
+  }
 
   std::uint32_t AddFootbot(double x, double y, double yaw = 0) { return EngineTestWorld::AddFootbot({x, y, 0}, yaw); }
   std::uint32_t AddPrey(double x, double y, double mass, double radius = 0.1)

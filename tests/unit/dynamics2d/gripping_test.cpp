@@ -9,22 +9,12 @@ namespace
 
 constexpr double kReach = 0.1;  // from the turret's axis to the gripper's face
 
-void AddGrippingChannels(Dynamics2dTestWorld& world, bool turrets)
-{
-  world.AddCommands("footbot_wheels", 2);
-  world.AddCommands("footbot_gripper", 1);
-  if (turrets) world.AddCommands("footbot_turret", 1);
-  world.AddSensors("footbot_turret_torque", 3);
-}
-
 TEST(Dynamics2d, AGripperTakesWhatItTouchesAndLetsGo)
 {
   Dynamics2dTestWorld world;
   const auto robot = world.AddFootbot(1, 1);
   const auto far_robot = world.AddFootbot(1, 3);
   const auto prey = world.AddPrey(1 + kReach + 0.1 + 0.002, 1, 0.5);
-  AddGrippingChannels(world, false);
-  world.Start();
   world.Command("footbot_gripper", robot, {1});
   world.Command("footbot_gripper", far_robot, {1});
   world.Run(1);
@@ -51,8 +41,6 @@ TEST(Dynamics2d, NeitherEyebotsNorBlocksAreGripped)
   const auto b = world.AddFootbot(1, 3);
   world.AddBlock({1 + kReach + 0.1, 1, 0.1}, {0.2, 0.2, 0.2}, 1);
   world.AddEyebot({1 + kReach + 0.25, 3, 0});
-  AddGrippingChannels(world, false);
-  world.Start();
   world.Command("footbot_gripper", a, {1});
   world.Command("footbot_gripper", b, {1});
   world.Run(3);
@@ -67,8 +55,6 @@ TEST(Dynamics2d, AHandbotCanBeGrippedByTwo)
   const auto handbot =
       world.Add(EntityKind::kHandbot, {1 + kReach + 0.1, 1, 0}, Quaternion::Identity(), {0.2, 0.3, 0.4});
   const auto b = world.AddFootbot(1 + 2 * kReach + 0.2, 1, kPi);
-  AddGrippingChannels(world, false);
-  world.Start();
   world.Command("footbot_gripper", a, {1});
   world.Command("footbot_gripper", b, {1});
   world.Run(1);
@@ -81,8 +67,6 @@ TEST(Dynamics2d, ARingOfFootbotsCannotClose)
   Dynamics2dTestWorld world;
   const auto a = world.AddFootbot(1, 1, 0);
   const auto b = world.AddFootbot(1 + kReach + 0.085, 1, kPi);
-  AddGrippingChannels(world, false);
-  world.Start();
   world.Command("footbot_gripper", a, {1});
   world.Command("footbot_gripper", b, {1});
   world.Run(5);
@@ -96,8 +80,7 @@ TEST(Dynamics2d, TheTorqueSensorReadsTheTractionOfADraggedLoad)
   Dynamics2dTestWorld world;
   const auto robot = world.AddFootbot(2, 1);
   world.AddPrey(2 + kReach + 0.1, 1, 1);
-  AddGrippingChannels(world, true);
-  world.Start();
+  world.UseTurrets();
   world.Command("footbot_gripper", robot, {1});
   world.Drive(robot, -0.1, -0.1);
   world.Run(30);
@@ -109,14 +92,11 @@ TEST(Dynamics2d, TheTorqueSensorReadsTheTractionOfADraggedLoad)
 // stands against it with the opposite sign.
 TEST(Dynamics2d, ATurretTurnsItsLoadWithinItsTorque)
 {
-  Dynamics2dTestWorld world;
-  world.Set("ground_friction", "0");
-  world.Set("turret_torque", "0.3");
+  Dynamics2dTestWorld world("ground_friction", "0", "turret_torque", "0.3");
   world.Set("footbot_mass", "1000");  // it does not give way
   const auto robot = world.AddFootbot(2, 2);
   const auto prey = world.AddPrey(2 + kReach + 0.1, 2, 5);
-  AddGrippingChannels(world, true);
-  world.Start();
+  world.UseTurrets();
   world.Command("footbot_gripper", robot, {1});
   world.Command("footbot_turret", robot, {2});
   world.Run(5);
@@ -143,8 +123,7 @@ TEST(Dynamics2d, TheTorqueSensorReadsTheFrictionOfATurnedLoad)
   const double mass = 0.5;
   const double radius = 0.1;
   world.AddPrey(2 + kReach + radius, 2, mass, radius);
-  AddGrippingChannels(world, true);
-  world.Start();
+  world.UseTurrets();
   world.Command("footbot_gripper", robot, {1});
   world.Command("footbot_turret", robot, {0.5});
   world.Run(30);
@@ -169,15 +148,11 @@ TEST(Dynamics2d, TheTorqueSensorReadsTheFrictionOfATurnedLoad)
 // Two footbots hold a bar-like handbot, one drives sideways: the other's turret feels force times lever.
 TEST(Dynamics2d, TheTorqueSensorReadsALeverOnTheTurret)
 {
-  Dynamics2dTestWorld world;
-  world.Set("ground_friction", "0");
-  world.Set("wheel_friction", "50");
-  world.Set("drive_force", "2");
+  Dynamics2dTestWorld world("ground_friction", "0", "wheel_friction", "50", "drive_force", "2");
   const auto holder = world.AddFootbot(1, 1, 0);
   const auto handbot = world.Add(EntityKind::kHandbot, {1 + kReach + 0.5, 1, 0}, Quaternion::Identity(), {1, 0.2, 0.4});
   const auto puller = world.AddFootbot(1 + kReach + 0.9, 1 + 0.1 + kReach, -kPi / 2);
-  AddGrippingChannels(world, true);
-  world.Start();
+  world.UseTurrets();
   world.Command("footbot_gripper", holder, {1});
   world.Command("footbot_gripper", puller, {1});
   world.Run(20);
@@ -193,8 +168,7 @@ TEST(Dynamics2d, AnUnloadedTurretTurnsAtItsSpeedAndCarriesTheGripper)
   Dynamics2dTestWorld world;
   const auto robot = world.AddFootbot(1, 1);
   const auto prey = world.AddPrey(1, 1 + kReach + 0.105, 0.5);
-  AddGrippingChannels(world, true);
-  world.Start();
+  world.UseTurrets();
   world.Command("footbot_turret", robot, {kPi / 4});
   world.Run(20);
   EXPECT_NEAR(world.Attribute(robot, "turret_angle"), kPi / 2, 1e-9);
@@ -213,8 +187,7 @@ void ChainOfTenPullsAPrey(bool turrets)
   const double spacing = kReach + 0.085036758;
   for (int i = 0; i < 10; ++i) robots.push_back(world.AddFootbot(5 + spacing * i, 2));
   const auto prey = world.AddPrey(5 + spacing * 9 + kReach + 0.15, 2, 12, 0.15);
-  AddGrippingChannels(world, turrets);
-  world.Start();
+  if (turrets) world.UseTurrets();
   for (const auto robot : robots) world.Command("footbot_gripper", robot, {1});
   world.Run(1);
   for (int i = 0; i < 9; ++i)
@@ -250,8 +223,7 @@ TEST(Dynamics2d, MovingAMemberFromOutsideOpensItsGrips)
   const auto a = world.AddFootbot(1, 1);
   const auto b = world.AddFootbot(1 + kReach + 0.085, 1);
   const auto prey = world.AddPrey(1 + 2 * kReach + 0.085 + 0.1, 1, 1);
-  AddGrippingChannels(world, true);
-  world.Start();
+  world.UseTurrets();
   world.Command("footbot_gripper", a, {1});
   world.Command("footbot_gripper", b, {1});
   world.Run(2);
@@ -271,8 +243,7 @@ void AChainThatIsMovedKeepsItsShape(bool turrets, double yaw)
   Dynamics2dTestWorld world;
   std::vector<std::uint32_t> robots;
   for (int i = 0; i < 4; ++i) robots.push_back(world.AddFootbot(1 + i * (kReach + 0.085), 1, i == 0 ? 0 : 1e-3));
-  AddGrippingChannels(world, turrets);
-  world.Start();
+  if (turrets) world.UseTurrets();
   for (const auto robot : robots) world.Command("footbot_gripper", robot, {1});
   world.Run(3);
   for (std::size_t i = 0; i + 1 < robots.size(); ++i)

@@ -23,10 +23,7 @@ public:
       world.Set("ground_friction", "0.3");
       add(world);
       const auto far_away = world.AddPrey(-80, 80, 1);
-      world.AddCommands("footbot_wheels", 2);
-      world.AddCommands("footbot_turret", 1);
-      world.AddSensors("footbot_encoders", 2);
-      world.AddSensors("footbot_accelerometer", 3);
+      world.UseTurrets();
       world.Start();
       keep_fast_ = [this, far_away] { solved.engine->SetVelocity(far_away, {0, 3, 0}); };
     }
@@ -95,9 +92,7 @@ TEST(Dynamics2d, AnIsolatedPreySlidesAndSpinsAsTheSolverWouldHaveIt)
 // A prey that nobody could reach by itself within the tick is hit by one that was hit.
 TEST(Dynamics2d, WhoIsPushedFarWithinATickMeetsThoseWhoWereIsolated)
 {
-  Dynamics2dTestWorld world;
-  world.Set("restitution", "1");
-  world.Set("ground_friction", "0");
+  Dynamics2dTestWorld world("restitution", "1", "ground_friction", "0");
   const auto heavy = world.AddPrey(1, 1, 50);
   const auto light = world.AddPrey(1.205, 1, 0.1);
   const auto third = world.AddPrey(1.46, 1, 0.1);
@@ -116,9 +111,6 @@ TEST(Dynamics2d, AnIsolatedRobotGripsWhatIsPutBeforeIt)
   Dynamics2dTestWorld world;
   const auto robot = world.AddFootbot(2, 2);
   const auto prey = world.AddPrey(5, 5, 1);
-  world.AddCommands("footbot_wheels", 2);
-  world.AddCommands("footbot_gripper", 1);
-  world.Start();
   world.Command("footbot_gripper", robot, {1});
   world.Run(3);
   EXPECT_EQ(world.Attribute(robot, "gripped"), 0);
@@ -139,7 +131,6 @@ TEST(Dynamics2d, ARestoredEngineContinuesWithTheSameBitsWithIsolatedBodies)
     world.MakeMirror(mirror);
     world.AddWall({4, 2, 0.2}, {0.1, 4, 0.4}, 0.1);
     world.AddWall({0.5, 2, 0.2}, {0.1, 4, 0.4}, -0.1);
-    world.AddCommands("footbot_wheels", 2);
     world.Start();
   };
   const auto step = [](Dynamics2dTestWorld& world, std::uint32_t mirror)

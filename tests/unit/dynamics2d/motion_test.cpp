@@ -11,9 +11,7 @@ constexpr double kGravity = 9.81;
 
 TEST(Dynamics2d, EqualPreysExchangeTheirSpeedsInAnElasticHeadOnCollision)
 {
-  Dynamics2dTestWorld world;
-  world.Set("restitution", "1");
-  world.Set("ground_friction", "0");
+  Dynamics2dTestWorld world("restitution", "1", "ground_friction", "0");
   const auto a = world.AddPrey(1, 1, 1);
   const auto b = world.AddPrey(1.5, 1, 1);
   world.Start();
@@ -32,9 +30,7 @@ TEST(Dynamics2d, HeadOnCollisionsFollowMassesAndRestitution)
 {
   for (const double restitution : {0.0, 0.5, 1.0})
   {
-    Dynamics2dTestWorld world;
-    world.Set("restitution", std::to_string(restitution));
-    world.Set("ground_friction", "0");
+    Dynamics2dTestWorld world("restitution", std::to_string(restitution), "ground_friction", "0");
     const double heavy = 3;
     const auto a = world.AddPrey(1, 1, heavy);
     const auto b = world.AddPrey(1.5, 1, 1);
@@ -57,9 +53,7 @@ TEST(Dynamics2d, ASlidingPreyStopsAfterTheDistanceOfCoulombFriction)
 {
   for (const int substeps : {4, 40, 400})
   {
-    Dynamics2dTestWorld world;
-    world.Set("ground_friction", "0.25");
-    world.Set("substeps", std::to_string(substeps));
+    Dynamics2dTestWorld world("ground_friction", "0.25", "substeps", std::to_string(substeps));
     const auto prey = world.AddPrey(1, 1, 2);
     world.Start();
     const double speed = 1.5;
@@ -78,8 +72,7 @@ TEST(Dynamics2d, TheSubclockShortensTheSteps)
 {
   for (const int subclock : {1, 5})
   {
-    Dynamics2dTestWorld world;
-    world.Set("ground_friction", "0.25");
+    Dynamics2dTestWorld world("ground_friction", "0.25");
     world.SetSubclock(subclock);
     const auto prey = world.AddPrey(1, 1, 2);
     world.Start();
@@ -95,14 +88,11 @@ TEST(Dynamics2d, APreyOffTheMiddleLeavesTheRobotThatPushesIt)
 {
   for (const char* friction : {"0", "0.7"})
   {
-    Dynamics2dTestWorld world;
-    world.Set("friction", friction);
+    Dynamics2dTestWorld world("friction", friction);
     const double offset = 0.01;
     const double reach = 0.085036758 + 0.1;
     const auto robot = world.AddFootbot(2, 5, kPi);
     const auto prey = world.AddPrey(2.001 + std::sqrt(reach * reach - offset * offset), 5 + offset, 0.5, 0.1);
-    world.AddCommands("footbot_wheels", 2);
-    world.Start();
     world.Drive(robot, -0.05, -0.05);
     Vector3 arm = Vector3::UnitX();
     for (int tick = 0; tick < 1000 && std::abs(arm.y()) < arm.x(); ++tick)
@@ -119,9 +109,7 @@ TEST(Dynamics2d, APreyOffTheMiddleLeavesTheRobotThatPushesIt)
 // Angle = w^2 / (2 a), a = (2/3 mu m g R) / (m R^2 / 2).
 TEST(Dynamics2d, ASpinningPreyStopsByTheFrictionOfADisc)
 {
-  Dynamics2dTestWorld world;
-  world.Set("ground_friction", "0.2");
-  world.Set("substeps", "100");
+  Dynamics2dTestWorld world("ground_friction", "0.2", "substeps", "100");
   const auto prey = world.AddPrey(1, 1, 2, 0.15);
   world.Start();
   world.engine->SetVelocity(prey, {0, 0, 8});
@@ -134,9 +122,6 @@ TEST(Dynamics2d, AFootbotDrivesTheArcOfItsWheels)
 {
   Dynamics2dTestWorld world;
   const auto robot = world.AddFootbot(2, 2);
-  world.AddCommands("footbot_wheels", 2);
-  world.AddSensors("footbot_encoders", 2);
-  world.Start();
   world.Drive(robot, 0.08, 0.12);
   world.Run(1);  // at speed after the first tick
   const double yaw = world.Yaw(robot);
@@ -153,13 +138,8 @@ TEST(Dynamics2d, AFootbotDrivesTheArcOfItsWheels)
 
 TEST(Dynamics2d, WheelsSlipUntilTheSpeedIsReached)
 {
-  Dynamics2dTestWorld world;
-  world.Set("wheel_friction", "0.1");
-  world.Set("substeps", "50");
+  Dynamics2dTestWorld world("wheel_friction", "0.1", "substeps", "50");
   const auto robot = world.AddFootbot(1, 1);
-  world.AddCommands("footbot_wheels", 2);
-  world.AddSensors("footbot_accelerometer", 3);
-  world.Start();
   world.Drive(robot, 2, 2);
   world.Run(5);
   EXPECT_NEAR(world.Position(robot).x() - 1, 0.5 * 0.1 * kGravity * 0.25, 2e-3);
@@ -173,14 +153,9 @@ TEST(Dynamics2d, WheelsSlipUntilTheSpeedIsReached)
 
 TEST(Dynamics2d, TheAccelerometerReadsInTheFrameOfTheRobot)
 {
-  Dynamics2dTestWorld world;
-  world.Set("wheel_friction", "0.1");
-  world.Set("substeps", "50");
+  Dynamics2dTestWorld world("wheel_friction", "0.1", "substeps", "50");
   const auto ahead = world.AddFootbot(1, 1, kPi / 2);
   const auto turning = world.AddFootbot(5, 5, 2);
-  world.AddCommands("footbot_wheels", 2);
-  world.AddSensors("footbot_accelerometer", 3);
-  world.Start();
   world.Drive(ahead, 2, 2);
   world.Drive(turning, 0.2, 0.3);
   world.Run(10);
@@ -194,12 +169,8 @@ TEST(Dynamics2d, TheAccelerometerReadsInTheFrameOfTheRobot)
 
 TEST(Dynamics2d, MotorsLimitTheAccelerationWhereTheyAreWeakerThanTheGround)
 {
-  Dynamics2dTestWorld world;
-  world.Set("drive_force", "0.8");
+  Dynamics2dTestWorld world("drive_force", "0.8");
   const auto robot = world.AddFootbot(1, 1);
-  world.AddCommands("footbot_wheels", 2);
-  world.AddSensors("footbot_accelerometer", 3);
-  world.Start();
   world.Drive(robot, 2, 2);
   world.Run(3);
   EXPECT_NEAR(world.Sensor("footbot_accelerometer", robot, 0), 0.8 / 1.6, 1e-4);
@@ -210,8 +181,6 @@ TEST(Dynamics2d, APreyHeavierThanTheWheelsGripStandsStill)
   Dynamics2dTestWorld world;
   const auto robot = world.AddFootbot(1, 1);
   const auto prey = world.AddPrey(1.25, 1, 4);
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   world.Drive(robot, 0.1, 0.1);
   world.Run(20);
   const double before = world.Position(prey).x();
@@ -224,8 +193,6 @@ TEST(Dynamics2d, APreyLighterThanTheWheelsGripIsPushedAtTheirSpeed)
   Dynamics2dTestWorld world;
   const auto robot = world.AddFootbot(1, 1);
   const auto prey = world.AddPrey(1.25, 1, 1.5);
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   world.Drive(robot, 0.1, 0.1);
   world.Run(20);
   const double before = world.Position(prey).x();
@@ -235,11 +202,8 @@ TEST(Dynamics2d, APreyLighterThanTheWheelsGripIsPushedAtTheirSpeed)
 
 TEST(Dynamics2d, EyebotsFlyWhereTheirPropellersPush)
 {
-  Dynamics2dTestWorld world;
-  world.Set("distance", "1");
+  Dynamics2dTestWorld world("distance", "1");
   const auto eyebot = world.AddEyebot({3, 3, 1}, kPi / 2);
-  world.AddCommands("eyebot_propellers", 4);
-  world.Start();
   world.Command("eyebot_propellers", eyebot, {0.2, 0.1, 0, 0});
   world.Run(3);
   const Vector3 before = world.Position(eyebot);
@@ -260,7 +224,6 @@ TEST(Dynamics2d, AFootbotDrivesAsFastFarFromTheOriginAsNearIt)
     // 1 cm beside them: bodies that nobody is near are not in the solver.
     const auto beside = world.AddFootbot(place, place - 0.18);
     const auto beside_slant = world.AddFootbot(place + 0.09, place + 1 - 0.156, kPi / 6);
-    world.AddCommands("footbot_wheels", 4);
     world.Start();
     for (const auto robot : {straight, slant, beside, beside_slant}) world.Drive(robot, 0.05, 0.05);
     world.Run(10);
@@ -286,7 +249,6 @@ TEST(Dynamics2d, RobotsThatMeetOverlapByAtMostTheWayOfASubStep)
     world.Set("substeps", "1");  // each is seen
     const auto left = world.AddFootbot(4, 5);
     const auto right = world.AddFootbot(4.4 + 0.00125 * phase, 5, kPi);
-    world.AddCommands("footbot_wheels", 2);
     world.Start();
     for (const auto robot : {left, right}) world.Drive(robot, 0.3, 0.3);
     // The squares of the grippers, which reach 10 cm from the axes, meet first.

@@ -1,4 +1,6 @@
 // Walls, planes, mirrors and what the engine refuses.
+#include <gmock/gmock.h>
+
 #include <cmath>
 
 #include <filesystem>
@@ -7,6 +9,8 @@
 #include "common/space/terrain/terrain.h"
 #include "dynamics2d_test_world.h"
 #include "engine_worker/engines/terrain_walls.h"
+#include "tests/world/message_of.h"
+#include "tests/world/small_experiment.h"
 
 namespace swarmanoid
 {
@@ -18,8 +22,6 @@ TEST(Dynamics2d, FastRobotsDoNotCrossAThinWall)
   Dynamics2dTestWorld world;
   const auto robot = world.AddFootbot(1, 1);
   world.AddWall({2, 1, 0.1}, {0.01, 4, 0.2});
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   world.Drive(robot, 3, 3);
   for (int i = 0; i < 30; ++i)
   {
@@ -34,8 +36,6 @@ TEST(Dynamics2d, AStaticBlockBlocksWhereItIsCutHoweverFarItsCentre)
   const auto robot = world.AddFootbot(1, 1);
   world.AddWall({30, 1, 45}, {57, 1, 100});   // reaches from x = 1.5 and from below the ground to 95 m
   world.AddWall({1.3, 1, 45}, {0.1, 1, 89});  // starts half a metre above the ground
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   world.Drive(robot, 0.3, 0.3);
   world.Run(50);
   EXPECT_NEAR(world.Position(robot).x(), 1.5 - 0.1, 2e-3) << "its gripper touches the near face";
@@ -49,13 +49,10 @@ TEST(Dynamics2d, RobotsWorkOnAllThreePlanes)
       {"z", {{1, 1, 0.5}, Vector3::UnitX()}}};
   for (const auto& [axis, start] : starts_and_directions)
   {
-    Dynamics2dTestWorld world;
-    world.Set("perpendicular_axis", axis);
-    world.Set("distance", "0.5");
+    Dynamics2dTestWorld world("perpendicular_axis", axis, "distance", "0.5");
     const auto robot = world.EngineTestWorld::AddFootbot(start.first);
     const Vector3 obstacle = start.first + start.second;
     world.AddWall(obstacle, {0.2, 0.2, 0.2});
-    world.AddCommands("footbot_wheels", 2);
     world.Start();
     // Robots stand on the plane: forward is its first axis at heading 0.
     world.Space().SetPose(robot, PlaneFrame(axis == "x"   ? PlaneAxis::kX
@@ -82,7 +79,6 @@ TEST(Dynamics2d, AMirrorPushesAndIsNotPushed)
     const auto mirror = world.AddFootbot(1, 1);
     const auto prey = world.AddPrey(1.4, 1, 1);
     world.MakeMirror(mirror);
-    world.Start();
     world.Space().SetAttribute(world.Space().GetEntity(mirror).SlotOf("turret_angle"), turret);
     for (int i = 0; i < 50; ++i)
     {
@@ -101,7 +97,6 @@ TEST(Dynamics2d, AMirrorThatIsPutElsewhereSweepsNobodyAway)
   const auto mirror = world.AddFootbot(1, 1);
   const auto prey = world.AddPrey(3.4, 1, 1);
   world.MakeMirror(mirror);
-  world.Start();
   world.Run(3);
   world.Space().SetPose(mirror, {Vector3(3.2, 1, 0), Quaternion::Identity()});
   world.Run(3);
@@ -141,34 +136,21 @@ TEST(Dynamics2d, BodiesBelowTheSolversToleranceAreRefusedByName)
 {
   Dynamics2dTestWorld world;
   world.AddPrey(1, 1, 1, 0.0005);
-  try
-  {
-    world.Start();
-    FAIL() << "it was accepted";
-  }
-  catch (const ConfigurationError& error)
-  {
-    EXPECT_NE(std::string(error.what()).find("'e0'"), std::string::npos) << error.what();
-  }
+  EXPECT_THAT(test::MessageOf<ConfigurationError>([&] { world.Start(); }), testing::HasSubstr("'e0'"));
 }
 
 TEST(Dynamics2d, ACommandThatIsNotANumberNamesTheRobot)
 {
   Dynamics2dTestWorld world;
   const auto robot = world.AddFootbot(1, 1);
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   world.Drive(robot, std::nan(""), 0);
   EXPECT_THROW(world.Tick(), std::runtime_error);
 }
 
 TEST(Dynamics2d, RobotsStayOnATiltedPlane)
 {
-  Dynamics2dTestWorld world;
-  world.Set("tilt", "0, 30, 0");
+  Dynamics2dTestWorld world("tilt", "0, 30, 0");
   const auto robot = world.AddFootbot(0, 0);
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   world.Drive(robot, 0.1, 0.1);
   world.Run(20);
   const Vector3 downhill(std::cos(kPi / 6), 0, -std::sin(kPi / 6));
@@ -181,9 +163,7 @@ TEST(Dynamics2d, FrictionOfAnEntityGoesBeforeThatOfTheEngine)
   Dynamics2dTestWorld world;
   const auto slippery = world.AddPrey(1, 1, 1);
   const auto rough = world.AddPrey(1, 3, 1);
-  auto element = std::make_shared<ConfigurationNode>();
-  element->attributes.push_back({"ground_friction", "0.01", {}});
-  world.experiment.entities[slippery].tree = TConfigurationTree(element);
+  world.experiment.entities[slippery].tree = test::TreeOf({{"ground_friction", "0.01"}});
   world.Start();
   world.engine->SetVelocity(slippery, {1, 0, 0});
   world.engine->SetVelocity(rough, {1, 0, 0});
@@ -207,8 +187,7 @@ TEST(Dynamics2d, TerrainIsWallsAtTheHeightOfThePlane)
     return false;
   };
 
-  Dynamics2dTestWorld world;
-  world.Set("distance", std::to_string(level));
+  Dynamics2dTestWorld world("distance", std::to_string(level));
   world.AddTerrain("octomap", {{"file", map}}, Vector3::Zero());
   RandomStream random(5, 0, 0, 0);
   std::vector<std::uint32_t> robots;
@@ -218,7 +197,6 @@ TEST(Dynamics2d, TerrainIsWallsAtTheHeightOfThePlane)
     const double y = random.Uniform(terrain.Low().y(), terrain.High().y());
     if (!blocked(x, y, 0.2) && !blocked(x, y, 0.1)) robots.push_back(world.AddFootbot(x, y, random.Uniform(-3, 3)));
   }
-  world.AddCommands("footbot_wheels", 2);
   world.Start();
   int at_walls = 0;
   for (int tick = 0; tick < 100; ++tick)
@@ -246,8 +224,6 @@ TEST(Dynamics2d, ACrowdStaysApart)
     const double y = 1 + 0.25 * (i / 8);
     robots.push_back(world.AddFootbot(x, y, Atan2(2 - y, 2 - x)));
   }
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   for (const auto robot : robots) world.Drive(robot, 0.3, 0.3);
   world.Run(100);
   for (const auto a : robots)

@@ -22,10 +22,7 @@ struct Pair
     add(left_first);
     add(!left_first);
   }
-  double Middle(const Dynamics3dTestWorld& world) const
-  {
-    return (world.Position(left).x() + world.Position(right).x()) / 2;
-  }
+  double Middle(Dynamics3dTestWorld& world) const { return (world.Position(left).x() + world.Position(right).x()) / 2; }
   std::uint32_t left = 0;
   std::uint32_t right = 0;
 };
@@ -38,9 +35,6 @@ TEST(Dynamics3dBalance, NeitherOfTwoEqualRobotsPushesTheOtherBack)
     {
       Dynamics3dTestWorld world;
       const Pair pair(world, 0.4, offset, left_first);
-      world.AddCommands("footbot_wheels", 2);
-      world.AddSensors("footbot_encoders", 2);
-      world.Start();
       world.Drive(pair.left, kSpeed, kSpeed);
       world.Drive(pair.right, kSpeed, kSpeed);
       world.Run(10);
@@ -60,8 +54,6 @@ TEST(Dynamics3dBalance, AHeavierRobotPushesALighterOneBack)
   Dynamics3dTestWorld world;
   const Pair pair(world, 0.4, 0, true);
   world.experiment.entities[pair.right].mass_kg = 2.6;
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   world.Drive(pair.left, kSpeed, kSpeed);
   world.Drive(pair.right, kSpeed, kSpeed);
   world.Run(50);
@@ -77,9 +69,6 @@ TEST(Dynamics3dBalance, ATugOfWarBetweenTwoEqualRobotsIsADraw)
     Dynamics3dTestWorld world;
     const Pair pair(world, 2 * (0.085036758 + 0.1 + 0.002), 0, left_first);
     const auto prey = world.AddPrey({5, 5, 0}, 0.5);
-    world.AddCommands("footbot_wheels", 2);
-    world.AddCommands("footbot_gripper", 1);
-    world.AddSensors("footbot_turret_torque", 3);
     world.Start();
     for (const auto robot : {pair.left, pair.right}) world.Command("footbot_gripper", robot, {1});
     world.Tick();

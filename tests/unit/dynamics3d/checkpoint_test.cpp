@@ -32,16 +32,7 @@ public:
     eyebot_ = AddEyebot({2, 0.8, 1});
     mirror_ = AddFootbot({1.5, 0.75, 0});
     MakeMirror(mirror_);
-    AddCommands("footbot_wheels", 2);
-    AddCommands("footbot_gripper", 1);
-    AddCommands("footbot_turret", 1);
-    AddCommands("handbot_arms", 5);
-    AddCommands("handbot_hands", 2);
-    AddCommands("handbot_rope", 2);
-    AddCommands("eyebot_propellers", 4);
-    AddCommands("eyebot_attach", 1);
-    AddSensors("footbot_turret_torque", 3);
-    AddSensors("footbot_encoders", 2);
+    UseTurrets();
     Start();
   }
 
@@ -69,7 +60,7 @@ public:
   }
 
   std::uint32_t Mirror() const { return mirror_; }
-  int Grips() const
+  int Grips()
   {
     int grips = 0;
     for (const auto footbot : footbots_) grips += Attribute(footbot, "gripped") != 0;
@@ -120,11 +111,8 @@ TEST(Dynamics3dCheckpoint, AHandbotOnItsRopeKeepsItsHeadingWhenRestored)
 {
   const auto hashes = [](bool restarts)
   {
-    Dynamics3dTestWorld world;
-    world.Set("ceiling", "true");
+    Dynamics3dTestWorld world("ceiling", "true");
     const auto handbot = world.AddHandbot({5, 5, 0}, 1);
-    world.AddCommands("handbot_rope", 2);
-    world.Start();
     world.Command("handbot_rope", handbot, {1, -0.15});
     std::vector<std::uint64_t> found;
     for (int tick = 0; tick < 40; ++tick)

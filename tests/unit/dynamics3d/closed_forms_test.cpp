@@ -15,7 +15,6 @@ TEST(Dynamics3dClosedForms, ABlockFallsFreely)
 {
   Dynamics3dTestWorld world;
   const auto block = world.AddBlock({5, 5, 20}, {0.2, 0.2, 0.2}, 1);
-  world.Start();
   world.Run(10);
   // Semi-implicit Euler of n steps h falls g h² n (n + 1) / 2, which is g t² / 2 and g h t / 2 more.
   EXPECT_NEAR(20 - world.Position(block).z(), kGravity * 0.005 * 0.005 * 200 * 201 / 2, 1e-9);
@@ -27,17 +26,14 @@ TEST(Dynamics3dClosedForms, TheSubclockShortensTheSteps)
   Dynamics3dTestWorld world;
   world.SetSubclock(4);
   const auto block = world.AddBlock({5, 5, 20}, {0.2, 0.2, 0.2}, 1);
-  world.Start();
   world.Run(10);
   EXPECT_NEAR(20 - world.Position(block).z(), kGravity * 0.00125 * 0.00125 * 800 * 801 / 2, 1e-9);
 }
 
 TEST(Dynamics3dClosedForms, GravityPullsAlongTheAxisThatIsAskedFor)
 {
-  Dynamics3dTestWorld world;
-  world.Set("gravity", "0, 1.5, 0");
+  Dynamics3dTestWorld world("gravity", "0, 1.5, 0");
   const auto block = world.AddBlock({5, 5, 2}, {0.2, 0.2, 0.2}, 1);
-  world.Start();
   world.Run(20);
   EXPECT_NEAR(world.Position(block).y(), 5 + 1.5 * 4 / 2, 0.01);
   EXPECT_NEAR(world.Position(block).z(), 2, 1e-12);
@@ -46,12 +42,9 @@ TEST(Dynamics3dClosedForms, GravityPullsAlongTheAxisThatIsAskedFor)
 // A ground tilted about the y axis of the engine's frame; the block slides towards +x of the frame.
 double SlideAfterTwoSeconds(double degrees, const char* friction)
 {
-  Dynamics3dTestWorld world;
-  world.Set("orientation", "0, " + std::to_string(degrees) + ", 0");
-  world.Set("friction", friction);
+  Dynamics3dTestWorld world("orientation", "0, " + std::to_string(degrees) + ", 0", "friction", friction);
   const Quaternion tilt = QuaternionFromEuler({0, DegreesToRadians(degrees), 0});
   const auto block = world.AddBlock(tilt * Vector3(0, 0, 0.05), {0.4, 0.4, 0.1}, 2, tilt);
-  world.Start();
   world.Run(20);
   const Vector3 moved = tilt.conjugate() * world.Position(block);
   EXPECT_NEAR(moved.y(), 0, 0.02);
@@ -82,8 +75,6 @@ TEST(Dynamics3dClosedForms, AHandbotOnItsRopeSwingsLikeAPendulum)
   world.Set("ceiling", "true");
   world.experiment.clock_tick_ms = 10;
   const auto handbot = world.AddHandbot({5, 5, 0.5});
-  world.AddCommands("handbot_rope", 2);
-  world.Start();
   world.Command("handbot_rope", handbot, {1, 0});
   world.Tick();
   ASSERT_EQ(world.Attribute(handbot, "rope_attached"), 1);
@@ -110,8 +101,6 @@ TEST(Dynamics3dClosedForms, AnEyebotHoversWithAThrustOfItsWeight)
 {
   Dynamics3dTestWorld world;
   const auto eyebot = world.AddEyebot({5, 5, 1}, 0.7);
-  world.AddCommands("eyebot_propellers", 4);
-  world.Start();
   world.Run(100);
   EXPECT_LT((world.Position(eyebot) - Vector3(5, 5, 1)).norm(), 1e-4);
   EXPECT_NEAR(world.Yaw(eyebot), 0.7, 1e-4);
@@ -125,8 +114,6 @@ TEST(Dynamics3dClosedForms, TheWorkOfAnEyebotsThrustIsTheEnergyThatItGains)
   Dynamics3dTestWorld world;
   world.experiment.clock_tick_ms = 5;  // a tick is a step: the thrust of each is seen
   const auto eyebot = world.AddEyebot({5, 5, 0.5});
-  world.AddCommands("eyebot_propellers", 4);
-  world.Start();
   world.Run(20);
   world.Command("eyebot_propellers", eyebot, {0, 0, 0.4, 0});
   const auto* model = dynamic_cast<const dynamics3d::EyebotModel*>(world.engine->ModelForTest(eyebot));
@@ -154,8 +141,6 @@ TEST(Dynamics3dClosedForms, AnEyebotReachesTheCommandedVelocityAndYawRate)
 {
   Dynamics3dTestWorld world;
   const auto eyebot = world.AddEyebot({5, 5, 1});
-  world.AddCommands("eyebot_propellers", 4);
-  world.Start();
   world.Command("eyebot_propellers", eyebot, {0.5, 0.2, 0.1, 0});
   world.Run(50);
   const Vector3 start = world.Position(eyebot);
@@ -173,10 +158,6 @@ TEST(Dynamics3dClosedForms, AFootbotDrivesAtTheSpeedOfItsWheels)
 {
   Dynamics3dTestWorld world;
   const auto footbot = world.AddFootbot({2, 5, 0});
-  world.AddCommands("footbot_wheels", 2);
-  world.AddSensors("footbot_encoders", 2);
-  world.AddSensors("footbot_accelerometer", 3);
-  world.Start();
   world.Run(10);
   for (int k = 0; k < 3; ++k)
     EXPECT_NEAR(world.Sensor("footbot_accelerometer", footbot, k), k == 2 ? kGravity : 0, 0.05);
@@ -203,10 +184,6 @@ TEST(Dynamics3dClosedForms, TheAccelerometerSumsUpToTheSpeedOfTheWheels)
 {
   Dynamics3dTestWorld world;
   const auto footbot = world.AddFootbot({2, 5, 0}, 0.6);
-  world.AddCommands("footbot_wheels", 2);
-  world.AddSensors("footbot_encoders", 2);
-  world.AddSensors("footbot_accelerometer", 3);
-  world.Start();
   world.Run(10);
   world.Drive(footbot, 0.2, 0.2);
   Vector3 velocity = Vector3::Zero();
@@ -222,8 +199,7 @@ TEST(Dynamics3dClosedForms, TheAccelerometerSumsUpToTheSpeedOfTheWheels)
 // At rest the accelerometer feels what holds the robot, upwards, however it leans; in free fall it feels nothing.
 TEST(Dynamics3dClosedForms, TheAccelerometerFeelsTheSlopeAndNoFall)
 {
-  Dynamics3dTestWorld world;
-  world.Set("orientation", "0, 10, 0");
+  Dynamics3dTestWorld world("orientation", "0, 10, 0");
   const double slope = DegreesToRadians(10);
   const Quaternion tilt(Eigen::AngleAxisd(slope, Vector3::UnitY()));
   const auto ahead = world.AddFootbot({0, 0, 0});
@@ -231,9 +207,6 @@ TEST(Dynamics3dClosedForms, TheAccelerometerFeelsTheSlopeAndNoFall)
   const auto falling = world.AddFootbot({0, 3, 3});
   world.experiment.entities[ahead].pose.orientation = tilt;
   world.experiment.entities[across].pose.orientation = tilt * QuaternionFromYaw(kPi / 2);
-  world.AddCommands("footbot_wheels", 2);
-  world.AddSensors("footbot_accelerometer", 3);
-  world.Start();
   world.Run(4);
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(world.Sensor("footbot_accelerometer", falling, k), 0, 1e-6) << k;
   world.Run(16);
@@ -247,8 +220,6 @@ TEST(Dynamics3dClosedForms, AFootbotTurnsOnTheSpotAtTheDifferentialRate)
 {
   Dynamics3dTestWorld world;
   const auto footbot = world.AddFootbot({5, 5, 0});
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   world.Drive(footbot, -0.07, 0.07);  // 1 rad/s
   world.Run(5);
   const double yaw = world.Yaw(footbot);
@@ -262,15 +233,11 @@ TEST(Dynamics3dClosedForms, AFootbotClimbsWhatItsWheelsGripAndNothingSteeper)
 {
   const auto climbed = [](double degrees, const char* friction)
   {
-    Dynamics3dTestWorld world;
-    world.Set("orientation", "0, " + std::to_string(-degrees) + ", 0");
-    world.Set("wheel_friction", friction);
-    world.Set("friction", "0.1");
+    Dynamics3dTestWorld world("orientation", "0, " + std::to_string(-degrees) + ", 0", "wheel_friction", friction,
+                              "friction", "0.1");
     const Quaternion tilt = QuaternionFromEuler({0, DegreesToRadians(-degrees), 0});
     const auto footbot =
         world.Add(EntityKind::kFootbot, Vector3::Zero(), tilt, {0.085036758, 0.085036758, 0.146899733});
-    world.AddCommands("footbot_wheels", 2);
-    world.Start();
     world.Drive(footbot, 0.1, 0.1);
     world.Run(10);
     const double start = (tilt.conjugate() * world.Position(footbot)).x();
@@ -287,14 +254,11 @@ TEST(Dynamics3dClosedForms, AFootbotTipsWhereItsCentreOfMassPassesItsWheel)
 {
   for (const double degrees : {54.0, 61.0})
   {
-    Dynamics3dTestWorld world;
-    world.Set("orientation", "0, " + std::to_string(degrees) + ", 0");
-    world.Set("wheel_friction", "20");
-    world.Set("friction", "20");
+    Dynamics3dTestWorld world("orientation", "0, " + std::to_string(degrees) + ", 0", "wheel_friction", "20",
+                              "friction", "20");
     const Quaternion tilt = QuaternionFromEuler({0, DegreesToRadians(degrees), 0});
     const auto footbot = world.Add(EntityKind::kFootbot, Vector3::Zero(), tilt * QuaternionFromYaw(kPi / 2),
                                    {0.085036758, 0.085036758, 0.146899733});
-    world.Start();
     world.Run(20);
     const double turned = Acos((tilt.conjugate() * world.Orientation(footbot) * Vector3::UnitZ()).z());
     if (degrees < 57)
@@ -309,8 +273,6 @@ TEST(Dynamics3dClosedForms, AFootbotSpeedsUpAsItsMotorsLoseTorque)
   Dynamics3dTestWorld world;
   world.experiment.clock_tick_ms = 10;
   const auto footbot = world.AddFootbot({2, 5, 0});
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   world.Run(50);
   const double start = world.Position(footbot).x();
   world.Drive(footbot, 2, 2);
@@ -327,7 +289,6 @@ TEST(Dynamics3dClosedForms, AFootbotThatStartsStopsOrTurnsBackHardlyPitches)
   Dynamics3dTestWorld world;
   world.experiment.clock_tick_ms = 10;
   const auto footbot = world.AddFootbot({2, 5, 0});
-  world.AddCommands("footbot_wheels", 2);
   world.Start();
   for (const double speed : {0.3, 0.0, 0.3, -0.3})
   {
@@ -345,12 +306,9 @@ TEST(Dynamics3dClosedForms, ABlockTipsWhereItsCentreOfMassPassesItsEdge)
   // 0.1 wide and 0.2 high: atan(0.1 / 0.2) = 26.6 degrees.
   for (const double degrees : {24.0, 29.0})
   {
-    Dynamics3dTestWorld world;
-    world.Set("orientation", "0, " + std::to_string(degrees) + ", 0");
-    world.Set("friction", "2");
+    Dynamics3dTestWorld world("orientation", "0, " + std::to_string(degrees) + ", 0", "friction", "2");
     const Quaternion tilt = QuaternionFromEuler({0, DegreesToRadians(degrees), 0});
     const auto block = world.AddBlock(tilt * Vector3(0, 0, 0.1), {0.1, 0.1, 0.2}, 1, tilt);
-    world.Start();
     world.Run(30);
     const double turned = Acos((tilt.conjugate() * world.Orientation(block) * Vector3::UnitZ()).z());
     if (degrees < 26)
@@ -365,12 +323,9 @@ TEST(Dynamics3dClosedForms, AnUprightPreyTopplesWhereItsCentreOfMassPassesItsRim
   // Radius 0.05 and height 0.25: atan(0.05 / 0.125) = 21.8 degrees.
   for (const double degrees : {19.0, 25.0})
   {
-    Dynamics3dTestWorld world;
-    world.Set("orientation", "0, " + std::to_string(degrees) + ", 0");
-    world.Set("friction", "2");
+    Dynamics3dTestWorld world("orientation", "0, " + std::to_string(degrees) + ", 0", "friction", "2");
     const Quaternion tilt = QuaternionFromEuler({0, DegreesToRadians(degrees), 0});
     const auto prey = world.Add(EntityKind::kCylindricPrey, Vector3::Zero(), tilt, {0.05, 0.05, 0.25}, 1);
-    world.Start();
     world.Run(30);
     const double turned = Acos((tilt.conjugate() * world.Orientation(prey) * Vector3::UnitZ()).z());
     if (degrees < 20)
@@ -384,13 +339,11 @@ TEST(Dynamics3dClosedForms, ARollingPreyAcceleratesAsASolidCylinder)
 {
   // Rolls without slipping down a slope: a = 2/3 g sin.
   const double degrees = 10;
-  Dynamics3dTestWorld world;
-  world.Set("orientation", "0, " + std::to_string(degrees) + ", 0");
+  Dynamics3dTestWorld world("orientation", "0, " + std::to_string(degrees) + ", 0");
   const Quaternion tilt = QuaternionFromEuler({0, DegreesToRadians(degrees), 0});
   // Lying along y; the position is the centre of its base.
   const Quaternion lying = tilt * QuaternionFromEuler({-kPi / 2, 0, 0});
   const auto prey = world.Add(EntityKind::kCylindricPrey, tilt * Vector3(0, -0.05, 0.1), lying, {0.1, 0.1, 0.1}, 1);
-  world.Start();
   world.Run(20);
   const double along = (tilt.conjugate() * world.Position(prey)).x();
   const double expected = 2.0 / 3 * kGravity * Sin(DegreesToRadians(degrees)) * 2;

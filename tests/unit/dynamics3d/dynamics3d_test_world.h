@@ -13,11 +13,17 @@ namespace swarmanoid
 class Dynamics3dTestWorld : public EngineTestWorld<CDynamics3dEngine>
 {
 public:
-  Dynamics3dTestWorld() : EngineTestWorld("dynamics3d", Dynamics3dDescription().parameters) {}
+  Dynamics3dTestWorld() : EngineTestWorld(Dynamics3dDescription()) {}
+  template <class... More>
+  Dynamics3dTestWorld(const std::string& parameter, const std::string& value, const More&... more)
+      : Dynamics3dTestWorld()
+  {
+    Set(parameter, value, more...);
+  }
 
   std::uint32_t AddHandbot(const Vector3& position, double yaw = 0)
   {
-    return Add(EntityKind::kHandbot, position, QuaternionFromYaw(yaw), {0.22, 0.17, 0.16});
+    return Add(EntityKind::kHandbot, position, QuaternionFromYaw(yaw), DescriptionOf(EntityKind::kHandbot).size);
   }
   void Drive(std::uint32_t footbot, double left_m_per_s, double right_m_per_s)
   {
@@ -25,7 +31,7 @@ public:
     Command("footbot_wheels", footbot, {left_m_per_s / kRadius, right_m_per_s / kRadius});
   }
   // The angle between the entity's z axis and that of the space.
-  double Tilt(std::uint32_t entity) const { return Acos((Orientation(entity) * Vector3::UnitZ()).z()); }
+  double Tilt(std::uint32_t entity) { return Acos((Orientation(entity) * Vector3::UnitZ()).z()); }
 };
 
 // Metres that a footbot goes in `t` seconds from standing, while its motors give all they can: m v' = F (1 - v / v0), F

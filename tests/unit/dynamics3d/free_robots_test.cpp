@@ -34,10 +34,7 @@ struct FreeAndSolved
     for (Dynamics3dTestWorld* world : {&free, &solved})
     {
       add(*world);
-      world->AddCommands("footbot_wheels", 2);
-      world->AddCommands("footbot_turret", 1);
-      world->AddSensors("footbot_encoders", 2);
-      world->AddSensors("footbot_accelerometer", 3);
+      world->UseTurrets();
       world->Start();
     }
   }
@@ -98,8 +95,6 @@ TEST(Dynamics3dFreeRobots, AFreeRobotSpeedsUpAsItsMotorsAllow)
   Dynamics3dTestWorld world;
   world.experiment.clock_tick_ms = 10;
   const auto robot = world.AddFootbot({2, 5, 0});
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   world.Drive(robot, 0.3, 0.3);
   for (int tick = 1; tick <= 11; ++tick)
   {
@@ -116,8 +111,6 @@ TEST(Dynamics3dFreeRobots, OnAnArcTheyStayOnTheCircle)
 {
   Dynamics3dTestWorld world;
   const auto robot = world.AddFootbot({5, 5, 0});
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   world.Drive(robot, 0.1, 0.2);
   world.Run(10);
   // The middle is 0.21 m to the left.
@@ -169,7 +162,6 @@ TEST(Dynamics3dFreeRobots, WhoPassesCloselyStaysFree)
   world.AddWall({2, 1 + 0.085036758 + 0.006 + 0.05, 0.25}, {1, 0.1, 0.5});
   const auto other = world.AddFootbot({1, 3, 0});
   world.AddWall({2, 3 + 0.085036758 + 0.001 + 0.05, 0.25}, {1, 0.1, 0.5});
-  world.AddCommands("footbot_wheels", 2);
   world.Start();
   for (const auto each : {robot, other}) world.Drive(each, 0.2, 0.2);
   int solved = 0;
@@ -189,9 +181,6 @@ TEST(Dynamics3dFreeRobots, TheStartAndTheEndOfAContactKeepTheSpeed)
   Dynamics3dTestWorld world;
   const auto robot = world.AddFootbot({1, 1, 0}, 0.3);
   const auto eyebot = world.AddEyebot({1.9, 1.3, 0.2});
-  world.AddCommands("footbot_wheels", 2);
-  world.AddCommands("eyebot_propellers", 4);
-  world.Start();
   world.Drive(robot, 0.2, 0.2);
   int changes = 0;
   bool was_free = true;
@@ -218,9 +207,7 @@ TEST(Dynamics3dFreeRobots, NobodyIsFreeOnWhatIsNotLevelGround)
     Dynamics3dTestWorld world;
     world.AddFootbot({5, 5, 0});
     world.AddFootbot({2, 2, 0});
-    world.AddCommands("footbot_wheels", 2);
     change(world);
-    world.Start();
     world.Drive(0, 0.1, 0.1);
     world.Drive(1, 0.1, 0.1);
     world.Run(3);
@@ -247,7 +234,6 @@ TEST(Dynamics3dFreeRobots, WhatFallsIsMetBelowIt)
   const auto far = world.AddFootbot({2, 2, 0});
   const auto below = world.AddFootbot({6, 6, 0});
   const auto prey = world.AddPrey({6, 6, 3}, 0.2);
-  world.AddCommands("footbot_wheels", 2);
   world.Start();
   bool was_free = true;
   for (int tick = 0; tick < 12; ++tick)
@@ -268,11 +254,8 @@ TEST(Dynamics3dFreeRobots, WhoWasSolvedBecomesFree)
   for (const char* step : {"2.5", "5", "10"})
     for (const double left : {0.0, 0.3, -0.3})
     {
-      Dynamics3dTestWorld world;
-      world.Set("step_ms", step);
+      Dynamics3dTestWorld world("step_ms", step);
       const auto robot = world.AddFootbot({5, 5, 0.06}, 0.3);
-      world.AddCommands("footbot_wheels", 2);
-      world.Start();
       world.Drive(robot, left, left == 0 ? 0 : 0.3);
       world.Tick();
       EXPECT_FALSE(IsFree(world, robot)) << step << " ms";
@@ -286,8 +269,6 @@ TEST(Dynamics3dFreeRobots, WhoStandsDoesNotCreep)
 {
   Dynamics3dTestWorld world;
   const auto robot = world.AddFootbot({2, 2, 0}, 0.3);
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   world.Drive(robot, 0.1, 0.23);
   world.Run(50);
   world.Drive(robot, 0, 0);
@@ -308,8 +289,6 @@ TEST(Dynamics3dFreeRobots, TheArenasWallsAreMet)
   for (int k = 0; k < 4; ++k)
     robots.push_back(
         world.AddFootbot({1 + 0.2 * std::cos(k * kPi / 2), 1 + 0.2 * std::sin(k * kPi / 2), 0}, k * kPi / 2));
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   for (const auto robot : robots) world.Drive(robot, 0.2, 0.2);
   world.Space().SetPose(robots[0], {Vector3(-3, 1, 0), Quaternion::Identity()});
   world.engine->EntityMoved(robots[0]);
@@ -328,14 +307,10 @@ TEST(Dynamics3dFreeRobots, TheArenasWallsAreMet)
 // What is faster than anybody expected is met all the same: those who could not be reached are searched anew.
 TEST(Dynamics3dFreeRobots, WhoIsPushedFarWithinATickMeetsThoseWhoWereFree)
 {
-  Dynamics3dTestWorld world;
-  world.Set("restitution", "1");
-  world.Set("friction", "0");
+  Dynamics3dTestWorld world("restitution", "1", "friction", "0");
   const auto heavy = world.AddPrey({1, 1, 0}, 20);
   const auto hit = world.AddFootbot({1.19, 1, 0});
   const auto robot = world.AddFootbot({1.41, 1, 0});
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   world.Tick();
   EXPECT_TRUE(IsFree(world, robot));
   OdeWorld& ode = world.engine->WorldForTest();
@@ -368,10 +343,6 @@ public:
     AddWall({2, 3, 0.2}, {1, 0.1, 0.4}, 0.5);
     mirror_ = AddFootbot({0.2, 3.8, 0});
     MakeMirror(mirror_);
-    AddCommands("footbot_wheels", 2);
-    AddCommands("footbot_gripper", 1);
-    AddSensors("footbot_encoders", 2);
-    AddSensors("footbot_accelerometer", 3);
     Start();
   }
   void Advance()
@@ -388,7 +359,7 @@ public:
     Tick();
   }
   std::uint32_t Robot(std::size_t k) const { return robots_[k]; }
-  Vector3 PlaceOf(std::size_t k) const { return Position(robots_[k]); }
+  Vector3 PlaceOf(std::size_t k) { return Position(robots_[k]); }
 
   static constexpr std::size_t kRobots = 24;
   std::uint64_t seed = 3;

@@ -20,10 +20,6 @@ TEST(Dynamics3dGripping, AFootbotDragsAPreyAndLetsGoOfIt)
   Dynamics3dTestWorld world;
   const auto footbot = world.AddFootbot({2, 5, 0});
   const auto prey = AddPreyInFrontOf(world, 2, 5, 0.4);
-  world.AddCommands("footbot_gripper", 1);
-  world.AddCommands("footbot_wheels", 2);
-  world.AddSensors("footbot_turret_torque", 3);
-  world.Start();
   world.Command("footbot_gripper", footbot, {1});
   world.Tick();
   EXPECT_EQ(world.Attribute(footbot, "gripped"), 1 + prey);
@@ -48,16 +44,11 @@ TEST(Dynamics3dGripping, AFootbotDragsAPreyAndLetsGoOfIt)
 // from the axis, and the turret holds.
 TEST(Dynamics3dGripping, TheTorqueSensorReadsTheLeverOfALoad)
 {
-  Dynamics3dTestWorld world;
-  world.Set("gravity", "0, 1, -9.81");
-  world.Set("friction", "0");
+  Dynamics3dTestWorld world("gravity", "0, 1, -9.81", "friction", "0");
   const auto footbot = world.AddFootbot({2, 5, 0});
   const double mass = 2;
   const auto prey = AddPreyInFrontOf(world, 2, 5, mass);
-  world.AddCommands("footbot_gripper", 1);
-  world.AddCommands("footbot_turret", 1);
-  world.AddSensors("footbot_turret_torque", 3);
-  world.Start();
+  world.UseTurrets();
   world.Command("footbot_gripper", footbot, {1});
   world.Run(20);
   ASSERT_EQ(world.Attribute(footbot, "gripped"), 1 + prey);
@@ -76,8 +67,6 @@ TEST(Dynamics3dGripping, AnEntityThatIsPutElsewhereLeavesItsGripsAndStandsStill)
   Dynamics3dTestWorld world;
   const auto footbot = world.AddFootbot({2, 5, 0});
   const auto prey = AddPreyInFrontOf(world, 2, 5, 0.4);
-  world.AddCommands("footbot_gripper", 1);
-  world.Start();
   world.Command("footbot_gripper", footbot, {1});
   world.Run(5);
   ASSERT_EQ(world.Attribute(footbot, "gripped"), 1 + prey);
@@ -95,9 +84,7 @@ TEST(Dynamics3dGripping, TheTurretTurnsWhatTheGripperHolds)
   Dynamics3dTestWorld world;
   const auto footbot = world.AddFootbot({5, 5, 0});
   const auto prey = AddPreyInFrontOf(world, 5, 5, 0.05);
-  world.AddCommands("footbot_gripper", 1);
-  world.AddCommands("footbot_turret", 1);
-  world.Start();
+  world.UseTurrets();
   world.Command("footbot_gripper", footbot, {1});
   world.Command("footbot_turret", footbot, {0.5});
   world.Run(20);
@@ -112,9 +99,6 @@ TEST(Dynamics3dGripping, AChainOfFootbotsPullsTogether)
   std::vector<std::uint32_t> chain;
   const double spacing = 2 * FootbotShape::kRadius + 0.002;
   for (int k = 0; k < 4; ++k) chain.push_back(world.AddFootbot({3 - k * spacing, 5, 0}));
-  world.AddCommands("footbot_gripper", 1);
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   for (std::size_t k = 1; k < chain.size(); ++k) world.Command("footbot_gripper", chain[k], {1});
   world.Tick();
   for (std::size_t k = 1; k < chain.size(); ++k) EXPECT_EQ(world.Attribute(chain[k], "gripped"), 1 + chain[k - 1]);
@@ -131,8 +115,6 @@ TEST(Dynamics3dGripping, LoopsAreNotClosed)
   const double spacing = 2 * FootbotShape::kRadius + 0.002;
   const auto left = world.AddFootbot({5, 5, 0});
   const auto right = world.AddFootbot({5 + spacing, 5, 0}, kPi);
-  world.AddCommands("footbot_gripper", 1);
-  world.Start();
   world.Command("footbot_gripper", left, {1});
   world.Command("footbot_gripper", right, {1});
   world.Run(3);
@@ -142,14 +124,10 @@ TEST(Dynamics3dGripping, LoopsAreNotClosed)
 
 TEST(Dynamics3dGripping, AHandbotLiftsABookAndCarriesItUpItsRope)
 {
-  Dynamics3dTestWorld world;
-  world.Set("ceiling", "true");
+  Dynamics3dTestWorld world("ceiling", "true");
   const auto handbot = world.AddHandbot({5, 5, 0});
   // A book of 0.4 kg on a stand, between the two hands.
   const auto book = world.AddBlock({5.27, 5, 0.1}, {0.03, 0.16, 0.2}, 0.4);
-  world.AddCommands("handbot_hands", 2);
-  world.AddCommands("handbot_rope", 2);
-  world.Start();
   world.Command("handbot_hands", handbot, {1, 1});
   world.Command("handbot_rope", handbot, {1, 0});
   world.Run(10);
@@ -180,8 +158,6 @@ TEST(Dynamics3dGripping, AHandbotThatIsMovedTakesItsBookAlong)
     Dynamics3dTestWorld world;
     const auto handbot = world.AddHandbot({5, 5, 0});
     const auto book = world.AddBlock({5.27, 5, 0.1}, {0.03, 0.16, 0.2}, 0.4);
-    world.AddCommands("handbot_hands", 2);
-    world.Start();
     world.Command("handbot_hands", handbot, {1, 1});
     world.Run(10);
     ASSERT_EQ(world.Attribute(handbot, "gripped", 1), 1 + book);
@@ -206,14 +182,9 @@ TEST(Dynamics3dGripping, AHandbotThatIsMovedTakesItsBookAlong)
 
 TEST(Dynamics3dGripping, AHandbotHangsOnAShelfByItsHandsAlone)
 {
-  Dynamics3dTestWorld world;
-  world.Set("ceiling", "true");
-  world.Set("ground", "false");
+  Dynamics3dTestWorld world("ceiling", "true", "ground", "false");
   const auto handbot = world.AddHandbot({5, 5, 1});
   const auto shelf = world.AddWall({5.36, 5, 1.1}, {0.2, 1, 0.02});
-  world.AddCommands("handbot_hands", 2);
-  world.AddCommands("handbot_rope", 2);
-  world.Start();
   world.Command("handbot_hands", handbot, {1, 1});
   world.Run(1);
   EXPECT_EQ(world.Attribute(handbot, "gripped", 0), 1 + shelf);
@@ -233,13 +204,9 @@ TEST(Dynamics3dGripping, AHandbotHangsOnAShelfByItsHandsAlone)
 // The rope bears the weight, which is more than a wrist can.
 TEST(Dynamics3dGripping, AHandbotClimbsAShelfHandOverHandOnItsRope)
 {
-  Dynamics3dTestWorld world;
-  world.Set("ceiling", "true");
+  Dynamics3dTestWorld world("ceiling", "true");
   const auto handbot = world.AddHandbot({5, 5, 0});
   const auto shelf = world.AddWall({5.29, 5, 1}, {0.04, 0.4, 2});
-  world.AddCommands("handbot_arms", 5);
-  world.AddCommands("handbot_hands", 2);
-  world.AddCommands("handbot_rope", 2);
   world.Start();
   const double turn = kPi / 3;  // of the head to each side
   const double rate = 0.5;
@@ -275,8 +242,6 @@ TEST(Dynamics3dGripping, ArmsHeadAndWristsMoveWithinTheirLimits)
 {
   Dynamics3dTestWorld world;
   const auto handbot = world.AddHandbot({5, 5, 0});
-  world.AddCommands("handbot_arms", 5);
-  world.Start();
   world.Command("handbot_arms", handbot, {0.4, 0.5, 0.25, 0.3, 0.1});
   world.Run(10);
   EXPECT_NEAR(world.Attribute(handbot, "head_angle"), 0.4, 0.02);
@@ -292,11 +257,8 @@ TEST(Dynamics3dGripping, ArmsHeadAndWristsMoveWithinTheirLimits)
 
 TEST(Dynamics3dGripping, ARopePullsButDoesNotPush)
 {
-  Dynamics3dTestWorld world;
-  world.Set("ceiling", "true");
+  Dynamics3dTestWorld world("ceiling", "true");
   const auto handbot = world.AddHandbot({5, 5, 0});
-  world.AddCommands("handbot_rope", 2);
-  world.Start();
   world.Command("handbot_rope", handbot, {1, 0.15});
   world.Run(20);
   // Slack: the robot stands on the ground, its weight on it.
@@ -307,11 +269,8 @@ TEST(Dynamics3dGripping, ARopePullsButDoesNotPush)
 
 TEST(Dynamics3dGripping, ARopeIsLetOutToItsLengthAndNoFurther)
 {
-  Dynamics3dTestWorld world;
-  world.Set("ceiling", "true");
+  Dynamics3dTestWorld world("ceiling", "true");
   const auto handbot = world.AddHandbot({5, 5, 0});
-  world.AddCommands("handbot_rope", 2);
-  world.Start();
   world.Command("handbot_rope", handbot, {1, 0.15});
   world.Run(200);
   EXPECT_EQ(world.Attribute(handbot, "rope_length"), 5);
@@ -320,12 +279,8 @@ TEST(Dynamics3dGripping, ARopeIsLetOutToItsLengthAndNoFurther)
 // An arm that opens turns the robot the other way; the fans bring it back, and it stands.
 TEST(Dynamics3dGripping, FansEndTheTurnsOfAHandbotOnItsRope)
 {
-  Dynamics3dTestWorld world;
-  world.Set("ceiling", "true");
+  Dynamics3dTestWorld world("ceiling", "true");
   const auto handbot = world.AddHandbot({5, 5, 0}, 1);
-  world.AddCommands("handbot_rope", 2);
-  world.AddCommands("handbot_arms", 5);
-  world.Start();
   world.Command("handbot_rope", handbot, {1, -0.15});
   world.Run(20);
   const auto farthest_off = [&](int ticks)
@@ -348,12 +303,8 @@ TEST(Dynamics3dGripping, FansEndTheTurnsOfAHandbotOnItsRope)
 
 TEST(Dynamics3dGripping, AnEyebotAttachesToTheCeilingAndNowhereElse)
 {
-  Dynamics3dTestWorld world;
-  world.Set("ceiling", "true");
+  Dynamics3dTestWorld world("ceiling", "true");
   const auto eyebot = world.AddEyebot({5, 5, 1});
-  world.AddCommands("eyebot_attach", 1);
-  world.AddCommands("eyebot_propellers", 4);
-  world.Start();
   world.Command("eyebot_attach", eyebot, {1});
   world.Run(10);
   EXPECT_EQ(world.Attribute(eyebot, "attached"), 0);

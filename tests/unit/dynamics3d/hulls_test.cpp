@@ -45,7 +45,6 @@ TEST(Dynamics3dHulls, ATetrahedronRestsOnItsBaseAndOnTheSideThatItFallsOn)
     Dynamics3dTestWorld world;
     const auto body = AddHull(world, Tetrahedron(edge), {5, 5, 0.3}, 1,
                               QuaternionFromEuler({DegreesToRadians(tilt / 10), DegreesToRadians(tilt), 0}));
-    world.Start();
     world.Run(100);
     // The centre of mass is at a quarter of its height, whichever side it is on.
     const Vector3 centre = world.Position(body) + world.Orientation(body) * Vector3(0, 0, -height / 4);
@@ -62,7 +61,6 @@ TEST(Dynamics3dHulls, AWedgeRestsOnItsSlopeOrItsBase)
   Dynamics3dTestWorld world;
   const auto base = AddHull(world, wedge, {3, 5, 0.12}, 1);
   const auto slope = AddHull(world, wedge, {7, 5, 0.3}, 1, QuaternionFromEuler({0, DegreesToRadians(150), 0}));
-  world.Start();
   world.Run(100);
   EXPECT_NEAR(world.Position(base).z(), 0.1, 1e-3);
   EXPECT_LT(world.Tilt(base), 1e-3);
@@ -78,7 +76,6 @@ TEST(Dynamics3dHulls, AHullOfABoxFallsTipsAndRestsAsTheBox)
   Dynamics3dTestWorld world;
   const auto box = world.AddBlock({3, 5, 0.5}, size, 2, tilted);
   const auto hull = AddHull(world, BoxCorners(size), {7, 5, 0.5}, 2, tilted);
-  world.Start();
   world.Run(2);
   EXPECT_NEAR(world.Position(hull).z(), world.Position(box).z(), 1e-12);
   world.Run(98);
@@ -93,13 +90,11 @@ TEST(Dynamics3dHulls, AHullSlidesWhereFrictionIsLessThanTheSlope)
   const double slope = DegreesToRadians(20);
   for (const char* friction : {"0.34", "0.39"})
   {
-    Dynamics3dTestWorld world;
-    world.Set("friction", friction);
+    Dynamics3dTestWorld world("friction", friction);
     const Quaternion turn = QuaternionFromEuler({0, slope, 0});
     world.Add(EntityKind::kBlock, {5, 5, 1}, turn, {4, 2, 0.2}, 0, false);
     const Vector3 up = turn * Vector3::UnitZ();
     const auto hull = AddHull(world, BoxCorners({0.2, 0.2, 0.1}), Vector3(5, 5, 1) + 0.15 * up, 1, turn);
-    world.Start();
     world.Run(20);
     const double way = (world.Position(hull) - (Vector3(5, 5, 1) + 0.15 * up)).norm();
     if (friction[3] == '9')
@@ -111,8 +106,7 @@ TEST(Dynamics3dHulls, AHullSlidesWhereFrictionIsLessThanTheSlope)
 
 TEST(Dynamics3dHulls, AFreeBodyKeepsItsAngularMomentum)
 {
-  Dynamics3dTestWorld world;
-  world.Set("gravity", "0, 0, 0");
+  Dynamics3dTestWorld world("gravity", "0, 0, 0");
   const auto body = AddHull(world, Tetrahedron(0.5), {5, 5, 1.5}, 1);
   world.experiment.entities[body].hull = std::make_shared<const ConvexHull>(
       HullOf(std::vector<Vector3>{{0, 0, 0}, {0.4, 0, 0}, {0, 0.2, 0}, {0, 0, 0.3}}));
@@ -144,7 +138,6 @@ TEST(Dynamics3dHulls, APileOfHullsAndBoxesStands)
   for (int k = 0; k < 10; ++k)
     pile.push_back(k % 3 == 1 ? world.AddBlock({5, 5, 0.1 + 0.2 * k}, cube, 1)
                               : AddHull(world, BoxCorners(cube), {5, 5, 0.1 + 0.2 * k}, 1));
-  world.Start();
   world.Run(300);
   for (std::size_t k = 0; k < pile.size(); ++k)
   {
@@ -165,7 +158,6 @@ TEST(Dynamics3dHulls, ARobotPushesAHullAndStopsAtOneThatStands)
   AddHull(world, BoxCorners(size), {5.5, 5, 0.05}, 0, Quaternion::Identity(), false);
   const auto before_box = world.AddFootbot({5, 7, 0});
   world.AddWall({5.5, 7, 0.05}, size);
-  world.AddCommands("footbot_wheels", 2);
   world.Start();
   for (const auto robot : {pusher, before_hull, before_box}) world.Drive(robot, 0.1, 0.1);
   world.Run(80);
@@ -184,7 +176,6 @@ TEST(Dynamics3dHulls, CylindersAndHullsBearOneAnother)
   const auto above = world.AddPrey({3, 5, 0.1}, 0.5);
   world.AddPrey({7, 5, 0}, 2);
   const auto on_prey = AddHull(world, BoxCorners(size), {7, 5, 0.15}, 0.5);
-  world.Start();
   world.Run(100);
   EXPECT_NEAR(world.Position(above).z(), 0.1, 1e-3);
   EXPECT_LT(world.Tilt(above), 2e-3);
@@ -213,7 +204,6 @@ TEST(Dynamics3dHulls, AHeapOfStonesComesToRest)
     stones.push_back(
         AddHull(world, corners, {5 + 0.2 * (k % 3 - 1), 5 + 0.25 * (k / 3 % 3 - 1), 0.2 + 0.3 * (k / 9)}, 0.5));
   }
-  world.Start();
   world.Run(300);
   for (const auto stone : stones)
   {
@@ -229,8 +219,7 @@ TEST(Dynamics3dHulls, HullsRestOnTerrain)
   const std::string folder = SWARMANOID_SOURCE_FOLDER "/configs/terrain/";
   for (const bool cells : {false, true})
   {
-    Dynamics3dTestWorld world;
-    world.Set("ground", "false");
+    Dynamics3dTestWorld world("ground", "false");
     const Vector3 size(0.2, 0.16, 0.1);
     const auto box = world.AddBlock({0.5, 0.6, 0.3}, size, 0.5);
     const auto hull = AddHull(world, BoxCorners(size), {0.5, 0.6, 0.45}, 0.5);
@@ -240,7 +229,6 @@ TEST(Dynamics3dHulls, HullsRestOnTerrain)
     else
       world.AddTerrain("heightmap", {{"file", folder + "hills.png"}, {"size", "4, 4"}, {"height", "0.06"}},
                        Vector3::Zero());
-    world.Start();
     world.Run(150);
     // Box below hull, each 0.1 m high.
     EXPECT_NEAR((world.Position(hull) - world.Position(box)).norm(), 0.1, 2e-3) << cells;
@@ -258,7 +246,6 @@ TEST(Dynamics3dHulls, ARestoredRunIsTheOneThatWasNotInterrupted)
     const auto first = AddHull(world, Tetrahedron(0.3), {5, 5, 0.4}, 1, QuaternionFromEuler({0.3, 0.5, 0}));
     const auto second =
         AddHull(world, BoxCorners({0.3, 0.2, 0.1}), {5.05, 5, 0.9}, 1, QuaternionFromEuler({0.3, 0, 0}));
-    world.Start();
     world.Run(6);
     world.engine->Canonicalise();
     if (restored) world.ReplaceEngineBySavedState();

@@ -79,8 +79,6 @@ TEST(Dynamics3dObjects, APreyOffTheMiddleLeavesTheRobotThatPushesIt)
     const double reach = 0.085036758 + 0.1;
     const auto footbot = world.AddFootbot({2, 5, 0});
     const auto prey = world.AddPrey({2.001 + std::sqrt(reach * reach - offset * offset), 5 + offset, 0}, 0.5);
-    world.AddCommands("footbot_wheels", 2);
-    world.Start();
     world.Drive(footbot, 0.05, 0.05);
     Vector3 arm = Vector3::UnitX();
     for (int tick = 0; tick < 1000 && std::abs(arm.y()) < arm.x(); ++tick)
@@ -98,7 +96,6 @@ TEST(Dynamics3dObjects, APileOfTwentyCubesStandsForAMinute)
   Dynamics3dTestWorld world;
   std::vector<std::uint32_t> cubes;
   for (int k = 0; k < 20; ++k) cubes.push_back(world.AddBlock({5, 5, 0.1 + 0.2 * k}, kCube, 1));
-  world.Start();
   world.Run(600);
   for (std::size_t k = 0; k < cubes.size(); ++k)
   {
@@ -117,8 +114,6 @@ TEST(Dynamics3dObjects, ARobotWakesAPileAndPushesIt)
   const auto upper = world.AddBlock({5.5, 5, 0.15}, {0.2, 0.2, 0.1}, 0.2);
   const auto far = world.AddBlock({8, 5, 0.1}, kCube, 0.2);
   const auto footbot = world.AddFootbot({5, 5, 0});
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   world.Run(30);
   EXPECT_EQ(world.engine->WorldForTest().SleeperCount(), 3U);
   world.Drive(footbot, 0.2, 0.2);
@@ -139,7 +134,6 @@ TEST(Dynamics3dObjects, AnObjectFallsWhenWhatItSleptOnIsTakenAway)
   Dynamics3dTestWorld world;
   const auto lower = world.AddBlock({5, 5, 0.1}, kCube, 1);
   const auto upper = world.AddBlock({5, 5, 0.3}, kCube, 1);
-  world.Start();
   world.Run(20);
   ASSERT_EQ(world.engine->WorldForTest().SleeperCount(), 2U);
   world.Space().SetPose(lower, {Vector3(8, 5, 0.1), Quaternion::Identity()});
@@ -151,8 +145,7 @@ TEST(Dynamics3dObjects, AnObjectFallsWhenWhatItSleptOnIsTakenAway)
 // Newton's first law: nothing that glides is put to sleep. Nor does anything in the air that stands still for a moment.
 TEST(Dynamics3dObjects, WhatGlidesSlowlyWithoutFrictionGoesOn)
 {
-  Dynamics3dTestWorld world;
-  world.Set("friction", "0");
+  Dynamics3dTestWorld world("friction", "0");
   const auto block = world.AddBlock({5, 5, 0.1}, kCube, 1);
   const auto mirror = world.AddFootbot({4.805, 5, 0});
   world.MakeMirror(mirror);
@@ -188,8 +181,6 @@ TEST(Dynamics3dObjects, MirroredScenesStayMirrored)
     things[side].push_back(robots[side]);
   }
   world.Set("restitution", "0.5");
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   for (const auto robot : robots) world.Drive(robot, 0.2, 0.2);
   world.Run(15);
   for (std::size_t k = 0; k < things[0].size(); ++k)

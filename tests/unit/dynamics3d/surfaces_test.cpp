@@ -1,30 +1,27 @@
 // Friction and restitution of single entities.
 #include "dynamics3d_test_world.h"
 
+#include "tests/world/small_experiment.h"
+
 namespace swarmanoid
 {
 namespace
 {
 
-void Give(Dynamics3dTestWorld& world, std::uint32_t entity,
-          const std::vector<std::pair<std::string, std::string>>& attributes)
+void Give(Dynamics3dTestWorld& world, std::uint32_t entity, const test::TestParameters& attributes)
 {
-  auto element = std::make_shared<ConfigurationNode>();
-  for (const auto& [name, value] : attributes) element->attributes.push_back({name, value, {}});
-  world.experiment.entities[entity].tree = TConfigurationTree(element);
+  world.experiment.entities[entity].tree = test::TreeOf(attributes);
 }
 
 // On a ground of 15 degrees, where tan is 0.268: what rubs less slides with g (sin - mu cos), the others hold.
 TEST(Dynamics3dSurfaces, ABlockSlidesOnTheGroundByItsOwnGroundFriction)
 {
-  Dynamics3dTestWorld world;
-  world.Set("orientation", "0, 15, 0");
+  Dynamics3dTestWorld world("orientation", "0, 15, 0");
   const Quaternion tilt = QuaternionFromEuler({0, DegreesToRadians(15), 0});
   std::vector<std::uint32_t> blocks;
   for (int k = 0; k < 3; ++k) blocks.push_back(world.AddBlock(tilt * Vector3(0, k, 0.05), {0.4, 0.4, 0.1}, 2, tilt));
   Give(world, blocks[1], {{"ground_friction", "0.1"}});
   Give(world, blocks[2], {{"friction", "0.1"}});  // is for other bodies
-  world.Start();
   world.Run(20);
   const auto slid = [&](int k) { return (tilt.conjugate() * world.Position(blocks[static_cast<std::size_t>(k)])).x(); };
   const double way = 9.81 * (Sin(DegreesToRadians(15)) - 0.1 * Cos(DegreesToRadians(15))) * 4 / 2;
@@ -44,7 +41,6 @@ TEST(Dynamics3dSurfaces, TwoBodiesRubByTheMeanOfTheirFrictions)
     const auto block = world.AddBlock(Vector3(5, 5, 3) + tilt * Vector3(-2, 0, 0.1), {0.4, 0.4, 0.1}, 2, tilt);
     if (slippery) Give(world, board, {{"friction", "0.04"}});
     Give(world, block, {{"friction", "0.25"}});
-    world.Start();
     world.Run(15);
     const double way = 9.81 * (Sin(DegreesToRadians(15)) - 0.1 * Cos(DegreesToRadians(15))) * 2.25 / 2;
     const double slid = (tilt.conjugate() * (world.Position(block) - Vector3(5, 5, 3))).x() + 2;
@@ -59,7 +55,6 @@ TEST(Dynamics3dSurfaces, ABlockBouncesByItsOwnRestitution)
   const auto lively = world.AddBlock({5, 5, 0.6}, {0.2, 0.2, 0.2}, 1);
   const auto dead = world.AddBlock({7, 5, 0.6}, {0.2, 0.2, 0.2}, 1);
   Give(world, lively, {{"restitution", "0.6"}});
-  world.Start();
   world.Run(4);  // on the ground after 0.32 s
   double highest_lively = 0;
   double highest_dead = 0;
@@ -83,8 +78,6 @@ TEST(Dynamics3dSurfaces, WheelsSlipOnASlipperyBoard)
     if (slippery) Give(world, board, {{"friction", "0.01"}});
     const auto footbot = world.AddFootbot({3, 5, 0});
     world.Set("ground", "false");
-    world.AddCommands("footbot_wheels", 2);
-    world.Start();
     world.Run(5);
     const double start = world.Position(footbot).x();
     world.Drive(footbot, 1, 1);

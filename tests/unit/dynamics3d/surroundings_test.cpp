@@ -14,8 +14,6 @@ TEST(Dynamics3dWalls, AStaticBlockWhoseCentreIsFarOutsideStillBlocks)
   Dynamics3dTestWorld world;
   const auto footbot = world.AddFootbot({4, 5, 0});
   world.AddWall({105, 5, 0.25}, {200, 1, 0.5});  // from x = 5 on
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   world.Drive(footbot, 0.2, 0.2);
   world.Run(100);
   EXPECT_NEAR(world.Position(footbot).x(), 5 - 0.085, 0.01);
@@ -28,8 +26,6 @@ TEST(Dynamics3dWalls, RobotsStayWithinTheWallsOfTheArena)
   world.Set("arena_walls", "true");
   std::vector<std::uint32_t> footbots;
   for (int k = 0; k < 4; ++k) footbots.push_back(world.AddFootbot({0.5, 0.5 + 0.2 * (k - 2), 0}, 1.5 * k));
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   for (const auto footbot : footbots) world.Drive(footbot, 0.3, 0.29);
   world.Run(200);
   for (const auto footbot : footbots)
@@ -49,8 +45,6 @@ TEST(Dynamics3dWalls, RobotsThatMeetHeadOnStandUprightAndApart)
   Dynamics3dTestWorld world;
   const auto left = world.AddFootbot({4.5, 5, 0}, 0);
   const auto right = world.AddFootbot({5.5, 5.01, 0}, kPi);
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   world.Drive(left, 0.3, 0.3);
   world.Drive(right, 0.3, 0.3);
   for (int tick = 0; tick < 100; ++tick)
@@ -82,9 +76,7 @@ TEST(Dynamics3dFrame, AnEngineElsewhereInTheSpaceDoesTheSame)
 {
   const auto run = [](const char* position, const char* orientation, const Pose& frame)
   {
-    Dynamics3dTestWorld world;
-    world.Set("position", position);
-    world.Set("orientation", orientation);
+    Dynamics3dTestWorld world("position", position, "orientation", orientation);
     // Gravity along the frame's -z.
     const Vector3 down = frame.orientation * Vector3(0, 0, -9.81);
     world.Set("gravity", fmt::format("{}, {}, {}", down.x(), down.y(), down.z()));
@@ -94,8 +86,6 @@ TEST(Dynamics3dFrame, AnEngineElsewhereInTheSpaceDoesTheSame)
     const Pose block_at = frame.Compose({Vector3(1.3, 1.15, 0.05), Quaternion::Identity()});
     const auto block =
         world.Add(EntityKind::kBlock, block_at.position, block_at.orientation, {0.1, 0.1, 0.1}, 0.3, true);
-    world.AddCommands("footbot_wheels", 2);
-    world.Start();
     world.Drive(footbot, 0.15, 0.15);
     world.Run(30);
     return std::pair(frame.Inverse().Compose(world.Space().GetPose(footbot)),
@@ -115,8 +105,6 @@ TEST(Dynamics3dSpeed, FlatOutFootbotsNeitherLeaveTheGroundNorTunnelThroughWalls)
   Dynamics3dTestWorld world;
   const auto footbot = world.AddFootbot({4, 5, 0});
   world.AddWall({5, 5, 0.25}, {0.02, 2, 0.5});
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   world.Drive(footbot, 3, 3);  // ten times the robot's own speed
   for (int tick = 0; tick < 50; ++tick)
   {
@@ -134,7 +122,6 @@ TEST(Dynamics3dStability, AHeapComesToRestAndStaysThereFor100000Steps)
   things.push_back(world.AddPrey({5.5, 5, 0}, 0.5));
   things.push_back(world.AddFootbot({5, 5.4, 0}));
   things.push_back(world.AddHandbot({4, 5, 0}));
-  world.Start();
   world.Run(50);
   std::vector<Vector3> before;
   for (const auto thing : things) before.push_back(world.Position(thing));
@@ -155,8 +142,6 @@ TEST(Dynamics3dErrors, CommandsThatAreNoNumbersAreNamed)
 {
   Dynamics3dTestWorld world;
   const auto footbot = world.AddFootbot({5, 5, 0});
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   world.Command("footbot_wheels", footbot, {std::nan(""), 0});
   EXPECT_THROW(world.Tick(), std::runtime_error);
 }

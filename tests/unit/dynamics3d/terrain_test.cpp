@@ -1,6 +1,5 @@
 // Heightfields, voxels of maps, holes.
 #include <octomap/octomap.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -9,6 +8,7 @@
 #include "dynamics3d_test_world.h"
 #include "engine_worker/engines/dynamics3d/terrain_shape.h"
 #include "engine_worker/engines/dynamics3d/voxel_contacts.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -23,16 +23,14 @@ class MapFile
 {
 public:
   explicit MapFile(octomap::OcTree& tree)
-      : path_(std::filesystem::temp_directory_path() / (std::to_string(getpid()) + "dynamics3d_test.bt"))
   {
     tree.updateInnerOccupancy();
-    tree.writeBinary(path_.string());
+    tree.writeBinary(Path());
   }
-  ~MapFile() { std::filesystem::remove(path_); }
-  std::string Path() const { return path_.string(); }
+  std::string Path() const { return folder_ / "map.bt"; }
 
 private:
-  std::filesystem::path path_;
+  test::TemporaryFolder folder_;
 };
 
 // A floor of 4 m by 2 m whose surface is at z = 0, cells of 5 cm.
@@ -54,10 +52,8 @@ TEST(Dynamics3dTerrain, AWheelRollsOverAHeightfieldAtTheSpeedOfTheWheels)
   for (int row = 0; row < 41; ++row)
     for (int column = 0; column < 81; ++column) heights.push_back(0.015 * Sin(2 * kPi * column * 0.05));
   const auto hills = std::make_shared<const HeightTerrain>(heights, 81, 41, 4.0, 2.0);
-  Dynamics3dTestWorld world;
-  world.Set("ground", "false");
+  Dynamics3dTestWorld world("ground", "false");
   const auto footbot = world.AddFootbot({1, 1, 0.001});
-  world.AddCommands("footbot_wheels", 2);
   world.Start();
   std::unique_ptr<dynamics3d::TerrainShape> shape =
       AddHeightfield(world.engine->WorldForTest(), 0xfffffff0U, hills, Pose());
@@ -80,8 +76,7 @@ TEST(Dynamics3dTerrain, AHeightfieldStandsWhereItsTerrainSays)
   for (int row = 0; row < 21; ++row)
     for (int column = 0; column < 11; ++column) heights.push_back(0.1 * row * 0.1 + 0.02 * column * 0.1);
   const auto ramp = std::make_shared<const HeightTerrain>(heights, 11, 21, 1.0, 2.0);
-  Dynamics3dTestWorld world;
-  world.Set("ground", "false");
+  Dynamics3dTestWorld world("ground", "false");
   world.AddFootbot({0, 0, 0});
   world.Start();
   const Pose pose{Vector3(3, 4, 0.5), Quaternion::Identity()};
@@ -101,12 +96,9 @@ TEST(Dynamics3dTerrain, AFootbotDrivesOverAFloorOfVoxelsAsOverAPlane)
 {
   octomap::OcTree tree = FloorTree();
   const MapFile file(tree);
-  Dynamics3dTestWorld world;
-  world.Set("ground", "false");
+  Dynamics3dTestWorld world("ground", "false");
   const auto footbot = world.AddFootbot({0.5, 1, 0});
   world.AddTerrain("octomap", {{"file", file.Path()}}, Vector3::Zero());
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   world.Drive(footbot, 0.1, 0.1);
   for (int tick = 0; tick < 200; ++tick)
   {
@@ -126,17 +118,13 @@ TEST(Dynamics3dTerrain, VoxelsStopRobotsAndBearBlocksAndPreys)
           octomap::point3d(2.025F, 0.025F + 0.05F * static_cast<float>(y), 0.025F + 0.05F * static_cast<float>(z)),
           true, true);
   const MapFile file(tree);
-  Dynamics3dTestWorld world;
-  world.Set("ground", "false");
+  Dynamics3dTestWorld world("ground", "false");
   const auto footbot = world.AddFootbot({1.5, 1, 0});
   const auto prey = world.AddPrey({1, 0.5, 0.02}, 0.3);
   const auto block = world.AddBlock({1, 1.5, 0.08}, {0.2, 0.15, 0.1}, 0.5);
   const auto handbot = world.AddHandbot({3, 1, 0.01});
   const auto eyebot = world.AddEyebot({3, 0.4, 0.8});
   world.AddTerrain("octomap", {{"file", file.Path()}}, Vector3::Zero());
-  world.AddCommands("footbot_wheels", 2);
-  world.AddCommands("eyebot_propellers", 4);
-  world.Start();
   world.Drive(footbot, 0.2, 0.2);
   world.Command("eyebot_propellers", eyebot, {0, 0, -0.3, 0});
   world.Run(60);
@@ -184,7 +172,6 @@ TEST(Dynamics3dTerrain, WhatIsLargerThanAPillarOfCellsRestsOnItAsOnABlock)
       world.AddWall({1, 3, 0.15}, {0.2, 0.2, 0.3});
       world.AddWall({1.6, 3, 0.2}, {0.2, 0.2, 0.4});
     }
-    world.Start();
     world.Run(100);
     EXPECT_EQ(world.engine->WorldForTest().SleeperCount(), 3U) << (cells ? "cells" : "blocks");
     std::vector<Pose> poses;
@@ -247,7 +234,6 @@ TEST(Dynamics3dTerrain, ABeamOfCellsStopsARobotThatIsHigherThanTheGapBelow)
   const auto stopped = world.AddFootbot({1.6, 1, 0});
   const auto free = world.AddFootbot({2.6, 1, 0});
   world.AddTerrain("octomap", {{"file", file.Path()}}, Vector3::Zero());
-  world.AddCommands("footbot_wheels", 2);
   world.Start();
   for (const auto robot : {stopped, free}) world.Drive(robot, 0.2, 0.2);
   world.Run(50);
@@ -299,12 +285,9 @@ TEST(Dynamics3dTerrain, AFootbotStandsOnTheFloorOfARealBuilding)
       if (flat) place = Vector3(x, y, *floor);
     }
   ASSERT_TRUE(place.has_value());
-  Dynamics3dTestWorld world;
-  world.Set("ground", "false");
+  Dynamics3dTestWorld world("ground", "false");
   const auto footbot = world.AddFootbot(*place + Vector3(0, 0, 0.01));
   world.AddTerrain("octomap", {{"file", kBuilding}}, Vector3::Zero());
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   world.Run(20);
   EXPECT_NEAR(world.Position(footbot).z(), place->z(), 2e-3);
   world.Drive(footbot, 0.1, 0.1);
@@ -317,8 +300,6 @@ TEST(Dynamics3dTerrain, AFootbotFallsIntoAHoleAndStaysThere)
   Dynamics3dTestWorld world;
   const auto footbot = world.AddFootbot({4, 5, 0});
   world.Add(EntityKind::kHole, {5, 5, 0}, Quaternion::Identity(), {0.6, 0.6, 0}, 0, false);
-  world.AddCommands("footbot_wheels", 2);
-  world.Start();
   world.Drive(footbot, 0.2, 0.2);
   double highest = 0;
   for (int tick = 0; tick < 150; ++tick)

@@ -11,8 +11,11 @@
 #include <vector>
 
 #include "common/math/elementary.h"
+#include "common/plugin_descriptions/describe_builtins.h"
+#include "common/plugins/catalogue.h"
 #include "common/space/space.h"
 #include "engine_worker/physics_engine.h"
+#include "tests/world/small_experiment.h"
 
 namespace swarmanoid
 {
@@ -21,42 +24,40 @@ template <class Engine>
 class EngineTestWorld
 {
 public:
-  EngineTestWorld(const std::string& tag, std::vector<ParameterSpec> parameters)
-      : parameter_table_(std::move(parameters))
+  explicit EngineTestWorld(PluginDescription description) : description_(std::move(description))
   {
-    configuration_.tag = tag;
+    configuration_.tag = description_.label;
     configuration_.id = "engine";
     experiment.arena_size = {10, 10, 3};
   }
 
   Experiment experiment;
 
-  void Set(const std::string& parameter, const std::string& value)
+  // More parameters may follow, each with its value.
+  template <class... More>
+  void Set(const std::string& parameter, const std::string& value, const More&... more)
   {
     engine_->attributes.push_back({parameter, value, {}});
+    if constexpr (sizeof...(more) > 0) Set(more...);
   }
   void SetSubclock(int subclock) { configuration_.subclock = subclock; }
 
   std::uint32_t Add(EntityKind kind, const Vector3& position, const Quaternion& orientation, const Vector3& size,
                     double mass = 0, bool movable = true)
   {
-    EntityConfiguration entity;
-    entity.kind = kind;
-    entity.id = "e" + std::to_string(experiment.entities.size());
-    entity.pose = {position, orientation};
-    entity.size = size;
+    EntityConfiguration entity =
+        test::Entity(kind, "e" + std::to_string(experiment.entities.size()), position, size, movable);
+    entity.pose.orientation = orientation;
     entity.mass_kg = mass;
-    entity.movable = movable;
-    experiment.entities.push_back(entity);
-    return static_cast<std::uint32_t>(experiment.entities.size() - 1);
+    return test::Add(experiment, entity, -1);
   }
   std::uint32_t AddFootbot(const Vector3& position, double yaw = 0)
   {
-    return Add(EntityKind::kFootbot, position, QuaternionFromYaw(yaw), {0.085036758, 0.085036758, 0.146899733});
+    return Add(EntityKind::kFootbot, position, QuaternionFromYaw(yaw), DescriptionOf(EntityKind::kFootbot).size);
   }
   std::uint32_t AddEyebot(const Vector3& position, double yaw = 0)
   {
-    return Add(EntityKind::kEyebot, position, QuaternionFromYaw(yaw), {0.25, 0.25, 0.566});
+    return Add(EntityKind::kEyebot, position, QuaternionFromYaw(yaw), DescriptionOf(EntityKind::kEyebot).size);
   }
   std::uint32_t AddPrey(const Vector3& position, double mass, double radius = 0.1, double height = 0.1)
   {
@@ -72,31 +73,19 @@ public:
     return Add(EntityKind::kBlock, centre, QuaternionFromYaw(yaw), size, 0, false);
   }
   // A terrain from a file, as <terrain><KIND file=… size=… height=…/></terrain> says.
-  std::uint32_t AddTerrain(const std::string& kind, const std::vector<std::pair<std::string, std::string>>& attributes,
-                           const Vector3& position)
+  std::uint32_t AddTerrain(const std::string& kind, const test::TestParameters& attributes, const Vector3& position)
   {
-    auto source = std::make_shared<ConfigurationNode>();
-    source->name = kind;
-    for (const auto& [name, value] : attributes) source->attributes.push_back({name, value, {}});
-    auto node = std::make_shared<ConfigurationNode>();
-    node->children.push_back(source);
     const std::uint32_t entity = Add(EntityKind::kTerrain, position, Quaternion::Identity(), Vector3::Zero(), 0, false);
-    experiment.entities[entity].tree = TConfigurationTree(node);
+    experiment.entities[entity].tree = test::TerrainTree(kind, attributes);
     return entity;
   }
   void MakeMirror(std::uint32_t entity) { mirrors_.push_back(entity); }
 
-  // For all robots of the kind in the channel's name, mirrors aside.
-  void AddCommands(const std::string& channel, int width)
-  {
-    AddChannel(layout_.commands, layout_.command_size, channel, width);
-  }
-  void AddSensors(const std::string& channel, int width)
-  {
-    AddChannel(layout_.sensors, layout_.sensor_size, channel, width);
-  }
+  // Footbots turn their turrets as commanded. Without this the turrets stand still.
+  void UseTurrets() { uses_turrets_ = true; }
 
-  // After all entities and channels; more than one engine of the same experiment can be made.
+  // After all entities, with all channels of the engine for all robots but mirrors. The first command, tick or look at
+  // the space starts the engine, too. More than one engine of the same experiment can be made.
   void Start()
   {
     for (std::uint32_t i = 0; i < experiment.entities.size(); ++i)
@@ -105,6 +94,11 @@ public:
       (!experiment.entities[i].movable ? layout_.fixed : IsMirror(i) ? layout_.mirrored : layout_.owned).push_back(i);
     }
     space_ = std::make_unique<CSwarmanoidSpace>(experiment);
+    DescribeBuiltinDevices();
+    for (const PluginDescription* device : PluginCatalogue::Instance().Of(PluginKind::kActuator))
+      AddChannel(layout_.commands, layout_.command_size, *device);
+    for (const PluginDescription* device : PluginCatalogue::Instance().Of(PluginKind::kSensor))
+      AddChannel(layout_.sensors, layout_.sensor_size, *device);
     commands_.assign(layout_.command_size, 0);
     sensors_.assign(layout_.sensor_size, 0);
     update_.poses.resize(7 * layout_.owned.size());
@@ -114,7 +108,7 @@ public:
   {
     auto made = std::make_unique<Engine>();
     const TConfigurationTree tree{std::shared_ptr<const ConfigurationNode>(engine_)};
-    made->Init({configuration_, Parameters(tree, parameter_table_), *space_, layout_});
+    made->Init({configuration_, Parameters(tree, description_.parameters), *space_, layout_});
     for (std::uint32_t i = 0; i < experiment.entities.size(); ++i)
       made->AddEntity(space_->GetEntity(i), !experiment.entities[i].movable ? EBinding::kFixed
                                             : IsMirror(i)                   ? EBinding::kMirror
@@ -136,6 +130,7 @@ public:
 
   void Command(const std::string& channel, std::uint32_t entity, const std::vector<double>& values)
   {
+    EnsureStarted();
     std::copy(values.begin(), values.end(), commands_.begin() + Place(layout_.commands, channel, entity));
   }
   double Sensor(const std::string& channel, std::uint32_t entity, int element) const
@@ -145,6 +140,7 @@ public:
 
   void Tick()
   {
+    EnsureStarted();
     update_.attributes.Clear();
     engine->Update({layout_.commands, commands_}, update_, sensors_);
     space_->SetPoses(layout_.owned, update_.poses);
@@ -156,31 +152,42 @@ public:
     for (int i = 0; i < ticks; ++i) Tick();
   }
 
-  CSwarmanoidSpace& Space() { return *space_; }
-  Vector3 Position(std::uint32_t entity) const { return space_->GetEntity(entity).GetPosition(); }
-  Quaternion Orientation(std::uint32_t entity) const { return space_->GetEntity(entity).GetOrientation(); }
-  double Yaw(std::uint32_t entity) const { return YawOf(Orientation(entity)); }
-  double Attribute(std::uint32_t entity, const char* name, int element = 0) const
+  CSwarmanoidSpace& Space()
   {
-    return space_->GetEntity(entity).GetAttribute(name, element);
+    EnsureStarted();
+    return *space_;
+  }
+  Vector3 Position(std::uint32_t entity) { return Space().GetEntity(entity).GetPosition(); }
+  Quaternion Orientation(std::uint32_t entity) { return Space().GetEntity(entity).GetOrientation(); }
+  double Yaw(std::uint32_t entity) { return YawOf(Orientation(entity)); }
+  double Attribute(std::uint32_t entity, const char* name, int element = 0)
+  {
+    return Space().GetEntity(entity).GetAttribute(name, element);
   }
 
   std::unique_ptr<Engine> engine;
 
 private:
+  void EnsureStarted()
+  {
+    if (engine == nullptr) Start();
+  }
   bool IsMirror(std::uint32_t entity) const
   {
     return std::find(mirrors_.begin(), mirrors_.end(), entity) != mirrors_.end();
   }
-  void AddChannel(std::vector<ChannelBlock>& blocks, std::size_t& size, const std::string& channel, int width)
+  // Several devices may use one channel. Its name begins with the kind of its robots.
+  void AddChannel(std::vector<ChannelBlock>& blocks, std::size_t& size, const PluginDescription& device)
   {
-    const EntityKind kind = channel.starts_with("eyebot")    ? EntityKind::kEyebot
-                            : channel.starts_with("handbot") ? EntityKind::kHandbot
-                                                             : EntityKind::kFootbot;
-    ChannelBlock block{channel, width, {}, size};
+    if (std::ranges::find(description_.channels, device.channel) == description_.channels.end() ||
+        std::ranges::find(blocks, device.channel, &ChannelBlock::name) != blocks.end())
+      return;
+    ChannelBlock block{device.channel, device.channel_width, {}, size};
     for (std::uint32_t i = 0; i < experiment.entities.size(); ++i)
-      if (experiment.entities[i].kind == kind && !IsMirror(i)) block.entities.push_back(i);
-    size += block.entities.size() * static_cast<std::size_t>(width);
+      if (device.channel.starts_with(std::string(TagName(experiment.entities[i].kind)) + "_") && !IsMirror(i))
+        block.entities.push_back(i);
+    if (block.entities.empty() || (block.name == "footbot_turret" && !uses_turrets_)) return;
+    size += block.entities.size() * static_cast<std::size_t>(block.width);
     blocks.push_back(block);
   }
   static std::ptrdiff_t Place(const std::vector<ChannelBlock>& blocks, const std::string& channel, std::uint32_t entity)
@@ -192,11 +199,12 @@ private:
       if (found == block.entities.end()) break;
       return static_cast<std::ptrdiff_t>(block.offset) + (found - block.entities.begin()) * block.width;
     }
-    throw std::logic_error("the test uses a channel that it did not add: " + channel);
+    throw std::logic_error("the engine has no such channel: " + channel);
   }
 
   EngineConfiguration configuration_;
-  std::vector<ParameterSpec> parameter_table_;
+  PluginDescription description_;
+  bool uses_turrets_ = false;
   std::shared_ptr<ConfigurationNode> engine_ = std::make_shared<ConfigurationNode>();
   EngineLayout layout_;
   std::vector<std::uint32_t> mirrors_;

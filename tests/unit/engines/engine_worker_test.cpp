@@ -2,9 +2,10 @@
 #include "engine_worker/engine_worker.h"
 #include "common/space/attributes.h"
 #include "controller_host/device.h"
+#include "tests/world/message_of.h"
+#include "tests/world/small_experiment.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <functional>
 
@@ -26,12 +27,6 @@ public:
   static inline std::vector<std::uint32_t> moved;
   static inline std::vector<double> commanded;
 
-  static PluginDescription Description()
-  {
-    PluginDescription description;
-    description.label = "worker_test_engine";
-    return description;
-  }
   void Init(const EngineSetup& setup) override
   {
     space_ = &setup.space;
@@ -61,7 +56,7 @@ private:
   const EngineLayout* layout_ = nullptr;
 };
 
-REGISTER_PHYSICS_ENGINE(StillEngine, StillEngine::Description())
+REGISTER_PHYSICS_ENGINE(StillEngine, {.label = "worker_test_engine"})
 
 class Worker : public testing::Test
 {
@@ -74,18 +69,12 @@ protected:
     experiment.beyond_limit = policy;
     for (int i = 0; i < 3; ++i)
     {
-      EntityConfiguration entity;
-      entity.kind = EntityKind::kFootbot;
-      entity.id = "fb_" + std::to_string(i);
-      entity.movable = true;
+      EntityConfiguration entity = test::Entity(EntityKind::kFootbot, "fb_" + std::to_string(i), {1.0 + i, 2, 0});
       entity.waits = i == 1;
-      entity.pose.position = {1.0 + i, 2, 0};
-      experiment.entities.push_back(entity);
+      test::Add(experiment, entity);
     }
-    experiment.engines.resize(1);
     experiment.engines[0].tag = "worker_test_engine";
     experiment.engines[0].id = "ground";
-    experiment.engines[0].entities = {0, 1, 2};
     return experiment;
   }
 
@@ -99,14 +88,8 @@ protected:
     space.SetTick(4);
     EngineWorker worker(space, assignment, 0);
     StillEngine::fault = std::move(fault);
-    try
-    {
-      worker.Tick({}, {});
-    }
-    catch (const ActivityError& error)
-    {
-      return error.what();
-    }
+    const std::string error = test::MessageOf<ActivityError>([&] { worker.Tick({}, {}); });
+    if (!error.empty()) return error;
     EXPECT_EQ(worker.Update().tick, 5U);
     EXPECT_EQ(worker.Update().engine, 0U);
     return "";

@@ -7,6 +7,7 @@
 #include "common/math/elementary.h"
 #include "common/mesh/convex_hull.h"
 #include "common/space/space.h"
+#include "tests/world/small_experiment.h"
 
 namespace swarmanoid
 {
@@ -91,9 +92,7 @@ TEST(PlaneFrame, CutsAHullInAPolygonOfFewCornersWithinIt)
   std::vector<Vector3> corners{{0, 0, 0.25}};
   for (int k = 0; k < 24; ++k) corners.emplace_back(std::cos(k * kPi / 12), std::sin(k * kPi / 12), -0.25);
   Experiment experiment;
-  EntityConfiguration block;
-  block.kind = EntityKind::kBlock;
-  block.size = {2, 2, 0.5};
+  EntityConfiguration block = test::Entity(EntityKind::kBlock, "", {0, 0, 0}, {2, 2, 0.5}, false);
   block.hull = std::make_shared<const ConvexHull>(HullOf(corners));
   experiment.entities.push_back(block);
   const CSwarmanoidSpace space(experiment);

@@ -18,7 +18,7 @@ class PlaneRobotsIn : public testing::TestWithParam<const char*>
 {
 protected:
   PlaneRobotsIn() { f.Configuration().tag = GetParam(); }
-  double Height(std::uint32_t entity) const { return f.PoseOf(entity).position.z(); }
+  double Height(std::uint32_t entity) { return f.PoseOf(entity).position.z(); }
   double Attribute(std::uint32_t entity, const char* name, int element = 0)
   {
     return f.Space().GetEntity(entity).GetAttribute(name, element);
@@ -59,7 +59,6 @@ INSTANTIATE_TEST_SUITE_P(Engines, PlaneRobotsIn, testing::Values("kinematics2d",
 TEST_P(PlaneRobotsIn, TheWinchRaisesTheHandbotByTheRopeThatItTakesIn)
 {
   const auto robot = AddHandbot();
-  f.Start();
   f.Command(7) = 1;
   f.Tick();
   EXPECT_EQ(Attribute(robot, "rope_attached"), 1);
@@ -85,7 +84,6 @@ TEST_P(PlaneRobotsIn, TheWinchRaisesTheHandbotByTheRopeThatItTakesIn)
 TEST_P(PlaneRobotsIn, AHandbotThatLetsGoOfItsRopeFallsFreely)
 {
   const auto robot = AddHandbot();
-  f.Start();
   f.Command(7) = 1;
   f.Command(8) = -0.15;
   f.Ticks(100);
@@ -101,7 +99,6 @@ TEST_P(PlaneRobotsIn, AHandbotThatLetsGoOfItsRopeFallsFreely)
 TEST_P(PlaneRobotsIn, JointsTurnAtTheirSpeedsWithinTheirRanges)
 {
   const auto robot = AddHandbot();
-  f.Start();
   f.Command(0) = 1;     // head
   f.Command(1) = 0.5;   // left arm
   f.Command(2) = -0.5;  // right arm
@@ -140,7 +137,6 @@ TEST_P(PlaneRobotsIn, AHandTakesABlockItCanReachAndLiftsIt)
   const auto robot = AddHandbot();
   const auto book = f.Add(EntityKind::kBlock, Vector3(2.3, 3.05, 0.1), {}, Vector3(0.06, 0.1, 0.2));
   const auto far = f.Add(EntityKind::kBlock, Vector3(2.36, 3.3, 0.1), {}, Vector3(0.1, 0.2, 0.2));
-  f.Start();
   f.Command(5) = f.Command(6) = 1;
   f.Ticks(2);
   EXPECT_EQ(Attribute(robot, "gripped", 0), 1 + book);
@@ -165,7 +161,6 @@ TEST_P(PlaneRobotsIn, HandsGoRoundWithTheHead)
 {
   const auto robot = AddHandbot();
   const auto book = f.Add(EntityKind::kBlock, Vector3(2.3, 3.05, 0.1), {}, Vector3(0.06, 0.1, 0.2));
-  f.Start();
   f.Command(0) = kPi;
   f.Ticks(10);
   f.Command(0) = 0;
@@ -180,7 +175,6 @@ TEST_P(PlaneRobotsIn, WhatAHandCatchesInItsFallFallsAnewFromRest)
 {
   const auto robot = AddHandbot();
   const auto book = f.Add(EntityKind::kBlock, Vector3(2.3, 3.05, 0.1), {}, Vector3(0.06, 0.1, 0.2));
-  f.Start();
   f.Command(5) = 1;
   f.Ticks(2);
   f.Command(7) = 1;
@@ -205,7 +199,6 @@ TEST_P(PlaneRobotsIn, AHandCannotTakeWhatStandsAboveOrBelowIt)
 {
   const auto robot = AddHandbot();
   f.Add(EntityKind::kBlock, Vector3(2.3, 3.05, 0.025), {}, Vector3(0.06, 0.1, 0.05));
-  f.Start();
   f.Command(5) = 1;
   f.Ticks(3);
   EXPECT_EQ(Attribute(robot, "gripped", 0), 0);
@@ -218,7 +211,6 @@ TEST_P(PlaneRobotsIn, AHandbotAndWhatItHoldsAreOneWhole)
   const auto left = f.Add(EntityKind::kFootbot, Vector3(1.7, 3.0875, 0));
   const auto right = f.Add(EntityKind::kFootbot, Vector3(1.7, 2.9125, 0));
   f.AddCommands("footbot_wheels", 2, {left, right});
-  f.Start();
   f.Command(5) = 1;
   f.Ticks(2);
   ASSERT_EQ(Attribute(robot, "gripped", 0), 1 + prey);
@@ -235,7 +227,6 @@ TEST_P(PlaneRobotsIn, AStateRestoredInTheAirGoesOnAsBefore)
 {
   const auto robot = AddHandbot();
   const auto book = f.Add(EntityKind::kBlock, Vector3(2.3, 3.05, 0.1), {}, Vector3(0.06, 0.1, 0.2));
-  f.Start();
   f.Command(5) = f.Command(7) = 1;
   f.Command(0) = 0.2;
   f.Command(8) = -0.1;
@@ -252,7 +243,6 @@ TEST_P(PlaneRobotsIn, WhatAHandTakesStaysAtItsHeightHoweverHighTheHandbotHangs)
 {
   AddHandbot();
   const auto book = f.Add(EntityKind::kBlock, Vector3(2.3, 3.05, 0.1), {}, Vector3(0.06, 0.1, 0.2));
-  f.Start();
   f.Command(7) = 1;
   f.Command(8) = -0.1;
   f.Ticks(6);
@@ -269,7 +259,6 @@ TEST_P(PlaneRobotsIn, WhatAHandTakesStaysAtItsHeightHoweverHighTheHandbotHangs)
 TEST_P(PlaneRobotsIn, AFallGoesOnAtItsSpeedWhenRestored)
 {
   const auto robot = AddHandbot();
-  f.Start();
   f.Command(7) = 1;
   f.Command(8) = -0.15;
   f.Ticks(100);
@@ -340,7 +329,6 @@ TEST_P(PlaneRobotsIn, AMirrorThatTipsGoesOnWithTheSameBitsWhenRestored)
     const auto block = world.AddMirror(EntityKind::kBlock, Vector3(5, 3, 0.1), Vector3(0.8, 0.2, 0.2));
     const auto robot = world.Add(EntityKind::kFootbot, Vector3(4.5, 3, 0));
     world.AddCommands("footbot_wheels", 2, {robot});
-    world.Start();
     world.Command(0) = world.Command(1) = WheelSpeed(0.2);
     std::vector<std::uint64_t> found;
     for (int tick = 0; tick < 60; ++tick)
@@ -362,7 +350,6 @@ TEST_P(PlaneRobotsIn, AnEyebotOnThePlaneUnderTheCeilingHangsOnItByItsMagnet)
   const auto robot = f.Add(EntityKind::kEyebot, Vector3(2, 3, 2.42));
   f.AddCommands("eyebot_propellers", 4, {robot});
   f.AddCommands("eyebot_attach", 1, {robot});
-  f.Start();
   f.Command(0) = 0.2;
   f.Ticks(10);
   EXPECT_EQ(Attribute(robot, "attached"), 0);
@@ -383,7 +370,6 @@ TEST_P(PlaneRobotsIn, FarBelowTheCeilingTheMagnetHoldsNothing)
 {
   const auto robot = f.Add(EntityKind::kEyebot, Vector3(2, 3, 0));
   f.AddCommands("eyebot_attach", 1, {robot});
-  f.Start();
   f.Command(0) = 1;
   f.Ticks(3);
   EXPECT_EQ(Attribute(robot, "attached"), 0);

@@ -3,10 +3,8 @@
 // new device, kind or engine is covered without a new test.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
@@ -14,7 +12,8 @@
 #include "common/checkpoint/checkpoint.h"
 #include "common/space/space.h"
 #include "space_server/experiment_functions.h"
-#include "tests/unit/every_plugin/scene.h"
+#include "tests/unit/every_plugin/small_scene.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -176,8 +175,7 @@ TEST(SimplestScenes, ARobotInAReserveWaitsAndWorksWhenItIsAdded)
 // The same scene in another way: with threads, and from a checkpoint in its middle.
 TEST(SimplestScenes, ThreadsAndCheckpointsChangeNoBit)
 {
-  const std::string folder = testing::TempDir() + "simplest_scenes_" + std::to_string(getpid());
-  std::filesystem::create_directories(folder);
+  const test::TemporaryFolder folder;
   ForEachSet(
       [&](SmallScene scene, EntityKind robot, const PluginDescription&)
       {
@@ -188,17 +186,16 @@ TEST(SimplestScenes, ThreadsAndCheckpointsChangeNoBit)
         ASSERT_NE(experiment, nullptr);
         SimulatorOptions options;
         options.threads = 1;
-        options.output_folder = folder;
+        options.output_folder = folder.Path();
         options.checkpoint_every = 4;
         const std::uint64_t hash = RunScene(*experiment, options);
-        options.restore_file = folder + "/" + CheckpointName(4);
+        options.restore_file = folder / CheckpointName(4);
         options.checkpoint_every = 0;
         EXPECT_EQ(RunScene(*experiment, options), hash) << "from a checkpoint";
         options.restore_file.clear();
         options.threads = 3;
         EXPECT_EQ(RunScene(*experiment, options), hash) << "with 3 threads";
       });
-  std::filesystem::remove_all(folder);
 }
 
 // A device that no scene above has would be covered by nothing.

@@ -2,17 +2,16 @@
 // at.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <string>
 
 #include "common/experiment/schema.h"
 #include "common/space/space.h"
 #include "studies/recorder.h"
-#include "tests/unit/every_plugin/scene.h"
+#include "tests/unit/every_plugin/small_scene.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -56,9 +55,7 @@ const std::map<std::string, FunctionScenes>& ScenesOfFunctions()
 TEST(SimplestScenes, EachExperimentFunctionRunsAndDrawsWithAndWithoutARobot)
 {
   RegisterEverything();
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("every_function_" + std::to_string(getpid()));
-  std::filesystem::create_directory(folder);
+  const test::TemporaryFolder folder;
   for (const PluginDescription* functions : PluginCatalogue::Instance().Of(PluginKind::kExperimentFunctions))
   {
     const auto found = ScenesOfFunctions().find(functions->label);
@@ -80,11 +77,10 @@ TEST(SimplestScenes, EachExperimentFunctionRunsAndDrawsWithAndWithoutARobot)
       ASSERT_NE(experiment, nullptr);
       SimulatorOptions options;
       options.threads = 1;
-      options.output_folder = folder;
+      options.output_folder = folder.Path();
       RunScene(*experiment, options);
     }
   }
-  std::filesystem::remove_all(folder);
 }
 
 // The parameters without a default of each metric, and those of which it needs one.

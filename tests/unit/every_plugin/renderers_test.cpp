@@ -1,7 +1,6 @@
 // Every renderer that is registered, of nothing, of one entity, and of one entity of each kind.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -9,7 +8,8 @@
 #include <string>
 
 #include "test_folders.h"
-#include "tests/unit/every_plugin/scene.h"
+#include "tests/unit/every_plugin/small_scene.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -42,8 +42,7 @@ std::string RendererElement(const PluginDescription& renderer)
 void DrawSimplestScenes(bool with_window)
 {
   RegisterEverything();
-  const std::string folder = testing::TempDir() + "simplest_scenes_drawn_" + std::to_string(getpid());
-  std::filesystem::create_directories(folder);
+  const test::TemporaryFolder folder;
   for (const PluginDescription* renderer : PluginCatalogue::Instance().Of(PluginKind::kRenderer))
   {
     if (HasWindow(*renderer) != with_window || !IsBuilt(*renderer)) continue;
@@ -66,11 +65,10 @@ void DrawSimplestScenes(bool with_window)
       ASSERT_NE(experiment, nullptr);
       SimulatorOptions options;
       options.threads = 1;
-      options.output_folder = folder;
+      options.output_folder = folder.Path();
       RunScene(*experiment, options);
     }
   }
-  std::filesystem::remove_all(folder);
 }
 
 TEST(SimplestScenes, EachRendererDrawsNothingAndOneEntityOfEachKind) { DrawSimplestScenes(false); }

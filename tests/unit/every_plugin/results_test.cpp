@@ -15,7 +15,7 @@
 
 #include "common/control_interface/ci_controller.h"
 #include "test_folders.h"
-#include "tests/unit/every_plugin/scene.h"
+#include "tests/unit/every_plugin/small_scene.h"
 
 namespace swarmanoid
 {

@@ -15,7 +15,8 @@
 #include "common/space/space.h"
 #include "simulation/simulator.h"
 #include "test_folders.h"
-#include "tests/unit/every_plugin/scene.h"
+#include "tests/unit/every_plugin/small_scene.h"
+#include "tests/world/experiment_text.h"
 
 namespace swarmanoid
 {
@@ -178,38 +179,35 @@ std::map<std::string, double> SeenIn(const PluginDescription& engine, const std:
     const std::string& channel = PluginCatalogue::Instance().Find(kind, device.label, device.implementation)->channel;
     return channel.empty() || std::ranges::find(engine.channels, channel) != engine.channels.end();
   };
-  std::string controllers, arena;
+  test::ExperimentText text{.framework = fmt::format("<maxclock>{}</maxclock><plugin_path>{}</plugin_path>",
+                                                     kTicksOfScene, SWARMANOID_BUILD_FOLDER "/lib/swarmanoid"),
+                            .kinds = "<epuck library='epuck'/>",
+                            .size = "12,12,3",
+                            .engines = fmt::format("<{} id='e'{}/>", engine.label, parameters)};
   for (const CarryingRobot& robot : Robots())
   {
-    const auto list = [&](PluginKind kind, const std::vector<Device>& devices)
+    const auto served = [&](PluginKind kind, const std::vector<Device>& devices)
     {
-      std::string all;
+      std::vector<std::string> names;
       for (const Device& device : devices)
-        if (is_served(kind, device))
-          all += fmt::format("<{} implementation='{}'/>", device.label, device.implementation);
-      return all;
+        if (is_served(kind, device)) names.push_back(device.implementation);
+      return names;
     };
-    controllers += fmt::format(
-        "<same_readings_probe id='{}'><actuators>{}</actuators><sensors>{}</sensors>"
-        "</same_readings_probe>",
-        robot.id, list(PluginKind::kActuator, robot.actuators), list(PluginKind::kSensor, robot.sensors));
-    arena += fmt::format("<{} id='{}' position='{}' orientation='{}' controller='{}'/>", robot.tag, robot.id,
-                         robot.position, robot.orientation, robot.id);
+    text.controllers += test::Controller({.tag = "same_readings_probe",
+                                          .id = robot.id,
+                                          .actuators = served(PluginKind::kActuator, robot.actuators),
+                                          .sensors = served(PluginKind::kSensor, robot.sensors)});
+    text.arena += fmt::format("<{} id='{}' position='{}' orientation='{}' controller='{}'/>", robot.tag, robot.id,
+                              robot.position, robot.orientation, robot.id);
   }
   for (const char* y : {"4", "8"})
-    arena += fmt::format("<cylindric_prey id='prey_{0}' position='4,{0},0' radius='0.1' height='0.1' mass='0.5'/>", y);
-  const std::string text = fmt::format(
-      "<ahss-config><framework><clocktick>100</clocktick><maxclock>{}</maxclock><plugin_path>{}</plugin_path>"
-      "</framework><entity_kinds><epuck library='epuck'/></entity_kinds><controllers>{}</controllers>"
-      "<arena size='12,12,3' optimization='2D'>{}</arena><engines><{} id='e'{}/></engines>"
-      "<arena_physics><engine id='e'><all/></engine></arena_physics></ahss-config>",
-      kTicksOfScene, SWARMANOID_BUILD_FOLDER "/lib/swarmanoid", controllers, arena, engine.label, parameters);
-  const LoadedExperiment loaded = LoadExperimentText(text, "scene.xml", ".");
-  for (const Diagnostic& error : loaded.errors) ADD_FAILURE() << error.Text();
+    text.arena +=
+        fmt::format("<cylindric_prey id='prey_{0}' position='4,{0},0' radius='0.1' height='0.1' mass='0.5'/>", y);
+  const auto experiment = text.Load();
   Seen().clear();
-  if (loaded.experiment != nullptr)
+  if (experiment != nullptr)
   {
-    CSimulator simulator(*loaded.experiment, {});
+    CSimulator simulator(*experiment, {});
     while (simulator.Step()) continue;
     simulator.Finish();
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/experiment/fake_plugins.h"
+#include "tests/world/experiment_text.h"
 
 namespace swarmanoid::test
 {
@@ -11,14 +12,11 @@ namespace
 
 std::string Fitting(const std::string& pattern)
 {
-  std::string text = "<ahss-config><arena size='90, 9, 2' optimization='2D'>";
+  ExperimentText experiment{.size = "90,9,2", .physics = "<engine id='e'><entity id='" + pattern + "'/></engine>"};
   int x = 0;
   for (const char* id : {"fb_1", "fb_2", "fb_12", "fb", "b.x:y-z", "a_fb_1"})
-    text += fmt::format("<block id='{}' position='{}, 1, 1' size='1, 1, 1'/>", id, x += 3);
-  text +=
-      "</arena><engines><dummy_engine id='e'><perpendicular_axis>z</perpendicular_axis></dummy_engine></engines>"
-      "<arena_physics><engine id='e'><entity id='" +
-      pattern + "'/></engine></arena_physics></ahss-config>";
+    experiment.arena += fmt::format("<block id='{}' position='{}, 1, 1' size='1, 1, 1'/>", id, x += 3);
+  const std::string text = experiment.Text();
   const LoadedExperiment loaded = LoadText(text);
   if (!loaded.experiment) return ErrorsOf(text);
   std::string ids;
@@ -56,10 +54,11 @@ TEST(ArenaPhysics, FindsOutQuicklyThatNoIdFitsALongPattern)
 TEST(ArenaPhysics, EnginesMayBeReadAlone)
 {
   const std::string text =
-      "<ahss-config><framework><clocktick>50</clocktick></framework>"
-      "<arena size='9, 9, 2' optimization='2D'><block id='b' size='no'/></arena>"
-      "<engines><dummy_engine id='e'><subclock>3</subclock></dummy_engine><dummy_engine id='f'/></engines>"
-      "<arena_physics><engine id='e'><entity id='nobody'/></engine></arena_physics></ahss-config>";
+      ExperimentText{.framework = "<clocktick>50</clocktick>",
+                     .arena = "<block id='b' size='no'/>",
+                     .engines = "<dummy_engine id='e'><subclock>3</subclock></dummy_engine><dummy_engine id='f'/>",
+                     .physics = "<engine id='e'><entity id='nobody'/></engine>"}
+          .Text();
   LoadOptions options;
   options.engines_alone = true;
   const LoadedExperiment loaded = LoadText(text, options);

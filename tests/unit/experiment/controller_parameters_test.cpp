@@ -2,9 +2,8 @@
 // experiment.
 #include <gtest/gtest.h>
 
-#include <fmt/format.h>
-
 #include "tests/unit/experiment/fake_plugins.h"
+#include "tests/world/experiment_text.h"
 
 namespace swarmanoid::test
 {
@@ -30,11 +29,10 @@ std::string File(const std::string& parameters, const std::string& functions = "
     return true;
   }();
   static_cast<void>(once);
-  return fmt::format(R"(<ahss-config><framework/>
-<controllers><declared_walker id="w">{}</declared_walker></controllers>
-<arena size="4,4,1" optimization="2D"/>
-<experiment_functions>{}</experiment_functions></ahss-config>)",
-                     parameters, functions);
+  return ExperimentText{.controllers = "<declared_walker id='w'>" + parameters + "</declared_walker>",
+                        .engines = "",
+                        .functions = functions}
+      .Text();
 }
 
 constexpr const char* kGoodParameters = "<parameters><target>1, 2</target></parameters>";
@@ -92,7 +90,7 @@ TEST(ControllerParameters, AreSetFromTheCommandLine)
 TEST(ControllerParameters, ThoseOfFunctionsLikewise)
 {
   EXPECT_EQ(ErrorsOf(File(kGoodParameters, "<declared_functions id='f'><evry>5</evry></declared_functions>")),
-            "test.xml:4:50: <declared_functions> has no element <evry>; allowed: id, library, every; did you mean "
+            "test.xml:6:50: <declared_functions> has no element <evry>; allowed: id, library, every; did you mean "
             "'every'?\n");
   EXPECT_EQ(ErrorsOf(File(kGoodParameters, "<declared_functions id='f'/>"), With("experiment_functions.f.every", "0")),
             "--set experiment_functions.f.every: 'every' of <declared_functions> is 0 ticks; it must be at least 1 "

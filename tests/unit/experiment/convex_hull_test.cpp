@@ -5,6 +5,7 @@
 
 #include "common/math/convex_outline.h"
 #include "common/math/random.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid
 {
@@ -100,17 +101,7 @@ TEST(ConvexHull, AFineMeshHasTheBoxThatItFillsAndFewCorners)
 TEST(ConvexHull, WhatHasNoInsideIsRefused)
 {
   const auto mistake = [](const std::vector<Vector3>& points) -> std::string
-  {
-    try
-    {
-      HullOf(points);
-      return {};
-    }
-    catch (const std::invalid_argument& error)
-    {
-      return error.what();
-    }
-  };
+  { return test::MessageOf<std::invalid_argument>([&] { HullOf(points); }); };
   EXPECT_EQ(mistake({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), "a body needs at least four corners");
   EXPECT_EQ(mistake({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}), "its corners lie in one plane");
   EXPECT_EQ(mistake({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}), "its corners lie in one plane");

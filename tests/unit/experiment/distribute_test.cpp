@@ -7,6 +7,7 @@
 #include "common/experiment/body.h"
 #include "common/math/elementary.h"
 #include "tests/unit/experiment/fake_plugins.h"
+#include "tests/world/experiment_text.h"
 
 namespace swarmanoid::test
 {
@@ -15,8 +16,7 @@ namespace
 
 std::string Arena(const std::string& content, const std::string& size = "10,10,3", const std::string& framework = "")
 {
-  return "<ahss-config>" + framework + "\n<arena size='" + size + "' optimization='2D'>\n" + content +
-         "\n</arena></ahss-config>";
+  return ExperimentText{.framework = framework, .size = size, .arena = content, .engines = ""}.Text();
 }
 
 std::vector<EntityConfiguration> EntitiesOf(const std::string& text)
@@ -79,7 +79,7 @@ TEST(Distribute, TheSeedDecidesThePlacesAndNothingElse)
   const std::string content = "<distribute quantity='50'><footbot id='fb'/></distribute>";
   const auto first = EntitiesOf(Arena(content));
   const auto again = EntitiesOf(Arena(content));
-  const auto other = EntitiesOf(Arena(content, "10,10,3", "<framework seed='2'/>"));
+  const auto other = EntitiesOf(Arena(content, "10,10,3", "<seed>2</seed>"));
   for (std::size_t i = 0; i < first.size(); ++i)
   {
     EXPECT_EQ(first[i].pose.position, again[i].pose.position);
@@ -204,23 +204,23 @@ TEST(Distribute, ErrorsSayWhatDoesNotFit)
 
 TEST(Distribute, NoneIsAQuantityToo)
 {
-  const LoadedExperiment loaded = LoadText(
-      "<ahss-config><arena size='9,9,3' optimization='2D'><distribute quantity='0'><footbot id='fb'/></distribute>"
-      "<footbot id='one' position='1,1,0'/></arena><engines><dummy_engine id='a'/></engines><arena_physics>"
-      "<engine id='a'><entity id='fb_*'/><entity id='one'/></engine></arena_physics></ahss-config>");
+  const ExperimentText text{
+      .arena = "<distribute quantity='0'><footbot id='fb'/></distribute><footbot id='one' position='1,1,0'/>",
+      .physics = "<engine id='e'><entity id='fb_*'/><entity id='one'/></engine>"};
+  const LoadedExperiment loaded = LoadText(text.Text());
   ASSERT_TRUE(loaded.experiment);
   EXPECT_EQ(loaded.experiment->entities.size(), 1U);
 }
 
 TEST(Distribute, EnginesTakeThemByPatternOrAll)
 {
-  const std::string rest =
-      "<light_bulb id='lamp' position='1,1,2'/><distribute quantity='20'><footbot id='fb'/></distribute></arena>"
-      "<engines><dummy_engine id='a'/><dummy_engine id='b'/><dummy_engine id='c'/></engines><arena_physics>"
-      "<engine id='a'><entity id='fb_1?'/></engine><engine id='b'><all/></engine><engine id='c'><all "
-      "kind='footbot'/></engine>"
-      "</arena_physics></ahss-config>";
-  const LoadedExperiment loaded = LoadText("<ahss-config><arena size='10,10,3' optimization='2D'>" + rest);
+  const ExperimentText text{
+      .arena = "<light_bulb id='lamp' position='1,1,2'/><distribute quantity='20'><footbot id='fb'/></distribute>",
+      .engines = "<dummy_engine id='a'/><dummy_engine id='b'/><dummy_engine id='c'/>",
+      .physics =
+          "<engine id='a'><entity id='fb_1?'/></engine><engine id='b'><all/></engine>"
+          "<engine id='c'><all kind='footbot'/></engine>"};
+  const LoadedExperiment loaded = LoadText(text.Text());
   ASSERT_TRUE(loaded.experiment);
   EXPECT_EQ(loaded.experiment->engines[0].entities.size(), 10U);
   EXPECT_EQ(loaded.experiment->engines[1].entities.size(), 20U);

@@ -9,40 +9,27 @@
 namespace swarmanoid::test
 {
 
-inline ParameterSpec Parameter(std::string name, ParameterType type, std::optional<std::string> fallback)
-{
-  ParameterSpec spec;
-  spec.name = std::move(name);
-  spec.type = type;
-  spec.default_value = std::move(fallback);
-  return spec;
-}
-
 inline void AddDevice(PluginKind kind, const char* type, const char* implementation, std::vector<std::string> robots,
                       const char* channel = "")
 {
-  PluginDescription description;
-  description.label = type;
-  description.implementation = implementation;
-  description.robots = std::move(robots);
-  description.channel = channel;
-  ParameterSpec noise = Parameter("noise", ParameterType::kNumber, "0");
-  noise.minimum = 0;
-  noise.maximum = 1;
-  description.parameters = {noise};
-  PluginCatalogue::Instance().Add(kind, description);
+  PluginCatalogue::Instance().Add(kind,
+                                  {.label = type,
+                                   .implementation = implementation,
+                                   .parameters = {{.name = "noise", .default_value = "0", .minimum = 0, .maximum = 1}},
+                                   .robots = std::move(robots),
+                                   .channel = channel});
 }
 
 inline void AddEngine(const char* label, std::vector<std::string> channels, std::vector<std::string> tags)
 {
-  PluginDescription description;
-  description.label = label;
-  description.channels = std::move(channels);
-  description.entity_tags = std::move(tags);
-  ParameterSpec axis = Parameter("perpendicular_axis", ParameterType::kChoice, "z");
-  axis.choices = {"x", "y", "z"};
-  description.parameters = {axis, Parameter("distance", ParameterType::kNumber, "0")};
-  PluginCatalogue::Instance().Add(PluginKind::kEngine, description);
+  PluginCatalogue::Instance().Add(PluginKind::kEngine, {.label = label,
+                                                        .parameters = {{.name = "perpendicular_axis",
+                                                                        .type = ParameterType::kChoice,
+                                                                        .default_value = "z",
+                                                                        .choices = {"x", "y", "z"}},
+                                                                       {.name = "distance", .default_value = "0"}},
+                                                        .channels = std::move(channels),
+                                                        .entity_tags = std::move(tags)});
 }
 
 inline void RegisterFakePlugins()
@@ -58,31 +45,25 @@ inline void RegisterFakePlugins()
     AddEngine("dummy_engine", {"footbot_wheels", "footbot_gripper"},
               {"footbot", "eyebot", "handbot", "block", "cylindric_prey", "wall"});
 
-    PluginDescription text;
-    text.label = "text_render";
-    text.parameters = {Parameter("file", ParameterType::kPath, ""),
-                       Parameter("precision", ParameterType::kInteger, "3")};
-    PluginCatalogue::Instance().Add(PluginKind::kRenderer, text);
-
-    PluginDescription opengl;
-    opengl.label = "opengl_render";
-    opengl.parameters = {Parameter("window_size", ParameterType::kVector2, "800, 600"),
-                         Parameter("window_title", ParameterType::kText, ""),
-                         Parameter("camera_view_XYZ_n", ParameterType::kVector3, std::nullopt),
-                         Parameter("camera_view_HPR_n", ParameterType::kVector3, std::nullopt),
-                         Parameter("use_textures", ParameterType::kBoolean, "true"),
-                         Parameter("write_frames", ParameterType::kBoolean, "false"),
-                         Parameter("frame_directory", ParameterType::kPath, "frames"),
-                         Parameter("frame_filename", ParameterType::kText, "frame")};
-    PluginCatalogue::Instance().Add(PluginKind::kRenderer, opengl);
+    using Type = ParameterType;
+    PluginCatalogue::Instance().Add(
+        PluginKind::kRenderer, {.label = "text_render",
+                                .parameters = {{.name = "file", .type = Type::kPath, .default_value = ""},
+                                               {.name = "precision", .type = Type::kInteger, .default_value = "3"}}});
+    PluginCatalogue::Instance().Add(
+        PluginKind::kRenderer,
+        {.label = "opengl_render",
+         .parameters = {{.name = "window_size", .type = Type::kVector2, .default_value = "800, 600"},
+                        {.name = "window_title", .type = Type::kText, .default_value = ""},
+                        {.name = "camera_view_XYZ_n", .type = Type::kVector3},
+                        {.name = "camera_view_HPR_n", .type = Type::kVector3},
+                        {.name = "use_textures", .type = Type::kBoolean, .default_value = "true"},
+                        {.name = "write_frames", .type = Type::kBoolean, .default_value = "false"},
+                        {.name = "frame_directory", .type = Type::kPath, .default_value = "frames"},
+                        {.name = "frame_filename", .type = Type::kText, .default_value = "frame"}}});
 
     for (const char* label : {"footbot_sample_controller", "eyebot_sample_controller"})
-    {
-      PluginDescription controller;
-      controller.label = label;
-      controller.declares_parameters = false;
-      PluginCatalogue::Instance().Add(PluginKind::kController, controller);
-    }
+      PluginCatalogue::Instance().Add(PluginKind::kController, {.label = label, .declares_parameters = false});
     return true;
   }();
   static_cast<void>(once);

@@ -1,6 +1,5 @@
 // Each kind of mistake in an experiment file gives its place, what is wrong and what to do.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <sstream>
 #include <string>
@@ -9,6 +8,7 @@
 #include "common/experiment/diagnostics.h"
 #include "common/mesh/convex_hull.h"
 #include "tests/unit/experiment/fake_plugins.h"
+#include "tests/world/experiment_text.h"
 
 namespace swarmanoid::test
 {
@@ -274,9 +274,11 @@ TEST(MistakesTogether, ConsequencesOfAMistakeAreLeftOut)
 {
   const auto told = [](const std::string& kinds, const std::string& arena, const std::string& physics)
   {
-    return ErrorsOf("<ahss-config><entity_kinds>" + kinds + "</entity_kinds>\n<arena size='9,9,3' optimization='2D'>" +
-                    arena + "</arena>\n<engines><dummy_engine id='e'/></engines>\n<arena_physics><engine id='e'>" +
-                    physics + "</engine></arena_physics></ahss-config>");
+    return ErrorsOf(ExperimentText{.kinds = kinds.empty() ? " " : kinds,
+                                   .size = "9,9,3",
+                                   .arena = arena,
+                                   .physics = "<engine id='e'>" + physics + "</engine>"}
+                        .Text());
   };
   // A mistake may have several lines, of which all but the first are indented.
   const auto count = [](const std::string& errors)
@@ -297,7 +299,7 @@ TEST(MistakesTogether, ConsequencesOfAMistakeAreLeftOut)
            {"<reserve quantity='3'><rover id='r'/></reserve>", "<entity id='r_0'/>"}})
   {
     const std::string errors = told("<rover urdf='none.urdf'/>", arena, physics);
-    EXPECT_THAT(errors, testing::StartsWith("test.xml:1:35: ")) << errors;
+    EXPECT_THAT(errors, testing::StartsWith("test.xml:2:22: ")) << errors;
     EXPECT_EQ(count(errors), 1) << errors;
   }
   for (const std::string kind : {"<rover library='no_such_library'/>", "<rover/>"})
@@ -375,50 +377,45 @@ TEST(MistakesTogether, AMissingMapIsNamedWhereTheRunWillBe)
   EXPECT_TRUE(LoadExperimentText(text, "test.xml", "/nowhere", options).errors.empty());
 }
 
+// A block with more attributes, in a folder that does not exist.
+std::string MistakeOfBlock(const std::string& more)
+{
+  const ExperimentText text{.size = "1,1,1",
+                            .optimization = "3D",
+                            .arena = "<block id='b' position='.5,.5,.5' size='.1,.1,.1' " + more + "/>",
+                            .engines = ""};
+  const LoadedExperiment loaded = LoadExperimentText(text.Text(), "test.xml", "/nowhere", {});
+  return loaded.errors.empty() ? "none" : loaded.errors[0].Text();
+}
+
 TEST(MistakesTogether, AMeshThatCannotBeReadIsNamed)
 {
-  const auto mistake = [](const std::string& mesh)
-  {
-    const std::string text =
-        "<ahss-config><arena size='1,1,1' optimization='3D'><block id='b' position='.5,.5,.5' "
-        "size='.1,.1,.1' mesh='" +
-        mesh + "'/></arena></ahss-config>";
-    const LoadedExperiment loaded = LoadExperimentText(text, "test.xml", "/nowhere", {});
-    return loaded.errors.empty() ? std::string("none") : loaded.errors[0].Text();
-  };
-  EXPECT_EQ(mistake("rock.glb"), "test.xml:1:102: '/nowhere/rock.glb': there is no such file");
-  EXPECT_EQ(mistake("rock.mesh"),
-            "test.xml:1:102: '/nowhere/rock.mesh': meshes are read from files that end in .glb, "
+  EXPECT_EQ(MistakeOfBlock("mesh='rock.glb'"), "test.xml:3:51: '/nowhere/rock.glb': there is no such file");
+  EXPECT_EQ(MistakeOfBlock("mesh='rock.mesh'"),
+            "test.xml:3:51: '/nowhere/rock.mesh': meshes are read from files that end in .glb, "
             ".gltf, .obj, .stl; export it as .glb, for example with Blender");
 }
 
 TEST(MistakesTogether, AHullThatCannotBeIsNamed)
 {
-  const auto mistake = [](const std::string& more)
-  {
-    const std::string text =
-        "<ahss-config><arena size='1,1,1' optimization='3D'><block id='b' position='.5,.5,.5' "
-        "size='.1,.1,.1' " +
-        more + "/></arena></ahss-config>";
-    const LoadedExperiment loaded = LoadExperimentText(text, "test.xml", "/nowhere", {});
-    return loaded.errors.empty() ? std::string("none") : loaded.errors[0].Text();
-  };
-  EXPECT_EQ(mistake("corners='0,0,0; 1,0,0; 0,1,0; 0,0,1'"), "none");
-  EXPECT_EQ(mistake("corners='0,0,0; 1,0; 0,1,0; 0,0,1'"),
-            "test.xml:1:102: corners are three numbers each, as in \"0, 0, 0; 1, 0, 0; …\"");
-  EXPECT_EQ(mistake("corners='0,0,0; 1,0,0; 0,1,0'"), "test.xml:1:102: a body needs at least four corners");
-  EXPECT_EQ(mistake("corners='0,0,0; 1,0,0; 0,1,0; 1,1,0'"), "test.xml:1:102: its corners lie in one plane");
-  EXPECT_EQ(mistake("convex='true'"),
-            "test.xml:1:102: it has no 'mesh' whose hull could collide; give it one, or its 'corners'");
+  EXPECT_EQ(MistakeOfBlock("corners='0,0,0; 1,0,0; 0,1,0; 0,0,1'"), "none");
+  EXPECT_EQ(MistakeOfBlock("corners='0,0,0; 1,0; 0,1,0; 0,0,1'"),
+            "test.xml:3:51: corners are three numbers each, as in \"0, 0, 0; 1, 0, 0; …\"");
+  EXPECT_EQ(MistakeOfBlock("corners='0,0,0; 1,0,0; 0,1,0'"), "test.xml:3:51: a body needs at least four corners");
+  EXPECT_EQ(MistakeOfBlock("corners='0,0,0; 1,0,0; 0,1,0; 1,1,0'"), "test.xml:3:51: its corners lie in one plane");
+  EXPECT_EQ(MistakeOfBlock("convex='true'"),
+            "test.xml:3:51: it has no 'mesh' whose hull could collide; give it one, or its 'corners'");
 }
 
 TEST(MistakesTogether, AHullFillsItsBoxAndIsSharedByThoseThatAreAlike)
 {
   const std::string block = "size='.2,.4,.6' corners='0,0,0; 9,0,0; 0,9,0; 0,0,9'/>";
-  const LoadedExperiment loaded =
-      LoadExperimentText("<ahss-config><arena size='1,1,1' optimization='3D'><block id='a' position='.5,.5,.5' " +
-                             block + "<block id='b' position='.2,.2,.5' " + block + "</arena></ahss-config>",
-                         "test.xml", "/nowhere", {});
+  const ExperimentText text{
+      .size = "1,1,1",
+      .optimization = "3D",
+      .arena = "<block id='a' position='.5,.5,.5' " + block + "<block id='b' position='.2,.2,.5' " + block,
+      .engines = ""};
+  const LoadedExperiment loaded = LoadExperimentText(text.Text(), "test.xml", "/nowhere", {});
   ASSERT_TRUE(loaded.experiment);
   const auto& hull = loaded.experiment->entities[0].hull;
   ASSERT_TRUE(hull);

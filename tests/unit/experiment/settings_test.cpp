@@ -1,8 +1,8 @@
 // --set PATH=VALUE.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/unit/experiment/fake_plugins.h"
+#include "tests/world/experiment_text.h"
 
 namespace swarmanoid::test
 {
@@ -41,8 +41,7 @@ TEST(Settings, AddWhatTheFileLeavesOut)
 {
   EXPECT_EQ(Changed("framework.seed", "42")->seed, 42U);
   EXPECT_EQ(Changed("controllers.fc.parameters.gain", "2")->controllers.at(0).parameters.GetNumber("gain"), 2);
-  const LoadedExperiment loaded =
-      LoadText("<ahss-config><arena size='1,1,1' optimization='2D'/></ahss-config>", With("framework.seed", "9"));
+  const LoadedExperiment loaded = LoadText(ExperimentText().Text(), With("framework.seed", "9"));
   ASSERT_TRUE(loaded.experiment);
   EXPECT_EQ(loaded.experiment->seed, 9U);
 }

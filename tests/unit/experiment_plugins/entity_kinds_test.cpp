@@ -8,6 +8,7 @@
 
 #include "common/experiment/load_experiment.h"
 #include "common/math/elementary.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid
 {
@@ -52,15 +53,7 @@ std::vector<std::string> AttributesOf(EntityKind kind)
 // What is said of a row that is refused.
 std::string RefusalOf(EntityKindDescription row)
 {
-  try
-  {
-    RegisterEntityKind(std::move(row));
-  }
-  catch (const std::invalid_argument& error)
-  {
-    return error.what();
-  }
-  return "it was taken";
+  return test::MessageOf<std::invalid_argument>([&] { RegisterEntityKind(std::move(row)); }, "it was taken");
 }
 
 TEST(EntityKinds, OfTheSimulatorAreFoundByAllTheirTags)

@@ -3,9 +3,9 @@
 #include "common/experiment/notes.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "common/plugins/catalogue.h"
+#include "tests/world/experiment_text.h"
 
 namespace swarmanoid
 {
@@ -47,12 +47,9 @@ LoadedExperiment Load(const std::string& arena, const std::string& engines, cons
     return true;
   }();
   static_cast<void>(registered);
-  return LoadExperimentText(
-      "<ahss-config><framework><clocktick>100</clocktick></framework>\n<controllers/>\n"
-      "<arena size='4,4,4' optimization='3D'>\n" +
-          arena + "</arena>\n<engines>" + engines + "</engines>\n<arena_physics>" + lists +
-          "</arena_physics>\n<visualisations/></ahss-config>",
-      "n.xml", "/");
+  const test::ExperimentText text{
+      .size = "4,4,4", .optimization = "3D", .arena = arena, .engines = engines, .physics = lists};
+  return LoadExperimentText(text.Text(), "n.xml", "/");
 }
 
 std::vector<std::string> NotesOf(const LoadedExperiment& loaded)
@@ -75,7 +72,7 @@ TEST(Notes, AParameterThatNoEngineUsesIsToldWhereItStands)
       "<cylindric_prey id='a' position='1,1,0' mass='2'/>\n<cylindric_prey id='b' position='2,1,0'/>\n";
   EXPECT_THAT(
       NotesOf(Load(preys, kPlane, kAllInPlane)),
-      ElementsAre(testing::AllOf(HasSubstr("n.xml:4:"), HasSubstr("the mass of the cylindric_prey 'a' has no effect: "
+      ElementsAre(testing::AllOf(HasSubstr("n.xml:3:"), HasSubstr("the mass of the cylindric_prey 'a' has no effect: "
                                                                   "its engine 'p' (note_plane)"))));
   EXPECT_THAT(NotesOf(Load(preys, kSpace, kAllInSpace)), IsEmpty());
   EXPECT_THAT(NotesOf(Load(preys, kPlane + kSpace, kAllInPlane + kAllInSpace)), IsEmpty()) << "the other one uses it";

@@ -5,11 +5,11 @@
 #include <fstream>
 #include <random>
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "common/journal/journal_follower.h"
 #include "common/journal/journal_reader.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -37,12 +37,6 @@ SpaceState NoisyState(std::uint64_t tick)
 class JournalSegmentsTest : public testing::Test
 {
 protected:
-  JournalSegmentsTest() : folder_(fs::temp_directory_path() / fmt::format("swarmanoid_segments_{}", getpid()))
-  {
-    fs::create_directories(folder_);
-  }
-  ~JournalSegmentsTest() override { fs::remove_all(folder_); }
-
   std::string Path() const { return (folder_ / "0").string(); }
   static std::vector<char> StartOfRun() { return ContentOf(JournalStart{{7, {}}, HostTable{1, {0, 0, 0, 0}}, 0}); }
 
@@ -79,7 +73,7 @@ protected:
     EXPECT_EQ(next, end);
   }
 
-  const fs::path folder_;
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(JournalSegmentsTest, ABudgetKeepsTheNewestAndASavedStateBeforeIt)

@@ -14,6 +14,7 @@
 #include <gmock/gmock.h>
 
 #include "common/journal/journal_reader.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -86,12 +87,6 @@ std::vector<TickRecord> SomeTicks(std::size_t count, unsigned seed)
 class JournalTest : public testing::Test
 {
 protected:
-  JournalTest() : folder_(fs::temp_directory_path() / fmt::format("swarmanoid_journal_{}", getpid()))
-  {
-    fs::create_directories(folder_);
-  }
-  ~JournalTest() override { fs::remove_all(folder_); }
-
   std::string File(const std::string& name) const { return (folder_ / name).string(); }
 
   static std::vector<char> Start()
@@ -129,7 +124,7 @@ protected:
     return records;
   }
 
-  const fs::path folder_;
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(JournalTest, TicksComeBackBitByBitHoweverManyAreInABlock)

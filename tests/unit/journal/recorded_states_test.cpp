@@ -2,51 +2,35 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <random>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "common/journal/journal_follower.h"
 #include "common/journal/journal_reader.h"
 #include "common/journal/recorded_states.h"
 #include "common/space/space.h"
+#include "tests/world/small_experiment.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
 namespace
 {
 
-namespace fs = std::filesystem;
-
 Experiment TwoRobots()
 {
   Experiment experiment;
   experiment.name = "two";
   experiment.arena_size = {4, 4, 2};
-  for (const char* id : {"fb_0", "fb_1"})
-  {
-    EntityConfiguration robot;
-    robot.kind = EntityKind::kFootbot;
-    robot.id = id;
-    robot.size = {0.085, 0.085, 0.147};
-    robot.movable = true;
-    experiment.entities.push_back(robot);
-  }
+  for (const char* id : {"fb_0", "fb_1"}) experiment.entities.push_back(test::Entity(EntityKind::kFootbot, id));
   return experiment;
 }
 
 class RecordedStatesTest : public testing::Test
 {
 protected:
-  RecordedStatesTest() : folder_(fs::temp_directory_path() / fmt::format("swarmanoid_states_{}", getpid()))
-  {
-    fs::create_directories(folder_);
-  }
-  ~RecordedStatesTest() override { fs::remove_all(folder_); }
-
   std::string Path() const { return (folder_ / "0").string(); }
   static JournalStart Start() { return {{7, {}}, {}, 0}; }
 
@@ -99,7 +83,7 @@ protected:
     EXPECT_FALSE(states.Seek(first - 1)) << "of the first one, some tick that never was";
   }
 
-  const fs::path folder_;
+  const test::TemporaryFolder folder_;
   const Experiment experiment_ = TwoRobots();
   CSwarmanoidSpace space_{experiment_};
   std::vector<std::uint64_t> hashes_;

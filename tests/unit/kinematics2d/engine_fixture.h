@@ -11,6 +11,7 @@
 #include "common/threads/worker_pool.h"
 #include "engine_worker/engine_worker.h"
 #include "engine_worker/engines/kinematics2d/kinematics2d_engine.h"
+#include "tests/world/small_experiment.h"
 
 namespace swarmanoid
 {
@@ -37,23 +38,15 @@ public:
     entity.id = "e" + std::to_string(experiment_.entities.size());
     entity.pose = {position, QuaternionFromEuler(angles)};
     entity.movable = movable;
-    entity.size = size;
-    if (kind == EntityKind::kFootbot) entity.size = Vector3(0.085036758, 0.085036758, 0.146899733);
-    if (kind == EntityKind::kEyebot) entity.size = Vector3(0.25, 0.25, 0.566);
-    if (kind == EntityKind::kHandbot) entity.size = Vector3(0.22, 0.17, 0.16);
+    entity.size = IsRobot(kind) ? DescriptionOf(kind).size : size;
     experiment_.entities.push_back(entity);
     return static_cast<std::uint32_t>(experiment_.entities.size() - 1);
   }
   // Terrain from a map in an absolute path, at the origin.
   void AddTerrain(const std::string& octomap)
   {
-    auto file = std::make_shared<ConfigurationNode>();
-    file->name = "octomap";
-    file->attributes.push_back({"file", octomap, {}});
-    auto element = std::make_shared<ConfigurationNode>();
-    element->children.push_back(file);
     experiment_.entities[Add(EntityKind::kTerrain, Vector3::Zero(), {}, Vector3::Zero(), false)].tree =
-        TConfigurationTree(element);
+        test::TerrainTree("octomap", {{"file", octomap}});
   }
   std::uint32_t AddMirror(EntityKind kind, const Vector3& position, const Vector3& size = Vector3::Zero())
   {
@@ -108,12 +101,18 @@ public:
     return engine;
   }
 
-  double& Command(std::size_t value) { return commands_[value]; }
+  // The first command, tick or look at the space or the engine starts it, too.
+  double& Command(std::size_t value)
+  {
+    EnsureStarted();
+    return commands_[value];
+  }
   double Sensor(std::size_t value) const { return sensors_[value]; }
 
   // One tick; the space follows.
   void Tick()
   {
+    EnsureStarted();
     update_.attributes.Clear();
     engine_->Update({layout_.commands, commands_}, update_, sensors_);
     space_->SetPoses(layout_.owned, update_.poses);
@@ -125,13 +124,26 @@ public:
     for (int k = 0; k < count; ++k) Tick();
   }
 
-  Pose PoseOf(std::uint32_t entity) const { return space_->GetPose(entity); }
-  CSwarmanoidSpace& Space() { return *space_; }
-  CPhysicsEngine& Engine() { return *engine_; }
+  Pose PoseOf(std::uint32_t entity) { return Space().GetPose(entity); }
+  CSwarmanoidSpace& Space()
+  {
+    EnsureStarted();
+    return *space_;
+  }
+  CPhysicsEngine& Engine()
+  {
+    EnsureStarted();
+    return *engine_;
+  }
   std::unique_ptr<CPhysicsEngine>& EnginePointer() { return engine_; }
   const EngineUpdate& LastUpdate() const { return update_; }
 
 private:
+  void EnsureStarted()
+  {
+    if (engine_ == nullptr) Start();
+  }
+
   WorkerPool* pool_;
   Experiment experiment_;
   EngineConfiguration engine_configuration_;

@@ -1,9 +1,10 @@
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <limits>
 
 #include "tests/unit/kinematics2d/engine_fixture.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid
 {
@@ -16,7 +17,6 @@ TEST(Kinematics2dEngine, WheelsDriveAFootbotAlongTheExactArc)
   const auto robot = f.Add(EntityKind::kFootbot, Vector3(2, 3, 0), {0, 0, 0.4});
   f.AddCommands("footbot_wheels", 2, {robot});
   f.AddSensors("footbot_encoders", 2, {robot});
-  f.Start();
   f.Command(0) = WheelSpeed(0.1);
   f.Command(1) = WheelSpeed(0.2);
   f.Ticks(10);
@@ -37,7 +37,6 @@ TEST(Kinematics2dEngine, EncodersReadWhatWasRolledNotWhatWasWanted)
   f.Add(EntityKind::kBlock, Vector3(2.2, 3, 0.25), {}, Vector3(0.1, 2, 0.5), false);
   f.AddCommands("footbot_wheels", 2, {robot});
   f.AddSensors("footbot_encoders", 2, {robot});
-  f.Start();
   f.Command(0) = f.Command(1) = WheelSpeed(0.3);
   f.Ticks(20);
   EXPECT_NEAR(f.Sensor(0), 0, 1e-4);
@@ -66,7 +65,6 @@ TEST(Kinematics2dEngine, RobotsMoveOnThePlanePerpendicularToTheChosenAxis)
     const Pose start = frame.ToSpace({0.5, 0.25, 0});
     const auto robot = f.Add(EntityKind::kEyebot, start.position, EulerFromQuaternion(start.orientation));
     f.AddCommands("eyebot_propellers", 4, {robot});
-    f.Start();
     f.Command(0) = 0.4;
     f.Command(1) = -0.2;
     f.Command(2) = 5;  // up: out of the plane, ignored
@@ -88,7 +86,6 @@ TEST(Kinematics2dEngine, ATiltedPlaneCarriesItsRobots)
   f.Parameter("tilt", "0, -30, 0");
   const auto robot = f.Add(EntityKind::kFootbot, Vector3(0, 0, 0));
   f.AddCommands("footbot_wheels", 2, {robot});
-  f.Start();
   f.Command(0) = f.Command(1) = WheelSpeed(0.2);
   f.Ticks(10);
   const Vector3 uphill(std::cos(kPi / 6), 0, std::sin(kPi / 6));
@@ -102,7 +99,6 @@ TEST(Kinematics2dEngine, RobotsArePutOnThePlaneAndBlocksKeepTheirHeight)
   f.Parameter("distance", "0.1");
   const auto robot = f.Add(EntityKind::kFootbot, Vector3(2, 3, 0.7), {0, 0, 1});
   const auto block = f.Add(EntityKind::kBlock, Vector3(5, 5, 0.25), {0, 0, 0.5}, Vector3(0.5, 0.1, 0.5));
-  f.Start();
   f.Tick();
   EXPECT_LT((f.PoseOf(robot).position - Vector3(2, 3, 0.1)).norm(), 1e-12);
   EXPECT_LT((f.PoseOf(block).position - Vector3(5, 5, 0.25)).norm(), 1e-12);
@@ -118,7 +114,6 @@ TEST(Kinematics2dEngine, BlocksThatAreNotTurnedKeepTheirHeightAmongRobots)
   const auto low = f.Add(EntityKind::kBlock, Vector3(5, 5, 0.15), {0, 0, 0}, Vector3(0.5, 0.1, 0.3));
   const auto other = f.Add(EntityKind::kFootbot, Vector3(4, 3, 0.1));
   const auto high = f.Add(EntityKind::kBlock, Vector3(8, 5, 0.25), {0, 0, 0}, Vector3(0.5, 0.1, 0.5));
-  f.Start();
   f.Ticks(3);
   EXPECT_EQ(f.PoseOf(robot).position.z(), 0.1);
   EXPECT_EQ(f.PoseOf(other).position.z(), 0.1);
@@ -134,7 +129,6 @@ TEST(Kinematics2dEngine, BlocksThatLeanKeepTheirHeightAndLean)
   const auto leaning = f.Add(EntityKind::kBlock, Vector3(5, 5, 0.25), {0.3, -0.2, 0.5}, Vector3(0.5, 0.1, 0.5));
   const auto lying = f.Add(EntityKind::kBlock, Vector3(8, 5, 0.05), {kPi / 2, 0, 2}, Vector3(0.5, 0.5, 0.1));
   f.AddCommands("footbot_wheels", 2, {robot});
-  f.Start();
   f.Command(0) = f.Command(1) = WheelSpeed(0.2);
   const Pose before[] = {f.PoseOf(leaning), f.PoseOf(lying)};
   f.Ticks(5);
@@ -156,7 +150,6 @@ TEST(Kinematics2dEngine, OnlyBlocksThatThePlaneCutsAreInTheWay)
     const auto robot = f.Add(EntityKind::kFootbot, Vector3(2, 3, 0));
     f.Add(EntityKind::kBlock, Vector3(2.5, 3, height), {}, Vector3(0.1, 2, size), false);
     f.AddCommands("footbot_wheels", 2, {robot});
-    f.Start();
     f.Command(0) = f.Command(1) = WheelSpeed(0.3);
     f.Ticks(40);
     EXPECT_EQ(f.PoseOf(robot).position.x() < 2.5, blocked) << height;
@@ -190,7 +183,6 @@ TEST(Kinematics2dEngine, AnEntityPutElsewhereGoesOnFromThere)
   EngineFixture f;
   const auto robot = f.Add(EntityKind::kFootbot, Vector3(2, 3, 0));
   f.AddCommands("footbot_wheels", 2, {robot});
-  f.Start();
   f.Command(0) = f.Command(1) = WheelSpeed(0.1);
   f.Tick();
   f.Space().SetPose(robot, {Vector3(7, 7, 0), QuaternionFromYaw(kPi / 2)});
@@ -204,7 +196,6 @@ TEST(Kinematics2dEngine, TheSubclockDividesTheTick)
   EngineFixture f;
   f.Configuration().subclock = 5;
   f.Add(EntityKind::kFootbot, Vector3(2, 3, 0));
-  f.Start();
   f.Tick();
   EXPECT_EQ(f.Engine().StatusText().substr(0, 10), "5 substeps");
 }
@@ -214,17 +205,8 @@ TEST(Kinematics2dEngine, ACommandThatIsNotANumberNamesTheRobot)
   EngineFixture f;
   const auto robot = f.Add(EntityKind::kFootbot, Vector3(2, 3, 0));
   f.AddCommands("footbot_wheels", 2, {robot});
-  f.Start();
   f.Command(0) = std::nan("");
-  try
-  {
-    f.Tick();
-    FAIL();
-  }
-  catch (const std::runtime_error& error)
-  {
-    EXPECT_NE(std::string(error.what()).find("'e0'"), std::string::npos) << error.what();
-  }
+  EXPECT_THAT(test::MessageOf<std::runtime_error>([&] { f.Tick(); }), testing::HasSubstr("'e0'"));
 }
 
 TEST(Kinematics2dEngine, ABlockThatItMovesMustBeCutByItsPlane)
@@ -239,7 +221,6 @@ TEST(Kinematics2dEngine, TurretsTurnAndReportTheirAngle)
   EngineFixture f;
   const auto robot = f.Add(EntityKind::kFootbot, Vector3(2, 3, 0));
   f.AddCommands("footbot_turret", 1, {robot});
-  f.Start();
   f.Command(0) = 2;
   f.Ticks(10);
   EXPECT_NEAR(f.Space().GetEntity(robot).GetAttribute("turret_angle"), 2, 1e-14);
@@ -254,7 +235,6 @@ TEST(Kinematics2dEngine, ATurretThatSomebodyTurnsInTheSpaceIsTurnedBack)
   EngineFixture f;
   const auto robot = f.Add(EntityKind::kFootbot, Vector3(2, 3, 0));
   f.AddCommands("footbot_wheels", 2, {robot});
-  f.Start();
   const auto slot = f.Space().GetEntity(robot).SlotOf("turret_angle");
   for (const double angle : {1.0, 2.0})
   {
@@ -296,15 +276,8 @@ TEST(Kinematics2dEngine, ThreadsChangeNoPoseAndNoMistake)
   EXPECT_EQ(run(&pool, 1), run(nullptr, 1));
   for (WorkerPool* by : {&pool, static_cast<WorkerPool*>(nullptr)})
   {
-    try
-    {
-      run(by, std::numeric_limits<double>::infinity());
-      ADD_FAILURE() << "it is no mistake";
-    }
-    catch (const std::runtime_error& error)
-    {
-      EXPECT_NE(std::string(error.what()).find("robot 'e2100' gave footbot_wheels"), std::string::npos) << error.what();
-    }
+    EXPECT_THAT(test::MessageOf<std::runtime_error>([&] { run(by, std::numeric_limits<double>::infinity()); }),
+                testing::HasSubstr("robot 'e2100' gave footbot_wheels"));
   }
 }
 

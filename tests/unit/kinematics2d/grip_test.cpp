@@ -43,7 +43,6 @@ TEST(Kinematics2dGrip, ARobotDrivesWithItsPreyAsIfItWereAlone)
   f.AddCommands("footbot_wheels", 2, {robot});
   f.AddCommands("footbot_gripper", 1, {robot});
   f.AddSensors("footbot_turret_torque", 3, {robot});
-  f.Start();
   const Pose start = f.PoseOf(robot);
   const Pose held = start.Inverse().Compose(f.PoseOf(prey));
   f.Command(2) = 1;
@@ -77,7 +76,6 @@ TEST(Kinematics2dGrip, OpposedRobotsHoldThePreyStillAndFeelTheTraction)
   f.AddCommands("footbot_wheels", 2, {east, west});
   f.AddCommands("footbot_gripper", 1, {east, west});
   f.AddSensors("footbot_turret_torque", 3, {east, west});
-  f.Start();
   f.Command(4) = f.Command(5) = 1;
   Drive(f, 0, -0.15, -0.15);
   Drive(f, 1, -0.15, -0.15);
@@ -101,7 +99,6 @@ TEST(Kinematics2dGrip, RobotsThatTurnAgainstEachOtherFeelTheTorque)
   f.AddCommands("footbot_wheels", 2, {east, west});
   f.AddCommands("footbot_gripper", 1, {east, west});
   f.AddSensors("footbot_turret_torque", 3, {east, west});
-  f.Start();
   f.Command(4) = f.Command(5) = 1;
   Drive(f, 0, -0.15, 0.15);
   Drive(f, 1, 0.15, -0.15);
@@ -150,7 +147,6 @@ TEST(Kinematics2dGrip, OnlyPreysInReachAreGripped)
   const auto other = AddRobotAround(f, 8 + 0.05, 8, 0);
   AddPrey(f, 8, 8);  // ahead, 5 cm from its gripper
   f.AddCommands("footbot_gripper", 1, {robot, other});
-  f.Start();
   f.Command(0) = f.Command(1) = 1;
   f.Ticks(3);
   EXPECT_EQ(GrippedBy(f, robot), 0);
@@ -182,7 +178,6 @@ TEST(Kinematics2dGrip, MovingAGrippedRobotAwayEndsTheGrip)
   const auto prey = AddPrey(f, 5, 5);
   const auto robot = AddRobotAround(f, 5, 5, 0);
   f.AddCommands("footbot_gripper", 1, {robot});
-  f.Start();
   f.Command(0) = 1;
   f.Tick();
   EXPECT_EQ(GrippedBy(f, robot), 1.0 + prey);
@@ -204,7 +199,6 @@ TEST(Kinematics2dGrip, ARobotThatIsMovedWithItsPreyHoldsItToTheLastBit)
     const auto robot = AddRobotAround(f, 5, 5, 0.3);
     const auto nearer = AddPrey(f, 8, 2);
     f.AddCommands("footbot_gripper", 1, {robot});
-    f.Start();
     f.Command(0) = 1;
     f.Tick();
     ASSERT_EQ(GrippedBy(f, robot), 1.0 + prey);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/kinematics2d/region_story.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid::kinematics2d
 {
@@ -214,15 +215,7 @@ TEST(KinematicRegions, ASpeedBeyondAllSenseIsRefusedAsInOneWorld)
   const auto refusal = [](KinematicWorld& world) -> std::string
   {
     world.SetTwist(0, {1e6, 0, 0});
-    try
-    {
-      world.Advance(kTick, 1);
-      return {};
-    }
-    catch (const std::runtime_error& error)
-    {
-      return error.what();
-    }
+    return test::MessageOf<std::runtime_error>([&] { world.Advance(kTick, 1); });
   };
   KinematicWorld one = Build(scene);
   KinematicWorld split = Build(scene);

@@ -9,6 +9,7 @@
 #include "common/space/terrain/terrain.h"
 #include "engine_fixture.h"
 #include "engine_worker/engines/terrain_walls.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -19,7 +20,7 @@ constexpr double kCell = 0.05;
 
 // A ramp of steps over x = 1 … 3 that rises by one cell every half metre, along the whole map in y. At a plane's height
 // z, what is solid begins where the ramp first is higher than z.
-std::string WriteSteps()
+std::string WriteSteps(const test::TemporaryFolder& folder)
 {
   octomap::OcTree map(kCell);
   for (int x = 0; x < 40; ++x)
@@ -28,7 +29,7 @@ std::string WriteSteps()
         map.updateNode(octomap::point3d(static_cast<float>(1 + (x + 0.5) * kCell),
                                         static_cast<float>((y + 0.5) * kCell), static_cast<float>((z + 0.5) * kCell)),
                        true);
-  const std::string path = ::testing::TempDir() + "swarmanoid_steps_" + std::to_string(getpid()) + ".bt";
+  const std::string path = folder / "steps.bt";
   map.writeBinary(path);
   return path;
 }
@@ -42,7 +43,6 @@ double DriveAtTheSteps(const std::string& engine, const std::string& distance, c
   world.AddTerrain(map);
   const std::uint32_t robot = world.Add(EntityKind::kFootbot, {0.5, 1, std::stod(distance)});
   world.AddCommands("footbot_wheels", 2, {robot});
-  world.Start();
   world.Command(0) = world.Command(1) = WheelSpeed(0.2);
   world.Ticks(250);
   // A kinematic robot bounces off by a part of its way in a tick: the mean place is the one to compare.
@@ -57,7 +57,8 @@ double DriveAtTheSteps(const std::string& engine, const std::string& distance, c
 
 TEST(TerrainInThePlane, RobotsOfBothEnginesStopAtTheSameStep)
 {
-  const std::string map = WriteSteps();
+  const test::TemporaryFolder folder;
+  const std::string map = WriteSteps(folder);
   // The plane is cut 2 cm above itself: on the ground the first step, at 1 m, is a wall; 7 cm up the second one, whose
   // top is at 10 cm; 12 cm up the third. The gripper at the robot's front reaches 0.1 m ahead of its centre.
   for (const auto& [distance, wall] : {std::pair("0", 1.0), std::pair("0.07", 1.5), std::pair("0.12", 2.0)})
@@ -67,7 +68,6 @@ TEST(TerrainInThePlane, RobotsOfBothEnginesStopAtTheSameStep)
     EXPECT_NEAR(dynamic, wall - 0.1, 0.005) << distance;
     EXPECT_NEAR(kinematic, wall - 0.1, 0.025) << distance;
   }
-  std::filesystem::remove(map);
 }
 
 TEST(TerrainInThePlane, NobodyEntersARealBuildingsWalls)
@@ -121,10 +121,10 @@ TEST(TerrainInThePlane, ATerrainThatIsNotLevelWithThePlaneIsRefused)
 {
   EngineFixture world;
   world.Parameter("perpendicular_axis", "x");
-  const std::string map = WriteSteps();
+  const test::TemporaryFolder folder;
+  const std::string map = WriteSteps(folder);
   world.AddTerrain(map);
   EXPECT_THROW(world.Start(), ConfigurationError);
-  std::filesystem::remove(map);
 }
 
 }  // namespace

@@ -4,11 +4,10 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "tests/unit/launcher/process_groups.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -52,9 +51,6 @@ TEST(SystemSpawner, WhatAProcessStartedItselfEndsWithIt)
 class ClusterMemberTest : public testing::Test
 {
 protected:
-  ClusterMemberTest() { std::filesystem::create_directories(folder_); }
-  ~ClusterMemberTest() override { std::filesystem::remove_all(folder_); }
-
   PlannedProcess Visualiser() const
   {
     return {.name = "visualiser", .role = ProcessRole::kVisualiser, .log_path = folder_ / "visualiser.log"};
@@ -63,14 +59,9 @@ protected:
   {
     return {.name = "visualiser", .arguments = {"/bin/sh", "-c", script}};
   }
-  std::string LogText() const
-  {
-    std::ostringstream text;
-    text << std::ifstream(folder_ / "visualiser.log").rdbuf();
-    return text.str();
-  }
+  std::string LogText() const { return test::TextOf(folder_ / "visualiser.log"); }
 
-  const std::filesystem::path folder_ = testing::TempDir() + "swarmanoid_member_" + std::to_string(getpid());
+  const test::TemporaryFolder folder_;
   SystemSpawner spawner;
 };
 

@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <string>
 
@@ -12,7 +10,10 @@
 #include "common/control_interface/ci_range_and_bearing.h"
 #include "common/control_interface/footbot/ci_footbot_ground_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_light_sensor.h"
+#include "simulation/register_all.h"
 #include "simulation/simulator.h"
+#include "tests/world/experiment_text.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -63,9 +64,9 @@ REGISTER_CONTROLLER(CRecorder, "crn_recorder")
 // Parts of the file that a change replaces.
 struct File
 {
-  std::string framework = "<clocktick>100</clocktick><maxclock>4</maxclock>";
+  std::string framework = "<maxclock>4</maxclock>";
   std::string controller_parameters{};
-  std::string more_sensors{};
+  std::vector<std::string> more_sensors{};
   std::string before{};  // entities before the robots
   std::string robots =
       "<footbot id='a' position='2,2,0' controller='c'/><footbot id='b' position='3,2,0' controller='c'/>";
@@ -75,32 +76,28 @@ struct File
 
 Recording Recorded(const File& file)
 {
-  const std::string folder = testing::TempDir() + "common_random_numbers_" + std::to_string(getpid());
-  std::filesystem::create_directories(folder);
-  const std::string path = folder + "/common_random_numbers.xml";
-  std::ofstream(path)
-      << "<ahss-config><framework>" << file.framework
-      << "</framework><controllers><crn_recorder id='c'><actuators><range_and_bearing "
-         "implementation='generic_range_and_bearing'/></actuators><sensors>"
-      << file.more_sensors
-      << "<footbot_ground implementation='generic_footbot_ground' floor_colour='#808080' "
-         "noise_kind='gaussian' noise_deviation='0.05'/>"
-         "<range_and_bearing implementation='generic_range_and_bearing' range_noise_kind='gaussian' "
-         "range_noise_deviation='0.05'/></sensors><parameters>"
-      << file.controller_parameters
-      << "</parameters></crn_recorder></controllers><arena size='20,20,2' optimization='2D'>" << file.before
-      << file.robots << file.after
-      << "</arena><engines><dummy_engine id='e'/></engines><arena_physics><engine id='e'><all/></engine>"
-         "</arena_physics><visualisations>"
-      << file.visualisations << "</visualisations></ahss-config>";
+  RegisterBuiltins();
+  const test::TemporaryFolder folder;
+  std::vector<std::string> sensors = file.more_sensors;
+  sensors.insert(sensors.end(),
+                 {"generic_footbot_ground floor_colour='#808080' noise_kind='gaussian' noise_deviation='0.05'",
+                  "generic_range_and_bearing range_noise_kind='gaussian' range_noise_deviation='0.05'"});
+  const auto experiment =
+      test::ExperimentText{.framework = file.framework,
+                           .controllers = test::Controller({.tag = "crn_recorder",
+                                                            .actuators = {"generic_range_and_bearing"},
+                                                            .sensors = sensors,
+                                                            .parameters = file.controller_parameters}),
+                           .size = "20,20,2",
+                           .arena = file.before + file.robots + file.after,
+                           .visualisations = file.visualisations}
+          .Load();
   record.clear();
-  const auto experiment = ReadExperiment(path);
   SimulatorOptions options;
-  options.output_folder = folder;
+  options.output_folder = folder.Path();
   CSimulator simulator(*experiment, options);
   while (simulator.Step()) continue;
   simulator.Finish();
-  std::filesystem::remove_all(folder);
   return record;
 }
 
@@ -155,8 +152,8 @@ TEST(CommonRandomNumbers, TheOrderInTheFileChangesNothing)
 
 TEST(CommonRandomNumbers, ADeviceMoreChangesNothing)
 {
-  ExpectAllOf(Recorded({}), Recorded({.more_sensors = "<footbot_light implementation='generic_footbot_light' "
-                                                      "noise_kind='uniform' noise_range='0.1'/>"}));
+  ExpectAllOf(Recorded({}),
+              Recorded({.more_sensors = {"generic_footbot_light noise_kind='uniform' noise_range='0.1'"}}));
 }
 
 TEST(CommonRandomNumbers, AParameterOfTheControllerChangesNothing)
@@ -174,13 +171,13 @@ TEST(CommonRandomNumbers, LengthAndNumberOfTicksChangeNothingUpToThen)
   Recording expected = Recorded({});
   std::erase_if(expected, [](const auto& entry) { return entry.first.find("Destroy") != std::string::npos; });
   ExpectAllOf(expected, Recorded({.framework = "<clocktick>50</clocktick><maxclock>4</maxclock>"}));
-  ExpectAllOf(expected, Recorded({.framework = "<clocktick>100</clocktick><maxclock>7</maxclock>"}));
+  ExpectAllOf(expected, Recorded({.framework = "<maxclock>7</maxclock>"}));
 }
 
 TEST(CommonRandomNumbers, AnotherSeedChangesAll)
 {
   const Recording expected = Recorded({});
-  const Recording other = Recorded({.framework = "<clocktick>100</clocktick><maxclock>4</maxclock><seed>2</seed>"});
+  const Recording other = Recorded({.framework = "<maxclock>4</maxclock><seed>2</seed>"});
   for (const auto& [name, numbers] : expected)
   {
     if (numbers.empty()) continue;

@@ -2,18 +2,16 @@
 #include "launcher/editor/edit_session.h"
 #include "common/space/space.h"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "simulation/register_all.h"
 #include "test_folders.h"
 #include "tests/eventually.h"
+#include "tests/world/message_of.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -51,20 +49,13 @@ protected:
   EditSessionTest()
   {
     RegisterBuiltins();
-    std::ifstream sample(SWARMANOID_SOURCE_FOLDER "/configs/sample_footbot.xml");
-    text_.assign(std::istreambuf_iterator<char>(sample), {});
-    file_ = (std::filesystem::path(folder_.Path()) / "f.xml").string();
     Write(text_);
     session_ = std::make_unique<EditSession>(file_, page_);
     session_->Begin();
   }
 
   void Write(const std::string& text) { std::ofstream(file_, std::ios::binary) << text; }
-  std::string OnDisk() const
-  {
-    std::ifstream stream(file_, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
+  std::string OnDisk() const { return test::TextOf(file_); }
   Json Ask(const Json& request)
   {
     const std::string reply = session_->Carry(request.dump());
@@ -72,15 +63,7 @@ protected:
   }
   std::string RefusalOf(const std::string& request)
   {
-    try
-    {
-      session_->Carry(request);
-      return "";
-    }
-    catch (const std::invalid_argument& error)
-    {
-      return error.what();
-    }
+    return test::MessageOf<std::invalid_argument>([&] { session_->Carry(request); });
   }
   Json Edit(Json change)
   {
@@ -95,8 +78,9 @@ protected:
     return "none";
   }
 
-  ScratchFolder folder_;
-  std::string text_, file_;
+  test::TemporaryFolder folder_;
+  std::string text_ = test::TextOf(SWARMANOID_SOURCE_FOLDER "/configs/sample_footbot.xml");
+  std::string file_ = folder_ / "f.xml";
   ListeningPage page_;
   std::unique_ptr<EditSession> session_;
 };

@@ -2,7 +2,6 @@
 #include "launcher/editor/edited_experiment.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <random>
 
@@ -12,6 +11,8 @@
 #include "simulation/register_all.h"
 #include "simulation/simulator.h"
 #include "test_folders.h"
+#include "tests/world/message_of.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -47,15 +48,7 @@ EditedExperiment Open(const std::string& text)
 template <class Act>
 std::string RefusalOf(Act act)
 {
-  try
-  {
-    act();
-    return "";
-  }
-  catch (const std::invalid_argument& error)
-  {
-    return error.what();
-  }
+  return test::MessageOf<std::invalid_argument>(act);
 }
 
 TEST(EditedExperiment, PlacesWithoutTouchingAnythingElse)
@@ -213,7 +206,7 @@ TEST(EditedExperiment, StartsAsARunDoes)
     ASSERT_NE(experiment.GetExperiment(), nullptr);
     SimulatorOptions options;
     options.visualisations = false;
-    const ScratchFolder folder;
+    const test::TemporaryFolder folder;
     options.output_folder = folder.Path();
     const auto run = ReadExperiment(kConfigs + "/" + name + ".xml");
     const CSimulator simulator(*run, options);

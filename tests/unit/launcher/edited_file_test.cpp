@@ -2,7 +2,6 @@
 #include "launcher/editor/edited_file.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include <filesystem>
@@ -10,7 +9,8 @@
 #include <iterator>
 
 #include "common/configuration/configuration_tree.h"
-#include "launcher/scratch_folder.h"
+#include "tests/world/message_of.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -21,12 +21,6 @@ namespace fs = std::filesystem;
 
 void Write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
 
-std::string Read(const fs::path& file)
-{
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 std::size_t FilesIn(const fs::path& folder)
 {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
@@ -34,15 +28,15 @@ std::size_t FilesIn(const fs::path& folder)
 
 TEST(EditedFile, WritesTheWholeFileAndKeepsPermissionsAndLinks)
 {
-  const ScratchFolder folder;
-  const fs::path real = fs::path(folder.Path()) / "real.xml", link = fs::path(folder.Path()) / "link.xml";
+  const test::TemporaryFolder folder;
+  const fs::path real = folder / "real.xml", link = folder / "link.xml";
   Write(real, "old\r\n");
   chmod(real.c_str(), 0640);
   fs::create_symlink("real.xml", link);
   EditedFile file(link.string());
   EXPECT_EQ(file.Text(), "old\r\n");
   file.Write("new\r\n");
-  EXPECT_EQ(Read(real), "new\r\n");
+  EXPECT_EQ(test::TextOf(real), "new\r\n");
   EXPECT_EQ(file.Text(), "new\r\n");
   EXPECT_TRUE(fs::is_symlink(link));
   struct stat state
@@ -56,8 +50,8 @@ TEST(EditedFile, WritesTheWholeFileAndKeepsPermissionsAndLinks)
 
 TEST(EditedFile, NoticesWhatOthersWrite)
 {
-  const ScratchFolder folder;
-  const fs::path path = fs::path(folder.Path()) / "f.xml";
+  const test::TemporaryFolder folder;
+  const fs::path path = folder / "f.xml";
   Write(path, "one");
   EditedFile file(path.string());
   EXPECT_FALSE(file.HasChanged());
@@ -76,33 +70,25 @@ TEST(EditedFile, NoticesWhatOthersWrite)
   fs::remove(path);
   EXPECT_TRUE(file.HasChanged());
   file.Write("again");
-  EXPECT_EQ(Read(path), "again");
+  EXPECT_EQ(test::TextOf(path), "again");
   EXPECT_FALSE(file.HasChanged());
 }
 
 TEST(EditedFile, KeepsTheOldOneIfItCannotWrite)
 {
-  const ScratchFolder folder;
-  const fs::path path = fs::path(folder.Path()) / "f.xml";
+  const test::TemporaryFolder folder;
+  const fs::path path = folder / "f.xml";
   Write(path, "old");
   EditedFile file(path.string());
   // A folder in its place cannot be replaced by a file.
   fs::remove(path);
   fs::create_directory(path);
   Write(path / "inside", "kept");
-  try
-  {
-    file.Write("new");
-    FAIL();
-  }
-  catch (const std::runtime_error& error)
-  {
-    EXPECT_THAT(error.what(), testing::HasSubstr("is not saved"));
-  }
-  EXPECT_EQ(Read(path / "inside"), "kept");
+  EXPECT_THAT(test::MessageOf<std::runtime_error>([&] { file.Write("new"); }), testing::HasSubstr("is not saved"));
+  EXPECT_EQ(test::TextOf(path / "inside"), "kept");
   EXPECT_EQ(FilesIn(folder.Path()), 1U);
   EXPECT_EQ(file.Text(), "old");
-  EXPECT_THROW(EditedFile((fs::path(folder.Path()) / "none.xml").string()), ConfigurationError);
+  EXPECT_THROW(EditedFile((folder / "none.xml").string()), ConfigurationError);
 }
 
 }  // namespace

@@ -1,15 +1,13 @@
 // Messages between controllers and those who see the whole space: experiment functions, programs around a simulator.
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 
 #include "common/control_interface/ci_controller.h"
 #include "common/control_interface/ci_functions_channel.h"
 #include "common/space/entities_by_kind.h"
+#include "simulation/register_all.h"
 #include "simulation/simulator.h"
 #include "space_server/robot_messages.h"
+#include "tests/world/experiment_text.h"
 
 namespace swarmanoid
 {
@@ -50,16 +48,16 @@ REGISTER_CONTROLLER(CChannelEcho, "functions_channel_echo")
 
 TEST(FunctionsChannel, CarriesMessagesBothWaysOnceATick)
 {
-  const std::string path = testing::TempDir() + "functions_channel_" + std::to_string(getpid()) + ".xml";
-  std::ofstream(path)
-      << "<ahss-config><framework><maxclock>5</maxclock></framework><controllers><functions_channel_echo id='c'>"
-         "<actuators><report implementation='generic_report'/></actuators>"
-         "<sensors><instruction implementation='generic_instruction'/></sensors></functions_channel_echo></controllers>"
-         "<arena size='5,5,2' optimization='2D'><footbot id='a' position='2,2,0' controller='c'/>"
-         "<footbot id='b' position='3,2,0' controller='c'/></arena><engines><dummy_engine id='e'/></engines>"
-         "<arena_physics><engine id='e'><all/></engine></arena_physics></ahss-config>";
-  const auto experiment = ReadExperiment(path);
-  std::filesystem::remove(path);
+  RegisterBuiltins();
+  const auto experiment = test::ExperimentText{.framework = "<maxclock>5</maxclock>",
+                                               .controllers = test::Controller({.tag = "functions_channel_echo",
+                                                                                .actuators = {"generic_report"},
+                                                                                .sensors = {"generic_instruction"}}),
+                                               .arena =
+                                                   "<footbot id='a' position='2,2,0' controller='c'/>"
+                                                   "<footbot id='b' position='3,2,0' controller='c'/>"}
+                              .Load();
+  ASSERT_TRUE(experiment);
   CSimulator simulator(*experiment, {});
   const CSwarmanoidSpace& space = simulator.GetSpace();
   const auto& a = *space.FindEntity("a");

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 
 #include "simulation/playback/journal_loss.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -24,9 +25,9 @@ using testing::IsEmpty;
 class JournalLossTest : public testing::Test
 {
 protected:
-  JournalLossTest() : folder_(fs::temp_directory_path() / fmt::format("swarmanoid_loss_{}", getpid()))
+  JournalLossTest()
   {
-    fs::create_directories(folder_ / "journal");
+    fs::create_directory(folder_ / "journal");
     JournalWriter journal(Path(), ContentOf(JournalStart{{7, {}}, HostTable{1, {0}}, 0}));
     SpaceState state;
     state.poses.assign(7, 1.0);
@@ -37,8 +38,6 @@ protected:
       journal.Flush();
     }
   }
-  ~JournalLossTest() override { fs::remove_all(folder_); }
-
   std::string Path() const { return (folder_ / "journal/0").string(); }
   void Damage(std::uint64_t at)
   {
@@ -58,7 +57,7 @@ protected:
     return FindLoss(JournalReader(Path()), {.last_tick = last_tick, .has_budget = false, .trouble = {}});
   }
 
-  const fs::path folder_;
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(JournalLossTest, OfAWholeJournalNothingIsSaid)
@@ -141,16 +140,16 @@ TEST_F(JournalLossTest, OldestSegmentsMayBeMissingOnlyWithABudget)
 TEST_F(JournalLossTest, TheManifestSaysWhereTheRunEndedAndADamagedOneIsTold)
 {
   const auto write = [&](const std::string& text) { std::ofstream(folder_ / "manifest.json") << text; };
-  EXPECT_FALSE(RecordedEndOf(folder_.string()).last_tick) << "a run without a manifest";
+  EXPECT_FALSE(RecordedEndOf(folder_.Path()).last_tick) << "a run without a manifest";
   write(R"({"command": ["swarmanoid", "run", "--journal-budget=1GiB"], "ticks": 19})");
-  const RecordedEnd end = RecordedEndOf(folder_.string());
+  const RecordedEnd end = RecordedEndOf(folder_.Path());
   EXPECT_EQ(end.last_tick, 19U);
   EXPECT_TRUE(end.has_budget);
   EXPECT_THAT(end.trouble, IsEmpty());
   for (const char* text : {"", "{", R"({"command": ["run"], "ticks": "19"})", R"({"command": ["run", 7]})", "[]"})
   {
     write(text);
-    const RecordedEnd damaged = RecordedEndOf(folder_.string());
+    const RecordedEnd damaged = RecordedEndOf(folder_.Path());
     EXPECT_THAT(damaged.trouble, HasSubstr("manifest.json' is damaged")) << text;
     EXPECT_TRUE(FindLoss(JournalReader(Path()), damaged).is_damaged) << text;
   }

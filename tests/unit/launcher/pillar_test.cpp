@@ -1,13 +1,11 @@
 // Cylinders that do not move stop robots in every engine, and stay where they are.
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 
 #include "common/control_interface/ci_controller.h"
 #include "common/control_interface/footbot/ci_footbot_wheels_actuator.h"
+#include "simulation/register_all.h"
 #include "simulation/simulator.h"
+#include "tests/world/experiment_text.h"
 
 namespace swarmanoid
 {
@@ -27,18 +25,22 @@ REGISTER_CONTROLLER(CStraightOn, "pillar_test")
 
 TEST(Pillar, StopsRobotsAndStands)
 {
-  const std::string path = testing::TempDir() + "pillar_" + std::to_string(getpid()) + ".xml";
+  RegisterBuiltins();
   for (const std::string engine : {"kinematics2d", "dynamics2d", "dynamics3d"})
     for (const std::string movable : {"false", "true"})
     {
-      std::ofstream(path)
-          << "<ahss-config><framework><maxclock>60</maxclock></framework><controllers><pillar_test id='c'><actuators>"
-             "<footbot_wheels implementation='dummy_footbot_wheels'/></actuators></pillar_test></controllers>"
-             "<arena size='4,4,2' optimization='2D'><footbot id='fb' position='1,2,0' controller='c'/>"
-             "<cylindric_prey id='pillar' position='1.5,2,0' radius='0.1' height='0.2' mass='0.2' movable='"
-          << movable << "'/></arena><engines><" << engine
-          << " id='e'/></engines><arena_physics><engine id='e'><all/></engine></arena_physics></ahss-config>";
-      const auto experiment = ReadExperiment(path);
+      const auto experiment =
+          test::ExperimentText{
+              .framework = "<maxclock>60</maxclock>",
+              .controllers = test::Controller({.tag = "pillar_test", .actuators = {"dummy_footbot_wheels"}}),
+              .size = "4,4,2",
+              .arena =
+                  "<footbot id='fb' position='1,2,0' controller='c'/><cylindric_prey id='pillar' "
+                  "position='1.5,2,0' radius='0.1' height='0.2' mass='0.2' movable='" +
+                  movable + "'/>",
+              .engines = "<" + engine + " id='e'/>"}
+              .Load();
+      ASSERT_TRUE(experiment);
       CSimulator simulator(*experiment, {});
       const CSwarmanoidSpace& space = simulator.GetSpace();
       const Vector3 before = space.GetPose(1).position;
@@ -56,7 +58,6 @@ TEST(Pillar, StopsRobotsAndStands)
       }
       simulator.Finish();
     }
-  std::filesystem::remove(path);
 }
 
 }  // namespace

@@ -11,6 +11,8 @@
 #include "common/activity/activity.h"
 #include "common/activity/failure_report.h"
 #include "launcher/supervision/manifest_at_death.h"
+#include "tests/world/message_of.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -23,33 +25,15 @@ using testing::HasSubstr;
 class RunFolderTest : public testing::Test
 {
 protected:
-  RunFolderTest()
-      : before_(fs::current_path()),
-        folder_(fs::temp_directory_path() / ("swarmanoid_runs_" + std::to_string(getpid())))
-  {
-    fs::create_directories(folder_);
-    fs::current_path(folder_);
-  }
-  ~RunFolderTest() override
-  {
-    fs::current_path(before_);
-    fs::remove_all(folder_);
-  }
+  RunFolderTest() { fs::current_path(folder_); }
+  ~RunFolderTest() override { fs::current_path(before_); }
   std::string ErrorOf(const std::string& asked)
   {
-    try
-    {
-      RunFolder(asked, "world");
-    }
-    catch (const RunFolderError& error)
-    {
-      return error.what();
-    }
-    return "";
+    return test::MessageOf<RunFolderError>([&] { RunFolder(asked, "world"); });
   }
 
-  fs::path before_;
-  fs::path folder_;
+  fs::path before_ = fs::current_path();
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(RunFolderTest, AFolderThatOthersCanWriteIsRefused)
@@ -94,9 +78,7 @@ TEST_F(RunFolderTest, AFailedWriteKeepsTheOldFile)
   folder.Write("manifest.json", "one");
   fs::create_directory("mine/manifest.json.new");
   EXPECT_THROW(folder.Write("manifest.json", "two"), RunFolderError);
-  std::string text;
-  std::ifstream("mine/manifest.json") >> text;
-  EXPECT_EQ(text, "one");
+  EXPECT_EQ(test::TextOf("mine/manifest.json"), "one");
 }
 
 TEST(Manifest, HoldsWhatIsKnown)
@@ -130,8 +112,7 @@ TEST_F(RunFolderTest, AProcessThatDiesCompletesItsManifest)
   int status = 0;
   ASSERT_EQ(waitpid(child, &status, 0), child);
   EXPECT_EQ(WEXITSTATUS(status), 4);
-  std::ifstream file(folder.File("manifest.json"));
-  const auto json = nlohmann::json::parse(file);
+  const auto json = nlohmann::json::parse(test::TextOf(folder.File("manifest.json")));
   EXPECT_EQ(json["experiment"], "world");
   EXPECT_EQ(json["exit_code"], 4);
   EXPECT_EQ(json["failure"], "unit_test said \"no\" \\   ? ??? \xc3\xbc at tick 17");

@@ -9,6 +9,7 @@
 
 #include "common/bus/membership/cluster_options.h"
 #include "common/program/usage_error.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid
 {
@@ -30,15 +31,7 @@ void Parse(const std::vector<OptionSpec>& options, std::vector<std::string> word
 std::string ErrorOf(const std::vector<std::string>& words)
 {
   RunSettings settings;
-  try
-  {
-    Parse(RunOptionTable(settings), words);
-  }
-  catch (const UsageError& error)
-  {
-    return error.what();
-  }
-  return "no error";
+  return test::MessageOf<UsageError>([&] { Parse(RunOptionTable(settings), words); }, "no error");
 }
 
 // A text that the option takes, and that is not its default.
@@ -205,15 +198,8 @@ TEST(RunSettings, ASettingThatAnOptionGivesTooIsRefused)
   choice.seed = 3;
   EXPECT_EQ(ChangesOf(choice).settings.size(), 3U);
   choice.ticks = 7;
-  try
-  {
-    ChangesOf(choice);
-    ADD_FAILURE() << "both were taken";
-  }
-  catch (const UsageError& error)
-  {
-    EXPECT_STREQ(error.what(), "--ticks 7 and --set framework.maxclock=5 set the same value; leave one of the two out");
-  }
+  EXPECT_EQ(test::MessageOf<UsageError>([&] { ChangesOf(choice); }),
+            "--ticks 7 and --set framework.maxclock=5 set the same value; leave one of the two out");
 }
 
 TEST(RunSettings, MemoryIsReadInItsUnit)

@@ -10,6 +10,7 @@
 #include "simulation/simulator.h"
 #include "space_server/experiment_functions.h"
 #include "test_folders.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid
 {
@@ -85,16 +86,12 @@ TEST(Simulator, SeveralAtOnceAreWorldsOfTheirOwn)
 
 TEST(Simulator, MistakesOfTheFileAreToldAllAtOnce)
 {
-  try
-  {
-    ReadExperiment(kDiffusion, {{"framework.maxclok", "3"}, {"framework.clocktick", "0"}});
-    FAIL();
-  }
-  catch (const ConfigurationError& error)
-  {
-    EXPECT_THAT(error.what(), testing::HasSubstr("maxclok"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("clocktick"));
-  }
+  const std::string mistake = test::MessageOf<ConfigurationError>(
+      [&] {
+        ReadExperiment(kDiffusion, {{"framework.maxclok", "3"}, {"framework.clocktick", "0"}});
+      });
+  EXPECT_THAT(mistake, testing::HasSubstr("maxclok"));
+  EXPECT_THAT(mistake, testing::HasSubstr("clocktick"));
   EXPECT_THROW(ReadExperiment("/nowhere.xml"), ConfigurationError);
 }
 

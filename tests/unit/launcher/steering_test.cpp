@@ -1,19 +1,16 @@
 // A run in one process that is steered through one of its visualisations, and what the visualisation is told.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <chrono>
-#include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
 
 #include "common/experiment/load_experiment.h"
 #include "common/program/usage_error.h"
 #include "simulation/register_all.h"
 #include "simulation/single_process.h"
 #include "test_folders.h"
+#include "tests/world/message_of.h"
+#include "tests/world/temporary_folder.h"
 #include "visualiser/render.h"
 
 namespace swarmanoid
@@ -59,20 +56,16 @@ protected:
     RegisterBuiltins();
     static const bool registered = []
     {
-      PluginDescription description;
-      description.label = "scripted_render";
-      PluginRegistry<CRender>::Instance().Add(description, [] { return std::make_unique<CScriptedRender>(); });
+      PluginRegistry<CRender>::Instance().Add({.label = "scripted_render"},
+                                              [] { return std::make_unique<CScriptedRender>(); });
       return true;
     }();
     static_cast<void>(registered);
     CScriptedRender::on_draw = CScriptedRender::on_idle = nullptr;
     CScriptedRender::terminate = false;
     CScriptedRender::interactive = true;
-    folder_ = std::filesystem::temp_directory_path() / ("steering_" + std::to_string(getpid()));
-    std::filesystem::create_directories(folder_);
 
-    std::ifstream file(SWARMANOID_SOURCE_FOLDER "/configs/diffusion_10.xml");
-    std::string text((std::istreambuf_iterator<char>(file)), {});
+    std::string text = test::TextOf(SWARMANOID_SOURCE_FOLDER "/configs/diffusion_10.xml");
     const std::size_t begin = text.find("<visualisations>");
     const std::string scripted = "<visualisations><scripted_render id='s'/></visualisations>";
     if (begin == std::string::npos)
@@ -84,17 +77,12 @@ protected:
     LoadedExperiment loaded = LoadExperimentText(text, "scripted.xml", SWARMANOID_SOURCE_FOLDER "/configs", options);
     for (const Diagnostic& error : loaded.errors) ADD_FAILURE() << error.Text();
     experiment_ = std::move(loaded.experiment);
-    options_.output_folder = folder_.string();
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string Read(const std::string& name) const
-  {
-    std::ifstream file(folder_ / name);
-    return {std::istreambuf_iterator<char>(file), {}};
+    options_.output_folder = folder_.Path();
   }
 
-  std::filesystem::path folder_;
+  std::string Read(const std::string& name) const { return folder_.Read(name); }
+
+  test::TemporaryFolder folder_;
   std::unique_ptr<Experiment> experiment_;
   SingleProcessOptions options_;
 };
@@ -344,17 +332,9 @@ TEST_F(SteeringTest, WrongEventsAreToldWithTheirLine)
 {
   const auto error_of = [&](const std::string& line)
   {
-    std::ofstream(folder_ / "wrong.csv") << "tick,request,entity,numbers,from\n3,move,fb_0,1 1 0,\n" << line << "\n";
-    options_.events = (folder_ / "wrong.csv").string();
-    try
-    {
-      RunSingleProcess(*experiment_, options_);
-    }
-    catch (const ConfigurationError& error)
-    {
-      return std::string(error.what());
-    }
-    return std::string("no error");
+    options_.events =
+        folder_.Write("wrong.csv", "tick,request,entity,numbers,from\n3,move,fb_0,1 1 0,\n" + line + "\n");
+    return test::MessageOf<ConfigurationError>([&] { RunSingleProcess(*experiment_, options_); }, "no error");
   };
   EXPECT_THAT(error_of("2,move,fb_0,1 1 0,"), HasSubstr("wrong.csv:3: tick 2 comes after tick 3"));
   EXPECT_THAT(error_of("4,move,fb_x,1 1 0,"), HasSubstr("wrong.csv:3: the experiment has no entity 'fb_x'"));

@@ -9,12 +9,12 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <sstream>
 #include <thread>
 
 #include "launcher/supervision/supervisor.h"
 #include "tests/eventually.h"
 #include "tests/unit/launcher/process_groups.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -32,8 +32,6 @@ class SupervisorTest : public testing::Test
 protected:
   SupervisorTest()
   {
-    folder_ = std::filesystem::temp_directory_path() / ("swarmanoid_supervisor_" + std::to_string(getpid()));
-    std::filesystem::create_directories(folder_);
     times_.refresh = milliseconds(20);
     times_.terminate = milliseconds(100);
     // If all processes end by themselves, nothing waits for these.
@@ -44,7 +42,6 @@ protected:
     screen_read_.Reset(ends[0]);
     screen_write_.Reset(ends[1]);
   }
-  ~SupervisorTest() override { std::filesystem::remove_all(folder_); }
 
   static ProcessRole RoleOf(const std::string& name)
   {
@@ -137,12 +134,7 @@ protected:
     return outcome;
   }
 
-  std::string LogText(const std::string& name) const
-  {
-    std::ostringstream text;
-    text << std::ifstream(folder_ / (name + ".log")).rdbuf();
-    return text.str();
-  }
+  std::string LogText(const std::string& name) const { return folder_.Read(name + ".log"); }
   std::string ScreenText()
   {
     screen_write_.Reset();
@@ -154,7 +146,7 @@ protected:
   }
 
   SignalDescriptor interrupts_;  // first: threads of the tests must not get the signals
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_;
   SupervisorTimes times_;
   unsigned retries_ = 0;
   int looks_ = 0;  // at the clock, since an hour passed

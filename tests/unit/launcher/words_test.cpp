@@ -6,6 +6,7 @@
 #include "launcher/control_words.h"
 #include "launcher/template_files.h"
 #include "simulation/load.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid
 {
@@ -17,15 +18,7 @@ using testing::HasSubstr;
 
 std::string ErrorOf(const std::vector<std::string>& words)
 {
-  try
-  {
-    ParseControlRequest(words);
-  }
-  catch (const UsageError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return test::MessageOf<UsageError>([&] { ParseControlRequest(words); });
 }
 
 TEST(ControlRequest, TakesTheNameWhereItIsGiven)

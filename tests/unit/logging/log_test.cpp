@@ -3,10 +3,10 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
+
+#include "tests/world/message_of.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -16,31 +16,19 @@ namespace
 class LogTest : public ::testing::Test
 {
 protected:
-  void SetUp() override
-  {
-    folder_ = std::filesystem::temp_directory_path() / fmt::format("swarmanoid_log_{}", getpid());
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override
+  ~LogTest() override
   {
     OpenLog({.process = "test"});  // closes the file
-    std::filesystem::remove_all(folder_);
   }
-  std::string FileText() const
-  {
-    std::ifstream file(folder_ / "worker.log");
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
+  std::string FileText() const { return folder_.Read("worker.log"); }
 
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(LogTest, TheFileHoldsEveryRecordAtOnceAndStandardErrorTheSeriousOnes)
 {
   testing::internal::CaptureStderr();
-  OpenLog({.process = "worker", .folder = folder_.string()});
+  OpenLog({.process = "worker", .folder = folder_.Path()});
   LogDebug("not asked for");
   LogInfo("tick {}", 7);
   LogWarning("braces {} in a text stay", "{}");
@@ -57,7 +45,7 @@ TEST_F(LogTest, TheFileHoldsEveryRecordAtOnceAndStandardErrorTheSeriousOnes)
 TEST_F(LogTest, WhatControllersLogMovesNoCursor)
 {
   testing::internal::CaptureStderr();
-  OpenLog({.process = "worker", .folder = folder_.string()});
+  OpenLog({.process = "worker", .folder = folder_.Path()});
   LogWarning("sees \x1b[2J a wall");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "worker: warning: sees ?[2J a wall\n");
   EXPECT_THAT(FileText(), testing::HasSubstr(" warning: sees ?[2J a wall\n"));
@@ -65,9 +53,9 @@ TEST_F(LogTest, WhatControllersLogMovesNoCursor)
 
 TEST_F(LogTest, OpeningAgainGoesOnInTheSameFile)
 {
-  OpenLog({.process = "worker", .folder = folder_.string()});
+  OpenLog({.process = "worker", .folder = folder_.Path()});
   LogInfo("first");
-  OpenLog({.process = "worker", .folder = folder_.string()});
+  OpenLog({.process = "worker", .folder = folder_.Path()});
   LogInfo("second");
   EXPECT_THAT(FileText(), testing::AllOf(testing::HasSubstr("first"), testing::HasSubstr("second")));
 }
@@ -75,15 +63,8 @@ TEST_F(LogTest, OpeningAgainGoesOnInTheSameFile)
 TEST_F(LogTest, AFileThatCannotBeWrittenIsNamedWithTheCause)
 {
   const std::string missing = (folder_ / "nowhere").string();
-  try
-  {
-    OpenLog({.process = "worker", .folder = missing});
-    FAIL() << "opened a log in a folder that does not exist";
-  }
-  catch (const std::runtime_error& error)
-  {
-    EXPECT_EQ(std::string(error.what()), "cannot write the log " + missing + "/worker.log: No such file or directory");
-  }
+  EXPECT_EQ(test::MessageOf<std::runtime_error>([&] { OpenLog({.process = "worker", .folder = missing}); }),
+            "cannot write the log " + missing + "/worker.log: No such file or directory");
 }
 
 }  // namespace

@@ -12,25 +12,25 @@
 #include "common/plugin_descriptions/describe_builtins.h"
 #include "common/space/terrain/terrain.h"
 #include "test_folders.h"
+#include "tests/world/experiment_text.h"
 
 namespace swarmanoid
 {
 namespace
 {
 
-std::vector<EntityConfiguration> EntitiesOf(const std::string& text)
+std::unique_ptr<Experiment> Loaded(const test::ExperimentText& text)
 {
   DescribeBuiltins();
-  const LoadedExperiment loaded = LoadExperimentText(text, "test.xml", "/", {});
-  for (const Diagnostic& error : loaded.errors) ADD_FAILURE() << error.Text();
-  return loaded.experiment ? loaded.experiment->entities : std::vector<EntityConfiguration>{};
+  return text.Load("/");
 }
 
-// An arena with one engine of the tag that holds all.
-std::string ArenaInEngine(const std::string& content, const std::string& size, const std::string& engine)
+// The entities of an arena with one engine of the tag that holds all.
+std::vector<EntityConfiguration> EntitiesIn(const std::string& engine, const std::string& size,
+                                            const std::string& content)
 {
-  return "<ahss-config><arena size='" + size + "' optimization='2D'>" + content + "</arena><engines><" + engine +
-         " id='e'/></engines><arena_physics><engine id='e'><all/></engine></arena_physics></ahss-config>";
+  const auto experiment = Loaded({.size = size, .arena = content, .engines = "<" + engine + " id='e'/>"});
+  return experiment ? experiment->entities : std::vector<EntityConfiguration>{};
 }
 
 const std::string kHills = "<terrain id='hills' position='0,0,0'><heightmap file='" SWARMANOID_SOURCE_FOLDER
@@ -55,9 +55,9 @@ int PointsInRock(const EntityConfiguration& entity, const EntityConfiguration& t
 
 TEST(Distribute, LetsRobotsDownOntoTheTerrain)
 {
-  const auto entities = EntitiesOf(
-      ArenaInEngine(kHills + "<distribute quantity='40'><position drop_from='2'/><footbot id='fb'/></distribute>",
-                    "4,4,2", "dynamics3d"));
+  const auto entities =
+      EntitiesIn("dynamics3d", "4,4,2",
+                 kHills + "<distribute quantity='40'><position drop_from='2'/><footbot id='fb'/></distribute>");
   ASSERT_EQ(entities.size(), 41U);
   const auto hills = LoadTerrain(entities[0], "/");
   double highest = 0;
@@ -76,8 +76,8 @@ TEST(Distribute, LetsRobotsDownOntoTheTerrain)
 TEST(Distribute, StartsNobodyInsideARock)
 {
   const std::string content = "<distribute quantity='20'><position max='4,4,0.6'/><footbot id='fb'/></distribute>";
-  const auto free = EntitiesOf(ArenaInEngine(content, "4,4,2", "dynamics3d"));
-  const auto entities = EntitiesOf(ArenaInEngine(kHills + content, "4,4,2", "dynamics3d"));
+  const auto free = EntitiesIn("dynamics3d", "4,4,2", content);
+  const auto entities = EntitiesIn("dynamics3d", "4,4,2", kHills + content);
   ASSERT_EQ(entities.size(), 21U);
   int moved = 0;
   for (std::size_t i = 0; i < free.size(); ++i) moved += free[i].pose.position != entities[i + 1].pose.position;
@@ -90,7 +90,7 @@ TEST(Distribute, StartsNobodyInsideARock)
 TEST(Distribute, KeepsGrippersApart)
 {
   const std::string crowd = "<distribute quantity='250' max_trials='1000'><footbot id='fb'/></distribute>";
-  const auto kinematic = EntitiesOf(ArenaInEngine(crowd, "5,5,1", "kinematics2d"));
+  const auto kinematic = EntitiesIn("kinematics2d", "5,5,1", crowd);
   double nearest = 10;
   for (std::size_t i = 0; i < kinematic.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
@@ -99,7 +99,7 @@ TEST(Distribute, KeepsGrippersApart)
   EXPECT_LT(nearest, 0.23) << "a crowd";
   for (const char* engine : {"dynamics2d", "dynamics3d"})
   {
-    const auto others = EntitiesOf(ArenaInEngine(crowd, "5,5,1", engine));
+    const auto others = EntitiesIn(engine, "5,5,1", crowd);
     for (std::size_t i = 0; i < others.size(); ++i)
       EXPECT_EQ(others[i].pose.position, kinematic[i].pose.position) << engine;
   }
@@ -108,18 +108,12 @@ TEST(Distribute, KeepsGrippersApart)
 // Two engines that share the robots of one <distribute> between them, in the order of their numbers or of their places.
 std::unique_ptr<Experiment> Ordered(const std::string& order)
 {
-  DescribeBuiltins();
-  LoadedExperiment loaded = LoadExperimentText(
-      "<ahss-config><arena size='60,60,2' optimization='2D'><footbot id='first'><position>1,1,0</position>"
-      "<orientation>0,0,0</orientation></footbot><distribute quantity='900' order='" +
-          order +
-          "'><footbot id='fb'/></distribute><footbot id='last'><position>59,59,0</position><orientation>0,0,0"
-          "</orientation></footbot></arena><engines><dummy_engine id='a'/><dummy_engine id='b'/></engines>"
-          "<arena_physics><engine id='a'><entity id='fb_7'/><entity id='last'/></engine>"
-          "<engine id='b'><all/></engine></arena_physics></ahss-config>",
-      "test.xml", "/", {});
-  for (const Diagnostic& error : loaded.errors) ADD_FAILURE() << error.Text();
-  return std::move(loaded.experiment);
+  return Loaded(
+      {.size = "60,60,2",
+       .arena = "<footbot id='first' position='1,1,0'/><distribute quantity='900' order='" + order +
+                "'><footbot id='fb'/></distribute><footbot id='last' position='59,59,0'/>",
+       .engines = "<dummy_engine id='a'/><dummy_engine id='b'/>",
+       .physics = "<engine id='a'><entity id='fb_7'/><entity id='last'/></engine><engine id='b'><all/></engine>"});
 }
 
 double WayAlong(const std::vector<EntityConfiguration>& entities)

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "common/plugins/registry.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid
 {
@@ -26,15 +27,7 @@ const auto make_plugin = [] { return std::make_unique<Plugin>(); };
 template <class Call>
 std::string MistakeOf(const Call& call)
 {
-  try
-  {
-    call();
-  }
-  catch (const std::logic_error& error)
-  {
-    return error.what();
-  }
-  return {};
+  return test::MessageOf<std::logic_error>(call);
 }
 
 TEST(PluginRegistry, CodeIsFoundWithTheDescriptionOfTheCatalogue)

@@ -8,6 +8,7 @@
 #include "common/configuration/xml_reader.h"
 #include "footbot/ci_footbot_light_sensor.h"
 #include "footbot/ci_footbot_wheels_actuator.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid
 {
@@ -221,15 +222,8 @@ TEST_F(ControlLoop, EndsOnSilenceWhereAsked)
   Robot robot(Configuration());
   world_.in_step = [&](std::uint64_t) { world_.silence_s = 1.5; };
   options_.end_on_silence = true;
-  try
-  {
-    Run(robot);
-    FAIL() << "it ran on";
-  }
-  catch (const DriverError& error)
-  {
-    EXPECT_STREQ(error.what(), "sensor 'footbot_light': the lamp is silent for 1.5 s; the robot is stopped");
-  }
+  EXPECT_EQ(test::MessageOf<DriverError>([&] { Run(robot); }),
+            "sensor 'footbot_light': the lamp is silent for 1.5 s; the robot is stopped");
   EXPECT_EQ(world_.events.back(), "stop");
 }
 
@@ -238,15 +232,8 @@ TEST_F(ControlLoop, GivesUpWaitingForASensorThatIsNeverHeard)
   Robot robot(Configuration());
   world_.heard = false;
   options_.wait_s = 3;
-  try
-  {
-    Run(robot);
-    FAIL() << "it ran";
-  }
-  catch (const DriverError& error)
-  {
-    EXPECT_THAT(error.what(), HasSubstr("sensor 'footbot_light': nothing heard from the lamp"));
-  }
+  EXPECT_THAT(test::MessageOf<DriverError>([&] { Run(robot); }),
+              HasSubstr("sensor 'footbot_light': nothing heard from the lamp"));
   EXPECT_EQ(world_.now, 3000 * kMillisecond);
 }
 
@@ -258,15 +245,7 @@ TEST_F(ControlLoop, StopsTheDevicesOfAControllerThatFails)
     {
       if (step == 3) throw std::runtime_error("the floor is wet");
     };
-    try
-    {
-      Run(robot);
-      FAIL() << "it ran on";
-    }
-    catch (const RobotError& error)
-    {
-      EXPECT_STREQ(error.what(), "robot 'r1': ControlStep 3 failed: the floor is wet");
-    }
+    EXPECT_EQ(test::MessageOf<RobotError>([&] { Run(robot); }), "robot 'r1': ControlStep 3 failed: the floor is wet");
   }
   EXPECT_EQ(world_.events.back(), "stop");
   EXPECT_EQ(world_.destroyed, 1);
@@ -277,17 +256,9 @@ TEST_F(ControlLoop, NamesTheDriversThereAreForAnUnknownDevice)
   RobotConfiguration configuration = Configuration();
   configuration.driver_libraries = {};
   configuration.sensors = {{"footbot_lihgt", "", {}, {}}};
-  try
-  {
-    Robot robot(configuration);
-    FAIL() << "it was made";
-  }
-  catch (const ConfigurationError& error)
-  {
-    EXPECT_THAT(error.what(), HasSubstr("there is no driver for the sensor <footbot_lihgt>"));
-    EXPECT_THAT(error.what(),
-                HasSubstr("sensors of a footbot with a driver: footbot_light; did you mean 'footbot_light'?"));
-  }
+  const std::string mistake = test::MessageOf<ConfigurationError>([&] { Robot robot(configuration); });
+  EXPECT_THAT(mistake, HasSubstr("there is no driver for the sensor <footbot_lihgt>"));
+  EXPECT_THAT(mistake, HasSubstr("sensors of a footbot with a driver: footbot_light; did you mean 'footbot_light'?"));
 }
 
 }  // namespace

@@ -2,15 +2,14 @@
 
 #include <gmock/gmock.h>
 
-#include <filesystem>
-#include <fstream>
+#include "tests/world/message_of.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
 namespace
 {
 
-namespace fs = std::filesystem;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -35,34 +34,16 @@ constexpr const char* kExperiment = R"(<ahss-config>
 class RobotFile : public ::testing::Test
 {
 protected:
-  RobotFile() : folder_(fs::path(::testing::TempDir()) / ("robot_file_" + std::to_string(getpid())))
-  {
-    fs::create_directories(folder_);
-    Write("experiment.xml", kExperiment);
-  }
-  ~RobotFile() override { fs::remove_all(folder_); }
+  RobotFile() { Write("experiment.xml", kExperiment); }
 
-  std::string Write(const std::string& name, const std::string& text)
-  {
-    const std::string path = folder_ / name;
-    std::ofstream(path) << text;
-    return path;
-  }
+  std::string Write(const std::string& name, const std::string& text) { return folder_.Write(name, text); }
   std::string Mistake(const std::string& path, const RobotChoice& choice = {})
   {
-    try
-    {
-      ReadRobotFile(path, choice);
-    }
-    catch (const ConfigurationError& error)
-    {
-      const std::string text = error.what();
-      return text.starts_with(folder_.string()) ? text.substr(folder_.string().size() + 1) : text;
-    }
-    return "none";
+    const std::string text = test::MessageOf<ConfigurationError>([&] { ReadRobotFile(path, choice); }, "none");
+    return text.starts_with(folder_.Path()) ? text.substr(folder_.Path().size() + 1) : text;
   }
 
-  fs::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(RobotFile, TakesTheControllerOfAnExperiment)

@@ -1,8 +1,6 @@
 // Entities that come and go: what robots, sensors and engines notice of it.
 #include <gmock/gmock.h>
 
-#include <filesystem>
-#include <fstream>
 #include <functional>
 
 #include "ci_controller.h"
@@ -10,8 +8,11 @@
 #include "footbot/ci_footbot_light_sensor.h"
 #include "footbot/ci_footbot_proximity_sensor.h"
 #include "footbot/ci_footbot_wheels_actuator.h"
+#include "simulation/register_all.h"
 #include "simulation/simulator.h"
 #include "space_server/experiment_functions.h"
+#include "tests/world/experiment_text.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid
 {
@@ -32,14 +33,7 @@ public:
   void PreStep(SpaceEditor& space) override { at_tick(space); }
 };
 
-PluginDescription DescribeScript()
-{
-  PluginDescription description;
-  description.label = "reserve_script";
-  description.brief = "for tests";
-  return description;
-}
-REGISTER_EXPERIMENT_FUNCTIONS(Script, DescribeScript())
+REGISTER_EXPERIMENT_FUNCTIONS(Script, {.label = "reserve_script", .brief = "for tests"})
 
 // Drives straight on and writes down what it feels.
 class Feeler : public CCI_Controller
@@ -85,51 +79,29 @@ class Reserve : public ::testing::TestWithParam<const char*>
 protected:
   Reserve() { Feeler::felt.clear(); }
 
-  static std::string Text(const std::string& engine)
+  static test::ExperimentText Text(const std::string& engine, const std::string& more = "")
   {
-    return R"(<ahss-config>
-  <framework><clocktick>100</clocktick><maxclock>200</maxclock></framework>
-  <controllers>
-    <reserve_feeler id="feeler">
-      <actuators><footbot_wheels><implementation>dummy_footbot_wheels</implementation></footbot_wheels></actuators>
-      <sensors>
-        <footbot_proximity><implementation>generic_footbot_proximity</implementation></footbot_proximity>
-        <footbot_light><implementation>generic_footbot_light</implementation></footbot_light>
-        <footbot_ground><implementation>generic_footbot_ground</implementation></footbot_ground>
-      </sensors>
-    </reserve_feeler>
-  </controllers>
-  <arena size="10, 10, 2" optimization="2D">
-    <footbot id="fb"><position>1, 5, 0</position><orientation>0, 0, 0</orientation><controller>feeler</controller></footbot>
-    <reserve quantity="2"><footbot id="late"><controller>feeler</controller></footbot></reserve>
-    <reserve quantity="2"><cylindric_prey id="prey"><radius>0.1</radius><height>0.1</height></cylindric_prey></reserve>
-    <reserve quantity="1"><block id="box" movable="true"><size>0.2, 0.2, 0.2</size></block></reserve>
-    <reserve quantity="1"><light_bulb id="lamp"><intensity>0.5</intensity></light_bulb></reserve>
-    <reserve quantity="1"><ground_patch id="mat"><size>0.5, 0.5</size><colour>red</colour></ground_patch></reserve>
-    <wall id="wall"><position>9, 5, 0.5</position><orientation>0, 0, 0</orientation><size>0.1, 5, 1</size></wall>
-  </arena>
-  <engines>)" +
-           engine +
-           R"(</engines>
-  <arena_physics><engine id="ground"><all/></engine></arena_physics>
-  <experiment_functions><reserve_script id="script"/></experiment_functions>
-</ahss-config>)";
+    RegisterBuiltins();
+    return {.framework = "<maxclock>200</maxclock>",
+            .controllers = test::Controller(
+                {.tag = "reserve_feeler",
+                 .id = "feeler",
+                 .actuators = {"dummy_footbot_wheels"},
+                 .sensors = {"generic_footbot_proximity", "generic_footbot_light", "generic_footbot_ground"}}),
+            .size = "10,10,2",
+            .arena = R"(
+    <footbot id="fb" position="1,5,0" controller="feeler"/>
+    <reserve quantity="2"><footbot id="late" controller="feeler"/></reserve>
+    <reserve quantity="2"><cylindric_prey id="prey" radius="0.1" height="0.1"/></reserve>
+    <reserve quantity="1"><block id="box" movable="true" size="0.2,0.2,0.2"/></reserve>
+    <reserve quantity="1"><light_bulb id="lamp" intensity="0.5"/></reserve>
+    <reserve quantity="1"><ground_patch id="mat" size="0.5,0.5" colour="red"/></reserve>
+    <wall id="wall" position="9,5,0.5" size="0.1,5,1"/>)" +
+                     more,
+            .engines = "<" + engine + " id='e'/>",
+            .functions = "<reserve_script id='script'/>"};
   }
-  static std::string Engine(const std::string& tag)
-  {
-    return "<" + tag + " id=\"ground\">" +
-           (tag == "dynamics3d" ? "" : "<perpendicular_axis>z</perpendicular_axis><distance>0</distance>") + "</" +
-           tag + ">";
-  }
-
-  static std::unique_ptr<Experiment> Load(const std::string& engine)
-  {
-    const auto file = std::filesystem::path(::testing::TempDir()) / ("reserve_" + std::to_string(getpid()) + ".xml");
-    std::ofstream(file) << Text(Engine(engine));
-    std::unique_ptr<Experiment> experiment = ReadExperiment(file);
-    std::filesystem::remove(file);
-    return experiment;
-  }
+  static std::unique_ptr<Experiment> Load(const std::string& engine) { return Text(engine).Load(); }
 
   static void Run(CSimulator& simulator, int ticks)
   {
@@ -227,17 +199,7 @@ TEST_F(Reserve, MistakesAreNamed)
   {
     if (space.GetSpace().GetTick() > 0) return;
     const auto keep = [&](const std::function<void()>& call)
-    {
-      try
-      {
-        call();
-        mistakes.emplace_back("none");
-      }
-      catch (const std::invalid_argument& error)
-      {
-        mistakes.emplace_back(error.what());
-      }
-    };
+    { mistakes.push_back(test::MessageOf<std::invalid_argument>(call, "none")); };
     keep([&] { space.AddEntity("pray", At(1, 1)); });
     keep([&] { space.AddEntity("fb", At(1, 1)); });
     keep([&] { space.RemoveEntity("late_0"); });
@@ -265,7 +227,7 @@ TEST_F(Reserve, MistakesAreNamed)
           "entity 'late_0' is not in the arena",
           "the wall 'wall' never moves, so it cannot be added or removed; only robots, preys, movable blocks and "
           "what is in a <reserve> can",
-          "all 2 entities of the reserve 'late' are in the arena; give its <reserve> (line 15) a larger quantity",
+          "all 2 entities of the reserve 'late' are in the arena; give its <reserve> (line 6) a larger quantity",
           "the cylindric_prey 'prey_0' would be at -1e+09, 5, 0, more than 100 m outside the arena, which reaches from "
           "0, "
           "0, 0 to 10, 10, 2",
@@ -290,23 +252,11 @@ TEST_F(Reserve, QueriesFindOnlyWhatIsInTheArena)
 
 TEST_F(Reserve, FixedBlocksAndWallsCannotWait)
 {
-  const auto mistake = [](const std::string& element)
+  const auto mistake = [](const std::string& element) -> std::string
   {
-    const auto file = std::filesystem::path(::testing::TempDir()) / ("reserve_" + std::to_string(getpid()) + ".xml");
-    std::string text = Text(Engine("dummy_engine"));
-    text.insert(text.find("    <wall id"), "<reserve quantity=\"1\">" + element + "</reserve>");
-    std::ofstream(file) << text;
-    std::string said = "none";
-    try
-    {
-      ReadExperiment(file);
-    }
-    catch (const ConfigurationError& error)
-    {
-      said = error.what();
-    }
-    std::filesystem::remove(file);
-    return said;
+    const std::string text = Text("dummy_engine", "<reserve quantity='1'>" + element + "</reserve>").Text();
+    const LoadedExperiment loaded = LoadExperimentText(text, "test.xml", ".");
+    return loaded.errors.empty() ? "none" : loaded.errors[0].Text();
   };
   EXPECT_THAT(mistake("<block id=\"stone\"><size>1, 1, 1</size></block>"),
               HasSubstr("the block 'stone' cannot come and go while it cannot move; give it movable=\"true\""));

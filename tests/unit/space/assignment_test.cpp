@@ -1,9 +1,9 @@
 #include "common/messages/assignment.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "common/plugins/catalogue.h"
+#include "tests/world/small_experiment.h"
 
 namespace swarmanoid
 {
@@ -20,12 +20,8 @@ void RegisterDevices()
   {
     const auto add = [](PluginKind kind, const char* label, const char* channel, int width)
     {
-      PluginDescription description;
-      description.label = label;
-      description.implementation = "test";
-      description.channel = channel;
-      description.channel_width = width;
-      return PluginCatalogue::Instance().Add(kind, description);
+      return PluginCatalogue::Instance().Add(
+          kind, {.label = label, .implementation = "test", .channel = channel, .channel_width = width});
     };
     return add(PluginKind::kActuator, "test_wheels", "test_wheels", 2) &&
            add(PluginKind::kActuator, "test_leds", "", 0) && add(PluginKind::kSensor, "test_torque", "test_torque", 3);
@@ -35,12 +31,9 @@ void RegisterDevices()
 
 EntityConfiguration Robot(const std::string& id, const std::string& controller)
 {
-  EntityConfiguration entity;
-  entity.kind = EntityKind::kFootbot;
-  entity.id = id;
-  entity.controller = controller;
-  entity.movable = true;
-  return entity;
+  EntityConfiguration robot = test::Entity(EntityKind::kFootbot, id);
+  robot.controller = controller;
+  return robot;
 }
 
 // Robots 0, 2, 4 in engine 0 and 1, 3 in engine 1; robot 4 also mirrored in engine 1; 5 a wall in both; 6 a robot in no

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
@@ -17,6 +16,9 @@
 #include "common/messages/assignment.h"
 #include "common/plugins/elf_file.h"
 #include "common/plugins/library.h"
+#include "tests/world/message_of.h"
+#include "tests/world/small_experiment.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -48,13 +50,6 @@ Checkpoint SmallCheckpoint()
 class CheckpointFile : public testing::Test
 {
 protected:
-  CheckpointFile() : folder_(fs::temp_directory_path() / ("checkpoint_test_" + std::to_string(getpid())))
-  {
-    fs::create_directories(folder_);
-    path_ = folder_ / "checkpoint";
-  }
-  ~CheckpointFile() override { fs::remove_all(folder_); }
-
   void Write(const std::vector<char>& bytes) const
   {
     std::ofstream(path_, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -62,19 +57,11 @@ protected:
   // Why a file is refused; empty if it is taken.
   std::string Refusal(const RestoreOptions& options = {}) const
   {
-    try
-    {
-      ReadCheckpoint(path_, SmallExperiment(), options);
-      return {};
-    }
-    catch (const std::runtime_error& error)
-    {
-      return error.what();
-    }
+    return test::MessageOf<std::runtime_error>([&] { ReadCheckpoint(path_, SmallExperiment(), options); });
   }
 
-  fs::path folder_;
-  std::string path_;
+  test::TemporaryFolder folder_;
+  std::string path_ = folder_ / "checkpoint";
 };
 
 TEST_F(CheckpointFile, ComesBackAsItWas)
@@ -167,17 +154,10 @@ TEST_F(CheckpointFile, IsRestoredIntoALongerRunAndIntoNoOtherOne)
 // Of a robot each.
 Experiment ExperimentOf(std::size_t robots)
 {
-  Experiment experiment = SmallExperiment();
-  experiment.controllers.resize(1);
-  experiment.controllers[0].id = "c";
-  for (std::size_t k = 0; k < robots; ++k)
-  {
-    EntityConfiguration& robot = experiment.entities.emplace_back();
-    robot.id = "fb_" + std::to_string(k);
-    robot.kind = EntityKind::kFootbot;
-    robot.controller = "c";
-    robot.movable = true;
-  }
+  std::vector<std::string> ids;
+  for (std::size_t k = 0; k < robots; ++k) ids.push_back("fb_" + std::to_string(k));
+  Experiment experiment = test::RobotsOf("", ids);
+  experiment.effective_xml = SmallExperiment().effective_xml;
   return experiment;
 }
 
@@ -257,7 +237,7 @@ TEST_F(CheckpointFile, PipesDevicesAndFoldersAreRefusedAtOnce)
   EXPECT_THAT(Refusal(), HasSubstr("it is a pipe, not a file"));
   path_ = "/dev/zero";
   EXPECT_THAT(Refusal(), HasSubstr("it is a device, not a file"));
-  path_ = folder_;
+  path_ = folder_.Path();
   EXPECT_THAT(Refusal(), HasSubstr("it is a folder, not a file"));
   path_ = folder_ / "absent";
   EXPECT_THAT(Refusal(), HasSubstr("there is no such file"));

@@ -6,10 +6,11 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 
 #include <jpeglib.h>
+
+#include "tests/world/message_of.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -71,42 +72,22 @@ TEST(JpegPicture, PixelsAreThoseThatWereWritten)
 
 TEST(JpegPicture, AFileIsKnownByItsBytesNotByItsName)
 {
-  const auto path = std::filesystem::temp_directory_path() / (std::to_string(getpid()) + "_floor.png");
-  std::ofstream(path, std::ios::binary) << Written({0x00ff00}, false);
-  ExpectNear(ReadColourPicture(path.string()), {0x00ff00});
-  std::filesystem::remove(path);
+  const test::TemporaryFolder folder;
+  ExpectNear(ReadColourPicture(folder.Write("floor.png", Written({0x00ff00}, false))), {0x00ff00});
 }
 
 TEST(ColourPicture, OfOtherFilesItSaysWhichAreTaken)
 {
-  const std::string path = std::filesystem::temp_directory_path() / (std::to_string(getpid()) + "_floor.gif");
-  std::ofstream(path) << "GIF89a";
-  try
-  {
-    ReadColourPicture(path);
-    ADD_FAILURE() << "it was accepted";
-  }
-  catch (const std::runtime_error& error)
-  {
-    EXPECT_EQ(error.what(), "cannot read the picture '" + path + "': it is neither a PNG nor a JPEG");
-  }
-  std::filesystem::remove(path);
+  const test::TemporaryFolder folder;
+  const std::string path = folder.Write("floor.gif", "GIF89a");
+  EXPECT_EQ(test::MessageOf<std::runtime_error>([&] { ReadColourPicture(path); }),
+            "cannot read the picture '" + path + "': it is neither a PNG nor a JPEG");
 }
 
 TEST(JpegPicture, WhatIsDamagedIsRefusedWithItsReason)
 {
   const auto why = [](const std::string& bytes) -> std::string
-  {
-    try
-    {
-      JpegPicture(bytes);
-    }
-    catch (const std::runtime_error& error)
-    {
-      return error.what();
-    }
-    return "nothing is wrong";
-  };
+  { return test::MessageOf<std::runtime_error>([&] { JpegPicture(bytes); }, "nothing is wrong"); };
   const std::string file = Written({0xff0000, 0x00ff00, 0x0000ff}, false);
   EXPECT_EQ(why(file), "nothing is wrong");
   for (const std::size_t length : {std::size_t{3}, file.size() / 2, file.size() - 20})

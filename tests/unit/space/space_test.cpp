@@ -1,27 +1,17 @@
 #include "common/space/space.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "common/math/elementary.h"
 #include "common/space/query.h"
+#include "tests/world/small_experiment.h"
 
 namespace swarmanoid
 {
 namespace
 {
 
-EntityConfiguration Entity(EntityKind kind, const std::string& id, const Vector3& position, const Vector3& size,
-                           bool movable)
-{
-  EntityConfiguration entity;
-  entity.kind = kind;
-  entity.id = id;
-  entity.pose.position = position;
-  entity.size = size;
-  entity.movable = movable;
-  return entity;
-}
+using test::Entity;
 
 EntityConfiguration Footbot(const std::string& id, const Vector3& position)
 {

@@ -1,8 +1,9 @@
 #include "common/space/state_checks.h"
 #include "common/space/space.h"
+#include "tests/world/message_of.h"
+#include "tests/world/small_experiment.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <limits>
 #include <type_traits>
@@ -36,12 +37,9 @@ protected:
     experiment.limit_m = 100;
     for (int i = 0; i < 20; ++i)
     {
-      EntityConfiguration entity;
-      entity.kind = i == 7 ? EntityKind::kEyebot : i == 8 ? EntityKind::kHole : EntityKind::kFootbot;
-      entity.id = "e" + std::to_string(i);
-      entity.movable = i != 8;
+      const EntityKind kind = i == 7 ? EntityKind::kEyebot : i == 8 ? EntityKind::kHole : EntityKind::kFootbot;
+      EntityConfiguration entity = test::Entity(kind, "e" + std::to_string(i), {0.5 * i, 1, 0});
       entity.waits = i == 19;
-      entity.pose.position = {0.5 * i, 1, 0};
       if (entity.waits) entity.pose = WaitingPose(entity, 19);
       experiment.entities.push_back(entity);
     }
@@ -51,15 +49,7 @@ protected:
   template <class Check>
   static std::string Mistake(const Check& check)
   {
-    try
-    {
-      check();
-    }
-    catch (const StateError& error)
-    {
-      return error.what();
-    }
-    return "";
+    return test::MessageOf<StateError>(check);
   }
   std::string MistakeOfPoses()
   {

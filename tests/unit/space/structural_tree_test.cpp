@@ -1,7 +1,6 @@
 #include "common/space/structure/structural_tree.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
@@ -9,6 +8,8 @@
 #include "common/math/elementary.h"
 #include "common/space/space.h"
 #include "common/space/state_checks.h"
+#include "tests/world/message_of.h"
+#include "tests/world/small_experiment.h"
 
 namespace swarmanoid
 {
@@ -25,14 +26,11 @@ Experiment RobotsAndPreys()
   experiment.arena_size = {10, 10, 3};
   for (int i = 0; i < 10; ++i)
   {
-    EntityConfiguration& entity = experiment.entities.emplace_back();
-    entity.kind = i < 6   ? EntityKind::kFootbot
-                  : i < 7 ? EntityKind::kHandbot
-                  : i < 9 ? EntityKind::kCylindricPrey
-                          : EntityKind::kBlock;
-    entity.id = "e" + std::to_string(i);
-    entity.movable = i < 9;
-    entity.pose = {{1 + 0.3 * i, 2 - 0.2 * i, 0}, QuaternionFromYaw(0.7 * i)};
+    const EntityKind kind = i < 6   ? EntityKind::kFootbot
+                            : i < 7 ? EntityKind::kHandbot
+                            : i < 9 ? EntityKind::kCylindricPrey
+                                    : EntityKind::kBlock;
+    experiment.entities.push_back(test::Entity(kind, "e" + std::to_string(i), {1 + 0.3 * i, 2 - 0.2 * i, 0}, 0.7 * i));
   }
   return experiment;
 }
@@ -57,15 +55,7 @@ protected:
   }
   std::string MistakeIn(const AttributeChanges& changes, std::span<const std::uint32_t> owned)
   {
-    try
-    {
-      CheckHolds(space, owned, changes);
-    }
-    catch (const StateError& error)
-    {
-      return error.what();
-    }
-    return "";
+    return test::MessageOf<StateError>([&] { CheckHolds(space, owned, changes); });
   }
 
   const Experiment experiment = RobotsAndPreys();

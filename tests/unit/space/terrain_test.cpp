@@ -2,7 +2,6 @@
 #include "common/space/terrain/rough_terrain.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <octomap/octomap.h>
 #include <png.h>
@@ -12,10 +11,12 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "common/math/random.h"
 #include "common/space/query.h"
+#include "tests/world/message_of.h"
+#include "tests/world/small_experiment.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -28,15 +29,12 @@ constexpr const char* kBuilding = "/usr/share/doc/liboctomap-dev/examples/data/g
 class TemporaryFile
 {
 public:
-  explicit TemporaryFile(const std::string& name)
-      : path_(std::filesystem::temp_directory_path() / (std::to_string(getpid()) + name))
-  {
-  }
-  ~TemporaryFile() { std::filesystem::remove(path_); }
-  std::string Path() const { return path_.string(); }
+  explicit TemporaryFile(const std::string& name) : name_(name) {}
+  std::string Path() const { return folder_ / name_; }
 
 private:
-  std::filesystem::path path_;
+  test::TemporaryFolder folder_;
+  std::string name_;
 };
 
 TEST(VoxelTerrain, TheRealBuildingIsSolidWhereItsTreeIsOccupied)
@@ -132,15 +130,8 @@ TEST(VoxelTerrain, NodesWithinNodesWithoutEndAreRefused)
   std::ofstream out(file.Path(), std::ios::binary);
   out << "# Octomap OcTree binary file\nid OcTree\nsize 1000000\nres 0.1\ndata\n" << std::string(200000, '\xff');
   out.close();
-  try
-  {
-    VoxelTerrain terrain(file.Path());
-    FAIL() << "it was accepted";
-  }
-  catch (const std::runtime_error& error)
-  {
-    EXPECT_EQ(std::string(error.what()), "'" + file.Path() + "' is damaged");
-  }
+  EXPECT_EQ(test::MessageOf<std::runtime_error>([&] { VoxelTerrain terrain(file.Path()); }),
+            "'" + file.Path() + "' is damaged");
 }
 
 TEST(VoxelTerrain, NothingIsReservedForWhatAFileOnlyClaims)
@@ -165,15 +156,8 @@ TEST(VoxelTerrain, AFileThatIsCutShortIsRefusedByName)
   WriteRoughTerrain(whole.Path(), numbers);
   std::filesystem::copy_file(whole.Path(), cut.Path());
   std::filesystem::resize_file(cut.Path(), std::filesystem::file_size(whole.Path()) - 1);
-  try
-  {
-    VoxelTerrain terrain(cut.Path());
-    FAIL() << "it was accepted";
-  }
-  catch (const std::runtime_error& error)
-  {
-    EXPECT_EQ(std::string(error.what()), "'" + cut.Path() + "' is cut short");
-  }
+  EXPECT_EQ(test::MessageOf<std::runtime_error>([&] { VoxelTerrain terrain(cut.Path()); }),
+            "'" + cut.Path() + "' is cut short");
 }
 
 HeightTerrain Hills()
@@ -285,15 +269,8 @@ TEST(HeightTerrain, FilesThatAreNoPicturesAreRefusedByName)
   EXPECT_THROW(HeightTerrain("/nowhere/hills.png", 1, 1, 1), std::runtime_error);
   TemporaryFile file("nonsense.png");
   std::ofstream(file.Path()) << "this is no picture";
-  try
-  {
-    HeightTerrain terrain(file.Path(), 1, 1, 1);
-    FAIL() << "it was accepted";
-  }
-  catch (const std::runtime_error& error)
-  {
-    EXPECT_EQ(std::string(error.what()), "cannot read the PNG '" + file.Path() + "': Not a PNG file");
-  }
+  EXPECT_EQ(test::MessageOf<std::runtime_error>([&] { HeightTerrain terrain(file.Path(), 1, 1, 1); }),
+            "cannot read the PNG '" + file.Path() + "': Not a PNG file");
   // Its width is another, 2^30; the checksum of the chunk is right.
   WritePicture(file.Path(), 3, PNG_COLOR_TYPE_GRAY, 8, {0, 51, 255, 0, 0, 0});
   std::fstream wide(file.Path(), std::ios::binary | std::ios::in | std::ios::out);
@@ -312,12 +289,6 @@ TEST(HeightTerrain, FilesThatAreNoPicturesAreRefusedByName)
   EXPECT_THROW(HeightTerrain(file.Path(), 1, 1, 1), std::runtime_error);
 }
 
-std::string Bytes(const std::string& path)
-{
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 TEST(RoughTerrain, IsMadeFromItsNumbersAlone)
 {
   TemporaryFile first("first.bt"), again("again.bt"), other("other.bt");
@@ -326,10 +297,10 @@ TEST(RoughTerrain, IsMadeFromItsNumbersAlone)
   numbers.resolution = 0.02;
   WriteRoughTerrain(first.Path(), numbers);
   WriteRoughTerrain(again.Path(), numbers);
-  EXPECT_EQ(Bytes(first.Path()), Bytes(again.Path()));
+  EXPECT_EQ(test::TextOf(first.Path()), test::TextOf(again.Path()));
   numbers.seed = 2;
   WriteRoughTerrain(other.Path(), numbers);
-  EXPECT_NE(Bytes(first.Path()), Bytes(other.Path()));
+  EXPECT_NE(test::TextOf(first.Path()), test::TextOf(other.Path()));
 }
 
 // OctoMap as Debian builds it tells on standard error what it does.
@@ -438,15 +409,10 @@ TEST(VoxelTerrain, OccludesInItsOwnWorldAlone)
   WriteWall(file.Path());
   Experiment experiment;
   experiment.arena_size = {4, 2, 1};
-  auto map = std::make_shared<ConfigurationNode>();
-  map->name = "octomap";
-  map->attributes.push_back({"file", file.Path(), {}});
-  auto element = std::make_shared<ConfigurationNode>();
-  element->children.push_back(map);
   experiment.entities.resize(3);
   for (std::size_t k = 0; k < 3; ++k) experiment.entities[k].id = "e" + std::to_string(k);
   experiment.entities[0].kind = EntityKind::kTerrain;
-  experiment.entities[0].tree = TConfigurationTree(element);
+  experiment.entities[0].tree = test::TerrainTree("octomap", {{"file", file.Path()}});
   experiment.entities[1].kind = experiment.entities[2].kind = EntityKind::kLightBulb;
   experiment.engines.resize(2);
   experiment.engines[0].entities = {0, 1};

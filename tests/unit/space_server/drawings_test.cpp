@@ -5,6 +5,8 @@
 
 #include "space_server/run_control.h"
 #include "space_server/space_server.h"
+#include "tests/world/message_of.h"
+#include "tests/world/small_experiment.h"
 
 namespace swarmanoid
 {
@@ -29,12 +31,6 @@ Told told;
 class CPictureFunctions : public CExperimentFunctions
 {
 public:
-  static PluginDescription Description()
-  {
-    PluginDescription description;
-    description.label = "picture_functions";
-    return description;
-  }
   void Init(const TConfigurationTree, SpaceEditor&) override {}
   void Draw(const SpaceEditor& editor, Drawing& drawing) override
   {
@@ -55,7 +51,7 @@ public:
   bool HasState() const override { return true; }
 };
 
-REGISTER_EXPERIMENT_FUNCTIONS(CPictureFunctions, CPictureFunctions::Description())
+REGISTER_EXPERIMENT_FUNCTIONS(CPictureFunctions, {.label = "picture_functions"})
 
 class Drawings : public ::testing::Test
 {
@@ -65,14 +61,7 @@ protected:
     told = {};
     experiment_.arena_size = {5, 5, 1};
     for (const char* id : {"fb", "other"})
-    {
-      EntityConfiguration& robot = experiment_.entities.emplace_back();
-      robot.kind = EntityKind::kFootbot;
-      robot.id = id;
-      robot.pose.position = {1, id[0] == 'f' ? 1.0 : 4.0, 0};
-      robot.movable = true;
-      robot.size = DescriptionOf(EntityKind::kFootbot).size;
-    }
+      experiment_.entities.push_back(test::Entity(EntityKind::kFootbot, id, {1, id[0] == 'f' ? 1.0 : 4.0, 0}));
   }
   void AddFunctions(const std::string& id)
   {
@@ -177,17 +166,10 @@ TEST_F(Drawings, MistakesNameTheFunctions)
 {
   AddFunctions("a");
   told.colour = 0x1ffffff;
-  try
-  {
-    Server().Draw();
-    FAIL();
-  }
-  catch (const std::exception& error)
-  {
-    EXPECT_THAT(error.what(), HasSubstr("experiment functions 'a'"));
-    EXPECT_THAT(error.what(), HasSubstr("Draw"));
-    EXPECT_THAT(error.what(), HasSubstr("the colour is 0x1ffffff"));
-  }
+  const std::string mistake = test::MessageOf<std::exception>([&] { Server().Draw(); });
+  EXPECT_THAT(mistake, HasSubstr("experiment functions 'a'"));
+  EXPECT_THAT(mistake, HasSubstr("Draw"));
+  EXPECT_THAT(mistake, HasSubstr("the colour is 0x1ffffff"));
   told = {};
   told.wrong = true;
   Server().Advance({}, {});

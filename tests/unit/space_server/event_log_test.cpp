@@ -1,24 +1,21 @@
 // Logs of events, whole, cut short and damaged; and logs of hashes that a run goes on with.
 #include "space_server/event_log.h"
 
-#include <unistd.h>
-
-#include <filesystem>
 #include <fstream>
-#include <sstream>
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "common/configuration/configuration_tree.h"
 #include "common/run/hash_log.h"
+#include "tests/world/message_of.h"
+#include "tests/world/small_experiment.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
 namespace
 {
 
-namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -31,37 +28,16 @@ constexpr const char* kStop = "9,stop,,,user@host:1,2,2031-05-17T09:30:01Z\n";
 class EventLogTest : public testing::Test
 {
 protected:
-  EventLogTest() : folder_(fs::temp_directory_path() / fmt::format("swarmanoid_events_{}", getpid()))
-  {
-    fs::create_directories(folder_);
-    EntityConfiguration& robot = experiment_.entities.emplace_back();
-    robot.kind = EntityKind::kFootbot;
-    robot.id = "fb_0";
-    robot.movable = true;
-  }
-  ~EventLogTest() override { fs::remove_all(folder_); }
+  EventLogTest() { experiment_.entities.push_back(test::Entity(EntityKind::kFootbot, "fb_0")); }
 
-  std::string File(const std::string& text) const
-  {
-    const std::string path = (folder_ / "events.csv").string();
-    std::ofstream(path) << text;
-    return path;
-  }
+  std::string File(const std::string& text) const { return folder_.Write("events.csv", text); }
   std::size_t CountOf(const std::string& text) const { return ReadEvents(File(text), experiment_).size(); }
   std::string MistakeOf(const std::string& text) const
   {
-    try
-    {
-      ReadEvents(File(text), experiment_);
-      return "none";
-    }
-    catch (const ConfigurationError& error)
-    {
-      return error.what();
-    }
+    return test::MessageOf<ConfigurationError>([&] { ReadEvents(File(text), experiment_); }, "none");
   }
 
-  const fs::path folder_;
+  const test::TemporaryFolder folder_;
   Experiment experiment_;
 };
 
@@ -98,9 +74,7 @@ TEST_F(EventLogTest, AnotherValueInALineDoesNotFitItsChecksum)
     EventLog log(path);
     log.Write(5, request);
   }
-  std::ostringstream written;
-  written << std::ifstream(path).rdbuf();
-  const std::string good = written.str();
+  const std::string good = test::TextOf(path);
   EXPECT_EQ(CountOf(good), 1U);
   for (std::size_t at = good.find('\n') + 1; at + 1 < good.size(); ++at)
   {
@@ -148,19 +122,10 @@ TEST_F(EventLogTest, ADamagedHashLogIsRefusedWithItsLineAndKept)
        {"4x 0000000000000004\n", "7 0000000000000004\n", "4 000000000000004\n", "4 000000000000000z\n", "\n"})
   {
     const std::string text = std::string("3 0000000000000003\n") + line + "5 0000000000000005\n";
-    std::ofstream(path) << text;
-    try
-    {
-      HashLog log(path, 6);
-      ADD_FAILURE() << line;
-    }
-    catch (const std::runtime_error& error)
-    {
-      EXPECT_THAT(error.what(), HasSubstr("hashes.txt:2: the hash log is damaged"));
-    }
-    std::ostringstream left;
-    left << std::ifstream(path).rdbuf();
-    EXPECT_EQ(left.str(), text);
+    folder_.Write("hashes.txt", text);
+    EXPECT_THAT(test::MessageOf<std::runtime_error>([&] { HashLog log(path, 6); }),
+                HasSubstr("hashes.txt:2: the hash log is damaged"));
+    EXPECT_EQ(test::TextOf(path), text);
   }
 }
 

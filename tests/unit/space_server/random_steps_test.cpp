@@ -5,6 +5,7 @@
 #include <map>
 
 #include "space_server/space_server.h"
+#include "tests/world/small_experiment.h"
 
 namespace swarmanoid
 {
@@ -17,12 +18,6 @@ std::map<std::string, std::vector<double>> drawn;
 class CDrawingFunctions : public CExperimentFunctions
 {
 public:
-  static PluginDescription Description()
-  {
-    PluginDescription description;
-    description.label = "drawing_functions";
-    return description;
-  }
   void Init(const TConfigurationTree tree, SpaceEditor& space) override
   {
     id_ = tree.GetText("id");
@@ -47,16 +42,11 @@ private:
   std::string id_;
 };
 
-REGISTER_EXPERIMENT_FUNCTIONS(CDrawingFunctions, CDrawingFunctions::Description())
+REGISTER_EXPERIMENT_FUNCTIONS(CDrawingFunctions, {.label = "drawing_functions"})
 
 FunctionsConfiguration Named(const std::string& id)
 {
-  auto node = std::make_shared<ConfigurationNode>();
-  auto child = std::make_shared<ConfigurationNode>();
-  child->name = "id";
-  child->text = id;
-  node->children.push_back(child);
-  return {"drawing_functions", id, TConfigurationTree(node), {}};
+  return {"drawing_functions", id, test::TreeOf({{"id", id}}), {}};
 }
 
 Experiment WithFunctions(const std::vector<std::string>& ids, std::uint64_t seed = 1)

@@ -8,29 +8,18 @@
 #include <gtest/gtest.h>
 
 #include "common/checkpoint/host_state.h"
+#include "tests/world/small_experiment.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
 namespace
 {
 
-namespace fs = std::filesystem;
-
 Experiment FourRobots()
 {
-  Experiment experiment;
+  Experiment experiment = test::RobotsOf("", {"fb_0", "fb_1", "fb_2", "fb_3"});
   experiment.effective_xml = "<ahss-config><framework><maxclock>100</maxclock></framework></ahss-config>";
-  experiment.engines.resize(1);
-  experiment.controllers.resize(1);
-  experiment.controllers[0].id = "c";
-  for (std::size_t k = 0; k < 4; ++k)
-  {
-    EntityConfiguration& robot = experiment.entities.emplace_back();
-    robot.id = "fb_" + std::to_string(k);
-    robot.kind = EntityKind::kFootbot;
-    robot.controller = "c";
-    robot.movable = true;
-  }
   return experiment;
 }
 
@@ -44,14 +33,12 @@ SavedPart HostPart(std::size_t host, std::map<std::uint32_t, std::string> robots
 class ContinuationTest : public testing::Test
 {
 protected:
-  ContinuationTest() : folder_(fs::temp_directory_path() / ("continuation_test_" + std::to_string(getpid())))
+  ContinuationTest()
   {
-    fs::create_directories(folder_ / "journal");
-    settings_.output_folder = folder_.string();
+    std::filesystem::create_directory(folder_ / "journal");
+    settings_.output_folder = folder_.Path();
   }
-  ~ContinuationTest() override { fs::remove_all(folder_); }
-
-  const fs::path folder_;
+  const test::TemporaryFolder folder_;
   const Experiment experiment_ = FourRobots();
   RunSettings settings_;
 };

@@ -8,6 +8,7 @@
 
 #include "common/experiment/body.h"
 #include "common/math/elementary.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid
 {
@@ -125,15 +126,7 @@ protected:
   }
   std::string Mistake(const std::string& verb, const std::string& id, const std::vector<double>& numbers)
   {
-    try
-    {
-      Asked(verb, id, numbers);
-    }
-    catch (const std::invalid_argument& error)
-    {
-      return error.what();
-    }
-    return "";
+    return test::MessageOf<std::invalid_argument>([&] { Asked(verb, id, numbers); });
   }
   std::optional<CSwarmanoidSpace> space;
 };

@@ -1,7 +1,9 @@
 #include "space_server/space_server.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
+
+#include "tests/world/message_of.h"
+#include "tests/world/small_experiment.h"
 
 namespace swarmanoid
 {
@@ -12,12 +14,7 @@ using testing::ElementsAre;
 
 EntityConfiguration Movable(const std::string& id, double x)
 {
-  EntityConfiguration entity;
-  entity.kind = EntityKind::kFootbot;
-  entity.id = id;
-  entity.pose.position = {x, 0, 0};
-  entity.movable = true;
-  return entity;
+  return test::Entity(EntityKind::kFootbot, id, {x, 0, 0});
 }
 
 Experiment TwoEngines()
@@ -32,6 +29,18 @@ Experiment TwoEngines()
   return experiment;
 }
 
+struct Assigned
+{
+  const Experiment experiment;
+  const Assignment assignment = MakeAssignment(experiment, 1);
+};
+
+// A space server with its own experiment.
+struct TestServer : Assigned, SpaceServer
+{
+  explicit TestServer(const Experiment& of) : Assigned{of}, SpaceServer(experiment, assignment, ".") {}
+};
+
 EngineUpdate UpdateOf(std::uint32_t engine, std::uint64_t tick, const std::vector<double>& xs)
 {
   EngineUpdate update;
@@ -45,9 +54,7 @@ EngineUpdate UpdateOf(std::uint32_t engine, std::uint64_t tick, const std::vecto
 
 TEST(SpaceServer, UpdatesOfAllEnginesMakeTheNextState)
 {
-  const Experiment experiment = TwoEngines();
-  const Assignment assignment = MakeAssignment(experiment, 1);
-  SpaceServer server(experiment, assignment, ".");
+  TestServer server(TwoEngines());
   const EngineUpdate first = UpdateOf(0, 1, {1.5, 3.5});
   const EngineUpdate second = UpdateOf(1, 1, {2.5});
   const std::array<const EngineUpdate*, 2> updates{&first, &second};
@@ -78,9 +85,7 @@ TEST(SpaceServer, ARunBeginsAgainInOneProcessAloneAndIsNotSavedThen)
 
 TEST(SpaceServer, OnlyAttributesThatChangedTravel)
 {
-  const Experiment experiment = TwoEngines();
-  const Assignment assignment = MakeAssignment(experiment, 1);
-  SpaceServer server(experiment, assignment, ".");
+  TestServer server(TwoEngines());
   const std::uint32_t slot = server.Space().FindEntity("b")->SlotOf("beacon");
   ControlCommands commands;
   commands.attributes.Add(slot, 0xff0000);
@@ -95,9 +100,7 @@ TEST(SpaceServer, OnlyAttributesThatChangedTravel)
 
 TEST(SpaceServer, AnEngineHasTheLastWordOnAnAttribute)
 {
-  const Experiment experiment = TwoEngines();
-  const Assignment assignment = MakeAssignment(experiment, 1);
-  SpaceServer server(experiment, assignment, ".");
+  TestServer server(TwoEngines());
   const std::uint32_t slot = server.Space().FindEntity("b")->SlotOf("turret_angle");
   ControlCommands commands;
   commands.attributes.Add(slot, 1);
@@ -111,9 +114,7 @@ TEST(SpaceServer, AnEngineHasTheLastWordOnAnAttribute)
 
 TEST(SpaceServer, TheLastTickIsMarked)
 {
-  const Experiment experiment = TwoEngines();
-  const Assignment assignment = MakeAssignment(experiment, 1);
-  SpaceServer server(experiment, assignment, ".");
+  TestServer server(TwoEngines());
   for (int tick = 0; tick < 3; ++tick)
   {
     EXPECT_FALSE(server.State().last);
@@ -124,9 +125,7 @@ TEST(SpaceServer, TheLastTickIsMarked)
 
 TEST(SpaceServer, AMoveIsToldOnceWithItsPose)
 {
-  const Experiment experiment = TwoEngines();
-  const Assignment assignment = MakeAssignment(experiment, 1);
-  SpaceServer server(experiment, assignment, ".");
+  TestServer server(TwoEngines());
   server.Move({2, {{9, 9, 0}, Quaternion::Identity()}});
   server.Move({0, {{8, 8, 0}, Quaternion::Identity()}});
   server.Move({2, {{7, 7, 0}, Quaternion::Identity()}});
@@ -183,30 +182,17 @@ void AdvanceTo(SpaceServer& server, double a, double c)
 
 TEST(SpaceServer, WhoIsTakenBeyondTheLimitStopsTheRunByName)
 {
-  const Experiment experiment = Limited(BeyondLimit::kStop);
-  const Assignment assignment = MakeAssignment(experiment, 1);
-  SpaceServer server(experiment, assignment, ".");
+  TestServer server(Limited(BeyondLimit::kStop));
   AdvanceTo(server, 60, -50);
-  try
-  {
-    AdvanceTo(server, 60, -50.5);
-    FAIL();
-  }
-  catch (const std::runtime_error& error)
-  {
-    EXPECT_STREQ(
-        error.what(),
-        "engine '' at tick 1: the footbot 'c' left the world: it is at -50.5, 0, 0, more than 50 m outside the "
-        "arena, which reaches from 0, 0, 0 to 10, 10, 1; give <arena> a larger limit, or a beyond_limit of hold "
-        "or remove");
-  }
+  EXPECT_EQ(test::MessageOf<std::runtime_error>([&] { AdvanceTo(server, 60, -50.5); }),
+            "engine '' at tick 1: the footbot 'c' left the world: it is at -50.5, 0, 0, more than 50 m outside the "
+            "arena, which reaches from 0, 0, 0 to 10, 10, 1; give <arena> a larger limit, or a beyond_limit of hold "
+            "or remove");
 }
 
 TEST(SpaceServer, WhoIsTakenBeyondTheLimitIsHeldWhereItWas)
 {
-  const Experiment experiment = Limited(BeyondLimit::kHold);
-  const Assignment assignment = MakeAssignment(experiment, 1);
-  SpaceServer server(experiment, assignment, ".");
+  TestServer server(Limited(BeyondLimit::kHold));
   AdvanceTo(server, 1.5, 59);
   for (int tick = 0; tick < 2; ++tick)
   {
@@ -219,16 +205,14 @@ TEST(SpaceServer, WhoIsTakenBeyondTheLimitIsHeldWhereItWas)
 
 TEST(SpaceServer, WhoIsTakenBeyondTheLimitLeavesTheArena)
 {
-  const Experiment experiment = Limited(BeyondLimit::kRemove);
-  const Assignment assignment = MakeAssignment(experiment, 1);
-  SpaceServer server(experiment, assignment, ".");
+  TestServer server(Limited(BeyondLimit::kRemove));
   AdvanceTo(server, 1.5, 61);
   EXPECT_FALSE(server.Space().IsPresent(2));
-  EXPECT_EQ(server.Space().GetPose(2).position, WaitingPose(experiment.entities[2], 2).position);
+  EXPECT_EQ(server.Space().GetPose(2).position, WaitingPose(server.experiment.entities[2], 2).position);
   const SpaceState& state = server.State();
   EXPECT_THAT(state.moved, ElementsAre(2));
   EXPECT_THAT(state.attributes.slots, ElementsAre(server.Space().PresenceSlot(2)));
-  CSwarmanoidSpace replica(experiment);
+  CSwarmanoidSpace replica(server.experiment);
   replica.Apply(state);
   EXPECT_THAT(replica.Absent(), ElementsAre(2));
   EXPECT_EQ(replica.Hash(), server.Space().Hash());
@@ -238,9 +222,7 @@ TEST(SpaceServer, WhoIsTakenBeyondTheLimitLeavesTheArena)
 
 TEST(SpaceServer, WhatCannotBePartOfTheStateChangesNothing)
 {
-  const Experiment experiment = TwoEngines();
-  const Assignment assignment = MakeAssignment(experiment, 1);
-  SpaceServer server(experiment, assignment, ".");
+  TestServer server(TwoEngines());
   const std::uint64_t before = server.Space().Hash();
   const double nan = __builtin_nan("");
   EXPECT_THROW(server.Move({0, {{nan, 1, 0}, Quaternion::Identity()}}), std::invalid_argument);
@@ -287,14 +269,7 @@ private:
   }
 };
 
-PluginDescription Named(const char* label)
-{
-  PluginDescription description;
-  description.label = label;
-  return description;
-}
-
-REGISTER_EXPERIMENT_FUNCTIONS(Recorder, Named("recorder"))
+REGISTER_EXPERIMENT_FUNCTIONS(Recorder, {.label = "recorder"})
 
 Experiment WithRecorder()
 {
@@ -309,9 +284,7 @@ Experiment WithRecorder()
 
 TEST(ExperimentFunctions, RunAroundTheStepsAndEndTheExperiment)
 {
-  const Experiment experiment = WithRecorder();
-  const Assignment assignment = MakeAssignment(experiment, 1);
-  SpaceServer server(experiment, assignment, ".");
+  TestServer server(WithRecorder());
   while (!server.IsLast()) server.Advance({}, {});
   server.Destroy();
   server.Destroy();
@@ -321,9 +294,7 @@ TEST(ExperimentFunctions, RunAroundTheStepsAndEndTheExperiment)
 
 TEST(ExperimentFunctions, WhatTheyChangeTravels)
 {
-  const Experiment experiment = WithRecorder();
-  const Assignment assignment = MakeAssignment(experiment, 1);
-  SpaceServer server(experiment, assignment, ".");
+  TestServer server(WithRecorder());
   server.Advance({}, {});
   EXPECT_THAT(server.State().moved, ElementsAre(1));
   EXPECT_THAT(server.State().attributes.values, ElementsAre(0x00ff00));
@@ -331,20 +302,16 @@ TEST(ExperimentFunctions, WhatTheyChangeTravels)
 
 TEST(ExperimentFunctions, TheyCanDeclareFailure)
 {
-  const Experiment experiment = WithRecorder();
+  TestServer server(WithRecorder());
   Recorder::outcome_at_2 = CExperimentFunctions::Outcome::kFailed;
-  const Assignment assignment = MakeAssignment(experiment, 1);
-  SpaceServer server(experiment, assignment, ".");
   while (!server.IsLast()) server.Advance({}, {});
   EXPECT_TRUE(server.HasFailed());
 }
 
 TEST(ExperimentFunctions, AnExceptionIsReportedWithNameAndTick)
 {
-  const Experiment experiment = WithRecorder();
+  TestServer server(WithRecorder());
   Recorder::throw_in_post_step = true;
-  const Assignment assignment = MakeAssignment(experiment, 1);
-  SpaceServer server(experiment, assignment, ".");
   EXPECT_THAT([&] { server.Advance({}, {}); },
               testing::ThrowsMessage<std::runtime_error>(
                   "experiment functions 'goal' (recorder): PostStep at tick 1 failed: no luck"));
@@ -378,9 +345,7 @@ protected:
     return {entity, {{x, 5, 0}, Quaternion::Identity()}, present};
   }
 
-  const Experiment experiment = Chain();
-  const Assignment assignment = MakeAssignment(experiment, 1);
-  SpaceServer server{experiment, assignment, "."};
+  TestServer server{Chain()};
 };
 
 TEST_F(SpaceServerHolds, WhoIsMovedAloneLetsGoAndIsLetGo)

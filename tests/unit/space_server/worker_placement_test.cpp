@@ -5,6 +5,8 @@
 
 #include <stdexcept>
 
+#include "tests/world/message_of.h"
+
 namespace swarmanoid
 {
 namespace
@@ -33,15 +35,13 @@ ControlRequestMessage Request(const std::string& verb, const std::string& entity
 std::string MovesOf(const WorkerPlacement& places, const std::string& verb, const std::string& entity)
 {
   std::string text;
-  try
-  {
-    for (const auto& [worker, machine] : places.Read(Request(verb, entity))) text += worker + " > " + machine + "; ";
-  }
-  catch (const std::invalid_argument& error)
-  {
-    return error.what();
-  }
-  return text;
+  const std::string refusal = test::MessageOf<std::invalid_argument>(
+      [&]
+      {
+        for (const auto& [worker, machine] : places.Read(Request(verb, entity)))
+          text += worker + " > " + machine + "; ";
+      });
+  return refusal.empty() ? text : refusal;
 }
 
 std::string MovesOf(const std::string& verb, const std::string& entity) { return MovesOf(Places(), verb, entity); }
@@ -107,15 +107,12 @@ std::string HostsOf(double more, const std::string& machine = "", std::size_t mo
   ControlRequestMessage request = Request("hosts", machine);
   request.numbers = {more};
   std::string text;
-  try
-  {
-    for (const std::string& host : Places().ReadHosts(request, most)) text += host + " ";
-  }
-  catch (const std::invalid_argument& error)
-  {
-    return error.what();
-  }
-  return text;
+  const std::string refusal = test::MessageOf<std::invalid_argument>(
+      [&]
+      {
+        for (const std::string& host : Places().ReadHosts(request, most)) text += host + " ";
+      });
+  return refusal.empty() ? text : refusal;
 }
 
 // At first one at alpha, then one at beta.

@@ -5,6 +5,7 @@
 #include "studies/checked_frame.h"
 #include "studies/run_files.h"
 #include "studies/slurm.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid
 {
@@ -21,15 +22,11 @@ std::string MistakeInFrames(const std::vector<char>& bytes)
 {
   FrameReader reader;
   reader.Add(bytes);
-  try
-  {
-    while (reader.Next()) continue;
-  }
-  catch (const FrameError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return test::MessageOf<FrameError>(
+      [&]
+      {
+        while (reader.Next()) continue;
+      });
 }
 
 TEST(CheckedFrame, ArrivesInWhateverPieces)

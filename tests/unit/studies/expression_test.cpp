@@ -7,6 +7,8 @@
 
 #include <tuple>
 
+#include "tests/world/message_of.h"
+
 namespace swarmanoid
 {
 namespace
@@ -27,15 +29,7 @@ bool Holds(const std::string& text)
 
 std::string ComplaintAbout(const std::string& text)
 {
-  try
-  {
-    Holds(text);
-  }
-  catch (const ExpressionError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return test::MessageOf<ExpressionError>([&] { Holds(text); });
 }
 
 TEST(StudyExpression, BindsAsInArithmetic)

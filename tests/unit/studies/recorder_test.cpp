@@ -2,7 +2,6 @@
 #include "studies/recorder.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
@@ -14,6 +13,8 @@
 #include "simulation/register_all.h"
 #include "space_server/experiment_functions.h"
 #include "studies/metric.h"
+#include "tests/world/experiment_text.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid
 {
@@ -62,32 +63,24 @@ public:
 };
 REGISTER_EXPERIMENT_FUNCTIONS(CStudyFunctions, {.label = "study_functions", .brief = "publishes a number at tick 3"})
 
-constexpr const char* kReport = "<report implementation='generic_report'/>";
-constexpr const char* kWheels = "<wheels implementation='generic_wheels'/>";
+const std::string kWheels = "generic_wheels", kReport = "generic_report";
 
 std::unique_ptr<Experiment> Scene(const std::string& entities, int ticks,
-                                  const std::string& actuators = std::string(kWheels) + kReport)
+                                  const std::vector<std::string>& actuators = {kWheels, kReport})
 {
   RegisterBuiltins();
-  const std::string text =
-      "<ahss-config><framework><clocktick>100</clocktick><maxclock>" + std::to_string(ticks) +
-      "</maxclock></framework><controllers><study_driver id='go'><actuators>" + actuators +
-      "</actuators><parameters><speed>0.1</speed></parameters></study_driver>"
-      "<study_driver id='stay'><actuators>" +
-      actuators + "</actuators></study_driver><study_driver id='curve'><actuators>" + actuators +
-      "</actuators><parameters><speed>0.1</speed><turn>0.04</turn></parameters></study_driver>"
-      "<study_driver id='spin'><actuators>" +
-      actuators +
-      "</actuators><parameters><turn>0.05</turn></parameters></study_driver><study_driver id='brake'><actuators>" +
-      actuators +
-      "</actuators><parameters><speed>0.1</speed><until>20</until></parameters></study_driver></controllers><arena "
-      "size='10,10,2' optimization='2D'>" +
-      entities +
-      "</arena><engines><dummy_engine id='e'/></engines><arena_physics><engine id='e'><all/></engine></arena_physics>"
-      "<experiment_functions><study_functions id='f'/></experiment_functions></ahss-config>";
-  LoadedExperiment loaded = LoadExperimentText(text, "scene.xml", ".");
-  for (const Diagnostic& error : loaded.errors) ADD_FAILURE() << error.Text();
-  return std::move(loaded.experiment);
+  test::ExperimentText text{.framework = "<maxclock>" + std::to_string(ticks) + "</maxclock>",
+                            .arena = entities,
+                            .functions = "<study_functions id='f'/>"};
+  for (const auto& [id, parameters] :
+       std::vector<std::pair<std::string, std::string>>{{"go", "<speed>0.1</speed>"},
+                                                        {"stay", ""},
+                                                        {"curve", "<speed>0.1</speed><turn>0.04</turn>"},
+                                                        {"spin", "<turn>0.05</turn>"},
+                                                        {"brake", "<speed>0.1</speed><until>20</until>"}})
+    text.controllers +=
+        test::Controller({.tag = "study_driver", .id = id, .actuators = actuators, .parameters = parameters});
+  return text.Load();
 }
 
 std::unique_ptr<Study> Metrics(const std::string& metrics, int every)
@@ -135,16 +128,12 @@ std::string Footbot(const std::string& id, double x, double y, double degrees, c
 
 std::string ComplaintAbout(const std::string& metrics, const Experiment& experiment)
 {
-  try
-  {
-    const auto study = Metrics(metrics, 0);
-    const Recorder recorder(*study, experiment);
-  }
-  catch (const ConfigurationError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return test::MessageOf<ConfigurationError>(
+      [&]
+      {
+        const auto study = Metrics(metrics, 0);
+        const Recorder recorder(*study, experiment);
+      });
 }
 
 TEST(StudyMetrics, AWayIsSpeedTimesTime)
@@ -268,15 +257,7 @@ std::string ComplaintAfter(const std::string& metric, int ticks)
 {
   const auto experiment = Scene(Footbot("a", 2, 2, 0), ticks);
   const auto study = Metrics(metric, 0);
-  try
-  {
-    Measured(*study, *experiment);
-  }
-  catch (const ConfigurationError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return test::MessageOf<ConfigurationError>([&] { Measured(*study, *experiment); });
 }
 
 TEST(StudyMetrics, ANameThatIsNeverPublishedIsAnErrorAtTheEndOfTheRun)
@@ -320,7 +301,7 @@ TEST(StudyMetrics, AQuantileLiesBetweenItsNeighbours)
 TEST(StudyMetrics, WhatDoesNotFitTheExperimentIsToldWithItsPlace)
 {
   const auto experiment =
-      Scene(Footbot("fb_1", 2, 2, 0) + "<block id='box' position='5,5,0.25' size='0.1,2,0.5'/>", 1, kWheels);
+      Scene(Footbot("fb_1", 2, 2, 0) + "<block id='box' position='5,5,0.25' size='0.1,2,0.5'/>", 1, {kWheels});
   EXPECT_THAT(ComplaintAbout("<distance id='d' of='fb_2'/>", *experiment),
               HasSubstr("s.xml:1:63: no entity of the experiment fits 'fb_2'; did you mean 'fb_1'?"));
   EXPECT_THAT(ComplaintAbout("<attribute id='d' name='leds'/>", *experiment), HasSubstr("did you mean 'led'?"));

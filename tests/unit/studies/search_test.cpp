@@ -1,7 +1,6 @@
 // Searches: what their ranges hold, and that an algorithm which is asked again from its beginning goes on as one that
 // was never interrupted.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
@@ -11,6 +10,7 @@
 #include "studies/optimiser.h"
 #include "studies/search.h"
 #include "studies/search_space.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid
 {
@@ -43,15 +43,7 @@ std::string Refusals(const std::string& factors, const std::string& search = "ru
   std::string all;
   for (const Diagnostic& error : loaded.errors) all += error.Text() + "\n";
   if (!loaded.study) return all;
-  try
-  {
-    CheckSearch(*loaded.study);
-  }
-  catch (const ConfigurationError& error)
-  {
-    all += error.what();
-  }
-  return all;
+  return all + test::MessageOf<ConfigurationError>([&] { CheckSearch(*loaded.study); });
 }
 
 std::string TextAt(const Study& study, const std::vector<double>& place)

@@ -2,7 +2,6 @@
 #include "studies/study.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
@@ -13,6 +12,9 @@
 #include "studies/conflicts.h"
 #include "studies/design.h"
 #include "test_folders.h"
+#include "tests/world/experiment_text.h"
+#include "tests/world/message_of.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -37,15 +39,7 @@ std::string Complaints(const std::string& inside, const std::string& attributes 
   std::string all;
   for (const Diagnostic& error : loaded.errors) all += error.Text() + "\n";
   if (!loaded.study) return all;
-  try
-  {
-    const Design design(*loaded.study);
-  }
-  catch (const ConfigurationError& error)
-  {
-    all += error.what();
-  }
-  return all;
+  return all + test::MessageOf<ConfigurationError>([&] { const Design design(*loaded.study); });
 }
 
 std::vector<std::string> Points(const Study& study)
@@ -177,11 +171,12 @@ protected:
   std::string Told(const std::string& inside, const std::string& attributes = "")
   {
     const std::string file = folder_.Path() + "/e.xml";
-    std::ofstream(file) << "<ahss-config><framework maxclock='9'/><arena size='3,3,1' optimization='2D'><distribute "
-                           "id='some' quantity='10'/></arena><engines><dummy_engine id='one'/><dummy_engine "
-                           "id='two'/></engines></ahss-config>";
-    std::ofstream(folder_.Path() + "/other.xml")
-        << "<ahss-config><arena size='3,3,1' optimization='2D'/></ahss-config>";
+    folder_.Write("e.xml", test::ExperimentText{.framework = "<maxclock>9</maxclock>",
+                                                .arena = "<distribute id='some' quantity='10'/>",
+                                                .engines = "<dummy_engine id='one'/><dummy_engine id='two'/>",
+                                                .physics = ""}
+                               .Text());
+    folder_.Write("other.xml", test::ExperimentText().Text());
     const LoadedStudy loaded = LoadStudyText(
         "<study experiment='" + file + "' " + attributes + ">\n" + inside + "</study>", "s.xml", folder_.Path());
     for (const Diagnostic& error : loaded.errors) ADD_FAILURE() << error.Text();
@@ -192,7 +187,7 @@ protected:
   }
 
 private:
-  ScratchFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(StudyConflicts, TwoFactorsOfOneValueAreToldWithBothPlaces)
@@ -255,9 +250,7 @@ TEST(StudyReference, IsThatOfTheTables)
 {
   const std::filesystem::path page = std::filesystem::path(SWARMANOID_SOURCE_FOLDER) / "docs/study_reference.md";
   if (std::getenv("SWARMANOID_WRITE_REFERENCE") != nullptr) std::ofstream(page) << StudyReference();
-  std::ifstream file(page);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_EQ(text, StudyReference())
+  EXPECT_EQ(test::TextOf(page), StudyReference())
       << "write it anew: SWARMANOID_WRITE_REFERENCE=1 unit_studies --gtest_filter='StudyReference.*'";
 }
 

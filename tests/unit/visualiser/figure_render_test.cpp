@@ -3,12 +3,12 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "common/configuration/xml_reader.h"
 #include "tests/unit/visualiser/read_png.h"
 #include "tests/unit/visualiser/small_world.h"
+#include "tests/world/message_of.h"
+#include "tests/world/temporary_folder.h"
 #include "visualiser/figure/plan_page.h"
 #include "visualiser/figure/plan_scene.h"
 #include "visualiser/scene/picture.h"
@@ -32,12 +32,8 @@ protected:
   FigureRender() : world_({4, 2, 1})
   {
     RegisterBuiltinRenderers();
-    folder_ = fs::temp_directory_path() / ("figure_render_test_" + std::to_string(getpid()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
     world_.Add(EntityKind::kFootbot, "fb", {3, 1.5, 0}, 90);
   }
-  ~FigureRender() override { fs::remove_all(folder_); }
 
   std::unique_ptr<Visualiser> Make(const std::string& attributes)
   {
@@ -45,7 +41,7 @@ protected:
     configuration.tag = "figure_render";
     configuration.id = "plan";
     configuration.tree = TConfigurationTree(ReadXml("<figure_render " + attributes + "/>", "plan.xml"));
-    return std::make_unique<Visualiser>(configuration, world_.Space(), assignment_, folder_.string(), nullptr, nullptr);
+    return std::make_unique<Visualiser>(configuration, world_.Space(), assignment_, folder_.Path(), nullptr, nullptr);
   }
   // The robot goes from x = 3 by 1 cm a tick. Returns the tick after which the renderer wanted the end, or -1.
   int Run(const std::string& attributes, int ticks)
@@ -79,28 +75,15 @@ protected:
     return ColourAt(picture, kMargin + 25 * x_m, kMargin + 25 * (2 - y_m));
   }
   std::string Path(const std::string& name) const { return (folder_ / name).string(); }
-  std::string Read(const std::string& name) const
-  {
-    std::ostringstream text;
-    text << std::ifstream(Path(name), std::ios::binary).rdbuf();
-    return text.str();
-  }
+  std::string Read(const std::string& name) const { return folder_.Read(name); }
   std::string ErrorOf(const std::string& attributes)
   {
-    try
-    {
-      Make(attributes);
-    }
-    catch (const std::runtime_error& error)
-    {
-      return error.what();
-    }
-    return "";
+    return test::MessageOf<std::runtime_error>([&] { Make(attributes); });
   }
 
   SmallWorld world_;
   Assignment assignment_;
-  fs::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(FigureRender, EntitiesStandWhereTheyAreAndLookWhereTheyLook)
@@ -271,15 +254,7 @@ TEST_F(FigureRender, MistakesAreTold)
   EXPECT_THAT(ErrorOf("region=\"1, 1, 0, 2\""), HasSubstr("with x0 < x1 and y0 < y1"));
   EXPECT_THAT(ErrorOf("inset=\"1, 1, nan, 2\""), HasSubstr("x0, y0, x1, y1 in metres"));
   fs::create_directories(Path("taken.svg"));
-  try
-  {
-    Run("file=\"taken.svg\"", 0);
-    ADD_FAILURE() << "a folder was written over";
-  }
-  catch (const std::runtime_error& error)
-  {
-    EXPECT_THAT(error.what(), HasSubstr("taken.svg"));
-  }
+  EXPECT_THAT(test::MessageOf<std::runtime_error>([&] { Run("file=\"taken.svg\"", 0); }), HasSubstr("taken.svg"));
 }
 
 }  // namespace

@@ -7,13 +7,13 @@
 #include <octomap/octomap.h>
 
 #include <cstdlib>
-#include <filesystem>
 
 #include "common/configuration/xml_reader.h"
 #include "test_folders.h"
 #include "tests/unit/visualiser/look_at.h"
 #include "tests/unit/visualiser/read_png.h"
 #include "tests/unit/visualiser/small_world.h"
+#include "tests/world/temporary_folder.h"
 #include "visualiser/image/offscreen_context.h"
 #include "visualiser/scene/viewpoints.h"
 
@@ -153,9 +153,7 @@ TEST(GlScene, DrawsAnArenaWithWallsAndPatches)
 // Hills from a picture, and a stair of cubes.
 TEST(GlScene, DrawsTerrain)
 {
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("gl_scene_terrain_" + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
+  const test::TemporaryFolder folder;
   Picture heights{33, 33, {}};
   for (int y = 0; y < 33; ++y)
     for (int x = 0; x < 33; ++x)
@@ -183,9 +181,8 @@ TEST(GlScene, DrawsTerrain)
   terrain("stair", {2.8, 0.4, 0}, "<octomap file=\"stair.bt\"/>");
   world.Add(EntityKind::kFootbot, "fb_1", {1, 0.2, 0.115}, 90);
   world.Add(EntityKind::kFootbot, "fb_2", {3.35, 0.8, 0.6}, 180);
-  world.GetExperiment().folder = folder.string();
+  world.GetExperiment().folder = folder.Path();
   ExpectGolden(world, DefaultView(world.GetExperiment(), 4.0 / 3), "terrain");
-  std::filesystem::remove_all(folder);
 }
 
 TEST(GlScene, DrawsTheSameBitsTwice)

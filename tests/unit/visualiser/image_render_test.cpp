@@ -8,6 +8,9 @@
 #include "tests/unit/visualiser/read_png.h"
 #include "tests/unit/visualiser/small_world.h"
 #include "tests/unit/visualiser/video_reader.h"
+#include "tests/world/fake_run.h"
+#include "tests/world/message_of.h"
+#include "tests/world/temporary_folder.h"
 #include "visualiser/scene/picture.h"
 #include "visualiser/visualiser.h"
 
@@ -20,29 +23,14 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-class PacedRun : public RunMonitor
-{
-public:
-  const RunStatus& Status() override { return status; }
-  std::span<const RunNote> Notes() override { return {}; }
-  void Watch(std::span<const std::uint32_t>) override {}
-  const RobotStatus* Robot(std::uint32_t) override { return nullptr; }
-
-  RunStatus status;
-};
-
 class ImageRender : public ::testing::Test
 {
 protected:
   ImageRender() : world_({2, 2, 1})
   {
     RegisterBuiltinRenderers();
-    folder_ = fs::temp_directory_path() / ("image_render_test_" + std::to_string(getpid()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
     world_.Add(EntityKind::kFootbot, "fb", {1, 1, 0});
   }
-  ~ImageRender() override { fs::remove_all(folder_); }
 
   std::unique_ptr<Visualiser> Make(const std::string& attributes, const std::string& children = "")
   {
@@ -54,7 +42,7 @@ protected:
                     (attributes.find("size=") == std::string::npos ? std::string("size=\"96, 64\" ") : std::string()) +
                     attributes + ">" + children + "</image_render>",
                 "images.xml"));
-    return std::make_unique<Visualiser>(configuration, world_.Space(), assignment_, folder_.string(), nullptr, &run_);
+    return std::make_unique<Visualiser>(configuration, world_.Space(), assignment_, folder_.Path(), nullptr, &run_);
   }
 
   // Returns the tick after which the renderer wanted the end, or -1.
@@ -84,21 +72,13 @@ protected:
 
   std::string ErrorOf(const std::string& attributes, const std::string& children = "")
   {
-    try
-    {
-      Make(attributes, children);
-    }
-    catch (const std::runtime_error& error)
-    {
-      return error.what();
-    }
-    return "";
+    return test::MessageOf<std::runtime_error>([&] { Make(attributes, children); });
   }
 
   SmallWorld world_;
   Assignment assignment_;
-  PacedRun run_;
-  fs::path folder_;
+  test::FakeMonitor run_;
+  test::TemporaryFolder folder_;
 };
 
 // The rows of two pictures of the same size that differ.

@@ -4,14 +4,14 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "common/configuration/regular_file.h"
 #include "common/configuration/xml_reader.h"
 #include "test_folders.h"
 #include "tests/unit/visualiser/small_world.h"
+#include "tests/world/message_of.h"
+#include "tests/world/temporary_folder.h"
 #include "visualiser/scene/kind_model.h"
 #include "visualiser/scene/meshes_file.h"
 #include "visualiser/scene/object_model.h"
@@ -24,7 +24,6 @@ namespace
 {
 
 using ::testing::HasSubstr;
-namespace fs = std::filesystem;
 
 const std::string kConfigs = SWARMANOID_SOURCE_FOLDER "/configs";
 
@@ -33,35 +32,18 @@ std::string BytesOf(const std::string& path) { return ReadRegularFile(path, kMos
 class MeshFileTest : public ::testing::Test
 {
 protected:
-  MeshFileTest() : folder_(fs::temp_directory_path() / ("mesh_file_test_" + std::to_string(getpid())))
-  {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~MeshFileTest() override { fs::remove_all(folder_); }
-
   // Another name for each, in all tests: what was read once is not read again.
   std::string Write(const std::string& bytes, const std::string& ending)
   {
     static int files = 0;
-    const std::string path = (folder_ / (std::to_string(++files) + ending)).string();
-    std::ofstream(path, std::ios::binary) << bytes;
-    return path;
+    return folder_.Write(std::to_string(++files) + ending, bytes);
   }
   std::string Mistake(const std::string& bytes, const std::string& ending)
   {
-    try
-    {
-      ReadMeshFile(Write(bytes, ending));
-    }
-    catch (const FileError& error)
-    {
-      return error.what();
-    }
-    return "none";
+    return test::MessageOf<FileError>([&] { ReadMeshFile(Write(bytes, ending)); }, "none");
   }
 
-  fs::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 // A triangle a metre in front, to the left and above: glTF's z, x and y. `node` and `more` are members of its JSON.
@@ -296,16 +278,9 @@ TEST_F(WithMesh, TurnsInItsBodyAsTheFileSays)
 TEST_F(WithMesh, WhatCannotBeReadIsToldWithThePlaceInTheExperiment)
 {
   World(EntityKind::kBlock, {1, 1, 1}, "mesh=\"urdf/rover.glb\"");
-  try
-  {
-    ObjectModel(Entity(), kConfigs);
-    FAIL();
-  }
-  catch (const ConfigurationError& error)
-  {
-    EXPECT_THAT(error.what(), HasSubstr("test.xml:1:"));
-    EXPECT_THAT(error.what(), HasSubstr("configs/urdf/rover.glb': there is no such file"));
-  }
+  const std::string mistake = test::MessageOf<ConfigurationError>([&] { ObjectModel(Entity(), kConfigs); });
+  EXPECT_THAT(mistake, HasSubstr("test.xml:1:"));
+  EXPECT_THAT(mistake, HasSubstr("configs/urdf/rover.glb': there is no such file"));
 }
 
 TEST_F(WithMesh, PartsOfAKindStandWhereTheRowSaysInItsColours)

@@ -4,10 +4,10 @@
 
 #include <octomap/octomap.h>
 
-#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "tests/world/temporary_folder.h"
 #include "visualiser/scene/meshes_file.h"
 
 namespace swarmanoid
@@ -108,14 +108,13 @@ TEST(Meshes, HeightTerrainBecomesASmoothSurfaceWithASkirt)
 
 TEST(Meshes, VoxelTerrainShowsItsSurfaceAlone)
 {
-  const std::string path =
-      (std::filesystem::temp_directory_path() / ("meshes_test_beam_" + std::to_string(getpid()) + ".bt")).string();
+  const test::TemporaryFolder folder;
+  const std::string path = folder / "beam.bt";
   octomap::OcTree tree(0.1);
   for (int x = 0; x < 6; ++x)
     tree.updateNode(octomap::point3d(0.05F + 0.1F * static_cast<float>(x), 0.05F, 0.05F), true);
   tree.writeBinary(path);
   const Model model = TerrainModel(VoxelTerrain(path), "beam");
-  std::filesystem::remove(path);
   // Six faces, each of one piece, at every level.
   for (const Mesh& mesh : model.levels) EXPECT_EQ(mesh.Triangles(), 12U);
   Eigen::AlignedBox3f box;

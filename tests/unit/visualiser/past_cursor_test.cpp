@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "common/configuration/xml_reader.h"
 #include "common/journal/journal_reader.h"
@@ -11,6 +10,8 @@
 #include "common/plugin_descriptions/renderers.h"
 #include "tests/eventually.h"
 #include "tests/unit/visualiser/small_world.h"
+#include "tests/world/fake_run.h"
+#include "tests/world/temporary_folder.h"
 #include "visualiser/interaction/past_cursor.h"
 #include "visualiser/interaction/viewer.h"
 
@@ -25,53 +26,19 @@ using testing::HasSubstr;
 
 constexpr std::uint64_t kTicks = 300;
 
-class Control : public ExperimentControl
-{
-public:
-  void Pause() override {}
-  void Resume() override {}
-  void Step(unsigned) override {}
-  void SetSpeed(double) override {}
-  void MoveEntity(const std::string& id, const Pose&) override { moved = id; }
-  void AddEntity(const std::string&, const Pose&) override {}
-  void RemoveEntity(const std::string&) override {}
-  void PressKey(const std::string&, bool) override {}
-  void SelectEntity(const std::string&) override {}
-  void Stop() override {}
-  void Reset() override {}
-
-  std::string moved;
-};
-
-class Monitor : public RunMonitor
-{
-public:
-  const RunStatus& Status() override { return status; }
-  std::span<const RunNote> Notes() override { return {}; }
-  void Watch(std::span<const std::uint32_t>) override {}
-  const RobotStatus* Robot(std::uint32_t robot) override { return robot == inside.entity ? &inside : nullptr; }
-  std::string RunFolder() override { return run_folder; }
-
-  RunStatus status;
-  RobotStatus inside;
-  std::string run_folder;
-};
-
 // A footbot drives along x, 1 cm a tick, in a run whose journal has its first 300 ticks.
 class PastTest : public testing::Test
 {
 protected:
-  PastTest() : folder_(fs::temp_directory_path() / fmt::format("swarmanoid past_{}", getpid())), world_({4, 4, 2})
+  PastTest() : world_({4, 4, 2})
   {
     world_.Add(EntityKind::kFootbot, "fb", {0, 1, 0}).controller = "driver";
-    fs::create_directories(folder_ / "journal");
-    std::ofstream(folder_ / "events.csv") << "tick,event,entity,value,from,text\n"
-                                          << "40,move,fb,,somebody@here,\n"
-                                          << "120,pause,,,,\n"
-                                          << "121,resume,,,,\n";
+    fs::create_directory(folder_ / "journal");
+    folder_.Write("events.csv",
+                  "tick,event,entity,value,from,text\n40,move,fb,,somebody@here,\n120,pause,,,,\n121,resume,,,,\n");
     JournalStart start;
     start.origin.experiment = FingerprintOf(world_.GetExperiment());
-    JournalWriter journal(JournalFile(folder_.string()), ContentOf(start));
+    JournalWriter journal(JournalFile(folder_.Path()), ContentOf(start));
     for (SpaceState state; state.tick < kTicks; ++state.tick)
     {
       state.poses = {0.01 * static_cast<double>(state.tick), 1, 0, 0, 0, 0, 1};
@@ -79,8 +46,6 @@ protected:
     }
     journal.Flush();
   }
-  ~PastTest() override { fs::remove_all(folder_); }
-
   // Until the journal's thread has answered.
   bool Until(PastCursor& past, PastCursor::Clock::time_point now, const std::function<bool()>& met)
   {
@@ -94,13 +59,13 @@ protected:
   std::unique_ptr<PastCursor> Open()
   {
     auto past = std::make_unique<PastCursor>(world_.GetExperiment());
-    past->Follow(folder_.string());
+    past->Follow(folder_.Path());
     EXPECT_TRUE(Until(*past, {}, [&] { return past->IsThere(); }));
     return past;
   }
   static double X(const CSwarmanoidSpace& space) { return space.GetPose(0).position.x(); }
 
-  const fs::path folder_;
+  const test::TemporaryFolder folder_{"of the past"};
   SmallWorld world_;
 };
 
@@ -169,7 +134,7 @@ protected:
   {
     world_.Space().SetTick(kTicks + 50);
     world_.Space().SetPose(0, {{3.5, 1, 0}, Quaternion::Identity()});
-    monitor_.run_folder = folder_.string();
+    monitor_.run_folder = folder_.Path();
     monitor_.inside.entity = 0;
     assignment_.owner = assignment_.host = {-1};
   }
@@ -193,8 +158,8 @@ protected:
 
   const PluginDescription description_ = OpenGlRenderDescription();
   Assignment assignment_;
-  Control control_;
-  Monitor monitor_;
+  test::FakeControl control_;
+  test::FakeMonitor monitor_;
   std::unique_ptr<Viewer> viewer_;
 };
 
@@ -215,20 +180,20 @@ TEST_F(PastViewerTest, ShowsThePastAndNobodyChangesIt)
   EXPECT_FALSE(viewer.Motion(0)) << "its speed at that tick is not known";
   EXPECT_EQ(viewer.Present().GetTick(), kTicks + 50);
   viewer.MoveEntity(0, {});
-  EXPECT_EQ(control_.moved, "");
+  EXPECT_THAT(control_.asked, testing::IsEmpty());
   EXPECT_THAT(viewer.Messages().back().text, HasSubstr("Q goes back"));
 
   viewer.Press({'B', false, true});
-  EXPECT_EQ(viewer.TakeCopy(), fmt::format("swarmanoid run --branch '{}@{}'", folder_.string(), kTicks - 4));
+  EXPECT_EQ(viewer.TakeCopy(), fmt::format("swarmanoid run --branch '{}@{}'", folder_.Path(), kTicks - 4));
   viewer.Press({'I', false, true});
   EXPECT_EQ(viewer.TakeCopy(), "") << "nobody is selected";
   viewer.Select(0);
   viewer.Press({'I', false, true});
-  EXPECT_EQ(viewer.TakeCopy(), fmt::format("swarmanoid inspect '{}@{}' fb", folder_.string(), kTicks - 4));
+  EXPECT_EQ(viewer.TakeCopy(), fmt::format("swarmanoid inspect '{}@{}' fb", folder_.Path(), kTicks - 4));
   viewer.Press({'Q'});
   EXPECT_EQ(&viewer.Refresh().Space(), &world_.Space());
   viewer.MoveEntity(0, {});
-  EXPECT_EQ(control_.moved, "fb");
+  EXPECT_THAT(control_.asked, testing::ElementsAre("move fb"));
 }
 
 TEST_F(PastViewerTest, PlotsGoOnWithThePresent)

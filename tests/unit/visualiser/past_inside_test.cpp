@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <mutex>
 
 #include "tests/eventually.h"
 #include "tests/unit/visualiser/small_world.h"
+#include "tests/world/temporary_folder.h"
 #include "visualiser/past_inside.h"
 
 namespace swarmanoid
@@ -25,33 +25,22 @@ using testing::HasSubstr;
 class PastInsideTest : public testing::Test
 {
 protected:
-  PastInsideTest()
-      : folder_(fs::temp_directory_path() / fmt::format("swarmanoid inside_{}", getpid())), world_({4, 4, 2})
+  PastInsideTest() : world_({4, 4, 2})
   {
     for (const char* id : {"fb_0", "fb_1"}) world_.Add(EntityKind::kFootbot, id, {1, 1, 0}).controller = "driver";
     world_.Add(EntityKind::kFootbot, "parked", {2, 1, 0});
-    fs::create_directories(folder_);
     setenv(kCommandVariable, (folder_ / "program").c_str(), 1);
   }
-  ~PastInsideTest() override
-  {
-    unsetenv(kCommandVariable);
-    fs::remove_all(folder_);
-  }
+  ~PastInsideTest() override { unsetenv(kCommandVariable); }
 
   // The program is told "inspect RUN@TICK --json -- ID..."; what it was told is in the file `asked`.
   void Write(const std::string& commands) const
   {
-    const fs::path program = folder_ / "program";
-    std::ofstream(program) << "#!/bin/sh\necho \"$*\" >> '" << (folder_ / "asked").string() << "'\n"
-                           << commands << "\n";
+    const std::string asked = folder_ / "asked";
+    const fs::path program = folder_.Write("program", "#!/bin/sh\necho \"$*\" >> '" + asked + "'\n" + commands + "\n");
     fs::permissions(program, fs::perms::owner_all);
   }
-  std::string Asked() const
-  {
-    std::ifstream file(folder_ / "asked");
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  std::string Asked() const { return folder_.Read("asked"); }
   std::unique_ptr<PastInside> Make(const std::string& run_folder)
   {
     return std::make_unique<PastInside>(world_.GetExperiment(), run_folder,
@@ -67,7 +56,7 @@ protected:
     return answers_.size();
   }
 
-  const fs::path folder_;
+  const test::TemporaryFolder folder_{"with spaces in"};
   SmallWorld world_;
   std::mutex mutex_;
   std::vector<std::pair<std::uint64_t, PastInsideAnswer>> answers_;
@@ -81,11 +70,11 @@ constexpr const char* kRobot =
 TEST_F(PastInsideTest, RobotsWithControllersAreAskedForAtTheirTick)
 {
   Write(fmt::format("echo '{{\"robots\": [{}]}}'", kRobot));
-  const auto inside = Make(folder_.string());
+  const auto inside = Make(folder_.Path());
   ASSERT_TRUE(inside->IsPossible());
   inside->Ask(7, {42, {1, 2, 99}});
   ASSERT_TRUE(Eventually([&] { return Count() == 1; }));
-  EXPECT_EQ(Asked(), fmt::format("inspect {}@42 --json -- fb_1\n", folder_.string()));
+  EXPECT_EQ(Asked(), fmt::format("inspect {}@42 --json -- fb_1\n", folder_.Path()));
   EXPECT_EQ(answers_[0].first, 7u);
   const PastInsideAnswer& answer = answers_[0].second;
   EXPECT_EQ(answer.error, "");
@@ -105,7 +94,7 @@ TEST_F(PastInsideTest, RobotsWithControllersAreAskedForAtTheirTick)
 TEST_F(PastInsideTest, OnlyTheNewestTickIsAnswered)
 {
   Write(fmt::format("case \"$2\" in *@5) exec sleep 1000;; esac\necho '{{\"robots\": [{}]}}'", kRobot));
-  const auto inside = Make(folder_.string());
+  const auto inside = Make(folder_.Path());
   inside->Ask(1, {5, {1}});
   ASSERT_TRUE(Eventually([&] { return Asked().find("@5 ") != std::string::npos; }));
   for (std::uint64_t tick = 6; tick <= 60; ++tick) inside->Ask(1, {tick, {1}});
@@ -123,7 +112,7 @@ TEST_F(PastInsideTest, OnlyTheNewestTickIsAnswered)
 TEST_F(PastInsideTest, ItsEndIsTheEndOfWhatItComputes)
 {
   Write("exec sleep 1000");
-  auto inside = Make(folder_.string());
+  auto inside = Make(folder_.Path());
   inside->Ask(1, {5, {0}});
   ASSERT_TRUE(Eventually([&] { return !Asked().empty(); }));
   inside.reset();
@@ -135,7 +124,7 @@ TEST_F(PastInsideTest, WhyNothingCanBeComputedIsTold)
   Write(
       "case \"$2\" in *@1) echo 'robot says hello' >&2; echo 'inspect: made by another build' >&2; exit 4;; esac\n"
       "echo '{\"robots\": [{\"id\": \"nobody\"}]}'");
-  const auto inside = Make(folder_.string());
+  const auto inside = Make(folder_.Path());
   inside->Ask(1, {1, {0}});
   ASSERT_TRUE(Eventually([&] { return Count() == 1; }));
   EXPECT_EQ(answers_[0].second.error, "inspect: made by another build");
@@ -154,7 +143,7 @@ TEST_F(PastInsideTest, NothingIsComputedOfRunsOfOthers)
     EXPECT_FALSE(Make("/")->IsPossible());
   }
   unsetenv(kCommandVariable);
-  EXPECT_FALSE(Make(folder_.string())->IsPossible());
+  EXPECT_FALSE(Make(folder_.Path())->IsPossible());
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "tests/unit/visualiser/read_png.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -21,9 +22,6 @@ namespace fs = std::filesystem;
 class PictureFileTest : public testing::Test
 {
 protected:
-  PictureFileTest() { fs::create_directories(folder_); }
-  ~PictureFileTest() override { fs::remove_all(folder_); }
-
   static Picture Grey(std::uint8_t value)
   {
     Picture picture;
@@ -32,7 +30,7 @@ protected:
     return picture;
   }
 
-  const fs::path folder_ = fs::temp_directory_path() / ("swarmanoid_pictures_" + std::to_string(getpid()));
+  const test::TemporaryFolder folder_;
   const std::string path_ = (folder_ / "newest.png").string();
 };
 

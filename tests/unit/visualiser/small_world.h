@@ -6,6 +6,7 @@
 #include "common/experiment/body.h"
 #include "common/math/elementary.h"
 #include "common/space/space.h"
+#include "tests/world/small_experiment.h"
 
 namespace swarmanoid
 {
@@ -17,13 +18,8 @@ public:
 
   EntityConfiguration& Add(EntityKind kind, const std::string& id, const Vector3& position, double gamma_degrees = 0)
   {
-    EntityConfiguration& entity = experiment_.entities.emplace_back();
-    entity.kind = kind;
-    entity.id = id;
-    entity.pose = {position, QuaternionFromYaw(DegreesToRadians(gamma_degrees))};
-    entity.movable = IsRobot(kind) || kind == EntityKind::kCylindricPrey;
-    if (IsRobot(kind)) entity.size = DescriptionOf(kind).size;
-    return entity;
+    experiment_.entities.push_back(test::Entity(kind, id, position, DegreesToRadians(gamma_degrees)));
+    return experiment_.entities.back();
   }
   void AddBody(EntityKind kind, const std::string& id, const Vector3& position, const Vector3& size,
                std::uint32_t colour = 0xc0c0c0)

@@ -4,37 +4,23 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "common/configuration/xml_reader.h"
 #include "common/program/csv.h"
 #include "tests/unit/visualiser/small_world.h"
+#include "tests/world/fake_run.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
 namespace
 {
 
-namespace fs = std::filesystem;
 using testing::ElementsAre;
 
 // In one process nothing stands between a controller and the table.
 constexpr const char* kState = "turn, \"left\"\\\n\tä \xff";
-
-class Watched : public RunMonitor
-{
-public:
-  const RunStatus& Status() override { return status; }
-  std::span<const RunNote> Notes() override { return {}; }
-  void Watch(std::span<const std::uint32_t>) override {}
-  const RobotStatus* Robot(std::uint32_t) override { return &robot; }
-
-  RunStatus status;
-  RobotStatus robot;
-};
 
 // Columns of a user.
 class OddRender : public CTextRender
@@ -62,16 +48,13 @@ class TextRender : public ::testing::Test
 protected:
   TextRender() : world_({4, 4, 1})
   {
-    folder_ = fs::temp_directory_path() / ("text_render_test_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
     world_.Add(EntityKind::kFootbot, "fb", {1.25, 2, 0}, 90);
     assignment_.owner = {0};
     assignment_.host = {0};
     world_.GetExperiment().engines.resize(1);
     world_.GetExperiment().engines[0].id = "ground";
-    monitor_.robot.state = kState;
+    monitor_.inside.state = kState;
   }
-  ~TextRender() override { fs::remove_all(folder_); }
 
   std::string Written(CTextRender&& render, const std::string& attributes)
   {
@@ -80,18 +63,17 @@ protected:
     render.Init({.parameters = Parameters(tree, CTextRender::Description().parameters),
                  .space = world_.Space(),
                  .assignment = assignment_,
-                 .output_folder = folder_.string(),
+                 .output_folder = folder_.Path(),
                  .monitor = &monitor_});
     render.Draw();
     render.Finish();
-    std::ifstream file(folder_ / "table");
-    return {std::istreambuf_iterator<char>(file), {}};
+    return folder_.Read("table");
   }
 
   SmallWorld world_;
   Assignment assignment_;
-  Watched monitor_;
-  fs::path folder_;
+  test::FakeMonitor monitor_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(TextRender, WritesTheTableOfTheSeed)
@@ -127,7 +109,7 @@ TEST_F(TextRender, TellsThatARunIsPausedAfterItsLatestTable)
   render.Init({.parameters = Parameters(tree, CTextRender::Description().parameters),
                .space = world_.Space(),
                .assignment = assignment_,
-               .output_folder = folder_.string(),
+               .output_folder = folder_.Path(),
                .monitor = &monitor_});
   render.Idle();
   render.Draw();
@@ -137,9 +119,7 @@ TEST_F(TextRender, TellsThatARunIsPausedAfterItsLatestTable)
   render.Idle();
   render.Idle();
   render.Finish();
-  std::ifstream file(folder_ / "table");
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}),
-            "#\tclock\n# tick 0, running, 0.0x real time, 0 ticks/s\n0\n# tick 1, paused\n");
+  EXPECT_EQ(folder_.Read("table"), "#\tclock\n# tick 0, running, 0.0x real time, 0 ticks/s\n0\n# tick 1, paused\n");
 }
 
 TEST_F(TextRender, WritesTheStatusAsJson)

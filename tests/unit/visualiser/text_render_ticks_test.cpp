@@ -1,12 +1,11 @@
 // text_render: when it writes a table, and what stands in it.
 #include <gmock/gmock.h>
 
-#include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "common/configuration/xml_reader.h"
 #include "tests/unit/visualiser/small_world.h"
+#include "tests/world/temporary_folder.h"
 #include "visualiser/visualiser.h"
 
 namespace swarmanoid
@@ -15,7 +14,6 @@ namespace
 {
 
 using ::testing::ElementsAre;
-namespace fs = std::filesystem;
 
 class TextRenderTicks : public ::testing::Test
 {
@@ -23,13 +21,9 @@ protected:
   TextRenderTicks() : world_({4, 4, 2})
   {
     RegisterBuiltinRenderers();
-    folder_ = fs::temp_directory_path() / ("text_render_test_" + std::to_string(getpid()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
     world_.Add(EntityKind::kFootbot, "fb", {1, 2, 0.5}, 90);
     world_.GetExperiment().max_clock = 10;
   }
-  ~TextRenderTicks() override { fs::remove_all(folder_); }
 
   // The lines of its file after having seen these ticks.
   std::vector<std::string> Written(const std::string& attributes, const std::vector<std::uint64_t>& ticks)
@@ -39,7 +33,7 @@ protected:
     configuration.id = "text";
     configuration.tree =
         TConfigurationTree(ReadXml("<text_render file=\"table.txt\" " + attributes + "/>", "text.xml"));
-    Visualiser visualiser(configuration, world_.Space(), assignment_, folder_.string(), nullptr, nullptr);
+    Visualiser visualiser(configuration, world_.Space(), assignment_, folder_.Path(), nullptr, nullptr);
     for (const std::uint64_t tick : ticks)
     {
       world_.Space().SetTick(tick);
@@ -54,7 +48,7 @@ protected:
 
   SmallWorld world_;
   Assignment assignment_;
-  fs::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(TextRenderTicks, WritesEveryNthTickAndTheLastOne)

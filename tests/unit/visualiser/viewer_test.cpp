@@ -7,6 +7,7 @@
 #include "common/configuration/xml_reader.h"
 #include "common/plugin_descriptions/renderers.h"
 #include "tests/unit/visualiser/small_world.h"
+#include "tests/world/fake_run.h"
 #include "visualiser/interaction/viewer.h"
 
 namespace swarmanoid
@@ -17,50 +18,6 @@ namespace
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-class Requests : public ExperimentControl
-{
-public:
-  void Pause() override { asked.push_back("pause"); }
-  void Resume() override { asked.push_back("resume"); }
-  void Step(unsigned ticks) override { asked.push_back("step " + std::to_string(ticks)); }
-  void Reset() override { asked.emplace_back("reset"); }
-  void SetSpeed(double factor) override { asked.push_back(fmt::format("speed {:g}", factor)); }
-  void MoveEntity(const std::string& id, const Pose& pose) override
-  {
-    asked.push_back("move " + id);
-    place = pose;
-  }
-  void AddEntity(const std::string& id, const Pose& pose) override
-  {
-    asked.push_back("add " + id);
-    place = pose;
-  }
-  void RemoveEntity(const std::string& id) override { asked.push_back("remove " + id); }
-  void PressKey(const std::string& key, bool pressed) override
-  {
-    asked.push_back((pressed ? "press " : "release ") + key);
-  }
-  void SelectEntity(const std::string& id) override { asked.push_back(id.empty() ? "deselect" : "select " + id); }
-  void Stop() override { asked.push_back("stop"); }
-
-  std::vector<std::string> asked;
-  Pose place;
-};
-
-class Monitor : public RunMonitor
-{
-public:
-  const RunStatus& Status() override { return status; }
-  std::span<const RunNote> Notes() override { return notes; }
-  void Watch(std::span<const std::uint32_t> robots) override { watched.assign(robots.begin(), robots.end()); }
-  const RobotStatus* Robot(std::uint32_t robot) override { return robot == inside.entity ? &inside : nullptr; }
-
-  RunStatus status;
-  std::vector<RunNote> notes;
-  std::vector<std::uint32_t> watched;
-  RobotStatus inside;
-};
 
 class ViewerTest : public ::testing::Test
 {
@@ -102,8 +59,8 @@ protected:
   SmallWorld world_;
   PluginDescription description_;
   Assignment assignment_;
-  Requests control_;
-  Monitor monitor_;
+  test::FakeControl control_;
+  test::FakeMonitor monitor_;
   std::unique_ptr<Viewer> viewer_;
 };
 

@@ -55,17 +55,6 @@ private:
 class CMeetingEngine : public CPhysicsEngine
 {
 public:
-  static PluginDescription Description()
-  {
-    PluginDescription description;
-    description.label = "meeting_engine";
-    description.brief = "robots go towards the farthest one";
-    description.channels = {"footbot_wheels"};
-    description.entity_tags = {"footbot"};
-    description.can_split = true;
-    return description;
-  }
-
   void Init(const EngineSetup& setup) override
   {
     space_ = &setup.space;
@@ -150,4 +139,8 @@ private:
   std::vector<std::vector<char>> results_;
 };
 
-REGISTER_PHYSICS_ENGINE(CMeetingEngine, CMeetingEngine::Description())
+REGISTER_PHYSICS_ENGINE(CMeetingEngine, {.label = "meeting_engine",
+                                         .brief = "robots go towards the farthest one",
+                                         .channels = {"footbot_wheels"},
+                                         .entity_tags = {"footbot"},
+                                         .can_split = true})

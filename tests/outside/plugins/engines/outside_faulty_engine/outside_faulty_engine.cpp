@@ -8,15 +8,6 @@ using namespace swarmanoid;
 class COutsideFaultyEngine : public CPhysicsEngine
 {
 public:
-  static PluginDescription Description()
-  {
-    PluginDescription description;
-    description.label = "outside_faulty_engine";
-    description.brief = "an engine that fails when it is told to";
-    description.entity_tags = {"footbot"};
-    return description;
-  }
-
   void Init(const EngineSetup& setup) override { space_ = &setup.space; }
   void AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding binding) override
   {
@@ -44,4 +35,6 @@ private:
   std::vector<std::uint32_t> owned_;
 };
 
-REGISTER_PHYSICS_ENGINE(COutsideFaultyEngine, COutsideFaultyEngine::Description())
+REGISTER_PHYSICS_ENGINE(COutsideFaultyEngine, {.label = "outside_faulty_engine",
+                                               .brief = "an engine that fails when it is told to",
+                                               .entity_tags = {"footbot"}})

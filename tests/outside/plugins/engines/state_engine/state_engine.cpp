@@ -9,17 +9,6 @@ using namespace swarmanoid;
 class CStateEngine : public CPhysicsEngine
 {
 public:
-  static PluginDescription Description()
-  {
-    PluginDescription description;
-    description.label = "state_engine";
-    description.brief = "gives what cannot be part of the state";
-    description.parameters = {{.name = "mode", .type = ParameterType::kText, .description = "What is given."}};
-    description.channels = {"footbot_wheels", "footbot_encoders"};
-    description.entity_tags = {"footbot"};
-    return description;
-  }
-
   void Init(const EngineSetup& setup) override
   {
     space_ = &setup.space;
@@ -73,4 +62,9 @@ private:
   std::string mode_;
 };
 
-REGISTER_PHYSICS_ENGINE(CStateEngine, CStateEngine::Description())
+REGISTER_PHYSICS_ENGINE(
+    CStateEngine, {.label = "state_engine",
+                   .brief = "gives what cannot be part of the state",
+                   .parameters = {{.name = "mode", .type = ParameterType::kText, .description = "What is given."}},
+                   .channels = {"footbot_wheels", "footbot_encoders"},
+                   .entity_tags = {"footbot"}})

@@ -8,16 +8,9 @@ using namespace swarmanoid;
 class COutsideFaultyFunctions : public CExperimentFunctions
 {
 public:
-  static PluginDescription Description()
-  {
-    PluginDescription description;
-    description.label = "outside_faulty_functions";
-    description.brief = "functions that fail when they are told to";
-    return description;
-  }
-
   void Init(const TConfigurationTree, SpaceEditor&) override {}
   void PostStep(SpaceEditor& editor) override { faults::FailIfAsked("functions", editor.GetSpace().GetTick()); }
 };
 
-REGISTER_EXPERIMENT_FUNCTIONS(COutsideFaultyFunctions, COutsideFaultyFunctions::Description())
+REGISTER_EXPERIMENT_FUNCTIONS(COutsideFaultyFunctions, {.label = "outside_faulty_functions",
+                                                        .brief = "functions that fail when they are told to"})

@@ -15,14 +15,6 @@ using namespace swarmanoid;
 class COutsidePrinter : public CExperimentFunctions
 {
 public:
-  static PluginDescription Description()
-  {
-    PluginDescription description;
-    description.label = "outside_printer";
-    description.brief = "prints lines that look like those of the space server";
-    return description;
-  }
-
   void Init(const TConfigurationTree, SpaceEditor&) override {}
 
   void PostStep(SpaceEditor& space) override
@@ -37,6 +29,7 @@ public:
   }
 };
 
-REGISTER_EXPERIMENT_FUNCTIONS(COutsidePrinter, COutsidePrinter::Description())
+REGISTER_EXPERIMENT_FUNCTIONS(COutsidePrinter, {.label = "outside_printer",
+                                                .brief = "prints lines that look like those of the space server"})
 
 }  // namespace

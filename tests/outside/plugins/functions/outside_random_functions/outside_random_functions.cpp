@@ -10,15 +10,6 @@ using namespace swarmanoid;
 class COutsideRandomFunctions : public CExperimentFunctions
 {
 public:
-  static PluginDescription Description()
-  {
-    PluginDescription description;
-    description.label = "outside_random_functions";
-    description.brief = "draws random numbers in each step";
-    description.parameters = {{.name = "file", .type = ParameterType::kText, .description = "Where they are written."},
-                              {.name = "any", .default_value = "0", .description = "Nothing depends on it."}};
-    return description;
-  }
   void Init(const TConfigurationTree tree, SpaceEditor& space) override
   {
     path_ = tree.GetText("file");
@@ -47,4 +38,9 @@ private:
   std::string path_;
 };
 
-REGISTER_EXPERIMENT_FUNCTIONS(COutsideRandomFunctions, COutsideRandomFunctions::Description())
+REGISTER_EXPERIMENT_FUNCTIONS(
+    COutsideRandomFunctions,
+    {.label = "outside_random_functions",
+     .brief = "draws random numbers in each step",
+     .parameters = {{.name = "file", .type = ParameterType::kText, .description = "Where they are written."},
+                    {.name = "any", .default_value = "0", .description = "Nothing depends on it."}}})

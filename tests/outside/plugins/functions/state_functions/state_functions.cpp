@@ -8,15 +8,6 @@ using namespace swarmanoid;
 class CStateFunctions : public CExperimentFunctions
 {
 public:
-  static PluginDescription Description()
-  {
-    PluginDescription description;
-    description.label = "state_functions";
-    description.brief = "asks for what cannot be part of the state";
-    description.parameters = {{.name = "mode", .type = ParameterType::kText, .description = "What is asked for."}};
-    return description;
-  }
-
   void Init(const TConfigurationTree t_tree, SpaceEditor&) override { mode_ = t_tree.GetText("mode"); }
 
   void PreStep(SpaceEditor& space) override
@@ -40,4 +31,8 @@ private:
   std::string mode_;
 };
 
-REGISTER_EXPERIMENT_FUNCTIONS(CStateFunctions, CStateFunctions::Description())
+REGISTER_EXPERIMENT_FUNCTIONS(
+    CStateFunctions,
+    {.label = "state_functions",
+     .brief = "asks for what cannot be part of the state",
+     .parameters = {{.name = "mode", .type = ParameterType::kText, .description = "What is asked for."}}})

@@ -8,14 +8,6 @@ using namespace swarmanoid;
 class COutsideFaultyRender : public CRender
 {
 public:
-  static PluginDescription Description()
-  {
-    PluginDescription description;
-    description.label = "outside_faulty_render";
-    description.brief = "nothing, until it fails";
-    return description;
-  }
-
   void Init(const RenderSetup& setup) override { space_ = &setup.space; }
   void Draw() override { faults::FailIfAsked("render", space_->GetTick()); }
 
@@ -23,4 +15,4 @@ private:
   const CSwarmanoidSpace* space_ = nullptr;
 };
 
-REGISTER_RENDER(COutsideFaultyRender, COutsideFaultyRender::Description())
+REGISTER_RENDER(COutsideFaultyRender, {.label = "outside_faulty_render", .brief = "nothing, until it fails"})

@@ -1,4 +1,4 @@
-#include "tests/unit/every_plugin/scene.h"
+#include "tests/unit/every_plugin/small_scene.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -16,6 +16,7 @@
 #include "common/space/space.h"
 #include "simulation/register_all.h"
 #include "test_folders.h"
+#include "tests/world/experiment_text.h"
 
 namespace swarmanoid
 {
@@ -120,7 +121,7 @@ void RequireDefaults(const std::string& owner, const std::vector<ParameterSpec>&
     EXPECT_TRUE(parameter.default_value || IsNumbered(parameter))
         << "the parameter '" << parameter.name << "' of " << owner
         << " has no default, so no scene can be made from its table: give it one, or its value to DeviceElement or "
-           "EntityElement in tests/unit/every_plugin/scene.cpp";
+           "EntityElement in tests/unit/every_plugin/small_scene.cpp";
 }
 
 // What an entity needs beside its place: attributes of its element.
@@ -273,18 +274,18 @@ std::unique_ptr<Experiment> Read(const SmallScene& scene)
   std::string kinds;
   for (const EntityKind kind : AllKinds())
     if (!IsBuiltIn(kind)) kinds += fmt::format("<{0} library='{0}'/>", TagName(kind));
-  const std::string text = fmt::format(
-      "<ahss-config><framework><clocktick>100</clocktick><maxclock>{}</maxclock><plugin_path>{}</plugin_path>{}"
-      "</framework><entity_kinds>{}</entity_kinds><controllers><{} id='c'><actuators>{}</actuators><sensors>{}"
-      "</sensors></{}></controllers><arena size='{},{},3' optimization='2D'>{}</arena><engines><{} id='e'/></engines>"
-      "<arena_physics><engine id='e'><all/></engine></arena_physics><experiment_functions>{}</experiment_functions>"
-      "<visualisations>{}</visualisations></ahss-config>",
-      scene.ticks, SWARMANOID_BUILD_FOLDER "/lib/swarmanoid", scene.framework, kinds, scene.controller,
-      elements(scene.devices.actuators), elements(scene.devices.sensors), scene.controller, kArena_m, kArena_m,
-      scene.arena, scene.engine, scene.functions, scene.renderers);
-  LoadedExperiment loaded = LoadExperimentText(text, "scene.xml", SWARMANOID_SOURCE_FOLDER);
-  for (const Diagnostic& error : loaded.errors) ADD_FAILURE() << error.Text() << "\n" << text;
-  return std::move(loaded.experiment);
+  return test::ExperimentText{
+      .framework = fmt::format("<maxclock>{}</maxclock><plugin_path>{}</plugin_path>{}", scene.ticks,
+                               SWARMANOID_BUILD_FOLDER "/lib/swarmanoid", scene.framework),
+      .kinds = kinds,
+      .controllers = fmt::format("<{0} id='c'><actuators>{1}</actuators><sensors>{2}</sensors></{0}>", scene.controller,
+                                 elements(scene.devices.actuators), elements(scene.devices.sensors)),
+      .size = fmt::format("{0},{0},3", kArena_m),
+      .arena = scene.arena,
+      .engines = fmt::format("<{} id='e'/>", scene.engine),
+      .functions = scene.functions,
+      .visualisations = scene.renderers}
+      .Load(SWARMANOID_SOURCE_FOLDER);
 }
 
 std::uint64_t RunScene(const Experiment& experiment, const SimulatorOptions& options,

@@ -1,17 +1,25 @@
-// Devices of robots whose readings a test sets and whose commands it reads, for tests of behaviour diagrams.
+// Devices of robots whose readings a test sets and whose commands it reads, for tests of behaviours.
 #pragma once
 
 #include <array>
 #include <span>
 #include <vector>
 
-#include "user/controllers/prey_retrieval/eyebot_guide.h"
-#include "user/controllers/prey_retrieval/footbot_retriever.h"
+#include "common/control_interface/ci_colour_blob_sensor.h"
+#include "common/control_interface/eyebot/ci_eyebot_laser_actuator.h"
+#include "common/control_interface/eyebot/ci_eyebot_propellers_actuator.h"
+#include "common/control_interface/footbot/ci_footbot_gripper_actuator.h"
+#include "common/control_interface/footbot/ci_footbot_gripper_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_leds_actuator.h"
+#include "common/control_interface/footbot/ci_footbot_light_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_omnidirectional_camera_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_proximity_sensor.h"
+#include "common/control_interface/footbot/ci_footbot_wheels_actuator.h"
 
 namespace swarmanoid::test
 {
 
-class FakeCamera : public CCI_ColourBlobSensor
+class FakeCamera : public CCI_FootBotOmnidirectionalCameraSensor
 {
 public:
   std::span<const CCI_ColourBlob> GetAllBlobs() const override { return blobs; }
@@ -26,12 +34,21 @@ public:
   bool gripping = false;
 };
 
-class FakeProximity : public CCI_FootBotProximitySensor
+// A ring of 24 sensors.
+template <class Interface>
+class FakeRing : public Interface
 {
 public:
-  std::span<const double, NUM_SENSORS> GetAllSensorReadings() const override { return readings; }
-  std::array<double, NUM_SENSORS> readings{};
+  std::span<const double, 24> GetAllSensorReadings() const override
+  {
+    ++reads;
+    return readings;
+  }
+  std::array<double, 24> readings{};
+  mutable int reads = 0;
 };
+using FakeProximity = FakeRing<CCI_FootBotProximitySensor>;
+using FakeLight = FakeRing<CCI_FootBotLightSensor>;
 
 class FakeWheels : public CCI_FootBotWheelsActuator
 {
@@ -40,9 +57,12 @@ public:
   {
     left = l;
     right = r;
+    ++writes;
   }
-  double left = 0;
-  double right = 0;
+  // m/s
+  std::array<double, 2> Speeds() const { return {left * WHEEL_RADIUS_M, right * WHEEL_RADIUS_M}; }
+  double left = 0, right = 0;  // rad/s
+  int writes = 0;
 };
 
 class FakeGripper : public CCI_FootBotGripperActuator

@@ -12,13 +12,13 @@
 namespace swarmanoid
 {
 
-class WebClient
+class BlockingClient
 {
 public:
   using Tcp = boost::asio::ip::tcp;
   using ErrorCode = boost::beast::error_code;
 
-  explicit WebClient(std::uint16_t port) : port_(port), stream_(context_)
+  explicit BlockingClient(std::uint16_t port) : port_(port), stream_(context_)
   {
     stream_.next_layer().connect({boost::asio::ip::make_address("127.0.0.1"), port});
   }
@@ -53,7 +53,7 @@ public:
     stream_.handshake(host.empty() ? Host() : host, target, refused);
     if (!refused) return 101;
     // Beast keeps the answer to itself: the same request, by hand.
-    return WebClient(port_)
+    return BlockingClient(port_)
         .Ask("GET " + target + " HTTP/1.1\r\nHost: " + (host.empty() ? Host() : host) +
              "\r\nConnection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
              "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n" +
