@@ -10,7 +10,7 @@ namespace swarmanoid
 {
 
 struct BusOptions;
-struct ShareTicket;
+struct AccessToken;
 
 struct RunChoice
 {
@@ -25,8 +25,8 @@ struct RunChoice
 // Throws UsageError, listing those that run, if there is none or more than one.
 RunChoice ChooseRun(const std::string& name, std::optional<int> domain);
 
-// The one of a share; `name` is empty or its name, or UsageError.
-RunChoice RunOf(const ShareTicket& ticket, const std::string& name);
+// The one of a grant; `name` is empty or its name, or UsageError.
+RunChoice RunOf(const AccessToken& token, const std::string& name);
 
 // Throws UsageError if the run is on this machine and has a key, while no key is to be used, or the other way round:
 // the two would not understand each other.

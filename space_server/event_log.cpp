@@ -221,7 +221,7 @@ void AddFault(std::vector<RecordedFault>& faults, const RecordedEvent& event, co
 
 bool IsOnlyNoted(const ControlRequestMessage& request)
 {
-  return request.verb == kRefused || std::ranges::find(kShareVerbs, request.verb) != kShareVerbs.end();
+  return request.verb == kRefused || std::ranges::find(kGrantVerbs, request.verb) != kGrantVerbs.end();
 }
 
 std::string AskerOf(const ControlRequestMessage& request)
@@ -274,9 +274,9 @@ EarlierRequests ReadEarlierRequests(const std::string& path, const Experiment& e
     earlier.until = event.tick;
     if (request.verb == kFailedController) AddFault(earlier.failed, event, experiment);
     if (request.verb == "share" && request.numbers.size() == 2)
-      earlier.shares.push_back({request.entity, request.numbers[0], static_cast<std::int64_t>(request.numbers[1])});
+      earlier.grants.push_back({request.entity, request.numbers[0], static_cast<std::int64_t>(request.numbers[1])});
     if (request.verb == "revoke")
-      std::erase_if(earlier.shares, [&](const SharedWith& share) { return share.id == request.entity; });
+      std::erase_if(earlier.grants, [&](const RecordedGrant& grant) { return grant.id == request.entity; });
     if (IsOnlyNoted(request) || request.verb == kFailedController) continue;
     const double number = request.numbers.empty() ? 1 : request.numbers[0];
     event.logged = true;

@@ -53,8 +53,8 @@ struct EventLines
 // Those of a file; none if it does not exist. Throws ConfigurationError if it cannot be read.
 EventLines ReadEventLines(const std::string& path);
 
-// A share of the run, as its request has it.
-struct SharedWith
+// A grant of the run, as its request has it.
+struct RecordedGrant
 {
   std::string id;
   double role = 0;
@@ -70,8 +70,8 @@ struct EarlierRequests
   std::optional<ControlRequestMessage> step;    // one that is not done yet
   std::optional<std::uint64_t> pause_at;        // the run is paused, or will be at this tick
   std::optional<double> speed;
-  std::vector<SharedWith> shares;  // that were not revoked
-  std::uint64_t until = 0;         // the tick of the newest
+  std::vector<RecordedGrant> grants;  // that were not revoked
+  std::uint64_t until = 0;            // the tick of the newest
 };
 // From its log of events, which may be lacking; the half of a line at its end is cut off. `pause_at`: of its start.
 // Throws ConfigurationError.

@@ -11,7 +11,7 @@
 #include "common/bus/membership/worker_program.h"
 #include "common/bus/membership/worker_session.h"
 #include "common/bus/membership/worker_world.h"
-#include "common/bus/security/share.h"
+#include "common/bus/security/access_grant.h"
 #include "common/configuration/output_file.h"
 #include "common/logging/log.h"
 #include "common/plugin_descriptions/describe_builtins.h"
@@ -132,14 +132,14 @@ std::string AttachedKind(int argc, char** argv)
   return {};
 }
 
-// For holders of shares: they look on at that run, and some of them only that.
-void UseShare(WorkerSettings& settings, BusOptions& bus)
+// For holders of grants: they look on at that run, and some of them only that.
+void UseTokenOfEnvironment(WorkerSettings& settings, BusOptions& bus)
 {
-  const auto ticket = TicketOfEnvironment();
-  if (!ticket) return;
-  UseTicket(*ticket, bus);
-  settings.experiment = ticket->experiment;
-  settings.read_only |= ticket->share.role != ShareRole::kOperator;
+  const auto token = TokenOfEnvironment();
+  if (!token) return;
+  UseToken(*token, bus);
+  settings.experiment = token->experiment;
+  settings.read_only |= token->grant.role != GrantRole::kOperator;
 }
 
 int Run(WorkerSettings settings, const std::vector<std::string>& parameters, BusOptions bus)
@@ -149,11 +149,11 @@ int Run(WorkerSettings settings, const std::vector<std::string>& parameters, Bus
   if (!settings.attach.empty())
   {
     const RenderConfiguration configuration = ConfigureRenderer(FindRenderer(settings.attach), parameters);
-    UseShare(settings, bus);
+    UseTokenOfEnvironment(settings, bus);
     LetUserNameFiles();
     WorkerSession session(bus, settings.experiment,
                           fmt::format("attached {} visualiser {}", configuration.id, ProcessId()), settings.server);
-    session.LookOn();
+    session.ObserveOnly();
     return session.Work([&] { RunAttached(session, settings, configuration); });
   }
   // What people do at a window is for the run's logs.

@@ -13,8 +13,8 @@ inline const std::vector<std::string> kControlVerbs{
     "pause",     "resume",      "step",  "speed", "stop",     "reset", "move",    "detach", "add",     "remove",
     "move-host", "move-engine", "drain", "hosts", "machines", "press", "release", "select", "deselect"};
 
-// Only members of the run may ask for these: shares of the run (common/bus/security/share.h).
-inline const std::vector<std::string> kShareVerbs{"share", "shares", "revoke"};
+// Only members of the run may ask for these: grants of the run (common/bus/security/grant.h).
+inline const std::vector<std::string> kGrantVerbs{"share", "shares", "revoke"};
 
 // Whether a verb asks for another place of an entity, or for its presence; the name of the entity follows it.
 inline bool IsSpaceChange(const std::string& verb)

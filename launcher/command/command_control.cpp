@@ -14,7 +14,7 @@
 #include "common/activity/print_error.h"
 #include "common/bus/membership/cluster_options.h"
 #include "common/bus/membership/control_client.h"
-#include "common/bus/security/share.h"
+#include "common/bus/security/access_grant.h"
 #include "common/configuration/configuration_tree.h"
 #include "common/configuration/wording.h"
 #include "common/messages/control_request.h"
@@ -51,11 +51,11 @@ void PrintJson(const std::string& experiment, const ControlReplyMessage& reply)
 int Control(ControlOptions& options, bool domain_given)
 {
   const ControlRequest request = ParseControlRequest(options.words, options.seed);
-  const auto ticket = TicketOfEnvironment();
-  if (ticket) UseTicket(*ticket, options.bus);
+  const auto token = TokenOfEnvironment();
+  if (token) UseToken(*token, options.bus);
   const RunChoice run =
-      ticket ? RunOf(*ticket, request.experiment)
-             : ChooseRun(request.experiment, domain_given ? std::optional(options.bus.domain) : std::nullopt);
+      token ? RunOf(*token, request.experiment)
+            : ChooseRun(request.experiment, domain_given ? std::optional(options.bus.domain) : std::nullopt);
   CheckInsecure(run, options.bus);
   options.bus.domain = run.domain;
   UseNetworkOf(run, options.bus);
@@ -76,7 +76,7 @@ int Control(ControlOptions& options, bool domain_given)
     fmt::print(
         stderr, "swarmanoid: experiment {} in domain {} does not answer{}{}\n", Quoted(run.experiment), run.domain,
         WhyNoAnswer(client.LatestStatus(), bus.Dropped(), options.bus.insecure),
-        ticket ? fmt::format("; the run of {} may have ended, or be on another network", ticket->share.Name()) : "");
+        token ? fmt::format("; the run of {} may have ended, or be on another network", token->grant.Name()) : "");
     return kExitProcessFailed;
   }
   if (options.json) PrintJson(run.experiment, *reply);

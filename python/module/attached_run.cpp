@@ -7,7 +7,7 @@
 
 #include "common/activity/failure_report.h"
 #include "common/bus/membership/library_check.h"
-#include "common/bus/security/share.h"
+#include "common/bus/security/access_grant.h"
 #include "common/configuration/wording.h"
 #include "common/plugins/library.h"
 #include "common/program/usage_error.h"
@@ -54,7 +54,7 @@ AttachedRun::AttachedRun(const AttachedRunOptions& given)
   RegisterBuiltins();
   FindRun(options);
   insecure_ = options.bus.insecure;
-  own_folders_only_ = !options.bus.key_file.empty() || options.bus.share;
+  own_folders_only_ = !options.bus.key_file.empty() || options.bus.grant;
   if (!AttachedTo().insert({choice_.experiment, choice_.domain}).second)
     throw UsageError(fmt::format("this program is attached to {} already; use that object, or close it first",
                                  Quoted(choice_.experiment)));
@@ -80,19 +80,19 @@ AttachedRun::AttachedRun(const AttachedRunOptions& given)
 
 void AttachedRun::FindRun(AttachedRunOptions& options)
 {
-  const auto ticket = TicketOfEnvironment();
-  if (ticket) UseTicket(*ticket, options.bus);
+  const auto token = TokenOfEnvironment();
+  if (token) UseToken(*token, options.bus);
   const auto deadline = Clock::now() + std::chrono::duration<double>(options.wait_s);
   while (true)
   {
     try
     {
-      choice_ = ticket ? RunOf(*ticket, options.experiment) : ChooseRun(options.experiment, options.domain);
+      choice_ = token ? RunOf(*token, options.experiment) : ChooseRun(options.experiment, options.domain);
       break;
     }
     catch (const UsageError&)
     {
-      if (ticket || Clock::now() >= deadline) throw;
+      if (token || Clock::now() >= deadline) throw;
     }
     {
       const py::gil_scoped_release others;
@@ -116,7 +116,7 @@ void AttachedRun::Run(const AttachedRunOptions& options)
   {
     WorkerSession session(options.bus, choice_.experiment, "attached Python program " + ProcessId(), choice_.server, 0,
                           {}, &stop_);
-    session.LookOn();
+    session.ObserveOnly();
     session.Work([&] { Follow(session, options.views); });
   }
   catch (...)

@@ -1,4 +1,4 @@
-// What is told of a run: to whoever started it, to those who ask, and to those who look on.
+// What is told of a run: to whoever started it, to those who ask, and to observers.
 #include "space_server/cluster/server_program.h"
 
 #include <fmt/format.h>
@@ -114,7 +114,7 @@ RunStatus::Phase ServerProgram::Phase() const
 
 void ServerProgram::PublishViews()
 {
-  shares_.Work(lockstep_.Tick());
+  grants_.Work(lockstep_.Tick());
   const auto now = Clock::now();
   const bool over = lockstep_.Finished();
   if (std::exchange(told_end_, over) || (over && BeginsAgain())) return;

@@ -68,17 +68,17 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
       session_(options.bus, World(), Members(),
                {[this](const ControlRequestMessage& request)
                 {
-                  if (std::ranges::find(kShareVerbs, request.verb) != kShareVerbs.end()) return shares_.Ask(request);
+                  if (std::ranges::find(kGrantVerbs, request.verb) != kGrantVerbs.end()) return grants_.Ask(request);
                   run_control_.Ask(request);
                   Wake();
                 },
                 [this] { Wake(); }, [this](const std::string& process) { views_.Lost(process); },
                 [this](const ControlReplyMessage& reply)
                 {
-                  shares_.Replied(reply);
+                  grants_.Replied(reply);
                   views_.Renew();
                 }}),
-      shares_(session_, options.bus,
+      grants_(session_, options.bus,
               {[this](const ViewRequestMessage& request) { views_.Requested(request); },
                [this](const ControlRequestMessage& request)
                {
@@ -86,7 +86,7 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
                  Wake();
                },
                [this] { Wake(); }}),
-      views_(session_, shares_, [this] { Wake(); }),
+      views_(session_, grants_, [this] { Wake(); }),
       run_control_(experiment, Setup(),
                    [this](const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)
                    { Reply(request, done, tick, text); }),
@@ -102,7 +102,7 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
   if (restart_point_)
     for (const ControlRequestMessage& request : restart_point_->Requests().answered)
       session_.Remember(request, IsAwaited(request, *restart_point_), DoneText(request, assignment_));
-  if (restart_point_) shares_.Restore(restart_point_->Requests().shares);
+  if (restart_point_) grants_.Restore(restart_point_->Requests().grants);
   server_.SetFaultHandler(
       [this](const std::vector<RecordedFault>& faults)
       {

@@ -17,7 +17,7 @@
 
 #include "common/bus/membership/control_client.h"
 #include "common/bus/membership/run_directory.h"
-#include "common/bus/security/share.h"
+#include "common/bus/security/access_grant.h"
 #include "test_folders.h"
 #include "tests/cluster/cluster_fixture.h"
 #include "tests/unit/bus/stranger.h"
@@ -206,8 +206,8 @@ TEST_F(AttacksTest, WellFormedMessagesOfStrangersChangeNothing)
   EXPECT_THAT(events, Not(HasSubstr(",stop,")));
 }
 
-// Holders of shares, with programs of their own: a watcher asks for what he may not, an operator for what members alone
-// may; both say on their share, and on the topics of the members, what members or the server would say.
+// Holders of grants, with programs of their own: a watcher asks for what he may not, an operator for what members alone
+// may; both say on their grant, and on the topics of the members, what members or the server would say.
 TEST_F(AttacksTest, HoldersOfSharesDoNoMoreThanTheyMay)
 {
   const std::string file = WriteExperiment("shared", 1, static_cast<int>(kTicks));
@@ -220,20 +220,20 @@ TEST_F(AttacksTest, HoldersOfSharesDoNoMoreThanTheyMay)
   ControlClient member(bus, "shared");
   const RunKey key = *FindLocalRuns().at(0).key;
   const std::string engine_process = fmt::format("{}:{}", MachineName(), workers[0].Id());
-  const Share watcher{"00000001", ShareRole::kWatcher, 0};
-  const Share steerer{"00000002", ShareRole::kOperator, 0};
-  for (const Share& share : {watcher, steerer})
+  const AccessGrant watcher{"00000001", GrantRole::kWatcher, 0};
+  const AccessGrant steerer{"00000002", GrantRole::kOperator, 0};
+  for (const AccessGrant& grant : {watcher, steerer})
   {
-    const auto made = member.Ask("share", share.id, {static_cast<double>(share.role), 0}, kGenerous_s);
+    const auto made = member.Ask("share", grant.id, {static_cast<double>(grant.role), 0}, kGenerous_s);
     ASSERT_TRUE(made && made->ok) << server.Output();
-    const ShareChannel channel = ChannelOf(key, share);
+    const GrantChannel channel = ChannelOf(key, grant);
 
-    BusOptions of_share = Options();
-    of_share.key = channel.key;
-    of_share.share = channel;
-    Bus side(of_share, "engine 'e0'");
+    BusOptions of_grant = Options();
+    of_grant.key = channel.key;
+    of_grant.grant = channel;
+    Bus side(of_grant, "engine 'e0'");
     ControlClient client(side, "shared", world.run);
-    for (const char* verb : share.role == ShareRole::kOperator
+    for (const char* verb : grant.role == GrantRole::kOperator
                                 ? std::vector<const char*>{"share", "revoke", "shares"}
                                 : std::vector<const char*>{"stop", "resume", "move", "share", "revoke"})
     {
@@ -248,8 +248,8 @@ TEST_F(AttacksTest, HoldersOfSharesDoNoMoreThanTheyMay)
     leave.WaitUntilRead(1);
 
     // On the topics of the members, by the key that he has.
-    of_share.share.reset();
-    Bus impostor(of_share, "engine 'e0'");
+    of_grant.grant.reset();
+    Bus impostor(of_grant, "engine 'e0'");
     Publisher<LeaveMessage> members_leave(impostor, "shared");
     Publisher<ControlRequestMessage> requests(impostor, "shared");
     ASSERT_TRUE(Eventually([&] { return members_leave.Readers() >= 2 && requests.Readers() >= 1; }));

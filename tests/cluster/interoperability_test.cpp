@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "common/bus/membership/control_client.h"
-#include "common/bus/security/share.h"
+#include "common/bus/security/access_grant.h"
 #include "test_folders.h"
 #include "tests/cluster/cluster_fixture.h"
 
@@ -76,7 +76,7 @@ TEST_F(ClusterTest, CycloneSubscriberReadsAnOpenView)
   ControlClient member(bus, "looked_at");
   of_stranger.insecure = true;
   Bus stranger(of_stranger, "stranger");
-  const ShareChannel channel{kOpenChannel, std::nullopt};
+  const GrantChannel channel{kOpenChannel, std::nullopt};
   const Publisher<ControlRequestMessage> requests(stranger, "looked_at", channel);
   const Publisher<ViewRequestMessage> view_requests(stranger, "looked_at", channel);
   std::atomic<std::uint64_t> seen = 0;
@@ -84,7 +84,7 @@ TEST_F(ClusterTest, CycloneSubscriberReadsAnOpenView)
       stranger, "looked_at", [&](const ViewMessage& view) { seen = view.snapshot.tick; }, channel);
   const Subscription<ViewMessage> of_members(stranger, "looked_at", [](const ViewMessage&) { ADD_FAILURE(); });
 
-  const double open_view = static_cast<double>(ShareRole::kOpenView);
+  const double open_view = static_cast<double>(GrantRole::kOpenView);
   const auto made = member.Ask("share", "0000000a", {open_view, 0}, kGenerous_s);
   ASSERT_TRUE(made && made->ok) << server.Output();
   ChildProcess subscriber(

@@ -71,9 +71,9 @@ std::optional<ControlReplyMessage> ControlClient::Ask(const std::string& verb, c
   };
   while (without_lock([this] { return requests_.Readers() == 0 || replies_.Writers() == 0; }))
     if (answered_.wait_for(lock, 2ms), !is_patient()) return std::nullopt;
-  // A share that has ended tells nothing of the run any more, and refuses whatever is asked.
-  const bool by_share = bus_.Internals().share.has_value();
-  while (run_ == 0 && !(by_share && Clock::now() - start > kStatusTime))
+  // A grant that has ended tells nothing of the run any more, and refuses whatever is asked.
+  const bool by_grant = bus_.Internals().grant.has_value();
+  while (run_ == 0 && !(by_grant && Clock::now() - start > kStatusTime))
     if (answered_.wait_for(lock, 2ms), !is_patient()) return std::nullopt;
   reply_.reset();
   request.number = ++number_;
