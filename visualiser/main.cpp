@@ -44,9 +44,9 @@ std::uint64_t Begin(WorkerSession& session, WorkerWorld& replica, Visualiser& vi
   return Recover(session, replica, steps);
 }
 
-void Send(const ControlRequestMessage& request, ControlClient& client, RemoteMonitor& monitor)
+void Send(const ControlOrder& order, ControlClient& client, RemoteMonitor& monitor)
 {
-  const std::string error = client.Send(request.verb, request.entity, request.numbers);
+  const std::string error = client.Send(order);
   if (!error.empty()) monitor.NoteRefusal(error);
 }
 
@@ -57,7 +57,7 @@ void RunSynchronous(WorkerSession& session, const std::string& id, const std::st
   const std::size_t number = NumberOf(*replica.experiment, visualisations, "visualisation", id);
   ControlClient client(session.GetBus(), session.World().experiment, session.World().run);
   RemoteMonitor monitor(session.GetBus(), session.World(), true);
-  ControlByRequests control([&](const ControlRequestMessage& request) { Send(request, client, monitor); });
+  ControlByRequests control([&](const ControlOrder& order) { Send(order, client, monitor); });
   Visualiser visualiser(visualisations[number], *replica.space, replica.assignment, output, &control, &monitor);
   SynchronousNode node(session, replica, number, visualiser, control, monitor, Begin(session, replica, visualiser));
   node.WaitForServer();
@@ -82,7 +82,7 @@ bool Show(WorkerSession& session, const WorkerSettings& settings, const RenderCo
   WorkerWorld replica(session.World(), false);
   ControlClient client(session.GetBus(), session.World().experiment, session.World().run);
   RemoteMonitor monitor(session.GetBus(), session.World(), false);
-  ControlByRequests control([&](const ControlRequestMessage& request) { Send(request, client, monitor); });
+  ControlByRequests control([&](const ControlOrder& order) { Send(order, client, monitor); });
   Visualiser visualiser(configuration, *replica.space, replica.assignment, settings.output,
                         settings.read_only ? nullptr : &control, &monitor);
   AttachedNode node(session, replica, visualiser, monitor, settings.rate);

@@ -140,15 +140,13 @@ int ShareRun(ShareOptions& options, bool domain_given)
   AccessGrant grant{NewGrantId(), role, 0};
   if (seconds)
     grant.ends = static_cast<std::int64_t>(std::time(nullptr)) + static_cast<std::int64_t>(std::ceil(*seconds));
-  std::string verb = "share";
-  std::string id = grant.id;
-  std::vector<double> numbers{static_cast<double>(grant.role), static_cast<double>(grant.ends)};
-  if (options.list) verb = "shares", id.clear(), numbers.clear();
-  if (!options.revoke.empty()) verb = "revoke", id = options.revoke, numbers.clear();
+  ControlOrder order{"share", {{"grant", grant.id}, {"role", RoleWord(grant.role)}, {"ends", grant.ends}}};
+  if (options.list) order = {"shares"};
+  if (!options.revoke.empty()) order = {"revoke", {{"grant", options.revoke}}};
 
   Bus bus(options.bus, "swarmanoid share");
   ControlClient client(bus, run.experiment);
-  const auto reply = client.Ask(verb, id, numbers, kAnswerTime_s);
+  const auto reply = client.Ask(order, kAnswerTime_s);
   if (!reply)
   {
     PrintError("swarmanoid: experiment {} in domain {} does not answer\n", Quoted(run.experiment), run.domain);

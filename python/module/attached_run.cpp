@@ -30,8 +30,6 @@ constexpr auto kIdlePeriod = 15ms;
 constexpr auto kLookAtSignals = 50ms;
 constexpr double kTimeToLeave_s = 5;
 constexpr double kPatience_s = 5;
-// Who takes the place of a worker does all ticks again, if that one could not be saved.
-constexpr double kPatienceWithMoves_s = 600;
 
 bool SignalCame()
 {
@@ -289,9 +287,10 @@ void AttachedRun::ThrowFailure() const
                                      : fmt::format("the run of {} has ended", Quoted(choice_.experiment)));
 }
 
-ControlReplyMessage AttachedRun::Control(const std::vector<std::string>& words, std::optional<std::uint64_t> seed)
+ControlReplyMessage AttachedRun::Control(const std::vector<std::string>& words,
+                                         const std::map<std::string, std::string>& options)
 {
-  const ControlRequest request = ParseControlRequest(words, seed);
+  const ControlOrder order = ParseControlWords(words, options).order;
   std::optional<ControlReplyMessage> reply;
   std::optional<RunStatus> status;
   std::uint64_t dropped = 0;
@@ -308,9 +307,7 @@ ControlReplyMessage AttachedRun::Control(const std::vector<std::string>& words, 
           "no run of experiment {} in domain {} on this machine is of user {}, and no key of it is given; whoever "
           "started it can steer it, or give you its key (docs/security.md)",
           Quoted(choice_.experiment), choice_.domain, UserName()));
-    reply = client_->Ask(request.verb, request.entity, request.numbers,
-                         IsWorkerMove(request.verb) ? kPatienceWithMoves_s : kPatience_s,
-                         [this] { return stop_ || SignalCame(); });
+    reply = client_->Ask(order, PatienceFor(order, kPatience_s), [this] { return stop_ || SignalCame(); });
     status = client_->LatestStatus();
     dropped = bus_->Dropped();
   }

@@ -7,6 +7,7 @@
 
 #include "common/activity/print_error.h"
 #include "common/configuration/wording.h"
+#include "common/messages/control_verbs.h"
 
 namespace swarmanoid
 {
@@ -25,6 +26,13 @@ constexpr auto kWatchedTime = 3s;  // after which a request that is not repeated
 std::string ClientBy(const std::string& client, const AccessGrant& grant)
 {
   return fmt::format("{} by {}", client, grant.Name());
+}
+
+// The order is without error (OrderError).
+AccessGrant GrantOf(const ControlOrder& order)
+{
+  return {order.Get<std::string>("grant"), GrantRoleOf(order.Get<std::string>("role")).value_or(GrantRole::kWatcher),
+          order.Get<std::int64_t>("ends")};
 }
 
 std::string EndText(const AccessGrant& grant)
@@ -50,13 +58,12 @@ void AccessGrants::Stop()
   open_ = 0;
 }
 
-void AccessGrants::Restore(const std::vector<RecordedGrant>& grants)
+void AccessGrants::Restore(const std::vector<ControlOrder>& grants)
 {
-  for (const RecordedGrant& grant : grants)
+  for (const ControlOrder& order : grants)
   {
-    sides_.push_back(std::make_unique<Side>(
-        Side{.grant = {grant.id, GrantRoleOf(grant.role).value_or(GrantRole::kWatcher), grant.ends},
-             .by = "an earlier space server of this run"}));
+    sides_.push_back(
+        std::make_unique<Side>(Side{.grant = GrantOf(order), .by = "an earlier space server of this run"}));
     ++open_;
   }
 }
@@ -167,7 +174,7 @@ void AccessGrants::Work(std::uint64_t tick)
     const std::lock_guard lock(mutex_);
     std::swap(inbox, inbox_);
   }
-  for (const ControlRequestMessage& request : inbox.of_members) Carry(request, tick);
+  for (const ControlRequestMessage& request : inbox.of_members) Execute(request, tick);
   for (const auto& side : sides_)
   {
     if (side->ended.empty() && side->grant.HasEnded())
@@ -176,7 +183,7 @@ void AccessGrants::Work(std::uint64_t tick)
       TryToOpen(*side, tick);
   }
   for (const auto& [id, request] : inbox.requests)
-    if (Side* const side = Find(id)) Carry(*side, request, tick);
+    if (Side* const side = Find(id)) Forward(*side, request, tick);
   for (const auto& [id, leave] : inbox.leaves)
     if (Side* const side = Find(id); side != nullptr && leave.run == session_.World().run && side->leave != nullptr)
       side->leave->Write(side->ended.empty() ? LeaveMessage{leave.run, leave.tick, "space server", leave.process, ""}
@@ -195,15 +202,20 @@ void AccessGrants::Work(std::uint64_t tick)
   RenewRobots(now);
 }
 
-void AccessGrants::Carry(const ControlRequestMessage& request, std::uint64_t tick)
+AccessGrants::Action AccessGrants::ActionOf(const std::string& verb)
+{
+  static const std::map<std::string_view, Action> actions{
+      {"share", &AccessGrants::Make}, {"shares", &AccessGrants::List}, {"revoke", &AccessGrants::Revoke}};
+  return actions.at(verb);
+}
+
+void AccessGrants::Execute(const ControlRequestMessage& request, std::uint64_t tick)
 {
   try
   {
-    const std::string text = request.verb == "share"    ? Make(request)
-                             : request.verb == "revoke" ? Revoke(request, tick)
-                                                        : List();
-    session_.Reply(request, true, tick, text);
-    if (request.verb != "shares") callbacks_.noted(request);
+    if (const std::string error = OrderError(request); !error.empty()) throw std::invalid_argument(error);
+    session_.Reply(request, true, tick, (this->*ActionOf(request.verb))(request, tick));
+    if (FindControlVerb(request.verb)->effect != Effect::kQuery) callbacks_.noted(request);
   }
   catch (const std::exception& error)
   {
@@ -211,25 +223,22 @@ void AccessGrants::Carry(const ControlRequestMessage& request, std::uint64_t tic
   }
 }
 
-// Answers by what the token needs beside the key, which whoever asks can make by himself.
-std::string AccessGrants::Make(const ControlRequestMessage& request)
+// Replies with what the token needs beside the key, which the asker can derive.
+std::string AccessGrants::Make(const ControlRequestMessage& request, std::uint64_t)
 {
   if (!session_.Key()) throw std::invalid_argument("the run lets anybody in (--insecure): there is nothing to share");
   if (open_ >= kMostGrants)
     throw std::invalid_argument(fmt::format("{} shares of this run are open; revoke one of them first", kMostGrants));
-  if (request.numbers.size() != 2) throw std::invalid_argument("share: it needs a role and an end");
-  const auto role = GrantRoleOf(request.numbers[0]);
-  if (!role) throw std::invalid_argument(fmt::format("{} is no role of a share", request.numbers[0]));
-  const AccessGrant grant{request.entity, *role, static_cast<std::int64_t>(request.numbers[1])};
+  const AccessGrant grant = GrantOf(request);
   if (!IsGrantId(grant.id)) throw std::invalid_argument(fmt::format("{} is no id of a share", Quoted(grant.id)));
   if (Find(grant.id) != nullptr) throw std::invalid_argument(fmt::format("there is a share {} already", grant.id));
   if (grant.HasEnded()) throw std::invalid_argument("the share would have ended already");
   const std::string address =
       options_.discovery_server.empty() ? ReachableAddress(options_) : options_.discovery_server;
   const auto is_ended = [](const auto& side) { return !side->ended.empty(); };
-  if (*role == GrantRole::kOpenView)
+  if (grant.role == GrantRole::kOpenView)
     for (const auto& side : sides_)
-      if (side->grant.role == *role && !is_ended(side))
+      if (side->grant.role == grant.role && !is_ended(side))
         throw std::invalid_argument(fmt::format("the run has an open view already: {}", side->grant.id));
   while (static_cast<std::size_t>(std::ranges::count_if(sides_, is_ended)) > kMostEnded)
     sides_.erase(std::ranges::find_if(sides_, is_ended));
@@ -238,7 +247,7 @@ std::string AccessGrants::Make(const ControlRequestMessage& request)
   return fmt::format("{} for those who reach {}", grant.Name(), address);
 }
 
-std::string AccessGrants::List() const
+std::string AccessGrants::List(const ControlRequestMessage&, std::uint64_t)
 {
   std::string text;
   for (const auto& side : sides_)
@@ -255,27 +264,27 @@ std::string AccessGrants::List() const
 
 std::string AccessGrants::Revoke(const ControlRequestMessage& request, std::uint64_t tick)
 {
-  Side* const side = Find(request.entity);
+  const auto id = request.Get<std::string>("grant");
+  Side* const side = Find(id);
   if (side == nullptr)
   {
     std::vector<std::string> known;
     for (const auto& other : sides_) known.push_back(other->grant.id);
     throw std::invalid_argument(fmt::format("there is no share {}{}; `swarmanoid share --list` tells those of the run",
-                                            Quoted(request.entity), DidYouMean(request.entity, known)));
+                                            Quoted(id), DidYouMean(id, known)));
   }
   if (!side->ended.empty()) throw std::invalid_argument(side->ended);
   End(*side, tick, fmt::format("{} was revoked by {}", side->grant.Name(), AskerOf(request)));
   return side->ended;
 }
 
-void AccessGrants::Carry(Side& side, ControlRequestMessage request, std::uint64_t tick)
+void AccessGrants::Forward(Side& side, ControlRequestMessage request, std::uint64_t tick)
 {
   if (!side.ended.empty()) return Refuse(side, request, tick, side.ended);
   if (request.run != session_.World().run) return Refuse(side, request, tick, "it was asked of another run");
   if (side.grant.role != GrantRole::kOperator)
     return Refuse(side, request, tick, fmt::format("{} may only look", side.grant.Name()));
-  // Grants end with the run, which a reset ends.
-  if (request.verb == "reset" || std::ranges::find(kControlVerbs, request.verb) == kControlVerbs.end())
+  if (FindControlVerb(request.verb, Asker::kOperator) == nullptr)
     return Refuse(
         side, request, tick,
         fmt::format("{} may not ask for {}; members of the run may", side.grant.Name(), Quoted(request.verb)));
@@ -288,10 +297,8 @@ void AccessGrants::Refuse(Side& side, const ControlRequestMessage& request, std:
   if (side.replies == nullptr) return;
   side.replies->Write({request.client, request.number, false, tick, why});
   if (std::exchange(side.told, true)) return;
-  ControlRequestMessage refused;
-  refused.verb = kRefused;
-  refused.entity = "ControlRequest";
-  refused.client = fmt::format("{}@{}", request.user, ClientBy(request.client, side.grant));
+  const ControlRequestMessage refused = NoteOf(
+      kRefusedMessage, "ControlRequest", fmt::format("{}@{}", request.user, ClientBy(request.client, side.grant)));
   PrintError("space server: refused '{}' of {}: {}; further ones are not told\n", request.verb, refused.client, why);
   callbacks_.noted(refused);
 }

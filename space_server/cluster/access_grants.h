@@ -40,9 +40,9 @@ public:
   // Nothing is called any more.
   void Stop();
 
-  // Those of a server of this run before this one. Before Open.
-  void Restore(const std::vector<RecordedGrant>& grants);
-  // From any thread: a member asks to make, list or revoke grants (kShareVerbs).
+  // The orders that made the grants of an earlier server of this run. Before Work.
+  void Restore(const std::vector<ControlOrder>& grants);
+  // From any thread: a member asks for a verb of Asker::kOwner.
   void Ask(const ControlRequestMessage& request);
   // Likewise: all observers see what came of a request.
   void Replied(const ControlReplyMessage& reply);
@@ -100,11 +100,16 @@ private:
   void Open(Side& side);
   void TryToOpen(Side& side, std::uint64_t tick);
   void End(Side& side, std::uint64_t tick, const std::string& why);
-  void Carry(const ControlRequestMessage& request, std::uint64_t tick);
-  std::string Make(const ControlRequestMessage& request);
-  std::string List() const;
+  // The action of a verb. Returns the reply; throws std::invalid_argument with the reason if the request is refused.
+  using Action = std::string (AccessGrants::*)(const ControlRequestMessage& request, std::uint64_t tick);
+  static Action ActionOf(const std::string& verb);
+
+  void Execute(const ControlRequestMessage& request, std::uint64_t tick);
+  std::string Make(const ControlRequestMessage& request, std::uint64_t tick);
+  std::string List(const ControlRequestMessage& request, std::uint64_t tick);
   std::string Revoke(const ControlRequestMessage& request, std::uint64_t tick);
-  void Carry(Side& side, ControlRequestMessage request, std::uint64_t tick);
+  // Hands the request of a holder on to the run, if the grant allows it.
+  void Forward(Side& side, ControlRequestMessage request, std::uint64_t tick);
   void Refuse(Side& side, const ControlRequestMessage& request, std::uint64_t tick, const std::string& why);
   void ViewRequested(const AccessGrant& grant, const ViewRequestMessage& request);
   void RenewRobots(Clock::time_point now);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/activity/print_error.h"
+#include "common/messages/control_verbs.h"
 #include "space_server/cluster/process_liveness.h"
 
 namespace swarmanoid
@@ -29,10 +30,8 @@ void ServerProgram::Reply(const ControlRequestMessage& request, bool done, std::
     status_.Publish(ServerWarning{text});
     Say(text);
   }
-  // Robots that are moved by hand would fill the screen.
-  const bool told = request.verb == "pause" || request.verb == "resume" || request.verb == "speed" ||
-                    request.verb == "stop" || request.verb == "reset" || IsWorkerMove(request.verb);
-  if (!done || !told) return;
+  const ControlVerb* const verb = FindControlVerb(request.verb);
+  if (!done || verb == nullptr || !verb->announced) return;
   const std::string line = fmt::format("{}: {}", AskerOf(request), text);
   status_.Publish(ServerAsked{line});
   Say(line);

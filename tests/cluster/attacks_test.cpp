@@ -159,8 +159,8 @@ TEST_F(AttacksTest, WellFormedMessagesOfStrangersChangeNothing)
   test::Stranger stranger(domain_.Id(), "besieged");
   const auto send = [&](const std::string& topic, const std::vector<std::string>& payloads)
   { EXPECT_TRUE(stranger.Send(topic, payloads)) << topic; };
-  send("ControlRequest", {PayloadOf(ControlRequestMessage{"host:1", 1, "stop", "", {}, "root"}),
-                          PayloadOf(ControlRequestMessage{"host:1", 2, "move", "robots0_0", {1, 1, 0}, "root"})});
+  send("ControlRequest", {PayloadOf(ControlRequestMessage{{"stop"}, "host:1", 1, "root"}),
+                          PayloadOf(ControlRequestMessage{OrderOf("move robots0_0 1,1,0"), "host:1", 2, "root"})});
   send("Join", {PayloadOf(JoinMessage{"host:1", kProtocolVersion, run, "engine 'e0'", true, 1}),
                 PayloadOf(JoinMessage{engine_process, kProtocolVersion + 1, run, "engine 'e0'", true, 0})});
   send("Leave", {PayloadOf(LeaveMessage{run, 0, "engine 'e0'", engine_process, "forged"}),
@@ -192,7 +192,7 @@ TEST_F(AttacksTest, WellFormedMessagesOfStrangersChangeNothing)
   EXPECT_TRUE(second.Send("EngineUpdate", {PayloadOf(MessageHeader{run, 1, 0, false}, update)}));
 
   ControlClient client(bus, "besieged");
-  const auto reply = client.Ask("resume", "", {}, kGenerous_s);
+  const auto reply = client.Ask({"resume"}, kGenerous_s);
   ASSERT_TRUE(reply && reply->ok) << server.Output();
   EXPECT_EQ(server.Wait(), 0) << server.Output();
   for (ChildProcess& worker : workers) EXPECT_EQ(worker.Wait(), 0) << worker.Output();
@@ -224,7 +224,7 @@ TEST_F(AttacksTest, HoldersOfSharesDoNoMoreThanTheyMay)
   const AccessGrant steerer{"00000002", GrantRole::kOperator, 0};
   for (const AccessGrant& grant : {watcher, steerer})
   {
-    const auto made = member.Ask("share", grant.id, {static_cast<double>(grant.role), 0}, kGenerous_s);
+    const auto made = member.Ask(OrderOf(fmt::format("share {} {} 0", grant.id, RoleWord(grant.role))), kGenerous_s);
     ASSERT_TRUE(made && made->ok) << server.Output();
     const GrantChannel channel = ChannelOf(key, grant);
 
@@ -233,13 +233,13 @@ TEST_F(AttacksTest, HoldersOfSharesDoNoMoreThanTheyMay)
     of_grant.grant = channel;
     Bus side(of_grant, "engine 'e0'");
     ControlClient client(side, "shared", world.run);
-    for (const char* verb : grant.role == GrantRole::kOperator
-                                ? std::vector<const char*>{"share", "revoke", "shares"}
-                                : std::vector<const char*>{"stop", "resume", "move", "share", "revoke"})
+    std::vector<std::string> forbidden{"share 00000003 operate 0", "revoke 00000001", "shares"};
+    if (grant.role == GrantRole::kWatcher) forbidden.insert(forbidden.end(), {"stop", "resume", "move fb 1,1,0"});
+    for (const std::string& words : forbidden)
     {
-      const auto reply = client.Ask(verb, watcher.id, {1, 1, 0}, kGenerous_s);
-      ASSERT_TRUE(reply.has_value()) << verb;
-      EXPECT_FALSE(reply->ok) << verb;
+      const auto reply = client.Ask(OrderOf(words), kGenerous_s);
+      ASSERT_TRUE(reply.has_value()) << words;
+      EXPECT_FALSE(reply->ok) << words;
     }
     Publisher<LeaveMessage> leave(side, "shared");
     ASSERT_TRUE(Eventually([&] { return leave.Readers() > 0; }));
@@ -255,11 +255,11 @@ TEST_F(AttacksTest, HoldersOfSharesDoNoMoreThanTheyMay)
     ASSERT_TRUE(Eventually([&] { return members_leave.Readers() >= 2 && requests.Readers() >= 1; }));
     members_leave.Write({world.run, 0, "engine 'e0'", engine_process, "forged"});
     members_leave.Write({world.run, 0, "space server", "", "forged"});
-    requests.Write({"host:1", 1, "stop", "", {}, "root", world.run});
+    requests.Write({{"stop"}, "host:1", 1, "root", world.run});
     members_leave.WaitUntilRead(1);
     requests.WaitUntilRead(1);
   }
-  const auto reply = member.Ask("resume", "", {}, kGenerous_s);
+  const auto reply = member.Ask({"resume"}, kGenerous_s);
   ASSERT_TRUE(reply && reply->ok) << server.Output();
   EXPECT_EQ(server.Wait(), 0) << server.Output();
   for (ChildProcess& worker : workers) EXPECT_EQ(worker.Wait(), 0) << worker.Output();
@@ -293,7 +293,7 @@ TEST_F(AttacksTest, WhoSaysThatWhatHeSaidIsLostIsNotWaitedFor)
     sendto(socket, gap.data(), gap.size(), 0, reinterpret_cast<const sockaddr*>(&to), sizeof to);
   }
   close(socket);
-  ASSERT_TRUE(stranger.Send("ControlRequest", {PayloadOf(ControlRequestMessage{"host:1", 1, "stop", "", {}, "root"})}));
+  ASSERT_TRUE(stranger.Send("ControlRequest", {PayloadOf(ControlRequestMessage{{"stop"}, "host:1", 1, "root"})}));
   ASSERT_TRUE(Ask("counting", "stop")) << server.Output();
   EXPECT_EQ(server.Wait(), 0) << server.Output();
 }
@@ -322,7 +322,7 @@ TEST_F(AttacksTest, AStrangerStopsARunThatLetsAnybodyIn)
   std::vector<ChildProcess> workers = StartWorkers("open", 1, 1);
   ASSERT_TRUE(server.WaitForOutput("paused at tick 0")) << server.Output();
   test::Stranger stranger(domain_.Id(), "open");
-  ASSERT_TRUE(stranger.Send("ControlRequest", {PayloadOf(ControlRequestMessage{"host:1", 1, "stop", "", {}, ""})}));
+  ASSERT_TRUE(stranger.Send("ControlRequest", {PayloadOf(ControlRequestMessage{{"stop"}, "host:1", 1})}));
   EXPECT_EQ(server.Wait(), 0) << server.Output();
   EXPECT_THAT(server.Output(), HasSubstr("finished: 0 ticks"));
 }
@@ -363,7 +363,7 @@ TEST_F(AttacksTest, AProgramOfAnotherDdsIsObeyedIfAnybodyIsLetIn)
         ASSERT_TRUE(engine.StopAsleep());
         Bus bus(options, "test");
         ControlClient client(bus, "open");
-        EXPECT_TRUE(client.Ask("resume", "", {}, kGenerous_s).has_value());
+        EXPECT_TRUE(client.Ask({"resume"}, kGenerous_s).has_value());
         EXPECT_TRUE(server.WaitForOutput("tick 1: waiting for engine 'e0'")) << server.Output();
       });
 }

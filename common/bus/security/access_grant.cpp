@@ -26,10 +26,6 @@ constexpr std::size_t kIdDigits = 8;
 constexpr std::size_t kParts = 8;
 constexpr std::size_t kLongestToken = 4096;
 constexpr const char* kVersion = "1";
-constexpr const char* kOperator = "operate";
-constexpr const char* kWatcher = "watch";
-
-const char* RoleWord(GrantRole role) { return role == GrantRole::kOperator ? kOperator : kWatcher; }
 
 template <class Number>
 std::optional<Number> NumberOfText(const std::string& text)
@@ -62,10 +58,15 @@ std::string OwnAddressTowards(const std::string& address)
 
 bool AccessGrant::HasEnded() const { return ends != 0 && std::time(nullptr) >= ends; }
 
-std::optional<GrantRole> GrantRoleOf(double number)
+const char* RoleWord(GrantRole role)
+{
+  return role == GrantRole::kWatcher ? "watch" : role == GrantRole::kOperator ? "operate" : "open";
+}
+
+std::optional<GrantRole> GrantRoleOf(const std::string& word)
 {
   for (const GrantRole role : {GrantRole::kWatcher, GrantRole::kOperator, GrantRole::kOpenView})
-    if (number == static_cast<double>(role)) return role;
+    if (word == RoleWord(role)) return role;
   return std::nullopt;
 }
 
@@ -118,12 +119,11 @@ std::optional<AccessToken> TokenOfText(const std::string& text)
   const auto ends = NumberOfText<std::int64_t>(parts[3]);
   const auto domain = NumberOfText<int>(parts[4]);
   const auto key = KeyOfText(parts[6]);
-  const bool is_role = parts[2] == kOperator || parts[2] == kWatcher;
-  if (!IsGrantId(parts[1]) || !is_role || !ends || *ends < 0 || !domain || *domain < 0 || *domain > 232 || !key ||
-      experiment.empty() || !IsShowable(experiment))
+  const auto role = GrantRoleOf(parts[2]);
+  if (!IsGrantId(parts[1]) || !role || *role == GrantRole::kOpenView || !ends || *ends < 0 || !domain || *domain < 0 ||
+      *domain > 232 || !key || experiment.empty() || !IsShowable(experiment))
     return std::nullopt;
-  const GrantRole role = parts[2] == kOperator ? GrantRole::kOperator : GrantRole::kWatcher;
-  AccessToken token{{parts[1], role, *ends}, *domain, parts[5], {}, *key, experiment};
+  AccessToken token{{parts[1], *role, *ends}, *domain, parts[5], {}, *key, experiment};
   if (const auto server = ParseServerAddress(parts[5]))
   {
     token.discovery_server = parts[5];

@@ -14,16 +14,16 @@
 namespace swarmanoid
 {
 
-// By the number that requests have.
 enum class GrantRole
 {
-  kWatcher = 0,
-  kOperator = 1,
-  kOpenView = 2,  // anybody looks
+  kWatcher,   // looks at the run
+  kOperator,  // steers it too
+  kOpenView,  // anybody looks
 };
-// nullopt for a number that is none.
-std::optional<GrantRole> GrantRoleOf(double number);
-// "watcher", "operator", "open view"
+// "watch", "operate" and "open", in tokens and requests; nullopt for other words.
+const char* RoleWord(GrantRole role);
+std::optional<GrantRole> GrantRoleOf(const std::string& word);
+// "watcher", "operator" and "open view", for people.
 const char* RoleName(GrantRole role);
 
 struct AccessGrant

@@ -149,7 +149,7 @@ TEST_F(SteeringTest, RequestsBeyondTheLimitsOfAMessageAreRefusedAndNotWrittenDow
   options_.event_log = (folder_ / "events.csv").string();
   EXPECT_EQ(RunSingleProcess(*experiment_, options_).ticks, 40U);
   EXPECT_THAT(notes, testing::ElementsAre(HasSubstr("press: the key '?'"), HasSubstr("has 3000 bytes"),
-                                          HasSubstr("remove: the name 'fb_3?9,stop")));
+                                          HasSubstr("remove: the entity 'fb_3?9,stop")));
   EXPECT_EQ(Read("events.csv"), "");
 }
 

@@ -8,6 +8,7 @@
 #include "common/configuration/xml_reader.h"
 #include "common/journal/journal_reader.h"
 #include "common/journal/journal_writer.h"
+#include "common/messages/control_request.h"
 #include "common/plugin_descriptions/renderers.h"
 #include "tests/eventually.h"
 #include "tests/unit/visualiser/small_world.h"
@@ -28,17 +29,10 @@ constexpr std::uint64_t kTicks = 300;
 class Control : public ExperimentControl
 {
 public:
-  void Pause() override {}
-  void Resume() override {}
-  void Step(unsigned) override {}
-  void SetSpeed(double) override {}
-  void MoveEntity(const std::string& id, const Pose&) override { moved = id; }
-  void AddEntity(const std::string&, const Pose&) override {}
-  void RemoveEntity(const std::string&) override {}
-  void PressKey(const std::string&, bool) override {}
-  void SelectEntity(const std::string&) override {}
-  void Stop() override {}
-  void Reset() override {}
+  void Ask(const ControlOrder& order) override
+  {
+    if (order.verb == "move") moved = order.Get<std::string>("entity");
+  }
 
   std::string moved;
 };

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/configuration/xml_reader.h"
+#include "common/messages/control_verbs.h"
 #include "common/plugin_descriptions/renderers.h"
 #include "tests/unit/visualiser/small_world.h"
 #include "visualiser/interaction/viewer.h"
@@ -21,31 +22,15 @@ using ::testing::IsEmpty;
 class Requests : public ExperimentControl
 {
 public:
-  void Pause() override { asked.push_back("pause"); }
-  void Resume() override { asked.push_back("resume"); }
-  void Step(unsigned ticks) override { asked.push_back("step " + std::to_string(ticks)); }
-  void Reset() override { asked.emplace_back("reset"); }
-  void SetSpeed(double factor) override { asked.push_back(fmt::format("speed {:g}", factor)); }
-  void MoveEntity(const std::string& id, const Pose& pose) override
+  void Ask(const ControlOrder& order) override
   {
-    asked.push_back("move " + id);
-    place = pose;
+    const auto* pose = order.Find<std::vector<double>>("pose");
+    if (pose != nullptr) place = *pose;
+    asked.push_back(pose == nullptr ? TextOf(order) : order.verb + " " + order.Get<std::string>("entity"));
   }
-  void AddEntity(const std::string& id, const Pose& pose) override
-  {
-    asked.push_back("add " + id);
-    place = pose;
-  }
-  void RemoveEntity(const std::string& id) override { asked.push_back("remove " + id); }
-  void PressKey(const std::string& key, bool pressed) override
-  {
-    asked.push_back((pressed ? "press " : "release ") + key);
-  }
-  void SelectEntity(const std::string& id) override { asked.push_back(id.empty() ? "deselect" : "select " + id); }
-  void Stop() override { asked.push_back("stop"); }
 
   std::vector<std::string> asked;
-  Pose place;
+  std::vector<double> place;  // m and degrees
 };
 
 class Monitor : public RunMonitor
@@ -224,10 +209,10 @@ TEST_F(ViewerTest, ShiftDragAsksForThePlaceUnderTheMouse)
   EXPECT_THAT(control_.asked, IsEmpty());
   viewer.MouseRelease(MouseButton::kLeft);
   EXPECT_THAT(control_.asked, ElementsAre("move fb_0"));
-  EXPECT_NEAR(control_.place.position.x(), 2.5, 0.02);
-  EXPECT_NEAR(control_.place.position.y(), 1.5, 0.02);
-  EXPECT_DOUBLE_EQ(control_.place.position.z(), 0);
-  EXPECT_NEAR(RadiansToDegrees(YawOf(control_.place.orientation)), 30, 1e-9);
+  EXPECT_NEAR(control_.place.at(0), 2.5, 0.02);
+  EXPECT_NEAR(control_.place.at(1), 1.5, 0.02);
+  EXPECT_DOUBLE_EQ(control_.place.at(2), 0);
+  EXPECT_NEAR(control_.place.at(5), 30, 1e-9);
   EXPECT_EQ(world_["fb_0"].GetPosition(), Vector3(1, 1, 0));  // that is for the space server to do
 }
 
