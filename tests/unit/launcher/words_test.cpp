@@ -69,7 +69,7 @@ TEST(ControlWords, MisspeltVerbsAreNamed)
   EXPECT_THAT(ErrorOf({"spede", "2"}), HasSubstr("did you mean 'speed'?"));
   EXPECT_THAT(ErrorOf({"diffusion_10", "spede", "2"}), HasSubstr("did you mean 'speed'?"));
   EXPECT_THAT(ErrorOf({"mvoe", "fb0", "1,2,0"}), HasSubstr("did you mean 'move'?"));
-  EXPECT_THAT(ErrorOf({"share", "0a", "open", "0"}), HasSubstr("there is no request 'share'"));
+  EXPECT_THAT(ErrorOf({"shares"}), HasSubstr("there is no request 'shares'"));
 }
 
 TEST(ControlWords, ErrorsSayTheRightForm)
