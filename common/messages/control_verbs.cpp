@@ -35,7 +35,7 @@ ControlParameter Optional(ControlParameter parameter)
 std::string CheckHosts(const ControlOrder& order)
 {
   if (order.Get<std::int64_t>("change", 1) != 0 || order.Find<std::string>("machine") == nullptr) return {};
-  return "hosts again takes no machine";
+  return "again takes no machine";
 }
 
 std::vector<ControlVerb> MakeVerbs()

@@ -299,7 +299,7 @@ void AccessGrants::Refuse(Side& side, const ControlRequestMessage& request, std:
   if (std::exchange(side.told, true)) return;
   const ControlRequestMessage refused = NoteOf(
       kRefusedMessage, "ControlRequest", fmt::format("{}@{}", request.user, ClientBy(request.client, side.grant)));
-  PrintError("space server: refused '{}' of {}: {}; further ones are not told\n", request.verb, refused.client, why);
+  PrintError("space server: refused '{}' of {}: {}; further ones are not told\n", TextOf(request), refused.client, why);
   callbacks_.noted(refused);
 }
 

@@ -310,7 +310,7 @@ TEST_F(AttacksTest, ARequestToAnotherRunOfTheKeyIsRefused)
   const WorldMessage world = WorldOn(bus, "again");
   Publisher<ControlRequestMessage> requests(bus, "again");
   ASSERT_TRUE(Eventually([&] { return requests.Readers() == 1; }));
-  requests.Write({"host:1", 1, "stop", "", {}, "root", world.run + 1});
+  requests.Write({{"stop"}, "host:1", 1, "root", world.run + 1});
   EXPECT_TRUE(server.WaitForOutput("it was asked of another run")) << server.Output();
 }
 

@@ -96,7 +96,7 @@ class Moves(LauncherTest):
         self.refused("hosts", "+9", says=["the run has 2 controller hosts, and can have 10"])
         self.refused("hosts", "-2", says=["the run has 2 controller hosts, and one must remain"])
         self.refused("hosts", "-1", "beta", says=["the run has no machine 'beta'"])
-        self.refused("hosts", "3", says=["'3' says not how many controller hosts more or fewer; write hosts +N or hosts -N"])
+        self.refused("hosts", "3", says=["'3' is no number of controller hosts more or fewer; write hosts +N/-N/again"])
         self.refused("hosts", says=["write hosts +N"])
         self.refused("move-hots", "0", says=["did you mean 'move-host'?"])
         self.control("stop")
@@ -145,7 +145,7 @@ class Moves(LauncherTest):
 
     def test_robots_are_shared_out_by_where_they_are(self):
         run = self.begin()
-        self.refused("hosts", "again", "beta", says=["write hosts +N or hosts -N"])
+        self.refused("hosts", "again", "beta", says=["write hosts +N/-N/again"])
         self.control("step", 777)
         self.assertFalse((self.folder / "out/journal/1").exists())
         self.assertIn("2 controller hosts share the robots now", self.control("hosts", "again"))

@@ -194,7 +194,7 @@ TEST(ControlVerbs, ChangesAreWrittenWithTheirSign)
   EXPECT_EQ(change({"again"}), 0);
   for (const char* word : {"2", "+0", "0", "+-1", "+", "+1001", "+1.5", ""})
     EXPECT_THAT(RefusalOf([&] { change({word}); }), HasSubstr("write hosts +N/-N/again [MACHINE]")) << word;
-  EXPECT_THAT(RefusalOf([&] { change({"again", "beta"}); }), HasSubstr("hosts again takes no machine"));
+  EXPECT_THAT(RefusalOf([&] { change({"again", "beta"}); }), HasSubstr("hosts: again takes no machine"));
 }
 
 TEST(ControlVerbs, TheColumnsOfAnEventAreTheNameAndTheRest)
