@@ -7,7 +7,7 @@
 
 #include "common/bus/membership/run_directory.h"
 #include "common/experiment/load_experiment.h"
-#include "common/messages/control_request.h"
+#include "common/messages/control_verbs.h"
 #include "common/plugins/catalogue.h"
 #include "launcher/command/sub_command.h"
 #include "launcher/installation.h"
@@ -133,7 +133,8 @@ private:
     else if (path_ == "control")
     {
       if (given_.empty()) OfferRuns();
-      for (const std::string& verb : kControlVerbs) Offer(verb);
+      for (const ControlVerb& verb : ControlVerbs())
+        if (verb.who <= Asker::kMember) Offer(verb.name, verb.help);
     }
     else if (path_ == "list plugins")
     {

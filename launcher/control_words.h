@@ -2,26 +2,29 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "common/messages/control_request.h"
 #include "common/messages/run_status.h"
 
 namespace swarmanoid
 {
 
-struct ControlRequest
+struct ControlWords
 {
   std::string experiment;  // empty: the one that runs
-  std::string verb;
-  std::string entity;  // move, detach, add, remove; reset: the seed, or nothing for that of the run
-  std::vector<double>
-      numbers;  // step: ticks; speed: factor; move, detach, add: x, y, z in m, alpha, beta, gamma in degrees
+  ControlOrder order;
 };
 
-// `seed`: of --seed. Throws UsageError with the right form.
-ControlRequest ParseControlRequest(std::vector<std::string> words, std::optional<std::uint64_t> seed = std::nullopt);
+// `options` has the parameters that are given as --name (ControlParameter::is_option). Throws UsageError with the right
+// form.
+ControlWords ParseControlWords(std::vector<std::string> words, const std::map<std::string, std::string>& options = {});
+
+// How long a run may stand still without a reply. A process that replaces a worker may have to compute all ticks again.
+double PatienceFor(const ControlOrder& order, double otherwise_s);
 
 // For those who got no answer: what the run does, after "does not answer". `dropped`: messages that were not
 // understood.

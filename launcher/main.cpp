@@ -2,16 +2,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "common/activity/print_error.h"
 #include "common/configuration/trust.h"
-#include "common/configuration/wording.h"
 #include "common/program/program.h"
 #include "common/program/standard_output.h"
 #include "launcher/command/sub_command.h"
@@ -22,22 +19,6 @@
 
 namespace
 {
-
-// CLI11 would only say that the word was not expected.
-bool ComplainsAboutVerb(const std::vector<std::string>& words)
-{
-  if (words.size() < 2 || words[1].starts_with("-")) return false;
-  const std::string& verb = words[1];
-  CLI::App app;
-  int exit_code = 0;
-  swarmanoid::AddSubCommands(app, exit_code);
-  std::vector<std::string> verbs;
-  for (const CLI::App* known : app.get_subcommands({})) verbs.push_back(known->get_name());
-  if (std::find(verbs.begin(), verbs.end(), verb) != verbs.end()) return false;
-  swarmanoid::PrintError("swarmanoid: there is no command {}; the commands are {}{}\n", swarmanoid::Quoted(verb),
-                         swarmanoid::Listed(verbs), swarmanoid::DidYouMean(verb, verbs));
-  return true;
-}
 
 // `help` and `help COMMAND` are other ways to write --help; so is no word at all.
 std::vector<std::string> WithHelp(std::vector<std::string> words)
@@ -72,7 +53,6 @@ int main(int count, char** arguments)
     return RunStudyWorker({arguments + (trusts ? 3 : 2), arguments + count});
   }
   std::vector<std::string> words = WithHelp({arguments, arguments + count});
-  if (ComplainsAboutVerb(words)) return kExitUsage;
   std::vector<char*> given;
   for (std::string& word : words) given.push_back(word.data());
 
@@ -91,7 +71,7 @@ int main(int count, char** arguments)
       [&](CLI::App& app)
       {
         app.require_subcommand(1);
-        AddSubCommands(app, verb_code);
+        AddSubCommands(app, verb_code, words.size() > 1 ? words[1] : "");
       },
       [&] { return verb_code; });
   // The help was not asked for.

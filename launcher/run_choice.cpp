@@ -12,7 +12,7 @@
 
 #include "common/activity/print_error.h"
 #include "common/bus/membership/run_directory.h"
-#include "common/bus/security/share.h"
+#include "common/bus/security/access_grant.h"
 #include "common/configuration/wording.h"
 #include "launcher/command/sub_command.h"
 #include "launcher/network_namespace.h"
@@ -60,11 +60,11 @@ std::vector<LocalRun> Fitting(const std::string& name, std::optional<int> domain
 
 }  // namespace
 
-RunChoice RunOf(const ShareTicket& ticket, const std::string& name)
+RunChoice RunOf(const AccessToken& token, const std::string& name)
 {
-  if (name.empty() || name == ticket.experiment) return {ticket.experiment, ticket.domain, std::nullopt};
+  if (name.empty() || name == token.experiment) return {token.experiment, token.domain, std::nullopt};
   throw UsageError(fmt::format("the share in {} is of experiment {}, not of {}; `unset {}` for runs of your own",
-                               kShareVariable, Quoted(ticket.experiment), Quoted(name), kShareVariable));
+                               kTokenVariable, Quoted(token.experiment), Quoted(name), kTokenVariable));
 }
 
 void CheckInsecure(const RunChoice& run, const BusOptions& options)

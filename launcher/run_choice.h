@@ -10,7 +10,7 @@ namespace swarmanoid
 {
 
 struct BusOptions;
-struct ShareTicket;
+struct AccessToken;
 
 struct RunChoice
 {
@@ -25,8 +25,8 @@ struct RunChoice
 // UsageError, with a list of the runs, if there is none or more than one.
 RunChoice ChooseRun(const std::string& name, std::optional<int> domain);
 
-// The run of a share. Throws UsageError unless `name` is empty or its name.
-RunChoice RunOf(const ShareTicket& ticket, const std::string& name);
+// The run of a grant. Throws UsageError unless `name` is empty or its name.
+RunChoice RunOf(const AccessToken& token, const std::string& name);
 
 // Throws UsageError if the run is on this machine, and either the run or `options` has no key: they would not
 // understand each other.

@@ -35,7 +35,7 @@ Steering::Steering(const Experiment& experiment, SpaceServer& server, RunControl
                      notes_.push_back({tick, done, text, request.client, request.number});
                      if (notes_.size() > kNotesKept) notes_.erase(notes_.begin());
                    }),
-      control_([this](const ControlRequestMessage& request) { run_control_.Ask(request); }),
+      control_([this](const ControlOrder& order) { run_control_.Ask({order}); }),
       pace_(experiment.TickSeconds())
 {
   server_.SetFaultHandler([this](const std::vector<RecordedFault>& faults) { run_control_.Failed(faults); });

@@ -19,8 +19,8 @@
 #include "common/configuration/output_file.h"
 #include "common/configuration/regular_file.h"
 #include "common/configuration/wording.h"
+#include "common/messages/control_verbs.h"
 #include "common/program/csv.h"
-#include "space_server/space_changes.h"
 
 namespace swarmanoid
 {
@@ -57,23 +57,16 @@ std::string MistakeOfLine(const std::string& line, const std::vector<std::string
       Quoted(line));
 }
 
-// What can be known to be wrong before the run; the place itself is checked when it is moved there.
-std::string ErrorOf(const ControlRequestMessage& request, const Experiment& experiment)
+// Returns what can be known to be wrong before the run; the pose itself is checked when the entity is moved there.
+std::string EntityError(const ControlOrder& order, const Experiment& experiment)
 {
-  if (IsOnlyNoted(request) || request.verb == kFailedController) return {};
-  if (std::find(kControlVerbs.begin(), kControlVerbs.end(), request.verb) == kControlVerbs.end())
-    return fmt::format("there is no request {}; known are {}", Quoted(request.verb), Listed(kControlVerbs));
-  if (!IsSpaceChange(request.verb) && request.verb != "select") return {};
-  const auto entity = std::find_if(experiment.entities.begin(), experiment.entities.end(),
-                                   [&](const EntityConfiguration& e) { return e.id == request.entity; });
+  const auto* const id = order.Find<std::string>("entity");
+  if (id == nullptr) return {};
+  const auto entity = std::ranges::find(experiment.entities, *id, &EntityConfiguration::id);
   if (entity == experiment.entities.end())
-    return fmt::format("the experiment has no entity {}; repeat the events of a run of the same file",
-                       Quoted(request.entity));
-  if (request.verb == "select") return {};
-  if (!entity->movable) return fmt::format("{} cannot move", Quoted(request.entity));
-  if (request.verb != "remove" && request.numbers.size() != 3 && request.numbers.size() != 6)
-    return fmt::format("{} needs 3 or 6 numbers: x y z, and alpha beta gamma", Quoted(request.verb));
-  return {};
+    return fmt::format("the experiment has no entity {}; repeat the events of a run of the same file", Quoted(*id));
+  const bool moves = order.verb != "select";
+  return moves && !entity->movable ? fmt::format("{} cannot move", Quoted(*id)) : std::string();
 }
 
 std::string NowInUtc()
@@ -133,7 +126,11 @@ std::string ReadWithoutCutLine(const std::string& path)
   return text;
 }
 
-std::vector<RecordedEvent> ParseAll(const std::string& text, const std::string& path, const Experiment& experiment)
+bool IsRepeated(const ControlVerb& verb) { return verb.IsRepeated(); }
+
+// Lines whose verb is not `wanted` may have been written by another version, and are not read further.
+std::vector<RecordedEvent> ParseAll(const std::string& text, const std::string& path, const Experiment& experiment,
+                                    bool (*wanted)(const ControlVerb&))
 {
   std::istringstream file(text);
   const auto name = std::make_shared<const std::string>(path);
@@ -158,12 +155,20 @@ std::vector<RecordedEvent> ParseAll(const std::string& text, const std::string& 
       throw ConfigurationError(event.location,
                                fmt::format("tick {} comes after tick {}; events stand in order", event.tick, last));
     last = event.tick;
-    event.request.verb = fields[1];
-    event.request.entity = fields[2];
-    const auto numbers = ParseNumbers(fields[3]);
-    if (!fields[3].empty() && !numbers)
-      throw ConfigurationError(event.location, fmt::format("{} are no numbers", Quoted(fields[3])));
-    if (numbers) event.request.numbers = *numbers;
+    const ControlVerb* const verb = FindControlVerb(fields[1], Asker::kNobody);
+    if (verb == nullptr) throw ConfigurationError(event.location, NoVerbText(fields[1], Asker::kMember));
+    if (!wanted(*verb)) continue;
+    try
+    {
+      static_cast<ControlOrder&>(event.request) = OrderOf(*verb, {fields[2], fields[3]});
+    }
+    catch (const std::invalid_argument& error)
+    {
+      throw ConfigurationError(event.location, error.what());
+    }
+    if (verb->IsRepeated())
+      if (const std::string error = EntityError(event.request, experiment); !error.empty())
+        throw ConfigurationError(event.location, error);
     if (fields.size() > 4) SetAsker(event.request, fields[4]);
     if (fields.size() > 5 && !fields[5].empty())
     {
@@ -172,21 +177,8 @@ std::vector<RecordedEvent> ParseAll(const std::string& text, const std::string& 
         throw ConfigurationError(event.location, fmt::format("{} is no number of a request", Quoted(fields[5])));
       event.request.number = static_cast<std::uint32_t>(*request_number);
     }
-    if (const std::string error = ErrorOf(event.request, experiment); !error.empty())
-      throw ConfigurationError(event.location, error);
     events.push_back(std::move(event));
   }
-  return events;
-}
-
-std::vector<RecordedEvent> WithoutPace(std::vector<RecordedEvent> events)
-{
-  std::erase_if(events,
-                [](const RecordedEvent& event)
-                {
-                  const std::string& verb = event.request.verb;
-                  return !IsSpaceChange(verb) && !IsInput(verb) && verb != "stop" && verb != "reset";
-                });
   return events;
 }
 
@@ -204,8 +196,8 @@ std::string WholeLines(const std::string& path)
 
 void AddFault(std::vector<RecordedFault>& faults, const RecordedEvent& event, const Experiment& experiment)
 {
-  const auto entity = std::find_if(experiment.entities.begin(), experiment.entities.end(),
-                                   [&](const EntityConfiguration& e) { return e.id == event.request.entity; });
+  const auto entity =
+      std::ranges::find(experiment.entities, event.request.Get<std::string>("entity"), &EntityConfiguration::id);
   if (entity == experiment.entities.end()) return;
   // "controller 'c' threw an exception: the text of it".
   const std::string asker = AskerOf(event.request);
@@ -219,9 +211,12 @@ void AddFault(std::vector<RecordedFault>& faults, const RecordedEvent& event, co
 
 }  // namespace
 
-bool IsOnlyNoted(const ControlRequestMessage& request)
+ControlRequestMessage NoteOf(const std::string& verb, const std::string& about, const std::string& from)
 {
-  return request.verb == kRefused || std::ranges::find(kShareVerbs, request.verb) != kShareVerbs.end();
+  ControlRequestMessage note{ControlOrder{verb}};
+  if (!about.empty()) note.Set(FindControlVerb(verb, Asker::kNobody)->parameters.front().name, about);
+  note.client = from;
+  return note;
 }
 
 std::string AskerOf(const ControlRequestMessage& request)
@@ -259,7 +254,7 @@ EventLines ReadEventLines(const std::string& path)
 
 std::vector<RecordedEvent> ParseEvents(const std::string& text, const std::string& path, const Experiment& experiment)
 {
-  return WithoutPace(ParseAll(text, path, experiment));
+  return ParseAll(text, path, experiment, IsRepeated);
 }
 
 EarlierRequests ReadEarlierRequests(const std::string& path, const Experiment& experiment,
@@ -267,29 +262,31 @@ EarlierRequests ReadEarlierRequests(const std::string& path, const Experiment& e
 {
   EarlierRequests earlier;
   earlier.pause_at = pause_at;
-  std::vector<RecordedEvent> events = ParseAll(WholeLines(path), path, experiment);
+  std::vector<RecordedEvent> events = ParseAll(WholeLines(path), path, experiment, [](const auto&) { return true; });
   for (RecordedEvent& event : events)
   {
     const ControlRequestMessage& request = event.request;
+    const Effect effect = FindControlVerb(request.verb, Asker::kNobody)->effect;
     earlier.until = event.tick;
     if (request.verb == kFailedController) AddFault(earlier.failed, event, experiment);
-    if (request.verb == "share" && request.numbers.size() == 2)
-      earlier.shares.push_back({request.entity, request.numbers[0], static_cast<std::int64_t>(request.numbers[1])});
+    if (request.verb == "share") earlier.grants.push_back(request);
     if (request.verb == "revoke")
-      std::erase_if(earlier.shares, [&](const SharedWith& share) { return share.id == request.entity; });
-    if (IsOnlyNoted(request) || request.verb == kFailedController) continue;
-    const double number = request.numbers.empty() ? 1 : request.numbers[0];
+      std::erase_if(earlier.grants, [&](const ControlOrder& grant)
+                    { return grant.Get<std::string>("grant") == request.Get<std::string>("grant"); });
+    if (effect == Effect::kNote || effect == Effect::kAccess) continue;
     event.logged = true;
     earlier.answered.push_back(request);
-    if (request.verb == "speed") earlier.speed = number;
+    if (request.verb == "speed") earlier.speed = request.Get<double>("factor");
     if (request.verb == "pause" || request.verb == "resume" || request.verb == "step") earlier.step.reset();
     if (request.verb == "resume") earlier.pause_at.reset();
     if (request.verb == "pause") earlier.pause_at = event.tick;
     if (request.verb != "step") continue;
     earlier.step = request;
-    earlier.pause_at = event.tick + static_cast<std::uint64_t>(number);
+    earlier.pause_at = event.tick + static_cast<std::uint64_t>(request.Get<std::int64_t>("ticks", 1));
   }
-  earlier.changes = WithoutPace(std::move(events));
+  std::erase_if(events, [](const RecordedEvent& event)
+                { return !FindControlVerb(event.request.verb, Asker::kNobody)->IsRepeated(); });
+  earlier.changes = std::move(events);
   return earlier;
 }
 
@@ -302,9 +299,7 @@ void AddUndone(std::vector<RecordedEvent>& done, const std::vector<RecordedEvent
                                    [&](const RecordedEvent& other)
                                    {
                                      return other.logged && other.tick == event.tick &&
-                                            other.request.verb == event.request.verb &&
-                                            other.request.entity == event.request.entity &&
-                                            other.request.numbers == event.request.numbers;
+                                            static_cast<const ControlOrder&>(other.request) == event.request;
                                    });
     if (same == done.end())
       done.push_back(event);
@@ -332,10 +327,11 @@ void EventLog::Write(std::uint64_t tick, const ControlRequestMessage& request)
   bool good = file_ != nullptr;
   if (good)
   {
-    // The shortest numbers that read back as the same bits.
-    const std::string line = fmt::format("{},{},{},{},{},{},{}", tick, request.verb, CsvField(request.entity),
-                                         fmt::join(request.numbers, " "), CsvField(AskerOf(request)), request.number,
-                                         request.user.empty() && request.verb != kRefused ? std::string() : NowInUtc());
+    const OrderColumns columns = ColumnsOf(request);
+    const std::string line =
+        fmt::format("{},{},{},{},{},{},{}", tick, request.verb, CsvField(columns.entity), CsvField(columns.numbers),
+                    CsvField(AskerOf(request)), request.number,
+                    request.user.empty() && request.verb != kRefusedMessage ? std::string() : NowInUtc());
     fmt::print(file_, "{},{}\n", line, CheckOf(line));
     good = std::fflush(file_) == 0;
   }

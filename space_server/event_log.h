@@ -24,12 +24,12 @@ struct RecordedEvent
   bool logged = false;  // by this run already, before its space server died
 };
 
-// What was refused, because it came from outside of the run, is written as this request, with its topic in the place of
-// the entity.
-inline constexpr const char* kRefused = "refused";
-// A controller that failed while the run goes on, with its robot as the entity, and what it did in the place of who
-// asked.
+// The verbs of two kinds of lines that are no requests: a message from outside the run was refused, and a controller
+// failed while the run goes on.
+inline constexpr const char* kRefusedMessage = "refused";
 inline constexpr const char* kFailedController = "failed";
+// Makes a line that is no request. `about` is the topic or the robot, `from` the sender or what the controller did.
+ControlRequestMessage NoteOf(const std::string& verb, const std::string& about, const std::string& from);
 
 // The events that change the outcome of a run (move, add, remove, keys and selections, stop), in the order of the file.
 // Throws ConfigurationError, with file and line, for what is no event of this experiment. If the last line was cut
@@ -53,14 +53,6 @@ struct EventLines
 // Those of a file; none if it does not exist. Throws ConfigurationError if it cannot be read.
 EventLines ReadEventLines(const std::string& path);
 
-// A share of the run, as its request has it.
-struct SharedWith
-{
-  std::string id;
-  double role = 0;
-  std::int64_t ends = 0;
-};
-
 // What was asked of a run whose space server has died, for the next one.
 struct EarlierRequests
 {
@@ -70,8 +62,8 @@ struct EarlierRequests
   std::optional<ControlRequestMessage> step;    // one that is not done yet
   std::optional<std::uint64_t> pause_at;        // the run is paused, or will be at this tick
   std::optional<double> speed;
-  std::vector<SharedWith> shares;  // that were not revoked
-  std::uint64_t until = 0;         // the tick of the newest
+  std::vector<ControlOrder> grants;  // the orders that made those that were not revoked
+  std::uint64_t until = 0;           // the tick of the newest
 };
 // From its log of events, which may be lacking; the half of a line at its end is cut off. `pause_at`: of its start.
 // Throws ConfigurationError.
@@ -79,8 +71,6 @@ EarlierRequests ReadEarlierRequests(const std::string& path, const Experiment& e
                                     std::optional<std::uint64_t> pause_at);
 // Those of `repeated` that the run had not done yet, after those that it had.
 void AddUndone(std::vector<RecordedEvent>& done, const std::vector<RecordedEvent>& repeated);
-// Whether it is in the log for people, and nothing to be carried out.
-bool IsOnlyNoted(const ControlRequestMessage& request);
 // "user@host:pid" of who asked, as far as it is known.
 std::string AskerOf(const ControlRequestMessage& request);
 

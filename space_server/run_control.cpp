@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "common/configuration/configuration_tree.h"
-#include "common/messages/request_limits.h"
+#include "common/messages/control_verbs.h"
 #include "common/space/space.h"
-#include "space_server/space_changes.h"
 
 namespace swarmanoid
 {
@@ -27,7 +26,7 @@ RunControl::RunControl(const Experiment& experiment, RunControlSetup setup, Answ
       step_(std::move(setup.step)),
       places_(std::move(setup.places)),
       move_(std::move(setup.move)),
-      share_out_(std::move(setup.share_out))
+      rebalance_(std::move(setup.rebalance))
 {
 }
 
@@ -37,16 +36,11 @@ void RunControl::Ask(const ControlRequestMessage& request)
   requests_.push_back(request);
 }
 
-void RunControl::Refused(const std::string& topic, const std::string& sender)
+void RunControl::Note(const ControlRequestMessage& request)
 {
-  ControlRequestMessage refused;
-  refused.verb = kRefused;
-  refused.entity = topic;
-  refused.client = sender;
-  Ask(refused);
+  const std::lock_guard lock(mutex_);
+  notes_.push_back(request);
 }
-
-void RunControl::Note(const ControlRequestMessage& request) { Ask(request); }
 
 void RunControl::Failed(const std::vector<RecordedFault>& faults)
 {
@@ -54,26 +48,29 @@ void RunControl::Failed(const std::vector<RecordedFault>& faults)
   faults_.insert(faults_.end(), faults.begin(), faults.end());
 }
 
-void RunControl::WriteFaults()
+void RunControl::WriteNotes(std::uint64_t tick)
 {
   std::vector<RecordedFault> faults;
+  std::vector<ControlRequestMessage> notes;
   {
     const std::lock_guard lock(mutex_);
     faults.swap(faults_);
+    // Ticks before are computed again, and their lines are in the log already.
+    if (tick >= asked_from_) notes.swap(notes_);
   }
   for (const RecordedFault& fault : faults)
   {
-    // Of a tick that is done again.
+    // The tick is computed again: the fault is in the log.
     if (std::find(logged_faults_.begin(), logged_faults_.end(), fault) != logged_faults_.end()) continue;
     const EntityConfiguration& entity = experiment_.entities[fault.robot];
-    ControlRequestMessage event;
-    event.verb = kFailedController;
-    event.entity = entity.id;
-    event.client = fmt::format("controller '{}' {}{}{}", entity.controller, FaultText(fault.kind),
-                               fault.text.empty() ? "" : ": ", fault.text);
+    const ControlRequestMessage event =
+        NoteOf(kFailedController, entity.id,
+               fmt::format("controller '{}' {}{}{}", entity.controller, FaultText(fault.kind),
+                           fault.text.empty() ? "" : ": ", fault.text));
     event_log_.Write(fault.tick, event);
     answer_(event, false, fault.tick, fmt::format("'{}' at tick {}: its {}", entity.id, fault.tick, event.client));
   }
+  for (const ControlRequestMessage& note : notes) event_log_.Write(tick, note);
 }
 
 void RunControl::Start(std::uint64_t tick, Clock::time_point now) { SetPace(tick, now); }
@@ -89,7 +86,7 @@ bool RunControl::WantsHold() const
 {
   if (stop_ || paused_ || !moving_.empty()) return true;
   const std::lock_guard lock(mutex_);
-  return !requests_.empty() || !faults_.empty();
+  return !requests_.empty() || !faults_.empty() || !notes_.empty();
 }
 
 void RunControl::Stop(const std::string& who)
@@ -102,17 +99,14 @@ void RunControl::Stop(const std::string& who)
 
 void RunControl::Stopped(std::uint64_t tick, const std::string& who)
 {
-  WriteFaults();
-  ControlRequestMessage request;
-  request.verb = "stop";
-  request.client = who;
-  event_log_.Write(tick, request);
+  WriteNotes(tick);
+  event_log_.Write(tick, NoteOf("stop", "", who));
 }
 
 void RunControl::Work(SpaceServer& server)
 {
-  WriteFaults();
   const std::uint64_t tick = server.Space().GetTick();
+  WriteNotes(tick);
   if (pause_at_ != 0 && tick >= pause_at_)
   {
     pause_at_ = 0;
@@ -127,14 +121,14 @@ void RunControl::Work(SpaceServer& server)
     const std::lock_guard lock(mutex_);
     requests.swap(requests_);
   }
-  for (const ControlRequestMessage& request : requests) Carry(request, server);
+  for (const ControlRequestMessage& request : requests) Execute(request, server);
   if (!stop_) return;
   if (stop_unlogged_ && !server.IsLast()) Stopped(tick, *stop_unlogged_);
   stop_unlogged_.reset();
   server.Finish();
 }
 
-// Before what users of this run ask at the same tick.
+// Repeats events before requests of this run at the same tick.
 void RunControl::Repeat(SpaceServer& server)
 {
   const std::uint64_t tick = server.Space().GetTick();
@@ -142,226 +136,200 @@ void RunControl::Repeat(SpaceServer& server)
   {
     const RecordedEvent& event = repeated_[next_repeated_];
     if (event.tick < tick) continue;
-    if (event.request.verb == "stop")
+    const bool ends = FindControlVerb(event.request.verb)->effect == Effect::kEnd;
+    if (ends && !event.logged)
     {
+      // Another run ended there, or was reset: this one has come as far as that one.
       Stop(event.request.client);
-      if (event.logged) stop_unlogged_.reset();
-      continue;
-    }
-    if (event.request.verb == "reset")
-    {
-      // Another run was reset there: this one has come as far as that one did.
-      if (!event.logged)
-        Stop(event.request.client);
-      else
-        BeginAgain(event.request, tick, true);
       continue;
     }
     try
     {
-      if (IsInput(event.request.verb))
-        HandOver(event.request, server, event.logged);
-      else
-        Change(event.request, server, event.logged);
+      (this->*ActionOf(event.request.verb))({event.request, server, tick, event.logged});
     }
     catch (const std::invalid_argument& error)
     {
-      throw ConfigurationError(event.location, error.what());
+      throw ConfigurationError(event.location, fmt::format("{}: {}", event.request.verb, error.what()));
     }
   }
 }
 
-void RunControl::Change(const ControlRequestMessage& request, SpaceServer& server, bool logged)
+void RunControl::Execute(const ControlRequestMessage& request, SpaceServer& server)
 {
   const std::uint64_t tick = server.Space().GetTick();
-  const SpaceChange change = ReadSpaceChange(request, server.Space());
-  server.Move(change.moves);
-  // Of a reserve, the one that was taken: so a repetition does not depend on who waits.
-  ControlRequestMessage done = request;
-  done.entity = change.entity;
-  if (!logged) event_log_.Write(tick, done);
-  answer_(request, true, tick, fmt::format("{} at tick {}", change.done, tick));
+  std::string error = OrderError(request, Asker::kMember);
+  try
+  {
+    if (error.empty()) return (this->*ActionOf(request.verb))({request, server, tick});
+  }
+  catch (const std::invalid_argument& refusal)
+  {
+    error = fmt::format("{}: {}", request.verb, refusal.what());
+  }
+  answer_(request, false, tick, error);
 }
 
-void RunControl::HandOver(const ControlRequestMessage& request, SpaceServer& server, bool logged)
+void RunControl::Done(const Execution& execution, const std::string& text) { Done(execution, execution.request, text); }
+
+void RunControl::Done(const Execution& execution, const ControlRequestMessage& written, const std::string& text)
 {
-  const std::uint64_t tick = server.Space().GetTick();
-  std::string done;
-  if (request.verb == "select" || request.verb == "deselect")
-  {
-    const bool selects = request.verb == "select";
-    if (selects && request.entity.empty()) throw std::invalid_argument("select needs an entity");
-    server.Select(selects ? request.entity : std::string());
-    done = selects ? fmt::format("selected '{}'", request.entity) : std::string("selected none");
-  }
-  else
-  {
-    server.PressKey(request.entity, request.verb == "press");
-    done = fmt::format("key {} {}", request.entity, request.verb == "press" ? "pressed" : "released");
-  }
-  if (!logged) event_log_.Write(tick, request);
-  answer_(request, true, tick, fmt::format("{} at tick {}", done, tick));
+  const bool changes = FindControlVerb(written.verb)->effect != Effect::kQuery;
+  if (changes && !execution.logged) event_log_.Write(execution.tick, written);
+  answer_(execution.request, true, execution.tick, text);
 }
 
-void RunControl::Carry(const ControlRequestMessage& request, SpaceServer& server)
+// ---- The actions, and the table of them. ----
+
+RunControl::Action RunControl::ActionOf(const std::string& verb)
 {
-  const std::uint64_t tick = server.Space().GetTick();
-  const auto reply = [&](bool done, const std::string& text)
-  {
-    if (done) event_log_.Write(tick, request);
-    answer_(request, done, tick, text);
-  };
-  const double number = request.numbers.empty() ? std::nan("") : request.numbers[0];
-
-  if (IsOnlyNoted(request)) return event_log_.Write(tick, request);
-  if (const std::string error = RequestLimitError(request); !error.empty()) return reply(false, error);
-  if (request.verb == "pause")
-  {
-    DropStep(tick, "a pause was asked for");
-    paused_ = true;
-    pause_at_ = 0;
-    reply(true, fmt::format("paused at tick {}", tick));
-  }
-  else if (request.verb == "resume")
-  {
-    DropStep(tick, "to go on was asked for");
-    paused_ = false;
-    pause_at_ = 0;
-    pace_changed_ = true;
-    reply(true, fmt::format("resumed at tick {}", tick));
-  }
-  else if (request.verb == "step")
-  {
-    const double count = request.numbers.empty() ? 1 : number;
-    if (!(count >= 1 && count <= 1e15 && count == std::floor(count)))
-      return reply(false, "step: the number of ticks must be a whole number from 1 on");
-    DropStep(tick, "another step was asked for");
-    step_ = request;
-    event_log_.Write(tick, request);
-    pause_at_ = tick + static_cast<std::uint64_t>(count);
-    paused_ = false;
-    pace_changed_ = true;
-  }
-  else if (request.verb == "speed")
-  {
-    if (!(number >= 0 && number <= 1e9))
-      return reply(false, "speed: the factor must be 0 (as fast as possible) or more");
-    real_time_factor_ = number;
-    pace_changed_ = true;
-    reply(true, number == 0 ? std::string("as fast as possible") : fmt::format("{:g} times real time", number));
-  }
-  else if (request.verb == "stop")
-  {
-    stop_ = true;
-    why_stopped_ = request.client.empty() ? "stopped" : "stopped by " + AskerOf(request);
-    reply(true, fmt::format("stopped at tick {}", tick));
-  }
-  else if (request.verb == "reset")
-  {
-    try
-    {
-      BeginAgain(request, tick);
-    }
-    catch (const std::invalid_argument& error)
-    {
-      reply(false, error.what());
-    }
-  }
-  else if (request.verb == "machines")
-  {
-    try
-    {
-      answer_(request, true, tick, places_.Text());
-    }
-    catch (const std::invalid_argument& error)
-    {
-      answer_(request, false, tick, error.what());
-    }
-  }
-  else if (IsWorkerMove(request.verb))
-  {
-    try
-    {
-      if (request.verb == "hosts")
-        ShareOut(request, tick);
-      else
-        MoveWorkers(request, tick);
-    }
-    catch (const std::invalid_argument& error)
-    {
-      reply(false, error.what());
-    }
-  }
-  else if (IsSpaceChange(request.verb) || IsInput(request.verb))
-  {
-    try
-    {
-      if (IsInput(request.verb))
-        HandOver(request, server);
-      else
-        Change(request, server);
-    }
-    catch (const std::invalid_argument& error)
-    {
-      reply(false, error.what());
-    }
-  }
-  else
-    reply(false, fmt::format("unknown request '{}'; known: {}", request.verb, fmt::join(kControlVerbs, ", ")));
+  static const std::map<std::string_view, Action> actions{
+      {"pause", &RunControl::Pause},
+      {"resume", &RunControl::Resume},
+      {"step", &RunControl::Step},
+      {"speed", &RunControl::SetSpeed},
+      {"stop", &RunControl::StopRun},
+      {"reset", &RunControl::ResetRun},
+      {"move", &RunControl::ChangeSpace<ReadMove>},
+      {"detach", &RunControl::ChangeSpace<ReadDetachment>},
+      {"add", &RunControl::ChangeSpace<ReadAddition>},
+      {"remove", &RunControl::ChangeSpace<ReadRemoval>},
+      {"press", &RunControl::PressKey<true>},
+      {"release", &RunControl::PressKey<false>},
+      {"select", &RunControl::Select},
+      {"deselect", &RunControl::Select},
+      {"move-host", &RunControl::MoveWorkers<&WorkerPlacement::ReadHostMove>},
+      {"move-engine", &RunControl::MoveWorkers<&WorkerPlacement::ReadEngineMove>},
+      {"drain", &RunControl::MoveWorkers<&WorkerPlacement::ReadDrain>},
+      {"hosts", &RunControl::Rebalance},
+      {"machines", &RunControl::ListMachines}};
+  return actions.at(verb);
 }
 
-void RunControl::BeginAgain(const ControlRequestMessage& request, std::uint64_t tick, bool logged)
+void RunControl::Pause(const Execution& execution)
+{
+  DropStep(execution.tick, "a pause was asked for");
+  paused_ = true;
+  pause_at_ = 0;
+  Done(execution, fmt::format("paused at tick {}", execution.tick));
+}
+
+void RunControl::Resume(const Execution& execution)
+{
+  DropStep(execution.tick, "to go on was asked for");
+  paused_ = false;
+  pause_at_ = 0;
+  pace_changed_ = true;
+  Done(execution, fmt::format("resumed at tick {}", execution.tick));
+}
+
+// Replies at the end of the step.
+void RunControl::Step(const Execution& execution)
+{
+  const auto ticks = execution.request.Get<std::int64_t>("ticks", 1);
+  DropStep(execution.tick, "another step was asked for");
+  step_ = execution.request;
+  event_log_.Write(execution.tick, execution.request);
+  pause_at_ = execution.tick + static_cast<std::uint64_t>(ticks);
+  paused_ = false;
+  pace_changed_ = true;
+}
+
+void RunControl::SetSpeed(const Execution& execution)
+{
+  real_time_factor_ = execution.request.Get<double>("factor");
+  pace_changed_ = true;
+  Done(execution, real_time_factor_ == 0 ? std::string("as fast as possible")
+                                         : fmt::format("{:g} times real time", real_time_factor_));
+}
+
+void RunControl::StopRun(const Execution& execution)
+{
+  stop_ = true;
+  why_stopped_ = execution.request.client.empty() ? "stopped" : "stopped by " + AskerOf(execution.request);
+  Done(execution, fmt::format("stopped at tick {}", execution.tick));
+}
+
+void RunControl::ResetRun(const Execution& execution)
 {
   if (!may_reset_)
     throw std::invalid_argument(
-        "reset: nobody would start this run again; `swarmanoid run` does, for runs without a program of the user's own "
+        "nobody would start this run again; `swarmanoid run` does, for runs without a program of the user's own "
         "around them");
-  const std::optional<long long> seed =
-      request.entity.empty() ? static_cast<long long>(experiment_.seed) : ParseInteger(request.entity);
-  if (!seed || *seed < 0)
-    throw std::invalid_argument(
-        fmt::format("reset: {} is no seed; a seed is a whole number from 0 on", request.entity));
+  ControlRequestMessage written = execution.request;
+  const auto seed = written.Get<std::int64_t>("seed", static_cast<std::int64_t>(experiment_.seed));
+  written.Set("seed", seed);
   stop_ = true;
-  why_stopped_ = fmt::format("reset by {}", AskerOf(request));
-  reset_ = ResetRequest{static_cast<std::uint64_t>(*seed), paused_ || pause_at_ != 0, real_time_factor_};
-  ControlRequestMessage done = request;
-  done.entity = std::to_string(*seed);
-  if (!logged) event_log_.Write(tick, done);
-  answer_(request, true, tick, fmt::format("reset at tick {}: it begins again with seed {}", tick, *seed));
+  why_stopped_ = fmt::format("reset by {}", AskerOf(written));
+  reset_ = ResetRequest{static_cast<std::uint64_t>(seed), paused_ || pause_at_ != 0, real_time_factor_};
+  Done(execution, written, fmt::format("reset at tick {}: it begins again with seed {}", execution.tick, seed));
 }
 
-void RunControl::MoveWorkers(const ControlRequestMessage& request, std::uint64_t tick)
+template <SpaceChange (*Read)(const ControlOrder&, const CSwarmanoidSpace&)>
+void RunControl::ChangeSpace(const Execution& execution)
 {
-  if (!moving_.empty())
-    throw std::invalid_argument(
-        fmt::format("{} is on the way already; ask again when it has arrived", *moving_.begin()));
-  const std::vector<WorkerPlacement::Move> moves = places_.Read(request);
-  event_log_.Write(tick, request);
-  if (moves.empty()) return answer_(request, true, tick, "no worker is at " + request.entity);
-  move_request_ = request;
+  const SpaceChange change = Read(execution.request, execution.server.Space());
+  execution.server.Move(change.moves);
+  // The event names the entity that was taken from a reserve, so that a repetition takes the same one.
+  ControlRequestMessage written = execution.request;
+  written.Set("entity", change.entity);
+  Done(execution, written, fmt::format("{} at tick {}", change.done, execution.tick));
+}
+
+template <bool kPressed>
+void RunControl::PressKey(const Execution& execution)
+{
+  const auto key = execution.request.Get<std::string>("key");
+  execution.server.PressKey(key, kPressed);
+  Done(execution, fmt::format("key {} {} at tick {}", key, kPressed ? "pressed" : "released", execution.tick));
+}
+
+// Without an entity nothing is selected.
+void RunControl::Select(const Execution& execution)
+{
+  const auto entity = execution.request.Get<std::string>("entity");
+  execution.server.Select(entity);
+  Done(execution, fmt::format("selected {} at tick {}", entity.empty() ? "none" : "'" + entity + "'", execution.tick));
+}
+
+void RunControl::RequireNoMove() const
+{
+  if (moving_.empty()) return;
+  throw std::invalid_argument(fmt::format("{} is on the way already; ask again when it has arrived", *moving_.begin()));
+}
+
+// Replies when all workers have arrived; the run holds until then.
+template <std::vector<WorkerPlacement::Move> (WorkerPlacement::*Read)(const ControlOrder&) const>
+void RunControl::MoveWorkers(const Execution& execution)
+{
+  RequireNoMove();
+  const std::vector<WorkerPlacement::Move> moves = (places_.*Read)(execution.request);
+  if (moves.empty()) return Done(execution, "no worker is at " + execution.request.Get<std::string>("machine"));
+  event_log_.Write(execution.tick, execution.request);
+  move_request_ = execution.request;
   moved_.clear();
   for (const WorkerPlacement::Move& move : moves) moving_.insert(move.worker);
   for (const WorkerPlacement::Move& move : moves) move_(move);
 }
 
-void RunControl::ShareOut(const ControlRequestMessage& request, std::uint64_t tick)
+// All processes start again, this one too: the next server replies.
+void RunControl::Rebalance(const Execution& execution)
 {
-  if (!moving_.empty())
-    throw std::invalid_argument(
-        fmt::format("{} is on the way already; ask again when it has arrived", *moving_.begin()));
+  RequireNoMove();
   constexpr std::ptrdiff_t kMostHosts = 1000;
   const auto robots = std::count_if(experiment_.entities.begin(), experiment_.entities.end(),
                                     [](const EntityConfiguration& entity) { return !entity.controller.empty(); });
   const std::vector<std::string> machines =
-      places_.ReadHosts(request, static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(robots, 1, kMostHosts)));
-  if (!share_out_)
+      places_.ReadHosts(execution.request, static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(robots, 1, kMostHosts)));
+  if (!rebalance_)
     throw std::invalid_argument(
-        "hosts: all processes start again for it, and the space server cannot: it is in the process of a user");
-  event_log_.Write(tick, request);
-  move_request_ = request;
+        "all processes start again for it, and the space server cannot: it is in the process of a user");
+  event_log_.Write(execution.tick, execution.request);
+  move_request_ = execution.request;
   moving_.insert("every process");
-  share_out_(machines);
+  rebalance_(machines);
 }
+
+void RunControl::ListMachines(const Execution& execution) { Done(execution, places_.Text()); }
 
 void RunControl::Arrived(const WorkerPlacement::Move& worker, const std::string& process, std::uint64_t tick)
 {
@@ -416,15 +384,11 @@ RunControl::Decision RunControl::Decide(std::uint64_t tick, Clock::time_point no
 
 void RunControl::Ended(std::uint64_t tick)
 {
-  WriteFaults();
+  WriteNotes(tick);
   if (step_) answer_(*step_, true, tick, RunEndedText(tick));
   if (move_request_) answer_(*move_request_, false, tick, RunEndedText(tick));
   const std::lock_guard lock(mutex_);
-  for (const ControlRequestMessage& request : requests_)
-    if (request.verb == kRefused)
-      event_log_.Write(tick, request);
-    else
-      answer_(request, false, tick, RunEndedText(tick));
+  for (const ControlRequestMessage& request : requests_) answer_(request, false, tick, RunEndedText(tick));
   requests_.clear();
 }
 

@@ -1,7 +1,7 @@
-// RunControl: what users ask of a running experiment, and when the next tick may start: pause, resume, step, speed,
-// stop, reset, move, add, remove. What changed the experiment from outside is written down and can be done again in
-// another run. Requests come from any thread; all else is called by the thread that paces the run, in a cluster the
-// main thread of the space_server program.
+// RunControl: executes what users ask of a running experiment, and decides when the next tick may start. The verbs are
+// rows of common/messages/control_verbs.h; the table of their actions is in run_control.cpp. Changes of the experiment
+// are written to the event log and can be repeated in another run. Requests come from any thread; everything else is
+// called by the thread that paces the run, in a cluster the main thread of the space_server program.
 #pragma once
 
 #include <chrono>
@@ -15,6 +15,7 @@
 #include "common/messages/control_request.h"
 #include "common/run/run_summary.h"
 #include "space_server/event_log.h"
+#include "space_server/space_changes.h"
 #include "space_server/space_server.h"
 #include "space_server/worker_placement.h"
 
@@ -37,8 +38,8 @@ struct RunControlSetup
   bool may_reset = false;  // whoever started the run begins it again if a user asks
   // Has another process take the place of a worker.
   std::function<void(const WorkerPlacement::Move&)> move{};
-  // Has all processes start again, with controller hosts on these machines. Empty: nobody can.
-  std::function<void(const std::vector<std::string>& machines)> share_out{};
+  // Starts all processes again, with controller hosts on these machines. Empty if that is not possible.
+  std::function<void(const std::vector<std::string>& machines)> rebalance{};
 };
 
 class RunControl
@@ -60,10 +61,7 @@ public:
 
   // From any thread: a request has come.
   void Ask(const ControlRequestMessage& request);
-  // Likewise: a message on `topic` was refused, of `sender` and for the reason that are told. For the log of events.
-  void Refused(const std::string& topic, const std::string& sender);
-
-  // Likewise: what was asked and done elsewhere. For the log of events.
+  // From any thread: writes a line of the event log. The request was executed elsewhere, or is a note.
   void Note(const ControlRequestMessage& request);
 
   // Likewise: controllers failed, and the run goes on.
@@ -94,19 +92,41 @@ public:
   void Ended(std::uint64_t tick);
 
 private:
+  // A request that is being executed between two ticks.
+  struct Execution
+  {
+    const ControlRequestMessage& request;
+    SpaceServer& server;
+    std::uint64_t tick;
+    bool logged = false;  // the event log has it already
+  };
+  // Throws std::invalid_argument with the reason if the request is refused.
+  using Action = void (RunControl::*)(const Execution&);
+  static Action ActionOf(const std::string& verb);
+
   void Repeat(SpaceServer& server);
-  void Carry(const ControlRequestMessage& request, SpaceServer& server);
-  // Moves, adds or removes an entity, and says so. Throws std::invalid_argument.
-  void Change(const ControlRequestMessage& request, SpaceServer& server, bool logged = false);
-  // Hands a key or a selection to experiment functions, and says so. Throws std::invalid_argument.
-  void HandOver(const ControlRequestMessage& request, SpaceServer& server, bool logged = false);
-  // Ends the run, which is to begin again.
-  void BeginAgain(const ControlRequestMessage& request, std::uint64_t tick, bool logged = false);
-  // Has workers take other places; the run holds until they have.
-  void MoveWorkers(const ControlRequestMessage& request, std::uint64_t tick);
-  // Has the robots shared out among other controller hosts: this process and all others end for it.
-  void ShareOut(const ControlRequestMessage& request, std::uint64_t tick);
-  void WriteFaults();
+  void Execute(const ControlRequestMessage& request, SpaceServer& server);
+  // Writes the event and replies. `written` is the request as another run repeats it.
+  void Done(const Execution& execution, const std::string& text);
+  void Done(const Execution& execution, const ControlRequestMessage& written, const std::string& text);
+
+  void Pause(const Execution& execution);
+  void Resume(const Execution& execution);
+  void Step(const Execution& execution);
+  void SetSpeed(const Execution& execution);
+  void StopRun(const Execution& execution);
+  void ResetRun(const Execution& execution);
+  template <SpaceChange (*Read)(const ControlOrder&, const CSwarmanoidSpace&)>
+  void ChangeSpace(const Execution& execution);
+  template <bool kPressed>
+  void PressKey(const Execution& execution);
+  void Select(const Execution& execution);
+  template <std::vector<WorkerPlacement::Move> (WorkerPlacement::*Read)(const ControlOrder&) const>
+  void MoveWorkers(const Execution& execution);
+  void Rebalance(const Execution& execution);
+  void ListMachines(const Execution& execution);
+  void RequireNoMove() const;
+  void WriteNotes(std::uint64_t tick);
   void DropStep(std::uint64_t tick, const char* why);
   void SetPace(std::uint64_t tick, Clock::time_point now);
 
@@ -118,7 +138,8 @@ private:
   std::uint64_t asked_from_;
   mutable std::mutex mutex_;
   std::vector<ControlRequestMessage> requests_;
-  std::vector<RecordedFault> faults_;  // that are not told yet
+  std::vector<ControlRequestMessage> notes_;  // for the event log
+  std::vector<RecordedFault> faults_;         // that are not told yet
 
   std::vector<RecordedFault> logged_faults_;
   bool paused_;
@@ -132,7 +153,7 @@ private:
   std::optional<ControlRequestMessage> step_;
   WorkerPlacement places_;
   std::function<void(const WorkerPlacement::Move&)> move_;
-  std::function<void(const std::vector<std::string>&)> share_out_;
+  std::function<void(const std::vector<std::string>&)> rebalance_;
   std::optional<ControlRequestMessage> move_request_;
   std::set<std::string> moving_;  // workers
   std::string moved_;             // who has arrived, for the asker

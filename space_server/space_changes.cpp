@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <stdexcept>
 
@@ -78,12 +77,10 @@ std::optional<placement::Body> BodyAt(const CSwarmanoidSpaceEntity& entity, cons
   return placement::BodyOf(placed);
 }
 
-Pose PoseOf(const ControlRequestMessage& request, const Quaternion& orientation, const CSwarmanoidSpace& space)
+// `orientation`: the one of an order with a position alone.
+Pose PoseOf(const ControlOrder& order, const Quaternion& orientation, const CSwarmanoidSpace& space)
 {
-  const auto& numbers = request.numbers;
-  if (numbers.size() != 3 && numbers.size() != 6) Refuse("write X,Y,Z or X,Y,Z,ALPHA,BETA,GAMMA");
-  for (const double number : numbers)
-    if (!std::isfinite(number)) Refuse("the numbers must be finite");
+  const auto numbers = order.Get<std::vector<double>>("pose");
   Pose pose{{numbers[0], numbers[1], numbers[2]}, orientation};
   const Vector3& size = space.GetExperiment().arena_size;
   if ((pose.position.array() < 0).any() || (pose.position.array() > size.array()).any())
@@ -190,40 +187,36 @@ MoveRequest Removal(const CSwarmanoidSpaceEntity& entity)
   return {entity.GetIndex(), WaitingPose(entity.GetConfiguration(), entity.GetIndex()), false};
 }
 
-SpaceChange ReadSpaceChange(const ControlRequestMessage& request, const CSwarmanoidSpace& space)
+SpaceChange ReadMove(const ControlOrder& order, const CSwarmanoidSpace& space)
 {
-  try
-  {
-    if (request.verb == "remove")
-    {
-      if (!request.numbers.empty()) Refuse("nothing follows the entity");
-      const CSwarmanoidSpaceEntity& entity = FindToRemove(space, request.entity);
-      return {{Removal(entity)}, entity.GetId(), fmt::format("removed '{}'", entity.GetId())};
-    }
-    if (request.verb == "add")
-    {
-      const CSwarmanoidSpaceEntity& entity = FindToAdd(space, request.entity);
-      const Pose pose = PoseOf(request, Quaternion::Identity(), space);
-      RequireFree(space, entity, pose);
-      return {{{entity.GetIndex(), pose}}, entity.GetId(), fmt::format("added '{}'", entity.GetId())};
-    }
-    const CSwarmanoidSpaceEntity& entity = FindToMove(space, request.entity);
-    const Pose pose = PoseOf(request, entity.GetOrientation(), space);
-    if (request.verb == "detach")
-    {
-      RequireFree(space, entity, pose);
-      return {{{entity.GetIndex(), pose}}, entity.GetId(), fmt::format("moved '{}' alone", entity.GetId())};
-    }
-    std::vector<MoveRequest> moves = CompoundAt(space, entity, pose);
-    RequireRoomFor(space, moves);
-    std::string done = fmt::format("moved '{}'", entity.GetId());
-    if (moves.size() > 1) done += fmt::format(" and {} that it is connected to", moves.size() - 1);
-    return {std::move(moves), entity.GetId(), std::move(done)};
-  }
-  catch (const std::invalid_argument& error)
-  {
-    throw std::invalid_argument(fmt::format("{}: {}", request.verb, error.what()));
-  }
+  const CSwarmanoidSpaceEntity& entity = FindToMove(space, order.Get<std::string>("entity"));
+  std::vector<MoveRequest> moves = CompoundAt(space, entity, PoseOf(order, entity.GetOrientation(), space));
+  RequireRoomFor(space, moves);
+  std::string done = fmt::format("moved '{}'", entity.GetId());
+  if (moves.size() > 1) done += fmt::format(" and {} that it is connected to", moves.size() - 1);
+  return {std::move(moves), entity.GetId(), std::move(done)};
+}
+
+SpaceChange ReadDetachment(const ControlOrder& order, const CSwarmanoidSpace& space)
+{
+  const CSwarmanoidSpaceEntity& entity = FindToMove(space, order.Get<std::string>("entity"));
+  const Pose pose = PoseOf(order, entity.GetOrientation(), space);
+  RequireFree(space, entity, pose);
+  return {{{entity.GetIndex(), pose}}, entity.GetId(), fmt::format("moved '{}' alone", entity.GetId())};
+}
+
+SpaceChange ReadAddition(const ControlOrder& order, const CSwarmanoidSpace& space)
+{
+  const CSwarmanoidSpaceEntity& entity = FindToAdd(space, order.Get<std::string>("entity"));
+  const Pose pose = PoseOf(order, Quaternion::Identity(), space);
+  RequireFree(space, entity, pose);
+  return {{{entity.GetIndex(), pose}}, entity.GetId(), fmt::format("added '{}'", entity.GetId())};
+}
+
+SpaceChange ReadRemoval(const ControlOrder& order, const CSwarmanoidSpace& space)
+{
+  const CSwarmanoidSpaceEntity& entity = FindToRemove(space, order.Get<std::string>("entity"));
+  return {{Removal(entity)}, entity.GetId(), fmt::format("removed '{}'", entity.GetId())};
 }
 
 }  // namespace swarmanoid

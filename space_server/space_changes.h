@@ -38,13 +38,16 @@ std::vector<MoveRequest> CompoundAt(const CSwarmanoidSpace& space, const CSwarma
 // An entity goes to where it waits while it is not in the arena.
 MoveRequest Removal(const CSwarmanoidSpaceEntity& entity);
 
-// What the requests "move", "detach", "add" and "remove" ask for.
+// What requests of users ask for. Their orders are without error (OrderError).
 struct SpaceChange
 {
   std::vector<MoveRequest> moves;
-  std::string entity;  // its id; of a reserve, the one that was taken
+  std::string entity;  // its id; if a reserve was named, the one that was taken
   std::string done;    // "moved 'fb_0'"
 };
-SpaceChange ReadSpaceChange(const ControlRequestMessage& request, const CSwarmanoidSpace& space);
+SpaceChange ReadMove(const ControlOrder& order, const CSwarmanoidSpace& space);
+SpaceChange ReadDetachment(const ControlOrder& order, const CSwarmanoidSpace& space);
+SpaceChange ReadAddition(const ControlOrder& order, const CSwarmanoidSpace& space);
+SpaceChange ReadRemoval(const ControlOrder& order, const CSwarmanoidSpace& space);
 
 }  // namespace swarmanoid

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "common/configuration/wording.h"
@@ -15,13 +14,8 @@ namespace
 {
 
 constexpr const char* kServer = "space server";
-constexpr std::string_view kTo = " to ";
 
-// As HostName, EngineName and RegionName have it: a region is one "ground/2".
-std::string WorkerOf(const std::string& verb, const std::string& which)
-{
-  return verb == "move-host" ? "controller host " + which : fmt::format("engine '{}'", which);
-}
+// A region is named as "ground/2".
 std::string RegionOf(const std::string& which)
 {
   const std::size_t sign = which.rfind('/');
@@ -65,7 +59,7 @@ void WorkerPlacement::RequireMachine(const std::string& machine) const
 
 std::string WorkerPlacement::Text() const
 {
-  RequireMoves("machines");
+  RequireMoves();
   std::map<std::string, std::vector<std::string>> workers;
   for (const auto& [worker, place] : places_) workers[place].push_back(worker);
   std::string text;
@@ -78,13 +72,12 @@ std::string WorkerPlacement::Text() const
   return text;
 }
 
-void WorkerPlacement::RequireMoves(const std::string& verb) const
+void WorkerPlacement::RequireMoves() const
 {
   if (places_.empty())
     throw std::invalid_argument(
-        fmt::format("{}: no process of this run can be moved: it is one process, nobody is replaced in it, or its "
-                    "processes were started by hand",
-                    verb));
+        "no process of this run can be moved: it is one process, nobody is replaced in it, or its processes were "
+        "started by hand");
 }
 
 bool WorkerPlacement::ServerMayStartAgain() const
@@ -93,83 +86,74 @@ bool WorkerPlacement::ServerMayStartAgain() const
   return server != places_.end() && server->second == kHere;
 }
 
-std::vector<std::string> WorkerPlacement::ReadHosts(const ControlRequestMessage& request, std::size_t most) const
+std::vector<std::string> WorkerPlacement::ReadHosts(const ControlOrder& order, std::size_t most) const
 {
-  RequireMoves(request.verb);
+  RequireMoves();
   if (!ServerMayStartAgain())
     throw std::invalid_argument(
-        "hosts: all processes start again for it, and the space server cannot: it is on another machine than the "
-        "launcher");
-  const std::string& machine = request.entity;
+        "all processes start again for it, and the space server cannot: it is on another machine than the launcher");
+  const auto machine = order.Get<std::string>("machine");
   if (!machine.empty()) RequireMachine(machine);
   std::vector<std::string> hosts;
   for (auto place = places_.find(HostName(0)); place != places_.end(); place = places_.find(HostName(hosts.size())))
     hosts.push_back(place->second);
-  const double more = request.numbers.size() == 1 ? request.numbers[0] : std::nan("");
-  if (more != std::floor(more) || std::abs(more) > 1000)
-    throw std::invalid_argument("hosts: write +N or -N, a whole number of controller hosts, or again");
+  const auto more = order.Get<std::int64_t>("change");
   if (more == 0 && hosts.size() == 1)
-    throw std::invalid_argument("hosts again: the run has one controller host, and that has all robots");
+    throw std::invalid_argument("the run has one controller host, and that has all robots");
   const std::vector<std::string> before = hosts;
-  if (static_cast<double>(before.size()) + more > static_cast<double>(most))
+  if (static_cast<std::int64_t>(before.size()) + more > static_cast<std::int64_t>(most))
     throw std::invalid_argument(fmt::format(
-        "hosts: the run has {} controller host{}, and can have {}: as many as robots with a controller, and not more "
+        "the run has {} controller host{}, and can have {}: as many as robots with a controller, and not more "
         "than 1000",
         before.size(), before.size() == 1 ? "" : "s", most));
-  for (double k = 0; k < more; ++k) hosts.push_back(machine.empty() ? kHere : machine);
-  for (double k = 0; k < -more; ++k)
+  for (std::int64_t k = 0; k < more; ++k) hosts.push_back(machine.empty() ? kHere : machine);
+  for (std::int64_t k = 0; k < -more; ++k)
   {
     const auto last = machine.empty() ? hosts.rbegin() : std::find(hosts.rbegin(), hosts.rend(), machine);
     if (last == hosts.rend())
-      throw std::invalid_argument(fmt::format("hosts: so many controller hosts are not at {}; they are at {}",
-                                              Quoted(machine), Listed(before)));
+      throw std::invalid_argument(
+          fmt::format("so many controller hosts are not at {}; they are at {}", Quoted(machine), Listed(before)));
     if (hosts.size() == 1)
-      throw std::invalid_argument(fmt::format("hosts: the run has {} controller host{}, and one must remain",
-                                              before.size(), before.size() == 1 ? "" : "s"));
+      throw std::invalid_argument(fmt::format("the run has {} controller host{}, and one must remain", before.size(),
+                                              before.size() == 1 ? "" : "s"));
     hosts.erase(std::next(last).base());
   }
   return hosts;
 }
 
-std::vector<WorkerPlacement::Move> WorkerPlacement::Read(const ControlRequestMessage& request) const
+std::vector<WorkerPlacement::Move> WorkerPlacement::ReadHostMove(const ControlOrder& order) const
 {
-  RequireMoves(request.verb);
-  if (request.verb == "drain")
-  {
-    RequireMachine(request.entity);
-    return Drain(request.entity);
-  }
-
-  std::string which = request.entity;
-  std::string machine;
-  const auto find = [&](const std::string& worker)
-  {
-    const auto place = places_.find(WorkerOf(request.verb, worker));
-    return place != places_.end() || request.verb != "move-engine" ? place : places_.find(RegionOf(worker));
-  };
-  auto found = find(which);
-  // The machine may be named behind it.
-  if (const std::size_t to = which.rfind(kTo); found == places_.end() && to != std::string::npos)
-  {
-    machine = which.substr(to + kTo.size());
-    which.resize(to);
-    found = find(which);
-  }
-  if (found == places_.end())
-  {
-    std::vector<std::string> workers;
-    for (const auto& [worker, place] : places_)
-      if (worker != kServer) workers.push_back(worker);
-    throw std::invalid_argument(
-        fmt::format("the run has no {}; it has {}", WorkerOf(request.verb, which), fmt::join(workers, ", ")));
-  }
-  if (machine.empty()) machine = found->second;
-  RequireMachine(machine);
-  return {{found->first, machine}};
+  return MoveOf({HostName(static_cast<std::size_t>(order.Get<std::int64_t>("host")))}, order);
 }
 
-std::vector<WorkerPlacement::Move> WorkerPlacement::Drain(const std::string& machine) const
+std::vector<WorkerPlacement::Move> WorkerPlacement::ReadEngineMove(const ControlOrder& order) const
 {
+  const auto engine = order.Get<std::string>("engine");
+  return MoveOf({fmt::format("engine '{}'", engine), RegionOf(engine)}, order);
+}
+
+std::vector<WorkerPlacement::Move> WorkerPlacement::MoveOf(const std::vector<std::string>& workers,
+                                                           const ControlOrder& order) const
+{
+  RequireMoves();
+  const auto worker = std::ranges::find_if(workers, [&](const std::string& name) { return places_.contains(name); });
+  if (worker == workers.end())
+  {
+    std::vector<std::string> others;
+    for (const auto& [other, place] : places_)
+      if (other != kServer) others.push_back(other);
+    throw std::invalid_argument(fmt::format("the run has no {}; it has {}", workers.front(), fmt::join(others, ", ")));
+  }
+  const auto machine = order.Get<std::string>("machine", places_.at(*worker));
+  RequireMachine(machine);
+  return {{*worker, machine}};
+}
+
+std::vector<WorkerPlacement::Move> WorkerPlacement::ReadDrain(const ControlOrder& order) const
+{
+  RequireMoves();
+  const auto machine = order.Get<std::string>("machine");
+  RequireMachine(machine);
   if (const auto server = places_.find(kServer); server != places_.end() && server->second == machine)
     throw std::invalid_argument(
         fmt::format("the space server is at {}, and cannot be moved; move the others one by one", Quoted(machine)));

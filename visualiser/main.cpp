@@ -11,7 +11,7 @@
 #include "common/bus/membership/worker_program.h"
 #include "common/bus/membership/worker_session.h"
 #include "common/bus/membership/worker_world.h"
-#include "common/bus/security/share.h"
+#include "common/bus/security/access_grant.h"
 #include "common/configuration/output_file.h"
 #include "common/logging/log.h"
 #include "common/plugin_descriptions/describe_builtins.h"
@@ -44,9 +44,9 @@ std::uint64_t Begin(WorkerSession& session, WorkerWorld& replica, Visualiser& vi
   return Recover(session, replica, steps);
 }
 
-void Send(const ControlRequestMessage& request, ControlClient& client, RemoteMonitor& monitor)
+void Send(const ControlOrder& order, ControlClient& client, RemoteMonitor& monitor)
 {
-  const std::string error = client.Send(request.verb, request.entity, request.numbers);
+  const std::string error = client.Send(order);
   if (!error.empty()) monitor.NoteRefusal(error);
 }
 
@@ -57,7 +57,7 @@ void RunSynchronous(WorkerSession& session, const std::string& id, const std::st
   const std::size_t number = NumberOf(*replica.experiment, visualisations, "visualisation", id);
   ControlClient client(session.GetBus(), session.World().experiment, session.World().run);
   RemoteMonitor monitor(session.GetBus(), session.World(), true);
-  ControlByRequests control([&](const ControlRequestMessage& request) { Send(request, client, monitor); });
+  ControlByRequests control([&](const ControlOrder& order) { Send(order, client, monitor); });
   Visualiser visualiser(visualisations[number], *replica.space, replica.assignment, output, &control, &monitor);
   SynchronousNode node(session, replica, number, visualiser, control, monitor, Begin(session, replica, visualiser));
   node.WaitForServer();
@@ -82,7 +82,7 @@ bool Show(WorkerSession& session, const WorkerSettings& settings, const RenderCo
   WorkerWorld replica(session.World(), false);
   ControlClient client(session.GetBus(), session.World().experiment, session.World().run);
   RemoteMonitor monitor(session.GetBus(), session.World(), false);
-  ControlByRequests control([&](const ControlRequestMessage& request) { Send(request, client, monitor); });
+  ControlByRequests control([&](const ControlOrder& order) { Send(order, client, monitor); });
   Visualiser visualiser(configuration, *replica.space, replica.assignment, settings.output,
                         settings.read_only ? nullptr : &control, &monitor);
   AttachedNode node(session, replica, visualiser, monitor, settings.rate);
@@ -132,14 +132,14 @@ std::string AttachedKind(int argc, char** argv)
   return {};
 }
 
-// For holders of shares: they look on at that run, and some of them only that.
-void UseShare(WorkerSettings& settings, BusOptions& bus)
+// For holders of grants: they look on at that run, and some of them only that.
+void UseTokenOfEnvironment(WorkerSettings& settings, BusOptions& bus)
 {
-  const auto ticket = TicketOfEnvironment();
-  if (!ticket) return;
-  UseTicket(*ticket, bus);
-  settings.experiment = ticket->experiment;
-  settings.read_only |= ticket->share.role != ShareRole::kOperator;
+  const auto token = TokenOfEnvironment();
+  if (!token) return;
+  UseToken(*token, bus);
+  settings.experiment = token->experiment;
+  settings.read_only |= token->grant.role != GrantRole::kOperator;
 }
 
 int Run(WorkerSettings settings, const std::vector<std::string>& parameters, BusOptions bus)
@@ -149,11 +149,11 @@ int Run(WorkerSettings settings, const std::vector<std::string>& parameters, Bus
   if (!settings.attach.empty())
   {
     const RenderConfiguration configuration = ConfigureRenderer(FindRenderer(settings.attach), parameters);
-    UseShare(settings, bus);
+    UseTokenOfEnvironment(settings, bus);
     LetUserNameFiles();
     WorkerSession session(bus, settings.experiment,
                           fmt::format("attached {} visualiser {}", configuration.id, ProcessId()), settings.server);
-    session.LookOn();
+    session.ObserveOnly();
     return session.Work([&] { RunAttached(session, settings, configuration); });
   }
   // What people do at a window is for the run's logs.

@@ -23,26 +23,31 @@ namespace swarmanoid
 
 class CSwarmanoidSpace;
 
-// What a user asks of the experiment through a renderer; decided by the space server, or by the runner of a single
-// process, between two ticks. What came of it is among RunMonitor::Notes. For the thread of Draw and Idle.
+struct ControlOrder;
+
+// What a user asks of the experiment through a renderer. The space server, or the runner of a single process, executes
+// it between two ticks. RunMonitor::Notes has the reply. For the thread of Draw and Idle. The functions are virtual so
+// that renderers in libraries of their own need no symbol for them.
 class ExperimentControl
 {
 public:
   virtual ~ExperimentControl() = default;
-  virtual void Pause() = 0;
-  virtual void Resume() = 0;
-  virtual void Step(unsigned ticks) = 0;
-  virtual void SetSpeed(double real_time_factor) = 0;  // 0: as fast as possible
-  virtual void MoveEntity(const std::string& id, const Pose& pose) = 0;
+  // Any request of common/messages/control_verbs.h; the others are shorter ways to some of them.
+  virtual void Ask(const ControlOrder& order) = 0;
+  virtual void Pause();
+  virtual void Resume();
+  virtual void Step(unsigned ticks);
+  virtual void SetSpeed(double real_time_factor);  // 0: as fast as possible
+  virtual void MoveEntity(const std::string& id, const Pose& pose);
   // Puts an entity that is not in the arena into it: the one of that id, or the next one of the <reserve> of that id.
-  virtual void AddEntity(const std::string& id, const Pose& pose) = 0;
-  virtual void RemoveEntity(const std::string& id) = 0;
+  virtual void AddEntity(const std::string& id, const Pose& pose);
+  virtual void RemoveEntity(const std::string& id);
   // For the experiment functions: a key by its name (UserInput), pressed or released, and an entity that is selected
   // (its id; empty: none is).
-  virtual void PressKey(const std::string& key, bool pressed) = 0;
-  virtual void SelectEntity(const std::string& id) = 0;
-  virtual void Stop() = 0;   // the run ends at its tick
-  virtual void Reset() = 0;  // and begins again at tick 0, with the same seed
+  virtual void PressKey(const std::string& key, bool pressed);
+  virtual void SelectEntity(const std::string& id);
+  virtual void Stop();   // the run ends at its tick
+  virtual void Reset();  // and begins again at tick 0, with the same seed
 };
 
 // What a renderer can know of the run beyond its space. For the thread of Draw and Idle; nothing here waits, and what a

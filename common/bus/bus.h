@@ -58,8 +58,8 @@ bool BusIsBroken();
 inline constexpr int kDefaultDomain = 77;
 
 // A way beside the topics of the members of a run, with a key of its own, between the space server and those who look
-// at a run, or steer it, without being members (share.h).
-struct ShareChannel
+// at a run, or steer it, without being members (access_grant.h).
+struct GrantChannel
 {
   std::string id;
   std::optional<RunKey> key{};  // none: what is sent is not sealed, and nothing is received
@@ -87,7 +87,7 @@ struct BusOptions
   std::string key_file{};
   bool insecure = false;  // no key: whoever is in the domain belongs to the run
   // All messages of this process that are not of a tick go this way.
-  std::optional<ShareChannel> share{};
+  std::optional<GrantChannel> grant{};
 
   bool Spread() const { return network_interface != "lo"; }
   unsigned DatagramBytes() const { return static_cast<unsigned>(datagram_bytes.value_or(Spread() ? 1440 : 65500)); }
@@ -192,12 +192,12 @@ private:
 };
 
 // All other messages. `partition`: the experiment's name; for subscriptions a pattern such as "*" is allowed. What is
-// called with a message may throw BadMessage. `share`: the channel that is used instead of that of the bus.
+// called with a message may throw BadMessage. `grant`: the channel that is used instead of that of the bus.
 template <class Message>
 class Publisher
 {
 public:
-  Publisher(Bus& bus, const std::string& partition, const std::optional<ShareChannel>& share = std::nullopt);
+  Publisher(Bus& bus, const std::string& partition, const std::optional<GrantChannel>& grant = std::nullopt);
   ~Publisher();
 
   // Throws BadMessage if a name in the message cannot be sent, BusError if the bus does not take it, or if this process
@@ -217,7 +217,7 @@ class Subscription
 {
 public:
   Subscription(Bus& bus, const std::string& partition, std::function<void(const Message&)> received,
-               const std::optional<ShareChannel>& share = std::nullopt);
+               const std::optional<GrantChannel>& grant = std::nullopt);
   ~Subscription();
 
   unsigned Writers() const;

@@ -225,7 +225,7 @@ std::string ReachableAddress(const BusOptions& options)
 
 Bus::Impl::Impl(const BusOptions& options, const std::string& name)
     : insecure(options.insecure),
-      share(options.share),
+      grant(options.grant),
       key_ring(std::make_shared<KeyRing>(options.domain, GivenKey(options))),
       own_name(name),
       // A process that lives is heard again before, unless four announcements are lost.

@@ -44,7 +44,7 @@ struct Bus::Impl : ParticipantListener
   dds::DomainParticipant* participant = nullptr;
   DelayedCalls later;
   const bool insecure;
-  const std::optional<ShareChannel> share;
+  const std::optional<GrantChannel> grant;
   const std::shared_ptr<KeyRing> key_ring;
   KeyRing& keys = *key_ring;
   const std::shared_ptr<DatagramListener> datagrams = std::make_shared<DatagramListener>();

@@ -1,54 +1,70 @@
-// What somebody asks of a running experiment. Carried out by the space server's run control between two ticks; the
-// fields are explained at ControlRequest in idl/swarmanoid.idl.
+// A request about a running experiment: a verb and its named arguments. common/messages/control_verbs.h has the verbs
+// and checks the arguments. The space server executes requests between two ticks. ControlRequest in
+// idl/swarmanoid.idl is the message.
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 namespace swarmanoid
 {
 
-inline const std::vector<std::string> kControlVerbs{
-    "pause",     "resume",      "step",  "speed", "stop",     "reset", "move",    "detach", "add",     "remove",
-    "move-host", "move-engine", "drain", "hosts", "machines", "press", "release", "select", "deselect"};
+// The index of the alternative is the discriminator on the wire. Vectors hold poses: x, y, z in m, and perhaps alpha,
+// beta, gamma in degrees.
+using ControlValue = std::variant<std::string, std::int64_t, double, std::vector<double>>;
 
-// Only members of the run may ask for these: shares of the run (common/bus/security/share.h).
-inline const std::vector<std::string> kShareVerbs{"share", "shares", "revoke"};
-
-// Whether a verb asks for another place of an entity, or for its presence; the name of the entity follows it.
-inline bool IsSpaceChange(const std::string& verb)
+struct ControlArgument
 {
-  return verb == "move" || verb == "detach" || verb == "add" || verb == "remove";
-}
+  std::string name;
+  ControlValue value;
 
-// Whether a verb is for experiment functions: of keys, whose name stands in the place of the entity, and of who is
-// selected.
-inline bool IsInput(const std::string& verb)
-{
-  return verb == "press" || verb == "release" || verb == "select" || verb == "deselect";
-}
-
-// Whether a verb asks for another place of workers. In the place of the entity: the number or id of the worker, and
-// " to " with a machine unless it stays on its own; for drain a machine. For hosts likewise, or nothing; its number
-// says how many controller hosts more there are to be, or fewer.
-inline bool IsWorkerMove(const std::string& verb)
-{
-  return verb == "move-host" || verb == "move-engine" || verb == "drain" || verb == "hosts";
-}
-
-// The answer to who asked of a run what it did not come to any more.
-inline std::string RunEndedText(std::uint64_t tick) { return "the run ended at tick " + std::to_string(tick); }
-
-struct ControlRequestMessage
-{
-  std::string client;  // "host:pid" of the asker; empty in one process
-  std::uint32_t number = 0;
-  std::string verb;
-  std::string entity;
-  std::vector<double> numbers;
-  std::string user{};     // name of the user whose process the client is
-  std::uint64_t run = 0;  // that is meant: what was asked of another one is not repeated in this one
+  bool operator==(const ControlArgument&) const = default;
 };
+
+// What is asked, without who asks it. The arguments are in the order of the verb's parameters.
+struct ControlOrder
+{
+  std::string verb;
+  std::vector<ControlArgument> arguments{};
+
+  bool operator==(const ControlOrder&) const = default;
+
+  // Returns nullptr if there is no argument of that name and type.
+  template <class T>
+  const T* Find(std::string_view name) const
+  {
+    for (const ControlArgument& argument : arguments)
+      if (argument.name == name) return std::get_if<T>(&argument.value);
+    return nullptr;
+  }
+  // Returns the argument, or `otherwise` if it was left out.
+  template <class T>
+  T Get(std::string_view name, T otherwise = {}) const
+  {
+    const T* const value = Find<T>(name);
+    return value == nullptr ? otherwise : *value;
+  }
+  // Replaces the argument, or adds it.
+  void Set(const std::string& name, ControlValue value)
+  {
+    for (ControlArgument& argument : arguments)
+      if (argument.name == name) return argument.value = std::move(value), void();
+    arguments.push_back({name, std::move(value)});
+  }
+};
+
+struct ControlRequestMessage : ControlOrder
+{
+  std::string client{};      // "host:pid" of the asking process; empty in a run of one process
+  std::uint32_t number = 0;  // a client numbers its requests
+  std::string user{};        // the name of the user whose process the client is
+  std::uint64_t run = 0;     // the run that is asked; another run refuses the request
+};
+
+// The reply to a request that came after the end of the run.
+inline std::string RunEndedText(std::uint64_t tick) { return "the run ended at tick " + std::to_string(tick); }
 
 }  // namespace swarmanoid

@@ -11,7 +11,7 @@
 #include <optional>
 
 #include "common/bus/membership/cluster_options.h"
-#include "common/bus/security/share.h"
+#include "common/bus/security/access_grant.h"
 #include "common/configuration/wording.h"
 #include "launcher/command/sub_command.h"
 #include "launcher/installation.h"
@@ -62,11 +62,10 @@ void Attach(AttachOptions& options, const CLI::App& verb)
   }
   const bool domain_given = verb.get_option("--domain")->count() > 0;
   const double wait_s = options.wait_s.value_or(options.kind.starts_with("web") ? kWaitOfPages_s : 0);
-  // The visualiser reads the ticket itself: no word of it stands in a command line.
-  const auto ticket = TicketOfEnvironment();
-  const RunChoice run = ticket
-                            ? RunOf(*ticket, name)
-                            : AwaitRun(name, domain_given ? std::optional(options.bus.domain) : std::nullopt, wait_s);
+  // The visualiser reads the token itself: no word of it stands in a command line.
+  const auto token = TokenOfEnvironment();
+  const RunChoice run = token ? RunOf(*token, name)
+                              : AwaitRun(name, domain_given ? std::optional(options.bus.domain) : std::nullopt, wait_s);
 
   CheckInsecure(run, options.bus);
   options.visualiser.attach = options.kind;

@@ -1,11 +1,10 @@
-// `swarmanoid control`: asks the space server of a running experiment to pause, go on, step, change speed, stop, begin
-// again, or to
-// move, detach, add or remove an entity, or to have processes change places.
+// `swarmanoid control`: sends one request to the space server of a running experiment, and prints the reply. Words,
+// options, help and completion follow from common/messages/control_verbs.h.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -14,10 +13,10 @@
 #include "common/activity/print_error.h"
 #include "common/bus/membership/cluster_options.h"
 #include "common/bus/membership/control_client.h"
-#include "common/bus/security/share.h"
+#include "common/bus/security/access_grant.h"
 #include "common/configuration/configuration_tree.h"
 #include "common/configuration/wording.h"
-#include "common/messages/control_request.h"
+#include "common/messages/control_verbs.h"
 #include "common/run/run_settings.h"
 #include "launcher/command/sub_command.h"
 #include "launcher/control_words.h"
@@ -29,15 +28,13 @@ namespace
 {
 
 constexpr double kPatience_s = 5;
-// Who takes the place of a worker does all ticks again, if that one could not be saved.
-constexpr double kPatienceWithMoves_s = 600;
 
 struct ControlOptions
 {
   std::vector<std::string> words;
   BusOptions bus;
   bool json = false;
-  std::optional<std::uint64_t> seed;
+  std::map<std::string, std::optional<std::uint64_t>> parameters;  // those that are given as --name
   double patience_s = kPatience_s;
 };
 
@@ -50,12 +47,15 @@ void PrintJson(const std::string& experiment, const ControlReplyMessage& reply)
 
 int Control(ControlOptions& options, bool domain_given)
 {
-  const ControlRequest request = ParseControlRequest(options.words, options.seed);
-  const auto ticket = TicketOfEnvironment();
-  if (ticket) UseTicket(*ticket, options.bus);
+  std::map<std::string, std::string> given;
+  for (const auto& [name, value] : options.parameters)
+    if (value) given[name] = std::to_string(*value);
+  const ControlWords words = ParseControlWords(options.words, given);
+  const auto token = TokenOfEnvironment();
+  if (token) UseToken(*token, options.bus);
   const RunChoice run =
-      ticket ? RunOf(*ticket, request.experiment)
-             : ChooseRun(request.experiment, domain_given ? std::optional(options.bus.domain) : std::nullopt);
+      token ? RunOf(*token, words.experiment)
+            : ChooseRun(words.experiment, domain_given ? std::optional(options.bus.domain) : std::nullopt);
   CheckInsecure(run, options.bus);
   options.bus.domain = run.domain;
   UseNetworkOf(run, options.bus);
@@ -69,14 +69,13 @@ int Control(ControlOptions& options, bool domain_given)
     return kExitProcessFailed;
   }
   ControlClient client(bus, run.experiment);
-  const auto reply = client.Ask(request.verb, request.entity, request.numbers,
-                                std::max(options.patience_s, IsWorkerMove(request.verb) ? kPatienceWithMoves_s : 0));
+  const auto reply = client.Ask(words.order, PatienceFor(words.order, options.patience_s));
   if (!reply)
   {
     fmt::print(
         stderr, "swarmanoid: experiment {} in domain {} does not answer{}{}\n", Quoted(run.experiment), run.domain,
         WhyNoAnswer(client.LatestStatus(), bus.Dropped(), options.bus.insecure),
-        ticket ? fmt::format("; the run of {} may have ended, or be on another network", ticket->share.Name()) : "");
+        token ? fmt::format("; the run of {} may have ended, or be on another network", token->grant.Name()) : "");
     return kExitProcessFailed;
   }
   if (options.json) PrintJson(run.experiment, *reply);
@@ -90,29 +89,33 @@ int Control(ControlOptions& options, bool domain_given)
   return kExitDone;
 }
 
+// Adds an option for each parameter that is given as --name.
+void AddParameterOptions(CLI::App& command, ControlOptions& options)
+{
+  for (const ControlVerb& verb : ControlVerbs())
+    for (const ControlParameter& parameter : verb.parameters)
+      if (parameter.is_option)
+        AddOptions(command, {{{.name = parameter.name,
+                               .type = ParameterType::kInteger,
+                               .description = fmt::format("With {}: the {}", verb.name, parameter.meaning),
+                               .minimum = parameter.minimum,
+                               .maximum = parameter.maximum},
+                              &options.parameters[parameter.name],
+                              "7"}});
+}
+
 void AddControlCommand(CLI::App& app, int& exit_code)
 {
   auto options = std::make_shared<ControlOptions>();
   CLI::App* verb =
       app.add_subcommand("control",
-                         "Pause, resume, step, speed up, slow down, stop or reset a running experiment, and\n"
-                         "move, detach, add or remove entities of it; have its processes change places");
-  verb->add_option("WORDS", options->words,
-                   "[EXPERIMENT] pause | resume | step [N] | speed F | stop | reset | move ENTITY X,Y,Z[,A,B,G] |\n"
-                   "detach ENTITY X,Y,Z[,A,B,G] | add ENTITY X,Y,Z[,A,B,G] | remove ENTITY |\n"
-                   "move-host N [MACHINE] | move-engine ID [MACHINE] | drain MACHINE | hosts +N|-N [MACHINE] |\n"
-                   "hosts again | machines")
-      ->required();
+                         "Pause, resume, step, speed up, slow down, stop or reset a running experiment, "
+                         "and\nmove, detach, add or remove entities of it; have its processes change places");
+  verb->add_option("WORDS", options->words, "[EXPERIMENT] REQUEST: one of the requests below")->required();
   verb->add_flag("--json", options->json, "For programs: experiment, ok, tick and text of the answer");
+  AddParameterOptions(*verb, *options);
   AddOptions(*verb,
-             {{{.name = "seed",
-                .type = ParameterType::kInteger,
-                .description = "With reset: the seed of the run that begins; otherwise that of this one",
-                .minimum = 0,
-                .maximum = kLargestSeed},
-               &options->seed,
-               "7"},
-              {{.name = "patience",
+             {{{.name = "patience",
                 .type = ParameterType::kNumber,
                 .unit = "s",
                 .description = "How long a run may stand still without an answer; moves of workers: 600 at least",
@@ -120,28 +123,20 @@ void AddControlCommand(CLI::App& app, int& exit_code)
                &options->patience_s,
                "60"}});
   AddOptions(*verb, BusOptionTable(options->bus));
-  verb->footer(
-      "speed is a multiple of real time, 0 is as fast as possible. Positions are in metres, angles in degrees.\n"
-      "reset ends the run, and begins it again at tick 0 in a folder of its own.\n"
-      "move takes along all that hold the entity or are held with it, detach moves it alone and ends these holds.\n"
-      "add takes an entity that was removed, or the id of a <reserve>.\n"
-      "move-host and move-engine have another process take the place of a controller host or engine, on a machine of\n"
-      "the file of --hosts, or on \"here\", that of the launcher;\n"
-      "drain has all workers of a machine leave it; hosts has the robots shared out by where they are among more\n"
-      "controller hosts, or fewer, or again among as many; machines tells which there are, and who is there.\n"
-      "Examples:\n"
-      "  swarmanoid control pause\n"
-      "  swarmanoid control diffusion_10 step 5\n"
-      "  swarmanoid control speed 2\n"
-      "  swarmanoid control reset --seed 7\n"
-      "  swarmanoid control move fb_0 1.5,2,0\n"
-      "  swarmanoid control detach fb_0 1.5,2,0\n"
-      "  swarmanoid control add prey 1.5,2,0\n"
-      "  swarmanoid control remove prey_0\n"
-      "  swarmanoid control move-host 1 beta\n"
-      "  swarmanoid control drain alpha\n"
-      "  swarmanoid control hosts +1\n"
-      "  swarmanoid control diffusion_10 stop --domain 7 --interface eth0    one on another machine");
+  verb->footer("Requests:\n" + ControlVerbHelp(Asker::kMember) +
+               "Examples:\n"
+               "  swarmanoid control pause\n"
+               "  swarmanoid control diffusion_10 step 5\n"
+               "  swarmanoid control speed 2\n"
+               "  swarmanoid control reset --seed 7\n"
+               "  swarmanoid control move fb_0 1.5,2,0\n"
+               "  swarmanoid control detach fb_0 1.5,2,0\n"
+               "  swarmanoid control add prey 1.5,2,0\n"
+               "  swarmanoid control remove prey_0\n"
+               "  swarmanoid control move-host 1 beta\n"
+               "  swarmanoid control drain alpha\n"
+               "  swarmanoid control hosts +1\n"
+               "  swarmanoid control diffusion_10 stop --domain 7 --interface eth0    one on another machine");
   verb->callback([options, verb, &exit_code]
                  { exit_code = Control(*options, verb->get_option("--domain")->count() > 0); });
 }

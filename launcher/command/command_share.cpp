@@ -15,7 +15,7 @@
 #include "common/bus/membership/cluster_options.h"
 #include "common/bus/membership/control_client.h"
 #include "common/bus/membership/run_directory.h"
-#include "common/bus/security/share.h"
+#include "common/bus/security/access_grant.h"
 #include "common/configuration/wording.h"
 #include "common/program/shell_word.h"
 #include "launcher/command/sub_command.h"
@@ -68,37 +68,37 @@ RunKey KeyOfChosenRun(const RunChoice& run, const BusOptions& bus)
       Quoted(run.experiment), run.domain, UserName()));
 }
 
-void PrintTicket(const ShareTicket& ticket, bool json)
+void PrintToken(const AccessToken& token, bool json)
 {
-  const Share& share = ticket.share;
-  const std::string variable = fmt::format("{}={}", kShareVariable, ShellWord(TextOf(ticket)));
+  const AccessGrant& grant = token.grant;
+  const std::string variable = fmt::format("{}={}", kTokenVariable, ShellWord(TextOf(token)));
   const std::string line = variable + " swarmanoid attach web";
   if (json)
   {
-    const nlohmann::ordered_json text{{"id", share.id},
-                                      {"role", RoleName(share.role)},
-                                      {"ends", share.ends},
-                                      {"ticket", TextOf(ticket)},
+    const nlohmann::ordered_json text{{"id", grant.id},
+                                      {"role", RoleName(grant.role)},
+                                      {"ends", grant.ends},
+                                      {"ticket", TextOf(token)},
                                       {"line", line}};
     fmt::print("{}\n", text.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     return;
   }
   fmt::print("{}\n", line);
-  PrintError("{}: whoever has this line may {}{}, {}. `swarmanoid share {} --revoke {}` ends it.\n", share.Name(),
-             share.role == ShareRole::kOperator ? "look at the run and steer it" : "look at the run",
-             ticket.address.starts_with("127.") ? ", as any user of this machine (the run uses no network)" : "",
-             share.ends == 0 ? "as long as it runs" : "until " + UtcText(share.ends), ShellWord(ticket.experiment),
-             share.id);
+  PrintError("{}: whoever has this line may {}{}, {}. `swarmanoid share {} --revoke {}` ends it.\n", grant.Name(),
+             grant.role == GrantRole::kOperator ? "look at the run and steer it" : "look at the run",
+             token.address.starts_with("127.") ? ", as any user of this machine (the run uses no network)" : "",
+             grant.ends == 0 ? "as long as it runs" : "until " + UtcText(grant.ends), ShellWord(token.experiment),
+             grant.id);
 }
 
-void PrintOpenView(const Share& share, const RunChoice& run, const std::string& address, bool json)
+void PrintOpenView(const AccessGrant& grant, const RunChoice& run, const std::string& address, bool json)
 {
   std::vector<std::string> topics;
   for (const char* topic : {"View", "RunStatus", "World", "Leave"})
     topics.push_back(fmt::format("{}/{}", topic, kOpenChannel));
   if (json)
   {
-    const nlohmann::ordered_json text{{"id", share.id},       {"role", RoleName(share.role)}, {"ends", share.ends},
+    const nlohmann::ordered_json text{{"id", grant.id},       {"role", RoleName(grant.role)}, {"ends", grant.ends},
                                       {"domain", run.domain}, {"partition", run.experiment},  {"topics", topics},
                                       {"address", address}};
     fmt::print("{}\n", text.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
@@ -109,8 +109,8 @@ void PrintOpenView(const Share& share, const RunChoice& run, const std::string& 
       stderr,
       "{}: whoever reaches {} may look at the run with any DDS, {}. Nothing of it is encrypted. `swarmanoid share "
       "{} --revoke {}` ends it.\n",
-      share.Name(), address, share.ends == 0 ? "as long as it runs" : "until " + UtcText(share.ends),
-      ShellWord(run.experiment), share.id);
+      grant.Name(), address, grant.ends == 0 ? "as long as it runs" : "until " + UtcText(grant.ends),
+      ShellWord(run.experiment), grant.id);
 }
 
 int ShareRun(ShareOptions& options, bool domain_given)
@@ -134,21 +134,19 @@ int ShareRun(ShareOptions& options, bool domain_given)
   const RunKey key = KeyOfChosenRun(run, options.bus);
   options.bus.key = key;
 
-  const ShareRole role = options.operate ? ShareRole::kOperator
-                         : options.open  ? ShareRole::kOpenView
-                                         : ShareRole::kWatcher;
-  Share share{NewShareId(), role, 0};
+  const GrantRole role = options.operate ? GrantRole::kOperator
+                         : options.open  ? GrantRole::kOpenView
+                                         : GrantRole::kWatcher;
+  AccessGrant grant{NewGrantId(), role, 0};
   if (seconds)
-    share.ends = static_cast<std::int64_t>(std::time(nullptr)) + static_cast<std::int64_t>(std::ceil(*seconds));
-  std::string verb = "share";
-  std::string id = share.id;
-  std::vector<double> numbers{static_cast<double>(share.role), static_cast<double>(share.ends)};
-  if (options.list) verb = "shares", id.clear(), numbers.clear();
-  if (!options.revoke.empty()) verb = "revoke", id = options.revoke, numbers.clear();
+    grant.ends = static_cast<std::int64_t>(std::time(nullptr)) + static_cast<std::int64_t>(std::ceil(*seconds));
+  ControlOrder order{"share", {{"grant", grant.id}, {"role", RoleWord(grant.role)}, {"ends", grant.ends}}};
+  if (options.list) order = {"shares"};
+  if (!options.revoke.empty()) order = {"revoke", {{"grant", options.revoke}}};
 
   Bus bus(options.bus, "swarmanoid share");
   ControlClient client(bus, run.experiment);
-  const auto reply = client.Ask(verb, id, numbers, kAnswerTime_s);
+  const auto reply = client.Ask(order, kAnswerTime_s);
   if (!reply)
   {
     PrintError("swarmanoid: experiment {} in domain {} does not answer\n", Quoted(run.experiment), run.domain);
@@ -164,17 +162,17 @@ int ShareRun(ShareOptions& options, bool domain_given)
   else if (!options.revoke.empty())
     fmt::print("{}\n", reply->text);
   else if (const std::string address = reply->text.substr(reply->text.rfind(' ') + 1); options.open)
-    PrintOpenView(share, run, address, options.json);
+    PrintOpenView(grant, run, address, options.json);
   else
   {
-    ShareTicket ticket{share, run.domain, address, {}, {}, run.experiment};
-    if (const auto server = ParseServerAddress(ticket.address))
+    AccessToken token{grant, run.domain, address, {}, {}, run.experiment};
+    if (const auto server = ParseServerAddress(token.address))
     {
-      ticket.discovery_server = ticket.address;
-      ticket.address = server->first;
+      token.discovery_server = token.address;
+      token.address = server->first;
     }
-    ticket.key = ChannelOf(key, share).key.value();
-    PrintTicket(ticket, options.json);
+    token.key = ChannelOf(key, grant).key.value();
+    PrintToken(token, options.json);
   }
   return kExitDone;
 }

@@ -1,6 +1,8 @@
 // A sub-command of `swarmanoid`: its file in launcher/command or studies/ adds it to the command line and registers it.
 #pragma once
 
+#include <string>
+
 #include "common/program/usage_error.h"
 #include "simulation/register_all.h"
 
@@ -22,7 +24,8 @@ public:
   RegisterSubCommand(int order, Add add);
 };
 
-// Adds all that are registered.
-void AddSubCommands(CLI::App& app, int& exit_code);
+// Adds all that are registered. `word` is the first one of the command line. Throws UsageError if it is neither empty
+// nor an option nor the name of a sub-command: CLI11 would only say that the word was not expected.
+void AddSubCommands(CLI::App& app, int& exit_code, const std::string& word = {});
 
 }  // namespace swarmanoid

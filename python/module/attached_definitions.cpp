@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include "common/messages/control_verbs.h"
 #include "common/program/usage_error.h"
 #include "common/space/space.h"
 #include "python/module/attached_run.h"
@@ -51,6 +52,26 @@ py::object StateOf(AttachedRun& run)
         state["attributes"] = Frozen(space.Attributes().Values());
       });
   return has_one ? py::object(state) : py::none();
+}
+
+// The table of requests, from which python/swarmanoid/attached.py makes methods.
+py::list VerbRows()
+{
+  constexpr const char* kTypes[] = {"name", "choice", "whole", "change", "number", "pose"};
+  py::list rows;
+  for (const ControlVerb& verb : ControlVerbs())
+  {
+    if (verb.who > Asker::kMember) continue;
+    py::list parameters;
+    for (const ControlParameter& parameter : verb.parameters)
+      parameters.append(py::dict("name"_a = parameter.name, "type"_a = kTypes[static_cast<std::size_t>(parameter.type)],
+                                 "unit"_a = parameter.unit, "minimum"_a = parameter.minimum,
+                                 "maximum"_a = parameter.maximum, "optional"_a = parameter.optional,
+                                 "is_option"_a = parameter.is_option));
+    rows.append(
+        py::dict("name"_a = verb.name, "form"_a = FormOf(verb), "help"_a = verb.help, "parameters"_a = parameters));
+  }
+  return rows;
 }
 
 py::dict StatusOf(AttachedRun& run)
@@ -145,6 +166,7 @@ void TranslateExceptions(py::module_& module)
 void DefineAttachedRun(py::module_& module)
 {
   TranslateExceptions(module);
+  module.def("control_verbs", &VerbRows);
   py::class_<AttachedRun>(module, "AttachedRun")
       .def(py::init(&Attach), "experiment"_a, "domain"_a, "key"_a, "interface"_a, "peers"_a, "discovery_server"_a,
            "insecure"_a, "views"_a, "wait_s"_a, "timeout_s"_a)
@@ -164,13 +186,14 @@ void DefineAttachedRun(py::module_& module)
       .def("wait", &AttachedRun::Wait, "taken"_a, "stale"_a, "tick"_a, "timeout_s"_a)
       .def(
           "control",
-          [](AttachedRun& self, const std::vector<std::string>& words, std::optional<std::uint64_t> seed)
+          [](AttachedRun& self, const std::vector<std::string>& words,
+             const std::map<std::string, std::string>& options)
           {
-            const ControlReplyMessage reply = self.Control(words, seed);
+            const ControlReplyMessage reply = self.Control(words, options);
             if (!reply.ok) throw py::value_error(reply.text);
             return py::make_tuple(reply.tick, reply.text);
           },
-          "words"_a, "seed"_a)
+          "words"_a, "options"_a)
       .def("status", &StatusOf)
       .def("robot", &RobotOf, "entity"_a, "timeout_s"_a)
       .def_property_readonly("is_over", &AttachedRun::IsOver)

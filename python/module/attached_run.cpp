@@ -7,7 +7,7 @@
 
 #include "common/activity/failure_report.h"
 #include "common/bus/membership/library_check.h"
-#include "common/bus/security/share.h"
+#include "common/bus/security/access_grant.h"
 #include "common/configuration/wording.h"
 #include "common/plugins/library.h"
 #include "common/program/usage_error.h"
@@ -30,8 +30,6 @@ constexpr auto kIdlePeriod = 15ms;
 constexpr auto kLookAtSignals = 50ms;
 constexpr double kTimeToLeave_s = 5;
 constexpr double kPatience_s = 5;
-// Who takes the place of a worker does all ticks again, if that one could not be saved.
-constexpr double kPatienceWithMoves_s = 600;
 
 bool SignalCame()
 {
@@ -54,7 +52,7 @@ AttachedRun::AttachedRun(const AttachedRunOptions& given)
   RegisterBuiltins();
   FindRun(options);
   insecure_ = options.bus.insecure;
-  own_folders_only_ = !options.bus.key_file.empty() || options.bus.share;
+  own_folders_only_ = !options.bus.key_file.empty() || options.bus.grant;
   if (!AttachedTo().insert({choice_.experiment, choice_.domain}).second)
     throw UsageError(fmt::format("this program is attached to {} already; use that object, or close it first",
                                  Quoted(choice_.experiment)));
@@ -80,19 +78,19 @@ AttachedRun::AttachedRun(const AttachedRunOptions& given)
 
 void AttachedRun::FindRun(AttachedRunOptions& options)
 {
-  const auto ticket = TicketOfEnvironment();
-  if (ticket) UseTicket(*ticket, options.bus);
+  const auto token = TokenOfEnvironment();
+  if (token) UseToken(*token, options.bus);
   const auto deadline = Clock::now() + std::chrono::duration<double>(options.wait_s);
   while (true)
   {
     try
     {
-      choice_ = ticket ? RunOf(*ticket, options.experiment) : ChooseRun(options.experiment, options.domain);
+      choice_ = token ? RunOf(*token, options.experiment) : ChooseRun(options.experiment, options.domain);
       break;
     }
     catch (const UsageError&)
     {
-      if (ticket || Clock::now() >= deadline) throw;
+      if (token || Clock::now() >= deadline) throw;
     }
     {
       const py::gil_scoped_release others;
@@ -116,7 +114,7 @@ void AttachedRun::Run(const AttachedRunOptions& options)
   {
     WorkerSession session(options.bus, choice_.experiment, "attached Python program " + ProcessId(), choice_.server, 0,
                           {}, &stop_);
-    session.LookOn();
+    session.ObserveOnly();
     session.Work([&] { Follow(session, options.views); });
   }
   catch (...)
@@ -289,9 +287,10 @@ void AttachedRun::ThrowFailure() const
                                      : fmt::format("the run of {} has ended", Quoted(choice_.experiment)));
 }
 
-ControlReplyMessage AttachedRun::Control(const std::vector<std::string>& words, std::optional<std::uint64_t> seed)
+ControlReplyMessage AttachedRun::Control(const std::vector<std::string>& words,
+                                         const std::map<std::string, std::string>& options)
 {
-  const ControlRequest request = ParseControlRequest(words, seed);
+  const ControlOrder order = ParseControlWords(words, options).order;
   std::optional<ControlReplyMessage> reply;
   std::optional<RunStatus> status;
   std::uint64_t dropped = 0;
@@ -308,9 +307,7 @@ ControlReplyMessage AttachedRun::Control(const std::vector<std::string>& words, 
           "no run of experiment {} in domain {} on this machine is of user {}, and no key of it is given; whoever "
           "started it can steer it, or give you its key (docs/security.md)",
           Quoted(choice_.experiment), choice_.domain, UserName()));
-    reply = client_->Ask(request.verb, request.entity, request.numbers,
-                         IsWorkerMove(request.verb) ? kPatienceWithMoves_s : kPatience_s,
-                         [this] { return stop_ || SignalCame(); });
+    reply = client_->Ask(order, PatienceFor(order, kPatience_s), [this] { return stop_ || SignalCame(); });
     status = client_->LatestStatus();
     dropped = bus_->Dropped();
   }

@@ -79,7 +79,7 @@ public:
   bool Wait(std::uint64_t taken, std::uint64_t stale, std::uint64_t tick, double timeout_s);
 
   // The words of `swarmanoid control`. Throws UsageError for words that are none, RunError if nobody answers.
-  ControlReplyMessage Control(const std::vector<std::string>& words, std::optional<std::uint64_t> seed);
+  ControlReplyMessage Control(const std::vector<std::string>& words, const std::map<std::string, std::string>& options);
   RunStatus Status();
   // The inside of a robot, which is told from the first call on. Throws TimeOver.
   RobotStatus Robot(std::uint32_t entity, double timeout_s);

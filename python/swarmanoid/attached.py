@@ -2,6 +2,7 @@
 
 import atexit
 import dataclasses
+import inspect
 import weakref
 
 import numpy as np
@@ -165,52 +166,54 @@ class AttachedRun(Entities):
                              for name, (names, units, values) in told[devices].items()}
         return RobotStatus(**told)
 
-    # ---- steering ----
+    # ---- steering: each request of `swarmanoid control` is a method, too, such as run.step(5) and run.move("fb_0", (1, 2, 0)) ----
 
-    def control(self, *words, seed=None):
-        """What `swarmanoid control` does with these words: control("move-host", 1, "beta"). seed: with "reset"."""
-        answer = Answer(*self._run.control([str(word) for word in words], seed))
+    def control(self, *words, **options):
+        """What `swarmanoid control` does with these words and options: control("step", 5), control("reset", seed=7)."""
+        given = {name: str(value) for name, value in options.items() if value is not None}
+        answer = Answer(*self._run.control([str(word) for word in words], given))
         # A state that was sent before may still be on its way.
         self._stale = self._run.states + 1
         return answer
 
-    def pause(self):
-        return self.control("pause")
 
-    def resume(self):
-        return self.control("resume")
+def _method_of(verb):
+    """The method for a row of the table of requests. A pose is two arguments: position (m) and orientation (degrees)."""
+    arguments = []
+    for parameter in verb["parameters"]:
+        default = None if parameter["optional"] else inspect.Parameter.empty
+        if parameter["type"] == "pose":
+            arguments += [("position", default), ("orientation", (0, 0, 0))]
+        else:
+            arguments.append((parameter["name"], default))
+    signature = inspect.Signature([inspect.Parameter(name, inspect.Parameter.POSITIONAL_OR_KEYWORD, default=default)
+                                   for name, default in [("self", inspect.Parameter.empty), *arguments]])
 
-    def step(self, ticks=1):
-        """So many ticks on, then paused: the Answer comes at their end."""
-        return self.control("step", ticks)
+    def method(self, *words, **named):
+        bound = signature.bind(self, *words, **named)
+        bound.apply_defaults()
+        values, texts, options = bound.arguments, [], {}
+        for parameter in verb["parameters"]:
+            name = parameter["name"]
+            if parameter["type"] == "pose":
+                texts.append(place_words(values["position"], values["orientation"]))
+            elif values[name] is None:
+                continue
+            elif parameter["is_option"]:
+                options[name] = values[name]
+            else:
+                texts.append(repr(float(values[name])) if parameter["type"] == "number" else values[name])
+        return self.control(verb["name"], *texts, **options)
 
-    def speed(self, factor):
-        """A multiple of real time; 0: as fast as possible."""
-        return self.control("speed", repr(float(factor)))
+    method.__name__ = verb["name"].replace("-", "_")
+    method.__qualname__ = f"AttachedRun.{method.__name__}"
+    method.__signature__ = signature
+    method.__doc__ = f"{verb['help']}. As `swarmanoid control {verb['form']}`."
+    return method
 
-    def stop(self):
-        """Ends the run at its tick, for everybody."""
-        return self.control("stop")
 
-    def reset(self, seed=None):
-        """Ends the run, and begins it again at tick 0; with another seed if one is given."""
-        return self.control("reset", seed=seed)
-
-    def move(self, entity, position, orientation=(0, 0, 0)):
-        """Puts a movable entity elsewhere, with all that hold it or are held by it. position: m. orientation: degrees about
-        x, y and z."""
-        return self.control("move", entity, place_words(position, orientation))
-
-    def detach(self, entity, position, orientation=(0, 0, 0)):
-        """As move, but alone: who holds it lets go."""
-        return self.control("detach", entity, place_words(position, orientation))
-
-    def add(self, entity, position, orientation=(0, 0, 0)):
-        """Puts an entity that was removed, or the next one of a <reserve>, into the arena."""
-        return self.control("add", entity, place_words(position, orientation))
-
-    def remove(self, entity):
-        return self.control("remove", entity)
+for _verb in _module.control_verbs():
+    setattr(AttachedRun, _verb["name"].replace("-", "_"), _method_of(_verb))
 
 
 def attach(experiment="", *, domain=None, key="", interface="", peers=(), discovery_server="", insecure=False, hz=30.0,

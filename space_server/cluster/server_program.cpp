@@ -20,7 +20,7 @@ namespace
 using namespace std::chrono_literals;
 
 constexpr auto kPeriod = 50ms;         // of the main thread, when nothing happens
-constexpr double kLastViewTime_s = 1;  // those who look on may be stopped
+constexpr double kLastViewTime_s = 1;  // observers may be stopped
 constexpr auto kWorldAgain = 3s;       // to those who have not heard of the run
 constexpr auto kBrokenTime = 5s;       // for the lease of a dead process to end
 constexpr auto kStuckTime = 1s;        // for another process to take its place
@@ -48,7 +48,7 @@ int ServerProgram::Run()
     // Who looks on waits for the server that takes the place of one that is stuck.
     if (!stuck_ || !options_.awaits_replacements)
     {
-      shares_.Leave(lockstep_.Tick(), error.what(), kLastViewTime_s);
+      grants_.Leave(lockstep_.Tick(), error.what(), kLastViewTime_s);
       session_.Leave(lockstep_.Tick(), error.what());
     }
     // Within another program, that one says it.
@@ -252,7 +252,7 @@ void ServerProgram::Close()
   lockstep_.WithServer([](SpaceServer& server) { server.Destroy(); });
   // After it nobody waits for the last state any more.
   views_.WaitUntilRead(kLastViewTime_s);
-  shares_.Leave(result.ticks, "", kLastViewTime_s);
+  grants_.Leave(result.ticks, "", kLastViewTime_s);
   if (BeginsAgain())
     session_.LeaveToNext();
   else

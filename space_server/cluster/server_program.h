@@ -57,7 +57,7 @@ public:
   ServerProgram(const ServerOptions& options, const Experiment& experiment, StatusChannel& status);
   ~ServerProgram()
   {
-    shares_.Stop();
+    grants_.Stop();
     session_.Close();
   }
   ServerProgram(const ServerProgram&) = delete;
@@ -133,7 +133,7 @@ private:
   Assignment assignment_;
   SpaceServer server_;
   ServerSession session_;
-  Shares shares_;
+  AccessGrants grants_;
   ViewPublisher views_;
   RunControl run_control_;
   PaceMeter pace_;

@@ -1,4 +1,4 @@
-// What is told of a run: to whoever started it, to those who ask, and to those who look on.
+// What is told of a run: to whoever started it, to those who ask, and to observers.
 #include "space_server/cluster/server_program.h"
 
 #include <fmt/format.h>
@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/activity/print_error.h"
+#include "common/messages/control_verbs.h"
 #include "space_server/cluster/process_liveness.h"
 
 namespace swarmanoid
@@ -29,10 +30,8 @@ void ServerProgram::Reply(const ControlRequestMessage& request, bool done, std::
     status_.Publish(ServerWarning{text});
     Say(text);
   }
-  // Robots that are moved by hand would fill the screen.
-  const bool told = request.verb == "pause" || request.verb == "resume" || request.verb == "speed" ||
-                    request.verb == "stop" || request.verb == "reset" || IsWorkerMove(request.verb);
-  if (!done || !told) return;
+  const ControlVerb* const verb = FindControlVerb(request.verb);
+  if (!done || verb == nullptr || !verb->announced) return;
   const std::string line = fmt::format("{}: {}", AskerOf(request), text);
   status_.Publish(ServerAsked{line});
   Say(line);
@@ -114,7 +113,7 @@ RunStatus::Phase ServerProgram::Phase() const
 
 void ServerProgram::PublishViews()
 {
-  shares_.Work(lockstep_.Tick());
+  grants_.Work(lockstep_.Tick());
   const auto now = Clock::now();
   const bool over = lockstep_.Finished();
   if (std::exchange(told_end_, over) || (over && BeginsAgain())) return;

@@ -11,6 +11,7 @@
 #include "common/checkpoint/host_state.h"
 #include "common/checkpoint/library_builds.h"
 #include "common/journal/journal_reader.h"
+#include "common/messages/control_verbs.h"
 #include "common/serialisation/save_check.h"
 #include "common/space/space.h"
 
@@ -35,13 +36,13 @@ RunControlSetup MakeRunControlSetup(const ServerOptions& options, const Experime
   return setup;
 }
 
+// The reply to a request that an earlier space server executed. A change of the controller hosts starts a new server.
 std::string DoneText(const ControlRequestMessage& request, const Assignment& assignment)
 {
+  if (FindControlVerb(request.verb)->effect != Effect::kPlacement) return request.verb + " was done";
   const std::size_t hosts = assignment.hosts.size();
-  if (request.verb == "hosts")
-    return fmt::format("{} now", hosts == 1 ? "one controller host has all robots"
-                                            : fmt::format("{} controller hosts share the robots", hosts));
-  return request.verb + " was done";
+  return hosts == 1 ? "one controller host has all robots now"
+                    : fmt::format("{} controller hosts share the robots now", hosts);
 }
 
 // A step that the run has still to come to the end of.
@@ -68,17 +69,18 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
       session_(options.bus, World(), Members(),
                {[this](const ControlRequestMessage& request)
                 {
-                  if (std::ranges::find(kShareVerbs, request.verb) != kShareVerbs.end()) return shares_.Ask(request);
+                  const ControlVerb* const verb = FindControlVerb(request.verb);
+                  if (verb != nullptr && verb->who == Asker::kOwner) return grants_.Ask(request);
                   run_control_.Ask(request);
                   Wake();
                 },
                 [this] { Wake(); }, [this](const std::string& process) { views_.Lost(process); },
                 [this](const ControlReplyMessage& reply)
                 {
-                  shares_.Replied(reply);
+                  grants_.Replied(reply);
                   views_.Renew();
                 }}),
-      shares_(session_, options.bus,
+      grants_(session_, options.bus,
               {[this](const ViewRequestMessage& request) { views_.Requested(request); },
                [this](const ControlRequestMessage& request)
                {
@@ -86,7 +88,7 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
                  Wake();
                },
                [this] { Wake(); }}),
-      views_(session_, shares_, [this] { Wake(); }),
+      views_(session_, grants_, [this] { Wake(); }),
       run_control_(experiment, Setup(),
                    [this](const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)
                    { Reply(request, done, tick, text); }),
@@ -102,7 +104,7 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
   if (restart_point_)
     for (const ControlRequestMessage& request : restart_point_->Requests().answered)
       session_.Remember(request, IsAwaited(request, *restart_point_), DoneText(request, assignment_));
-  if (restart_point_) shares_.Restore(restart_point_->Requests().shares);
+  if (restart_point_) grants_.Restore(restart_point_->Requests().grants);
   server_.SetFaultHandler(
       [this](const std::vector<RecordedFault>& faults)
       {
@@ -116,7 +118,7 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
       {
         status_.Publish(
             ServerWarning{fmt::format("refused a {} message of {}: {}", report.topic, report.sender, report.what)});
-        run_control_.Refused(report.topic, report.sender);
+        run_control_.Note(NoteOf(kRefusedMessage, report.topic, report.sender));
         Wake();
       });
 }
@@ -133,7 +135,7 @@ RunControlSetup ServerProgram::Setup()
     status_.Publish(ServerMove{move.machine, move.worker});
   };
   if (options_.abandon == nullptr)
-    setup.share_out = [this](const std::vector<std::string>& machines)
+    setup.rebalance = [this](const std::vector<std::string>& machines)
     {
       journal_->Flush();
       status_.Publish(ServerHosts{fmt::format("{}", fmt::join(machines, " "))});

@@ -25,9 +25,9 @@ ViewPublisher::Clock::duration Period(double rate)
 
 }  // namespace
 
-ViewPublisher::ViewPublisher(ServerSession& session, Shares& shares, std::function<void()> woken)
+ViewPublisher::ViewPublisher(ServerSession& session, AccessGrants& grants, std::function<void()> woken)
     : session_(session),
-      shares_(shares),
+      grants_(grants),
       woken_(std::move(woken)),
       views_(session.GetBus(), session.World().experiment),
       statuses_(session.GetBus(), session.World().experiment),
@@ -77,7 +77,7 @@ ViewPublisher::Clock::duration ViewPublisher::ViewPeriod(Clock::time_point now) 
 
 bool ViewPublisher::ViewIsDue(std::uint64_t tick, Clock::time_point now)
 {
-  const unsigned readers = views_.Readers() + shares_.ViewReaders();
+  const unsigned readers = views_.Readers() + grants_.ViewReaders();
   const bool newcomers = TakeAskedFirst() || readers > viewers_;
   viewers_ = readers;
   if (readers == 0) return false;
@@ -101,7 +101,7 @@ void ViewPublisher::SendView(SpaceSnapshot& snapshot, Clock::time_point now)
 {
   std::swap(view_.snapshot, snapshot);
   views_.Write(view_);
-  shares_.Write(view_);
+  grants_.Write(view_);
   std::swap(view_.snapshot, snapshot);
   if (views_left_ > 0) --views_left_;
   viewed_tick_ = snapshot.tick;
@@ -112,7 +112,7 @@ void ViewPublisher::SendView(SpaceSnapshot& snapshot, Clock::time_point now)
 
 bool ViewPublisher::StatusIsDue(RunStatus::Phase phase, Clock::time_point now)
 {
-  const unsigned readers = statuses_.Readers() + shares_.StatusReaders();
+  const unsigned readers = statuses_.Readers() + grants_.StatusReaders();
   const bool newcomers = readers > status_readers_;
   status_readers_ = readers;
   if (readers == 0) return false;
@@ -123,7 +123,7 @@ void ViewPublisher::SendStatus(const RunStatus& status, Clock::time_point now)
 {
   status_.status = status;
   statuses_.Write(status_);
-  shares_.Write(status_);
+  grants_.Write(status_);
   said_phase_ = status.phase;
   said_ = now;
 }

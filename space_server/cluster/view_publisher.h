@@ -12,7 +12,7 @@
 #include <string>
 
 #include "common/bus/membership/server_session.h"
-#include "space_server/cluster/shares.h"
+#include "space_server/cluster/access_grants.h"
 
 namespace swarmanoid
 {
@@ -22,8 +22,8 @@ class ViewPublisher
 public:
   using Clock = std::chrono::steady_clock;
 
-  // `woken`: called in a thread of the bus when somebody asks for something else. Holders of shares get the same.
-  ViewPublisher(ServerSession& session, Shares& shares, std::function<void()> woken);
+  // `woken`: called in a thread of the bus when somebody asks for something else. Holders of grants get the same.
+  ViewPublisher(ServerSession& session, AccessGrants& grants, std::function<void()> woken);
   ~ViewPublisher();
 
   // Views. One is due when somebody has come; then, at the pace that is asked for, while ticks pass, and for some
@@ -38,7 +38,7 @@ public:
   bool StatusIsDue(RunStatus::Phase phase, Clock::time_point now);
   void SendStatus(const RunStatus& status, Clock::time_point now);
 
-  // The latest view and status were read by all who look on, or that time is over.
+  // The latest view and status were read by all observers, or that time is over.
   void WaitUntilRead(double seconds);
 
   // When one of them may be due.
@@ -59,7 +59,7 @@ private:
   bool TakeAskedFirst();
 
   ServerSession& session_;
-  Shares& shares_;
+  AccessGrants& grants_;
   std::function<void()> woken_;
   mutable std::mutex mutex_;
   std::map<std::string, Request> requests_;  // by client

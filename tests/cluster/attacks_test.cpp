@@ -17,7 +17,7 @@
 
 #include "common/bus/membership/control_client.h"
 #include "common/bus/membership/run_directory.h"
-#include "common/bus/security/share.h"
+#include "common/bus/security/access_grant.h"
 #include "test_folders.h"
 #include "tests/cluster/cluster_fixture.h"
 #include "tests/unit/bus/stranger.h"
@@ -159,8 +159,8 @@ TEST_F(AttacksTest, WellFormedMessagesOfStrangersChangeNothing)
   test::Stranger stranger(domain_.Id(), "besieged");
   const auto send = [&](const std::string& topic, const std::vector<std::string>& payloads)
   { EXPECT_TRUE(stranger.Send(topic, payloads)) << topic; };
-  send("ControlRequest", {PayloadOf(ControlRequestMessage{"host:1", 1, "stop", "", {}, "root"}),
-                          PayloadOf(ControlRequestMessage{"host:1", 2, "move", "robots0_0", {1, 1, 0}, "root"})});
+  send("ControlRequest", {PayloadOf(ControlRequestMessage{{"stop"}, "host:1", 1, "root"}),
+                          PayloadOf(ControlRequestMessage{OrderOf("move robots0_0 1,1,0"), "host:1", 2, "root"})});
   send("Join", {PayloadOf(JoinMessage{"host:1", kProtocolVersion, run, "engine 'e0'", true, 1}),
                 PayloadOf(JoinMessage{engine_process, kProtocolVersion + 1, run, "engine 'e0'", true, 0})});
   send("Leave", {PayloadOf(LeaveMessage{run, 0, "engine 'e0'", engine_process, "forged"}),
@@ -192,7 +192,7 @@ TEST_F(AttacksTest, WellFormedMessagesOfStrangersChangeNothing)
   EXPECT_TRUE(second.Send("EngineUpdate", {PayloadOf(MessageHeader{run, 1, 0, false}, update)}));
 
   ControlClient client(bus, "besieged");
-  const auto reply = client.Ask("resume", "", {}, kGenerous_s);
+  const auto reply = client.Ask({"resume"}, kGenerous_s);
   ASSERT_TRUE(reply && reply->ok) << server.Output();
   EXPECT_EQ(server.Wait(), 0) << server.Output();
   for (ChildProcess& worker : workers) EXPECT_EQ(worker.Wait(), 0) << worker.Output();
@@ -206,8 +206,8 @@ TEST_F(AttacksTest, WellFormedMessagesOfStrangersChangeNothing)
   EXPECT_THAT(events, Not(HasSubstr(",stop,")));
 }
 
-// Holders of shares, with programs of their own: a watcher asks for what he may not, an operator for what members alone
-// may; both say on their share, and on the topics of the members, what members or the server would say.
+// Holders of grants, with programs of their own: a watcher asks for what he may not, an operator for what members alone
+// may; both say on their grant, and on the topics of the members, what members or the server would say.
 TEST_F(AttacksTest, HoldersOfSharesDoNoMoreThanTheyMay)
 {
   const std::string file = WriteExperiment("shared", 1, static_cast<int>(kTicks));
@@ -220,26 +220,26 @@ TEST_F(AttacksTest, HoldersOfSharesDoNoMoreThanTheyMay)
   ControlClient member(bus, "shared");
   const RunKey key = *FindLocalRuns().at(0).key;
   const std::string engine_process = fmt::format("{}:{}", MachineName(), workers[0].Id());
-  const Share watcher{"00000001", ShareRole::kWatcher, 0};
-  const Share steerer{"00000002", ShareRole::kOperator, 0};
-  for (const Share& share : {watcher, steerer})
+  const AccessGrant watcher{"00000001", GrantRole::kWatcher, 0};
+  const AccessGrant steerer{"00000002", GrantRole::kOperator, 0};
+  for (const AccessGrant& grant : {watcher, steerer})
   {
-    const auto made = member.Ask("share", share.id, {static_cast<double>(share.role), 0}, kGenerous_s);
+    const auto made = member.Ask(OrderOf(fmt::format("share {} {} 0", grant.id, RoleWord(grant.role))), kGenerous_s);
     ASSERT_TRUE(made && made->ok) << server.Output();
-    const ShareChannel channel = ChannelOf(key, share);
+    const GrantChannel channel = ChannelOf(key, grant);
 
-    BusOptions of_share = Options();
-    of_share.key = channel.key;
-    of_share.share = channel;
-    Bus side(of_share, "engine 'e0'");
+    BusOptions of_grant = Options();
+    of_grant.key = channel.key;
+    of_grant.grant = channel;
+    Bus side(of_grant, "engine 'e0'");
     ControlClient client(side, "shared", world.run);
-    for (const char* verb : share.role == ShareRole::kOperator
-                                ? std::vector<const char*>{"share", "revoke", "shares"}
-                                : std::vector<const char*>{"stop", "resume", "move", "share", "revoke"})
+    std::vector<std::string> forbidden{"share 00000003 operate 0", "revoke 00000001", "shares"};
+    if (grant.role == GrantRole::kWatcher) forbidden.insert(forbidden.end(), {"stop", "resume", "move fb 1,1,0"});
+    for (const std::string& words : forbidden)
     {
-      const auto reply = client.Ask(verb, watcher.id, {1, 1, 0}, kGenerous_s);
-      ASSERT_TRUE(reply.has_value()) << verb;
-      EXPECT_FALSE(reply->ok) << verb;
+      const auto reply = client.Ask(OrderOf(words), kGenerous_s);
+      ASSERT_TRUE(reply.has_value()) << words;
+      EXPECT_FALSE(reply->ok) << words;
     }
     Publisher<LeaveMessage> leave(side, "shared");
     ASSERT_TRUE(Eventually([&] { return leave.Readers() > 0; }));
@@ -248,18 +248,18 @@ TEST_F(AttacksTest, HoldersOfSharesDoNoMoreThanTheyMay)
     leave.WaitUntilRead(1);
 
     // On the topics of the members, by the key that he has.
-    of_share.share.reset();
-    Bus impostor(of_share, "engine 'e0'");
+    of_grant.grant.reset();
+    Bus impostor(of_grant, "engine 'e0'");
     Publisher<LeaveMessage> members_leave(impostor, "shared");
     Publisher<ControlRequestMessage> requests(impostor, "shared");
     ASSERT_TRUE(Eventually([&] { return members_leave.Readers() >= 2 && requests.Readers() >= 1; }));
     members_leave.Write({world.run, 0, "engine 'e0'", engine_process, "forged"});
     members_leave.Write({world.run, 0, "space server", "", "forged"});
-    requests.Write({"host:1", 1, "stop", "", {}, "root", world.run});
+    requests.Write({{"stop"}, "host:1", 1, "root", world.run});
     members_leave.WaitUntilRead(1);
     requests.WaitUntilRead(1);
   }
-  const auto reply = member.Ask("resume", "", {}, kGenerous_s);
+  const auto reply = member.Ask({"resume"}, kGenerous_s);
   ASSERT_TRUE(reply && reply->ok) << server.Output();
   EXPECT_EQ(server.Wait(), 0) << server.Output();
   for (ChildProcess& worker : workers) EXPECT_EQ(worker.Wait(), 0) << worker.Output();
@@ -293,7 +293,7 @@ TEST_F(AttacksTest, WhoSaysThatWhatHeSaidIsLostIsNotWaitedFor)
     sendto(socket, gap.data(), gap.size(), 0, reinterpret_cast<const sockaddr*>(&to), sizeof to);
   }
   close(socket);
-  ASSERT_TRUE(stranger.Send("ControlRequest", {PayloadOf(ControlRequestMessage{"host:1", 1, "stop", "", {}, "root"})}));
+  ASSERT_TRUE(stranger.Send("ControlRequest", {PayloadOf(ControlRequestMessage{{"stop"}, "host:1", 1, "root"})}));
   ASSERT_TRUE(Ask("counting", "stop")) << server.Output();
   EXPECT_EQ(server.Wait(), 0) << server.Output();
 }
@@ -310,7 +310,7 @@ TEST_F(AttacksTest, ARequestToAnotherRunOfTheKeyIsRefused)
   const WorldMessage world = WorldOn(bus, "again");
   Publisher<ControlRequestMessage> requests(bus, "again");
   ASSERT_TRUE(Eventually([&] { return requests.Readers() == 1; }));
-  requests.Write({"host:1", 1, "stop", "", {}, "root", world.run + 1});
+  requests.Write({{"stop"}, "host:1", 1, "root", world.run + 1});
   EXPECT_TRUE(server.WaitForOutput("it was asked of another run")) << server.Output();
 }
 
@@ -322,7 +322,7 @@ TEST_F(AttacksTest, AStrangerStopsARunThatLetsAnybodyIn)
   std::vector<ChildProcess> workers = StartWorkers("open", 1, 1);
   ASSERT_TRUE(server.WaitForOutput("paused at tick 0")) << server.Output();
   test::Stranger stranger(domain_.Id(), "open");
-  ASSERT_TRUE(stranger.Send("ControlRequest", {PayloadOf(ControlRequestMessage{"host:1", 1, "stop", "", {}, ""})}));
+  ASSERT_TRUE(stranger.Send("ControlRequest", {PayloadOf(ControlRequestMessage{{"stop"}, "host:1", 1})}));
   EXPECT_EQ(server.Wait(), 0) << server.Output();
   EXPECT_THAT(server.Output(), HasSubstr("finished: 0 ticks"));
 }
@@ -363,7 +363,7 @@ TEST_F(AttacksTest, AProgramOfAnotherDdsIsObeyedIfAnybodyIsLetIn)
         ASSERT_TRUE(engine.StopAsleep());
         Bus bus(options, "test");
         ControlClient client(bus, "open");
-        EXPECT_TRUE(client.Ask("resume", "", {}, kGenerous_s).has_value());
+        EXPECT_TRUE(client.Ask({"resume"}, kGenerous_s).has_value());
         EXPECT_TRUE(server.WaitForOutput("tick 1: waiting for engine 'e0'")) << server.Output();
       });
 }

@@ -115,7 +115,7 @@ bool ClusterTest::Ask(const std::string& experiment, const std::string& verb) co
   BusOptions options;
   options.domain = domain_.Id();
   Bus bus(options, "test");
-  const auto reply = ControlClient(bus, experiment).Ask(verb, "", {}, kGenerous_s);
+  const auto reply = ControlClient(bus, experiment).Ask({verb}, kGenerous_s);
   return reply && reply->ok;
 }
 

@@ -3,10 +3,13 @@
 
 #include <gmock/gmock.h>
 
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "common/bus/free_domain.h"
+#include "common/messages/control_verbs.h"
 #include "tests/cluster/child_process.h"
 #include "tests/eventually.h"
 #include "tests/world/temporary_folder.h"
@@ -15,6 +18,14 @@ namespace swarmanoid
 {
 
 using test::Eventually;
+
+// Reads "step 7" as `swarmanoid control` does.
+inline ControlOrder OrderOf(const std::string& text)
+{
+  std::istringstream stream(text);
+  std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
+  return ParseOrder(*FindControlVerb(words[0]), {}, {words.begin() + 1, words.end()});
+}
 
 class ClusterTest : public testing::Test
 {

@@ -34,13 +34,13 @@ protected:
     client_.emplace(*bus_, "controlled");
   }
 
-  ControlReplyMessage Ask(const std::string& verb, const std::vector<double>& numbers = {},
-                          const std::string& entity = "")
+  ControlReplyMessage Ask(const ControlOrder& order)
   {
-    const auto reply = client_->Ask(verb, entity, numbers, 20);
-    EXPECT_TRUE(reply.has_value()) << verb << "\n" << server_->Output();
+    const auto reply = client_->Ask(order, 20);
+    EXPECT_TRUE(reply.has_value()) << order.verb << "\n" << server_->Output();
     return reply.value_or(ControlReplyMessage{});
   }
+  ControlReplyMessage Ask(const std::string& words) { return Ask(OrderOf(words)); }
 
   void ExpectEnd()
   {
@@ -59,7 +59,7 @@ protected:
 TEST_F(ControlTest, StepsPausesAndResumes)
 {
   Begin({"--paused"});
-  const ControlReplyMessage step = Ask("step", {7});
+  const ControlReplyMessage step = Ask("step 7");
   EXPECT_TRUE(step.ok) << step.text;
   EXPECT_EQ(step.tick, 7U);
   EXPECT_EQ(Ask("step").tick, 8U);
@@ -77,7 +77,7 @@ TEST_F(ControlTest, StepsPausesAndResumes)
 TEST_F(ControlTest, AStepIsWaitedForAsLongAsTheRunGetsOn)
 {
   Begin({"--paused", "--real-time", "1"});
-  const auto step = client_->Ask("step", "", {25}, 1);
+  const auto step = client_->Ask(OrderOf("step 25"), 1);
   ASSERT_TRUE(step.has_value());
   EXPECT_EQ(step->tick, 25U);
   ExpectEnd();
@@ -87,28 +87,28 @@ TEST_F(ControlTest, KeepsTheAskedPace)
 {
   Begin({"--paused", "--real-time", "2"});
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_EQ(Ask("step", {20}).tick, 20U);
+  EXPECT_EQ(Ask("step 20").tick, 20U);
   // 19 or 20 intervals of 100 ms at twice real time.
   EXPECT_GT(std::chrono::steady_clock::now() - start, 900ms);
-  EXPECT_TRUE(Ask("speed", {0}).ok);
-  EXPECT_EQ(Ask("step", {20}).tick, 40U);
-  EXPECT_FALSE(Ask("speed", {-1}).ok);
+  EXPECT_TRUE(Ask("speed 0").ok);
+  EXPECT_EQ(Ask("step 20").tick, 40U);
+  EXPECT_FALSE(Ask({"speed", {{"factor", -1.0}}}).ok);
   ExpectEnd();
 }
 
 TEST_F(ControlTest, MovesARobotAndRefusesImpossibleRequestsWithAReason)
 {
   Begin({"--paused"});
-  EXPECT_TRUE(Ask("move", {1.5, 1.25, 0, 0, 0, 90}, "robots0_3").ok);
-  EXPECT_THAT(Ask("move", {1, 1, 0}, "nobody").text, HasSubstr("no entity 'nobody'"));
-  EXPECT_THAT(Ask("move", {1, 1, 0}, "wall_0").text, HasSubstr("'wall_0' cannot move"));
-  EXPECT_THAT(Ask("move", {1, 5, 0}, "robots0_3").text, HasSubstr("outside the arena"));
-  EXPECT_THAT(Ask("move", {1, 1}, "robots0_3").text, HasSubstr("X,Y,Z"));
-  EXPECT_THAT(Ask("step", {0.5}).text, HasSubstr("whole number"));
-  EXPECT_THAT(Ask("jump").text, HasSubstr("pause, resume, step"));
+  EXPECT_TRUE(Ask("move robots0_3 1.5,1.25,0,0,0,90").ok);
+  EXPECT_THAT(Ask("move nobody 1,1,0").text, HasSubstr("no entity 'nobody'"));
+  EXPECT_THAT(Ask("move wall_0 1,1,0").text, HasSubstr("'wall_0' cannot move"));
+  EXPECT_THAT(Ask("move robots0_3 1,5,0").text, HasSubstr("outside the arena"));
+  EXPECT_THAT(Ask({"move", {{"entity", "robots0_3"}, {"pose", std::vector<double>{1, 1}}}}).text, HasSubstr("X,Y,Z"));
+  EXPECT_THAT(Ask({"step", {{"ticks", 0.5}}}).text, HasSubstr("no number of ticks"));
+  EXPECT_THAT(Ask(ControlOrder{"jump"}).text, HasSubstr("pause, resume, step"));
 
   ChildProcess text = Start("visualiser", {"--attach", "text", "file=moved.txt", "--output", folder_});
-  Ask("step", {1});
+  Ask("step 1");
   // It moved on from where it was put, along the heading it was given.
   const std::string place = "Footbot\trobots0_3\t1.5\t1.26\t";
   EXPECT_TRUE(Eventually([&] { return Read("moved.txt").find(place) != std::string::npos; })) << Read("moved.txt");
@@ -119,7 +119,7 @@ TEST_F(ControlTest, MovesARobotAndRefusesImpossibleRequestsWithAReason)
 TEST_F(ControlTest, ALateVisualiserSeesAPausedWorldAtOnce)
 {
   Begin({"--paused"});
-  Ask("step", {5});
+  Ask("step 5");
   ChildProcess text = Start("visualiser", {"--attach", "text", "--experiment", "controlled"});
   EXPECT_TRUE(text.WaitForOutput("robots0_11")) << text.Output();
   EXPECT_THAT(text.Output(), HasSubstr("5\t\tFootbot\trobots0_11"));
@@ -130,7 +130,7 @@ TEST_F(ControlTest, ALateVisualiserSeesAPausedWorldAtOnce)
 TEST_F(ControlTest, APausedRunSendsWhatItsUserChanged)
 {
   Begin({"--paused"});
-  Ask("step", {5});
+  Ask("step 5");
   std::atomic<int> views = 0;
   std::atomic<bool> moved = false;
   const Subscription<ViewMessage> seen(*bus_, "controlled",
@@ -152,7 +152,7 @@ TEST_F(ControlTest, APausedRunSendsWhatItsUserChanged)
         return before > 0 && views == before;
       }));
   EXPECT_FALSE(moved);
-  EXPECT_TRUE(Ask("move", {1.5, 1.25, 0}, "robots0_3").ok);
+  EXPECT_TRUE(Ask("move robots0_3 1.5,1.25,0").ok);
   EXPECT_TRUE(Eventually([&] { return views > before && moved; }));
   ExpectEnd();
 }
@@ -162,7 +162,7 @@ TEST_F(ControlTest, AStoppedOrKilledVisualiserDoesNotSlowTheRun)
   Begin({"--paused"});
   ChildProcess stopped = Start("visualiser", {"--attach", "text", "file=stopped.txt", "--output", folder_});
   ChildProcess killed = Start("visualiser", {"--attach", "text", "file=killed.txt", "--output", folder_});
-  Ask("step", {5});
+  Ask("step 5");
   const auto both_see = [this]
   {
     return Read("stopped.txt").find("robots0_11") < std::string::npos &&
@@ -172,7 +172,7 @@ TEST_F(ControlTest, AStoppedOrKilledVisualiserDoesNotSlowTheRun)
   stopped.Signal(SIGSTOP);
   killed.Signal(SIGKILL);
   // One that is stopped would hold it up for ever.
-  EXPECT_EQ(Ask("step", {3000}).tick, 3005U);
+  EXPECT_EQ(Ask("step 3000").tick, 3005U);
   ExpectEnd();
 }
 

@@ -17,7 +17,6 @@ enum
   kDepth = 16
 };
 
-static char nothing[] = "";
 static char forged[] = "forged";
 static char engine[] = "engine 'e0'";
 static double poses[kMostRobots * kColumns];
@@ -32,7 +31,7 @@ static swarmanoid_wire_World world = {
 static swarmanoid_wire_Join join = {.name = engine, .ready = true, .incarnation = 7};
 static swarmanoid_wire_View view;
 static swarmanoid_wire_ControlRequest control_request = {
-    .number = 1, .verb = (char*)"stop", .entity = nothing, .user = forged};
+    .number = 1, .verb = (char*)"stop", .user = forged};
 static swarmanoid_wire_ControlReply control_reply = {.number = 1, .text = forged};
 static swarmanoid_wire_Status status = {.name = engine, .text = forged};
 static swarmanoid_wire_SavedState saved_state = {.name = engine};

@@ -77,10 +77,10 @@ protected:
     ASSERT_TRUE(Eventually([&] { return world_->Get().has_value(); }));
   }
 
-  ControlReplyMessage Ask(const std::string& verb, const std::vector<double>& numbers = {})
+  ControlReplyMessage Ask(const std::string& words)
   {
-    const auto reply = client_->Ask(verb, "", numbers, kGenerous_s);
-    EXPECT_TRUE(reply.has_value()) << verb << "\n" << server_->Output();
+    const auto reply = client_->Ask(OrderOf(words), kGenerous_s);
+    EXPECT_TRUE(reply.has_value()) << words << "\n" << server_->Output();
     return reply.value_or(ControlReplyMessage{});
   }
 
@@ -150,7 +150,7 @@ TEST_F(InspectionTest, AProcessThatIsLateIsNamed)
   // Paused, it holds no lock of the memory that it shares with the others when it is stopped.
   Begin(0, 2, {"--paused", "--real-time", "5"});
   Latest<RunStatusMessage> status(*bus_, "inspected");
-  ASSERT_EQ(Ask("step", {20}).tick, 20U);
+  ASSERT_EQ(Ask("step 20").tick, 20U);
   ChildProcess& host = workers_.back();
   ASSERT_TRUE(host.StopAsleep());
   Ask("resume");
@@ -184,7 +184,7 @@ TEST_F(InspectionTest, WatchedRobotsOfAllHostsTellTheirInside)
   Latest<RobotStatusMessage> status(*bus_, "inspected");
   Publisher<ViewRequestMessage> request(*bus_, "inspected");
   // The robots of one host; while the run is paused the answer comes too.
-  ASSERT_EQ(Ask("step", {4}).tick, 4U);
+  ASSERT_EQ(Ask("step 4").tick, 4U);
   request.Write(Request({"robots0_2"}));
   ASSERT_TRUE(Eventually([&] { return status.Get().has_value(); }));
   const RobotStatusMessage message = *status.Get();
@@ -297,7 +297,7 @@ TEST_F(InspectionTest, WatchingIsForgottenWithoutRepetitionAndLeavesTheHashesAlo
     all.every_tick = true;
     request.Write(all);
     ASSERT_TRUE(Eventually([&] { return status.Count() > 0; }));
-    ASSERT_EQ(Ask("step", {200}).tick, 200U);
+    ASSERT_EQ(Ask("step 200").tick, 200U);
     EXPECT_TRUE(Eventually([&] { return status.Get()->tick == 199; }));
     // A second passes in which a step is not told about.
     const auto forgotten = [&]
@@ -308,7 +308,7 @@ TEST_F(InspectionTest, WatchingIsForgottenWithoutRepetitionAndLeavesTheHashesAlo
     };
     EXPECT_TRUE(Eventually(forgotten));
     const int before = status.Count();
-    ticks = Ask("step", {200}).tick;
+    ticks = Ask("step 200").tick;
     // What was told about these comes before what is asked for now. One may come before the host notices.
     request.Write(all);
     EXPECT_TRUE(Eventually([&] { return status.Get()->tick + 1 == ticks; }));

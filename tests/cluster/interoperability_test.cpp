@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "common/bus/membership/control_client.h"
-#include "common/bus/security/share.h"
+#include "common/bus/security/access_grant.h"
 #include "test_folders.h"
 #include "tests/cluster/cluster_fixture.h"
 
@@ -76,7 +76,7 @@ TEST_F(ClusterTest, CycloneSubscriberReadsAnOpenView)
   ControlClient member(bus, "looked_at");
   of_stranger.insecure = true;
   Bus stranger(of_stranger, "stranger");
-  const ShareChannel channel{kOpenChannel, std::nullopt};
+  const GrantChannel channel{kOpenChannel, std::nullopt};
   const Publisher<ControlRequestMessage> requests(stranger, "looked_at", channel);
   const Publisher<ViewRequestMessage> view_requests(stranger, "looked_at", channel);
   std::atomic<std::uint64_t> seen = 0;
@@ -84,8 +84,7 @@ TEST_F(ClusterTest, CycloneSubscriberReadsAnOpenView)
       stranger, "looked_at", [&](const ViewMessage& view) { seen = view.snapshot.tick; }, channel);
   const Subscription<ViewMessage> of_members(stranger, "looked_at", [](const ViewMessage&) { ADD_FAILURE(); });
 
-  const double open_view = static_cast<double>(ShareRole::kOpenView);
-  const auto made = member.Ask("share", "0000000a", {open_view, 0}, kGenerous_s);
+  const auto made = member.Ask(OrderOf("share 0000000a open 0"), kGenerous_s);
   ASSERT_TRUE(made && made->ok) << server.Output();
   ChildProcess subscriber(
       {SWARMANOID_BUILD_FOLDER "/bin/tests/cyclone_subscriber", DomainText(), "looked_at", "10", "open"},
@@ -94,15 +93,15 @@ TEST_F(ClusterTest, CycloneSubscriberReadsAnOpenView)
   ASSERT_TRUE(Eventually([&] { return seen > 0; }));
   EXPECT_EQ(requests.Readers(), 0u);
   EXPECT_EQ(view_requests.Readers(), 0u);
-  const auto second = member.Ask("share", "0000000b", {open_view, 0}, kGenerous_s);
+  const auto second = member.Ask(OrderOf("share 0000000b open 0"), kGenerous_s);
   ASSERT_TRUE(second.has_value());
   EXPECT_EQ(std::pair(second->ok, second->text),
             std::pair(false, std::string("the run has an open view already: 0000000a")));
 
-  const auto revoked = member.Ask("revoke", "0000000a", {}, kGenerous_s);
+  const auto revoked = member.Ask(OrderOf("revoke 0000000a"), kGenerous_s);
   ASSERT_TRUE(revoked && revoked->ok);
   ASSERT_TRUE(Eventually([&] { return views.Writers() == 0; }));
-  const auto stopped = member.Ask("stop", "", {}, kGenerous_s);
+  const auto stopped = member.Ask({"stop"}, kGenerous_s);
   ASSERT_TRUE(stopped && stopped->ok);
   EXPECT_EQ(server.Wait(), 0) << server.Output();
   for (ChildProcess& worker : workers) EXPECT_EQ(worker.Wait(), 0) << worker.Output();

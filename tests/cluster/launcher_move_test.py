@@ -56,7 +56,7 @@ class Moves(LauncherTest):
         self.control("step", 100)
         self.run_it("control", "resume")
         self.assert_undisturbed(run, said)
-        self.assertEqual([move[:2] for move in self.moves()], [("move-host", "1"), ("move-engine", "ground"), ("move-host", "1 to here")])
+        self.assertEqual([move[:2] for move in self.moves()], [("move-host", "1"), ("move-engine", "ground"), ("move-host", "1")])
         for _, _, asker in self.moves():
             self.assertRegex(asker, r"^\S+@\S+:\d+$")
 
@@ -88,7 +88,7 @@ class Moves(LauncherTest):
     def test_what_cannot_be(self):
         run = self.begin()
         self.refused("move-host", "7", says=["the run has no controller host 7; it has controller host 0, controller host 1, engine 'ground'"])
-        self.refused("move-host", "x", says=["'x' is no number of a controller host; write move-host N or move-host N MACHINE"])
+        self.refused("move-host", "x", says=["'x' is no number of a controller host; write move-host N [MACHINE]"])
         self.refused("move-host", says=["write move-host N"])
         self.refused("move-engine", "grund", says=["the run has no engine 'grund'"])
         self.refused("move-host", "0", "beta", says=["the run has no machine 'beta'; it has here", "machines = alpha beta"])
@@ -97,7 +97,7 @@ class Moves(LauncherTest):
         self.refused("hosts", "+9", says=["the run has 2 controller hosts, and can have 10"])
         self.refused("hosts", "-2", says=["the run has 2 controller hosts, and one must remain"])
         self.refused("hosts", "-1", "beta", says=["the run has no machine 'beta'"])
-        self.refused("hosts", "3", says=["'3' says not how many controller hosts more or fewer; write hosts +N or hosts -N"])
+        self.refused("hosts", "3", says=["'3' is no number of controller hosts more or fewer; write hosts +N/-N/again"])
         self.refused("hosts", says=["write hosts +N"])
         self.refused("move-hots", "0", says=["did you mean 'move-host'?"])
         self.control("stop")
@@ -137,7 +137,7 @@ class Moves(LauncherTest):
         self.assert_undisturbed(run)
         with (self.folder / "out/events.csv").open() as file:
             asked = [(row["tick"], row["numbers"], row["entity"]) for row in csv.DictReader(file) if row["request"] == "hosts"]
-        self.assertEqual(asked, [("777", "1", ""), ("877", "2", ""), ("977", "-3", ""), ("1077", "-1", "here"), ("1177", "1", "here"), ("1277", "0", "")])
+        self.assertEqual(asked, [("777", "+1", ""), ("877", "+2", ""), ("977", "-3", ""), ("1077", "-1", "here"), ("1177", "+1", "here"), ("1277", "again", "")])
         # Looking back, and going on, from a journal of several numbers of hosts.
         self.assertIn(f"equal: {TICKS + 1} states", self.run_it("replay", "out", "--verify").stdout)
         for options in ([], ["--controller-hosts", 4], ["--single-process"]):
@@ -146,7 +146,7 @@ class Moves(LauncherTest):
 
     def test_robots_are_shared_out_by_where_they_are(self):
         run = self.begin()
-        self.refused("hosts", "again", "beta", says=["write hosts +N or hosts -N"])
+        self.refused("hosts", "again", "beta", says=["write hosts +N/-N/again"])
         self.control("step", 777)
         self.assertFalse((self.folder / "out/journal/1").exists())
         self.assertIn("2 controller hosts share the robots now", self.control("hosts", "again"))

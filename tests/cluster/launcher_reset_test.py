@@ -108,10 +108,10 @@ class Resets(LauncherTest):
         run = self.begin()
         answer = self.run_it("control", "reset", "7")
         self.assertEqual(answer.process.returncode, 2)
-        self.assertIn("reset --seed N", answer.stderr)
+        self.assertIn("write reset [--seed N]", answer.stderr)
         answer = self.run_it("control", "stop", "--seed", "7")
         self.assertEqual(answer.process.returncode, 2)
-        self.assertIn("--seed: stop takes none; write reset --seed N", answer.stderr)
+        self.assertIn("stop: it takes no 'seed'; write stop", answer.stderr)
         self.control("stop")
         self.assertEqual(run.wait(), 0, run.stderr)
 

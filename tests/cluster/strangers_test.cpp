@@ -148,7 +148,7 @@ TEST_F(StrangersTest, DoNotChangeARunByBadMessages)
   // While the engine sleeps the server waits for its update.
   ControlClient client(bus, "strangers");
   workers[0].Signal(SIGSTOP);
-  client.Send("resume", "", {});
+  client.Send({"resume"});
   const MessageHeader next{run, 1, 0, false};
   const MessageHeader nobody{run, 1, 77, false};
   UpdateMessage update;
@@ -234,7 +234,7 @@ TEST_F(StrangersTest, DoNotChangeARunThatIsWatchedByBadMessages)
 
   // While the visualiser sleeps the server waits for its word.
   workers[2].Signal(SIGSTOP);
-  const auto reply = client.Ask("resume", "", {}, kGenerous_s);
+  const auto reply = client.Ask({"resume"}, kGenerous_s);
   ASSERT_TRUE(reply.has_value()) << server.Output();
   EXPECT_TRUE(reply->ok) << reply->text;
   std::string flags = PayloadOf(MessageHeader{run, 0, 0, false}, DrawnMessage());

@@ -25,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* input, std::size_t cou
     {
       if (event.tick < last) std::abort();
       last = event.tick;
-      if (event.request.verb != "stop" && event.request.entity != "fb_1") std::abort();
+      if (event.request.Get<std::string>("entity", "fb_1") != "fb_1") std::abort();
     }
   }
   catch (const ConfigurationError& error)

@@ -140,7 +140,8 @@ std::vector<fuzz::Input> fuzz::FirstInputs()
           InputOf(5, BytesOf(world)),
           InputOf(6, BytesOf(JoinMessage{"host:1", kProtocolVersion, 5, "engine 'ground'", true})),
           InputOf(7, BytesOf(view)),
-          InputOf(8, BytesOf(ControlRequestMessage{"host:1", 9, "move", "fb", {1, 2, 0, 0, 0, 90}})),
+          InputOf(8, BytesOf(ControlRequestMessage{
+                         {"move", {{"entity", "fb"}, {"pose", std::vector<double>{1, 2, 0, 0, 0, 90}}}}, "host:1", 9})),
           InputOf(9, BytesOf(ControlReplyMessage{"host:1", 9, true, 7, "moved 'fb' at tick 7"})),
           InputOf(10, BytesOf(StatusMessage{5, 7, "engine 'ground'", "waits for controller host 0"})),
           InputOf(11, BytesOf(SavedStateMessage{5, 7, "engine 'ground'", {'a', 'b', 'c'}})),

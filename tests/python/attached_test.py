@@ -140,7 +140,7 @@ class Attached(unittest.TestCase):
         self.assertEqual((code, text), (0, "diffusion_10: paused at tick 5\n"))
         self.assertEqual(run.wait(tick=5, timeout=GENEROUS_S).tick, 5)
         for verb, arguments, message in (("move", ("fb_x", (1, 1, 0)), "there is no entity 'fb_x'"),
-                                         ("step", (0,), "no number of ticks"), ("speed", (-1,), "negative")):
+                                         ("step", (0,), "no number of ticks"), ("speed", (-1,), "no multiple of real time")):
             with self.assertRaisesRegex(ValueError, message):
                 getattr(run, verb)(*arguments)
         with self.assertRaisesRegex(ValueError, "did you mean 'pause'"):
@@ -165,6 +165,34 @@ class Attached(unittest.TestCase):
         again.stop()
         self.hash_of(cluster)
         self.assertIsNone(again.wait(tick=10**9))
+
+    def test_each_request_of_the_table_is_a_method_that_checks_its_arguments(self):
+        good_words = {"name": lambda parameter: "x", "whole": lambda parameter: int(parameter["minimum"]) + 1, "change": lambda parameter: "+1",
+                      "number": lambda parameter: parameter["minimum"], "pose": lambda parameter: "1,1,0"}
+        self.start("--ticks", "0", "--paused")
+        run = self.attach()
+        for verb in swarmanoid._module.control_verbs():
+            with self.subTest(verb=verb["name"]):
+                form = re.escape("write " + verb["form"])
+                parameters = [each for each in verb["parameters"] if not each["is_option"]]
+                good = [good_words[each["type"]](each) for each in parameters]
+                with self.assertRaisesRegex(ValueError, form):
+                    run.control(verb["name"], *good, "extra")
+                if any(not each["optional"] for each in parameters):
+                    with self.assertRaisesRegex(ValueError, form):
+                        run.control(verb["name"])
+                for number, each in enumerate(parameters):
+                    if each["type"] != "name":
+                        with self.assertRaisesRegex(ValueError, form):
+                            run.control(verb["name"], *good[:number], "1e300", *good[number + 1:])
+                with self.assertRaisesRegex(ValueError, "it takes no 'height'"):
+                    run.control(verb["name"], *good, height=1)
+                method = getattr(run, verb["name"].replace("-", "_"))
+                self.assertIn(verb["help"], method.__doc__)
+                with self.assertRaises(TypeError):
+                    method(*good, *good, "x", "y", "z")
+        self.assertEqual(run.pause().tick, 0)
+        run.stop()
 
     def test_a_run_begins_again_with_another_seed(self):
         cluster = self.start("--seed", "3", "--ticks", "50", "--paused")

@@ -1120,7 +1120,7 @@ const tests = {
     await until(page, () => swarmanoid.phase === "finished" && swarmanoid.timeline.last === 150);
     await page.click(".event-mark[data-what=move]");
     await until(page, () => swarmanoid.tick === 20 && Math.hypot(swarmanoid.place("fb_1")[0] - 1, swarmanoid.place("fb_1")[1] - 1) < 1e-5);
-    assert.match(await page.getAttribute(".event-mark[data-what=move]", "title"), /tick 20: fb_1 moved \(.*anna@lab.*\)/);
+    assert.match(await page.getAttribute(".event-mark[data-what=move]", "title"), /tick 20: move fb_1 \(.*anna@lab.*\)/);
     await page.evaluate(() => document.activeElement.blur());
     await page.keyboard.press(">");
     await until(page, () => swarmanoid.tick === 40 && swarmanoid.place("fb_2").length === 0);

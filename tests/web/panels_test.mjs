@@ -65,8 +65,8 @@ test("events stand at their ticks, and those before the first tick that is kept 
   assert.deepEqual(timeline.buttons.map(({ hidden }) => hidden), [true, false, false, false]);
   assert.deepEqual(timeline.buttons.slice(1).map(({ style }) => style.left), ["20%", "20%", "50%"]);
   assert.equal(timeline.neighbour(20, false), null);
-  assert.equal(timeline.buttons[0].attributes.title, "tick 5: fb_1 moved (anna@lab)");
-  assert.equal(timeline.buttons[3].attributes.title, "tick 35: fb_2 removed");
+  assert.equal(timeline.buttons[0].attributes.title, "tick 5: move fb_1 (anna@lab)");
+  assert.equal(timeline.buttons[3].attributes.title, "tick 35: remove fb_2");
   timeline.buttons[3].listeners.click();
   assert.deepEqual(looked, [35]);
   assert.equal(timelineOf({ first: 5 }).timeline.buttons[0].hidden, false, "the first tick has its events");

@@ -1,12 +1,11 @@
 // A run that renderers and viewers of tests are shown: what it tells, and what it was asked for.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <span>
 #include <string>
 #include <vector>
 
+#include "common/messages/control_verbs.h"
 #include "visualiser/render.h"
 
 namespace swarmanoid::test
@@ -15,31 +14,15 @@ namespace swarmanoid::test
 class FakeControl : public ExperimentControl
 {
 public:
-  void Pause() override { asked.emplace_back("pause"); }
-  void Resume() override { asked.emplace_back("resume"); }
-  void Step(unsigned ticks) override { asked.push_back("step " + std::to_string(ticks)); }
-  void Reset() override { asked.emplace_back("reset"); }
-  void SetSpeed(double factor) override { asked.push_back(fmt::format("speed {:g}", factor)); }
-  void MoveEntity(const std::string& id, const Pose& pose) override
+  void Ask(const ControlOrder& order) override
   {
-    asked.push_back("move " + id);
-    place = pose;
+    const auto* pose = order.Find<std::vector<double>>("pose");
+    if (pose != nullptr) place = *pose;
+    asked.push_back(pose == nullptr ? TextOf(order) : order.verb + " " + order.Get<std::string>("entity"));
   }
-  void AddEntity(const std::string& id, const Pose& pose) override
-  {
-    asked.push_back("add " + id);
-    place = pose;
-  }
-  void RemoveEntity(const std::string& id) override { asked.push_back("remove " + id); }
-  void PressKey(const std::string& key, bool pressed) override
-  {
-    asked.push_back((pressed ? "press " : "release ") + key);
-  }
-  void SelectEntity(const std::string& id) override { asked.push_back(id.empty() ? "deselect" : "select " + id); }
-  void Stop() override { asked.emplace_back("stop"); }
 
   std::vector<std::string> asked;
-  Pose place;  // of the last request that has one
+  std::vector<double> place;  // of the last request that has a pose: m and degrees
 };
 
 class FakeMonitor : public RunMonitor

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -11,8 +10,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "common/math/elementary.h"
-#include "common/messages/request_limits.h"
+#include "common/messages/control_verbs.h"
 #include "common/space/attributes.h"
 #include "common/space/space.h"
 #include "common/space/terrain/terrain.h"
@@ -29,7 +27,6 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-constexpr unsigned kMostSteps = 1000000;
 constexpr double kLastTick = 1e15;
 constexpr std::size_t kMostEvents = 1000;  // marks of a timeline
 constexpr int kTerrainSamples = 128;       // along each side
@@ -210,21 +207,6 @@ double NumberIn(const Json& json, const char* name, double low, double high)
   return value;
 }
 
-std::array<double, 3> TripleIn(const Json& json, const char* name)
-{
-  const auto found = json.find(name);
-  if (found == json.end() || !found->is_array() || found->size() != 3)
-    Refuse(fmt::format("the request needs three numbers '{}'", name));
-  std::array<double, 3> values{};
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    if (!(*found)[i].is_number()) Refuse(fmt::format("the request needs three numbers '{}'", name));
-    values[i] = (*found)[i].get<double>();
-    if (!(std::abs(values[i]) <= 1e6)) Refuse(fmt::format("'{}' is out of all bounds", name));
-  }
-  return values;
-}
-
 std::vector<std::uint32_t> EntitiesIn(const Json& json, const char* name, std::size_t most)
 {
   const auto found = json.find(name);
@@ -247,50 +229,66 @@ ProveRequest ProofIn(const Json& json)
   return {proof->get<std::string>()};
 }
 
-// Returns the name if it can be the entity of a control request.
-std::string Bounded(const std::string& verb, std::string name)
+bool IsNumbers(const Json& json)
 {
-  ControlRequestMessage request;
-  request.verb = verb;
-  request.entity = std::move(name);
-  if (const std::string error = RequestLimitError(request); !error.empty()) Refuse(error);
-  return request.entity;
+  return json.is_array() && std::ranges::all_of(json, [](const Json& item) { return item.is_number(); });
 }
 
-std::string EntityIn(const Json& json, const std::string& verb)
+// The members of a request that say a pose.
+constexpr const char* kPosition = "position";
+constexpr const char* kAngles = "angles";
+
+std::optional<ControlValue> PoseIn(const Json& json)
 {
-  const auto entity = json.find("entity");
-  if (entity == json.end() || !entity->is_string()) Refuse(fmt::format("'{}' needs the id of an entity", verb));
-  return Bounded(verb, entity->get<std::string>());
+  std::vector<double> pose;
+  for (const char* name : {kPosition, kAngles})
+  {
+    const auto found = json.find(name);
+    if (found == json.end()) continue;
+    if (!IsNumbers(*found) || found->size() != 3) Refuse(fmt::format("the request needs three numbers '{}'", name));
+    for (const Json& number : *found) pose.push_back(number.get<double>());
+  }
+  return pose.empty() ? std::nullopt : std::optional<ControlValue>(std::move(pose));
 }
 
-std::string KeyIn(const Json& json)
+std::optional<ControlValue> ValueIn(const Json& json, const ControlParameter& parameter)
 {
-  const auto key = json.find("key");
-  if (key == json.end() || !key->is_string()) Refuse("'key' needs the name of a key");
-  return Bounded("press", key->get<std::string>());
+  if (parameter.type == ArgumentType::kPose) return PoseIn(json);
+  const auto found = json.find(parameter.name);
+  if (found == json.end()) return std::nullopt;
+  if (found->is_string()) return found->get<std::string>();
+  if (parameter.type == ArgumentType::kNumber && found->is_number()) return found->get<double>();
+  if (found->is_number_unsigned() && found->get<std::uint64_t>() > std::numeric_limits<std::int64_t>::max())
+    Refuse(fmt::format("'{}' is out of all bounds", parameter.name));
+  if (found->is_number_integer()) return found->get<std::int64_t>();
+  Refuse(fmt::format("'{}' must be the {}", parameter.name, parameter.meaning));
 }
 
-bool IsPressedIn(const Json& json)
+// Reads {"do": VERB, PARAMETER: value, …}.
+ControlOrder OrderIn(const Json& json, const std::string& name)
 {
-  const auto pressed = json.find("pressed");
-  if (pressed == json.end() || !pressed->is_boolean()) Refuse("'key' needs 'pressed', true or false");
-  return pressed->get<bool>();
-}
-
-Pose PoseIn(const Json& json)
-{
-  const std::array<double, 3> position = TripleIn(json, "position");
-  const std::array<double, 3> angles = TripleIn(json, "angles");
-  return {{position[0], position[1], position[2]},
-          QuaternionFromEuler({DegreesToRadians(angles[0]), DegreesToRadians(angles[1]), DegreesToRadians(angles[2])})};
+  const ControlVerb* const verb = FindControlVerb(name, Asker::kMember);
+  if (verb == nullptr) Refuse(NoVerbText(name.substr(0, 40), Asker::kMember));
+  ControlOrder order{name};
+  std::size_t known = 1;  // "do"
+  for (const ControlParameter& parameter : verb->parameters)
+  {
+    auto value = ValueIn(json, parameter);
+    if (!value) continue;
+    known += parameter.type == ArgumentType::kPose && json.contains(kAngles) ? 2 : 1;
+    order.arguments.push_back({parameter.name, std::move(*value)});
+  }
+  if (known != json.size())
+    Refuse(fmt::format("{}: a member of the request is unknown; write {}", name, FormOf(*verb)));
+  if (const std::string error = OrderError(order, Asker::kMember); !error.empty()) Refuse(error);
+  return order;
 }
 
 }  // namespace
 
 std::string WelcomeText(bool control_possible, const std::string& challenge, bool edits)
 {
-  Json welcome{{"type", "welcome"}, {"protocol", 2}, {"control", control_possible ? "token needed" : "read-only"}};
+  Json welcome{{"type", "welcome"}, {"protocol", 3}, {"control", control_possible ? "token needed" : "read-only"}};
   if (control_possible) welcome["challenge"] = challenge;
   if (edits) welcome["edits"] = true;
   return Text(welcome);
@@ -471,40 +469,7 @@ PageRequest ParseRequest(std::string_view text)
     return MarksRequest{EntitiesIn(json, "rays", kMostMarked), EntitiesIn(json, "bodies", kMostMarked),
                         EntitiesIn(json, "links", kMostMarked)};
   if (name == "frame_period") return FrameRateRequest{static_cast<unsigned>(NumberIn(json, "ms", 0, 60000))};
-  if (name == "pause") return PauseRequest{};
-  if (name == "resume") return ResumeRequest{};
-  if (name == "step") return StepRequest{static_cast<unsigned>(NumberIn(json, "ticks", 1, kMostSteps))};
-  if (name == "speed") return SpeedRequest{NumberIn(json, "factor", 0, 1e6)};
-  if (name == "move") return MoveEntityRequest{EntityIn(json, name), PoseIn(json)};
-  if (name == "add") return AddEntityRequest{EntityIn(json, name), PoseIn(json)};
-  if (name == "remove") return RemoveEntityRequest{EntityIn(json, name)};
-  if (name == "key") return KeyRequest{KeyIn(json), IsPressedIn(json)};
-  if (name == "select") return SelectRequest{json.contains("entity") ? EntityIn(json, name) : std::string()};
-  if (name == "stop") return StopRequest{};
-  if (name == "reset") return ResetRunRequest{};
-  Refuse(fmt::format("there is no request '{}'", name.substr(0, 40)));
-}
-
-bool IsCommand(const PageRequest& request)
-{
-  return !std::holds_alternative<WatchRequest>(request) && !std::holds_alternative<LookBackRequest>(request) &&
-         !std::holds_alternative<FrameRateRequest>(request) && !std::holds_alternative<ProveRequest>(request) &&
-         !std::holds_alternative<MarksRequest>(request);
-}
-
-void Obey(const PageRequest& request, ExperimentControl& control)
-{
-  if (std::holds_alternative<PauseRequest>(request)) control.Pause();
-  if (std::holds_alternative<ResumeRequest>(request)) control.Resume();
-  if (const auto* step = std::get_if<StepRequest>(&request)) control.Step(step->ticks);
-  if (const auto* speed = std::get_if<SpeedRequest>(&request)) control.SetSpeed(speed->factor);
-  if (const auto* move = std::get_if<MoveEntityRequest>(&request)) control.MoveEntity(move->entity, move->pose);
-  if (const auto* add = std::get_if<AddEntityRequest>(&request)) control.AddEntity(add->entity, add->pose);
-  if (const auto* remove = std::get_if<RemoveEntityRequest>(&request)) control.RemoveEntity(remove->entity);
-  if (const auto* key = std::get_if<KeyRequest>(&request)) control.PressKey(key->key, key->pressed);
-  if (const auto* select = std::get_if<SelectRequest>(&request)) control.SelectEntity(select->entity);
-  if (std::holds_alternative<StopRequest>(request)) control.Stop();
-  if (std::holds_alternative<ResetRunRequest>(request)) control.Reset();
+  return OrderIn(json, name);
 }
 
 }  // namespace swarmanoid

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "common/messages/control_request.h"
 #include "visualiser/past_inside.h"
 #include "visualiser/playback_reader.h"
 #include "visualiser/render.h"
@@ -65,63 +66,13 @@ struct FrameRateRequest
 {
   unsigned period_ms = 0;  // between two frames; 0: as they come
 };
-struct PauseRequest
-{
-};
-struct ResumeRequest
-{
-};
-struct StepRequest
-{
-  unsigned ticks = 1;
-};
-struct SpeedRequest
-{
-  double factor = 0;
-};
-struct MoveEntityRequest
-{
-  std::string entity;
-  Pose pose;
-};
-struct AddEntityRequest
-{
-  std::string entity;  // or its reserve
-  Pose pose;
-};
-struct RemoveEntityRequest
-{
-  std::string entity;
-};
-// For experiment functions.
-struct KeyRequest
-{
-  std::string key;
-  bool pressed = true;
-};
-struct SelectRequest
-{
-  std::string entity;  // empty: none
-};
-struct StopRequest
-{
-};
-struct ResetRunRequest
-{
-};
+// A ControlOrder is a request about the run, which only pages with control may make.
 using PageRequest =
-    std::variant<WatchRequest, LookBackRequest, FrameRateRequest, ProveRequest, MarksRequest, PauseRequest,
-                 ResumeRequest, StepRequest, SpeedRequest, MoveEntityRequest, AddEntityRequest, RemoveEntityRequest,
-                 KeyRequest, SelectRequest, StopRequest, ResetRunRequest>;
+    std::variant<WatchRequest, LookBackRequest, FrameRateRequest, ProveRequest, MarksRequest, ControlOrder>;
 
 inline constexpr std::size_t kMostWatched = 16;   // entities, of one page
 inline constexpr std::size_t kMostMarked = 1000;  // likewise, of each kind of mark
 
 // Throws std::invalid_argument, with a text for the user, for anything else than a request.
 PageRequest ParseRequest(std::string_view text);
-// Whether it changes the experiment.
-bool IsCommand(const PageRequest& request);
-// Passes a command on to the run; does nothing for other requests.
-void Obey(const PageRequest& request, ExperimentControl& control);
-
 }  // namespace swarmanoid

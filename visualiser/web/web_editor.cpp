@@ -110,7 +110,7 @@ private:
       const PageRequest request = ParseRequest(text);
       if (const auto* answer = std::get_if<ProveRequest>(&request))
         host_->Server().Send(client, SharedText(AuthorityText(host_->Prove(client, answer->proof))));
-      else if (IsCommand(request))
+      else if (std::holds_alternative<ControlOrder>(request))
         throw std::invalid_argument("this page edits an experiment: there is no run");
     }
     catch (const std::invalid_argument& error)

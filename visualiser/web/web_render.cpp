@@ -329,7 +329,7 @@ void CWebRender::Received(std::uint64_t client, std::string_view text)
     PageRequest request = ParseRequest(text);
     if (const auto* answer = std::get_if<ProveRequest>(&request))
       return host_->Server().Send(client, Shared(AuthorityText(host_->Prove(client, answer->proof))));
-    if (IsCommand(request) && !host_->GetVisitors().MayControl(client))
+    if (std::holds_alternative<ControlOrder>(request) && !host_->GetVisitors().MayControl(client))
       throw std::invalid_argument(allow_control_ ? "only the address with the token may control the run"
                                                  : "this page may only look: start it with --allow-control");
     if (const auto* rate = std::get_if<FrameRateRequest>(&request))
@@ -417,13 +417,14 @@ void CWebRender::Carry(std::uint64_t client, const PageRequest& request)
                            Shared(RefusalText("there is nothing to look back at: the run keeps no journal here")));
     return;
   }
-  if (!IsCommand(request)) return;
+  const auto* order = std::get_if<ControlOrder>(&request);
+  if (order == nullptr) return;
   if (control_ == nullptr)
   {
     host_->Server().Send(client, Shared(RefusalText("this run cannot be controlled")));
     return;
   }
-  Obey(request, *control_);
+  control_->Ask(*order);
   followed_due_ = status_due_ = {};
 }
 

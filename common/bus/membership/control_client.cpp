@@ -5,7 +5,7 @@
 #include <string>
 
 #include "common/bus/participant.h"
-#include "common/messages/request_limits.h"
+#include "common/messages/control_verbs.h"
 
 namespace swarmanoid
 {
@@ -41,13 +41,13 @@ ControlClient::ControlClient(Bus& bus, const std::string& experiment, std::uint6
 {
 }
 
-std::optional<ControlReplyMessage> ControlClient::Ask(const std::string& verb, const std::string& entity,
-                                                      const std::vector<double>& numbers, double timeout_s,
+std::optional<ControlReplyMessage> ControlClient::Ask(const ControlOrder& order, double timeout_s,
                                                       const std::function<bool()>& given_up)
 {
-  ControlRequestMessage request{ProcessId(), 0, verb, entity, numbers, UserName(), 0};
-  if (const std::string error = RequestLimitError(request); !error.empty())
+  ControlRequestMessage request = RequestOf(order);
+  if (const std::string error = OrderError(order); !error.empty())
     return ControlReplyMessage{.client = request.client, .text = error};
+  const AtEnd at_end = FindControlVerb(order.verb)->at_end;
   if (statuses_ == nullptr)
     statuses_ = std::make_unique<Subscription<RunStatusMessage>>(
         bus_, experiment_, [this](const RunStatusMessage& message) { Heard(message); });
@@ -71,9 +71,9 @@ std::optional<ControlReplyMessage> ControlClient::Ask(const std::string& verb, c
   };
   while (without_lock([this] { return requests_.Readers() == 0 || replies_.Writers() == 0; }))
     if (answered_.wait_for(lock, 2ms), !is_patient()) return std::nullopt;
-  // A share that has ended tells nothing of the run any more, and refuses whatever is asked.
-  const bool by_share = bus_.Internals().share.has_value();
-  while (run_ == 0 && !(by_share && Clock::now() - start > kStatusTime))
+  // A grant that has ended tells nothing of the run any more, and refuses whatever is asked.
+  const bool by_grant = bus_.Internals().grant.has_value();
+  while (run_ == 0 && !(by_grant && Clock::now() - start > kStatusTime))
     if (answered_.wait_for(lock, 2ms), !is_patient()) return std::nullopt;
   reply_.reset();
   request.number = ++number_;
@@ -92,12 +92,11 @@ std::optional<ControlReplyMessage> ControlClient::Ask(const std::string& verb, c
     // A run that ends upon the request may be gone before its answer finds us.
     if (reply_ || is_heard) continue;
     const bool finished = status_ && status_->phase == RunStatus::Phase::kFinished;
-    const bool ends_it = verb == "stop" || verb == "reset";
-    if (!ends_it && !finished) continue;
+    if (at_end != AtEnd::kCauses && !finished) continue;
     reply_ = ControlReplyMessage{.client = request.client, .number = request.number, .text = {}};
-    reply_->ok = ends_it || verb == "resume" || verb == "step";
+    reply_->ok = at_end != AtEnd::kRefused;
     reply_->tick = finished ? status_->tick : 0;
-    reply_->text = verb == "reset" ? "reset" : verb == "stop" ? "stopped" : RunEndedText(reply_->tick);
+    reply_->text = at_end == AtEnd::kCauses ? order.verb + " was done" : RunEndedText(reply_->tick);
   }
   return reply_;
 }
@@ -127,10 +126,18 @@ std::optional<RunStatus> ControlClient::LatestStatus()
   return status_;
 }
 
-std::string ControlClient::Send(const std::string& verb, const std::string& entity, const std::vector<double>& numbers)
+ControlRequestMessage ControlClient::RequestOf(const ControlOrder& order)
 {
-  ControlRequestMessage request{ProcessId(), 0, verb, entity, numbers, UserName(), 0};
-  if (std::string error = RequestLimitError(request); !error.empty()) return error;
+  ControlRequestMessage request{order};
+  request.client = ProcessId();
+  request.user = UserName();
+  return request;
+}
+
+std::string ControlClient::Send(const ControlOrder& order)
+{
+  if (std::string error = OrderError(order); !error.empty()) return error;
+  ControlRequestMessage request = RequestOf(order);
   {
     const std::lock_guard lock(mutex_);
     request.number = ++number_;

@@ -1,5 +1,5 @@
-// ControlClient: asks the space server of a running experiment to pause, resume, step, change speed or stop, or to
-// move, add or remove an entity. Used by `swarmanoid control` and by interactive visualisers.
+// ControlClient: sends orders (common/messages/control_verbs.h) to the space server of a running experiment. Used by
+// `swarmanoid control` and `share`, Python, and interactive visualisers.
 #pragma once
 
 #include <chrono>
@@ -22,24 +22,23 @@ public:
   // `run`: WorldMessage::run, where it is known; otherwise Ask learns it.
   ControlClient(Bus& bus, const std::string& experiment, std::uint64_t run = 0);
 
-  // Sends a request (ControlRequest in idl/swarmanoid.idl) and waits for the answer, as long as the run gets on: the
-  // answer to a step comes at its end. nullopt if the run told nothing for `timeout_s` (15 s once its space
-  // server has gone, and another one may come), or stood still that long and waits for one of its processes, or
-  // `given_up` returns true, which is called several times a second. A request beyond the limits of a message
-  // (request_limits.h) is not sent: it is refused by a reply that is made here.
-  std::optional<ControlReplyMessage> Ask(const std::string& verb, const std::string& entity,
-                                         const std::vector<double>& numbers, double timeout_s,
+  // Sends an order and waits for the reply as long as the run gets on: the reply to a step comes at its end. Returns
+  // nullopt if nothing was heard of the run for `timeout_s` (15 s after its space server has gone, since another one
+  // may come), if it stood still that long while it waited for one of its processes, or if `given_up` returns true,
+  // which is called several times a second. An order with an error (OrderError) is not sent: the reply is made here.
+  std::optional<ControlReplyMessage> Ask(const ControlOrder& order, double timeout_s,
                                          const std::function<bool()>& given_up = nullptr);
   // Another space server goes on with the run, under that number.
   void FollowRun(std::uint64_t run);
   // How the run went when it was heard last; nullopt if no Ask has heard of it.
   std::optional<RunStatus> LatestStatus();
-  // Sends without waiting for an answer. Returns why the request cannot be sent (request_limits.h); empty if it was.
-  std::string Send(const std::string& verb, const std::string& entity, const std::vector<double>& numbers);
+  // Sends without waiting for a reply. Returns why the order is not sent (OrderError); empty if it was sent.
+  std::string Send(const ControlOrder& order);
 
 private:
   using Clock = std::chrono::steady_clock;
 
+  static ControlRequestMessage RequestOf(const ControlOrder& order);
   void Heard(const RunStatusMessage& message);
 
   Bus& bus_;

@@ -92,7 +92,7 @@ public:
   void LeaveDirectory() { directory_.Leave(); }
   // Where the run keeps its journal, for processes of this machine.
   void AnnounceFolder(const std::string& folder) { directory_.AnnounceFolder(folder); }
-  // The run is over, and begins again with another server: those who look on wait for that one.
+  // The run is over, and begins again with another server: observers wait for that one.
   void LeaveToNext();
   // Tells all that the run is over, and why.
   void Leave(std::uint64_t tick, const std::string& error);

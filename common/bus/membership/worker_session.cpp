@@ -29,7 +29,7 @@ constexpr auto kAgain = 1s;                                // what others may no
 constexpr auto kPatience = 1s;                             // before what is waited for is said
 constexpr auto kBrokenTime = 5s;                           // for the lease of a dead process to end
 constexpr auto kStuckTime = 2s;                            // likewise, if another process may take its place
-constexpr auto kPatienceForNext = 15s;                     // of those who look on, for another space server
+constexpr auto kPatienceForNext = 15s;                     // of observers, for another space server
 constexpr std::chrono::milliseconds kFirstRepeat = 100ms;  // of a Leave that is not answered
 constexpr std::chrono::milliseconds kLastRepeat = 1s;
 constexpr auto kInterruptedTime = 1s;  // for the answer to a Leave, if it was asked to end
@@ -74,7 +74,7 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
                                                            const std::lock_guard lock(mutex_);
                                                            if (have_world_)
                                                            {
-                                                             if (looks_on_ && GoesOnWith(world)) next_world_ = world;
+                                                             if (is_observer_ && GoesOnWith(world)) next_world_ = world;
                                                              return;
                                                            }
                                                            world_ = world;
@@ -83,8 +83,8 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
                                                                fmt::format("{}:{}", world.host, world.pid);
                                                            changed_.notify_all();
                                                          });
-  // A share that has ended tells no world, but why it has.
-  if (options.share) HearLeaves(experiment);
+  // A grant that has ended tells no world, but why it has.
+  if (options.grant) HearLeaves(experiment);
   WaitUntil(
       [&]
       {
@@ -105,7 +105,7 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
         "one release",
         world_.experiment, server_process_, world_.protocol, kProtocolVersion));
 
-  if (!options.insecure && stop == nullptr) AllowOnly(world_.libraries, !options.key_file.empty() || options.share);
+  if (!options.insecure && stop == nullptr) AllowOnly(world_.libraries, !options.key_file.empty() || options.grant);
   server_seen_ = ServerIsOnThisMachine();
   directory_ = std::make_unique<RunDirectory>(world_.experiment, world_.run);
   join_ = std::make_unique<Publisher<JoinMessage>>(bus_, world_.experiment);
@@ -154,10 +154,10 @@ void WorkerSession::ReleaseWorld()
   std::exchange(world_.checkpoint, {});
 }
 
-void WorkerSession::LookOn()
+void WorkerSession::ObserveOnly()
 {
   const std::lock_guard lock(mutex_);
-  looks_on_ = true;
+  is_observer_ = true;
 }
 
 bool WorkerSession::GoesOnWith(const WorldMessage& world) const
@@ -458,7 +458,7 @@ void WorkerSession::LeaveRun(const std::string& error)
 int WorkerSession::ExitCode() const
 {
   if (reason_ == EndReason::kInterrupted) return kExitInterrupted;
-  if (reason_ != EndReason::kOthers || looks_on_) return kExitProcessFailed;
+  if (reason_ != EndReason::kOthers || is_observer_) return kExitProcessFailed;
   if (stuck_) return kExitStuck;
   return cut_off_ ? kExitCutOff : kExitOthersFailed;
 }

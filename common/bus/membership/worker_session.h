@@ -34,13 +34,13 @@ public:
                 std::optional<int> server = std::nullopt, unsigned incarnation = 0, const std::string& machine = {},
                 const std::atomic<bool>* stop = nullptr);
   ~WorkerSession();
-  // For one who only looks on: to whoever started it, a run that failed elsewhere is a process that failed.
-  void LookOn();
+  // Observer mode: the process exits with 4 if the run failed in another process.
+  void ObserveOnly();
 
   const std::string& Name() const { return name_; }
   bool TakesAPlace() const { return incarnation_ > 0; }
   const WorldMessage& World() const { return world_; }
-  // Lets go of what serves to make the world alone (xml, entities, checkpoint). Not for those who look on.
+  // Lets go of what serves to make the world alone (xml, entities, checkpoint). Not for observers.
   void ReleaseWorld();
   Bus& GetBus() { return bus_; }
   HotScope Scope(std::size_t capacity, unsigned writers) const;
@@ -73,7 +73,7 @@ public:
   bool IsOver() const;
   // Whether the process of that name has said that its work is done, at that tick or a later one.
   bool HasLeft(const std::string& name, std::uint64_t tick) const;
-  // For one who looks on, after Follow: if the server was lost and its run may go on with another one, says so and
+  // For observers, after Follow: if the server was lost and its run may go on with another one, says so and
   // waits for that one, and joins it. False if none has come in time, or `idle`, which is called all the while, returns
   // true.
   bool FollowNext(const std::function<bool()>& idle);
@@ -123,7 +123,7 @@ private:
   std::uint64_t tick_ = 0;
   std::optional<std::uint64_t> first_tick_;  // that this process was at when it began to wait
   std::chrono::steady_clock::time_point said_ready_;
-  bool looks_on_ = false;
+  bool is_observer_ = false;
   EndReason reason_ = EndReason::kFailed;  // why this process ends before its work is done
   std::optional<std::string> own_error_;
   std::optional<std::string> others_error_;

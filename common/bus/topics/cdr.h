@@ -94,6 +94,7 @@ public:
   {
     Put(value);
   }
+  void Signed(const char*, const std::int64_t& value) { Put(value); }
   // Sixteen bits on the wire.
   void Short(const char*, const std::uint32_t& value) { Put(static_cast<std::uint16_t>(value)); }
   void Constant(const char*, std::uint32_t value) { Put(value); }
@@ -197,6 +198,7 @@ public:
     static_assert(std::is_same_v<T, std::uint32_t> || std::is_same_v<T, std::uint64_t>);
     Get(field, value);
   }
+  void Signed(const char* field, std::int64_t& value) { Get(field, value); }
   void Short(const char* field, std::uint32_t& value)
   {
     std::uint16_t bits = 0;

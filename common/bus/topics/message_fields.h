@@ -282,14 +282,36 @@ void Fields(Archive& archive, ViewMessage& message)
   Fields(archive, message.snapshot.drawing);
 }
 
+// A union: the number of the alternative, then its value.
+template <class Archive>
+void Fields(Archive& archive, ControlValue& value)
+{
+  auto kind = static_cast<std::uint32_t>(value.index());
+  archive.Integer("arguments.kind", kind);
+  if constexpr (Archive::kReads)
+  {
+    if (kind >= std::variant_size_v<ControlValue>) RefuseField("arguments.kind", "there is no such kind of value");
+    const ControlValue kinds[] = {std::string(), std::int64_t{0}, 0.0, std::vector<double>()};
+    value = kinds[kind];
+  }
+  if (auto* name = std::get_if<std::string>(&value)) archive.Name("arguments.value", *name);
+  if (auto* whole = std::get_if<std::int64_t>(&value)) archive.Signed("arguments.value", *whole);
+  if (auto* number = std::get_if<double>(&value)) archive.Number("arguments.value", *number);
+  if (auto* pose = std::get_if<std::vector<double>>(&value)) archive.Array("arguments.value", *pose);
+}
+
 template <class Archive>
 void Fields(Archive& archive, ControlRequestMessage& message)
 {
   archive.Name("client", message.client);
   archive.Integer("number", message.number);
   archive.Name("verb", message.verb);
-  archive.Name("entity", message.entity);
-  archive.List("numbers", message.numbers, [](Archive& a, double& number) { a.AnyNumber("numbers", number); });
+  archive.List("arguments", message.arguments,
+               [](Archive& a, ControlArgument& argument)
+               {
+                 a.Name("arguments.name", argument.name);
+                 Fields(a, argument.value);
+               });
   archive.Name("user", message.user);
   archive.Integer("run", message.run);
 }

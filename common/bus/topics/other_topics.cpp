@@ -14,11 +14,11 @@ namespace
 // ReusedMemory for messages up to this (bytes) is used again. Worlds come once, and may have a hundred times as much.
 constexpr std::size_t kKept = 1 << 20;
 
-// Those of a share have a name of their own, so that readers of the run do not hear what they cannot open.
+// Those of a grant have a name of their own, so that readers of the run do not hear what they cannot open.
 template <class Message>
-std::string TopicName(const std::optional<ShareChannel>& share)
+std::string TopicName(const std::optional<GrantChannel>& grant)
 {
-  return share ? std::string(kTopicOf<Message>) + "/" + share->id : kTopicOf<Message>;
+  return grant ? std::string(kTopicOf<Message>) + "/" + grant->id : kTopicOf<Message>;
 }
 
 template <class Message>
@@ -41,11 +41,11 @@ std::uint64_t TickOf(const Message& message)
 template <class Message>
 struct Publisher<Message>::Impl
 {
-  Impl(Bus& its_bus, const std::string& its_partition, const std::optional<ShareChannel>& its_share)
+  Impl(Bus& its_bus, const std::string& its_partition, const std::optional<GrantChannel>& its_grant)
       : bus(its_bus.Internals()),
         partition(its_partition),
-        share(its_share ? its_share : bus.share),
-        topic(TopicName<Message>(share)),
+        grant(its_grant ? its_grant : bus.grant),
+        topic(TopicName<Message>(grant)),
         writer(its_bus, ColdTopic<Message>(its_bus, topic), partition, WriterQos(QosOf(kTopicOf<Message>)))
   {
   }
@@ -53,8 +53,8 @@ struct Publisher<Message>::Impl
   // For the present key of the run; nullptr if anybody is let in.
   Sealer* SealerNow()
   {
-    if (bus.insecure || (share && !share->key)) return nullptr;
-    const auto key = share ? share->key : bus.keys.Of(partition);
+    if (bus.insecure || (grant && !grant->key)) return nullptr;
+    const auto key = grant ? grant->key : bus.keys.Of(partition);
     if (!key)
       throw BusError(fmt::format("cannot send {}: this process has no key of the run of '{}'", topic, partition));
     if (!sealer || sealer->Key() != *key) sealer.emplace(*key, topic);
@@ -63,7 +63,7 @@ struct Publisher<Message>::Impl
 
   Bus::Impl& bus;
   const std::string partition;
-  const std::optional<ShareChannel> share;
+  const std::optional<GrantChannel> grant;
   const std::string topic;
   WriterEnd writer;
   std::mutex mutex;
@@ -71,8 +71,8 @@ struct Publisher<Message>::Impl
 };
 
 template <class Message>
-Publisher<Message>::Publisher(Bus& bus, const std::string& partition, const std::optional<ShareChannel>& share)
-    : impl_(std::make_unique<Impl>(bus, partition, share))
+Publisher<Message>::Publisher(Bus& bus, const std::string& partition, const std::optional<GrantChannel>& grant)
+    : impl_(std::make_unique<Impl>(bus, partition, grant))
 {
 }
 
@@ -116,11 +116,11 @@ struct Subscription<Message>::Impl : dds::DataReaderListener
   using Writer = rtps::GUID_t;
 
   Impl(Bus& its_bus, const std::string& its_partition, std::function<void(const Message&)> callback,
-       const std::optional<ShareChannel>& its_share)
+       const std::optional<GrantChannel>& its_grant)
       : bus(its_bus.Internals()),
         partition(its_partition),
-        share(its_share ? its_share : bus.share),
-        topic(TopicName<Message>(share)),
+        grant(its_grant ? its_grant : bus.grant),
+        topic(TopicName<Message>(grant)),
         received(std::move(callback)),
         opener(topic),
         reader(its_bus,
@@ -198,7 +198,7 @@ struct Subscription<Message>::Impl : dds::DataReaderListener
   std::optional<Opener::Opened> Open()
   {
     if (opener.Knows(payload)) return opener.Open(payload, room);
-    if (share) return share->key ? opener.OpenBy(*share->key, payload, room) : std::nullopt;
+    if (grant) return grant->key ? opener.OpenBy(*grant->key, payload, room) : std::nullopt;
     std::optional<Opener::Opened> opened;
     bus.keys.Try(partition,
                  [&](const RunKey& key)
@@ -211,7 +211,7 @@ struct Subscription<Message>::Impl : dds::DataReaderListener
 
   Bus::Impl& bus;
   const std::string partition;
-  const std::optional<ShareChannel> share;
+  const std::optional<GrantChannel> grant;
   const std::string topic;
   std::function<void(const Message&)> received;
   std::mutex mutex;
@@ -225,8 +225,8 @@ struct Subscription<Message>::Impl : dds::DataReaderListener
 template <class Message>
 Subscription<Message>::Subscription(Bus& bus, const std::string& partition,
                                     std::function<void(const Message&)> received,
-                                    const std::optional<ShareChannel>& share)
-    : impl_(std::make_unique<Impl>(bus, partition, std::move(received), share))
+                                    const std::optional<GrantChannel>& grant)
+    : impl_(std::make_unique<Impl>(bus, partition, std::move(received), grant))
 {
 }
 

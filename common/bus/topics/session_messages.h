@@ -16,7 +16,7 @@ namespace swarmanoid
 {
 
 // Equal to PROTOCOL_VERSION of the IDL; a test says so.
-inline constexpr std::uint32_t kProtocolVersion = 19;
+inline constexpr std::uint32_t kProtocolVersion = 20;
 
 // What precedes every message of a tick.
 struct MessageHeader

@@ -1,11 +1,11 @@
-// ControlClient: what is beyond the limits of a message is refused where it is asked, and never ends the asker.
+// ControlClient: an order with an error is refused in the asking process, and never ends it.
 #include "common/bus/membership/control_client.h"
 
 #include <gmock/gmock.h>
 
 #include <limits>
 
-#include "common/messages/request_limits.h"
+#include "common/messages/control_verbs.h"
 #include "tests/unit/bus/server_fixture.h"
 
 namespace swarmanoid
@@ -13,59 +13,34 @@ namespace swarmanoid
 namespace
 {
 
-using testing::HasSubstr;
-
-struct Refused
-{
-  std::string verb;
-  std::string entity;
-  std::vector<double> numbers;
-  std::string why;
-};
-
-const std::vector<Refused>& RefusedRequests()
-{
-  static const std::vector<Refused> requests{
-      {"press", std::string(1, '\0'), {}, "press: the key '?' must be one line of UTF-8 text"},
-      {"select", std::string(3000, 'x'), {}, "' has 3000 bytes; it must have at most 1024"},
-      {"select", "a\nb", {}, "select: the name 'a?b' must be one line"},
-      {"move", "\xff", {1, 2, 3}, "move: the name '?'"},
-      {"move", "fb_0", std::vector<double>(7, 0.0), "move: there are 7 numbers; at most 6 can be given"},
-      {"speed", "", {std::numeric_limits<double>::quiet_NaN()}, "speed: a number is not finite"},
-      {std::string(1025, 'v'), "", {}, "has 1025 bytes"}};
-  return requests;
-}
-
 class ControlClientTest : public test::ServerFixture
 {
 protected:
   ControlClientTest() : ServerFixture("control_client") {}
 };
 
-TEST_F(ControlClientTest, RequestsBeyondTheLimitsOfAMessageAreRefusedByAReply)
+TEST_F(ControlClientTest, OrdersWithAnErrorAreRefusedByAReply)
 {
   Bus bus(options_, "client");
   ControlClient client(bus, "control_client", 1);
-  for (const Refused& request : RefusedRequests())
+  for (const ControlOrder& order :
+       std::vector<ControlOrder>{{"dance"},
+                                 {std::string(1025, 'v')},
+                                 {"speed"},
+                                 {"speed", {{"factor", std::numeric_limits<double>::quiet_NaN()}}},
+                                 {"select", {{"entity", std::string(3000, 'x')}}},
+                                 {"press", {{"key", std::string(1, '\0')}}},
+                                 {"move", {{"entity", "\xff"}, {"pose", std::vector<double>{1, 2, 3}}}}})
   {
-    EXPECT_THAT(client.Send(request.verb, request.entity, request.numbers), HasSubstr(request.why));
-    const auto reply = client.Ask(request.verb, request.entity, request.numbers, 0);
+    const std::string error = OrderError(order);
+    EXPECT_NE(error, "");
+    EXPECT_EQ(client.Send(order), error);
+    const auto reply = client.Ask(order, 0);
     ASSERT_TRUE(reply);
     EXPECT_FALSE(reply->ok);
-    EXPECT_THAT(reply->text, HasSubstr(request.why));
+    EXPECT_EQ(reply->text, error);
   }
-  EXPECT_EQ(client.Send("press", "Up", {}), "");
-}
-
-TEST(RequestLimits, NamesOfTheLargestSizeAndOtherAlphabetsAreWithinThem)
-{
-  ControlRequestMessage request;
-  request.verb = "select";
-  for (const std::string& name : {std::string(1024, 'x'), std::string("über 𝄞"), std::string()})
-  {
-    request.entity = name;
-    EXPECT_EQ(RequestLimitError(request), "");
-  }
+  EXPECT_EQ(client.Send({"press", {{"key", "Up"}}}), "");
 }
 
 }  // namespace

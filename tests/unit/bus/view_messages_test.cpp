@@ -33,14 +33,24 @@ TEST(MessageBytes, OfUsersRequestsAreThoseOfTheIdl)
   Random random(3);
   for (int round = 0; round < kRounds; ++round)
   {
-    const ControlRequestMessage request{random.Text(),  random.Number32(), random.Text(),  random.Text(),
-                                        random.Reals(), random.Text(),     random.Number()};
+    ControlRequestMessage request{{random.Text()}, random.Text(), random.Number32(), random.Text(), random.Number()};
     wire::ControlRequest wire_request;
     wire_request.client(request.client);
     wire_request.number(request.number);
     wire_request.verb(request.verb);
-    wire_request.entity(request.entity);
-    wire_request.numbers(request.numbers);
+    for (const ControlValue& value :
+         {ControlValue(random.Text()), ControlValue(-static_cast<std::int64_t>(random.Number32())),
+          ControlValue(random.Real()), ControlValue(random.Reals())})
+    {
+      request.arguments.push_back({random.Text(), value});
+      wire::ControlArgument argument;
+      argument.name(request.arguments.back().name);
+      if (const auto* name = std::get_if<std::string>(&value)) argument.value().name(*name);
+      if (const auto* whole = std::get_if<std::int64_t>(&value)) argument.value().whole(*whole);
+      if (const auto* number = std::get_if<double>(&value)) argument.value().number(*number);
+      if (const auto* pose = std::get_if<std::vector<double>>(&value)) argument.value().pose(*pose);
+      wire_request.arguments().push_back(argument);
+    }
     wire_request.user(request.user);
     wire_request.run(request.run);
     ExpectSame<wire::ControlRequestPubSubType>(request, wire_request);

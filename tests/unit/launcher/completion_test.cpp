@@ -73,7 +73,8 @@ TEST_F(Completion, OffersPlugInsAndRequests)
 {
   EXPECT_THAT(Offered({"attach", "te"}), ElementsAre("text"));
   EXPECT_THAT(Offered({"list", "plugins", "footbot_wh"}), ElementsAre("footbot_wheels"));
-  EXPECT_THAT(Offered({"control", "st"}), testing::UnorderedElementsAre("step", "stop"));
+  EXPECT_THAT(Offered({"control", "st"}),
+              ElementsAre(StartsWith("step\tgo on for one tick or N"), StartsWith("stop\tend the run")));
 }
 
 }  // namespace

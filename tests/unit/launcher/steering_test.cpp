@@ -137,7 +137,7 @@ TEST_F(SteeringTest, RequestsBeyondTheLimitsOfAMessageAreRefusedAndNotWrittenDow
   options_.event_log = (folder_ / "events.csv").string();
   EXPECT_EQ(RunSingleProcess(*experiment_, options_).ticks, 40U);
   EXPECT_THAT(notes, testing::ElementsAre(HasSubstr("press: the key '?'"), HasSubstr("has 3000 bytes"),
-                                          HasSubstr("remove: the name 'fb_3?9,stop")));
+                                          HasSubstr("remove: the entity 'fb_3?9,stop")));
   EXPECT_EQ(Read("events.csv"), "");
 }
 
@@ -339,9 +339,9 @@ TEST_F(SteeringTest, WrongEventsAreToldWithTheirLine)
   EXPECT_THAT(error_of("2,move,fb_0,1 1 0,"), HasSubstr("wrong.csv:3: tick 2 comes after tick 3"));
   EXPECT_THAT(error_of("4,move,fb_x,1 1 0,"), HasSubstr("wrong.csv:3: the experiment has no entity 'fb_x'"));
   EXPECT_THAT(error_of("4,move,wall_west,1 1 0,"), HasSubstr("cannot move"));
-  EXPECT_THAT(error_of("4,move,fb_0,1 one,"), HasSubstr("no numbers"));
-  EXPECT_THAT(error_of("4,move,fb_0,1,"), HasSubstr("3 or 6 numbers"));
-  EXPECT_THAT(error_of("4,add,fb_0,,"), HasSubstr("'add' needs 3 or 6 numbers"));
+  EXPECT_THAT(error_of("4,move,fb_0,1 one,"), HasSubstr("is no place of three or six numbers"));
+  EXPECT_THAT(error_of("4,move,fb_0,1,"), HasSubstr("are no place of three or six numbers"));
+  EXPECT_THAT(error_of("4,add,fb_0,,"), HasSubstr("add: 'pose' is missing"));
   EXPECT_THAT(error_of("4,add,fb_0,1 1 0,"), HasSubstr("wrong.csv:3: add: entity 'fb_0' is in the arena already"));
   EXPECT_THAT(error_of("4,remove,fb_x,,"), HasSubstr("wrong.csv:3: the experiment has no entity 'fb_x'"));
   EXPECT_THAT(error_of("4,fly,fb_0,,"), HasSubstr("no request 'fly'"));

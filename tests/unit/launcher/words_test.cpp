@@ -18,82 +18,71 @@ using testing::HasSubstr;
 
 std::string ErrorOf(const std::vector<std::string>& words)
 {
-  return test::MessageOf<UsageError>([&] { ParseControlRequest(words); });
+  return test::MessageOf<UsageError>([&] { ParseControlWords(words); });
 }
 
-TEST(ControlRequest, TakesTheNameWhereItIsGiven)
+ControlOrder OrderOf(const std::vector<std::string>& words) { return ParseControlWords(words).order; }
+
+TEST(ControlWords, TakeTheNameOfTheExperimentIfItIsGiven)
 {
-  EXPECT_EQ(ParseControlRequest({"pause"}).experiment, "");
-  EXPECT_EQ(ParseControlRequest({"diffusion_10", "pause"}).experiment, "diffusion_10");
-  EXPECT_EQ(ParseControlRequest({"stop", "stop"}).experiment, "stop");
-  EXPECT_EQ(ParseControlRequest({"stop", "stop"}).verb, "stop");
+  EXPECT_EQ(ParseControlWords({"pause"}).experiment, "");
+  EXPECT_EQ(ParseControlWords({"diffusion_10", "pause"}).experiment, "diffusion_10");
+  EXPECT_EQ(ParseControlWords({"stop", "stop"}).experiment, "stop");
+  EXPECT_EQ(ParseControlWords({"stop", "stop"}).order, ControlOrder{"stop"});
+  EXPECT_EQ(ParseControlWords({"world", "remove", "fb0"}).experiment, "world");
 }
 
-TEST(ControlRequest, ReadsNumbers)
+TEST(ControlWords, AnEntityMayBeCalledLikeAVerb)
 {
-  EXPECT_THAT(ParseControlRequest({"step"}).numbers, ElementsAre(1));
-  EXPECT_THAT(ParseControlRequest({"step", "20"}).numbers, ElementsAre(20));
-  EXPECT_THAT(ParseControlRequest({"speed", "0.5"}).numbers, ElementsAre(0.5));
-  const ControlRequest move = ParseControlRequest({"world", "move", "fb0", "1,2,0,0,0,90"});
-  EXPECT_EQ(move.experiment, "world");
-  EXPECT_EQ(move.entity, "fb0");
-  EXPECT_THAT(move.numbers, ElementsAre(1, 2, 0, 0, 0, 90));
-  // An entity may be called like a verb.
-  EXPECT_EQ(ParseControlRequest({"move", "stop", "-1,2,0"}).entity, "stop");
-  const ControlRequest add = ParseControlRequest({"add", "remove", "1,2,0"});
-  EXPECT_EQ(add.verb, "add");
-  EXPECT_EQ(add.entity, "remove");
-  EXPECT_THAT(add.numbers, ElementsAre(1, 2, 0));
-  const ControlRequest remove = ParseControlRequest({"world", "remove", "fb0"});
-  EXPECT_EQ(remove.experiment, "world");
-  EXPECT_EQ(remove.entity, "fb0");
-  EXPECT_THAT(remove.numbers, ElementsAre());
+  EXPECT_EQ(OrderOf({"move", "stop", "-1,2,0"}).Get<std::string>("entity"), "stop");
+  EXPECT_EQ(OrderOf({"add", "remove", "1,2,0"}).verb, "add");
+  EXPECT_EQ(OrderOf({"add", "remove", "1,2,0"}).Get<std::string>("entity"), "remove");
 }
 
-TEST(ControlRequest, ReadsMovesOfWorkers)
+TEST(ControlWords, APoseIsAllWordsThatAreLeft)
 {
-  EXPECT_EQ(ParseControlRequest({"move-host", "1"}).entity, "1");
-  EXPECT_EQ(ParseControlRequest({"world", "move-host", "1", "beta"}).entity, "1 to beta");
-  EXPECT_EQ(ParseControlRequest({"move-engine", "ground", "beta"}).verb, "move-engine");
-  EXPECT_EQ(ParseControlRequest({"drain", "alpha"}).entity, "alpha");
-  EXPECT_THAT(ParseControlRequest({"hosts", "+2"}).numbers, ElementsAre(2));
-  EXPECT_THAT(ParseControlRequest({"world", "hosts", "again"}).numbers, ElementsAre(0));
-  EXPECT_THAT(ParseControlRequest({"world", "hosts", "-1", "beta"}).numbers, ElementsAre(-1));
-  EXPECT_EQ(ParseControlRequest({"world", "hosts", "-1", "beta"}).entity, "beta");
+  for (const auto& words : {std::vector<std::string>{"move", "fb0", "1,2,0,0,0,90"},
+                            {"world", "move", "fb0", "1", "2", "0", "0", "0", "90"}})
+    EXPECT_THAT(OrderOf(words).Get<std::vector<double>>("pose"), ElementsAre(1, 2, 0, 0, 0, 90));
 }
 
-TEST(ControlRequest, ReadsTheSeedOfAReset)
+TEST(ControlWords, TheSeedOfAResetIsAnOption)
 {
-  EXPECT_EQ(ParseControlRequest({"reset"}).entity, "");
-  EXPECT_EQ(ParseControlRequest({"world", "reset"}, 0).entity, "0");
-  EXPECT_EQ(ParseControlRequest({"reset"}, 9007199254740993).entity, "9007199254740993");
-  EXPECT_THROW(ParseControlRequest({"pause"}, 7), UsageError);
+  EXPECT_EQ(OrderOf({"reset"}).arguments.size(), 0U);
+  EXPECT_EQ(ParseControlWords({"world", "reset"}, {{"seed", "9007199254740993"}}).order.Get<std::int64_t>("seed"),
+            9007199254740993);
+  EXPECT_THROW(ParseControlWords({"pause"}, {{"seed", "7"}}), UsageError);
+  EXPECT_THAT(ErrorOf({"reset", "7"}), HasSubstr("write reset [--seed N]"));
 }
 
-TEST(ControlRequest, ErrorsSayTheRightForm)
+TEST(ControlWords, MisspeltVerbsAreNamed)
 {
-  EXPECT_THAT(ErrorOf({"reset", "7"}), HasSubstr("reset --seed N"));
-  EXPECT_THAT(ErrorOf({"move-host"}), HasSubstr("write move-host N"));
-  EXPECT_THAT(ErrorOf({"move-host", "ground"}), HasSubstr("is no number of a controller host"));
-  EXPECT_THAT(ErrorOf({"drain", "alpha", "beta"}), HasSubstr("write drain MACHINE"));
-  EXPECT_THAT(ErrorOf({"hosts"}), HasSubstr("write hosts +N or hosts -N"));
-  EXPECT_THAT(ErrorOf({"hosts", "2"}), HasSubstr("write hosts +N or hosts -N"));
-  EXPECT_THAT(ErrorOf({"hosts", "+0"}), HasSubstr("write hosts +N or hosts -N"));
-  EXPECT_THAT(ErrorOf({"hosts", "again", "beta"}), HasSubstr("takes no machine, but 'beta' is there; write hosts +N"));
   EXPECT_THAT(ErrorOf({"paus"}), HasSubstr("did you mean 'pause'?"));
-  EXPECT_THAT(ErrorOf({"spede", "2"}), HasSubstr("there is no 'spede'"));
+  EXPECT_THAT(ErrorOf({"spede", "2"}), HasSubstr("there is no request 'spede'"));
   EXPECT_THAT(ErrorOf({"spede", "2"}), HasSubstr("did you mean 'speed'?"));
   EXPECT_THAT(ErrorOf({"diffusion_10", "spede", "2"}), HasSubstr("did you mean 'speed'?"));
   EXPECT_THAT(ErrorOf({"mvoe", "fb0", "1,2,0"}), HasSubstr("did you mean 'move'?"));
-  EXPECT_THAT(ErrorOf({"step", "0"}), HasSubstr("step N"));
-  EXPECT_THAT(ErrorOf({"step", "1.5"}), HasSubstr("step N"));
-  EXPECT_THAT(ErrorOf({"speed"}), HasSubstr("speed F"));
-  EXPECT_THAT(ErrorOf({"speed", "-1"}), HasSubstr("negative"));
-  EXPECT_THAT(ErrorOf({"move", "fb0", "1,2"}), HasSubstr("X,Y,Z"));
+  EXPECT_THAT(ErrorOf({"shares"}), HasSubstr("there is no request 'shares'"));
+}
+
+TEST(ControlWords, ErrorsSayTheRightForm)
+{
+  EXPECT_THAT(ErrorOf({"move-host"}), HasSubstr("write move-host N [MACHINE]"));
+  EXPECT_THAT(ErrorOf({"move-host", "ground"}), HasSubstr("'ground' is no number of a controller host"));
+  EXPECT_THAT(ErrorOf({"step", "0"}), HasSubstr("0 is no number of ticks from 1 to"));
+  EXPECT_THAT(ErrorOf({"step", "1.5"}), HasSubstr("write step [N]"));
+  EXPECT_THAT(ErrorOf({"speed", "-1"}), HasSubstr("-1 is no multiple of real time from 0"));
+  EXPECT_THAT(ErrorOf({"move", "fb0", "1,2"}), HasSubstr("write move ENTITY X,Y,Z[,A,B,G]"));
   EXPECT_THAT(ErrorOf({"pause", "now"}), HasSubstr("'now'"));
-  EXPECT_THAT(ErrorOf({"add", "fb0"}), HasSubstr("add ENTITY X,Y,Z"));
-  EXPECT_THAT(ErrorOf({"remove"}), HasSubstr("remove ENTITY"));
-  EXPECT_THAT(ErrorOf({"world", "remove", "fb0", "1,2,0"}), HasSubstr("remove ENTITY"));
+  EXPECT_THAT(ErrorOf({"world", "remove", "fb0", "1,2,0"}), HasSubstr("write remove ENTITY"));
+}
+
+TEST(ControlWords, MovesOfWorkersHaveMorePatience)
+{
+  EXPECT_EQ(PatienceFor({"pause"}, 5), 5);
+  EXPECT_EQ(PatienceFor({"machines"}, 5), 5);
+  EXPECT_EQ(PatienceFor(OrderOf({"drain", "alpha"}), 5), 600);
+  EXPECT_EQ(PatienceFor(OrderOf({"hosts", "again"}), 900), 900);
 }
 
 TEST(TemplateFiles, FillInTheNames)

@@ -221,12 +221,9 @@ TEST_F(Drawings, WithoutFunctionsThereIsNobodyForKeys)
 class Asked : public Drawings
 {
 protected:
-  void Ask(RunControl& control, const std::string& verb, const std::string& entity = "")
+  void Ask(RunControl& control, const ControlOrder& order)
   {
-    ControlRequestMessage request;
-    request.verb = verb;
-    request.entity = entity;
-    control.Ask(request);
+    control.Ask({order});
     control.Work(Server());
   }
   RunControl::Answer Answers()
@@ -246,11 +243,11 @@ TEST_F(Asked, KeysAreEventsThatCanBeRepeated)
   setup.event_log = log;
   {
     RunControl control(experiment_, setup, Answers());
-    Ask(control, "press", "M");
-    Ask(control, "select", "fb");
-    Ask(control, "press", "nothing");
-    Ask(control, "select", "nobody");
-    Ask(control, "deselect");
+    Ask(control, {"press", {{"key", "M"}}});
+    Ask(control, {"select", {{"entity", "fb"}}});
+    Ask(control, {"press", {{"key", "nothing"}}});
+    Ask(control, {"select", {{"entity", "nobody"}}});
+    Ask(control, {"deselect"});
   }
   EXPECT_THAT(done_, ElementsAre("key M pressed at tick 0", "selected 'fb' at tick 0", "selected none at tick 0"));
   ASSERT_EQ(refused_.size(), 2U);
@@ -273,7 +270,7 @@ TEST_F(Asked, KeysAreEventsThatCanBeRepeated)
 TEST_F(Asked, KeysAreRefusedWithoutFunctions)
 {
   RunControl control(experiment_, {}, Answers());
-  Ask(control, "press", "I");
+  Ask(control, {"press", {{"key", "I"}}});
   EXPECT_THAT(done_, IsEmpty());
   ASSERT_EQ(refused_.size(), 1U);
   EXPECT_THAT(refused_[0], HasSubstr("no <experiment_functions>"));

@@ -67,12 +67,8 @@ TEST_F(EventLogTest, AnotherValueInALineDoesNotFitItsChecksum)
 {
   const std::string path = (folder_ / "written.csv").string();
   {
-    ControlRequestMessage request;
-    request.verb = "move";
-    request.entity = "fb_0";
-    request.numbers = {1, 2, 0};
     EventLog log(path);
-    log.Write(5, request);
+    log.Write(5, {{"move", {{"entity", "fb_0"}, {"pose", std::vector<double>{1, 2, 0}}}}});
   }
   const std::string good = test::TextOf(path);
   EXPECT_EQ(CountOf(good), 1U);
@@ -84,6 +80,31 @@ TEST_F(EventLogTest, AnotherValueInALineDoesNotFitItsChecksum)
     EXPECT_THAT(ReadEventLines(File(flipped)).damaged, SizeIs(1)) << flipped;
   }
   EXPECT_EQ(CountOf(good.substr(0, good.rfind(',') + 1) + "\n"), 1U) << "by hand, without a checksum";
+}
+
+TEST_F(EventLogTest, LinesThatAreNotRepeatedMayBeOfAnotherVersion)
+{
+  EXPECT_EQ(CountOf(std::string(kHeader) + "1,move-host,1 to beta,,u@h:1,1,\n2,share,0000000a,1 0,u@h:1,2,\n" + kMove),
+            1U);
+}
+
+TEST_F(EventLogTest, ARunThatGoesOnHasThePaceAndTheGrantsOfItsLog)
+{
+  const std::string path = File(std::string(kHeader) +
+                                "1,pause,,,u@h:1,1,\n1,speed,,2.5,u@h:1,2,\n2,share,0000000a,operate 0,u@h:1,3,\n"
+                                "2,share,0000000b,open 7,u@h:1,4,\n3,revoke,0000000a,,u@h:1,5,\n"
+                                "4,refused,Join,,stranger,0,\n5,step,,10,u@h:1,6,\n" +
+                                kMove);
+  const EarlierRequests earlier = ReadEarlierRequests(path, experiment_, std::nullopt);
+  EXPECT_EQ(earlier.speed, 2.5);
+  EXPECT_EQ(earlier.pause_at, 15U);
+  ASSERT_TRUE(earlier.step);
+  EXPECT_EQ(earlier.step->number, 6U);
+  ASSERT_EQ(earlier.grants.size(), 1U);
+  EXPECT_EQ(earlier.grants[0].Get<std::string>("role"), "open");
+  EXPECT_EQ(earlier.grants[0].Get<std::int64_t>("ends"), 7);
+  EXPECT_THAT(earlier.changes, SizeIs(1));
+  EXPECT_THAT(earlier.answered, SizeIs(4));
 }
 
 TEST_F(EventLogTest, LinesThatArePassedOnAreReadAroundDamage)

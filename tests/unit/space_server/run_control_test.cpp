@@ -5,6 +5,8 @@
 
 #include <memory>
 
+#include "common/messages/control_verbs.h"
+
 namespace swarmanoid
 {
 namespace
@@ -29,12 +31,9 @@ protected:
                                                const std::string& text) { EXPECT_TRUE(done) << text; });
     control_->Start(0, now_);
   }
-  void Ask(const std::string& verb, const std::vector<double>& numbers = {})
+  void Ask(const ControlOrder& order)
   {
-    ControlRequestMessage request;
-    request.verb = verb;
-    request.numbers = numbers;
-    control_->Ask(request);
+    control_->Ask({order});
     control_->Work(*server_);
   }
   RunControl::Decision Decide() { return control_->Decide(server_->Space().GetTick(), now_); }
@@ -74,23 +73,23 @@ TEST_F(Pace, TicksStartAtTheirTimes)
 TEST_F(Pace, TheTimeOfAPauseIsNotMadeUpFor)
 {
   Tick();
-  Ask("pause");
+  Ask({"pause"});
   EXPECT_FALSE(Decide().go);
   EXPECT_FALSE(Decide().due.has_value()) << "a paused run waits for a request, not for a time";
   now_ += hours(1);
   EXPECT_FALSE(Decide().go);
-  Ask("resume");
+  Ask({"resume"});
   Tick();
   ExpectDueAfter(milliseconds(100));
 }
 
 TEST_F(Pace, StepsOfAPausedRunKeepTheirPace)
 {
-  Ask("pause");
+  Ask({"pause"});
   for (int k = 0; k < 2; ++k)
   {
     now_ += hours(1);
-    Ask("step", {2});
+    Ask({"step", {{"ticks", std::int64_t{2}}}});
     Tick();
     ExpectDueAfter(milliseconds(100));
     Tick();
@@ -104,14 +103,46 @@ TEST_F(Pace, AnotherSpeedHoldsFromTheTickAtWhichItIsAsked)
   Tick();
   now_ += milliseconds(100);
   Tick();
-  Ask("speed", {4});
+  Ask({"speed", {{"factor", 4.0}}});
   Tick();
   ExpectDueAfter(milliseconds(25));
-  Ask("speed", {0});
+  Ask({"speed", {{"factor", 0.0}}});
   for (int k = 0; k < 3; ++k) Tick();
-  Ask("speed", {0.5});
+  Ask({"speed", {{"factor", 0.5}}});
   Tick();
   ExpectDueAfter(milliseconds(200));
+}
+
+// A new verb is a row of the table and an action.
+TEST(RunControlActions, EachVerbOfAMemberIsExecutedOrRefusedForAReasonOfItsOwn)
+{
+  Experiment experiment;
+  experiment.arena_size = {1, 1, 1};
+  experiment.clock_tick_ms = 100;
+  const Assignment assignment;
+  for (const ControlVerb& verb : ControlVerbs())
+  {
+    std::map<std::string, std::string> options;
+    std::vector<std::string> words;
+    for (const ControlParameter& parameter : verb.parameters)
+      if (parameter.is_option)
+        options[parameter.name] = "1";
+      else
+        words.emplace_back(parameter.type == ArgumentType::kPose     ? "1,1,0"
+                           : parameter.type == ArgumentType::kChange ? "+1"
+                           : parameter.type == ArgumentType::kChoice ? parameter.choices[0]
+                                                                     : "1");
+    SpaceServer server(experiment, assignment, ".");
+    std::vector<std::string> replies;
+    RunControl control(experiment, {},
+                       [&](const ControlRequestMessage&, bool, std::uint64_t, const std::string& text)
+                       { replies.push_back(text); });
+    control.Ask({ParseOrder(verb, options, words)});
+    control.Work(server);
+    control.Ended(1);
+    ASSERT_EQ(replies.size(), 1U) << verb.name;
+    EXPECT_EQ(replies[0].starts_with("there is no request"), verb.who > Asker::kMember) << replies[0];
+  }
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ TEST_F(InTheWay, PlacesThatAreAskedForAreInMetresAndDegrees)
   Add(EntityKind::kEyebot, "eb", {{2, 2, 1}, QuaternionFromYaw(0.5)}, {0});
   const CSwarmanoidSpace space(experiment_);
   const auto asked_for = [&](const std::vector<double>& numbers) {
-    return ReadSpaceChange({"", 0, "move", "eb", numbers}, space).moves.at(0).pose;
+    return ReadMove({"move", {{"entity", "eb"}, {"pose", numbers}}}, space).moves.at(0).pose;
   };
   EXPECT_EQ(asked_for({3, 4, 1.5}).position, Vector3(3, 4, 1.5));
   EXPECT_NEAR(YawOf(asked_for({3, 4, 1.5}).orientation), 0.5, 1e-12) << "it keeps its heading";
@@ -122,7 +122,8 @@ protected:
   }
   SpaceChange Asked(const std::string& verb, const std::string& id, const std::vector<double>& numbers)
   {
-    return ReadSpaceChange({"", 0, verb, id, numbers}, *space);
+    const ControlOrder order{verb, {{"entity", id}, {"pose", numbers}}};
+    return verb == "move" ? ReadMove(order, *space) : ReadDetachment(order, *space);
   }
   std::string Mistake(const std::string& verb, const std::string& id, const std::vector<double>& numbers)
   {

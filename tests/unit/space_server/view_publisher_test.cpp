@@ -1,4 +1,4 @@
-// When those who look on at a run get a view of it.
+// When observers at a run get a view of it.
 #include "space_server/cluster/view_publisher.h"
 
 #include <atomic>
@@ -20,8 +20,8 @@ protected:
   ViewPublisherTest()
       : ServerFixture("viewed"),
         session_(options_, world_, {}, {[](const auto&) {}, [] {}, [](const auto&) {}}),
-        shares_(session_, options_, {[](const auto&) {}, [](const auto&) {}, [] {}}),
-        views_(session_, shares_, [this] { ++woken_; })
+        grants_(session_, options_, {[](const auto&) {}, [](const auto&) {}, [] {}}),
+        views_(session_, grants_, [this] { ++woken_; })
   {
   }
 
@@ -43,7 +43,7 @@ protected:
   }
 
   ServerSession session_;
-  Shares shares_;
+  AccessGrants grants_;
   std::atomic<int> woken_ = 0;
   ViewPublisher views_;
   ViewPublisher::Clock::time_point now_ = ViewPublisher::Clock::now();

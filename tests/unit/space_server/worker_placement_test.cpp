@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 
+#include "common/messages/control_verbs.h"
 #include "tests/world/message_of.h"
 
 namespace swarmanoid
@@ -24,56 +25,51 @@ const WorkerPlacement& Places()
   return places;
 }
 
-ControlRequestMessage Request(const std::string& verb, const std::string& entity)
-{
-  ControlRequestMessage request;
-  request.verb = verb;
-  request.entity = entity;
-  return request;
-}
-
-std::string MovesOf(const WorkerPlacement& places, const std::string& verb, const std::string& entity)
+std::string MovesOf(const WorkerPlacement& places, const std::vector<std::string>& words)
 {
   std::string text;
   const std::string refusal = test::MessageOf<std::invalid_argument>(
       [&]
       {
-        for (const auto& [worker, machine] : places.Read(Request(verb, entity)))
+        const ControlOrder order = ParseOrder(*FindControlVerb(words[0]), {}, {words.begin() + 1, words.end()});
+        for (const auto& [worker, machine] : words[0] == "move-host"     ? places.ReadHostMove(order)
+                                             : words[0] == "move-engine" ? places.ReadEngineMove(order)
+                                                                         : places.ReadDrain(order))
           text += worker + " > " + machine + "; ";
       });
   return refusal.empty() ? text : refusal;
 }
 
-std::string MovesOf(const std::string& verb, const std::string& entity) { return MovesOf(Places(), verb, entity); }
+std::string MovesOf(const std::vector<std::string>& words) { return MovesOf(Places(), words); }
 
 TEST(WorkerPlacement, FindTheWorkerAndItsMachine)
 {
-  EXPECT_EQ(MovesOf("move-host", "1"), "controller host 1 > beta; ");
-  EXPECT_EQ(MovesOf("move-host", "1 to alpha"), "controller host 1 > alpha; ");
-  EXPECT_EQ(MovesOf("move-engine", "ground to here"), "engine 'ground' > here; ");
-  EXPECT_EQ(MovesOf("move-engine", "a to b"), "engine 'a to b' > alpha; ");
-  EXPECT_EQ(MovesOf("move-engine", "a to b to beta"), "engine 'a to b' > beta; ");
+  EXPECT_EQ(MovesOf({"move-host", "1"}), "controller host 1 > beta; ");
+  EXPECT_EQ(MovesOf({"move-host", "1", "alpha"}), "controller host 1 > alpha; ");
+  EXPECT_EQ(MovesOf({"move-engine", "ground", "here"}), "engine 'ground' > here; ");
+  EXPECT_EQ(MovesOf({"move-engine", "a to b"}), "engine 'a to b' > alpha; ");
+  EXPECT_EQ(MovesOf({"move-engine", "a to b", "beta"}), "engine 'a to b' > beta; ");
 }
 
 TEST(WorkerPlacement, FindTheRegionsOfAnEngine)
 {
   const WorkerPlacement places({"here", "beta"}, {"engine 'ground'=here", "region 0 of engine 'ground'=here",
                                                   "region 1 of engine 'ground'=beta", "engine 'a/1'=here"});
-  EXPECT_EQ(MovesOf(places, "move-engine", "ground/1"), "region 1 of engine 'ground' > beta; ");
-  EXPECT_EQ(MovesOf(places, "move-engine", "ground/0 to beta"), "region 0 of engine 'ground' > beta; ");
-  EXPECT_EQ(MovesOf(places, "move-engine", "ground to beta"), "engine 'ground' > beta; ");
-  EXPECT_EQ(MovesOf(places, "move-engine", "a/1"), "engine 'a/1' > here; ");
-  EXPECT_EQ(MovesOf(places, "drain", "beta"), "region 1 of engine 'ground' > here; ");
-  EXPECT_THAT(MovesOf(places, "move-engine", "ground/2"), HasSubstr("region 1 of engine 'ground'"));
+  EXPECT_EQ(MovesOf(places, {"move-engine", "ground/1"}), "region 1 of engine 'ground' > beta; ");
+  EXPECT_EQ(MovesOf(places, {"move-engine", "ground/0", "beta"}), "region 0 of engine 'ground' > beta; ");
+  EXPECT_EQ(MovesOf(places, {"move-engine", "ground", "beta"}), "engine 'ground' > beta; ");
+  EXPECT_EQ(MovesOf(places, {"move-engine", "a/1"}), "engine 'a/1' > here; ");
+  EXPECT_EQ(MovesOf(places, {"drain", "beta"}), "region 1 of engine 'ground' > here; ");
+  EXPECT_THAT(MovesOf(places, {"move-engine", "ground/2"}), HasSubstr("region 1 of engine 'ground'"));
 }
 
 TEST(WorkerPlacement, RefuseWhatIsNotThere)
 {
-  EXPECT_THAT(MovesOf("move-host", "2"), AllOf(HasSubstr("no controller host 2"), HasSubstr("controller host 1")));
-  EXPECT_THAT(MovesOf("move-host", "1 to gamma"), AllOf(HasSubstr("no machine 'gamma'"), HasSubstr("machines = ")));
-  EXPECT_THAT(MovesOf("drain", "bet"), HasSubstr("did you mean 'beta'?"));
-  EXPECT_THAT(MovesOf("drain", "here"), HasSubstr("the space server is at 'here'"));
-  EXPECT_THAT(MovesOf(WorkerPlacement(), "move-host", "0"), HasSubstr("no process of this run can be moved"));
+  EXPECT_THAT(MovesOf({"move-host", "2"}), AllOf(HasSubstr("no controller host 2"), HasSubstr("controller host 1")));
+  EXPECT_THAT(MovesOf({"move-host", "1", "gamma"}), AllOf(HasSubstr("no machine 'gamma'"), HasSubstr("machines = ")));
+  EXPECT_THAT(MovesOf({"drain", "bet"}), HasSubstr("did you mean 'beta'?"));
+  EXPECT_THAT(MovesOf({"drain", "here"}), HasSubstr("the space server is at 'here'"));
+  EXPECT_THAT(MovesOf(WorkerPlacement(), {"move-host", "0"}), HasSubstr("no process of this run can be moved"));
   EXPECT_THROW(WorkerPlacement({}, {"engine"}), std::invalid_argument);
 }
 
@@ -90,27 +86,27 @@ TEST(WorkerPlacement, TheTextNamesEachMachineAndItsWorkers)
 // Two workers are at beta or here each; those of alpha go where the fewest are.
 TEST(WorkerPlacement, DrainGivesToThoseWhoHaveTheFewest)
 {
-  EXPECT_EQ(MovesOf("drain", "alpha"), "controller host 0 > beta; engine 'a to b' > beta; engine 'ground' > here; ");
-  EXPECT_EQ(MovesOf("drain", "beta"), "controller host 1 > here; ");
+  EXPECT_EQ(MovesOf({"drain", "alpha"}), "controller host 0 > beta; engine 'a to b' > beta; engine 'ground' > here; ");
+  EXPECT_EQ(MovesOf({"drain", "beta"}), "controller host 1 > here; ");
   WorkerPlacement places = Places();
   places.Put({"controller host 1", "here"});
-  EXPECT_EQ(MovesOf(places, "drain", "beta"), "");
+  EXPECT_EQ(MovesOf(places, {"drain", "beta"}), "");
   // The worker is not one that moves, does not say where it is, or names a machine that the run does not have.
   places.Put({"controller host 7", "beta"});
   places.Put({"controller host 0", ""});
   places.Put({"controller host 0", "gamma"});
-  EXPECT_EQ(MovesOf(places, "drain", "beta"), "");
+  EXPECT_EQ(MovesOf(places, {"drain", "beta"}), "");
 }
 
-std::string HostsOf(double more, const std::string& machine = "", std::size_t most = 5)
+std::string HostsOf(std::int64_t more, const std::string& machine = "", std::size_t most = 5)
 {
-  ControlRequestMessage request = Request("hosts", machine);
-  request.numbers = {more};
+  ControlOrder order{"hosts", {{"change", more}}};
+  if (!machine.empty()) order.Set("machine", machine);
   std::string text;
   const std::string refusal = test::MessageOf<std::invalid_argument>(
       [&]
       {
-        for (const std::string& host : Places().ReadHosts(request, most)) text += host + " ";
+        for (const std::string& host : Places().ReadHosts(order, most)) text += host + " ";
       });
   return refusal.empty() ? text : refusal;
 }
@@ -127,14 +123,11 @@ TEST(WorkerPlacement, HostsComeAndGoAtTheEnd)
   EXPECT_THAT(HostsOf(4), HasSubstr("the run has 2 controller hosts, and can have 5"));
   EXPECT_THAT(HostsOf(1, "gamma"), HasSubstr("no machine 'gamma'"));
   EXPECT_EQ(HostsOf(0), "alpha beta ");
-  EXPECT_THAT(HostsOf(0.5), HasSubstr("write +N or -N"));
-  EXPECT_THAT(HostsOf(std::nan("")), HasSubstr("write +N or -N"));
 }
 
 TEST(WorkerPlacement, OneHostHasNobodyToShareWith)
 {
-  ControlRequestMessage request = Request("hosts", "");
-  request.numbers = {0};
+  const ControlOrder request{"hosts", {{"change", std::int64_t{0}}}};
   const WorkerPlacement places({"here"}, {"space server=here", "controller host 0=here"});
   EXPECT_THAT([&] { places.ReadHosts(request, 9); },
               testing::ThrowsMessage<std::invalid_argument>(HasSubstr("that has all robots")));
@@ -142,8 +135,7 @@ TEST(WorkerPlacement, OneHostHasNobodyToShareWith)
 
 TEST(WorkerPlacement, HostsNeedASpaceServerThatCanStartAgain)
 {
-  ControlRequestMessage request = Request("hosts", "");
-  request.numbers = {1};
+  const ControlOrder request{"hosts", {{"change", std::int64_t{1}}}};
   const WorkerPlacement places({"here", "beta"}, {"space server=beta", "controller host 0=here"});
   EXPECT_THAT([&] { places.ReadHosts(request, 9); },
               testing::ThrowsMessage<std::invalid_argument>(HasSubstr("it is on another machine than the launcher")));
@@ -153,7 +145,7 @@ TEST(WorkerPlacement, HostsNeedASpaceServerThatCanStartAgain)
 TEST(WorkerPlacement, DrainNeedsAnotherMachine)
 {
   const WorkerPlacement alone({"alpha"}, {"controller host 0=alpha"});
-  EXPECT_THAT(MovesOf(alone, "drain", "alpha"), HasSubstr("nowhere to go"));
+  EXPECT_THAT(MovesOf(alone, {"drain", "alpha"}), HasSubstr("nowhere to go"));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/configuration/xml_reader.h"
+#include "common/messages/control_verbs.h"
 #include "common/plugin_descriptions/renderers.h"
 #include "tests/unit/visualiser/small_world.h"
 #include "tests/world/fake_run.h"
@@ -181,10 +182,10 @@ TEST_F(ViewerTest, ShiftDragAsksForThePlaceUnderTheMouse)
   EXPECT_THAT(control_.asked, IsEmpty());
   viewer.MouseRelease(MouseButton::kLeft);
   EXPECT_THAT(control_.asked, ElementsAre("move fb_0"));
-  EXPECT_NEAR(control_.place.position.x(), 2.5, 0.02);
-  EXPECT_NEAR(control_.place.position.y(), 1.5, 0.02);
-  EXPECT_DOUBLE_EQ(control_.place.position.z(), 0);
-  EXPECT_NEAR(RadiansToDegrees(YawOf(control_.place.orientation)), 30, 1e-9);
+  EXPECT_NEAR(control_.place.at(0), 2.5, 0.02);
+  EXPECT_NEAR(control_.place.at(1), 1.5, 0.02);
+  EXPECT_DOUBLE_EQ(control_.place.at(2), 0);
+  EXPECT_NEAR(control_.place.at(5), 30, 1e-9);
   EXPECT_EQ(world_["fb_0"].GetPosition(), Vector3(1, 1, 0));  // that is for the space server to do
 }
 

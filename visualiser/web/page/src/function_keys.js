@@ -23,19 +23,19 @@ export class FunctionKeys {
     if (!on) this.release();
     this.on = on;
     const entity = this.actions.selected();
-    if (entity !== null) this.actions.command(on ? { do: "select", entity } : { do: "select" });
+    if (entity !== null) this.actions.command(on ? { do: "select", entity } : { do: "deselect" });
     this.actions.changed(on);
   }
 
   // All that are held: nobody hears of it while the page has no focus.
   release() {
-    for (const key of this.held.values()) this.actions.command({ do: "key", key, pressed: false });
+    for (const key of this.held.values()) this.actions.command({ do: "release", key });
     this.held.clear();
   }
 
   // id: of an entity, or null
   select(id) {
-    if (this.on) this.actions.command(id === null ? { do: "select" } : { do: "select", entity: id });
+    if (this.on) this.actions.command(id === null ? { do: "deselect" } : { do: "select", entity: id });
   }
 
   // Of the browser; true if the page has nothing to do with it.
@@ -48,7 +48,7 @@ export class FunctionKeys {
     event.preventDefault();
     if (!this.held.has(event.code)) {
       this.held.set(event.code, key);
-      this.actions.command({ do: "key", key, pressed: true });
+      this.actions.command({ do: "press", key });
     }
     return true;
   }
@@ -57,6 +57,6 @@ export class FunctionKeys {
     const key = this.held.get(event.code);
     if (key === undefined) return;
     this.held.delete(event.code);
-    this.actions.command({ do: "key", key, pressed: false });
+    this.actions.command({ do: "release", key });
   }
 }

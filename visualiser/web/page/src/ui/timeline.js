@@ -1,8 +1,6 @@
 // The timeline below the picture: which tick is shown, the events of the run as marks, and the way back to the present.
 import { clockText, h, icon, setText } from "./dom.js";
 
-const NAMES = { move: "moved", add: "added", remove: "removed", detach: "detached", failed: "its controller failed", pause: "paused", resume: "resumed", speed: "another speed", step: "stepped", stop: "stopped", reset: "reset", refused: "refused" };
-
 export class Timeline {
   // actions: look(tick), play(), live(), branch()
   constructor(actions) {
@@ -44,7 +42,7 @@ export class Timeline {
     this.events = events;
     const more = all > events.length ? ` (the first ${events.length} of ${all} events)` : "";
     this.buttons = events.map((event) => {
-      const what = [`tick ${event.tick}:`, event.entity, NAMES[event.what] ?? event.what, event.from && `(${event.from})`].filter(Boolean).join(" ") + more;
+      const what = [`tick ${event.tick}:`, event.what, event.entity, event.from && `(${event.from})`].filter(Boolean).join(" ") + more;
       return h("button.event-mark", { title: what, "aria-label": what, "data-what": event.what, onclick: () => this.actions.look(event.tick) });
     });
     this.marks.replaceChildren(...this.buttons);

@@ -1,4 +1,4 @@
-#include "common/bus/security/share.h"
+#include "common/bus/security/access_grant.h"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -24,12 +24,8 @@ namespace
 
 constexpr std::size_t kIdDigits = 8;
 constexpr std::size_t kParts = 8;
-constexpr std::size_t kLongestTicket = 4096;
+constexpr std::size_t kLongestToken = 4096;
 constexpr const char* kVersion = "1";
-constexpr const char* kOperator = "operate";
-constexpr const char* kWatcher = "watch";
-
-const char* RoleWord(ShareRole role) { return role == ShareRole::kOperator ? kOperator : kWatcher; }
 
 template <class Number>
 std::optional<Number> NumberOfText(const std::string& text)
@@ -60,26 +56,31 @@ std::string OwnAddressTowards(const std::string& address)
 
 }  // namespace
 
-bool Share::HasEnded() const { return ends != 0 && std::time(nullptr) >= ends; }
+bool AccessGrant::HasEnded() const { return ends != 0 && std::time(nullptr) >= ends; }
 
-std::optional<ShareRole> ShareRoleOf(double number)
+const char* RoleWord(GrantRole role)
 {
-  for (const ShareRole role : {ShareRole::kWatcher, ShareRole::kOperator, ShareRole::kOpenView})
-    if (number == static_cast<double>(role)) return role;
+  return role == GrantRole::kWatcher ? "watch" : role == GrantRole::kOperator ? "operate" : "open";
+}
+
+std::optional<GrantRole> GrantRoleOf(const std::string& word)
+{
+  for (const GrantRole role : {GrantRole::kWatcher, GrantRole::kOperator, GrantRole::kOpenView})
+    if (word == RoleWord(role)) return role;
   return std::nullopt;
 }
 
-const char* RoleName(ShareRole role)
+const char* RoleName(GrantRole role)
 {
-  return role == ShareRole::kWatcher ? "watcher" : role == ShareRole::kOperator ? "operator" : "open view";
+  return role == GrantRole::kWatcher ? "watcher" : role == GrantRole::kOperator ? "operator" : "open view";
 }
 
-std::string Share::Name() const
+std::string AccessGrant::Name() const
 {
-  return fmt::format("{}{} {}", RoleName(role), role == ShareRole::kOpenView ? "" : " share", id);
+  return fmt::format("{}{} {}", RoleName(role), role == GrantRole::kOpenView ? "" : " share", id);
 }
 
-std::string NewShareId()
+std::string NewGrantId()
 {
   std::uint32_t number = 0;
   if (getrandom(&number, sizeof number, 0) != sizeof number)
@@ -87,29 +88,28 @@ std::string NewShareId()
   return fmt::format("{:08x}", number);
 }
 
-bool IsShareId(const std::string& text)
+bool IsGrantId(const std::string& text)
 {
   return text.size() == kIdDigits && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-ShareChannel ChannelOf(const RunKey& run_key, const Share& share)
+GrantChannel ChannelOf(const RunKey& run_key, const AccessGrant& grant)
 {
-  if (share.role == ShareRole::kOpenView) return {kOpenChannel, std::nullopt};
-  const std::string purpose = fmt::format("swarmanoid share {} {} {}", share.id, RoleWord(share.role), share.ends);
-  return {share.id, DerivedKey(run_key, share.id, purpose)};
+  if (grant.role == GrantRole::kOpenView) return {kOpenChannel, std::nullopt};
+  const std::string purpose = fmt::format("swarmanoid share {} {} {}", grant.id, RoleWord(grant.role), grant.ends);
+  return {grant.id, DerivedKey(run_key, grant.id, purpose)};
 }
 
-std::string TextOf(const ShareTicket& ticket)
+std::string TextOf(const AccessToken& token)
 {
-  return fmt::format("{},{},{},{},{},{},{},{}", kVersion, ticket.share.id, RoleWord(ticket.share.role),
-                     ticket.share.ends, ticket.domain,
-                     ticket.discovery_server.empty() ? ticket.address : ticket.discovery_server, TextOfKey(ticket.key),
-                     ticket.experiment);
+  return fmt::format("{},{},{},{},{},{},{},{}", kVersion, token.grant.id, RoleWord(token.grant.role), token.grant.ends,
+                     token.domain, token.discovery_server.empty() ? token.address : token.discovery_server,
+                     TextOfKey(token.key), token.experiment);
 }
 
-std::optional<ShareTicket> TicketOfText(const std::string& text)
+std::optional<AccessToken> TokenOfText(const std::string& text)
 {
-  if (text.size() > kLongestTicket) return std::nullopt;
+  if (text.size() > kLongestToken) return std::nullopt;
   // The name of the experiment is last: it may have commas.
   std::vector<std::string> parts;
   std::istringstream stream(text);
@@ -119,51 +119,50 @@ std::optional<ShareTicket> TicketOfText(const std::string& text)
   const auto ends = NumberOfText<std::int64_t>(parts[3]);
   const auto domain = NumberOfText<int>(parts[4]);
   const auto key = KeyOfText(parts[6]);
-  const bool is_role = parts[2] == kOperator || parts[2] == kWatcher;
-  if (!IsShareId(parts[1]) || !is_role || !ends || *ends < 0 || !domain || *domain < 0 || *domain > 232 || !key ||
-      experiment.empty() || !IsShowable(experiment))
+  const auto role = GrantRoleOf(parts[2]);
+  if (!IsGrantId(parts[1]) || !role || *role == GrantRole::kOpenView || !ends || *ends < 0 || !domain || *domain < 0 ||
+      *domain > 232 || !key || experiment.empty() || !IsShowable(experiment))
     return std::nullopt;
-  const ShareRole role = parts[2] == kOperator ? ShareRole::kOperator : ShareRole::kWatcher;
-  ShareTicket ticket{{parts[1], role, *ends}, *domain, parts[5], {}, *key, experiment};
+  AccessToken token{{parts[1], *role, *ends}, *domain, parts[5], {}, *key, experiment};
   if (const auto server = ParseServerAddress(parts[5]))
   {
-    ticket.discovery_server = parts[5];
-    ticket.address = server->first;
+    token.discovery_server = parts[5];
+    token.address = server->first;
   }
   in_addr address{};
-  if (inet_pton(AF_INET, ticket.address.c_str(), &address) != 1) return std::nullopt;
-  return ticket;
+  if (inet_pton(AF_INET, token.address.c_str(), &address) != 1) return std::nullopt;
+  return token;
 }
 
-std::optional<ShareTicket> TicketOfEnvironment()
+std::optional<AccessToken> TokenOfEnvironment()
 {
-  const char* const text = std::getenv(kShareVariable);
+  const char* const text = std::getenv(kTokenVariable);
   if (text == nullptr || *text == 0) return std::nullopt;
-  const auto ticket = TicketOfText(text);
-  if (!ticket)
+  const auto token = TokenOfText(text);
+  if (!token)
     throw BusError(
-        fmt::format("{} holds no share; paste the whole line that `swarmanoid share` printed", kShareVariable));
-  if (ticket->share.HasEnded())
+        fmt::format("{} holds no share; paste the whole line that `swarmanoid share` printed", kTokenVariable));
+  if (token->grant.HasEnded())
     throw BusError(
         fmt::format("{} ended at {}; whoever started the run of '{}' can give another one, by `swarmanoid "
                     "share`",
-                    ticket->share.Name(), UtcText(ticket->share.ends), ticket->experiment));
-  return ticket;
+                    token->grant.Name(), UtcText(token->grant.ends), token->experiment));
+  return token;
 }
 
-void UseTicket(const ShareTicket& ticket, BusOptions& options)
+void UseToken(const AccessToken& token, BusOptions& options)
 {
   if (options.insecure)
-    throw BusError(fmt::format("the {} in {} has a key; leave out --insecure", ticket.share.Name(), kShareVariable));
-  const std::string own = OwnAddressTowards(ticket.address);
+    throw BusError(fmt::format("the {} in {} has a key; leave out --insecure", token.grant.Name(), kTokenVariable));
+  const std::string own = OwnAddressTowards(token.address);
   const bool on_this_machine = own.starts_with("127.");
-  options.domain = ticket.domain;
+  options.domain = token.domain;
   if (!options.Spread()) options.network_interface = on_this_machine ? "lo" : own;
-  options.discovery_server = ticket.discovery_server;
+  options.discovery_server = token.discovery_server;
   // Found without multicast, too.
-  if (!on_this_machine && ticket.discovery_server.empty()) options.peers = {ticket.address};
-  options.share = ShareChannel{ticket.share.id, ticket.key};
-  options.key = ticket.key;
+  if (!on_this_machine && token.discovery_server.empty()) options.peers = {token.address};
+  options.grant = GrantChannel{token.grant.id, token.key};
+  options.key = token.key;
 }
 
 std::string UtcText(std::int64_t seconds)

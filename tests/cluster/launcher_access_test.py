@@ -55,7 +55,7 @@ class Share(LauncherTest):
         self.wait_until("a table", lambda: self.has_table("table"), looking)
         self.end(run)
         self.assertEqual(looking.wait(GENEROUS_S), 0, looking.stderr)
-        self.assertRegex(self.events(), rf"(?m)^0,share,{watcher['id']},0 0,")
+        self.assertRegex(self.events(), rf"(?m)^0,share,{watcher['id']},watch 0,")
         self.assertRegex(self.events(), rf"(?m)^0,refused,ControlRequest,,[^,]* by watcher share {watcher['id']},")
         self.assertRegex(self.events(), rf"(?m)^0,step,,10,[^,]* by operator share {operator['id']},")
         for file in (self.folder / "out").rglob("*"):
@@ -79,7 +79,7 @@ class Share(LauncherTest):
         self.assertEqual((again["role"], again["partition"]), ("open view", "diffusion_10"))
         self.assertIn("View/open", again["topics"])
         self.end(run)
-        self.assertRegex(self.events(), rf"(?m)^0,share,{share},2 ")
+        self.assertRegex(self.events(), rf"(?m)^0,share,{share},open ")
 
     def test_what_is_revoked_is_over_at_once(self):
         run = self.start_paused()

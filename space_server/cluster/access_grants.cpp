@@ -1,4 +1,4 @@
-#include "space_server/cluster/shares.h"
+#include "space_server/cluster/access_grants.h"
 
 #include <fmt/format.h>
 
@@ -7,6 +7,7 @@
 
 #include "common/activity/print_error.h"
 #include "common/configuration/wording.h"
+#include "common/messages/control_verbs.h"
 
 namespace swarmanoid
 {
@@ -15,28 +16,38 @@ namespace
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t kMostShares = 16;   // at once
+constexpr std::size_t kMostGrants = 16;   // at once
 constexpr std::size_t kMostEnded = 64;    // that are remembered
 constexpr std::size_t kMostWaiting = 64;  // messages of holders; a flood is not heard whole
 constexpr auto kRenewWatched = 1s;
 constexpr auto kWatchedTime = 3s;  // after which a request that is not repeated is void
 
-// Of the client of a request, so that no holder of a share speaks for somebody else.
-std::string ClientBy(const std::string& client, const Share& share)
+// Of the client of a request, so that no holder of a grant speaks for somebody else.
+std::string ClientBy(const std::string& client, const AccessGrant& grant)
 {
-  return fmt::format("{} by {}", client, share.Name());
+  return fmt::format("{} by {}", client, grant.Name());
 }
 
-std::string EndText(const Share& share) { return share.ends == 0 ? std::string("with the run") : UtcText(share.ends); }
+// The order is without error (OrderError).
+AccessGrant GrantOf(const ControlOrder& order)
+{
+  return {order.Get<std::string>("grant"), GrantRoleOf(order.Get<std::string>("role")).value_or(GrantRole::kWatcher),
+          order.Get<std::int64_t>("ends")};
+}
+
+std::string EndText(const AccessGrant& grant)
+{
+  return grant.ends == 0 ? std::string("with the run") : UtcText(grant.ends);
+}
 
 }  // namespace
 
-Shares::Shares(ServerSession& session, const BusOptions& options, Callbacks callbacks)
+AccessGrants::AccessGrants(ServerSession& session, const BusOptions& options, Callbacks callbacks)
     : session_(session), options_(options), callbacks_(std::move(callbacks))
 {
 }
 
-void Shares::Stop()
+void AccessGrants::Stop()
 {
   {
     const std::lock_guard lock(mutex_);
@@ -47,18 +58,17 @@ void Shares::Stop()
   open_ = 0;
 }
 
-void Shares::Restore(const std::vector<SharedWith>& shares)
+void AccessGrants::Restore(const std::vector<ControlOrder>& grants)
 {
-  for (const SharedWith& share : shares)
+  for (const ControlOrder& order : grants)
   {
-    sides_.push_back(std::make_unique<Side>(
-        Side{.share = {share.id, ShareRoleOf(share.role).value_or(ShareRole::kWatcher), share.ends},
-             .by = "an earlier space server of this run"}));
+    sides_.push_back(
+        std::make_unique<Side>(Side{.grant = GrantOf(order), .by = "an earlier space server of this run"}));
     ++open_;
   }
 }
 
-void Shares::Ask(const ControlRequestMessage& request)
+void AccessGrants::Ask(const ControlRequestMessage& request)
 {
   {
     const std::lock_guard lock(mutex_);
@@ -69,12 +79,12 @@ void Shares::Ask(const ControlRequestMessage& request)
   callbacks_.woken();
 }
 
-void Shares::Replied(const ControlReplyMessage& reply)
+void AccessGrants::Replied(const ControlReplyMessage& reply)
 {
   if (open_ == 0) return;
   {
     const std::lock_guard lock(mutex_);
-    // What members are told of shares is for members.
+    // What members are told of grants is for members.
     if (std::ranges::find(of_members_, std::pair(reply.client, reply.number)) != of_members_.end()) return;
     inbox_.replies.push_back(reply);
   }
@@ -82,26 +92,26 @@ void Shares::Replied(const ControlReplyMessage& reply)
 }
 
 template <class Message>
-void Shares::Keep(std::deque<Heard<Message>>& queue, const std::string& share, const Message& message)
+void AccessGrants::Keep(std::deque<Heard<Message>>& queue, const std::string& grant, const Message& message)
 {
   {
     const std::lock_guard lock(mutex_);
     if (stopped_ || queue.size() >= kMostWaiting) return;
-    queue.push_back({share, message});
+    queue.push_back({grant, message});
   }
   callbacks_.woken();
 }
 
-Shares::Side* Shares::Find(const std::string& id)
+AccessGrants::Side* AccessGrants::Find(const std::string& id)
 {
-  const auto found = std::ranges::find_if(sides_, [&](const auto& side) { return side->share.id == id; });
+  const auto found = std::ranges::find_if(sides_, [&](const auto& side) { return side->grant.id == id; });
   return found == sides_.end() ? nullptr : found->get();
 }
 
-void Shares::Open(Side& side)
+void AccessGrants::Open(Side& side)
 {
   side.is_new = false;
-  side.channel = ChannelOf(*session_.Key(), side.share);
+  side.channel = ChannelOf(*session_.Key(), side.grant);
   Bus& bus = session_.GetBus();
   WorldMessage world = session_.World();
   // Who looks on begins with a view.
@@ -112,8 +122,8 @@ void Shares::Open(Side& side)
   side.views = std::make_unique<Publisher<ViewMessage>>(bus, partition, channel);
   side.statuses = std::make_unique<Publisher<RunStatusMessage>>(bus, partition, channel);
   side.worlds = std::make_unique<Publisher<WorldMessage>>(bus, partition, channel);
-  const Share& share = side.share;
-  if (share.role == ShareRole::kOpenView)
+  const AccessGrant& grant = side.grant;
+  if (grant.role == GrantRole::kOpenView)
   {
     side.worlds->Write(world);
     return;
@@ -121,16 +131,16 @@ void Shares::Open(Side& side)
   side.replies = std::make_unique<Publisher<ControlReplyMessage>>(bus, partition, channel);
   side.robots = std::make_unique<Publisher<RobotStatusMessage>>(bus, partition, channel);
   side.requests = std::make_unique<Subscription<ControlRequestMessage>>(
-      bus, partition, [this, id = share.id](const ControlRequestMessage& r) { Keep(inbox_.requests, id, r); }, channel);
+      bus, partition, [this, id = grant.id](const ControlRequestMessage& r) { Keep(inbox_.requests, id, r); }, channel);
   side.leaves = std::make_unique<Subscription<LeaveMessage>>(
-      bus, partition, [this, id = share.id](const LeaveMessage& l) { Keep(inbox_.leaves, id, l); }, channel);
+      bus, partition, [this, id = grant.id](const LeaveMessage& l) { Keep(inbox_.leaves, id, l); }, channel);
   side.view_requests = std::make_unique<Subscription<ViewRequestMessage>>(
-      bus, partition, [this, share](const ViewRequestMessage& request) { ViewRequested(share, request); }, channel);
+      bus, partition, [this, grant](const ViewRequestMessage& request) { ViewRequested(grant, request); }, channel);
   side.worlds->Write(world);
 }
 
-// What goes wrong with a share is no matter of the run.
-void Shares::TryToOpen(Side& side, std::uint64_t tick)
+// What goes wrong with a grant is no matter of the run.
+void AccessGrants::TryToOpen(Side& side, std::uint64_t tick)
 {
   try
   {
@@ -138,12 +148,12 @@ void Shares::TryToOpen(Side& side, std::uint64_t tick)
   }
   catch (const BusError& error)
   {
-    End(side, tick, fmt::format("{} could not be opened: {}", side.share.Name(), error.what()));
+    End(side, tick, fmt::format("{} could not be opened: {}", side.grant.Name(), error.what()));
   }
 }
 
 // From now on nothing is sealed by its key but refusals.
-void Shares::End(Side& side, std::uint64_t tick, const std::string& why)
+void AccessGrants::End(Side& side, std::uint64_t tick, const std::string& why)
 {
   side.ended = why;
   --open_;
@@ -156,7 +166,7 @@ void Shares::End(Side& side, std::uint64_t tick, const std::string& why)
   PrintError("space server: {}\n", why);
 }
 
-void Shares::Work(std::uint64_t tick)
+void AccessGrants::Work(std::uint64_t tick)
 {
   const auto now = Clock::now();
   Inbox inbox;
@@ -164,16 +174,16 @@ void Shares::Work(std::uint64_t tick)
     const std::lock_guard lock(mutex_);
     std::swap(inbox, inbox_);
   }
-  for (const ControlRequestMessage& request : inbox.of_members) Carry(request, tick);
+  for (const ControlRequestMessage& request : inbox.of_members) Execute(request, tick);
   for (const auto& side : sides_)
   {
-    if (side->ended.empty() && side->share.HasEnded())
-      End(*side, tick, fmt::format("{} has ended", side->share.Name()));
+    if (side->ended.empty() && side->grant.HasEnded())
+      End(*side, tick, fmt::format("{} has ended", side->grant.Name()));
     else if (side->is_new && side->ended.empty())
       TryToOpen(*side, tick);
   }
   for (const auto& [id, request] : inbox.requests)
-    if (Side* const side = Find(id)) Carry(*side, request, tick);
+    if (Side* const side = Find(id)) Forward(*side, request, tick);
   for (const auto& [id, leave] : inbox.leaves)
     if (Side* const side = Find(id); side != nullptr && leave.run == session_.World().run && side->leave != nullptr)
       side->leave->Write(side->ended.empty() ? LeaveMessage{leave.run, leave.tick, "space server", leave.process, ""}
@@ -183,7 +193,7 @@ void Shares::Work(std::uint64_t tick)
     if (!side->ended.empty() || side->is_new || side->replies == nullptr) continue;
     for (ControlReplyMessage reply : inbox.replies)
     {
-      const std::string own = ClientBy("", side->share);
+      const std::string own = ClientBy("", side->grant);
       if (reply.client.ends_with(own)) reply.client.resize(reply.client.size() - own.size());
       side->replies->Write(reply);
     }
@@ -192,15 +202,20 @@ void Shares::Work(std::uint64_t tick)
   RenewRobots(now);
 }
 
-void Shares::Carry(const ControlRequestMessage& request, std::uint64_t tick)
+AccessGrants::Action AccessGrants::ActionOf(const std::string& verb)
+{
+  static const std::map<std::string_view, Action> actions{
+      {"share", &AccessGrants::Make}, {"shares", &AccessGrants::List}, {"revoke", &AccessGrants::Revoke}};
+  return actions.at(verb);
+}
+
+void AccessGrants::Execute(const ControlRequestMessage& request, std::uint64_t tick)
 {
   try
   {
-    const std::string text = request.verb == "share"    ? Make(request)
-                             : request.verb == "revoke" ? Revoke(request, tick)
-                                                        : List();
-    session_.Reply(request, true, tick, text);
-    if (request.verb != "shares") callbacks_.noted(request);
+    if (const std::string error = OrderError(request); !error.empty()) throw std::invalid_argument(error);
+    session_.Reply(request, true, tick, (this->*ActionOf(request.verb))(request, tick));
+    if (FindControlVerb(request.verb)->effect != Effect::kQuery) callbacks_.noted(request);
   }
   catch (const std::exception& error)
   {
@@ -208,114 +223,109 @@ void Shares::Carry(const ControlRequestMessage& request, std::uint64_t tick)
   }
 }
 
-// Answers by what the ticket needs beside the key, which whoever asks can make by himself.
-std::string Shares::Make(const ControlRequestMessage& request)
+// Replies with what the token needs beside the key, which the asker can derive.
+std::string AccessGrants::Make(const ControlRequestMessage& request, std::uint64_t)
 {
   if (!session_.Key()) throw std::invalid_argument("the run lets anybody in (--insecure): there is nothing to share");
-  if (open_ >= kMostShares)
-    throw std::invalid_argument(fmt::format("{} shares of this run are open; revoke one of them first", kMostShares));
-  if (request.numbers.size() != 2) throw std::invalid_argument("share: it needs a role and an end");
-  const auto role = ShareRoleOf(request.numbers[0]);
-  if (!role) throw std::invalid_argument(fmt::format("{} is no role of a share", request.numbers[0]));
-  const Share share{request.entity, *role, static_cast<std::int64_t>(request.numbers[1])};
-  if (!IsShareId(share.id)) throw std::invalid_argument(fmt::format("{} is no id of a share", Quoted(share.id)));
-  if (Find(share.id) != nullptr) throw std::invalid_argument(fmt::format("there is a share {} already", share.id));
-  if (share.HasEnded()) throw std::invalid_argument("the share would have ended already");
+  if (open_ >= kMostGrants)
+    throw std::invalid_argument(fmt::format("{} shares of this run are open; revoke one of them first", kMostGrants));
+  const AccessGrant grant = GrantOf(request);
+  if (!IsGrantId(grant.id)) throw std::invalid_argument(fmt::format("{} is no id of a share", Quoted(grant.id)));
+  if (Find(grant.id) != nullptr) throw std::invalid_argument(fmt::format("there is a share {} already", grant.id));
+  if (grant.HasEnded()) throw std::invalid_argument("the share would have ended already");
   const std::string address =
       options_.discovery_server.empty() ? ReachableAddress(options_) : options_.discovery_server;
   const auto is_ended = [](const auto& side) { return !side->ended.empty(); };
-  if (*role == ShareRole::kOpenView)
+  if (grant.role == GrantRole::kOpenView)
     for (const auto& side : sides_)
-      if (side->share.role == *role && !is_ended(side))
-        throw std::invalid_argument(fmt::format("the run has an open view already: {}", side->share.id));
+      if (side->grant.role == grant.role && !is_ended(side))
+        throw std::invalid_argument(fmt::format("the run has an open view already: {}", side->grant.id));
   while (static_cast<std::size_t>(std::ranges::count_if(sides_, is_ended)) > kMostEnded)
     sides_.erase(std::ranges::find_if(sides_, is_ended));
-  sides_.push_back(std::make_unique<Side>(Side{.share = share, .by = AskerOf(request)}));
+  sides_.push_back(std::make_unique<Side>(Side{.grant = grant, .by = AskerOf(request)}));
   ++open_;
-  return fmt::format("{} for those who reach {}", share.Name(), address);
+  return fmt::format("{} for those who reach {}", grant.Name(), address);
 }
 
-std::string Shares::List() const
+std::string AccessGrants::List(const ControlRequestMessage&, std::uint64_t)
 {
   std::string text;
   for (const auto& side : sides_)
   {
-    const Share& share = side->share;
+    const AccessGrant& grant = side->grant;
     const std::string state = !side->ended.empty() ? side->ended
-                                                   : fmt::format("ends {}, {} looking", EndText(share),
+                                                   : fmt::format("ends {}, {} looking", EndText(grant),
                                                                  side->views == nullptr ? 0 : side->views->Readers());
-    text += fmt::format("{}{}  {:9}  {}; made by {}", text.empty() ? "" : "; ", share.id, RoleName(share.role), state,
+    text += fmt::format("{}{}  {:9}  {}; made by {}", text.empty() ? "" : "; ", grant.id, RoleName(grant.role), state,
                         side->by);
   }
   return text;
 }
 
-std::string Shares::Revoke(const ControlRequestMessage& request, std::uint64_t tick)
+std::string AccessGrants::Revoke(const ControlRequestMessage& request, std::uint64_t tick)
 {
-  Side* const side = Find(request.entity);
+  const auto id = request.Get<std::string>("grant");
+  Side* const side = Find(id);
   if (side == nullptr)
   {
     std::vector<std::string> known;
-    for (const auto& other : sides_) known.push_back(other->share.id);
+    for (const auto& other : sides_) known.push_back(other->grant.id);
     throw std::invalid_argument(fmt::format("there is no share {}{}; `swarmanoid share --list` tells those of the run",
-                                            Quoted(request.entity), DidYouMean(request.entity, known)));
+                                            Quoted(id), DidYouMean(id, known)));
   }
   if (!side->ended.empty()) throw std::invalid_argument(side->ended);
-  End(*side, tick, fmt::format("{} was revoked by {}", side->share.Name(), AskerOf(request)));
+  End(*side, tick, fmt::format("{} was revoked by {}", side->grant.Name(), AskerOf(request)));
   return side->ended;
 }
 
-void Shares::Carry(Side& side, ControlRequestMessage request, std::uint64_t tick)
+void AccessGrants::Forward(Side& side, ControlRequestMessage request, std::uint64_t tick)
 {
   if (!side.ended.empty()) return Refuse(side, request, tick, side.ended);
   if (request.run != session_.World().run) return Refuse(side, request, tick, "it was asked of another run");
-  if (side.share.role != ShareRole::kOperator)
-    return Refuse(side, request, tick, fmt::format("{} may only look", side.share.Name()));
-  // Shares end with the run, which a reset ends.
-  if (request.verb == "reset" || std::ranges::find(kControlVerbs, request.verb) == kControlVerbs.end())
+  if (side.grant.role != GrantRole::kOperator)
+    return Refuse(side, request, tick, fmt::format("{} may only look", side.grant.Name()));
+  if (FindControlVerb(request.verb, Asker::kOperator) == nullptr)
     return Refuse(
         side, request, tick,
-        fmt::format("{} may not ask for {}; members of the run may", side.share.Name(), Quoted(request.verb)));
-  request.client = ClientBy(request.client, side.share);
+        fmt::format("{} may not ask for {}; members of the run may", side.grant.Name(), Quoted(request.verb)));
+  request.client = ClientBy(request.client, side.grant);
   session_.Ask(request);
 }
 
-void Shares::Refuse(Side& side, const ControlRequestMessage& request, std::uint64_t tick, const std::string& why)
+void AccessGrants::Refuse(Side& side, const ControlRequestMessage& request, std::uint64_t tick, const std::string& why)
 {
   if (side.replies == nullptr) return;
   side.replies->Write({request.client, request.number, false, tick, why});
   if (std::exchange(side.told, true)) return;
-  ControlRequestMessage refused;
-  refused.verb = kRefused;
-  refused.entity = "ControlRequest";
-  refused.client = fmt::format("{}@{}", request.user, ClientBy(request.client, side.share));
-  PrintError("space server: refused '{}' of {}: {}; further ones are not told\n", request.verb, refused.client, why);
+  const ControlRequestMessage refused = NoteOf(
+      kRefusedMessage, "ControlRequest", fmt::format("{}@{}", request.user, ClientBy(request.client, side.grant)));
+  PrintError("space server: refused '{}' of {}: {}; further ones are not told\n", TextOf(request), refused.client, why);
   callbacks_.noted(refused);
 }
 
-void Shares::ViewRequested(const Share& share, const ViewRequestMessage& request)
+void AccessGrants::ViewRequested(const AccessGrant& grant, const ViewRequestMessage& request)
 {
   if (request.run != session_.World().run) return;
-  ViewRequestMessage of_share = request;
-  of_share.client = ClientBy(request.client, share);
-  of_share.every_tick = false;
-  of_share.robots.clear();
+  ViewRequestMessage of_grant = request;
+  of_grant.client = ClientBy(request.client, grant);
+  of_grant.every_tick = false;
+  of_grant.robots.clear();
   bool changed = false;
   {
     const std::lock_guard lock(mutex_);
     if (stopped_) return;
-    if (watched_.size() >= kMostWaiting && watched_.count(of_share.client) == 0) return;
-    Watched& watched = watched_[of_share.client];
+    if (watched_.size() >= kMostWaiting && watched_.count(of_grant.client) == 0) return;
+    Watched& watched = watched_[of_grant.client];
     changed = watched.robots != request.robots;
     watched_changed_ |= changed;
     watched = {request.robots, Clock::now()};
   }
-  callbacks_.view_requested(of_share);
+  callbacks_.view_requested(of_grant);
   if (changed) callbacks_.woken();
 }
 
-// Controller hosts hear members alone: the server asks for what holders of shares want to see of robots.
-void Shares::RenewRobots(Clock::time_point now)
+// Controller hosts hear members alone: the server asks for what holders of grants want to see of robots.
+void AccessGrants::RenewRobots(Clock::time_point now)
 {
   std::vector<std::uint32_t> robots;
   {
@@ -347,33 +357,33 @@ void Shares::RenewRobots(Clock::time_point now)
   robots_wanted_->Write({ProcessId() + " for shares", session_.World().run, 0, false, std::move(robots)});
 }
 
-unsigned Shares::ViewReaders() const
+unsigned AccessGrants::ViewReaders() const
 {
   unsigned readers = 0;
   for (const auto& side : sides_) readers += side->views == nullptr ? 0 : side->views->Readers();
   return readers;
 }
 
-unsigned Shares::StatusReaders() const
+unsigned AccessGrants::StatusReaders() const
 {
   unsigned readers = 0;
   for (const auto& side : sides_) readers += side->statuses == nullptr ? 0 : side->statuses->Readers();
   return readers;
 }
 
-void Shares::Write(const ViewMessage& view)
+void AccessGrants::Write(const ViewMessage& view)
 {
   for (const auto& side : sides_)
     if (side->views != nullptr) side->views->Write(view);
 }
 
-void Shares::Write(const RunStatusMessage& status)
+void AccessGrants::Write(const RunStatusMessage& status)
 {
   for (const auto& side : sides_)
     if (side->statuses != nullptr) side->statuses->Write(status);
 }
 
-void Shares::Leave(std::uint64_t tick, const std::string& error, double patience_s)
+void AccessGrants::Leave(std::uint64_t tick, const std::string& error, double patience_s)
 {
   const auto end = Clock::now() + std::chrono::duration<double>(patience_s);
   for (const auto& side : sides_)

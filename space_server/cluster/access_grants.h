@@ -1,7 +1,7 @@
-// Shares: what the space server does for those who look at the run, or steer it, without being members (share.h). Each
-// share has topics and a key of its own; only here do they meet those of the run, so that what a holder says is checked
-// before anybody believes it. Members make and revoke shares by requests. Requests and replies come in threads of the
-// bus; all else is called by the main thread of the space_server program.
+// Access grants: what the space server does for those who look at the run, or steer it, without being members
+// (access_grant.h). Each grant has topics and a key of its own; only here do they meet those of the run, so that what a
+// holder says is checked before anybody believes it. Members make and revoke grants by requests. Requests and replies
+// come in threads of the bus; all else is called by the main thread of the space_server program.
 #pragma once
 
 #include <atomic>
@@ -16,13 +16,13 @@
 #include <vector>
 
 #include "common/bus/membership/server_session.h"
-#include "common/bus/security/share.h"
+#include "common/bus/security/access_grant.h"
 #include "space_server/event_log.h"
 
 namespace swarmanoid
 {
 
-class Shares
+class AccessGrants
 {
 public:
   using Clock = std::chrono::steady_clock;
@@ -35,16 +35,16 @@ public:
     std::function<void()> woken;                              // Work has something to do
   };
 
-  Shares(ServerSession& session, const BusOptions& options, Callbacks callbacks);
-  ~Shares() { Stop(); }
+  AccessGrants(ServerSession& session, const BusOptions& options, Callbacks callbacks);
+  ~AccessGrants() { Stop(); }
   // Nothing is called any more.
   void Stop();
 
-  // Those of a server of this run before this one. Before Open.
-  void Restore(const std::vector<SharedWith>& shares);
-  // From any thread: a member asks to make, list or revoke shares (kShareVerbs).
+  // The orders that made the grants of an earlier server of this run. Before Work.
+  void Restore(const std::vector<ControlOrder>& grants);
+  // From any thread: a member asks for a verb of Asker::kOwner.
   void Ask(const ControlRequestMessage& request);
-  // Likewise: all who look on see what came of a request.
+  // Likewise: all observers see what came of a request.
   void Replied(const ControlReplyMessage& reply);
 
   // Opens, answers and ends what is due.
@@ -57,15 +57,15 @@ public:
   void Leave(std::uint64_t tick, const std::string& error, double patience_s);
 
 private:
-  // One share. When it has ended only its requests are heard, to be refused.
+  // One grant. When it has ended only its requests are heard, to be refused.
   struct Side
   {
-    Share share;
+    AccessGrant grant;
     std::string by;       // who made it
     std::string ended{};  // why, if it has
     bool told = false;    // that something was refused
     bool is_new = true;
-    std::optional<ShareChannel> channel{};
+    std::optional<GrantChannel> channel{};
     std::unique_ptr<Publisher<WorldMessage>> worlds{};
     std::unique_ptr<Publisher<ViewMessage>> views{};
     std::unique_ptr<Publisher<RunStatusMessage>> statuses{};
@@ -79,7 +79,7 @@ private:
   template <class Message>
   struct Heard
   {
-    std::string share;
+    std::string grant;
     Message message;
   };
   struct Watched
@@ -100,17 +100,22 @@ private:
   void Open(Side& side);
   void TryToOpen(Side& side, std::uint64_t tick);
   void End(Side& side, std::uint64_t tick, const std::string& why);
-  void Carry(const ControlRequestMessage& request, std::uint64_t tick);
-  std::string Make(const ControlRequestMessage& request);
-  std::string List() const;
+  // The action of a verb. Returns the reply; throws std::invalid_argument with the reason if the request is refused.
+  using Action = std::string (AccessGrants::*)(const ControlRequestMessage& request, std::uint64_t tick);
+  static Action ActionOf(const std::string& verb);
+
+  void Execute(const ControlRequestMessage& request, std::uint64_t tick);
+  std::string Make(const ControlRequestMessage& request, std::uint64_t tick);
+  std::string List(const ControlRequestMessage& request, std::uint64_t tick);
   std::string Revoke(const ControlRequestMessage& request, std::uint64_t tick);
-  void Carry(Side& side, ControlRequestMessage request, std::uint64_t tick);
+  // Hands the request of a holder on to the run, if the grant allows it.
+  void Forward(Side& side, ControlRequestMessage request, std::uint64_t tick);
   void Refuse(Side& side, const ControlRequestMessage& request, std::uint64_t tick, const std::string& why);
-  void ViewRequested(const Share& share, const ViewRequestMessage& request);
+  void ViewRequested(const AccessGrant& grant, const ViewRequestMessage& request);
   void RenewRobots(Clock::time_point now);
   Side* Find(const std::string& id);
   template <class Message>
-  void Keep(std::deque<Heard<Message>>& queue, const std::string& share, const Message& message);
+  void Keep(std::deque<Heard<Message>>& queue, const std::string& grant, const Message& message);
 
   ServerSession& session_;
   const BusOptions& options_;
@@ -120,12 +125,12 @@ private:
 
   std::mutex mutex_;  // of what follows
   Inbox inbox_;
-  std::deque<std::pair<std::string, std::uint32_t>> of_members_;  // requests about shares, by client and number
+  std::deque<std::pair<std::string, std::uint32_t>> of_members_;  // requests about grants, by client and number
   std::map<std::string, Watched> watched_;                        // robots by client
   bool watched_changed_ = false;
   bool stopped_ = false;
 
-  // Whose inside holders of shares want to see; nothing is made before.
+  // Whose inside holders of grants want to see; nothing is made before.
   std::unique_ptr<Publisher<ViewRequestMessage>> robots_wanted_;
   std::unique_ptr<Subscription<RobotStatusMessage>> robots_in_;
   Clock::time_point robots_requested_;
