@@ -1,6 +1,6 @@
-// Starting the programs of a cluster and hearing of their ends. ProcessSpawner is a seam: tests put scripts or failures
-// behind it. Used by the launcher and by visualisers that look back: by one thread, which lives as long as the
-// processes that it starts.
+// Starts the programs of a cluster and reports their ends. Tests replace ProcessSpawner by scripts or failures. The
+// launcher, and visualisers that look back, use it from one thread, which must live as long as the processes that it
+// starts.
 #pragma once
 
 #include <csignal>
@@ -17,25 +17,25 @@
 namespace swarmanoid
 {
 
-// What a process is started with.
+// The program of a process, its arguments and its environment.
 struct ProcessCommand
 {
   std::string name;                                              // for the user: "engine_worker ground"
   std::vector<std::string> arguments;                            // the program's path first
-  std::vector<std::pair<std::string, std::string>> environment;  // added to ours
-  std::vector<int> cores;                                        // that it may run on; empty: all
-  std::string input{};                                           // what it gets to read when it asks; empty: nothing
-  int signal_at_our_end = SIGKILL;                               // that the kernel sends it when this process ends
+  std::vector<std::pair<std::string, std::string>> environment;  // added to this process's environment
+  std::vector<int> cores;                                        // cores that it may run on; empty: all
+  std::string input{};                                           // its standard input; empty: nothing
+  int signal_at_our_end = SIGKILL;  // signal that the kernel sends it when this process ends
 };
 
 // How a process ended.
 struct ProcessEnd
 {
-  int exit_code = 0;  // if it ended by itself
-  int signal = 0;     // if a signal ended it
+  int exit_code = 0;  // if the process ended by itself
+  int signal = 0;     // if a signal ended the process
 
   bool Clean() const { return exit_code == 0 && signal == 0; }
-  // "was killed by signal 9 (Killed)", "ended with exit code 3", "ended".
+  // Returns "was killed by signal 9 (Killed)", "ended with exit code 3" or "ended".
   std::string Text() const;
 };
 
@@ -44,11 +44,11 @@ struct SpawnedProcess
   pid_t pid = 0;
   FileDescriptor output;  // its standard output
   FileDescriptor errors;  // its standard error
-  FileDescriptor end;     // readable once it has ended
-  // What it says of itself, also when it is dead; null if this system has no memory for it. One that was started on
-  // another machine says nothing.
+  FileDescriptor end;     // readable once the process has ended
+  // The page of the process, readable also after its death; null if this system has no memory for it. A process on
+  // another machine writes nothing there.
   std::shared_ptr<const ActivityPage> activity;
-  FileDescriptor input{};  // its standard input, if there is something for it to read
+  FileDescriptor input{};  // its standard input, if it gets any
 };
 
 class ProcessSpawner
@@ -57,14 +57,15 @@ public:
   virtual ~ProcessSpawner() = default;
   // Throws std::runtime_error, naming the program, if it cannot be started.
   virtual SpawnedProcess Start(const ProcessCommand& command) = 0;
-  // Of a process whose `end` is readable; waits for it otherwise. Kills what it started and left behind. Call once.
+  // Returns how a process ended. It waits if `end` is not readable yet, and kills processes that the process started
+  // and left behind. Call it once.
   virtual ProcessEnd Collect(const SpawnedProcess& process) = 0;
-  // Sends a signal to the process and all that it started.
+  // Sends a signal to the process and its process group.
   virtual void Signal(const SpawnedProcess& process, int signal) = 0;
 };
 
-// Real processes: each leads a process group of its own, and ends with the process that started it. They inherit no
-// descriptors but those that are given here.
+// Starts real processes. Each leads its own process group and ends with the process that started it. They inherit only
+// the descriptors that are given here.
 class SystemSpawner : public ProcessSpawner
 {
 public:
@@ -73,7 +74,7 @@ public:
   void Signal(const SpawnedProcess& process, int signal) override;
 };
 
-// The processor cores that this process may use, ascending.
+// Returns the processor cores that this process may use, ascending.
 std::vector<int> AvailableCores();
 
 }  // namespace swarmanoid
