@@ -1,5 +1,5 @@
-// ExperimentControl as requests in words, as the control service takes them. Used by the visualiser program and by the
-// runner of a single process.
+// Implements ExperimentControl by text requests, as the control service takes them. The visualiser program and the
+// runner of a single process use it.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
-// The program that shows an experiment through one renderer: one of the experiment's own visualisations, which every
-// tick waits for, or one attached from outside, which never slows the run.
+// The program that shows an experiment through one renderer. The renderer is one of the experiment's own
+// visualisations, for which every tick waits, or is attached from outside and never slows the run.
 #include <CLI/CLI.hpp>
 
 #include <fmt/format.h>
@@ -29,8 +29,8 @@ namespace
 
 constexpr auto kIdlePeriod = std::chrono::milliseconds(15);
 
-// To the first tick that is to be drawn, which is returned. One that takes the place of another draws all that came
-// before, too, so that its files are those of a run that nobody disturbed; in a window or page, nobody looks back.
+// Prepares the first tick to draw and returns it. A replacement of a dead visualiser also draws all earlier ticks, so
+// that its files are those of an undisturbed run. Windows and pages skip this.
 std::uint64_t Begin(WorkerSession& session, WorkerWorld& replica, Visualiser& visualiser)
 {
   if (!session.TakesAPlace())
@@ -65,7 +65,7 @@ void RunSynchronous(WorkerSession& session, const std::string& id, const std::st
   try
   {
     const std::optional<BusError> over = session.Follow(kIdlePeriod, [&] { node.Work(); });
-    // Films and tables of a run that failed are finished too.
+    // Films and tables of a failed run are finished too.
     visualiser.Finish();
     if (over) session.GiveUp(*over);
   }
@@ -75,8 +75,8 @@ void RunSynchronous(WorkerSession& session, const std::string& id, const std::st
   }
 }
 
-// Until the run ends or the user has seen enough. True if the run began again with another seed instead: what is shown
-// then may stand elsewhere from the start.
+// Shows the run until it ends or the user closes the renderer. Returns true if the run started again with another seed,
+// since entities may then start elsewhere.
 bool Show(WorkerSession& session, const WorkerSettings& settings, const RenderConfiguration& configuration)
 {
   WorkerWorld replica(session.World(), false);
@@ -104,12 +104,12 @@ bool Show(WorkerSession& session, const WorkerSettings& settings, const RenderCo
   }
   if (over && session.RunHasEnded())
   {
-    // The last state may have come with the word that it is the last.
+    // The last state may have come together with the end of the run.
     node.Work();
     over.reset();
   }
   monitor.RunIsOver(over ? over->what() : "");
-  // A window stays for those who look at it.
+  // A window stays open after the end of the run.
   if (visualiser.IsInteractive() && !node.Terminated())
     while (!visualiser.Idle() && !Interrupted()) std::this_thread::sleep_for(kIdlePeriod);
   visualiser.Finish();
@@ -124,7 +124,7 @@ void RunAttached(WorkerSession& session, const WorkerSettings& settings, const R
   }
 }
 
-// The kind after --attach, so that the renderer's own options are known when the words are read.
+// Reads the kind after --attach, so that the renderer's own options are known when the command line is parsed.
 std::string AttachedKind(int argc, char** argv)
 {
   for (int i = 1; i + 1 < argc; ++i)
@@ -132,7 +132,7 @@ std::string AttachedKind(int argc, char** argv)
   return {};
 }
 
-// For holders of shares: they look on at that run, and some of them only that.
+// Applies an access grant: its holder may observe that run, or also control it.
 void UseShare(WorkerSettings& settings, BusOptions& bus)
 {
   const auto ticket = TicketOfEnvironment();
@@ -156,7 +156,7 @@ int Run(WorkerSettings settings, const std::vector<std::string>& parameters, Bus
     session.LookOn();
     return session.Work([&] { RunAttached(session, settings, configuration); });
   }
-  // What people do at a window is for the run's logs.
+  // The run's logs record users' actions in a window.
   OpenLog({.process = "visualiser", .stderr_level = LogLevel::kInfo});
   WorkerSession session(bus, settings.experiment, fmt::format("visualiser '{}'", settings.render), {},
                         settings.incarnation, settings.machine);

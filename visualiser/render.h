@@ -1,5 +1,4 @@
-// CRender: the thin interface of all visualisations. Draw shows the space; Terminate says whether the user wants to
-// stop.
+// CRender: the interface of all visualisations. Draw shows the space; Terminate says whether the user wants to stop.
 #pragma once
 
 #include <memory>
@@ -15,7 +14,7 @@
 #include "common/plugins/registry.h"
 
 #ifndef SWARMANOID_OWN_SOURCES
-#include <common/space/space.h>  // for plug-ins, which mostly need it
+#include <common/space/space.h>  // for plug-ins, most of which need it
 #endif
 
 namespace swarmanoid
@@ -23,8 +22,8 @@ namespace swarmanoid
 
 class CSwarmanoidSpace;
 
-// What a user asks of the experiment through a renderer; decided by the space server, or by the runner of a single
-// process, between two ticks. What came of it is among RunMonitor::Notes. For the thread of Draw and Idle.
+// Requests of a user to the experiment through a renderer. The space server, or the runner of a single process, decides
+// on them between two ticks. RunMonitor::Notes has the results. For the thread of Draw and Idle.
 class ExperimentControl
 {
 public:
@@ -32,35 +31,36 @@ public:
   virtual void Pause() = 0;
   virtual void Resume() = 0;
   virtual void Step(unsigned ticks) = 0;
-  virtual void SetSpeed(double real_time_factor) = 0;  // 0: as fast as possible
+  virtual void SetSpeed(double real_time_factor) = 0;  // times real time; 0: as fast as possible
   virtual void MoveEntity(const std::string& id, const Pose& pose) = 0;
-  // Puts an entity that is not in the arena into it: the one of that id, or the next one of the <reserve> of that id.
+  // Adds an entity that is outside the arena: the one of that id, or the next one of the <reserve> of that id. The pose
+  // is in metres in the frame of the arena.
   virtual void AddEntity(const std::string& id, const Pose& pose) = 0;
   virtual void RemoveEntity(const std::string& id) = 0;
-  // For the experiment functions: a key by its name (UserInput), pressed or released, and an entity that is selected
-  // (its id; empty: none is).
+  // Input for the experiment functions: a key by its name (UserInput), pressed or released, and the id of a selected
+  // entity (empty: none).
   virtual void PressKey(const std::string& key, bool pressed) = 0;
   virtual void SelectEntity(const std::string& id) = 0;
-  virtual void Stop() = 0;   // the run ends at its tick
-  virtual void Reset() = 0;  // and begins again at tick 0, with the same seed
+  virtual void Stop() = 0;   // ends the run at its current tick
+  virtual void Reset() = 0;  // starts the run again at tick 0, with the same seed
 };
 
-// What a renderer can know of the run beyond its space. For the thread of Draw and Idle; nothing here waits, and what a
-// renderer never asks for costs nothing. References are valid until the next call of the same function.
+// The state of the run that a renderer can read beside its space. For the thread of Draw and Idle. No function waits,
+// and unused data costs nothing. References are valid until the next call of the same function.
 class RunMonitor
 {
 public:
   virtual ~RunMonitor() = default;
-  // As it is known now; phase kUnknown before anything has been heard.
+  // Returns the current status; its phase is kUnknown before anything has been received.
   virtual const RunStatus& Status() = 0;
-  // What users asked of the run since this renderer came, oldest first; the last hundred.
+  // Returns the results of users' requests since this renderer started, oldest first; at most the last hundred.
   virtual std::span<const RunNote> Notes() = 0;
-  // The robots (entity indices) whose inside is wanted from now on, instead of those named before. Entities without a
-  // controller are ignored.
+  // Sets the robots (entity indices) whose status is wanted from now on; it replaces the earlier list. Entities without
+  // a controller are ignored.
   virtual void Watch(std::span<const std::uint32_t> robots) = 0;
-  // The latest of a watched robot; nullptr while nothing has come.
+  // Returns the latest status of a watched robot; nullptr while none has come.
   virtual const RobotStatus* Robot(std::uint32_t robot) = 0;
-  // The folder of the run, if it is on this machine and the run keeps a journal there; otherwise empty.
+  // Returns the folder of the run, if it is on this machine and the run keeps a journal there; otherwise an empty text.
   virtual std::string RunFolder() { return {}; }
 };
 
@@ -68,8 +68,8 @@ struct RenderSetup
 {
   Parameters parameters;
   const CSwarmanoidSpace& space;
-  const Assignment& assignment;          // who owns what: OwnerName, HostNameOf
-  std::string output_folder;             // relative output paths start here
+  const Assignment& assignment;          // the owners of entities: OwnerName, HostNameOf
+  std::string output_folder;             // the start of relative output paths
   ExperimentControl* control = nullptr;  // nullptr if the renderer may only watch
   RunMonitor* monitor = nullptr;         // nullptr only if a renderer is used outside a run
 
@@ -80,7 +80,7 @@ struct RenderSetup
     CheckFile(parameter, parameters.Text(parameter));
     return Files().Claim(parameters.Text(parameter));
   }
-  // The same in two steps, for renderers whose files have names of their own or are written later.
+  // Do the same in two steps, for renderers whose files have other names or are written later.
   OutputFiles Files() const { return OutputFiles(output_folder); }
   void CheckFile(const char* parameter, const std::string& name) const
   {
@@ -100,19 +100,20 @@ class CRender
 {
 public:
   virtual ~CRender() = default;
-  // Throws ConfigurationError or std::runtime_error with a clear text if it cannot start.
+  // Called once before the first Draw. Throws ConfigurationError or std::runtime_error with a clear text if the
+  // renderer cannot start.
   virtual void Init(const RenderSetup& setup) = 0;
-  // Shows the space at its tick. Synchronous visualisations are waited for.
+  // Shows the space at its tick. The run waits for synchronous visualisations.
   virtual void Draw() = 0;
-  // True once the user wants the experiment (synchronous) or the watching (attached) to end.
+  // Returns true once the user wants the experiment (synchronous) or the watching (attached) to end.
   virtual bool Terminate() { return false; }
-  // Called between ticks of a paused or slow experiment, so that windows stay alive; every 10 to 20 ms, also before the
-  // first Draw. The space may have changed since: entities that were moved while the run is paused.
+  // Called between ticks of a paused or slow experiment every 10 to 20 ms, also before the first Draw, so that windows
+  // respond. The space may have changed since the last call, by entities that were moved while the run is paused.
   virtual void Idle() {}
-  // After the last Draw: close files.
+  // Called after the last Draw, to close files.
   virtual void Finish() {}
-  // A window or a page, through which a user may resume a paused run. Attached, it stays after the end of the run, with
-  // calls of Idle, until it terminates.
+  // Returns whether the renderer is a window or a page, through which a user may resume a paused run. An attached one
+  // stays after the end of the run, with calls of Idle, until it terminates.
   virtual bool IsInteractive() const { return false; }
 };
 
@@ -134,7 +135,7 @@ struct RenderRegistration
 
 using swarmanoid::CRender;
 
-// REGISTER_RENDER(CMyRender, description): for renderers in a user's library.
+// REGISTER_RENDER(CMyRender, description) registers a renderer of a user's library.
 #define REGISTER_RENDER(CLASS, ...)                                                                             \
   namespace                                                                                                     \
   {                                                                                                             \

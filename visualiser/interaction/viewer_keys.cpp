@@ -1,4 +1,4 @@
-// What keys and their buttons do.
+// The actions of keys and of the buttons for them.
 #include "visualiser/interaction/viewer.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace
 
 constexpr double kOrbitStep = 5;  // degrees of an arrow key
 constexpr double kZoomStep = 0.85;
-// 0, as fast as possible, comes after the last.
+// 0, which means as fast as possible, comes after the last one.
 constexpr std::array kSpeeds{0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0};
 
 }  // namespace
@@ -222,7 +222,7 @@ void Viewer::TogglePause()
 
 void Viewer::ChangeSpeed(int steps)
 {
-  // The next of the list above or below what is wanted now.
+  // Finds the next speed in the list above or below the current one.
   const double wanted = Status().speed_wanted;
   double next = 0;
   if (steps > 0 && wanted > 0)

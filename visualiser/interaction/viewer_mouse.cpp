@@ -1,4 +1,4 @@
-// What the mouse does to the camera and to entities.
+// The actions of the mouse on the camera and on entities.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace
 constexpr double kClickReach = 4;  // pixels that a click may move
 constexpr double kDegreesPerPixel = 0.3;
 constexpr double kWheelFactor = 0.88;
-constexpr double kWheelTurn = 15;  // degrees of an entity that is being moved
+constexpr double kWheelTurn = 15;  // degrees that a wheel step turns a moved entity
 constexpr double kFarPivot = 10;   // m, if the camera does not look at the floor
 
 }  // namespace
@@ -120,7 +120,7 @@ void Viewer::Wheel(double notches, double x, double y)
     move_->pose.orientation = (QuaternionFromYaw(turn) * move_->pose.orientation).normalized();
     return;
   }
-  // Towards what is under the mouse.
+  // The camera zooms towards the point under the mouse.
   Vector3 at = Pivot();
   if (!follows)
   {

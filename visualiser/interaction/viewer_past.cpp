@@ -1,4 +1,4 @@
-// Looking back at the past of the run.
+// Looks back at the past of the run.
 #include "visualiser/interaction/viewer.h"
 
 #include <fmt/format.h>
@@ -55,7 +55,7 @@ void Viewer::CopyBranchCommand()
   Say(fmt::format("a new run from tick {}: {}", tick, copy_));
 }
 
-// What the journal does not have: the inside of the selected robot.
+// Copies the command that computes what the journal lacks: the status of the selected robot.
 void Viewer::CopyInspectCommand()
 {
   const auto& selected = shown.scene.selected;

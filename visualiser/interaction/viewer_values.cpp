@@ -1,4 +1,4 @@
-// Motions of the entities that are inspected, and plots of their values.
+// The motions of inspected entities, and plots of their values.
 #include "visualiser/interaction/viewer.h"
 
 #include <fmt/format.h>

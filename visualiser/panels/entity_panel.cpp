@@ -1,4 +1,4 @@
-// The list of entities, with a filter. Only the rows that are seen are made.
+// The list of entities, with a filter. Only visible rows are made.
 #include <fmt/format.h>
 
 #include "common/space/space.h"
@@ -16,7 +16,7 @@ void Panels::ShowEntities()
   const std::string title = rows.size() == viewer_.Space().Size()
                                 ? fmt::format("{} entities###entities", rows.size())
                                 : fmt::format("{} of {} entities###entities", rows.size(), viewer_.Space().Size());
-  // Below the run panel, as high as its rows and the window allow.
+  // The panel is below the run panel, as high as its rows and the window allow.
   ImGui::SetNextWindowPos(ImVec2(Scaled(theme::kGap), top), ImGuiCond_Always);
   const float line = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
   const float wanted = Scaled(66) + line * static_cast<float>(std::max<std::size_t>(rows.size(), 3) + 1);

@@ -1,4 +1,4 @@
-// The inspector of one entity: who owns it, its pose (which can be edited), attributes, and the inside of a robot. A
+// The inspector of one entity: its owners, its pose (which can be edited), its attributes, and the status of a robot. A
 // click on a value plots it.
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@ namespace swarmanoid
 namespace
 {
 
-constexpr std::size_t kManyValues = 7;  // from here on bars instead of lines
+constexpr std::size_t kManyValues = 7;  // from this number on, bars instead of lines
 
 ImU32 ColourOf(double value)
 {
@@ -36,7 +36,7 @@ void Panels::ShowInspector(std::size_t number)
 {
   const std::uint32_t entity = viewer_.Inspected()[number];
   const CSwarmanoidSpaceEntity& body = viewer_.Space().GetEntity(entity);
-  // From the right edge to the left, as long as there is room beside the column at the left.
+  // Inspectors are placed from the right edge to the left, as long as there is space beside the left column.
   const float step = Scaled(theme::kInspectorWidth + theme::kGap);
   const int columns = InspectorColumns();
   const auto column = static_cast<float>(static_cast<int>(number) % columns);
@@ -102,7 +102,7 @@ void Panels::ShowGroup(std::uint32_t entity, const ValueGroup& group)
       ShowBars(entity, group);
     else
     {
-      // Rows of colours together, the rest line by line.
+      // Colours form rows together; the other values have one line each.
       const std::span values(group.values);
       for (std::size_t i = 0; i < values.size();)
       {
@@ -173,7 +173,7 @@ void Panels::ShowPoseEdit(std::uint32_t entity)
   if (done) edits_.erase(entity);
 }
 
-// One line; a click plots the value or stops that.
+// Shows one line; a click starts or stops the plot of the value.
 void Panels::ShowValue(std::uint32_t entity, const ValueGroup& group, const EntityValue& value)
 {
   const ValueName name{entity, group.source, group.name, value.name};
@@ -223,7 +223,8 @@ void Panels::ShowColours(std::uint32_t entity, std::span<const EntityValue> valu
   ImGui::Dummy(ImVec2(width, line));
 }
 
-// Many readings of one kind: a bar each, over the range of them all and zero. A click plots the one under the mouse.
+// Shows many readings of one kind as bars over their common range, including zero. A click plots the value under the
+// mouse.
 void Panels::ShowBars(std::uint32_t entity, const ValueGroup& group)
 {
   double low = 0;

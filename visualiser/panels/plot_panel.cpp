@@ -19,7 +19,7 @@ void Panels::ShowPlots()
   const float width = InspectorEdge() - left - Scaled(theme::kGap);
   const float chart = Scaled(130);
   const float height = std::min((chart + Scaled(34)) * static_cast<float>(units.size()) + Scaled(34), 0.5F * height_);
-  // As high as its charts, until the person makes it otherwise.
+  // The panel is as high as its charts, until the user changes its size.
   if (units.size() != charts_) place_ = ImGuiCond_Always;
   charts_ = units.size();
   if (const float below = TimelineHeight(); below != above_timeline_)

@@ -1,4 +1,4 @@
-// The panel of the run: how it goes, its processes, what is shown, and the viewpoints.
+// The panel of the run: its status, its processes, the view options, and the viewpoints.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace swarmanoid
 namespace
 {
 
-constexpr double kVeryLate = 1;  // s: from here on the list of processes opens by itself
+constexpr double kVeryLate = 1;  // s: delay from which the list of processes opens by itself
 
 struct PhaseLook
 {
@@ -55,7 +55,7 @@ void Panels::ShowRun()
 {
   ImGui::SetNextWindowPos(ImVec2(Scaled(theme::kGap), Scaled(theme::kGap)), place_);
   const float width = Scaled(theme::kLeftWidth);
-  // As high as what it holds, and never more than three fifths of the picture.
+  // The panel fits its content, up to three fifths of the picture.
   ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, 0.62F * height_));
   const std::string title = viewer_.GetExperiment().name + "###run";
   if (ImGui::Begin(title.c_str(), &viewer_.shown.run,

@@ -1,4 +1,4 @@
-// The timeline: which tick is shown, the events of the run as marks, and the way back to the present.
+// The timeline: the shown tick, the events of the run as marks, and the way back to the present.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -68,7 +68,7 @@ void Panels::ShowTimeline()
   ImGui::End();
 }
 
-// Drag anywhere to look at that tick; a click at a mark goes to its event.
+// Shows the track. Dragging looks at that tick; a click at a mark goes to its event.
 void Panels::ShowTrack(const PastCursor& past)
 {
   const ImVec2 corner = ImGui::GetCursorScreenPos();

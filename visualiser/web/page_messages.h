@@ -1,5 +1,5 @@
-// The text messages between web_render and its pages, as JSON: what is said rarely, beside the frames.
-// docs/web_render.md is their specification. Used by web_render alone.
+// The text messages between web_render and its pages, as JSON: those that are rarer than frames. docs/web_render.md
+// specifies them. Only web_render uses it.
 #pragma once
 
 #include <cstdint>
@@ -18,52 +18,52 @@
 namespace swarmanoid
 {
 
-// "welcome": whether clients may control the run at all, and the challenge that one who has the token answers then.
-// `edits`: there is no run, but an experiment file that is edited.
+// Returns "welcome": whether clients may control the run at all, and the challenge for holders of the token. `edits`:
+// the server edits an experiment file instead of showing a run.
 std::string WelcomeText(bool control_possible, const std::string& challenge, bool edits = false);
-// "authority": what the client may do, after its answer.
+// Returns "authority": the rights of the client, after its answer.
 std::string AuthorityText(Authority authority);
-// "world": all that stays: the table of entities, the bodies that are no robots, engines, hosts, controllers,
-// viewpoints; whether pages begin at the first of these.
+// Returns "world", the fixed content: the table of entities, the bodies that are no robots, engines, hosts, controllers
+// and viewpoints. It also states whether pages begin at the first viewpoint.
 std::string WorldText(const CSwarmanoidSpace& space, const Assignment& assignment, const Viewpoints& viewpoints = {},
                       bool begins_there = false);
-// "colours": colours and intensities of lights, patches and all that cannot move, which a frame does not hold.
+// Returns "colours": colours and intensities of lights, patches and all static entities, which frames do not contain.
 std::string ColoursText(const CSwarmanoidSpace& space);
-// "log": a line for the page's log. level: "info", "warning".
+// Returns "log": a line for the page's log. `level`: "info", "warning".
 std::string LogText(std::uint64_t tick, const std::string& source, const std::string& level, const std::string& text);
-// "status": how the run goes. `clients`: pages that look.
+// Returns "status": the status of the run. `clients`: the number of pages.
 std::string StatusText(const CSwarmanoidSpace& space, const RunStatus& status, std::size_t clients);
-// "watched": attributes of entities, and the inside of those that are robots.
+// Returns "watched": attributes of entities, and the status of the robots among them.
 std::string WatchedText(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities, RunMonitor* monitor);
-// "timeline": the ticks that can be looked at, up to the one before `end`, and what happened. Of many events those that
-// are left are told by how many there were.
+// Returns "timeline": the ticks that can be shown, up to the one before `end`, and the events. If there are many
+// events, only some are listed, with their total number.
 std::string TimelineText(const std::string& run_folder, std::uint64_t first, std::uint64_t end,
                          std::span<const TimelineEvent> events);
-// "past": of the tick that is looked back at: attributes of entities, and colours as "colours" has them.
+// Returns "past", for the requested tick: attributes of entities, and colours as in "colours".
 std::string PastText(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities);
-// "past_inside": the inside of robots at a tick of the past, or in "error" why it cannot be computed.
+// Returns "past_inside": the status of robots at a tick of the past, or in "error" why it cannot be computed.
 std::string PastInsideText(const PastInsideAnswer& answer);
-// "reply": what became of a request that was refused.
+// Returns "reply": the reason for a refused request.
 std::string RefusalText(const std::string& text);
 
-// What a page asks for.
+// A page's request.
 struct WatchRequest
 {
-  std::vector<std::uint32_t> entities;  // whose details it wants
+  std::vector<std::uint32_t> entities;  // the entities whose details it wants
 };
-// Its answer to the challenge.
+// A page's answer to the challenge.
 struct ProveRequest
 {
   std::string proof;
 };
-// The entities of which it shows more than their bodies (MarksWriter).
+// The entities for which the page shows marks (MarksWriter).
 struct MarksRequest
 {
   std::vector<std::uint32_t> rays, bodies, links;
 };
 struct FrameRateRequest
 {
-  unsigned period_ms = 0;  // between two frames; 0: as they come
+  unsigned period_ms = 0;  // between two frames; 0: every frame
 };
 struct PauseRequest
 {
@@ -93,7 +93,7 @@ struct RemoveEntityRequest
 {
   std::string entity;
 };
-// For experiment functions.
+// Input for experiment functions.
 struct KeyRequest
 {
   std::string key;
@@ -114,14 +114,14 @@ using PageRequest =
                  ResumeRequest, StepRequest, SpeedRequest, MoveEntityRequest, AddEntityRequest, RemoveEntityRequest,
                  KeyRequest, SelectRequest, StopRequest, ResetRunRequest>;
 
-inline constexpr std::size_t kMostWatched = 16;   // entities, of one page
-inline constexpr std::size_t kMostMarked = 1000;  // likewise, of each kind of mark
+inline constexpr std::size_t kMostWatched = 16;   // the most entities for one page
+inline constexpr std::size_t kMostMarked = 1000;  // the same, for each kind of mark
 
-// Throws std::invalid_argument, with a text for the user, for anything else than a request.
+// Throws std::invalid_argument with a text for the user if the text is no request.
 PageRequest ParseRequest(std::string_view text);
-// Whether it changes the experiment.
+// Returns whether the request changes the experiment.
 bool IsCommand(const PageRequest& request);
-// Passes a command on to the run; does nothing for other requests.
+// Passes a command to the run; does nothing for other requests.
 void Obey(const PageRequest& request, ExperimentControl& control);
 
 }  // namespace swarmanoid
