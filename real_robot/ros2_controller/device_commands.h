@@ -1,6 +1,6 @@
-// What a node commands beside how the robot drives: LEDs, beacon, gripper, turret, laser, magnet, bytes to send; on the
-// topics and with the messages that the drivers of real robots publish (real_robot/drivers/ros2). Made and used by
-// ros2_controller, in the thread of the controllers.
+// The commands of a node beside driving: LEDs, beacon, gripper, turret, laser, magnet, and bytes to send. They use the
+// topics and messages that the drivers of real robots publish (real_robot/drivers/ros2). ros2_controller makes and uses
+// them in the thread of the controllers.
 #pragma once
 
 #include <memory>
@@ -17,18 +17,18 @@ class CommandTopic
 {
 public:
   virtual ~CommandTopic() = default;
-  // Takes over the next command, oldest first; false if there is none.
+  // Takes the next command, oldest first; returns false if none exists.
   virtual bool Take() = 0;
-  // Tells the actuator the command that was taken last. Throws DriverError, with the topic, if it is none.
+  // Passes the command that was taken last to the actuator. Throws DriverError, with the topic, if it is invalid.
   virtual void Apply() = 0;
   virtual void Wait(double seconds) = 0;
   virtual unsigned Publishers() const = 0;
   virtual std::string Name() const = 0;
 };
 
-// The types of actuators that have topics, in ascending order.
+// Returns the types of actuators that have topics, in ascending order.
 std::vector<std::string> CommandedActuators();
-// For all actuators of a robot that have topics. `reliable`: no command is lost.
+// Makes the topics of all actuators of a robot that have one. `reliable`: no command is lost.
 std::vector<std::unique_ptr<CommandTopic>> MakeCommandTopics(const CCI_Robot& robot, const DriverSetup& setup,
                                                              bool reliable);
 

@@ -37,10 +37,10 @@ using Illuminance = sensor_msgs::msg::dds_::Illuminance_;
 using Imu = sensor_msgs::msg::dds_::Imu_;
 
 constexpr double kBodyRadius_m = 0.085036758;  // of a footbot
-constexpr double kFullScale_lx = 1000;         // what a light sensor of a footbot reads as 1
+constexpr double kFullScale_lx = 1000;         // the illuminance at which a footbot's light sensor reads 1
 constexpr std::uint8_t kInfrared = 1;          // sensor_msgs/msg/Range: INFRARED
 
-// One topic for one sensor.
+// Publishes one topic for one sensor.
 template <class Interface, class Message>
 class TopicReading : public ReadingPublisher
 {
@@ -90,7 +90,7 @@ private:
   }
 };
 
-// A message for each of the sensors of a ring, on topics that are numbered from 0.
+// Publishes a message for each sensor of a ring, on topics that are numbered from 0.
 template <class Interface, class Message>
 class RingReading : public ReadingPublisher
 {
@@ -128,7 +128,7 @@ private:
   std::vector<std::unique_ptr<ReadingTopic<Message>>> publishers_;
 };
 
-// Of any robot: 1 at the sensor, 0 where its range ends.
+// The readings of any robot: 1 at the sensor, 0 at the end of its range.
 class Ranges : public RingReading<CCI_ProximitySensor, Range>
 {
 public:
@@ -158,7 +158,7 @@ private:
   void Fill(double reading) override { message_.illuminance(reading * kFullScale_lx); }
 };
 
-// Brightnesses of the floor, and its colour below the middle.
+// Publishes brightnesses of the floor, and its colour below the middle.
 template <class Interface>
 class Ground : public ReadingPublisher
 {
@@ -191,7 +191,7 @@ private:
   Float32MultiArray message_;
 };
 
-// Points in the frame of the robot, x, y and z as float32 and more behind them.
+// Writes points in the frame of the robot: x, y and z as float32, then further fields.
 class CloudWriter
 {
 public:
@@ -245,7 +245,7 @@ private:
   PointCloud2 message_;
 };
 
-// From distance in the plane, or along the line of sight, and angles.
+// Returns the place at a distance in the plane, or along the line of sight, and at angles.
 Vector3 PlaceAt(double flat_m, double angle, double up_m)
 {
   const SinCos direction = SinCosOf(angle);
@@ -302,7 +302,7 @@ private:
                      CCI_RangeAndBearingActuator::NUM_BYTES};
 };
 
-// Wheels, turret and gripper.
+// Publishes wheels, turret and gripper.
 class Joints : public ReadingPublisher
 {
 public:
@@ -353,7 +353,7 @@ private:
   ReadingTopic<JointState> publisher_;
 };
 
-// What a robot feels of its motion. By the definition of the message -1 says that a part is not measured.
+// Publishes the measured motion of a robot. By the definition of the message, -1 says that a part is not measured.
 class Inertia : public ReadingPublisher
 {
 public:
@@ -417,7 +417,7 @@ std::unique_ptr<ReadingPublisher> Make(const ReadingSetup& setup, Further... fur
 
 using Maker = std::function<std::unique_ptr<ReadingPublisher>(const ReadingSetup&)>;
 
-// Sensors that share a message share a name of the maker: it is made once.
+// Sensors that share a message share the name of the maker, which is called once.
 struct Source
 {
   std::string publisher;

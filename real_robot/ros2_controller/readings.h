@@ -1,5 +1,5 @@
-// The readings of a simulated robot as the messages that a real one publishes: the other end of the drivers
-// (real_robot/drivers/ros2). Made and used by ros2_controller, in the thread of the controllers.
+// Publishes the readings of a simulated robot as the messages of a real one: the counterpart of the drivers
+// (real_robot/drivers/ros2). ros2_controller makes and uses it in the thread of the controllers.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,7 @@ class ReadingPublisher
 {
 public:
   virtual ~ReadingPublisher() = default;
-  // What the sensor reads in this control step.
+  // Publishes the reading of the sensor in this control step.
   virtual void Publish(const Header& header) = 0;
   virtual unsigned Listeners() const = 0;
 };
@@ -28,12 +28,12 @@ struct ReadingSetup
 {
   const CCI_Robot* robot = nullptr;
   DriverSetup driver;
-  double range_m = 0;                     // of the proximity sensors
-  const WheelOdometry* wheels = nullptr;  // of robots with wheels
+  double range_m = 0;                     // range of the proximity sensors
+  const WheelOdometry* wheels = nullptr;  // set for robots with wheels
   bool awaited = false;                   // a node answers each reading, and the run waits for it
 };
 
-// A topic of readings. Whoever waits for each of them misses none.
+// A topic of readings. A subscriber that waits for each reading misses none.
 template <class Message>
 class ReadingTopic : public Publisher<Message>
 {
@@ -44,10 +44,11 @@ public:
   }
 };
 
-// The types of sensors that have topics, in ascending order. `positioning` has none of its own: it is part of `odom`.
+// Returns the types of sensors that have topics, in ascending order. `positioning` has no topic of its own: it is part
+// of `odom`.
 std::vector<std::string> PublishedSensors();
-// For all sensors of a robot that have topics, and behind them its odometry, if it has wheels or `positioning`. Throws
-// DriverError.
+// Makes the topics of all sensors of a robot that have one. If the robot has wheels or `positioning`, its odometry
+// follows them. Throws DriverError.
 std::vector<std::unique_ptr<ReadingPublisher>> MakeReadings(const ReadingSetup& setup);
 
 }  // namespace swarmanoid::ros2
