@@ -17,7 +17,7 @@ constexpr std::int64_t kBetweenWarnings = 10 * kSecond;
 
 double Seconds(std::int64_t nanoseconds) { return static_cast<double>(nanoseconds) * 1e-9; }
 
-// Warns of steps that are too long, now and then rather than each time.
+// Warns of steps that are too long, at intervals rather than each time.
 class OverrunWatch
 {
 public:
@@ -42,7 +42,7 @@ private:
   std::int64_t warned_at_ = 0;
 };
 
-// Until every sensor has a value; false if told to stop.
+// Waits until every sensor has a value; returns false if it is told to stop.
 bool WaitForSensors(Robot& robot, const LoopOptions& options, const LoopClock& clock, std::int64_t period)
 {
   const std::int64_t start = clock.now();
@@ -120,7 +120,7 @@ LoopReport RunControlLoop(Robot& robot, const LoopOptions& options, const LoopCl
     const std::int64_t end = clock.now();
     overruns.Took(end - begin, end);
 
-    // Steps that were missed are left out, never run in a row.
+    // Missed steps are skipped, never run in a row.
     next += period;
     if (next < end) next += (end - next + period - 1) / period * period;
     clock.sleep_until(next);

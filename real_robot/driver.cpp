@@ -17,7 +17,8 @@ PluginDescription DescribeDriver(const std::string& type, const std::string& nam
   return description;
 }
 
-// A driver is to the robot program what an implementation of a device is to the simulator, and is catalogued as such.
+// The robot program uses a driver as the simulator uses an implementation of a device, and the catalogue treats it as
+// one.
 template <>
 PluginRegistry<CSensorDriver>& PluginRegistry<CSensorDriver>::Instance()
 {

@@ -1,6 +1,6 @@
-// Drivers: the sensors and actuators of a real robot. One object serves one device of the robot that the program
-// swarmanoid_robot runs on; its controller holds the same CCI_ interface as in the simulator. Drivers are plug-ins of a
-// library that the robot program loads; all calls come from the thread that runs the controller.
+// Drivers: the sensors and actuators of a real robot. One object serves one device of the robot on which the program
+// swarmanoid_robot runs. The controller uses it by the same CCI_ interface as in the simulator. Drivers are plug-ins in
+// a library that the robot program loads. All calls come from the thread that runs the controller.
 #pragma once
 
 #include <memory>
@@ -15,28 +15,29 @@
 namespace swarmanoid
 {
 
-// What a driver is made from.
+// The arguments for making a driver.
 struct DriverSetup
 {
-  Parameters parameters;   // of the driver, from the robot file
-  std::string robot_id;    // as in the logs
+  Parameters parameters;   // the driver's parameters from the robot file
+  std::string robot_id;    // the robot's id in the logs
   std::string robot_kind;  // "footbot", "eyebot" or "handbot"
-  std::string name_space;  // put before the names of topics and the like; may be empty
+  std::string name_space;  // put before names of topics; may be empty
   double tick_seconds;     // of one control step
 };
 
-// A driver cannot work: no such port, no network. what() says which, and what to do. Ends the robot program.
+// A driver cannot work, for example without a port or a network. what() gives the reason and the cure. It ends the
+// robot program.
 class DriverError : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
 };
 
-// Where a sensor driver gets its values from, for logs and the watch on silence.
+// A source of values of a sensor driver, for logs and for detecting silence.
 struct DriverSource
 {
   std::string name;      // "topic rt/scan (sensor_msgs/msg/LaserScan)"
-  bool heard = false;    // whether anything ever came
+  bool heard = false;    // whether a value ever came
   double silence_s = 0;  // since the latest value, or since Init
 };
 
@@ -45,13 +46,13 @@ class CSensorDriver
 public:
   virtual ~CSensorDriver() = default;
   virtual void Init(const DriverSetup& setup) = 0;
-  // The object given to the controller; it lives as long as the driver.
+  // Returns the object for the controller. It must live as long as the driver.
   virtual CCI_Sensor* Sensor() = 0;
-  // Takes over the latest values, without waiting. Called before each control step, so that readings stay what they are
-  // within a step.
+  // Takes the latest values without waiting. It is called before each control step, so that readings do not change
+  // within a step. Throws DriverError.
   virtual void Poll() = 0;
-  // One for each place that values come from. A robot does not start until each was heard, and stands still while one
-  // is silent for longer than the parameter timeout_s, which every sensor driver has. Empty: never silent.
+  // Returns one entry for each source of values. A robot does not start until each was heard. It stops while one is
+  // silent for longer than the parameter timeout_s, which every sensor driver has. Empty: never silent.
   virtual std::vector<DriverSource> Sources() const { return {}; }
 };
 
@@ -61,17 +62,18 @@ public:
   virtual ~CActuatorDriver() = default;
   virtual void Init(const DriverSetup& setup) = 0;
   virtual CCI_Actuator* Actuator() = 0;
-  // Gives the hardware what the controller set last. Called after each control step.
+  // Sends the values that the controller set last to the hardware. It is called after each control step. Throws
+  // DriverError.
   virtual void Push() = 0;
-  // Makes the device safe: wheels stand, LEDs are dark, grippers keep what they hold. Called in place of Push while the
-  // controller does not run, and at the end, also after an error. What the controller set is kept.
+  // Makes the device safe: wheels stop, LEDs go dark, grippers keep their objects. It is called instead of Push while
+  // the controller does not run, and at the end, also after an error. The values of the controller are kept.
   virtual void Stop() = 0;
-  // Where the values go, for logs: "topic rt/cmd_vel (geometry_msgs/msg/Twist)".
+  // Returns the destinations of the values, for logs: "topic rt/cmd_vel (geometry_msgs/msg/Twist)".
   virtual std::vector<std::string> Sinks() const { return {}; }
 };
 
 // For the macros below. `type`: the device's label in experiment files; `name`: of the driver, for robot files;
-// `robots`: those that it is for, empty for all.
+// `robots`: the kinds that it supports, empty for all.
 PluginDescription DescribeDriver(const std::string& type, const std::string& name, const std::string& brief,
                                  std::vector<std::string> robots = {}, std::vector<ParameterSpec> parameters = {});
 
@@ -96,6 +98,7 @@ using swarmanoid::CSensorDriver;
 using swarmanoid::DescribeDriver;
 
 // REGISTER_SENSOR_DRIVER(CMyLight, DescribeDriver("footbot_light", "my_port", "light sensors at the serial port"))
+// registers a driver.
 #define REGISTER_SENSOR_DRIVER(CLASS, ...)                                                                      \
   namespace                                                                                                     \
   {                                                                                                             \

@@ -1,4 +1,4 @@
-// The program of a real robot: runs a controller library, the one that the simulator runs, on the drivers of the robot.
+// The program of a real robot. It runs the same controller library as the simulator, on the drivers of the robot.
 #include <fmt/format.h>
 
 #include <cstdio>

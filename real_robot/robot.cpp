@@ -14,7 +14,7 @@ namespace swarmanoid
 namespace
 {
 
-// Every sensor driver has it.
+// Every sensor driver has this parameter.
 const ParameterSpec kTimeout{.name = "timeout_s",
                              .unit = "s",
                              .default_value = "1",
@@ -40,7 +40,7 @@ void CheckDriverParameters(const RobotDevice& device, const std::vector<Paramete
   CheckParameters(device.tree, specs, "driver of <" + device.type + ">", {"driver"});
 }
 
-// The drivers of a type of device, or the types that there are drivers for.
+// Returns the drivers of a type of device, or the types that have drivers.
 template <class Driver>
 std::vector<std::string> DriversOf(const std::string& type)
 {
@@ -132,7 +132,7 @@ const ControllerEntry& FindController(const RobotConfiguration& configuration)
                   configuration.controller_tag, Listed(labels), DidYouMean(configuration.controller_tag, labels)));
 }
 
-// As the simulator reads them: those of a controller that declared its parameters are checked and complete.
+// Returns the parameters as the simulator reads them: checked and complete if the controller declared them.
 TConfigurationTree ParametersOfController(const RobotConfiguration& configuration, const PluginDescription& description)
 {
   if (!description.declares_parameters) return configuration.parameters;
@@ -171,7 +171,7 @@ Robot::Robot(RobotConfiguration configuration)
                     { LogInfo("step {}: {}", robot.GetTick(), text); });
   controller_->SetRobot(&interface_);
 
-  // All choices first, so that a mistake is found before any device moves.
+  // All choices are made first, so that a mistake is found before any device moves.
   std::vector<const PluginRegistry<CSensorDriver>::Entry*> sensor_entries;
   for (const RobotDevice& device : configuration_.sensors)
   {
@@ -219,7 +219,7 @@ Robot::~Robot()
   }
   catch (const std::exception&)
   {
-    // The robot is given up anyway; whoever could tell the user has called End before.
+    // The robot is destroyed anyway. Callers that can report errors have called End before.
   }
 }
 
@@ -253,7 +253,7 @@ std::string Robot::Silent() const
 
 void Robot::BeginStep(std::uint64_t step_stream)
 {
-  // Each robot of a swarm has random numbers of its own, the same ones each time it runs, here and in the simulator.
+  // Each robot of a swarm has its own random numbers. They are the same in each run, here and in the simulator.
   interface_.BeginStep(steps_, configuration_.clock_tick_ms * 1e-3,
                        {configuration_.seed, StreamName(configuration_.id), step_stream, steps_});
 }
@@ -270,7 +270,7 @@ void Robot::Start()
   }
   catch (const ConfigurationError&)
   {
-    throw;  // a mistake of the file
+    throw;  // a mistake in the file
   }
   catch (const std::exception& error)
   {
@@ -299,7 +299,7 @@ void Robot::Tick()
 
 void Robot::Stop()
 {
-  // Each device is stopped, whatever becomes of the others.
+  // Each device is stopped, even if stopping another one fails.
   std::string failed;
   for (const Actuator& actuator : actuators_)
   {

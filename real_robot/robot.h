@@ -1,5 +1,5 @@
-// Robot: a controller with the drivers of its devices, on one real robot. The counterpart of the controller host of the
-// simulator: it loads the same library and calls it in the same way. Used by the robot program, from one thread.
+// Robot: a controller with the drivers of its devices, on one real robot. It corresponds to the controller host of the
+// simulator: it loads the same library and calls it in the same way. The robot program uses it from one thread.
 #pragma once
 
 #include <memory>
@@ -15,46 +15,47 @@
 namespace swarmanoid
 {
 
-// A controller failed: what() names the robot, the step and the reason.
+// A controller failed. what() names the robot, the step and the reason.
 class RobotError : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
 };
 
-// Loads the libraries of the drivers, then describes those for a device; "" for all. Lines for the user.
+// The first function loads the libraries of the drivers. The second one returns lines for the user about those for a
+// device; "" for all.
 void LoadDriverLibraries(const RobotConfiguration& configuration);
 std::string DriverList();
 
 class Robot
 {
 public:
-  // Loads the libraries, makes the drivers and the controller. Throws ConfigurationError or DriverError. Init of the
-  // controller is not called yet.
+  // Loads the libraries and makes the drivers and the controller, without calling its Init. Throws ConfigurationError
+  // or DriverError.
   explicit Robot(RobotConfiguration configuration);
   // Stops the devices; an error of a driver is lost then.
   ~Robot();
   Robot(const Robot&) = delete;
   Robot& operator=(const Robot&) = delete;
 
-  // Takes over the latest values of all sensors.
+  // Takes the latest values of all sensors.
   void Poll();
-  // The first sensor whose source was never heard, or is silent for longer than its timeout: "sensor
-  // 'footbot_proximity': topic … is silent for 1.2 s". Empty: all is well.
+  // Returns the first sensor whose source was never heard, or is silent for longer than its timeout: "sensor
+  // 'footbot_proximity': topic … is silent for 1.2 s". Empty: all sensors work.
   std::string NotHeard() const;
   std::string Silent() const;
 
-  // Init of the controller. Throws RobotError if it fails.
+  // Calls Init of the controller. Throws RobotError if it fails.
   void Start();
-  // One control step with the values of the latest Poll, then Push of all actuators. Throws RobotError.
+  // Does one control step with the values of the latest Poll, then calls Push of all actuators. Throws RobotError.
   void Tick();
-  // Stop of all actuators: the robot stands.
+  // Calls Stop of all actuators, so that the robot stands.
   void Stop();
-  // Stop, and Destroy of the controller, once.
+  // Calls Stop, and once Destroy of the controller.
   void End();
 
   const RobotConfiguration& Configuration() const { return configuration_; }
-  // A line for each device: its driver, and where its values come from or go to.
+  // Returns a line for each device: its driver, and the sources or destinations of its values.
   std::vector<std::string> Wiring() const;
 
 private:

@@ -34,7 +34,7 @@ File Read(const std::string& path)
   return {TConfigurationTree(ReadXml(ReadTextFile(path), path)), folder.string()};
 }
 
-// Refuses what a robot file may not have at this place.
+// Refuses attributes and elements that a robot file may not have at this place.
 void CheckNames(const TConfigurationTree& tree, const std::vector<std::string>& attributes,
                 const std::vector<std::string>& children)
 {
@@ -63,7 +63,7 @@ std::vector<std::string> SplitNames(const std::string& text)
   return names;
 }
 
-// The kind of the first robot of the arena that uses the controller, wherever it stands (in a <distribute>, too).
+// Returns the kind of the first robot of the arena that uses the controller, also in a <distribute>.
 std::string KindInArena(const TConfigurationTree& tree, const std::string& controller)
 {
   for (const TConfigurationTree& child : tree.Children())
@@ -112,7 +112,7 @@ void AddFolders(std::vector<std::string>& folders, const std::string& list, cons
   for (std::string& folder : SplitSearchPath(list, base)) folders.push_back(std::move(folder));
 }
 
-// The parts of an experiment file that a robot needs.
+// Reads the parts of an experiment file that a robot needs.
 void ReadExperiment(const File& file, const std::string& controller_id, const char* how, RobotConfiguration& robot)
 {
   const TConfigurationTree framework = file.root.Child("framework");
@@ -143,7 +143,7 @@ void ReadExperiment(const File& file, const std::string& controller_id, const ch
   robot.controller_path.push_back(file.folder);
 }
 
-// <drivers>: which driver each device has, with its parameters.
+// Reads <drivers>: the driver of each device, with its parameters.
 void ReadDriverChoices(const TConfigurationTree& list, const char* what, std::vector<RobotDevice>& devices)
 {
   std::vector<std::string> types;

@@ -1,5 +1,5 @@
-// Reading what a robot is to run: an experiment file, of which one controller is taken, or a robot file that names one
-// and chooses drivers. Nothing here knows the simulator: the world of the experiment file is passed over.
+// Reads the configuration of a robot: an experiment file, of which one controller is used, or a robot file that names
+// one and chooses drivers. It does not depend on the simulator, and ignores the world of the experiment file.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ struct RobotDevice
 {
   std::string type;
   std::string driver;       // implementation of the driver; empty: the preferred one
-  TConfigurationTree tree;  // of the driver: its parameters; does not exist if the file says nothing
-  SourceLocation location;  // where the controller lists it
+  TConfigurationTree tree;  // the driver's parameters; does not exist if the file has none
+  SourceLocation location;  // the position in the controller's list
 };
 
 struct RobotConfiguration
@@ -31,8 +31,8 @@ struct RobotConfiguration
   std::string controller_id;
   std::string controller_library;
   TConfigurationTree parameters;
-  std::string folder;       // of the experiment file: relative paths of parameters start here
-  SourceLocation location;  // of the controller
+  std::string folder;       // the experiment file's folder, where relative paths of parameters start
+  SourceLocation location;  // the position of the controller
   SourceLocation library_location;
   std::vector<std::string> controller_path;
   std::vector<RobotDevice> sensors;
@@ -42,7 +42,7 @@ struct RobotConfiguration
   std::string preferred_driver;
 };
 
-// What the command line says; empty: as in the file, or the default.
+// Choices of the command line; empty: those of the file, or the defaults.
 struct RobotChoice
 {
   std::string controller{};  // its id in the experiment file

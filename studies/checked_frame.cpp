@@ -41,7 +41,7 @@ void FrameReader::Add(std::span<const char> bytes)
   bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
 }
 
-// What could be the beginning of a mark stays.
+// Bytes that could begin a mark are kept.
 void FrameReader::SkipNoise()
 {
   const auto from = bytes_.begin() + static_cast<std::ptrdiff_t>(begin_);

@@ -1,6 +1,6 @@
-// How a study and the processes that run it elsewhere write to each other, through pipes and in files: contents, each
-// behind a mark, its length and its checksum, so that what another program says, what is cut short and what was changed
-// on its way are told apart from a message.
+// Frames for messages between a study and the processes that run it elsewhere, through pipes and in files. Each content
+// follows a mark, its length and its checksum. So a reader distinguishes messages from output of other programs, from
+// cut frames and from changed bytes.
 #pragma once
 
 #include <optional>
@@ -18,19 +18,19 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-// The mark (8 bytes), length (u64), XXH3 (64 bits) and the content.
+// Returns the mark (8 bytes), length (u64), XXH3 (64 bits) and the content.
 std::vector<char> Framed(std::span<const char> content);
 
 class FrameReader
 {
 public:
   void Add(std::span<const char> bytes);
-  // The next content; nothing if it is not whole yet. Before the first one there may be some lines of others: shells
-  // greet. Throws FrameError.
+  // Returns the next content; nothing if it is not complete yet. Before the first one, some lines of other programs are
+  // allowed, such as a shell's greeting. Throws FrameError.
   std::optional<std::vector<char>> Next();
-  // Whether all that was added has been taken.
+  // Returns whether all added bytes have been read.
   bool AtEnd() const { return begin_ == bytes_.size(); }
-  // What came before the first mark.
+  // Returns the bytes before the first mark.
   std::string Noise() const;
 
 private:

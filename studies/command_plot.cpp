@@ -1,4 +1,4 @@
-// `swarmanoid plot`: pictures of a study, drawn by a script with matplotlib.
+// `swarmanoid plot` draws pictures of a study, by a script with matplotlib.
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -95,7 +95,7 @@ bool CanDraw(const std::string& python)
   }
   catch (const std::runtime_error&)
   {
-    return false;  // there is no such program
+    return false;  // the program does not exist
   }
 }
 
@@ -109,7 +109,7 @@ int Plot(const PlotOptions& options)
   {
     throw UsageError(error.what());
   }
-  // The first one on the path need not be Debian's.
+  // The first Python on the path may not be Debian's.
   std::string python;
   for (const char* candidate : {"python3", "/usr/bin/python3"})
     if (python.empty() && CanDraw(candidate)) python = candidate;
@@ -119,7 +119,7 @@ int Plot(const PlotOptions& options)
         "python3-matplotlib python3-scipy");
   const std::string script =
       (std::filesystem::path(UserFilesFolder()).parent_path() / "studies" / "plot_study.py").string();
-  // Values may begin with a dash.
+  // The form --name=value allows values that begin with a dash.
   std::vector<std::string> words{python, "-B", script, "--format=" + options.format, "--ended=" + options.ended};
   for (const std::string& metric : options.metrics) words.push_back("--metric=" + metric);
   for (const std::string& request : options.comparisons) words.push_back("--compare=" + request);

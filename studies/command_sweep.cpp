@@ -1,4 +1,4 @@
-// `swarmanoid sweep`: all runs of a study.
+// `swarmanoid sweep` runs a study.
 #include <CLI/CLI.hpp>
 #include <memory>
 

@@ -15,10 +15,10 @@ namespace
 
 constexpr std::size_t kMostConflicts = 20;
 
-// One statement of the study that gives a value: in all runs, or in those with one level of a factor.
+// A statement of the study that sets a value: in all runs, or in those with one level of a factor.
 struct Statement
 {
-  std::string path;  // empty: it chooses the experiment
+  std::string path;  // empty: it sets the experiment file
   std::string text;  // "<set>", "'robots'"
   SourceLocation location;
   const Factor* factor = nullptr;
@@ -56,7 +56,7 @@ private:
       if (!level.experiment.empty()) statements_.push_back({"", variant, level.location, &factor, &level});
       for (const StudyChange& change : level.changes)
       {
-        // A <factor> states its paths once, for all of its values.
+        // A <factor> states its paths once, for all its values.
         const bool is_of_factor =
             change.location.line == factor.location.line && change.location.column == factor.location.column;
         if (is_of_factor && &level != &factor.levels[0]) return;
@@ -66,7 +66,7 @@ private:
     }
   }
 
-  // The statements about each value of the experiment; without a tree, those that choose the experiment.
+  // Returns the statements about each value of the experiment; without a tree, those that set the experiment file.
   Groups ByAddress(const std::shared_ptr<const ConfigurationNode>& tree) const
   {
     Groups groups;
@@ -79,7 +79,7 @@ private:
       }
       catch (const ConfigurationError&)
       {
-        // The path leads nowhere in this experiment, which is reported when a run with it is tried.
+        // The path does not exist in this experiment, which is reported when a run with it is tried.
       }
     }
     return groups;

@@ -1,4 +1,4 @@
-// Finds statements of a study that give one value of the experiment twice in the same run: <set>, <factor>, <variant>,
+// Finds statements of a study that set one value of the experiment twice in the same run: <set>, <factor>, <variant>,
 // and the attributes 'ticks' and 'seeds' of <study>. Only the last one would take effect, and the table would name
 // values that were not run.
 #pragma once
@@ -11,8 +11,8 @@
 namespace swarmanoid
 {
 
-// One text for each pair, with the places of both. Experiments that cannot be read are left out: loading them tells
-// why.
+// Returns one text for each pair, with the positions of both. Experiments that cannot be read are skipped, since
+// loading them reports the reason.
 std::vector<std::string> ConflictsIn(const Study& study, const Design& design);
 
 }  // namespace swarmanoid

@@ -22,7 +22,7 @@ Design::Design(const Study& study) : study_(study), factors_(study.Factors())
 
   const std::vector<std::string> ids = study.FactorIds();
   std::vector<Expression> conditions;
-  // Points of a search are its own, and it asks these conditions itself.
+  // A search chooses its own points and tests the conditions itself.
   if (!study.search)
     for (const StudyCondition& condition : study.conditions) conditions.emplace_back(condition.text, ids);
   for (std::uint64_t k = 0; k < combinations; ++k)

@@ -1,5 +1,5 @@
-// All runs of a study: its points, which are the combinations of its factors' values that fulfil the conditions, each
-// with every seed. Points are numbered from 0 in the order of the file, the last dimension fastest.
+// All runs of a study. Its points are the combinations of its factors' values that fulfil the conditions, each with
+// every seed. Points are numbered from 0 in the order of the file, with the last dimension fastest.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 namespace swarmanoid
 {
 
-// Of one run. Names its folder, and its row of the table.
+// The name of a run, for its folder and its row of the table.
 struct RunName
 {
   std::uint32_t point = 0;
@@ -24,24 +24,27 @@ struct RunName
 class Design
 {
 public:
-  // `study` outlives it. Throws ConfigurationError if no point fulfils the conditions, or there are too many runs.
+  // `study` must outlive the object. Throws ConfigurationError if no point fulfils the conditions, or if there are too
+  // many runs.
   explicit Design(const Study& study);
 
   std::size_t Points() const { return points_.size(); }
-  // One for each factor.
+  // Returns one level for each factor.
   std::vector<const FactorLevel*> Levels(std::size_t point) const;
-  // What --set gets, besides the seed: the study's settings, then those of the factors.
+  // Returns the values for --set, except the seed: the study's settings, then those of the factors.
   StudySettings SettingsOf(std::size_t point) const;
   const std::string& ExperimentOf(std::size_t point) const;
-  // "robots=10 speed=0.05"
+  // Returns a text such as "robots=10 speed=0.05".
   std::string Text(std::size_t point) const;
-  // As conditions see it: numbers and texts, one for each factor.
+  // Returns the value of a factor as conditions see it: a number or a text.
   ExpressionValue Value(std::size_t point, std::size_t factor) const;
-  // For each level of each factor the first point that has it; at most so many, spread evenly.
+  // Returns, for each level of each factor, the first point that has it. At most `most` points are returned, spread
+  // evenly.
   std::vector<std::size_t> PointsOfAllLevels(std::size_t most) const;
-  // Each once, in alphabetical order.
+  // Returns each file once, in alphabetical order.
   std::vector<std::string> ExperimentFiles() const;
-  // Of the texts of all experiment files, as 16 hexadecimal digits. Throws ConfigurationError if one cannot be read.
+  // Returns the hash of the texts of all experiment files, as 16 hexadecimal digits. Throws ConfigurationError if one
+  // cannot be read.
   std::string ExperimentsHash() const;
 
 private:
@@ -50,8 +53,8 @@ private:
 
   const Study& study_;
   std::vector<const Factor*> factors_;
-  std::vector<std::size_t> dimension_of_;  // of each factor
-  std::vector<std::uint32_t> points_;      // numbers of combinations
+  std::vector<std::size_t> dimension_of_;  // by factor
+  std::vector<std::uint32_t> points_;      // the numbers of the combinations
 };
 
 }  // namespace swarmanoid

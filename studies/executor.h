@@ -1,4 +1,4 @@
-// Where the runs of a study run: the processes of this machine, other machines, or Slurm's. One thread.
+// Executor: the interface for running the runs of a study, on this machine, on other machines, or by Slurm. One thread.
 #pragma once
 
 #include <chrono>
@@ -11,7 +11,7 @@
 namespace swarmanoid
 {
 
-// No run can go on there. what() says why, and what cures it.
+// No run can continue on this executor. what() gives the reason and the cure.
 class RunPlaceError : public std::runtime_error
 {
 public:
@@ -21,7 +21,7 @@ public:
 struct RunningRun
 {
   RunName name;
-  std::string where;  // empty: this machine
+  std::string where;  // the machine; empty: this one
 };
 
 class Executor
@@ -32,20 +32,20 @@ public:
   Executor(const Executor&) = delete;
   Executor& operator=(const Executor&) = delete;
 
-  // Whether it takes another run.
+  // Returns whether the executor accepts another run.
   virtual bool HasRoom() const = 0;
   virtual void Give(RunOrder order) = 0;
-  // Whether all runs that it took have their outcome, or were given up because the user interrupted.
+  // Returns whether all accepted runs have their outcome, or were abandoned because the user interrupted.
   virtual bool IsIdle() const = 0;
-  // Waits for some, but not for longer. Throws RunPlaceError.
+  // Waits for outcomes, at most for `longest`. Throws RunPlaceError.
   virtual std::vector<RunOutcome> Wait(std::chrono::milliseconds longest) = 0;
-  // Those that go on now.
+  // Returns the runs in progress.
   virtual std::vector<RunningRun> Running() const = 0;
-  // Runs at a time.
+  // Returns how many runs it executes at a time.
   virtual unsigned Slots() const = 0;
-  // What was handed out by Wait is on disk now.
+  // Called when the outcomes that Wait returned have been written to disk.
   virtual void Committed() {}
-  // Lines for the user since the last call.
+  // Returns the lines for the user since the last call.
   virtual std::vector<std::string> TakeNotes() { return {}; }
 };
 

@@ -32,7 +32,8 @@ double NumberIn(const ExpressionValue& value, std::string_view operation)
       fmt::format("{} is a text; '{}' takes numbers", Quoted(std::get<std::string>(value)), operation));
 }
 
-// From the weakest to the strongest. `or` and `and` need their first operand in Joined; == and != take texts too.
+// The levels ascend from the weakest to the strongest. Joined evaluates the first operand of `or` and `and` alone; ==
+// and != accept texts too.
 const std::vector<std::map<std::string, Operation, std::less<>>> kLevels{
     {{"or", [](double, double b) { return b != 0 ? 1.0 : 0.0; }}},
     {{"and", [](double, double b) { return b != 0 ? 1.0 : 0.0; }}},
@@ -98,7 +99,7 @@ private:
     std::size_t length = 1;
     if (IsWordCharacter(text_[at_]))
     {
-      // 1e-3 is one number.
+      // The exponent belongs to the number: 1e-3 is one number.
       const bool number = text_[at_] >= '0' && text_[at_] <= '9';
       while (at_ + length < text_.size() &&
              (IsWordCharacter(text_[at_ + length]) ||
@@ -151,7 +152,7 @@ private:
     else if (token_ == "not")
     {
       Next();
-      // Weaker than a comparison.
+      // `not` is weaker than a comparison.
       term = [of = ParseLevel(2)](const NamedValues& value_of)
       { return NumberIn(of(value_of), "not") == 0 ? 1.0 : 0.0; };
     }
@@ -181,7 +182,7 @@ private:
   std::string_view text_;
   const std::vector<std::string>& names_;
   std::size_t at_ = 0;
-  std::size_t start_ = 0;  // of the token
+  std::size_t start_ = 0;  // the start of the token
   std::string token_;      // empty: the end
   int depth_ = 0;
 };

@@ -1,5 +1,5 @@
-// Conditions over the factors of a study: "robots * speed < 5 and controller != 'still'". For <require> and --only.
-// One thread.
+// Conditions over the factors of a study: "robots * speed < 5 and controller != 'still'". They are used for <require>
+// and --only. One thread.
 #pragma once
 
 #include <functional>
@@ -13,10 +13,10 @@ namespace swarmanoid
 {
 
 using ExpressionValue = std::variant<double, std::string>;
-// The value of a name, by its place among the names of the expression.
+// Returns the value of a name, given by its index among the names of the expression.
 using NamedValues = std::function<ExpressionValue(std::size_t name)>;
 
-// The text is no expression, or its values do not fit. what() says what is wrong and what would do.
+// The text is no expression, or its values do not fit. what() gives the mistake and the cure.
 class ExpressionError : public std::runtime_error
 {
 public:
@@ -26,10 +26,10 @@ public:
 class Expression
 {
 public:
-  // Numbers, 'texts', `names`; or, and, not; < <= > >= == !=; + - * / %; parentheses. Throws ExpressionError.
+  // Parses numbers, 'texts' and `names`; or, and, not; < <= > >= == !=; + - * / %; parentheses. Throws ExpressionError.
   Expression(std::string_view text, const std::vector<std::string>& names);
 
-  // Throws ExpressionError if a text is computed with, or compared with a number by order.
+  // Throws ExpressionError if a text is an operand of arithmetic, or is compared with a number by order.
   bool Holds(const NamedValues& value_of) const;
 
   using Term = std::function<ExpressionValue(const NamedValues&)>;

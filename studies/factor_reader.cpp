@@ -51,7 +51,7 @@ StudyChange ReadSet(const TConfigurationTree& tree, const ElementSpec& spec, Dia
 
 StudyIds::StudyIds(Diagnostics& diagnostics) : diagnostics_(diagnostics)
 {
-  // Names that are used in tables for something else.
+  // These names have another meaning in tables.
   for (const char* taken : {"point", "seed", "tick", "time_s", "ticks", "exit", "hash"}) ids_[taken] = {};
 }
 
@@ -192,7 +192,7 @@ std::vector<std::string> FactorReader::ReadRange(const TConfigurationTree& tree,
     const double value = reader.IsGiven("step") ? from + static_cast<double>(i) * step
                          : logarithmic          ? from * std::pow(to / from, share)
                                                 : from + share * (to - from);
-    // Twelve digits: 0.1 + 0.2 is 0.3 in tables.
+    // Twelve digits are enough, and print 0.1 + 0.2 as 0.3 in tables.
     values.push_back(fmt::format("{:.12g}", value));
   }
   return values;

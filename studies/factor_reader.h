@@ -1,5 +1,5 @@
-// Reads what varies in a study from its file: <factor>, <variants> and <zip>, with all that may be wrong about them.
-// Part of LoadStudyText.
+// Reads the factors of a study from its file: <factor>, <variants> and <zip>, and reports their mistakes. Part of
+// LoadStudyText.
 #pragma once
 
 #include <map>
@@ -15,15 +15,15 @@
 namespace swarmanoid
 {
 
-// Between words of a list.
+// Separators of the words of a list.
 inline constexpr std::string_view kListed = ", \t\r\n";
 
-// The ids of factors and metrics, which no two may share.
+// The ids of factors and metrics, which must be unique.
 class StudyIds
 {
 public:
   explicit StudyIds(Diagnostics& diagnostics);
-  // `what` has the id: "factor", "metric".
+  // `what` names the owner of the id: "factor", "metric".
   std::string Read(const ElementReader& reader, const char* what);
 
 private:
@@ -31,21 +31,21 @@ private:
   std::map<std::string, SourceLocation> ids_;
 };
 
-// From the folder of the study; "" stays "".
+// Returns the path relative to the folder of the study; "" stays "".
 std::string ResolvedPath(const std::string& folder, const std::string& path);
-// <set> of `spec`.
+// Reads a <set> of `spec`.
 StudyChange ReadSet(const TConfigurationTree& tree, const ElementSpec& spec, Diagnostics& diagnostics);
 
 class FactorReader
 {
 public:
-  // Of the file in that folder. Holds on to `folder`, `ids` and `diagnostics`. `is_search`: a <search> goes through
-  // ranges.
+  // Reads the file in that folder. It keeps references to `folder`, `ids` and `diagnostics`. `is_search`: ranges belong
+  // to a <search>.
   FactorReader(const std::string& folder, bool is_search, StudyIds& ids, Diagnostics& diagnostics);
 
-  // <factor> or <variants>; nothing if it has no values.
+  // Reads <factor> or <variants>; returns nothing if it has no values.
   std::optional<Factor> Read(const TConfigurationTree& tree);
-  // Nothing if it holds no factor.
+  // Returns nothing if it contains no factor.
   std::optional<Dimension> ReadZip(const TConfigurationTree& tree);
 
 private:

@@ -30,7 +30,7 @@ HostConnection::HostConnection(const std::vector<std::string>& command)
 {
   Pipe in = MakePipe(), out = MakePipe(), err = MakePipe();
   fcntl(in.read.Get(), F_SETFL, 0);
-  // Ctrl-C at a terminal is for who supervises.
+  // Ctrl-C at a terminal must reach only the supervising process.
   process_ = Spawn({.words = command,
                     .input = in.read.Get(),
                     .output = out.write.Get(),
@@ -49,7 +49,7 @@ HostConnection::~HostConnection()
   const auto start = Clock::now();
   while (process_ > 0 && waitpid(process_, nullptr, WNOHANG) == 0)
   {
-    // It may want to say something before it goes.
+    // The other side may send a last message before it ends.
     ReadSome(out_.Get(), nullptr);
     ReadSome(err_.Get(), nullptr);
     if (Clock::now() - start > kPatienceAtEnd) kill(process_, SIGKILL);
@@ -113,7 +113,7 @@ std::string HostConnection::LastWords() const
 std::string HostConnection::End()
 {
   in_.Reset();
-  // The end of its output may come a moment before its own.
+  // The pipe may close a moment before the process ends.
   const auto start = Clock::now();
   int status = 0;
   while (waitpid(process_, &status, WNOHANG) == 0)

@@ -1,5 +1,5 @@
-// The process of this machine through which a study speaks to another one, mostly ssh, and what goes to and fro.
-// Nothing here waits. One thread.
+// The connection to another machine for a study: a local process, mostly ssh, and its messages. No function waits,
+// except the destructor for a short time. One thread.
 #pragma once
 
 #include <sys/types.h>
@@ -21,36 +21,36 @@ namespace swarmanoid
 class HostConnection
 {
 public:
-  // Throws std::runtime_error if no process can be started.
+  // Throws std::runtime_error if the process cannot be started.
   explicit HostConnection(const std::vector<std::string>& command);
-  // Ends it, and waits until the other side has ended what it started there, but not for long.
+  // Closes the connection, and waits a short time until the other side has ended the runs that it started there.
   ~HostConnection();
   HostConnection(const HostConnection&) = delete;
   HostConnection& operator=(const HostConnection&) = delete;
 
-  // Sent when there is room.
+  // Sends a message when the pipe has space.
   void Send(StudyMessage kind, std::span<const char> content = {});
-  // Reads and writes what can be; false when the other side has gone.
+  // Reads and writes without waiting; returns false when the other side has gone.
   bool Exchange();
-  // The next message; nothing if it is not whole yet. Throws FrameError.
+  // Returns the next message; nothing if it is not complete yet. Throws FrameError.
   std::optional<std::vector<char>> Next() { return frames_.Next(); }
 
-  // What to wait for.
+  // Returns the descriptor to wait for.
   int Output() const { return out_.Get(); }
   int InputIfFull() const { return unsent_.empty() ? -1 : in_.Get(); }
 
   using Clock = std::chrono::steady_clock;
   Clock::time_point Heard() const { return heard_; }
   Clock::time_point Said() const { return said_; }
-  // Tells the other side that nothing more comes.
+  // Tells the other side that no more messages come.
   void Close() { in_.Reset(); }
-  // How it ended, or why it does not speak as it should: the end of the process with the last line of its errors.
+  // Returns why the connection ended or violates the protocol: the end of the process with the last line of its errors.
   std::string End();
-  // What it said last on standard error, or before it spoke as it should.
+  // Returns the last line on standard error, or the output before the first message.
   std::string LastWords() const;
 
 private:
-  // False when it is at its end.
+  // Returns false at the end of the file.
   bool ReadSome(int file, std::string* text);
   bool WriteSome();
 

@@ -17,10 +17,10 @@ namespace swarmanoid
 namespace
 {
 
-// What a machine has been given lasts about so long, in seconds, but is no more than so many runs of a core.
+// The orders given to a machine last about so long, in seconds. Their number is also limited for each core.
 constexpr double kOrdersAhead_s = 0.5;
 constexpr double kMostAhead = 50;
-// Until it has loaded all experiments, a machine is silent.
+// A machine sends nothing until it has loaded all experiments.
 constexpr std::chrono::seconds kPatienceAtStart(600);
 
 bool IsThisMachine(const std::string& name) { return name == "here" || name == "localhost"; }
@@ -46,7 +46,7 @@ HostPool::HostPool(const Machines& machines, const std::vector<char>& setup, std
   }
 }
 
-// All are told before one is waited for.
+// All connections are closed before the first one is waited for.
 HostPool::~HostPool()
 {
   for (const Machine& machine : machines_)
@@ -71,7 +71,7 @@ void HostPool::Give(RunOrder order)
   Distribute();
 }
 
-// Each goes where the fewest wait for a core.
+// Each order goes to the machine with the fewest waiting orders for a core.
 void HostPool::Distribute()
 {
   while (!waiting_.empty())

@@ -1,4 +1,4 @@
-// Other machines that run a study, each reached by a process of its own (ssh). The orders of one that is lost go to the
+// Other machines that run a study, each reached by its own process (ssh). The orders of a lost machine go to the
 // others. One thread.
 #pragma once
 
@@ -17,7 +17,7 @@ namespace swarmanoid
 class HostPool final : public Executor
 {
 public:
-  // `setup`: as SetupOf says. `folder`: that of the study, for what runs leave. Throws UsageError if the hosts have no
+  // `setup`: from SetupOf. `folder`: that of the study, for the files of runs. Throws UsageError if the hosts have no
   // machine for runs.
   HostPool(const Machines& machines, const std::vector<char>& setup, std::string folder);
   ~HostPool() override;
@@ -34,7 +34,7 @@ private:
   struct Machine
   {
     std::string name;
-    std::unique_ptr<HostConnection> connection;  // none: it is lost
+    std::unique_ptr<HostConnection> connection;  // nullptr: the machine is lost
     unsigned slots = 0;                          // 0 until it is ready
     std::deque<RunOrder> orders;
     std::string lost_by;
@@ -50,9 +50,9 @@ private:
   std::string folder_;
   std::chrono::seconds lease_;
   std::vector<Machine> machines_;
-  std::vector<std::unique_ptr<HostConnection>> leaving_;  // of lost machines, which are waited for at the end
-  std::deque<RunOrder> waiting_;                          // for a machine
-  std::size_t orders_of_slot_ = 1;  // more if runs are short, so that no machine waits for the network
+  std::vector<std::unique_ptr<HostConnection>> leaving_;  // connections to lost machines; the end waits for them
+  std::deque<RunOrder> waiting_;                          // orders that wait for a machine
+  std::size_t orders_of_slot_ = 1;  // larger if runs are short, so that no machine waits for the network
   std::vector<std::string> notes_;
 };
 

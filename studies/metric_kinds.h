@@ -1,4 +1,4 @@
-// The kinds of metrics, by what they are about: one metrics_*.cpp each. docs/studies.md describes them.
+// The kinds of metrics, grouped by subject into the files metrics_*.cpp. docs/studies.md describes them.
 #pragma once
 
 #include <limits>
@@ -10,13 +10,13 @@ namespace swarmanoid
 
 inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-// Each makes its own kinds, and nullptr for others. Throws ConfigurationError if the metric does not fit the
-// experiment.
+// Each function makes the metrics of its kinds, and returns nullptr for others. Throws ConfigurationError if the metric
+// does not fit the experiment.
 using MakeMetricOf = std::unique_ptr<Metric>(const MetricChoice& choice, const std::vector<std::uint32_t>& entities,
                                              const Experiment& experiment);
 MakeMetricOf MakeMotionMetric, MakeSwarmMetric, MakePlaceMetric, MakeContactMetric, MakeValueMetric;
 
-// Of no entities.
+// Returns whether experiment functions publish the value, so that it belongs to no entity.
 bool IsPublishedByFunctions(const MetricChoice& choice);
 std::unique_ptr<Metric> MakeFunctionMetric(const MetricChoice& choice, const Experiment& experiment);
 

@@ -1,4 +1,4 @@
-// Whom each robot touches.
+// Metrics of contacts between robots.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -13,7 +13,7 @@ namespace
 
 using Entities = std::vector<std::uint32_t>;
 
-// Bodies are upright cylinders and boxes; those that are apart by height do not touch.
+// Bodies are upright cylinders and boxes. Bodies at different heights do not touch.
 class CollisionsMetric : public Metric
 {
 public:
@@ -43,7 +43,7 @@ public:
     const CSwarmanoidSpace& space = simulator.GetSpace();
     const PoseArrays& poses = space.Poses();
     touching_.clear();
-    // Along x; nearly sorted from the tick before.
+    // The bodies are sorted along x, and nearly sorted from the tick before.
     std::sort(rounds_.begin(), rounds_.end(),
               [&](const Round& a, const Round& b)
               { return std::pair(poses.x[a.entity], a.entity) < std::pair(poses.x[b.entity], b.entity); });
@@ -117,7 +117,7 @@ private:
   double largest_m_ = 0;
   std::vector<Round> rounds_;
   std::vector<Box> boxes_;
-  std::vector<std::uint32_t> of_;                 // the place in entities_ of each entity
+  std::vector<std::uint32_t> of_;                 // the index in entities_ of each entity
   std::vector<std::uint64_t> touching_, before_;  // pairs of entities, sorted
   std::vector<double> begun_;
 };

@@ -1,4 +1,4 @@
-// How each entity moves, and what it spends on that.
+// Metrics of motion and energy.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ public:
     {
       if (!space.IsPresent(entities_[i]))
       {
-        last_[i] = Vector3::Constant(kNoValue);  // where it comes back is no way
+        last_[i] = Vector3::Constant(kNoValue);  // a return to the arena counts as no motion
         continue;
       }
       const Vector3 now = space.GetPose(entities_[i]).position;
@@ -71,8 +71,8 @@ private:
   std::vector<Vector3> first_;
 };
 
-// Work of the drive, and what a robot takes while it stands. The wheels roll as the body moves: its way along its
-// heading, and half the axle for each radian that it turns.
+// The work of the drive, and the power of a standing robot. The wheels roll as the body moves: its way along its
+// heading, and half the axle for each radian of turn.
 class EnergyMetric : public Metric
 {
 public:
@@ -106,7 +106,7 @@ public:
     {
       if (!space.IsPresent(entities_[i]))
       {
-        last_[i] = {};  // where it comes back it stands
+        last_[i] = {};  // after its return the entity starts at rest
         continue;
       }
       const Pose now = space.GetPose(entities_[i]);
@@ -130,7 +130,8 @@ private:
     const Vector3 before = last.pose.orientation * Vector3::UnitX();
     const Vector3 after = now.orientation * Vector3::UnitX();
     const Vector3 way = now.position - last.pose.position;
-    // Half way through the turn; a turn by half a circle has no middle, and is one on the spot.
+    // The heading is taken half way through the turn. A turn by half a circle has no middle, and counts as a turn on
+    // the spot.
     const Vector3 middle = before + after;
     const double ahead_m = middle.norm() > 1e-9 ? way.dot(middle) / middle.norm() : 0;
     const double turned_m = half_axle_m * std::atan2(before.cross(after).z(), before.dot(after));

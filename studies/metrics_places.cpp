@@ -1,4 +1,4 @@
-// Where entities are, or have been.
+// Metrics of positions, present and past.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -97,7 +97,7 @@ public:
       throw ConfigurationError(tree.ValueLocation("entity"),
                                fmt::format("the experiment has no entity {}{}", Quoted(id), DidYouMean(id, ids)));
     const Vector3& size = experiment.entities[*entity_].size;
-    // Discs and cylinders have their radius twice and a height, or none; y is 0 of a disc of the floor.
+    // Discs and cylinders have their radius twice and a height. A disc of the floor has y = 0.
     const bool is_disc = size.y() == 0 || DescriptionOf(experiment.entities[*entity_].kind).form == BodyForm::kCylinder;
     if (is_disc)
       radius_ = size.x();

@@ -1,4 +1,4 @@
-// How entities stand to one another.
+// Metrics of the arrangement of entities.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace
 
 using Entities = std::vector<std::uint32_t>;
 
-// Of where the entities are that are present.
+// A metric of the positions of the present entities.
 class PlacesMetric : public Metric
 {
 public:
@@ -57,7 +57,7 @@ private:
   }
 };
 
-// The order parameter of Vicsek et al. (1995), equation 3, over headings in the plane.
+// Computes the order parameter of Vicsek et al. (1995), equation 3, over headings in the plane.
 class PolarisationMetric : public Metric
 {
 public:

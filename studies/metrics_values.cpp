@@ -1,4 +1,4 @@
-// Numbers that others know: attributes of entities, and what controllers and functions publish.
+// Metrics of values from elsewhere: attributes of entities, and values that controllers and functions publish.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -82,7 +82,7 @@ public:
   {
   }
 
-  // Only until one robot has published it.
+  // The search ends once one robot has published the value.
   void Look(CSimulator& simulator) override
   {
     for (std::size_t i = 0; i < entities_.size() && !is_seen_; ++i)
@@ -94,7 +94,7 @@ public:
     for (const std::uint32_t index : entities_)
       if (space.IsPresent(index)) values.push_back(NumberOf(space, index).value_or(kNoValue));
   }
-  // A report has 16 bits of each name, so that the names that were published are not known.
+  // A report has only 16 bits of each name, so that the message cannot list the published names.
   void RequireSeen(std::uint64_t ticks) const override
   {
     if (!is_seen_)

@@ -19,7 +19,7 @@ struct AlgorithmRow
   const char* name;
   nlopt_algorithm algorithm;
   bool is_local;
-  std::size_t population_per_dimension;  // of its own: so many times one more than the dimensions; 0: it has none
+  std::size_t population_per_dimension;  // its own population: this number times (dimensions + 1); 0: it has none
 };
 
 constexpr AlgorithmRow kAlgorithms[] = {
@@ -40,7 +40,7 @@ struct OptimiserDeleter
   void operator()(nlopt_opt optimiser) const { nlopt_destroy(optimiser); }
 };
 
-// One pass of the algorithm over what is known.
+// One pass of the algorithm over the known values.
 struct Pass
 {
   Pass(const Optimiser::Known& known_values, std::function<std::size_t(std::size_t)> end)
@@ -74,7 +74,7 @@ struct Pass
       best = std::min(best, value);
       worst = std::max(worst, value);
     }
-    // Whatever it asks for later could depend on what it wants to know.
+    // Later questions could depend on the missing values.
     if (!wanted.empty() && question == end_of_generation(question)) Stop();
     return value;
   }
@@ -85,7 +85,7 @@ struct Pass
   }
 };
 
-// No exception may cross the library, which is C.
+// No exception may cross the library, which is written in C.
 double AnswerOfPass(unsigned dimensions, const double* place, double*, void* data)
 {
   Pass& pass = *static_cast<Pass*>(data);
@@ -131,7 +131,7 @@ Optimiser::Optimiser(const SearchChoice& search, std::vector<double> start, int 
 
 std::size_t Optimiser::EndOfGeneration(std::size_t question) const
 {
-  // ISRES asks for whole generations; CRS for its first one, then for one place after the other.
+  // ISRES asks for whole generations. CRS asks for a first generation, then for one place after the other.
   if (population_ == 0 || (search_.algorithm == "crs" && question >= population_)) return question;
   return question / population_ * population_ + population_ - 1;
 }
@@ -160,7 +160,7 @@ std::vector<std::vector<double>> Optimiser::Next(const Known& known) const
   double value = 0;
   const nlopt_result result = nlopt_optimize(optimiser.get(), place.data(), &value);
   if (pass.failure) std::rethrow_exception(pass.failure);
-  // A local one that can no longer tell its rounding errors from progress is at its end.
+  // A local algorithm that cannot distinguish rounding errors from progress is finished.
   if (result < 0 && result != NLOPT_FORCED_STOP && result != NLOPT_ROUNDOFF_LIMITED)
   {
     const char* reason = nlopt_get_errmsg(optimiser.get());

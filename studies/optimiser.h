@@ -1,6 +1,5 @@
-// An algorithm of NLopt that can be asked what it wants to know next. It has no state that would have to be kept: each
-// time it starts from its beginning and gets the values that are known again, which gives the same questions again. One
-// thread.
+// Asks an algorithm of NLopt for the next values that it needs. It has no state to store: each call starts the
+// algorithm again and gives it the known values, which leads to the same questions. One thread.
 #pragma once
 
 #include <functional>
@@ -19,7 +18,7 @@ struct KnownValue
   {
     kUnknown,
     kValue,
-    kRefused  // a place that may not be tried, or has no value
+    kRefused  // a place that is not allowed, or has no value
   };
   Kind kind = Kind::kUnknown;
   double value = 0;
@@ -28,19 +27,19 @@ struct KnownValue
 class Optimiser
 {
 public:
-  // A place in the unit cube. Called again for places that were asked for before.
+  // Returns the value at a place in the unit cube. It is called again for earlier places.
   using Known = std::function<KnownValue(std::span<const double> place)>;
 
-  // `most_questions`: of one search, known ones too. Throws ConfigurationError if the algorithm takes no such
-  // population.
+  // `most_questions`: the limit of one search, including known ones. Throws ConfigurationError if the algorithm does
+  // not accept the population.
   Optimiser(const SearchChoice& search, std::vector<double> start, int most_questions);
 
-  // Places whose value it needs, which do not depend on one another; none if it has ended. The first one is the start.
-  // Smaller values are better. What is refused counts as worse than all that was known before.
+  // Returns places whose value the algorithm needs and that do not depend on each other; none if it has ended. The
+  // first one is the start. Smaller values are better. A refused place counts as worse than all values known before.
   std::vector<std::vector<double>> Next(const Known& known) const;
 
 private:
-  // The last of the questions that go together with this one: they are counted from 0.
+  // Returns the last question in the generation of this one; questions are counted from 0.
   std::size_t EndOfGeneration(std::size_t question) const;
 
   const SearchChoice& search_;
@@ -49,7 +48,7 @@ private:
   std::size_t population_;  // 0: the algorithm has none
 };
 
-// Those that <search> may name.
+// Returns the algorithms that <search> may name.
 const std::vector<std::string>& SearchAlgorithms();
 
 }  // namespace swarmanoid

@@ -17,7 +17,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 bool HasColumns(const MetricChoice& choice) { return choice.kind != "trajectories"; }
 
-// Of sorted values, between 0 and 1.
+// Returns the quantile (0 to 1) of sorted values.
 double Quantile(const std::vector<double>& sorted, double share)
 {
   const double place = share * static_cast<double>(sorted.size() - 1);
@@ -40,7 +40,7 @@ double Aggregate(const std::string& name, std::vector<double>& values)
   const auto count = static_cast<double>(values.size());
   if (name == "count") return count;
   if (values.empty()) return kNone;
-  // Sums run in the order of the values, so that they do not depend on that of the entities.
+  // Sums run in the order of the values, so that they do not depend on the order of the entities.
   std::sort(values.begin(), values.end());
   if (name == "sum") return SumOf(values);
   if (name == "min") return values.front();

@@ -1,5 +1,5 @@
-// Measures a run as the <metrics> of its study say, from the space that it is shown at each tick: in one process and in
-// a cluster the same. One object a run; one thread.
+// Measures a run by the <metrics> of its study, from the space at each tick. It gives the same results in one process
+// and in a cluster. One object for each run; one thread.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,10 @@
 namespace swarmanoid
 {
 
-// What was measured.
+// The measurements of a run.
 struct RunSamples
 {
-  // How often each cell of a grid over the arena was visited: one for each <coverage>.
+  // The number of visits to each cell of a grid over the arena. Each <coverage> has one grid.
   struct Grid
   {
     std::string metric;
@@ -28,16 +28,16 @@ struct RunSamples
   };
   std::vector<std::uint64_t> ticks;
   double tick_s = 0;
-  std::vector<double> values;  // ticks by columns; NaN: none
+  std::vector<double> values;  // ticks by columns; NaN: no value
   std::vector<Grid> grids;
-  std::vector<std::string> followed;  // entities of <trajectories>
-  std::vector<float> ways;            // ticks by entities by x, y; NaN: not in the arena
+  std::vector<std::string> followed;  // the entities of <trajectories>
+  std::vector<float> ways;            // ticks by entities by x, y; NaN: outside the arena
 
   void Write(ByteWriter& bytes) const;
   static RunSamples Read(ByteReader& bytes);
 };
 
-// Of the table, without those that name a run: "travelled.mean", "polarisation".
+// Returns the columns of the table except those that identify a run: "travelled.mean", "polarisation".
 std::vector<std::string> MetricColumns(const Study& study);
 
 class Metric;
@@ -45,17 +45,18 @@ class Metric;
 class Recorder
 {
 public:
-  // Both outlive it. Throws ConfigurationError, with the place in the study, if a metric does not fit the experiment.
+  // Both must outlive the object. Throws ConfigurationError, with the position in the study, if a metric does not fit
+  // the experiment.
   Recorder(const Study& study, const Experiment& experiment);
   ~Recorder();
 
-  // At each tick, from the first one on.
+  // Call it at each tick, from the first one on.
   void Look(CSimulator& simulator);
-  // Behind Look, at a tick that may be the last one: its row is there whether or not it is due. If another tick comes,
-  // a row that is not due is dropped.
+  // Call it after Look at a tick that may be the last one. It adds a row also if none is due. If another tick follows,
+  // that row is removed.
   void LookLast(CSimulator& simulator);
-  // At the end of the run. Throws ConfigurationError, with the place in the study, for a published number whose name
-  // the run never published.
+  // Call it at the end of the run. Throws ConfigurationError, with the position in the study, for a published value
+  // whose name the run never published.
   RunSamples Take();
 
 private:

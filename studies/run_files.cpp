@@ -31,7 +31,7 @@ RunFiles RunFiles::Collect(const std::string& folder, std::uint64_t most_bytes)
   std::vector<fs::path> found;
   for (fs::recursive_directory_iterator entry(folder, none), end; entry != end; entry.increment(none))
     if (entry->is_regular_file(none) && !entry->is_symlink(none)) found.push_back(entry->path());
-  // Why it failed stands there.
+  // The log, which explains a failure, comes first.
   std::sort(found.begin(), found.end());
   std::stable_partition(found.begin(), found.end(), [](const fs::path& path) { return path.extension() == ".txt"; });
   for (const fs::path& path : found)

@@ -1,4 +1,4 @@
-// What a run left in its folder, on its way from the machine that ran it to the folder of its study.
+// The files in the folder of a run, for the transfer from the machine that ran it to the folder of its study.
 #pragma once
 
 #include <string>
@@ -13,11 +13,11 @@ namespace swarmanoid
 struct RunFiles
 {
   std::vector<std::pair<std::string, std::vector<char>>> files;  // path below the folder of the run, and content
-  std::vector<std::string> left_out;                             // there were more bytes than `most`
+  std::vector<std::string> left_out;                             // files beyond `most` bytes
 
-  // All regular files below a folder, the log first; none if it is not there.
+  // Returns all regular files below a folder, the log first; none if the folder does not exist.
   static RunFiles Collect(const std::string& folder, std::uint64_t most_bytes);
-  // Into a folder, in whose place there may be another one. Throws std::runtime_error that names the file.
+  // Writes the files into a folder, and replaces an existing one. Throws std::runtime_error with the name of the file.
   void Keep(const std::string& folder) const;
 
   void Write(ByteWriter& bytes) const;

@@ -48,7 +48,7 @@ void RunHereMeasured(const Study& study, const std::string& folder, const Experi
   SimulatorOptions options;
   options.output_folder = folder;
   options.visualisations = study.visualisations;
-  options.threads = 1;  // the other cores have runs of their own
+  options.threads = 1;  // the other cores execute their own runs
   CSimulator simulator(experiment, options);
   do recorder.Look(simulator);
   while (simulator.Step());
@@ -85,7 +85,7 @@ void RunClusterMeasured(const Study& study, const std::string& folder, const Run
   outcome.samples = recorder.Take();
 }
 
-// In the copy of the process. What is wrong is told on standard error, which is the log of the run.
+// Runs in the copy of the process. Mistakes go to standard error, which is the log of the run.
 [[noreturn]] void RunAndLeave(const Study& study, const std::string& folder, const RunOrder& order,
                               const Experiment& experiment, int log, int result)
 {
@@ -127,7 +127,7 @@ void RunClusterMeasured(const Study& study, const std::string& folder, const Run
   LeaveAtOnce(told ? kExitDone : kExitProcessFailed);
 }
 
-// The last line of the log that says something.
+// Returns the last non-empty line of the log.
 std::string LastLineOf(const std::string& path)
 {
   std::ifstream file(path);
@@ -137,7 +137,7 @@ std::string LastLineOf(const std::string& path)
   return last.substr(0, 1000);
 }
 
-// What a process wrote that told its outcome whole.
+// Reads an outcome; returns false if the process did not write it completely.
 bool ReadOutcome(int result, RunOutcome& outcome)
 {
   const off_t size = lseek(result, 0, SEEK_END);
@@ -161,7 +161,7 @@ bool ReadOutcome(int result, RunOutcome& outcome)
   }
 }
 
-// Keeps what the run has left: files of functions and visualisations, what controllers logged, why it failed.
+// Keeps the files of the run: those of functions and visualisations, logs of controllers, and the reason of a failure.
 void Tidy(const std::string& folder, bool done)
 {
   std::error_code none;
@@ -170,7 +170,7 @@ void Tidy(const std::string& folder, bool done)
     const fs::path path = fs::path(folder) / log;
     if (done && fs::file_size(path, none) == 0) fs::remove(path, none);
   }
-  rmdir(folder.c_str());  // if it is empty
+  rmdir(folder.c_str());  // removes the folder only if it is empty
 }
 
 void RunLoaded(const Study& study, const std::string& folder, const RunOrder& order, const Experiment& experiment,

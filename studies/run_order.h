@@ -1,4 +1,4 @@
-// One run of a study, as it is told to a process that runs it, and what came of it.
+// The order for one run of a study, and its outcome.
 #pragma once
 
 #include <cstdint>
@@ -24,24 +24,25 @@ struct RunOrder
 struct RunOutcome
 {
   RunName name;
-  int exit_code = 0;  // as `swarmanoid run` has it; 128 + signal of a process that was killed
+  int exit_code = 0;  // exit code of `swarmanoid run`; 128 + signal for a killed process
   std::string failure;
   std::uint64_t ticks = 0;
   std::uint64_t hash = 0;
-  double wall_s = 0;  // with reading the experiment
+  double wall_s = 0;  // including the time to read the experiment
   std::uint64_t peak_bytes = 0;
   RunSamples samples;
-  std::string host;  // that ran it; empty: this machine
+  std::string host;  // the machine that ran it; empty: this one
 
-  // Whether it has a result: it ended by itself, with success or by the experiment's own measure without.
+  // Returns whether it has a result: it ended by itself, with success or with a failure by the experiment's own
+  // condition.
   bool IsDone() const { return exit_code == 0 || exit_code == 1; }
   void Write(ByteWriter& bytes) const;
   static RunOutcome Read(ByteReader& bytes);
 };
 
-// Runs it in a process of its own, which is a copy of this one and so has all plug-ins that this one has loaded. The
-// folder of the run is `<study_folder>/runs/<name>`; if the run leaves nothing there, and has a result, it is removed.
-// For a process with one thread.
+// Executes the run in a separate process, a copy of this one that has all loaded plug-ins. The folder of the run is
+// `<study_folder>/runs/<name>`. It is removed if the run leaves no files and has a result. The calling process must
+// have one thread.
 RunOutcome RunInCopy(const Study& study, const std::string& study_folder, const RunOrder& order);
 
 }  // namespace swarmanoid

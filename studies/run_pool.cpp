@@ -28,7 +28,7 @@ namespace
 
 constexpr double kShortRun_s = 0.5;
 
-// What is free now, or could be.
+// Returns the bytes of memory that are free or can be freed.
 std::uint64_t AvailableMemory()
 {
   std::ifstream file("/proc/meminfo");
@@ -45,7 +45,7 @@ bool SendFrame(int socket, const ByteWriter& content)
   return WriteAll(socket, {frame.Bytes().data(), frame.Bytes().size()});
 }
 
-// False at the end of what comes.
+// Returns false at the end of the data.
 bool ReadWhole(int socket, char* into, std::size_t count)
 {
   while (count > 0)
@@ -61,7 +61,7 @@ bool ReadWhole(int socket, char* into, std::size_t count)
 
 [[noreturn]] void Work(const Study& study, const std::string& folder, int socket)
 {
-  // What each run would find out anew, it has from here.
+  // The runs inherit what is computed here, and need not compute it again.
   EnsureSignalStack();
   OwnBuild();
   std::uint64_t size = 0;
@@ -82,7 +82,7 @@ void Pin(int core)
   cpu_set_t set;
   CPU_ZERO(&set);
   CPU_SET(static_cast<unsigned>(core), &set);
-  sched_setaffinity(0, sizeof set, &set);  // if it is forbidden, the kernel chooses
+  sched_setaffinity(0, sizeof set, &set);  // if it is forbidden, the kernel chooses the core
 }
 
 }  // namespace
@@ -130,7 +130,7 @@ void RunPool::Start(Worker& worker)
   {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) LeaveAtOnce(0);
-    setpgid(0, 0);  // Ctrl-C at a terminal is for who supervises
+    setpgid(0, 0);  // Ctrl-C at a terminal must reach only the supervising process
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
     for (const Worker& other : workers_)
       if (other.socket >= 0) close(other.socket);
@@ -161,7 +161,7 @@ void RunPool::Give(RunOrder order)
   worker.orders.push_back(std::move(order));
 }
 
-// One that has died is noticed when its answer is waited for.
+// A dead worker is noticed when its answer is awaited.
 void RunPool::Send(Worker& worker, const RunOrder& order)
 {
   ByteWriter bytes;
@@ -202,7 +202,7 @@ std::vector<RunOutcome> RunPool::Wait(std::chrono::milliseconds longest, int inp
 
 bool RunPool::Receive(Worker& worker)
 {
-  constexpr std::size_t kChunk = 1U << 16U;  // cleared each time
+  constexpr std::size_t kChunk = 1U << 16U;  // the buffer is cleared each time
   const std::size_t before = worker.received.size();
   worker.received.resize(before + kChunk);
   const ssize_t got = read(worker.socket, worker.received.data() + before, kChunk);
@@ -227,7 +227,7 @@ void RunPool::TakeOutcomes(Worker& worker, std::vector<RunOutcome>& outcomes)
   }
 }
 
-// The process died while it read an experiment, or was killed. Another one takes its place.
+// Replaces a process that died while it read an experiment, or was killed.
 void RunPool::Bury(Worker& worker, std::vector<RunOutcome>& outcomes)
 {
   int status = 0;

@@ -1,5 +1,5 @@
-// The processes of this machine that run a study: one a core, each with one run at a time. They are copies of this
-// process, made when it has loaded the plug-ins, and end with it, also if it is killed. One thread.
+// The processes of this machine that run a study: one for each core, each with one run at a time. They are copies of
+// this process, made after it has loaded the plug-ins. They end with it, also if it is killed. One thread.
 #pragma once
 
 #include <sys/types.h>
@@ -17,17 +17,17 @@ namespace swarmanoid
 class RunPool final : public Executor
 {
 public:
-  // `jobs`: processes. Both texts and the study outlive it.
+  // `jobs`: the number of processes. `study` must outlive the object.
   RunPool(const Study& study, std::string folder, unsigned jobs);
   ~RunPool() override;
 
-  // Whether some process takes another run. Those that would need more memory than there is, as their largest
-  // predecessor did, wait until others have ended.
+  // Returns whether a process accepts another run. If the next run might exceed the memory, judged by the largest run
+  // so far, it waits until others have ended.
   bool HasRoom() const override { return FreeWorker() != workers_.size(); }
   void Give(RunOrder order) override;
   bool IsIdle() const override;
   std::vector<RunOutcome> Wait(std::chrono::milliseconds longest) override { return Wait(longest, -1); }
-  // The same, but no longer than until there is something to read from `input`.
+  // Waits as above, at most until there is data to read from `input`.
   std::vector<RunOutcome> Wait(std::chrono::milliseconds longest, int input);
   std::vector<RunningRun> Running() const override;
   unsigned Slots() const override { return static_cast<unsigned>(workers_.size()); }
@@ -37,7 +37,7 @@ private:
   {
     pid_t process = -1;
     int socket = -1;
-    std::deque<RunOrder> orders;  // the first one runs
+    std::deque<RunOrder> orders;  // the first one is in progress
     std::vector<char> received;
   };
 
@@ -50,14 +50,14 @@ private:
 
   const Study& study_;
   std::string folder_;
-  std::uint64_t memory_bytes_ = 0;  // for all of them
+  std::uint64_t memory_bytes_ = 0;  // for all processes
   std::uint64_t peak_bytes_ = 0;    // of the largest run so far
-  // Behind a short run another one waits, so that no process waits for this one; a long one is not waited for long.
+  // Short runs are queued behind each other, so that no process waits for this one. Long runs are not queued.
   std::size_t orders_of_worker_ = 1;
   std::vector<Worker> workers_;
 };
 
-// Cores that this process may use.
+// Returns the cores that this process may use.
 std::vector<int> UsableCores();
 
 }  // namespace swarmanoid

@@ -31,7 +31,7 @@ namespace
 using namespace std::chrono_literals;
 using SearchClock = std::chrono::steady_clock;
 
-// An algorithm that asks for nothing new, as all values of whole numbers are known, comes to an end.
+// This limit ends an algorithm that only asks for known values, for example if all whole numbers are known.
 constexpr std::size_t kQuestionsOfPoint = 50;
 
 std::size_t MostPoints(const Study& study) { return std::max<std::size_t>(1, study.search->runs / study.seeds.size()); }
@@ -41,7 +41,7 @@ int MostQuestions(const Study& study)
   return static_cast<int>(std::min<std::size_t>(kQuestionsOfPoint * (1000 + MostPoints(study)), 1'000'000'000));
 }
 
-// Of the runs of one search, in this process or before.
+// The state of one search, over the runs of this process and earlier ones.
 class Searcher
 {
 public:
@@ -102,7 +102,7 @@ public:
 private:
   std::size_t MostPoints() const { return swarmanoid::MostPoints(study_); }
 
-  // Why it has ended; empty if it was interrupted, or a run failed.
+  // Returns why the search has ended; empty if it was interrupted, or if a run failed.
   std::string Search(RunPool& pool)
   {
     while (true)
@@ -158,7 +158,7 @@ private:
                        });
   }
 
-  // Of a point whose runs are done; none if one of them has no value.
+  // Returns the value of a point whose runs are done; nothing if one of them has no value.
   std::optional<double> ValueOf(std::uint32_t point) const { return ValueOver(point, study_.seeds); }
   std::optional<double> ValueOver(std::uint32_t point, const std::vector<std::uint64_t>& seeds) const
   {
@@ -173,7 +173,7 @@ private:
     return std::isnan(whole) ? std::nullopt : std::optional(whole);
   }
 
-  // A new one if there are not too many.
+  // Returns the point of these values. It is made if it is new and the limit is not reached.
   std::optional<std::uint32_t> PointAt(const std::vector<ExpressionValue>& values)
   {
     const std::string text = space_.Text(values);
@@ -186,7 +186,7 @@ private:
     return point;
   }
 
-  // Of the points that are done; the first of equal ones.
+  // Returns the best of the finished points; the first of equal ones.
   std::optional<std::uint32_t> Best() const
   {
     std::optional<std::uint32_t> best;
@@ -203,7 +203,7 @@ private:
 
   std::string EndOfPatience() const
   {
-    // With a part of a generation done before, it went on there.
+    // An earlier process may have ended within a generation; the search continues there.
     for (std::uint32_t point = 0; point < values_.size(); ++point)
       if (!IsRun(point)) return "";
     const auto best = search_.patience == 0 ? std::nullopt : Best();
@@ -234,7 +234,7 @@ private:
     return RunAll(pool, runs);
   }
 
-  // False if they are not all done.
+  // Returns false if not all runs are done.
   bool RunAll(RunPool& pool, const std::vector<RunName>& runs)
   {
     std::deque<RunName> queue(runs.begin(), runs.end());
@@ -331,9 +331,9 @@ private:
   std::string experiment_;
   std::size_t column_ = 0;
   std::map<std::string, std::uint32_t> point_of_;     // by the text of its values
-  std::vector<std::vector<ExpressionValue>> values_;  // of each point
-  std::map<RunName, double> results_;                 // of runs that are done; NaN: no value
-  std::map<RunName, unsigned> attempts_;              // that failed, of all runs that were asked for
+  std::vector<std::vector<ExpressionValue>> values_;  // by point
+  std::map<RunName, double> results_;                 // by finished run; NaN: no value
+  std::map<RunName, unsigned> attempts_;              // failed attempts, by requested run
   bool has_failed_ = false;
   bool terminal_ = isatty(STDERR_FILENO) != 0;
   bool is_shown_ = false;

@@ -25,7 +25,7 @@ double ValueAt(const SearchRange& range, double share)
                                    : range.from + clipped * (range.to - range.from);
   if (range.step > 0)
   {
-    // Each value of a linear range has an equal share of the side.
+    // Each value of a linear range has an equal part of the side.
     const double last = StepsOf(range) - 1;
     const double number =
         range.logarithmic ? std::round((value - range.from) / range.step) : std::floor(clipped * StepsOf(range));

@@ -1,4 +1,4 @@
-// What a search may try: the ranges of its factors as the unit cube, with one side for each. One thread.
+// The values that a search may try: the ranges of its factors as sides of the unit cube. One thread.
 #pragma once
 
 #include <span>
@@ -13,25 +13,25 @@ namespace swarmanoid
 class SearchSpace
 {
 public:
-  // `study` has a search, and outlives it.
+  // `study` has a search and must outlive the object.
   explicit SearchSpace(const Study& study);
 
-  // Where the search begins.
+  // Returns the place where the search begins.
   std::vector<double> Start() const;
-  // Of all factors, fixed ones too, in the order of the study. `place` is in the unit cube. Numbers have twelve digits,
-  // so that their texts are them.
+  // Returns the values of all factors, including fixed ones, in the order of the study. `place` is in the unit cube.
+  // Numbers are rounded to twelve digits, so that their texts are exact.
   std::vector<ExpressionValue> Values(std::span<const double> place) const;
-  // Whether the conditions of the study allow it.
+  // Returns whether the conditions of the study allow the values.
   bool Allows(const std::vector<ExpressionValue>& values) const;
-  // What --set gets, besides the seed.
+  // Returns the values for --set, except the seed.
   StudySettings Settings(const std::vector<ExpressionValue>& values) const;
-  // "speed=0.05 robots=20"
+  // Returns a text such as "speed=0.05 robots=20".
   std::string Text(const std::vector<ExpressionValue>& values) const;
 
 private:
   const Study& study_;
   std::vector<const Factor*> factors_;
-  std::vector<std::size_t> searched_;  // places in factors_
+  std::vector<std::size_t> searched_;  // indices in factors_
   std::vector<Expression> conditions_;
 };
 

@@ -21,7 +21,7 @@ namespace swarmanoid
 namespace
 {
 
-// Of the study itself: option, short form.
+// The options that the study itself sets, with their short form.
 constexpr std::array<std::pair<const char*, const char*>, 8> kOwnOptions{{{"--array", "-a"},
                                                                           {"--output", "-o"},
                                                                           {"--error", "-e"},
@@ -44,7 +44,7 @@ std::string ReadAllOf(int file)
   }
 }
 
-// What a command wrote, on standard output and standard error. Throws SlurmError if it failed.
+// Returns the output of a command on standard output and standard error. Throws SlurmError if it failed.
 std::string OutputOf(const std::vector<std::string>& words)
 {
   Pipe output = MakePipe();
@@ -52,7 +52,7 @@ std::string OutputOf(const std::vector<std::string>& words)
   pid_t process = 0;
   try
   {
-    // Ctrl-C is for the study, which cancels.
+    // Ctrl-C must reach only the study, which cancels the job.
     process = Spawn({.words = words, .output = output.write.Get(), .errors = output.write.Get(), .leads_group = true});
   }
   catch (const std::runtime_error& error)
@@ -89,7 +89,7 @@ std::string SubmitArray(const std::string& script, const std::string& log, std::
       fmt::format("--array=0-{}{}", tasks - 1, at_a_time == 0 ? "" : fmt::format("%{}", at_a_time))};
   words.insert(words.end(), options.begin(), options.end());
   words.push_back(script);
-  // Warnings may stand before it; behind it, the name of the cluster.
+  // Warnings may precede the number; the name of the cluster follows it.
   std::string job;
   std::istringstream lines(OutputOf(words));
   for (std::string line; std::getline(lines, line);)

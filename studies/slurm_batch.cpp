@@ -41,7 +41,7 @@ std::string LogOfTask(const std::string& folder, std::size_t task)
   return fmt::format("{}/task-{}.log", folder, task);
 }
 
-// Whole or not at all, also when the machine stops.
+// Writes the file completely or not at all, also if the machine stops.
 void WriteWhole(const std::string& path, std::span<const char> content)
 {
   const std::string draft = fmt::format("{}.{}.new", path, getpid());
@@ -73,7 +73,7 @@ std::vector<char> ReadWholeFile(const std::string& path)
   }
 }
 
-// "12-7"
+// Reads a name such as "12-7".
 std::optional<RunName> NameOfResult(const std::string& file)
 {
   const std::size_t dash = file.find('-');
@@ -130,7 +130,7 @@ std::vector<SlurmBatch> SlurmBatch::FindAll(const std::string& study_folder)
   for (fs::directory_iterator entry(all, none), end; entry != end; entry.increment(none))
   {
     SlurmBatch batch(entry->path().string());
-    // One that was never handed to Slurm, or is done, has nothing that counts.
+    // A batch that was never submitted, or is done, has no results to take.
     std::ifstream job(batch.folder_ + "/job");
     if (!(job >> batch.job_)) continue;
     for (std::size_t task = 0; fs::exists(OrdersFile(batch.folder_, task), none); ++task)
@@ -193,7 +193,7 @@ void SlurmBatch::RemoveTaken()
 void SlurmBatch::Remove()
 {
   std::error_code none;
-  // From now on it is done, whatever else is removed.
+  // Without this file the batch counts as done, even if removing the other files fails.
   fs::remove(folder_ + "/job", none);
   fs::remove_all(folder_, none);
   rmdir(fs::path(folder_).parent_path().c_str());

@@ -16,15 +16,15 @@ namespace
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t kMostTasks = 1000;  // of an array: one less than what slurm.conf allows if nobody changed it
+constexpr std::size_t kMostTasks = 1000;  // the largest array: one less than the default limit in slurm.conf
 constexpr std::size_t kUsualTasks = 200;
-constexpr std::size_t kFewTasks = 100;  // about so many Slurm may be asked often
-// A shared file system shows what another machine wrote a while later.
+constexpr std::size_t kFewTasks = 100;  // up to about this number, Slurm may be asked often
+// A shared file system shows the files of another machine with a delay.
 constexpr auto kPatienceWithFiles = 90s;
 constexpr auto kPatienceWithFailed = 4s;
 constexpr auto kPatienceWithCancel = 60s;
 
-// What to do about an end of a task; empty if that is not known.
+// Returns the cure for an end of a task; empty if it is unknown.
 std::string CureOf(const std::string& state)
 {
   if (state == "TIMEOUT") return "; give it more time (--slurm \"--time=…\") or fewer runs (--runs-per-task)";
@@ -123,7 +123,7 @@ std::vector<RunOutcome> SlurmPool::Wait(std::chrono::milliseconds longest)
     }
     next_question_ = now + (tasks < kFewTasks ? 2s : 15s);
   }
-  // After the question: what an ended task wrote is seen before it is missed.
+  // Results are read after the question, so that the files of an ended task are seen.
   TakeResults(outcomes);
   for (Job& job : jobs_) LoseEnded(job, outcomes);
   return outcomes;
@@ -134,7 +134,7 @@ bool SlurmPool::Ask(Job& job)
   try
   {
     std::map<std::size_t, SlurmTask> tasks = TasksOf(job.batch.Job());
-    // Slurm drops a task at once that is cancelled before it began.
+    // Slurm drops a task at once if it is cancelled before it began.
     for (const auto& [number, before] : job.tasks)
       if (!tasks.contains(number) && (before.state == "PENDING" || before.state == "CANCELLED"))
         tasks[number] = {"CANCELLED", "", ""};
@@ -155,7 +155,7 @@ bool SlurmPool::Ask(Job& job)
     if (task == job.tasks.end() || task->second.HasEnded())
       job.ended.try_emplace(number, Clock::now());
     else
-      job.ended.erase(number);  // it was put into the queue again
+      job.ended.erase(number);  // it is in the queue again
   }
   return true;
 }
@@ -203,7 +203,7 @@ void SlurmPool::Cancel(std::vector<RunOutcome>& outcomes)
     try
     {
       CancelJob(job.batch.Job());
-      // What they have computed until then is taken.
+      // Results that were computed before the cancellation are taken.
       while (HasLiveTask(TasksOf(job.batch.Job())) && Clock::now() - start < kPatienceWithCancel)
         std::this_thread::sleep_for(500ms);
       notes_.push_back(fmt::format("job {} of Slurm is cancelled", job.batch.Job()));

@@ -1,4 +1,4 @@
-// The runs of a study as job arrays of Slurm. Jobs go on when this process ends; another one finds them by the study's
+// Runs a study as job arrays of Slurm. Jobs continue when this process ends; another process finds them by the study's
 // folder. One thread.
 #pragma once
 
@@ -17,21 +17,21 @@ namespace swarmanoid
 
 struct SlurmChoice
 {
-  std::vector<std::string> options;  // for sbatch
-  unsigned tasks_at_a_time = 0;      // 0: as many as Slurm starts
-  unsigned runs_per_task = 0;        // 0: so many that there are 200 tasks at most
+  std::vector<std::string> options;  // options for sbatch
+  unsigned tasks_at_a_time = 0;      // 0: no limit
+  unsigned runs_per_task = 0;        // 0: chosen so that there are at most 200 tasks
 };
 
 class SlurmPool final : public Executor
 {
 public:
-  // Finds the jobs of the study that were submitted before. `setup`: as SetupOf says. Throws std::runtime_error.
+  // Finds earlier jobs of the study. `setup`: from SetupOf. Throws std::runtime_error.
   SlurmPool(SlurmChoice choice, std::vector<char> setup, std::string study_folder);
 
   bool HasRoom() const override { return true; }
   void Give(RunOrder order) override;
   bool IsIdle() const override;
-  // Submits what was given since the last call. After an interrupt it cancels the jobs.
+  // Submits the runs since the last call. After an interrupt it cancels the jobs.
   std::vector<RunOutcome> Wait(std::chrono::milliseconds longest) override;
   std::vector<RunningRun> Running() const override;
   unsigned Slots() const override;
@@ -45,7 +45,7 @@ private:
   {
     SlurmBatch batch;
     std::map<std::size_t, SlurmTask> tasks;
-    std::map<std::size_t, Clock::time_point> ended;  // when that was seen
+    std::map<std::size_t, Clock::time_point> ended;  // time at which the end was seen
   };
 
   void Submit();
@@ -60,11 +60,11 @@ private:
   std::vector<RunOrder> collected_;
   std::vector<Job> jobs_;
   Clock::time_point next_look_, next_question_;
-  bool is_silent_ = false;  // Slurm, and that was told
+  bool is_silent_ = false;  // Slurm does not answer, and the user was told
   std::vector<std::string> notes_;
 };
 
-// Before a study goes on elsewhere: takes what its jobs have computed. Throws UsageError if some go on.
+// Takes the results of the study's jobs before another executor continues it. Throws UsageError if some jobs still run.
 void SettleSlurm(StudyStore& store);
 
 }  // namespace swarmanoid

@@ -21,7 +21,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-// The same for all ways to write one value: 2 and 2.0, or 1,2,0 and 1, 2, 0.
+// Returns the same text for all spellings of a value: 2 and 2.0, or 1,2,0 and 1, 2, 0.
 std::string ComparableValue(const std::string& value)
 {
   std::string comparable;
@@ -231,7 +231,7 @@ private:
     }
   }
 
-  // Two equal values of a factor, or of all factors of a <zip>, would run and count the same runs twice.
+  // Two equal values of a factor, or of all factors of a <zip>, would repeat the same runs.
   void CheckLevels(const Dimension& dimension)
   {
     std::map<std::string, std::size_t> first_of;
@@ -257,7 +257,7 @@ private:
     }
   }
 
-  // Before anything of that size is made.
+  // The size is checked before objects of that size are made.
   void CheckSize(const SourceLocation& place)
   {
     double points = 1;

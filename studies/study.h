@@ -1,6 +1,5 @@
-// The study as read from its XML file: which experiment, what varies, how often each is repeated, what is measured.
-// Plain values, checked; immutable after loading. docs/studies.md describes the file, docs/study_reference.md its
-// elements.
+// The study as read from its XML file: the experiment, the factors, the repetitions and the metrics. Plain values,
+// checked; immutable after loading. docs/studies.md describes the file, docs/study_reference.md its elements.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +18,7 @@ namespace swarmanoid
 
 using StudySettings = std::vector<std::pair<std::string, std::string>>;  // as for --set: path and value
 
-// One <set>, or one path of a <factor> with one of its values.
+// A <set>, or one path of a <factor> with one of its values.
 struct StudyChange
 {
   std::string path;
@@ -30,18 +29,18 @@ struct StudyChange
 // One value of a factor.
 struct FactorLevel
 {
-  std::string value;       // as in tables: "0.05", "kinematic"
-  std::string experiment;  // of a variant that has a file of its own; empty: that of the study
+  std::string value;       // the text in tables: "0.05", "kinematic"
+  std::string experiment;  // the file of a variant that has its own; empty: the study's file
   std::vector<StudyChange> changes;
   SourceLocation location;
 };
 
-// What a search may give to a factor: numbers between two ends.
+// The values that a search may give to a factor: numbers between two ends.
 struct SearchRange
 {
   double from = 0;
   double to = 0;
-  double step = 0;  // only from, from + step, from + 2 step …; 0: any number
+  double step = 0;  // allows only from, from + step, from + 2 step …; 0: any number
   bool logarithmic = false;
   std::optional<double> start;
 };
@@ -49,13 +48,13 @@ struct SearchRange
 struct Factor
 {
   std::string id;
-  std::vector<FactorLevel> levels;   // of one that is searched: its ends
-  std::optional<SearchRange> range;  // of one that is searched
+  std::vector<FactorLevel> levels;   // for a searched factor: its ends
+  std::optional<SearchRange> range;  // set for a searched factor
   bool is_numeric = false;           // all values are numbers
   SourceLocation location;
 };
 
-// Factors that vary together: one, or those of a <zip>, which have equally many levels.
+// Factors that vary together: one, or those of a <zip>, which must have equally many levels.
 struct Dimension
 {
   std::vector<Factor> factors;
@@ -68,28 +67,28 @@ struct StudyCondition
   SourceLocation location;
 };
 
-// One metric; docs/studies.md says what each kind measures.
+// One metric; docs/studies.md defines the kinds.
 struct MetricChoice
 {
   std::string kind;  // the tag
   std::string id;
-  std::vector<std::string> of;          // ids of entities, or patterns; empty: all robots
-  std::vector<std::string> aggregates;  // of a metric that has a value for each entity: "mean", "q25" …; else empty
-  TConfigurationTree tree;              // its element, checked
+  std::vector<std::string> of;          // ids or patterns of entities; empty: all robots
+  std::vector<std::string> aggregates;  // for a metric with a value for each entity: "mean", "q25" …; else empty
+  TConfigurationTree tree;              // the checked element of the metric
   SourceLocation location;
 };
 
-// <search>: which of the searched factors' values are the best.
+// <search>: finds the best values of the searched factors.
 struct SearchChoice
 {
-  std::string column;  // of the table, at the end of the runs
+  std::string column;  // a column of the table, at the end of the runs
   bool maximise = true;
-  std::string aggregate;  // of a point's seeds: "mean", "q25" …
+  std::string aggregate;  // over a point's seeds: "mean", "q25" …
   std::uint64_t runs = 0;
   std::string algorithm;
-  std::uint64_t population = 0;  // 0: that of the algorithm
-  double tolerance = 0;          // of a local algorithm, as a share of the ranges
-  std::uint64_t patience = 0;    // points without a better one; 0: does not end it
+  std::uint64_t population = 0;  // 0: the algorithm's default
+  double tolerance = 0;          // for a local algorithm, relative to the ranges
+  std::uint64_t patience = 0;    // points without an improvement that end the search; 0: no limit
   std::uint64_t random_seed = 1;
   std::uint64_t fresh_seeds = 0;
   SourceLocation location;
@@ -97,29 +96,29 @@ struct SearchChoice
 
 struct Study
 {
-  std::string name;    // that of the file, without folder and extension
-  std::string folder;  // of the file: relative paths start here
-  std::string text;    // of the file
+  std::string name;    // the file's name, without folder and extension
+  std::string folder;  // the file's folder, where relative paths start
+  std::string text;    // the content of the file
   std::string experiment;
-  std::uint64_t ticks = 0;  // 0: as the experiment says
+  std::uint64_t ticks = 0;  // 0: those of the experiment
   std::vector<std::uint64_t> seeds;
   bool cluster = false;
   unsigned controller_hosts = 1;
   bool visualisations = false;
-  std::vector<StudyChange> changes;  // of all runs
+  std::vector<StudyChange> changes;  // for all runs
   SourceLocation ticks_location, seeds_location;
   std::vector<Dimension> dimensions;
   std::vector<StudyCondition> conditions;
-  std::uint64_t sample_every = 0;  // ticks; 0: at the last tick alone
+  std::uint64_t sample_every = 0;  // ticks; 0: only the last tick
   std::vector<MetricChoice> metrics;
   std::optional<SearchChoice> search;
 
-  // Of all factors, in the order of the file; so are the values of a point.
+  // Returns the ids in the order of the file, which is also the order of a point's values.
   std::vector<std::string> FactorIds() const;
   std::vector<const Factor*> Factors() const;
 };
 
-// Either a study or errors, each with its place.
+// Either a study or errors, each with its position.
 struct LoadedStudy
 {
   std::unique_ptr<Study> study;
@@ -127,20 +126,21 @@ struct LoadedStudy
 };
 
 LoadedStudy LoadStudyFile(const std::string& path);
-// `folder`: relative paths start there.
+// `folder`: the start of relative paths.
 LoadedStudy LoadStudyText(const std::string& text, const std::string& file_name, const std::string& folder);
 
-// How many steps lead from one end of a range to the other. One of 0.1 from 0 to 0.3 has 3, whatever the last bits are.
+// Returns the number of steps from one end of a range to the other. Rounding errors do not matter: steps of 0.1 from 0
+// to 0.3 give 3.
 double StepsBetween(double from, double to, double step);
 
-// The most runs of a study.
+// The largest number of runs of a study.
 inline constexpr std::size_t kMostRuns = 1'000'000;
 
-// The table of study files: the reader, errors and docs/study_reference.md come from it.
+// Returns the table of study files, from which the reader, errors and docs/study_reference.md follow.
 const ElementSpec& StudySchema();
-// Whether a kind of metric has a value for each entity, which aggregates make columns of.
+// Returns whether a kind of metric has a value for each entity, so that its columns are aggregates.
 bool IsOfEachEntity(const std::string& metric_kind);
-// docs/study_reference.md: every element and parameter.
+// Returns docs/study_reference.md: every element and parameter.
 std::string StudyReference();
 
 }  // namespace swarmanoid

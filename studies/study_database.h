@@ -1,4 +1,5 @@
-// The SQLite database of a study: its connection and prepared commands. It knows nothing of tables; StudyStore does.
+// The SQLite database of a study: its connection and prepared commands. StudyStore knows the tables; this file does
+// not.
 #pragma once
 
 #include <cstdint>
@@ -28,16 +29,16 @@ public:
   enum class Access
   {
     kRead,
-    kWrite,  // makes the file if it is not there
+    kWrite,  // makes the file if it does not exist
   };
-  // `shown`: its path in errors. Throws StudyStoreError, as everything here does.
+  // `shown`: the path in errors. All functions throw StudyStoreError.
   StudyDatabase(const std::string& path, std::string shown, Access access = Access::kWrite);
   ~StudyDatabase();
   StudyDatabase(const StudyDatabase&) = delete;
   StudyDatabase& operator=(const StudyDatabase&) = delete;
 
   void Execute(const std::string& commands);
-  // To be gone before this is.
+  // The command must be destroyed before the database.
   std::unique_ptr<SqlCommand> Prepare(const std::string& command);
 
 private:
@@ -49,7 +50,7 @@ private:
   sqlite3* database_ = nullptr;
 };
 
-// Values are bound one after the other; columns count from 0.
+// A prepared command. Values are bound in order; columns count from 0.
 class SqlCommand
 {
 public:
@@ -59,7 +60,7 @@ public:
   SqlCommand& operator=(const SqlCommand&) = delete;
 
   SqlCommand& Bind(const std::string& text);
-  // NaN is no number of SQL: it becomes NULL.
+  // Binds a number; NaN becomes NULL.
   SqlCommand& Bind(double number);
   SqlCommand& BindWhole(std::uint64_t number);
   template <class Number>
@@ -67,21 +68,21 @@ public:
   {
     return BindBytes(numbers.data(), numbers.size() * sizeof(Number));
   }
-  // To the next row; false if there is none.
+  // Moves to the next row; returns false if none exists.
   bool Step();
-  // To the end; values are bound anew for the next time.
+  // Executes to the end; the next execution needs new values.
   void Run();
 
   int Columns() const;
   std::string ColumnName(int column) const;
-  // Of the row that it stands at.
+  // Return values of the current row.
   std::uint64_t Whole(int column) const;
   double Number(int column) const;
   bool IsNull(int column) const;
   bool IsReal(int column) const;
-  // Its type and its bytes, for checksums.
+  // Returns the type and the bytes, for checksums.
   std::string Image(int column) const;
-  // Of numbers the shortest that is read as the same one; of NULL none.
+  // Returns the shortest text that is read back as the same number; empty for NULL.
   std::string Text(int column) const;
 
 private:

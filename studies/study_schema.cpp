@@ -13,7 +13,7 @@ namespace
 
 using enum ParameterType;
 
-constexpr double kLongestStudy = 1e15;  // ticks, as of an experiment
+constexpr double kLongestStudy = 1e15;  // ticks, as for an experiment
 
 ElementSpec Repeated(const char* tag, const char* description, std::vector<ParameterSpec> parameters)
 {
@@ -222,13 +222,13 @@ void WriteParameters(const std::vector<ParameterSpec>& parameters, std::string& 
   }
 }
 
-// Whether the page describes a parameter of a metric at <metrics>, once for all metrics.
+// Returns whether the page describes a metric's parameter once, at <metrics>.
 bool IsShared(const ParameterSpec& parameter)
 {
   return parameter.name == "id" || parameter.name == "of" || parameter.name == "aggregate";
 }
 
-// Writes one element of the page and the elements in it.
+// Writes one element of the page and its child elements.
 void Write(const ElementSpec& element, const std::string& parent, std::string& page)
 {
   const bool is_metric = parent == "metrics";

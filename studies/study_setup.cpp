@@ -21,12 +21,13 @@ namespace swarmanoid
 namespace
 {
 
-// So many points are loaded to see that all is there; the rest differ in numbers.
+// At most so many points are loaded to test that all files exist; the others differ only in numbers.
 constexpr std::size_t kMostLoaded = 50;
 
 using BuildsByName = std::map<std::string, std::string>;
 
-// The libraries that measure, and those of the experiments. Throws StudyRefused if an experiment cannot be loaded here.
+// Returns the builds of the libraries that measure, and of the experiments' libraries. Throws StudyRefused if an
+// experiment cannot be loaded here.
 BuildsByName BuildsOf(const Study& study, const Design& design)
 {
   BuildsByName builds;
@@ -115,7 +116,7 @@ std::string NameOfThisHost()
   return name;
 }
 
-// Version and revision come first in every version.
+// Version and revision come first in all versions of this format.
 std::vector<char> SetupOf(const Study& study, const Design& design)
 {
   ByteWriter bytes;

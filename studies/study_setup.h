@@ -1,5 +1,5 @@
-// What a process elsewhere has to have so that its runs are those of this machine: the same Swarmanoid, experiment
-// files and libraries. Told before the first run, and compared there.
+// The setup that another process needs to compute the same runs as this machine: the same Swarmanoid, experiment files
+// and libraries. It is sent and compared before the first run.
 #pragma once
 
 #include <memory>
@@ -13,21 +13,21 @@
 namespace swarmanoid
 {
 
-// A machine cannot take part. what() says what differs, in the words of somebody who looks at it from outside, and the
-// cure.
+// A machine cannot take part. what() states the difference, in words for the user of the study, and the cure.
 class StudyRefused : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
 };
 
-// Of this machine, as bytes.
+// Returns the setup of this machine as bytes.
 std::vector<char> SetupOf(const Study& study, const Design& design);
 
-// The study of a setup, if this machine has the same; all plug-ins of its runs are loaded then. Throws StudyRefused.
+// Returns the study of a setup if this machine has the same; then all plug-ins of its runs are loaded. Throws
+// StudyRefused.
 std::unique_ptr<Study> TakeUp(std::span<const char> setup);
 
-// The name of this machine.
+// Returns the name of this machine.
 std::string NameOfThisHost();
 
 }  // namespace swarmanoid

@@ -25,11 +25,11 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr const char* kDatabase = "study.sqlite";
-// Until its tables are made.
+// The name of the file until its tables are complete.
 constexpr const char* kUnfinished = "study.sqlite.new";
 constexpr const char* kLock = "lock";
 
-// Whether a study may begin there: also where one was ended before it had begun.
+// Returns whether a study may begin in the folder. It may also contain the rest of a study that ended before it began.
 bool IsEmpty(const fs::path& folder)
 {
   std::error_code error;
@@ -54,7 +54,7 @@ StudyStore::StudyStore(std::string folder) : folder_(std::move(folder)) {}
 
 StudyStore::~StudyStore()
 {
-  // Whoever gets the lock next finds nobody at the database.
+  // The database is closed before the lock is released, so that the next owner has it alone.
   update_run_.reset();
   add_sample_.reset();
   database_.reset();
@@ -63,7 +63,7 @@ StudyStore::~StudyStore()
 
 std::string StudyStore::PathInFolder(const char* file) const { return folder_ + "/" + file; }
 
-// Of the process, so that it goes with it.
+// The lock belongs to the process, so that it ends with it.
 void StudyStore::Lock()
 {
   const std::string path = PathInFolder(kLock);
@@ -81,7 +81,7 @@ void StudyStore::Lock()
 void StudyStore::Connect()
 {
   database_ = std::make_unique<StudyDatabase>(PathInFolder(kDatabase), PathInFolder(kDatabase));
-  // Somebody may look at it. A killed process loses nothing that was committed.
+  // Other processes may read the database. A kill loses no committed data.
   database_->Execute("PRAGMA busy_timeout=10000; PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL");
 }
 
@@ -125,7 +125,7 @@ void StudyStore::RequireWhole(const std::string& folder)
   StudyStore store(folder);
   store.database_ = std::make_unique<StudyDatabase>(store.PathInFolder(kDatabase), store.PathInFolder(kDatabase),
                                                     StudyDatabase::Access::kRead);
-  // All that is read is of one moment.
+  // One transaction makes all reads consistent.
   store.database_->Execute("PRAGMA busy_timeout=10000; BEGIN");
   store.RequireGoodFacts();
   if (const std::vector<RunName> damaged = store.DamagedRuns(); !damaged.empty())
@@ -210,7 +210,7 @@ void StudyStore::DropDamagedResults()
   Commit();
 }
 
-// Under its name only when it is complete: whoever finds it can read it.
+// The file gets its name only when it is complete, so that every process that finds it can read it.
 void StudyStore::MakeDatabase(const Study& study, const Design& design)
 {
   const std::string path = PathInFolder(kUnfinished);

@@ -86,7 +86,7 @@ void AddAllRuns(StudyDatabase& database, const Study& study, const Design& desig
   }
 }
 
-// The columns of the view of results that stand between two of its own.
+// Returns the columns of the view of results between two of its fixed columns.
 std::vector<std::string> ResultsBetween(StudyDatabase& database, const std::string& first, const std::string& last)
 {
   std::vector<std::string> names;

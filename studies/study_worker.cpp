@@ -41,20 +41,20 @@ namespace
 using namespace std::chrono_literals;
 using Seconds = std::chrono::seconds;
 
-constexpr std::uint64_t kMostBytesBack = 1ULL << 28U;  // of the files of a run
-constexpr Seconds kFirstLease(120);                    // until the setup has come
+constexpr std::uint64_t kMostBytesBack = 1ULL << 28U;  // the limit for the files of a run
+constexpr Seconds kFirstLease(120);                    // until the setup has arrived
 
-// One end of the pipes to the study.
+// The worker's end of the pipes to the study.
 class StudyLine
 {
 public:
   StudyLine(int in, int out) : in_(in), out_(out) {}
 
-  // False if nobody has taken it for the time of the lease, or nobody is there.
+  // Returns false if the study did not read the message during the lease, or has gone.
   bool Send(StudyMessage kind, const ByteWriter& content = {})
   {
     const std::vector<char> frame = FramedMessage(kind, content.Bytes());
-    // A pipe that is ready takes that many without waiting.
+    // A pipe that is ready accepts this number of bytes without waiting.
     for (std::size_t at = 0; at < frame.size();)
     {
       pollfd ready{out_, POLLOUT, 0};
@@ -70,7 +70,7 @@ public:
     return true;
   }
 
-  // Waits for something, but not for longer; false at the end.
+  // Waits for data, at most for `longest`; returns false at the end.
   bool Receive(std::chrono::milliseconds longest)
   {
     pollfd ready{in_, POLLIN, 0};
@@ -98,7 +98,7 @@ private:
   Clock::time_point heard_ = Clock::now(), said_ = Clock::now();
 };
 
-// What the other side said, with its kind taken off.
+// Removes and returns the kind of a message.
 StudyMessage KindOf(ByteReader& bytes) { return bytes.Get<StudyMessage>(); }
 
 std::optional<std::vector<char>> AwaitSetup(StudyLine& line)
@@ -142,7 +142,7 @@ void RunWhatComes(StudyLine& line, const Study& study, const std::string& folder
   }
 }
 
-// What plug-ins print goes to standard error: standard output is for the study.
+// Plug-ins print to standard error, since standard output belongs to the study.
 int ServeStudy(const std::string& folder)
 {
   CatchInterrupts();
@@ -176,17 +176,17 @@ int ServeStudy(const std::string& folder)
   return kExitDone;
 }
 
-// Runs end with the process that made them; then nothing writes into the folder behind its removal.
+// Runs end with the process that made them. Afterwards no process writes into the folder while it is removed.
 void AwaitOrphans()
 {
   for (int wait = 0; wait < 500 && waitpid(-1, nullptr, WNOHANG) >= 0; ++wait) std::this_thread::sleep_for(10ms);
 }
 
-// The process that serves may be killed, or hang: this one sees to it that nothing of it stays when it has ended, or
-// the study is gone.
+// Guards the serving process, which may be killed or hang. When it has ended, or the study has gone, the guard removes
+// all that is left of it.
 int GuardService()
 {
-  constexpr auto kPatience = 3s;  // for its good end
+  constexpr auto kPatience = 3s;  // for an orderly end
   const ScratchFolder folder;
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   const pid_t own = getpid();
@@ -197,7 +197,7 @@ int GuardService()
     prctl(PR_SET_CHILD_SUBREAPER, 1);
     if (getppid() != own) LeaveAtOnce(0);
     const int code = ServeStudy(folder.Path());
-    // In case that its guard was killed.
+    // The guard may have been killed.
     AwaitOrphans();
     std::error_code none;
     if (getppid() != own) std::filesystem::remove_all(folder.Path(), none);
@@ -226,7 +226,8 @@ unsigned CoresOfTask()
   return cores && *cores > 0 ? static_cast<unsigned>(*cores) : 1;
 }
 
-// A task of Slurm: what its runs leave is in the study's folder as if they had run where that was begun.
+// Executes a task of Slurm. The files of its runs are in the study's folder, as if they had run on the machine that
+// began the study.
 int RunTask(const std::string& folder, std::size_t task)
 {
   RequireReproducibleMath();

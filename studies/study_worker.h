@@ -1,5 +1,5 @@
-// A process that runs runs of a study for another one: on another machine, where it hears and answers through its
-// standard input and output, or as a task of Slurm, with files in the study's folder. Not for users.
+// A process that executes runs of a study for another process. On another machine it communicates through its standard
+// input and output. As a task of Slurm it uses files in the study's folder. Users do not start it.
 #pragma once
 
 #include <cstdint>
@@ -12,21 +12,21 @@ namespace swarmanoid
 
 inline constexpr const char* kStudyWorkerFlag = "--study-worker";
 
-// `words`: nothing, or the folder of the jobs and the number of the task. Returns the exit code.
+// `words`: empty, or the folder of the jobs and the number of the task. Returns the exit code.
 int RunStudyWorker(const std::vector<std::string>& words);
 
-// First byte of what is told through pipes.
+// The first byte of a message through the pipes.
 enum class StudyMessage : std::uint8_t
 {
-  kSetup,      // to the worker: seconds of the lease (u32), runs at a time (u32; 0: as many as cores), the setup
+  kSetup,      // to the worker: seconds of the lease (u32), runs at a time (u32; 0: one for each core), the setup
   kOrder,      // to the worker: a RunOrder
-  kStillHere,  // both ways, so that the other one is known to be there
+  kStillHere,  // both ways: the sender is alive
   kReady,      // from the worker: runs at a time (u32)
-  kRefused,    // from the worker: why
+  kRefused,    // from the worker: the reason
   kOutcome     // from the worker: a RunOutcome, RunFiles
 };
 
-// A message as it goes through a pipe.
+// Returns a message in the form for a pipe.
 std::vector<char> FramedMessage(StudyMessage kind, std::span<const char> content);
 
 }  // namespace swarmanoid

@@ -44,11 +44,11 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t kMostTried = 1000;
 constexpr std::size_t kMostTold = 20;
-// Of a point whose interval is too wide. Decisions are made when all its runs have ended, so that they do not depend on
-// who was first.
+// Seeds that are added to a point whose interval is too wide. The decision waits until all its runs have ended, so that
+// it does not depend on their order.
 constexpr unsigned kMoreSeeds = 5;
 
-// A mistake of a value is told at the factor that gives it.
+// Returns a mistake in a value, with the position of the factor that gives it.
 std::string MistakeText(const Study& study, const Design& design, std::size_t point, const Diagnostic& error)
 {
   const std::vector<const Factor*> factors = study.Factors();
@@ -164,7 +164,7 @@ private:
       return std::make_unique<HostPool>(MachinesOf(options_), SetupOf(study_, design_), store_.Folder());
     if (!options_.slurm.empty())
     {
-      // Its jobs go on without this process.
+      // The jobs continue without this process.
       for (const int signal : {SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
       return std::make_unique<SlurmPool>(
           SlurmChoice{SlurmOptions(options_.slurm.front()), options_.jobs, options_.runs_per_task},
@@ -177,7 +177,7 @@ private:
         column_.empty() ? static_cast<unsigned>(std::clamp<std::size_t>(queue_.size(), 1, jobs)) : jobs);
   }
 
-  // The command that goes on.
+  // Returns the command that continues the study.
   std::string GoOn() const
   {
     std::string where;
@@ -216,7 +216,7 @@ private:
                                    Listed(columns), DidYouMean(column_, columns)));
   }
 
-  // More runs for the points whose interval is wider than asked; false if there are none.
+  // Adds runs for the points whose interval is too wide; returns false if there are none.
   bool Extend(SweepProgress& progress)
   {
     if (column_.empty() || IsEnding()) return false;
@@ -242,7 +242,7 @@ private:
     return !queue_.empty();
   }
 
-  // All points with the first seed, then with the second: what is there early says something of all.
+  // Plans all points with the first seed, then with the second, so that early results cover the whole study.
   void Plan()
   {
     std::vector<StudyStore::RunState> runs = store_.Runs();
@@ -300,12 +300,12 @@ private:
     }
   }
 
-  // Whether no more runs are started.
+  // Returns whether no more runs are started.
   bool IsEnding() const { return Interrupted() || is_study_wrong_; }
 
   void Take(const RunOutcome& outcome, SweepProgress& progress)
   {
-    // A result that was found, of a run that was not asked for now or has another one.
+    // The result belongs to a run that is not requested now, or has another result already.
     if (open_.erase(outcome.name) == 0)
     {
       if (outcome.IsDone() && !store_.IsDone(outcome.name)) store_.Add(outcome);
@@ -323,7 +323,7 @@ private:
     progress.Say(fmt::format("run {}{} failed with exit code {}: {}; what it left is in {}/runs/{}",
                              outcome.name.Text(), values.empty() ? "" : " (" + values + ")", outcome.exit_code,
                              outcome.failure, store_.Folder(), outcome.name.Text()));
-    // The run did its ticks, and a metric then found that the study names what does not exist.
+    // The run did its ticks, and then a metric found that the study names something that does not exist.
     if (outcome.exit_code == kExitInvalidFile && outcome.ticks > 0) is_study_wrong_ = true;
     if (++attempts_[outcome.name] <= options_.retries && !is_study_wrong_)
       Enqueue(outcome.name);
@@ -336,11 +336,11 @@ private:
   const Design& design_;
   StudyStore& store_;
   std::optional<Expression> only_;
-  std::string column_;  // of --until-ci
+  std::string column_;  // the column of --until-ci
   double share_ = 0;
   std::deque<RunName> queue_;
-  std::map<std::uint32_t, std::size_t> waiting_;  // in the queue, of each point
-  std::set<RunName> open_;                        // given to the place, without an outcome
+  std::map<std::uint32_t, std::size_t> waiting_;  // queued runs, by point
+  std::set<RunName> open_;                        // given to the executor, without an outcome
   std::map<RunName, unsigned> attempts_;
   std::vector<std::pair<std::uint32_t, double>> known_times_;
   std::size_t all_ = 0, done_ = 0, failed_ = 0;
@@ -369,7 +369,7 @@ void ListRuns(const SweepOptions& options, const Study& study, const Design& des
   PrintError("{} runs: {} points, {} seeds\n", runs, design.Points(), study.seeds.size());
 }
 
-// The study, from its file or from the folder that goes on.
+// Loads the study from its file, or from the folder that is continued.
 LoadedStudy LoadFor(const SweepOptions& options, StudyStore* store)
 {
   if (store == nullptr) return LoadStudyFile(options.study);

@@ -1,4 +1,4 @@
-// A study from its first run to its table: what `swarmanoid sweep` does.
+// Runs a study from its first run to its table, for `swarmanoid sweep`.
 #pragma once
 
 #include <string>
@@ -12,28 +12,28 @@ namespace swarmanoid
 
 struct SweepOptions
 {
-  std::string study;   // the file; to go on, the folder of a study
-  std::string output;  // folder; empty: a new one under runs/
+  std::string study;   // the file; to continue, the folder of a study
+  std::string output;  // the folder; empty: a new one under runs/
   bool resume = false;
   bool dry_run = false;
   bool quiet = false;
-  unsigned jobs = 0;     // runs at a time, or tasks of Slurm; 0: as many as cores, or one cluster, or as Slurm starts
-  unsigned retries = 0;  // of a run that fails
-  // "COLUMN=5%": points get more seeds until the confidence interval of the column's mean is that narrow; and how many
-  // at most.
+  unsigned jobs = 0;     // runs or tasks of Slurm at a time; 0: one for each core, one cluster, or Slurm's limit
+  unsigned retries = 0;  // for a run that fails
+  // "COLUMN=5%": points get more seeds until the confidence interval of the column's mean is that narrow. The second
+  // value limits the seeds.
   std::string until_ci;
   unsigned most_seeds = 1000;
-  std::string hosts;               // file with the machines that run it; empty: this one
-  std::vector<std::string> slurm;  // options of sbatch, as one text; nothing: not by Slurm
-  unsigned runs_per_task = 0;      // of Slurm; 0: so many that there are 200 tasks at most
-  std::string only;                // a condition over factors and "seed": other runs wait
+  std::string hosts;               // file with the machines that run it; empty: this machine
+  std::vector<std::string> slurm;  // options of sbatch, as one text; nothing: without Slurm
+  unsigned runs_per_task = 0;      // for Slurm; 0: chosen so that there are at most 200 tasks
+  std::string only;                // a condition over factors and "seed": only these runs are executed
 };
 
 // Returns the exit code. Throws UsageError.
 int Sweep(const SweepOptions& options);
 
-// What is wrong with the runs: each level of each factor is tried, without running it. One line a mistake, with its
-// place. Loads all plug-ins that they need.
+// Returns the mistakes in the runs, one line each with its position. Each level of each factor is loaded, but not run.
+// Loads all plug-ins of the runs.
 std::vector<std::string> MistakesInRuns(const Study& study, const Design& design);
 
 }  // namespace swarmanoid

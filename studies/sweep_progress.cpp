@@ -54,7 +54,7 @@ void SweepProgress::Say(const std::string& line)
   PrintError("{}\n", line);
 }
 
-// Points differ: where one has been run, its mean counts, else that of all.
+// Points differ in time. A point with finished runs is estimated by their mean, the others by the mean of all.
 double SweepProgress::SecondsLeft(const std::map<std::uint32_t, std::size_t>& waiting, std::size_t running,
                                   unsigned slots) const
 {

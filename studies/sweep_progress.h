@@ -1,4 +1,4 @@
-// How far a study is, on standard error: one line that changes on a terminal, otherwise a line now and then.
+// The progress of a study on standard error: one line that changes on a terminal, otherwise a line at intervals.
 #pragma once
 
 #include <chrono>
@@ -16,17 +16,17 @@ class SweepProgress
 public:
   using Clock = std::chrono::steady_clock;
 
-  // `all`: runs that the study has, `done` of which have been run before.
+  // `all`: the runs of the study, `done` of which were executed before.
   SweepProgress(const Design& design, std::size_t all, std::size_t done, bool quiet);
   ~SweepProgress();
 
-  // One that has been run, in this process or before.
+  // Adds a run that was executed in this process or before.
   void AddTime(std::uint32_t point, double wall_s);
   void Done() { ++done_; }
   void AddRuns(std::size_t count) { all_ += count; }
-  // Something to be read even if the user wants quiet.
+  // Prints a line even in quiet mode.
   void Say(const std::string& line);
-  // `waiting`: for each point, how many of its runs have not begun.
+  // `waiting`: by point, the number of runs that have not begun.
   void Show(const Executor& place, const std::map<std::uint32_t, std::size_t>& waiting, Clock::time_point now);
 
 private:
@@ -47,7 +47,7 @@ private:
   Clock::time_point next_;
 };
 
-// "12 s", "3 min", "2.5 h"
+// Returns "12 s", "3 min" or "2.5 h".
 std::string RoughTime(double seconds);
 
 }  // namespace swarmanoid

@@ -7,12 +7,12 @@ namespace swarmanoid
 namespace
 {
 
-// Whose code ran last in this thread.
+// The context of the renderer whose code ran last in this thread.
 thread_local DrawingContext* present = nullptr;
 
 constexpr int kEglDraw = 0x3059, kEglRead = 0x305A;
 
-// Of a library that a renderer has loaded; none if nobody has.
+// Returns a function of a library that a renderer has loaded; nullptr if the library is not loaded.
 template <class Function>
 Function* Find(const char* library, const char* name)
 {

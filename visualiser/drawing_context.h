@@ -1,6 +1,6 @@
-// DrawingContext: the OpenGL context that a renderer leaves current in its thread. It finds it again, and other
-// renderers of the thread do not: libraries of windows think theirs stays current, and GLX and EGL refuse where the
-// other one is.
+// DrawingContext: keeps the OpenGL context that a renderer leaves current in its thread, and restores it before the
+// renderer runs again. Window libraries assume that their context stays current. GLX and EGL refuse to make one current
+// while the other's is.
 #pragma once
 
 namespace swarmanoid
@@ -14,7 +14,7 @@ public:
   DrawingContext(const DrawingContext&) = delete;
   DrawingContext& operator=(const DrawingContext&) = delete;
 
-  // Before code of its renderer runs. Costs nothing if that ran last.
+  // Call it before code of its renderer runs. It costs nothing if that renderer ran last.
   void Enter();
 
 private:
@@ -25,7 +25,7 @@ private:
   {
     void* display = nullptr;
     unsigned long draw = 0, read = 0;
-    void* context = nullptr;  // none: it has no context of GLX
+    void* context = nullptr;  // nullptr: the renderer has no GLX context
   };
   struct Egl
   {

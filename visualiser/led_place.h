@@ -1,4 +1,4 @@
-// Where the LEDs of a robot are, for renderers that draw them from the row of its kind.
+// The positions of a robot's LEDs, for renderers that draw them from the row of its kind.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,8 @@
 namespace swarmanoid
 {
 
-// In metres, in the frame of the robot; its LEDs may turn with a turret. The kind has LEDs, more than `led`.
+// Returns the position in metres, in the frame of the robot; its LEDs may turn with a turret. The kind must have more
+// LEDs than `led`.
 Vector3 LedPlace(const CSwarmanoidSpaceEntity& robot, std::size_t led);
 
 }  // namespace swarmanoid

@@ -27,7 +27,7 @@ namespace
 using namespace std::chrono_literals;
 using Json = nlohmann::ordered_json;
 
-// Whoever scrubs along the timeline asks for every tick on the way.
+// Moving along the timeline requests every tick on the way, so a request must stand for this time.
 constexpr auto kStands = 250ms;
 constexpr int kLook_ms = 50;
 constexpr std::size_t kMostBytes = std::size_t{64} << 20U;
@@ -62,7 +62,7 @@ std::vector<DeviceStatus> DevicesOf(const Json& list)
   return devices;
 }
 
-// A program whose two outputs are read while it runs. Killed at its end, with all that it started.
+// A program whose two outputs are read while it runs. The destructor kills it with all processes that it started.
 class ReadProgram
 {
 public:
@@ -76,7 +76,7 @@ public:
   ReadProgram(const ReadProgram&) = delete;
   ReadProgram& operator=(const ReadProgram&) = delete;
 
-  // False once it has ended and all is read.
+  // Returns false once the program has ended and all output is read.
   bool Read()
   {
     const std::array<FileDescriptor*, 2> files{&process_.output, &process_.errors};
@@ -190,7 +190,7 @@ void PastInside::Work()
   {
     changed_.wait(lock, [this] { return over_ || !wanted_.empty(); });
     if (over_) return;
-    // Who has waited longest.
+    // The client that has waited longest is served first.
     const auto first =
         std::ranges::min_element(wanted_, {}, [](const auto& client_wanted) { return client_wanted.second.number; });
     const std::uint64_t client = first->first;
@@ -222,7 +222,7 @@ PastInsideAnswer PastInside::Compute(std::uint64_t client, const Wanted& wanted)
       if (!IsWanted(client, wanted.number)) return answer;
     if (!reader.Succeeded())
     {
-      // Controllers may have said something before.
+      // Controllers may have written output before the error.
       std::string said = reader.Errors();
       while (said.ends_with('\n')) said.pop_back();
       throw std::runtime_error(said.empty() ? "`swarmanoid inspect` failed without a word"

@@ -1,6 +1,6 @@
-// PastInside: what robots sensed, thought and commanded at ticks of the past, for those who look back. The journal does
-// not have it. The command `swarmanoid inspect` computes it, in a process of its own: it steps controllers of users,
-// who may crash or hang it. Made and asked by renderers in the thread of Draw and Idle.
+// PastInside: the readings, states and commands of robots at ticks of the past, for looking back. The journal does not
+// store them. The command `swarmanoid inspect` computes them in its own process, since it steps users' controllers,
+// which may crash or hang. Renderers make and call it in the thread of Draw and Idle.
 #pragma once
 
 #include <condition_variable>
@@ -18,36 +18,37 @@
 namespace swarmanoid
 {
 
-// The program of the command, in the environment of what it starts.
+// The variable with the path of the command, set for the processes that the command starts.
 inline constexpr const char* kCommandVariable = "SWARMANOID_COMMAND";
 
 struct PastInsideAnswer
 {
   std::uint64_t tick = 0;
   std::vector<RobotStatus> robots;
-  std::string error;  // why there are none
+  std::string error;  // the reason if there are no robots
 };
 
-// The robots of what `swarmanoid inspect --json` prints. Throws std::runtime_error if it is something else.
+// Returns the robots in the output of `swarmanoid inspect --json`. Throws std::runtime_error for other text.
 std::vector<RobotStatus> ReadInspection(const Experiment& experiment, std::uint64_t tick, const std::string& json);
 
 class PastInside
 {
 public:
-  // Called in the thread of this.
+  // Called in this object's thread.
   using Answered = std::function<void(std::uint64_t client, const PastInsideAnswer&)>;
 
-  // The experiment outlives this. Nothing is ever answered where IsPossible is false.
+  // The experiment must outlive the object. If IsPossible is false, it never answers.
   PastInside(const Experiment& experiment, std::string run_folder, Answered answered);
   // Ends the process that computes.
   ~PastInside();
   PastInside(const PastInside&) = delete;
   PastInside& operator=(const PastInside&) = delete;
 
-  // Whether the command started this process, and the run is of this user: nobody steps what others wrote.
+  // Returns whether the command started this process and the run belongs to this user. Journals of other users are not
+  // executed.
   bool IsPossible() const { return !program_.empty(); }
-  // The newest request of a client counts, once it has stood for a moment; what is computed for an older one is given
-  // up. Entities without a controller are ignored.
+  // Sends a request. Only the newest request of a client counts, after a short delay; the computation of an older one
+  // is stopped. Entities without a controller are ignored.
   void Ask(std::uint64_t client, const LookBackRequest& request);
   void Forget(std::uint64_t client);
 
@@ -55,7 +56,7 @@ private:
   struct Wanted
   {
     LookBackRequest request;
-    std::uint64_t number = 0;  // of all requests
+    std::uint64_t number = 0;  // the number of the request among all requests
   };
 
   void Work();
@@ -67,7 +68,7 @@ private:
   const std::string program_;
   const Answered answered_;
 
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;
   std::map<std::uint64_t, Wanted> wanted_;
   std::uint64_t requests_ = 0;

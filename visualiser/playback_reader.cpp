@@ -20,7 +20,7 @@ namespace
 
 constexpr std::uint64_t kMostEventBytes = std::uint64_t{16} << 20U;
 
-// The whole lines of a run's log of events.
+// Returns the events in the complete lines of a run's event log.
 std::vector<TimelineEvent> EventsOf(const std::string& text)
 {
   std::vector<TimelineEvent> events;
@@ -106,7 +106,7 @@ void PlaybackReader::Work()
     }
     catch (const std::exception&)
     {
-      // It may be half written, or gone: the next time tells.
+      // The journal may be half written or gone, so the next call tries again.
     }
     for (const auto& [client, request] : wanted) Answer(client, request);
     lock.lock();

@@ -1,6 +1,6 @@
-// PlaybackReader: what the journal of the run has of its past, for the timelines of pages and windows. It reads the
-// journal in the folder of the run, in a thread of its own, so that nobody who looks back slows the run, or those who
-// look at the present. Made and asked by renderers in the thread of Draw and Idle.
+// PlaybackReader: reads the past of the run from its journal, for the timelines of pages and windows. It uses its own
+// thread, so that looking back slows neither the run nor views of the present. Renderers make and call it in the thread
+// of Draw and Idle.
 #pragma once
 
 #include <condition_variable>
@@ -20,16 +20,16 @@
 namespace swarmanoid
 {
 
-// A tick of the past.
+// A request for a tick of the past.
 struct LookBackRequest
 {
   std::uint64_t tick = 0;
-  std::vector<std::uint32_t> entities;  // whose details are wanted
+  std::vector<std::uint32_t> entities;  // the entities whose details are wanted
 
   bool operator==(const LookBackRequest&) const = default;
 };
 
-// An event of a run's log of events, as a mark on the timeline.
+// An event of a run's event log, as a mark on the timeline.
 struct TimelineEvent
 {
   std::uint64_t tick = 0;
@@ -38,7 +38,7 @@ struct TimelineEvent
   bool operator==(const TimelineEvent&) const = default;
 };
 
-// What can be looked at: the ticks from `first` up to the one before `end`.
+// The ticks that can be shown: from `first` up to the one before `end`.
 struct JournalTimeline
 {
   std::uint64_t first = 0;
@@ -51,10 +51,10 @@ struct JournalTimeline
 // Called in the thread of PlaybackReader.
 struct LookBackAnswers
 {
-  // Whenever it has changed.
+  // Called whenever the timeline has changed.
   std::function<void(const JournalTimeline&)> timeline;
-  // The space as it was at the tick of the request; entities that it does not have are left out. The space is the same
-  // object each time, and is as long as PlaybackReader.
+  // Gets the space at the tick of the request; entities that it does not have are left out. The space is the same
+  // object each time and lives as long as PlaybackReader.
   std::function<void(std::uint64_t client, const LookBackRequest&, const CSwarmanoidSpace&)> past;
   std::function<void(std::uint64_t client, const std::string& text)> refused;
 };
@@ -62,38 +62,38 @@ struct LookBackAnswers
 class PlaybackReader
 {
 public:
-  // `run_folder` has the journal, or will have it. The experiment outlives this.
+  // `run_folder` has the journal, or will have it. The experiment must outlive the object.
   PlaybackReader(const Experiment& experiment, std::string run_folder, LookBackAnswers answers);
   ~PlaybackReader();
   PlaybackReader(const PlaybackReader&) = delete;
   PlaybackReader& operator=(const PlaybackReader&) = delete;
 
   const std::string& RunFolder() const { return run_folder_; }
-  // The newest request of a client counts.
+  // Sends a request. Only the newest request of a client counts.
   void Ask(std::uint64_t client, const LookBackRequest& request);
   void Forget(std::uint64_t client);
-  // The journal may have grown; somebody looks.
+  // Looks again at the journal, which may have grown.
   void Refresh();
 
 private:
   void Work();
   void Follow();
   void Answer(std::uint64_t client, LookBackRequest request);
-  // False while there is none of this experiment.
+  // Returns false while no journal of this experiment exists.
   bool IsOpen();
 
   const Experiment& experiment_;
   const std::string run_folder_;
   const LookBackAnswers answers_;
 
-  // Of the thread.
+  // Members of the reader's thread.
   JournalFollower journal_;
   std::unique_ptr<RecordedStates> states_;
   JournalTimeline timeline_;
   std::uint64_t events_bytes_ = 0;
   bool refused_ = false;
 
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;
   std::map<std::uint64_t, LookBackRequest> wanted_;
   bool refresh_ = true;
@@ -101,8 +101,8 @@ private:
   std::thread thread_;
 };
 
-// The folder of the run that a renderer shows, absolute, if it can be read here: where it writes to if it belongs to
-// the run, otherwise what the monitor, which may be nullptr, says. Empty: none.
+// Returns the absolute folder of the run that a renderer shows, if it can be read on this machine. A renderer of the
+// run uses its output folder; otherwise the monitor, which may be nullptr, gives the folder. Empty: none.
 std::string RunFolderOf(const std::string& output_folder, RunMonitor* monitor);
 
 }  // namespace swarmanoid

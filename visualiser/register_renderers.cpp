@@ -1,4 +1,4 @@
-// The renderers that come with the simulator; common/plugin_descriptions describes them.
+// Registers the renderers of the simulator; common/plugin_descriptions describes them.
 #include "common/plugin_descriptions/describe_builtins.h"
 #include "visualiser/render.h"
 #include "visualiser/renderer_library.h"

@@ -11,7 +11,7 @@ namespace swarmanoid
 namespace
 {
 
-// Where the library lies that this code is part of.
+// Returns the folder of the library that contains this code.
 std::filesystem::path OwnFolder()
 {
   Dl_info place{};

@@ -1,5 +1,5 @@
-// Renderers that need a heavy library (OpenGL, OGRE, a web server) are libraries of their own, loaded when one is made:
-// a process holds only what it shows with, and a build without a renderer's packages still knows its name
+// Loads renderers that need a heavy library (OpenGL, OGRE, a web server), when one is made, from libraries of their
+// own. So a process loads only what it needs, and a build without a renderer's packages still knows its name
 // (common/plugin_descriptions).
 #pragma once
 
@@ -14,16 +14,16 @@ namespace swarmanoid
 
 inline constexpr const char* kWebPackages = "esbuild gzip nlohmann-json3-dev";
 
-// A factory that loads lib<swarmanoid_NAME>.so from the folder swarmanoid beside our own libraries and makes its
-// renderer. `packages`: the Debian packages without which the build leaves it out. The factory throws
-// ConfigurationError, naming them, if the library is missing or cannot be loaded.
+// Returns a factory that loads lib<swarmanoid_NAME>.so from the folder swarmanoid beside our own libraries and makes
+// its renderer. `packages`: the Debian packages without which the build leaves it out. The factory throws
+// ConfigurationError with these packages if the library is missing or cannot be loaded.
 std::function<std::unique_ptr<CRender>()> RendererFromLibrary(const std::string& name, const std::string& packages);
-// The address of a function of such a library, which is loaded; throws likewise.
+// Returns the address of a function of such a library, which it loads. Throws as the factory does.
 void* FunctionOfRendererLibrary(const std::string& name, const std::string& packages, const char* function);
 
 }  // namespace swarmanoid
 
-// EXPORT_RENDERER(CMyRender): once in each such library.
+// EXPORT_RENDERER(CMyRender) is used once in each such library.
 #define EXPORT_RENDERER(CLASS)                                                                        \
   extern "C" __attribute__((visibility("default"))) ::swarmanoid::CRender* CreateSwarmanoidRenderer() \
   {                                                                                                   \

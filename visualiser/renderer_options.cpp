@@ -29,7 +29,7 @@ std::string HelpOf(const ParameterSpec& spec)
   return text;
 }
 
-// "--window_size,--window-size", as far as they are free.
+// Returns "--window_size,--window-size", without names that are taken.
 std::string FreeNames(const CLI::App& app, const std::string& parameter)
 {
   std::string dashed = parameter;
@@ -51,7 +51,7 @@ void AddOption(CLI::App& app, const std::string& name, const ParameterSpec& spec
   if (names.empty()) return;
   if (spec.type == ParameterType::kBoolean)
   {
-    // --name, and --no-name for one that is true otherwise.
+    // A flag has --name and, if its default is true, also --no-name.
     const std::string opposite = ",!--no-" + names.substr(2, names.find(',') - 2);
     app.add_flag_function(
            names + opposite,
@@ -100,7 +100,7 @@ void AddRendererOptions(CLI::App& app, const PluginDescription& renderer, std::v
       AddOption(app, spec.name, spec, group, parameters);
       continue;
     }
-    // Only the first of a family is shown.
+    // Only the first member of a family is shown.
     const std::string stem = spec.name.substr(0, spec.name.size() - 1);
     for (int number = 0; number < kNumbered; ++number)
       AddOption(app, stem + std::to_string(number), spec, number == 0 ? group : "", parameters);

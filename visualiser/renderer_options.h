@@ -1,5 +1,5 @@
-// A renderer's parameters on a command line: as --name value, one option for each entry of its table, and as
-// name=value. Used by `swarmanoid attach` and by the visualiser program.
+// Reads a renderer's parameters from a command line: as --name value, with one option for each entry of its table, and
+// as name=value. `swarmanoid attach` and the visualiser program use it.
 #pragma once
 
 #include <string>
@@ -16,16 +16,16 @@ class App;
 namespace swarmanoid
 {
 
-// The description of "text" or "text_render", or of the renderer in a user's library: a path, or a name that is looked
-// for in SWARMANOID_PLUGIN_PATH. Throws ConfigurationError, naming those that there are. The result stays until the
+// Returns the description of "text" or "text_render", or of the renderer in a user's library, given by a path or a name
+// in SWARMANOID_PLUGIN_PATH. Throws ConfigurationError with the available renderers. The result is valid until the
 // program ends.
 const PluginDescription& FindRenderer(std::string_view kind);
 
-// Adds --name for every parameter of the renderer; a value given goes to `parameters` as "name=value". Choices of a
-// parameter called `format` are flags too: --csv. A name that the command uses itself is left out.
+// Adds --name for every parameter of the renderer; a given value is added to `parameters` as "name=value". Choices of a
+// parameter called `format` are flags too: --csv. A name that the command itself uses is left out.
 void AddRendererOptions(CLI::App& app, const PluginDescription& renderer, std::vector<std::string>& parameters);
 
-// The configuration of a renderer from words "name=value". Throws ConfigurationError with what is allowed.
+// Makes the configuration of a renderer from words "name=value". Throws ConfigurationError with the allowed values.
 RenderConfiguration ConfigureRenderer(const PluginDescription& renderer, const std::vector<std::string>& parameters);
 
 }  // namespace swarmanoid

@@ -11,7 +11,7 @@ namespace swarmanoid
 namespace
 {
 
-// One that is attached from outside is none of the experiment.
+// A visualisation that is attached from outside is not in the experiment.
 Actor ActorOf(const RenderConfiguration& configuration, const Experiment& experiment)
 {
   std::size_t number = 0;

@@ -1,4 +1,4 @@
-// The role that shows the space through one renderer. A step function: Draw at the state of its space.
+// The role that shows the space through one renderer. It is a step function: Draw is called at each state of its space.
 #pragma once
 
 #include <memory>
@@ -13,13 +13,13 @@ namespace swarmanoid
 class Visualiser
 {
 public:
-  // Makes and initialises the renderer. Throws ConfigurationError, or ActivityError naming the renderer that failed; so
-  // do the others.
+  // Makes and initialises the renderer. Throws ConfigurationError, or ActivityError with the renderer that failed; the
+  // other functions throw the same.
   Visualiser(const RenderConfiguration& configuration, const CSwarmanoidSpace& space, const Assignment& assignment,
              const std::string& output_folder, ExperimentControl* control, RunMonitor* monitor);
   ~Visualiser();
 
-  // True once the renderer wants the run to end.
+  // Returns true once the renderer wants the run to end.
   bool Draw();
   bool Idle();
   // Closes the outputs; later calls do nothing.

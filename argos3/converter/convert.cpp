@@ -26,7 +26,7 @@ public:
   {
   }
 
-  // `bodies`: of a rehearsal; nullptr: this file is for one, if there has to be one, which is told.
+  // `bodies`: the result of a rehearsal. nullptr: the file is for a rehearsal, if one is needed, which is reported.
   bool Convert(const MadeBodies* bodies)
   {
     auto ours = MakeNode("ahss-config", root_.location);
@@ -74,7 +74,7 @@ private:
     const Made made = AddNode(ours, "framework", at);
     NeededText(*experiment, "ticks_per_second");
     const long long ticks = Whole(*experiment, "ticks_per_second", 10);
-    // Rounded down, so that the ticks of a second, as a whole number, stay what they are.
+    // It is rounded down, so that the ticks of a second stay the same whole number.
     const long long tick_ms = ticks < 1 || ticks > 1000 ? 0 : 1000 / ticks;
     const double missing = 1 - static_cast<double>(tick_ms * ticks) / 1000;
     constexpr double kMostMissing = 0.02;
@@ -89,13 +89,13 @@ private:
       Note(at, fmt::format("a tick has whole milliseconds here: {} ms, {:.1f} % less than 1/{} s", tick_ms,
                            100 * missing, ticks));
     const double length = Number(*experiment, "length", 0);
-    constexpr double kMostTicks = 1e15;  // as of <maxclock>
-    // The negation refuses what is no number, too.
+    constexpr double kMostTicks = 1e15;  // equal to the limit of <maxclock>
+    // The negated condition also refuses NaN.
     if (!(length >= 0 && length * static_cast<double>(std::max(ticks, 1LL)) < kMostTicks))
       Mistake(FindAttributeOf(*experiment, "length")->location,
               "'length' of <experiment> is '" + NeededText(*experiment, "length") +
                   "'; it must be a number of seconds from 0 on, with at most 1e15 ticks; 0 is a run without an end");
-    // The tick before the first step of controllers is theirs, too.
+    // The run has one tick more, before the first step of controllers.
     else if (length > 0)
       SetValue(*made, "maxclock", std::to_string(static_cast<long long>(length * static_cast<double>(ticks)) + 1), at);
     const long long seed = Whole(*experiment, "random_seed", 0);
@@ -112,7 +112,7 @@ private:
     if (engines == nullptr) return;
     const Made list = AddNode(ours, "engines", engines->location);
     const Made physics = AddNode(ours, "arena_physics", engines->location);
-    std::map<std::string, std::string> made;  // ours to their ids
+    std::map<std::string, std::string> made;  // by our engine: the id in ARGoS3
     for (const auto& theirs : engines->children)
     {
       const SourceLocation& at = theirs->location;
@@ -145,7 +145,7 @@ private:
       for (const std::string& kind : arena.Kinds())
       {
         if (kind == "light_bulb") continue;
-        // Where there are both, eye-bots fly and foot-bots drive; what stands in the way stands in both.
+        // If both engines exist, eye-bots fly and foot-bots drive. Obstacles are in both.
         if (made.size() > 1 && (tag == "dynamics2d" ? kind == "eyebot" : kind == "footbot" || kind == "argos3_epuck"))
           continue;
         SetValue(*AddNode(*binding, "all", engines->location), "kind", kind, engines->location);

@@ -1,4 +1,4 @@
-// Experiments in ARGoS3's XML, as ours. Used by the launcher.
+// Converts experiments in ARGoS3's XML to ours. Used by the launcher.
 #pragma once
 
 #include <functional>
@@ -16,22 +16,22 @@ namespace swarmanoid
 struct ConvertedExperiment
 {
   std::shared_ptr<const ConfigurationNode> root;
-  std::vector<Diagnostic> mistakes;  // what has no counterpart here, with its cure
-  std::vector<Diagnostic> notes;     // what has no effect here
+  std::vector<Diagnostic> mistakes;  // content without a counterpart here, with its cure
+  std::vector<Diagnostic> notes;     // content without effect here
 };
 
-// Runs the Init of the loop functions of a converted experiment and tells what boxes and cylinders they made that the
-// file does not declare. `settings`: as the run itself will have them.
+// Runs Init of the loop functions of a converted experiment. Returns the boxes and cylinders that they made and the
+// file does not declare. `settings`: those of the later run.
 using Argos3Rehearsal = std::function<argos3::MadeBodies(const ConfigurationNode& experiment, const std::string& folder,
                                                          const ExperimentSettings& settings)>;
 
-// `root`: <argos-configuration>. Libraries are looked for as ARGoS3 does: in the working folder and in those of
-// ARGOS_PLUGIN_PATH, and in `folder`, that of the file, and the one above it.
-// `rehearse` is asked if the loop functions make boxes or cylinders; without it none can be made.
+// `root`: <argos-configuration>. Libraries are searched as in ARGoS3, in the working folder and in those of
+// ARGOS_PLUGIN_PATH, and also in `folder`, the file's folder, and its parent. `rehearse` is called if the loop
+// functions make boxes or cylinders; without it they cannot make any.
 ConvertedExperiment ConvertArgos3(const ConfigurationNode& root, const std::string& folder,
                                   const Argos3Rehearsal& rehearse = {}, const ExperimentSettings& settings = {});
 
-// From now on files of ARGoS3 are read wherever experiments are; notes go to standard error.
+// Makes all readers of experiments accept files of ARGoS3; notes go to standard error.
 void ReadArgos3Experiments(Argos3Rehearsal rehearse);
 
 }  // namespace swarmanoid

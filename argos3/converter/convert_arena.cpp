@@ -75,7 +75,7 @@ void ArenaConverter::FindArena()
     high_ = high_.cwiseMax(at);
     if (child->name == "box") high_.z() = std::max(high_.z(), at.z() + Vector(*child, "size").z());
   }
-  // An arena of no height is a plane, on which robots stand there.
+  // An arena of height 0 is a plane on which robots stand.
   if (high_.z() <= low_.z()) high_.z() = low_.z() + 1;
   origin_ = -low_;
 }
@@ -149,7 +149,7 @@ void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, const std::s
     made = AddNode(parent, robot, at);
     if (const ConfigurationNode* controller = FindChild(theirs, "controller"))
       SetValue(*made, "controller", NeededText(*controller, "config"), controller->location);
-    // The focal length is none of the angles that make the image.
+    // The focal length determines none of the angles of the image.
     NoteOthers(theirs,
                {"id", "omnidirectional_camera_aperture", "perspective_camera_aperture", "perspective_camera_range",
                 "perspective_camera_focal_length", "perspective_camera_front", "rab_range", "rab_data_size"});
@@ -225,10 +225,10 @@ void ArenaConverter::KeepSpare(const std::string& controller, const std::string&
   spares_[controller] = {kind, quantity};
 }
 
-// Those of the rehearsal twice, so that functions may make more of them in steps, or with another seed.
+// Twice as many bodies as in the rehearsal are kept, so that functions may make more in steps, or with another seed.
 void ArenaConverter::AddMadeBodies(ConfigurationNode& parent)
 {
-  constexpr int kFurther = 20;  // at least
+  constexpr int kFurther = 20;  // at least so many
   int number = 0;
   for (const auto& [shape, count] : made_bodies_)
   {
@@ -245,7 +245,7 @@ void ArenaConverter::AddMadeBodies(ConfigurationNode& parent)
       SetValue(*body, "height", TextOf(shape.size.z()), at);
     }
     SetValue(*body, "colour", "black", at);
-    // What waits has to be able to move: one that should not is too heavy for any robot.
+    // A waiting body must be movable. One that should not move gets a mass that no robot can push.
     SetValue(*body, "movable", "true", at);
     SetValue(*body, "mass", TextOf(shape.movable ? shape.mass_kg : kUnmovableKg), at);
     kinds_.insert(shape.tag);
@@ -295,7 +295,7 @@ void ArenaConverter::SetPlace(const ConfigurationNode& theirs, ConfigurationNode
                                  Eigen::AngleAxisd(zyx.x() * kRadians, Vector3::UnitZ());
   const Vector3 position = NeededVector(*body, "position") + origin_ + orientation * Vector3(0, 0, lift);
   SetValue(made, "position", TextOf(position), body->location);
-  // The same three angles about fixed axes; a heading stays as it was written.
+  // The three angles are converted to fixed axes; a plain heading stays as it is.
   const EulerAngles fixed = EulerFromQuaternion(orientation);
   const Vector3 xyz = zyx.y() == 0 && zyx.z() == 0 ? Vector3(0, 0, zyx.x())
                                                    : Vector3(Vector3(fixed.alpha, fixed.beta, fixed.gamma) / kRadians);
@@ -317,7 +317,7 @@ void ArenaConverter::ConvertDistribute(const ConfigurationNode& theirs, Configur
   ConvertOrientations(*orientation, *AddNode(*made, "orientation", orientation->location));
   if (entity->children.size() != 1) return Mistake(entity->location, "<entity> holds one element: what is distributed");
   const ConfigurationNode& what = *entity->children.front();
-  // Of boxes we tell the middle, ARGoS3 the middle of the base.
+  // Our position is the middle of a box; in ARGoS3 it is the middle of the base.
   ConvertPositions(*position, *positions, what.name == "box" ? NeededVector(what, "size").z() / 2 : 0);
   const std::string id = NeededText(what, "id");
   const long long first = Whole(*entity, "base_num", 0);

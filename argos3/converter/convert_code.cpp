@@ -27,7 +27,7 @@ constexpr std::pair<const char*, const char*> kConstructors[]{{"footbot", "14CFo
                                                               {"configuration", "20GetConfigurationRootE"},
                                                               {"configuration", "22GetConfigForControllerE"}};
 
-// Of a controller that no robot of the file has: by its devices.
+// Returns the kind for a controller that no robot of the file has, judged by its devices.
 std::string KindByDevices(const ConfigurationNode& controller)
 {
   for (const char* list : {"sensors", "actuators"})
@@ -44,7 +44,7 @@ std::string KindByDevices(const ConfigurationNode& controller)
   return "";
 }
 
-constexpr int kSpareRobots = 100;  // of a controller
+constexpr int kSpareRobots = 100;  // for each controller
 constexpr int kSpareLights = 20;
 
 std::string BytesOf(const std::string& file)
@@ -256,7 +256,7 @@ std::optional<std::string> CodeConverter::LibraryThatNames(const std::string& la
     std::set<std::string> files;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
       if (entry.is_regular_file(none) && entry.path().extension() == ".so") files.insert(entry.path().string());
-    // As a text of its own among the constants, or as the end of one: compilers keep such texts once.
+    // Compilers store equal texts once, so the label is a separate constant, or the end of another one.
     for (const std::string& constant : {std::string(1, '\0') + label + '\0', label + '\0'})
       for (const std::string& file : files)
         if (BytesOf(file).find(constant) != std::string::npos) return file;
@@ -316,7 +316,7 @@ std::optional<std::string> CodeConverter::Found(const std::vector<fs::path>& fol
   return std::nullopt;
 }
 
-// A run that loop functions reset goes on, so they know how long one is, and not the framework.
+// Loop functions may reset a run that then continues. So they get the length of one trial, and not the framework.
 void CodeConverter::MoveLength(ConfigurationNode& ours, ConfigurationNode& functions)
 {
   for (auto& child : ours.children)

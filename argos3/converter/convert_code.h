@@ -1,4 +1,4 @@
-// What runs code of users in a file of ARGoS3, as ours: controllers and loop functions.
+// Converts the code of users in a file of ARGoS3: controllers and loop functions.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@ namespace swarmanoid::argos3
 class CodeConverter : NodeReader
 {
 public:
-  // All outlive this. `folder`: of the file.
+  // The arguments must outlive the object. `folder`: the file's folder.
   CodeConverter(const ConfigurationNode& root, const std::string& folder, ArenaConverter& arena,
                 ConvertedExperiment& result)
       : NodeReader(result), root_(root), folder_(folder), arena_(arena)
@@ -26,24 +26,24 @@ public:
   }
 
   void ConvertControllers(ConfigurationNode& ours);
-  // After the controllers: whether loop functions make boxes or cylinders.
+  // Call it after the controllers. Returns whether loop functions make boxes or cylinders.
   bool MakesBodies() const { return makes_bodies_; }
-  // <user_functions> of <qt-opengl>; nullptr: there are none.
+  // Returns <user_functions> of <qt-opengl>; nullptr: there are none.
   const ConfigurationNode* UserFunctions() const;
-  // After the controllers and the arena.
+  // Call it after the controllers and the arena.
   void ConvertLoopFunctions(ConfigurationNode& ours, bool for_rehearsal);
 
 private:
   void ConvertController(const ConfigurationNode& theirs, ConfigurationNode& parent, bool somebody_hears);
-  // The attribute of the first of these sensors of the controller that has it; empty: none has.
+  // Returns the attribute of the first of these sensors of the controller that has it; empty: none has.
   static std::string NoiseOf(const ConfigurationNode& controller, std::initializer_list<const char*> sensors,
                              const char* attribute);
-  // What the loop functions make, and whether they ask for the experiment file: their constructors are among the names
-  // in the library.
+  // Finds what the loop functions make, and whether they read the experiment file, by the names of constructors and
+  // functions in the library.
   std::set<std::string> FindMadeKinds() const;
-  // Keeps robots of the controller ready, for loop functions that add some.
+  // Keeps robots of the controller outside the arena, for loop functions that add some.
   void KeepSpare(const std::string& controller, const ConfigurationNode& theirs);
-  // The tags of theirs, with blanks between them.
+  // Converts the elements and returns their tags in ARGoS3, separated by blanks.
   template <class ConvertOne>
   std::string ConvertDevices(const ConfigurationNode& controller, const char* name, ConvertOne convert,
                              const DeviceContext& context, DeviceLists& lists)
@@ -63,27 +63,29 @@ private:
   // them.
   std::string TakeOwn(const ConfigurationNode& controller, const char* name, Devices& devices);
   static void MoveLength(ConfigurationNode& ours, ConfigurationNode& functions);
-  // Where libraries are looked for.
+  // Returns the folders in which libraries are searched.
   std::vector<std::filesystem::path> Folders() const;
   void SetScript(const ConfigurationNode& theirs, ConfigurationNode& options);
-  // `label`: what the library registers; ARGoS3 loads all libraries of ARGOS_PLUGIN_PATH, so files need not name one.
+  // Sets the library. `label`: the registered label. ARGoS3 loads all libraries of ARGOS_PLUGIN_PATH, so files need not
+  // name one.
   void SetLibrary(const ConfigurationNode& theirs, const std::string& label, const char* ours,
                   ConfigurationNode& options);
   void SetUserFunctions(const ConfigurationNode& theirs, ConfigurationNode& functions);
   static std::optional<std::string> LibraryThatNames(const std::string& label, std::string& searched);
-  // The first file of one of the names in one of the folders; otherwise where it is not, a line each.
+  // Returns the first file with one of the names in one of the folders. Otherwise the tried paths are added, a line
+  // each.
   static std::optional<std::string> Found(const std::vector<std::filesystem::path>& folders,
                                           const std::vector<std::string>& names, std::string& searched);
 
   const ConfigurationNode& root_;
   const std::string& folder_;
   ArenaConverter& arena_;
-  std::vector<Made> options_;  // of the controllers
+  std::vector<Made> options_;  // by controller
   std::set<std::string> made_kinds_;
   bool makes_bodies_ = false;
   bool resets_runs_ = false;
   bool asks_for_configuration_ = false;
-  std::string controller_libraries_;  // with colons between them
+  std::string controller_libraries_;  // separated by colons
 };
 
 }  // namespace swarmanoid::argos3

@@ -1,6 +1,6 @@
-// Boxes and cylinders that the Init of loop functions makes and the experiment file does not declare. Our space has all
-// entities from the start on, so a rehearsal of Init tells how many there will be and how large, and the converted file
-// keeps as many ready. Written by the plug-in (argos3_loop_functions), read by the launcher.
+// Boxes and cylinders that Init of loop functions makes and the experiment file does not declare. Our space has all
+// entities from the start, so a rehearsal of Init counts them and their sizes. The converted file keeps as many ready.
+// The plug-in (argos3_loop_functions) writes the file, and the launcher reads it.
 #pragma once
 
 #include <map>
@@ -13,23 +13,23 @@
 namespace swarmanoid::argos3
 {
 
-// In the folder of the run.
+// The name of the file in the folder of the run.
 inline constexpr const char* kMadeBodiesFile = "made_bodies.txt";
 
-// Ours for a box with LEDs, or that loop functions make (argos3/kinds/box.cpp).
+// Our kind for a box with LEDs, or one that loop functions make (argos3/kinds/box.cpp).
 inline constexpr const char* kLitBox = "argos3_box";
-// Reserves of bodies have ids that begin so, and of these the ones that do not move there this mass.
+// Reserves of bodies have ids with this prefix. Static bodies among them get this mass.
 inline constexpr const char* kMadeBody = "made_body_";
 inline constexpr double kUnmovableKg = 10'000;
-// We have no heavier bodies; nothing moves these either.
+// The largest mass here; no robot can move such a body.
 inline constexpr double kHeaviestKg = 1e9;
 
 struct BodyShape
 {
-  std::string tag;  // ours
+  std::string tag;  // our tag
   bool movable = false;
   double mass_kg = 1;  // at most kHeaviestKg
-  Vector3 size;        // m; of cylinders radius, radius, height
+  Vector3 size;        // m; for cylinders: radius, radius, height
 
   friend bool operator<(const BodyShape& a, const BodyShape& b)
   {
@@ -38,11 +38,11 @@ struct BodyShape
     return all(a) < all(b);
   }
 };
-// How many of each shape.
+// The number of bodies of each shape.
 using MadeBodies = std::map<BodyShape, int>;
 
 void WriteMadeBodies(const MadeBodies& bodies, const std::string& folder);
-// None if there is no file: Init failed, and says why when it is run.
+// Returns an empty map if there is no file. Then Init has failed, and the run reports why.
 MadeBodies ReadMadeBodies(const std::string& folder);
 
 }  // namespace swarmanoid::argos3

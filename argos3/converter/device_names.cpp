@@ -24,7 +24,7 @@ ConfigurationNode& AddDevice(Devices& devices, const std::string& type, const st
   return *device;
 }
 
-// The attributes of one device of ARGoS3: what was not asked for at the end has no effect, and is told.
+// The attributes of one device of ARGoS3. Attributes that were not read at the end have no effect, and are reported.
 class Attributes
 {
 public:
@@ -41,7 +41,7 @@ public:
   Attributes(const Attributes&) = delete;
   Attributes& operator=(const Attributes&) = delete;
 
-  // nullopt if it is not given, or no number, which is told.
+  // Returns nullopt if it is missing, or if it is no number, which is reported.
   std::optional<double> Number(const std::string& name)
   {
     used_.insert(name);
@@ -51,7 +51,7 @@ public:
     if (!number) context_.mistake(attribute->location, Quoted(name) + " is '" + attribute->value + "', no number");
     return number;
   }
-  // "min:max".
+  // Reads "min:max".
   std::optional<std::pair<double, double>> Range(const std::string& name)
   {
     used_.insert(name);
@@ -71,12 +71,12 @@ public:
     const ConfigurationNode::Attribute* attribute = FindAttributeOf(node_, name);
     return attribute == nullptr ? fallback : attribute->value;
   }
-  // A parameter of ours of the same meaning and unit.
+  // Copies an attribute to our parameter of the same meaning and unit.
   void Copy(const std::string& name, const std::string& ours, ConfigurationNode& device)
   {
     if (const auto number = Number(name)) SetValue(device, ours, TextOf(*number), node_.location);
   }
-  // Uniform noise of plus and minus a level.
+  // Copies uniform noise of plus and minus a level.
   void CopyLevel(ConfigurationNode& device)
   {
     const auto level = Number("noise_level");
@@ -150,7 +150,7 @@ void RefuseUnknown(const ConfigurationNode& node, const char* what, const Names&
                                      DidYouMean(node.name, known));
 }
 
-// Without <battery> nothing discharges it.
+// Without <battery> the battery is not discharged.
 void ConvertBattery(const DeviceContext& context, ConfigurationNode& device)
 {
   double per_second = 0, per_metre = 0, per_radian = 0;
@@ -187,9 +187,9 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
   Attributes attributes(node, context);
   if (tag == "differential_steering")
   {
-    // Those of e-pucks read what the wheels were told (argos3/plugin/epuck_devices.cpp).
+    // The encoders of e-pucks read the wheel commands (argos3/plugin/epuck_devices.cpp).
     if (!IsForEPucks(context)) AddDevice(ours.sensors, "footbot_encoders", "engine_footbot_encoders", at);
-    // This noise and that of the camera and of range and bearing are added to the readings
+    // The plug-in adds this noise, and that of the camera and of range and bearing, to the readings
     // (argos3/plugin/device_noise.h).
     attributes.Range("vel_noise_range");
     attributes.Range("dist_noise_range");
@@ -198,7 +198,7 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
     attributes.CopyLevel(AddDevice(ours.sensors, tag, "generic_footbot_proximity", at));
   else if (tag == "proximity" || tag == "epuck_proximity" || tag == "eyebot_proximity")
   {
-    // The noise is added to the response, which is theirs (argos3/plugin/device_adapters.cpp).
+    // The plug-in adds the noise to the response of ARGoS3 (argos3/plugin/device_adapters.cpp).
     AddDevice(ours.sensors, "proximity", "generic_proximity", at);
     attributes.Number("noise_level");
   }
@@ -208,7 +208,7 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
     context.mistake(at, "<light> has no counterpart here on eye-bots; take eyebot_light");
   else if (tag == "light")
   {
-    // epuck_entity.cpp and footbot_entity.cpp of ARGoS3.
+    // The values are those of epuck_entity.cpp and footbot_entity.cpp of ARGoS3.
     ConfigurationNode& device = AddDevice(ours.sensors, tag, "generic_light", at);
     const bool is_epuck = IsForEPucks(context);
     SetValue(device, "sensors", is_epuck ? "8" : "24", at);
@@ -236,7 +236,7 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
       attributes.CopyUniform(device, "position_", range->first, range->second);
     if (const auto range = attributes.Range("angle_noise_range"))
       attributes.CopyUniform(device, "heading_", range->first * kRadians, range->second * kRadians);
-    // Added to the reading (argos3/plugin/device_adapters.cpp).
+    // The plug-in adds the noise to the reading (argos3/plugin/device_adapters.cpp).
     attributes.Range("axis_noise_range");
   }
   else if (tag == "battery")
@@ -264,7 +264,7 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
   else if (tag == kScanner)
   {
     ConfigurationNode& device = AddDevice(ours.sensors, tag, "argos3_footbot_distance_scanner", at);
-    // Of readings in cm.
+    // The noise is that of readings in cm.
     if (const auto range = attributes.Range("noise_range"))
       attributes.CopyUniform(device, "", range->first / 100, range->second / 100);
   }
@@ -289,7 +289,7 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
   if (tag == "differential_steering" && IsForEPucks(context))
   {
     AddDevice(ours.actuators, "wheels", "generic_wheels", at);
-    // Theirs is computed in argos3/plugin/epuck_devices.cpp.
+    // The plug-in computes ARGoS3's noise in argos3/plugin/epuck_devices.cpp.
     for (const char* name : kWheelNoise)
       for (const char* side : {"", "_left", "_right"}) attributes.Number(std::string(name) + side);
   }

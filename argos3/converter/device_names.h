@@ -1,4 +1,4 @@
-// Which devices of ours stand for one of ARGoS3.
+// Finds our devices for a device of ARGoS3.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 namespace swarmanoid::argos3
 {
 
-// What the robots of a controller are.
+// The properties of a controller's robots.
 struct Bearers
 {
   std::set<std::string> kinds;       // "footbot", "eyebot", "argos3_epuck"
@@ -21,10 +21,10 @@ struct Bearers
   double perspective_range = 2;      // m
   double radio_range = 3;            // m
   long long radio_bytes = 10;
-  const ConfigurationNode* battery = nullptr;  // <battery>, if there is one
+  const ConfigurationNode* battery = nullptr;  // <battery>, or nullptr
 };
 
-// Ours, by type, each once.
+// Our devices, each once, by type.
 using Devices = std::map<std::string, Made>;
 
 struct DeviceLists
@@ -33,24 +33,24 @@ struct DeviceLists
   Devices actuators;
 };
 
-// Where a mistake or a note goes.
+// Receives a mistake or a note.
 using Report = std::function<void(const SourceLocation&, const std::string&)>;
 
 struct DeviceContext
 {
   const Bearers& bearers;
-  bool floor_is_painted = false;  // by loop functions
+  bool floor_is_painted = false;  // loop functions paint it
   double ticks_per_second = 10;
   Report mistake;
   Report note;
 };
 
-// Of differential_steering; each also with _left or _right behind it.
+// The noise attributes of differential_steering. Each also exists with the suffix _left or _right.
 inline constexpr std::array<const char*, 4> kWheelNoise{"bias_avg", "bias_stddev", "factor_avg", "factor_stddev"};
 
 void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, DeviceLists& ours);
 void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context, DeviceLists& ours);
-// A sender, for robots that only others hear.
+// Adds a sender, for robots that others only hear.
 void AddSender(const SourceLocation& location, const DeviceContext& context, DeviceLists& ours);
 
 }  // namespace swarmanoid::argos3

@@ -1,5 +1,5 @@
-// Reading the elements of a file of ARGoS3; what is not there, or of another form, is told. What converts parts of a
-// file derives from it.
+// Reads the elements of a file of ARGoS3, and reports missing and malformed content. The classes that convert parts of
+// a file derive from it.
 #pragma once
 
 #include <optional>
@@ -16,13 +16,13 @@ namespace swarmanoid::argos3
 class NodeReader
 {
 protected:
-  // `result`: where mistakes and notes go; it outlives this.
+  // `result` gets mistakes and notes; it must outlive the object.
   explicit NodeReader(ConvertedExperiment& result) : result_(result) {}
 
   void Mistake(const SourceLocation& at, const std::string& message);
   void Note(const SourceLocation& at, const std::string& message);
   const ConfigurationNode* Needed(const ConfigurationNode& node, const std::string& name);
-  // Attributes. What is not there or of another form is told, if it is needed.
+  // Read attributes. Missing required ones and malformed ones are reported.
   std::optional<std::string> Text(const ConfigurationNode& node, const std::string& name);
   std::string NeededText(const ConfigurationNode& node, const std::string& name);
   template <class Value>
@@ -36,14 +36,14 @@ protected:
     return fallback;
   }
   double Number(const ConfigurationNode& node, const std::string& name, double fallback);
-  // A number that has to be above 0.
+  // Reads a number that must be above 0.
   double Positive(const ConfigurationNode& node, const std::string& name, double fallback);
   long long Whole(const ConfigurationNode& node, const std::string& name, long long fallback);
   bool Flag(const ConfigurationNode& node, const std::string& name, bool fallback);
   static std::optional<Vector3> ParseVector(std::string_view text);
   Vector3 Vector(const ConfigurationNode& node, const std::string& name, const Vector3& fallback = Vector3::Zero());
   Vector3 NeededVector(const ConfigurationNode& node, const std::string& name);
-  // Attributes that are no parameters here are told.
+  // Reports attributes that are no parameters here.
   void NoteOthers(const ConfigurationNode& node, const std::set<std::string>& known);
 
 private:

@@ -1,4 +1,4 @@
-// Building and reading elements of a converted file.
+// Functions that build and read elements of a converted file.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 namespace swarmanoid::argos3
 {
 
-inline constexpr double kRadians = std::numbers::pi / 180;  // of a degree
+inline constexpr double kRadians = std::numbers::pi / 180;  // in a degree
 
 using Made = std::shared_ptr<ConfigurationNode>;
 
@@ -39,7 +39,7 @@ inline void SetValue(ConfigurationNode& node, const std::string& name, const std
   node.attributes.push_back({name, value, location});
 }
 
-// The shortest text that is read as the same number.
+// Returns the shortest text that is read back as the same number.
 inline std::string TextOf(double number) { return fmt::format("{}", number); }
 inline std::string TextOf(const Vector3& v) { return fmt::format("{}, {}, {}", v.x(), v.y(), v.z()); }
 

@@ -1,5 +1,5 @@
-// A box as ARGoS3 has it where it bears LEDs, or where loop functions make it: cameras see the colour of the LEDs, and
-// nothing of one without lit LEDs. <box> without LEDs becomes a <block>.
+// The box of ARGoS3 with LEDs, or made by loop functions. Cameras see the colour of its LEDs, and nothing of a box
+// without lit LEDs. A <box> without LEDs becomes a <block>.
 #include "common/experiment/entity_kind.h"
 
 namespace swarmanoid::argos3

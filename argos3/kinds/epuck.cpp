@@ -1,6 +1,6 @@
-// The e-puck as ARGoS3 models it, for experiments in its XML: <e-puck> becomes <argos3_epuck>. Sizes, mass, places of
-// the sensors and LEDs: epuck_entity.cpp and dynamics2d_epuck_model.cpp of ARGoS3. (user/entities/epuck is the robot by
-// its data sheet.) Lengths in metres.
+// The e-puck as ARGoS3 models it, for experiments in its XML: <e-puck> becomes <argos3_epuck>. Sizes, mass, positions
+// of the sensors and LEDs are from epuck_entity.cpp and dynamics2d_epuck_model.cpp of ARGoS3. (user/entities/epuck is
+// the robot by its data sheet.) Lengths are in metres.
 #include "argos3/kinds/epuck_ground.h"
 #include "common/experiment/entity_kind.h"
 #include "common/math/elementary.h"
@@ -36,7 +36,7 @@ EntityKindDescription EPuck()
   row.size = {kRadius, kRadius, kHeight};
   row.mass_kg = 0.4;
   row.colour = 0x2f9e44;
-  // Commands have no limit there.
+  // ARGoS3 does not limit the commands.
   row.wheels = WheelDrive{0.053, 0.0205, 10};
   row.leds = LedLayout{PlacesOnCircle(8, kRadius + 0.007, kPi / 16), kHeight, false};
   row.proximity = Proximity();

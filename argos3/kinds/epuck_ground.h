@@ -1,4 +1,4 @@
-// Where the ground sensors of ARGoS3's e-puck are: for its row, and for floors that loop functions paint.
+// The positions of the ground sensors of ARGoS3's e-puck: for its row, and for floors that loop functions paint.
 #pragma once
 
 #include <array>

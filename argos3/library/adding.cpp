@@ -1,5 +1,5 @@
-// What loop functions add to the arena and remove from it: of our space, which has all entities from the start on, one
-// that waits.
+// Adds and removes entities for loop functions. Our space has all entities from the start, so adding one uses a waiting
+// entity.
 #include <argos3/core/simulator/entity/composable_entity.h>
 #include <argos3/plugins/simulator/entities/light_entity.h>
 
@@ -55,7 +55,7 @@ const swarmanoid::CSwarmanoidSpaceEntity& NextSpare(const swarmanoid::CSwarmanoi
   }
 }
 
-// Of ours, the one to add for an entity that loop functions made: the one that the file declares, or a spare robot.
+// Returns our entity for one that loop functions made: the one that the file declares, or a spare robot.
 const swarmanoid::CSwarmanoidSpaceEntity& OursFor(const CEntity& made)
 {
   const std::string& id = made.GetId();
@@ -87,7 +87,7 @@ const swarmanoid::CSwarmanoidSpaceEntity& OursFor(const CEntity& made)
   return ours;
 }
 
-// A robot that loop functions made has its controller before AddEntity, if they ask for it.
+// Gives a robot that loop functions made its controller before AddEntity, if they ask for it.
 void GiveController(const CEntity& made)
 {
   Running& running = TheRunning();
@@ -100,7 +100,7 @@ void GiveController(const CEntity& made)
   spare->second->Take(made.GetId());
 }
 
-// Their engines take a body where another one is; it is for them to push the two apart.
+// Engines of ARGoS3 accept a body that overlaps another one, and push the two apart.
 void AddAnywhere(const std::string& id, const Pose& pose)
 {
   constexpr double kStep = 1;  // m
@@ -110,7 +110,7 @@ void AddAnywhere(const std::string& id, const Pose& pose)
   if (free.position.z() != pose.position.z()) Editor().MoveEntity(id, pose);
 }
 
-// Of a box or cylinder that comes: those it was given.
+// Sets the LEDs of an added box or cylinder to its initial colours.
 void ShowLeds(const std::string& ours, const CEntity& made)
 {
   const auto* lit = dynamic_cast<const CObjectWithLEDs*>(&made);
@@ -137,7 +137,7 @@ CCI_Controller& CControllableEntity::GetController()
 
 void CLoopFunctions::AddEntity(CEntity& entity)
 {
-  // Whoever made it may go on to hold it.
+  // The loop functions may keep a pointer to the entity, so it is not destroyed.
   static std::vector<std::unique_ptr<CEntity>> given;
   given.emplace_back(&entity);
   const auto* body = dynamic_cast<CBodyEntity*>(&entity);

@@ -8,14 +8,14 @@ namespace
 using Faces = std::vector<CConvexHull::SFace>;
 using Edge = std::pair<UInt32, UInt32>;
 
-constexpr Real kFlat = 1e-6;  // as far outside a point is still within
+constexpr Real kFlat = 1e-6;  // a point so far outside still counts as inside
 
 bool IsOutside(const CConvexHull::SFace& face, const CVector3& point)
 {
   return face.Normal.DotProduct(point) > face.Direction + kFlat;
 }
 
-// Four points around a space; no faces if there are none.
+// Returns the faces of four points around a volume; none if there are no such points.
 Faces Tetrahedron(const std::vector<CVector3>& points)
 {
   const auto count = static_cast<UInt32>(points.size());
@@ -29,7 +29,7 @@ Faces Tetrahedron(const std::vector<CVector3>& points)
         {
           const Real above = face.Normal.DotProduct(points[d]) - face.Direction;
           if (Abs(above) < kFlat) continue;
-          // Seen from d, which is below, a, b and c go round counter-clockwise or the other way.
+          // Seen from d, which is below, a, b and c are counter-clockwise or clockwise.
           const UInt32 second = above < 0 ? b : c;
           const UInt32 third = above < 0 ? c : b;
           return {
@@ -41,7 +41,7 @@ Faces Tetrahedron(const std::vector<CVector3>& points)
 
 }  // namespace
 
-// Point by point: those faces go that the point is outside of, and it is joined to the edges around the hole.
+// Adds point by point: the faces that the point is outside of are removed, and it is joined to the edges of the hole.
 CConvexHull::CConvexHull(const std::vector<CVector3>& points) : faces_(Tetrahedron(points))
 {
   if (faces_.empty()) return;
@@ -60,7 +60,7 @@ CConvexHull::CConvexHull(const std::vector<CVector3>& points) : faces_(Tetrahedr
       {
         const UInt32 from = face.VertexIndices[i];
         const UInt32 to = face.VertexIndices[(i + 1) % 3];
-        // An edge between two that go is none of the hole.
+        // An edge between two removed faces does not belong to the hole.
         if (edges.erase({to, from}) == 0) edges.insert({from, to});
       }
     }

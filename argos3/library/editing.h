@@ -1,4 +1,4 @@
-// Changes that loop functions make to our space, as ARGoS3 tells of them.
+// Converts changes of loop functions to our space and back.
 #pragma once
 
 #include <argos3/core/utility/datatypes/color.h>
@@ -16,7 +16,7 @@ inline SpaceEditor& Editor()
   return *TheRunning().editor;
 }
 
-// Of boxes we tell the middle, ARGoS3 the middle of the base.
+// Our position is the middle of a box; in ARGoS3 it is the middle of the base.
 inline Pose PoseOf(const CSwarmanoidSpaceEntity& entity, const argos::CVector3& position,
                    const argos::CQuaternion& orientation)
 {
@@ -25,7 +25,7 @@ inline Pose PoseOf(const CSwarmanoidSpaceEntity& entity, const argos::CVector3& 
   return pose;
 }
 
-// The other way round.
+// Converts in the other direction.
 inline argos::SAnchor AnchorOf(const CSwarmanoidSpaceEntity& entity, Pose pose)
 {
   if (IsBox(entity)) pose.position -= pose.orientation * Vector3(0, 0, entity.GetSize().z() / 2);
@@ -43,7 +43,7 @@ inline const CSwarmanoidSpaceEntity& Declared(const std::string& id)
   return *entity;
 }
 
-// The object of theirs in the arena; nullptr for one that is not there.
+// Returns the object of ARGoS3 in the arena; nullptr for an entity outside the arena.
 argos::CBodyEntity* TheirBodyOf(const std::string& our_id);
 
 inline std::uint32_t Rgb(const argos::CColor& colour)

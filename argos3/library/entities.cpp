@@ -39,7 +39,7 @@ namespace
 using swarmanoid::argos3::Running;
 using swarmanoid::argos3::TheRunning;
 
-// Where the colour of an LED is in our space.
+// The index of an LED's colour in our space.
 struct Slot
 {
   const char* attribute;
@@ -53,7 +53,7 @@ Slot SlotOf(const swarmanoid::CSwarmanoidSpaceEntity& entity, unsigned led)
   return led < row.leds->places.size() ? Slot{"led", static_cast<int>(led)} : Slot{"beacon", 0};
 }
 
-// nullptr while no loop functions run, and for one that was not added yet.
+// Returns nullptr while no loop functions run, and for an entity that was not added yet.
 const swarmanoid::CSwarmanoidSpaceEntity* OursOf(CEntity& part)
 {
   const Running& running = TheRunning();
@@ -233,7 +233,7 @@ CLightEntity::CLightEntity(const std::string& id, const CVector3& position, cons
 {
 }
 
-// The places are those of the simulated sensors.
+// The positions are those of the simulated sensors.
 
 void CFootBotEntity::AddParts()
 {

@@ -1,5 +1,5 @@
-// Boxes and cylinders that loop functions make: in a run, those that wait for them; in a rehearsal, a list of what was
-// made, which stands nowhere.
+// Boxes and cylinders that loop functions make. In a run they replace waiting bodies. In a rehearsal they are only
+// listed, and have no position.
 #pragma once
 
 #include <argos3/core/simulator/entity/entity.h>
@@ -14,20 +14,20 @@
 namespace swarmanoid::argos3
 {
 
-// One of which ARGoS3 tells the middle of the base, and we that of the body.
+// Returns whether the position in ARGoS3 is the middle of the base, while ours is the middle of the body.
 inline bool IsBox(const CSwarmanoidSpaceEntity& entity)
 {
   return TagName(entity.GetKind()) == "block" || TagName(entity.GetKind()) == kLitBox;
 }
-// nullopt for what is no box and no cylinder.
+// Returns nullopt for entities other than boxes and cylinders.
 std::optional<BodyShape> ShapeOf(const argos::CEntity& made);
-// One of the shape that is not in the arena; nullptr if there is none.
+// Returns an entity of the shape outside the arena; nullptr if none exists.
 const CSwarmanoidSpaceEntity* WaitingBody(const CSwarmanoidSpace& space, const BodyShape& shape);
 
 class DryRun
 {
 public:
-  // A box or a cylinder.
+  // Adds a box or a cylinder.
   void Add(argos::CEntity& made);
   bool Has(const std::string& id) const { return bodies_.count(id) != 0; }
   MadeBodies Shapes() const;

@@ -9,7 +9,7 @@ namespace swarmanoid::argos3
 namespace
 {
 
-constexpr std::size_t kDeepest = 64;  // of what is pushed and not popped
+constexpr std::size_t kDeepest = 64;  // limit of pushes without a pop
 
 }  // namespace
 

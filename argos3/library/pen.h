@@ -1,5 +1,5 @@
-// Pen: what Qt user functions draw with, between them and the drawing of a tick: colour and widths as OpenGL remembers
-// them, matrices, and the shape that is begun. Made by the plug-in for each drawing; one thread.
+// Pen: connects the drawing calls of Qt user functions to the drawing of a tick. It holds colour and widths as OpenGL
+// does, matrices, and the shape that was begun. The plug-in makes one for each drawing; one thread.
 #pragma once
 
 #include <argos3/plugins/simulator/visualizations/qt-opengl/qtopengl_user_functions.h>
@@ -19,9 +19,9 @@ class Pen
 public:
   Pen(Drawing& drawing, const Translation& translation) : drawing_(drawing), translation_(translation) { InWorld(); }
 
-  // What follows is in the arena as ARGoS3 has it, with everything set anew.
+  // Starts drawing in ARGoS3's frame of the arena, with all settings at their defaults.
   void InWorld();
-  // In the frame of an entity of ours, whose origin ARGoS3 has `lower_m` below ours.
+  // Starts drawing in the frame of our entity; ARGoS3's origin is `lower_m` below ours.
   void InFrameOf(std::uint32_t entity, double lower_m);
 
   Drawing& GetDrawing() { return drawing_; }
@@ -30,7 +30,7 @@ public:
   Pose At(const argos::CVector3& place, const argos::CQuaternion& orientation) const;
   static Ink InkOf(const argos::CColor& colour, double width = 1);
 
-  // As the functions of OpenGL of these names.
+  // Implement the functions of OpenGL with these names.
   void SetColour(const Ink& colour) { now_.ink.colour = colour.colour, now_.ink.opacity = colour.opacity; }
   void SetLineWidth(double pixels) { now_.ink.width = pixels; }
   void SetPointSize(double pixels) { now_.point = pixels; }
@@ -67,7 +67,7 @@ private:
   std::vector<Vector3> vertices_;
 };
 
-// Throws CARGoSException if nothing is drawn now. `function`: that asks.
+// Returns the current pen. Throws CARGoSException if nothing is being drawn. `function`: the caller, for the message.
 Pen& ThePen(const char* function);
 
 }  // namespace swarmanoid::argos3

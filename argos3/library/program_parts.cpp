@@ -1,4 +1,4 @@
-// What programs of users take from ARGoS3 besides the simulator: options, rates, measurements, libraries.
+// Parts of ARGoS3 for users' programs beside the simulator: options, rates, measurements, libraries.
 #include <argos3/core/utility/configuration/command_line_arg_parser.h>
 #include <argos3/core/utility/plugins/dynamic_loading.h>
 #include <argos3/core/utility/profiler/profiler.h>
@@ -69,7 +69,7 @@ CDynamicLoading::TDLHandle CDynamicLoading::LoadLibrary(const std::string& libra
     for (const char* ending : {"", ".so"})
     {
       const std::string file = (is_absolute ? "" : folder + "/") + library + ending;
-      // As those that an experiment names: each has the names of the others.
+      // The library is opened as those of an experiment, so that libraries see each other's names.
       if (void* handle = ::dlopen(file.c_str(), RTLD_LAZY | RTLD_GLOBAL)) return handle;
       tried += std::string("\n    ") + ::dlerror();
     }

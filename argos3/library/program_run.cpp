@@ -1,4 +1,4 @@
-// CSimulator of programs that load an experiment and run it themselves, again and again.
+// CSimulator of programs that load an experiment and run it themselves, any number of times.
 #include <argos3/core/simulator/loop_functions.h>
 
 #include <optional>
@@ -16,7 +16,7 @@ using swarmanoid::argos3::Running;
 using swarmanoid::argos3::Speaker;
 using swarmanoid::argos3::TheRunning;
 
-// Between its steps the program speaks for the loop functions, and may change what they may.
+// Between the steps the program acts as the loop functions, and may change the same things.
 struct Program
 {
   explicit Program(std::unique_ptr<ProgramRun> loaded) : run(std::move(loaded)) { run->Step(); }
@@ -49,7 +49,7 @@ Program& Loaded()
   return *TheProgram();
 }
 
-// What goes wrong in a run, as programs of ARGoS3 catch it.
+// Converts errors of a run to exceptions that programs of ARGoS3 catch.
 template <class Call>
 auto Told(Call call)
 {
@@ -115,7 +115,7 @@ void CSimulator::Destroy()
   Told([] { TheProgram()->run->Finish(); });
   TheProgram().reset();
   TheRunning().is_program = false;
-  // The next one draws as if it were the first.
+  // The next experiment must draw the same numbers as the first one.
   CRandom::RemoveCategory("argos");
   CRandom::CreateCategory("argos", 0);
 }

@@ -1,5 +1,5 @@
-// Range and bearing of robots, for loop functions: the bytes are an attribute of the sender in our space, range and
-// size what the controller of the robot has.
+// Range and bearing of robots for loop functions. The bytes are an attribute of the sender in our space. Range and size
+// are those of the robot's controller.
 #include <argos3/core/simulator/simulator.h>
 #include <argos3/plugins/simulator/media/rab_medium.h>
 
@@ -38,7 +38,7 @@ const swarmanoid::ControllerConfiguration& ControllerOf(const CRABEquippedEntity
   return *controller;
 }
 
-// Five bytes each.
+// Each number holds five bytes.
 int NumbersOf(const CByteArray& data)
 {
   return (static_cast<int>(data.Size()) + swarmanoid::kBytesInNumber - 1) / swarmanoid::kBytesInNumber;
@@ -53,7 +53,7 @@ void Send(const std::string& ours, const CByteArray& data)
     TheRunning().editor->SetAttribute(ours, "message", values[static_cast<std::size_t>(i)], i + 1);
 }
 
-// Bytes that loop functions have a reference to, until their function ends.
+// Bytes to which loop functions have a reference, until their function ends.
 struct LentMessage
 {
   std::shared_ptr<const CByteArray> bytes;
@@ -78,7 +78,7 @@ void SendWritten()
   }
 }
 
-// Whether it has a controller with range and bearing, which says how far it goes.
+// Returns whether it has a controller with range and bearing, which determines the range.
 bool Communicates(const CRABEquippedEntity& part)
 {
   const auto& ours = OursOf(part);
@@ -102,7 +102,7 @@ Real CRABEquippedEntity::GetRange() const
   const swarmanoid::ControllerConfiguration& controller = ControllerOf(*this);
   const auto receiver =
       std::ranges::find(controller.sensors, "range_and_bearing", &swarmanoid::DeviceConfiguration::type);
-  // Here it is a matter of who hears.
+  // The range is that of the receiving sensor.
   if (receiver == controller.sensors.end())
     THROW_ARGOSEXCEPTION("the range of '" << const_cast<CRABEquippedEntity*>(this)->GetRootEntity().GetId()
                                           << "' is that of its sensor range_and_bearing, which it does not have");

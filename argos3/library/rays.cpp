@@ -1,4 +1,4 @@
-// What bodies a ray meets, for loop functions.
+// Finds the bodies that a ray meets, for loop functions.
 #include <argos3/core/simulator/physics_engine/physics_engine.h>
 #include <argos3/core/simulator/simulator.h>
 
@@ -15,7 +15,7 @@ using swarmanoid::SpaceQuery;
 using swarmanoid::argos3::Editor;
 using swarmanoid::argos3::TheRunning;
 
-// One entity of each engine, as questions about the bodies of the simulator are those of an observer in their world.
+// Returns one entity of each engine, since queries for bodies need an observer in the engine's world.
 std::vector<std::uint32_t> ObserverOfEachEngine()
 {
   SpaceQuery& query = Editor().GetQuery();

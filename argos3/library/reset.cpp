@@ -1,4 +1,4 @@
-// Beginning again within a run, for loop functions: what ARGoS3's Reset does to the space, its entities and robots.
+// Resets the space, its entities and robots within a run, for loop functions, as ARGoS3's Reset does.
 #include <argos3/core/simulator/loop_functions.h>
 #include <argos3/plugins/simulator/entities/light_entity.h>
 
@@ -30,7 +30,7 @@ using swarmanoid::argos3::Editor;
 using swarmanoid::argos3::Running;
 using swarmanoid::argos3::TheRunning;
 
-// nullptr for one that is not in the arena.
+// Returns nullptr for an entity outside the arena.
 const CSwarmanoidSpaceEntity* PresentOf(CEntity& part)
 {
   const auto& space = Editor().GetSpace();
@@ -38,7 +38,7 @@ const CSwarmanoidSpaceEntity* PresentOf(CEntity& part)
   return ours != nullptr && space.IsPresent(ours->GetIndex()) ? ours : nullptr;
 }
 
-// Of one that was removed and came back by itself, how it is.
+// Returns the present state of an entity that was removed and came back by itself.
 Arrival ArrivalOf(const CSwarmanoidSpaceEntity& ours)
 {
   const auto given = TheRunning().arrivals.find(ours.GetId());
@@ -68,7 +68,8 @@ void RequireControllersHere()
   }
 }
 
-// nullptr for what is not in the arena or has no controller. Throws CARGoSException if that is in another process.
+// Returns nullptr for an entity that is outside the arena or has no controller. Throws CARGoSException if the
+// controller is in another process.
 ControlledRobot* ControlledOf(const CSwarmanoidSpaceEntity* ours)
 {
   if (ours == nullptr || ours->GetConfiguration().controller.empty()) return nullptr;
@@ -84,7 +85,7 @@ void CSimulator::Reset()
 {
   if (resets_) return GetSpace().Reset();
   RequireControllersHere();
-  // Of the first seed: the numbers of the first trial.
+  // The first seed gives the numbers of the first trial.
   const UInt32 variation = seed_ ^ first_seed_;
   CRandom::GetCategory("argos").Vary(variation);
   CRandom::GetCategory("argos").ResetRNGs();
@@ -110,7 +111,7 @@ void CSpace::Reset()
   RequireControllersHere();
   SetSimulationClock(0);
   running.first_step = running.step;
-  // Only the Reset of the simulator takes numbers of before.
+  // Only the Reset of the simulator restores the earlier random numbers.
   Editor().BeginAgain(running.step, static_cast<UInt32>(swarmanoid::MixedBits(running.step)));
   for (CEntity* entity : entities_)
     if (!running.Rehearsed(entity->GetId())) entity->Reset();
@@ -147,7 +148,7 @@ void CLEDEntity::Reset()
 {
   const auto* ours = PresentOf(*this);
   if (ours == nullptr) return;
-  // Those of robots come dark.
+  // The LEDs of robots are dark after a reset.
   for (const char* name : {"led", "beacon"}) ResetAttribute(*ours, name, 0);
   ResetAttribute(*ours, "colour", ArrivalOf(*ours).colour);
 }

@@ -10,7 +10,7 @@ namespace
 
 std::map<std::string, CRandom::CCategory>& Categories()
 {
-  // The seed of "argos" adds nothing: the experiment's is in what the robots draw.
+  // The seed of "argos" is not needed, since the experiment's seed is part of the robots' streams.
   static std::map<std::string, CRandom::CCategory> categories = []
   {
     std::map<std::string, CRandom::CCategory> first;
@@ -62,7 +62,7 @@ SInt32 CRandom::CRNG::Uniform(const CRange<SInt32>& range)
   return static_cast<SInt32>(span == 0 ? low : low + stream_->random.Below(span));
 }
 
-// By inversion.
+// The number is drawn by inversion.
 Real CRandom::CRNG::Exponential(Real mean) { return -mean * std::log(1 - stream_->random.Uniform()); }
 Real CRandom::CRNG::Gaussian(Real deviation, Real mean) { return stream_->random.Gaussian(mean, deviation); }
 Real CRandom::CRNG::Rayleigh(Real sigma) { return sigma * std::sqrt(-2 * std::log(1 - stream_->random.Uniform())); }
@@ -76,7 +76,7 @@ void CRandom::CCategory::SetSeed(UInt32 seed)
 
 CRandom::CRNG* CRandom::CCategory::CreateRNG(const std::string& /*type*/)
 {
-  // Programs draw numbers of their own before they load an experiment.
+  // Programs draw their own numbers before they load an experiment.
   const bool is_of_program = id_ != "argos" && !swarmanoid::argos3::Speaker::Speaks();
   const UInt64 first =
       is_of_program ? swarmanoid::MixedBits(generators_.size()) : swarmanoid::argos3::Speaker::RandomBits();

@@ -18,7 +18,7 @@ bool IsNumber(std::string_view text)
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// The text behind the prefix, if it is a number.
+// Returns the number behind the prefix, if the rest is a number.
 std::optional<long long> NumberBehind(const std::string& id, const std::string& prefix)
 {
   if (!id.starts_with(prefix) || !IsNumber(std::string_view(id).substr(prefix.size()))) return std::nullopt;
@@ -73,7 +73,7 @@ std::string Translation::Argos3Id(const std::string& id) const
 
 std::string Translation::OurId(const std::string& id) const
 {
-  // Groups of one prefix follow one another in their numbers.
+  // Groups of one prefix have consecutive numbers.
   const Distributed* found = nullptr;
   long long number = 0;
   for (const Distributed& group : distributed)

@@ -1,5 +1,5 @@
-// What of an ARGoS3 experiment runs in this process, and who is running now: between the API, whose headers know
-// nothing of the simulator, and the plug-in that drives it. One experiment a process, one thread.
+// The state of the ARGoS3 experiment in this process. It connects the API, whose headers do not know the simulator,
+// with the plug-in that drives it. One experiment in a process, one thread.
 #pragma once
 
 #include <argos3/core/simulator/loop_functions.h>
@@ -22,17 +22,17 @@
 namespace swarmanoid::argos3
 {
 
-// What ARGoS3's classes are made by: the labels of the libraries that were loaded.
+// Return the factories of ARGoS3's classes by label, from the loaded libraries.
 std::map<std::string, argos::CCI_Controller* (*)()>& ControllersByLabel();
 std::map<std::string, argos::CLoopFunctions* (*)()>& LoopFunctionsByLabel();
 std::map<std::string, argos::CQTOpenGLUserFunctions* (*)()>& UserFunctionsByLabel();
 
-// The arena and the ids of an ARGoS3 experiment beside ours.
+// Converts between the arena and ids of an ARGoS3 experiment and ours.
 struct Translation
 {
-  // Where ARGoS3's origin is in our space, m.
+  // The position of ARGoS3's origin in our space, m.
   Vector3 origin = Vector3::Zero();
-  // Entities of a <distribute>: "fb10", "fb11" … there are "fb_0", "fb_1" … here.
+  // Entities of a <distribute>: "fb10", "fb11" … in ARGoS3 are "fb_0", "fb_1" … here.
   struct Distributed
   {
     std::string theirs;
@@ -41,7 +41,7 @@ struct Translation
   };
   std::vector<Distributed> distributed;
 
-  // From the attributes origin and distributed ("fb:10:fb eb:0:eb") that the converted file has.
+  // Reads the attributes origin and distributed ("fb:10:fb eb:0:eb") of the converted file.
   static Translation From(const TConfigurationTree& tree);
   std::string Argos3Id(const std::string& id) const;
   std::string OurId(const std::string& id) const;
@@ -56,24 +56,24 @@ struct Translation
 };
 
 inline argos::CQuaternion Argos3Orientation(const Quaternion& q) { return {q.w(), q.x(), q.y(), q.z()}; }
-// One of zeros, which ARGoS3 takes for no rotation, is none.
+// A quaternion of zeros, which ARGoS3 treats as the identity, becomes the identity.
 inline Quaternion OurOrientation(const argos::CQuaternion& q)
 {
   if (q.SquareLength() == 0) return Quaternion::Identity();
   return Quaternion(q.GetW(), q.GetX(), q.GetY(), q.GetZ()).normalized();
 }
 
-// The element as ARGoS3's controllers see it, with its places.
+// Copies an element for ARGoS3's controllers, with its positions in the file.
 void CopyElement(const ConfigurationNode& from, argos::TConfigurationNode& to);
 
-// A robot of a <reserve> that waits for loop functions to add it: it has no controller until then.
+// A robot of a <reserve> that waits for loop functions to add it. It has no controller until then.
 class SpareRobot
 {
 public:
   virtual ~SpareRobot() = default;
-  // Makes its controller, for the robot of that id of theirs, and calls its Init.
+  // Makes its controller, for the robot with that id in ARGoS3, and calls its Init.
   virtual void Take(const std::string& id) = 0;
-  // It leaves the arena; its controller is destroyed.
+  // Removes it from the arena; its controller is destroyed.
   virtual void Leave() = 0;
 };
 
@@ -82,17 +82,17 @@ class ControlledRobot
 {
 public:
   virtual ~ControlledRobot() = default;
-  // Reset of its devices and its controller.
+  // Resets its devices and its controller.
   virtual void Reset() = 0;
   virtual void SetEnabled(bool enabled) = 0;
 };
 
-// How an entity came into the arena, or was when Init of the loop functions was called.
+// The state of an entity when it was added to the arena, or at Init of the loop functions.
 struct Arrival
 {
   Pose pose;
-  double colour = 0;  // 0xRRGGBB; of one that has the attribute
-  double turret = 0;  // rad; likewise
+  double colour = 0;  // 0xRRGGBB, for an entity with that attribute
+  double turret = 0;  // rad, for an entity with that attribute
 };
 Arrival ArrivalNow(const CSwarmanoidSpaceEntity& entity);
 
@@ -103,23 +103,23 @@ struct BatteryCharge
   double start = 1;
 };
 
-// Of a robot, as it was told them, cm/s.
+// The commanded speeds of a robot's wheels, cm/s.
 struct WheelSpeeds
 {
   double left = 0, right = 0;
 };
 
-// The loop functions, for a program of a user that steps the run itself.
+// The loop functions, for a user's program that steps the run itself.
 class SteppedFunctions
 {
 public:
   virtual ~SteppedFunctions() = default;
-  // Their PreStep.
+  // Calls their PreStep.
   virtual void BeginStep(SpaceEditor& editor) = 0;
-  // Whether their experiment is over.
+  // Returns whether their experiment is over.
   virtual bool IsOver() = 0;
 };
-// A run that a program of a user loaded (argos3/program).
+// A run that a user's program loaded (argos3/program).
 class ProgramRun
 {
 public:
@@ -133,51 +133,52 @@ class Pen;
 
 struct Running
 {
-  // Of the robots whose controller host is this process, by ARGoS3's id.
+  // The controllers of the robots whose controller host is this process, by ARGoS3's id.
   std::map<std::string, argos::CCI_Controller*> controllers;
   argos::CLoopFunctions* functions = nullptr;
-  // While functions run: what carries out their changes.
+  // Carries out the changes of functions; set while they run.
   SpaceEditor* editor = nullptr;
-  // While user functions draw.
+  // Set while user functions draw.
   Pen* pen = nullptr;
   Translation translation;
-  // Those of this process, by our id.
+  // The spare robots of this process, by our id.
   std::map<std::string, SpareRobot*> spares;
-  // Likewise, with those that have a controller now.
+  // All robots of this process that have a controller now, by our id.
   std::map<std::string, ControlledRobot*> controlled;
-  // Of the robots of this process that have the sensor <battery>, by our id.
+  // The batteries of the robots of this process that have the sensor <battery>, by our id.
   std::map<std::string, BatteryCharge*> batteries;
-  // Likewise, that have the actuator <differential_steering>.
+  // The wheel speeds of the robots of this process that have the actuator <differential_steering>, by our id.
   std::map<std::string, const WheelSpeeds*> wheels;
-  // What loop functions added and did not remove, and robots that they made whose controller they had: ours by their
-  // id; and the objects that they gave by our id.
+  // The first map has our ids of entities that loop functions added and did not remove, and of robots whose controller
+  // they requested, by ARGoS3's id. The second map has the objects that they gave, by our id.
   std::map<std::string, std::string> taken;
   std::map<std::string, argos::CEntity*> given;
-  // By our id, of all that Reset puts back.
+  // The initial states of all entities that Reset restores, by our id.
   std::map<std::string, Arrival> arrivals;
-  // The tick of the step that functions are called in, and that at which the clock of theirs was 0.
+  // The tick of the current step, and the tick at which the clock of the functions was 0.
   std::uint64_t step = 0;
   std::uint64_t first_step = 0;
-  // Only in a rehearsal of Init: boxes and cylinders that the file does not declare.
+  // Set in a rehearsal of Init: boxes and cylinders that the file does not declare.
   std::optional<DryRun> rehearsal;
-  // Whether something was added or removed since this was set to false.
+  // True if an entity was added or removed since this was set to false.
   bool presence_changed = false;
 
-  // In a program of a user: what loads its runs, how long the file says that one is (ticks), and who is stepped.
+  // For a user's program: the loader of its runs, the length of a run in the file (ticks), and the stepped functions.
   bool is_program = false;
   std::unique_ptr<ProgramRun> (*load)(const std::string& file) = nullptr;
   std::uint64_t program_length = 0;
   SteppedFunctions* stepped = nullptr;
 
   bool Rehearsed(const std::string& id) const { return rehearsal && rehearsal->Has(id); }
-  // Of the entity of that id of theirs, there or not.
+  // Returns our id for an id of ARGoS3, whether the entity exists or not.
   std::string OurId(const std::string& id) const;
 };
 Running& TheRunning();
-// What loop functions wrote into the messages of robots (CRABEquippedEntity::GetData) since the last call.
+// Sends the bytes that loop functions wrote into the messages of robots (CRABEquippedEntity::GetData) since the last
+// call.
 void SendWrittenMessages();
 
-// For as long as it lives, LOG and new random generators are those of a robot, or of the loop functions.
+// While the object lives, LOG and new random generators belong to a robot, or to the loop functions.
 class Speaker
 {
 public:
@@ -188,7 +189,7 @@ public:
   Speaker& operator=(const Speaker&) = delete;
 
   static bool Speaks();
-  // 64 random bits of who speaks; throws CARGoSException if nobody does.
+  // Returns 64 random bits of the current speaker; throws CARGoSException if none exists.
   static std::uint64_t RandomBits();
   static void Say(const std::string& line);
 

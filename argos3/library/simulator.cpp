@@ -1,4 +1,4 @@
-// The space and the changes that loop functions make to it.
+// The space, and the changes of loop functions to it.
 #include <argos3/core/simulator/loop_functions.h>
 #include <argos3/plugins/robots/e-puck/simulator/epuck_entity.h>
 #include <argos3/plugins/robots/eye-bot/simulator/eyebot_entity.h>
@@ -144,7 +144,7 @@ void CSpace::Clear()
 {
   entities_.clear();
   by_id_.clear();
-  // The types stay: a map that was asked for once stays where it is.
+  // The types are kept, so that references to maps stay valid.
   for (auto& [type, entities] : by_type_) entities.clear();
 }
 

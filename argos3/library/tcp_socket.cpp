@@ -16,7 +16,7 @@ namespace
 
 using Addresses = std::unique_ptr<::addrinfo, void (*)(::addrinfo*)>;
 
-// `host`: nullptr for those of this machine at which one listens.
+// `host`: nullptr for the addresses of this machine, for listening.
 Addresses Find(const char* host, SInt32 port)
 {
   ::addrinfo wanted{};
@@ -30,7 +30,7 @@ Addresses Find(const char* host, SInt32 port)
   return {found, ::freeaddrinfo};
 }
 
-// The first socket with which `use` succeeds; -1 for none.
+// Returns the first socket with which `use` succeeds; -1 for none.
 template <class Use>
 int FirstThat(const Addresses& addresses, Use use)
 {

@@ -1,4 +1,4 @@
-// CQTOpenGLUserFunctions over the drawing of a tick.
+// Implements CQTOpenGLUserFunctions by the drawing of a tick.
 #include <argos3/plugins/simulator/visualizations/qt-opengl/qtopengl_user_functions.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using swarmanoid::Vector3;
 using swarmanoid::argos3::Pen;
 using swarmanoid::argos3::ThePen;
 
-// What cannot be drawn, as they catch it.
+// Converts errors of drawing to exceptions that ARGoS3's users catch.
 template <class Call>
 void Drawn(Call call)
 {
@@ -30,7 +30,7 @@ void Drawn(Call call)
   }
 }
 
-// In the plane of x and y of a pose: an area, or the line about it.
+// Draws an area, or its outline, in the plane of x and y of a pose.
 void DrawFlat(Pen& pen, const swarmanoid::Pose& pose, std::vector<Vector3> corners, const CColor& colour, bool fill)
 {
   for (Vector3& corner : corners) corner = pose.Apply(corner);

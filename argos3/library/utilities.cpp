@@ -43,7 +43,7 @@ const std::array<NamedColour, kColours>& NamedColours()
   return colours;
 }
 
-// "r,g,b" or "r,g,b,a".
+// Reads "r,g,b" or "r,g,b,a".
 CColor Numbered(const std::string& text)
 {
   const auto numbers = static_cast<UInt32>(1 + std::count(text.begin(), text.end(), ','));

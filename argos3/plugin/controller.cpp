@@ -1,4 +1,5 @@
-// <argos3_controller>: a controller written for ARGoS3, as one of ours. The converted file names its library and label:
+// <argos3_controller> runs a controller written for ARGoS3 as one of ours. The converted file names its library and
+// label:
 //
 //   <argos3_controller id="fdc" library="argos3">
 //     <actuators>…</actuators> <sensors>…</sensors>
@@ -13,7 +14,7 @@
 #include "argos3/plugin/labels.h"
 #include "argos3/plugin/lua_controller.h"
 
-// Both sides have a macro of that name.
+// Both interfaces have a macro of that name.
 #undef REGISTER_CONTROLLER
 #include "common/control_interface/ci_controller.h"
 
@@ -51,7 +52,7 @@ public:
 
   void ControlStep() override
   {
-    // ARGoS3 moves robots before it asks their controllers for the first time.
+    // ARGoS3 moves robots before the first step of their controllers.
     if (GetRobot()->GetTick() == 0) return;
     if (controller_ == nullptr || !is_enabled_) return;
     const Speaker speaker(*GetRobot());
@@ -67,7 +68,7 @@ public:
     controller_->Destroy();
   }
 
-  // Their <params> are theirs.
+  // ARGoS3's controllers read their <params> themselves.
   bool ReadsParametersLater() const override { return true; }
 
 private:
@@ -94,7 +95,7 @@ private:
   }
   void Reset() override
   {
-    // What is created in it draws the same numbers each time.
+    // Generators that are created in it draw the same numbers each time.
     CCI_Robot& robot = *GetRobot();
     robot.BeginStep(
         robot.GetTick(), robot.GetTickSeconds(),
@@ -106,7 +107,7 @@ private:
     Commit();
   }
 
-  // `id`: of theirs.
+  // `id`: the id in ARGoS3.
   void Start(const std::string& id)
   {
     const TConfigurationTree options = parameters_.Child("argos3");
@@ -156,7 +157,7 @@ private:
     {
       actuators_.push_back(MakeActuator(tag, setup));
       if (actuators_.back() == nullptr) throw Unknown(options, "actuator", tag);
-      // One that is listed for the sake of others only, such as a sender of zeros, does its work all the same.
+      // A device that is listed only for other robots, such as a sender of zeros, works too.
       controller_->AddActuator(tag, &actuators_.back()->Actuator());
     }
   }
@@ -175,7 +176,7 @@ private:
   TConfigurationTree parameters_;
   bool is_enabled_ = true;
   bool is_spare_ = false;
-  std::string id_;  // of theirs
+  std::string id_;  // the id in ARGoS3
   std::vector<std::unique_ptr<SensorBridge>> sensors_;
   std::vector<std::unique_ptr<ActuatorBridge>> actuators_;
   argos::TConfigurationNode params_;

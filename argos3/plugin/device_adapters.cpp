@@ -33,7 +33,7 @@ namespace swarmanoid::argos3
 namespace
 {
 
-// A ring of LEDs and nothing else.
+// A robot with a ring of LEDs only.
 class RingLeds : public ActuatorBridge, public argos::CCI_LEDsActuator
 {
 public:
@@ -52,7 +52,7 @@ private:
   CCI_LedRingActuator& ring_;
 };
 
-// What ARGoS3's infrared sensors make of a distance, m. Its sensors of that name: generic, e-puck, eye-bot.
+// Returns the response of ARGoS3's infrared sensors (generic, e-puck, eye-bot) to a distance in m.
 double GenericResponse(double distance) { return std::exp(-distance); }
 double EPuckResponse(double distance)
 {
@@ -66,7 +66,7 @@ double EyeBotResponse(double distance)
   return distance < kTouching ? 1 : 0.0100527 / (distance + 0.000163144);
 }
 
-// Ours fall evenly from 1 at the sensor to 0 at its range, so they tell the distance.
+// Our readings fall linearly from 1 at the sensor to 0 at its range, so the distance follows from them.
 template <class Theirs>
 class Proximity : public SensorBridge, public Theirs
 {
@@ -143,7 +143,7 @@ public:
     m_sReading.Position = translation_.Argos3Position(ours_.GetPosition());
     m_sReading.Orientation = Argos3Orientation(ours_.GetOrientation());
     if (axis_low_ == axis_high_) return;
-    // As there: what comes of it has another length.
+    // As in ARGoS3, the result may have another length.
     argos::CRadians angle;
     argos::CVector3 axis;
     m_sReading.Orientation.ToAngleAxis(angle, axis);
@@ -159,7 +159,7 @@ private:
   const swarmanoid::CCI_PositioningSensor& ours_;
 };
 
-// Discharges as ours does; loop functions may fill it.
+// Discharges like our battery; loop functions may recharge it.
 class Battery : public SensorBridge, public argos::CCI_BatterySensor
 {
 public:
@@ -171,13 +171,13 @@ public:
         noise_low_(setup.options.GetNumber("battery_noise_low", 0)),
         noise_high_(setup.options.GetNumber("battery_noise_high", 0))
   {
-    // It tells 0 until it is asked for the first time.
+    // The sensor reads 0 until its first reading.
     if (ours_.GetCharge() > 0) spent_ = Spent();
     TheRunning().batteries[robot_.GetId()] = &charge_;
   }
   ~Battery() override { TheRunning().batteries.erase(robot_.GetId()); }
   argos::CCI_Sensor& Sensor() override { return *this; }
-  // Ours begins again, too.
+  // Our battery is reset, too.
   void Reset() override
   {
     charge_.available = charge_.start;
@@ -200,7 +200,7 @@ public:
   }
 
 private:
-  // Of full ones.
+  // Returns the spent charge in full batteries of ARGoS3.
   double Spent() const { return (1 - ours_.GetCharge()) * kBatteries; }
 
   CCI_Robot& robot_;
@@ -245,7 +245,7 @@ public:
     std::size_t count = 0;
     for (std::size_t i = 0; i < packets.size(); ++i)
     {
-      // Those whose messages have another length are not understood.
+      // Messages of another length are ignored.
       const std::span<const std::uint8_t> further = ours_.GetFurtherBytes(packets[i]);
       if (further.size() != further_) continue;
       SPacket& packet = m_tReadings[count++];
@@ -276,7 +276,7 @@ private:
   const double noise_m_;
   const swarmanoid::CCI_RangeAndBearingSensor& ours_;
   const size_t size_;
-  const size_t further_;  // bytes behind those that all have
+  const size_t further_;  // bytes behind the common ones
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The devices of ARGoS3 over ours: units, names and the moment at which they are read.
+// The devices of ARGoS3, based on ours: they convert units, names and the time of reading.
 #pragma once
 
 #include <argos3/core/control_interface/ci_controller.h>
@@ -13,18 +13,18 @@
 namespace swarmanoid::argos3
 {
 
-// What a device needs besides those of the robot.
+// The arguments of a device beside the robot.
 struct DeviceSetup
 {
   CCI_Robot& robot;
   const Translation& translation;
-  // Of the controller: attributes that are no parameters of our devices.
+  // The controller's attributes that are no parameters of our devices.
   TConfigurationTree options;
-  // What the wheels were told last; of e-pucks with the noise of the latest step.
+  // The last commanded speeds of the wheels; for e-pucks with the noise of the latest step.
   std::shared_ptr<WheelSpeeds> told_wheels = std::make_shared<WheelSpeeds>();
 };
 
-// A sensor that reads ours before each control step.
+// A sensor that reads our sensor before each control step.
 class SensorBridge
 {
 public:
@@ -33,7 +33,7 @@ public:
   virtual void Update() = 0;
 };
 
-// An actuator that tells ours after each control step what has not been told at once.
+// An actuator that passes deferred commands to our actuator after each control step.
 class ActuatorBridge
 {
 public:
@@ -42,7 +42,7 @@ public:
   virtual void Commit() {}
 };
 
-// nullptr for a tag that has no bridge. Throw CCI_DeviceError if the controller does not list ours.
+// Returns nullptr for a tag without a bridge. Throws CCI_DeviceError if the controller does not list our device.
 std::unique_ptr<SensorBridge> MakeSensor(const std::string& tag, const DeviceSetup& setup);
 std::unique_ptr<ActuatorBridge> MakeActuator(const std::string& tag, const DeviceSetup& setup);
 

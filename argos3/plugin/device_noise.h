@@ -1,5 +1,5 @@
-// Noise of ARGoS3's sensors that no parameter of ours is like; drawn by the robot. Options of the controller
-// (argos3/converter/convert_code.cpp) say how much: none if they are not there.
+// Noise of ARGoS3's sensors that our parameters do not provide. The robot draws it. Options of the controller
+// (argos3/converter/convert_code.cpp) set the amount; without them there is none.
 #pragma once
 
 #include <argos3/plugins/robots/generic/control_interface/ci_differential_steering_sensor.h>
@@ -9,13 +9,13 @@
 namespace swarmanoid::argos3
 {
 
-// noise_std_dev of range_and_bearing: a vector in any direction, whose length is Gaussian, m.
+// noise_std_dev of range_and_bearing: adds a vector in any direction with a Gaussian length, m.
 void DisturbDirection(RandomStream& random, double deviation_m, Vector3& to_sender);
 
-// noise_std_dev of cameras: likewise in the plane, in proportion to the distance.
+// noise_std_dev of cameras: adds the same in the plane, in proportion to the distance.
 void DisturbBlob(RandomStream& random, double deviation, double& distance, double& angle_rad);
 
-// vel_noise_range and dist_noise_range of differential_steering: uniform, cm/s and cm, on each wheel.
+// vel_noise_range and dist_noise_range of differential_steering: uniform noise in cm/s and cm on each wheel.
 class WheelNoise
 {
 public:

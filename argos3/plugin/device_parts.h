@@ -1,4 +1,4 @@
-// What the devices of ARGoS3's robots share, and who makes those of each robot. Used by devices.cpp alone.
+// Shared code for the devices of ARGoS3's robots, and the makers for each robot. Only devices.cpp includes it.
 #pragma once
 
 #include <argos3/core/utility/datatypes/color.h>
@@ -11,32 +11,32 @@
 namespace swarmanoid::argos3
 {
 
-// nullptr for a tag that the robot has not.
+// Return nullptr for a tag that the robot does not have.
 std::unique_ptr<SensorBridge> MakeFootBotSensor(const std::string& tag, const DeviceSetup& setup);
 std::unique_ptr<ActuatorBridge> MakeFootBotActuator(const std::string& tag, const DeviceSetup& setup);
 std::unique_ptr<SensorBridge> MakeEPuckSensor(const std::string& tag, const DeviceSetup& setup);
 std::unique_ptr<ActuatorBridge> MakeEPuckActuator(const std::string& tag, const DeviceSetup& setup);
-// Of foot-bots and eye-bots.
+// For foot-bots and eye-bots.
 std::unique_ptr<SensorBridge> MakePerspectiveCamera(const DeviceSetup& setup);
 std::unique_ptr<ActuatorBridge> MakeEyeBotActuator(const std::string& tag, const DeviceSetup& setup);
 
 inline constexpr double kCentimetres = 100;  // of a metre
 
-// The intensity of an LED is the alpha of its colour.
+// The alpha of a colour is the intensity of the LED.
 inline std::uint32_t Lit(const argos::CColor& colour)
 {
   const auto shine = [&](std::uint32_t channel) { return channel * colour.GetAlpha() / 255; };
   return shine(colour.GetRed()) << 16U | shine(colour.GetGreen()) << 8U | shine(colour.GetBlue());
 }
 
-// A ring of readings whose angles both sides count alike.
+// A ring of readings, with the same order of angles on both sides.
 template <class Theirs, class Ours>
 class Ring : public SensorBridge, public Theirs
 {
 public:
   Ring(const DeviceSetup& setup, const char* type) : ours_(setup.robot.Sensor<Ours>(type))
   {
-    // The right half as negative angles, as ARGoS3 tells them.
+    // ARGoS3 gives the right half as negative angles.
     for (unsigned i = 0; i < Ours::NUM_SENSORS; ++i)
       this->m_tReadings.emplace_back(0, argos::CRadians(Ours::AngleOf(i)).SignedNormalize());
   }
@@ -62,7 +62,7 @@ public:
         sine_(std::sin(place.GetHeading()))
   {
   }
-  // At a place in the frame of the robot, m; 0 on black, 1 on white.
+  // Returns the grey value at a point in the frame of the robot (m): 0 on black, 1 on white.
   double GreyAt(double x, double y) const
   {
     const argos::CVector2 at(middle_.GetX() + x * cosine_ - y * sine_, middle_.GetY() + x * sine_ + y * cosine_);

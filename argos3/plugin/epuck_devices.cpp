@@ -17,8 +17,8 @@ namespace swarmanoid::argos3
 namespace
 {
 
-// With ARGoS3's noise: while one of them turns, each turns at factor * (speed + bias), a bias that is drawn once and a
-// factor that is drawn in each step.
+// Adds ARGoS3's noise. While at least one wheel turns, each turns at factor * (speed + bias). The bias is drawn once,
+// the factor in each step.
 class EPuckWheels : public ActuatorBridge, public argos::CCI_DifferentialSteeringActuator
 {
 public:
@@ -83,7 +83,7 @@ private:
   WheelSpeeds wanted_;
 };
 
-// What the wheels were told, as ARGoS3 reads them; the robot has no encoders here.
+// Gives the commanded wheel speeds, as ARGoS3 does; this robot has no encoders.
 class EPuckEncoders : public SensorBridge, public argos::CCI_DifferentialSteeringSensor
 {
 public:

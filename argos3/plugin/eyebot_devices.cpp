@@ -44,7 +44,7 @@ public:
     yaw_ = place_.GetHeading() + yaw.GetValue();
     if (!position_) position_ = place_.GetPosition();
   }
-  // It stays where it is then: at its place.
+  // After a reset it stays at its place.
   void Reset() override
   {
     position_.reset();

@@ -75,7 +75,7 @@ public:
     m_sReading.WheelAxisLength = kCentimetres * CCI_FootBotWheelsActuator::INTERWHEEL_DISTANCE_M;
   }
   argos::CCI_Sensor& Sensor() override { return *this; }
-  // What the engine measured last was before.
+  // The latest measurement of the engine is from before the reset.
   void Reset() override { was_reset_ = true; }
   void Update() override
   {
@@ -95,7 +95,7 @@ private:
   bool was_reset_ = false;
 };
 
-// Twelve LEDs of the ring and the beacon.
+// Controls the twelve LEDs of the ring and the beacon.
 class FootBotLeds : public ActuatorBridge, public argos::CCI_LEDsActuator
 {
 public:
@@ -165,7 +165,7 @@ private:
   const Ours* ours_ = nullptr;
 };
 
-// Dark until it is enabled, as in ARGoS3.
+// The camera is off until it is enabled, as in ARGoS3.
 class OmnidirectionalCamera : public SensorBridge, public argos::CCI_ColoredBlobOmnidirectionalCameraSensor
 {
 public:
@@ -239,7 +239,7 @@ public:
     mode_ = MODE_OFF;
     angle_ = speed_ = 0;
   }
-  // What is left of the way is done within a tick, as far as the motor can.
+  // The rest of the angle is turned within a tick, as far as the motor can.
   void Commit() override
   {
     double speed = mode_ == MODE_SPEED_CONTROL ? speed_ : 0;

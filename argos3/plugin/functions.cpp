@@ -1,7 +1,7 @@
-// <argos3_loop_functions>: loop functions written for ARGoS3, as experiment functions. In a tick, ARGoS3 moves
-// bodies, calls PreStep, the controllers and PostStep. Ours moves bodies last. So the first tick of a run, in which no
-// controller runs yet, is what ARGoS3 does before its first PreStep, and entities stand in PostStep where they stood in
-// PreStep.
+// <argos3_loop_functions> runs loop functions written for ARGoS3 as experiment functions. In a tick, ARGoS3 moves
+// bodies, and calls PreStep, the controllers and PostStep. Our tick moves bodies last. So the first tick of a run, in
+// which no controller runs yet, corresponds to ARGoS3's work before its first PreStep. Entities have the same positions
+// in PreStep and PostStep.
 #include <argos3/plugins/robots/e-puck/simulator/epuck_entity.h>
 #include <argos3/plugins/robots/eye-bot/simulator/eyebot_entity.h>
 #include <argos3/plugins/robots/foot-bot/simulator/footbot_entity.h>
@@ -130,7 +130,7 @@ public:
     length_ = static_cast<std::uint64_t>(t_tree.GetInteger("length"));
     if (TheRunning().is_program && length_ == 0) length_ = TheRunning().program_length;
     TheRunning().step = TheRunning().first_step = 0;
-    // Theirs is without our first tick.
+    // ARGoS3's clock does not count our first tick.
     const std::uint64_t ticks = length_ != 0 ? length_ : experiment.max_clock;
     simulator.Start(static_cast<UInt32>(experiment.seed), static_cast<UInt32>(ticks == 0 ? 0 : ticks - 1));
     if (const TConfigurationTree all = t_tree.Child("configuration"); all.Exists())
@@ -152,7 +152,7 @@ public:
 
   void PreStep(SpaceEditor& editor) override
   {
-    // Of the first tick: no controller was asked yet. Init comes behind it, when they are there.
+    // In the first tick no controller has run yet. Init follows it, when the controllers exist.
     if (editor.GetSpace().GetTick() != 0 && !TheRunning().is_program) BeginStep(editor);
   }
 
@@ -180,7 +180,7 @@ public:
     functions_->PostStep();
     SendWrittenMessages();
     if (TheRunning().is_program) return;
-    // Some begin again where they are asked whether they are over, so they are asked while they may.
+    // Some functions reset the run in IsExperimentFinished, so it is called while changes are allowed.
     ends_ = functions_->IsExperimentFinished() || argos::CSimulator::GetInstance().IsTerminated();
   }
 
@@ -195,7 +195,7 @@ public:
     return over ? Outcome::kDone : Outcome::kRunning;
   }
 
-  // As ARGoS3 draws a picture: each entity, the floor, the world.
+  // Draws in the order of ARGoS3: each entity, the floor, the world.
   void Draw(const SpaceEditor& editor, Drawing& drawing) override
   {
     if (user_functions_ == nullptr) return;
@@ -249,14 +249,14 @@ public:
     const Speaker speaker(editor);
     const Changing changing(editor);
     if (user_functions_ != nullptr) user_functions_->Destroy();
-    // Not where it is found out: PostExperiment may change entities.
+    // PostExperiment may change entities, so it is called here and not where the end is detected.
     if (is_over_) functions_->PostExperiment();
     is_over_ = false;
     if (editor.GetSpace().GetTick() >= 1) functions_->Destroy();
   }
 
 private:
-  // For as long as it lives, changes of loop functions go to the space.
+  // While the object lives, changes of loop functions go to the space.
   class Changing
   {
   public:
@@ -269,7 +269,7 @@ private:
     SpaceEditor* before_;
   };
 
-  // For as long as it lives, user functions draw by a pen.
+  // While the object lives, user functions draw with a pen.
   class AtWork
   {
   public:
@@ -279,7 +279,7 @@ private:
     AtWork& operator=(const AtWork&) = delete;
   };
 
-  // Neither in a rehearsal nor in a program, which shows nothing.
+  // A rehearsal or a program shows nothing, and has no user functions.
   void MakeUserFunctions()
   {
     if (create_user_ == nullptr || TheRunning().is_program || TheRunning().rehearsal) return;
@@ -312,7 +312,7 @@ private:
     std::uint32_t index = 0;
     bool is_box = false;
     std::unique_ptr<argos::CEntity> made;
-    // That one, or one that loop functions gave.
+    // The entity of the file, or one that loop functions gave.
     argos::CEntity* entity = nullptr;
     argos::CEmbodiedEntity* body = nullptr;
 
@@ -364,7 +364,7 @@ private:
     views_.push_back(std::move(view));
   }
 
-  // Who is in the arena.
+  // Adds the entities that are in the arena.
   void Fill(const CSwarmanoidSpace& space)
   {
     argos::CSpace& theirs = argos::CSimulator::GetInstance().GetSpace();

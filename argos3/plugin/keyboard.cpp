@@ -7,7 +7,7 @@ namespace swarmanoid::argos3
 
 int QtKeyOf(const std::string& name)
 {
-  // Signs and letters have the numbers of their ASCII codes.
+  // Letters and signs have their ASCII codes as numbers.
   if (name.size() == 1) return static_cast<unsigned char>(name[0]);
   static const std::map<std::string, Qt::Key> keys{
       {"Space", Qt::Key_Space},   {"Return", Qt::Key_Return},       {"Escape", Qt::Key_Escape},

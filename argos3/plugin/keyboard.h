@@ -1,4 +1,4 @@
-// Keys by our names (UserInput) as events of Qt.
+// Converts keys with our names (UserInput) to events of Qt.
 #pragma once
 
 #include <argos3/plugins/simulator/visualizations/qt-opengl/qt_names.h>
@@ -8,10 +8,10 @@
 namespace swarmanoid::argos3
 {
 
-// The number of a key there; Key_unknown for none that is known.
+// Returns Qt's number of a key; Key_unknown for an unknown one.
 int QtKeyOf(const std::string& name);
 
-// Remembers which of Shift, Control and Alt are held.
+// Records which of Shift, Control and Alt are held.
 class Keyboard
 {
 public:

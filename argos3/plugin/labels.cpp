@@ -18,7 +18,7 @@ void ShareNames(const std::string& library)
 
 void LoadBefore(const std::string& libraries)
 {
-  // Ours, and that of Lua for those that look into scripts.
+  // The names of our library, and of Lua's for functions that read scripts.
   for (const void* name :
        {reinterpret_cast<const void*>(&ControllersByLabel), reinterpret_cast<const void*>(&lua_gettop)})
     if (Dl_info found; dladdr(name, &found) != 0) ShareNames(found.dli_fname);

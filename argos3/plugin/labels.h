@@ -1,4 +1,4 @@
-// Finding what a library of ARGoS3 registered, and calling it.
+// Finds and calls classes that a library written for ARGoS3 registered.
 #pragma once
 
 #include <argos3/core/utility/configuration/argos_exception.h>
@@ -13,14 +13,14 @@
 namespace swarmanoid::argos3
 {
 
-// From now on the libraries of users that are loaded find the names of our API, and of this library, without being
-// linked to it, as they do in ARGoS3.
+// Lets users' libraries that are loaded later find the names of our API and of this library without linking it, as in
+// ARGoS3.
 void ShareNames(const std::string& library);
-// Loads libraries, with colons between them, before others that take them for granted. What is wrong with one is told
-// where it is asked for its label.
+// Loads libraries, separated by colons, before others that depend on them. An error of one is reported when its label
+// is requested.
 void LoadBefore(const std::string& libraries);
 
-// Loads the library that `file` of an element names and gives what it registered under the label that it names. Throws
+// Loads the library that `file` of an element names, and returns what it registered under the element's label. Throws
 // ConfigurationError.
 template <class Registry>
 auto FindLabel(const TConfigurationTree& element, const std::string& file, const std::string& what, Registry registry,
@@ -40,7 +40,7 @@ auto FindLabel(const TConfigurationTree& element, const std::string& file, const
                                "; registered: " + Listed(labels) + DidYouMean(label, labels));
 }
 
-// What they throw in Init is a mistake of the file.
+// Turns exceptions of Init into mistakes of the file.
 template <class Call>
 void Calling(const SourceLocation& place, Call call)
 {

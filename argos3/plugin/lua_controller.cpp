@@ -20,11 +20,11 @@ namespace swarmanoid::argos3
 namespace
 {
 
-// Runs before the script, with the clock and a seed. Lua starts its tables and random numbers from addresses and the
-// time of day; here the same script does the same in every process:
-//   - pairs() and next() go through numbers, then texts, in ascending order;
+// Runs before the script, with the clock and a seed. Lua seeds its tables and random numbers from addresses and the
+// time of day. Here the same script does the same in every process:
+//   - pairs() and next() visit numbers, then texts, in ascending order;
 //   - math.random is seeded by the robot, and time is that of the simulation.
-// What scripts for older versions of Lua ask for is added.
+// Functions of older versions of Lua are added.
 constexpr const char* kPrelude = R"(
 local clock, seed, length_of = ...
 local raw_next, raw_pairs, rawget, type, error, getmetatable = next, pairs, rawget, type, error, getmetatable
@@ -108,9 +108,9 @@ unpack = unpack or table.unpack
 loadstring = loadstring or load
 )";
 
-// Runs behind the prelude unless the user trusts the experiment: what starts programs, changes files, reads files that
-// are not beside the script, or loads machine code or bytecode, refuses and names the cure. Bytecode can break out of
-// Lua, and the debug library can reach what is hidden here.
+// Runs after the prelude unless the user trusts the experiment. Functions that start programs, change files, read files
+// outside the script's folder, or load machine code or bytecode fail with the cure. Bytecode can break out of Lua, and
+// the debug library can reach hidden values.
 constexpr const char* kLimits = R"lua(
 local beside = ...
 local raw_open, raw_lines, raw_load, raw_loadfile, searchpath = io.open, io.lines, load, loadfile, package.searchpath
@@ -169,8 +169,8 @@ package.searchers[3] = nil
 package.searchers[4] = nil
 )lua";
 
-// The path of a file below the folder of the script; empty if it is elsewhere. Relative names start there, or at the
-// working folder.
+// Returns the path of a file below the folder of the script; empty if it is elsewhere. Relative names start there, or
+// at the working folder.
 std::string PathBeside(const LuaScript& script, const std::string& name)
 {
   namespace fs = std::filesystem;
@@ -194,7 +194,7 @@ int Beside(lua_State* lua)
   return 1;
 }
 
-// robot.random: as CRandom.
+// robot.random: the functions of CRandom.
 
 int Uniform(lua_State* lua)
 {
@@ -267,7 +267,7 @@ int Clock(lua_State* lua)
   return 1;
 }
 
-// n, if the keys of a table are 1 to n; otherwise nil.
+// Returns n if the keys of a table are 1 to n; otherwise nil.
 int LengthOf(lua_State* lua)
 {
   lua_Integer length = 0;
@@ -298,7 +298,7 @@ public:
   void Destroy() override { Run<&LuaController::End>(); }
 
 private:
-  // Where errors of Lua, also of its memory, come back.
+  // Catches errors of Lua, including lack of memory.
   template <void (LuaController::*Act)()>
   void Run()
   {
@@ -329,7 +329,7 @@ private:
     luaL_loadbufferx(lua_, kPrelude, std::char_traits<char>::length(kPrelude), "=prelude", "t");
     lua_pushlightuserdata(lua_, &script_.clock);
     lua_pushcclosure(lua_, Guarded<Clock>, 1);
-    // robot.random has its numbers to itself.
+    // robot.random has a separate generator.
     lua_pushinteger(lua_, argos::CRandom::CreateRNG("argos")->Uniform(argos::CRange<SInt32>(0, 1 << 30)));
     lua_pushcfunction(lua_, LengthOf);
     lua_call(lua_, 3, 0);
@@ -349,7 +349,7 @@ private:
     lua_call(lua_, 1, 0);
   }
 
-  // Modules lie beside the script.
+  // Modules are searched beside the script.
   void SearchBeside()
   {
     const std::string folder = std::filesystem::path(script_.path).parent_path().string();
@@ -384,7 +384,7 @@ private:
     lua_setglobal(lua_, "robot");
   }
 
-  // Messages name it as the experiment does.
+  // Messages name the script as the experiment does.
   void Load()
   {
     const std::string text = TextOfScript();
@@ -406,7 +406,7 @@ private:
     std::ifstream file(script_.path, std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(file), {}};
     if (!file) THROW_ARGOSEXCEPTION("cannot read '" << script_.path << "': " << std::strerror(errno));
-    // The line for a shell.
+    // The first line may be for a shell.
     if (text.starts_with('#')) text.insert(0, "--");
     return text;
   }
@@ -422,7 +422,7 @@ private:
   void Step()
   {
     lua_getglobal(lua_, "robot");
-    // A script may have put something else in its place.
+    // A script may have replaced the table.
     if (lua_istable(lua_, -1))
     {
       for (const auto& [tag, sensor] : GetAllSensors()) AddReadings(lua_, tag, *sensor);

@@ -1,5 +1,6 @@
-// <lua_controller>: ARGoS3's controllers in Lua. Its documentation of the table `robot`:
-// https://www.argos-sim.info/plow2015/ and the interfaces' headers under src/plugins/robots of its sources.
+// <lua_controller>: ARGoS3's controllers in Lua. The documentation of the table `robot` is at
+// https://www.argos-sim.info/plow2015/ and in the headers of the interfaces under src/plugins/robots of ARGoS3's
+// sources.
 #pragma once
 
 #include <argos3/core/control_interface/ci_controller.h>
@@ -16,16 +17,17 @@ namespace swarmanoid::argos3
 
 struct LuaScript
 {
-  std::string file;  // as messages name it
+  std::string file;  // the name in messages
   std::string path;
-  // Simulated time, s.
+  // Returns the simulated time in s.
   std::function<double()> clock;
   // The devices that ARGoS3 does not have, by type.
   std::map<std::string, CCI_Sensor*> sensors{};
   std::map<std::string, CCI_Actuator*> actuators{};
 };
 
-// Its Init runs the script and its init(). Init and ControlStep throw CARGoSException with file and line of the script.
+// Returns a controller whose Init runs the script and its init(). Init and ControlStep throw CARGoSException with file
+// and line of the script.
 std::unique_ptr<argos::CCI_Controller> MakeLuaController(LuaScript script);
 
 }  // namespace swarmanoid::argos3

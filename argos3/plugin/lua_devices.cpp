@@ -110,7 +110,7 @@ void AddLeds(lua_State* lua, argos::CCI_LEDsActuator& leds)
 
 // robot.range_and_bearing: bytes; cm, rad
 
-// What does not fit into a byte loses its higher bits, as there.
+// As in ARGoS3, a number that is too large for a byte loses its higher bits.
 UInt8 ByteAt(lua_State* lua, int index)
 {
   const double value = luaL_checknumber(lua, index);
@@ -213,7 +213,7 @@ void SetColour(lua_State* lua, const argos::CColor& colour)
   Leave(lua);
 }
 
-// The list of blobs of a camera, each with two numbers, which set(blob) writes, and its colour.
+// Writes the list of blobs of a camera. Each has two numbers, which set(blob) writes, and its colour.
 template <class Camera, class SetPlace>
 void ReadBlobsOf(lua_State* lua, const char* table, const Camera& camera, const SetPlace& set)
 {
@@ -251,7 +251,7 @@ void ReadImage(lua_State* lua, argos::CCI_ColoredBlobPerspectiveCameraSensor& ca
               });
 }
 
-// Sensors of which a robot has several: value, and where each is
+// Sensors with several readings: value, and position or angle of each.
 
 template <class Sensor, class SetPlace>
 void ReadEach(lua_State* lua, Sensor& sensor, const char* name, SetPlace set_place)
@@ -268,14 +268,14 @@ void ReadEach(lua_State* lua, Sensor& sensor, const char* name, SetPlace set_pla
   Leave(lua);
 }
 
-// rad
+// Angles are in rad.
 template <class Sensor>
 void ReadRing(lua_State* lua, Sensor& sensor, const char* name)
 {
   ReadEach(lua, sensor, name, [lua](const auto& reading) { Set(lua, "angle", reading.Angle.GetValue()); });
 }
 
-// cm
+// Offsets are in cm.
 template <class Sensor>
 void ReadGround(lua_State* lua, Sensor& sensor, const char* name)
 {
@@ -289,7 +289,7 @@ void ReadGround(lua_State* lua, Sensor& sensor, const char* name)
            });
 }
 
-// Numbers alone.
+// Writes a list of numbers.
 void ReadNumbers(lua_State* lua, const std::vector<Real>& readings, const char* name)
 {
   Enter(lua, name);

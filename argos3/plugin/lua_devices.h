@@ -12,10 +12,11 @@
 namespace swarmanoid::argos3
 {
 
-// With `robot` on top of the stack. Throw CARGoSException for a device that has no place in it.
+// Add the functions of a device. `robot` must be on top of the stack. They throw CARGoSException for a device that has
+// no place in it.
 void AddFunctions(lua_State* lua, const std::string& tag, argos::CCI_Actuator& actuator);
 void AddFunctions(lua_State* lua, const std::string& tag, argos::CCI_Sensor& sensor);
-// What the sensor reads now.
+// Writes the current readings of the sensor.
 void AddReadings(lua_State* lua, const std::string& tag, argos::CCI_Sensor& sensor);
 
 // The same for devices that ARGoS3 does not have, by their columns (lua_columns.cpp).

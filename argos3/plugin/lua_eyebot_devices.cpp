@@ -30,7 +30,7 @@ int TurnTo(lua_State* lua)
 
 int SetLinearVelocity(lua_State* lua)
 {
-  // Older scripts give two numbers.
+  // Older scripts pass two numbers.
   if (lua_gettop(lua) != 2) CheckCount(lua, 3);
   Subject<argos::CCI_QuadRotorSpeedActuator>(lua).SetLinearVelocity(
       argos::CVector3(luaL_checknumber(lua, 1), luaL_checknumber(lua, 2), luaL_optnumber(lua, 3, 0)));

@@ -8,7 +8,7 @@ namespace swarmanoid::argos3
 namespace
 {
 
-// A function without values.
+// Calls a function without arguments.
 template <class Actuator, void (Actuator::*Act)()>
 int Call(lua_State* lua)
 {

@@ -1,4 +1,4 @@
-// Tables and functions of Lua, as devices need them. All work at the table on top of the stack.
+// Tables and functions of Lua, for devices. All functions work on the table on top of the stack.
 #pragma once
 
 #include <exception>
@@ -7,7 +7,7 @@
 namespace swarmanoid::argos3
 {
 
-// Puts the table of that name on top, made if there is none.
+// Pushes the table of that name, which is made if it does not exist.
 inline void Enter(lua_State* lua, const char* name)
 {
   if (lua_getfield(lua, -1, name) == LUA_TTABLE) return;
@@ -26,7 +26,7 @@ inline void Enter(lua_State* lua, lua_Integer number)
   lua_rawseti(lua, -3, number);
 }
 
-// Tables that nobody has seen, with room for what they will have.
+// Makes new tables with space for their elements.
 inline void EnterNew(lua_State* lua, lua_Integer number, int fields)
 {
   lua_createtable(lua, 0, fields);
@@ -49,7 +49,7 @@ inline void Set(lua_State* lua, const char* name, double value)
   lua_setfield(lua, -2, name);
 }
 
-// Without what is behind the first `count` elements.
+// Removes the elements behind the first `count`.
 inline void Shorten(lua_State* lua, lua_Integer count)
 {
   for (auto last = static_cast<lua_Integer>(lua_rawlen(lua, -1)); last > count; --last)
@@ -59,7 +59,8 @@ inline void Shorten(lua_State* lua, lua_Integer count)
   }
 }
 
-// No exception passes through Lua, which is C. Nothing with a destructor may live where Function calls luaL_check….
+// No exception may pass through Lua, which is written in C. In Function, no object with a destructor may exist at a
+// call of luaL_check….
 template <auto Function>
 int Guarded(lua_State* lua)
 {
@@ -69,14 +70,14 @@ int Guarded(lua_State* lua)
   }
   catch (const std::exception& error)
   {
-    luaL_where(lua, 1);  // nothing if C called
+    luaL_where(lua, 1);  // empty if C called
     lua_pushstring(lua, error.what());
     lua_concat(lua, 2);
   }
   return lua_error(lua);
 }
 
-// A function whose Subject is `subject`.
+// Adds a function with `subject` as its Subject.
 template <auto Function>
 void SetFunction(lua_State* lua, const char* name, void* subject)
 {

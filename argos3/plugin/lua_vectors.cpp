@@ -15,7 +15,7 @@ using argos::CQuaternion;
 using argos::CVector2;
 using argos::CVector3;
 
-// Of a type: its name in scripts, and its elements by one letter each.
+// The properties of a type: its name in scripts, and a letter for each element.
 template <class Type>
 struct Traits;
 template <>
@@ -88,7 +88,7 @@ int Make(lua_State* lua)
   return Push(lua, value);
 }
 
-// The letter of an element; 0 for a text that is longer.
+// Returns the letter of an element; 0 for a longer text.
 template <class Type>
 char ElementAt(lua_State* lua, int index)
 {
@@ -110,7 +110,7 @@ int Index(lua_State* lua)
   }
   if constexpr (std::is_same_v<Type, CQuaternion>)
   {
-    // Orientations of older scripts.
+    // Reads orientations in the form of older scripts.
     argos::CRadians angle;
     CVector3 axis;
     value.ToAngleAxis(angle, axis);
@@ -160,7 +160,7 @@ int Negate(lua_State* lua)
   return Push(lua, -At<Type>(lua, 1));
 }
 
-// A number on either side.
+// The number may be on either side.
 template <class Type>
 int Scale(lua_State* lua)
 {
@@ -170,7 +170,7 @@ int Scale(lua_State* lua)
 
 int MultiplyQuaternions(lua_State* lua) { return Push(lua, At<CQuaternion>(lua, 1) * At<CQuaternion>(lua, 2)); }
 
-// Those that change the first value and give it back.
+// For functions that change the first value and return it.
 int Itself(lua_State* lua)
 {
   lua_settop(lua, 1);
@@ -233,7 +233,7 @@ int ToAngleAxis(lua_State* lua)
   return 1 + Push(lua, axis);
 }
 
-// About z, y and x.
+// Returns the angles about z, y and x.
 int ToEulerAngles(lua_State* lua)
 {
   argos::CRadians z, y, x;
@@ -252,7 +252,7 @@ int ToText(lua_State* lua)
   return 1;
 }
 
-// Leaves the metatable on the stack; its functions are the methods, too.
+// Leaves the metatable on the stack. Its functions are also the methods.
 template <class Type>
 void BeginType(lua_State* lua)
 {

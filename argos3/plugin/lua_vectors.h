@@ -1,5 +1,5 @@
 // vector2, vector3 and quaternion of scripts: values of CVector2, CVector3 and CQuaternion with the operators, methods
-// and elements that ARGoS3 gives them. normalize, cross and rotate change the value itself, as there.
+// and elements of ARGoS3. As in ARGoS3, normalize, cross and rotate change the value itself.
 #pragma once
 
 #include <argos3/core/utility/math/quaternion.h>
@@ -9,9 +9,9 @@
 namespace swarmanoid::argos3
 {
 
-// The three as global functions that make values. With the table of globals on top of the stack.
+// Adds the three global functions that make values. The table of globals must be on top of the stack.
 void AddVectors(lua_State* lua);
-// A new value as an element of the table on top of the stack.
+// Adds a new value as an element of the table on top of the stack.
 void SetVector(lua_State* lua, const char* name, const argos::CVector3& value);
 void SetQuaternion(lua_State* lua, const char* name, const argos::CQuaternion& value);
 

@@ -1,5 +1,5 @@
-// The perspective camera of foot-bots, which looks ahead, and of eye-bots, which looks down. Its image of 640 by 480
-// pixels and its edges at the aperture: perspective_camera_equipped_entity.h of ARGoS3.
+// The perspective camera of foot-bots, which looks ahead, and of eye-bots, which looks down. The image of 640 by 480
+// pixels with its edges at the aperture is that of perspective_camera_equipped_entity.h of ARGoS3.
 #include <argos3/plugins/robots/generic/control_interface/ci_colored_blob_perspective_camera_sensor.h>
 
 #include "argos3/plugin/device_parts.h"
@@ -14,7 +14,7 @@ namespace
 constexpr double kColumns = 640;
 constexpr double kRows = 480;
 
-// Dark until it is enabled, as in ARGoS3.
+// The camera is off until it is enabled, as in ARGoS3.
 class PerspectiveCamera : public SensorBridge, public argos::CCI_ColoredBlobPerspectiveCameraSensor
 {
 public:
@@ -39,10 +39,10 @@ public:
   }
 
 private:
-  // False outside the image.
+  // Returns false for a point outside the image.
   bool Draw(const CCI_ColourBlob& ours, SBlob& theirs) const
   {
-    // In the frame of the robot: x ahead, y to the left, z up.
+    // The frame is that of the robot: x ahead, y to the left, z up.
     const SinCos angle = SinCosOf(ours.angle_rad);
     const SinCos elevation = SinCosOf(ours.elevation_rad);
     const Vector3 at(elevation.cos * angle.cos, elevation.cos * angle.sin, elevation.sin);
@@ -59,7 +59,7 @@ private:
 
   const CCI_ColourBlobSensor& ours_;
   const bool looks_down_;
-  double height_ = 0;  // of the image, at a distance of 1
+  double height_ = 0;  // height of the image at a distance of 1
   std::vector<SBlob> blobs_;
 };
 

@@ -1,5 +1,5 @@
-// A run in a program of a user that loads an experiment of ARGoS3 and steps it itself (CSimulator::LoadExperiment):
-// loaded by the library when a program asks for it, so that controllers and loop functions do not need the launcher.
+// A run in a user's program that loads an experiment of ARGoS3 and steps it itself (CSimulator::LoadExperiment). The
+// library loads this code when a program needs it, so that controllers and loop functions do not need the launcher.
 #include "argos3/converter/convert.h"
 #include "argos3/library/running.h"
 #include "launcher/argos3_dry_run.h"
@@ -26,7 +26,7 @@ private:
     options.visualisations = false;
     return options;
   }
-  // Without an end: the loop functions know how long each of their runs is.
+  // The experiment has no end here, since the loop functions know the length of each trial.
   static std::unique_ptr<Experiment> Read(const std::string& file)
   {
     static const bool reads = []

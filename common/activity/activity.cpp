@@ -25,10 +25,10 @@ constexpr std::array kSteps{"",          "loading", "Init",    "ControlStep", "S
 std::atomic<const Actor*> current_actor = nullptr;
 std::atomic<ActivityStep> current_step = ActivityStep::kNone;
 std::atomic<std::uint64_t> current_tick = 0;
-// Set up before a handler can ask for it, and never in a handler.
+// The depth is set before any handler can read it, and never changes in a handler.
 __attribute__((tls_model("initial-exec"))) thread_local int depth = 0;
 
-// Whose code each thread of a shared step runs, on a line of the cache of its own.
+// The actor whose code each thread of a shared step runs, on a cache line of its own.
 struct alignas(64) ActorOfThread
 {
   std::atomic<const Actor*> actor = nullptr;
@@ -44,13 +44,14 @@ const Actor* SharingActor()
   return nullptr;
 }
 
-// Of a launcher, and of no one else's making: a descriptor of that number may be anything.
+// The variable is trusted only if the launcher set it for this process, since a descriptor of that number may be any
+// file.
 ActivityPage* PageOfLauncher()
 {
   const char* text = std::getenv(kActivityVariable);
   if (text == nullptr) return nullptr;
   const int descriptor = std::atoi(text);
-  // What this process starts itself has no page.
+  // Processes that this process starts get no page.
   unsetenv(kActivityVariable);
   struct stat status
   {
@@ -72,7 +73,7 @@ ActivityPage* PageOfLauncher()
 
 void Publish(const Actor* actor)
 {
-  // Whoever reads it reads what it points to.
+  // The release order lets a reader of the pointer also see the object that it points to.
   current_actor.store(actor, std::memory_order_release);
   ActivityPage& page = OwnActivityPage();
   page.number.store(actor == nullptr ? 0 : actor->number, std::memory_order_relaxed);

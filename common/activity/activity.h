@@ -1,6 +1,7 @@
-// Activity: whose code a process runs now, in which step and at which tick. The roles say so around every call of a
-// plug-in, so that a process that fails, dies, hangs or is killed can be told by what it did (failure_report.h), from
-// within or, if a launcher gave it a page, from outside after its death. One activity at a time in a process.
+// Activity: which plug-in's code a process runs now, in which step and at which tick. The roles note it around every
+// call of a plug-in. If the process fails, dies, hangs or is killed, the report names that code (failure_report.h). The
+// process itself or, if a launcher gave it a page, the launcher writes the report. A process has one activity at a
+// time.
 #pragma once
 
 #include <atomic>
@@ -10,8 +11,8 @@
 namespace swarmanoid
 {
 
-// Somebody whose code may run. Made by the roles and by the launcher from the experiment (common/experiment/actors.h),
-// whose texts it shows.
+// A robot, device, engine, function or visualisation whose code a process runs. The roles and the launcher make actors
+// from the experiment (common/experiment/actors.h). An actor refers to texts of the experiment.
 struct Actor
 {
   enum Kind : std::uint32_t
@@ -23,12 +24,12 @@ struct Actor
     kVisualisation,
     kSensor,
     kActuator,
-    kWatcher  // of a program of a user: the function that looks at each tick
+    kWatcher  // the function of a user's program that observes each tick
   };
   Kind kind = kNobody;
-  std::uint32_t number = 0;  // of the entity, or in the list of the experiment
-  const char* id = "";       // of a device: its type
-  const char* type = "";     // the id of a robot's or device's controller; the tag of others
+  std::uint32_t number = 0;  // the number of the entity, or the position in the list of the experiment
+  const char* id = "";       // the type, for a device
+  const char* type = "";     // the id of the controller for robots and devices; otherwise the tag
 };
 
 enum class ActivityStep : std::uint32_t
@@ -52,15 +53,15 @@ enum class ActivityStep : std::uint32_t
   kInput
 };
 
-// "ControlStep"; of several functions of an engine, the one that users know.
+// Returns the name, such as "ControlStep". Several functions of an engine share the name that users know.
 const char* NameOf(ActivityStep step);
 
-// "robot 'fb_3', controller 'diffusion': ControlStep at tick 17", or empty for nobody.
+// Returns "robot 'fb_3', controller 'diffusion': ControlStep at tick 17", or an empty text if no plug-in's code runs.
 std::string ActivityText(const Actor& actor, ActivityStep step, std::uint64_t tick);
-// Of this process, from any thread.
+// Returns the text of this process's activity. Any thread may call it.
 std::string CurrentActivity();
 
-// While an object lives, this thread runs the code of `actor`. They nest.
+// While the object lives, this thread runs the code of `actor`. Objects nest.
 class Activity
 {
 public:
@@ -69,7 +70,7 @@ public:
   Activity(const Activity&) = delete;
   Activity& operator=(const Activity&) = delete;
 
-  // Another one's turn in the same step.
+  // Changes to another actor in the same step.
   void Next(const Actor& actor);
 
 private:
@@ -78,19 +79,20 @@ private:
   std::uint64_t outer_tick_;
 };
 
-// How a process ended, as far as it could say.
+// Why a process ended, as far as it could report it.
 enum class EndReason : std::uint32_t
 {
-  kUnknown,      // it runs, or could not say
+  kUnknown,      // the process runs, or could not report
   kDone,         // its work is done
-  kFailed,       // by itself: the cause says how
-  kDied,         // of what the code that ran did: it crashed, ended the process, or did not return
-  kInvalid,      // it found the experiment wrong
-  kOthers,       // since the run ended without it
+  kFailed,       // the process failed; the cause says how
+  kDied,         // the code that ran crashed, ended the process, or did not return
+  kInvalid,      // the experiment is wrong
+  kOthers,       // the run ended without this process
   kInterrupted,  // by a signal from outside
 };
 
-// What a process tells whoever started it: memory that both have mapped. Only the process writes.
+// The report of a process to the process that started it, in memory that both have mapped. Only the reporting process
+// writes.
 struct ActivityPage
 {
   static constexpr std::uint64_t kMagic = 0x31796974'69766963;
@@ -104,13 +106,13 @@ struct ActivityPage
   std::atomic<std::uint32_t> step;
   std::atomic<std::uint32_t> end;       // EndReason, written after the rest
   std::atomic<std::uint64_t> ended_ns;  // steady clock
-  std::atomic<std::uint32_t> complete;  // 1: the cause says by itself whom it is about
+  std::atomic<std::uint32_t> complete;  // 1: the cause already names the actor
   char cause[kCauseSize];
 };
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free && std::atomic<const Actor*>::is_always_lock_free);
 
-// The page of this process: the one that descriptor SWARMANOID_ACTIVITY_FD of the environment stands for, or one that
-// nobody else sees.
+// Returns the page of this process: the one that descriptor SWARMANOID_ACTIVITY_FD of the environment names, or a
+// private one.
 ActivityPage& OwnActivityPage();
 inline constexpr const char* kActivityVariable = "SWARMANOID_ACTIVITY_FD";
 

@@ -1,4 +1,4 @@
-// The inside of Activity, for the sources of this folder.
+// The internals of Activity, for the sources of this folder.
 #pragma once
 
 #include "common/activity/activity.h"
@@ -7,16 +7,16 @@
 namespace swarmanoid::activity
 {
 
-// Safe in signal handlers; the actor may be one that goes in the same moment, but never one that has gone.
+// Safe in signal handlers. The actor may be destroyed at the same moment, but never before.
 struct Current
 {
-  const Actor* actor = nullptr;  // nullptr: nobody's code runs
+  const Actor* actor = nullptr;  // nullptr: no plug-in's code runs
   ActivityStep step = ActivityStep::kNone;
   std::uint64_t tick = 0;
 };
 Current Now();
 
-// Whether this thread is the one that runs the activity. Safe in signal handlers.
+// Returns whether this thread is the one that runs the activity. Safe in signal handlers.
 bool IsMine();
 
 void Write(LineWriter& line, const Actor& actor, ActivityStep step, std::uint64_t tick);

@@ -40,7 +40,7 @@ void WatchExit()
 
 }  // namespace swarmanoid
 
-// GNU attributes: Clang takes the standard ones on a first declaration alone, which these are not.
+// The functions have GNU attributes, since Clang takes the standard ones only on a first declaration.
 extern "C"
 {
   __attribute__((noreturn)) void exit(int code) noexcept

@@ -1,4 +1,4 @@
-// How every program ends. docs/command.md tells users.
+// The exit codes of all programs. docs/command.md documents them for users.
 #pragma once
 
 namespace swarmanoid
@@ -12,13 +12,13 @@ enum ExitCode
   kExitInvalidFile = 3,
   kExitProcessFailed = 4,
   kExitHashDiffers = 5,
-  kExitOthersFailed = 6,  // of a process of a cluster: the run failed elsewhere
-  kExitStuck = 7,         // likewise: one that died holds a lock of the run's shared memory
-  kExitCutOff = 8,        // likewise: the space server has gone, as far as it can see
+  kExitOthersFailed = 6,  // in a process of a cluster: the run failed in another process
+  kExitStuck = 7,         // in a process of a cluster: a dead process holds a lock of the run's shared memory
+  kExitCutOff = 8,        // in a process of a cluster: the space server does not answer any more
   kExitInterrupted = 130
 };
 
-// For the --help of each program.
+// The text for the --help of each program.
 inline constexpr const char* kExitCodesText =
     "Exit codes: 0 done, 1 the experiment failed by its own measure, 2 usage,\n"
     "3 the experiment file is invalid, 4 a process failed, 5 the hash differs, 130 interrupted.\n";

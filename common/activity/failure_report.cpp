@@ -30,7 +30,7 @@ namespace swarmanoid
 namespace
 {
 
-// Sanitizers report crashes themselves, with the place.
+// Sanitizers report crashes themselves, with the position in the source.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kReportCrashes = false;
 #else
@@ -49,7 +49,7 @@ std::uint64_t Nanoseconds()
   return static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000U + static_cast<std::uint64_t>(now.tv_nsec);
 }
 
-// "<activity> <what>", or, if it is not the activity's, "<process> <what> …".
+// Writes "<activity> <what>" or, if the activity is not the cause, "<process> <what> …".
 void Compose(LineWriter& line, std::string_view what, bool of_activity)
 {
   const activity::Current now = activity::Now();
@@ -88,15 +88,15 @@ void Report(std::string_view what, bool of_activity, int exit_code = kExitProces
   Compose(line, what, of_activity);
   NoteEnd(EndReason::kDied, OwnActivityPage().tick.load(std::memory_order_relaxed), line.Text(),
           activity::Now().actor != nullptr);
-  // What a progress line left on a terminal goes.
+  // Removes what a progress line left on a terminal.
   if (isatty(STDERR_FILENO) != 0) WriteAll(STDERR_FILENO, "\r\033[K");
   WriteAll(STDERR_FILENO, line.Text());
   WriteAll(STDERR_FILENO, "\n");
   CallLast(line.Text(), exit_code);
 }
 
-// The process goes on to its end; a copy of it, with the same memory and this thread, dies by the signal for those who
-// collect core files. True in the copy.
+// Makes a copy of the process, with the same memory and this thread, that dies by the signal and leaves a core file.
+// The process itself continues to its end. Returns true in the copy.
 bool DumpsCore()
 {
   rlimit limit{};
@@ -146,7 +146,7 @@ void OnDeadlySignal(int signal, siginfo_t* about, void*)
     usual.sa_handler = SIG_DFL;
     sigaction(signal, &usual, nullptr);
     if (about->si_code <= 0) kill(getpid(), signal);
-    return;  // to the instruction that failed
+    return;  // returns to the instruction that failed
   }
   syscall(SYS_exit_group, kExitProcessFailed);
 }

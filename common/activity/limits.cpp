@@ -47,7 +47,7 @@ void ApplyLimits(const Limits& limits, std::function<void(const std::string&, do
   StepTimeout::Settings settings;
   settings.limit = std::chrono::milliseconds(static_cast<std::int64_t>(limits.step_s * 1000));
   settings.stalled = std::move(stalled);
-  // Without either there is nothing to watch for.
+  // Without a limit or a callback, no thread needs to watch.
   if (settings.limit.count() > 0 || settings.stalled) watch = std::make_unique<StepTimeout>(std::move(settings));
 }
 

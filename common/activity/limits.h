@@ -1,5 +1,5 @@
-// The limits of the code of users: how much memory a process may take, how long a step may. `swarmanoid run` sets them
-// by options; the processes of a cluster, and programs that are started by hand, get them by the environment.
+// The limits of users' code: the memory of a process and the time of a step. `swarmanoid run` sets them by options.
+// Processes of a cluster and programs started by hand get them by the environment.
 #pragma once
 
 #include <cstdint>
@@ -17,16 +17,16 @@ namespace swarmanoid
 
 struct Limits
 {
-  std::uint64_t memory_bytes = 0;  // of a process; 0: DefaultMemoryLimit
+  std::uint64_t memory_bytes = 0;  // for each process; 0: DefaultMemoryLimit
   double step_s = 0;               // wall-clock time; 0: no limit
 };
 
-// Names and values, for the processes of a cluster.
+// Returns names and values of the environment for the processes of a cluster.
 std::vector<std::pair<std::string, std::string>> EnvironmentOf(const Limits& limits);
-// From the environment; what is no number there is taken for no limit.
+// Reads the limits from the environment. A text that is no number means no limit.
 Limits LimitsOfEnvironment();
 
-// From now on, as long as the process lives; later calls do nothing. `stalled` as in StepTimeout::Settings.
+// Applies the limits until the process ends; later calls do nothing. `stalled` as in StepTimeout::Settings.
 void ApplyLimits(const Limits& limits, std::function<void(const std::string& activity, double seconds)> stalled = {});
 
 }  // namespace swarmanoid

@@ -15,7 +15,7 @@ public:
 
   LineWriter& Add(std::string_view text)
   {
-    // ReusedMemory for the end of the line and a final zero.
+    // Space is kept for the end of the line and a final zero.
     for (const char c : text)
       if (length_ + 2 < kSize) text_[length_++] = c == '\n' ? ' ' : c;
     return *this;

@@ -14,7 +14,7 @@ namespace
 
 constexpr rlim_t kRoomForReports = 64U << 20;
 
-// Bytes in a file of the control group; 0 for none or "max".
+// Returns the bytes that a file of the control group states; 0 for a missing file or "max".
 std::uint64_t Bytes(const char* file)
 {
   std::ifstream stream(file);
@@ -39,7 +39,7 @@ void LimitMemory(std::uint64_t bytes)
   if (bytes == 0) bytes = DefaultMemoryLimit();
   rlimit limit{};
   if (bytes == 0 || getrlimit(RLIMIT_DATA, &limit) != 0) return;
-  // Whoever started it may have set a smaller one.
+  // The parent process may have set a smaller limit.
   limit.rlim_cur = std::min(limit.rlim_cur, static_cast<rlim_t>(bytes));
   setrlimit(RLIMIT_DATA, &limit);
 #else

@@ -1,5 +1,5 @@
-// The memory that a process may take: beyond it, allocations fail by std::bad_alloc in the code that asks for too much,
-// instead of the kernel killing whom it likes.
+// The memory limit of a process. Beyond it, allocations fail by std::bad_alloc in the code that asks for too much.
+// Otherwise the kernel would kill an arbitrary process.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,14 @@
 namespace swarmanoid
 {
 
-// Nine tenths of the memory of this machine, or of the control group that the process is in; 0 if it is not known.
+// Returns nine tenths of the memory of this machine, or of the process's control group; 0 if it is unknown.
 std::uint64_t DefaultMemoryLimit();
 
-// The private memory of this process, in bytes; 0: the default. Sanitizers map more than there is: then nothing is
-// limited.
+// Limits the private memory of this process, in bytes; 0: the default. With sanitizers nothing is limited, since they
+// map more than the machine has.
 void LimitMemory(std::uint64_t bytes);
 
-// "no memory is left: …", with the limit and the cure. Frees some room for those who report it.
+// Returns "no memory is left: …", with the limit and the cure. Frees some memory for the report.
 std::string OutOfMemoryText();
 
 }  // namespace swarmanoid

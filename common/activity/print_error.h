@@ -1,7 +1,6 @@
-// What a process says on its standard error, which may be a terminal. Text of scripts, exceptions, files and other
-// processes may be in it, so that control characters are replaced: they could move the cursor or change the title. If
-// the reader is gone, as after a connection by ssh has broken, the process goes on with what it has to tidy up:
-// fmt::print would throw.
+// Prints to the standard error of a process, which may be a terminal. The text may come from scripts, exceptions, files
+// or other processes, so control characters are replaced: they could move the cursor or change the title. If the reader
+// is gone, for example after a broken ssh connection, the process continues and can tidy up; fmt::print would throw.
 #pragma once
 
 #include <cstdio>

@@ -1,5 +1,5 @@
-// SharedActivity: a step in which several threads run the code of actors at the same time, each that of others. A
-// thread that dies tells whose code it ran itself; whoever asks from outside is told one of those that still run. Used
+// SharedActivity: a step in which several threads run the code of different actors at the same time. If a thread dies,
+// the report names the actor of that thread. A reader in another process is told one of the actors that still run. Used
 // by ControllerHost.
 #pragma once
 
@@ -13,13 +13,13 @@ class SharedActivity
 public:
   static constexpr unsigned kMostThreads = 64;
 
-  // Before the threads begin, in the thread that waits for them.
+  // The thread that waits for the others constructs it before they begin.
   SharedActivity(ActivityStep step, std::uint64_t tick);
   ~SharedActivity();
   SharedActivity(const SharedActivity&) = delete;
   SharedActivity& operator=(const SharedActivity&) = delete;
 
-  // While an object lives, this thread is number `number` of those that share the step.
+  // While the object lives, this thread is number `number` of the threads that share the step.
   class Thread
   {
   public:
@@ -28,7 +28,7 @@ public:
     Thread(const Thread&) = delete;
     Thread& operator=(const Thread&) = delete;
 
-    // This thread runs the code of `actor` from now on.
+    // From now on, this thread runs the code of `actor`.
     void Next(const Actor& actor) { place_->store(&actor, std::memory_order_release); }
 
   private:

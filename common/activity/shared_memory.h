@@ -1,5 +1,5 @@
-// The folder in memory that the processes of a run share, as far as reports need it: a full one kills whoever touches
-// it, by SIGBUS.
+// The folder in memory that the processes of a run share. Reports need its free space: in a full folder, a write kills
+// the process by SIGBUS.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 namespace swarmanoid
 {
 
-// Where it is. Once, before threads use it.
+// Sets the folder. Call it once, before threads use it.
 void SetSharedMemoryFolder(const std::string& folder);
 const char* SharedMemoryFolder();
-// Bytes that can still be written there. Safe in signal handlers.
+// Returns the bytes that can still be written there. Safe in signal handlers.
 std::uint64_t SharedMemoryFree();
 bool SharedMemoryIsFull();
 

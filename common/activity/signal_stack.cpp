@@ -13,10 +13,10 @@ namespace
 {
 
 constexpr std::size_t kSize = 64 * 1024;
-// Frames of large local arrays leave the stack by more than a page.
+// Functions with large local arrays can pass the end of the stack by more than a page.
 constexpr std::uintptr_t kBelow = 8U << 20;
 
-// Of this thread: where its stack ends. 0: it has no signal stack.
+// The lowest address of this thread's stack; 0: the thread has no signal stack.
 __attribute__((tls_model("initial-exec"))) thread_local std::uintptr_t lowest = 0;
 
 std::uintptr_t LowestOfStack()
@@ -38,7 +38,7 @@ public:
   SignalStack()
   {
     stack_t known{};
-    // A sanitizer, or the program of a user, may have set one.
+    // A sanitizer or the user's program may have set a signal stack already.
     if (sigaltstack(nullptr, &known) == 0 && (known.ss_flags & SS_DISABLE) == 0) return;
     memory_ = mmap(nullptr, kSize, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (memory_ == MAP_FAILED) return;

@@ -1,5 +1,4 @@
-// A stack of its own for the signal handlers of each thread that runs the code of plug-ins: one that overflows its
-// stack can still be told.
+// A signal stack for each thread that runs the code of plug-ins, so that a stack overflow can be reported.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +6,11 @@
 namespace swarmanoid
 {
 
-// Once for each thread; cheap afterwards.
+// Call it once in each thread; further calls are cheap.
 void EnsureSignalStack();
 
-// Whether an access to this address overflows the stack of this thread, which has a signal stack. Safe in signal
-// handlers.
+// Returns whether an access to this address overflows the stack of this thread, which has a signal stack. Safe in
+// signal handlers.
 bool IsStackOverflow(std::uintptr_t address);
 
 }  // namespace swarmanoid

@@ -25,7 +25,7 @@ bool Same(const activity::Current& a, const activity::Current& b)
   return a.actor == b.actor && a.step == b.step && a.tick == b.tick;
 }
 
-// Signals are for the other threads.
+// The thread blocks all signals, so that other threads handle them.
 std::thread StartQuietly(const std::function<void()>& run)
 {
   sigset_t all, before;

@@ -1,5 +1,5 @@
-// StepTimeout: notices that one step of somebody's code takes too long, says so, and ends the process if a limit is
-// set. A thread of its own, since the one that runs the code does not come back.
+// StepTimeout: notices that one step of a plug-in takes too long, reports it, and ends the process if a limit is set.
+// It has its own thread, since the thread that runs the code does not return.
 #pragma once
 
 #include <chrono>
@@ -19,12 +19,12 @@ class StepTimeout
 public:
   struct Settings
   {
-    // The longest that a step may take: 0 for no limit. Finish is not limited: films take their time.
+    // The longest time that a step may take; 0: no limit. Finish has no limit, since films take long.
     std::chrono::milliseconds limit{0};
-    // Called when a step has taken a while, and now and then while it goes on: "<activity>", seconds.
+    // Called with "<activity>" and seconds when a step has taken a while, and repeatedly while it continues.
     std::function<void(const std::string& activity, double seconds)> stalled;
-    std::string cause = "--step-timeout";   // what set the limit
-    ActivityStep of = ActivityStep::kNone;  // of such steps alone; kNone: of all
+    std::string cause = "--step-timeout";   // the option or parameter that set the limit
+    ActivityStep of = ActivityStep::kNone;  // only steps of this kind are limited; kNone: all steps
   };
 
   explicit StepTimeout(Settings settings);

@@ -38,7 +38,7 @@ std::uint64_t ChecksumOf(std::span<const char> bytes)
   return XXH3_64bits(bytes.data(), bytes.size() - kCheckpointChecksumBytes);
 }
 
-// `start`: the first bytes of the file, all if it is shorter than a header.
+// Checks the header. `start`: the first bytes of the file, or the whole file if it is shorter than a header.
 void CheckHeader(std::span<const char> start, std::uint64_t file_bytes)
 {
   if (std::string_view(start.data(), std::min(start.size(), kCheckpointMagic.size())) != kCheckpointMagic)
@@ -59,7 +59,7 @@ void CheckHeader(std::span<const char> start, std::uint64_t file_bytes)
 std::vector<char> ReadWhole(const std::string& path)
 {
   const RegularFile file(path);
-  // Nothing is read of what is no checkpoint.
+  // The header is checked before the rest of the file is read.
   CheckHeader(file.Read(0, kCheckpointHeaderBytes), file.Size());
   if (file.Size() > kMostBytes) throw FileError(fmt::format("it is longer than {} bytes", kMostBytes));
   return file.Read(0, file.Size());
@@ -76,7 +76,7 @@ std::span<const char> Checkpoint::StateOf(const std::string& name) const
 
 std::uint64_t FingerprintOf(const Experiment& experiment)
 {
-  // A restored run may be longer than the one that it goes on from.
+  // A restored run may be longer than the original run.
   std::string text = experiment.effective_xml;
   const std::string_view open = "<maxclock>";
   const std::size_t start = text.find(open);

@@ -1,6 +1,6 @@
-// Checkpoints: all that is needed to go on from a tick with the same bits as if nothing had happened. Each role saves a
-// part; whoever runs the roles puts them together. The same file serves a run in one process and a cluster; its format
-// is in checkpoint_format.h.
+// Checkpoints: the state that is needed to continue from a tick with the same bits as the uninterrupted run. Each role
+// saves its part, and the process that runs the roles joins the parts. A run in one process and a cluster use the same
+// file; checkpoint_format.h has its format.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 namespace swarmanoid
 {
 
-// What one role remembers. Names are those of the processes of a cluster: "engine 'ground'", "controller host 0".
+// The saved state of one role. Names are those of the processes of a cluster: "engine 'ground'", "controller host 0".
 struct SavedPart
 {
   std::string name;
@@ -24,7 +24,7 @@ struct SavedPart
 };
 inline constexpr const char* kServerPart = "space server";
 
-// What a checkpoint was taken from.
+// The run that a checkpoint was taken from.
 struct CheckpointOrigin
 {
   std::uint64_t experiment = 0;  // FingerprintOf
@@ -38,8 +38,8 @@ struct Checkpoint
   SpaceSnapshot snapshot;
   std::vector<SavedPart> parts;
 
-  // Reads the part of a role with `load`, all of it. Throws std::runtime_error naming a part that is missing, damaged,
-  // or of another experiment.
+  // Reads the whole part of a role with `load`. Throws std::runtime_error naming a part that is missing, damaged, or of
+  // another experiment.
   template <class Load>
   void LoadPart(const std::string& name, const Load& load) const
   {
@@ -57,29 +57,31 @@ struct Checkpoint
   std::span<const char> StateOf(const std::string& name) const;
 };
 
-// Equal for experiments whose runs differ in nothing but their length.
+// Returns equal numbers for experiments whose runs differ only in their length.
 std::uint64_t FingerprintOf(const Experiment& experiment);
 
 std::vector<char> EncodeCheckpoint(const Checkpoint& checkpoint);
-// Throws std::runtime_error if the bytes are no checkpoint, of another version of the format, cut short or damaged.
+// Throws std::runtime_error if the bytes are no checkpoint, have another version of the format, or are cut short or
+// damaged.
 Checkpoint DecodeCheckpoint(std::span<const char> bytes);
-// Gives bytes that were changed on purpose the length and checksum that they need to be read; for tests of readers.
+// Writes the correct length and checksum into bytes that were changed on purpose; for tests of readers.
 void SealCheckpoint(std::vector<char>& bytes);
 
-// The file is complete or absent: it is written beside and renamed. Throws std::runtime_error with the path.
+// Writes the file under another name and renames it, so that it is complete or absent. Throws std::runtime_error with
+// the path.
 void WriteCheckpoint(const std::string& path, const Checkpoint& checkpoint);
 
 struct RestoreOptions
 {
-  // Controller hosts of the run that goes on: its robots are shared out among them by where they are (DealRobots).
+  // The number of controller hosts of the restored run. Robots are assigned to them by position (DealRobots).
   unsigned hosts = 1;
-  bool any_build = false;  // take what other builds of the libraries saved
+  bool any_build = false;  // accepts what other builds of the libraries saved
 };
 // Throws std::runtime_error, with the path and the cure, if the file cannot be read, is damaged, is of another
 // experiment or of other builds of its libraries.
 Checkpoint ReadCheckpoint(const std::string& path, const Experiment& experiment, const RestoreOptions& options);
 
-// "checkpoint-00000500"
+// Returns a name such as "checkpoint-00000500".
 std::string CheckpointName(std::uint64_t tick);
 // Throws std::invalid_argument, with the cure, if checkpoints cannot be taken every so many ticks.
 void CheckCheckpointPeriod(std::uint64_t every, const Experiment& experiment);

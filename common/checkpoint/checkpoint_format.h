@@ -1,4 +1,4 @@
-// The file of a checkpoint, stated once: whoever writes it, reads it, measures it or tests it goes through
+// The format of a checkpoint file, stated once. Writers, readers, size computations and tests use
 // ForEachCheckpointField.
 //
 //   "SWARMCP" and the version of the format (one character)
@@ -6,7 +6,8 @@
 //   the fields, in the order below
 //   XXH3, 64 bits, of all bytes before (u64)
 //
-// Numbers are little-endian; texts and arrays have their count (u64) before them, lists the number of their entries.
+// Numbers are little-endian. Texts and arrays have their count (u64) before them; lists have the number of their
+// entries.
 #pragma once
 
 #include <cstddef>
@@ -16,13 +17,13 @@ namespace swarmanoid
 {
 
 inline constexpr std::string_view kCheckpointMagic = "SWARMCP";
-// Another one for each change of the fields, or of what they mean.
+// Change the version with each change of the fields or of their meaning.
 inline constexpr char kCheckpointVersion = '4';
 inline constexpr std::size_t kCheckpointHeaderBytes = 16;
 inline constexpr std::size_t kCheckpointChecksumBytes = 8;
 
-// Of a CheckpointOrigin, a SpaceSnapshot, a SavedPart and a Checkpoint, const for archives that only look. A journal
-// has the first three in blocks of their own.
+// Visits the fields of a CheckpointOrigin, a SpaceSnapshot, a SavedPart or a Checkpoint, which are const for archives
+// that only read. A journal has the first three in its own blocks.
 template <class Archive, class Origin>
 void ForEachOriginField(Archive& archive, Origin& origin)
 {

@@ -52,7 +52,7 @@ std::vector<std::string> PartsOf(const Experiment& experiment, std::size_t hosts
 
 std::vector<SavedPart> SharedOut(std::vector<SavedPart> parts, const Experiment& experiment, const HostTable& hosts)
 {
-  // One host that had all robots still has.
+  // A single host that had all robots still has them.
   if (hosts.hosts == 1 && std::ranges::find(parts, HostName(1), &SavedPart::name) == parts.end()) return parts;
   HostState all;
   for (std::size_t h = 0;; ++h)

@@ -23,7 +23,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-// Those of ours whose code what is saved depends on.
+// Those of Swarmanoid's libraries whose code the saved state depends on.
 constexpr std::array kOwnLibraries{
     "reproducible_math", "common", "plugin_descriptions", "control_interface", "behavior_toolkit",
     "experiment",        "space",  "physics_engine",      "engines",           "controller_host_role",
@@ -41,7 +41,7 @@ std::string BuildOfFile(const std::string& path)
   }
 }
 
-// Of a file that is read as it is.
+// Returns the hash of the content of a file.
 std::string HashOfFile(const std::string& path)
 {
   constexpr std::size_t kChunk = std::size_t{1} << 20U;
@@ -105,7 +105,7 @@ std::string ReadOwnBuild()
 
 const std::string& OwnBuild()
 {
-  // What this process has loaded stays as it is.
+  // The libraries that this process has loaded do not change.
   static const std::string build = ReadOwnBuild();
   return build;
 }
@@ -125,7 +125,7 @@ void ForEachLibrary(const Experiment& experiment,
   for (const ControllerConfiguration& controller : experiment.controllers)
   {
     add(controller.library, experiment.controller_path);
-    // What it loads in its turn stands in an element of its parameters.
+    // The libraries that a controller loads itself are named in an element of its parameters.
     for (const TConfigurationTree& part : controller.parameters.Children())
       add(part.Value("library").value_or(""), experiment.controller_path);
     for (const DeviceConfiguration& device : controller.actuators) add_plugin(device.tree);

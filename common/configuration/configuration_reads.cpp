@@ -52,7 +52,7 @@ void ConfigurationReads::Visit(const ConfigurationNode& node, std::vector<Unread
   std::set<std::string_view> seen;
   for (const auto& child : node.children)
   {
-    // By its name, only the first of several is found.
+    // A look-up by name finds only the first of several elements.
     const bool first = seen.insert(child->name).second;
     const bool reached = asked.children || (first && asked.names.contains(child->name));
     const auto reads = asked_.find(child.get());

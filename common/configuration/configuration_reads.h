@@ -1,6 +1,6 @@
-// ConfigurationReads: what has been asked of a configuration tree, so that what nobody asked for can be named. The
-// handles that TConfigurationTree::RecordedIn yields, and those made from them, share it and may be used from several
-// threads. The recorded nodes must outlive it.
+// ConfigurationReads: records which parts of a configuration tree were read, so that unused parts can be reported. The
+// handles that TConfigurationTree::RecordedIn returns, and those made from them, share the record and may be used from
+// several threads. The recorded nodes must outlive it.
 #pragma once
 
 #include <mutex>
@@ -18,21 +18,22 @@ namespace swarmanoid
 class ConfigurationReads
 {
 public:
-  // For TConfigurationTree.
+  // For TConfigurationTree. `name`: an attribute or a child element.
   void AskFor(const ConfigurationNode& node, std::string_view name);  // an attribute or a child element
   void ReadText(const ConfigurationNode& node);
-  void ReadChildren(const ConfigurationNode& node);  // the list of them; each has still to be read itself
-  void ReadAll(const ConfigurationNode& node);       // with all that it holds
+  void ReadChildren(const ConfigurationNode& node);  // the list of the children; each child has still to be read
+  void ReadAll(const ConfigurationNode& node);       // the node with all its content
 
-  // An attribute, an element or a text that nobody asked for.
+  // An attribute, an element or a text that no code has read.
   struct Unread
   {
-    const ConfigurationNode* holder = nullptr;  // the element that it stands in
+    const ConfigurationNode* holder = nullptr;  // the element that contains it
     std::string name;                           // empty: the text of the holder
     SourceLocation location;
-    std::vector<std::string> asked;  // what the holder was asked for instead, in alphabetical order
+    std::vector<std::string> asked;  // the names that were read in the holder instead, in alphabetical order
   };
-  // In the order of the file, attributes first; of an element that nobody asked for, not what it holds.
+  // Returns the unread parts in the order of the file, attributes first. The content of an unread element is not
+  // listed.
   std::vector<Unread> UnreadIn(const ConfigurationNode& root) const;
 
 private:

@@ -58,7 +58,7 @@ const std::shared_ptr<const ConfigurationNode>* FindChild(const ConfigurationNod
 
 bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-// With what was perhaps meant to be it.
+// Returns the error for a missing parameter, with the name that was perhaps meant.
 ConfigurationError Missing(const TConfigurationTree& tree, const ConfigurationNode* node, std::string_view name)
 {
   std::vector<std::string> given;

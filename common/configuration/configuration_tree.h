@@ -23,7 +23,7 @@ struct SourceLocation
   int line = 0;
   int column = 0;
 
-  // "file:line:col", or the part of it that is known.
+  // Returns "file:line:col", or the part of it that is known.
   std::string Text() const;
 };
 
@@ -35,14 +35,14 @@ public:
   explicit ConfigurationError(const std::string& message) : ConfigurationError(SourceLocation{}, message) {}
 
   const SourceLocation& Location() const { return location_; }
-  const std::string& Message() const { return message_; }  // without the place
+  const std::string& Message() const { return message_; }  // without the file, line and column
 
 private:
   SourceLocation location_;
   std::string message_;
 };
 
-// One element as parsed. Built by the reader of the file, owned by the tree above it.
+// One element as parsed. The reader of the file builds it; the element that contains it owns it.
 struct ConfigurationNode
 {
   struct Attribute
@@ -66,29 +66,31 @@ class TConfigurationTree
 public:
   TConfigurationTree() = default;
   explicit TConfigurationTree(std::shared_ptr<const ConfigurationNode> node) : node_(std::move(node)) {}
-  // A handle to the same element that notes what it and the handles made from it are asked for (configuration_reads.h).
+  // Returns a handle to the same element that records all reads of it and of handles made from it
+  // (configuration_reads.h).
   TConfigurationTree RecordedIn(std::shared_ptr<ConfigurationReads> reads) const;
 
-  // False for the handle of an element that is not in the file; every getter of such a handle yields its default.
+  // Returns false for the handle of an element that is not in the file; every getter of such a handle yields its
+  // default.
   bool Exists() const { return node_ != nullptr; }
   const std::string& Name() const;
   const std::string& Text() const;
   SourceLocation Location() const;
 
   std::vector<TConfigurationTree> Children() const;
-  // The first child of that name, or a handle that does not exist.
+  // Returns the first child of that name, or a handle that does not exist.
   TConfigurationTree Child(std::string_view name) const;
   bool HasAttribute(std::string_view name) const;
   std::string Attribute(std::string_view name) const;  // empty if absent
 
-  // The value of a parameter, written as a child element (<speed>3</speed>) or an attribute (speed="3").
-  // nullopt if it is in neither form.
+  // Returns the value of a parameter, written as a child element (<speed>3</speed>) or an attribute (speed="3").
+  // Returns nullopt if neither exists.
   std::optional<std::string> Value(std::string_view name) const;
   SourceLocation ValueLocation(std::string_view name) const;
 
-  // Typed values; the forms with a default return it if the parameter is absent, those without throw
-  // ConfigurationError, and both throw if the text is not of the type. Controllers and experiment functions that
-  // declare their parameters get a tree that holds all of them, with the declared defaults: they need no default here.
+  // Typed values. The forms with a default return it if the parameter is absent; the others throw ConfigurationError
+  // then. Both throw if the text is not of the type. Controllers and experiment functions that declare their parameters
+  // get a tree with all declared defaults, and need no default here.
   double GetNumber(std::string_view name) const;
   double GetNumber(std::string_view name, double fallback) const;
   long long GetInteger(std::string_view name) const;
@@ -112,23 +114,23 @@ private:
   {
   }
 
-  // The text of the parameter; throws if it is absent.
+  // Returns the text of the parameter; throws if it is absent.
   std::string Required(std::string_view name) const;
 
   std::shared_ptr<const ConfigurationNode> node_;
-  std::shared_ptr<ConfigurationReads> reads_;  // where reading is noted; often nowhere
+  std::shared_ptr<ConfigurationReads> reads_;  // records the reads; usually nullptr
 };
 
-// Conversions of whole texts, surrounding blanks allowed; nullopt if the text is something else.
+// Convert whole texts, with blanks allowed around them. They return nullopt if the text is of another form.
 std::optional<double> ParseNumber(std::string_view text);
 std::optional<long long> ParseInteger(std::string_view text);
 std::optional<bool> ParseBoolean(std::string_view text);                 // true/false, yes/no, on/off, 1/0
 std::optional<std::vector<double>> ParseNumbers(std::string_view text);  // separated by commas or blanks
-// "red", "#ff0000" and "255,0,0" are the same; 0xRRGGBB.
+// Returns 0xRRGGBB. "red", "#ff0000" and "255,0,0" are the same colour.
 std::optional<std::uint32_t> ParseColour(std::string_view text);
 std::string_view TrimBlanks(std::string_view text);
 inline constexpr std::string_view kBlanks = " \t\r\n";
-// What stands between the separators, without the blanks about it; nothing is no word.
+// Returns the texts between the separators, without surrounding blanks. Empty texts are skipped.
 std::vector<std::string> SplitWords(std::string_view text, std::string_view separators = kBlanks);
 
 }  // namespace swarmanoid

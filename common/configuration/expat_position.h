@@ -1,4 +1,4 @@
-// The position of an event of expat in the text, for all releases: from 2.9 on, the functions have other names.
+// The position of an event of expat in the text. Expat 2.9 renamed the functions; this header works with all releases.
 #pragma once
 
 #include <expat.h>
@@ -6,7 +6,7 @@
 namespace swarmanoid
 {
 
-// The bytes before the event that expat reports now; -1 after an error.
+// Returns the number of bytes before the current event of expat; -1 after an error.
 inline long long CurrentByteIndex(XML_Parser parser)
 {
 #if XML_MAJOR_VERSION > 2 || XML_MINOR_VERSION >= 9
@@ -16,7 +16,7 @@ inline long long CurrentByteIndex(XML_Parser parser)
 #endif
 }
 
-// The bytes of that event; 0 if it has none.
+// Returns the number of bytes of that event; 0 if it has none.
 inline long long CurrentByteCount(XML_Parser parser)
 {
 #if XML_MAJOR_VERSION > 2 || XML_MINOR_VERSION >= 9

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr mode_t kAnybody = 0777;
 constexpr std::size_t kShownBytes = 1000;
-constexpr const char* kManifest = "manifest.json";  // in the folder of a run, since before its first tick
+constexpr const char* kManifest = "manifest.json";  // exists in the folder of a run before its first tick
 constexpr const char* kCure = ", or trust the experiment by --trust";
 
 class Folder
@@ -48,7 +48,7 @@ public:
 
   bool IsOpen() const { return descriptor_ >= 0; }
   int operator*() const { return descriptor_; }
-  // Tells what has that name, without following a link. False with errno if nothing has.
+  // Reads the status of the file of that name, without following a link. Returns false with errno if it does not exist.
   bool Stat(const std::string& name, struct stat& status) const
   {
     return fstatat(descriptor_, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0;
@@ -93,7 +93,7 @@ private:
   Refuse(path, std::string("is a link, which is not followed: remove it") + kCure);
 }
 
-// The parts of a name below a folder. Throws OutputFileError.
+// Returns the parts of a name below a folder. Throws OutputFileError.
 std::vector<std::string> PartsOf(const std::string& name)
 {
   const fs::path path(name);
@@ -119,7 +119,8 @@ std::string AbsolutePath(const std::string& folder, const std::string& name)
   return fs::absolute(fs::path(folder) / name).lexically_normal().string();
 }
 
-// Throws OutputFileError if the file of `path` in the folder `parent` must not be replaced. False: there is none.
+// Throws OutputFileError if the file of `path` in the folder `parent` must not be replaced. Returns false if the file
+// does not exist.
 bool MayReplace(const Folder& root, const Folder& parent, const std::string& file, const std::string& path)
 {
   struct stat status
@@ -202,7 +203,7 @@ std::string OutputFiles::Claim(const std::string& name) const
   const std::string whole = (fs::path(folder_) / name).string();
   if (AreFree())
   {
-    std::error_code ignored;  // what cannot be made cannot be written to either, and that is reported
+    std::error_code ignored;  // a folder that cannot be made gives an error at the file
     if (const fs::path above = fs::path(whole).parent_path(); !above.empty()) fs::create_directories(above, ignored);
     return whole;
   }

@@ -1,4 +1,4 @@
-// Writing files: of a run itself, and those that an experiment names. Links in the folder of a run are never followed.
+// Writes the files of a run, and files that an experiment names. Links in the folder of a run are never followed.
 // docs/security.md has the rules.
 #pragma once
 
@@ -12,11 +12,12 @@ namespace swarmanoid
 // Opens a file of this program for writing, as open() with these flags, but follows no link. Returns -1 with errno
 // otherwise.
 int OpenOutput(const std::string& path, int flags);
-// The same as fopen(): empties the file, or with `appends` writes at its end. Returns nullptr with errno otherwise.
+// Opens a file as fopen() does: empties it, or with `appends` writes at its end. Returns nullptr with errno if that
+// fails.
 std::FILE* OpenOutputFile(const std::string& path, bool appends = false);
 
 // Returns why a folder must not hold the files of a run: it belongs to another user, or all users can put files there.
-// Empty if it may, or does not exist.
+// The text is empty if the folder may hold them or does not exist.
 std::string OutputFolderMistake(const std::string& path);
 
 class OutputFileError : public std::runtime_error
@@ -28,18 +29,18 @@ public:
 // For a process that shows a run through a renderer whose files the user names, rather than an experiment.
 void LetUserNameFiles();
 
-// The files that an experiment names. Unless the user names them, or trusts the experiment (trust.h), they lie below a
-// folder, and replace nothing but files that this run made. One thread at a time.
+// The files that an experiment names. They lie below a folder, and replace only files that this run made. Both rules
+// are lifted if the user names the files or trusts the experiment (trust.h). One thread at a time.
 class OutputFiles
 {
 public:
   OutputFiles() = default;
-  // `folder`: relative names start there; empty: the working folder.
+  // `folder`: the start of relative names; empty: the working folder.
   explicit OutputFiles(std::string folder) : folder_(std::move(folder)) {}
 
   // Throws OutputFileError, with the cure, if a file of that name must not be written.
   void Check(const std::string& name) const;
-  // Makes the folders of the file and, unless it is there, the file, and returns its path for writing. Throws as Check
+  // Makes the folders of the file and, if it does not exist, the file. Returns its path for writing. Throws as Check
   // does.
   std::string Claim(const std::string& name) const;
 

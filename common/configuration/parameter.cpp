@@ -30,7 +30,7 @@ std::string RangeMistake(const ParameterSpec& spec, double value, const std::str
 // A large whole number would be rounded to the limit if it were compared as a double.
 std::string RangeMistakeOfInteger(const ParameterSpec& spec, long long value, const std::string& subject)
 {
-  constexpr double kLongest = 9.2e18;  // limits up to here are whole numbers, too
+  constexpr double kLongest = 9.2e18;  // limits up to this one are whole numbers, too
   const bool is_above = spec.maximum <= kLongest && value > static_cast<long long>(std::floor(spec.maximum));
   const bool is_below = spec.minimum >= -kLongest && value < static_cast<long long>(std::ceil(spec.minimum));
   if (!is_above && !is_below) return RangeMistake(spec, static_cast<double>(value), subject);

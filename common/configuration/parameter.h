@@ -1,5 +1,5 @@
-// The declaration of one configuration parameter: from it come parsing, defaults, checks, error messages, the reference
-// page and the XSD. Plug-ins declare theirs when they register.
+// The declaration of one configuration parameter. Parsing, defaults, checks, error messages, the reference page and the
+// XSD follow from it. Plug-ins declare their parameters when they register.
 #pragma once
 
 #include <cstdint>
@@ -29,8 +29,8 @@ enum class ParameterType
 
 struct ParameterSpec
 {
-  // A name that ends in "_n" stands for a family: camera_view_XYZ_n for camera_view_XYZ_0, camera_view_XYZ_1 …; a
-  // family is never required, and a member that is not given has the default, if there is one.
+  // A name that ends in "_n" stands for a family: camera_view_XYZ_n for camera_view_XYZ_0, camera_view_XYZ_1 and so on.
+  // A family is never required. A member that is not given has the default, if a default exists.
   std::string name;
   ParameterType type = ParameterType::kNumber;
   std::string unit{};                          // SI symbol, empty for none
@@ -41,16 +41,16 @@ struct ParameterSpec
   std::vector<std::string> choices{};
 };
 
-// Whether a name in a file is the parameter, or one of the family.
+// Returns whether a name in a file is the parameter or a member of its family.
 bool Matches(const ParameterSpec& spec, std::string_view name);
 bool IsNumbered(const ParameterSpec& spec);
-// "a number in m, at least 0" and its range alone (empty for none).
+// Returns "a number in m, at least 0", and its range alone (empty for no range).
 std::string AllowedText(const ParameterSpec& spec);
 std::string RangeText(const ParameterSpec& spec);
-// What is wrong with a value, as "<subject> is …; it must be …"; empty if it is right.
+// Returns the mistake in a value, as "<subject> is …; it must be …"; empty if the value is right.
 std::string MistakeIn(const ParameterSpec& spec, std::string_view text, const std::string& subject);
 
-// Typed reading of the parameters that a table declares. Names outside the table are a programming error.
+// Typed reading of the parameters that a table declares. Reading a name outside the table is a programming error.
 class Parameters
 {
 public:

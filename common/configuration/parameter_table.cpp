@@ -55,7 +55,7 @@ public:
 private:
   void Add(const SourceLocation& place, const std::string& message) { mistakes_.emplace_back(place, message); }
 
-  // The parameter of that name; reports a name that is none, and one that was there before.
+  // Returns the parameter of that name. Reports an unknown name, and a name that occurs twice.
   const ParameterSpec* SpecOf(const std::string& name, const SourceLocation& place)
   {
     if (std::ranges::find(others_, name) != others_.end()) return nullptr;
@@ -106,7 +106,7 @@ private:
   const std::string& owner_;
   const std::vector<std::string>& others_;
   Mistakes mistakes_;
-  std::map<std::string, std::string> lines_;  // where each parameter stands
+  std::map<std::string, std::string> lines_;  // the position of each parameter in the file
 };
 
 std::string Absolute(const std::string& path, const std::string& folder)
@@ -116,7 +116,7 @@ std::string Absolute(const std::string& path, const std::string& folder)
   return (std::filesystem::path(folder) / trimmed).lexically_normal().string();
 }
 
-// A default that stands for a value.
+// Returns whether the default is a value of the parameter's type.
 bool IsValue(const ParameterSpec& spec)
 {
   if (!spec.default_value || spec.type == ParameterType::kTree || IsNumbered(spec)) return false;

@@ -25,7 +25,7 @@ std::string KindOf(mode_t mode)
 }  // namespace
 
 RegularFile::RegularFile(const std::string& path)
-    // Opening a pipe would wait for its other end.
+    // Without O_NONBLOCK, opening a pipe would wait for its other end.
     : descriptor_(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC))
 {
   if (descriptor_ < 0) throw FileError(errno == ENOENT ? "there is no such file" : std::strerror(errno));
@@ -82,7 +82,7 @@ std::string ReadRegularFile(const std::string& path, std::uint64_t most_bytes)
   const auto too_long = [&]
   { return FileError("it is longer than " + std::to_string(most_bytes) + " bytes, the most that is read"); };
   if (file.Size() > most_bytes) throw too_long();
-  // Files of the kernel say that they hold nothing: they are read until they end.
+  // Files of the kernel state a size of 0, so they are read until they end.
   std::string text;
   std::vector<char> block(std::min<std::uint64_t>(file.Size(), most_bytes) + 4096);
   while (true)

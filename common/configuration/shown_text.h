@@ -1,4 +1,4 @@
-// Text that comes from elsewhere and that people read, in logs and on terminals.
+// Text from other processes, files or plug-ins that is shown to people, in logs and on terminals.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,14 @@ namespace swarmanoid
 inline constexpr std::size_t kLongestName = 1024;       // bytes of ids and names of processes in a message
 inline constexpr std::size_t kLongestText = 64 * 1024;  // bytes of a text for people in a message
 
-// Whether the text is well-formed UTF-8 without control characters other than line feed and tab: it can move no cursor
-// and change no title.
+// Returns whether the text is well-formed UTF-8 without control characters other than line feed and tab. Such a text
+// cannot move the cursor or change the title.
 bool IsShowable(std::string_view text);
-// Whether the text is showable and has neither line feed nor tab.
+// Returns whether the text is showable and has neither line feed nor tab.
 bool IsShowableLine(std::string_view text);
 // Returns the text with a question mark for each byte that is not showable, cut to `most_bytes` between two characters.
 std::string Showable(std::string_view text, std::size_t most_bytes = std::numeric_limits<std::size_t>::max());
-// Returns the same with a question mark for each line feed and tab, too.
+// Returns the same as Showable, with a question mark for each line feed and tab, too.
 std::string ShowableLine(std::string_view text, std::size_t most_bytes);
 
 }  // namespace swarmanoid

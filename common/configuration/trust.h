@@ -1,7 +1,7 @@
-// Whether the user trusts the experiments that this process runs: by the option --trust, or by the environment variable
-// SWARMANOID_TRUST, which is 1 then. An experiment that is not trusted writes files below the folder of the run alone,
-// and its Lua scripts can neither start programs nor change files. Set before an experiment is loaded; read by any
-// thread.
+// States whether the user trusts the experiments that this process runs. The option --trust or the environment variable
+// SWARMANOID_TRUST=1 sets it. An experiment that is not trusted writes files only below the folder of the run. Its Lua
+// scripts can neither start programs nor change files. The trust is set before an experiment is loaded; any thread may
+// read it.
 #pragma once
 
 namespace swarmanoid

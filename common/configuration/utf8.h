@@ -1,4 +1,4 @@
-// Where characters of UTF-8 end. Allocates nothing, so signal handlers may ask too.
+// Finds the ends of characters in UTF-8. It allocates nothing, so signal handlers may use it.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 namespace swarmanoid
 {
 
-// Bytes of the well-formed character at the front of `text`, which is not empty; 0 if it is none (Unicode 15, table
-// 3-7).
+// Returns the bytes of the well-formed character at the front of `text`, which is not empty; 0 if the bytes are no
+// character (Unicode 15, table 3-7).
 inline std::size_t Utf8Length(std::string_view text)
 {
   const auto byte = [&](std::size_t k) { return static_cast<std::uint8_t>(text[k]); };

@@ -12,7 +12,7 @@ constexpr std::size_t kLongestQuote = 60;
 constexpr std::size_t kLongestName = 64;
 constexpr std::size_t kLeastBeginning = 4;  // letters that make the beginning of a name a hint
 
-// Levenshtein distance with exchanges of neighbours, letters compared without case.
+// Returns the Levenshtein distance with exchanges of neighbours. Letters are compared without case.
 std::size_t EditDistance(std::string_view a, std::string_view b)
 {
   const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
@@ -40,7 +40,7 @@ std::string Quoted(std::string_view text)
 {
   std::string quoted = "'";
   std::size_t end = std::min(text.size(), kLongestQuote);
-  // Not within a UTF-8 character.
+  // The cut is not within a UTF-8 character.
   while (end < text.size() && end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
   for (const char c : text.substr(0, end)) quoted += std::iscntrl(static_cast<unsigned char>(c)) != 0 ? ' ' : c;
   return quoted + (end < text.size() ? "…'" : "'");
@@ -57,7 +57,7 @@ std::string NearestName(std::string_view name, const std::vector<std::string>& c
 {
   if (name.size() > kLongestName) return {};
   std::string nearest;
-  // In halves, so that of two at one distance the one of the same length is nearer.
+  // Distances count in halves, so that of two candidates at equal distance the one of equal length is nearer.
   std::size_t least = 2 * std::max<std::size_t>(1, name.size() / 3) + 2;
   for (const std::string& candidate : candidates)
   {

@@ -8,13 +8,13 @@
 namespace swarmanoid
 {
 
-// The text in single quotes, shortened and without control characters: files may hold anything.
+// Returns the text in single quotes, shortened and without control characters, since files may hold any bytes.
 std::string Quoted(std::string_view text);
-// "a, b, c", or "none".
+// Returns "a, b, c", or "none".
 std::string Listed(const std::vector<std::string>& names);
-// The candidate nearest to a misspelt name by edit distance, empty if none is near.
+// Returns the candidate nearest to a misspelt name by edit distance, empty if none is near.
 std::string NearestName(std::string_view name, const std::vector<std::string>& candidates);
-// "; did you mean 'x'?", or nothing if no candidate is near.
+// Returns "; did you mean 'x'?", or an empty text if no candidate is near.
 std::string DidYouMean(std::string_view name, const std::vector<std::string>& candidates);
 
 }  // namespace swarmanoid

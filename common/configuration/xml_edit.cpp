@@ -15,7 +15,7 @@ constexpr std::string_view kIndent = "  ";
 
 bool HasOnlyBlanks(std::string_view text) { return text.find_first_not_of(kXmlBlanks) == std::string_view::npos; }
 
-// Within quotes of either kind.
+// Returns the text for use within quotes of either kind.
 std::string InAttribute(std::string_view value)
 {
   std::string text;
@@ -23,7 +23,7 @@ std::string InAttribute(std::string_view value)
   return text;
 }
 
-// The bytes from the start of its line to a place, if they are blank; otherwise nothing.
+// Returns the bytes from the start of its line to a place, if they are blank; otherwise nothing.
 std::string IndentBefore(std::string_view text, std::size_t place)
 {
   const std::size_t line = text.substr(0, place).rfind('\n');
@@ -44,7 +44,8 @@ std::string LineEndOf(std::string_view text)
   return line != std::string_view::npos && line > 0 && text[line - 1] == '\r' ? "\r\n" : "\n";
 }
 
-// The text of an element that has no children, between its comments; without blanks at both ends of all of it.
+// Returns the text of an element without children, in pieces between its comments, without blanks at both ends of the
+// whole.
 std::vector<TextSpan> RunsOf(std::string_view text, const XmlElement& element)
 {
   std::vector<TextSpan> runs;
@@ -64,7 +65,7 @@ std::vector<TextSpan> RunsOf(std::string_view text, const XmlElement& element)
   return runs;
 }
 
-// The "/>" of <name/>.
+// Returns the "/>" of <name/>.
 TextSpan SlashOf(const XmlElement& element) { return {element.whole.end - 2, element.whole.end}; }
 
 bool HoldsAValue(const XmlElement& element) { return element.attributes.empty() && element.children.empty(); }
@@ -164,7 +165,7 @@ TextEdits AppendChild(std::string_view text, const XmlElement& parent, const std
     return {{SlashOf(parent), ">" + line + last_line + "</" + parent.name + ">"}};
   }
   if (parent.children.empty() && HasOnlyBlanks(parent.content.Of(text))) return {{parent.content, line + last_line}};
-  // Behind the last child or comment; what stands there stays.
+  // The new text follows the last child or comment; the text after it stays.
   std::size_t end = parent.content.begin;
   if (!parent.children.empty()) end = parent.children.back().whole.end;
   if (!parent.notes.empty()) end = std::max(end, parent.notes.back().end);

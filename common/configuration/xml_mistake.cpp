@@ -27,7 +27,7 @@ std::size_t SkipBlanks(std::string_view text, std::size_t from)
   return std::min(text.find_first_not_of(kWhiteSpace, from), text.size());
 }
 
-// An attribute from the first letter of its name to its closing quote, as far as it is there.
+// An attribute from the first letter of its name to its closing quote, or to the end of the text.
 struct AttributeText
 {
   std::size_t name_end;
@@ -45,14 +45,14 @@ AttributeText AttributeAt(std::string_view text, std::size_t start)
   return {name_end, quote + 1, text.find(text[quote], quote + 1)};
 }
 
-// The name that starts at `name`, as errors show it without quotes.
+// Returns the name that starts at `name`, as errors show it without quotes.
 std::string ShownName(std::string_view text, std::size_t name)
 {
   const std::string quoted = Quoted(text.substr(name, Find(text, kEndsOfNames, name) - name));
   return quoted.substr(1, quoted.size() - 2);
 }
 
-// Whether the parser takes the character at an offset as text.
+// Returns whether the parser accepts the character at an offset as text.
 bool IsCharacter(std::string_view text, std::size_t offset)
 {
   const auto first = static_cast<unsigned char>(text[offset]);
@@ -124,7 +124,7 @@ private:
     return {refusal_.offset, "an XML declaration (<?xml …?>) must be the first of the file; remove what is before it"};
   }
 
-  // Of one within an attribute the parser tells the tag alone.
+  // For a mistake within an attribute, the parser reports only the tag.
   XmlMistake UnknownEntity() const
   {
     std::size_t at = text_.find('&', refusal_.offset);

@@ -1,5 +1,5 @@
-// What to tell the user about XML text that the parser refuses: the parser says where it stopped, not what is meant.
-// Used by ReadXml and OutlineOf alone.
+// Explains to the user why the parser refuses an XML text. The parser says where it stopped, not which mistake it met.
+// Only ReadXml and OutlineOf use it.
 #pragma once
 
 #include <expat.h>
@@ -34,7 +34,7 @@ struct XmlRefusal
 
 XmlMistake ExplainRefusal(std::string_view text, const XmlRefusal& refusal);
 
-// The offset of each attribute of the start tag at `tag`, which the parser has taken.
+// Returns the offset of each attribute of the start tag at `tag`, which the parser has accepted.
 std::vector<std::size_t> AttributeOffsets(std::string_view text, std::size_t tag);
 
 }  // namespace swarmanoid

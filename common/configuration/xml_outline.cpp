@@ -15,7 +15,7 @@ namespace swarmanoid
 namespace
 {
 
-// The text has passed ReadXml: there is nothing left to refuse.
+// The text has passed ReadXml, so the reader meets no mistakes.
 class OutlineReader
 {
 public:
@@ -43,7 +43,7 @@ public:
   }
 
 private:
-  // expat is C: no exception may pass through it.
+  // Expat is a C library: no exception may pass through it.
   template <auto Method, class... Arguments>
   static void Handler(void* user, Arguments... arguments)
   {
@@ -79,7 +79,7 @@ private:
     open_.push_back(std::move(element));
   }
 
-  // Of <name/> expat reports an end without a length.
+  // For <name/>, expat reports an end without a length.
   void End(TextSpan place, const XML_Char*)
   {
     XmlElement element = std::move(open_.back());

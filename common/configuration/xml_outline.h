@@ -1,5 +1,5 @@
-// Where the parts of XML text stand in it, in bytes: for edits that change a part and leave every other byte alone.
-// Used by xml_edit.
+// The byte positions of the parts of XML text, for edits that change one part and leave every other byte alone. Used by
+// xml_edit.
 #pragma once
 
 #include <cstddef>
@@ -30,22 +30,22 @@ struct XmlElement
 
   std::string name;
   TextSpan whole;    // from "<name" to behind "</name>" or "/>"
-  TextSpan start;    // the start tag; of <name/> the whole
-  TextSpan content;  // between start tag and end tag; of <name/> empty, behind it
+  TextSpan start;    // the start tag; for <name/> the whole element
+  TextSpan content;  // between start tag and end tag; for <name/> empty, behind it
   std::vector<Attribute> attributes;
   std::vector<XmlElement> children;  // in the order of ReadXml
   std::vector<TextSpan> notes;       // comments and processing instructions of the content
 
   bool HasNoEndTag() const { return whole.end == start.end; }
   const Attribute* FindAttribute(std::string_view wanted) const;
-  // The first child of that name; nullptr if there is none.
+  // Returns the first child of that name; nullptr if none exists.
   const XmlElement* FindChild(std::string_view wanted) const;
 };
 
-// The root element. Throws ConfigurationError as ReadXml does, which reads the text first, with its limits.
+// Returns the root element. Throws ConfigurationError as ReadXml does, which reads the text first, with its limits.
 XmlElement OutlineOf(std::string_view text, const std::string& file_name = "text");
 
-// The element at a path of child numbers, from the root on; nullptr if there is none.
+// Returns the element at a path of child numbers from the root; nullptr if it does not exist.
 const XmlElement* ElementAt(const XmlElement& root, std::span<const std::size_t> path);
 
 }  // namespace swarmanoid

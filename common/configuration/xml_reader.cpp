@@ -19,7 +19,7 @@ namespace swarmanoid
 namespace
 {
 
-// Line and column (from 1, in characters) of byte offsets. Quick if they ascend.
+// Computes line and column (from 1, in characters) of byte offsets. Ascending offsets are quick.
 class PlaceCounter
 {
 public:
@@ -75,7 +75,7 @@ public:
 
   std::shared_ptr<const ConfigurationNode> Read()
   {
-    // expat would read the text as UTF-16, whatever it is told.
+    // Expat would read a text with this start as UTF-16, whatever encoding it is told.
     constexpr std::string_view kUtf16("\0\xfe\xff", 3);
     const std::size_t wide = text_.substr(0, 2).find_first_of(kUtf16);
     if (wide != std::string_view::npos) Fail(wide, "a byte that is not UTF-8 text; save the file as UTF-8");
@@ -87,7 +87,8 @@ public:
   }
 
 private:
-  // expat is C: no exception may pass through it. After the first one it goes on to the end of a tag.
+  // Expat is a C library: no exception may pass through it. After the first exception the parser continues to the end
+  // of a tag.
   template <auto Method, class... Arguments>
   static void Handler(void* user, Arguments... arguments)
   {
@@ -176,8 +177,8 @@ private:
     open_.back()->text.append(text, static_cast<std::size_t>(count));
   }
 
-  // Comments, processing instructions, the borders of CDATA sections; and the first word of a document type, behind
-  // which entities could be declared.
+  // Handles comments, processing instructions and the borders of CDATA sections. It also gets the first word of a
+  // document type, which could declare entities.
   void Other(std::size_t offset, const XML_Char* text, int count)
   {
     const std::string_view markup(text, static_cast<std::size_t>(count));
@@ -189,11 +190,11 @@ private:
   PlaceCounter places_;
   const XmlLimits& limits_;
   std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser_;
-  std::vector<std::size_t> tags_;  // of the open elements
+  std::vector<std::size_t> tags_;  // the offsets of the open elements
   std::vector<std::shared_ptr<ConfigurationNode>> open_;
   std::shared_ptr<const ConfigurationNode> root_;
-  std::size_t markup_ = 0;   // where the markup or text begins that is not reported yet
-  std::size_t section_ = 0;  // where the last CDATA section begins
+  std::size_t markup_ = 0;   // the begin of the markup or text that is not reported yet
+  std::size_t section_ = 0;  // the begin of the last CDATA section
   std::size_t elements_ = 0;
   std::size_t attributes_ = 0;
   std::exception_ptr failure_;

@@ -1,6 +1,6 @@
-// Reading XML text (UTF-8) into a configuration tree whose elements and attributes know their line and column, with the
-// parser expat. Made for files from anywhere: it refuses document types and entities of their own, and stops where the
-// limits are passed.
+// Reads XML text (UTF-8) into a configuration tree whose elements and attributes know their line and column. The parser
+// is expat. The reader accepts files from any source: it refuses document types and entity declarations, and stops if a
+// limit is passed.
 #pragma once
 
 #include <memory>
@@ -21,11 +21,11 @@ struct XmlLimits
   int attributes_of_one = 64;
 };
 
-// The root element. Throws ConfigurationError with file:line:col, at the first mistake of syntax.
+// Returns the root element. Throws ConfigurationError with file:line:col at the first mistake of syntax.
 std::shared_ptr<const ConfigurationNode> ReadXml(std::string_view text, const std::string& file_name,
                                                  const XmlLimits& limits = {});
 
-// The whole file; throws ConfigurationError if it cannot be read or is larger than the limit.
+// Returns the whole file. Throws ConfigurationError if it cannot be read or is larger than the limit.
 std::string ReadTextFile(const std::string& path, std::size_t most_bytes = XmlLimits{}.bytes);
 
 }  // namespace swarmanoid

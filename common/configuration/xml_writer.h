@@ -1,4 +1,4 @@
-// Writing a configuration tree as XML.
+// Writes a configuration tree as XML.
 #pragma once
 
 #include <string>
@@ -9,12 +9,13 @@
 namespace swarmanoid
 {
 
-// XML text of a tree, indented by two blanks. Reading it gives the same tree.
+// Returns the XML text of a tree, indented by two blanks. Reading it gives the same tree.
 std::string WriteXml(const ConfigurationNode& root);
 
-// The text as it stands within an element.
+// Returns the text with escapes, for the content of an element.
 std::string EscapedXml(std::string_view text);
-// Within double quotes: a parser turns line ends and tabs there into blanks unless they are written as references.
+// Returns the text with escapes, for use within double quotes. Line ends and tabs become references, since a parser
+// would turn them into blanks.
 std::string EscapedAttribute(std::string_view text);
 
 }  // namespace swarmanoid

@@ -5,7 +5,7 @@ namespace swarmanoid
 namespace
 {
 
-// The number of a device: its controller's, and its own in the list of that.
+// A device's number holds the number of its controller and its own number in that controller's list.
 constexpr std::uint32_t kDeviceBits = 12;
 
 Actor DeviceActor(Actor::Kind kind, const Experiment& experiment, std::size_t controller, std::size_t device,

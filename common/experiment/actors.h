@@ -1,5 +1,5 @@
-// The actors of an experiment: those whose code its processes run (common/activity). Roles say by them what they do;
-// the launcher finds by them who ran in a process that is dead.
+// The actors of an experiment: the plug-ins whose code its processes run (common/activity). Roles note which actor
+// runs. The launcher finds by the numbers which actor ran in a dead process.
 #pragma once
 
 #include "common/activity/activity.h"
@@ -8,7 +8,7 @@
 namespace swarmanoid
 {
 
-// The experiment outlives the actors.
+// Return the actors of an experiment, which must outlive them.
 Actor RobotActor(const Experiment& experiment, std::size_t entity);
 Actor FunctionsActor(const Experiment& experiment, std::size_t functions);
 Actor EngineActor(const Experiment& experiment, std::size_t engine);
@@ -16,7 +16,7 @@ Actor VisualisationActor(const RenderConfiguration& visualisation, std::size_t n
 Actor SensorActor(const Experiment& experiment, std::size_t controller, std::size_t sensor);
 Actor ActuatorActor(const Experiment& experiment, std::size_t controller, std::size_t actuator);
 
-// The one of that kind and number, or nobody if the experiment has none.
+// Returns the actor of that kind and number, or an actor of kind kNobody if the experiment has none.
 Actor ActorOf(const Experiment& experiment, Actor::Kind kind, std::uint32_t number);
 
 }  // namespace swarmanoid

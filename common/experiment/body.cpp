@@ -10,13 +10,13 @@ namespace
 {
 
 constexpr double kTolerance = 1e-6;     // m
-constexpr double kParallel = 1 - 1e-9;  // of the cosine between two axes
+constexpr double kParallel = 1 - 1e-9;  // the cosine between two axes that count as parallel
 constexpr double kLeastCell = 0.05;     // m
 constexpr double kMostCells = 2e6;
 constexpr std::size_t kMostCellsOfBody = 4096;
 constexpr std::size_t kMostEntries = 100'000'000;
 
-// Does the interval of two bodies about each other along an axis leave no gap? `axis` of any length.
+// Returns whether the projections of two bodies on an axis are disjoint. `axis` may have any length.
 bool Apart(const Vector3& axis, const Eigen::Matrix3d& a, const Vector3& half_a, const Eigen::Matrix3d& b,
            const Vector3& half_b, const Vector3& between)
 {
@@ -27,7 +27,7 @@ bool Apart(const Vector3& axis, const Eigen::Matrix3d& a, const Vector3& half_a,
   return std::abs(between.dot(axis)) >= reach_a + reach_b - kTolerance * length;
 }
 
-// The separating axis test of two boxes: three face normals of each and the nine products of their edges.
+// Does the separating axis test of two boxes: three face normals of each and the nine products of their edges.
 bool BoxesOverlap(const Body& a, const Vector3& half_a, const Body& b, const Vector3& half_b)
 {
   const Eigen::Matrix3d axes_a = a.orientation.toRotationMatrix();
@@ -45,7 +45,7 @@ bool BoxesOverlap(const Body& a, const Vector3& half_a, const Body& b, const Vec
   return true;
 }
 
-// The box within a body.
+// Returns half the extent of the box within a body.
 Vector3 InnerHalf(const Body& body)
 {
   if (!body.cylinder) return body.half;

@@ -1,5 +1,5 @@
-// The bodies of entities, as far as placing them needs: do two overlap, which of many overlaps a new one. Engines have
-// models of their own, and so has the space: hence the namespace.
+// The bodies of entities, as far as placing them needs: whether two overlap, and which of many overlaps a new one.
+// Engines and the space have their own models, hence the namespace.
 #pragma once
 
 #include <optional>
@@ -16,18 +16,18 @@ struct Body
   bool cylinder = false;
   Vector3 centre = Vector3::Zero();
   Quaternion orientation = Quaternion::Identity();
-  // Half the extent along the body's axes; of a cylinder along z: radius, radius, half the height.
+  // Half the extent along the body's axes. For a cylinder along z: radius, radius, half the height.
   Vector3 half = Vector3::Zero();
 
   // Half the extent of the box along the axes of the space that holds the body.
   Vector3 HalfExtent() const;
 };
 
-// nullopt for kinds without a body (lights, sounds, areas of the floor, terrain).
+// Returns nullopt for kinds without a body (lights, sounds, areas of the floor, terrain).
 std::optional<Body> BodyOf(const EntityConfiguration& entity);
 
-// Whether two bodies interpenetrate by more than a micrometre. Exact for boxes and for bodies with parallel axes; of a
-// tilted cylinder only the inscribed box counts, so that what is reported does overlap.
+// Returns whether two bodies interpenetrate by more than a micrometre. The test is exact for boxes and for bodies with
+// parallel axes. A tilted cylinder counts as its inscribed box, so reported bodies do overlap.
 bool Overlap(const Body& a, const Body& b);
 
 // Finds overlaps among many bodies in constant time each: a uniform grid over the arena.
@@ -38,7 +38,7 @@ public:
   BodyGrid(const Vector3& arena_size, double cell);
 
   void Add(const Body& body, std::uint32_t name);
-  // The name of a body that overlaps this one; nullopt for none.
+  // Returns the name of a body that overlaps this one; nullopt if none does.
   std::optional<std::uint32_t> Find(const Body& body) const;
 
 private:
@@ -47,7 +47,7 @@ private:
     std::uint32_t body;
     std::int32_t next;
   };
-  // The cells that the box around a body touches, as ForEachRow of these.
+  // Calls `visit` with the cells that the box around a body touches, as ForEachRow of the cells.
   template <class Visit>
   void ForEachRowOf(const Body& body, const Visit& visit) const;
 

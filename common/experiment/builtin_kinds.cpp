@@ -29,7 +29,7 @@ constexpr AttributeSpec kInstruction{"instruction", 8, 0, "instructions of exper
 constexpr AttributeSpec kBeacon{"beacon", 1, 0, "colour of the beacon", AttributeValue::kColour};
 constexpr AttributeSpec kSurface{"colour", 1, 0xc0c0c0, "colour of the surface", AttributeValue::kColour};
 
-// Evenly around the robot, the first one half a spacing to the left of the front.
+// Places the sensors evenly around the robot, the first one half a spacing to the left of the front.
 ProximityRing RingOfSensors(int count, double radius_m, double height_m, double range_m)
 {
   ProximityRing ring;
@@ -45,7 +45,7 @@ ProximityRing RingOfSensors(int count, double radius_m, double height_m, double 
 
 EntityKindDescription Footbot()
 {
-  // Radius, height, wheels, rings: ARGoS3, foot-bot.
+  // Radius, height, wheels and rings are those of the foot-bot in ARGoS3.
   constexpr double kRadius = 0.085036758;
   constexpr int kProximitySensors = 24;
   EntityKindDescription row;
@@ -103,7 +103,7 @@ EntityKindDescription Handbot()
                     kRadio,
                     kReport,
                     kInstruction};
-  // An assumption: around its body, at half its height.
+  // The places are an assumption: around the body, at half its height.
   row.leds = LedLayout{PlacesOnCircle(12, 0.09, kPi / 12), 0.08, false};
   row.beacon_height_m = 0.17;
   row.mechanism = Mechanism::kArms;

@@ -1,4 +1,4 @@
-// The rows of the simulator's own kinds, in the order of EntityKind. For entity_kinds.cpp alone.
+// The rows of the simulator's own kinds, in the order of EntityKind. Only entity_kinds.cpp includes this header.
 #pragma once
 
 #include <vector>

@@ -39,7 +39,7 @@ void CheckChannels(const EngineConfiguration& engine, const PluginDescription& p
   check(controller.sensors, PluginKind::kSensor);
 }
 
-// The first device of a controller that needs an engine, nullptr if there is none.
+// Returns the first device of a controller that needs an engine, nullptr if none does.
 const DeviceConfiguration* FirstSpecificDevice(const ControllerConfiguration& controller)
 {
   const auto find = [](const std::vector<DeviceConfiguration>& devices, PluginKind kind) -> const DeviceConfiguration*
@@ -55,8 +55,8 @@ const DeviceConfiguration* FirstSpecificDevice(const ControllerConfiguration& co
   return actuator != nullptr ? actuator : find(controller.sensors, PluginKind::kSensor);
 }
 
-// Robots that no engine holds stay where they are; devices that act through an engine would do nothing, unnoticed.
-// Once for each controller.
+// Reports robots without an engine whose devices need one, once for each controller. These robots stay where they are,
+// so their devices would do nothing, unnoticed.
 void CheckRobotsWithoutEngine(const std::vector<bool>& owned, Reading& reading)
 {
   const Experiment& experiment = reading.experiment;
@@ -76,13 +76,13 @@ void CheckRobotsWithoutEngine(const std::vector<bool>& owned, Reading& reading)
   }
 }
 
-// Farther than this from its plane, an entity would jump to it in the first tick (m).
+// An entity farther than this from its plane would jump to it in the first tick (m).
 constexpr double kOnPlane = 1e-3;
 
 // A body that leans more is straightened in the first tick (rad).
 constexpr double kUpright = 1e-3;
 
-// Where the plane of an engine is, if it has one.
+// The plane of an engine, if it has one.
 struct Plane
 {
   Vector3 normal;
@@ -119,7 +119,7 @@ bool MovesOnPlane(const EngineConfiguration& engine)
 namespace
 {
 
-// On a level plane an entity stands upright. On other planes the engine takes its heading alone.
+// On a level plane an entity must stand upright. On other planes the engine uses only its heading.
 void CheckLean(const EntityConfiguration& entity, const EngineConfiguration& engine, const Plane& plane,
                Reading& reading)
 {
@@ -186,7 +186,7 @@ void CheckDevicesOfEngines(Reading& reading)
       if (controller != nullptr) CheckChannels(engine, *plugin, *controller, entity, reading);
     }
   }
-  // A mistake in the lists of engines would be blamed on the robots.
+  // A mistake in the lists of engines would make the robots look wrong.
   if (reading.diagnostics.Empty()) CheckRobotsWithoutEngine(owned, reading);
 }
 
@@ -205,7 +205,7 @@ void CheckOverlaps(Reading& reading)
         if (entity.movable != movable || !entity.reserve.empty()) continue;
         const auto body = placement::BodyOf(entity);
         if (!body || !(entity.size.minCoeff() > 0) || !entity.pose.position.allFinite()) continue;
-        // Furniture is made of blocks that overlap; only what moves must be free.
+        // Furniture is made of overlapping blocks, so only movable bodies must be free.
         if (const auto other = movable ? grid.Find(*body) : std::nullopt)
         {
           const EntityConfiguration& there = experiment.entities[*other];

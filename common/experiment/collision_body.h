@@ -1,5 +1,5 @@
-// A body as an engine collides it: what PluginDescription::collision_model gives. Read by sensors, queries and
-// renderers, in their processes.
+// A body as an engine collides it: the result of PluginDescription::collision_model. Sensors, queries and renderers
+// read it in their processes.
 #pragma once
 
 #include <vector>
@@ -12,14 +12,15 @@ namespace swarmanoid
 
 struct CollisionBody
 {
-  bool is_cylinder = false;             // about its z axis; otherwise a box
-  Pose pose;                            // of its centre, in the frame of the entity
-  Vector3 half_size = Vector3::Zero();  // m; of a cylinder: radius, radius, half the height
-  // Instead of the box, which is about it; in the frame of the entity. The configuration of the entity keeps it.
+  bool is_cylinder = false;             // an upright cylinder about its z axis; otherwise a box
+  Pose pose;                            // the pose of its centre, in the frame of the entity
+  Vector3 half_size = Vector3::Zero();  // m; for a cylinder: radius, radius, half the height
+  // The convex hull that collides instead of the box around it, in the frame of the entity. The configuration of the
+  // entity owns it.
   const ConvexHull* hull = nullptr;
 };
 
-// Adds the plain body of an entity's kind; nothing for those without one.
+// Adds the plain body of an entity's kind; nothing for kinds without one.
 void AddPlainBody(const EntityConfiguration& entity, std::vector<CollisionBody>& bodies);
 
 }  // namespace swarmanoid

@@ -1,4 +1,4 @@
-// The mistakes found while an experiment file is read. Used by the reader only.
+// Collects the mistakes found while an experiment file is read. Only the reader uses it.
 #pragma once
 
 #include <algorithm>
@@ -24,15 +24,15 @@ public:
   {
     if (!name.empty()) lost_.insert(std::move(name));
   }
-  // Whether the name was lost; entities of a lost <distribute> or <reserve> "fb" have names such as "fb_3".
+  // Returns whether the name was lost; entities of a lost <distribute> or <reserve> "fb" have names such as "fb_3".
   bool IsLost(std::string_view name) const;
   template <class Fits>
   bool HasLost(const Fits& fits) const
   {
     return std::any_of(lost_.begin(), lost_.end(), fits);
   }
-  // All of them: those of other files first, such as URDF files, which the experiment only names; then those of the
-  // experiment in the order of the file. Beyond a thousand, a last one says how many more there are.
+  // Returns all mistakes. Those in other files that the experiment names, such as URDF files, come first. The
+  // experiment's own follow in the order of the file. Beyond a thousand, a last entry counts the rest.
   std::vector<Diagnostic> Take(const std::string& experiment_file = "");
 
 private:

@@ -1,5 +1,5 @@
-// Placing the entities of <distribute>. Each entity draws from a random stream of its own, so that its place depends on
-// the seed, its id, the bodies that are there already and the terrain, and on nothing else.
+// Places the entities of <distribute>. Each entity draws from its own random stream, so that its position depends only
+// on the seed, its id, the bodies that are placed already, and the terrain.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ Vector3 DrawGaussian(RandomStream& random, const Vector3& mean, const Vector3& d
   return {x, y, z};
 }
 
-// How the positions of one <distribute> are chosen.
+// Chooses the positions of one <distribute>.
 class Positions
 {
 public:
@@ -48,8 +48,8 @@ public:
   {
     const Vector3& arena = reading.experiment.arena_size;
     const auto body = placement::BodyOf(entity);
-    // The least distance from the edges of the floor that holds at every heading, and the height of a body that stands
-    // on it.
+    // The margin is the least distance from the edges of the floor that holds at every heading. The height is that of a
+    // body on the floor.
     const double margin = body ? body->half.head<2>().norm() * (body->cylinder ? std::sqrt(0.5) : 1.0) : 0.0;
     const double height = body ? body->half.z() - body->centre.z() : 0.0;
     const Vector3 middle(arena.x() / 2, arena.y() / 2, height);
@@ -69,14 +69,14 @@ public:
     Check(count, arena, reading);
   }
 
-  // The height from which they are let down onto the terrain; nullopt: they stay where they are drawn.
+  // Returns the height from which the entities are let down onto the terrain; nullopt: they stay where they are drawn.
   std::optional<double> DropsFrom() const
   {
     return reader_.IsGood("drop_from") && reader_.IsGiven("drop_from") ? std::optional(reader_.Number("drop_from"))
                                                                        : std::nullopt;
   }
 
-  // Whether another draw may give another place.
+  // Returns whether another draw may give another position.
   bool IsRandom() const { return method_ != "grid"; }
 
   Vector3 Draw(std::size_t i, RandomStream& random) const
@@ -172,7 +172,7 @@ public:
     }
   }
 
-  // False, and a report, if they do not fit.
+  // Places all entities of a <distribute>. Returns false, after a report, if they do not fit.
   bool Place(const Distribution& distribution)
   {
     if (distribution.count == 0) return true;
@@ -209,7 +209,7 @@ private:
       entity.pose.position = positions.Draw(i, random);
       if (positions.DropsFrom() && !LetDown(index, *positions.DropsFrom())) continue;
       const auto body = placement::BodyOf(entity);
-      // Points of a grid are the user's choice, as places of single robots are: their bodies alone must not overlap.
+      // The user chooses the points of a grid, as for single robots, so only the bodies must not overlap.
       const auto outline = positions.IsRandom() ? OutlineOf(index) : body;
       if (!Inside(entity.pose.position, body) || (outline && grid_.Find(*outline))) continue;
       if (body && ground_.IsInRock(index, *body)) continue;
@@ -219,7 +219,7 @@ private:
     return false;
   }
 
-  // False if there is no ground under it.
+  // Lets an entity down onto the terrain. Returns false if no ground is under it.
   bool LetDown(std::size_t index, double from)
   {
     EntityConfiguration& entity = reading_.experiment.entities[index];
@@ -231,8 +231,9 @@ private:
     return true;
   }
 
-  // What must stay free: the body, and the gripper of the kinematic engine at any angle of the turret (figure 3.9 of
-  // the documentation). In each engine, so that the same robots start at the same places in all.
+  // Returns the volume that must stay free: the body, and the gripper of the kinematic engine at any angle of the
+  // turret (figure 3.9 of the documentation). The volume is the same for all engines, so that robots start at the same
+  // positions in each.
   std::optional<placement::Body> OutlineOf(std::size_t index) const
   {
     constexpr double kGripperReach = 0.102;  // m: a little beyond its corners
@@ -243,7 +244,7 @@ private:
     return body;
   }
 
-  // The position within the arena, and no part of the body over the edge of the floor.
+  // Returns whether the position is in the arena and no part of the body is over the edge of the floor.
   bool Inside(const Vector3& position, const std::optional<placement::Body>& body) const
   {
     constexpr double kSlack = 1e-9;
@@ -278,7 +279,7 @@ private:
   placement::Ground ground_;
 };
 
-// Their poses mean nothing: no later check may take them for places.
+// Marks the poses as unknown, so that no later check uses them.
 void Unplace(const Distribution& distribution, std::vector<EntityConfiguration>& entities)
 {
   for (std::size_t i = 0; i < distribution.count; ++i)
@@ -287,8 +288,8 @@ void Unplace(const Distribution& distribution, std::vector<EntityConfiguration>&
   }
 }
 
-// The bits of x and y in turn: who is near on the plane is near in this order, mostly (Morton, "A computer oriented
-// geodetic data base", IBM, 1966).
+// Interleaves the bits of x and y. Positions near each other on the plane are mostly near in this order (Morton, "A
+// computer oriented geodetic data base", IBM, 1966).
 std::uint32_t MortonOrder(std::uint16_t x, std::uint16_t y)
 {
   const auto spread = [](std::uint32_t bits)

@@ -9,12 +9,12 @@ namespace swarmanoid
 namespace
 {
 
-// Where the walk through the tables stands.
+// The state of the walk through the tables.
 struct SchemaPlace
 {
-  const ElementSpec* element = nullptr;  // nullptr: a table of parameters alone, or nothing known
+  const ElementSpec* element = nullptr;  // nullptr: only a table of parameters, or an unknown element
   const PluginDescription* plugin = nullptr;
-  std::optional<PluginKind> kind;  // of the plug-in that the element stands for
+  std::optional<PluginKind> kind;  // the kind of plug-in that the element stands for
   const std::vector<ParameterSpec>* table = nullptr;
 };
 
@@ -47,7 +47,7 @@ SchemaPlace Into(const SchemaPlace& above, const ConfigurationNode& node)
   return has_table ? SchemaPlace{nullptr, nullptr, {}, &above.plugin->parameters} : SchemaPlace{};
 }
 
-// The implementations that there are, for the elements of devices.
+// Adds the registered implementations as choices, for the elements of devices.
 void OfferImplementations(std::vector<ParameterSpec>& parameters, PluginKind kind, const std::string& label)
 {
   const auto found = std::ranges::find(parameters, "implementation", &ParameterSpec::name);

@@ -1,5 +1,5 @@
-// What an element of an experiment file may hold, by its place in the file: for whoever lets users fill it in. It comes
-// from the tables that the reader of the file checks against. Used by `swarmanoid edit`.
+// The allowed content of an element of an experiment file, by its path in the file, for editors in which users fill it
+// in. It comes from the tables that the reader of the file checks against. Used by `swarmanoid edit`.
 #pragma once
 
 #include <span>
@@ -18,19 +18,19 @@ struct ElementForm
   {
     std::string tag;
     std::string description;
-    std::vector<ParameterSpec> required;  // what a new one has to be given
-    bool may_be_added = true;             // false: it is there, and once is all
+    std::vector<ParameterSpec> required;  // parameters that a new element must get
+    bool may_be_added = true;             // false: the element exists and may occur only once
   };
 
-  bool known = false;  // false: no table says what the element holds
+  bool known = false;  // false: no table describes the content of the element
   std::string description;
-  std::vector<ParameterSpec> parameters;  // each a value, as an attribute or as a child element
+  std::vector<ParameterSpec> parameters;  // each one value, as an attribute or as a child element
   std::vector<Child> children;
-  bool required = false;  // an experiment without it is none
+  bool required = false;  // an experiment must have the element
 };
 
-// `path`: the elements from the root of the experiment to the one that is asked for. The libraries of its plug-ins are
-// loaded, as after reading the experiment: others are not known.
+// Returns the form of an element. `path`: the elements from the root of the experiment to it. Only plug-ins whose
+// libraries are loaded, as after reading the experiment, are known.
 ElementForm FormOf(std::span<const ConfigurationNode* const> path);
 
 }  // namespace swarmanoid

@@ -15,21 +15,20 @@ namespace swarmanoid
 class ElementReader
 {
 public:
-  // `plugin`: further parameters, by the table of the plug-in that the element stands for; nullptr for none. With
-  // `open`, further content is allowed (the plug-in is unknown, which is reported elsewhere). The arguments outlive the
-  // reader.
+  // `plugin`: adds the parameters of the plug-in that the element stands for; nullptr for none. With `open`, further
+  // content is allowed (the plug-in is unknown, which is reported elsewhere). The arguments must outlive the reader.
   ElementReader(const TConfigurationTree& tree, const ElementSpec& spec, Diagnostics& diagnostics,
                 const std::vector<ParameterSpec>* plugin = nullptr, bool open = false);
 
-  // The value, its default, or a zero.
+  // Returns the value, its default, or zero.
   std::string Text(std::string_view name) const;
   double Number(std::string_view name) const;
   long long Integer(std::string_view name) const;
   bool Boolean(std::string_view name) const;
-  Vector3 Vector(std::string_view name) const;  // of two components: z is 0
+  Vector3 Vector(std::string_view name) const;  // z is 0 for a vector of two components
   std::uint32_t Colour(std::string_view name) const;
 
-  // Whether the file has the value and it is right.
+  // Returns whether the file has a valid value.
   bool IsGood(std::string_view name) const;
   bool IsGiven(std::string_view name) const { return tree_.Value(name).has_value(); }
   const TConfigurationTree& Tree() const { return tree_; }

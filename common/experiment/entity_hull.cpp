@@ -19,7 +19,7 @@ namespace
 
 using Hull = std::shared_ptr<const ConvexHull>;
 
-// "x, y, z; x, y, z; …"
+// Reads "x, y, z; x, y, z; …".
 std::optional<std::vector<Vector3>> ParseCorners(std::string_view text)
 {
   std::vector<Vector3> corners;
@@ -36,7 +36,7 @@ std::optional<std::vector<Vector3>> ParseCorners(std::string_view text)
   return corners;
 }
 
-// Stretched to fill the body.
+// Returns the hull of the points, stretched to fill the body.
 ConvexHull HullInBody(std::vector<Vector3> points, const EntityConfiguration& entity)
 {
   Eigen::AlignedBox3d box;
@@ -49,7 +49,8 @@ ConvexHull HullInBody(std::vector<Vector3> points, const EntityConfiguration& en
   return HullOf(points);
 }
 
-// Made by `make` when `name` is asked for first; nullptr, reported at a parameter, where that throws.
+// Calls `make` for the first use of `name` and keeps the result. If `make` throws, reports the error at a parameter and
+// returns nullptr.
 Hull Kept(const std::string& name, const ElementReader& reader, const char* parameter, Reading& reading,
           const std::function<ConvexHull()>& make)
 {
@@ -96,7 +97,7 @@ Hull HullOfEntity(const ElementReader& reader, const EntityConfiguration& entity
                             "it has no 'mesh' whose hull could collide; give it one, or its 'corners'");
     return nullptr;
   }
-  // Whoever looks at a run from elsewhere need not have the file: it is missed where the body is.
+  // A process on another machine that only shows the run need not have the file. The others report it as missing.
   if (!MeshFileMistake(path).empty()) return nullptr;
   const Vector3 degrees = reader.Vector("mesh_orientation");
   const Quaternion turn = QuaternionFromEuler(

@@ -1,4 +1,4 @@
-// The hulls of entities that collide as one instead of a box. For the reader of experiments.
+// The hulls of entities that collide as a convex hull instead of a box. For the reader of experiments.
 #pragma once
 
 #include <memory>
@@ -10,8 +10,8 @@
 namespace swarmanoid
 {
 
-// By the corners of the row of its kind, or the parameters "corners" and "convex" of its element; nullptr for what
-// collides as its body says. Mistakes are reported. `entity`: with kind and size.
+// Returns the hull from the corners in the row of the kind, or from the parameters "corners" and "convex" of the
+// element. Returns nullptr for entities without a hull. Mistakes are reported. `entity`: with kind and size.
 std::shared_ptr<const ConvexHull> HullOfEntity(const ElementReader& reader, const EntityConfiguration& entity,
                                                Reading& reading);
 

@@ -1,10 +1,10 @@
-// The table of entity kinds: a row says all that the simulator has to know of a kind of robot or object. The reader of
-// experiment files, the space, the engines, the sensors and the visualisers ask the row. The simulator's own kinds are
-// rows (own_kinds.cpp); a user's library adds others by REGISTER_ENTITY_KIND, and an experiment names it:
+// The table of entity kinds: a row holds all that the simulator has to know about a kind of robot or object. The reader
+// of experiment files, the space, the engines, the sensors and the visualisers read the row. The simulator's own kinds
+// are rows (builtin_kinds.cpp). A user's library adds others by REGISTER_ENTITY_KIND, and an experiment names it:
 //
 //   <entity_kinds><epuck library="epuck"/></entity_kinds>
 //
-// Rows are added before roles start, and read-only afterwards.
+// Rows are added before roles start, and are read-only afterwards.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@
 namespace swarmanoid
 {
 
-// A row of the table. Those that are named are the simulator's own; the rows of users follow in the order in which they
-// are registered.
+// The number of a row of the table. The named kinds are the simulator's own. The rows of users follow in the order of
+// their registration.
 enum class EntityKind : std::uint8_t
 {
   kFootbot,
@@ -42,8 +42,8 @@ enum class EntityRole : std::uint8_t
   kObject,
   kLight,
   kSound,
-  kPatch,  // of the floor
-  kHole,   // in the floor
+  kPatch,  // an area of the floor
+  kHole,   // a hole in the floor
   kTerrain
 };
 
@@ -54,7 +54,7 @@ enum class BodyForm : std::uint8_t
   kBox
 };
 
-// What the position of a body is.
+// The point of a body that its position gives.
 enum class BodyOrigin : std::uint8_t
 {
   kBase,   // the centre of its base: engines of planes stand it on the plane
@@ -65,10 +65,10 @@ enum class Mobility : std::uint8_t
 {
   kNever,
   kAlways,
-  kIfAsked  // by its parameter "movable"
+  kIfAsked  // movable if the parameter "movable" says so
 };
 
-// What engines and visualisers have code of their own for.
+// Mechanisms that engines and visualisers have special code for.
 enum class Mechanism : std::uint8_t
 {
   kNone,
@@ -77,7 +77,7 @@ enum class Mechanism : std::uint8_t
   kPropellers      // the eyebot: it flies, and hangs on the ceiling
 };
 
-// What the number in a slot of an attribute stands for, and so which numbers may enter the state.
+// The meaning of the numbers of an attribute. It determines which numbers may enter the state.
 enum class AttributeValue : std::uint8_t
 {
   kNumber,   // finite, at most 1e9 from 0
@@ -88,7 +88,7 @@ enum class AttributeValue : std::uint8_t
   kPresence  // 1 in the arena, 0 not: set by the space server alone
 };
 
-// Numbers of an entity beside its pose that all processes see.
+// Numbers of an entity, beside its pose, that all processes see.
 struct AttributeSpec
 {
   std::string_view name;
@@ -103,19 +103,19 @@ struct WheelDrive
 {
   double axle_m = 0;  // between the wheels
   double radius_m = 0;
-  double max_speed_m_s = 0.3;  // of a wheel on the ground
+  double max_speed_m_s = 0.3;  // of a wheel, on the ground
 };
 
-// LEDs, all at one height. Attribute "led".
+// LEDs, all at one height. They set the attribute "led".
 struct LedLayout
 {
   std::vector<Vector2> places;  // m, in the frame of the robot, x forward
   double height_m = 0;
-  bool on_turret = false;  // turns by the attribute "turret_angle"
-  // Where each LED looks as one of directional_leds, of any length; empty: outwards from the middle.
+  bool on_turret = false;  // the LEDs turn by the attribute "turret_angle"
+  // The direction of each LED as one of directional_leds, of any length; empty: outwards from the middle.
   std::vector<Vector3> directions{};
 };
-// `count` places on a circle, counter-clockwise from `first_angle` (radians, 0 is the front).
+// Returns `count` places on a circle, counter-clockwise from `first_angle` (radians, 0 is the front).
 std::vector<Vector2> PlacesOnCircle(int count, double radius_m, double first_angle);
 
 // Infrared sensors that look outwards, horizontally.
@@ -131,7 +131,7 @@ struct ProximityRing
   double range_m = 0;
 };
 
-// A simple part of what a visualiser draws, in the frame of the entity, in metres.
+// A simple shape of the drawn mesh, in the frame of the entity, in metres.
 struct MeshPart
 {
   enum class Form : std::uint8_t
@@ -139,7 +139,7 @@ struct MeshPart
     kBox,   // from one corner to the opposite one
     kRod,   // a cylinder of a radius from one point to the other
     kBall,  // about `from`
-    kFile   // what `file` holds, its origin at `from`
+    kFile   // the content of `file`, with its origin at `from`
   };
   enum class Paint : std::uint8_t
   {
@@ -151,7 +151,7 @@ struct MeshPart
     kGlass,
     kLed,     // the colour of LED `led`
     kBeacon,  // the colour of the beacon
-    kOwn      // `colour`
+    kOwn      // the colour `colour`
   };
   Form form = Form::kBox;
   Vector3 from = Vector3::Zero();
@@ -160,8 +160,8 @@ struct MeshPart
   Paint paint = Paint::kBody;
   int led = 0;
   std::uint32_t colour = 0xc0c0c0;
-  // A mesh: .glb, .gltf, .obj or .stl, from the folder of the experiment or of a library (mesh_files.h). `paint` is
-  // that of a file without colours. In metres times `scale`, z up and x to the front, then turned.
+  // A mesh file: .glb, .gltf, .obj or .stl, from the folder of the experiment or of a library (mesh_files.h). `paint`
+  // applies to files without colours. The mesh is in metres times `scale`, z up and x to the front, then turned.
   std::string file{};
   Vector3 scale = Vector3::Ones();
   Quaternion orientation = Quaternion::Identity();
@@ -178,65 +178,67 @@ struct EntityKindDescription
 
   BodyForm form = BodyForm::kNone;
   BodyOrigin origin = BodyOrigin::kBase;
-  // Of the body, m: a box along x, y and z; a cylinder's radius, radius and height. Zero: each entity gives its own, by
-  // the parameters "size", or "radius" and "height".
+  // The size of the body in m: a box along x, y and z, or a cylinder's radius, radius and height. Zero: each entity
+  // gives its own, by the parameters "size", or "radius" and "height".
   Vector3 size = Vector3::Zero();
-  // Of a box: the body is the convex hull of these points instead, m, in the frame of the entity, within the box.
+  // If not empty, the body of a box is the convex hull of these points, in m, in the frame of the entity, within the
+  // box.
   std::vector<Vector3> corners{};
-  double mass_kg = 0;  // of an entity without one of its own; 0: engines take their own for it, or their density
+  double mass_kg = 0;  // default mass; 0: engines use their own mass or density
   Mobility mobility = Mobility::kAlways;
-  bool grippable = false;           // grippers find hold on it while it can move
-  int grippers = 0;                 // what it has itself: attribute "gripped"
-  std::uint32_t colour = 0xc0c0c0;  // of one without a parameter "colour"
+  bool grippable = false;           // grippers can hold it if it is movable
+  int grippers = 0;                 // number of its own grippers; each has a slot of the attribute "gripped"
+  std::uint32_t colour = 0xc0c0c0;  // default, for entities without a parameter "colour"
 
-  // Parameters of its element beside id, position and orientation. What follows from the rest of a user's row is added
-  // when it is registered: controller of robots; size, or radius and height; movable, mass, colour of objects …
+  // Parameters of its element beside id, position and orientation. Registration adds the parameters that follow from
+  // the rest of a user's row: controller for robots; size, or radius and height; movable, mass and colour for objects.
   std::vector<ParameterSpec> parameters{};
-  // In the order of the slots. Added likewise, in front: led, beacon; colour; intensity.
+  // Attributes in the order of the slots. Registration adds led, beacon, colour and intensity in front, if the row has
+  // them.
   std::vector<AttributeSpec> attributes{};
 
   std::optional<WheelDrive> wheels{};
   std::optional<LedLayout> leds{};
-  std::optional<double> beacon_height_m{};  // an LED above the middle. Attribute "beacon"
-  bool seen_by_cameras = false;             // by its attribute "colour"; LEDs always are
+  std::optional<double> beacon_height_m{};  // height of an LED above the middle; it sets the attribute "beacon"
+  bool seen_by_cameras = false;             // by its attribute "colour"; LEDs are always seen
   std::optional<ProximityRing> proximity{};
-  std::vector<Vector2> ground_points{};  // m: where the ground sensors look
-  // Further types of devices that it can carry, of those whose own list of robots does not have it.
+  std::vector<Vector2> ground_points{};  // m: the points under the ground sensors
+  // Further types of devices that it can carry, if a device's own list of robots does not have this kind.
   std::vector<std::string> devices{};
 
-  std::vector<MeshPart> mesh{};  // none: its body, with its LEDs
-  double label_height_m = 0;     // of its name above its position; 0: a little above the body
+  std::vector<MeshPart> mesh{};  // empty: its body, with its LEDs
+  double label_height_m = 0;     // height of its name above its position; 0: a little above the body
 
   Mechanism mechanism = Mechanism::kNone;  // for the simulator's own rows
 };
 
-// The row of a kind. Throws std::out_of_range for one that is not registered.
+// Returns the row of a kind. Throws std::out_of_range for a kind that is not registered.
 const EntityKindDescription& DescriptionOf(EntityKind kind);
-// All rows are the kinds from 0 on.
+// Returns the number of rows. The kinds are the numbers from 0 on.
 std::size_t EntityKindCount();
 bool IsBuiltIn(EntityKind kind);
-// By its tag, under any of its names ("cyllindric_prej"); nullopt for no kind.
+// Returns the kind of a tag, under any of its names ("cyllindric_prej"); nullopt for an unknown tag.
 std::optional<EntityKind> KindOfTag(std::string_view tag);
 
-// Adds a row. While a library is loaded, what is wrong with it is kept as a problem of that library (as in
-// PluginCatalogue::Add); otherwise std::invalid_argument is thrown.
+// Adds a row. While a library is loaded, a mistake in the row is kept as a problem of that library (as in
+// PluginCatalogue::Add). Otherwise std::invalid_argument is thrown.
 void RegisterEntityKind(EntityKindDescription description);
 
 bool IsRobot(EntityKind kind);
-// Lights, sounds and patches of the floor: no engine holds a body of them.
+// Returns whether no engine holds a body of the kind: lights, sounds and patches of the floor.
 bool IsBodiless(EntityKind kind);
 bool HasBody(EntityKind kind);
-// A body that keeps its height and lean on planes, such as a block: they cut it.
+// Returns whether engines on a plane cut the body and keep its height and lean, as for a block.
 bool IsFreeBox(EntityKind kind);
-// Whether some part of a robot takes a type of device that is made for all robots with that part: "wheels", "led_ring",
-// "directional_leds", "proximity", "ground"; or its row names the type.
+// Returns whether a kind can carry a type of device. Types for all robots with a part are "wheels", "led_ring",
+// "directional_leds", "proximity" and "ground". A row can name further types.
 bool Carries(EntityKind kind, std::string_view device_type);
-// Whether one may be added to the arena and removed while the experiment runs.
+// Returns whether entities of the kind may be added to the arena and removed during a run.
 bool CanWait(EntityKind kind);
-// The words of the tables and files: "Footbot", "Block" (figure 3.11) and "footbot", "block".
+// Return the words for tables and files: "Footbot", "Block" (figure 3.11) and "footbot", "block".
 std::string_view TableName(EntityKind kind);
 std::string_view TagName(EntityKind kind);
-// The tags of the rows that fit.
+// Returns the tags of the rows that `fits` accepts.
 template <class Fits>
 std::vector<std::string> TagsOfKinds(Fits fits)
 {
@@ -254,7 +256,8 @@ struct EntityKindRegistration
 
 }  // namespace swarmanoid
 
-// REGISTER_ENTITY_KIND(epuck, description): a row of the table. The first word tells the registrations of a file apart.
+// REGISTER_ENTITY_KIND(epuck, description) adds a row to the table. The first word distinguishes the registrations of a
+// file.
 #define REGISTER_ENTITY_KIND(NAME, ...)                                           \
   namespace                                                                       \
   {                                                                               \

@@ -27,7 +27,7 @@ constexpr double kStandOut = 0.01;  // m
 
 using Row = EntityKindDescription;
 
-// Rows stay where they are: entities and attributes refer to them.
+// Rows never move in memory, since entities and attributes refer to them.
 std::vector<std::unique_ptr<const Row>>& Rows()
 {
   static std::vector<std::unique_ptr<const Row>> rows = []
@@ -46,7 +46,7 @@ bool IsName(const std::string& tag)
          std::all_of(tag.begin(), tag.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
 }
 
-// Elements of <arena> that are no entities, and the words that a parameter has.
+// Returns whether the tag is an element of <arena> that is no entity, or a word with another meaning for parameters.
 bool IsTaken(const std::string& tag)
 {
   return KindOfTag(tag).has_value() || tag == "distribute" || tag == "reserve" || tag == "size" ||
@@ -107,7 +107,7 @@ std::string MistakeInParts(const Row& row)
   if (row.beacon_height_m && !row.leds) return "a beacon is for robots with LEDs";
   if (row.leds)
   {
-    // Cameras look for what is hidden by whole bodies: LEDs are part of theirs.
+    // Cameras test whether whole bodies hide an LED, so LEDs must be part of the body.
     const Vector2 half = row.form == BodyForm::kBox ? Vector2(row.size.head<2>() / 2) : Vector2(row.size.head<2>());
     const auto stands_out = [&](const Vector2& place)
     {
@@ -165,7 +165,7 @@ std::string MistakeInParts(const Row& row)
   return {};
 }
 
-// Those that follow from the rest of a row, or that code for the simulator's own mechanisms looks for.
+// Attributes that follow from the rest of a row, or that the simulator's own mechanisms read.
 constexpr std::array<std::string_view, 9> kReservedAttributes{
     "led", "beacon", "intensity", "gripped", "turret_angle", "gripper_aperture", "attached", "laser", "rope_attached"};
 
@@ -203,7 +203,7 @@ std::string MistakeInAttributes(const Row& row)
   return slots > kMostSlots ? fmt::format("more than {} slots of attributes", kMostSlots) : std::string();
 }
 
-// What follows from the rest of the row, in front of what it says itself.
+// Adds the parameters that follow from the rest of the row, in front of the row's own.
 void AddParameters(Row& row)
 {
   std::vector<ParameterSpec> all;

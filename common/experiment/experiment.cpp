@@ -30,7 +30,8 @@ double UsualLimit(const Vector3& arena_size) { return std::max(100.0, 10 * arena
 
 Pose WaitingPose(const EntityConfiguration& entity, std::size_t index)
 {
-  // Twenty metres apart along x. Far in y, too, for engines whose plane is perpendicular to x.
+  // Waiting entities are twenty metres apart along x. They are far in y, too, for engines whose plane is perpendicular
+  // to x.
   const double height = IsFreeBox(entity.kind) ? entity.size.z() / 2 : 0;
   return {{-1e5 - 20.0 * static_cast<double>(index), -1.65e5, height}, Quaternion::Identity()};
 }

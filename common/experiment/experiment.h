@@ -30,12 +30,12 @@ struct EntityKindConfiguration
   std::string library;
 };
 
-// What comes of a robot whose controller throws, crashes, or takes longer than it may.
+// The reaction to a controller that throws, crashes, or exceeds its time budget.
 enum class OnFailure : std::uint8_t
 {
-  kAbort,      // the run ends with an error that names it
+  kAbort,      // the run ends with an error that names the robot
   kStopRobot,  // the robot stands still and is dark from then on
-  kRestart     // the controller is made anew, with the state that it had last at a canonical tick
+  kRestart     // the controller is made again, with its state of the last canonical tick
 };
 
 // One entry of <controllers>.
@@ -46,49 +46,51 @@ struct ControllerConfiguration
   std::string library;
   std::vector<DeviceConfiguration> actuators;
   std::vector<DeviceConfiguration> sensors;
-  // <parameters>, given to CCI_Controller::Init: with all defaults if the controller declared them.
+  // The <parameters> element, given to CCI_Controller::Init. It has all defaults if the controller declared its
+  // parameters.
   TConfigurationTree parameters;
   OnFailure on_failure = OnFailure::kAbort;
-  double time_budget_ms = 0;  // of processor time, for one control step; 0: any
+  double time_budget_ms = 0;  // processor time for one control step; 0: unlimited
   SourceLocation location;
 
-  // Whether the run goes on if it fails.
+  // Returns whether the run continues after a failure of this controller.
   bool MayFail() const { return on_failure != OnFailure::kAbort; }
   bool IsGuarded() const { return MayFail() || time_budget_ms > 0; }
 };
 
-// One entity of the arena; those of a <distribute> are expanded.
+// One entity of the arena. Each entity of a <distribute> is one, too.
 struct EntityConfiguration
 {
   EntityKind kind = EntityKind::kBlock;
   std::string id;
   Pose pose;
-  std::string controller;  // robots: the id of the controller; empty for none
+  std::string controller;  // the id of the controller of a robot; empty for none
   // The size of the body in metres. Boxes (blocks, walls, handbots): x, y, z. Cylinders (preys, footbots, eyebots):
-  // radius, radius, height. Areas of the floor: x, y, 0 of a rectangle or radius, 0, 0 of a disc. Zero for what has no
-  // body.
+  // radius, radius, height. Areas of the floor: x, y, 0 for a rectangle, or radius, 0, 0 for a disc. Zero for entities
+  // without a body.
   Vector3 size = Vector3::Zero();
-  // What collides instead of the body of this size, which is the box about it; in the frame of the entity.
+  // The convex hull that collides instead of the body, in the frame of the entity. The body of `size` is the box around
+  // it.
   std::shared_ptr<const ConvexHull> hull{};
   double mass_kg = 0;    // 0: the default of the kind
-  bool movable = false;  // robots and preys always; blocks only if asked
+  bool movable = false;  // always true for robots and preys; for blocks only if requested
   std::uint32_t colour = 0xc0c0c0;
-  double intensity = 1;     // lights and sounds
-  std::string reserve;      // the id of the <reserve> that it is of; empty for none
+  double intensity = 1;     // for lights and sounds
+  std::string reserve;      // the id of the entity's <reserve>; empty for none
   bool waits = false;       // it is not in the arena at the start
-  TConfigurationTree tree;  // the element it came from
+  TConfigurationTree tree;  // the element that defines the entity
   SourceLocation location;
 };
 
-// Into how many regions an engine's world is cut, each of which a process of its own computes.
+// The number of regions into which an engine's world is cut. A separate process computes each region.
 struct EngineSplit
 {
   static constexpr unsigned kMostRegions = 32;
 
   unsigned regions = 1;
-  unsigned columns = 0;  // of a grid of regions; 0: cut as it comes
+  unsigned columns = 0;  // columns of a grid of regions; 0: the engine chooses the cut
 
-  // "4", "2x2" (columns x rows); nullopt for anything else.
+  // Reads "4" or "2x2" (columns x rows); nullopt for any other text.
   static std::optional<EngineSplit> Parse(std::string_view text);
 };
 
@@ -118,7 +120,7 @@ enum class SpaceOptimization : std::uint8_t
   kOctree
 };
 
-// What happens to an entity that physics takes farther from the arena than the limit.
+// The reaction to an entity that physics moves farther from the arena than the limit.
 enum class BeyondLimit : std::uint8_t
 {
   kStop,   // the run ends with an error that names it
@@ -156,18 +158,18 @@ struct Experiment
   std::vector<EngineConfiguration> engines;
   std::vector<RenderConfiguration> visualisations;
   std::vector<FunctionsConfiguration> functions;
-  std::string effective_xml;  // the text that gives this experiment again, --set and --seed applied
+  std::string effective_xml;  // a text that gives this experiment again, with --set and --seed applied
 
   double TickSeconds() const { return clock_tick_ms * 1e-3; }
   const ControllerConfiguration* FindController(const std::string& id) const;
-  // Whether some controller IsGuarded.
+  // Returns whether some controller has a guard (IsGuarded).
   bool HasGuards() const;
 };
 
-// The limit if the file gives none: ten times the longest side of the arena, and at least 100 m.
+// Returns the limit if the file gives none: ten times the longest side of the arena, and at least 100 m.
 double UsualLimit(const Vector3& arena_size);
-// Where an entity stands that is not in the arena: some 100 km away and at a place of its own, so that engines that
-// know nothing of absence let it touch nothing.
+// Returns the pose of an entity that is not in the arena. It is some 100 km away and differs for each entity, so that
+// engines without a notion of absence let it touch nothing.
 Pose WaitingPose(const EntityConfiguration& entity, std::size_t index);
 
 }  // namespace swarmanoid

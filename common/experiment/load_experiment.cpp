@@ -34,7 +34,7 @@ LoadedExperiment Refused(const ConfigurationError& error)
   return Refused(std::vector<Diagnostic>{{error.Location(), error.Message()}});
 }
 
-// The name goes into folders and topics: only characters of ids stay.
+// The name is used in folders and topics, so only characters of ids are kept.
 std::string NameOfFile(const std::string& file_name)
 {
   std::string name = fs::path(file_name).stem().string().substr(0, 64);
@@ -49,7 +49,7 @@ std::string NameOfFile(const std::string& file_name)
 
 Node WithSettings(Node root, const LoadOptions& options, Diagnostics& diagnostics)
 {
-  std::map<std::string, std::string> paths;  // by the address of what they set
+  std::map<std::string, std::string> paths;  // by the address of the changed value
   for (const auto& [path, value] : options.settings)
   {
     try
@@ -94,7 +94,7 @@ std::string FolderOfFile(const std::string& path)
   return fs::absolute(fs::path(path)).parent_path().lexically_normal().string();
 }
 
-// The root element; if it is that of another simulator, what its converter makes of it.
+// Returns the root element. The root of another simulator's file is converted.
 Node ReadRoot(const std::string& text, const std::string& file_name, const std::string& folder,
               const ExperimentSettings& settings, std::vector<Diagnostic>& mistakes)
 {
@@ -135,7 +135,7 @@ LoadedExperiment LoadExperimentText(const std::string& text, const std::string& 
       return wrong;
     }
 
-    // Whoever reads the text elsewhere finds the same name and folder.
+    // Other processes that read the text find the same name and folder.
     const Node named =
         WithSetting(WithSetting(root, "framework.name", experiment->name), "framework.folder", experiment->folder);
     experiment->effective_xml = WriteXml(*named);

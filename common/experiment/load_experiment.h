@@ -1,4 +1,4 @@
-// Reading an experiment file: all mistakes at once, each with its place and cure.
+// Reads an experiment file and returns all mistakes at once, each with its position and cure.
 #pragma once
 
 #include <memory>
@@ -24,30 +24,30 @@ using ExperimentSettings = std::vector<std::pair<std::string, std::string>>;  //
 struct LoadOptions
 {
   ExperimentSettings settings;
-  // Whether what runs the experiment is on this machine: the libraries of the controllers are loaded and must register
-  // the tags, and the maps of terrains must be there.
+  // True if this machine runs the experiment. The libraries of the controllers are loaded and must register the tags,
+  // and the maps of terrains must exist.
   bool check_files = true;
-  // For editors: what can be made of a file with mistakes, beside them. Values that are wrong have their defaults; only
-  // to be looked at.
+  // For editors: returns a file with mistakes as well as possible, beside the mistakes. Wrong values have their
+  // defaults. The result is only for display.
   bool even_if_wrong = false;
-  // The framework and the engines without their entities, for those who need to know no more: of a large swarm it takes
-  // a hundredth of the time and the memory. Mistakes elsewhere are not looked for.
+  // Reads the framework and the engines without their entities. For a large swarm this takes a hundredth of the time
+  // and memory. Mistakes elsewhere are not looked for.
   bool engines_alone = false;
 };
 
-// Either an experiment or errors; both with even_if_wrong, unless nothing can be made of the file.
+// Either an experiment or errors. With even_if_wrong it has both, unless the file cannot be read at all.
 struct LoadedExperiment
 {
   std::unique_ptr<Experiment> experiment;
   std::vector<Diagnostic> errors;
-  // With the experiment: where the elements of its effective text stand in what the user wrote. Put behind that text,
-  // it lets whoever reads it name the user's places.
+  // With the experiment: the positions of the elements of its effective text in the user's files. Appended to that
+  // text, it lets readers report the user's positions.
   std::string places;
 };
 
-// Call DescribeBuiltins before; the tables of all plug-ins decide what the file may contain.
+// Reads a file. Call DescribeBuiltins before, since the tables of all plug-ins decide what the file may contain.
 LoadedExperiment LoadExperimentFile(const std::string& path, const LoadOptions& options = {});
-// The same from text, as a role gets it from the space server; `folder` resolves relative paths.
+// Reads a text, as a role gets it from the space server; `folder` resolves relative paths.
 LoadedExperiment LoadExperimentText(const std::string& text, const std::string& file_name, const std::string& folder,
                                     const LoadOptions& options = {});
 

@@ -1,5 +1,5 @@
-// Where the mesh files of users are, which entities and kinds are drawn as. The visualisers read what is in them;
-// nobody else does: a mesh is only seen.
+// Finds the mesh files with which entities and kinds are drawn. Only visualisers read their content, since a mesh is
+// only seen.
 #pragma once
 
 #include <string>
@@ -10,18 +10,19 @@
 namespace swarmanoid
 {
 
-// Why it cannot be a mesh that is read, by its name and its kind of file; empty if it can.
+// Returns why a file cannot be a readable mesh, by its name and extension; empty if it can.
 std::string MeshFileMistake(const std::string& path);
 
-// The file that a URDF file names: "arm.stl" and "meshes/arm.stl" from its folder, "file:///…", and "package://NAME/…"
-// in the folder NAME that holds the URDF file or stands beside one of the folders that do. Empty if it is not there.
+// Returns the file that a URDF file names. "arm.stl" and "meshes/arm.stl" start at its folder. "file:///…" is absolute.
+// "package://NAME/…" starts at the folder NAME that holds the URDF file or is beside one of its parent folders. The
+// path is empty if the file does not exist.
 std::string FindUrdfMesh(const std::string& name, const std::string& urdf_file);
 
-// The file that a row of the table of kinds names: from the folder of the experiment, or one of its plugin_path; the
-// former if it is in none.
+// Returns the file that a row of the table of kinds names, from the folder of the experiment or one of its plugin_path.
+// If it is in none, the path in the experiment's folder is returned.
 std::string FindMeshOfKind(const std::string& name, const Experiment& experiment);
 
-// The attribute "mesh" of an entity, from the folder of the experiment; empty if it has none.
+// Returns the attribute "mesh" of an entity, from the folder of the experiment; empty if it has none.
 std::string MeshOfEntity(const EntityConfiguration& entity, const std::string& experiment_folder);
 
 }  // namespace swarmanoid

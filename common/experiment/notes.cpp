@@ -24,7 +24,7 @@ bool Ignores(const EngineConfiguration& engine, const std::string& name)
   return plugin != nullptr && std::find(plugin->ignores.begin(), plugin->ignores.end(), name) != plugin->ignores.end();
 }
 
-// The engine that ignores what an entity is given, if all that have it do; nullptr otherwise.
+// Returns the engine that ignores a parameter of an entity, if all engines of the entity do; nullptr otherwise.
 const EngineConfiguration* OnlyIgnoredBy(const Experiment& experiment, std::uint32_t entity, const std::string& name)
 {
   const EngineConfiguration* found = nullptr;

@@ -1,5 +1,5 @@
-// What an experiment file says without any effect: no mistakes, but perhaps not what its author thinks. Used by
-// `swarmanoid check`.
+// Finds content of an experiment file that has no effect. It is no mistake, but perhaps not what the author intends.
+// Used by `swarmanoid check`.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 namespace swarmanoid
 {
 
-// Parameters of entities that none of their engines uses, and holes into which nothing can fall; in the order of the
-// file, each place once.
+// Returns parameters of entities that none of their engines uses, and holes into which nothing can fall. They are in
+// the order of the file, each position once.
 std::vector<Diagnostic> NotesOn(const Experiment& experiment);
 
 }  // namespace swarmanoid

@@ -10,14 +10,15 @@ namespace swarmanoid::placement
 namespace
 {
 
-constexpr double kSpacing = 0.02;   // m, between the points of a body that are looked at
+constexpr double kSpacing = 0.02;   // m, between the tested points of a body
 constexpr double kMostPoints = 64;  // along each axis of a large body
-constexpr double kInset = 1e-3;     // m: what only touches is not inside
-constexpr double kStep = 0.02;      // m above its plane at which a two-dimensional engine cuts the terrain
+constexpr double kInset = 1e-3;     // m: bodies that only touch do not overlap
+constexpr double kStep = 0.02;      // m above its plane: height at which a two-dimensional engine cuts the terrain
 
 int PointsAlong(double length) { return static_cast<int>(std::ceil(std::min(length / kSpacing, kMostPoints))); }
 
-// Points of a horizontal cut through a body, in its frame, not farther apart than kSpacing unless it is large.
+// Returns points of a horizontal cut through a body, in its frame. They are at most kSpacing apart unless the body is
+// large.
 std::vector<Vector2> PointsOfCut(const Body& body)
 {
   const double half_x = std::max(body.half.x() - kInset, 0.0);
@@ -47,7 +48,7 @@ std::vector<Vector2> PointsOfCut(const Body& body)
   return points;
 }
 
-// Visits points of the body in the space until one of them fits.
+// Visits points of the body in the space until `fits` accepts one. Returns whether it did.
 template <class Fits>
 bool AnyPoint(const Body& body, double low, double high, const Fits& fits)
 {

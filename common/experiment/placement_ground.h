@@ -1,5 +1,5 @@
-// The terrains of an experiment as <distribute> meets them: where is ground to stand on, what is inside rock. Read
-// while the experiment is, by PlaceDistributed alone.
+// The terrains of an experiment for <distribute>: where ground is, and what is inside rock. Only PlaceDistributed uses
+// it, while the experiment is read.
 #pragma once
 
 #include <memory>
@@ -19,10 +19,11 @@ public:
   // Reads the files of the terrains; reports those that cannot be read.
   explicit Ground(Reading& reading);
 
-  // The highest ground under a body (m in the space), looked for from a height downwards in the terrains of the engines
-  // that the entity is in. nullopt if there is none under some part of the body.
+  // Returns the highest ground under a body (m in the space) in the terrains of the entity's engines, searched from a
+  // height downwards. Returns nullopt if no ground is under some part of the body.
   std::optional<double> HighestUnder(std::size_t entity, const Body& body, double from) const;
-  // Whether some of the body of an entity is inside rock: in a two-dimensional engine where the rock cuts its plane.
+  // Returns whether some part of an entity's body is inside rock. In a two-dimensional engine, rock counts where it
+  // cuts the plane.
   bool IsInRock(std::size_t entity, const Body& body) const;
 
 private:
@@ -30,8 +31,8 @@ private:
   {
     std::shared_ptr<const Terrain> terrain;
     Pose pose, to_terrain;
-    std::vector<bool> is_walked;    // by entity: some engine has both
-    std::vector<bool> is_in_space;  // by entity: some engine of these is no plane
+    std::vector<bool> is_walked;    // by entity: some engine has both the entity and terrain
+    std::vector<bool> is_in_space;  // by entity: some of these engines is three-dimensional
   };
   std::vector<Placed> terrains_;
 };

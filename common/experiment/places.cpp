@@ -14,9 +14,9 @@ namespace swarmanoid
 namespace
 {
 
-// <?swarmanoid-places FILE FILE … | PLACE PLACE …?>: first the names of the files, then for each element and each of
-// its attributes, in the order of the text, "file,line,column" with the file's number from 0. A field that is empty is
-// that of the place before.
+// <?swarmanoid-places FILE FILE … | PLACE PLACE …?> holds first the names of the files. Then each element and each of
+// its attributes, in the order of the text, has "file,line,column" with the file's number from 0. An empty field
+// repeats the value of the previous place.
 constexpr std::string_view kStart = "<?swarmanoid-places ";
 constexpr std::string_view kEnd = "?>";
 constexpr std::string_view kNoFile = "%";
@@ -63,7 +63,7 @@ std::string Unescaped(std::string_view text)
   return plain;
 }
 
-// All places of a tree in the order of its text.
+// Visits all places of a tree in the order of its text.
 template <class Visit>
 void ForEachPlace(const ConfigurationNode& node, const Visit& visit)
 {
@@ -85,7 +85,7 @@ public:
     rest_ = text;
   }
 
-  // nullopt if there is none, or one that no writer writes.
+  // Returns the next place; nullopt at the end, or for a text that no writer writes.
   std::optional<SourceLocation> Next()
   {
     while (rest_.starts_with(' ')) rest_.remove_prefix(1);
@@ -105,7 +105,7 @@ private:
     text.remove_prefix(std::min(blank + 1, text.size()));
     return word;
   }
-  // A number up to the next comma; an empty one leaves the value as it is.
+  // Reads a number up to the next comma; an empty one leaves the value as it is.
   static bool Take(std::string_view& word, int& value)
   {
     const std::size_t comma = std::min(word.find(','), word.size());
@@ -121,7 +121,7 @@ private:
   int file_ = 0, line_ = 0, column_ = 0;
 };
 
-// nullptr if the places do not fit.
+// Returns the tree with its places; nullptr if the places do not fit it.
 std::shared_ptr<const ConfigurationNode> Placed(const ConfigurationNode& node, PlaceReader& places)
 {
   auto placed = std::make_shared<ConfigurationNode>(node);

@@ -1,6 +1,6 @@
-// Where the elements of an experiment stand in what its user wrote: file, line and column, or the option that set a
-// value. The effective text of an experiment, which workers of a cluster get, has other lines; the places go with it as
-// one processing instruction at its end, so that a worker's errors name the user's places too.
+// The positions of an experiment's elements in its user's files: file, line and column, or the option that set a value.
+// Workers of a cluster get the effective text of an experiment, which has other lines. The places are appended as one
+// processing instruction, so that a worker's errors name the user's positions too.
 #pragma once
 
 #include <memory>
@@ -12,14 +12,14 @@
 namespace swarmanoid
 {
 
-// The processing instruction for a tree, to be put behind its text (WriteXml).
+// Returns the processing instruction for a tree, to be appended to its text (WriteXml).
 std::string WritePlaces(const ConfigurationNode& root);
 
-// The text before them.
+// Returns the text before the places.
 std::string_view WithoutPlaces(std::string_view text);
 
-// The tree of a text, as ReadXml reads it, with the places that stand at the end of the text if there are any and
-// they fit. Throws as ReadXml.
+// Reads the tree of a text as ReadXml does, with the places at the end of the text if they exist and fit. Throws as
+// ReadXml does.
 std::shared_ptr<const ConfigurationNode> ReadXmlWithPlaces(const std::string& text, const std::string& file_name);
 
 }  // namespace swarmanoid

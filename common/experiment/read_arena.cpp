@@ -38,7 +38,7 @@ Quaternion OrientationOf(const Vector3& degrees)
       {DegreesToRadians(degrees.x()), DegreesToRadians(degrees.y()), DegreesToRadians(degrees.z())});
 }
 
-// A patch or hole: a rectangle (x, y, 0) or a disc (radius, 0, 0).
+// Returns the size of a patch or hole: a rectangle (x, y, 0) or a disc (radius, 0, 0).
 Vector3 AreaSize(const ElementReader& reader, Reading& reading)
 {
   const TConfigurationTree& tree = reader.Tree();
@@ -68,14 +68,14 @@ void CheckFile(const ElementReader& reader, std::string_view parameter, Reading&
                             fmt::format("{}: {}", Quoted(path.lexically_normal().string()), mistake));
 }
 
-// The one map that a terrain holds.
+// Checks that a terrain holds exactly one map.
 void CheckTerrain(const TConfigurationTree& tree, const ElementSpec& spec, Reading& reading)
 {
   int maps = 0;
   for (const TConfigurationTree& child : tree.Children())
   {
     const ElementSpec* element = spec.FindChild(child.Name());
-    if (element == nullptr) continue;  // reported already, or a value
+    if (element == nullptr) continue;  // reported already, or not an element
     ++maps;
     CheckFile(ElementReader(child, *element, reading.diagnostics), "file", reading);
   }
@@ -93,7 +93,8 @@ Vector3 BodySize(const ElementReader& reader, const EntityKindDescription& kind)
   return {reader.Number("radius"), reader.Number("radius"), reader.Number("height")};
 }
 
-// A library that another experiment of this process named is not there for the other processes of this one.
+// Another experiment of this process may have loaded the library of the kind. The other processes of this experiment
+// would not have it.
 void CheckKindIsListed(const TConfigurationTree& tree, EntityKind kind, Reading& reading)
 {
   const auto& listed = reading.experiment.entity_kinds;
@@ -104,7 +105,7 @@ void CheckKindIsListed(const TConfigurationTree& tree, EntityKind kind, Reading&
                                                        TagName(kind)));
 }
 
-// All but id and pose.
+// Reads all but id and pose.
 EntityConfiguration ReadEntityBody(const ElementReader& reader, const ElementSpec& spec, Reading& reading)
 {
   EntityConfiguration entity;
@@ -177,7 +178,7 @@ public:
       const ElementSpec* element = spec.FindChild(child.Name());
       if (element == nullptr)
       {
-        // Reported already.
+        // The mistake is reported already.
         reading_.diagnostics.Lose(child.Value("id").value_or(""));
         continue;
       }
@@ -210,8 +211,8 @@ private:
     reading_.experiment.entities.push_back(std::move(entity));
   }
 
-  // Loses the ids of all elements of a <distribute> or <reserve>. True if one of them is of no known kind, which is
-  // reported already.
+  // Loses the ids of all elements of a <distribute> or <reserve>. Returns true if an element is of an unknown kind,
+  // which is reported already.
   bool LoseEntities(const TConfigurationTree& tree, const ElementSpec& spec)
   {
     bool is_unknown = false;
@@ -224,8 +225,8 @@ private:
     return is_unknown;
   }
 
-  // The entities of a <distribute> or <reserve>, all alike but for their ids; their poses are still open.
-  // Their number; 0 if the element is wrong.
+  // Reads the entities of a <distribute> or <reserve>, which differ only in their ids; their poses are not set yet.
+  // Returns their number, or 0 if the element is wrong.
   std::size_t ReadAlike(const ElementReader& reader, const ElementSpec& spec, bool waiting)
   {
     const TConfigurationTree& tree = reader.Tree();
@@ -271,7 +272,7 @@ private:
       reading_.diagnostics.Lose(id);
       return 0;
     }
-    // Lights and patches have no body: no engine minds where they are.
+    // Lights and patches have no body, so engines ignore their positions.
     entity.movable |= waiting;
     all.reserve(all.size() + count);
     for (std::size_t i = 0; i < count; ++i)

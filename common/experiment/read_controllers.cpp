@@ -16,7 +16,7 @@ namespace swarmanoid
 namespace
 {
 
-// Values that are right each by itself and do not fit each other.
+// Reports values that are valid alone but not together.
 void CheckTogether(const TConfigurationTree& device, PluginKind kind, const PluginDescription& plugin, Reading& reading)
 {
   const Parameters parameters(device, plugin.parameters);
@@ -33,7 +33,7 @@ std::vector<DeviceConfiguration> ReadDevices(const TConfigurationTree& tree, con
   for (const TConfigurationTree& device : tree.Children())
   {
     const PluginDescription* plugin = FindPlugin(*spec.plugins, device, reading);
-    // Without a description, which is reported, the other parameters cannot be judged.
+    // Without a description, which is reported elsewhere, the other parameters cannot be checked.
     if (plugin == nullptr) continue;
     const std::size_t mistakes = reading.diagnostics.Count();
     const ElementReader reader(device, spec.plugin_element.front(), reading.diagnostics, &plugin->parameters);
@@ -80,7 +80,7 @@ void CheckController(const ControllerConfiguration& controller, const TConfigura
                                       controller.tag, Listed(labels), DidYouMean(controller.tag, labels)));
 }
 
-// The parameters of a controller that declared them: checked and complete. Those of any other, as they stand.
+// Returns the parameters of a controller: checked and complete if it declared them, otherwise as they are in the file.
 TConfigurationTree ReadParameters(const ControllerConfiguration& controller, const TConfigurationTree& given,
                                   Reading& reading)
 {
@@ -129,7 +129,8 @@ struct Use
   std::size_t count = 0;
 };
 
-// The devices of the simulator have the shape of its own robots; a row may name those of libraries.
+// Returns whether a kind may carry a device. The simulator's devices fit its own robots; a row may name devices of
+// libraries.
 bool MayCarry(EntityKind kind, const DeviceConfiguration& device, const PluginDescription& plugin)
 {
   if (!Carries(kind, device.type)) return false;
@@ -143,7 +144,7 @@ bool MayCarry(EntityKind kind, const DeviceConfiguration& device, const PluginDe
                       });
 }
 
-// Devices that have the shape of the robot's kind, such as "wheels".
+// Checks devices that have the shape of the robot's kind, such as "wheels".
 void CheckOneKind(const DeviceConfiguration& device, const ControllerConfiguration& controller,
                   const std::map<EntityKind, Use>& uses, Reading& reading)
 {

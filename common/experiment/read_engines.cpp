@@ -14,7 +14,8 @@ namespace swarmanoid
 namespace
 {
 
-// Patterns have * for any characters and ? for one; '[' would be a third sign for fnmatch, and no id has it.
+// Returns whether an id fits a pattern with * for any characters and ? for one. fnmatch also treats '[' specially, but
+// no id contains it.
 bool FitsPattern(const std::string& id, const std::string& pattern)
 {
   return pattern.find('[') == std::string::npos && fnmatch(pattern.c_str(), id.c_str(), FNM_NOESCAPE) == 0;
@@ -92,7 +93,7 @@ private:
     if (found == index_of_id_.end())
     {
       if (reading_.diagnostics.IsLost(id)) return;
-      // The ids of a large arena are not all listed.
+      // The message lists only some ids of a large arena.
       std::vector<std::string> ids;
       for (const EntityConfiguration& entity : entities_)
       {
@@ -136,7 +137,7 @@ private:
     AddSupported(fitting, kind ? reader.Place("kind") : reader.Tree().Location());
   }
 
-  // Reports the first of those that the engine cannot simulate.
+  // Adds the entities; reports the first one that the engine cannot simulate.
   void AddSupported(const std::vector<std::uint32_t>& fitting, const SourceLocation& place)
   {
     bool reported = false;

@@ -14,7 +14,7 @@ namespace swarmanoid
 namespace
 {
 
-// The library of a kind, loaded; what is wrong with it is reported.
+// Loads the library of a kind and reports its mistakes.
 void LoadKind(const TConfigurationTree& tree, const std::string& name, Reading& reading)
 {
   const PluginLibrary& library = LoadPluginLibrary(name, reading.experiment.plugin_path);
@@ -28,7 +28,7 @@ void LoadKind(const TConfigurationTree& tree, const std::string& name, Reading& 
                                       tree.Name(), Listed(tags), DidYouMean(tree.Name(), tags)));
 }
 
-// The kind of a URDF file, whose mistakes are reported with their places in it.
+// Registers the kind of a URDF file and reports its mistakes with their positions in it.
 void LoadUrdf(const TConfigurationTree& tree, const std::string& file, Reading& reading)
 {
   const std::string path = (std::filesystem::path(reading.experiment.folder) / file).lexically_normal().string();

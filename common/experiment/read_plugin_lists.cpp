@@ -9,7 +9,7 @@ namespace swarmanoid
 namespace
 {
 
-// The plug-ins of a section that lists them one after the other, each with an id that is unique in the section.
+// Reads the plug-ins of a section that lists them. Each has an id that is unique in the section.
 template <class Add>
 void ReadPluginList(const TConfigurationTree& tree, PluginKind kind, Reading& reading, Add add)
 {

@@ -17,7 +17,7 @@ std::string DefaultText(const ParameterSpec& parameter)
   return parameter.default_value->empty() ? "none" : "`" + *parameter.default_value + "`";
 }
 
-// A bar would end the cell of a table.
+// Replaces bars, which would end the cell of a table.
 std::string Cell(const std::string& text)
 {
   std::string cell;

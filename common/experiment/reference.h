@@ -8,17 +8,17 @@
 namespace swarmanoid
 {
 
-// docs/experiment_reference.md: every element and parameter but those of plug-ins.
+// Returns docs/experiment_reference.md: every element and parameter except those of plug-ins.
 std::string ExperimentReference();
 
-// The same as an XML schema, for editors, with the registered plug-ins and their parameters. `swarmanoid list schema`
-// prints it. Elements of other plug-ins may hold anything in it.
+// Returns the same as an XML schema, for editors, with the registered plug-ins and their parameters. `swarmanoid list
+// schema` prints it. Elements of other plug-ins may have any content.
 std::string ExperimentXsd();
 
-// docs/plugin_reference.md: the registered plug-ins of all kinds: labels, robots, channels, parameters.
+// Returns docs/plugin_reference.md: labels, robots, channels and parameters of all registered plug-ins.
 std::string PluginReference();
 
-// As these pages say it: "number", "x, y", "calm, wild".
+// Returns the type as these pages show it: "number", "x, y", "calm, wild".
 std::string TypeText(const ParameterSpec& parameter);
 
 }  // namespace swarmanoid

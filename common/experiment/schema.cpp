@@ -73,7 +73,8 @@ ParameterSpec Library()
                   "The library that registers it, looked for in plugin_path; empty: it is built in.");
 }
 
-// A list of plug-ins of a kind. Of each its own tag, and what all have in common.
+// Returns the element for a list of plug-ins of one kind. Each plug-in has its own tag; `plugin_element` holds their
+// common parameters.
 ElementSpec PluginList(const char* tag, PluginKind kind, const char* description, std::string of_each,
                        std::vector<ParameterSpec> parameters)
 {

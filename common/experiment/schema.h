@@ -1,5 +1,5 @@
-// The table of experiment files: every element and parameter, declared once. The reader, the defaults, the error
-// messages, docs/experiment_reference.md and the XML schema all come from it. Plug-ins bring tables of their own.
+// The table of experiment files, which declares every element and parameter once. The reader, the defaults, the error
+// messages, docs/experiment_reference.md and the XML schema follow from it. Plug-ins have their own tables.
 #pragma once
 
 #include <optional>
@@ -15,8 +15,7 @@ namespace swarmanoid
 
 struct ElementSpec
 {
-  // The first tag is the name; the others are accepted for it. Empty for the elements of plug-ins, whose tags are
-  // labels.
+  // The first tag is the name; the others are aliases. Empty for the elements of plug-ins, whose tags are labels.
   std::vector<std::string> tags;
   std::string description;
   // Each may be written as an attribute or as a child element.
@@ -24,24 +23,25 @@ struct ElementSpec
   std::vector<ElementSpec> children;
   bool required = false;
   bool repeatable = false;
-  // If set, registered labels of that kind are further child tags, and plugin_element (one) is what they have in
-  // common.
+  // If set, registered labels of that kind are further child tags. plugin_element has one entry: the common content of
+  // these children.
   std::optional<PluginKind> plugins;
   std::vector<ElementSpec> plugin_element;
   std::optional<EntityKind> entity;
 
   const std::string& Name() const { return tags.front(); }
   bool HasTag(const std::string& tag) const;
-  // The child element of that tag or name, nullptr for none.
+  // Returns the child element of that tag or name, nullptr for none.
   const ElementSpec* FindChild(const std::string& tag) const;
-  // The same for one that exists by construction of the table.
+  // Returns the same for an element that exists by construction of the table.
   const ElementSpec& Child(const std::string& tag) const;
 };
 
-// The root element, <ahss-config>. It grows with the table of entity kinds; references stay valid.
+// Returns the root element, <ahss-config>. It grows with the table of entity kinds; references stay valid.
 const ElementSpec& ExperimentSchema();
 
-// The element of an entity in the arena and, without position and orientation, within <distribute>.
+// Returns the elements of entities in the arena. Without position and orientation, they also describe the content of
+// <distribute>.
 const std::vector<ElementSpec>& EntityElements();
 const std::vector<ElementSpec>& DistributedEntityElements();
 

@@ -1,4 +1,4 @@
-// The words in which the tables of experiment files are written, and the part of <arena>. For schema*.cpp alone.
+// Functions for writing the tables of experiment files, and the part of <arena>. For schema*.cpp only.
 #pragma once
 
 #include <map>
@@ -58,7 +58,8 @@ inline ParameterSpec Angles(ParameterSpec spec) { return InRange(std::move(spec)
 
 inline ParameterSpec Size(ParameterSpec spec) { return InRange(std::move(spec), kLeastSize, kMostMetres); }
 
-// What is made from the table of entity kinds: anew when a library has added rows. What was handed out before stays.
+// A value made from the table of entity kinds. It is made again after a library has added rows; earlier references stay
+// valid.
 template <class Made>
 class PerTable
 {
@@ -77,7 +78,7 @@ private:
   std::map<std::size_t, Made> made_;
 };
 
-// <arena>: the space, its entities, and those that are distributed or wait in a reserve.
+// <arena>: the space, its entities, and the entities of <distribute> and <reserve>.
 ElementSpec Arena();
 
 }  // namespace swarmanoid

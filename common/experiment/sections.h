@@ -14,24 +14,24 @@
 namespace swarmanoid
 {
 
-// The entities of a <distribute>, whose places are still open (see PlaceDistributed).
+// The entities of a <distribute>, whose positions are not chosen yet (see PlaceDistributed).
 struct Distribution
 {
   TConfigurationTree tree;
   std::size_t first = 0;  // index of its first entity
   std::size_t count = 0;
   long long max_trials = 0;
-  bool by_place = false;  // the order in which they stand in the end
+  bool by_place = false;  // the entities are sorted by position at the end
 };
 
-// What the readers share.
+// The state that the readers share.
 struct Reading
 {
   Experiment& experiment;
   Diagnostics& diagnostics;
   const LoadOptions& options;
   std::vector<Distribution> distributions{};
-  std::map<std::string, std::shared_ptr<const ConvexHull>> hulls{};  // that were made, by what they are made of
+  std::map<std::string, std::shared_ptr<const ConvexHull>> hulls{};  // the hulls made so far, by their source
 };
 
 void ReadFramework(const TConfigurationTree& tree, Reading& reading);
@@ -43,28 +43,30 @@ void ReadArenaPhysics(const TConfigurationTree& tree, Reading& reading);
 void ReadVisualisations(const TConfigurationTree& tree, Reading& reading);
 void ReadExperimentFunctions(const TConfigurationTree& tree, Reading& reading);
 
-// Mistakes that only the whole experiment shows.
+// Reports mistakes that only the whole experiment shows.
 void CheckControllersOfRobots(Reading& reading);
 void CheckDevicesOfEngines(Reading& reading);
 void CheckPlanes(Reading& reading);
 void CheckOverlaps(Reading& reading);
 
-// Reports an id of other than letters, digits and _ . : -, or longer than 64. `place`: of the id.
+// Reports an id longer than 64, or with other characters than letters, digits and _ . : -. `place`: the position of the
+// id.
 bool IsIdCharacter(char c);
 bool CheckId(const std::string& id, const SourceLocation& place, Diagnostics& diagnostics);
 
-// The description of a plug-in that an element stands for, its library loaded first if `library` names one. nullptr,
-// and a report naming those that exist, if there is none.
+// Returns the description of a plug-in that an element stands for. If `library` names a library, it is loaded first.
+// Returns nullptr, after a report of the existing plug-ins, if the plug-in does not exist.
 const PluginDescription* FindPlugin(PluginKind kind, const TConfigurationTree& tree, Reading& reading);
 
-// Whether an engine moves things on one plane: it takes the parameters that place the plane.
+// Returns whether an engine moves entities on one plane, that is, has the parameters of the plane.
 bool MovesOnPlane(const EngineConfiguration& engine);
 
-// Lost (Diagnostics::Lose) if the map of a terrain could not be read: where bodies would stand on it is unknown.
+// This name is lost (Diagnostics::Lose) if the map of a terrain could not be read, since it is then unknown where
+// bodies stand on it.
 inline constexpr const char* kTerrainMap = "<map of a terrain>";
 
-// Gives the entities of all <distribute> elements their poses, around all entities that have theirs already and in the
-// terrain of their engines: after ReadArena and ReadArenaPhysics.
+// Gives the entities of all <distribute> elements their poses, around all placed entities and in the terrain of their
+// engines. Call it after ReadArena and ReadArenaPhysics.
 void PlaceDistributed(Reading& reading);
 
 }  // namespace swarmanoid

@@ -28,7 +28,7 @@ std::string IdOf(const ConfigurationNode& node)
   return TConfigurationTree(Node(Node(), &node)).Value("id").value_or("");
 }
 
-// Whether a file can hold the element.
+// Returns whether a file can hold the element.
 bool CanBeWritten(const ConfigurationNode& element)
 {
   try
@@ -53,7 +53,8 @@ public:
 
   Node ApplyTo(const Node& root) const { return Apply(root, 0); }
 
-  // Each step as tag and number among the elements of that tag. A value that is missing gets the number it would have.
+  // Returns each step as tag and number among the elements of that tag. A missing value gets the number that it would
+  // have.
   std::string AddressIn(const Node& root) const
   {
     std::string address;
@@ -118,7 +119,7 @@ private:
     return child.name == step.name && IdOf(child) == step.key;
   }
 
-  // The place of the child that a step means, or -1.
+  // Returns the index of the child that a step means, or -1.
   std::ptrdiff_t Find(const ConfigurationNode& node, const Step& step) const
   {
     std::vector<std::ptrdiff_t> fitting;
@@ -187,7 +188,7 @@ private:
     FailToFind(*node, step);
   }
 
-  // Whether an element that is missing, and is not the last of the path, is added with what the path goes on to.
+  // Returns whether a missing element, which is not the last of the path, is added together with the rest of the path.
   bool IsAddedOnTheWay(const Step& step) const
   {
     const bool is_section = &step == &steps_.front() && ExperimentSchema().FindChild(step.name) != nullptr;

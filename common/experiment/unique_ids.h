@@ -1,5 +1,5 @@
-// Finds ids that may not stand beside one another in an experiment: equal ones, and ones whose 64-bit names for random
-// streams are equal, who would draw the same numbers. Used by the readers of sections with ids.
+// Finds ids that must not occur together in an experiment: equal ids, and ids with equal 64-bit names for random
+// streams, which would draw the same numbers. The readers of sections with ids use it.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ public:
   // `what`: "entities".
   explicit UniqueIds(std::string what, std::size_t expected = 0) : what_(std::move(what)) { first_.reserve(expected); }
 
-  // What is wrong with a further id, which stands in this line; empty if nothing is. Empty ids are passed over.
+  // Adds an id that is in this line. Returns the mistake, or an empty text. Empty ids are ignored.
   std::string Add(const std::string& id, int line);
 
 private:

@@ -63,7 +63,7 @@ struct Extent
   }
 };
 
-// Points whose convex hull is about a shape.
+// Returns points whose convex hull approximates a shape.
 std::vector<Vector3> CornersOf(const UrdfShape& shape)
 {
   if (shape.form == Form::kMesh) return shape.corners;
@@ -75,7 +75,7 @@ std::vector<Vector3> CornersOf(const UrdfShape& shape)
         for (const double z : {-0.5, 0.5}) corners.push_back(shape.size.cwiseProduct(Vector3(x, y, z)));
     return corners;
   }
-  // Prisms of sixteen sides; a ball is one of six such rings, from pole to pole.
+  // Cylinders become prisms with sixteen sides; a ball has six such rings, from pole to pole.
   constexpr int kSides = 16;
   const auto ring = [&](double radius, double z)
   {
@@ -109,7 +109,7 @@ public:
     if (!FindWheels()) return;
     const UrdfLink& left = links_.LinkOf(wheels_.left->child);
     const UrdfLink& right = links_.LinkOf(wheels_.right->child);
-    // The middle of the axle, on the ground.
+    // The origin is the middle of the axle, on the ground.
     middle_ = (left.pose.position + right.pose.position) / 2;
     middle_.z() -= wheels_.radius;
     SetDrive();
@@ -122,7 +122,7 @@ private:
   void Error(const SourceLocation& place, std::string text) { result_.errors.push_back({place, std::move(text)}); }
   void Note(const SourceLocation& place, std::string text) { result_.notes.push_back({place, std::move(text)}); }
 
-  // A pose of the root link in the frame of the kind.
+  // Returns a pose of the root link in the frame of the kind.
   Pose InKind(const Pose& pose) const { return {pose.position - middle_, pose.orientation}; }
 
   static const UrdfShape* WheelShape(const UrdfLink& link)
@@ -133,7 +133,7 @@ private:
     return nullptr;
   }
 
-  // Continuous joints about the axis to the left, whose links roll.
+  // Finds the driven wheels: continuous joints about the axis to the left, with links that roll.
   bool FindWheels()
   {
     std::vector<const UrdfJoint*> rolling;
@@ -205,7 +205,7 @@ private:
     result_.kind.wheels = drive;
   }
 
-  // An upright cylinder about the axle's middle stays one; all else is in a box about it.
+  // An upright cylinder about the middle of the axle stays a cylinder; other bodies become a box around it.
   void SetBody()
   {
     Extent all;
@@ -265,7 +265,7 @@ private:
            fmt::format("something reaches {:g} m below its wheels; the body ends at the ground", -all.low.z()));
   }
 
-  // Of a few corners, above the ground.
+  // Sets a hull of few corners, above the ground.
   void SetHull(std::vector<Vector3> corners)
   {
     for (Vector3& corner : corners) corner.z() = std::max(corner.z(), 0.0);
@@ -285,7 +285,8 @@ private:
     if (result_.kind.mass_kg == 0) Note(links_.location, "no link has a mass; engines take that of their own for it");
   }
 
-  // The first colour of the root link is the kind's; wheels without a colour are of rubber.
+  // Returns the paint of a shape. The first colour of the root link is the kind's; wheels without a colour look like
+  // rubber.
   MeshPart::Paint PaintOf(const UrdfShape& shape, bool is_wheel) const
   {
     using Paint = MeshPart::Paint;

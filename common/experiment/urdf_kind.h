@@ -20,16 +20,16 @@ struct UrdfKind
   std::string text;
   EntityKindDescription kind;
   std::vector<std::string> collision_meshes;
-  std::vector<Diagnostic> errors;  // why there is no kind
-  std::vector<Diagnostic> notes;   // what the file says without effect, or what is taken for what it does not say
+  std::vector<Diagnostic> errors;  // why the kind could not be made
+  std::vector<Diagnostic> notes;   // content of the file without effect, and assumptions about missing content
 };
 
-// What a row makes of the text of a file; registers nothing.
+// Makes a row from the text of a file; registers nothing.
 UrdfKind KindFromUrdf(const std::string& tag, const std::string& text, const std::string& file);
 
-// Reads a file and adds its kind to the table, once a process: a tag is of one text. The mistakes are reported.
+// Reads a file and adds its kind to the table, once a process. A tag stands for one text. The mistakes are returned.
 std::vector<Diagnostic> RegisterUrdfKind(const std::string& tag, const std::string& file);
-// One that is registered; nullptr for kinds of libraries.
+// Returns a registered kind; nullptr for kinds of libraries.
 const UrdfKind* FindUrdfKind(const std::string& tag);
 
 }  // namespace swarmanoid

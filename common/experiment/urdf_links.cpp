@@ -20,7 +20,7 @@ namespace
 using Form = UrdfShape::Form;
 
 constexpr double kMostMetres = 100;
-constexpr double kHollow = 1e-3;  // m: shallower, a mesh counts as convex
+constexpr double kHollow = 1e-3;  // m: a mesh with shallower hollows counts as convex
 const char* const kNotThere =
     "it is not there; package://NAME/… is looked for in the folder NAME beside or above this file";
 
@@ -61,7 +61,7 @@ private:
     notes_.push_back({at.Location(), fmt::format("<{}> has no effect here", at.Name())});
   }
 
-  // So many finite numbers of an attribute; `fallback` if it is not there.
+  // Returns `count` finite numbers of an attribute; `fallback` if it does not exist.
   std::vector<double> Numbers(const TConfigurationTree& of, const char* name, std::vector<double> fallback)
   {
     if (!of.Exists() || !of.HasAttribute(name)) return fallback;
@@ -107,7 +107,7 @@ private:
       NoEffect(texture);
   }
 
-  // A mesh that is drawn; false, with a note, for one that cannot be.
+  // Reads a mesh that is drawn. Returns false, with a note, if it cannot be drawn.
   bool ReadMesh(const TConfigurationTree& mesh, UrdfShape& shape)
   {
     const std::string name = mesh.Attribute("filename");
@@ -122,7 +122,7 @@ private:
     return mistake.empty();
   }
 
-  // A mesh that collides, as its hull.
+  // Reads a mesh that collides, as its hull.
   void ReadHull(const TConfigurationTree& mesh, UrdfShape& shape)
   {
     const std::string name = mesh.Attribute("filename");
@@ -152,7 +152,7 @@ private:
     Error(mesh, fmt::format("the mesh {}: {}", Quoted(name), mistake));
   }
 
-  // Of the corners and the middles of the triangles, m.
+  // Returns the depth of the deepest point in the hull (m), over the corners and the middles of the triangles.
   static double DeepestPoint(const ConvexHull& hull, const MeshPoints& points)
   {
     double depth = 0;
@@ -164,7 +164,7 @@ private:
     return depth;
   }
 
-  // False for what is no box, cylinder or sphere.
+  // Returns false for a geometry that is no box, cylinder or sphere.
   bool ReadGeometry(const TConfigurationTree& geometry, UrdfShape& shape)
   {
     if (const TConfigurationTree box = geometry.Child("box"); box.Exists())
@@ -278,7 +278,7 @@ private:
     result_.joints.push_back(std::move(joint));
   }
 
-  // The poses of all links, from the one that is no joint's child.
+  // Computes the poses of all links, from the link that is no joint's child.
   void Place()
   {
     std::map<std::string, const UrdfJoint*> above;

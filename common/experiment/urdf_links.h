@@ -1,4 +1,4 @@
-// The links and joints of a URDF file as the frame of its root link sees them, all joints at zero. For urdf_kind.cpp.
+// The links and joints of a URDF file in the frame of its root link, with all joints at zero. For urdf_kind.cpp.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct UrdfShape
     kBox,       // size: lengths along x, y, z
     kCylinder,  // about z; size: radius, radius, length
     kSphere,    // size: radius, three times
-    kMesh       // of `file`; size: the scale along x, y, z. It collides as the hull of `corners`
+    kMesh       // content of `file`; size: the scale along x, y, z. The hull of `corners` collides
   };
   Form form = Form::kBox;
   Vector3 size = Vector3::Zero();  // m
@@ -46,9 +46,9 @@ struct UrdfJoint
   std::string type{};
   std::string parent{};
   std::string child{};
-  Pose origin{};                     // of the child in the frame of the parent
+  Pose origin{};                     // the pose of the child in the frame of the parent
   Vector3 axis = Vector3::UnitX();   // in the frame of the child
-  std::optional<double> velocity{};  // rad/s: its limit
+  std::optional<double> velocity{};  // rad/s: the limit of the joint
   SourceLocation location{};
 };
 
@@ -57,12 +57,13 @@ struct UrdfLinks
   std::vector<UrdfLink> links{};
   std::vector<UrdfJoint> joints{};
   std::size_t root = 0;
-  SourceLocation location{};  // of <robot>
+  SourceLocation location{};  // the position of <robot>
 
   const UrdfLink& LinkOf(const std::string& name) const;
 };
 
-// Of the text of `file`, which meshes are found from. Mistakes go into `errors`, what has no effect here into `notes`.
+// Reads the links from the text of `file`, whose folder is the start of the paths of meshes. Mistakes go into `errors`,
+// content without effect into `notes`.
 UrdfLinks ReadUrdfLinks(const TConfigurationTree& robot, const std::string& file, std::vector<Diagnostic>& errors,
                         std::vector<Diagnostic>& notes);
 

@@ -35,7 +35,7 @@ std::string IntegerFacets(const ParameterSpec& parameter)
   return facets;
 }
 
-// The simple type of a value.
+// Returns the simple type of a value.
 std::string SimpleType(const ParameterSpec& parameter)
 {
   switch (parameter.type)
@@ -81,7 +81,7 @@ std::string SimpleType(const ParameterSpec& parameter)
   return "<xs:simpleType><xs:restriction base=\"xs:token\"/></xs:simpleType>";
 }
 
-// What the elements of plug-ins of each kind have in common.
+// Collects the common content of the elements of plug-ins, by kind.
 void CollectPluginElements(const ElementSpec& element, std::map<PluginKind, const ElementSpec*>& found)
 {
   if (element.plugins) found[*element.plugins] = &element.plugin_element.front();
@@ -89,8 +89,8 @@ void CollectPluginElements(const ElementSpec& element, std::map<PluginKind, cons
   for (const ElementSpec& child : element.plugin_element) CollectPluginElements(child, found);
 }
 
-// The element of a label, whatever stands for it: a sensor and an actuator may have the same one, and each of them
-// several implementations. It allows what one of them allows.
+// The element of a label. A sensor and an actuator may have the same label, and each may have several implementations.
+// The element allows the content of all of them.
 struct LabelElement
 {
   ElementSpec element;
@@ -137,7 +137,7 @@ std::map<std::string, LabelElement> LabelElements(const ElementSpec& root)
         label.controller_parameters = plugin->parameters;
         continue;
       }
-      // They are those of its entities in <arena>.
+      // Entity kinds are the elements of entities in <arena>.
       if (kind == PluginKind::kEntityKind) continue;
       label.open |= std::ranges::any_of(plugin->parameters, IsNumbered);
       for (const ParameterSpec& parameter : plugin->parameters) AddParameter(label.element.parameters, parameter);
@@ -172,14 +172,14 @@ public:
 private:
   void Line(const std::string& line) { text_ += std::string(static_cast<std::size_t>(2 * depth_), ' ') + line + "\n"; }
 
-  // In any order and number, since each parameter may stand as an attribute instead.
+  // Children may have any order and number, since each parameter may be an attribute instead.
   void Content(const ElementSpec& element)
   {
     Line("<xs:choice minOccurs=\"0\" maxOccurs=\"unbounded\">");
     ++depth_;
     if (element.plugins)
     {
-      // Those that are declared below as what they are; others may hold anything.
+      // Elements of known plug-ins are declared below; others may have any content.
       Line("<xs:any processContents=\"lax\"/>");
     }
     else
@@ -205,7 +205,7 @@ private:
     }
   }
 
-  // "Forward velocity. A number in m/s, at least 0; 0.1 where it is left out."
+  // Returns a text such as "Forward velocity. A number in m/s, at least 0; 0.1 where it is left out."
   static std::string TextOf(const ParameterSpec& parameter)
   {
     std::string text = parameter.description;
@@ -249,7 +249,7 @@ private:
     Line("</xs:element>");
   }
 
-  // <parameters> of a controller that declared them.
+  // Writes the <parameters> of a controller that declared them.
   void Table(const ParameterSpec& holder, const std::vector<ParameterSpec>& parameters)
   {
     if (std::ranges::any_of(parameters, IsNumbered)) return ParameterElement(holder);

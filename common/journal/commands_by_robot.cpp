@@ -34,7 +34,7 @@ void CommandsByRobot::MakeCopies(const HostTable& hosts)
 
 std::vector<ControlCommands> CommandsByRobot::Of(const HostTable& hosts, const std::vector<ControlCommands>& commands)
 {
-  // None at the last tick.
+  // The last tick has no commands.
   if (commands.empty() || hosts == to_.table) return commands;
   MakeCopies(hosts);
   std::vector<ControlCommands> shared(to_.hosts.size());

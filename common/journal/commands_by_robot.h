@@ -1,6 +1,5 @@
-// CommandsByRobot: what the controller hosts of a run commanded at a tick, as others would have said it that have the
-// same robots. For processes that do ticks again which were done before the robots were shared out anew, and for those
-// who compare.
+// CommandsByRobot: converts the commands of a run's controller hosts at a tick into those of other hosts with the same
+// robots. Used to repeat ticks from before the robots were assigned to other hosts, and to compare runs.
 #pragma once
 
 #include <optional>
@@ -18,18 +17,18 @@ class CSwarmanoidSpace;
 class CommandsByRobot
 {
 public:
-  // To the hosts of the assignment, which outlives this, as the space does.
+  // Converts to the hosts of the assignment. The assignment and the space must outlive the object.
   CommandsByRobot(const CSwarmanoidSpace& space, const Assignment& to) : space_(space), to_(to) {}
 
-  // What `hosts` commanded.
+  // Returns the commands of `hosts`.
   std::vector<ControlCommands> Of(const HostTable& hosts, const std::vector<ControlCommands>& commands);
-  // The first `ticks` ticks of a block.
+  // Returns the first `ticks` ticks of a block.
   std::vector<char> Of(const HostTable& hosts, std::vector<char> block, std::uint32_t ticks);
 
 private:
   struct Copy
   {
-    std::size_t source = 0;  // host
+    std::size_t source = 0;  // index of the host
     std::size_t from = 0;
     std::size_t host = 0;
     std::size_t to = 0;
@@ -40,7 +39,7 @@ private:
 
   const CSwarmanoidSpace& space_;
   const Assignment& to_;
-  // Made for those who were last asked of.
+  // The table of hosts for which the plan was made.
   std::optional<HostTable> from_;
   std::vector<Copy> copies_;
 };

@@ -1,4 +1,5 @@
-// JournalBlocks: the blocks of a journal, whoever found them: JournalReader, of a run that is over, or JournalFollower.
+// JournalBlocks: the blocks of a journal, found by JournalReader in a run that has ended, or by JournalFollower in one
+// that continues.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +16,9 @@ class JournalBlocks
 {
 public:
   virtual ~JournalBlocks() = default;
-  // All but those of ticks that were done again, in the order of the files; those of ticks ascend.
+  // Returns all blocks except those of repeated ticks, in the order of the files. The ticks of blocks ascend.
   virtual const std::vector<JournalPlace>& Places() const = 0;
-  // Throws std::runtime_error if it cannot be read, or is damaged.
+  // Returns the content of a block. Throws std::runtime_error if it cannot be read or is damaged.
   virtual std::vector<char> Content(const JournalPlace& place) const = 0;
 };
 
@@ -30,13 +31,13 @@ struct TickRange
   bool operator==(const TickRange&) const = default;
 };
 
-// The ticks whose whole state can be read, ascending. Blocks of ticks say only which attributes change. After blocks
-// that are damaged, reading therefore goes on at the next saved state.
+// Returns the ticks whose whole state can be read, ascending. Blocks of ticks store only changed attributes. After
+// damaged blocks, reading therefore continues at the next saved state.
 std::vector<TickRange> ReadableTicks(const JournalStart& start, const std::vector<JournalPlace>& places);
 
-// The first tick of which there is all: that of the run, or where the oldest segment that is left was begun.
+// Returns the first tick whose state is complete: that of the run, or of the oldest segment that is left.
 std::uint64_t FirstTickOf(const JournalStart& start, const std::vector<JournalPlace>& places);
-// The tick after the newest one; that where the journal begins if there is none.
+// Returns the tick after the newest one; the first tick of the journal if it has no ticks.
 std::uint64_t EndTickOf(const JournalStart& start, const std::vector<JournalPlace>& places);
 
 }  // namespace swarmanoid

@@ -1,5 +1,5 @@
-// JournalFollower: the journal of a run that may still go on, for those who look back meanwhile. It skips blocks that
-// are damaged. Used by one thread of any process of the machine on which the run's folder is.
+// JournalFollower: reads the journal of a run that may still continue, for renderers that look back meanwhile. It skips
+// damaged blocks. One thread of any process on the machine of the run's folder uses it.
 #pragma once
 
 #include <memory>
@@ -15,13 +15,13 @@ namespace swarmanoid
 class JournalFollower : public JournalBlocks
 {
 public:
-  // `path`: as for JournalReader; the file need not be there yet.
+  // `path`: as for JournalReader; the file need not exist yet.
   explicit JournalFollower(std::string path) : path_(std::move(path)) {}
 
-  // Takes in what was written, and what was deleted, since the last call. Throws std::runtime_error if it cannot be
-  // read.
+  // Reads blocks that were written, and drops blocks that were deleted, since the last call. Throws std::runtime_error
+  // if the files cannot be read.
   void Refresh();
-  // False until the first block was read.
+  // Returns false until the first block has been read.
   bool IsBegun() const { return !places_.empty(); }
   const JournalStart& Start() const { return start_; }
   const std::vector<JournalPlace>& Places() const override { return places_; }
@@ -30,7 +30,7 @@ public:
   std::uint64_t EndTick() const { return EndTickOf(start_, places_); }
 
 private:
-  // Takes in what begins at offset_. False if the rest of the file is no whole block yet.
+  // Reads the block at offset_. Returns false if the rest of the file is no whole block yet.
   bool ReadBlock(const RegularFile& file);
 
   std::string path_;
@@ -38,7 +38,7 @@ private:
   bool has_start_ = false;
   std::vector<JournalPlace> places_;
   std::uint32_t segment_ = 0;
-  std::uint64_t offset_ = 0;  // of what was not read yet, in the newest segment
+  std::uint64_t offset_ = 0;  // of the first unread byte in the newest segment
 };
 
 }  // namespace swarmanoid

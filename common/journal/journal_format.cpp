@@ -21,7 +21,7 @@ namespace
 
 constexpr std::size_t kChecksumAt = kJournalHeaderBytes - sizeof(std::uint64_t);
 constexpr std::uint64_t kMostBlockBytes = std::uint64_t{1} << 36U;  // 64 GiB
-// Of zstd. Ticks are packed before: 1 makes them 3 % shorter, for a third more time (1,000 robots of
+// The level of zstd. Ticks are packed before: level 1 makes them 3 % shorter, for a third more time (1,000 robots of
 // diffusion_1000.xml).
 constexpr int kLevel = -1;
 
@@ -50,7 +50,8 @@ struct FreeContext
   void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
 };
 
-// The content behind room for the header. Tables and room are as large as a block, and cost as much to make.
+// Returns the compressed content, with space for the header in front. The tables and the buffer are kept, since making
+// them costs as much as compressing a block.
 std::span<char> Compressed(std::span<const char> content)
 {
   thread_local const std::unique_ptr<ZSTD_CCtx, FreeContext> context(ZSTD_createCCtx());

@@ -14,7 +14,7 @@ namespace swarmanoid
 namespace
 {
 
-// In the course of it, the controller hosts may change.
+// During a run, the controller hosts may change, so they are not compared.
 bool IsOfOneRun(const JournalStart& start, JournalStart other)
 {
   other.hosts = start.hosts;
@@ -53,7 +53,7 @@ std::uint64_t FirstTickOf(const JournalStart& start, const std::vector<JournalPl
   if (places.empty() || places.front().segment == 0) return start.first_tick;
   const auto ticks = std::find_if(places.begin(), places.end(),
                                   [](const JournalPlace& place) { return place.kind == JournalBlockKind::kTicks; });
-  // A segment of other controller hosts may begin with an older state than its ticks.
+  // A segment that begins with new controller hosts may first have a state that is older than its ticks.
   for (const JournalPlace& place : places)
     if (place.kind == JournalBlockKind::kSnapshot && (ticks == places.end() || place.first_tick >= ticks->first_tick))
       return place.first_tick;
@@ -84,7 +84,7 @@ std::vector<TickRange> ReadableTicks(const JournalStart& start, const std::vecto
   {
     if (range.first != start.first_tick)
     {
-      // A state that was saved one tick before is changed by the first tick of the range into the state of that tick.
+      // The first tick of the range turns a state that was saved one tick before into its own state.
       const auto state = std::lower_bound(saved.begin(), saved.end(), range.first == 0 ? 0 : range.first - 1);
       if (state == saved.end() || *state >= range.end) continue;
       range.first = std::max(range.first, *state);
@@ -108,7 +108,7 @@ JournalReader::JournalReader(const std::string& path) : path_(path)
 
 void JournalReader::ReadAll()
 {
-  // A run that goes on may delete its oldest segments meanwhile. Then the others are looked for again.
+  // A run that continues may delete its oldest segments meanwhile. Then the segments are listed again.
   std::vector<std::uint32_t> segments = SegmentsOf(path_);
   for (std::vector<std::uint32_t> again = SegmentsOf(path_); again != segments; again = SegmentsOf(path_))
     segments = std::move(again);
@@ -151,7 +151,7 @@ bool JournalReader::ReadSegment(std::uint32_t segment, bool is_newest)
       {
         JournalStart start = ReadStart(JournalContent(part.block));
         if (!HasStart()) start_ = start;
-        // Another run may have left its own here.
+        // Another run may have left its segments in this folder.
         if (!IsOfOneRun(start, start_)) return false;
         if (tables_.empty() || start.hosts != tables_.back()) tables_.push_back(std::move(start.hosts));
         table = static_cast<std::uint32_t>(tables_.size() - 1);
@@ -184,7 +184,7 @@ bool JournalReader::Take(const SegmentPart& part, JournalPlace place)
   if (place.kind == JournalBlockKind::kPart)
   {
     place.name = ReadPart(JournalContent(part.block)).name;
-    // The state of a process is of no use if it is not known which robots it had.
+    // The state of a controller host is useless if its robots are unknown.
     if (place.table == kUnknownTable) return true;
   }
   AddPlace(places_, std::move(place));
@@ -259,7 +259,7 @@ const JournalPlace* JournalReader::PlaceOf(JournalBlockKind kind, std::uint64_t 
 
 std::optional<std::uint64_t> JournalReader::RestartTick(const std::function<bool(std::uint64_t)>& usable) const
 {
-  std::uint64_t end = FirstTick();  // of the ticks of which none is lacking
+  std::uint64_t end = FirstTick();  // the end of the ticks without a gap
   for (const JournalPlace& place : places_)
     if (place.kind == JournalBlockKind::kTicks && place.first_tick <= end)
       end = std::max(end, place.first_tick + place.ticks);
@@ -268,7 +268,7 @@ std::optional<std::uint64_t> JournalReader::RestartTick(const std::function<bool
   {
     const std::uint64_t tick = place.first_tick;
     if (place.kind != JournalBlockKind::kSnapshot || tick >= end || (newest && tick < *newest)) continue;
-    // There the run begins as it began: from its checkpoint.
+    // At this tick the run starts as before: from its checkpoint.
     if (tick == start_.first_tick) continue;
     if (PlaceOf(JournalBlockKind::kPart, tick, kServerPart) != nullptr && usable(tick)) newest = tick;
   }
@@ -333,7 +333,7 @@ std::optional<Checkpoint> JournalReader::CheckpointAt(std::uint64_t tick, const 
 std::optional<Checkpoint> JournalReader::WholeCheckpointAt(std::uint64_t tick, const Experiment& experiment,
                                                            const HostTable& hosts) const
 {
-  // At a tick at which robots were shared out anew, both may have been saved.
+  // At a tick at which robots were assigned to other hosts, the old and the new hosts may both have been saved.
   std::set<std::uint32_t> numbers;
   for (const JournalPlace& place : places_)
     if (place.kind == JournalBlockKind::kPart && place.first_tick == tick) numbers.insert(place.table);

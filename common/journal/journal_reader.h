@@ -1,5 +1,5 @@
-// JournalReader: the journal of a run that has ended, however it did. It reads all blocks of all segments, skips those
-// that are damaged, and says which bytes it skipped.
+// JournalReader: reads the journal of a run that has ended or died. It reads all blocks of all segments, skips damaged
+// ones, and reports which bytes it skipped.
 #pragma once
 
 #include <functional>
@@ -32,63 +32,66 @@ struct JournalDamage
 class JournalReader : public JournalBlocks
 {
 public:
-  // Throws std::runtime_error, with the path, if it cannot be read or is no journal of this version.
+  // Throws std::runtime_error with the path if the file cannot be read or is no journal of this version.
   explicit JournalReader(const std::string& path);
 
-  // Throws std::runtime_error, with the path, if the block that has it is damaged.
+  // Returns the start of the run. Throws std::runtime_error with the path if its block is damaged.
   const JournalStart& Start() const;
-  // The same. If that block is damaged, it has no origin and no hosts, and a guess at the first tick.
+  // Returns the same. If that block is damaged, the result has no origin, no hosts, and an estimated first tick.
   const JournalStart& StartAsFarAsKnown() const { return start_; }
   bool HasStart() const { return !tables_.empty(); }
-  // The controller hosts at the end; at first there may have been others. Throws as Start does.
+  // Returns the controller hosts at the end; they may differ from those at the start. Throws as Start does.
   const HostTable& Hosts() const;
-  // Those that stepped at a tick that the journal has. Throws std::runtime_error if they are not known.
+  // Returns the controller hosts at a tick of the journal. Throws std::runtime_error if they are unknown.
   const HostTable& HostsAt(std::uint64_t tick) const;
   bool KnowsHostsAt(std::uint64_t tick) const;
-  // By the numbers that places have.
+  // Returns the tables of hosts, indexed by JournalPlace::table.
   const std::vector<HostTable>& Tables() const { return tables_; }
   const std::string& Path() const { return path_; }
-  // All whole blocks but those of ticks that were done again, in the order of the file.
+  // Returns all whole blocks except those of repeated ticks, in the order of the file.
   const std::vector<JournalPlace>& Places() const override { return places_; }
-  // Up to the end of the newest whole block, in all segments and in the newest one that a run can go on with.
+  // Returns the bytes up to the end of the newest whole block: in all segments, and in the newest one that a run can
+  // continue.
   std::uint64_t Bytes() const { return bytes_; }
   std::uint64_t NewestSegmentBytes() const { return newest_bytes_; }
   std::uint32_t NewestSegment() const { return newest_; }
-  // Bytes after the last whole block that are the start of another one: what was being written when the run died.
+  // Returns the bytes after the last whole block that are the start of another one, which was being written when the
+  // run died.
   std::uint64_t TornBytes() const { return torn_; }
-  // In the order of the files.
+  // Returns the damages in the order of the files.
   const std::vector<JournalDamage>& Damages() const { return damages_; }
   std::vector<char> Content(const JournalPlace& place) const override;
-  // The first tick of which there is all: that of the run, or of the oldest segment that is left.
+  // Returns the first tick whose state is complete: that of the run, or of the oldest segment that is left.
   std::uint64_t FirstTick() const { return FirstTickOf(start_, places_); }
-  // Calls `use` with each tick. Some may be lacking at the end.
+  // Calls `use` with each tick. Some ticks may be missing at the end.
   void ForEachTick(const std::function<void(const TickRecord&)>& use) const;
-  // The newest tick at which the space server was saved and before which none is lacking, nor itself; nothing if there
-  // is none. `usable`: false for ticks that will not do.
+  // Returns the newest tick at which the space server was saved and up to which no tick is missing; nothing if none
+  // exists. `usable` returns false for ticks to skip.
   std::optional<std::uint64_t> RestartTick(const std::function<bool(std::uint64_t)>& usable) const;
   std::optional<TickRecord> RecordOf(std::uint64_t tick) const;
-  // Of controllers, in the steps from that tick on. `ahead`: ticks until commands, which tell of them, act.
+  // Returns the faults of controllers in the steps from that tick on. `ahead`: ticks until the commands that report a
+  // fault take effect.
   RecordedFaults FaultsFrom(std::uint64_t tick, std::uint32_t ahead) const;
   // Returns the saved states of all `parts` at the tick, or nothing if one is missing. With `table`, only states that
   // these controller hosts saved count.
   std::optional<Checkpoint> CheckpointAt(std::uint64_t tick, const std::vector<std::string>& parts,
                                          std::optional<std::uint32_t> table = std::nullopt) const;
-  // What all processes saved at the tick, or at the newest one until then at which all did, for these controller hosts,
-  // whichever the run had.
+  // Returns the states that all processes saved at the tick, or at the newest earlier tick at which all did, converted
+  // to these controller hosts.
   std::optional<Checkpoint> WholeCheckpointAt(std::uint64_t tick, const Experiment& experiment,
                                               const HostTable& hosts) const;
   std::optional<Checkpoint> WholeCheckpointUntil(std::uint64_t tick, const Experiment& experiment,
                                                  const HostTable& hosts) const;
-  // Whether the newest controller hosts, and all others of `parts`, saved a tick until then.
+  // Returns whether the newest controller hosts, and all others of `parts`, saved a tick up to that one.
   bool NewestHostsSavedUntil(std::uint64_t tick, const std::vector<std::string>& parts) const;
 
 private:
   void ReadAll();
-  // The blocks of one segment; false if it is of another run.
+  // Reads the blocks of one segment; returns false if it is of another run.
   bool ReadSegment(std::uint32_t segment, bool is_newest);
-  // The block of a segment whose table of hosts has that number. False if its content is damaged.
+  // Adds a block of a segment whose table of hosts has that number. Returns false if its content is damaged.
   bool Take(const SegmentPart& part, JournalPlace place);
-  // The block that has the tick; none if there is none.
+  // Returns the block that has the tick; nullptr if none does.
   const JournalPlace* TicksWith(std::uint64_t tick) const;
   const JournalPlace* PlaceOf(JournalBlockKind kind, std::uint64_t tick, const std::string& name,
                               std::optional<std::uint32_t> table = std::nullopt) const;
@@ -105,14 +108,14 @@ private:
   std::vector<JournalDamage> damages_;
 };
 
-// Whether there is anything of it.
+// Returns whether the journal has any content.
 bool IsBegun(const std::string& path);
 
-// Where the space server writes it, in the folder of the run.
+// Returns the path of the journal in the folder of a run, where the space server writes it.
 std::string JournalFile(const std::string& run_folder);
 
-// FaultsFrom of the journal of a run of the same experiment; none if no controller has a guard. Throws
-// std::runtime_error, with the path.
+// Returns FaultsFrom of the journal of a run of the same experiment; nothing if no controller has a guard. Throws
+// std::runtime_error with the path.
 RecordedFaults FaultsOfRun(const std::string& run_folder, const Experiment& experiment, std::uint64_t tick);
 
 }  // namespace swarmanoid

@@ -14,7 +14,7 @@ constexpr std::uint64_t kReadAtOnce = std::uint64_t{1} << 20U;
 
 std::string BlockBeginning() { return std::string(kJournalMagic) + kJournalVersion; }
 
-// The block at the offset if it is whole.
+// Returns the block at the offset if it is whole.
 std::optional<SegmentPart> WholeBlock(const RegularFile& file, std::uint64_t offset)
 {
   const std::vector<char> start = file.Read(offset, kJournalHeaderBytes);
@@ -26,13 +26,13 @@ std::optional<SegmentPart> WholeBlock(const RegularFile& file, std::uint64_t off
   return SegmentPart{SegmentPart::Kind::kBlock, bytes, *header, std::move(block)};
 }
 
-// Where the first whole block after the offset begins; the end of the file if none does.
+// Returns the offset of the next whole block after the offset; the end of the file if none follows.
 std::uint64_t NextWholeBlock(const RegularFile& file, std::uint64_t offset)
 {
   const std::string beginning = BlockBeginning();
   for (std::uint64_t from = offset + 1; from < file.Size(); from += kReadAtOnce)
   {
-    // A beginning may lie across two pieces.
+    // The magic bytes may lie across two pieces.
     const std::vector<char> piece = file.Read(from, kReadAtOnce + beginning.size() - 1);
     const std::string_view text(piece.data(), piece.size());
     for (std::size_t at = text.find(beginning); at != std::string_view::npos; at = text.find(beginning, at + 1))
@@ -41,8 +41,8 @@ std::uint64_t NextWholeBlock(const RegularFile& file, std::uint64_t offset)
   return file.Size();
 }
 
-// Whether a writer that ended in the middle of a block leaves these last bytes of a file. A machine that lost its power
-// may leave zeros.
+// Returns whether the last bytes of a file can be an incomplete block of a killed writer. A power failure may leave
+// zeros.
 bool IsCutShort(const RegularFile& file, std::uint64_t offset)
 {
   const std::vector<char> start = file.Read(offset, kJournalHeaderBytes);

@@ -1,4 +1,4 @@
-// One file of a journal, read from any byte on, also where it is damaged. Used by JournalReader and JournalFollower.
+// Reads one file of a journal from any offset, also if it is damaged. Used by JournalReader and JournalFollower.
 #pragma once
 
 #include <cstdint>
@@ -20,11 +20,12 @@ struct SegmentPart
   };
   Kind kind{};
   std::uint64_t bytes = 0;      // at least 1
-  JournalBlockHeader header{};  // of kBlock
-  std::vector<char> block{};    // all bytes of kBlock
+  JournalBlockHeader header{};  // for kBlock
+  std::vector<char> block{};    // for kBlock: all its bytes
 };
 
-// What begins at the offset, which is before the end of the file. Throws FileError if the file cannot be read.
+// Returns the part that begins at the offset, which is before the end of the file. Throws FileError if the file cannot
+// be read.
 SegmentPart PartAt(const RegularFile& file, std::uint64_t offset);
 
 }  // namespace swarmanoid

@@ -26,18 +26,18 @@ namespace
 
 using namespace std::chrono_literals;
 
-constexpr std::uint32_t kMostTicks = 64;          // of a block
-constexpr std::size_t kMostRawBytes = 8U << 20U;  // of a block, before it is compressed
-constexpr std::size_t kMostQueued = 256U << 20U;  // then the run waits for the disk
-constexpr auto kLatest = 100ms;                   // a tick stays unwritten
-constexpr auto kLatestOfFew = 500ms;              // likewise, where ticks are slow: a block of few takes much room
+constexpr std::uint32_t kMostTicks = 64;          // the largest number of ticks in a block
+constexpr std::size_t kMostRawBytes = 8U << 20U;  // the most bytes of a block before compression
+constexpr std::size_t kMostQueued = 256U << 20U;  // beyond this, the run waits for the disk
+constexpr auto kLatest = 100ms;                   // the longest time until a tick is written
+constexpr auto kLatestOfFew = 500ms;  // the same for slow ticks, since a block of few ticks takes much space
 constexpr std::uint32_t kFewTicks = 8;
-constexpr std::uint64_t kSegments = 8;            // that a budget is for
-constexpr std::uint64_t kSavedBeforeTelling = 3;  // states, until a part that is lacking will not come
-constexpr std::size_t kMostPlaces = 4096;         // that are kept in memory; those of the last seconds at least
+constexpr std::uint64_t kSegments = 8;            // into which a budget is divided
+constexpr std::uint64_t kSavedBeforeTelling = 3;  // saved states, before a missing part is reported
+constexpr std::size_t kMostPlaces = 4096;         // kept in memory; at least those of the last seconds
 constexpr std::size_t kMostSaving = 64;           // states that wait for their parts
 
-// The launcher lets the processes of a small run share one core; this thread need not, and goes where that one may.
+// The launcher pins the processes of a small run to one core. This thread may use all cores that the launcher may use.
 void UseCoresOfLauncher()
 {
   cpu_set_t cores;
@@ -84,7 +84,7 @@ JournalWriter::JournalWriter(const std::string& path, std::span<const char> star
                              JournalBudget budget)
     : JournalWriter(path, 0, O_CREAT | O_TRUNC, std::move(budget))
 {
-  // An earlier run that had the folder may have left segments.
+  // An earlier run in the same folder may have left segments.
   for (const std::uint32_t later : SegmentsOf(path_))
     if (later > 0) std::filesystem::remove(SegmentFile(path_, later));
   start_.assign(start.begin(), start.end());
@@ -107,7 +107,7 @@ JournalWriter::JournalWriter(const JournalReader& journal, std::uint64_t tick, b
   size_ = journal.NewestSegmentBytes();
   all_bytes_ = journal.Bytes();
   segment_from_ = all_bytes_ - size_;
-  // One whose first block was being written when the run died, or that follows a damaged one.
+  // Removes segments whose first block was incomplete when the run died, or that follow a damaged one.
   for (const std::uint32_t later : SegmentsOf(path_))
     if (later > segment_) std::filesystem::remove(SegmentFile(path_, later));
   if (ftruncate(file_, static_cast<off_t>(size_)) != 0)
@@ -177,7 +177,7 @@ void JournalWriter::Add(std::uint64_t tick, const SavedPart& part)
 void JournalWriter::Queue(JournalBlockKind kind, std::uint64_t tick, const std::string& name, std::vector<char> content)
 {
   if (!works_) return;
-  // All of a saved state goes into one segment; parts may come before the space.
+  // All parts of a saved state go into one segment; parts may arrive before the space.
   const bool opens_segment =
       budget_.bytes != 0 && tick > saved_ && all_bytes_ - segment_from_ >= budget_.bytes / kSegments;
   saved_ = std::max(saved_, tick);
@@ -250,7 +250,8 @@ void JournalWriter::Write()
     if (queue_.empty())
     {
       if (over_) return;
-      // Nobody wakes this thread at a tick, which would cost it more than the copy.
+      // The writer's thread wakes by time, since waking it at each tick would cost the ticks' thread more than the
+      // copy.
       changed_.wait_for(lock, kLatest, [this] { return wanted_ || over_; });
       const bool early = rows_.Ticks() < kFewTicks && Clock::now() - queued_ < kLatestOfFew;
       if (!early || wanted_ || over_) QueueRows();
@@ -278,7 +279,7 @@ void JournalWriter::Write(Block& block)
   if (budget_.bytes != 0 && block.place.kind == JournalBlockKind::kPart) DropOldSegments();
 }
 
-// What stands in the one before is whole; if the next one cannot be made, the journal ends there.
+// The previous segment is complete. If the next one cannot be made, the journal ends there.
 void JournalWriter::OpenNextSegment(const Block& opening)
 {
   if (!Works()) return;
@@ -361,7 +362,7 @@ std::string JournalWriter::LackingPart() const
   return {};
 }
 
-// Deletes the segments before the newest state that all processes saved, as long as no tick since then is in them.
+// Deletes the segments before the newest state that all processes saved, if no later tick is in them.
 void JournalWriter::DropOldSegments()
 {
   const std::lock_guard lock(mutex_);
@@ -400,7 +401,7 @@ void JournalWriter::WriteBlock(Block& block)
     return;
   }
   const int error = errno;
-  // What is read ends with a whole block.
+  // The file is cut to its last whole block, so that readers find only whole blocks.
   static_cast<void>(!ftruncate(file_, static_cast<off_t>(size_)));
   const std::lock_guard lock(mutex_);
   works_ = false;
@@ -480,7 +481,7 @@ std::vector<JournalPlace> JournalWriter::Places() const
   const JournalReader reader(path_);
   std::vector<JournalPlace> places = reader.Places();
   const std::lock_guard lock(mutex_);
-  // The oldest tables may be those of segments that were deleted.
+  // The oldest tables may belong to deleted segments.
   const auto older = static_cast<std::uint32_t>(tables_.size() - std::min(tables_.size(), reader.Tables().size()));
   for (JournalPlace& place : places)
     if (place.table != kUnknownTable) place.table += older;

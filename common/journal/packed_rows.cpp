@@ -12,16 +12,16 @@ namespace swarmanoid
 namespace
 {
 
-constexpr std::size_t kSide = 8;  // numbers of a row that are packed together: a line of the cache
-// Of the ticks that are packed together: what the caches hold.
+constexpr std::size_t kSide = 8;  // numbers of a row that are packed together: a cache line
+// The most numbers of the ticks that are packed together; they fit into the caches.
 constexpr std::size_t kMostNumbers = std::size_t{1} << 19U;
 using Line = std::array<std::uint64_t, kSide>;
 
-// Small differences of either sign as small numbers.
+// Maps small differences of either sign to small numbers.
 std::uint64_t Folded(std::uint64_t difference) { return (difference << 1U) ^ (0 - (difference >> 63U)); }
 std::uint64_t Unfolded(std::uint64_t folded) { return (folded >> 1U) ^ (0 - (folded & 1U)); }
 
-// Of the number at `at` in the row of a tick.
+// Returns the expected value of the number at `at` in the row of a tick.
 double Expected(const double* at, std::size_t tick, std::size_t row, bool moves)
 {
   if (tick == 0) return 0;
@@ -30,7 +30,7 @@ double Expected(const double* at, std::size_t tick, std::size_t row, bool moves)
   return before + (before - *(at - 2 * row));
 }
 
-// The same for a line of numbers of which all move, or none.
+// Computes the same for a line of numbers that all move, or all stay.
 template <bool kMoves>
 void FoldLine(const double* at, std::size_t row, Line& folded)
 {
@@ -70,7 +70,7 @@ void RowPacker::Finish()
 
 void RowPacker::Pack()
 {
-  // All eight bytes of each number are written, and what is not needed of them is written over.
+  // All eight bytes of each number are written; the next number overwrites the unneeded ones.
   char* out = room_.AtLeast(used_ + (waiting_ * row_ + 1) * sizeof(std::uint64_t)) + used_;
   std::array<Line, kSide> lines{};  // of the ticks
   for (std::size_t first = 0; first < row_; first += kSide)
@@ -108,7 +108,7 @@ void RowPacker::Pack()
     }
   }
   used_ = static_cast<std::size_t>(out - room_.Bytes());
-  // Where one row alone was packed, the one before stays.
+  // If only one row was packed, the row before it stays.
   std::copy_n(Row(waiting_), kBefore * row_, Row(0));
   packed_ += waiting_;
   waiting_ = 0;

@@ -83,11 +83,11 @@ bool RecordedStates::Seek(std::uint64_t tick)
                                   [tick](const TickRange& r) { return tick >= r.first && tick < r.end; });
   if (range == readable.end()) return false;
   LoadStateBefore(tick);
-  // What no message of a tick tells was as at the start of the experiment, or of the whole state.
+  // Values that no message of the ticks changed are as at the start of the experiment, or as in the saved state.
   if (tick_ == tick) return true;
   const std::uint64_t from = tick_ ? *tick_ + 1 : *next_;
   tick_.reset();
-  // Poses are those of the tick; of all ticks before it, what had changed counts.
+  // The poses are those of the tick. Attributes accumulate the changes of all ticks before it.
   AttributeChanges changes;
   while (NextRecord(tick))
   {

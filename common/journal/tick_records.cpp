@@ -140,7 +140,8 @@ TickRecordReader::TickRecordReader(std::span<const char> content, std::uint64_t 
   const auto packed = reader.GetArray<char>();
   bytes_ = reader.GetArray<char>();
   rest_ = ByteReader(bytes_);
-  // A number has a width for eight ticks, and a tick some bytes of the rest: no length is believed before.
+  // Each eight ticks of a number take at least a byte of width, and each tick some bytes of the rest. A larger stated
+  // length is refused before memory is allocated.
   if (left_ == 0 || left_ > bytes_.size() || row_ > widths.size() || poses_ > row_)
     throw std::runtime_error("journal: the rows of a block are none");
   if (with_numbers_) numbers_ = UnpackRows(widths, packed, left_, row_, poses_);

@@ -1,6 +1,6 @@
-// What a journal keeps of each tick, and how many ticks become the content of one block. Rows of doubles, one a tick,
-// are stored number after number, each as its difference, as an integer, from what the ticks before let expect: smooth
-// motion becomes small numbers, which compress well.
+// The content that a journal keeps of each tick, and the packing of ticks into one block. Rows of doubles, one a tick,
+// are stored column by column (packed_rows.h). Each number is stored as its integer difference from the value that
+// earlier ticks predict. Smooth motion gives small differences, which compress well.
 #pragma once
 
 #include <cstdint>
@@ -16,53 +16,52 @@
 namespace swarmanoid
 {
 
-// All that the processes of a run took in at a tick.
+// All inputs of a run's processes at a tick.
 struct TickRecord
 {
-  SpaceState state;                       // as it was sent
-  bool save = false;                      // likewise: it asked for saved states
-  std::vector<SensorFrame> frames;        // of the tick, of all engines in their order; empty at the first one
-  std::vector<ControlCommands> commands;  // of all hosts, in their order; none at the last tick of a run
+  SpaceState state;                       // as sent to the processes
+  bool save = false;                      // as sent: whether the server asked for saved states
+  std::vector<SensorFrame> frames;        // frames of the tick, of all engines in their order; empty at the first tick
+  std::vector<ControlCommands> commands;  // commands of all hosts, in their order; empty at the last tick of a run
 };
 
-// Whether both are the same to the last bit.
+// Returns whether both have the same bits.
 bool SameBits(const std::vector<double>& a, const std::vector<double>& b);
 
-// Some ticks in a row. Filled by the thread of the ticks, which allocates nothing once the buffers have grown.
+// Consecutive ticks. The thread of the ticks fills the object, and allocates nothing once the buffers have grown.
 class TickRows
 {
 public:
   bool Empty() const { return ticks_ == 0; }
   std::uint32_t Ticks() const { return ticks_; }
   std::uint64_t FirstTick() const { return first_tick_; }
-  // Of what Content will be, but for the newest ticks.
+  // Returns the size of the future Content without the newest ticks.
   std::size_t Bytes() const { return numbers_.Widths().size() + numbers_.Bytes().size() + rest_.Bytes().size(); }
-  // False, and nothing happens, if the rows of the record are not as long as those here, or of other hosts.
+  // Adds a tick. Returns false and adds nothing if the rows have another length or belong to other hosts.
   bool Add(const SpaceState& state, bool save, std::span<const SensorFrame> frames,
            std::span<const ControlCommands> commands);
   void Clear();
-  // The content of a block, in `room`, which is kept for the next one. Nothing can be added any more until Clear.
+  // Returns the content of a block, in `room`, which is kept for the next block. Nothing can be added until Clear.
   std::span<const char> Content(ReusedMemory& room);
 
 private:
   std::uint64_t first_tick_ = 0;
   std::uint32_t ticks_ = 0;
-  std::size_t poses_ = 0;  // in a row
+  std::size_t poses_ = 0;  // in each row
   std::size_t others_ = 0;
-  std::size_t hosts_ = 0;  // none at the last tick of a run
-  RowPacker numbers_;      // a row: poses, frames, commands
+  std::size_t hosts_ = 0;  // 0 at the last tick of a run
+  RowPacker numbers_;      // packs rows of poses, frames and commands
   ByteWriter rest_;
 };
 
-// Takes the content of a block apart, record by record.
+// Reads the content of a block, record by record.
 class TickRecordReader
 {
 public:
-  // `ticks`: not more than these, of the first ones. `with_numbers`: else records lack poses, frames and commands, for
-  // who wants to know quickly what else there was.
-  // Throws std::runtime_error, as Next does, if the content is none.
+  // `ticks`: reads at most these first ticks. Without `with_numbers`, records lack poses, frames and commands, which is
+  // faster. Throws std::runtime_error, as Next does, if the content is invalid.
   TickRecordReader(std::span<const char> content, std::uint64_t ticks, bool with_numbers = true);
-  // False after the last one.
+  // Returns false after the last record.
   bool Next(TickRecord& record);
 
 private:
@@ -77,7 +76,7 @@ private:
   ByteReader rest_;
 };
 
-// What the journal is of.
+// The origin of the journal's run.
 struct JournalStart
 {
   CheckpointOrigin origin;
@@ -85,7 +84,7 @@ struct JournalStart
   std::uint64_t first_tick = 0;
 };
 
-// The contents of the other kinds of blocks.
+// Return the contents of the other kinds of blocks.
 std::vector<char> ContentOf(const JournalStart& start);
 JournalStart ReadStart(std::span<const char> content);
 std::vector<char> ContentOf(const SpaceSnapshot& snapshot);

@@ -38,7 +38,7 @@ spdlog::level::level_enum SpdlogLevel(LogLevel level)
 std::shared_ptr<spdlog::logger> MakeLogger(const std::string& process, std::vector<spdlog::sink_ptr> sinks)
 {
   auto logger = std::make_shared<spdlog::logger>(process, sinks.begin(), sinks.end());
-  logger->set_level(spdlog::level::debug);  // each sink has its own
+  logger->set_level(spdlog::level::debug);  // each sink has its own level
   logger->flush_on(spdlog::level::debug);
   logger->set_error_handler(
       [process](const std::string& message)
@@ -57,7 +57,7 @@ spdlog::sink_ptr StderrSink(LogLevel level)
   return sink;
 }
 
-// Lives to the end of the process: destructors of static objects may log.
+// The logger lives to the end of the process, since destructors of static objects may log.
 std::shared_ptr<spdlog::logger>& CurrentLogger()
 {
   static auto* logger = new std::shared_ptr<spdlog::logger>(MakeLogger("swarmanoid", {StderrSink(LogLevel::kWarning)}));
@@ -72,7 +72,7 @@ void OpenLog(const LogSettings& settings)
   if (!settings.folder.empty())
   {
     const std::string path = (std::filesystem::path(settings.folder) / (settings.process + ".log")).string();
-    // Opened here first, because spdlog tries five times and then tells no cause.
+    // The file is opened here first, because spdlog tries five times and then reports no cause.
     std::FILE* file = OpenOutputFile(path, true);
     if (file == nullptr)
       throw std::runtime_error("cannot write the log " + path + ": " + std::generic_category().message(errno));
@@ -85,7 +85,7 @@ void OpenLog(const LogSettings& settings)
   CurrentLogger() = MakeLogger(settings.process, std::move(sinks));
 }
 
-// Controllers log what they like, and a log may be read on a terminal.
+// Control characters are replaced, since controllers log any text and a log may be read on a terminal.
 void Log(LogLevel level, std::string_view text)
 {
   if (!IsShowable(text)) return Log(level, Showable(text));

@@ -1,5 +1,5 @@
-// The log of one process: a file in the run directory, and the more serious records on standard error too. Used by
-// every program; any thread may log. Not for results: those go to standard output or to files of their own.
+// The log of one process: a file in the run directory, and warnings and errors on standard error too. Every program
+// uses it; any thread may log. Results do not belong here: they go to standard output or to their own files.
 #pragma once
 
 #include <fmt/format.h>
@@ -13,16 +13,16 @@ namespace swarmanoid
 
 enum class LogLevel
 {
-  kDebug,    // for whoever debugs the simulator
+  kDebug,    // for debugging the simulator
   kInfo,     // the course of the run: connected, started, stopped
-  kWarning,  // the run goes on, but not as asked
+  kWarning,  // the run continues, but not as requested
   kError     // why the process ends
 };
 
 struct LogSettings
 {
-  std::string process = "swarmanoid";  // its name in the records and of the file: "engine_worker-ground"
-  std::string folder = "";             // of <process>.log; empty: no file
+  std::string process = "swarmanoid";  // its name in records and of the file: "engine_worker-ground"
+  std::string folder = "";             // the folder of <process>.log; empty: no file
   LogLevel file_level = LogLevel::kInfo;
   LogLevel stderr_level = LogLevel::kWarning;
 };
@@ -31,8 +31,8 @@ struct LogSettings
 // Throws std::runtime_error, with the path and the cause, if the file cannot be written.
 void OpenLog(const LogSettings& settings);
 
-// Each record is written through at once, so that the file of a killed process is complete. A full disk loses records
-// (said once, on standard error), never the run.
+// Writes each record through at once, so that the file of a killed process is complete. A full disk loses records
+// (reported once, on standard error), never the run.
 void Log(LogLevel level, std::string_view text);
 
 template <class... Arguments>

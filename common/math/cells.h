@@ -1,6 +1,6 @@
-// Space cut into equal cells, and what lies in each: what every search by place is made from (the indexes of the space,
-// the sensors' grids, the engines' broad phase, the placing of bodies). Points outside belong to the nearest cell, what
-// is not a number to the first.
+// Divides space into equal cells and sorts entities into them. All searches by position use it: the indexes of the
+// space, the sensors' grids, the engines' broad phase, and the placing of bodies. Points outside belong to the nearest
+// cell; NaN belongs to the first cell.
 #pragma once
 
 #include <algorithm>
@@ -17,10 +17,10 @@
 namespace swarmanoid
 {
 
-// How many cells of an edge cover a length (m): at least one.
+// Returns how many cells of an edge cover a length (m): at least one.
 inline double CellsAcross(double length, double edge) { return std::max(1.0, std::ceil(length / edge)); }
 
-// The edge (m) of cells that cut a rectangle or a box into no more than `most`: `smallest` where it may be.
+// Returns the edge (m) of cells that cut a rectangle or a box into at most `most` cells: `smallest` if possible.
 template <std::size_t kAxes>
 double CellEdge(std::array<double, kAxes> extent, double smallest, double most)
 {
@@ -57,7 +57,7 @@ struct CellAxis
   std::uint32_t Count() const { return static_cast<std::uint32_t>(last) + 1; }
   std::uint32_t CellOf(Number at) const
   {
-    // Clamped before the conversion: a position may be anywhere.
+    // The value is clamped before the conversion, since a position may be any number.
     const Number cell = (at - start) * inverse_edge;
     return static_cast<std::uint32_t>(std::min(cell > 0 ? cell : Number{0}, last));
   }
@@ -68,11 +68,11 @@ template <class Number>
 struct PlaneCells
 {
   CellAxis<Number> columns, rows;
-  std::uint32_t stride = 1;  // from a cell to that above it
+  std::uint32_t stride = 1;  // from a cell to the one above it
   std::uint32_t first = 0;   // the cell at the lower left
 
   PlaneCells() = default;
-  // `ring`: with empty cells around all others, so that each of these has eight neighbours.
+  // `ring`: adds empty cells around all others, so that each of the others has eight neighbours.
   PlaneCells(double left, double bottom, double width, double height, double edge, bool ring = false)
       : columns(left, width, edge),
         rows(bottom, height, edge),
@@ -81,11 +81,11 @@ struct PlaneCells
   {
   }
 
-  // Those of the ring too.
+  // Returns the number of cells, including those of the ring.
   std::size_t Count() const { return std::size_t{stride} * (rows.Count() + (first > 0 ? 2 : 0)); }
   std::uint32_t Cell(std::uint32_t column, std::uint32_t row) const { return first + row * stride + column; }
   std::uint32_t CellOf(Number x, Number y) const { return Cell(columns.CellOf(x), rows.CellOf(y)); }
-  // The cells of many points.
+  // Finds the cells of many points.
   void FindCells(std::span<const double> x, std::span<const double> y,
                  std::uint32_t* cells) const requires std::same_as<Number, double>
   {
@@ -121,7 +121,7 @@ struct BoxCells
   CellAxis<double> layers;
 
   std::size_t Count() const { return plane.Count() * layers.Count(); }
-  // As those of the plane.
+  // Finds the cells of many points, as for the plane.
   void FindCells(std::span<const double> x, std::span<const double> y, std::span<const double> z,
                  std::uint32_t* cells) const
   {
@@ -142,38 +142,38 @@ struct BoxCells
   }
 };
 
-// A counting sort: gives each member a place, so that those of a cell stand together, in their own order. Sorting again
-// allocates nothing.
+// A counting sort. It assigns each member an index so that the members of a cell are adjacent, in their original order.
+// Sorting again allocates nothing.
 class CellSort
 {
 public:
   void SetCells(std::size_t cells) { start_.assign(cells + 2, 0); }
-  // To be filled with the cell of each member before Sort.
+  // Returns an array to be filled with the cell of each member before Sort.
   std::span<std::uint32_t> Cells(std::size_t members)
   {
     cell_.resize(members);
     return cell_;
   }
-  // Calls put(member, place) for all.
+  // Calls put(member, index) for all members.
   template <class Put>
   void Sort(const Put& put)
   {
-    // Counts two places up: after the last loop, start_[c] is where cell c begins.
+    // Counts are stored two entries up, so that after the last loop start_[c] is the first index of cell c.
     std::fill(start_.begin(), start_.end(), 0U);
     std::uint32_t* const start = start_.data();
     for (const std::uint32_t cell : cell_) ++start[cell + 2];
     for (std::size_t c = 2; c < start_.size(); ++c) start[c] += start[c - 1];
     for (std::size_t member = 0; member < cell_.size(); ++member) put(member, start[cell_[member] + 1]++);
   }
-  // Of each cell its first place; that of the next cell is behind its last.
+  // Returns the first index of each cell; the next entry is one past its last index.
   const std::uint32_t* Starts() const { return start_.data(); }
 
 private:
-  std::vector<std::uint32_t> start_;  // of each cell, and two more
-  std::vector<std::uint32_t> cell_;   // of each member
+  std::vector<std::uint32_t> start_;  // by cell, and two more
+  std::vector<std::uint32_t> cell_;   // by member
 };
 
-// What stays where it is and lies in any number of cells: listed in each, in the order in which it came.
+// Lists of static members in any number of cells. Each cell lists its members in the order of their arrival.
 class CellLists
 {
 public:
@@ -182,7 +182,7 @@ public:
     cells_.push_back(cell);
     members_.push_back(member);
   }
-  // All have come.
+  // Completes the lists after all members were added.
   void Close(std::size_t cells)
   {
     sort_.SetCells(cells);
@@ -191,14 +191,14 @@ public:
     sort_.Sort([this](std::size_t member, std::uint32_t place) { listed_[place] = members_[member]; });
     cells_ = members_ = {};
   }
-  // The lists of a range of cells, one behind the other.
+  // Returns the lists of a range of cells, one behind the other.
   std::span<const std::uint32_t> In(std::uint32_t first, std::uint32_t last) const
   {
     const std::uint32_t* const start = sort_.Starts();
     return {listed_.data() + start[first], start[last + 1] - start[first]};
   }
   std::span<const std::uint32_t> In(std::uint32_t cell) const { return In(cell, cell); }
-  // Fetches into the cache what In will look at.
+  // Prefetches the entries that In will read.
   void Prefetch(std::uint32_t cell) const { __builtin_prefetch(sort_.Starts() + cell); }
 
 private:

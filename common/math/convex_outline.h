@@ -1,4 +1,4 @@
-// The convex hull of points of a plane: what the engines of planes cut, and what plans draw.
+// The convex hull of points in a plane, for the engines on planes and for drawing plans.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 namespace swarmanoid
 {
 
-// Counter-clockwise from the point that is farthest to the left, by A. M. Andrew's monotone chain (1979); points on an
+// Returns the hull counter-clockwise from the leftmost point, by A. M. Andrew's monotone chain (1979). Points on an
 // edge, to a square micrometre, are dropped. Empty for less than two points.
 std::vector<Vector2> ConvexOutline(std::vector<Vector2> points);
 

@@ -38,7 +38,7 @@ double CosPolynomial(double x)
   return 1.0 - 0.5 * z + z * z * p;
 }
 
-// atan(x) for |x| <= tan(pi/16): alternating series up to x^23.
+// Computes atan(x) for |x| <= tan(pi/16) by the alternating series up to x^23.
 double AtanSeries(double x)
 {
   const double z = x * x;
@@ -56,7 +56,7 @@ double AtanSeries(double x)
   return x + x * z * p;
 }
 
-// atan(x) for 0 <= x <= 1: reduced by the angle pi/8 (tan = sqrt(2) - 1) or pi/4.
+// Computes atan(x) for 0 <= x <= 1, reduced by the angle pi/8 (tan = sqrt(2) - 1) or pi/4.
 double AtanUnit(double x)
 {
   constexpr double kTan8 = 0.41421356237309503;
@@ -70,7 +70,7 @@ double AtanUnit(double x)
 
 SinCos SinCosOf(double x)
 {
-  // Cody-Waite reduction by pi/2 in three parts.
+  // The argument is reduced by pi/2 in three parts (Cody and Waite).
   const double quotient = x * (2.0 / kPi);
   const double n = (quotient + kRounder) - kRounder;
   double r = x - n * 1.5707963267341256;
@@ -108,7 +108,8 @@ double Atan2(double y, double x)
 void Atan2Each(std::span<const double> y, std::span<const double> x, std::span<double> angles)
 {
   constexpr double kTan8 = 0.41421356237309503;
-  // Selections instead of branches, so that the compiler computes several angles at once; the steps are those of Atan2.
+  // The loop selects instead of branching, so that the compiler computes several angles at once. The steps are those of
+  // Atan2.
   for (std::size_t i = 0; i < angles.size(); ++i)
   {
     const double ax = x[i] < 0 ? -x[i] : x[i];
@@ -151,7 +152,7 @@ double Exp(double x)
   const double r = (x - n * 6.93147180369123816490e-01) - n * 1.90821492927058770002e-10;
   double p = 1.0;
   for (int k = 14; k >= 1; --k) p = 1.0 + p * (r / k);
-  // Two factors, so that the smallest results are reached too.
+  // The scale is applied as two factors, so that the smallest results are reached too.
   const auto exponent = static_cast<int>(n);
   const int half = exponent / 2;
   const auto power = [](int e) { return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52); };

@@ -16,21 +16,21 @@ struct SinCos
   double cos;
 };
 
-// |x| up to 1e5: absolute error below 3e-16. Larger arguments lose accuracy in proportion to |x|.
+// For |x| up to 1e5 the absolute error is below 3e-16. Larger arguments lose accuracy in proportion to |x|.
 SinCos SinCosOf(double x);
 double Sin(double x);
 double Cos(double x);
-// In -pi..pi; Atan2(0, 0) is 0.
+// Returns an angle in -pi..pi; Atan2(0, 0) is 0.
 double Atan2(double y, double x);
-// Atan2 of each pair, the same bits, several at a time.
+// Computes Atan2 of each pair with the same bits, several at a time.
 void Atan2Each(std::span<const double> y, std::span<const double> x, std::span<double> angles);
-// Arguments outside -1..1 are clamped.
+// Clamps arguments outside -1..1.
 double Asin(double x);
 double Acos(double x);
 double Exp(double x);
-// Natural logarithm; x must be positive and finite.
+// Returns the natural logarithm; x must be positive and finite.
 double Log(double x);
-// x wrapped to -pi..pi.
+// Returns x wrapped to -pi..pi.
 double WrapAngle(double x);
 
 inline double DegreesToRadians(double degrees) { return degrees * (kPi / 180.0); }

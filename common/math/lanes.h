@@ -1,5 +1,5 @@
-// A few numbers at a time: explicit vectors for the inner loops of sensors, engines and grids. Eight floats and four
-// doubles where the processor has them; all operations work lane by lane, so that their number changes no result.
+// Explicit vectors for the inner loops of sensors, engines and grids: eight floats and four doubles if the processor
+// has them. All operations work lane by lane, so that the number of lanes changes no result.
 #pragma once
 
 #include <array>
@@ -28,10 +28,10 @@ typedef std::int32_t IntLanes __attribute__((vector_size(kLanes * sizeof(float))
 typedef double DoubleLanes __attribute__((vector_size(kDoubleLanes * sizeof(double))));
 typedef std::int64_t LongLanes __attribute__((vector_size(kDoubleLanes * sizeof(double))));
 typedef std::uint8_t ByteLanes __attribute__((vector_size(kByteLanes)));
-// As many integers as there are double lanes.
+// Has as many integers as there are double lanes.
 typedef std::int32_t HalfIntLanes __attribute__((vector_size(kDoubleLanes * sizeof(std::int32_t))));
 
-// At any address.
+// Loads lanes from any address.
 template <class Lanes, class Number>
 Lanes LoadAs(const Number* from)
 {
@@ -48,7 +48,7 @@ inline void StoreLanes(IntLanes lanes, std::int32_t* to) { std::memcpy(to, &lane
 inline void StoreLanes(DoubleLanes lanes, double* to) { std::memcpy(to, &lanes, sizeof lanes); }
 inline void StoreLanes(HalfIntLanes lanes, std::int32_t* to) { std::memcpy(to, &lanes, sizeof lanes); }
 inline void StoreLanes(ByteLanes lanes, std::uint8_t* to) { std::memcpy(to, &lanes, sizeof lanes); }
-// The lowest byte of each lane.
+// Stores the lowest byte of each lane.
 inline void StoreLowBytes(IntLanes lanes, std::uint8_t* to)
 {
 #if defined(__AVX2__)
@@ -60,7 +60,7 @@ inline void StoreLowBytes(IntLanes lanes, std::uint8_t* to)
   for (int i = 0; i < kLanes; ++i) to[i] = static_cast<std::uint8_t>(lanes[i]);
 #endif
 }
-// The difference of kLanes doubles to one, in single precision.
+// Returns the differences between kLanes doubles and one double, in single precision.
 inline FloatLanes Differences(const double* from, double other)
 {
 #if defined(__AVX__)
@@ -73,7 +73,7 @@ inline FloatLanes Differences(const double* from, double other)
   return lanes;
 #endif
 }
-// value(0), value(1) … in the lanes.
+// Returns value(0), value(1) … in the lanes.
 template <class Value>
 DoubleLanes InLanes(const Value& value)
 {
@@ -82,7 +82,7 @@ DoubleLanes InLanes(const Value& value)
   else
     return DoubleLanes{value(0), value(1)};
 }
-// A number from each of these places.
+// Returns a number from each of these indices.
 inline FloatLanes Gathered(const float* from, IntLanes places)
 {
 #if defined(__AVX2__)
@@ -96,7 +96,7 @@ inline FloatLanes Gathered(const float* from, IntLanes places)
 inline DoubleLanes Gathered(const double* from, HalfIntLanes places)
 {
 #if defined(__AVX2__)
-  // GCC calls the register that the unmasked one starts from uninitialised.
+  // The masked form is used, since GCC reports the start register of the unmasked one as uninitialised.
   const __m256d all = reinterpret_cast<__m256d>(LongLanes{} - 1);
   return _mm256_mask_i32gather_pd(DoubleLanes{}, from, reinterpret_cast<__m128i>(places), all, sizeof(double));
 #else
@@ -113,7 +113,7 @@ inline IntLanes Gathered(const std::int32_t* from, IntLanes places)
   return lanes;
 #endif
 }
-// Three bytes behind each place must be readable.
+// Three bytes behind each index must be readable.
 inline IntLanes Gathered(const std::uint8_t* from, IntLanes places)
 {
 #if defined(__AVX2__)
@@ -126,12 +126,12 @@ inline IntLanes Gathered(const std::uint8_t* from, IntLanes places)
 #endif
 }
 
-// (Adding to 0 would be a second instruction: it turns -0 into 0.)
+// (Adding to 0 would take a second instruction, since it turns -0 into 0.)
 inline FloatLanes Everywhere(float value) { return value - FloatLanes{}; }
 inline DoubleLanes Everywhere(double value) { return value - DoubleLanes{}; }
 inline IntLanes Everywhere(int value) { return IntLanes{} + value; }
 inline ByteLanes Everywhere(std::uint8_t value) { return ByteLanes{} + value; }
-// b where either is not a number.
+// Returns b if either is not a number.
 inline FloatLanes Minimum(FloatLanes a, FloatLanes b) { return a < b ? a : b; }
 inline DoubleLanes Minimum(DoubleLanes a, DoubleLanes b) { return a < b ? a : b; }
 inline ByteLanes Minimum(ByteLanes a, ByteLanes b) { return a < b ? a : b; }
@@ -139,10 +139,10 @@ inline FloatLanes Maximum(FloatLanes a, FloatLanes b) { return a > b ? a : b; }
 inline DoubleLanes Maximum(DoubleLanes a, DoubleLanes b) { return a > b ? a : b; }
 inline ByteLanes Maximum(ByteLanes a, ByteLanes b) { return a > b ? a : b; }
 inline FloatLanes Magnitude(FloatLanes lanes) { return lanes < 0 ? -lanes : lanes; }
-// Towards zero; the values must fit.
+// Rounds towards zero; the values must fit.
 inline IntLanes Truncated(FloatLanes lanes) { return __builtin_convertvector(lanes, IntLanes); }
 inline HalfIntLanes Truncated(DoubleLanes lanes) { return __builtin_convertvector(lanes, HalfIntLanes); }
-// 0, 1, 2 …
+// Returns 0, 1, 2 …
 inline IntLanes LaneNumbers()
 {
 #if defined(__AVX__)
@@ -151,10 +151,10 @@ inline IntLanes LaneNumbers()
   return IntLanes{0, 1, 2, 3};
 #endif
 }
-// The first `count` lanes -1, the others 0.
+// Returns -1 in the first `count` lanes, 0 in the others.
 inline IntLanes FirstLanes(std::size_t count) { return LaneNumbers() < static_cast<int>(count); }
 
-// Of each four lanes, in all four of them.
+// Returns the lowest of each four lanes, in all four of them.
 inline FloatLanes LowestOfFour(FloatLanes lanes)
 {
 #if defined(__AVX__)
@@ -165,7 +165,7 @@ inline FloatLanes LowestOfFour(FloatLanes lanes)
   return Minimum(lanes, __builtin_shufflevector(lanes, lanes, 1, 0, 3, 2));
 #endif
 }
-// Of all lanes.
+// Returns the lowest of all lanes.
 inline float Lowest(FloatLanes lanes)
 {
   lanes = LowestOfFour(lanes);
@@ -173,7 +173,7 @@ inline float Lowest(FloatLanes lanes)
 }
 inline float Highest(FloatLanes lanes) { return -Lowest(-lanes); }
 
-// Correctly rounded, as IEEE demands.
+// The result is correctly rounded, as IEEE requires.
 inline FloatLanes SquareRoot(FloatLanes lanes)
 {
 #if defined(__AVX__)
@@ -197,7 +197,7 @@ inline DoubleLanes SquareRoot(DoubleLanes lanes)
 #endif
 }
 
-// One bit for each lane that is not 0, as comparisons give them (-1 or 0); lane 0 is the lowest.
+// Returns one bit for each lane that is not 0; comparisons give -1 or 0. Lane 0 is the lowest bit.
 template <class Lanes>
 unsigned LaneMask(Lanes lanes)
 {
@@ -218,7 +218,7 @@ unsigned LaneMask(Lanes lanes)
 #endif
 }
 
-// Likewise of bytes.
+// Does the same for lanes of bytes.
 template <class Lanes>
 std::uint32_t ByteMask(Lanes lanes)
 {
@@ -269,7 +269,7 @@ public:
 #endif
   }
 
-  // kLanes numbers.
+  // Stores kLanes numbers.
   void Store(const double* from, double* to) const
   {
 #if defined(__AVX2__)
@@ -299,7 +299,7 @@ private:
         if (mask >> lane & 1U) orders[mask] |= std::uint64_t{lane} << (8 * place++);
     return orders;
   }
-  // The same for masks of four, each bit standing for two lanes.
+  // Computes the same for masks of four, in which each bit stands for two lanes.
   static constexpr std::array<std::uint64_t, 16> MakePairOrders()
   {
     std::array<std::uint64_t, 16> orders{};
@@ -308,7 +308,7 @@ private:
         if (mask >> lane & 1U) orders[mask] |= std::uint64_t{2 * lane | (2 * lane + 1) << 8} << (16 * place++);
     return orders;
   }
-  // For each mask its set bits, a byte each.
+  // For each mask, the numbers of its set bits, one byte each.
   static const std::array<std::uint64_t, 256> kOrders;
   static const std::array<std::uint64_t, 16> kPairOrders;
   __m256i order_;

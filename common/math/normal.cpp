@@ -11,7 +11,8 @@ namespace swarmanoid
 namespace
 {
 
-// AS 241, PPND16: rational approximations of the middle, of the flanks and of the far tails; highest power first.
+// The coefficients of AS 241, PPND16: rational approximations of the middle, the flanks and the far tails, highest
+// power first.
 constexpr std::array kMiddleNumerator{2.5090809287301226727e3, 3.3430575583588128105e4, 6.7265770927008700853e4,
                                       4.5921953931549871457e4, 1.3731693765509461125e4, 1.9715909503065514427e3,
                                       1.3314166789178437745e2, 3.3871328727963666080};
@@ -46,11 +47,11 @@ inline Number Quotient(const std::array<double, 8>& numerator, const std::array<
   return above / below;
 }
 
-// The bits of Log, of normal numbers above 0.
+// Returns the same bits as Log, for normal numbers above 0.
 DoubleLanes LogOf(DoubleLanes x)
 {
   const auto bits = reinterpret_cast<LongLanes>(x);
-  // Behind 2^52 as a double.
+  // The exponent is placed behind 2^52 as a double.
   DoubleLanes exponent = reinterpret_cast<DoubleLanes>(bits >> 52 | 0x4330000000000000) - 0x1p52 - 1023.0;
   DoubleLanes mantissa = reinterpret_cast<DoubleLanes>((bits & 0xfffffffffffff) | 0x3ff0000000000000);
   const auto is_large = mantissa > 1.4142135623730951;
@@ -63,14 +64,14 @@ DoubleLanes LogOf(DoubleLanes x)
   return exponent * 6.93147180369123816490e-01 + (2.0 * s + (2.0 * s * z * p + exponent * 1.90821492927058770002e-10));
 }
 
-// Of masses beyond the middle.
+// Returns the quantiles of masses beyond the middle.
 DoubleLanes FlankQuantiles(DoubleLanes mass)
 {
   const DoubleLanes away = mass < 0 ? -mass : mass;
   const DoubleLanes r = SquareRoot(-LogOf(0.5 - away));
   DoubleLanes x = Quotient(kFlankNumerator, kFlankDenominator, r - 1.6);
   x = mass < 0 ? -x : x;
-  // So rare that one by one will do: the far tails, and what Log takes apart.
+  // The far tails, and the numbers that Log treats specially, are so rare that they are computed one by one.
   ForEachBit(LaneMask(~(r <= 5.0)), [&](unsigned lane) { x[lane] = NormalQuantile(mass[lane]); });
   return x;
 }
@@ -89,7 +90,7 @@ double NormalQuantile(double mass)
 
 void NormalQuantiles(std::span<double> masses)
 {
-  // All as if they were of the middle, then those that are not.
+  // All masses are computed as if they were in the middle; then those outside are computed again.
   constexpr std::size_t kBlock = 256;
   std::array<double, kBlock + kDoubleLanes> flanks;
   std::array<std::uint32_t, kBlock + 1> places;
@@ -101,7 +102,7 @@ void NormalQuantiles(std::span<double> masses)
     for (std::size_t i = begin; i < end; i += kDoubleLanes)
     {
       const DoubleLanes mass = LoadLanes(&masses[i]);
-      // Without a branch: which of them are there nobody can foretell.
+      // The mask avoids a branch, which the processor could not predict.
       const unsigned mask = LaneMask((mass > kMiddle) | (mass < -kMiddle));
       for (unsigned lane = 0; lane < kDoubleLanes; ++lane)
       {
@@ -125,7 +126,7 @@ void NormalQuantiles(std::span<double> masses)
 double NormalMass(double x)
 {
   constexpr double kRootOfTwoPi = 2.50662827463100050242;
-  if (x > 8.5) return 0.5;  // what lies beyond is below the last bit
+  if (x > 8.5) return 0.5;  // the rest is below the last bit
   const double square = x * x;
   double term = x;
   double sum = x;

@@ -1,5 +1,5 @@
-// The normal distribution with the same bits on every processor, on the functions of elementary.h. Used by random
-// numbers and by the noise of devices.
+// The normal distribution with the same bits on every processor, based on the functions of elementary.h. Random numbers
+// and the noise of devices use it.
 #pragma once
 
 #include <span>
@@ -7,14 +7,16 @@
 namespace swarmanoid
 {
 
-// The x with Phi(x) = 1/2 + mass: the standard normal distribution inverted about its middle. |mass| must be below 1/2.
-// Relative error below 1e-15 (Wichura, "The percentage points of the normal distribution", algorithm AS 241, 1988).
+// Returns the x with Phi(x) = 1/2 + mass: the inverse of the standard normal distribution about its middle. |mass| must
+// be below 1/2. The relative error is below 1e-15 (Wichura, "The percentage points of the normal distribution",
+// algorithm AS 241, 1988).
 double NormalQuantile(double mass);
-// In place, the same bits, several at a time.
+// Computes the same bits in place, several at a time.
 void NormalQuantiles(std::span<double> masses);
 
-// Phi(x) - 1/2, the mass between 0 and x; x must not be negative. Relative error below 1e-14 (the series of Marsaglia,
-// "Evaluating the normal distribution", 2004). Takes up to 200 steps: for tables, not for inner loops.
+// Returns Phi(x) - 1/2, the mass between 0 and x; x must not be negative. The relative error is below 1e-14 (the series
+// of Marsaglia, "Evaluating the normal distribution", 2004). It takes up to 200 steps: use it for tables, not for inner
+// loops.
 double NormalMass(double x);
 
 }  // namespace swarmanoid

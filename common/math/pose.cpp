@@ -21,7 +21,7 @@ EulerAngles EulerFromQuaternion(const Quaternion& q)
   angles.beta = Asin(sin_beta);
   if (sin_beta > 0.999999999 || sin_beta < -0.999999999)
   {
-    // Gimbal lock: only the sum or the difference of alpha and gamma is defined; all of it goes to gamma.
+    // In gimbal lock only the sum or the difference of alpha and gamma is defined; all of it goes to gamma.
     angles.gamma = Atan2(2 * (q.w() * q.z() - q.x() * q.y()), 1 - 2 * (q.x() * q.x() + q.z() * q.z()));
     return angles;
   }

@@ -18,7 +18,7 @@ struct Pose
 
   // Maps a point of this frame to the outer frame.
   Vector3 Apply(const Vector3& local) const { return position + orientation * local; }
-  // This pose, followed by a pose given in its frame.
+  // Returns this pose, followed by a pose given in its frame.
   Pose Compose(const Pose& local) const { return {Apply(local.position), orientation * local.orientation}; }
   Pose Inverse() const
   {
@@ -38,7 +38,7 @@ struct EulerAngles
 
 Quaternion QuaternionFromEuler(const EulerAngles& angles);
 EulerAngles EulerFromQuaternion(const Quaternion& orientation);
-// The heading (radians, -pi..pi) of an orientation: its gamma.
+// Returns the heading (radians, -pi..pi) of an orientation: its gamma.
 double YawOf(const Quaternion& orientation);
 Quaternion QuaternionFromYaw(double yaw);
 

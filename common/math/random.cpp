@@ -41,7 +41,7 @@ double RandomStream::Uniform()
 
 double RandomStream::Centred()
 {
-  // The middle of one of 2^53 equal parts: an odd number of 2^-54, exact.
+  // The result is the middle of one of 2^53 equal parts: an odd multiple of 2^-54, exact.
   const std::uint64_t high = Bits();
   const std::uint64_t low = Bits();
   const auto part = static_cast<std::int64_t>(((high << 32) | low) >> 11);
@@ -60,7 +60,7 @@ double RandomStream::TruncatedGaussian(double mean, double deviation, double ran
 
 std::uint32_t RandomStream::Below(std::uint32_t count)
 {
-  // Lemire's multiplication; the bias is below count / 2^32.
+  // This is Lemire's multiplication; the bias is below count / 2^32.
   return static_cast<std::uint32_t>((static_cast<std::uint64_t>(Bits()) * count) >> 32);
 }
 

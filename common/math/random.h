@@ -1,7 +1,7 @@
-// Counter-based random numbers (Philox4x32-10, Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", 2011).
-// A stream is named, not passed on: by the seed, who draws (an id), for what (a device, a step), when (the tick) and
-// with whom (another entity, an LED). So neither the order of evaluation nor anybody else's draws can change a number.
-// docs/determinism.md says what stays the same under which change.
+// Counter-based random numbers (Philox4x32-10, Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", 2011). A
+// stream is identified by the seed, the id that draws, the purpose (a device, a step), the tick, and a partner (another
+// entity, an LED). So neither the order of evaluation nor other draws can change a number. docs/determinism.md states
+// what stays the same under which change.
 #pragma once
 
 #include <array>
@@ -11,10 +11,10 @@
 namespace swarmanoid
 {
 
-// The raw generator: ten rounds over a 128-bit counter with a 64-bit key.
+// Computes the raw generator: ten rounds over a 128-bit counter with a 64-bit key.
 std::array<std::uint32_t, 4> Philox4x32(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key);
 
-// A one-to-one mixing of 64 bits, so that near inputs give far outputs (the finaliser of MurmurHash3).
+// Mixes 64 bits one-to-one, so that near inputs give far outputs (the finaliser of MurmurHash3).
 constexpr std::uint64_t MixedBits(std::uint64_t bits)
 {
   bits = (bits ^ bits >> 33) * 0xff51afd7ed558ccdULL;
@@ -22,8 +22,8 @@ constexpr std::uint64_t MixedBits(std::uint64_t bits)
   return bits ^ bits >> 33;
 }
 
-// The stable 64-bit name of an id, a device or a purpose (FNV-1a, mixed). Experiment files with two ids of one name are
-// refused.
+// Returns the stable 64-bit name of an id, a device or a purpose (FNV-1a, mixed). Experiment files with two ids of one
+// name are refused.
 constexpr std::uint64_t StreamName(std::string_view text)
 {
   std::uint64_t hash = 14695981039346656037ULL;
@@ -31,13 +31,14 @@ constexpr std::uint64_t StreamName(std::string_view text)
   return MixedBits(hash);
 }
 
-// The name of a numbered part of what has `name`: an LED of a robot, a wave of a terrain.
+// Returns the name of a numbered part of the owner of `name`: an LED of a robot, a wave of a terrain.
 constexpr std::uint64_t StreamPart(std::uint64_t name, std::uint64_t part)
 {
   return MixedBits(name + (part + 1) * 0x9e3779b97f4a7c15ULL);
 }
 
-// Who draws, and for what, under one seed. Worth keeping by those who draw in every tick: it takes a block of Philox.
+// The id that draws and the purpose, under one seed. Keep it if you draw in every tick, since making it takes a block
+// of Philox.
 class StreamKey
 {
 public:
@@ -53,12 +54,13 @@ private:
   std::array<std::uint32_t, 4> words_;
 };
 
-// The random numbers of one name in one tick. Cheap to make; draws nothing until it is asked. Cannot be copied: the
-// copy would draw the same numbers again.
+// The random numbers of one name in one tick. Making it is cheap; it draws only on request. It cannot be copied, since
+// the copy would draw the same numbers again.
 class RandomStream
 {
 public:
-  // Half of the key's words are Philox's key, the others hide in the words of `whom`: all 128 bits tell streams apart.
+  // Half of the key's words are Philox's key; the others are mixed into the words of `whom`. All 128 bits distinguish
+  // streams.
   RandomStream(const StreamKey& key, std::uint64_t tick, std::uint64_t whom = 0)
       : key_{key.words_[0], key.words_[1]},
         counter_{0, static_cast<std::uint32_t>(tick), key.words_[2] ^ static_cast<std::uint32_t>(whom),
@@ -75,22 +77,23 @@ public:
   RandomStream& operator=(RandomStream&&) = default;
 
   std::uint32_t Bits();
-  // Uniform in [0, 1), 53 random bits.
+  // Returns a uniform number in [0, 1) with 53 random bits.
   double Uniform();
-  // Uniform in [low, high). Where rounding would give `high`, it gives `low`.
+  // Returns a uniform number in [low, high). If rounding would give `high`, it returns `low`.
   double Uniform(double low, double high)
   {
     const double value = low + (high - low) * Uniform();
     return value == high && low < high ? low : value;
   }
-  // Uniform in (-1/2, 1/2), both ends excluded and as near: for those who invert a distribution.
+  // Returns a uniform number in (-1/2, 1/2), with equal distances to both excluded ends, for inverting a distribution.
   double Centred();
-  // Normal with the given mean and standard deviation; like all distributions here by inversion of one Centred().
+  // Returns a normal number with the given mean and standard deviation, by inversion of one Centred(), as all
+  // distributions here.
   double Gaussian(double mean = 0, double deviation = 1);
-  // Normal, given that it lies within mean +- range: no mass at the borders. 0 for `deviation` or `range` gives the
-  // mean. Its deviation is less than `deviation`: docs/devices.md has the closed form.
+  // Returns a normal number, given that it lies within mean +- range: no mass is at the borders. If `deviation` or
+  // `range` is 0, it returns the mean. Its deviation is less than `deviation`: docs/devices.md has the closed form.
   double TruncatedGaussian(double mean, double deviation, double range);
-  // Uniform integer in [0, count); count must be positive.
+  // Returns a uniform integer in [0, count); count must be positive.
   std::uint32_t Below(std::uint32_t count);
 
 private:

@@ -35,7 +35,7 @@ std::atomic<bool>& OwnScope()
   return own_scope;
 }
 
-// Where this library takes sin from, and where the program does.
+// Return the files from which this library and the program take sin.
 std::string OwnFile()
 {
   double (*const own)(double) = &::sin;

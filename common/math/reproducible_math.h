@@ -1,7 +1,7 @@
-// Whether this process computes as every other does: where it takes sin, exp and the like from, and how it rounds.
-// Programs that CMake links to a library of ours take them from libswarmanoid_reproducible_math (docs/determinism.md);
-// one that is linked otherwise may have libm before it, and the bits of ODE and Box2D would then depend on the
-// processor.
+// Checks that this process computes with the same bits as every other: its sources of sin, exp and similar functions,
+// and its rounding. Programs that CMake links to our libraries take these functions from
+// libswarmanoid_reproducible_math (docs/determinism.md). In a program linked in another way, libm may come first; then
+// the bits of ODE and Box2D would depend on the processor.
 #pragma once
 
 #include <cfenv>
@@ -10,16 +10,16 @@
 namespace swarmanoid
 {
 
-// Throws std::runtime_error, with the cure, if this process takes them from elsewhere, or if this thread rounds
-// otherwise than to nearest or counts tiny numbers as 0.
+// Throws std::runtime_error with the cure if this process takes the functions from elsewhere. Also throws if this
+// thread does not round to nearest, or treats subnormal numbers as 0.
 void RequireReproducibleMath();
 
-// Says that our libraries were loaded with RTLD_DEEPBIND by a program that has libm before them (Python): they find
-// their functions among themselves first, and so do those that OpenLibrary loads from then on.
+// States that a program with libm in front (Python) loaded our libraries with RTLD_DEEPBIND. They then find their
+// functions among themselves first, and so do libraries that OpenLibrary loads later.
 void SetOwnScope();
 
-// Restores the floating-point modes of this thread when it ends. Libraries that were linked with -ffast-math set, when
-// they are loaded, that tiny numbers count as 0, for all that the thread computes from then on.
+// Restores the floating-point modes of this thread when it ends. Libraries linked with -ffast-math change the modes
+// when they are loaded, so that subnormal numbers count as 0 in this thread.
 class FloatingPointGuard
 {
 public:
@@ -32,8 +32,8 @@ private:
   std::fenv_t modes_;
 };
 
-// dlopen for the library of a plug-in: its code takes its functions from where ours does, and its loading leaves the
-// floating-point modes of this thread as they are. nullptr: dlerror() says why not.
+// Calls dlopen for the library of a plug-in. Its code uses the same mathematical functions as ours, and the
+// floating-point modes of this thread do not change. Returns nullptr on failure; dlerror() says why.
 void* OpenLibrary(const std::string& path);
 
 }  // namespace swarmanoid

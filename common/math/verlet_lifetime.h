@@ -1,6 +1,6 @@
-// Whether it pays to remember from step to step who is near (a Verlet list): a list that lasts for few steps costs more
-// than it saves, and then none is made for a while. Owned by whoever has such a list and knows when it no longer holds:
-// the kinematic world's pairs, the sensors' MovedSince.
+// Decides whether a list of neighbours is worth keeping from step to step (a Verlet list). A list that lasts for few
+// steps costs more than it saves; then none is made for a while. The owner of the list knows when it becomes invalid:
+// the kinematic world's pairs, and the sensors' MovedSince.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace swarmanoid
 class VerletLifetime
 {
 public:
-  // First in each step. False: no list in this one.
+  // Call it first in each step. Returns false if this step uses no list.
   bool BeginStep()
   {
     if (pause_ > 0)
@@ -23,9 +23,10 @@ public:
     return true;
   }
   bool HasList() const { return has_list_; }
-  // Steps since the list was made.
+  // Returns the steps since the list was made.
   std::uint32_t Age() const { return age_; }
-  // Where there is no list, or it no longer holds. True: one is made now. False: the last one did not pay.
+  // Call it if no list exists or it is invalid. Returns true if a list is to be made now, false if the last one did not
+  // pay.
   bool Renew()
   {
     if (has_list_ && age_ < kFewest)
@@ -37,7 +38,7 @@ public:
     age_ = 0;
     return true;
   }
-  // No list for some steps.
+  // Uses no list for some steps.
   void Pause()
   {
     has_list_ = false;
@@ -45,12 +46,12 @@ public:
   }
 
 private:
-  static constexpr std::uint32_t kFewest = 4;  // steps that pay
+  static constexpr std::uint32_t kFewest = 4;  // the least age at which a list pays
   static constexpr std::uint32_t kPause = 64;
 
   bool has_list_ = false;
   std::uint32_t age_ = 0;
-  std::uint32_t pause_ = 0;  // steps without a list that are to come
+  std::uint32_t pause_ = 0;  // the remaining steps without a list
 };
 
 }  // namespace swarmanoid

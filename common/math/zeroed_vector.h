@@ -1,6 +1,5 @@
-// Arrays that stay zero for the most part. What was never written takes no memory: the system gives a page when
-// something is written into it. Some systems give one also to what is only read, so nothing is read here that is known
-// to be zero.
+// Arrays that are mostly zero. Elements that were never written take no memory, since the system provides a page at the
+// first write. Some systems provide one also at the first read, so known zeros are not read.
 #pragma once
 
 #include <algorithm>
@@ -71,7 +70,7 @@ public:
     if (count > capacity_) Move(std::max(count, 2 * capacity_));
     if (count > size_)
     {
-      // What it had there before may be left up to used_.
+      // Older values may stay in the elements up to used_.
       if (!IsZero(value))
         std::fill(begin() + size_, begin() + count, value);
       else
@@ -99,7 +98,7 @@ public:
     std::swap(capacity_, other.capacity_);
   }
 
-  // By bits: -0.0 is not.
+  // Compares bits: -0.0 is not zero.
   static bool IsZero(T value)
   {
     const T zero{};
@@ -112,7 +111,7 @@ private:
     void operator()(T* memory) const { std::free(memory); }
   };
 
-  // From a vector that is not shorter, when all is zero here.
+  // Copies from a vector that is not shorter, if all elements here are zero.
   void CopyFrom(const ZeroedVector& other)
   {
     for (std::size_t place = 0; place < size_; ++place)
@@ -134,11 +133,11 @@ private:
 
   std::unique_ptr<T[], Free> data_;
   std::size_t size_ = 0;
-  std::size_t used_ = 0;  // behind it nothing was ever written
+  std::size_t used_ = 0;  // the elements from here on were never written
   std::size_t capacity_ = 0;
 };
 
-// The like that knows on which pages something was written, so that nothing is read of others.
+// A ZeroedVector that also records which pages were written, so that other pages are never read.
 template <class T>
 class SparseVector
 {
@@ -162,16 +161,16 @@ public:
     values_[place] = value;
   }
   T operator[](std::size_t place) const { return written_[place / kPage] != 0 ? values_[place] : T{}; }
-  // Zeros from elsewhere where nothing was written; of what is longer than a page, those that stand here.
+  // Returns a part. Unwritten pages come from a shared page of zeros; parts longer than a page are returned in place.
   std::span<const T> Part(std::size_t first, std::size_t count) const
   {
     const bool is_here =
         count > kPage || (count > 0 && (written_[first / kPage] != 0 || written_[(first + count - 1) / kPage] != 0));
     return {is_here ? values_.data() + first : kZeros.data(), count};
   }
-  // Who reads all of these makes them take memory.
+  // Reading all of these makes them take memory.
   std::span<const T> Values() const { return {values_.data(), values_.size()}; }
-  // visit(span): the first `count` numbers, run by run.
+  // Calls visit(span) with the first `count` numbers, run by run.
   template <class Visit>
   void VisitRuns(std::size_t count, Visit&& visit) const
   {
@@ -190,7 +189,7 @@ private:
   static constexpr std::array<T, kPage> kZeros{};
 
   ZeroedVector<T> values_;
-  std::vector<std::uint8_t> written_;  // of each page
+  std::vector<std::uint8_t> written_;  // by page
 };
 
 }  // namespace swarmanoid

@@ -26,11 +26,11 @@ namespace
 
 using Loop = std::vector<std::uint32_t>;
 
-constexpr double kEven = 1e-5;      // of the size: how far corners of one face may be off its plane
-constexpr double kFlattest = 1e-3;  // of the size: a body that is thinner has no inside to speak of
+constexpr double kEven = 1e-5;      // relative to the size: the tolerance for corners of one face
+constexpr double kFlattest = 1e-3;  // relative to the size: a thinner body counts as flat
 
-// Faces as lists of points, in an order that the points alone decide. qhull finds neighbours by the addresses of what
-// it allocates, which may differ from process to process.
+// Returns faces as lists of points, in an order that depends only on the points. qhull itself orders neighbours by the
+// addresses of its allocations, which may differ between processes.
 class Quickhull
 {
 public:
@@ -99,7 +99,7 @@ double SizeOf(std::span<const Vector3> points)
   return box.sizes().maxCoeff();
 }
 
-// Twice the area of a loop times its normal (M. E. Newell), however it lies.
+// Returns twice the area of a loop times its normal (M. E. Newell), in any position.
 Vector3 NewellNormal(const Loop& loop, const std::vector<Vector3>& corners)
 {
   Vector3 sum = Vector3::Zero();
@@ -128,10 +128,11 @@ void AddFaces(std::vector<Loop> loops, ConvexHull& hull)
   }
 }
 
-// False if the faces leave something open.
+// Adds the edges. Returns false if the faces do not close.
 bool AddEdges(ConvexHull& hull)
 {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> face_beside;  // an edge as its face runs along it
+  // from an edge, in the direction of a face, to that face
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> face_beside;
   for (std::uint32_t f = 0; f < hull.faces.size(); ++f)
   {
     const Loop& loop = hull.faces[f].corners;
@@ -152,7 +153,7 @@ void AddMass(ConvexHull& hull)
   const Vector3 apex = MeanOf(hull.corners);
   double six_volumes = 0;
   Vector3 first = Vector3::Zero();                   // 24 times the integral of x
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  // 120 times that of x times x
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  // 120 times the integral of x times x
   for (const ConvexHull::Face& face : hull.faces)
   {
     for (std::size_t k = 2; k < face.corners.size(); ++k)
@@ -174,7 +175,7 @@ void AddMass(ConvexHull& hull)
   hull.inertia = about_centre.trace() * Eigen::Matrix3d::Identity() - about_centre;
 }
 
-// The points that lie farthest out in directions that are spread evenly over the sphere (a spiral by the golden angle).
+// Returns the farthest points in directions that are spread evenly over the sphere (a spiral by the golden angle).
 std::vector<Vector3> FarthestPoints(const std::vector<Vector3>& points)
 {
   std::vector<Vector3> directions;
@@ -203,7 +204,7 @@ std::vector<Vector3> FarthestPoints(const std::vector<Vector3>& points)
   return few;
 }
 
-// Whether the points span more than a plane, line or point.
+// Returns whether the points span more than a plane, line or point.
 bool FillSpace(std::span<const Vector3> points, double size)
 {
   const auto farthest = [&](const auto& distance_of)
@@ -230,7 +231,7 @@ bool FillSpace(std::span<const Vector3> points, double size)
   return high - low > kFlattest * size;
 }
 
-// Drops the points that no face has.
+// Drops the points that belong to no face.
 std::vector<Loop> Renumbered(std::vector<Loop> loops, std::span<const Vector3> points, std::vector<Vector3>& corners)
 {
   std::map<std::uint32_t, std::uint32_t> numbers;

@@ -1,5 +1,5 @@
-// The convex hull of points, with its mass properties: the body of an entity that collides as a mesh. Made while the
-// experiment is read, in every process, with the same bits in each.
+// The convex hull of points, with its mass properties: the body of an entity that collides as a mesh. Every process
+// makes it while the experiment is read, with the same bits.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 namespace swarmanoid
 {
 
-inline constexpr std::size_t kMostHullCorners = 64;  // finer hulls are made simpler, within themselves
+inline constexpr std::size_t kMostHullCorners = 64;  // larger hulls are replaced by simpler ones inside them
 
 struct ConvexHull
 {
@@ -34,19 +34,19 @@ struct ConvexHull
   std::vector<Face> faces;
   std::vector<Edge> edges;
   double volume = 0;                                  // m³
-  Vector3 centre = Vector3::Zero();                   // of mass, if the density is even
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about the centre, of 1 kg/m³: kg m²
+  Vector3 centre = Vector3::Zero();                   // the centre of mass at even density
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about the centre, at 1 kg/m³: kg m²
 
-  // How deep a point is below the nearest face, m; negative outside.
+  // Returns how deep a point is below the nearest face, in m; negative outside.
   double DepthOf(const Vector3& point) const;
 };
 
-// Faces that are even to a hundred-thousandth of the size count as one, by the library qhull (C. B. Barber,
-// D. P. Dobkin, H. Huhdanpaa, "The Quickhull algorithm for convex hulls", 1996). Volume, centre and inertia are the
-// exact integrals over the tetrahedra between the faces and a point (D. Eberly, "Polyhedral mass properties", 2002; the
-// covariance of a tetrahedron as of J. Blow and A. J. Binstock, "How to find the inertia tensor of a 3D solid body
-// represented by a triangle mesh", 2004). Throws std::invalid_argument, with what is wrong, for points in one plane,
-// too few of them, or some that are no places.
+// Returns the hull. Faces that are even to a hundred-thousandth of the size are merged by the library qhull (C. B.
+// Barber, D. P. Dobkin, H. Huhdanpaa, "The Quickhull algorithm for convex hulls", 1996). Volume, centre and inertia are
+// exact integrals over the tetrahedra between the faces and a point (D. Eberly, "Polyhedral mass properties", 2002).
+// The covariance of a tetrahedron is from J. Blow and A. J. Binstock, "How to find the inertia tensor of a 3D solid
+// body represented by a triangle mesh", 2004. Throws std::invalid_argument with the mistake for too few points, points
+// in one plane, or points that are not finite.
 ConvexHull HullOf(std::span<const Vector3> points);
 
 }  // namespace swarmanoid

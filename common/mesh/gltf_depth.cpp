@@ -18,7 +18,7 @@ using GltfJson = nlohmann::json;
 
 constexpr int kMostJsonLevels = 32;
 constexpr int kMostNodeLevels = 200;
-// Of a .glb file: "glTF", version, length; of its first chunk: length, "JSON".
+// A .glb file starts with "glTF", version and length. Its first chunk starts with length and "JSON".
 constexpr std::string_view kGlbMagic = "glTF";
 constexpr std::size_t kGlbHeader = 20;
 
@@ -29,7 +29,7 @@ std::uint32_t WordAt(std::string_view bytes, std::size_t place)
   return word;
 }
 
-// The JSON of a file.
+// Returns the JSON of a file.
 std::string_view JsonOf(std::string_view bytes)
 {
   if (!bytes.starts_with(kGlbMagic)) return bytes;
@@ -39,7 +39,7 @@ std::string_view JsonOf(std::string_view bytes)
   return bytes.substr(kGlbHeader, length);
 }
 
-// Level by level from the nodes that are nobody's child; rings have none, and Assimp refuses them.
+// Visits the nodes level by level from the roots. Cycles have no root, and Assimp refuses them.
 void CheckNodes(const GltfJson& nodes)
 {
   const auto children_of = [&](std::size_t node)

@@ -1,4 +1,4 @@
-// What Assimp does not check of a glTF file. For import_mesh.cpp.
+// Checks of a glTF file that Assimp does not make. For import_mesh.cpp.
 #pragma once
 
 #include <string_view>
@@ -6,8 +6,8 @@
 namespace swarmanoid
 {
 
-// Assimp reads values in values and nodes below nodes by recursion, which a file of many levels takes through the end
-// of the stack. Throws FileError for such a file, for one that is no JSON, and for another version than 2. bytes: of a
+// Throws FileError for a file with too many levels, one that is no JSON, or a version other than 2. Assimp reads nested
+// values and nodes by recursion, which many levels would take through the end of the stack. `bytes`: the content of a
 // .glb or .gltf file.
 void CheckGltf(std::string_view bytes);
 

@@ -25,12 +25,12 @@ namespace swarmanoid
 namespace
 {
 
-constexpr float kFarthestVertex = 1e4F;  // m from the origin
-constexpr float kSmoothDegrees = 40;     // sharper edges stay edges, in files without normals
+constexpr float kFarthestVertex = 1e4F;  // m from the origin: the limit for vertices
+constexpr float kSmoothDegrees = 40;     // in files without normals, sharper edges stay edges
 
 const char* const kReduce = "make it smaller, for example by Blender's modifier Decimate";
 
-// Files as Assimp asks for them: regular ones, and not too much of them in all.
+// Gives Assimp the files that it opens: only regular ones, and limited in their total size.
 class LimitedFiles : public Assimp::IOSystem
 {
 public:
@@ -46,7 +46,7 @@ public:
     }
     catch (const FileError&)
     {
-      return nullptr;  // Assimp says which file it lacks
+      return nullptr;  // Assimp reports the missing file
     }
   }
   void Close(Assimp::IOStream* stream) override { delete stream; }
@@ -72,7 +72,7 @@ std::string EndingOf(const std::string& path)
   return ending;
 }
 
-// Assimp guesses the format of what it cannot read: only the ones that are checked here may be guessed.
+// Assimp guesses the format of unknown files. Only formats that are checked here may be guessed.
 void KeepOurFormats(Assimp::Importer& importer)
 {
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;)
@@ -109,7 +109,7 @@ ImportedMesh::ImportedMesh(const std::string& path) : importer_(std::make_unique
   is_gltf_ = ending == ".glb" || ending == ".gltf";
   Assimp::Importer& importer = *importer_;
   KeepOurFormats(importer);
-  auto* files = new LimitedFiles;  // the importer's
+  auto* files = new LimitedFiles;  // the importer owns it
   importer.SetIOHandler(files);
   const std::string& bytes = files->BytesOf(path);
   if (is_gltf_) CheckGltf(bytes);
@@ -117,10 +117,10 @@ ImportedMesh::ImportedMesh(const std::string& path) : importer_(std::make_unique
   importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kSmoothDegrees);
   int unused = aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS |
                aiComponent_ANIMATIONS | aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS;
-  // The normals of STL are those of its triangles: round things would have edges.
+  // The normals of STL are those of its triangles, so round shapes would have edges.
   if (ending == ".stl") unused |= aiComponent_NORMALS;
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, unused);
-  // Without normals glTF is flat, as it says.
+  // A glTF file without normals is flat by its specification.
   const unsigned normals = is_gltf_ ? aiProcess_GenNormals : aiProcess_GenSmoothNormals;
   scene_ = importer.ReadFile(path, aiProcess_ValidateDataStructure | aiProcess_RemoveComponent | aiProcess_Triangulate |
                                        normals | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);

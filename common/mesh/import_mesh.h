@@ -1,6 +1,6 @@
-// Mesh files of users as Assimp reads them: glTF 2.0 (.glb, .gltf), Wavefront (.obj) and STL. The visualisers make of
-// them what is drawn (visualiser/scene/mesh_file.h), mesh_points.h the corners of bodies. Only these two include it:
-// it needs Assimp.
+// Reads mesh files of users with Assimp: glTF 2.0 (.glb, .gltf), Wavefront (.obj) and STL. The visualisers make
+// drawings from them (visualiser/scene/mesh_file.h), and mesh_points.h makes the corners of bodies. Only these two
+// include this header, since it needs Assimp.
 #pragma once
 
 #include <assimp/scene.h>
@@ -22,7 +22,8 @@ namespace swarmanoid
 class ImportedMesh
 {
 public:
-  // Throws FileError with the reason, without the path; others of Assimp, or of memory. Any thread.
+  // Throws FileError with the reason, without the path. Assimp may throw other exceptions, such as for memory. Any
+  // thread may call it.
   explicit ImportedMesh(const std::string& path);
   ~ImportedMesh();
   ImportedMesh(const ImportedMesh&) = delete;
@@ -31,15 +32,16 @@ public:
   const aiScene& Scene() const { return *scene_; }
   bool IsGltf() const { return is_gltf_; }
 
-  // Each mesh at each of its nodes. Throws FileError where there are more than kMostMeshTriangles in all.
+  // Calls `use` with each mesh at each of its nodes. Throws FileError if they have more than kMostMeshTriangles in all.
   void ForEachPart(const std::function<void(const aiMesh& part, const aiMatrix4x4& place)>& take) const;
-  // In metres, z up, x to the front. glTF's y is up and its z to the front (its specification, 3.4); the others are
-  // taken as they are.
+  // Returns the vector in metres, z up, x to the front. In glTF, y is up and z is to the front (its specification,
+  // 3.4). The other formats are taken as they are.
   Eigen::Vector3f ToOurs(const aiVector3D& v) const
   {
     return is_gltf_ ? Eigen::Vector3f(v.z, v.x, v.y) : Eigen::Vector3f(v.x, v.y, v.z);
   }
-  // Likewise, of a vertex of a part at its place. Throws FileError for one that is nowhere, or far away.
+  // Returns a vertex of a part at its place, in the same frame. Throws FileError for a vertex that is not finite or too
+  // far away.
   Eigen::Vector3f VertexOf(const aiMesh& part, unsigned number, const aiMatrix4x4& place) const;
 
 private:

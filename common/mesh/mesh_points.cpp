@@ -41,7 +41,7 @@ MeshPoints ReadMeshPoints(const std::string& path)
   {
     throw;
   }
-  catch (const std::exception& error)  // of Assimp, or of memory
+  catch (const std::exception& error)  // an error of Assimp or of memory
   {
     throw FileError(error.what());
   }

@@ -1,5 +1,5 @@
-// Where the surface of a mesh file is: what a body is made from that collides as a mesh. Read while the experiment is
-// read, in every process.
+// The points of the surface of a mesh file, for bodies that collide as a mesh. Every process reads them while the
+// experiment is read.
 #pragma once
 
 #include <array>
@@ -13,7 +13,8 @@
 namespace swarmanoid
 {
 
-inline constexpr std::size_t kMostMeshBytes = std::size_t{64} << 20U;  // of the file and those that it names
+// the limit for the file and the files that it names
+inline constexpr std::size_t kMostMeshBytes = std::size_t{64} << 20U;
 inline constexpr std::size_t kMostMeshTriangles = 1'000'000;
 
 struct MeshPoints
@@ -22,7 +23,7 @@ struct MeshPoints
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-// Throws FileError with the reason, without the path. Any thread.
+// Throws FileError with the reason, without the path. Any thread may call it.
 MeshPoints ReadMeshPoints(const std::string& path);
 
 }  // namespace swarmanoid

@@ -1,4 +1,4 @@
-// In place of mesh_points.cpp and import_mesh.cpp in a build without Assimp.
+// Replaces mesh_points.cpp and import_mesh.cpp in a build without Assimp.
 #include "common/configuration/regular_file.h"
 #include "common/mesh/mesh_points.h"
 

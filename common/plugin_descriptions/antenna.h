@@ -1,4 +1,4 @@
-// Where the antenna of range and bearing is, for its receivers and for renderers that show who hears whom.
+// The position of the antenna of range and bearing, for its receivers and for renderers that show the links.
 #pragma once
 
 namespace swarmanoid

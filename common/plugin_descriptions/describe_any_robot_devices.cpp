@@ -1,5 +1,5 @@
-// The devices of any robot whose kind has the part (common/experiment/entity_kind.h): their size and places are those
-// of its row.
+// The devices of any robot whose kind has the part (common/experiment/entity_kind.h). Size and positions are those of
+// the kind's row.
 #include "common/experiment/entity_kind.h"
 #include "common/plugin_descriptions/device_tables.h"
 #include "common/plugins/noise_parameters.h"

@@ -66,11 +66,11 @@ void DescribeCamera(const std::string& label, const char* robot, const std::stri
 
 void DescribeCameras()
 {
-  // Apertures: ARGoS3 for the footbot, ARGoS 2 for the eyebot.
+  // The apertures are those of ARGoS3 for the footbot, and of ARGoS 2 for the eyebot.
   DescribeCamera("footbot_omnidirectional_camera", "footbot", "omnidirectional camera", ViewParameters("70", "3"),
                  Elevation::kNone);
   DescribeCamera("eyebot_camera", "eyebot", "camera that looks down", ViewParameters("30", "3"), Elevation::kNone);
-  // Aperture and range: the perspective camera of ARGoS3.
+  // Aperture and range are those of the perspective camera of ARGoS3.
   DescribeCamera("eyebot_pan_tilt_camera", "eyebot", "camera that turns with the laser", ViewParameters("30", "2"),
                  Elevation::kReported);
   DescribeCamera("footbot_perspective_camera", "footbot", "camera in the rim that looks ahead",

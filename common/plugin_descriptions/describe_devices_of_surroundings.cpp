@@ -1,5 +1,4 @@
-// The devices that any robot can carry, whatever its shape: where it is, what it hears, touches, reads and tells
-// others.
+// The devices that any robot can carry, whatever its shape: position, hearing, touch, reading and messages.
 #include <string>
 #include <utility>
 

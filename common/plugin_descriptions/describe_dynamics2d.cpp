@@ -19,7 +19,7 @@ ParameterSpec Integer(const char* name, const char* value, double maximum, const
   return {name, ParameterType::kInteger, "", value, description, 1, maximum, {}};
 }
 
-// Sources: docs/engines.md.
+// docs/engines.md has the sources of the defaults.
 std::vector<ParameterSpec> Dynamics2dParameters()
 {
   return {

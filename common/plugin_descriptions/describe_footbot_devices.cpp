@@ -102,8 +102,8 @@ void DescribeWheels()
                     .maximum = 1e6}}));
 }
 
-// y = 1 below a contact distance, else a / (d + b), of footbot_proximity.cpp, between contact and 0.1 m by Chebyshev
-// interpolation of degree 8; largest error 0.0036.
+// The coefficients approximate the response of footbot_proximity.cpp: y = 1 below a contact distance, else a / (d + b).
+// They are a Chebyshev interpolation of degree 8 between contact and 0.1 m; the largest error is 0.0036.
 constexpr const char* kDefaultCoefficients =
     "2.910682, -347.09805, 22120.741, -833767.85, 19426124, -282177360, 2484022100, -12111713000, 25077147000";
 constexpr double kFittedRange = 0.1;  // m

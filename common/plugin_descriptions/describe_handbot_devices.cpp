@@ -6,7 +6,7 @@ namespace swarmanoid
 
 void DescribeHandbotDevices()
 {
-  // Head and arms share a channel: head, left arm, right arm, left wrist, right wrist.
+  // Head and arms share a channel of five values: head, left arm, right arm, left wrist, right wrist.
   constexpr int kArmChannelWidth = 5;
   DescribeActuator({.label = "handbot_head",
                     .implementation = "dummy_handbot_head",

@@ -1,4 +1,4 @@
-// What the engines on a plane have in common.
+// The common parameters of the engines on a plane.
 #include "common/plugin_descriptions/engines.h"
 
 namespace swarmanoid

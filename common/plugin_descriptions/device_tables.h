@@ -1,4 +1,4 @@
-// The sensors and actuators that come with the simulator, described in the file of their robot. Their code:
+// The sensors and actuators of the simulator, each described in the file of its robot. Their code is in
 // controller_host/devices.
 #pragma once
 
@@ -18,16 +18,16 @@ void DescribeRangeAndBearing();
 void DescribeAnyRobotDevices();
 void DescribeSurroundingsDevices();
 
-// The light sensors of footbots and eyebots.
+// Describes the light sensors of footbots and eyebots.
 void DescribeLight(const std::string& robot);
-// Of the ground sensors of footbots and of others.
+// Returns the parameters of the ground sensors of footbots and of other robots.
 std::vector<ParameterSpec> GroundParameters();
-// For these: adds a device to the catalogue, and the checks of its noise.
+// Adds a device to the catalogue, with the checks of its noise.
 void DescribeSensor(const PluginDescription& sensor);
 void DescribeActuator(const PluginDescription& actuator);
 
-// Of generic_footbot_polynomial_proximity: coefficients that are no numbers; the default ones beyond the distances that
-// they were fitted to.
+// Returns the mistakes in generic_footbot_polynomial_proximity: invalid coefficients, and default coefficients beyond
+// the distances that they were fitted to.
 std::vector<ConfigurationError> MistakesInPolynomial(const Parameters& parameters);
 
 }  // namespace swarmanoid

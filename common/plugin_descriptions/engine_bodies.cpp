@@ -71,7 +71,7 @@ void Dynamics3dBodies(const EntityConfiguration& entity, std::span<const double>
   {
     const Pose shoulder = HandbotShoulder(arm, AttributeOf(entity, attributes, "head_angle"),
                                           AttributeOf(entity, attributes, "arm", arm));
-    // Along the arm.
+    // The axis of the cylinder lies along the arm.
     const Pose middle{Vector3(S::kArmLength / 2, 0, 0), QuaternionFromEuler({0, kPi / 2, 0})};
     bodies.push_back({true, shoulder.Compose(middle), {S::kArmRadius, S::kArmRadius, S::kArmLength / 2}});
   }

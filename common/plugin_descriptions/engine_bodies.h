@@ -1,4 +1,5 @@
-// What the simulator's own engines collide: PluginDescription::collision_model of each. Round ends count as flat ones.
+// The bodies that the simulator's own engines collide: PluginDescription::collision_model of each engine. Round ends
+// count as flat ones.
 #pragma once
 
 #include <span>
@@ -10,7 +11,7 @@
 namespace swarmanoid
 {
 
-// The outlines on the plane, as high as the entity.
+// Adds the outlines on the plane, as high as the entity.
 void Kinematics2dBodies(const EntityConfiguration& entity, std::span<const double> attributes,
                         std::vector<CollisionBody>& bodies);
 void Dynamics2dBodies(const EntityConfiguration& entity, std::span<const double> attributes,
@@ -18,7 +19,8 @@ void Dynamics2dBodies(const EntityConfiguration& entity, std::span<const double>
 void Dynamics3dBodies(const EntityConfiguration& entity, std::span<const double> attributes,
                       std::vector<CollisionBody>& bodies);
 
-// The shoulder of an arm (0 left, 1 right) of a handbot, in its frame; x points along the arm. Radians.
+// Returns the shoulder of an arm (0 left, 1 right) of a handbot, in its frame; x points along the arm. Angles are in
+// radians.
 Pose HandbotShoulder(std::size_t arm, double head_angle, double aperture);
 
 }  // namespace swarmanoid

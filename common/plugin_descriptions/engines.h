@@ -1,4 +1,4 @@
-// The engines that come with the simulator, each described in the file of its name. Their code: engine_worker/engines.
+// The engines of the simulator, each described in the file of its name. Their code is in engine_worker/engines.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@
 namespace swarmanoid
 {
 
-// `label`: kinematics2d, or dummy_engine, its older name.
+// `label`: kinematics2d, or its older name dummy_engine.
 PluginDescription Kinematics2dDescription(const std::string& label);
 PluginDescription Dynamics2dDescription();
 PluginDescription Dynamics3dDescription();
 
-// Where the plane of a two-dimensional engine lies: perpendicular_axis, distance, tilt.
+// Returns the parameters that place the plane of a two-dimensional engine: perpendicular_axis, distance, tilt.
 std::vector<ParameterSpec> PlaneParameters();
-// Those of engines on a plane that serve handbots and eyebots with PlaneRobots, after `own`.
+// Returns `own` and the channels of engines on a plane that serve handbots and eyebots with PlaneRobots.
 std::vector<std::string> WithChannelsOfPlaneRobots(std::vector<std::string> own);
 
 }  // namespace swarmanoid

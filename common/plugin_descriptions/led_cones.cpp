@@ -25,7 +25,7 @@ std::vector<Vector3> AxesOf(const LedLayout& leds, double elevation)
   for (const Vector2& place : leds.places)
   {
     const double radius = __builtin_sqrt(place.squaredNorm());
-    // One in the middle looks ahead.
+    // An LED in the middle points to the front.
     const Vector2 out = radius > 0 ? Vector2(place / radius) : Vector2(1, 0);
     axes.emplace_back(up.cos * out.x(), up.cos * out.y(), up.sin);
   }

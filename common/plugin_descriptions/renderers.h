@@ -1,5 +1,5 @@
-// The renderers that come with the simulator, each described in the file of its name, those with a window in
-// window_renderers.cpp. Their code: visualiser/.
+// The renderers of the simulator, each described in the file of its name, those with a window in window_renderers.cpp.
+// Their code is in visualiser/.
 #pragma once
 
 #include <vector>
@@ -18,12 +18,12 @@ PluginDescription WebRenderDescription();
 PluginDescription Ros2RenderDescription();
 PluginDescription FoxgloveRenderDescription();
 
-// What all renderers of pictures share. camera_view_XYZ_n, camera_view_HPR_n.
+// Returns the parameters of the viewpoints: camera_view_XYZ_n, camera_view_HPR_n.
 std::vector<ParameterSpec> ViewpointParameters();
-// use_textures, use_shadows, antialiasing, show_ids, show_trails, show_rays, show_collision_models.
+// Returns use_textures, use_shadows, antialiasing, show_ids, show_trails, show_rays, show_collision_models.
 std::vector<ParameterSpec> QualityParameters();
-// What those with a window share. window_size, window_title, write_frames, frame_directory, frame_filename, every,
-// max_frame_rate, show_panels.
+// Returns the parameters of renderers with a window: window_size, window_title, write_frames, frame_directory,
+// frame_filename, every, max_frame_rate, show_panels.
 std::vector<ParameterSpec> WindowParameters();
 
 }  // namespace swarmanoid

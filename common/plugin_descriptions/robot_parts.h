@@ -1,11 +1,11 @@
-// Where the parts of robots are that the simulator's own engines collide: the engines make their bodies from these, and
-// so does what they tell of them (CollisionBody). Metres.
+// The positions of robot parts that the simulator's own engines collide, in metres. The engines' bodies and their
+// descriptions (CollisionBody) both use them.
 #pragma once
 
 namespace swarmanoid
 {
 
-// The square at the front of a footbot's turret in the engines of planes: its edge, and how far its outer face stands
+// The square at the front of a footbot's turret in the engines of planes: its edge, and the distance of its outer face
 // from the axis of the turret.
 struct GripperSquare
 {
@@ -13,7 +13,7 @@ struct GripperSquare
   static constexpr double kReach = 0.1;
 };
 
-// Body block, arm and claw lengths: the ARGoS 2 model.
+// The lengths of body, arm and claw are those of the ARGoS 2 model.
 struct HandbotParts
 {
   static constexpr double kBaseSide = 0.17;

@@ -1,5 +1,5 @@
 // PluginCatalogue: the descriptions of all registered plug-ins, of every interface. The reader of experiment files
-// checks against it without knowing the interfaces themselves. Filled by PluginRegistry, before roles start; read-only
+// checks against it without knowing the interfaces. PluginRegistry fills it before roles start; it is read-only
 // afterwards.
 #pragma once
 
@@ -29,13 +29,14 @@ enum class PluginKind
   kEntityKind
 };
 
-// "controller", "actuator", "sensor", "physics engine", "visualisation", "experiment functions",
-// "entity kind".
+// Returns "controller", "actuator", "sensor", "physics engine", "visualisation", "experiment functions" or "entity
+// kind".
 std::string_view PluginKindName(PluginKind kind);
-// "sensor 'footbot_light' (generic_footbot_light)"; without the parentheses where there is no implementation.
+// Returns "sensor 'footbot_light' (generic_footbot_light)"; without the parentheses if the plug-in has no
+// implementation.
 std::string NameOfPlugin(PluginKind kind, const std::string& label, const std::string& implementation);
 
-// What `swarmanoid list plugins` and the reference pages show of a plug-in.
+// The content of `swarmanoid list plugins` and the reference pages.
 struct PluginDescription
 {
   std::string label{};           // the XML tag: type of device, engine, renderer or controller
@@ -49,17 +50,16 @@ struct PluginDescription
   // Engines only: the channels and the entity tags that it can serve.
   std::vector<std::string> channels{};
   std::vector<std::string> entity_tags{};
-  bool any_kind = false;   // engines only: it also serves the kinds of users, by their rows alone
+  bool any_kind = false;   // engines only: it also serves the kinds of users, by the rows of the kinds
   bool can_split = false;  // engines only: its world may be cut into regions (CPhysicsEngine::MakeRegion)
-  // Engines only: parameters and tags of entities that have no effect in it; `swarmanoid check` tells who gives them.
+  // Engines only: parameters and tags of entities without effect in it; `swarmanoid check` reports them.
   std::vector<std::string> ignores{};
-  // Engines only: the bodies that it collides, of an entity with its attributes as they are now (the values of its
-  // slots), in the frame of the entity. Everybody who asks what is in the way goes by them: sensors, queries,
-  // renderers. nullptr: the plain body of the kind.
+  // Engines only: adds the bodies that the engine collides for an entity with the current values of its attributes, in
+  // the frame of the entity. Sensors, queries and renderers use these bodies. nullptr: the plain body of the kind.
   void (*collision_model)(const EntityConfiguration& entity, std::span<const double> attributes,
                           std::vector<CollisionBody>& bodies) = nullptr;
-  // Controllers only: false if it was registered by its label alone. `parameters` says nothing then; what its Init
-  // asks for decides.
+  // Controllers only: false if only its label was registered. Then `parameters` is empty, and the reads of its Init
+  // decide.
   bool declares_parameters = true;
 };
 
@@ -68,28 +68,29 @@ class PluginCatalogue
 public:
   static PluginCatalogue& Instance();
 
-  // False for a second plug-in of the same kind and name: the first one stays. While a library is being loaded the name
-  // is kept as a problem of that library (throwing through dlopen would end the program), otherwise
-  // std::invalid_argument is thrown. Likewise for a table of parameters that contradicts itself.
+  // Adds a plug-in. Returns false for a second one of the same kind and name: the first one stays. While a library is
+  // being loaded, the mistake is kept as a problem of that library, since throwing through dlopen would end the
+  // program. Otherwise std::invalid_argument is thrown. A table of parameters that contradicts itself is handled the
+  // same way.
   bool Add(PluginKind kind, const PluginDescription& description);
-  // Keeps what is wrong with a registration as a problem of the library that is being loaded; otherwise throws
+  // Keeps a mistake in a registration as a problem of the library that is being loaded; otherwise throws
   // std::invalid_argument.
   void Refuse(const std::string& problem);
 
-  // nullptr if there is none.
+  // Returns nullptr if it does not exist.
   const PluginDescription* Find(PluginKind kind, const std::string& label,
                                 const std::string& implementation = "") const;
-  // In alphabetical order of label and implementation.
+  // Returns the plug-ins of a kind, ordered by label and implementation.
   std::vector<const PluginDescription*> Of(PluginKind kind) const;
-  // The labels of a kind, each once, in alphabetical order.
+  // Returns the labels of a kind, each once, in alphabetical order.
   std::vector<std::string> Labels(PluginKind kind) const;
-  // The implementations of a device type, in alphabetical order.
+  // Returns the implementations of a device type, in alphabetical order.
   std::vector<std::string> Implementations(PluginKind kind, const std::string& label) const;
 
-  // What a library registered while it was loaded, for the loader (library.h).
+  // The registrations of a library while it was loaded, for the loader (library.h).
   struct Registrations
   {
-    std::vector<std::pair<PluginKind, std::string>> labels;  // with those refused
+    std::vector<std::pair<PluginKind, std::string>> labels;  // including the refused ones
     std::vector<std::string> problems;
   };
   void BeginLibrary();

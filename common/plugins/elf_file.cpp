@@ -60,7 +60,7 @@ std::vector<Elf64_Phdr> SegmentsOf(const RegularFile& file, const Elf64_Ehdr& he
   return segments;
 }
 
-// Of the notes of one segment; empty if none is a build-id.
+// Returns the build-id in the notes of one segment; empty if none of them is one.
 std::string BuildIdIn(const std::vector<char>& notes)
 {
   const auto padded = [](std::size_t count) { return (count + 3) / 4 * 4; };
@@ -107,7 +107,7 @@ std::string MistakeInLibrary(const std::string& path)
     const Elf64_Ehdr header = HeaderOf(file);
     for (const Elf64_Phdr& segment : SegmentsOf(file, header))
       if (segment.p_type != PT_NULL) CheckWithin(file, segment.p_offset, segment.p_filesz, "a segment");
-    // The linker puts the table of sections last: without it the file ends too early.
+    // The linker puts the table of sections last, so a file without it is cut short.
     CheckWithin(file, header.e_shoff, std::uint64_t{header.e_shnum} * header.e_shentsize, "its table of sections");
     return {};
   }

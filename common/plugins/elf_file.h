@@ -1,6 +1,6 @@
-// What can be known of a shared library without loading it: whether it is whole, and which build it is. Used before
-// libraries are loaded (loading one that is cut short ends the program by a signal) and for checkpoints, in any
-// process.
+// Reads facts about a shared library without loading it: whether it is whole, and which build it is. Used before
+// libraries are loaded, since loading one that is cut short ends the program by a signal. Used for checkpoints too, in
+// any process.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 namespace swarmanoid
 {
 
-// Why the file cannot be a shared library for this machine, "it is cut short: …"; empty if it can.
+// Returns why the file cannot be a shared library for this machine, such as "it is cut short: …"; empty if it can.
 std::string MistakeInLibrary(const std::string& path);
 
-// The GNU build-id that the linker gave a library, or if it gave none, a digest (XXH3, 128 bits) of the file, as
-// hexadecimal digits. Stripping and installing leave a build-id as it is. Throws FileError.
+// Returns the GNU build-id of a library as hexadecimal digits. Without a build-id it returns a digest (XXH3, 128 bits)
+// of the file. Stripping and installing do not change a build-id. Throws FileError.
 std::string BuildOfLibrary(const std::string& path);
 
 }  // namespace swarmanoid

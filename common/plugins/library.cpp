@@ -24,7 +24,7 @@ std::vector<std::string> FileNames(const std::string& name)
   return {"lib" + name + ".so", name + ".so"};
 }
 
-// All places where a library may be, in the order of the search.
+// Returns all paths where a library may be, in the order of the search.
 std::vector<std::string> Candidates(std::string_view name, std::span<const std::string> folders)
 {
   std::vector<std::string> candidates;
@@ -49,17 +49,18 @@ std::vector<std::string> Candidates(std::string_view name, std::span<const std::
   return candidates;
 }
 
-// The path without links; empty if there is no such file.
+// Returns the path without links; empty if the file does not exist.
 std::string RealFile(const std::string& path)
 {
   std::error_code error;
-  // Most are not there: one question, instead of one for each folder on the way.
+  // Most files do not exist. This takes one system call, instead of one for each folder on the way.
   if (!fs::is_regular_file(path, error)) return {};
   const fs::path real = fs::canonical(path, error);
   return error ? std::string() : real.string();
 }
 
-// The loaded libraries by their real paths; those that could not be loaded too, so that each error is found once.
+// Returns the loaded libraries by their real paths. Libraries that could not be loaded are kept too, so that each error
+// is found once.
 std::map<std::string, PluginLibrary>& LoadedLibraries()
 {
   static std::map<std::string, PluginLibrary> libraries;
@@ -81,7 +82,7 @@ PluginLibrary Load(const std::string& path)
     library.error = "the library " + path + " is not loaded: " + why;
     return library;
   }
-  // Loading what is cut short would end the program by a signal.
+  // Loading a library that is cut short would end the program by a signal.
   if (const std::string mistake = MistakeInLibrary(path); !mistake.empty())
   {
     library.error = "the library " + path + " cannot be loaded: " + mistake;
@@ -134,7 +135,7 @@ const PluginLibrary& LoadPluginLibrary(std::string_view name, std::span<const st
     const auto found = libraries.find(file);
     return found != libraries.end() ? found->second : libraries.emplace(file, Load(file)).first->second;
   }
-  // Kept under a name that no path has, so that the reference stays valid.
+  // The entry has a name that no path has, so that the reference stays valid.
   PluginLibrary& missing = LoadedLibraries()["missing " + std::string(name)];
   missing.error = "the library " + Quoted(name) +
                   " is not found; build it, or name its folder in <controller_path> or " +

@@ -12,7 +12,7 @@ namespace
 
 constexpr std::string_view kKind = "noise_kind";
 
-// Of one set of noise parameters: those with `prefix`.
+// Checks one set of noise parameters: those with `prefix`.
 void CheckSet(const Parameters& parameters, const std::string& prefix, std::vector<ConfigurationError>& mistakes)
 {
   const TConfigurationTree& tree = parameters.Tree();

@@ -1,5 +1,5 @@
-// The parameters that every noisy sensor and actuator has in experiment files, and what the reader refuses of them. The
-// noise itself: controller_host/devices/noise.h.
+// The parameters that every noisy sensor and actuator has in experiment files, and their checks. The noise itself is in
+// controller_host/devices/noise.h.
 #pragma once
 
 #include <string>
@@ -11,14 +11,14 @@
 namespace swarmanoid
 {
 
-// The parameters <prefix>noise_kind, ..._mean, ..._deviation and ..._range, in `unit`. `of` says what is disturbed:
-// "each reading".
+// Returns the parameters <prefix>noise_kind, ..._mean, ..._deviation and ..._range, in `unit`. `of` names the disturbed
+// value: "each reading".
 std::vector<ParameterSpec> NoiseParameters(const std::string& of, const std::string& unit,
                                            const std::string& prefix = "");
-// Of actuators that set colours.
+// Returns the noise parameters of actuators that set colours.
 std::vector<ParameterSpec> ColourNoiseParameters();
-// Has the reader of experiment files refuse noise that would be none: numbers without a kind, a kind without its
-// numbers. For every device; nothing for those without such parameters.
+// Registers checks that refuse noise without effect: numbers without a kind, or a kind without its numbers. Call it for
+// every device; it does nothing for devices without noise parameters.
 void CheckNoiseOf(PluginKind kind, const PluginDescription& device);
 
 }  // namespace swarmanoid

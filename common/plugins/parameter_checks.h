@@ -1,6 +1,6 @@
-// ParameterChecks: what the table of a plug-in's parameters cannot say, such as values that must fit each other. The
-// reader of experiment files asks for them, so that these mistakes are found before anything starts, too. Filled beside
-// the registries of plug-ins, before roles start; read-only afterwards.
+// ParameterChecks: checks that the table of a plug-in's parameters cannot express, such as values that must fit each
+// other. The reader of experiment files calls them, so that these mistakes are found before anything starts. They are
+// added beside the registries of plug-ins before roles start, and are read-only afterwards.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 namespace swarmanoid
 {
 
-// The mistakes in parameters that are right each by itself; every one names its place, the value and the cure.
+// Returns the mistakes in parameters that are valid one by one. Each names its position, the value and the cure.
 using ParameterCheck = std::function<std::vector<ConfigurationError>(const Parameters&)>;
 
 class ParameterChecks
@@ -22,9 +22,9 @@ class ParameterChecks
 public:
   static ParameterChecks& Instance();
 
-  // A plug-in may have several checks.
+  // Adds a check. A plug-in may have several.
   void Add(PluginKind kind, const PluginDescription& plugin, ParameterCheck check);
-  // What all checks of the plug-in find.
+  // Returns the mistakes that all checks of the plug-in find.
   std::vector<ConfigurationError> Mistakes(PluginKind kind, const PluginDescription& plugin,
                                            const Parameters& parameters) const;
 

@@ -1,7 +1,7 @@
-// Registries of plug-ins: one per interface. A user's plug-in is added, with its description, by the REGISTER_...
-// macros when its library is loaded. The simulator's own are described in every process (common/plugin_descriptions);
-// the role that runs them binds their code to that (RegisterBuiltin...). Filled before roles start, read-only
-// afterwards.
+// Registries of plug-ins, one per interface. The REGISTER_... macros add a user's plug-in, with its description, when
+// its library is loaded. The simulator's own plug-ins are described in every process (common/plugin_descriptions); the
+// role that runs them binds their code (RegisterBuiltin...). Registries are filled before roles start, and are
+// read-only afterwards.
 #pragma once
 
 #include <functional>
@@ -24,7 +24,7 @@ public:
   using Factory = std::function<std::unique_ptr<Interface>()>;
   struct Entry
   {
-    const PluginDescription& description;  // the catalogue's
+    const PluginDescription& description;  // owned by the catalogue
     Factory create;
   };
 
@@ -32,13 +32,13 @@ public:
 
   static PluginRegistry& Instance();
 
-  // A second plug-in of the same name: see PluginCatalogue::Add.
+  // Adds a plug-in. A second one of the same name is handled as in PluginCatalogue::Add.
   void Add(const PluginDescription& description, Factory create)
   {
     if (PluginCatalogue::Instance().Add(kind_, description))
       Bind(description.label, description.implementation, std::move(create));
   }
-  // The code of a plug-in that is described already. Throws std::logic_error for one that is not, or has code.
+  // Binds code to a described plug-in. Throws std::logic_error if it is not described or already has code.
   void Bind(const std::string& label, const std::string& implementation, Factory create)
   {
     const PluginDescription* description = PluginCatalogue::Instance().Find(kind_, label, implementation);
@@ -47,7 +47,7 @@ public:
     if (!entries_.emplace(std::pair{label, implementation}, Entry{*description, std::move(create)}).second)
       throw std::logic_error(NameOfPlugin(kind_, label, implementation) + " has code already");
   }
-  // Throws std::logic_error for a plug-in that is described and has no code.
+  // Throws std::logic_error if a plug-in is described but has no code.
   void RequireCode() const
   {
     for (const PluginDescription* description : PluginCatalogue::Instance().Of(kind_))
@@ -55,7 +55,7 @@ public:
         throw std::logic_error(NameOfPlugin(kind_, description->label, description->implementation) + " has no code");
   }
 
-  // nullptr if there is none.
+  // Returns nullptr if it does not exist.
   const Entry* Find(const std::string& label, const std::string& implementation = "") const
   {
     const auto found = entries_.find({label, implementation});

@@ -1,4 +1,4 @@
-// Colours of what programs say to people: on terminals alone, and not if NO_COLOR is set (https://no-color.org).
+// Colours of messages to people: only on terminals, and not if NO_COLOR is set (https://no-color.org).
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ enum class Colour
   kYellow = 33
 };
 
-// The text, for a file descriptor: in that colour if it is a terminal's.
+// Returns the text for a file descriptor, in that colour if it is a terminal.
 std::string Coloured(int file, Colour colour, std::string_view text);
 
 }  // namespace swarmanoid

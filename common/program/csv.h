@@ -1,4 +1,4 @@
-// Lines of comma-separated values, as RFC 4180 has them, for all that writes or reads them.
+// Lines of comma-separated values according to RFC 4180, for all code that writes or reads them.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 namespace swarmanoid
 {
 
-// A text as one field: in quotes if it holds a comma, a quote or a line end.
+// Returns a text as one field: in quotes if it holds a comma, a quote or a line end.
 std::string CsvField(std::string_view text);
 
-// The fields of one line, without their quotes.
+// Returns the fields of one line, without their quotes.
 std::vector<std::string> CsvFields(std::string_view line);
 
 }  // namespace swarmanoid

@@ -36,7 +36,7 @@ void RefuseEmptyWords(CLI::App& app)
   for (CLI::Option* option : app.get_options([](const CLI::Option*) { return true; }))
   {
     if (option->get_items_expected_max() == 0 || MayBeEmpty(*option)) continue;
-    // Changes nothing. A transformation comes before all checks, which would call the empty word a wrong value.
+    // The transformation changes nothing. It runs before all checks, which would call the empty word a wrong value.
     option->transform(
         [name = option->get_name()](std::string word)
         {

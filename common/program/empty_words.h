@@ -14,7 +14,7 @@ namespace swarmanoid
 // Lets the option have an empty value. Call it before RefuseEmptyWords.
 void AllowEmpty(CLI::Option& option);
 
-// From now on an empty value throws UsageError, with the name of the option, when the command line is parsed.
+// Makes an empty value throw UsageError, with the name of the option, when the command line is parsed.
 void RefuseEmptyWords(CLI::App& app);
 
 }  // namespace swarmanoid

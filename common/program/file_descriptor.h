@@ -35,11 +35,11 @@ private:
 
 struct Pipe
 {
-  FileDescriptor read;  // without waiting
+  FileDescriptor read;  // non-blocking
   FileDescriptor write;
 };
 
-// Not handed to programs that are started later. Throws std::runtime_error.
+// The pipe is not inherited by programs that are started later. Throws std::runtime_error.
 Pipe MakePipe();
 
 }  // namespace swarmanoid

@@ -17,10 +17,10 @@ namespace
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-// A process that ends with the one that started it gets this long for it.
+// The time that a process gets to end after its parent has ended.
 constexpr time_t kLastMoments_s = 2;
-// Both are set before the signals are caught.
-volatile pid_t starter = 0;  // 0: its end is not awaited
+// Both variables are set before the signals are caught.
+volatile pid_t starter = 0;  // 0: the parent's end is not awaited
 timer_t last_moments{};
 
 void AwaitEndOfStarter()
@@ -33,7 +33,7 @@ void AwaitEndOfStarter()
   if (timer_create(CLOCK_MONOTONIC, &kill, &last_moments) == 0) starter = getppid();
 }
 
-// Called in signal handlers. Returns whether it was the first signal.
+// Signal handlers call it. It returns whether this was the first signal.
 bool Interrupt()
 {
   if (starter != 0 && getppid() != starter)

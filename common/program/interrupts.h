@@ -1,5 +1,5 @@
-// Ctrl-C and its kin, for programs that end in good order when asked to. The launcher of a cluster, which waits for
-// them, has launcher/supervision/signal_descriptor.h instead.
+// Handles Ctrl-C, SIGTERM and SIGHUP in programs that end in good order on request. The launcher of a cluster, which
+// waits for these signals, has launcher/supervision/signal_descriptor.h instead.
 #pragma once
 
 #include <atomic>
@@ -7,16 +7,16 @@
 namespace swarmanoid
 {
 
-// What a second signal of the same kind does.
+// The effect of a second signal of the same kind.
 enum class SecondInterrupt
 {
-  kSame,  // nothing new: the program ends when it can, as a robot does, which must be stopped first
-  kKills  // ends the program at once, which says whose code ran
+  kSame,  // no further effect: the program ends when it can, for example after it has stopped its robot
+  kKills  // ends the program at once, with a report of the code that ran
 };
 
-// From here on SIGINT, SIGTERM and SIGHUP set InterruptFlag, and writing to a closed pipe is an error instead of a
-// death. If this process gets one of them because the process that started it has died (SpawnSettings), the kernel
-// kills it two seconds later if it still runs: its code may be stuck, and no other process would end it.
+// Makes SIGINT, SIGTERM and SIGHUP set InterruptFlag, and makes writing to a closed pipe an error instead of a death.
+// If the signal came because the parent process died (SpawnSettings), the kernel kills this process two seconds later
+// if it still runs. Its code may be stuck, and no other process would end it.
 void CatchInterrupts(SecondInterrupt second = SecondInterrupt::kSame);
 const std::atomic<bool>& InterruptFlag();
 inline bool Interrupted() { return InterruptFlag(); }

@@ -19,7 +19,7 @@ namespace swarmanoid
 namespace
 {
 
-// The page by which a process says what it does: mapped here, and the descriptor that the process inherits.
+// The page on which a process reports its activity: mapped here, with the descriptor that the process inherits.
 struct PageOfChild
 {
   FileDescriptor descriptor;
@@ -87,7 +87,7 @@ SpawnedProcess SystemSpawner::Start(const ProcessCommand& command)
 
 ProcessEnd SystemSpawner::Collect(const SpawnedProcess& process)
 {
-  // What it started itself must not outlive it. As long as it is not collected, no other group can have its number.
+  // Processes that it started must not outlive it. Until it is collected, no other group can have its number.
   siginfo_t ended{};
   while (waitid(P_PID, static_cast<id_t>(process.pid), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR)
   {

@@ -1,4 +1,5 @@
-// Words for a POSIX shell: commands that are shown to be copied, and those that another machine's shell runs.
+// Quotes words for a POSIX shell: for commands that are shown to be copied, and commands that another machine's shell
+// runs.
 #pragma once
 
 #include <string>
@@ -6,7 +7,7 @@
 namespace swarmanoid
 {
 
-// The text as one word, in quotes unless it needs none.
+// Returns the text as one word, in quotes unless it needs none.
 std::string ShellWord(const std::string& text);
 
 }  // namespace swarmanoid

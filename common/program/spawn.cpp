@@ -44,17 +44,17 @@ std::vector<char*> Pointers(std::vector<std::string>& texts)
   return pointers;
 }
 
-// A descriptor that becomes a standard one, or another one that does nothing. -1 if it cannot be.
+// Connects a descriptor to a standard one. A negative descriptor stands for /dev/null. Returns -1 on failure.
 int Connect(int descriptor, int standard)
 {
   const int from = descriptor >= 0 ? descriptor : open("/dev/null", O_RDWR);
-  // A process whose own standard ones are closed gets their numbers for others.
+  // If this process has closed standard descriptors, other files may have their numbers.
   if (from == standard) return fcntl(from, F_SETFD, 0);
   return from < 0 ? -1 : dup2(from, standard);
 }
 
-// The part between fork and exec: system calls only. Returns errno if one fails. posix_spawn knows no way to die with
-// somebody, nor cores.
+// Runs between fork and exec, with system calls only. Returns errno if a call fails. posix_spawn can set neither a
+// death signal nor cores.
 int BecomeProgram(const SpawnSettings& settings, pid_t parent, const cpu_set_t& cores, char** arguments,
                   char** environment)
 {
@@ -74,7 +74,7 @@ int BecomeProgram(const SpawnSettings& settings, pid_t parent, const cpu_set_t& 
   if (Connect(settings.input, STDIN_FILENO) < 0 || Connect(settings.output, STDOUT_FILENO) < 0 ||
       Connect(settings.errors, STDERR_FILENO) < 0)
     return errno;
-  // Sockets of a library, for one, which would be taken as long as the program lives.
+  // Other descriptors, such as sockets of a library, would stay open as long as the program lives.
   close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
   if (settings.kept >= 0) fcntl(settings.kept, F_SETFD, 0);
   execvpe(arguments[0], arguments, environment);
@@ -113,7 +113,7 @@ pid_t Spawn(const SpawnSettings& settings)
   }
   if (settings.leads_group) setpgid(process, process);
   failure.write.Reset();
-  // The pipe closes without a word when exec succeeds.
+  // The pipe closes without data when exec succeeds.
   int error = 0;
   ssize_t got = 0;
   while ((got = read(failure.read.Get(), &error, sizeof error)) < 0 && errno == EINTR) continue;

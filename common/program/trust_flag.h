@@ -1,4 +1,4 @@
-// The option --trust, of every program that runs code or scripts of an experiment (common/configuration/trust.h).
+// The option --trust of every program that runs code or scripts of an experiment (common/configuration/trust.h).
 #pragma once
 
 namespace CLI

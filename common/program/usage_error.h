@@ -1,4 +1,4 @@
-// A command line that cannot be done as asked.
+// The error for a command line that cannot be executed.
 #pragma once
 
 #include <stdexcept>
@@ -6,7 +6,7 @@
 namespace swarmanoid
 {
 
-// what() says why and what would do. Ends the program with kExitUsage.
+// what() gives the reason and the cure. It ends the program with kExitUsage.
 class UsageError : public std::runtime_error
 {
 public:

@@ -1,5 +1,5 @@
-// The file of --hash-log: the tick and the hash of its state, one tick a line, from the first one on. Written by
-// whoever keeps the state: CSimulator, or the space server.
+// The file of --hash-log: one line a tick with the tick and the hash of its state, from the first tick on. CSimulator
+// or the space server writes it.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +13,18 @@ namespace swarmanoid
 class HashLog
 {
 public:
-  // Empty: nothing is written. Throws std::runtime_error if the file cannot be made.
-  // `goes_on_at`: the lines of ticks before it stay.
+  // An empty path writes nothing. Throws std::runtime_error if the file cannot be made. `goes_on_at`: lines of earlier
+  // ticks stay.
   explicit HashLog(const std::string& path, std::optional<std::uint64_t> goes_on_at = std::nullopt);
   ~HashLog();
   HashLog(const HashLog&) = delete;
   HashLog& operator=(const HashLog&) = delete;
 
   bool IsOpen() const { return file_ != nullptr; }
-  // Throws std::runtime_error if the line is lost, as on a full disk; so does Close, for the last ones.
+  // Throws std::runtime_error if the line is lost, for example on a full disk. Close throws the same for the last
+  // lines.
   void Write(std::uint64_t tick, std::uint64_t hash);
-  // What was written stays when the process is killed.
+  // Makes the written lines survive a kill of the process.
   void Flush();
   void Close();
 

@@ -1,5 +1,5 @@
-// The settings of a run, declared once: `swarmanoid run`, the space server and the programs of users read them, and the
-// command lines of a cluster's processes are written from them.
+// The settings of a run, declared once. `swarmanoid run`, the space server and users' programs read them. The command
+// lines of a cluster's processes are written from them.
 #pragma once
 
 #include <atomic>
@@ -15,10 +15,10 @@
 namespace swarmanoid
 {
 
-// As for the element of the experiment file.
+// The limit is that of the element of the experiment file.
 inline constexpr double kLargestSeed = 9e18;
 
-// Which experiment, and what is changed in it.
+// The experiment and the changes to it.
 struct ExperimentChoice
 {
   std::string file;
@@ -28,83 +28,85 @@ struct ExperimentChoice
   std::optional<std::uint64_t> ahead;
 };
 
-// How the ticks of an experiment are run, in whichever process.
+// The settings for running ticks, in any process.
 struct SimulatorOptions
 {
-  // What visualisations and experiment functions write. Empty: this folder, or for `swarmanoid run` a new one.
+  // The folder for output of visualisations and experiment functions. Empty: the working folder or, for `swarmanoid
+  // run`, a new one.
   std::string output_folder;
   std::string hash_log;         // file for one hash a tick; empty: none
   double real_time_factor = 0;  // 0: as fast as possible
-  // Until a user resumes it. In one process that takes a visualisation: without one, CSimulator throws UsageError.
+  // The run starts paused until a user resumes it. In one process this requires a visualisation: without one,
+  // CSimulator throws UsageError.
   bool paused = false;
-  // Whether users may ask that the run begins again (RunSummary::reset): whoever started it does that then.
+  // Allows users to start the run again (RunSummary::reset). The caller of the run then does it.
   bool may_reset = false;
-  std::string event_log;  // file for what users ask; empty: none
-  std::string events;     // such a file of an earlier run, whose moves and stops are repeated
-  // The folder of an earlier run: its controllers fail again where they did, and no time is measured in the ticks that
-  // it did.
+  std::string event_log;  // file for users' requests; empty: none
+  std::string events;     // event log of an earlier run, whose moves and stops are repeated
+  // The folder of an earlier run. Its controller faults are repeated, and no time is measured in its ticks.
   std::string faults_of;
   bool visualisations = true;
-  // A checkpoint is written to the output folder every so many ticks: a multiple of the experiment's canonical_period.
+  // The period of checkpoints in ticks, a multiple of the experiment's canonical_period. They go to the output folder.
   // 0: none.
   std::uint64_t checkpoint_every = 0;
-  std::string restore_file;  // the checkpoint to go on from; empty: start at tick 0
-  // Take one that other builds of Swarmanoid or of the libraries saved. The bits of the run are then nobody's promise.
+  std::string restore_file;  // the checkpoint to continue from; empty: start at tick 0
+  // Accepts a checkpoint of other builds of Swarmanoid or of the libraries. Then the bits of the run are not
+  // guaranteed.
   bool any_build = false;
-  // As a cluster: a journal in the output folder, of all that the processes take in. "optional": if it cannot be
-  // written any more the run goes on, but nobody can be replaced then; otherwise it ends.
+  // Clusters: writes a journal of all inputs of the processes to the output folder. "optional": if it cannot be written
+  // any more, the run continues without replacing dead processes. Otherwise the run ends.
   bool journal = true;
   std::string journal_need = "needed";
-  std::string journal_budget;  // what is kept of it, as "2GiB": the newest; empty: everything
+  std::string journal_budget;  // size of its newest part that is kept, such as "2GiB"; empty: everything
   std::uint64_t JournalBudgetBytes() const;
-  // Threads that share the sensors, and the controllers that may step in parallel, of one process, or of each
-  // controller host. 0: in one process as many as cores are free, in a host one. Their number changes no bit of the
-  // results.
+  // The number of threads for sensors, and for controllers that may step in parallel, in one process or in each
+  // controller host. 0: the number of free cores in one process, and one thread in a host. Their number changes no bit
+  // of the results.
   unsigned threads = 0;
-  // In one process. Set from a signal handler: the run stops at the end of the tick.
+  // For one process. A signal handler sets it; the run stops at the end of the tick.
   const std::atomic<bool>* stop = nullptr;
 };
 
 struct RunSettings : ExperimentChoice, SimulatorOptions
 {
-  std::string branch;  // "RUN@TICK": the state to begin with is that of an earlier run
+  std::string branch;  // "RUN@TICK": the state of an earlier run to start with
   bool single_process = false;
   // Visualisations that are added to those of the file: "web", "opengl" …
   std::vector<std::string> show;
-  bool ros2 = false;  // likewise "ros2"
+  bool ros2 = false;  // adds the visualisation "ros2"
   unsigned controller_hosts = 1;
   std::vector<std::string> engine_hosts;  // "ENGINE=HOST"
   std::string hosts_file;
   std::optional<int> domain;       // DDS domain; otherwise a free one
-  bool insecure = false;           // without a key of the run
-  std::string key_file;            // with the key of the run; otherwise a new one
-  bool isolated = false;           // in a network of its own on this machine
+  bool insecure = false;           // runs without a key of the run
+  std::string key_file;            // file with the key of the run; empty: a new key
+  bool isolated = false;           // runs in a separate network on this machine
   std::string placement = "auto";  // on processor cores: auto, one-core or spread
   std::string expected_hash;
   bool quiet = false;
-  bool recovery = true;  // processes that die are replaced
-  unsigned retries = 3;  // of one process, while the run does not go on
+  bool recovery = true;  // replaces processes that die
+  unsigned retries = 3;  // for one process, without progress of the run
   bool Replaces() const { return recovery && journal && retries > 0; }
   double lease_s = 0;         // silence after which a process counts as dead; 0: the default
-  double step_timeout_s = 0;  // that a step of a user's code may take; 0: the environment's limit, or none
-  std::string memory_limit;   // of each process, as "2GiB"; empty: the environment's limit, or the default
+  double step_timeout_s = 0;  // limit for a step of a user's code; 0: the environment's limit, or none
+  std::string memory_limit;   // for each process, as "2GiB"; empty: the environment's limit, or the default
 };
 
-// The limits of users' code: those of the settings, and for the rest those of the environment.
+// Returns the limits of users' code: those of the settings, else those of the environment.
 Limits LimitsOf(const RunSettings& settings);
 
-// The settings that `swarmanoid run` takes, which are all, and those that the space server takes. Valid as long as
-// `settings` is there.
+// Return the options of `swarmanoid run`, which are all settings, and those of the space server. They are valid as long
+// as `settings` exists.
 std::vector<OptionSpec> RunOptionTable(RunSettings& settings);
 std::vector<OptionSpec> ServerOptionTable(RunSettings& settings);
-// Of these, what chooses the experiment and changes it.
+// Returns those of the options that choose and change the experiment.
 std::vector<OptionSpec> ChoiceOptionTable(RunSettings& settings);
-// The words after `space_server` that give it these settings. Paths become absolute.
+// Returns the words after `space_server` that give it these settings. Paths become absolute.
 std::vector<std::string> ServerWords(const RunSettings& settings);
 
-// "PATH=VALUE" to a pair; throws UsageError if there is no '='.
+// Splits "PATH=VALUE" into a pair; throws UsageError if there is no '='.
 std::pair<std::string, std::string> SplitSetting(const std::string& text);
-// What is changed in the experiment, as the loader takes it. Throws UsageError.
+// Returns the changes of the experiment as the loader takes them. Throws UsageError.
 LoadOptions ChangesOf(const ExperimentChoice& choice);
 
 }  // namespace swarmanoid

@@ -1,4 +1,4 @@
-// How a run ended, as every program tells it.
+// The result of a run, as every program reports it.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 namespace swarmanoid
 {
 
-// A user wants the run to begin again at tick 0, at the pace that it has.
+// A user's request to start the run again at tick 0, at the current pace.
 struct ResetRequest
 {
   std::uint64_t seed = 0;
@@ -21,19 +21,19 @@ struct RunSummary
 {
   std::uint64_t ticks = 0;
   std::size_t entities = 0;
-  std::uint64_t hash = 0;  // of the final state
+  std::uint64_t hash = 0;  // hash of the final state
   double wall_s = 0;       // from the first tick on
   double real_time_factor = 0;
   bool interrupted = false;
-  bool failed = false;                  // the experiment functions said so
-  std::optional<ResetRequest> reset{};  // why it ended
+  bool failed = false;                  // the experiment functions reported a failure
+  std::optional<ResetRequest> reset{};  // the request that ended the run
 };
 
-// Of `ticks` simulated ones since the start; 0 if no time has passed.
+// Returns the speed of `ticks` simulated ticks relative to real time; 0 if no time has passed.
 double RealTimeFactor(std::uint64_t ticks, double tick_s, double wall_s);
 
-// The last line of every run: "finished: <ticks> ticks, <entities> entities, hash <16 hex digits>, <wall> s, <factor>x
-// real time".
+// Returns the last line of every run: "finished: <ticks> ticks, <entities> entities, hash <16 hex digits>, <wall> s,
+// <factor>x real time".
 std::string FinishedLine(const RunSummary& summary);
 
 }  // namespace swarmanoid

@@ -27,7 +27,7 @@ struct Word
   std::string Line::*member;
 };
 
-// Each kind of line: its word, and its fields in their order. At most one is a text, which may hold blanks.
+// Each kind of line has a word and its fields in their order. At most one field is a text, which may hold blanks.
 template <class Line>
 struct Form;
 
@@ -144,7 +144,7 @@ bool ReadNumber(std::string_view word, Number& value, Base... base)
   return error == std::errc() && end == word.data() + word.size();
 }
 bool ReadWord(std::string_view word, std::uint64_t& value) { return ReadNumber(word, value); }
-// All of them are times and rates.
+// All double fields are times and rates.
 bool ReadWord(std::string_view word, double& value)
 {
   return ReadNumber(word, value) && std::isfinite(value) && value >= 0;
@@ -182,7 +182,7 @@ bool ReadField(std::string_view word, Line& line, Word<Line> field)
   return !word.empty();
 }
 
-// The word at one end of the text, taken from it.
+// Removes the word at one end of the text and returns it.
 std::string_view TakeFirst(std::string_view& text)
 {
   const std::size_t end = text.find(' ');
@@ -205,7 +205,7 @@ constexpr bool IsText(std::string Line::*)
 }
 constexpr bool IsText(...) { return false; }
 
-// Fields before the text are read from the front, those after it from the back, and the text is what is left.
+// Reads the fields before the text from the front and those after it from the back. The rest is the text.
 template <class Line, std::size_t kField = 0>
 bool ReadFields(std::string_view text, Line& line)
 {
@@ -221,7 +221,7 @@ bool ReadFields(std::string_view text, Line& line)
     {
       if (!ReadField(TakeLast(text), line, std::get<kField + 1>(Form<Line>::fields)) || text.empty()) return false;
     }
-    line.*field = Written(std::string(text));  // a terminal shows it
+    line.*field = Written(std::string(text));  // may be shown on a terminal
     return true;
   }
   else

@@ -1,6 +1,6 @@
-// What the space server tells whoever started it, line by line, on the descriptor of --status-fd: state, tick, stalled,
-// warning, asked, error, left, lost, move, hosts, reset, finished. Writer and reader of each kind come from one
-// description (server_status.cpp).
+// The messages of the space server to its launcher, line by line, on the descriptor of --status-fd: state, tick,
+// stalled, warning, asked, error, left, lost, move, hosts, reset, finished. Writer and reader of each kind follow from
+// one description (server_status.cpp).
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct ServerState
     kPaused
   };
   Phase phase = kLoading;
-  std::string waiting_for;  // the names of those who have not joined
+  std::string waiting_for;  // names of the processes that have not joined
 
   friend bool operator==(const ServerState&, const ServerState&) = default;
 };
@@ -47,7 +47,7 @@ struct ServerStall
   friend bool operator==(const ServerStall&, const ServerStall&) = default;
 };
 
-// "warning TEXT": the run goes on, but not as asked
+// "warning TEXT": the run continues, but not as requested
 struct ServerWarning
 {
   std::string text;
@@ -55,7 +55,7 @@ struct ServerWarning
   friend bool operator==(const ServerWarning&, const ServerWarning&) = default;
 };
 
-// "asked TEXT": who had the run paused, resumed, stopped or told another speed, and when
+// "asked TEXT": which user paused, resumed, stopped or changed the speed of the run, and when
 struct ServerAsked
 {
   std::string text;
@@ -71,7 +71,7 @@ struct ServerError
   friend bool operator==(const ServerError&, const ServerError&) = default;
 };
 
-// "left NAME": a process said that its work is done, and ends
+// "left NAME": a process reported the end of its work, and ends
 struct ServerLeft
 {
   std::string name;
@@ -79,7 +79,7 @@ struct ServerLeft
   friend bool operator==(const ServerLeft&, const ServerLeft&) = default;
 };
 
-// "lost NAME": a process has been silent for its lease; another one has to take its place
+// "lost NAME": a process has been silent for its lease and must be replaced
 struct ServerLost
 {
   std::string name;
@@ -87,8 +87,7 @@ struct ServerLost
   friend bool operator==(const ServerLost&, const ServerLost&) = default;
 };
 
-// "move MACHINE NAME": a user asks that another process takes the place of this one, on that machine ("here": that of
-// the launcher)
+// "move MACHINE NAME": a user requests to replace this process by one on that machine ("here": the launcher's machine)
 struct ServerMove
 {
   std::string machine;  // without blanks
@@ -97,7 +96,7 @@ struct ServerMove
   friend bool operator==(const ServerMove&, const ServerMove&) = default;
 };
 
-// "reset SEED 0|1 RTF", before "finished": the run ends, and is to begin again with that seed, paused or not, at that
+// "reset SEED 0|1 RTF", before "finished": the run ends and must start again with that seed, paused or not, at that
 // pace
 struct ServerReset
 {
@@ -108,11 +107,11 @@ struct ServerReset
   friend bool operator==(const ServerReset&, const ServerReset&) = default;
 };
 
-// "hosts MACHINES": a user asks that the robots' controllers are shared out among as many controller hosts as are
-// named, on these machines, in the order of the hosts
+// "hosts MACHINES": a user requests to assign the robots' controllers to controller hosts on these machines, in the
+// order of the hosts. Each name stands for one host.
 struct ServerHosts
 {
-  std::string machines;  // with blanks between them
+  std::string machines;  // separated by blanks
 
   friend bool operator==(const ServerHosts&, const ServerHosts&) = default;
 };
@@ -132,9 +131,9 @@ struct ServerFinished
 using ServerStatus = std::variant<ServerState, ServerTick, ServerStall, ServerWarning, ServerAsked, ServerError,
                                   ServerLeft, ServerLost, ServerMove, ServerHosts, ServerReset, ServerFinished>;
 
-// The line, without its end. Line breaks and other control characters in texts become blanks.
+// Returns the line, without its end. Line breaks and other control characters in texts become blanks.
 std::string ServerStatusLine(const ServerStatus& status);
-// nullopt for a line that is none of these, whole and with numbers that a run can have.
+// Returns nullopt for a line that is not one of these, or has numbers that a run cannot have.
 std::optional<ServerStatus> ParseServerStatus(std::string_view line);
 
 }  // namespace swarmanoid

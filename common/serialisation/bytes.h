@@ -23,7 +23,7 @@ public:
     const auto* bytes = reinterpret_cast<const char*>(&value);
     bytes_.insert(bytes_.end(), bytes, bytes + sizeof(T));
   }
-  // The count (u64), then the elements.
+  // Appends the count (u64), then the elements.
   template <class T>
   requires std::is_trivially_copyable_v<T>
   void PutArray(std::span<const T> values)
@@ -37,7 +37,7 @@ public:
   {
     PutArray(std::span<const T>(values));
   }
-  // As PutArray, of value_of(0), value_of(1), ...
+  // Appends value_of(0), value_of(1), ... as PutArray does.
   template <class ValueOf>
   void PutEach(std::size_t count, const ValueOf& value_of)
   {
@@ -61,7 +61,7 @@ private:
   std::vector<char> bytes_;
 };
 
-// Throws std::runtime_error if the image ends too early.
+// Reads the images. Throws std::runtime_error if the image ends too early.
 class ByteReader
 {
 public:
@@ -81,7 +81,7 @@ public:
     GetArray(values);
     return values;
   }
-  // Into room that is there already.
+  // Reads into existing memory.
   template <class T>
   requires std::is_trivially_copyable_v<T>
   void GetArray(std::vector<T>& values)
@@ -90,7 +90,7 @@ public:
     values.resize(image.size() / sizeof(T));
     if (!image.empty()) std::memcpy(values.data(), image.data(), image.size());
   }
-  // The bytes of an array of such elements, where they are: not aligned.
+  // Returns the bytes of an array of such elements in place, not aligned.
   template <class T>
   requires std::is_trivially_copyable_v<T> std::span<const char> GetImage()
   {

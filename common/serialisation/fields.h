@@ -1,5 +1,5 @@
-// Archives for formats whose fields are stated once, in a function that visits them (checkpoint_format.h): one writes
-// them to bytes, the other one reads them.
+// Archives for formats whose fields are stated once, in a function that visits them (checkpoint_format.h). One archive
+// writes the fields to bytes; the other reads them.
 #pragma once
 
 #include <cstdint>
@@ -44,7 +44,7 @@ public:
   {
     values = bytes_.GetArray<T>();
   }
-  // A count that is too large ends at the end of the bytes.
+  // If the stated count is too large, the reader fails at the end of the bytes.
   template <class T, class Visit>
   void List(std::vector<T>& entries, const Visit& visit)
   {

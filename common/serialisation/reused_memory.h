@@ -1,5 +1,5 @@
-// Memory that grows and is kept, for those who write all that they read of it. What grows is not filled with zeros, as
-// a vector would be, and pages that nobody has written cost nothing.
+// Memory that grows and is kept, for code that writes all bytes before it reads them. New bytes are not filled with
+// zeros, as in a vector, and unwritten pages cost nothing.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ public:
     return *this;
   }
 
-  // At least so many bytes; those of before stay as they are, but perhaps elsewhere. Throws std::bad_alloc.
+  // Returns at least `size` bytes. The earlier bytes keep their values, but may move. Throws std::bad_alloc.
   char* AtLeast(std::size_t size)
   {
     if (size <= size_) return bytes_.get();

@@ -1,5 +1,5 @@
-// Whether a role can be saved, tried before a run that takes checkpoints: what cannot be is said then, not in the midst
-// of it.
+// Tests before a run with checkpoints whether a role can be saved, so that the error does not come in the middle of the
+// run.
 #pragma once
 
 #include "common/serialisation/bytes.h"
@@ -7,7 +7,7 @@
 namespace swarmanoid
 {
 
-// Throws what the role's SaveState throws.
+// Throws the exception of the role's SaveState.
 template <class Role>
 void TrySaving(const Role& role)
 {

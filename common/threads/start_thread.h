@@ -1,4 +1,5 @@
-// Starts a thread. The exception of the standard library says "Resource temporarily unavailable" and nothing else.
+// Starts a thread with a clear error. The exception of the standard library only says "Resource temporarily
+// unavailable".
 #pragma once
 
 #include <stdexcept>
@@ -10,8 +11,8 @@
 namespace swarmanoid
 {
 
-// `purpose`: what the thread is for, as in "writes the journal". Throws std::runtime_error with it if there is no room
-// for another thread.
+// `purpose`: the task of the thread, as in "writes the journal". Throws std::runtime_error with it if the system cannot
+// start another thread.
 template <class Call>
 std::thread StartThread(const std::string& purpose, Call&& call)
 {

@@ -1,7 +1,7 @@
-// Whether a piece of work that comes again at each tick is done by one thread or by several: by whichever took less
-// time lately. Work of a few microseconds wakes nobody, and where other programs need the cores one thread goes on
-// alone, also if they come to need them between two trials; work that grows is tried anew. For work whose results are
-// the same either way. One thread at a time.
+// Chooses whether one thread or several do a piece of work that recurs at each tick: the way that took less time
+// recently. Work of a few microseconds stays in one thread. One thread continues if other programs need the cores, also
+// if their need starts between two trials. Work that grows is tried again. The results must be the same either way.
+// Only one thread calls this class.
 #pragma once
 
 #include <algorithm>
@@ -16,27 +16,28 @@ class ThreadChoice
 {
 public:
   using Duration = std::chrono::nanoseconds;
-  static constexpr Duration kWorthWaking{20'000};  // work that takes less is never shared
-  static constexpr unsigned kTrials = 4;           // of each way; the shortest counts (the first wakes the threads)
-  static constexpr unsigned kLeastGain = 10;       // sharing is worth it if it saves more than one such part
-  // Pieces until both ways are tried again: few at first, since the first pieces of a run are unlike those that follow,
-  // then twice as many each time.
+  static constexpr Duration kWorthWaking{20'000};  // shorter work is never shared
+  static constexpr unsigned kTrials = 4;           // for each way; the shortest counts (the first wakes the threads)
+  static constexpr unsigned kLeastGain = 10;       // sharing must save more than 1 / kLeastGain of the time
+  // Pieces until both ways are tried again. The period is short at first, since the first pieces of a run differ from
+  // later ones, and doubles each time.
   static constexpr unsigned kFirstPeriod = 32;
   static constexpr unsigned kPeriod = 512;
   static constexpr unsigned kMostPeriod = 16 * kPeriod;  // while sharing is slower each time
-  // Pieces that several threads did are late by what they took longer than one thread did; each counts as at most
-  // kMostLate pieces, and when kPatience are lost one thread is tried again: it takes longer now if there is more to
-  // do, and as long as before if others have taken the cores.
+  // Sharing is late by the time that it takes longer than one thread did; each piece counts as at most kMostLate
+  // pieces. When kPatience pieces are lost, one thread is tried again. One thread now takes longer if the work has
+  // grown, and as long as before if others have taken the cores.
   static constexpr int kMostLate = 4;
   static constexpr int kPatience = 8;
 
-  // Whether several threads do the next piece.
+  // Returns whether several threads do the next piece.
   bool Shares() const { return shares_; }
 
-  // Whether it matters how long the next piece takes. Asking a clock twice costs 2 % of a tick of a few microseconds.
+  // Returns whether the time of the next piece matters. Reading a clock twice costs 2 % of a tick of a few
+  // microseconds.
   bool Measures() const { return shares_ || pieces_ < 2 * kTrials; }
 
-  // How long the piece took that was done so; anything if it does not matter.
+  // States how long the piece took; any value if it does not matter.
   void Took(Duration time)
   {
     ++pieces_;
@@ -66,19 +67,20 @@ private:
 
   bool shares_ = false;
   unsigned period_ = kFirstPeriod;
-  unsigned pieces_ = 0;                       // of the period
-  Duration alone_before_ = Duration::zero();  // when several threads became late; 0 if they are not
+  unsigned pieces_ = 0;                       // of the current period
+  Duration alone_before_ = Duration::zero();  // set when several threads became late; 0 if they are not
   Duration alone_ = Duration::max();
   Duration shared_ = Duration::max();
   Duration late_ = Duration::zero();
 };
 
-// Does the ticks of a process whose roles have a pool: with its threads or without. All that a tick has is shared or
-// nothing, since threads that have just worked take up the next part at once, and others are to be woken.
+// Runs the ticks of a process whose roles have a pool, with or without the pool's threads. A tick shares all of its
+// work or nothing, since threads that have just worked take up the next part at once, while sleeping threads must be
+// woken.
 class ThreadedTicks
 {
 public:
-  // `pool`: none for one thread. Whoever works in `tick` asks whether it shares.
+  // `pool`: nullptr for one thread. Code in `tick` asks the pool whether it shares.
   template <class Tick>
   void Do(WorkerPool* pool, const Tick& tick)
   {

@@ -1,9 +1,9 @@
-// Threads that do parts of one piece of work and wait for the next one. Owned by a process or by one role; its calls
-// come from one thread. Allocates nothing while it works.
+// Threads that do the parts of one piece of work and wait for the next one. A process or one role owns the pool; its
+// calls come from one thread. It allocates nothing while it works.
 //
-// A tick has many pieces, one soon after the other, and a thread that sleeps takes some 50 us to wake. So threads look
-// for the next piece for about that long before they sleep; those of one process should be of one pool, since threads
-// of another one that look take its cores.
+// A tick has many pieces in quick succession, and waking a sleeping thread takes some 50 us. So threads spin for about
+// that long before they sleep. The threads of one process should be in one pool, since the spinning threads of another
+// pool take its cores.
 #pragma once
 
 #include <atomic>
@@ -17,7 +17,7 @@ namespace swarmanoid
 class WorkerPool
 {
 public:
-  // `threads`: those that work together, the caller's among them.
+  // `threads`: the number of working threads, including the caller.
   explicit WorkerPool(unsigned threads)
   {
     for (unsigned k = 1; k < threads; ++k) workers_.emplace_back([this, k] { Work(k); });
@@ -33,11 +33,11 @@ public:
   WorkerPool& operator=(const WorkerPool&) = delete;
 
   unsigned Threads() const { return static_cast<unsigned>(workers_.size()) + 1; }
-  // Whether those who have work for the threads are to share it now, or to do it alone. (Run does not ask.)
+  // Returns whether code with work for the threads must share it now, or do it alone. (Run does not check.)
   bool Shares() const { return shares_; }
   void Share(bool shares) { shares_ = shares; }
-  // Calls part(k) for every k below Threads(), each in a thread of its own, and returns when all are done. Parts throw
-  // nothing and write to places of their own.
+  // Calls part(k) for every k below Threads(), each in its own thread, and returns when all are done. Parts must not
+  // throw, and must write to separate memory.
   template <class Part>
   void Run(const Part& part)
   {
@@ -51,7 +51,7 @@ public:
   }
 
 private:
-  // Until it has another value.
+  // Waits until the number has another value.
   static void Await(const std::atomic<unsigned>& number, unsigned value)
   {
     constexpr unsigned kLooks = 2000;
@@ -84,15 +84,15 @@ private:
   std::vector<std::thread> workers_;
 };
 
-// The pool, if there is one that shares now; else nullptr, as for one thread.
+// Returns the pool if it exists and shares now; else nullptr, as for one thread.
 inline WorkerPool* IfItShares(WorkerPool* pool) { return pool != nullptr && pool->Shares() ? pool : nullptr; }
 
-// Work on `count` things in one part for each thread, or in one if they are few: work(part, begin, end). Borders are
-// multiples of `step`.
+// Does `count` items of work in one part for each thread, or in one part if they are few: work(part, begin, end).
+// Borders are multiples of `step`.
 template <class Work>
 void InParts(WorkerPool* pool, std::size_t count, std::size_t step, const Work& work)
 {
-  constexpr std::size_t kLeast = 1024;  // below, waking threads takes longer
+  constexpr std::size_t kLeast = 1024;  // with fewer items, waking threads takes longer
   if (pool == nullptr || count < kLeast)
   {
     work(0U, std::size_t{0}, count);

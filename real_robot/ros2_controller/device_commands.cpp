@@ -25,7 +25,7 @@ namespace
 using UInt8MultiArray = std_msgs::msg::dds_::UInt8MultiArray_;
 using Topics = std::vector<std::unique_ptr<CommandTopic>>;
 
-// What is wrong with a command; the topic is named by who catches it.
+// Throws a mistake in a command; the handler adds the topic.
 [[noreturn]] void Refuse(const std::string& what) { throw DriverError(what); }
 
 double Finite(double value)
@@ -77,7 +77,7 @@ struct TopicSetup
   }
 };
 
-// led x rgb, each channel 0 to 1.
+// Reads led x rgb, each channel 0 to 1.
 template <class Interface>
 void Leds(const TopicSetup& setup, const std::string& type, Topics& topics)
 {

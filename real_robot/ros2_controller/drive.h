@@ -1,5 +1,5 @@
-// What moves a robot that a node of ROS 2 controls, and the topic by which the node says how. Used by ros2_controller,
-// in the thread of the controllers.
+// The drive of a robot that a node of ROS 2 controls, and the topic of the node's velocity commands. ros2_controller
+// uses it in the thread of the controllers.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ namespace swarmanoid::ros2
 
 using TwistStamped = geometry_msgs::msg::dds_::TwistStamped_;
 
-// Two wheels, or propellers.
+// Drives two wheels, or propellers.
 class Drive
 {
 public:
@@ -30,7 +30,7 @@ public:
   {
     return wheels_ != nullptr ? wheels_->GetInterwheelDistance() : Footbot::INTERWHEEL_DISTANCE_M;
   }
-  // rad/s of a wheel for a command; `side`: -1 left, 1 right.
+  // Returns the speed of a wheel for a command, in rad/s. `side`: -1 left, 1 right.
   double WheelSpeed(const Twist& twist, double side) const
   {
     return (twist.linear().x() + side * twist.angular().z() * Distance() / 2) / Radius();
@@ -45,13 +45,14 @@ private:
   CCI_EyeBotPropellersActuator* propellers_ = nullptr;
 };
 
-// The commands of the node, with time stamps or without.
+// Reads the commands of the node, with time stamps or without.
 class Commands
 {
 public:
   Commands(const DriverSetup& setup, bool stamped, bool reliable);
 
-  // The next one, oldest first, that is of this time if they have one. Throws DriverError for what is not finite.
+  // Returns the next command, oldest first. If commands have time stamps, it must have this time. Throws DriverError
+  // for a number that is not finite.
   std::optional<Twist> Take(const std::optional<builtin_interfaces::msg::dds_::Time_>& of);
   void Wait(double seconds) { plain_ ? plain_->Wait(seconds) : stamped_->Wait(seconds); }
   unsigned Publishers() const { return plain_ ? plain_->Publishers() : stamped_->Publishers(); }

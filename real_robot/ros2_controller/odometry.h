@@ -1,4 +1,4 @@
-// The topic `odom` of a simulated robot. Used by readings.cpp.
+// The topic `odom` of a simulated robot. readings.cpp uses it.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 namespace swarmanoid::ros2
 {
 
-// The pose of the positioning sensor in the frame "world", else that of the wheels in a frame of their own.
+// Publishes the pose of the positioning sensor in the frame "world", else that of the wheels in their own frame.
 std::unique_ptr<ReadingPublisher> MakeOdometry(const ReadingSetup& setup);
 
 }  // namespace swarmanoid::ros2

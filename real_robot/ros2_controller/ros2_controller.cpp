@@ -1,5 +1,5 @@
-// ros2_controller: a simulated robot in the hands of a node of ROS 2. It publishes what the robot senses on the topics
-// of a real one and drives as the node commands. Runs where controllers run; all calls come from one thread.
+// ros2_controller: a node of ROS 2 controls a simulated robot. It publishes the robot's readings on the topics of a
+// real robot, and drives as the node commands. It runs in the processes of controllers; all calls come from one thread.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,14 +22,15 @@ namespace swarmanoid::ros2
 namespace
 {
 
-constexpr double kSettle_s = 0.2;  // from when two ends know each other until both surely do
+constexpr double kSettle_s = 0.2;  // from the discovery by one end until both ends surely know each other
 constexpr double kSayAgain_s = 1;  // until the node has answered once
 constexpr double kLookAgain_s = 0.02;
 
 class CRos2Controller;
 
-// The robots of one host: it makes all their controllers before it calls Init of the first. They publish their readings
-// together, and so wait for their nodes at the same time. Those that are made anew later are by themselves.
+// The robots of one host, which makes all their controllers before it calls Init of the first. They publish their
+// readings together, and so wait for their nodes at the same time. Controllers that are made again later form their own
+// groups.
 struct Group
 {
   std::vector<CRos2Controller*> members;
@@ -133,7 +134,7 @@ private:
     Commands drive;
     std::vector<std::unique_ptr<CommandTopic>> devices;
 
-    // The topics of commands without a publisher.
+    // Returns the topics of commands without a publisher.
     std::vector<std::string> Unheard() const
     {
       std::vector<std::string> names;
@@ -144,7 +145,7 @@ private:
     }
   };
 
-  // Of this process.
+  // Returns the controllers of this process.
   static std::vector<CRos2Controller*>& All()
   {
     static std::vector<CRos2Controller*> all;
@@ -156,7 +157,7 @@ private:
       if (!each->ends_) each->Open();
   }
 
-  // Throws DriverError for what the file should say otherwise.
+  // Throws DriverError for mistakes in the parameters.
   void Prepare(const TConfigurationTree& parameters)
   {
     parameters_ = parameters;
@@ -169,7 +170,7 @@ private:
     if (drive_->HasWheels()) odometry_.emplace(drive_->Radius(), drive_->Distance());
     name_space_ = parameters.GetText("namespace");
     name_space_ += (name_space_.empty() ? "" : "/") + TopicWord(robot.GetId());
-    TopicName(name_space_, "cmd_vel");  // refuses what is no name
+    TopicName(name_space_, "cmd_vel");  // refuses an invalid name
     for (const CRos2Controller* other : All())
       if (other != this && other->name_space_ == name_space_)
         throw DriverError(fmt::format("the topics {}/… would be those of two robots, '{}' and '{}'", name_space_,
@@ -214,14 +215,14 @@ private:
 
   bool IsHeard() const { return ends_->Unheard().empty() && Listeners() > 0; }
 
-  // Whether its step is to come: a robot that was stopped has none any more.
+  // Returns whether its step is still to come; a stopped robot has none any more.
   bool TakesPartIn(std::uint64_t tick) const
   {
     return !asked_tick_ || (*asked_tick_ + 1 == tick && stepped_tick_ == asked_tick_);
   }
 
-  // Publishes the readings of the tick of all robots of the group that take part in it, once their nodes are there. The
-  // sensors of all are of this tick already.
+  // Publishes the readings of the tick for all robots of the group that take part in it, once their nodes are there.
+  // The sensors of all robots are at this tick already.
   void AskAll(std::uint64_t tick)
   {
     std::vector<CRos2Controller*> asked;
@@ -234,8 +235,8 @@ private:
       if (each->node_is_here_) each->Ask(tick, now);
   }
 
-  // Publishes the readings of the tick of all robots of the group that had a step in the tick before, and so have one
-  // now. The sensors of all are of this tick already.
+  // Publishes the readings of the tick for all robots of the group that had a step in the previous tick, and so have
+  // one now. The sensors of all robots are at this tick already.
   void TellAll(std::uint64_t tick)
   {
     const JoinedDatagrams joined;
@@ -252,7 +253,8 @@ private:
     asked_tick_ = tick;
   }
 
-  // Until the nodes of these robots hear and are heard; or the time of this one is over, which says so in its own step.
+  // Waits until the nodes of these robots hear and are heard, or until this robot's time is over, which its own step
+  // reports.
   void AwaitNodes(const std::vector<CRos2Controller*>& robots)
   {
     const double begun = Now();
@@ -278,7 +280,7 @@ private:
 
   void Ask(std::uint64_t tick, const builtin_interfaces::msg::dds_::Time_& now)
   {
-    // What came too late for a tick before answers none.
+    // Commands that came too late for an earlier tick are dropped.
     while (ends_->drive.Take(std::nullopt))
     {
     }
@@ -291,7 +293,7 @@ private:
     repetitions_ = 0;
   }
 
-  // One of each topic.
+  // Waits for one command of each topic.
   void AwaitCommands()
   {
     const auto now = TimeOf(GetRobot()->GetTime());
@@ -324,8 +326,9 @@ private:
     DropAnswers(waited_for_it);
   }
 
-  // Somebody who has found an end, and whom this end has not found, misses what is said first; and who waits for the
-  // readings of all answers none. So they are those of all who were asked with this one and have no answer yet.
+  // Repeats the readings. A peer that has discovered this end, but is not yet discovered by it, misses the first
+  // messages. A node that waits for the readings of all robots answers none of them. So this repeats the readings of
+  // all robots that were asked together with this one and have no answer yet.
   void SayAgain(const builtin_interfaces::msg::dds_::Time_& now)
   {
     for (CRos2Controller* each : group_->members)
@@ -337,8 +340,8 @@ private:
     }
   }
 
-  // A node that has heard the readings each time that they were said may answer each time: none of these answers is for
-  // the next readings. How many come nobody knows; with those that are here already, theirs are by the same time.
+  // Drops further answers. A node that has received each repetition of the readings may answer each one, and none of
+  // these answers is for the next readings. Their number is unknown, so this waits for them for a limited time.
   void DropAnswers(bool waited_for_it)
   {
     if (repetitions_ == 0) return;
@@ -376,11 +379,11 @@ private:
   const CCI_FootBotEncodersSensor* encoders_ = nullptr;
   std::optional<Ends> ends_;
   Twist command_;
-  std::optional<std::uint64_t> asked_tick_;    // whose readings were published last
-  std::optional<std::uint64_t> stepped_tick_;  // of the last ControlStep
+  std::optional<std::uint64_t> asked_tick_;    // the tick whose readings were published last
+  std::optional<std::uint64_t> stepped_tick_;  // the tick of the last ControlStep
   double asked_at_ = 0;
-  double said_at_ = 0;        // the latest repetition
-  unsigned repetitions_ = 0;  // of these readings
+  double said_at_ = 0;        // the time of the latest repetition
+  unsigned repetitions_ = 0;  // the number of repetitions of these readings
   bool node_is_here_ = false;
   bool has_answered_ = false;
   bool timed_out_ = false;

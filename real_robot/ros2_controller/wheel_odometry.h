@@ -1,5 +1,5 @@
-// Dead reckoning of a robot on two wheels: where it would be if the wheels rolled without slip. For the odometry of
-// ros2_controller, from the thread of the controllers.
+// Dead reckoning of a robot on two wheels: its pose if the wheels rolled without slip. For the odometry of
+// ros2_controller, in the thread of the controllers.
 #pragma once
 
 #include <iosfwd>
@@ -10,22 +10,22 @@ namespace swarmanoid::ros2
 class WheelOdometry
 {
 public:
-  // Metres. Starts at 0, 0 with heading 0.
+  // Lengths are in metres. The pose starts at 0, 0 with heading 0.
   WheelOdometry(double wheel_radius_m, double interwheel_distance_m)
       : radius_m_(wheel_radius_m), distance_m_(interwheel_distance_m)
   {
   }
 
-  // The wheels turned so fast (rad/s) for so long: a part of a circle.
+  // Adds a motion on a part of a circle: the wheels turned at these speeds (rad/s) for this time (s).
   void Advance(double left, double right, double seconds);
 
   double X() const { return x_; }
   double Y() const { return y_; }
   double Heading() const { return heading_; }
-  // Of the wheels, rad, from 0 on.
+  // Return the angles of the wheels, in rad, from 0 on.
   double LeftAngle() const { return left_; }
   double RightAngle() const { return right_; }
-  // Ahead in m/s, and to the left in rad/s, in the last Advance.
+  // Return the speed ahead in m/s, and to the left in rad/s, in the last Advance.
   double Forward() const { return forward_; }
   double Turn() const { return turn_; }
 

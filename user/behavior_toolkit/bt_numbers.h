@@ -1,4 +1,4 @@
-// Numbers in the saved states of behaviours: text that is read back with the same bits.
+// Numbers in the saved states of behaviours, as text that is read back with the same bits.
 #pragma once
 
 #include <iosfwd>

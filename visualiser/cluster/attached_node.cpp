@@ -10,7 +10,7 @@ AttachedNode::AttachedNode(WorkerSession& session, WorkerWorld& replica, Visuali
       replica_(replica),
       visualiser_(visualiser),
       monitor_(monitor),
-      // The server keeps the pace; a little earlier than asked is in time.
+      // The server keeps the pace, so a state may be drawn a little earlier than the rate says.
       period_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(0.8 / rate))),
       run_(session.World().run),
       views_in_(session.GetBus(), session.World().experiment,

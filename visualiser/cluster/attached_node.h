@@ -1,5 +1,5 @@
-// A visualiser that is attached to a run from outside: draws the newest state whenever it has time. The main thread
-// draws; a thread of the bus brings the states.
+// A visualiser that is attached to a run from outside. It draws the newest state whenever it has time. The main thread
+// draws; a thread of the bus receives the states.
 #pragma once
 
 #include <atomic>
@@ -17,15 +17,15 @@ namespace swarmanoid
 class AttachedNode
 {
 public:
-  // `rate`: pictures a second at most.
+  // `rate`: the most pictures a second.
   AttachedNode(WorkerSession& session, WorkerWorld& replica, Visualiser& visualiser, RemoteMonitor& monitor,
                double rate);
 
-  // Called in the main thread when a state has come, and now and then.
+  // The main thread calls it when a state has come, and periodically.
   void Work();
-  // Another server goes on with the run, under this number.
+  // Follows another server that continues the run, under this number.
   void FollowRun(std::uint64_t run) { run_ = run; }
-  // The user closed it; otherwise the run has ended.
+  // Returns true if the user closed the visualiser, false if the run has ended.
   bool Terminated() const { return terminated_; }
 
 private:

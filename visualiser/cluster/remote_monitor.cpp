@@ -49,7 +49,7 @@ std::span<const RunNote> RemoteMonitor::Notes()
         [this](const ControlReplyMessage& reply)
         {
           const std::lock_guard lock(mutex_);
-          // An answer comes again if its asker did not hear it.
+          // The server sends an answer again if the sender of the request did not receive it.
           const auto same = [&](const RunNote& note)
           { return note.from == reply.client && note.number == reply.number && note.text == reply.text; };
           if (std::ranges::any_of(heard_notes_, same)) return;
@@ -84,7 +84,7 @@ void RemoteMonitor::Watch(std::span<const std::uint32_t> robots)
                                                                     {
                                                                       if (message.run == run_) Heard(message);
                                                                     });
-  // What was heard of robots that were left alone for a while is old.
+  // The status of robots that were not watched for a while is outdated.
   const auto unwatched = [&](const auto& robot) { return std::ranges::find(robots, robot.first) == robots.end(); };
   {
     const std::lock_guard lock(mutex_);

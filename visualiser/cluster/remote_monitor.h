@@ -1,6 +1,6 @@
-// RunMonitor over the bus: what the space server and the controller hosts tell of a run. Made and asked by the main
-// thread of the visualiser program; messages come in threads of the bus. Topics are met when a renderer first asks for
-// what they carry.
+// RunMonitor over the bus: reports of the space server and the controller hosts about a run. The main thread of the
+// visualiser program makes and calls it; messages arrive in threads of the bus. A topic is subscribed when a renderer
+// first needs it.
 #pragma once
 
 #include <atomic>
@@ -19,7 +19,7 @@ namespace swarmanoid
 class RemoteMonitor : public RunMonitor
 {
 public:
-  // `every_tick`: the inside of robots is wanted of every tick rather than 30 times a second.
+  // `every_tick`: requests the status of robots at every tick rather than 30 times a second.
   RemoteMonitor(Bus& bus, const WorldMessage& world, bool every_tick);
 
   const RunStatus& Status() override;
@@ -30,32 +30,32 @@ public:
 
   // Adds a note about a request of this process that was not sent.
   void NoteRefusal(const std::string& text);
-  // What was heard, without asking for it: kUnknown unless the renderer shows how the run goes.
+  // Returns the last known phase without a request: kUnknown unless the renderer shows the status of the run.
   RunStatus::Phase KnownPhase();
-  // Asks for this many states a second; 0: none.
+  // Requests this many states a second; 0: none.
   void RequestViews(double views);
-  // To be called often: repeats the request in time.
+  // Repeats the requests in time; call it often.
   void RenewRequests();
-  // The server is lost, and another one may go on with the run; or it does, under this number.
+  // Notes that the server is lost and another one may continue the run, or that another one does, under this number.
   void ServerIsLost();
   void FollowRun(std::uint64_t run);
-  // The server has gone. `why` is shown unless it said that the run is finished.
+  // Notes that the server has gone. `why` is shown unless the server reported that the run is finished.
   void RunIsOver(const std::string& why);
 
 private:
   using Clock = std::chrono::steady_clock;
   void SendRequests();
   void Heard(const RobotStatusMessage& message);
-  void AddNote(RunNote note);  // needs mutex_
+  void AddNote(RunNote note);  // the caller holds mutex_
 
   Bus& bus_;
   std::string partition_;
   std::atomic<std::uint64_t> run_;
-  std::size_t entities_;  // of the space
+  std::size_t entities_;  // the number of entities in the space
   ViewRequestMessage requests_;
   Clock::time_point requested_{};
 
-  std::mutex mutex_;  // of what the bus brings
+  std::mutex mutex_;  // guards the members below, which messages of the bus change
   RunStatus heard_status_;
   bool over_ = false;
   std::vector<RunNote> heard_notes_;

@@ -65,12 +65,12 @@ void SynchronousNode::Work()
 void SynchronousNode::Idle()
 {
   ShowHeldState();
-  // The answer to the last tick has gone out: a paused run would not hear of the end that is wanted now.
+  // The answer to the last tick is sent already, so a paused run would not receive the request to end in it.
   if (visualiser_.Idle() && !std::exchange(answer_.terminate, true)) control_.Stop();
 }
 
-// While the run is paused its next state is held back by the server, and users may move entities in it. Those who
-// attach see that state; so does a visualisation that shows how the run goes.
+// Shows the next state, which the server holds back while the run is paused. Users may move entities in it. Attached
+// visualisers see that state, and so does a visualisation that shows the status of the run.
 void SynchronousNode::ShowHeldState()
 {
   const bool paused = monitor_.KnownPhase() == RunStatus::Phase::kPaused;
@@ -116,7 +116,7 @@ void SynchronousNode::StateArrived(const MessageHeader& header, SpaceState& stat
     return;
   }
   if (header.tick + 1 != next_ || fresh_ || finished_) return;
-  // The tick that was drawn last comes again: it is the end of the run, or our answer was lost.
+  // If the last drawn tick comes again, the run has ended, or our answer was lost.
   if (state.last)
   {
     finished_ = true;

@@ -1,5 +1,5 @@
-// A visualisation of the experiment file at the bus: draws every tick and says so. The main thread draws; threads of
-// the bus bring the states.
+// A visualisation of the experiment file on the bus. It draws every tick and reports that it did. The main thread
+// draws; threads of the bus receive the states.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ public:
                   ExperimentControl& control, RemoteMonitor& monitor, std::uint64_t first_tick);
 
   void WaitForServer();
-  // Called in the main thread when a state has come, and now and then.
+  // The main thread calls it when a state has come, and periodically.
   void Work();
 
 private:
@@ -35,14 +35,14 @@ private:
   Visualiser& visualiser_;
   ExperimentControl& control_;
   RemoteMonitor& monitor_;
-  std::mutex mutex_;  // of what follows, except answer_.terminate while fresh_
+  std::mutex mutex_;  // guards the members below; the main thread alone uses answer_.terminate while fresh_
   SpaceState state_;
   SpaceState repeated_;
-  bool fresh_ = false;  // state_ is to be drawn
+  bool fresh_ = false;  // state_ is not drawn yet
   bool finished_ = false;
   std::uint64_t next_;
   DrawnMessage answer_;
-  SpaceSnapshot held_;  // the state that the paused run holds back, with what was moved
+  SpaceSnapshot held_;  // the state that the paused run holds back, including moved entities
   bool held_fresh_ = false;
   std::unique_ptr<Subscription<ViewMessage>> views_in_;  // while the run is paused
   HotPublisher<DrawnMessage> drawn_;

@@ -1,5 +1,5 @@
-// figure_render: the arena seen from above as vector graphics for papers, one or several ticks on a page. Draws nothing
-// until it has all ticks, or the run ends.
+// figure_render: the arena seen from above as vector graphics for papers, with one or several ticks on a page. It draws
+// when it has all ticks, or when the run ends.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace
 
 constexpr std::size_t kMostPanels = 100;
 
-// Numbers with commas between them; throws ConfigurationError.
+// Reads numbers separated by commas; throws ConfigurationError.
 template <class Number>
 std::vector<Number> NumbersOf(const Parameters& parameters, const char* name)
 {
@@ -112,7 +112,7 @@ public:
   {
     if (done_) return;
     scene_->Track();
-    // A visualiser that is attached may miss some: it takes the next one.
+    // An attached visualiser may miss some ticks; then the next tick is drawn.
     if (panels_.size() < ticks_.size() && space_->GetTick() >= ticks_[panels_.size()]) AddPanel();
     if (!ticks_.empty() && panels_.size() == ticks_.size()) Write();
   }
@@ -138,7 +138,7 @@ private:
     panels_.push_back({std::move(caption), scene_->Draw()});
   }
 
-  // (a) … (z), then (27) …
+  // Returns (a) … (z), then (27) …
   static std::string Letter(std::size_t number)
   {
     return number < 26 ? fmt::format("({})", static_cast<char>('a' + number)) : fmt::format("({})", number + 1);

@@ -18,7 +18,7 @@ using Kind = DrawnShape::Kind;
 
 constexpr double kMillimetresOfPixel = 0.25;
 constexpr int kRimPoints = 36;
-constexpr double kArrowHead_m = 0.1;  // at most, and at most a quarter of the arrow
+constexpr double kArrowHead_m = 0.1;  // the largest length; also at most a quarter of the arrow
 
 class PlanDrawer
 {
@@ -89,7 +89,7 @@ public:
 private:
   double Number(std::size_t k) const { return static_cast<double>(numbers_[k]); }
   Vector2 At(std::size_t k) const { return frame_.Apply({Number(k), Number(k + 1), Number(k + 2)}).head<2>(); }
-  // In the frame of a shape that has one.
+  // Returns a point of a shape with a frame in the space.
   Vector2 Placed(const Vector3& local) const
   {
     const Quaternion turn(Number(6), Number(3), Number(4), Number(5));

@@ -1,4 +1,4 @@
-// What experiment functions draw, as a plan from above. Used by PlanScene.
+// Drawings of experiment functions as a plan from above. Used by PlanScene.
 #pragma once
 
 #include "visualiser/figure/plan_picture.h"
@@ -8,7 +8,7 @@ namespace swarmanoid
 
 class CSwarmanoidSpace;
 
-// Of the space as it is, in the order in which it was drawn. A pixel of width is a quarter of a millimetre.
+// Adds the drawing of the space's current tick, in drawing order. A pixel of width becomes a quarter of a millimetre.
 void AddDrawing(const CSwarmanoidSpace& space, PlanPicture& picture);
 
 }  // namespace swarmanoid

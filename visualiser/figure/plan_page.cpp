@@ -27,15 +27,15 @@ using Surface = std::unique_ptr<cairo_surface_t, Destroyed>;
 using Context = std::unique_ptr<cairo_t, Destroyed>;
 
 constexpr double kPointsPerMm = 72 / 25.4;
-constexpr double kMargin = 1.5;  // mm, about the page
+constexpr double kMargin = 1.5;  // mm, around the page
 constexpr double kGap = 3;       // mm, between panels
 constexpr double kInsetShare = 0.4;
-// In heights of the font: room about the numbers of an axis and its name, and behind the last number.
+// In heights of the font: the space for the numbers and the name of an axis, and behind the last number.
 constexpr double kAxisRoom = 2.2;
 constexpr double kAxisEnd = 0.8;
 constexpr std::uint32_t kRim = 0x5a6068;
 
-// From metres of the arena to millimetres of the page, whose y points down.
+// Converts metres of the arena to millimetres of the page, whose y points down.
 struct Frame
 {
   PlanRegion region;
@@ -66,7 +66,7 @@ double TextWidth(cairo_t* on, const std::string& text)
   return extents.x_advance;
 }
 
-// `y`: of the line that letters stand on.
+// `y`: the base line of the letters.
 void DrawText(cairo_t* on, double x, double y, const std::string& text)
 {
   cairo_move_to(on, x, y);
@@ -124,7 +124,7 @@ void DrawShape(cairo_t* on, const PlanShape& shape, const Frame& frame)
   }
 }
 
-// Beside what they name, on the side where they are within the frame and on no other one, if there is such a side.
+// Puts labels beside their points, if possible on a side where they are within the frame and overlap no other label.
 void DrawLabels(cairo_t* on, const PlanPicture& picture, const Frame& frame)
 {
   struct Box
@@ -158,7 +158,7 @@ void DrawLabels(cairo_t* on, const PlanPicture& picture, const Frame& frame)
       break;
     }
     taken.push_back(*best);
-    // With a rim of paper, so that it can be read on what is dark.
+    // A rim in the colour of the paper keeps the text readable on dark areas.
     cairo_new_path(on);
     cairo_move_to(on, best->left, best->bottom);
     cairo_text_path(on, shape.text.c_str());
@@ -191,7 +191,7 @@ void DrawPicture(cairo_t* on, const PlanPicture& picture, const Frame& frame, co
   cairo_paint(on);
   for (const PlanShape& shape : picture) DrawShape(on, shape, frame);
   DrawLabels(on, picture, frame);
-  // The border of the arena, if it lies within what is shown.
+  // Draws the border of the arena, if it lies within the shown region.
   SetColour(on, kRim);
   SetDashes(on, false);
   cairo_set_line_width(on, 0.2);
@@ -202,7 +202,7 @@ void DrawPicture(cairo_t* on, const PlanPicture& picture, const Frame& frame, co
   DrawFrame(on, frame, 0.2);
 }
 
-// 1, 2 or 5 times a power of ten, at most `most`.
+// Returns 1, 2 or 5 times a power of ten, at most `most`.
 double RoundLength(double most)
 {
   const double power = std::pow(10, std::floor(std::log10(most) + 1e-9));
@@ -217,7 +217,7 @@ public:
   Page(const std::vector<PlanPanel>& panels, const std::vector<PlanLegendEntry>& legend, const PlanPageOptions& options)
       : panels_(panels), legend_(legend), options_(options), font_mm_(options.font_pt / kPointsPerMm)
   {
-    // Words are measured as they will stand on the page.
+    // Words are measured with the font of the page.
     const Surface nowhere(cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1));
     const Context measure(cairo_create(nowhere.get()));
     cairo_scale(measure.get(), kPointsPerMm, kPointsPerMm);
@@ -264,7 +264,7 @@ private:
     cairo_set_font_size(on, font_mm_);
   }
 
-  // The legend from left to right, in as many lines as it needs; the scale is at the right of the first one.
+  // Places the legend from left to right, in as many lines as it needs. The scale is at the right of the first line.
   void Arrange(cairo_t* measure)
   {
     const double right = options_.width_mm - kMargin;
@@ -289,7 +289,7 @@ private:
     }
   }
 
-  // What is written along an axis.
+  // Returns the numbers along an axis with their texts.
   std::vector<std::pair<double, std::string>> Ticks(double low, double high) const
   {
     const double step = RoundLength(options_.region.Size().maxCoeff() / 4);
@@ -359,7 +359,7 @@ private:
     const bool at_top = corner == PlanCorner::kTopLeft || corner == PlanCorner::kTopRight;
     inset.left = at_left ? frame.left : frame.left + frame.Width() - inset.Width();
     inset.top = at_top ? frame.top : frame.top + frame.Height() - inset.Height();
-    // From corner to corner, on the sides that do not cross the frames.
+    // Two lines join the corners, on the sides that do not cross the frames.
     SetColour(on, kRim);
     SetDashes(on, true);
     cairo_set_line_width(on, 0.15);
@@ -409,12 +409,12 @@ private:
   const PlanPageOptions& options_;
   const double font_mm_;
   int columns_ = 1, rows_ = 1;
-  double axis_left_ = 0, axis_right_ = 0, axis_below_ = 0;  // mm, about a panel
+  double axis_left_ = 0, axis_right_ = 0, axis_below_ = 0;  // mm, around a panel
   double panel_width_ = 0, scale_ = 1, caption_mm_ = 0, cell_height_ = 0;
   double bar_mm_ = 0;
   std::string bar_text_;
   int lines_ = 0;
-  std::vector<Vector2> places_;  // of the entries of the legend, mm
+  std::vector<Vector2> places_;  // of the legend's entries, mm
 };
 
 std::string EndingOf(const std::string& path) { return std::filesystem::path(path).extension().string(); }
@@ -443,7 +443,7 @@ void WritePlan(const std::string& path, const std::vector<PlanPanel>& panels,
   const Page page(panels, legend, options);
   const double width = page.Width(), height = page.Height();
   const std::string ending = EndingOf(path);
-  const double dots = options.dpi / 25.4;  // a mm
+  const double dots = options.dpi / 25.4;  // dots a mm
   const Surface surface(
       ending == ".svg"   ? cairo_svg_surface_create(path.c_str(), width * kPointsPerMm, height * kPointsPerMm)
       : ending == ".pdf" ? cairo_pdf_surface_create(path.c_str(), width * kPointsPerMm, height * kPointsPerMm)

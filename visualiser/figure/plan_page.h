@@ -1,5 +1,5 @@
-// PlanPage: one or several plans on a page, with legend and scale, as a file: .svg and .pdf have lines and areas, which
-// are sharp at any size, .png has pixels. By Cairo. One thread.
+// PlanPage: writes one or several plans on a page, with legend and scale, to a file, by Cairo. Files .svg and .pdf have
+// lines and areas that are sharp at any size; .png has pixels. One thread.
 #pragma once
 
 #include <optional>
@@ -25,9 +25,9 @@ struct PlanPageOptions
   double font_pt = 7;
   double dpi = 300;   // of .png
   int columns = 1;    // panels beside each other
-  PlanRegion region;  // of the arena that is shown
+  PlanRegion region;  // the shown part of the arena
   PlanRegion arena;
-  std::optional<PlanRegion> inset{};  // shown larger in a corner of each panel
+  std::optional<PlanRegion> inset{};  // the region shown larger in a corner of each panel
   PlanCorner inset_corner = PlanCorner::kTopRight;
   bool legend = true;
   bool scale_bar = true;
@@ -40,13 +40,13 @@ struct PlanPanel
   PlanPicture picture;
 };
 
-// The file's ending decides; throws std::invalid_argument for another one than .svg, .pdf and .png.
+// Throws std::invalid_argument if the file does not end in .svg, .pdf or .png.
 void CheckPlanFile(const std::string& path);
 // Throws std::runtime_error, naming the file, if it cannot be written.
 void WritePlan(const std::string& path, const std::vector<PlanPanel>& panels,
                const std::vector<PlanLegendEntry>& legend, const PlanPageOptions& options);
 
-// How many metres the bar of a scale has: 1, 2 or 5 times a power of ten, at most a third of the panel's.
+// Returns the length of the bar of a scale in metres: 1, 2 or 5 times a power of ten, at most a third of the panel.
 double ScaleBarLength(double panel_m);
 
 }  // namespace swarmanoid

@@ -1,5 +1,5 @@
-// What a plan of the arena is made of: areas, lines and words, in metres of the arena, in the order in which they are
-// drawn. Made by PlanScene at the ticks that are wanted, put onto a page by PlanPage.
+// The content of a plan of the arena: areas, lines and words, in metres of the arena, in drawing order. PlanScene makes
+// it at the chosen ticks, and PlanPage puts it onto a page.
 #pragma once
 
 #include <optional>
@@ -30,7 +30,7 @@ struct PlanShape
 {
   enum class Form : std::uint8_t
   {
-    kDisc,     // about points[0]
+    kDisc,     // around points[0]
     kPolygon,  // closed
     kLine,     // open
     kImage,    // upright in the frame of the corners: upper left, upper right, lower left
@@ -39,13 +39,13 @@ struct PlanShape
 
   Form form = Form::kPolygon;
   std::vector<Vector2> points;  // m
-  double radius = 0;            // m: of a disc; of a text how far from its point it starts
-  double least_radius_mm = 0;   // of a disc: as large at least, on the page
+  double radius = 0;            // m: of a disc; for a text, its distance from the point
+  double least_radius_mm = 0;   // the least radius of a disc on the page
   std::optional<PlanColour> fill{};
   std::optional<PlanColour> edge{};
   double edge_mm = 0.15;
   bool dashed = false;
-  double detail_m = 0;  // drawn only if this is a millimetre on the page; 0: always
+  double detail_m = 0;  // drawn only if this length is at least a millimetre on the page; 0: always
   std::string text{};
   int columns = 0;                      // of an image
   std::vector<std::uint32_t> pixels{};  // of an image: 0xAARRGGBB, rows from the top
@@ -53,7 +53,7 @@ struct PlanShape
 
 using PlanPicture = std::vector<PlanShape>;
 
-// What the legend tells: a sample in a square from (-1, -1) to (1, 1), and what it is.
+// An entry of the legend: a sample in a square from (-1, -1) to (1, 1), and its text.
 struct PlanLegendEntry
 {
   PlanPicture sample;

@@ -25,12 +25,12 @@ namespace swarmanoid
 namespace
 {
 
-// Told apart by everybody (M. Okabe and K. Ito, Color Universal Design, 2008: blue, vermilion, sky blue, bluish green,
-// reddish purple, orange); robots of the first kinds have the first ones.
+// Colours that people with any colour vision can distinguish (M. Okabe and K. Ito, Color Universal Design, 2008: blue,
+// vermilion, sky blue, bluish green, reddish purple, orange). Robots of the first kinds have the first ones.
 constexpr std::array<std::uint32_t, 6> kRobotColours{0x0072b2, 0xd55e00, 0x56b4e9, 0x009e73, 0xcc79a7, 0xe69f00};
 constexpr std::uint32_t kHoldColour = 0xe69f00;
 constexpr std::uint32_t kTrailOfObjects = 0x8a8f98;
-constexpr double kTrailStep = 0.03;  // m between two places
+constexpr double kTrailStep = 0.03;  // m between two recorded positions
 constexpr double kLeastRobot_mm = 0.2;
 constexpr int kImagePixels = 512;  // along the longer side
 constexpr int kCirclePoints = 24;
@@ -53,7 +53,7 @@ std::vector<Vector3> PointsOf(const Model& model)
   return points;
 }
 
-// Of a body, as it is turned and tipped.
+// Returns the outline of a body, turned and tipped as it is.
 std::vector<Vector2> OutlineOfBody(const Shape& shape, const Pose& pose)
 {
   std::vector<Vector2> corners;
@@ -113,7 +113,7 @@ PlanShape Image(const Vector2& low, const Vector2& high, int columns)
   return image;
 }
 
-// Light where it is high; clear where there is no ground.
+// High ground is light; places without ground are transparent.
 PlanShape TerrainImage(const Terrain& terrain)
 {
   const Vector3 low = terrain.Low(), high = terrain.High();
@@ -233,7 +233,7 @@ PlanPicture PlanScene::Draw() const
     for (std::uint32_t e = 0; e < space_.Size(); ++e)
       if (space_.IsPresent(e) && wanted(DescriptionOf(space_.GetEntity(e).GetKind()))) (this->*add)(e, picture);
   };
-  // From the ground up; what flies is above all.
+  // Shapes are added from the ground up; flying robots come last.
   each([](const auto& kind) { return IsFlat(kind.role); }, &PlanScene::AddFlat);
   AddTrails(picture);
   each([](const auto& kind) { return !IsFlat(kind.role) && kind.role != EntityRole::kRobot; }, &PlanScene::AddBody);
@@ -335,7 +335,7 @@ void PlanScene::AddRobot(std::uint32_t entity, PlanPicture& picture) const
   AddLights(entity, picture);
 }
 
-// LEDs and the beacon that shine, in their own colours.
+// Adds LEDs and beacons that shine, in their own colours.
 void PlanScene::AddLights(std::uint32_t entity, PlanPicture& picture) const
 {
   const CSwarmanoidSpaceEntity& robot = space_.GetEntity(entity);
@@ -387,7 +387,7 @@ void PlanScene::AddHolds(PlanPicture& picture) const
 
 std::vector<PlanLegendEntry> PlanScene::Legend() const
 {
-  // In the order of the kinds; things of one kind and several colours have an entry for each of at most three.
+  // Entries follow the order of the kinds. A kind with several colours has an entry for each of at most three.
   constexpr std::size_t kMostColours = 3;
   std::map<EntityKind, std::map<std::uint32_t, std::size_t>> counts;
   for (std::uint32_t e = 0; e < space_.Size(); ++e)

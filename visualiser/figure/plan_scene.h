@@ -22,18 +22,18 @@ struct PlanOptions
 class PlanScene
 {
 public:
-  // Reads terrains, meshes and pictures of the floor; throws ConfigurationError for those. The space outlives the
-  // scene.
+  // Reads terrains, meshes and pictures of the floor; throws ConfigurationError if one cannot be read. The space must
+  // outlive the scene.
   PlanScene(const CSwarmanoidSpace& space, const PlanOptions& options);
 
-  // Notes where everything is, for trails. Each tick.
+  // Records the positions of all entities, for trails. Call it at each tick.
   void Track();
   PlanPicture Draw() const;
-  // Of what is in the arena now.
+  // Returns the legend of the entities that are in the arena now.
   std::vector<PlanLegendEntry> Legend() const;
 
 private:
-  // A mesh of the user: unit points times a scale, in the frame of the entity.
+  // The outline of a user's mesh: unit points times a scale, in the frame of the entity.
   struct MeshOutline
   {
     const std::vector<Vector3>* points;
@@ -41,7 +41,7 @@ private:
   };
 
   void ReadMeshes();
-  // Of its mesh if it has one, otherwise of its body; as it is turned and tipped.
+  // Returns the outline of the entity's mesh or, without a mesh, of its body, turned and tipped as it is.
   std::vector<Vector2> OutlineOf(std::uint32_t entity) const;
   void AddFlat(std::uint32_t entity, PlanPicture& picture) const;
   void AddBody(std::uint32_t entity, PlanPicture& picture) const;
@@ -55,8 +55,8 @@ private:
   const PlanOptions options_;
   std::map<std::uint32_t, PlanShape> images_;  // terrains and painted patches: in the frame of their entity
   std::map<std::string, std::vector<Vector3>> mesh_points_;
-  std::map<std::uint32_t, MeshOutline> meshes_;  // of the entities that have one
-  std::vector<std::vector<Vector2>> trails_;     // of the movable entities
+  std::map<std::uint32_t, MeshOutline> meshes_;  // by entity, for entities with a mesh
+  std::vector<std::vector<Vector2>> trails_;     // by movable entity
 };
 
 }  // namespace swarmanoid

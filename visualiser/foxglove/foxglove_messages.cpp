@@ -18,7 +18,7 @@ namespace
 using MessageJson = nlohmann::ordered_json;
 
 constexpr const char* kWorldFrame = "arena";
-constexpr double kThin = 0.002;  // m: of what lies on the floor
+constexpr double kThin = 0.002;  // m: the thickness of flat entities on the floor
 constexpr double kLedRadius = 0.008;
 
 MessageJson TimeOf(std::uint64_t time) { return {{"sec", time / 1'000'000'000}, {"nsec", time % 1'000'000'000}}; }
@@ -35,7 +35,7 @@ MessageJson ColourOf(double colour)
   return {{"r", channel(16)}, {"g", channel(8)}, {"b", channel(0)}, {"a", 1.0}};
 }
 
-// Schemas, as far as these messages go.
+// Return the parts of JSON schemas that these messages need.
 MessageJson Number() { return {{"type", "number"}}; }
 MessageJson Integer() { return {{"type", "integer"}}; }
 MessageJson Text() { return {{"type", "string"}}; }
@@ -116,7 +116,7 @@ struct FoxgloveMessages::Entity
   bool is_shown;  // it has a body, or lies on the floor
   bool is_cylinder = false;
   Vector3 size = Vector3::Zero();
-  Vector3 centre = Vector3::Zero();  // in its frame
+  Vector3 centre = Vector3::Zero();  // in the frame of the entity
 };
 
 FoxgloveMessages::FoxgloveMessages(const CSwarmanoidSpace& space, std::vector<std::size_t> entities) : space_(space)
@@ -181,8 +181,8 @@ std::string FoxgloveMessages::Transforms(bool movable) const
   return MessageJson{{"transforms", std::move(transforms)}}.dump();
 }
 
-// All of it whenever something changed: who looks at a moment finds it in one message. What moves is in the frame of
-// its entity.
+// Sends the whole scene after any change, so that one message describes the scene at any time. Moving bodies are in the
+// frames of their entities.
 std::optional<std::string> FoxgloveMessages::ChangedScene()
 {
   const std::uint64_t time = Time();

@@ -1,5 +1,5 @@
-// The messages by which Foxglove and Lichtblick see a run, as JSON: transforms, bodies, attributes and events. Used by
-// `swarmanoid export --mcap` and by foxglove_render, each in one thread.
+// The JSON messages with which Foxglove and Lichtblick show a run: transforms, bodies, attributes and events.
+// `swarmanoid export --mcap` and foxglove_render use it, each in one thread.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct FoxgloveTopic
 {
   std::string topic;        // "/tf"
   std::string schema_name;  // "foxglove.FrameTransforms"
-  std::string schema;       // of JSON
+  std::string schema;       // a JSON schema
 };
 
 class FoxgloveMessages
@@ -26,7 +26,7 @@ class FoxgloveMessages
 public:
   enum Topic : std::size_t
   {
-    kFixed,  // what stands for ever
+    kFixed,  // transforms that never change
     kMoving,
     kScene,
     kAttributes,
@@ -34,24 +34,24 @@ public:
     kTopicCount
   };
 
-  // `entities`: those that are shown. The space outlives this.
+  // `entities`: the shown ones. The space must outlive the object.
   FoxgloveMessages(const CSwarmanoidSpace& space, std::vector<std::size_t> entities);
   ~FoxgloveMessages();
 
   std::array<FoxgloveTopic, kTopicCount> Topics() const;
-  // Simulated time of a tick, in ns; of the space's without an argument.
+  // Returns the simulated time of a tick in ns; without an argument, of the space's tick.
   std::uint64_t TimeOfTick(double tick) const;
   std::uint64_t Time() const;
 
-  // Where the entities are at the tick of the space: those that can move, or the others.
+  // Returns the poses of the entities at the tick of the space: of the movable ones, or of the others.
   std::string Transforms(bool movable) const;
-  // All bodies, in the frames of their entities; nothing if they are as in the call before.
+  // Returns all bodies, in the frames of their entities; nothing if they have not changed since the last call.
   std::optional<std::string> ChangedScene();
   std::string Attributes() const;
-  // A line of events.csv, at a time in ns.
+  // Returns the message for a line of events.csv, at a time in ns.
   static std::string Event(std::string_view line, std::uint64_t time);
 
-  // The next scene counts as changed.
+  // Makes the next scene count as changed.
   void ForgetScene() { shown_.reset(); }
 
 private:
@@ -59,7 +59,7 @@ private:
 
   const CSwarmanoidSpace& space_;
   std::vector<Entity> entities_;
-  std::optional<std::vector<double>> shown_;  // of all entities: whether they are there, and their colours
+  std::optional<std::vector<double>> shown_;  // by entity: whether it is in the arena, and its colours
 };
 
 }  // namespace swarmanoid

@@ -1,4 +1,5 @@
-// foxglove_render: a run in Foxglove and Lichtblick, by the Foxglove WebSocket protocol. It only shows.
+// foxglove_render: shows a run in Foxglove and Lichtblick, by the Foxglove WebSocket protocol. Clients cannot control
+// the run.
 #include <fmt/format.h>
 
 #include <array>
@@ -17,7 +18,7 @@ namespace swarmanoid
 namespace
 {
 
-// Events are lines of a file of the run, which exports have.
+// Events are lines of a file of the run, so that only exports have them.
 constexpr std::size_t kTopics = FoxgloveMessages::kEvents;
 
 class CFoxgloveRender : public CRender
@@ -50,7 +51,7 @@ public:
   void Finish() override { server_.reset(); }
 
 private:
-  // Those who have just come get what there is, also of a run that is paused.
+  // New clients get the current content, also of a paused run.
   bool IsNew(std::size_t topic)
   {
     const std::uint64_t subscriptions = server_->Subscriptions(topic);
@@ -77,7 +78,7 @@ private:
   std::uint64_t every_ = 1;
   std::unique_ptr<FoxgloveMessages> messages_;
   std::unique_ptr<FoxgloveServer> server_;
-  std::array<std::uint64_t, kTopics> seen_{};  // subscriptions
+  std::array<std::uint64_t, kTopics> seen_{};  // subscriptions at the last look
 };
 
 }  // namespace

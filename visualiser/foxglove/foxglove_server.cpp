@@ -33,14 +33,14 @@ using Request = http::request<http::empty_body>;
 using Bytes = std::shared_ptr<const std::string>;
 
 constexpr const char* kProtocol = "foxglove.websocket.v1";
-// Of the protocol.
+// Constants of the protocol.
 constexpr char kMessageData = 1;
 constexpr char kTime = 2;
 constexpr int kWarning = 1, kError = 2;
 constexpr auto kTimeToClose = std::chrono::milliseconds(300);
 constexpr auto kHandshakeTime = std::chrono::seconds(10);
-constexpr std::size_t kMostSubscriptions = 64;  // of a client
-constexpr std::size_t kMostTexts = 64;          // that wait for a client
+constexpr std::size_t kMostSubscriptions = 64;  // for each client
+constexpr std::size_t kMostTexts = 64;          // the limit of waiting texts for a client
 
 template <class Number>
 void Append(std::string& bytes, Number number)
@@ -48,7 +48,7 @@ void Append(std::string& bytes, Number number)
   for (std::size_t k = 0; k < sizeof number; ++k) bytes.push_back(static_cast<char>(number >> (8 * k) & 0xffU));
 }
 
-// "http://localhost:3000" and the like, and files.
+// Returns whether the origin is on this machine, such as "http://localhost:3000", or a file.
 bool IsOfThisMachine(std::string_view origin)
 {
   if (origin == "file://" || origin == "null") return true;
@@ -120,7 +120,7 @@ private:
     std::atomic<std::uint64_t> ever = 0;
   };
 
-  // All in the thread of the server.
+  // All members are used in the thread of the server.
   class Client : public std::enable_shared_from_this<Client>
   {
   public:
@@ -293,7 +293,7 @@ private:
       Write();
     }
 
-    // One message at a time: texts, the time, then what waits for the subscriptions in turn.
+    // Sends one message at a time: texts, the time, then the waiting messages of the subscriptions in turn.
     void Write()
     {
       if (is_writing_ || !is_open_) return;
@@ -351,7 +351,7 @@ private:
     beast::flat_buffer buffer_;
     http::request_parser<http::empty_body> parser_;
     std::map<std::uint32_t, Subscription> subscriptions_;
-    std::uint32_t last_ = 0;  // that was sent
+    std::uint32_t last_ = 0;  // the last subscription that was sent
     std::vector<std::string> texts_;
     std::optional<std::uint64_t> time_;
     std::string out_;
@@ -380,7 +380,7 @@ private:
         [this](beast::error_code error, tcp::socket socket)
         {
           if (error == asio::error::operation_aborted || !acceptor_.is_open()) return;
-          // One more than may look is answered, so that it learns why.
+          // A client beyond the limit still gets an answer that states the reason.
           if (!error && clients_.size() < 2 * settings_.max_clients)
             (*clients_.insert(std::make_shared<Client>(*this, std::move(socket))).first)->Start();
           Accept();

@@ -1,9 +1,8 @@
-// FoxgloveServer: a WebSocket server of the protocol foxglove.websocket.v1
-// (https://github.com/foxglove/ws-protocol, docs/spec.md) with JSON messages, in a thread of its own. For
-// foxglove_render.
+// FoxgloveServer: a WebSocket server of the protocol foxglove.websocket.v1 (https://github.com/foxglove/ws-protocol,
+// docs/spec.md) with JSON messages, in its own thread. For foxglove_render.
 //
-// Nobody who looks can slow the caller: each client has one place for each channel it subscribed to, which holds the
-// latest message only; who reads slowly gets fewer.
+// Clients cannot slow the caller. Each client has one slot for each subscribed channel, which holds only the latest
+// message; slow clients get fewer messages.
 #pragma once
 
 #include <cstdint>
@@ -18,38 +17,39 @@ struct FoxgloveChannel
 {
   std::string topic;
   std::string schema_name;
-  std::string schema;  // of JSON
+  std::string schema;  // a JSON schema
 };
 
 struct FoxgloveServerSettings
 {
   std::string address = "127.0.0.1";
   std::uint16_t port = 8765;
-  // Pages of other places are refused, as their browsers name them ("https://app.foxglove.dev"); those of this machine
-  // and programs, which name none, are not.
+  // The allowed origins of pages, as browsers name them ("https://app.foxglove.dev"). Pages of this machine, and
+  // programs, which have no origin, are always allowed.
   std::vector<std::string> origins;
   std::string name;  // shown by clients
   std::size_t max_clients = 16;
-  std::size_t max_message_bytes = 65536;  // of a client; a longer one ends its connection
+  std::size_t max_message_bytes = 65536;  // the limit for a client's message; a longer one ends its connection
 };
 
 class FoxgloveServer
 {
 public:
-  // Throws std::runtime_error if it cannot listen.
+  // Throws std::runtime_error if the server cannot listen.
   FoxgloveServer(const FoxgloveServerSettings& settings, std::vector<FoxgloveChannel> channels);
-  // Sends what is ready, for a moment, and closes the connections.
+  // Sends the waiting messages, for a short time, and closes the connections.
   ~FoxgloveServer();
   FoxgloveServer(const FoxgloveServer&) = delete;
   FoxgloveServer& operator=(const FoxgloveServer&) = delete;
 
   std::uint16_t Port() const;
   std::size_t Subscribers(std::size_t channel) const;
-  // How many have ever subscribed to a channel: one more asks for a message at once.
+  // Returns the number of subscriptions to a channel since the start. A larger number means that a message is needed at
+  // once.
   std::uint64_t Subscriptions(std::size_t channel) const;
-  // A message for all subscribers; `time` in ns.
+  // Sends a message to all subscribers; `time` in ns.
   void Publish(std::size_t channel, std::uint64_t time, std::string json);
-  // The clock of the clients, in ns.
+  // Sets the clock of the clients, in ns.
   void SetTime(std::uint64_t time);
 
 private:

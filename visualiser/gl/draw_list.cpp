@@ -77,14 +77,14 @@ void Frame::Sort(const Scene& scene, const ViewVolume& view, const SunVolume& su
     }
     if (!options.shadows || item.role != Role::kBody || see_through[item.model] || !sun.Holds(item.position, radius))
       continue;
-    // Far away the shadow of a footbot's turret is that of the whole robot.
+    // At a distance the shadow of a footbot's turret is covered by that of the whole robot.
     const bool hidden = level == 2 && item.model == static_cast<std::uint16_t>(ModelId::kFootbotBase);
-    // A terrain throws shadows on itself: both have to be the same surface.
+    // A terrain throws shadows on itself, so that both passes must use the same surface.
     if (!hidden) casters.Add(item.model, model.is_terrain ? level : std::max(level, 1), InstanceOf(item));
   }
 }
 
-// Tall walls are cut open: glass over a solid lower part, with the upper edge drawn.
+// Cuts tall walls open: glass over a solid lower part, with the upper edge drawn.
 void Frame::SortWall(const SceneItem& item, const Scene& scene, const ViewVolume& view)
 {
   const EntityConfiguration& wall = scene.Space().GetEntity(item.entity).GetConfiguration();
@@ -111,7 +111,7 @@ void Frame::SortWall(const SceneItem& item, const Scene& scene, const ViewVolume
   edge(corner(-1, 1, 1), corner(-1, -1, 1));
 }
 
-// A soft dark spot where a body meets the floor, and what its LEDs throw on the floor.
+// Adds a soft dark spot where a body meets the floor, and the light of its LEDs on the floor.
 void Frame::AddUnderglow(const SceneItem& item, const Scene& scene)
 {
   const auto model = static_cast<ModelId>(item.model);
@@ -133,7 +133,7 @@ void Frame::AddUnderglow(const SceneItem& item, const Scene& scene)
     }
   if (lit == 0) return;
   sum /= static_cast<float>(lit);
-  // Many colours together light the floor in none.
+  // Many colours together light the floor without a hue.
   const float hue = (sum.maxCoeff() - sum.minCoeff()) / sum.maxCoeff();
   soft.push_back({{item.position.x(), item.position.y(), item.position.z(), radius * 3.2F},
                   {sum.x(), sum.y(), sum.z(), (0.06F + 0.24F * hue) * static_cast<float>(lit) / 12},

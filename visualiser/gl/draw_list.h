@@ -1,4 +1,5 @@
-// One frame, sorted for drawing: what is seen of a scene, at which level of detail, in which pass. No calls of OpenGL.
+// One frame, sorted for drawing: the visible items of a scene with their level of detail and pass. It makes no calls of
+// OpenGL.
 #pragma once
 
 #include <array>
@@ -13,22 +14,22 @@
 namespace swarmanoid
 {
 
-// As the shaders read them.
+// The layout that the shaders read.
 struct GlLine
 {
   std::array<float, 3> from, to;
   std::array<float, 4> colour;
-  std::array<float, 3> width;  // and opacity at both ends
+  std::array<float, 3> width;  // width and opacity at both ends
 };
 
 struct GlGlow
 {
-  std::array<float, 4> place;  // and radius
+  std::array<float, 4> place;  // position and radius
   std::array<float, 4> colour;
   std::array<float, 2> kind;  // flat, strength
 };
 
-// Of GlGlow::kind.
+// Values of GlGlow::kind.
 enum GlowStrength
 {
   kContact,
@@ -36,7 +37,7 @@ enum GlowStrength
   kSpot
 };
 
-// Red, green, blue: 0..1.
+// Returns red, green and blue in 0..1.
 Eigen::Vector3f ChannelsOf(Colour colour);
 
 struct Frame
@@ -45,13 +46,13 @@ struct Frame
   void SortMarks(const Scene& scene, const LabelAtlas& labels, const Camera& camera, int width, int height);
 
   InstanceBuckets solid, ground, patches, glass;
-  InstanceBuckets casters;    // of shadows
+  InstanceBuckets casters;    // bodies that throw shadows
   std::vector<GlLine> under;  // lines, hidden by what is in front of them
   std::vector<GlLine> over;   // lines over everything
-  std::vector<GlGlow> soft;   // on the floor, under everything that is see-through
+  std::vector<GlGlow> soft;   // glows on the floor, drawn under everything that is see-through
   std::vector<GlGlow> bright;
-  std::vector<GlPaint> paint;        // what experiment functions draw: corners of triangles
-  std::vector<GlPaint> clear_paint;  // see-through
+  std::vector<GlPaint> paint;        // triangles of experiment functions, by their corners
+  std::vector<GlPaint> clear_paint;  // the see-through ones of these
   std::vector<Glyph> glyphs;
   std::size_t instances = 0;
 

@@ -1,4 +1,4 @@
-// Owners of OpenGL's names, shader programs among them. All need the context in which they were made to be current.
+// Owners of OpenGL's names, including shader programs. Their context must be current in every call.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -47,13 +47,13 @@ private:
 class GlProgram
 {
 public:
-  // Throws std::runtime_error with the compiler's words.
+  // Throws std::runtime_error with the compiler's message.
   GlProgram(const std::string& title, const std::string& vertex_source, const std::string& fragment_source);
   ~GlProgram() { glDeleteProgram(name_); }
   GlProgram(const GlProgram&) = delete;
   GlProgram& operator=(const GlProgram&) = delete;
 
-  // What follows is set in the program in use.
+  // Uniforms that are set afterwards belong to the program in use.
   void Use() const { glUseProgram(name_); }
   void Set(const char* uniform, float value) const { glUniform1f(Location(uniform), value); }
   void Set(const char* uniform, int value) const { glUniform1i(Location(uniform), value); }

@@ -23,7 +23,7 @@ using Eigen::Vector2f;
 using Eigen::Vector3f;
 using Eigen::Vector4f;
 
-// From the left behind the default view, rather high.
+// The sun is to the left behind the default view, rather high.
 const Vector3 kTowardsSun = Vector3(-0.58, -0.20, 0.79).normalized();
 constexpr GLint kShadowUnit = 0;
 constexpr GLint kLightsUnit = 1;
@@ -32,7 +32,7 @@ constexpr float kCaptionMargin = 12;  // pixels
 
 Vector3f Linear(Colour colour) { return ChannelsOf(colour).cwiseAbs2(); }
 
-// Metres between contour lines: about eight up the highest terrain.
+// Returns the metres between contour lines: about eight up the highest terrain.
 float ContourOf(const Scene& scene)
 {
   float height = 0;
@@ -130,7 +130,7 @@ void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffe
   glActiveTexture(GL_TEXTURE0 + kLightsUnit);
   glBindTexture(GL_TEXTURE_BUFFER, s.light_texture.Name());
 
-  // What is solid, nearest things first in effect: the floor covers most of the picture and comes after the bodies.
+  // Solid things come first, roughly by distance: the floor covers most of the picture and comes after the bodies.
   const GlProgram& body = s.shaders.body;
   body.Use();
   s.SetLight(body, scene, camera, sun, options);
@@ -154,7 +154,7 @@ void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffe
   glDisable(GL_POLYGON_OFFSET_FILL);
   s.DrawSky(view);
 
-  // What is see-through, over it.
+  // See-through things are drawn over the solid ones.
   glEnable(GL_BLEND);
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
@@ -265,12 +265,12 @@ void GlScene::State::DrawFloor(const Scene& scene, const ViewVolume& view, const
   floor.Set("u_colour", Linear(palette::kFloor));
   floor.Set("u_line_colour", Linear(palette::kFloorLine));
   floor.Set("u_spacing", options.textures ? static_cast<float>(FloorSpacing(scene.ArenaSize())) : 0.0F);
-  // What lies on the floor wins.
+  // The offset makes flat things on the floor win over it.
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1, 2);
   lines.DrawOne();
 
-  // The ground around it, a little lower, so that bodies beyond the edge stand on something.
+  // The ground around the floor is a little lower, so that bodies beyond the edge stand on something.
   const float reach = 1.2F * std::max(size.x(), size.y());
   floor.Set("u_outside", 1);
   floor.Set("u_spacing", 0.0F);

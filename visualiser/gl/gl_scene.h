@@ -1,5 +1,5 @@
-// GlScene: draws a scene with OpenGL 3.3 core. Used by image_render (a context without a window) and opengl_render (a
-// window's context). Makes no context: one must be current in the thread of every call, the same one each time.
+// GlScene: draws a scene with OpenGL 3.3 core. image_render (a context without a window) and opengl_render (a window's
+// context) use it. It makes no context: the same context must be current in the thread of every call.
 #pragma once
 
 #include <memory>
@@ -16,32 +16,32 @@ struct DrawOptions
 {
   bool shadows = true;
   bool textures = true;
-  int samples = 4;          // a pixel, for smooth edges; 0 or 1: none
-  bool glass_walls = true;  // tall walls at the edge of the arena are cut open, so that they hide nothing
+  int samples = 4;          // samples a pixel, for smooth edges; 0 or 1: none
+  bool glass_walls = true;  // cuts tall walls at the edge of the arena open, so that they hide nothing
   std::string caption{};    // a line in the lower left corner; empty: none
 };
 
-// What was drawn last, for a status line.
+// Numbers of the last frame, for a status line.
 struct DrawStatistics
 {
   std::size_t instances = 0;
-  std::size_t triangles = 0;  // with those of the shadow map
+  std::size_t triangles = 0;  // including those of the shadow map
 };
 
 class GlScene
 {
 public:
-  // Throws std::runtime_error if the context is older than 3.3 or does not take the shaders.
+  // Throws std::runtime_error if the context is older than 3.3 or rejects the shaders.
   GlScene();
   ~GlScene();
 
-  // Draws into a framebuffer object (0: the window's), as it is after the scene's last Update. The same scene each
-  // time. Leaves all of OpenGL's state at its defaults but for the viewport.
+  // Draws the state of the scene's last Update into a framebuffer object (0: the window's). Every call must get the
+  // same scene. Leaves OpenGL's state at its defaults except for the viewport.
   void Draw(const Scene& scene, const Camera& camera, unsigned framebuffer, int width, int height,
             const DrawOptions& options);
 
   const DrawStatistics& StatisticsForTest() const;
-  // "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa 22.3.6".
+  // Returns a text such as "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa 22.3.6".
   static std::string ContextDescription();
 
 private:
@@ -49,7 +49,7 @@ private:
   std::unique_ptr<State> state_;
 };
 
-// The picture in a framebuffer object, once drawing has ended.
+// Returns the picture in a framebuffer object, once drawing has ended.
 Picture ReadPicture(unsigned framebuffer, int width, int height);
 
 }  // namespace swarmanoid

@@ -13,9 +13,9 @@ namespace swarmanoid
 namespace
 {
 
-constexpr int kSide = 256;                // of the atlas, pixels
-constexpr float kHeight = 15;             // of the letters, pixels
-constexpr float kWhite = 253.5F / kSide;  // a place in the atlas that is all white
+constexpr int kSide = 256;                // pixels, of the atlas
+constexpr float kHeight = 15;             // pixels, of the letters
+constexpr float kWhite = 253.5F / kSide;  // coordinate in the atlas where it is white
 constexpr int kFirst = ' ';
 constexpr int kCount = '~' - ' ' + 1;
 
@@ -104,7 +104,7 @@ void LabelAtlas::AppendPlain(std::string_view text, float x, float y, const std:
   const float line = std::round(y);
   for (const char c : text)
   {
-    // Of a character of UTF-8 that has several bytes, one.
+    // Only the first byte of a UTF-8 character counts.
     if ((static_cast<unsigned char>(c) & 0xc0U) == 0x80) continue;
     const BakedGlyph& l = GlyphOf(c);
     glyphs.push_back({{pen + l.left, line + l.top, pen + l.right, line + l.bottom}, l.texture, colour});

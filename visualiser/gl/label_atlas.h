@@ -10,7 +10,7 @@
 namespace swarmanoid
 {
 
-// As the text shader reads it: pixels of the picture, places in the atlas, colour.
+// The layout that the text shader reads: pixels of the picture, positions in the atlas, colour.
 struct Glyph
 {
   std::array<float, 4> place;
@@ -21,16 +21,16 @@ struct Glyph
 class LabelAtlas
 {
 public:
-  // Without the font (Debian's fonts-dejavu-core) a message is printed, and labels stay empty.
+  // Without the font (Debian's fonts-dejavu-core) it prints a message, and labels stay empty.
   LabelAtlas();
 
   GLuint Texture() const { return texture_.Name(); }
   bool IsEmpty() const { return glyphs_.empty(); }
-  // A text on a light plate, its middle above x, y (pixels). Letters outside ASCII become '?'.
+  // Adds a text on a light plate, with its middle above x, y (pixels). Letters outside ASCII become '?'.
   void Append(std::string_view text, float x, float y, std::vector<Glyph>& glyphs) const;
-  // The same from a place to the right: x, y (pixels) is where the first letter stands.
+  // Adds the same, with the first letter at x, y (pixels).
   void AppendFrom(std::string_view text, float x, float y, std::vector<Glyph>& glyphs) const;
-  // Likewise, without a plate, in that colour and opacity.
+  // Adds the text from there, without a plate, in that colour and opacity.
   void AppendPlain(std::string_view text, float x, float y, const std::array<float, 4>& colour,
                    std::vector<Glyph>& glyphs) const;
 
@@ -38,7 +38,7 @@ private:
   struct BakedGlyph
   {
     std::array<float, 4> texture;
-    float left, top, right, bottom;  // from the pen
+    float left, top, right, bottom;  // relative to the pen
     float advance;
   };
 

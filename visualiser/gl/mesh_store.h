@@ -1,4 +1,4 @@
-// The models of a scene in the graphics memory, and the instances of one frame, grouped by mesh.
+// The models of a scene in graphics memory, and the instances of one frame, grouped by mesh.
 #pragma once
 
 #include <array>
@@ -13,19 +13,19 @@
 namespace swarmanoid
 {
 
-// As the vertex shader reads it.
+// The layout that the vertex shader reads.
 struct GlInstance
 {
   std::array<float, 3> place;
   std::array<float, 4> orientation;  // x, y, z, w
   std::array<float, 3> scale;
-  std::array<std::uint8_t, 4> tint;  // and opacity
+  std::array<std::uint8_t, 4> tint;  // colour and opacity
   float lights;
 };
 
 GlInstance InstanceOf(const SceneItem& item, float opacity = 1);
 
-// Instances of one pass, in one bucket for each model and level.
+// The instances of one pass, in one bucket for each model and level.
 class InstanceBuckets
 {
 public:

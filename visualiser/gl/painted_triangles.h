@@ -1,4 +1,4 @@
-// Triangles that are drawn in the colours of their corners, without light.
+// Draws triangles in the colours of their corners, without light.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 namespace swarmanoid
 {
 
-// As the shader reads it.
+// The layout that the shader reads.
 struct GlPaint
 {
   std::array<float, 3> place;

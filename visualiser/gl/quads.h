@@ -1,4 +1,4 @@
-// Instanced quadrangles with one plain structure of floats an instance: lines, glows, glyphs.
+// Instanced quadrangles, each with one plain struct of floats: lines, glows, glyphs.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@ template <class Instance>
 class Quads
 {
 public:
-  // Floats of each instanced attribute, at locations 1, 2 … in this order.
+  // `attributes`: the floats of each instanced attribute, at locations 1, 2 … in this order.
   explicit Quads(std::initializer_list<int> attributes)
   {
     glBindVertexArray(array_.Name());
@@ -46,7 +46,7 @@ public:
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(instances.size()));
     glBindVertexArray(0);
   }
-  // One quadrangle without any instanced attribute.
+  // Draws one quadrangle without instanced attributes.
   void DrawOne() const
   {
     glBindVertexArray(array_.Name());

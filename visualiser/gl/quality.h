@@ -1,4 +1,4 @@
-// What the shared parameters of view_parameters.h ask of a scene and its drawing.
+// Applies the shared parameters of view_parameters.h to a scene and its drawing.
 #pragma once
 
 #include "common/configuration/parameter.h"

@@ -7,7 +7,7 @@ namespace
 
 const std::string kVersion = "#version 330 core\n";
 
-// Colours are squared to be linear in light, and rooted at the end: a gamma of 2.
+// Colours are squared to be linear in light, and the square root is taken at the end: a gamma of 2.
 const std::string kLight = R"(
 uniform vec3 u_eye;
 uniform vec3 u_sun;           // towards it
@@ -221,8 +221,7 @@ void main()
 }
 )";
 
-// A line is a quadrangle across the picture; what is behind the camera is cut off. One that ends where it begins is a
-// dot.
+// A line is a quadrangle across the picture. Parts behind the camera are cut off. A line of length 0 is a dot.
 const std::string kLineVertex = kVersion + R"(
 layout(location = 0) in vec2 a_corner;
 layout(location = 1) in vec3 i_from;
@@ -320,7 +319,7 @@ void main()
 }
 )";
 
-// strength 0: a dark spot, the soft shadow where something stands; 1: a lamp; 2: the spot of a laser.
+// Strength 0 is a dark spot, the soft shadow under a body; 1 is a lamp; 2 is the spot of a laser.
 const std::string kGlowFragment = kVersion + R"(
 in vec2 v_place;
 in vec4 v_colour;

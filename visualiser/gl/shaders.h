@@ -11,8 +11,8 @@ struct Shaders
   Shaders();
 
   GlProgram body;    // instances of meshes with light, shadow and fog
-  GlProgram caster;  // the same into the shadow map
-  GlProgram floor;   // of the arena and around it
+  GlProgram caster;  // the same bodies in the shadow map
+  GlProgram floor;   // the floor of the arena and the ground around it
   GlProgram sky;
   GlProgram line;
   GlProgram glow;
@@ -20,7 +20,7 @@ struct Shaders
   GlProgram paint;  // triangles in the colours of their corners
 };
 
-// Where the vertex attributes of body and caster are.
+// The locations of the vertex attributes of body and caster.
 enum BodyAttribute : GLuint
 {
   kPositionAttribute,

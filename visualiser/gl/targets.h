@@ -1,4 +1,4 @@
-// What is drawn into: the picture with several samples a pixel, and the shadow map.
+// The framebuffers: the picture with several samples a pixel, and the shadow map.
 #pragma once
 
 #include "visualiser/gl/gl_object.h"
@@ -6,11 +6,11 @@
 namespace swarmanoid
 {
 
-// A picture with depth; with more than one sample it has to be copied to be read.
+// A picture with depth. With more than one sample it must be copied before it is read.
 class PictureTarget
 {
 public:
-  // Does nothing if it is so already. Throws std::runtime_error if OpenGL refuses.
+  // Does nothing if the size is unchanged. Throws std::runtime_error if OpenGL refuses.
   void Resize(int width, int height, int samples);
   GLuint Framebuffer() const { return framebuffer_.Name(); }
 

@@ -11,7 +11,7 @@ namespace swarmanoid
 ViewVolume::ViewVolume(const Camera& camera, int width, int height, const Vector3& low, const Vector3& high)
     : eye(camera.position.cast<float>()), forward(camera.Forward().cast<float>())
 {
-  // As near and far as anything is: the depth buffer is dearest where it is wide.
+  // The near and far planes fit the content, since a wide range costs depth precision.
   double nearest = 1e300;
   double farthest = 1;
   for (int corner = 0; corner < 8; ++corner)
@@ -23,7 +23,7 @@ ViewVolume::ViewVolume(const Camera& camera, int width, int height, const Vector
     farthest = std::max(farthest, depth);
   }
   const double size = (high - low).norm();
-  // The ground in front of the arena too.
+  // The ground in front of the arena must be included.
   const double above = std::abs(camera.position.z() - low.z());
   near = std::max({0.02, std::min(nearest * 0.9, above * 0.5), 1e-4 * size});
   far = 4 * farthest + 10 * size;
@@ -38,7 +38,8 @@ ViewVolume::ViewVolume(const Camera& camera, int width, int height, const Vector
   planes = {w + x, w - x, w + y, w - y, w + z};
   for (Eigen::Vector4f& plane : planes) plane /= plane.head<3>().norm();
 
-  // The ground that is seen: where lines of sight through the picture's edge meet it, or their ends over the horizon.
+  // The visible ground is bounded by the points where sight lines through the picture's edge meet it, or by their ends
+  // above the horizon.
   seen_low = high;
   seen_high = low;
   constexpr int kSteps = 4;
@@ -92,7 +93,7 @@ SunVolume::SunVolume(const Vector3& towards_sun, const Vector3& low, const Vecto
     least = least.cwiseMin(point);
     most = most.cwiseMax(point);
   }
-  // What throws a shadow into the box may stand nearer to the sun.
+  // Bodies that throw a shadow into the box may be nearer to the sun.
   most.z() += 1;
   least -= Vector3::Constant(0.05);
   most += Vector3::Constant(0.05);
@@ -100,7 +101,7 @@ SunVolume::SunVolume(const Vector3& towards_sun, const Vector3& low, const Vecto
   Eigen::Matrix4d projection = Eigen::Matrix4d::Identity();
   for (Eigen::Index axis = 0; axis < 3; ++axis)
   {
-    const double sign = axis == 2 ? -1 : 1;  // near the sun is the smaller depth
+    const double sign = axis == 2 ? -1 : 1;  // the depth is smaller towards the sun
     projection.block<1, 3>(axis, 0) = sign * 2 / size[axis] * rows.row(axis);
     projection(axis, 3) = -sign * (most[axis] + least[axis]) / size[axis];
   }

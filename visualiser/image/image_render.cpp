@@ -63,7 +63,7 @@ void CImageRender::Init(const RenderSetup& setup)
   ReadOutputs(setup);
 }
 
-// "fb_1: engine 'ground', controller host 0".
+// Sets names such as "fb_1: engine 'ground', controller host 0".
 void CImageRender::NameOwners(const RenderSetup& setup)
 {
   for (std::size_t e = 0; e < space_->Size(); ++e)
@@ -132,7 +132,7 @@ void CImageRender::Draw()
   renderer_->Draw(*scene_, camera_, buffer_->Framebuffer(), width_, height_, draw_options_);
   Write(buffer_->Read(), tick);
 
-  // Multiples of `every` from the first tick on; a visualiser that is attached may have missed some.
+  // Pictures are at multiples of `every` from the first tick on. An attached visualiser may have missed some.
   next_ += ((tick - next_) / every_ + 1) * every_;
   done_ = next_ > last_;
 }

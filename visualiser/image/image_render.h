@@ -1,4 +1,4 @@
-// image_render: pictures and videos without a window. Draws at chosen ticks; the video runs in simulated time.
+// image_render: pictures and videos without a window. It draws at chosen ticks; the video runs in simulated time.
 #pragma once
 
 #include <memory>
@@ -34,10 +34,10 @@ private:
   Camera camera_;
   DrawOptions draw_options_;
   SceneOptions scene_options_;
-  RunMonitor* monitor_ = nullptr;   // if the pictures show how the run goes
-  std::vector<std::string> names_;  // of the entities, with their owners
+  RunMonitor* monitor_ = nullptr;   // not null if the pictures show the status of the run
+  std::vector<std::string> names_;  // of the entities and their owners
   std::uint64_t every_ = 1;
-  std::uint64_t next_ = 0;  // tick of the next picture: drawn at this one or the first one after it
+  std::uint64_t next_ = 0;  // the next picture is drawn at this tick or the first later one
   std::uint64_t last_ = 0;
   bool stop_ = false;
   bool done_ = false;
@@ -49,7 +49,7 @@ private:
   std::string video_;                         // empty: none
   std::optional<std::uint64_t> video_start_;  // tick
 
-  // In the order in which they need one another.
+  // The order is that of their dependencies.
   std::unique_ptr<OffscreenContext> context_;
   std::unique_ptr<PictureBuffer> buffer_;
   std::unique_ptr<Scene> scene_;

@@ -20,7 +20,7 @@ struct OffscreenContext::State
 
   ~State()
   {
-    // The display stays open: other contexts of this process may be of the same one.
+    // The display stays open, since other contexts of this process may use it.
     if (context == EGL_NO_CONTEXT) return;
     if (eglGetCurrentContext() == context) eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(display, context);
@@ -86,7 +86,7 @@ bool OffscreenContext::State::TrySurfaceless()
 
 OffscreenContext::OffscreenContext() : state_(std::make_unique<State>())
 {
-  // The library of OpenGL's entry points ends the program if there is none.
+  // The library of OpenGL's entry points ends the program if this library is missing.
   if (dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL) == nullptr)
     throw std::runtime_error(
         "pictures need OpenGL, and there is no libEGL.so.1; install the packages libegl1 and "

@@ -1,5 +1,5 @@
-// An OpenGL context without a window or an X server, by EGL: on the first device that has one, else Mesa's surfaceless
-// platform.
+// An OpenGL context without a window or an X server, by EGL. It uses the first device that provides one, else Mesa's
+// surfaceless platform.
 #pragma once
 
 #include <memory>
@@ -14,15 +14,16 @@ namespace swarmanoid
 class OffscreenContext
 {
 public:
-  // Current in this thread, until another one is. Throws std::runtime_error, saying what was tried.
+  // Makes the context current in this thread, until another one is made current. Throws std::runtime_error with the
+  // attempts.
   OffscreenContext();
   ~OffscreenContext();
   OffscreenContext(const OffscreenContext&) = delete;
   OffscreenContext& operator=(const OffscreenContext&) = delete;
 
-  // Before drawing, and before what was made in it is deleted, if the process has several contexts.
+  // If the process has several contexts, call it before drawing and before deleting objects of this context.
   void MakeCurrent() const;
-  // "EGL device 0", "EGL surfaceless".
+  // Returns "EGL device 0" or "EGL surfaceless".
   const std::string& Kind() const;
 
 private:
@@ -30,7 +31,7 @@ private:
   std::unique_ptr<State> state_;
 };
 
-// A framebuffer with one colour and no depth, to draw a finished picture into and read it.
+// A framebuffer with one colour and no depth, for drawing a finished picture and reading it.
 class PictureBuffer
 {
 public:

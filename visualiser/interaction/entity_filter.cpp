@@ -20,7 +20,8 @@ std::string Lower(std::string_view text)
   return lower;
 }
 
-// Whether the word is in one of the lines: "column:part" in that one, any other word in all of them but their names.
+// Returns whether the word is in one of the lines. "column:part" must be in that column; any other word in any column,
+// not in its name.
 bool Holds(const std::string& text, const std::string& word)
 {
   const std::size_t colon = word.find(':');

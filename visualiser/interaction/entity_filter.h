@@ -1,5 +1,5 @@
-// Which entities a list shows: those in which every word of a filter is found. "fb_1" is looked for everywhere,
-// "kind:footbot", "id:", "controller:", "engine:" and "host:" in that column alone.
+// Selects the entities that a list shows: those that contain every word of a filter. "fb_1" is searched in all columns;
+// "kind:footbot", "id:", "controller:", "engine:" and "host:" only in that column.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +19,11 @@ class EntityFilter
 public:
   EntityFilter(const CSwarmanoidSpace& space, const Assignment& assignment);
 
-  // Entity indices, ascending. Capital letters do not matter; no word: all of them.
+  // Returns entity indices, ascending. Case does not matter; an empty filter gives all entities.
   const std::vector<std::uint32_t>& Matching(std::string_view filter);
 
 private:
-  // Of each entity, in lower case: a line "column:text" for each column.
+  // For each entity, in lower case: a line "column:text" for each column.
   std::vector<std::string> texts_;
   std::string filter_;
   std::vector<std::uint32_t> matching_;

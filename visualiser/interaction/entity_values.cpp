@@ -54,7 +54,7 @@ std::vector<ValueGroup> ValuesOf(const CSwarmanoidSpace& space, std::uint32_t en
   std::uint32_t slot = body.FirstSlot();
   for (const AttributeSpec& spec : AttributesOf(body.GetKind()))
   {
-    // Packed bytes, which nobody reads as numbers.
+    // Packed bytes are not readable as numbers.
     if (spec.name == "message") break;
     std::string name(spec.name);
     std::replace(name.begin(), name.end(), '_', ' ');
@@ -105,7 +105,7 @@ std::string ValueText(const CSwarmanoidSpace& space, const EntityValue& value)
     const auto number = WholeNumber(value.value, static_cast<std::uint32_t>(space.Size()));
     return number.value_or(0) == 0 ? "none" : space.GetEntity(*number - 1).GetId();
   }
-  // No minus sign before zeros.
+  // Rounding must not give a minus sign before zeros.
   const double shown = std::abs(value.value) < 5e-4 ? 0 : value.value;
   const std::string text = std::abs(shown) < 1e5 ? fmt::format("{:.3f}", shown) : fmt::format("{:.4g}", shown);
   return value.unit.empty() ? text : text + " " + value.unit;

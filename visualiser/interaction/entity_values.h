@@ -1,5 +1,5 @@
-// The numbers of one entity as people read them: where it is, its attributes, and what goes on inside a robot. Each
-// has a name by which it is found again at a later tick, for plots.
+// The numbers of one entity as people read them: its pose, its attributes, and the status of a robot's controller and
+// devices. Each number has a name, by which plots find it again at a later tick.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ class CSwarmanoidSpace;
 struct EntityValue
 {
   std::string name;
-  std::string unit;  // as of CCI_Reading; "entity": 1 + its index, 0 for none
+  std::string unit;  // as in CCI_Reading; "entity": 1 + its index, 0 for none
   double value = 0;
 };
 
@@ -32,21 +32,21 @@ struct ValueGroup
   };
 
   Source source;
-  std::string name;  // of a device: its type
+  std::string name;  // the type, for a device
   std::vector<EntityValue> values;
 };
 
 struct EntityMotion
 {
   double speed = 0;  // m/s
-  double turn = 0;   // degrees/s, of the heading
+  double turn = 0;   // degrees/s, change of the heading
 };
 
-// motion: nothing if it is not known. status: of a robot that is watched, otherwise nullptr.
+// `motion`: nothing if it is unknown. `status`: of a watched robot, otherwise nullptr.
 std::vector<ValueGroup> ValuesOf(const CSwarmanoidSpace& space, std::uint32_t entity,
                                  const std::optional<EntityMotion>& motion, const RobotStatus* status);
 
-// One of these numbers.
+// The name of one of these numbers.
 struct ValueName
 {
   std::uint32_t entity = 0;
@@ -57,14 +57,14 @@ struct ValueName
   bool operator==(const ValueName&) const = default;
 };
 
-// nullopt where the groups do not have it (now).
+// Returns nullopt if the groups do not contain the value now.
 std::optional<EntityValue> FindValue(const std::vector<ValueGroup>& groups, const ValueName& name);
 
-// A number that stands for a colour or an entity, up to `most`; nullopt if it is none of them. Readings of
-// controllers may be any number: an infinite one is a range without an echo.
+// Returns the number of a colour or an entity, up to `most`; nullopt for other numbers. Readings of controllers may be
+// any number: an infinite one is a range without an echo.
 std::optional<std::uint32_t> WholeNumber(double value, std::uint32_t most);
 
-// "0.123 m", "inf m", "yes", "#ff0000", the id of an entity.
+// Returns "0.123 m", "inf m", "yes", "#ff0000", or the id of an entity.
 std::string ValueText(const CSwarmanoidSpace& space, const EntityValue& value);
 
 }  // namespace swarmanoid

@@ -1,5 +1,5 @@
-// When a window draws: at every n-th tick, no more often than a rate, and between ticks while somebody uses it. Used by
-// renderers with a window. Times are seconds of a clock that never goes back.
+// Decides when a window draws: at every n-th tick, at most at a given rate, and between ticks while a user acts.
+// Renderers with a window use it. Times are seconds of a monotonic clock.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ public:
   {
   }
 
-  // Whether the picture of a new tick is to be drawn now. Those that come too early are drawn by Idle.
+  // Returns whether the picture of a new tick must be drawn now. Ticks that come too early are drawn by Idle.
   bool AtTick(std::uint64_t tick, double now)
   {
     if (tick < next_) return false;
@@ -23,13 +23,13 @@ public:
     stale_ = true;
     return all_frames_ || now >= last_ + period_;
   }
-  // Whether to draw between ticks.
+  // Returns whether to draw between ticks.
   bool AtIdle(double now) const
   {
     const bool wanted = stale_ || frames_wanted_ > 0 || now < active_until_ || now >= last_ + kResting;
     return wanted && now >= last_ + period_;
   }
-  // Somebody moved the mouse or pressed a key: panels and camera follow for a while.
+  // The user moved the mouse or pressed a key, so that panels and camera must react for a while.
   void Activity(double now)
   {
     active_until_ = now + kActive;
@@ -44,9 +44,9 @@ public:
 
 private:
   static constexpr double kActive = 0.4;
-  // However slow pictures are: a panel takes a click over several of them.
+  // This holds however slow pictures are, since a panel needs several frames for a click.
   static constexpr int kFramesOfAnEvent = 4;
-  static constexpr double kResting = 1;  // the panels show the state of the run anew
+  static constexpr double kResting = 1;  // the period at which panels refresh the state of the run
 
   std::uint64_t every_;
   double period_;

@@ -1,5 +1,5 @@
-// What the keys of a window do: one table, from which come the commands, the help in the window and the list in the
-// documentation. Used by every renderer with a window, whatever library brings it the keys.
+// The table of a window's keys. The commands, the help in the window and the list in the documentation follow from it.
+// Every renderer with a window uses it, with any library for the keys.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 namespace swarmanoid
 {
 
-// Keys with a character are that character, letters in upper case.
+// Keys with a character have its code, with letters in upper case.
 namespace keys
 {
 inline constexpr int kEscape = 256;
@@ -84,9 +84,9 @@ enum class Action
 struct KeyBinding
 {
   Action action;
-  KeyPress press;  // of kRecall and kStore: that of viewpoint 0
+  KeyPress press;  // for kRecall and kStore: the key of viewpoint 0
   std::string_view section;
-  std::string_view keys;  // as the help names them; empty if another binding's line tells of it
+  std::string_view keys;  // the name in the help; empty if another binding's line covers it
   std::string_view meaning;
 };
 
@@ -95,12 +95,12 @@ std::span<const KeyBinding> KeyBindings();
 struct KeyCommand
 {
   Action action;
-  int number = 0;  // of a viewpoint
+  int number = 0;  // the number of a viewpoint
 };
 std::optional<KeyCommand> CommandOf(const KeyPress& press);
-// As experiment functions know a key (UserInput); empty for what is no key of theirs.
+// Returns the name of a key for experiment functions (UserInput); empty for keys that they do not get.
 std::string NameOfKey(int key);
-// Whether a key that is held acts again and again: those that turn, zoom and step.
+// Returns whether a held key repeats its action: keys that turn, zoom and step.
 bool MayRepeat(int key);
 
 }  // namespace swarmanoid

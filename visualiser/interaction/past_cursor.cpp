@@ -9,7 +9,7 @@ namespace swarmanoid
 namespace
 {
 
-constexpr std::uint64_t kWindow = 0;  // the only client
+constexpr std::uint64_t kWindow = 0;  // the number of the only client
 
 }  // namespace
 
@@ -162,7 +162,7 @@ void PastCursor::GoLive()
 
 std::optional<std::uint64_t> PastCursor::Neighbour(bool forward) const
 {
-  // The present is after all events.
+  // The present is later than all events.
   const std::uint64_t from = wanted_.value_or(Last() + 1);
   std::optional<std::uint64_t> nearest;
   for (const TimelineEvent& event : timeline_.events)

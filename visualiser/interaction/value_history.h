@@ -1,4 +1,4 @@
-// What a number was at the latest ticks: the curve of a plot.
+// The values of a number at the latest ticks: the curve of a plot.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,7 @@ public:
 
   static constexpr std::size_t kMost = 1200;  // points
 
-  // A point that is not later than the last one (a run that is paused, a robot that was moved) takes its place.
+  // Adds a point. A point that is not later than the last one (a paused run, a moved robot) replaces it.
   void Add(double time, double value)
   {
     if (!points_.empty() && time <= points_.back().time)
@@ -25,12 +25,12 @@ public:
       points_.back() = {points_.back().time, value};
       return;
     }
-    // The older half goes at once, so that adding stays cheap.
+    // The older half is removed at once, so that adding stays cheap.
     if (points_.size() == 2 * kMost) points_.erase(points_.begin(), points_.begin() + kMost);
     points_.push_back({time, value});
   }
 
-  // Ascending in time.
+  // Returns the points, ascending in time.
   const std::vector<Point>& Points() const { return points_; }
 
 private:

@@ -79,7 +79,7 @@ void Viewer::ShowWholeArena(bool from_above)
 {
   const double free = std::max(width_ - left_, width_ / 2);
   camera = DefaultView(GetExperiment(), free / height_, from_above);
-  // The middle of the arena to the middle of what no panel hides.
+  // The middle of the arena is placed in the middle of the area that no panel hides.
   const Vector3 middle = GetExperiment().arena_size.cwiseProduct(Vector3(0.5, 0.5, 0));
   camera.Pan(-left_ / 2.0 * MetresPerPixel(middle), 0);
   whole_arena_ = true;
@@ -177,7 +177,7 @@ const RobotStatus* Viewer::Robot(std::uint32_t entity)
 void Viewer::FollowSelected()
 {
   if (!follows || !shown.scene.selected) return;
-  // One that leaves the arena is waited for where it was.
+  // If the entity leaves the arena, the camera waits where the entity was.
   if (!Space().IsPresent(*shown.scene.selected)) return followed_place_.reset();
   const Vector3 place = Space().GetPose(*shown.scene.selected).position;
   if (followed_place_) camera.position += place - *followed_place_;
@@ -201,7 +201,7 @@ const Scene& Viewer::Refresh()
     return scene_;
   }
   if (past_scene_ == nullptr) past_scene_ = std::make_unique<Scene>(*past_.Space());
-  // Between ticks far apart nobody knows the way.
+  // Trails need ticks near each other, since the path between distant ticks is unknown.
   const std::uint64_t tick = Space().GetTick();
   if (tick < past_tick_ || tick > past_tick_ + kGapOfTrails) past_scene_->ForgetTrails();
   past_tick_ = tick;
@@ -209,12 +209,12 @@ const Scene& Viewer::Refresh()
   return *past_scene_;
 }
 
-// What came of the requests of all who look at this run.
+// Shows the results of the requests of all users of this run.
 void Viewer::HearNotes()
 {
   if (setup_.monitor == nullptr) return;
   const std::span<const RunNote> notes = setup_.monitor->Notes();
-  // Of a list that keeps the last hundred: those after the one heard last.
+  // The list keeps the last hundred notes; the new ones are those after the last one that was shown.
   std::size_t heard = std::min(notes_heard_, notes.size());
   if (notes.size() == notes_heard_ && !notes.empty() && NoteName(notes.back()) != last_note_)
     for (heard = notes.size(); heard > 0 && NoteName(notes[heard - 1]) != last_note_;) --heard;

@@ -1,6 +1,6 @@
-// Viewer: one person's view of a run: camera, viewpoints, what is shown, selected, inspected and plotted, and what is
-// asked of the run. Every renderer with a window holds one; it knows neither the window nor its graphics library. One
-// thread, that of Draw and Idle.
+// Viewer: one user's view of a run: camera, viewpoints, the shown, selected, inspected and plotted values, and requests
+// to the run. Every renderer with a window owns one. It knows neither the window nor its graphics library. One thread
+// uses it: that of Draw and Idle.
 #pragma once
 
 #include <chrono>
@@ -43,12 +43,12 @@ class Viewer
 public:
   using Clock = std::chrono::steady_clock;
 
-  // What is on the screen beside the scene's own options; panels and keys change it.
+  // The content of the screen beside the scene's own options. Panels and keys change it.
   struct Shown
   {
     bool textures = true;
     bool shadows = true;
-    bool panels = true;  // false: none of those below
+    bool panels = true;  // false: none of the panels below
     bool help = false;
     bool run = true;
     bool entities = true;
@@ -57,7 +57,7 @@ public:
     SceneOptions scene;
   };
 
-  // A line for the person at the window, for some seconds.
+  // A line for the user of the window, shown for some seconds.
   struct Message
   {
     std::string text;
@@ -65,7 +65,7 @@ public:
     Clock::time_point until;
   };
 
-  // An entity that is being dragged over the floor, and where it would come to stand.
+  // An entity that is being dragged over the floor, with its new position.
   struct Move
   {
     std::uint32_t entity;
@@ -75,12 +75,13 @@ public:
   // Size in pixels. The renderer's parameters hold viewpoints and quality (view_parameters.h).
   Viewer(const RenderSetup& setup, int width, int height);
 
-  // The window. left: pixels that a panel hides, so that views of the whole arena keep clear of them.
+  // Sets the size of the window. `left`: pixels that a panel hides, so that views of the whole arena avoid them.
   void SetSize(int width, int height, int left);
 
-  // What the person does; places in pixels from the upper left corner. Not for keys and buttons meant for a panel.
+  // Handles the user's input, except keys and buttons that are meant for a panel. Positions are in pixels from the
+  // upper left corner.
   void Press(const KeyPress& press);
-  // A key is let go.
+  // Handles the release of a key.
   void Release(int key);
   void Do(const KeyCommand& command);
   void MousePress(MouseButton button, double x, double y, bool ctrl, bool shift);
@@ -88,68 +89,68 @@ public:
   void MouseRelease(MouseButton button);
   void Wheel(double notches, double x, double y);
 
-  // The space is at a new tick, or entities have been moved.
+  // Handles a new tick of the space, or moved entities.
   void StateCame();
-  // Looks for what the journal has of the past. True if there is something else to show.
+  // Looks for the past in the journal. Returns true if the shown state changed.
   bool FollowPast();
-  // Brings the scene, and what is watched, to what is to be shown now.
+  // Updates the scene and the watched robots to the shown state.
   const Scene& Refresh();
 
   void Select(std::uint32_t entity, bool in_further_window = false);
   void Deselect();
   void CloseInspector(std::uint32_t entity);
-  // Brings the camera near to an entity, along its line of sight.
+  // Moves the camera near to an entity, along its line of sight.
   void Visit(std::uint32_t entity);
   bool IsPlotted(const ValueName& value) const;
   void SetPlotted(const ValueName& value, const std::string& unit, bool plotted);
-  // Asks the run to put an entity somewhere.
+  // Requests the run to move an entity.
   void MoveEntity(std::uint32_t entity, const Pose& pose);
   void SetSpeed(double real_time_factor);
   void Reset();
   void Say(const std::string& text, bool refused = false);
 
-  // What is shown: at a tick of the past, or the present.
+  // Returns the shown space: at a tick of the past, or the present.
   const CSwarmanoidSpace& Space() const { return past_.IsOn() && past_.Space() ? *past_.Space() : setup_.space; }
   const CSwarmanoidSpace& Present() const { return setup_.space; }
   const PastCursor& GetPast() const { return past_; }
-  // At the nearest tick that the journal has; says why if there is none.
+  // Shows the nearest tick of the journal, or a message if it has none.
   void LookBackAt(std::uint64_t tick);
   const Experiment& GetExperiment() const;
   const RunStatus& Status();
   const RobotStatus* Robot(std::uint32_t entity);
-  // Whether the run can be asked for anything here.
+  // Returns whether this renderer can send requests to the run.
   bool CanControl() const { return setup_.control != nullptr; }
-  // Whether entities can be moved: nobody changes the past.
+  // Returns whether entities can be moved; the past cannot be changed.
   bool CanMove() const { return CanControl() && !past_.IsOn(); }
   std::string Owner(std::uint32_t entity) const { return OwnerName(GetExperiment(), setup_.assignment, entity); }
   std::string Host(std::uint32_t entity) const { return HostNameOf(setup_.assignment, entity); }
-  // Nothing of the past.
+  // Returns nothing in the past.
   std::optional<EntityMotion> Motion(std::uint32_t entity) const;
   const std::vector<std::uint32_t>& Inspected() const { return inspected_; }
   std::vector<Plot>& Plots() { return plots_; }
   EntityFilter& Filter() { return filter_; }
   const std::optional<Move>& MoveUnderWay() const { return move_; }
-  // Those that are still to be seen, oldest first.
+  // Returns the messages that are still shown, oldest first.
   const std::deque<Message>& Messages();
   const Viewpoints& GetViewpoints() const { return viewpoints_; }
-  // What was stored last, as XML; empty if nothing was.
+  // Returns the last stored viewpoint as XML; empty if none was stored.
   const std::string& StoredXml() const { return stored_xml_; }
-  // What is for the clipboard, and was not taken yet.
+  // Returns the text for the clipboard, if it was not taken yet.
   std::string TakeCopy() { return std::exchange(copy_, {}); }
 
   bool WantsToClose() const { return close_; }
-  // True once after the key for it.
+  // Returns true once after the key for a picture.
   bool TakePictureRequest() { return std::exchange(picture_, false); }
 
   Shown shown;
   Camera camera;
-  bool follows = false;  // the selected entity
+  bool follows = false;  // the camera follows the selected entity
 
 private:
   enum class Drag
   {
     kNone,
-    kClick,  // a left button that has not moved yet
+    kClick,  // a pressed left button that has not moved yet
     kOrbit,
     kPan,
     kEntity
@@ -177,21 +178,21 @@ private:
   EntityMotion MotionNow(std::uint32_t entity) const;
   void Toggle(bool& option, const std::string& what);
   void Click(double x, double y, bool ctrl);
-  // Where turning and zooming is about.
+  // Returns the point about which the camera turns and zooms.
   Vector3 Pivot() const;
   double MetresPerPixel(const Vector3& at) const;
-  // Entities whose inside is on the screen.
+  // Returns the entities whose status is shown.
   std::vector<std::uint32_t> Watched() const;
   void HearNotes();
 
   RenderSetup setup_;
   Scene scene_;
   PastCursor past_;
-  std::unique_ptr<Scene> past_scene_;  // once somebody looked back
-  std::uint64_t past_tick_ = 0;        // that it showed last
+  std::unique_ptr<Scene> past_scene_;  // made at the first look back
+  std::uint64_t past_tick_ = 0;        // the tick that it showed last
   bool may_look_back_ = true;
   bool was_past_ = false;
-  Clock::time_point followed_{};  // when the journal was
+  Clock::time_point followed_{};  // time of the last look at the journal
   std::string copy_;
   Viewpoints viewpoints_;
   EntityFilter filter_;
@@ -199,11 +200,11 @@ private:
   int left_ = 0;
   std::vector<std::uint32_t> inspected_;  // in the order of their windows; the last one follows the selection
   std::vector<Plot> plots_;
-  std::map<std::uint32_t, Track> tracks_;  // of the entities inspected or plotted
+  std::map<std::uint32_t, Track> tracks_;  // by entity that is inspected or plotted
   std::vector<std::uint32_t> watched_;
   std::optional<Vector3> followed_place_;
   std::optional<Move> move_;
-  Vector3 move_offset_ = Vector3::Zero();  // from where the mouse met the floor to the entity
+  Vector3 move_offset_ = Vector3::Zero();  // from the point where the mouse met the floor to the entity
   std::deque<Message> messages_;
   std::string last_note_;
   std::size_t notes_heard_ = 0;
@@ -215,7 +216,7 @@ private:
   double drag_x_ = 0, drag_y_ = 0;
   bool whole_arena_ = false;  // the camera is as ShowWholeArena left it
   bool gives_keys_ = false;
-  std::vector<int> given_keys_;  // that are held
+  std::vector<int> given_keys_;  // the keys that are held
   bool close_ = false;
   bool picture_ = false;
 };

@@ -20,7 +20,7 @@ std::string Numbered(const std::string& name, std::uint64_t tick) { return fmt::
 
 void WriteWithFolder(const std::string& path, const Picture& picture)
 {
-  std::error_code ignored;  // what cannot be made cannot be written to either, and that is reported
+  std::error_code ignored;  // a folder that cannot be made gives an error at the file
   std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
   WritePng(picture, path);
 }

@@ -1,5 +1,5 @@
-// WindowRender: what all renderers with a window share: its parameters, when it draws, and the pictures that it writes.
-// The window and the drawing are of the renderers that derive from it: opengl_render and ogre_render. In the thread of
+// WindowRender: the common part of all renderers with a window: parameters, the schedule of drawing, and written
+// pictures. The derived classes opengl_render and ogre_render own the window and draw. Everything runs in the thread of
 // Draw and Idle.
 #pragma once
 
@@ -27,15 +27,16 @@ public:
 protected:
   using TakePicture = std::function<void(const Picture&)>;
 
-  // Sizes in the unit of the mouse. Throws std::runtime_error, saying what is missing, if there can be no window.
+  // Opens the window. Sizes are in the unit of the mouse. Throws std::runtime_error, saying what is missing, if no
+  // window can be opened.
   virtual void Open(const std::string& title, int width, int height, const Parameters& parameters) = 0;
-  // Takes what happened since the last call to the viewer. True if anything did.
+  // Passes the events since the last call to the viewer. Returns true if there were any.
   virtual bool TakeEvents() = 0;
   virtual bool WindowWantsToClose() const = 0;
-  // False if nobody could see what is drawn.
+  // Returns false if the window is not visible.
   virtual bool WindowIsVisible() const = 0;
-  // Draws the viewer's scene into the window, then the panels. `take`, if it is not empty, gets the picture without
-  // the panels, before they are drawn: they tell what came of it.
+  // Draws the viewer's scene into the window, then the panels. If `take` is not empty, it gets the picture before the
+  // panels are drawn, since the panels report the result.
   virtual void Show(const TakePicture& take) = 0;
 
   Viewer& GetViewer() { return *viewer_; }
@@ -46,7 +47,7 @@ private:
 
   std::string output_folder_;
   OutputFiles files_;
-  std::string frames_;  // folder and first part of the name; empty: none are written
+  std::string frames_;  // folder and first part of the name; empty: no pictures
   std::unique_ptr<FrameSchedule> schedule_;
   std::unique_ptr<Viewer> viewer_;
 };

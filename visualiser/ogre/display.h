@@ -1,4 +1,4 @@
-// Whether windows can be opened here. Apart from the rest: the names of X collide with others.
+// Tests whether windows can be opened. It is a separate file, since the names of X collide with others.
 #pragma once
 
 #include <memory>
@@ -6,8 +6,8 @@
 namespace swarmanoid
 {
 
-// A connection to the display, to be held until the window has one of its own: some servers start anew when the last
-// one is closed. Throws std::runtime_error with what to do if there is no display: OGRE would die by a signal.
+// Returns a connection to the display. Hold it until the window has its own, since some servers reset when the last
+// connection closes. Throws std::runtime_error with the cure if there is no display; OGRE would die by a signal.
 std::shared_ptr<void> ConnectToDisplay();
 
 }  // namespace swarmanoid

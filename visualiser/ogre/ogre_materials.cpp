@@ -96,7 +96,7 @@ void OgreMaterials::MakeShining(const char* name, bool transparent, bool on_top)
   pass->setDepthCheckEnabled(!on_top);
 }
 
-// One cell of the floor, with lines along two of its edges.
+// Makes one cell of the floor, with lines along two of its edges.
 void OgreMaterials::MakeGrid()
 {
   const Ogre::TexturePtr texture = Ogre::TextureManager::getSingleton().createManual(

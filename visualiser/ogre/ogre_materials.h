@@ -1,5 +1,5 @@
-// The materials of ogre_render, made when first needed: one for each colour, because shadows and vertex colours do not
-// go together in OGRE's generated shaders. Used by the main thread, while its Root lives.
+// The materials of ogre_render, made at first use. Each colour has one, because OGRE's generated shaders cannot combine
+// shadows and vertex colours. The main thread uses it, while its Root lives.
 #pragma once
 
 #include <OgreMaterial.h>
@@ -20,11 +20,11 @@ class OgreMaterials
 public:
   OgreMaterials();
 
-  // Lit, with the gloss and opacity of `material`, in its colour or in that of an entity.
+  // Returns a lit material with the gloss and opacity of `material`, in its colour or in that of an entity.
   Ogre::MaterialPtr Lit(Material material, Colour tint);
-  // The floor: plain, or with a grid of one cell a unit if textures are wanted.
+  // Returns the floor: plain, or with a grid of one cell a unit if textures are wanted.
   Ogre::MaterialPtr Floor(bool textured);
-  // Shining in the colours of the vertices.
+  // Returns a material that shines in the colours of the vertices.
   const char* Lights() const { return "swarmanoid/lights"; }
   const char* Lines() const { return "swarmanoid/lines"; }
   const char* LinesOnTop() const { return "swarmanoid/lines_on_top"; }

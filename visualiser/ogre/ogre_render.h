@@ -18,11 +18,11 @@ private:
   void Open(const std::string& title, int width, int height, const Parameters& parameters) override;
   bool TakeEvents() override { return window_->TakeEvents(GetViewer()); }
   bool WindowWantsToClose() const override { return window_->WantsToClose(); }
-  bool WindowIsVisible() const override { return true; }  // OGRE does not tell
+  bool WindowIsVisible() const override { return true; }  // OGRE does not report visibility
   void Show(const TakePicture& take) override;
   void ShowPanels(const Scene& scene);
 
-  // In the order in which they need one another.
+  // The order is that of their dependencies.
   std::unique_ptr<OgreWindow> window_;
   std::unique_ptr<OgreScene> scene_;
   std::unique_ptr<Panels> panels_;

@@ -24,10 +24,10 @@ namespace
 
 using Ogre::RenderOperation;
 
-// Bodies of a smaller radius (pixels) get the next level of detail.
+// A body with a smaller radius (pixels) gets the next level of detail.
 constexpr float kNearPixels = 38;
 constexpr float kMiddlePixels = 11;
-constexpr float kPatchLift = 0.004F;  // m above the floor, so that both can be told apart from afar
+constexpr float kPatchLift = 0.004F;  // m above the floor, against flicker at a distance
 constexpr float kAround = 60;         // m: the ground around the arena
 constexpr int kGlowCorners = 20;
 constexpr Ogre::Real kSmallestDepth = 0.02F;
@@ -40,13 +40,13 @@ Ogre::Vector3 ToOgre(const Vector3& v)
 
 bool IsLight(Material material) { return LookOf(material).led >= 0; }
 
-// What has one material of OGRE's: of painted meshes each colour is one.
+// A part of a mesh with one OGRE material. In painted meshes each colour is a section.
 using Section = std::pair<Material, Colour>;
 Section SectionOf(const MeshVertex& vertex)
 {
   return {vertex.material, vertex.material == Material::kPainted ? vertex.colour : palette::kWall};
 }
-// In the order in which the parts of OGRE's mesh stand.
+// Returns the sections in the order of the parts of OGRE's mesh.
 std::set<Section> SectionsOf(const Mesh& mesh)
 {
   std::set<Section> sections;
@@ -54,7 +54,7 @@ std::set<Section> SectionsOf(const Mesh& mesh)
   return sections;
 }
 
-// Starts a section of an object that is built anew each frame.
+// Starts a section of an object that is rebuilt each frame.
 void Begin(Ogre::ManualObject* object, const char* material, RenderOperation::OperationType type)
 {
   if (object->getSections().empty())
@@ -63,7 +63,7 @@ void Begin(Ogre::ManualObject* object, const char* material, RenderOperation::Op
     object->beginUpdate(0);
 }
 
-// An empty section is refused by OGRE: a point out of sight stands for nothing.
+// OGRE refuses an empty section, so a point out of sight is added.
 void AddNothing(Ogre::ManualObject* object, int vertices)
 {
   for (int i = 0; i < vertices; ++i)
@@ -333,7 +333,7 @@ void OgreScene::BuildDrawn(const DrawnMarks& drawn)
   }
 }
 
-// Discs that fade towards their rims.
+// Builds discs that fade towards their rims.
 void OgreScene::BuildGlows(const Scene& scene, const Camera& camera)
 {
   Begin(glows_, materials_.Glows(), RenderOperation::OT_TRIANGLE_LIST);

@@ -1,5 +1,6 @@
-// OgreScene: what a Scene holds, as objects of OGRE. Models are uploaded once and bodies are placed each frame; lights,
-// lines and glows, which change all the time, are built anew. Used by the main thread, while its Root lives.
+// OgreScene: the content of a Scene as objects of OGRE. Models are uploaded once and bodies are placed each frame.
+// Lights, lines and glows, which change all the time, are rebuilt each frame. The main thread uses it, while its Root
+// lives.
 #pragma once
 
 #include <OgreCamera.h>
@@ -22,11 +23,11 @@ public:
   OgreScene(Ogre::SceneManager& manager, const Scene& scene);
 
   Ogre::Camera* OgreCamera() { return camera_; }
-  // Brings everything to the scene's present state. `height`: of the picture in pixels, for the level of detail.
+  // Updates all objects to the scene's state. `height`: of the picture in pixels, for the level of detail.
   void Update(const Scene& scene, const Camera& camera, int height, bool textures);
 
 private:
-  // The model of an item, in three levels of detail, of which one is visible; made when first seen.
+  // The model of an item in three levels of detail, of which one is visible. It is made when first seen.
   struct Body
   {
     Ogre::SceneNode* node = nullptr;

@@ -85,7 +85,7 @@ OgreWindow::OgreWindow(const std::string& title, int width, int height, int samp
         "a process has one ogre_render at most, since OGRE is in it once; without --single-process each visualisation "
         "has a process of its own");
   const std::shared_ptr<void> display = ConnectToDisplay();
-  // Ctrl-C belongs to the program.
+  // The program itself handles Ctrl-C.
   setenv("SDL_NO_SIGNAL_HANDLERS", "1", 1);
   log_ = std::make_unique<Ogre::LogManager>();
   log_->createLog("", true, false, true);
@@ -110,7 +110,7 @@ OgreWindow::~OgreWindow()
   }
   catch (const std::exception&)
   {
-    // The window is gone, whatever it says.
+    // The window is gone, so its errors do not matter.
   }
 }
 
@@ -148,7 +148,7 @@ void OgreWindow::setup()
 void OgreWindow::OpenImGui()
 {
   auto* overlay = new Ogre::ImGuiOverlay();
-  ImGui::GetIO().IniFilename = nullptr;  // nothing is written outside the run's folder
+  ImGui::GetIO().IniFilename = nullptr;  // ImGui must not write outside the run's folder
   ApplyTheme(1);
   if (const std::string file = PanelFont(); !file.empty())
   {
@@ -234,7 +234,7 @@ void OgreWindow::Present(Viewer& viewer, const std::function<void()>& panels)
   early_releases_.clear();
 }
 
-// Events are taken before ImGui's frame begins: a key that changes within a frame is an error to it.
+// Events are taken before ImGui's frame begins, since ImGui treats a key that changes within a frame as an error.
 bool OgreWindow::frameStarted(const Ogre::FrameEvent& event)
 {
   const bool goes_on = OgreBites::ApplicationContext::frameStarted(event);

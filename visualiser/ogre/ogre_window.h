@@ -1,5 +1,5 @@
-// A window of OGRE: root, render system, shader generator, shadows, and the Dear ImGui of its overlay; its keys and
-// mouse go to the panels or to a Viewer. Used by ogre_render, in the main thread; one in a process.
+// A window of OGRE: root, render system, shader generator, shadows, and the Dear ImGui of its overlay. Its keys and
+// mouse go to the panels or to a Viewer. ogre_render uses it in the main thread; a process has at most one.
 #pragma once
 
 #include <OgreApplicationContext.h>
@@ -31,14 +31,14 @@ public:
   ~OgreWindow() override;
 
   Ogre::SceneManager& Manager() { return *manager_; }
-  // From now on the window shows what this camera sees.
+  // Makes the window show the view of this camera.
   void Show(Ogre::Camera* camera);
   void SetShadows(bool on);
-  // Takes what happened since the last call to the viewer. True if anything did.
+  // Passes the events since the last call to the viewer. Returns true if there were any.
   bool TakeEvents(Viewer& viewer);
-  // Draws the window anew, with what `panels` shows over it.
+  // Draws the window again, with the content of `panels` over it.
   void Present(Viewer& viewer, const std::function<void()>& panels);
-  // The same picture without panels.
+  // Returns the same picture without panels.
   Picture TakePicture(Ogre::Camera* camera);
 
   bool WantsToClose() const { return getRoot()->endRenderingQueued(); }
@@ -46,13 +46,13 @@ public:
   int Height() const { return static_cast<int>(getRenderWindow()->getHeight()); }
 
 private:
-  // ApplicationContext
+  // Overrides of ApplicationContext.
   void createRoot() override;
   bool oneTimeConfig() override;
   void setup() override;
   bool frameStarted(const Ogre::FrameEvent& event) override;
 
-  // InputListener
+  // Overrides of InputListener.
   bool keyPressed(const OgreBites::KeyboardEvent& event) override;
   bool keyReleased(const OgreBites::KeyboardEvent& event) override;
   bool mouseMoved(const OgreBites::MouseMotionEvent& event) override;
@@ -65,21 +65,21 @@ private:
 
   std::string title_;
   int width_, height_, samples_;
-  std::unique_ptr<Ogre::LogManager> log_;  // before the root, which would write a file
+  std::unique_ptr<Ogre::LogManager> log_;  // made before the root, which would write a file otherwise
   Ogre::SceneManager* manager_ = nullptr;
   std::unique_ptr<OgreBites::ImGuiInputListener> imgui_input_;
   std::function<void()> panels_;
-  Viewer* viewer_ = nullptr;  // while events are taken
+  Viewer* viewer_ = nullptr;  // set while events are taken
   bool happened_ = false;
-  // Buttons that were pressed since the last frame, and releases that came as early: ImGui sees a click only if a
-  // frame lies between the two.
+  // Buttons pressed since the last frame, and releases that came before it. ImGui sees a click only if a frame lies
+  // between the two.
   unsigned pressed_ = 0;
   std::vector<OgreBites::MouseButtonEvent> early_releases_;
   bool released_late_ = false;
   bool shadows_ = false;
   bool ctrl_ = false, shift_ = false;
   int mouse_x_ = 0, mouse_y_ = 0;
-  Ogre::TexturePtr target_;  // of pictures
+  Ogre::TexturePtr target_;  // the target of written pictures
 };
 
 }  // namespace swarmanoid

@@ -31,7 +31,7 @@ std::string LastError()
   return text == nullptr ? "no cause is given" : text;
 }
 
-// Letters are where the keyboard's layout has them.
+// Letters follow the keyboard's layout.
 int KeyOf(int key, int scancode)
 {
   if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) return keys::kFunction + 1 + key - GLFW_KEY_F1;
@@ -84,7 +84,7 @@ std::optional<MouseButton> ButtonOf(int button)
 
 }  // namespace
 
-// What GLFW calls. ImGui's own context follows the window that an event belongs to.
+// The callbacks of GLFW. ImGui's context follows the window of the event.
 struct GlWindow::Callbacks
 {
   static GlWindow& Of(GLFWwindow* window)
@@ -174,7 +174,7 @@ GlWindow::GlWindow(const std::string& title, int width, int height)
   }
   ++open_windows;
   glfwMakeContextCurrent(window_);
-  glfwSwapInterval(0);  // the run waits for pictures, never for the screen
+  glfwSwapInterval(0);  // the run waits for pictures, never for the screen's refresh
   float horizontal = 1;
   glfwGetWindowContentScale(window_, &horizontal, &scale_);
   OpenImGui();
@@ -197,7 +197,7 @@ void GlWindow::OpenImGui()
   imgui_ = ImGui::CreateContext();
   ImGui::SetCurrentContext(imgui_);
   ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;  // nothing is written outside the run's folder
+  io.IniFilename = nullptr;  // ImGui must not write outside the run's folder
   ApplyTheme(scale_);
   if (const std::string font = PanelFont(); !font.empty())
     io.Fonts->AddFontFromFileTTF(font.c_str(), theme::kFontSize * scale_);

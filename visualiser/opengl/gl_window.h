@@ -1,5 +1,5 @@
-// A window of GLFW with an OpenGL 3.3 context and Dear ImGui, whose keys and mouse go to the panels or to a Viewer.
-// Used by opengl_render, in the main thread. Several may be open in one process.
+// A window of GLFW with an OpenGL 3.3 context and Dear ImGui. Its keys and mouse go to the panels or to a Viewer.
+// opengl_render uses it in the main thread. A process may have several.
 #pragma once
 
 #include <functional>
@@ -23,16 +23,16 @@ public:
   GlWindow(const GlWindow&) = delete;
   GlWindow& operator=(const GlWindow&) = delete;
 
-  // Takes what happened since the last call to the viewer. True if anything did.
+  // Passes the events since the last call to the viewer. Returns true if there were any.
   bool PollEvents(Viewer& viewer);
-  // The context and ImGui of this window are current from then on.
+  // Makes the context and ImGui of this window current.
   void MakeCurrent() const;
-  // Draws what `panels` shows over the picture, and shows the window's new contents.
+  // Draws the content of `panels` over the picture, and shows the window's new contents.
   void Present(const std::function<void()>& panels);
 
   bool WantsToClose() const;
   bool IsVisible() const;
-  // In the unit of the mouse, and in pixels.
+  // Return the size in the unit of the mouse, and in pixels.
   int Width() const { return width_; }
   int Height() const { return height_; }
   int PixelWidth() const { return pixel_width_; }
@@ -47,9 +47,10 @@ private:
 
   GLFWwindow* window_ = nullptr;
   ImGuiContext* imgui_ = nullptr;
-  Viewer* viewer_ = nullptr;  // while events are polled
+  Viewer* viewer_ = nullptr;  // set while events are polled
   bool happened_ = false;
-  // Where the mouse was at the event that is handled: GLFW would say where it is by now, several events later.
+  // The position of the mouse at the event that is handled. GLFW would return the current position, which is several
+  // events later.
   double mouse_x_ = 0, mouse_y_ = 0;
   int width_ = 0, height_ = 0;
   int pixel_width_ = 0, pixel_height_ = 0;

@@ -11,7 +11,7 @@ namespace swarmanoid
 
 COpenGlRender::~COpenGlRender()
 {
-  // What lives in the window's context goes while that is current.
+  // Objects of the window's context must be deleted while it is current.
   if (window_ != nullptr) window_->MakeCurrent();
 }
 
@@ -37,7 +37,7 @@ void COpenGlRender::Show(const TakePicture& take)
 
   if (take)
   {
-    // By way of a buffer of our own: a window may be covered.
+    // The picture is drawn into a separate buffer, since the window may be covered.
     target_->Resize(width, height, 0);
     renderer_->Draw(scene, viewer.camera, target_->Framebuffer(), width, height, options);
     take(ReadPicture(target_->Framebuffer(), width, height));

@@ -1,4 +1,4 @@
-// opengl_render: a window on the arena, in which a person watches and steers the run.
+// opengl_render: a window on the arena, in which a user watches and controls the run.
 #pragma once
 
 #include <memory>
@@ -26,10 +26,10 @@ private:
   void Show(const TakePicture& take) override;
 
   int samples_ = 4;
-  // In the order in which they need one another.
+  // The order is that of their dependencies.
   std::unique_ptr<GlWindow> window_;
   std::unique_ptr<GlScene> renderer_;
-  std::unique_ptr<PictureTarget> target_;  // of pictures that are to be written
+  std::unique_ptr<PictureTarget> target_;  // the target of written pictures
   std::unique_ptr<Panels> panels_;
 };
 

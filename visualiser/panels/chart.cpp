@@ -55,7 +55,7 @@ void ShowChart(const std::string& id, std::span<const Curve> curves, ImVec2 size
     return;
   }
 
-  // A flat curve gets room above and below.
+  // A flat curve gets a margin above and below.
   const double margin = value.Span() > 0 ? 0.06 * value.Span() : std::max(0.1 * std::abs(value.low), 0.05);
   value.low -= margin;
   value.high += margin;
@@ -89,7 +89,7 @@ void ShowChart(const std::string& id, std::span<const Curve> curves, ImVec2 size
     draw.AddText(ImVec2(std::min(place.x - width / 2, right - width), bottom + 2), theme::kFaint, label.c_str());
   }
 
-  // Piece by piece: a polyline's joints leave gaps at narrow peaks.
+  // Curves are drawn piece by piece, since a polyline's joints leave gaps at narrow peaks.
   for (const Curve& curve : curves)
   {
     const std::vector<ValueHistory::Point>& points = curve.history->Points();

@@ -17,10 +17,10 @@ struct Curve
   ImU32 colour;
 };
 
-// Takes a place of this size in the present window.
+// Draws a chart and takes an area of this size in the current window.
 void ShowChart(const std::string& id, std::span<const Curve> curves, ImVec2 size, float line_width);
 
-// A step of the form 1, 2 or 5 times a power of ten that divides a range into at most `most` parts.
+// Returns a step of 1, 2 or 5 times a power of ten that divides a range into at most `most` parts.
 double RoundStep(double range, int most);
 
 }  // namespace swarmanoid

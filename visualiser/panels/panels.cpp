@@ -82,7 +82,7 @@ std::string EventText(const TimelineEvent& event)
 
 bool PanelAt(double x, double y)
 {
-  // Not io.WantCaptureMouse: that is of where the mouse was at the last frame, which may be long ago.
+  // io.WantCaptureMouse would be wrong: it is for the mouse position of the last frame, which may be old.
   const ImVec2 place(static_cast<float>(x), static_cast<float>(y));
   for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
     if (window->WasActive && !window->Hidden && (window->Flags & ImGuiWindowFlags_NoMouseInputs) == 0 &&
@@ -103,7 +103,7 @@ void Panels::Show(float width, float height)
   run_bottom_ = 0;
   if (viewer_.shown.run) ShowRun();
   if (viewer_.shown.entities) ShowEntities();
-  // Closing one changes the list.
+  // The loop uses indices, since closing an inspector changes the list.
   for (std::size_t i = 0; i < viewer_.Inspected().size(); ++i) ShowInspector(i);
   if (viewer_.shown.plots && !viewer_.Plots().empty()) ShowPlots();
   if (TimelineHeight() > 0) ShowTimeline();
@@ -145,7 +145,7 @@ void Panels::ShowHelp()
   ImGui::SetNextWindowBgAlpha(1);
   if (ImGui::Begin("Keys and mouse", &viewer_.shown.help, kFlags))
   {
-    // Two columns of sections.
+    // The help has two columns of sections.
     constexpr std::array kColumns{std::array<std::string_view, 3>{"Run", "Entities", "Panels"},
                                   std::array<std::string_view, 3>{"Camera", "Show", "Look back"}};
     for (const auto& sections : kColumns)
@@ -177,7 +177,7 @@ void Panels::ShowMessages()
 {
   const auto& messages = viewer_.Messages();
   if (messages.empty()) return;
-  // In the middle of what no panel hides.
+  // The message is in the middle of the area that no panel hides.
   const auto left = static_cast<float>(LeftColumn());
   const float right = InspectorEdge();
   ImGui::SetNextWindowPos(ImVec2((left + std::max(right, left)) / 2, Scaled(theme::kGap)), ImGuiCond_Always,
@@ -200,7 +200,7 @@ void Panels::ShowMessages()
   ImGui::End();
 }
 
-// Where a dragged entity would come to stand: a ring on the floor with its heading, and a line from where it is.
+// Shows the new position of a dragged entity: a ring on the floor with its heading, and a line from its old position.
 void Panels::ShowMove()
 {
   const auto& move = viewer_.MoveUnderWay();

@@ -1,6 +1,6 @@
-// The panels of a window, drawn with Dear ImGui: run, entities, inspectors, plots, help, messages. Pure ImGui over a
-// Viewer, so that every window with ImGui shows the same ones; compiled into each renderer's library, because libraries
-// bring their own ImGui.
+// The panels of a window, drawn with Dear ImGui: run, entities, inspectors, plots, help, messages. They use only ImGui
+// and a Viewer, so that every window with ImGui shows the same panels. They are compiled into each renderer's library,
+// because libraries have their own ImGui.
 #pragma once
 
 #include <array>
@@ -15,18 +15,18 @@
 namespace swarmanoid
 {
 
-// Whether a panel takes the mouse at a place of the present context's window, as it was drawn last.
+// Returns whether a panel of the current context's last frame takes the mouse at a position.
 bool PanelAt(double x, double y);
 
 class Panels
 {
 public:
-  // scale: of the screen, as in ApplyTheme.
+  // `scale`: of the screen, as in ApplyTheme.
   Panels(Viewer& viewer, float scale) : viewer_(viewer), scale_(scale) {}
 
-  // Between ImGui's NewFrame and Render. The size of the window in pixels.
+  // Call it between ImGui's NewFrame and Render. The size of the window is in pixels.
   void Show(float width, float height);
-  // What the panels at the left hide of the window; for Viewer::SetSize.
+  // Returns the pixels of the window that the left panels hide, for Viewer::SetSize.
   int LeftColumn() const;
 
 private:
@@ -54,26 +54,26 @@ private:
   void ShowPlots();
   void ShowTimeline();
   void ShowTrack(const PastCursor& past);
-  // With the gap below it; 0 if it is not shown.
+  // Returns the height including the gap below; 0 if the timeline is not shown.
   float TimelineHeight() const;
   void ShowHelp();
   void ShowMessages();
   void ShowMove();
 
-  // Inspectors stand side by side from the right edge, as many as there is room for.
+  // Returns the number of inspectors that fit side by side from the right edge.
   int InspectorColumns() const;
-  // Where the inspectors begin: what is left of it is free.
+  // Returns the left edge of the inspectors; the area to the left of it is free.
   float InspectorEdge() const;
-  // The place of the next window; it stays where the person puts it, until the size of the picture changes.
+  // Places the next window. It stays where the user moves it, until the size of the picture changes.
   void PlaceNext(float x, float y, float w, float h);
   float Scaled(float pixels) const { return pixels * scale_; }
 
   Viewer& viewer_;
   float scale_;
   float width_ = 0, height_ = 0;
-  float run_bottom_ = 0;      // of the run panel, where the list of entities starts
-  std::size_t charts_ = 0;    // that the panel of plots was made for
-  float above_timeline_ = 0;  // where the panel of plots ends
+  float run_bottom_ = 0;      // the lower end of the run panel, where the list of entities starts
+  std::size_t charts_ = 0;    // the number of charts for which the panel of plots was made
+  float above_timeline_ = 0;  // the lower end of the panel of plots
   ImGuiCond place_ = ImGuiCond_Always;
   std::array<char, 128> filter_{};
   std::map<std::uint32_t, PoseEdit> edits_;

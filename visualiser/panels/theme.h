@@ -1,4 +1,4 @@
-// The look of the panels: a calm, light palette, and the font. Used by every window that shows panels.
+// The look of the panels: a light palette, and the font. Every window with panels uses it.
 #pragma once
 
 #include <imgui.h>
@@ -21,18 +21,18 @@ inline constexpr ImU32 kGrid = IM_COL32(226, 230, 235, 255);
 inline constexpr ImU32 kFrame = IM_COL32(190, 198, 207, 255);
 
 inline constexpr float kFontSize = 14;  // pixels at scale 1
-// Of the columns of panels and the space between them, at scale 1.
+// The widths of the columns of panels and of the gaps between them, at scale 1.
 inline constexpr float kLeftWidth = 288;
 inline constexpr float kInspectorWidth = 288;
 inline constexpr float kGap = 10;
 
-// The colour of the curve number n.
+// Returns the colour of the curve with that number.
 ImU32 CurveColour(std::size_t n);
 }  // namespace theme
 
-// Sets the style of the present context. scale: of the screen, 1 for about 96 dots an inch.
+// Sets the style of the current context. `scale`: of the screen, 1 for about 96 dots an inch.
 void ApplyTheme(float scale);
-// DejaVu Sans if it is installed, otherwise empty: ImGui's own font serves.
+// Returns the path of DejaVu Sans if it is installed; empty: ImGui's own font is used.
 std::string PanelFont();
 
 }  // namespace swarmanoid

@@ -1,6 +1,6 @@
-// ros2_render: a simulation as ROS 2 sees a swarm. /clock, /tf, /tf_static, <robot>/odom and markers, with the names
-// and types of ROS 2 over DDS (real_robot/drivers/ros2/ros2_endpoints.h), for RViz, rosbag2 and nodes of users. It only
-// shows.
+// ros2_render: publishes a simulation as ROS 2 topics: /clock, /tf, /tf_static, <robot>/odom and markers. It uses the
+// names and types of ROS 2 over DDS (real_robot/drivers/ros2/ros2_endpoints.h), for RViz, rosbag2 and nodes of users.
+// It takes no commands.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -32,11 +32,11 @@ using Marker = visualization_msgs::msg::dds_::Marker_;
 using MarkerArray = visualization_msgs::msg::dds_::MarkerArray_;
 using Time = builtin_interfaces::msg::dds_::Time_;
 
-// RViz asks for markers that come, not for those that were there before it: they are sent again.
+// RViz does not request markers that were sent before it started, so they are sent again.
 constexpr auto kMarkerPeriod = std::chrono::seconds(1);
 constexpr int kCube = 1, kSphere = 2, kCylinder = 3;
 constexpr int kAdd = 0, kDelete = 2;
-constexpr double kThin = 0.002;  // m: of what is painted on the floor
+constexpr double kThin = 0.002;  // m: the thickness of painted areas of the floor
 
 template <class Vector>
 void SetVector(Vector& to, const Vector3& from)
@@ -103,11 +103,11 @@ private:
   {
     std::uint32_t entity = 0;
     std::unique_ptr<ros2::Writer> odometry;
-    std::optional<std::uint64_t> tick;  // of the pose before
+    std::optional<std::uint64_t> tick;  // the tick of the previous pose
     Pose pose;
   };
 
-  // Robots that a node controls publish what their wheels tell, on the same topic.
+  // Robots that a node controls publish the odometry of their wheels on the same topic.
   bool HasOdometryHere(std::uint32_t entity) const
   {
     const CSwarmanoidSpaceEntity& robot = space_->GetEntity(entity);
@@ -117,7 +117,7 @@ private:
     return controller == nullptr || controller->tag != "ros2_controller";
   }
 
-  // Ids have '.', '-' and ':', which the names of topics have not.
+  // Ids may contain '.', '-' and ':', which topic names must not.
   std::string OdometryTopic(std::uint32_t robot)
   {
     std::string topic = ros2::TopicName(name_space_, ros2::TopicWord(space_->GetEntity(robot).GetId()) + "/odom");
@@ -139,7 +139,7 @@ private:
     SetQuaternion(transform.transform().rotation(), pose.orientation);
   }
 
-  // Of what never moves, once: DDS keeps it for those who come later.
+  // Publishes static transforms once; DDS keeps them for later subscribers.
   void PublishStatics(const Time& now)
   {
     TFMessage message;
@@ -167,7 +167,7 @@ private:
     transforms_->Write(&message_);
   }
 
-  // Velocities are those of the way since the pose before, in the frame of the robot.
+  // Velocities are computed from the motion since the previous pose, in the frame of the robot.
   void PublishOdometry(const Moving& moving, const Pose& pose, const Time& now)
   {
     Odometry odometry;
@@ -180,7 +180,7 @@ private:
     {
       const double seconds = static_cast<double>(space_->GetTick() - *moving.tick) * space_->GetTickSeconds();
       const Pose way = moving.pose.Inverse().Compose(pose);
-      // Of a circle: the chord points to where the robot looked half way, and is shorter than the arc.
+      // The motion is a circle: its chord points along the heading at half the way, and is shorter than the arc.
       const Eigen::AngleAxisd turn(way.orientation);
       const double half = turn.angle() / 2;
       const Vector3 chord = Eigen::AngleAxisd(-half, turn.axis()) * way.position;
@@ -227,7 +227,7 @@ private:
     marker.color().a(1);
   }
 
-  // In the frame of a body that moves: it goes along with /tf.
+  // Markers of moving bodies are in the frame of the body, so that they move with /tf.
   void AddMarker(MarkerArray& array, std::uint32_t e, const Time& now) const
   {
     const CSwarmanoidSpaceEntity& entity = space_->GetEntity(e);
@@ -282,7 +282,7 @@ private:
   std::vector<Moving> moving_;
   std::set<std::string> topics_;
   TFMessage message_;
-  std::vector<std::uint32_t> absent_;  // when the markers were sent last
+  std::vector<std::uint32_t> absent_;  // the absent entities when the markers were sent last
   std::optional<std::chrono::steady_clock::time_point> shown_at_;
 };
 

@@ -102,9 +102,8 @@ Camera FrameBox(const Vector3& low, const Vector3& high, double aspect, double h
   const Vector3 forward = camera.Forward();
   const Vector3 right = camera.Right();
   const Vector3 up = camera.Up();
-  // A corner is in the picture if |right| <= slope * depth and |up| <= slope * depth. The planes of the four sides,
-  // pushed out until the box is inside, meet in a line for each pair; the camera stands at the greater depth of the
-  // two.
+  // A corner is in the picture if |right| <= slope * depth and |up| <= slope * depth. The planes of the four sides are
+  // pushed out until the box is inside. Each pair meets in a line, and the camera is at the greater depth of the two.
   constexpr double kMargin = 1.06;
   const double slope_up = HalfHeight(camera) / kMargin;
   const double slope_right = slope_up * aspect;

@@ -1,5 +1,5 @@
-// The camera: where it stands, where it looks, and what a mouse does to it. z is up; heading, pitch and roll are those
-// of the experiment files: heading 0 looks along x, 90 along y; a positive pitch looks upwards.
+// The camera: its position, its direction, and the effect of mouse moves. z is up; heading, pitch and roll are those of
+// the experiment files: heading 0 looks along x, 90 along y; a positive pitch looks upwards.
 #pragma once
 
 #include "common/math/pose.h"
@@ -25,18 +25,19 @@ struct Camera
   Vector3 Right() const;
   Vector3 Up() const;
 
-  // Columns as OpenGL takes them. The view looks along -z of its frame.
+  // Returns the matrix in columns, as OpenGL takes it. The view looks along -z of its frame.
   Eigen::Matrix4f View() const;
-  // Depth -1..1 between two distances (m).
+  // Returns a projection with depth -1..1 between two distances (m).
   Eigen::Matrix4f Projection(double aspect, double near, double far) const;
 
-  // Through a point of the picture: x, y from its upper left corner, in the same unit as its size.
+  // Returns the ray through a point of the picture: x, y from its upper left corner, in the same unit as its size.
   Ray RayThrough(double x, double y, double width, double height) const;
-  // Where a point is in the picture, in the unit of its size; z is its distance along the line of sight, at most 0
+  // Returns the point in the picture, in the unit of its size. z is its distance along the line of sight, at most 0
   // behind the camera.
   Vector3 Project(const Vector3& point, double width, double height) const;
 
-  // Mouse moves, angles in degrees. Orbit keeps the distance from the point, and the pitch between -89.5 and 89.5.
+  // Handles mouse moves, with angles in degrees. Orbit keeps the distance from the point, and the pitch between -89.5
+  // and 89.5.
   void Orbit(const Vector3& about, double right, double up);
   // Moves across the picture, by metres.
   void Pan(double right, double up);
@@ -44,10 +45,11 @@ struct Camera
   void Zoom(const Vector3& at, double factor);
 };
 
-// Where a ray meets the plane of a height; the point `otherwise` metres along it if it does not come down there.
+// Returns where a ray meets the plane of a height, or the point `otherwise` metres along it if it does not meet the
+// plane.
 Vector3 PointOnFloor(const Ray& ray, double height, double otherwise);
 
-// A view from outside, above the corner of smallest x and y, from which the whole box is seen.
+// Returns a view from outside, above the corner of smallest x and y, in which the whole box is visible.
 Camera FrameBox(const Vector3& low, const Vector3& high, double aspect, double heading = 62, double pitch = -38,
                 double field_of_view = 45);
 

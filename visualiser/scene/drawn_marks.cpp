@@ -24,7 +24,7 @@ constexpr float kHeadPart = 0.25F;    // of an arrow …
 constexpr float kLongestHead = 0.1F;  // … but no more metres
 constexpr float kHeadSlope = 0.4F;
 
-// As in the pictures of bodies: from the left behind the default view, rather high.
+// The light comes from the left behind the default view, rather high, as in the pictures of bodies.
 const Vector3f kTowardsSun = Vector3f(-0.58F, -0.20F, 0.79F).normalized();
 
 Colour Lit(Colour colour, const Vector3f& normal)
@@ -87,7 +87,7 @@ public:
 
 private:
   Vector3f At(std::size_t k) const { return {numbers_[k], numbers_[k + 1], numbers_[k + 2]}; }
-  // Of shapes that have one.
+  // Returns the frame of shapes that have one.
   Isometry3f Place() const
   {
     return frame_ * Translation3f(At(0)) * Quaternionf(numbers_[6], numbers_[3], numbers_[4], numbers_[5]).normalized();
@@ -106,7 +106,7 @@ private:
     Triangle(a, c, d, lit);
   }
 
-  // With a flat head, upright or on the floor as the arrow is.
+  // Adds an arrow with a flat head, upright or on the floor like the arrow.
   void Arrow(const Vector3f& from, const Vector3f& to)
   {
     Line(from, to);

@@ -1,5 +1,5 @@
-// What experiment functions draw (common/messages/drawing.h), cut into the few things that every renderer can draw:
-// lines, triangles, dots and texts, all in the space. Used by renderers; plain values.
+// Converts drawings of experiment functions (common/messages/drawing.h) into primitives that every renderer can draw:
+// lines, triangles, dots and texts, all in the frame of the space. Plain values.
 #pragma once
 
 #include <string_view>
@@ -26,7 +26,7 @@ struct DrawnMarks
   struct Triangle
   {
     Eigen::Vector3f corners[3];
-    Colour colour;  // with the light on it: to be drawn as it is, from both sides
+    Colour colour;  // with light applied; drawn unchanged, from both sides
     float opacity;
   };
   struct Dot
@@ -39,7 +39,7 @@ struct DrawnMarks
   struct Text
   {
     Eigen::Vector3f place;  // of its left end
-    std::string_view text;  // of the space's drawing
+    std::string_view text;  // a view into the space's drawing
     Colour colour;
     float opacity;
   };
@@ -50,7 +50,7 @@ struct DrawnMarks
   std::vector<Text> texts;
 };
 
-// Of the space as it is. What is drawn in the frame of an entity that is not in the arena is left out.
+// Converts the drawing of the current space. Drawings in the frame of an entity outside the arena are left out.
 void CutDrawing(const CSwarmanoidSpace& space, DrawnMarks& marks);
 
 }  // namespace swarmanoid

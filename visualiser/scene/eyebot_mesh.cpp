@@ -1,5 +1,5 @@
-// The eyebot: four ducted rotors within a ring of 50 cm that has the LEDs, four thin legs, a rod with the ceiling
-// magnet. Lengths: engine_worker/engines/dynamics3d/eyebot.h.
+// The mesh of the eyebot: four ducted rotors within a ring of 50 cm with the LEDs, four thin legs, and a rod with the
+// ceiling magnet. The lengths are from engine_worker/engines/dynamics3d/eyebot.h.
 
 #include "visualiser/scene/led_ring.h"
 #include "visualiser/scene/meshes.h"
@@ -41,7 +41,7 @@ void AddRotor(MeshBuilder& builder, int level, int rotor)
   builder.SetShade(0.85F);
   builder.Box({0.03F, -0.009F, kRotorHeight - 0.045F}, {kRing - 0.006F, 0.009F, kRotorHeight - 0.03F},
               Material::kMetal);
-  // The leg under the arm.
+  // The leg is under the arm.
   builder.Rod({0.215F, 0, 0.165F}, {0.225F, 0, 0}, 0.005F, Material::kDark);
   builder.SetShade(1);
 }
@@ -76,7 +76,7 @@ Mesh EyebotBodyMesh(int level)
                 {0.242F, 0.148F, Material::kShell}});
   for (int rotor = 0; rotor < 4; ++rotor) AddRotor(builder, level, rotor);
 
-  // The middle: camera below, batteries, the rod with the magnet on top.
+  // The middle has the camera below, the batteries, and the rod with the magnet on top.
   builder.SetPlace(0, 0, 0);
   builder.SetSegments(level == 0 ? 28 : 12);
   builder.Turn({{0, 0.075F, Material::kDark},

@@ -1,5 +1,5 @@
-// The footbot: tracks with wheels, a round body of 17 cm, a turret with LED ring and gripper, the camera's tube on top.
-// Lengths: common/experiment/builtin_kinds.cpp, and the rings of the devices.
+// The mesh of the footbot: tracks with wheels, a round body of 17 cm, a turret with LED ring and gripper, and the
+// camera's tube on top. The lengths are from common/experiment/builtin_kinds.cpp and the rings of the devices.
 
 #include "visualiser/scene/led_ring.h"
 #include "visualiser/scene/robot_meshes.h"
@@ -118,7 +118,7 @@ Mesh FootbotTurretMesh(int level)
                 {0.034F, 0.147F, Material::kShell},
                 {0.018F, 0.147F, Material::kShell}});
 
-  // Which way it looks.
+  // A mark shows the direction of the turret.
   if (level == 0)
     builder.Face({{0.034F, 0.012F, 0.1476F}, {0.034F, -0.012F, 0.1476F}, {0.056F, 0, 0.1476F}}, Material::kShell);
   // The gripper's housing in front.

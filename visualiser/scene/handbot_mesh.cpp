@@ -1,5 +1,5 @@
-// The handbot: a trunk on a round base, a head in front that turns with two arms, a hand at the end of each, two fans.
-// Lengths: engine_worker/engines/dynamics3d/handbot.h.
+// The mesh of the handbot: a trunk on a round base, a head in front that turns with two arms, a hand at the end of
+// each, and two fans. The lengths are from engine_worker/engines/dynamics3d/handbot.h.
 
 #include "visualiser/scene/led_ring.h"
 #include "visualiser/scene/meshes.h"
@@ -24,7 +24,7 @@ Mesh HandbotBodyMesh(int level)
     builder.Turn({{0.085F, 0.09F, Material::kHandbot}, {0.055F, 0.16F, Material::kHandbot}, {0, 0.16F}});
     return builder.Take();
   }
-  // The ring by which others grip it.
+  // Other robots grip it by this ring.
   builder.Turn({{0, 0.004F, Material::kRubber},
                 {0.070F, 0.004F, Material::kRubber},
                 {0.078F, 0, Material::kRubber},
@@ -43,7 +43,7 @@ Mesh HandbotBodyMesh(int level)
   builder.SetPlace(0, 0, 0);
   builder.Box({back, -0.036F, 0.145F}, {0.040F, 0.036F, 0.151F}, Material::kHandbot);
   builder.Box({back + 0.004F, -0.0508F, 0.105F}, {0.046F, 0.0508F, 0.132F}, Material::kHandbot);
-  // The LED ring stands off the trunk on a collar.
+  // The LED ring is on a collar around the trunk.
   builder.SetShade(0.85F);
   builder.Turn({{0.05F, 0.070F, Material::kDark}, {0.0855F, 0.072F, Material::kShell}, {0.0855F, 0.0735F}});
   builder.SetShade(1);

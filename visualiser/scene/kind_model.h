@@ -1,5 +1,5 @@
-// What a user's kind looks like: the parts that its row lists, or its body with its LEDs. Used by Scene, and by the web
-// renderer, which sends it to its pages.
+// The model of a user's kind: the parts that its row lists, or its body with its LEDs. Scene uses it, and so does the
+// web renderer, which sends it to its pages.
 #pragma once
 
 #include "common/experiment/experiment.h"
@@ -8,8 +8,8 @@
 namespace swarmanoid
 {
 
-// Of a row without parts whose entities give their own sizes: of size 1, to be scaled by them. The experiment says
-// where the files are that it names; throws ConfigurationError for one that cannot be read.
+// Returns the model. If the row has no parts and entities give their own sizes, the model has size 1 and is scaled by
+// them. The experiment gives the folders of mesh files. Throws ConfigurationError for a file that cannot be read.
 Model KindModel(const EntityKindDescription& kind, const Experiment& experiment);
 bool IsScaled(const EntityKindDescription& kind);
 

@@ -12,10 +12,10 @@ struct LedRing
   float first_angle;  // of the middle of LED 0, rad
   float radius;
   float low, high;  // z
-  float lit;        // the part of the circle that shines
+  float lit;        // the fraction of the circle that shines
 };
 
-// pieces: flat pieces of each window.
+// `pieces`: flat pieces of each window.
 void AddLedRing(MeshBuilder& builder, const LedRing& ring, int pieces);
 
 }  // namespace swarmanoid

@@ -34,12 +34,12 @@ inline constexpr int kMostLeds = 16;
 struct MaterialLook
 {
   std::string_view name;
-  Colour colour = 0;  // of LEDs and beacons: while they are off
+  Colour colour = 0;  // for LEDs and beacons: the colour while they are off
   float gloss = 0;    // 0 dull .. 1 polished
   float opacity = 1;
   bool takes_tint = false;
-  bool is_painted = false;  // has the colours of the vertices
-  int led = -1;             // index into the robot's lights: 0..15 LEDs, 16 the beacon; these shine in their own colour
+  bool is_painted = false;  // uses the colours of the vertices
+  int led = -1;             // index into the robot's lights: 0..15 LEDs, 16 the beacon; -1: not a light
 };
 
 inline constexpr int kLightsPerRobot = 17;
@@ -49,9 +49,9 @@ const MaterialLook& LookOf(Material material);
 
 inline Material LedMaterial(int led) { return static_cast<Material>(static_cast<int>(Material::kLed0) + led); }
 
-// The paint of a floor, wall, block or prey that a file calls red, green ...: the same hue, less loud.
+// Returns the paint for a floor, wall, block or prey that a file calls red, green ...: the same hue, less saturated.
 Colour Paint(Colour colour);
-// To the nearest of 0, 51, 102 … 255 in each channel.
+// Rounds each channel to the nearest of 0, 51, 102 … 255.
 Colour OfFewShades(Colour colour);
 
 namespace palette

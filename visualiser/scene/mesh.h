@@ -19,8 +19,8 @@ struct MeshVertex
   Eigen::Vector3f position;
   Eigen::Vector3f normal;  // of unit length
   Material material = Material::kTint;
-  float shade = 1;           // 0..1: what of the sky's light reaches it; less in corners
-  Colour colour = 0xffffff;  // of Material::kPainted
+  float shade = 1;           // 0..1: the part of the sky's light that reaches it; less in corners
+  Colour colour = 0xffffff;  // for Material::kPainted
 };
 
 // Triangles are counter-clockwise seen from outside; the three vertices of one have the same material and colour.
@@ -38,8 +38,8 @@ struct Model
 {
   std::string name;
   std::array<Mesh, kLevels> levels;
-  float radius = 0;         // of the sphere about the origin that holds it, m
-  Eigen::AlignedBox3f box;  // that holds it
+  float radius = 0;         // m: of the sphere about the origin that contains it
+  Eigen::AlignedBox3f box;  // the box that contains it
   bool is_terrain = false;
 };
 

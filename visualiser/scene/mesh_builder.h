@@ -1,4 +1,4 @@
-// Puts meshes together from boxes, turned profiles, bands and plates. Lengths in metres, z up.
+// Builds meshes from boxes, turned profiles, bands and plates. Lengths are in metres, z is up.
 #pragma once
 
 #include <span>
@@ -21,10 +21,10 @@ struct ProfilePoint
 class MeshBuilder
 {
 public:
-  // segments: of a full circle.
+  // `segments`: of a full circle.
   explicit MeshBuilder(int segments) : segments_(segments) {}
 
-  // What follows is placed by this transform of the frame of the mesh.
+  // Sets the transform of the following shapes to the frame of the mesh.
   void SetPlace(const Eigen::Isometry3f& place) { place_ = place; }
   void SetPlace(float x, float y, float z) { place_ = Eigen::Isometry3f(Eigen::Translation3f(x, y, z)); }
   void SetShade(float shade) { shade_ = shade; }
@@ -32,30 +32,30 @@ public:
   void SetSegments(int segments) { segments_ = segments; }
 
   void Box(const Eigen::Vector3f& low, const Eigen::Vector3f& high, Material material);
-  // A profile turned about the z axis. Seen with the axis on the left, a profile that goes upwards has its outside on
-  // the right. Flat along the profile, round about the axis.
+  // Adds a profile turned about the z axis. Seen with the axis on the left, a profile that goes upwards has its outside
+  // on the right. Normals are flat along the profile and round about the axis.
   void Turn(std::span<const ProfilePoint> profile);
   void Turn(std::initializer_list<ProfilePoint> profile) { Turn(std::span(profile.begin(), profile.size())); }
-  // A part of a turned surface, between two angles (radians).
+  // Adds a part of a turned surface, between two angles (radians).
   void Band(const ProfilePoint& low, const ProfilePoint& high, float from, float to, int pieces);
   void Cylinder(float radius, float low, float high, Material material);
-  // A round rod between two points.
+  // Adds a round rod between two points.
   void Rod(const Eigen::Vector3f& from, const Eigen::Vector3f& to, float radius, Material material);
-  // A ring with a rectangular section.
+  // Adds a ring with a rectangular section.
   void Ring(float inner, float outer, float low, float high, Material material);
   void Disc(float radius, float z, Material material);
-  // The upper part of a sphere about the origin of the place, or all of it.
+  // Adds the upper half of a sphere about the origin of the place, or all of it.
   void Sphere(float radius, Material material, bool upper_half = false);
-  // An outline in the x, z plane (counter-clockwise seen against y), extruded from y = low to y = high.
+  // Adds an outline in the x, z plane (counter-clockwise seen against y), extruded from y = low to y = high.
   void Extrude(std::span<const Eigen::Vector2f> outline, float low, float high, Material side, Material cap);
-  // Any triangle or convex quadrangle, counter-clockwise seen from outside.
+  // Adds a triangle or a convex quadrangle, counter-clockwise seen from outside.
   void Face(std::span<const Eigen::Vector3f> corners, Material material);
   void Face(std::initializer_list<Eigen::Vector3f> corners, Material material)
   {
     Face(std::span(corners.begin(), corners.size()), material);
   }
 
-  // Another mesh, placed by this transform alone; what of it takes the tint gets this material.
+  // Adds another mesh with this transform alone. Its parts with Material::kTint get `material`.
   void Append(const Mesh& mesh, const Eigen::Affine3f& place, Material material);
 
   Mesh Take() { return std::move(mesh_); }

@@ -23,7 +23,7 @@ namespace
 
 using Eigen::Vector3f;
 
-constexpr std::size_t kMostMeshColours = 64;  // beyond it, six shades each of red, green and blue
+constexpr std::size_t kMostMeshColours = 64;  // with more colours, six shades each of red, green and blue
 constexpr std::array<std::size_t, kLevels> kMostTrianglesOfLevel{kMostDrawnTriangles, 1500, 150};
 
 float SrgbOf(float linear)
@@ -42,7 +42,7 @@ Colour PackedColour(const aiColor4D& colour, bool is_linear)
   return packed;
 }
 
-// Puts the meshes of a file together, each at each of its nodes.
+// Joins the meshes of a file, each at each of its nodes.
 class Assembler
 {
 public:
@@ -63,7 +63,8 @@ public:
   }
 
 private:
-  // For what has no material Assimp makes one: of glTF files the last, of others one of this name.
+  // Returns whether a part has a material in the file. Assimp adds one for parts without: the last one in glTF files,
+  // one of this name in others.
   bool IsPainted(const aiMesh& part) const
   {
     if (imported_.IsGltf()) return part.mMaterialIndex + 1 < scene_.mNumMaterials;
@@ -108,7 +109,7 @@ private:
     }
   }
 
-  // One for each colour and side that it has.
+  // Adds a vertex once for each colour and side.
   std::uint32_t Vertex(const aiMesh& part, unsigned number, Colour paint, bool back, const aiMatrix4x4& place,
                        const aiMatrix3x3& normal_turn)
   {
@@ -127,7 +128,7 @@ private:
   const ImportedMesh& imported_;
   const aiScene& scene_;
   bool is_painted_ = false;
-  std::map<std::tuple<unsigned, Colour, bool>, std::uint32_t> added_;  // of the mesh that is being added
+  std::map<std::tuple<unsigned, Colour, bool>, std::uint32_t> added_;  // the vertices of the mesh that is being added
   Mesh mesh_;
 };
 
@@ -149,7 +150,7 @@ MeshFile ReadMeshFile(const std::string& path)
   {
     throw;
   }
-  catch (const std::exception& error)  // of Assimp, or of memory
+  catch (const std::exception& error)  // an error of Assimp or of memory
   {
     throw FileError(error.what());
   }

@@ -13,19 +13,19 @@
 namespace swarmanoid
 {
 
-inline constexpr std::size_t kMostDrawnTriangles = 20'000;  // finer meshes are simplified
+inline constexpr std::size_t kMostDrawnTriangles = 20'000;  // larger meshes are simplified
 
 struct MeshFile
 {
-  // In metres, z up, x to the front. glTF's y is up and its z to the front (its specification, 3.4); the others are
-  // taken as they are. Material::kPainted, or Material::kTint of a file without colours.
+  // In metres, z up, x to the front. In glTF, y is up and z is to the front (its specification, 3.4); the other formats
+  // are taken as they are. The material is kPainted, or kTint for a file without colours.
   std::array<Mesh, kLevels> levels;
   Eigen::AlignedBox3f box;
 };
 
-// Throws FileError with the reason, without the path. Any thread.
+// Throws FileError with the reason, without the path. Any thread may call it.
 MeshFile ReadMeshFile(const std::string& path);
-// The same, once in a process for each path.
+// Returns the same, read once in a process for each path.
 std::shared_ptr<const MeshFile> LoadMeshFile(const std::string& path);
 
 }  // namespace swarmanoid

@@ -1,4 +1,4 @@
-// In place of mesh_file.cpp in a build without Assimp.
+// Replaces mesh_file.cpp in a build without Assimp.
 #include "common/configuration/regular_file.h"
 #include "visualiser/scene/mesh_file.h"
 

@@ -1,5 +1,5 @@
-// The models that scenes are made of: parts of the robots and simple bodies. Used by every renderer; the web page gets
-// them as a file (meshes_file.h).
+// The models of scenes: parts of the robots and simple bodies. Every renderer uses them; the web page gets them as a
+// file (meshes_file.h).
 #pragma once
 
 #include <span>
@@ -33,13 +33,13 @@ enum class ModelId : std::uint16_t
   kEnd
 };
 
-// Where parts are joined, in metres.
+// The joints between parts, in metres.
 struct RobotJoints
 {
   static constexpr float kFootbotJawForward = 0.086F;  // the hinges of the gripper, in the frame of the turret
   static constexpr float kFootbotJawSide = 0.008F;
   static constexpr float kFootbotJawHeight = 0.085F;
-  static constexpr float kEyebotRotorReach = 0.15F;  // of the four rotors from the middle, at 45, 135 ... degrees
+  static constexpr float kEyebotRotorReach = 0.15F;  // from the middle to the four rotors, at 45, 135 ... degrees
   static constexpr float kEyebotRotorHeight = 0.205F;
   static constexpr float kHandbotHeadForward = 0.06F;
   static constexpr float kHandbotHeadHeight = 0.10F;
@@ -49,7 +49,7 @@ struct RobotJoints
   static constexpr float kHandbotRopeForward = 0.03F;
 };
 
-// All models up to kEnd, in the order of ModelId. Built once in a process.
+// Returns all models up to kEnd, in the order of ModelId. They are built once in a process.
 const std::vector<Model>& StandardModels();
 
 inline const Model& ModelOf(ModelId id) { return StandardModels()[static_cast<std::size_t>(id)]; }
@@ -62,7 +62,7 @@ struct RestingPart
 };
 std::vector<RestingPart> RestingParts(Mechanism robot);
 
-// The surface of a terrain, in its frame, coloured by the entity (Material::kTint).
+// Returns the surface of a terrain in its frame, in the colour of the entity (Material::kTint).
 Model TerrainModel(const Terrain& terrain, const std::string& name);
 
 }  // namespace swarmanoid

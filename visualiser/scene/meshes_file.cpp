@@ -15,7 +15,7 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-// What a picture shows needs no more digits, and a page loads the less the sooner.
+// A picture needs no more digits, and a shorter file loads faster.
 Json Rounded(double value, int digits) { return Json::parse(fmt::format("{:.{}g}", value, digits)); }
 
 template <class Range, class Value>
@@ -45,7 +45,7 @@ Json MeshOf(const Mesh& mesh)
     colours.push_back(vertex.colour);
     is_painted |= vertex.material == Material::kPainted;
   }
-  // Neighbours have near numbers: their differences are half of what the numbers are, compressed.
+  // Neighbouring corners have near numbers, so their differences compress to half the size.
   Json steps = Json::array();
   std::int64_t last = 0;
   for (const std::int64_t index : mesh.indices)

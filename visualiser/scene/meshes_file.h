@@ -19,7 +19,7 @@ namespace swarmanoid
 // Lengths in metres, z up, x forward.
 std::string MeshesAsJson();
 
-// Of a user's kind, or of the mesh of an object (object_model.h), as under "models".
+// Returns the model of a user's kind, or the mesh of an object (object_model.h), as under "models".
 std::string ModelAsJson(const Model& model);
 
 }  // namespace swarmanoid

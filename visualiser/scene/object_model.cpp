@@ -16,9 +16,9 @@ namespace
 
 using Eigen::Vector3f;
 
-constexpr float kThinnest = 1e-6F;  // m: what is flat cannot be stretched
+constexpr float kThinnest = 1e-6F;  // m: flatter meshes cannot be stretched
 
-// Of size 1, as Scene and pages scale it.
+// Returns a body of size 1, which Scene and pages scale.
 Eigen::AlignedBox3f BodyOfSizeOne(const EntityKindDescription& kind)
 {
   const float half = kind.form == BodyForm::kCylinder ? 1 : 0.5F;
@@ -31,7 +31,7 @@ Vector3 OrientationIn(const EntityConfiguration& entity)
   return entity.tree.GetVector3("mesh_orientation", Vector3::Zero());
 }
 
-// Without a mesh a hull is drawn as it collides.
+// Without a mesh, a hull is drawn as it collides.
 bool IsDrawnAsHull(const EntityConfiguration& entity)
 {
   const EntityKindDescription& kind = DescriptionOf(entity.kind);

@@ -12,14 +12,14 @@ namespace
 
 constexpr std::size_t kMostColours = 256;
 
-// Pixels of one colour that form a rectangle.
+// A rectangle of pixels with one colour.
 struct Block
 {
   int left, right, top, bottom;
   std::uint8_t colour;
 };
 
-// Runs of a row that continue the same run of the row above make one block.
+// Joins equal runs of consecutive rows into blocks.
 std::vector<Block> BlocksOf(const PaintedFloor& floor)
 {
   std::vector<Block> done, open, next;

@@ -1,4 +1,4 @@
-// Pictures of the floor as renderers draw them: few colours and not too many pixels.
+// Pictures of the floor for renderers: few colours and a limited number of pixels.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +19,11 @@ struct PaintedFloor
   std::vector<std::uint8_t> pixels;  // into the palette, rows from the top
 };
 
-// Every n-th pixel along both edges, n such that neither has more than `most`; beyond 256 colours, six shades each of
-// red, green and blue.
+// Returns every n-th pixel along both edges, so that neither edge exceeds `most`. With more than 256 colours, each of
+// red, green and blue has six shades.
 PaintedFloor Simplified(const FloorPicture& picture, int most);
 
-// A flat model of side 1 in the plane z = 0 for each colour of the palette, Material::kTint.
+// Returns a flat model of side 1 in the plane z = 0 for each colour of the palette, with Material::kTint.
 std::vector<Model> FloorModels(const PaintedFloor& floor, const std::string& name);
 
 }  // namespace swarmanoid

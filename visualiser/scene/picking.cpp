@@ -14,10 +14,10 @@ constexpr double kFarthest = 1e4;      // m
 constexpr double kRobotMargin = 0.01;  // m
 constexpr double kTall = 0.25;         // m: lower walls hide nothing …
 constexpr double kTallPart = 0.08;     // … or in a small arena, lower than this part of its size
-// What stays solid of a wall that hides the arena, and of the others, m.
+// The height that stays solid of a wall that hides the arena, and of other walls, m.
 constexpr float kKerb = 0.04F;
 constexpr float kCutHeight = 0.35F;
-constexpr float kCutPart = 0.07F;  // of the arena's size, if that is more
+constexpr float kCutPart = 0.07F;  // relative to the arena's size, if that is more
 
 }  // namespace
 
@@ -28,7 +28,7 @@ bool IsBoundaryWall(const EntityConfiguration& entity, const Vector3& arena_size
   const double thickness = std::min(entity.size.x(), entity.size.y());
   const double length = std::max(entity.size.x(), entity.size.y());
   if (length < 4 * thickness) return false;
-  // Near a side of the arena, in half a thickness and a tenth of the arena's size.
+  // The wall must be near a side of the arena: within half a thickness and a tenth of the arena's size.
   const Vector3& at = entity.pose.position;
   const auto near_side = [&](double place, double size)
   { return std::min(std::abs(place), std::abs(size - place)) <= thickness / 2 + 0.02 * size; };

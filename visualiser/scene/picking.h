@@ -1,4 +1,4 @@
-// Which entity a click meets.
+// Finds the entity at a click.
 #pragma once
 
 #include <optional>
@@ -18,15 +18,15 @@ struct Pick
   Vector3 point = Vector3::Zero();
 };
 
-// The first body on a ray. Robots are a little larger than their bodies, so that small ones can be hit; walls around
-// the arena are looked through from outside.
+// Returns the first body on a ray. Robots count as a little larger than their bodies, so that small ones can be hit.
+// From outside, the ray passes through walls around the arena.
 std::optional<Pick> PickEntity(const CSwarmanoidSpace& space, const Ray& ray);
 
-// Whether a wall or block stands at the edge of the arena and is tall enough to hide what is behind it.
+// Returns whether a wall or block is at the edge of the arena and tall enough to hide what is behind it.
 bool IsBoundaryWall(const EntityConfiguration& entity, const Vector3& arena_size);
-// Whether it stands between an eye and the middle of the arena, and is to be shown as glass.
+// Returns whether the wall is between an eye and the middle of the arena, and must be shown as glass.
 bool HidesArena(const EntityConfiguration& wall, const Vector3& arena_size, const Vector3& eye);
-// How much of a wall (m, from below) is drawn solid: less of one that hides the arena.
+// Returns how much of a wall (m, from below) is drawn solid: less for a wall that hides the arena.
 float SolidHeight(const EntityConfiguration& wall, const Vector3& arena_size, const Vector3& eye);
 
 }  // namespace swarmanoid

@@ -26,7 +26,7 @@ struct FileCloser
   throw std::runtime_error("cannot write the picture '" + path + "': " + what);
 }
 
-// `path` is for messages. A draft beside it is never written through a link.
+// Writes the picture. `path` is for messages. A temporary file beside it is never written through a link.
 void WriteTo(const std::string& file_name, const Picture& picture, const std::string& path)
 {
   std::unique_ptr<std::FILE, FileCloser> file(file_name == path ? std::fopen(file_name.c_str(), "wb")
@@ -35,7 +35,7 @@ void WriteTo(const std::string& file_name, const Picture& picture, const std::st
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop header = png == nullptr ? nullptr : png_create_info_struct(png);
   if (header == nullptr) Fail(path, "no memory");
-  // libpng leaves by longjmp: nothing with a destructor is made after this line.
+  // libpng leaves by longjmp, so no object with a destructor may be made after this line.
   if (setjmp(png_jmpbuf(png)) != 0)
   {
     png_destroy_write_struct(&png, &header);
@@ -61,7 +61,7 @@ void WritePng(const Picture& picture, const std::string& path)
   namespace fs = std::filesystem;
   std::error_code none;
   const fs::file_type type = fs::symlink_status(path, none).type();
-  // A pipe or a link is written to as it is.
+  // A pipe or a link is written in place.
   if (type != fs::file_type::not_found && type != fs::file_type::regular) return WriteTo(path, picture, path);
   const std::string draft = path + ".new";
   try

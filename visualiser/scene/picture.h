@@ -1,4 +1,4 @@
-// A picture of what was drawn, and its PNG file.
+// A drawn picture, and its PNG file.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ struct Picture
 {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> pixels;  // red, green, blue, unused; the upper row first
+  std::vector<std::uint8_t> pixels;  // red, green, blue, unused; from the top row
 
   const std::uint8_t* At(int x, int y) const
   {
@@ -20,8 +20,8 @@ struct Picture
   }
 };
 
-// Fast rather than small: about 12 ms for 1024 by 768. Whoever reads meanwhile gets the picture before, whole. Throws
-// std::runtime_error, naming the file.
+// Writes the picture, with speed rather than small size: about 12 ms for 1024 by 768. A reader meanwhile gets the whole
+// previous picture. Throws std::runtime_error with the name of the file.
 void WritePng(const Picture& picture, const std::string& path);
 
 }  // namespace swarmanoid

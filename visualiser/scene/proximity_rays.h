@@ -1,4 +1,4 @@
-// How far the rays of proximity sensors go, for all renderers.
+// The lengths of the rays of proximity sensors, for all renderers.
 #pragma once
 
 #include <vector>
@@ -10,12 +10,12 @@ namespace swarmanoid
 
 struct ProximityRay
 {
-  Vector3 from, to;  // m, in the space: all of its range
-  double hit = 1;    // the part of the way after which it meets something; 1: it meets nothing
+  Vector3 from, to;  // m, in the space: the whole range
+  double hit = 1;    // fraction of the ray up to the first body; 1: it meets none
 };
 
-// Replaces `rays` by those of a robot, in the order of ProximityRing::sensors: none if its kind has none, or if its
-// controller has no sensor that reads them.
+// Replaces `rays` by those of a robot, in the order of ProximityRing::sensors. The result is empty if the robot's kind
+// has no ring, or if its controller has no sensor that reads it.
 void FindProximityRays(const CSwarmanoidSpace& space, SpaceQuery& query, std::uint32_t robot,
                        std::vector<ProximityRay>& rays);
 

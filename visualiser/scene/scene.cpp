@@ -21,8 +21,8 @@ using Eigen::Isometry3f;
 using Eigen::Translation3f;
 using Eigen::Vector3f;
 
-constexpr Colour kPlainColour = 0xc0c0c0;  // of a block that has none of its own
-constexpr double kLargeBody = 1;           // m: beyond it bodies are tested one by one
+constexpr Colour kPlainColour = 0xc0c0c0;  // for blocks without a colour
+constexpr double kLargeBody = 1;           // m: larger bodies are tested one by one
 constexpr float kLayer = 0.0003F;          // m between one area of the floor and the next
 constexpr std::uint32_t kLayers = 40;
 constexpr int kMostPaintedPixels = 512;  // along an edge of a picture on the floor
@@ -316,7 +316,7 @@ void Scene::Place(std::uint32_t item, const Isometry3f& place)
   items_[item].orientation = Eigen::Quaternionf(place.linear());
 }
 
-// In the order of RestingParts.
+// The parts are in the order of RestingParts.
 void Scene::PlaceFootbot(const Body& body)
 {
   const Slots& slots = SlotsOf(body);

@@ -1,4 +1,4 @@
-// What a scene shows besides bodies: beams, ropes, grips, rays, outlines, trails.
+// The marks of a scene beside bodies: beams, ropes, grips, rays, outlines, trails.
 #include <cmath>
 #include <numbers>
 
@@ -14,7 +14,7 @@ namespace swarmanoid
 namespace
 {
 
-constexpr double kLongestBeam = 30;  // m, as for the cameras that see the spot
+constexpr double kLongestBeam = 30;  // m, equal to that of cameras that see the spot
 
 Colour TrailColour(EntityKind kind)
 {
@@ -61,7 +61,7 @@ double Scene::FirstHit(const Vector3& from, const Vector3& to, std::uint32_t wit
   return first;
 }
 
-// From the middle of the eyebot's base to the first body, or the floor; tilt 0 is straight down.
+// Adds a beam from the middle of the eyebot's base to the first body, or the floor. Tilt 0 is straight down.
 void Scene::AddBeam(const Body& eyebot)
 {
   const int laser = SlotsOf(eyebot).laser;
@@ -86,7 +86,7 @@ void Scene::AddRope(const Body& handbot)
 {
   if (Attribute(handbot, SlotsOf(handbot).rope) == 0) return;
   const Vector3 from = space_.GetPose(handbot.entity).Apply({RobotJoints::kHandbotRopeForward, 0, 0.16});
-  // The magnet sits on the ceiling, straight above where the robot hangs.
+  // The magnet is on the ceiling, straight above the robot.
   AddLine(from, {from.x(), from.y(), std::max(ArenaSize().z(), from.z())}, LookOf(Material::kRope).colour, 2, 1);
 }
 
@@ -100,7 +100,7 @@ void Scene::AddGrips(const Body& robot)
     const double held = Attribute(robot, gripped + gripper);
     if (held < 1 || held > static_cast<double>(space_.Size())) continue;
     const auto other = static_cast<std::uint32_t>(held) - 1;
-    // From the jaws (the third part of a footbot), or the finger of a hand, into the body that is held.
+    // The line starts at the jaws (the third part of a footbot), or at the finger of a hand, and ends in the held body.
     const std::uint32_t part = has_arms ? 3 + 3 * static_cast<std::uint32_t>(gripper) : 2;
     const Eigen::Vector3f from = items_[robot.first_item + part].position;
     Eigen::Vector3f to = space_.GetPose(other).position.cast<float>();
@@ -120,7 +120,7 @@ void Scene::AddRays(std::uint32_t robot)
     AddLine(from, from + hit * (to - from), hit < 1 ? palette::kRayHit : palette::kRayFree, 1.5F, hit < 1 ? 1 : 0.7F);
 }
 
-// Of the LEDs that are lit: lines from the LED along the border, and the circle in which they end.
+// Adds, for each lit LED, lines from the LED along the border of its cone, and the circle at their ends.
 void Scene::AddLedCones(const Body& robot)
 {
   constexpr double kLength = 0.12;  // m
@@ -217,7 +217,7 @@ void Scene::Track()
   if (trails_ == nullptr) trails_ = std::make_unique<Trail[]>(movable.size());
   for (std::size_t m = 0; m < movable.size(); ++m)
   {
-    // The way of one that leaves the arena ends there; it does not lead to where it waits.
+    // The trail of an entity ends where it leaves the arena, since its later positions are outside.
     if (!space_.IsPresent(movable[m]))
     {
       trails_[m].count = 0;

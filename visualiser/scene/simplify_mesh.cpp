@@ -16,7 +16,7 @@ constexpr int kCoarsestCells = 4;
 
 using CellKey = std::uint64_t;
 
-// The vertices of each cell, brought together at their mean.
+// Returns the mesh with the vertices of each cell merged at their mean.
 Mesh Clustered(const Mesh& mesh, const Eigen::AlignedBox3f& box, int cells)
 {
   const float edge = box.sizes().maxCoeff() / static_cast<float>(cells);
@@ -46,8 +46,8 @@ Mesh Clustered(const Mesh& mesh, const Eigen::AlignedBox3f& box, int cells)
   }
 
   Mesh simple;
-  std::unordered_map<std::uint32_t, std::uint32_t> kept;  // of the vertices
-  std::set<std::array<std::uint32_t, 3>> there;           // triangles, by their cells
+  std::unordered_map<std::uint32_t, std::uint32_t> kept;  // by cell and attributes of the vertex
+  std::set<std::array<std::uint32_t, 3>> there;           // triangles by their cells
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
   {
     std::array<std::uint32_t, 3> corners{};

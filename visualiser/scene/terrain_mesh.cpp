@@ -8,7 +8,8 @@ namespace swarmanoid
 namespace
 {
 
-// One quadrangle a cell with normals of the surface, so that it looks smooth, and a skirt down to the ground.
+// Returns one quadrangle a cell with the normals of the surface, so that it looks smooth, and a skirt down to the
+// ground.
 Mesh HeightMesh(const HeightTerrain& terrain, int step)
 {
   Mesh mesh;
@@ -68,7 +69,7 @@ Mesh HeightMesh(const HeightTerrain& terrain, int step)
   return mesh;
 }
 
-// Cubes of `step` cells of a map on each side; occupied if any of the cells is.
+// Cubes of `step` cells of a map on each side. A cube is occupied if any of its cells is.
 class Cubes
 {
 public:
@@ -85,7 +86,7 @@ public:
   }
 
   const std::array<int, 3>& Count() const { return count_; }
-  // False outside.
+  // Returns false outside the map.
   bool IsOccupied(const std::array<int, 3>& at) const
   {
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -105,7 +106,7 @@ private:
   std::vector<bool> occupied_;
 };
 
-// The faces between occupied and free cubes; runs of equal faces along one axis are joined.
+// Returns the faces between occupied and free cubes. Runs of equal faces along one axis are merged.
 Mesh VoxelMesh(const VoxelTerrain& terrain, int step)
 {
   MeshBuilder builder(4);

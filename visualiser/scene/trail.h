@@ -1,4 +1,4 @@
-// Where an entity has been: its last places, a few centimetres apart.
+// The trail of an entity: its last positions, a few centimetres apart.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace swarmanoid
 struct Scene::Trail
 {
   static constexpr std::size_t kPlaces = 160;
-  static constexpr float kStep = 0.03F;  // m between two places
+  static constexpr float kStep = 0.03F;  // m between two positions
 
   std::array<Eigen::Vector3f, kPlaces> places;
   std::size_t next = 0;
@@ -24,7 +24,7 @@ struct Scene::Trail
     next = (next + 1) % kPlaces;
     if (count < kPlaces) ++count;
   }
-  // 0: the newest.
+  // Returns a position; 0 is the newest.
   const Eigen::Vector3f& Last(std::size_t back) const { return places[(next + 2 * kPlaces - 1 - back) % kPlaces]; }
 };
 

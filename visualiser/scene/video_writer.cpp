@@ -60,7 +60,7 @@ struct VideoWriter::State
   void Encode(const AVFrame* picture);
 };
 
-// H.264 and VP9 play everywhere; if FFmpeg was built without them, whatever the container's own codec is.
+// H.264 and VP9 play everywhere. If FFmpeg was built without them, the container's default codec is used.
 void VideoWriter::State::ChooseEncoder()
 {
   const std::string format = container->oformat->name;
@@ -75,7 +75,7 @@ void VideoWriter::State::Open(int width, int height, double seconds_per_picture)
 {
   av_log_set_level(AV_LOG_FATAL);
   avformat_alloc_output_context2(&container, nullptr, nullptr, path.c_str());
-  // A format that opens files by itself could write others than this one.
+  // A format that opens files itself could write other files than this one.
   if (container == nullptr || (container->oformat->flags & AVFMT_NOFILE) != 0)
     Fail("its name must end in .mp4, .webm, .mkv or another ending of a video in one file");
   ChooseEncoder();
@@ -158,7 +158,7 @@ VideoWriter::~VideoWriter()
   }
   catch (const std::runtime_error&)
   {
-    // Nobody is left to hear it.
+    // A destructor has no caller that could handle the error.
   }
 }
 

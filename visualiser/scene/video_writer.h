@@ -1,5 +1,5 @@
-// A video of pictures in simulated time: mp4 (H.264) or webm (VP9), by the ending of the file's name, or any other
-// container that FFmpeg knows.
+// Writes a video of pictures in simulated time: mp4 (H.264) or webm (VP9), by the ending of the file's name, or any
+// other container that FFmpeg knows.
 #pragma once
 
 #include <memory>
@@ -13,14 +13,14 @@ namespace swarmanoid
 class VideoWriter
 {
 public:
-  // The size is rounded down to even numbers. seconds_per_picture: of the video, for its nominal rate. Throws
-  // std::runtime_error, naming the file, also if the build has no FFmpeg libraries.
+  // The size is rounded down to even numbers. `seconds_per_picture` gives the nominal rate of the video. Throws
+  // std::runtime_error with the name of the file, also if the build has no FFmpeg libraries.
   VideoWriter(const std::string& path, int width, int height, double seconds_per_picture);
   ~VideoWriter();
 
-  // The picture is shown from `time` (s from the start of the video) on; times ascend.
+  // Shows the picture from `time` on (s from the start of the video); times must ascend.
   void Add(const Picture& picture, double time);
-  // Writes what is left; without it the destructor does, but cannot report errors.
+  // Writes the rest of the file. Otherwise the destructor does, but cannot report errors.
   void Finish();
 
 private:

@@ -1,4 +1,4 @@
-// For builds without FFmpeg's libraries.
+// Replaces video_writer.cpp in builds without FFmpeg's libraries.
 #include "visualiser/scene/video_writer.h"
 
 #include <stdexcept>

@@ -14,9 +14,9 @@ namespace
 
 constexpr std::string_view kPlaceName = "camera_view_XYZ_";
 constexpr std::string_view kTurnName = "camera_view_HPR_";
-constexpr double kTopFieldOfView = 20;  // degrees: nearly a map
+constexpr double kTopFieldOfView = 20;  // degrees: nearly parallel, like a map
 
-// The number of a viewpoint's parameter, or -1 for another name.
+// Returns the number of a viewpoint's parameter, or -1 for another name.
 int NumberOf(std::string_view name)
 {
   for (const std::string_view family : {kPlaceName, kTurnName})
@@ -128,7 +128,7 @@ std::string ViewpointXml(int number, const Camera& camera)
 
 Camera DefaultView(const Experiment& experiment, double aspect, bool top)
 {
-  // Of the height only what is inhabited: an arena may have a ceiling far above its robots.
+  // The height covers only the robots, since an arena may have a ceiling far above them.
   double height = 0.35;
   for (const EntityConfiguration& entity : experiment.entities)
     if (entity.movable) height = std::max(height, entity.pose.position.z() + entity.size.z());

@@ -28,8 +28,6 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-// Ascending: the last kind of the enumeration.
-
 std::vector<std::string> SplitList(const std::string& text)
 {
   std::vector<std::string> items;
@@ -46,7 +44,7 @@ std::vector<std::string> SplitList(const std::string& text)
 
 std::string TextOf(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
-// JSON has no number for what is infinite or none.
+// JSON has no number for infinity or NaN.
 Json NumberOf(const std::string& text)
 {
   Json number = Json::parse(text, nullptr, false);
@@ -55,7 +53,7 @@ Json NumberOf(const std::string& text)
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
-// Stands for itself in every format.
+// Returns whether a character needs no quotes or escapes in any format.
 bool IsPlain(char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\' && c != ','; }
 
 }  // namespace
@@ -105,7 +103,7 @@ void CTextRender::Init(const RenderSetup& setup)
 
 void CTextRender::Draw()
 {
-  // An attached one does not see every tick: a table is due once a period has begun since the last one.
+  // An attached renderer does not see every tick. A table is due once a new period has begun since the last table.
   const std::uint64_t tick = space_->GetTick();
   const std::uint64_t period = tick / every_;
   const bool due = period_ ? period != *period_ : tick % every_ == 0;
@@ -118,7 +116,7 @@ void CTextRender::Draw()
 
 void CTextRender::Idle()
 {
-  // Nothing is drawn any more when a run is paused: what the latest table says of it would stay.
+  // A paused run draws no further tables, so the status in the latest table would stay wrong.
   if (told_phase_ && monitor_->Status().phase != *told_phase_)
   {
     AppendStatus();
@@ -238,7 +236,7 @@ void CTextRender::ChooseEntities(const std::string& kinds, const SourceLocation&
   }
 }
 
-// The column State needs to hear of every robot that gets a line.
+// The column State needs the status of every robot that has a line.
 void CTextRender::WatchShownRobots()
 {
   const auto is_state = [](const Column& column) { return column.title == "State"; };
@@ -302,7 +300,7 @@ void CTextRender::AppendLine(const CSwarmanoidSpaceEntity& entity)
   for (std::size_t c = 0; c < columns_.size(); ++c)
   {
     if (c > 0) buffer_ += separator;
-    // As in figure 3.11 of the report: under its #, the line has a field more than there are titles.
+    // As in figure 3.11 of the report, the line has one field more than the titles: the one under #.
     if (c == 1 && format_ == Format::kTable) buffer_ += separator;
     if (json) buffer_.append(keys_[c]).append(columns_[c].is_number ? ":" : ":\"");
     const std::size_t start = buffer_.size();
@@ -313,7 +311,7 @@ void CTextRender::AppendLine(const CSwarmanoidSpaceEntity& entity)
   buffer_ += json ? "}\n" : "\n";
 }
 
-// Nearly all cells are fine as they are.
+// Nearly all cells need no change.
 void CTextRender::MendCell(std::size_t start, bool is_number)
 {
   const std::string_view cell = std::string_view(buffer_).substr(start);

@@ -1,10 +1,10 @@
-// Who may look at an experiment and who may steer it: the checks of web_render's server, free of sockets. Used in the
-// server's thread.
+// Decides which clients may look at an experiment and which may control it: the checks of web_render's server, without
+// sockets. Used in the server's thread.
 //
-// A page of any web site can open a connection to this machine, so an open port is no secret: the Host header must not
-// be a name that somebody's DNS could point here, a page must come from this very server (Origin), and commands need a
-// token that only the printed address has. The token itself is never sent: each client gets a challenge of its own and
-// answers with what only a holder of the token can make of it.
+// A page of any web site can open a connection to this machine, so an open port is no secret. The Host header must not
+// be a name that foreign DNS could point here. A page must come from this very server (Origin). Commands need a token
+// that only the printed address contains. The token itself is never sent: each client gets its own challenge, and
+// answers with a value that only a holder of the token can compute.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,21 @@
 namespace swarmanoid
 {
 
-// Whether a Host header names a machine as somebody who knows it would: an IP address, localhost or this machine's own
+// Returns whether a Host header is a name that cannot be forged by DNS: an IP address, localhost or this machine's own
 // name, with or without a port.
 bool IsKnownHost(std::string_view host);
 
-// Whether an Origin header is that of a page from the server that the Host header names. Programs send no Origin: an
-// empty one is allowed. `tls`: whether the server is reached by https.
+// Returns whether an Origin header is that of a page from the server that the Host header names. Programs send no
+// Origin, so an empty one is allowed. `tls`: whether the server is reached by https.
 bool IsOwnOrigin(std::string_view origin, std::string_view host, bool tls = false);
 
-// The part of a request's target before '?'.
+// Returns the part of a request's target before '?'.
 std::string_view PathOf(std::string_view target);
 
 enum class Authority
 {
-  kReadOnly,    // nothing was proved yet, or no token would help
-  kWrongToken,  // may look, not steer
+  kReadOnly,    // nothing was proved yet, or the server has no token
+  kWrongToken,  // may look, but not control
   kControl
 };
 
@@ -39,22 +39,22 @@ struct AccessRules
   std::string token;
 };
 
-// 128 random bits of the operating system, as hexadecimal digits.
+// Returns 128 random bits of the operating system, as hexadecimal digits.
 std::string MakeToken();
 
-// What a holder of the token answers to a challenge: HMAC-SHA256 (RFC 2104) of the challenge under the token, both as
-// the text that they are, in 64 hexadecimal digits.
+// Returns the answer of a holder of the token to a challenge: HMAC-SHA256 (RFC 2104) of the challenge under the token,
+// both as text, in 64 hexadecimal digits.
 std::string ProofOf(std::string_view token, std::string_view challenge);
 
-// The clients of a server, and which of them have proved that they hold the token.
+// The clients of a server, with those that have proved that they hold the token.
 class Visitors
 {
 public:
   explicit Visitors(AccessRules rules) : rules_(std::move(rules)) {}
 
-  // A client has come: the challenge for it, which no other client gets.
+  // Adds a client and returns its challenge, which differs from those of all other clients.
   std::string Join(std::uint64_t client);
-  // Its answer; takes the same time for every proof of the right length.
+  // Checks a client's answer. It takes the same time for every proof of the right length.
   Authority Prove(std::uint64_t client, std::string_view proof);
   bool MayControl(std::uint64_t client) const;
   void Leave(std::uint64_t client) { visitors_.erase(client); }

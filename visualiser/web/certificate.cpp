@@ -31,7 +31,7 @@ namespace
 
 constexpr long kDay_s = 86400;
 constexpr long kValid_s = 365 * kDay_s;
-constexpr long kRenewed_s = 30 * kDay_s;  // before its end
+constexpr long kRenewed_s = 30 * kDay_s;  // before the end of its validity
 constexpr std::size_t kLongestFile = 1 << 20;
 
 template <auto Free>
@@ -77,7 +77,7 @@ X509Certificate FirstOf(const std::string& pem)
 Key KeyOf(const std::string& pem)
 {
   const Bio memory(BIO_new_mem_buf(pem.data(), static_cast<int>(pem.size())));
-  // Nobody is asked for a password: a key that has one is an error.
+  // No user is asked for a password: a key with one is an error.
   const auto no_password = [](char*, int, int, void*) { return -1; };
   return Key(PEM_read_bio_PrivateKey(memory.get(), nullptr, no_password, nullptr));
 }
@@ -92,7 +92,7 @@ std::string FingerprintOf(const X509& certificate)
   return text;
 }
 
-// What a file holds; nothing if it is not a file of this user alone.
+// Returns the content of a file; nothing if other users can access the file.
 std::optional<std::string> ReadPrivate(const std::filesystem::path& path)
 {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
@@ -111,7 +111,7 @@ std::optional<std::string> ReadPrivate(const std::filesystem::path& path)
   return text;
 }
 
-// As a whole, under another name first: who reads it meanwhile has the old one.
+// Writes the file under another name and renames it, so that a reader meanwhile gets the old one.
 void WritePrivate(const std::filesystem::path& path, const std::string& text)
 {
   std::error_code ignored;
@@ -139,7 +139,7 @@ bool Serves(const X509& certificate, const std::vector<std::string>& names)
 {
   time_t renewed = time(nullptr) + kRenewed_s;
   if (X509_cmp_time(X509_get0_notAfter(&certificate), &renewed) <= 0) return false;
-  X509* const checked = const_cast<X509*>(&certificate);  // it is not changed
+  X509* const checked = const_cast<X509*>(&certificate);  // it is not modified
   return std::all_of(names.begin(), names.end(),
                      [&](const std::string& name)
                      {
@@ -161,11 +161,11 @@ std::string NewCertificate(const std::vector<std::string>& names)
   const X509Certificate certificate(X509_new());
   std::array<unsigned char, 16> serial{};
   if (!key || !certificate || RAND_bytes(serial.data(), serial.size()) != 1) Fail("cannot make a certificate");
-  serial[0] &= 0x7f;  // positive
+  serial[0] &= 0x7f;  // makes the number positive
   const std::unique_ptr<BIGNUM, Freed<BN_free>> number(BN_bin2bn(serial.data(), serial.size(), nullptr));
   BN_to_ASN1_INTEGER(number.get(), X509_get_serialNumber(certificate.get()));
   X509_set_version(certificate.get(), X509_VERSION_3);
-  X509_gmtime_adj(X509_getm_notBefore(certificate.get()), -kDay_s);  // clocks of other machines differ
+  X509_gmtime_adj(X509_getm_notBefore(certificate.get()), -kDay_s);  // the clocks of other machines differ
   X509_gmtime_adj(X509_getm_notAfter(certificate.get()), kValid_s);
   X509_set_pubkey(certificate.get(), key.get());
   X509_NAME* const subject = X509_get_subject_name(certificate.get());
@@ -235,7 +235,7 @@ std::vector<std::string> NamesOfThisMachine()
     std::array<char, NI_MAXHOST> text{};
     const socklen_t size = four ? sizeof(sockaddr_in) : sizeof(sockaddr_in6);
     if (getnameinfo(each->ifa_addr, size, text.data(), text.size(), nullptr, 0, NI_NUMERICHOST) != 0) continue;
-    // Addresses of one link alone ("fe80::1%eth0") are of no use in a browser.
+    // Addresses of a single link ("fe80::1%eth0") are useless in a browser.
     if (std::string_view(text.data()).find('%') == std::string_view::npos) add(text.data());
   }
   return names;

@@ -1,4 +1,5 @@
-// The binary message with what experiment functions draw, little-endian: docs/web_render.md. Used by web_render alone.
+// The binary message with the drawings of experiment functions, little-endian. docs/web_render.md specifies it. Only
+// web_render uses it.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,7 @@ struct DrawingHeader
   std::uint32_t triangles = 0;
   std::uint32_t dots = 0;
   std::uint64_t tick = 0;
-  std::uint32_t text_bytes = 0;  // at the end: JSON, of each text [x, y, z, 0xRRGGBBAA, "text"]
+  std::uint32_t text_bytes = 0;  // at the end: JSON, for each text [x, y, z, 0xRRGGBBAA, "text"]
   std::uint32_t unused = 0;
 };
 static_assert(sizeof(DrawingHeader) == 32);
@@ -46,7 +47,7 @@ struct DrawingDot
 };
 static_assert(sizeof(DrawingDot) == 20);
 
-// Of the space as it is.
+// Returns the message for the current drawing of the space.
 std::string DrawingBytes(const CSwarmanoidSpace& space);
 
 }  // namespace swarmanoid

@@ -65,7 +65,7 @@ KeptAddress::~KeptAddress()
   if (file_ >= 0) close(file_);
 }
 
-// "PORT TOKEN", or "PORT" if there was no token. Anything else is as good as nothing.
+// Reads "PORT TOKEN", or "PORT" if there was no token. Any other content is ignored.
 void KeptAddress::Read()
 {
   std::array<char, 64> text{};

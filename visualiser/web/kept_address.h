@@ -1,5 +1,5 @@
-// The port and the token of a page, kept from one start of an experiment to the next, so that a page that is open goes
-// on when the experiment is started again. Used by web_render; the file is the user's alone.
+// Keeps the port and the token of a page from one start of an experiment to the next, so that an open page continues
+// when the experiment starts again. Used by web_render. Only the user can access the file.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +13,17 @@ namespace swarmanoid
 class KeptAddress
 {
 public:
-  // Opens the file of an experiment in `folder`, which is made if needed, and keeps others from it while it lives: of
-  // two runs of one experiment at the same time the second keeps nothing. An empty folder keeps nothing.
+  // Opens the file of an experiment in `folder`, which is made if needed, and locks it while the object lives. If two
+  // runs of one experiment overlap, the second keeps nothing. An empty folder keeps nothing.
   KeptAddress(const std::filesystem::path& folder, std::string_view experiment);
   ~KeptAddress();
   KeptAddress(const KeptAddress&) = delete;
   KeptAddress& operator=(const KeptAddress&) = delete;
 
-  // Of the last start; 0 and empty if there was none.
+  // Return the values of the last start; 0 and empty if there was none.
   std::uint16_t Port() const { return port_; }
   const std::string& Token() const { return token_; }
-  // For the next start. False if it cannot be kept: `Trouble` says why.
+  // Stores the values for the next start. Returns false if that fails; `Trouble` has the reason.
   bool Keep(std::uint16_t port, const std::string& token);
   const std::string& Trouble() const { return trouble_; }
 
@@ -36,8 +36,8 @@ private:
   std::string trouble_;
 };
 
-// Where a user's programs keep what outlives them: swarmanoid/web in XDG_STATE_HOME, or else in ~/.local/state. Empty
-// if neither is known.
+// Returns the folder for the persistent state of the user's programs: swarmanoid/web in XDG_STATE_HOME, or else in
+// ~/.local/state. Empty if neither is known.
 std::filesystem::path StateFolder();
 
 }  // namespace swarmanoid

@@ -47,7 +47,7 @@ void LogFollower::ReadFile(const std::filesystem::path& path, std::uintmax_t siz
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(file.gcount()));
 
-  // A line that has no end stays for the next time, unless it fills everything.
+  // A line without an end waits for the next call, unless it fills the buffer.
   std::size_t start = 0;
   for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', start))
   {

@@ -1,5 +1,5 @@
-// Reads what the logs of a run's folder gain: the lines of its processes, for the page's log. Used by web_render in the
-// thread of Draw and Idle, now and then.
+// Reads new lines from the logs of a run's processes, for the page's log. web_render calls it periodically in the
+// thread of Draw and Idle.
 #pragma once
 
 #include <cstdint>
@@ -18,15 +18,15 @@ public:
   explicit LogFollower(const std::filesystem::path& folder);
 
   using OnLine = std::function<void(const std::string& process, const std::string& line)>;
-  // The lines since the last call, at most 64 KiB of each log: of one that grows faster the middle is left out, and
-  // said so.
+  // Reads the lines since the last call, at most 64 KiB of each log. If a log grows faster, the middle is left out,
+  // with a message.
   void Read(const OnLine& on_line);
 
 private:
   void ReadFile(const std::filesystem::path& path, std::uintmax_t size, const OnLine& on_line);
 
   std::filesystem::path folder_;                          // empty: none
-  std::map<std::filesystem::path, std::uintmax_t> read_;  // bytes of each log
+  std::map<std::filesystem::path, std::uintmax_t> read_;  // by log: the bytes that were read
 };
 
 }  // namespace swarmanoid

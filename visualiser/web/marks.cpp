@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 double Rounded(double value) { return std::round(value * 1e4) / 1e4; }
 
-// From which a robot hears others; 0 if its controller has no such sensor, or one that says nothing of a range.
+// Returns the range within which a robot hears others; 0 if its controller has no such sensor, or one without a range.
 double RangeOf(const Experiment& experiment, const EntityConfiguration& robot)
 {
   const ControllerConfiguration* controller = experiment.FindController(robot.controller);
@@ -38,7 +38,7 @@ double RangeOf(const Experiment& experiment, const EntityConfiguration& robot)
   return 0;
 }
 
-// 2, then both ends of each edge.
+// Returns 2, then both ends of each edge.
 Json EdgesOf(const ConvexHull& hull)
 {
   Json edges = Json::array({2});
@@ -84,7 +84,7 @@ std::string MarksWriter::Text(const MarksRequest& wanted)
     rays["hits"].push_back(std::move(hits));
   }
 
-  // Robots of one kind have the same bodies, as a rule.
+  // Robots of one kind usually have the same bodies.
   Json shapes{{"entities", Json::array()}, {"models", Json::array()}, {"bodies", Json::array()}};
   std::map<std::string, int> known;
   for (const std::uint32_t entity : wanted.bodies)
@@ -113,8 +113,8 @@ std::string MarksWriter::Text(const MarksRequest& wanted)
     shapes["models"].push_back(place->second);
   }
 
-  // As the receivers of range and bearing hear: those that send, within range of the antenna and in sight. Each pair
-  // once: from one to the other, or both ways.
+  // A link follows the rules of the receivers of range and bearing: the sender sends, and is within range of the
+  // antenna and in sight. Each pair occurs once, in one direction or in both.
   Json both = Json::array(), one = Json::array();
   std::vector<char> asked(space_.Size());
   for (const std::uint32_t robot : wanted.links)

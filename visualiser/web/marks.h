@@ -1,5 +1,5 @@
-// What pages show beside bodies if they ask for it: rays of proximity sensors, the bodies that engines collide, and who
-// hears whom by range and bearing. Used by web_render in the thread of Draw and Idle.
+// Marks that pages show beside bodies on request: rays of proximity sensors, the bodies that engines collide, and the
+// links of range and bearing. web_render uses it in the thread of Draw and Idle.
 #pragma once
 
 #include <cstdint>
@@ -17,17 +17,17 @@ namespace swarmanoid
 class MarksWriter
 {
 public:
-  // The space outlives the writer.
+  // The space must outlive the writer.
   explicit MarksWriter(const CSwarmanoidSpace& space);
-  // "marks", for the entities that are asked for. Those that are not in the arena have none.
+  // Returns the message "marks" for the requested entities. Entities outside the arena have none.
   std::string Text(const MarksRequest& wanted);
 
 private:
   // A robot with an antenna.
   struct Antenna
   {
-    std::uint32_t message = 0;  // slot of the attribute
-    double range = 0;           // m, from which it hears; 0: it does not listen
+    std::uint32_t message = 0;  // index of the attribute
+    double range = 0;           // m: the range of its receiver; 0: it does not receive
   };
 
   bool IsPresent(std::uint32_t entity) const;

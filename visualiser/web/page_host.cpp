@@ -12,7 +12,7 @@ namespace
 
 bool IsOfThisMachine(const std::string& address) { return address.starts_with("127.") || address == "::1"; }
 
-// Nothing if the page is not reached by TLS.
+// Returns nothing if the page does not use TLS.
 std::optional<Certificate> CertificateFor(const Parameters& parameters)
 {
   const std::string address = parameters.Text("address");
@@ -43,11 +43,11 @@ PageHost::PageHost(const Parameters& parameters, const std::string& key)
   kept_ = std::make_unique<KeptAddress>(StateFolder(), key);
 }
 
-// At the address of the last start, if it is free and no other is asked for: pages that are open go on.
+// Opens at the address of the last start, if it is free and no other is requested, so that open pages continue.
 void PageHost::Open(WebServerEvents& events)
 {
   std::string token = kept_->Token();
-  // A token is of one port: whoever has the one before could pass challenges on from there.
+  // A token is valid for one port: the owner of the previous port could forward challenges from there.
   const bool moves = settings_.port != 0 && settings_.port != kept_->Port();
   if (allow_control_ && (token.empty() || moves)) token = MakeToken();
   if (settings_.port == 0 && kept_->Port() != 0)
@@ -59,7 +59,7 @@ void PageHost::Open(WebServerEvents& events)
     }
     catch (const std::runtime_error&)
     {
-      settings_.port = 0;  // somebody else has it now: a new one, and a new token, for that one may have heard the old
+      settings_.port = 0;  // another program has the port, and may know the token: use a new port and token
       if (allow_control_) token = MakeToken();
     }
   }

@@ -1,5 +1,5 @@
-// The server of pages, opened as the parameters of web_render say: at the address and with the token that the last
-// start of the same experiment had, by TLS where that is due. Used by web_render and the editor.
+// The server of pages, opened according to the parameters of web_render: at the address and with the token of the last
+// start of the same experiment, by TLS if required. web_render and the editor use it.
 #pragma once
 
 #include <memory>
@@ -17,29 +17,29 @@ namespace swarmanoid
 class PageHost
 {
 public:
-  // `key`: whose address is kept. Throws std::runtime_error.
+  // `key`: the name under which the address is kept. Throws std::runtime_error.
   PageHost(const Parameters& parameters, const std::string& key);
-  // Serves from now on. The events outlive the host; the first of them may come before this returns. Throws
+  // Starts serving. The events must outlive the host; the first of them may come before this returns. Throws
   // std::runtime_error.
   void Open(WebServerEvents& events);
 
-  // After or during Open, from any thread.
+  // Call it after or during Open. Any thread may call it.
   WebServer& Server()
   {
     const std::lock_guard lock(opening_);
     return *server_;
   }
-  // Takes the answer of a client to its challenge. For the server's thread alone.
+  // Takes the answer of a client to its challenge. Only the server's thread calls it.
   Authority Prove(std::uint64_t client, std::string_view proof);
-  // For the server's thread alone.
+  // Only the server's thread calls it.
   Visitors& GetVisitors() { return *visitors_; }
-  // With the token behind a '#': browsers keep that part of an address for themselves.
+  // Returns the address, with the token behind a '#', which browsers do not send.
   std::string Url() const;
-  // SHA-256 of the certificate; empty: the pages are reached without TLS.
+  // Returns the SHA-256 of the certificate; empty: the pages do not use TLS.
   const std::string& Fingerprint() const { return fingerprint_; }
-  // Why the next start will have another address; empty if it will not.
+  // Returns why the next start will have another address; empty if it will not.
   const std::string& Trouble() const { return trouble_; }
-  // What the user should know of who can look or steer; empty if there is nothing.
+  // States which other users can look or control; empty if none can.
   std::string Warning() const;
 
 private:
@@ -49,11 +49,11 @@ private:
   bool allow_control_;
   std::string fingerprint_;
   std::string trouble_;
-  std::string token_;                   // empty: nobody may control
-  std::unique_ptr<Visitors> visitors_;  // of the server's thread alone
+  std::string token_;                   // empty: no page may control the run
+  std::unique_ptr<Visitors> visitors_;  // only for the server's thread
   std::unique_ptr<KeptAddress> kept_;
-  std::mutex opening_;                 // of server_
-  std::unique_ptr<WebServer> server_;  // last: its thread uses the above
+  std::mutex opening_;                 // guards server_
+  std::unique_ptr<WebServer> server_;  // last, since its thread uses the members above
 };
 
 }  // namespace swarmanoid

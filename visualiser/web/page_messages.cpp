@@ -28,7 +28,7 @@ namespace
 using Json = nlohmann::ordered_json;
 
 constexpr double kLastTick = 1e15;
-constexpr std::size_t kMostEvents = 1000;  // marks of a timeline
+constexpr std::size_t kMostEvents = 1000;  // the most marks of a timeline
 constexpr int kTerrainSamples = 128;       // along each side
 constexpr int kPicturePixels = 256;        // of a picture on the floor, along each side
 
@@ -36,7 +36,7 @@ std::string Text(const Json& json) { return json.dump(-1, ' ', false, Json::erro
 
 Json Vector(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
-// The surface seen from above, on a grid; null if there is no ground. In the terrain's frame.
+// Returns the surface seen from above on a grid, in the terrain's frame; null for cells without ground.
 Json TerrainSurface(const EntityConfiguration& configuration, const std::string& folder)
 {
   const std::shared_ptr<const Terrain> terrain = LoadTerrain(configuration, folder);
@@ -57,7 +57,7 @@ Json TerrainSurface(const EntityConfiguration& configuration, const std::string&
   return {{"low", Vector(low)}, {"high", Vector(high)}, {"columns", columns}, {"rows", rows}, {"heights", heights}};
 }
 
-// Rows from the top, as numbers of pixels in a row and their number in the palette.
+// Returns rows from the top, as runs of pixels: their number and their index in the palette.
 Json Picture(const FloorPicture& picture)
 {
   const PaintedFloor floor = Simplified(picture, kPicturePixels);
@@ -120,7 +120,8 @@ bool IsThere(EntityKind kind, const Experiment& experiment)
   return std::ranges::find(experiment.entities, kind, &EntityConfiguration::kind) != experiment.entities.end();
 }
 
-// What a page has to know of a kind to draw it; the model where its own meshes have none, of kinds that are there.
+// Returns what a page needs to draw a kind. For kinds in the experiment that the page's own meshes lack, this includes
+// the model.
 Json Look(EntityKind kind, const Experiment& experiment)
 {
   const EntityKindDescription& row = DescriptionOf(kind);
@@ -145,7 +146,7 @@ Json Look(EntityKind kind, const Experiment& experiment)
   return look;
 }
 
-// {"left": [1.5, "m/s"], …} as columns.
+// Returns {"left": [1.5, "m/s"], …} as columns.
 Json Devices(const std::vector<DeviceStatus>& devices)
 {
   Json list = Json::array();

@@ -10,7 +10,7 @@ namespace swarmanoid
 
 using TlsStream = beast::ssl_stream<beast::tcp_stream>;
 
-// One of the two.
+// Exactly one of the two streams exists.
 struct PageStream::Streams
 {
   std::optional<beast::tcp_stream> plain;

@@ -1,5 +1,5 @@
-// The bytes of a connection to a WebServer, with or without TLS: one type, so that HTTP and WebSockets over it are
-// compiled once. A stream for asynchronous operations of Asio and Beast, in the server's thread.
+// The bytes of a connection to a WebServer, with or without TLS. It is one type, so that HTTP and WebSockets are
+// compiled once. It is a stream for asynchronous operations of Asio and Beast, in the server's thread.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 using ErrorCode = beast::error_code;
 
-// As many of a sequence of buffers as one operation takes.
+// The number of buffers of a sequence that one operation takes.
 template <class Buffer>
 class FewBuffers
 {
@@ -50,7 +50,7 @@ public:
   using Done = std::function<void(ErrorCode, std::size_t)>;
 
   explicit PageStream(beast::tcp_stream stream);
-  // With TLS, whose context outlives it.
+  // Makes a stream with TLS. The context must outlive it.
   PageStream(beast::tcp_stream stream, asio::ssl::context& context);
   PageStream(PageStream&& other) noexcept;
   PageStream& operator=(PageStream&& other) noexcept;
@@ -58,15 +58,15 @@ public:
 
   bool HasTls() const;
   executor_type get_executor() { return next_layer().get_executor(); }
-  // Below TLS.
+  // Returns the layer below TLS.
   beast::tcp_stream& next_layer();
   const beast::tcp_stream& next_layer() const;
 
-  // Of TLS; `begun` has been read of it. Done gets how much of that is used.
+  // Does the TLS handshake; `begun` has its first bytes. `done` gets the number of these bytes that were used.
   void ShakeHands(const asio::const_buffer& begun, Done done);
-  // Tells the other side that no more comes; with TLS its answer is awaited, as long as the stream has not expired.
+  // Tells the other side that no more bytes come. With TLS it waits for the answer, until the stream expires.
   void SayGoodbye(std::function<void(ErrorCode)> done);
-  // The end of a WebSocket.
+  // Ends a WebSocket.
   void TearDown(beast::role_type role, ErrorCode& error);
   void TearDown(beast::role_type role, std::function<void(ErrorCode)> done);
 
@@ -84,7 +84,7 @@ public:
 private:
   struct Streams;
 
-  // Handlers may be moved alone, std::function is copied.
+  // Wraps handlers that can only be moved, since std::function is copied.
   template <class Handler>
   static Done Shared(Handler&& handler)
   {
@@ -97,7 +97,7 @@ private:
   std::unique_ptr<Streams> streams_;
 };
 
-// For Beast, which ends a WebSocket by them.
+// Beast finds these functions by name and ends a WebSocket with them.
 inline void teardown(beast::role_type role, PageStream& stream, ErrorCode& error) { stream.TearDown(role, error); }
 template <class Handler>
 void async_teardown(beast::role_type role, PageStream& stream, Handler&& handler)

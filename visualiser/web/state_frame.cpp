@@ -17,7 +17,7 @@ namespace
 static_assert(std::endian::native == std::endian::little, "frames are little-endian");
 
 constexpr double kLongestBeam = 30;
-constexpr double kWorthwhile = 0.7;  // of a key frame: a longer change is not sent
+constexpr double kWorthwhile = 0.7;  // relative to a key frame: a longer change is not sent
 
 std::uint32_t ColourOf(double value) { return static_cast<std::uint32_t>(value) & 0xffffffU; }
 
@@ -111,7 +111,7 @@ FrameHeader FrameWriter::Header(std::uint32_t magic) const
   return header;
 }
 
-// ReusedMemory for so many bytes and the lists that end every frame.
+// Returns a text with reserved memory for so many bytes and the lists that end every frame.
 std::string FrameWriter::Bytes(std::size_t fixed) const
 {
   return std::string(fixed + SizeOf(beams_) + SizeOf(grips_) + SizeOf(rings_), '\0');
@@ -172,7 +172,7 @@ std::string FrameWriter::WriteChange()
   place = Append(place, beams_);
   place = Append(place, grips_);
   place = Append(place, rings_);
-  Append(place, steps_);  // last: their size is no multiple of four
+  Append(place, steps_);  // last: their size is not a multiple of four
   return bytes;
 }
 
@@ -221,7 +221,7 @@ void FrameWriter::ReadAttributes()
   }
 }
 
-// The mean colour of the LEDs that shine, or that of the beacon if none does.
+// Returns the mean colour of the LEDs that shine, or that of the beacon if all are off.
 std::uint32_t FrameWriter::ReadLeds(const Bearer& bearer, std::uint8_t& flags)
 {
   const std::span<const double> leds = space_.Attributes().Part(bearer.led, bearer.leds);
@@ -283,7 +283,7 @@ void FrameWriter::FindBeams()
   }
 }
 
-// At the first body, or on the floor, as the cameras see the spot.
+// Returns the first body on the beam, or the floor, as cameras see the spot.
 Vector3 FrameWriter::EndOfBeam(std::uint32_t entity, const Vector3& from, const Vector3& direction) const
 {
   double length = kLongestBeam;
@@ -294,7 +294,7 @@ Vector3 FrameWriter::EndOfBeam(std::uint32_t entity, const Vector3& from, const 
   for (const Body& body : bodies_)
   {
     if (body.entity == entity) continue;
-    // Bodies far from the line cost one distance each.
+    // Bodies far from the line cost only one distance.
     const Vector3 origin(poses.x[body.entity], poses.y[body.entity], poses.z[body.entity]);
     const double along = std::clamp((origin - from).dot(direction), 0.0, length);
     if ((from + along * direction - origin).squaredNorm() > body.reach * body.reach) continue;

@@ -1,4 +1,4 @@
-// One page that looks at a WebServer: what waits for it, and how it is sent. In the server's thread.
+// One page that is connected to a WebServer: its waiting messages, and how they are sent. In the server's thread.
 #pragma once
 
 #include <boost/beast/http.hpp>
@@ -19,15 +19,15 @@ class WebServer::Impl::Client final : public Droppable, public std::enable_share
 {
   using Clock = std::chrono::steady_clock;
   static constexpr std::size_t kQueueLength = 512;
-  // Several frames of thousands of robots; what the system takes beyond that is only late.
+  // The buffer holds several frames of thousands of robots. A larger one would only add delay.
   static constexpr int kSocketBytes = 1 << 20;
 
 public:
   enum class Place
   {
-    kNone,  // all are taken: it must show the token soon
+    kNone,  // all places are taken: it must prove the token soon
     kWatcher,
-    kHolder  // of the token
+    kHolder  // it has proved the token
   };
 
   Client(Impl& server, PageStream stream, asio::ip::address from)
@@ -51,7 +51,7 @@ public:
     times.keep_alive_pings = true;
     times.idle_timeout = std::chrono::seconds(60);
     stream_.set_option(times);
-    // Whole messages in one piece: half the cost of sending.
+    // Messages are sent whole, which halves the cost of sending.
     stream_.auto_fragment(false);
     stream_.write_buffer_bytes(65536);
     stream_.read_message_max(server_.settings_.max_message_bytes);
@@ -117,7 +117,7 @@ public:
     return HasPlace() && open_ && !writing_ && !slots_[Index(Slot::kKey)] && !slots_[Index(Slot::kChange)];
   }
 
-  // When everything is sent.
+  // Called when everything is sent.
   void Close()
   {
     closing_ = true;
@@ -142,7 +142,7 @@ private:
         });
   }
 
-  // Who sends without end is read at a pace: what is unread stays with the sender.
+  // Limits the rate of reading; unread messages stay with the sender.
   void ReadOn()
   {
     const auto share = std::chrono::nanoseconds(std::chrono::seconds(1)) / server_.settings_.max_messages_per_second;
@@ -180,7 +180,7 @@ private:
                         });
   }
 
-  // What is to be sent next: the queue first, then a key, then the other slots in turn.
+  // Returns the next message to send: the queue first, then a key, then the other slots in turn.
   Bytes Next(bool& binary)
   {
     if (!queue_.empty())
@@ -221,8 +221,8 @@ private:
 
   Impl& server_;
   websocket::stream<PageStream> stream_;
-  asio::steady_timer pace_;   // before the next message is read
-  asio::steady_timer proof_;  // until a client without a place must have shown the token
+  asio::steady_timer pace_;   // delays the reading of the next message
+  asio::steady_timer proof_;  // limits the time of a client without a place until it proves the token
   Place place_ = Place::kNone;
   websocket::close_reason reason_ = websocket::close_code::going_away;
   Clock::time_point read_until_;

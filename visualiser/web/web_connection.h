@@ -1,4 +1,4 @@
-// One connection to a WebServer: it asks for files, until it becomes a client. In the server's thread.
+// One connection to a WebServer. It requests files until it becomes a client. In the server's thread.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace swarmanoid
 {
 
-// With TLS, who speaks plain HTTP is sent to the other address.
+// If the server uses TLS, plain HTTP is redirected to the https address.
 class WebServer::Impl::Connection final : public Droppable, public std::enable_shared_from_this<Connection>
 {
   static constexpr auto kRequestTime = std::chrono::seconds(15);  // also between two requests
@@ -53,7 +53,7 @@ public:
                             });
   }
 
-  // What has been read of the first request is in the buffer.
+  // The buffer has the bytes of the first request that were read.
   void Redirect(beast::flat_buffer buffer)
   {
     buffer_ = std::move(buffer);
@@ -79,14 +79,14 @@ public:
   }
 
 private:
-  // The time is for the request and its answer.
+  // Limits the time for the request and its answer.
   void Wait()
   {
     beast::get_lowest_layer(stream_).expires_after(kRequestTime);
     GivePlace();
   }
 
-  // Another object has the stream from now on.
+  // Passes the stream to another object.
   void HandOver()
   {
     HoldPlace();
@@ -120,7 +120,7 @@ private:
       return Refuse(http::status::method_not_allowed, "only GET and HEAD are answered");
     const PageFile* file = server_.files_.Find(PathOf(target));
     if (file == nullptr) return Refuse(http::status::not_found, "there is no such file");
-    // The page asks each time whether it has changed, and keeps what it has if not.
+    // The page asks each time whether the file has changed, and otherwise uses its copy.
     if (Field(http::field::if_none_match) == file->tag) return Respond(http::status::not_modified, *file, {});
     const bool gzipped = file->gzipped && TakesGzip(Field(http::field::accept_encoding));
     Respond(http::status::ok, *file, gzipped ? file->gzipped : file->bytes);
@@ -152,7 +152,7 @@ private:
     Respond(status, text, text.bytes);
   }
 
-  // bytes: those of the file, compressed or not, or none.
+  // `bytes`: those of the file, compressed or not, or none.
   void Respond(http::status status, const PageFile& file, PageFile::Bytes bytes)
   {
     const auto& request = parser_->get();
@@ -214,7 +214,7 @@ private:
   http::response<http::buffer_body> response_;
   std::optional<http::response_serializer<http::buffer_body>> serializer_;
   std::shared_ptr<const std::string> bytes_;
-  std::string location_;  // where this request is answered
+  std::string location_;  // the address to which this request is redirected
   bool handed_over_ = false;
   bool dropped_ = false;
 };

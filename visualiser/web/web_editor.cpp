@@ -1,4 +1,4 @@
-// The page as an editor: the same server, token and pictures as web_render's, without a run behind them.
+// The page as an editor. It has the server, token and pictures of web_render, without a run.
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -17,11 +17,11 @@ namespace swarmanoid
 namespace
 {
 
-constexpr std::size_t kMostEditRequests = 1024;  // waiting to be carried out
+constexpr std::size_t kMostEditRequests = 1024;  // limit of waiting requests
 
 WebServer::Bytes SharedText(std::string text) { return std::make_shared<const std::string>(std::move(text)); }
 
-// What is about the file, and not about the picture.
+// Returns whether a request is about the file, and not about the picture.
 bool IsForEditor(std::string_view text)
 {
   static const std::set<std::string> verbs{"document", "form", "edit", "undo", "redo", "save", "reload", "check"};
@@ -134,11 +134,11 @@ private:
   }
 
   EditorRequests* requests_ = nullptr;
-  std::set<std::uint64_t> editors_;  // clients that have the token, and have asked for something
+  std::set<std::uint64_t> editors_;  // clients with the token that have sent a request
   WebServer::Bytes document_;
-  std::mutex mutex_;                                                           // of waiting_
+  std::mutex mutex_;                                                           // guards waiting_
   std::vector<std::pair<std::uint64_t, std::optional<std::string>>> waiting_;  // nothing: the client has left
-  std::unique_ptr<PageHost> host_;  // last: its server's thread calls the above
+  std::unique_ptr<PageHost> host_;  // last, since its server's thread uses the members above
 };
 
 }  // namespace

@@ -28,9 +28,9 @@ constexpr auto kFollowPeriod = 250ms;
 constexpr auto kMarksPeriod = 100ms;
 constexpr auto kDrawingPeriod = 33ms;
 constexpr int kMarksShare = 20;              // marks take at most this part of the time …
-constexpr double kMarksBandwidthShare = 4;   // … and of what a page may get
-constexpr std::size_t kMostRequests = 1024;  // waiting for the next tick
-constexpr std::size_t kNotesKept = 100;      // by RunMonitor
+constexpr double kMarksBandwidthShare = 4;   // … and of the bandwidth of a page
+constexpr std::size_t kMostRequests = 1024;  // limit of requests that wait for the next tick
+constexpr std::size_t kNotesKept = 100;      // the number that RunMonitor keeps
 constexpr double kLate_s = 1;
 constexpr int kChangesOfAKey = 19;  // before the whole state is sent again
 
@@ -38,7 +38,7 @@ WebServer::Bytes Shared(std::string text) { return std::make_shared<const std::s
 
 std::string NoteKey(const RunNote& note) { return fmt::format("{} {} {}", note.tick, note.from, note.text); }
 
-// Only the user may read it: the address may hold the token.
+// Only the user may read the file, since the address may hold the token.
 void WriteUrl(const std::string& path, const std::string& url)
 {
   unlink(path.c_str());
@@ -96,7 +96,7 @@ void CWebRender::Announce(const RenderSetup& setup)
   std::fflush(stdout);
   if (!host_->Fingerprint().empty())
   {
-    // On standard error: standard output has the address alone.
+    // The text goes to standard error, since standard output has the address alone.
     fmt::print(stderr, "web_render: certificate SHA-256 {}\n", host_->Fingerprint());
     Log(space_->GetTick(), "web_render", "info", "certificate SHA-256 " + host_->Fingerprint());
   }
@@ -124,7 +124,7 @@ bool CWebRender::Terminate()
   return ended_ && linger_s_ >= 0 && Clock::now() - *ended_ >= std::chrono::duration<double>(linger_s_);
 }
 
-// Called every tick of a fast run: nothing here but a look at the clock, unless something is due.
+// A fast run calls it every tick, so it only reads the clock unless something is due.
 void CWebRender::Work()
 {
   if (has_requests_) TakeRequests();
@@ -141,7 +141,7 @@ void CWebRender::Work()
   if (changed && now >= frame_due_ && host_->Server().Hungry() > 0)
   {
     SendFrame();
-    // In step with the clock, so that the rate is met on average; no catching up after a break.
+    // The schedule follows the clock, so that the rate is met on average, without catching up after a break.
     const std::chrono::duration<double> transfer(static_cast<double>(sent_bytes_) / bytes_per_second_);
     frame_due_ =
         std::max(frame_due_ + std::max(frame_period_, std::chrono::duration_cast<Clock::duration>(transfer)), now);
@@ -193,7 +193,7 @@ void CWebRender::SendWatched()
       host_->Server().SendState(client, WebServer::Slot::kWatched, Shared(WatchedText(*space_, entities, monitor_)));
 }
 
-// Many robots take their time: then they come less often.
+// Marks of many robots take long, and are then sent less often.
 void CWebRender::SendMarks()
 {
   const Clock::time_point start = Clock::now();
@@ -216,7 +216,7 @@ void CWebRender::SendMarks()
       {marks_due_, end + kMarksShare * (end - start), start + std::chrono::duration_cast<Clock::duration>(transfer)});
 }
 
-// Only what changed; what is in the frames of entities moves with them.
+// Sends only changes. Drawings in the frames of entities move with them.
 void CWebRender::SendDrawing()
 {
   const Clock::time_point start = Clock::now();
@@ -232,7 +232,7 @@ void CWebRender::SendDrawing()
                            start + std::chrono::duration_cast<Clock::duration>(transfer)});
 }
 
-// What is worth a line of the log: what processes print, the end, who is late, what users did.
+// Writes lines of the log: output of processes, the end of the run, delays, and users' actions.
 void CWebRender::FollowStatus()
 {
   logs_->Read([this](const std::string& process, const std::string& line)
@@ -259,7 +259,7 @@ void CWebRender::FollowStatus()
   SendNotes();
 }
 
-// The run may keep a journal that this process can read; its next start has another one.
+// Looks for a journal of the run that this process can read. Its next start has another one.
 void CWebRender::FollowJournal()
 {
   const std::string folder = RunFolderOf(output_folder_, monitor_);
@@ -288,7 +288,7 @@ void CWebRender::FollowJournal()
   if (look_back_ && host_->Server().Clients() > 0) look_back_->Refresh();
 }
 
-// In the thread of PlaybackReader.
+// Called in the thread of PlaybackReader.
 void CWebRender::SendPast(std::uint64_t client, const LookBackRequest& request, const CSwarmanoidSpace& space)
 {
   if (!past_frames_) past_frames_ = std::make_unique<FrameWriter>(space);
@@ -298,7 +298,7 @@ void CWebRender::SendPast(std::uint64_t client, const LookBackRequest& request, 
   host_->Server().SendState(client, WebServer::Slot::kPast, Shared(std::move(state)));
 }
 
-// The monitor keeps the last hundred notes: those after the last one that was shown are new.
+// The monitor keeps the last hundred notes. The new ones are those after the last one that was shown.
 void CWebRender::SendNotes()
 {
   const std::span<const RunNote> notes = monitor_->Notes();

@@ -1,5 +1,5 @@
-// web_render: serves a page that shows the experiment in a browser. Draw only hands over what pages have asked for; the
-// server's thread sends it, so no page is ever waited for.
+// web_render: serves a page that shows the experiment in a browser. Draw only passes on the content that pages have
+// requested. The server's thread sends it, so Draw never waits for a page.
 #pragma once
 
 #include <atomic>
@@ -31,7 +31,7 @@ public:
   void Draw() override;
   void Idle() override;
   void Finish() override;
-  // After the end, once the page has been shown for long enough.
+  // Returns true after the end of the run, once the page has been shown for long enough.
   bool Terminate() override;
   bool IsInteractive() const override { return true; }
 
@@ -44,7 +44,7 @@ private:
     std::optional<PageRequest> request;  // nullopt: the client has left
   };
 
-  // In the server's thread.
+  // Called in the server's thread.
   std::string Welcome(std::uint64_t client) override;
   void Received(std::uint64_t client, std::string_view text) override;
   void Left(std::uint64_t client) override;
@@ -71,7 +71,7 @@ private:
   bool allow_control_ = false;
   double linger_s_ = -1;
   Clock::duration frame_period_{};
-  double bytes_per_second_ = 0;  // of states, to each page
+  double bytes_per_second_ = 0;  // for states, to each page
   std::size_t sent_bytes_ = 0;   // of the last state
   int changes_ = 0;              // since the last key
   std::unique_ptr<FrameWriter> frame_writer_;
@@ -84,22 +84,22 @@ private:
   std::optional<Clock::time_point> ended_;
   std::size_t notes_shown_ = 0;
   std::string last_note_;
-  std::map<std::string, std::string> troubles_;  // by process: what was last said of its lateness
+  std::map<std::string, std::string> troubles_;  // by process: the last message about its delay
 
   std::map<std::uint64_t, MarksRequest> marked_;  // by client
   std::unique_ptr<MarksWriter> marks_writer_;     // once a page has asked for marks
-  std::uint64_t drawing_revision_ = 1;            // that pages have; at first they have nothing
+  std::uint64_t drawing_revision_ = 1;            // the revision that pages have; at first they have none
   std::uint64_t drawing_poses_ = 0;
   std::uint64_t marked_revision_ = 0, marked_attributes_ = 0;
 
   std::map<std::uint64_t, std::vector<std::uint32_t>> watched_;  // by client
-  std::mutex mutex_;                                             // of requests_
+  std::mutex mutex_;                                             // guards requests_
   std::vector<Request> requests_;
   std::atomic<bool> has_requests_{false};
 
-  std::unique_ptr<PageHost> host_;             // its server's thread calls the above
-  std::unique_ptr<FrameWriter> past_frames_;   // of the thread of look_back_
-  std::unique_ptr<PlaybackReader> look_back_;  // these two last: their threads call the server
+  std::unique_ptr<PageHost> host_;             // its server's thread uses the members above
+  std::unique_ptr<FrameWriter> past_frames_;   // only for the thread of look_back_
+  std::unique_ptr<PlaybackReader> look_back_;  // these two are last, since their threads call the server
   std::unique_ptr<PastInside> past_inside_;
   std::string output_folder_;
 };

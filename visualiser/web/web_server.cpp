@@ -50,7 +50,7 @@ WebServer::Impl::Impl(const WebServerSettings& settings, PageFiles files, WebSer
 
   port_ = acceptor_.local_endpoint().port();
 
-  // An address that stands for all networks is reached as this machine.
+  // If the address stands for all networks, pages on this machine use localhost.
   asio::ip::address shown = address;
   if (address.is_unspecified())
   {
@@ -97,7 +97,7 @@ void WebServer::Impl::Accept()
         if (closing_) return;
         if (error)
         {
-          // Out of file descriptors, as a rule: others may become free.
+          // Usually the process is out of file descriptors, and some may become free.
           pause_.expires_after(std::chrono::milliseconds(100));
           pause_.async_wait(
               [this](ErrorCode)
@@ -111,7 +111,7 @@ void WebServer::Impl::Accept()
       });
 }
 
-// Connections without a place of their own make room for others, and one address leaves some for others.
+// Connections without a place make room for others. One address must leave some connections to others.
 void WebServer::Impl::Welcome(tcp::socket socket)
 {
   ErrorCode error;
@@ -146,7 +146,7 @@ void WebServer::Impl::Gone(const asio::ip::address& address)
 
 bool WebServer::Impl::HasRoom() const { return watchers_ < settings_.max_clients || holders_ < settings_.max_holders; }
 
-// A client without a place has some time to show the token, and is sent nothing but the challenge until then.
+// A client without a place has some time to prove the token. Until then it gets only the challenge.
 void WebServer::Impl::Join(const std::shared_ptr<Client>& client)
 {
   client->id = ++last_client_;
@@ -169,7 +169,7 @@ void WebServer::Impl::Greet(Client& client) const
     if (states_[slot]) client.Put(static_cast<Slot>(slot), states_[slot]);
 }
 
-// With all places of holders taken, a client keeps the one that it has.
+// If all places for holders are taken, a client keeps the place that it has.
 void WebServer::Impl::Admit(Client& client)
 {
   if (holders_ >= settings_.max_holders) return;

@@ -1,9 +1,9 @@
-// WebServer: the page's files by HTTP and the live state by WebSocket, on one port, in a thread of its own. Only
-// its sources (web_server.cpp and the headers that it includes) know Boost.Beast.
+// WebServer: serves the page's files by HTTP and the live state by WebSocket, on one port, in its own thread. Only its
+// sources (web_server.cpp and the headers that it includes) know Boost.Beast.
 //
-// Nobody who looks can slow the caller: every function only hands over a message. Each client has one slot for each
-// kind of state, which holds the latest only, and a bounded queue for what must not be lost; one that reads slowly or
-// not at all gets less.
+// Clients cannot slow the caller, since every function only passes on a message. Each client has one slot for each kind
+// of state, which holds the latest only, and a bounded queue for messages that must not be lost. A slow client gets
+// fewer states.
 #pragma once
 
 #include <chrono>
@@ -24,24 +24,24 @@ struct WebServerSettings
 {
   std::string address = "127.0.0.1";
   std::uint16_t port = 0;            // 0: a free one
-  std::size_t max_clients = 16;      // that have not shown the token
-  std::size_t max_holders = 0;       // clients that have shown it, who have places of their own; 0: there is no token
+  std::size_t max_clients = 16;      // limit of clients that have not proved the token
+  std::size_t max_holders = 0;       // limit of clients that have, with places of their own; 0: there is no token
   std::size_t max_connections = 64;  // clients, and requests for files
   std::size_t max_connections_of_address = 40;
-  // When max_clients look, the time that another client has to show the token.
+  // The time in which another client must prove the token, if max_clients are connected.
   std::chrono::milliseconds proof_time{5000};
-  std::size_t max_message_bytes = 65536;  // of a client; longer ones end its connection
-  // Of each client; after a burst of that many, the others wait unread.
+  std::size_t max_message_bytes = 65536;  // limit for a client's message; longer ones end its connection
+  // Limit for each client. After a burst of that many, the other messages wait unread.
   std::size_t max_messages_per_second = 200;
-  std::optional<Certificate> certificate;  // with one, by TLS only
+  std::optional<Certificate> certificate;  // if it is set, only TLS is accepted
 };
 
-// What the server tells, in its own thread.
+// Events of the server, called in its own thread.
 class WebServerEvents
 {
 public:
   virtual ~WebServerEvents() = default;
-  // The first message for a new client.
+  // Returns the first message for a new client.
   virtual std::string Welcome(std::uint64_t client) = 0;
   virtual void Received(std::uint64_t client, std::string_view text) = 0;
   virtual void Left(std::uint64_t client) = 0;
@@ -54,9 +54,9 @@ public:
 
   enum class Slot
   {
-    kKey,     // binary: the whole state, before the changes that refer to it
-    kChange,  // binary: what has changed since; replaced by the next key
-    kPast,    // binary: the whole state of a tick that is looked back at
+    kKey,     // binary: the whole state, which later changes refer to
+    kChange,  // binary: the changes since the key; replaced by the next key
+    kPast,    // binary: the whole state of a requested tick of the past
     kPastDetails,
     kPastInside,
     kTimeline,
@@ -64,39 +64,39 @@ public:
     kColours,
     kWatched,
     kMarks,
-    kDrawing,   // binary: what experiment functions draw
+    kDrawing,   // binary: drawings of experiment functions
     kDocument,  // of the editor
     kCount
   };
 
-  // Throws std::runtime_error if it cannot listen. The events outlive the server.
+  // Throws std::runtime_error if it cannot listen. The events must outlive the server.
   WebServer(const WebServerSettings& settings, PageFiles files, WebServerEvents& events);
-  // Sends what is ready, for a moment, and closes the connections.
+  // Sends the waiting messages, for a short time, and closes the connections.
   ~WebServer();
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
 
   std::uint16_t Port() const;
-  // "http://127.0.0.1:8080/", or with a certificate "https://…"
+  // Returns "http://127.0.0.1:8080/", or with a certificate "https://…".
   std::string Url() const;
-  // Clients that have a place.
+  // Returns the number of clients that have a place.
   std::size_t Clients() const;
-  // Clients that have taken their last state: without any, a new one would be made for nobody.
+  // Returns the number of clients that have taken their last state. If it is 0, no new state is needed.
   std::size_t Hungry() const;
 
-  // The client has shown the token: it takes one of the places of max_holders.
+  // Gives a client that has proved the token one of the places of max_holders.
   void Admit(std::uint64_t client);
 
-  // The message that follows the welcome; those who are welcomed already get it now.
+  // Sets the message that follows the welcome. Clients that are welcomed already get it now.
   void SetGreeting(Bytes text);
-  // The state for all clients, and for those who come later.
+  // Publishes the state for all present and later clients.
   void Publish(Slot slot, Bytes bytes);
   // A state for one client alone.
   void SendState(std::uint64_t client, Slot slot, Bytes bytes);
-  // Queued. The last 256 messages for all are repeated to those who come later.
+  // Queues a message. The last 256 messages for all clients are repeated to later ones.
   void Send(std::uint64_t client, Bytes text);
   void SendAll(Bytes text);
-  // Frames for this client at most every so many milliseconds.
+  // Limits the frames for this client to one in so many milliseconds.
   void SetFramePeriod(std::uint64_t client, unsigned period_ms);
 
 private:

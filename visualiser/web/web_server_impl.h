@@ -1,4 +1,4 @@
-// The inside of WebServer, for its own sources alone.
+// The internals of WebServer, only for its own sources.
 #pragma once
 
 #include <array>
@@ -30,14 +30,14 @@ using ErrorCode = beast::error_code;
 inline constexpr std::size_t kSlots = static_cast<std::size_t>(WebServer::Slot::kCount);
 constexpr std::size_t Index(WebServer::Slot slot) { return static_cast<std::size_t>(slot); }
 
-// Everything below runs in the server's thread, but for the constructor, the destructor and the counters.
+// All members below are used in the server's thread, except the constructor, the destructor and the counters.
 class WebServer::Impl
 {
 public:
-  class Client;      // one page that looks
-  class Connection;  // one that has not become a client
+  class Client;      // a connected page
+  class Connection;  // a connection that has not become a client
 
-  // A connection without a place of its own: it makes room for a new one when there are too many.
+  // A connection without a place. It makes room for a new one when there are too many.
   class Droppable
   {
   public:
@@ -51,13 +51,13 @@ public:
     const asio::ip::address address;
 
   protected:
-    // From now on it is the last one that makes room.
+    // Makes it the last one that makes room.
     void GivePlace()
     {
       HoldPlace();
       entry_ = droppables_.insert(droppables_.end(), this);
     }
-    // It makes no room any more.
+    // Makes it keep its place.
     void HoldPlace()
     {
       if (entry_) droppables_.erase(*entry_);
@@ -75,12 +75,13 @@ public:
   void Post(std::function<void()> work) { asio::post(context_, std::move(work)); }
   void Accept();
   void Welcome(tcp::socket socket);
-  // Drops the one that has asked nothing for longest, of an address or of any; false if all have places.
+  // Drops the connection that has sent no request for longest, of an address or of any. Returns false if all have
+  // places.
   bool DropOne(const std::optional<asio::ip::address>& address);
   void Gone(const asio::ip::address& address);
   bool HasRoom() const;
   void Join(const std::shared_ptr<Client>& client);
-  // Sends a client what it needs to look at the run.
+  // Sends a client the current state of the run.
   void Greet(Client& client) const;
   void Admit(Client& client);
   void QueueForAll(const Bytes& text);
@@ -94,16 +95,16 @@ public:
   WebServerEvents& events_;
   std::size_t connections_ = 0;
   std::map<asio::ip::address, std::size_t> connections_of_;
-  std::list<Droppable*> droppables_;  // the next one to make room first
+  std::list<Droppable*> droppables_;  // the next one to make room is first
   asio::io_context context_{1};
   std::optional<asio::ssl::context> tls_;
   tcp::acceptor acceptor_{context_};
-  asio::steady_timer pause_{context_};  // before the next accept, after a failed one
+  asio::steady_timer pause_{context_};  // delay of the next accept after a failed one
   std::uint16_t port_ = 0;
   std::string url_;
   std::map<std::uint64_t, std::shared_ptr<Client>> clients_;
-  std::size_t watchers_ = 0;  // clients with a place that have not shown the token
-  std::size_t holders_ = 0;   // clients that have
+  std::size_t watchers_ = 0;  // number of clients with a place that have not proved the token
+  std::size_t holders_ = 0;   // number of clients that have
   std::uint64_t last_client_ = 0;
   bool closing_ = false;
   Bytes greeting_;

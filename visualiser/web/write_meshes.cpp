@@ -1,4 +1,4 @@
-// write_meshes FILE: the models of all renderers as the page reads them. Run by the build.
+// write_meshes FILE writes the models of all renderers for the page. The build runs it.
 #include <cstdio>
 #include <fstream>
 

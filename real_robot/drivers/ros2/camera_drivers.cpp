@@ -1,4 +1,5 @@
-// The cameras: colour blobs as a cloud of coloured points in the frame of the robot (x ahead, y left, z up, REP 103).
+// Drivers of the cameras: colour blobs from a cloud of coloured points in the frame of the robot (x ahead, y left, z
+// up, REP 103).
 #include <array>
 #include <optional>
 #include <stdexcept>
@@ -23,13 +24,13 @@ struct ColouredPoint
   std::uint32_t colour = 0;  // 0xRRGGBB
 };
 
-// The points of a cloud with places and rgb (float32 or uint32, 0x00RRGGBB).
+// Reads the points of a cloud with positions and rgb (float32 or uint32, 0x00RRGGBB).
 class PointReader
 {
 public:
   PointReader(const DriverSetup& setup, const std::string& topic) : subscriber_(setup, topic) {}
 
-  // False if nothing new came.
+  // Returns false if no new cloud has come.
   bool Poll(std::vector<ColouredPoint>& points)
   {
     if (!subscriber_.TakeLatest()) return false;
@@ -156,7 +157,7 @@ private:
   std::optional<PointReader> reader_;
   std::vector<ColouredPoint> points_;
   unsigned sectors_ = 12;
-  std::vector<Slice> slices_;  // colour after colour
+  std::vector<Slice> slices_;  // by colour, one after the other
 };
 
 REGISTER_SENSOR_DRIVER(PieCamera, DescribeCamera("pie_camera", "footbot",

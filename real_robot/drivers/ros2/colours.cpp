@@ -1,4 +1,4 @@
-// What shines: LED rings, beacons, the preferential direction of a footbot, the laser of an eyebot.
+// Drivers of lights: LED rings, beacons, the preferential direction of a footbot, the laser of an eyebot.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -19,7 +19,7 @@ namespace swarmanoid::ros2
 namespace
 {
 
-// LEDs as an array of led x rgb, each channel 0 to 1.
+// Publishes LEDs as an array of led x rgb, each channel 0 to 1.
 class RingPublisher
 {
 public:
@@ -130,7 +130,7 @@ public:
 
   void Push() override
   {
-    // The ring turns with the turret; one that tells no angle is taken to look ahead.
+    // The ring turns with the turret. Without an angle, the turret counts as looking ahead.
     turret_->Poll();
     const double on_ring = angle_ - turret_->Position(0) - kSpacing / 2;
     const auto away = [on_ring](std::size_t led)

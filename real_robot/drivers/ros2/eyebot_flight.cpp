@@ -1,4 +1,4 @@
-// The propulsion and the magnet of an eyebot.
+// Drivers of the propulsion and the magnet of an eyebot.
 #include <algorithm>
 #include <optional>
 
@@ -93,7 +93,7 @@ public:
   void Attach() override { attach_ = true; }
   void Detach() override { attach_ = false; }
   void Push() override { output_->Publish(attach_); }
-  void Stop() override {}  // a robot that hangs must not fall
+  void Stop() override {}  // a hanging robot must not fall
 
 private:
   bool attach_ = false;

@@ -1,5 +1,5 @@
-// The infrared proximity sensors of a footbot: readings, as in the simulator, from distances to the surface of the
-// body, and back.
+// Converts distances to the surface of a footbot's body into readings of its infrared sensors, as in the simulator, and
+// back.
 #pragma once
 
 #include <limits>
@@ -7,7 +7,7 @@
 namespace swarmanoid::ros2
 {
 
-// Fitted to the robot (ARGoS3, foot-bot): 1 below a contact distance, else a / (d + b).
+// The response is fitted to the robot (ARGoS3, foot-bot): 1 below a contact distance, else a / (d + b).
 inline constexpr double kInfraredScale = 0.0100527;
 inline constexpr double kInfraredOffset_m = 0.000163144;
 inline constexpr double kInfraredContact_m = 0.009889556;
@@ -18,7 +18,7 @@ inline double InfraredReading(double distance_m, double range_m)
   return distance_m < kInfraredContact_m ? 1 : kInfraredScale / (distance_m + kInfraredOffset_m);
 }
 
-// In metres; by REP 117 -infinity for what touches, +infinity for nothing in range.
+// Returns metres. By REP 117, -infinity means contact and +infinity means nothing in range.
 inline double InfraredDistance(double reading)
 {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();

@@ -1,4 +1,4 @@
-// The gripper and the turret of a footbot.
+// Drivers of the gripper and the turret of a footbot.
 #include <algorithm>
 #include <array>
 
@@ -21,7 +21,7 @@ public:
   void Init(const DriverSetup& setup) override { output_.emplace(setup, setup.parameters.Text("topic")); }
   void SetGripper(double closed) override { closed_ = std::clamp(closed, 0.0, 1.0); }
   void Push() override { output_->Publish(closed_); }
-  void Stop() override {}  // what is held must not fall
+  void Stop() override {}  // a held object must not fall
 
 private:
   double closed_ = 0;

@@ -1,4 +1,4 @@
-// The head, arms, hands and rope of a handbot.
+// Drivers of the head, arms, hands and rope of a handbot.
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -15,7 +15,7 @@ namespace swarmanoid::ros2
 namespace
 {
 
-// Velocities of some joints, as a joint state without positions.
+// Publishes velocities of some joints, as a joint state without positions.
 class JointCommand
 {
 public:
@@ -105,7 +105,7 @@ public:
   {
     for (const Hand hand : {LEFT, RIGHT}) publishers_[hand]->Publish(closed_[hand]);
   }
-  void Stop() override {}  // what is held must not fall, nor a robot that holds on
+  void Stop() override {}  // neither a held object nor a hanging robot must fall
   std::vector<std::string> Sinks() const override { return {publishers_[LEFT]->Name(), publishers_[RIGHT]->Name()}; }
 
 private:
@@ -139,7 +139,7 @@ public:
     attach_topic_->Publish(attached_);
     winch_topic_->Publish(velocity_);
   }
-  void Stop() override { winch_topic_->Publish(0); }  // the rope stays where it holds
+  void Stop() override { winch_topic_->Publish(0); }  // the rope stays at its length
   std::vector<std::string> Sinks() const override { return {attach_topic_->Name(), winch_topic_->Name()}; }
 
 private:

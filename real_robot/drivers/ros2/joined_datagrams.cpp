@@ -16,13 +16,15 @@ using Byte = unsigned char;
 constexpr std::size_t kHeaderBytes = 20;
 constexpr Byte kPad = 0x01;
 constexpr Byte kTimestamp = 0x09;
-// In front of what is joined: without a time, and to whoever gets it. Its own submessages say otherwise.
+// The submessages in front of the joined ones: no time stamp, and no particular destination. The joined submessages
+// state their own.
 constexpr std::array<Byte, 20> kAsAtTheFront{kTimestamp, 0x03, 0, 0, 0x0e, 0x01, 12, 0};
-// What Fast DDS has at the end of each datagram, about the network: it has to stay the last one.
+// Fast DDS ends each datagram with this submessage about the network. It must stay the last one.
 constexpr std::array<Byte, 4> kStatistics{0x80, 0x01, 56, 0};
 constexpr std::size_t kStatisticsBytes = 60;
 
-// Where a datagram stays whole, it may be as long as readers' buffers hold; elsewhere within an Ethernet frame.
+// On the loopback a datagram stays whole, so it may fill the readers' buffers. Elsewhere it must fit into an Ethernet
+// frame.
 constexpr std::size_t kMostOnLoopback = 16'000;
 constexpr std::size_t kMostInFrame = 1'400;
 
@@ -33,7 +35,7 @@ std::size_t StatisticsAtEnd(std::span<const Byte> datagram)
                                                                                                     : 0;
 }
 
-// Whether each submessage says where the next one begins, so that one may follow the last.
+// Returns whether each submessage states where the next one begins, so that another may follow the last.
 bool EndsWhereItSays(std::span<const Byte> submessages)
 {
   while (submessages.size() >= 4)
@@ -48,7 +50,7 @@ bool EndsWhereItSays(std::span<const Byte> submessages)
   return submessages.empty();
 }
 
-// To whom, and by which socket.
+// A waiting datagram with its destination and socket.
 struct Waiting
 {
   Socket* below;
@@ -88,7 +90,7 @@ public:
     std::vector<rtps::Locator_t> locators;
     for (; first != last; ++first) locators.push_back(*first);
     if (locators.empty()) return true;
-    // The latest one to the same is the one that has room.
+    // The latest datagram to the same destination is the one with space.
     const auto open =
         std::find_if(collection.waiting.rbegin(), collection.waiting.rend(),
                      [&](const Waiting& waiting) { return waiting.below == &socket && waiting.locators == locators; });

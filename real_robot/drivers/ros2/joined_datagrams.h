@@ -1,7 +1,7 @@
-// Several messages of DDS in one datagram: a process that publishes for a hundred robots at once sends hundreds of
-// small ones to the same listener, and a datagram costs more than what is in it. RTPS allows it: behind the header of a
-// datagram its submessages follow one another, whichever writers they are of (DDSI-RTPS 2.2, 8.3.3). Used by
-// ros2_endpoints.cpp, whose participant has the transport, and by those who publish for many.
+// Joins several messages of DDS into one datagram. A process that publishes for a hundred robots at once sends hundreds
+// of small messages to the same listener, and a datagram costs more than its content. RTPS allows it: the submessages
+// behind the header of a datagram may come from different writers (DDSI-RTPS 2.2, 8.3.3). The participant of
+// ros2_endpoints.cpp has the transport; publishers for many robots use the class.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@
 namespace swarmanoid::ros2
 {
 
-// While one lives, what its thread writes waits, and goes out as few datagrams at its end. No longer than what is
-// written at once: who listens waits, too.
+// While an object lives, the messages that its thread writes wait. At its end they are sent in few datagrams. Keep it
+// only for messages that are written together, since listeners wait, too.
 class JoinedDatagrams
 {
 public:
@@ -25,11 +25,11 @@ public:
   JoinedDatagrams& operator=(const JoinedDatagrams&) = delete;
 };
 
-// `datagram` grows by what is in `next`, of the same participant, if both can be joined within so many bytes; false,
-// and nothing happens, if they cannot.
+// Appends the content of `next`, of the same participant, to `datagram` if the result has at most so many bytes.
+// Returns false and changes nothing if they cannot be joined.
 bool Join(std::vector<unsigned char>& datagram, std::span<const unsigned char> next, std::size_t most_bytes);
 
-// UDP that does so for participants.
+// Returns a UDP transport that joins messages for participants.
 std::shared_ptr<transport::TransportDescriptorInterface> JoiningTransport(
     std::shared_ptr<transport::TransportDescriptorInterface> udp);
 

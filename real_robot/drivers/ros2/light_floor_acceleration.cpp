@@ -1,4 +1,4 @@
-// What else a footbot feels: light, the floor, acceleration.
+// Drivers of a footbot's sensors for light, floor and acceleration.
 #include <algorithm>
 #include <array>
 #include <optional>

@@ -1,4 +1,4 @@
-// The points of sensor_msgs/msg/PointCloud2, whose fields may stand anywhere in a point.
+// Reads the points of sensor_msgs/msg/PointCloud2, whose fields may have any position in a point.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ using PointCloud2 = sensor_msgs::msg::dds_::PointCloud2_;
 class PointCloud
 {
 public:
-  // Numbers of the definition of sensor_msgs/msg/PointField.
+  // The types, with the numbers of sensor_msgs/msg/PointField.
   enum class Type : std::uint8_t
   {
     kUint8 = 2,
@@ -26,15 +26,15 @@ public:
     kFloat32 = 7
   };
 
-  // `cloud` stays as it is while this object lives. Throws DriverError with the name of the topic if its data are not
-  // as many as it says, or of the other byte order.
+  // `cloud` must not change while this object lives. Throws DriverError with the name of the topic if its data have the
+  // wrong length or the other byte order.
   PointCloud(const PointCloud2& cloud, const std::string& topic);
 
   std::size_t Size() const { return std::size_t{cloud_.height()} * cloud_.width(); }
-  // Bytes from the start of a point to a field with `count` values of one of these types. Throws DriverError if the
-  // points have no such field.
+  // Returns the bytes from the start of a point to a field with `count` values of one of these types. Throws
+  // DriverError if the points have no such field.
   std::size_t OffsetOf(const std::string& name, std::initializer_list<Type> types, std::size_t count = 1) const;
-  // `count` values of a point.
+  // Returns `count` values of a point.
   template <class Value>
   void Copy(std::size_t point, std::size_t offset, Value* values, std::size_t count = 1) const
   {

@@ -1,5 +1,5 @@
-// Range and bearing: packets that were heard as points with bytes, in the frame of the robot (x ahead, y left, z up,
-// REP 103), and the bytes to send.
+// Drivers of range and bearing. Received packets come as points with bytes, in the frame of the robot (x ahead, y left,
+// z up, REP 103). Bytes to send are published.
 #include <optional>
 
 #include "common/control_interface/ci_range_and_bearing.h"
@@ -20,7 +20,7 @@ public:
   void Init(const DriverSetup& setup) override { heard_.emplace(setup, setup.parameters.Text("topic")); }
   CCI_Sensor* Sensor() override { return this; }
   std::span<const Packet> GetAllPackets() const override { return packets_; }
-  // A packet counts for one step: that of the controller that follows.
+  // A packet is valid for one step: the next one of the controller.
   void Poll() override
   {
     packets_.clear();
@@ -77,7 +77,7 @@ public:
   void Stop() override { Publish({}); }
 
 private:
-  // No bytes: nothing is to be sent.
+  // Without bytes, nothing is sent.
   void Publish(std::span<const std::uint8_t> bytes)
   {
     layout_[0].size(static_cast<std::uint32_t>(bytes.size()));

@@ -1,5 +1,5 @@
-// What measures distances: the proximity sensors of a footbot from a laser scan or from 24 range sensors, those of a
-// handbot from range sensors, and the altitude of an eyebot.
+// Drivers of distance sensors: the proximity sensors of a footbot from a laser scan or from 24 range sensors, those of
+// a handbot from range sensors, and the altitude of an eyebot.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +23,8 @@ using Range = sensor_msgs::msg::dds_::Range_;
 constexpr unsigned kSensors = CCI_FootBotProximitySensor::NUM_SENSORS;
 constexpr double kNothing = std::numeric_limits<double>::infinity();
 
-// A measured range as a distance, by REP 117: -infinity is too near to be measured, all else out of range is nothing.
+// Returns a measured range as a distance. By REP 117, -infinity is too near to be measured; other values out of range
+// mean nothing was detected.
 double Measured(float range, float least, float most)
 {
   if (std::isinf(range) && range < 0) return 0;
@@ -42,7 +43,7 @@ private:
     range_ = parameters.Number("range");
   }
 
-  // Each sensor sees what is nearest within its 15 degrees of the scan; those that the scan does not reach see nothing.
+  // Each sensor reads the nearest point within its 15 degrees of the scan. Sensors outside the scan read nothing.
   void Read(const LaserScan& scan) override
   {
     std::array<double, kSensors> nearest;

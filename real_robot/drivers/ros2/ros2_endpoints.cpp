@@ -20,8 +20,8 @@ namespace
 const DdsDuration kFlushTime{0, 500'000'000};
 constexpr int kRecentMessages = 64;
 const DdsDuration kSoon{0, 20'000'000};
-// Each of these timers of Fast DDS wakes a thread that sorts those of all writers: with hundreds of writers they cost
-// more than the messages, unless they are slow.
+// Each of these timers of Fast DDS wakes a thread that sorts the timers of all writers. With hundreds of writers, fast
+// timers would cost more than the messages.
 const DdsDuration kInTime{1, 0};
 const DdsDuration kWriteTime{0, 20'000'000};  // a step must not wait for a slow listener
 
@@ -41,7 +41,7 @@ bool LocalhostOnly()
   return text != nullptr && std::string(text) == "1";
 }
 
-// The participant of the process, shared by all drivers; lives as long as one of them.
+// The participant of the process. All drivers share it, and it lives as long as one of them.
 class Participant
 {
 public:
@@ -58,7 +58,7 @@ public:
     dds::DomainParticipantQos qos;
     qos.name("swarmanoid");
     SendNoTypeInformation(qos);
-    // UDP alone: all vendors speak it, and no shared memory is left behind when a robot loses power.
+    // Only UDP is used. All vendors support it, and no shared memory is left behind when a robot loses power.
     qos.transport().use_builtin_transports = false;
     auto udp = std::make_shared<transport::UDPv4TransportDescriptor>();
     if (LocalhostOnly()) udp->interfaceWhiteList = {"127.0.0.1"};
@@ -101,7 +101,7 @@ private:
   std::map<std::string, dds::Topic*> topics_;
 };
 
-// As the middlewares of ROS 2 tell the hash of a type (REP 2016): tools see whether they know the same message.
+// Publishes the hash of a type as the middlewares of ROS 2 do (REP 2016), so that tools can compare message types.
 std::vector<unsigned char> UserData(const MessageType& message)
 {
   const std::string text = "typehash=" + message.hash + ";";
@@ -151,14 +151,14 @@ struct Writer::Ends : dds::DataWriterListener
   bool latched = false;
   std::atomic<int> listeners = 0;
 
-  // In a thread of Fast DDS.
+  // Called in a thread of Fast DDS.
   void on_publication_matched(dds::DataWriter*, const dds::PublicationMatchedStatus& status) override
   {
     listeners = status.current_count;
   }
 };
 
-// Reliable: what all listeners of ROS 2 take, whether they ask for reliability or not.
+// The writer is reliable, which all listeners of ROS 2 accept, whether they request reliability or not.
 Writer::Writer(const std::string& topic, const MessageType& type, Keeps keeps) : ends_(std::make_unique<Ends>())
 {
   dds::Topic* made = ends_->participant->TopicOf(topic, type);
@@ -168,7 +168,7 @@ Writer::Writer(const std::string& topic, const MessageType& type, Keeps keeps) :
   const bool recent = keeps == Keeps::kRecent || keeps == Keeps::kAwaited;
   if (recent) SetHeartbeatPeriod(qos, keeps == Keeps::kAwaited ? kSoon : kInTime);
   if (keeps == Keeps::kRecent) SetNackSuppression(qos, kInTime);
-  // As ROS 2 has it; by default Fast DDS keeps for writers what it does not for readers.
+  // The durability is that of ROS 2. The defaults of Fast DDS for writers and readers differ.
   qos.durability().kind = keeps == Keeps::kLatched ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
   qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
   qos.history().depth = recent ? kRecentMessages : 1;
@@ -184,8 +184,8 @@ Writer::Writer(const std::string& topic, const MessageType& type, Keeps keeps) :
 
 Writer::~Writer()
 {
-  // Fast DDS 2.9 gives the messages of a writer back one by one, while its heartbeat may be looking for gaps between
-  // them: that loop never ends, and holds the lock that the next message waits for.
+  // Fast DDS 2.9 returns the messages of a writer one by one, while its heartbeat may be looking for gaps between them.
+  // That loop never ends, and holds the lock that the next message needs.
   std::size_t removed = 0;
   ends_->writer->clear_history(&removed);
   ends_->participant->GetPublisher()->delete_datawriter(ends_->writer);
@@ -193,7 +193,7 @@ Writer::~Writer()
 
 void Writer::Write(void* message)
 {
-  if (!ends_->latched && ends_->listeners == 0) return;  // nobody would ever get it
+  if (!ends_->latched && ends_->listeners == 0) return;  // no listener would ever get it
   // A full queue means that a listener is slow; the next value replaces this one.
   WriteMessage(*ends_->writer, message);
 }
@@ -208,8 +208,8 @@ struct Reader::Ends
   dds::DataReader* reader = nullptr;
 };
 
-// Best effort: hears reliable and best-effort publishers alike; what was lost is replaced by the next message anyway. A
-// few are kept: several programs may publish one topic, each a part of the robot's joints.
+// A best-effort reader hears reliable and best-effort publishers. A lost message is replaced by the next one. A few are
+// kept, since several programs may publish one topic, each for some of the robot's joints.
 Reader::Reader(const std::string& topic, const MessageType& type, bool reliable) : ends_(std::make_unique<Ends>())
 {
   dds::Topic* made = ends_->participant->TopicOf(topic, type);

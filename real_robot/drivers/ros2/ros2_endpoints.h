@@ -1,9 +1,9 @@
-// Publishers and subscribers with the topic and type names of ROS 2, over DDS. The only code of the robot that knows
-// DDS; the drivers of this folder use it, from the thread of the controller, the visualiser that shows a simulation to
-// ROS 2 (visualiser/ros2), and the controller that hands a simulated robot to a node (real_robot/ros2_controller).
+// Publishers and subscribers with the topic and type names of ROS 2, over DDS. It is the only code of the robot that
+// knows DDS. Its users are the drivers of this folder (in the thread of the controller), the visualiser for ROS 2
+// (visualiser/ros2), and the controller that connects a simulated robot to a node (real_robot/ros2_controller).
 //
 // A topic of ROS 2 is "rt/<name>" on DDS, and a type "<package>::msg::dds_::<Name>_". The DDS domain is that of the
-// environment variable ROS_DOMAIN_ID, else 0; with ROS_LOCALHOST_ONLY=1 nothing leaves this machine.
+// environment variable ROS_DOMAIN_ID, else 0. With ROS_LOCALHOST_ONLY=1 nothing leaves this machine.
 #pragma once
 
 #include <memory>
@@ -18,17 +18,17 @@ namespace swarmanoid::ros2
 struct MessageType
 {
   std::string name;    // "geometry_msgs/msg/Twist"
-  std::string hash;    // "RIHS01_…": of its fields, by the rule of ROS 2
+  std::string hash;    // "RIHS01_…": the hash of its fields, by the rule of ROS 2
   void* type_support;  // a new TopicDataType of Fast DDS
 };
 template <class Message>
 MessageType TypeOf();
 
-// The name on DDS: rt/<name space>/<name>; a name that starts with '/' is outside the name space. Throws DriverError
-// for what ROS 2 does not allow.
+// Returns the name on DDS: rt/<name space>/<name>. A name that starts with '/' is outside the name space. Throws
+// DriverError for names that ROS 2 does not allow.
 std::string TopicName(const std::string& name_space, const std::string& name);
 
-// The id of a robot as a word of topics: '.', '-' and ':' are '_', and a digit at its start has one before it.
+// Returns the id of a robot as a word of topics. '.', '-' and ':' become '_', and a leading digit gets one before it.
 std::string TopicWord(std::string id);
 
 class Writer
@@ -37,16 +37,16 @@ public:
   enum class Keeps
   {
     kLatest,   // the next value replaces one that has not arrived
-    kLatched,  // likewise; who comes later still gets the last message
-    kRecent,   // some tens, so that those who listen reliably miss none; a lost one is sent again within 2 s
-    kAwaited   // likewise, within some 10 ms, because somebody waits for each; costs more
+    kLatched,  // the same; later subscribers still get the last message
+    kRecent,   // some tens, so that reliable listeners miss none; a lost one is sent again within 2 s
+    kAwaited   // the same, within some 10 ms, because a listener waits for each; costs more
   };
   Writer(const std::string& topic, const MessageType& type, Keeps keeps = Keeps::kLatest);
   ~Writer();
   void Write(void* message);
-  // Waits until all who listen reliably have it, half a second at most.
+  // Waits until all reliable listeners have it, half a second at most.
   void Flush();
-  // Who listens at present, as far as they are known.
+  // Returns the number of known listeners.
   unsigned Listeners() const;
 
 private:
@@ -57,14 +57,14 @@ private:
 class Reader
 {
 public:
-  // Reliable: nothing is lost, and publishers that are best effort are not heard.
+  // With `reliable`, no message is lost, and best-effort publishers are not heard.
   Reader(const std::string& topic, const MessageType& type, bool reliable = false);
   ~Reader();
-  // The next message, oldest first; false if there is none.
+  // Takes the next message, oldest first; returns false if none exists.
   bool Take(void* message);
-  // Until there is a message to take, so many seconds at most.
+  // Waits until there is a message to take, so many seconds at most.
   void Wait(double seconds);
-  // Who is heard at present, as far as they are known.
+  // Returns the number of known publishers.
   unsigned Publishers() const;
 
 private:
@@ -91,7 +91,7 @@ private:
   Writer writer_;
 };
 
-// Seconds on a clock that only goes forward.
+// Returns seconds on a monotonic clock.
 double Now();
 
 template <class Message>
@@ -105,7 +105,7 @@ public:
         latest_at_(Now())
   {
   }
-  // Takes over the next message, if there is one. Several may have come since the last call.
+  // Takes the next message, if there is one. Several may have come since the last call.
   bool TakeNext()
   {
     if (!reader_.Take(&message_)) return false;
@@ -113,7 +113,7 @@ public:
     latest_at_ = Now();
     return true;
   }
-  // The latest of all that came. False if none did.
+  // Takes the latest of all messages that came. Returns false if none did.
   bool TakeLatest()
   {
     bool taken = false;

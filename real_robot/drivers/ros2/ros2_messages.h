@@ -1,4 +1,4 @@
-// What all who speak to ROS 2 share: parameters, colours, time stamps, joints.
+// Shared code for messages of ROS 2: parameters, colours, time stamps, joints.
 #pragma once
 
 #include <array>
@@ -21,19 +21,19 @@ using Float32MultiArray = std_msgs::msg::dds_::Float32MultiArray_;
 using Twist = geometry_msgs::msg::dds_::Twist_;
 using JointState = sensor_msgs::msg::dds_::JointState_;
 
-// A parameter that names a topic.
+// Returns a parameter that names a topic.
 ParameterSpec TopicParameter(const std::string& name, const std::string& value, const std::string& what);
 ParameterSpec NumberParameter(const std::string& name, const std::string& unit, const std::string& value,
                               const std::string& what);
 
-// 0xRRGGBB to channels of 0 to 1; alpha is 0 for black, else 1. And back.
+// Convert 0xRRGGBB to channels of 0 to 1, with alpha 0 for black, else 1, and back.
 ColorRGBA ToMessage(std::uint32_t colour);
 std::uint32_t ToColour(const ColorRGBA& message);
 
-// Seconds of simulated time as a time stamp.
+// Returns seconds of simulated time as a time stamp.
 builtin_interfaces::msg::dds_::Time_ TimeOf(double seconds);
 
-// The time of day, as ROS 2 stamps messages.
+// Returns a header with the time of day, as ROS 2 stamps messages.
 std_msgs::msg::dds_::Header_ HeaderOfNow(const std::string& frame);
 
 // Publishes one number on a topic.
@@ -59,8 +59,8 @@ private:
   Publisher<Bool> publisher_;
 };
 
-// Positions and velocities of some joints, from a topic of sensor_msgs/msg/JointState whose messages may each have
-// other joints.
+// Reads positions and velocities of some joints from a topic of sensor_msgs/msg/JointState. Each message may have other
+// joints.
 class JointReader
 {
 public:
@@ -68,7 +68,7 @@ public:
   void Poll();
   double Position(std::size_t joint) const { return joints_[joint].position; }
   double Velocity(std::size_t joint) const { return joints_[joint].velocity; }
-  // One for each joint.
+  // Adds one source for each joint.
   void AddSources(std::vector<DriverSource>& sources) const;
 
 private:

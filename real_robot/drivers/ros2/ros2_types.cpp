@@ -1,4 +1,5 @@
-// The messages that the drivers and simulations speak, with what Fast DDS needs to send them (generated from idl/ros2).
+// The messages of the drivers and simulations, with the types that Fast DDS needs to send them (generated from
+// idl/ros2).
 #include "common/bus/dds/fast_dds.h"
 #include "geometry_msgsPubSubTypes.h"
 #include "nav_msgsPubSubTypes.h"

@@ -1,4 +1,4 @@
-// The plain shapes of the drivers of this folder: a sensor that reads one topic, a ring of 24 of them, joints; an
+// Base classes of the drivers of this folder: a sensor that reads one topic, a ring of 24 such sensors, joints, and an
 // actuator that writes one topic.
 #pragma once
 
@@ -38,7 +38,7 @@ private:
   std::optional<Subscriber<Message>> subscriber_;
 };
 
-// A sensor with readings numbered from 0, each from a topic of its own: the parameter "topic", then _0, _1 …
+// A sensor with readings numbered from 0. Each reading has its own topic: the parameter "topic", then _0, _1 …
 template <class Interface, class Message>
 class RingSensor : public CSensorDriver, public Interface
 {
@@ -104,7 +104,7 @@ protected:
   bool IsOn(std::size_t number) const { return switches_[number].on; }
 
 private:
-  // After something may have come.
+  // Called after new messages may have come.
   virtual void Update() {}
 
   struct Switch
@@ -116,7 +116,7 @@ private:
   std::vector<Switch> switches_;
 };
 
-// An actuator with one topic. `Output`: what publishes on it, made with the setup and what else the driver gives.
+// An actuator with one topic. `Output` publishes on it; it is made with the setup and further arguments of the driver.
 template <class Interface, class Output>
 class TopicActuator : public CActuatorDriver, public Interface
 {

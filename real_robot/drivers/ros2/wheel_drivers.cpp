@@ -1,4 +1,5 @@
-// The wheels of a footbot as a velocity command, and its encoders from odometry or joint states.
+// Drivers of a footbot's wheels, which publish a velocity command, and of its encoders, which read odometry or joint
+// states.
 #include <algorithm>
 #include <array>
 

@@ -1,4 +1,4 @@
-// Follows a robot that shows a colour, at a horizontal distance, and hovers where it is lost.
+// Follows a robot that shows a colour, at a horizontal distance. If the robot is out of view, it hovers.
 #pragma once
 
 #include "eyebot/bt_eyebot_go_to.h"
@@ -6,7 +6,7 @@
 class CBTEyebotFollow : public CCI_Behavior<CCI_EyeBotState>
 {
 public:
-  // colour: of the robot's LEDs, 0xRRGGBB; distance: m kept to it; speed: m/s.
+  // `colour`: of the robot's LEDs, 0xRRGGBB; `distance`: m to the robot; `speed`: m/s.
   explicit CBTEyebotFollow(std::uint32_t colour, double distance = 0.3, double speed = 0.2)
       : CCI_Behavior("follow"), go_to_(colour, speed, distance)
   {

@@ -12,7 +12,7 @@ void CBTEyebotGoTo::Step(CCI_EyeBotState& cRobotState)
   has_target_ = target != nullptr;
   has_arrived_ = has_target_ && target->distance_m <= near_;
   if (!has_target_) return;
-  // Slower the nearer, so that it does not fly past.
+  // The speed decreases near the target, so that the robot does not fly past it.
   const double speed = has_arrived_ ? 0 : std::min(speed_, target->distance_m);
   const SinCos direction = SinCosOf(target->angle_rad);
   cRobotState.SetVelocity(speed * direction.cos, speed * direction.sin, 0, 0);

@@ -1,4 +1,4 @@
-// Flies until the nearest blob of a colour is straight below. Decides only while one is in view.
+// Flies until the nearest blob of a colour is straight below. It decides only while a blob is in view.
 #pragma once
 
 #include "behavior/ci_behavior.h"
@@ -7,7 +7,7 @@
 class CBTEyebotGoTo : public CCI_Behavior<CCI_EyeBotState>
 {
 public:
-  // colour: 0xRRGGBB; speed: m/s; near: the horizontal distance in metres that counts as arrived.
+  // `colour`: 0xRRGGBB; `speed`: m/s; `near`: the horizontal distance in metres that counts as arrived.
   explicit CBTEyebotGoTo(std::uint32_t colour, double speed = 0.2, double near = 0.1)
       : CCI_Behavior("go to"), colour_(colour), speed_(speed), near_(near)
   {
@@ -15,7 +15,7 @@ public:
 
   void Step(CCI_EyeBotState& cRobotState) override;
   void SetColour(std::uint32_t colour) { colour_ = colour; }
-  // Of the last step.
+  // Return the results of the last step.
   bool HasTarget() const { return has_target_; }
   bool HasArrived() const { return has_arrived_; }
 

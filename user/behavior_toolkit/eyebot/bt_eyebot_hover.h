@@ -1,4 +1,4 @@
-// Hovers where it is, and keeps an altitude if the robot has an altitude sensor and one is wanted.
+// Hovers at its place. It keeps an altitude if one is given and the robot has an altitude sensor.
 #pragma once
 
 #include "behavior/ci_behavior.h"
@@ -8,7 +8,7 @@ class CBTEyebotHover : public CCI_Behavior<CCI_EyeBotState>
 {
 public:
   CBTEyebotHover() : CCI_Behavior("hover") {}
-  // altitude: m above what is below.
+  // `altitude`: m above the ground.
   explicit CBTEyebotHover(double altitude) : CCI_Behavior("hover"), altitude_(altitude), keeps_altitude_(true) {}
 
   void Step(CCI_EyeBotState& cRobotState) override

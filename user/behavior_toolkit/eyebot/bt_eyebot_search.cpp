@@ -22,7 +22,7 @@ void CBTEyebotSearch::Step(CCI_EyeBotState& cRobotState)
     straight_left_ = cRobotState.GetRandom().Uniform(0, 2 * mean_straight_);
     turn_left_ = cRobotState.GetRandom().Uniform(-kPi, kPi);
   }
-  // Turning and flying at once makes wide bends instead of stops.
+  // Turning while flying makes wide bends instead of stops.
   const double turned = std::clamp(turn_left_, -kYawRate * tick, kYawRate * tick);
   turn_left_ -= turned;
   if (turn_left_ < 1e-6 && turn_left_ > -1e-6) turn_left_ = 0;

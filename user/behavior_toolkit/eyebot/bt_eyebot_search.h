@@ -1,5 +1,5 @@
-// Searches by flying straight on and taking a new heading at random times. If the robot does not get on, such as at
-// a wall, the next heading leads away sooner or later.
+// Searches by flying straight on and taking a new heading at random times. At an obstacle such as a wall, a later
+// heading leads away from it.
 #pragma once
 
 #include "behavior/ci_behavior.h"
@@ -8,7 +8,7 @@
 class CBTEyebotSearch : public CCI_Behavior<CCI_EyeBotState>
 {
 public:
-  // speed: m/s; mean_straight: s between two turns.
+  // `speed`: m/s; `mean_straight`: s between two turns.
   explicit CBTEyebotSearch(double speed = 0.2, double mean_straight = 6.0)
       : CCI_Behavior("search"), speed_(speed), mean_straight_(mean_straight)
   {

@@ -10,7 +10,7 @@ using namespace swarmanoid;
 void BTFootbotSteer(CCI_FootBotState& cRobotState, double direction, double speed)
 {
   const double angle = WrapAngle(direction);
-  // Straight ahead both wheels run at full speed; from 60 degrees on the inner wheel runs backwards.
+  // Straight ahead both wheels run at full speed. From 60 degrees on, the inner wheel runs backwards.
   const double slow = speed * std::max(-1.0, 1.0 - 2.0 * std::abs(angle) / (kPi / 3));
   if (angle > 0)
     cRobotState.SetFootBotWheelsLinearVelocity(slow, speed);

@@ -12,9 +12,9 @@ using namespace swarmanoid;
 namespace
 {
 
-// Forces are cut off at 1.8 times the wanted distance: only the first ring of neighbours counts.
+// Forces end at 1.8 times the wanted distance, so that only the first ring of neighbours counts.
 constexpr double kReach = 1.8;
-// A neighbour that is much too close must outweigh all that are a little too far.
+// A neighbour that is much too close must outweigh all neighbours that are slightly too far.
 constexpr double kForceLimit = 10.0;
 constexpr double kLightWeight = 0.3;
 
@@ -58,7 +58,7 @@ void CBTFootbotFlocking::Step(CCI_FootBotState& cRobotState)
     light_x += readings[i] * direction.cos;
     light_y += readings[i] * direction.sin;
   }
-  // Only the direction counts, so that the flock goes as fast far from the light as near it.
+  // Only the direction of the light counts, so that the speed of the flock does not depend on the distance to it.
   const double light = std::sqrt(light_x * light_x + light_y * light_y);
   if (light > 0)
   {

@@ -1,7 +1,7 @@
-// Flocking: keeps a distance to the neighbours whose LEDs it sees, and goes to a light that all share.
+// Flocking: keeps a distance to the neighbours whose LEDs it sees, and goes to a common light.
 //
 // The force between two robots at distance d follows the generalised Lennard-Jones potential of the foot-bot flocking
-// experiments: f(d) = -4 gain / d ((s/d)^4 - (s/d)^2), s the wanted distance (Spears et al., "Distributed,
+// experiments: f(d) = -4 gain / d ((s/d)^4 - (s/d)^2). s is the wanted distance (Spears et al., "Distributed,
 // physics-based control of swarms of vehicles", 2004).
 #pragma once
 
@@ -11,7 +11,7 @@
 class CBTFootbotFlocking : public CCI_Behavior<CCI_FootBotState>
 {
 public:
-  // colour: of the neighbours' LEDs, 0xRRGGBB; wanted_distance: m between robots; speed: m/s.
+  // `colour`: of the neighbours' LEDs, 0xRRGGBB; `wanted_distance`: m between robots; `speed`: m/s.
   explicit CBTFootbotFlocking(std::uint32_t colour, double wanted_distance = 0.4, double speed = 0.1);
 
   void Step(CCI_FootBotState& cRobotState) override;

@@ -1,4 +1,4 @@
-// Follows the spot of a laser on the ground, and waits for it if it is lost.
+// Follows the spot of a laser on the ground. If the spot is out of view, it waits.
 #pragma once
 
 #include "footbot/bt_footbot_go_to_blob.h"
@@ -6,7 +6,7 @@
 class CBTFootbotFollowLaser : public CCI_Behavior<CCI_FootBotState>
 {
 public:
-  // colour: of the spot, 0xRRGGBB; speed: m/s.
+  // `colour`: of the spot, 0xRRGGBB; `speed`: m/s.
   explicit CBTFootbotFollowLaser(std::uint32_t colour = 0xff0000, double speed = 0.1)
       : CCI_Behavior("follow laser"), go_to_spot_(colour, speed, 0.05)
   {

@@ -1,4 +1,4 @@
-// Goes to the nearest blob of a colour that the omnidirectional camera sees; decides only while one is in view.
+// Goes to the nearest blob of a colour that the omnidirectional camera sees. It decides only while a blob is in view.
 #pragma once
 
 #include "behavior/ci_behavior.h"
@@ -7,12 +7,12 @@
 class CBTFootbotGoToBlob : public CCI_Behavior<CCI_FootBotState>
 {
 public:
-  // colour: 0xRRGGBB; speed: m/s; stop_at: the distance in metres at which the robot stands still.
+  // `colour`: 0xRRGGBB; `speed`: m/s; `stop_at`: the distance in metres at which the robot stops.
   explicit CBTFootbotGoToBlob(std::uint32_t colour, double speed = 0.1, double stop_at = 0.1);
 
   void Step(CCI_FootBotState& cRobotState) override;
   void SetColour(std::uint32_t colour) { colour_ = colour; }
-  // Of the last step.
+  // Return the results of the last step.
   bool HasBlob() const { return has_blob_; }
   bool HasArrived() const { return has_arrived_; }
 

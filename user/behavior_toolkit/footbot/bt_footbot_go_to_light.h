@@ -1,4 +1,4 @@
-// Goes to light, or away from it; decides only while light is felt.
+// Goes to light, or away from it. It decides only while a light sensor reads light.
 #pragma once
 
 #include "behavior/ci_behavior.h"
@@ -7,7 +7,7 @@
 class CBTFootbotGoToLight : public CCI_Behavior<CCI_FootBotState>
 {
 public:
-  // speed: m/s; away: true for flight; arrived_at: the strongest reading (0..1) at which the robot stops.
+  // `speed`: m/s; `away`: true to flee the light; `arrived_at`: the strongest reading (0..1) at which the robot stops.
   explicit CBTFootbotGoToLight(double speed = 0.1, bool away = false, double arrived_at = 0.95);
   void Step(CCI_FootBotState& cRobotState) override;
 

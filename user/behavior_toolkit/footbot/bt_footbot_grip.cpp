@@ -10,7 +10,7 @@ using namespace swarmanoid;
 namespace
 {
 
-// The object must stand this close to straight ahead before the gripper closes.
+// The object must be this close to straight ahead before the gripper closes.
 const double kAhead = DegreesToRadians(8);
 
 }  // namespace

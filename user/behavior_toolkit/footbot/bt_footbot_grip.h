@@ -1,5 +1,5 @@
-// Grips the nearest object of a colour: approaches it head on, closes the gripper at contact, and tries again after a
-// miss.
+// Grips the nearest object of a colour. It approaches the object head on, closes the gripper at contact, and tries
+// again after a miss.
 #pragma once
 
 #include "behavior/ci_behavior.h"
@@ -8,8 +8,8 @@
 class CBTFootbotGrip : public CCI_Behavior<CCI_FootBotState>
 {
 public:
-  // colour: of the object, 0xRRGGBB; reach: the distance (m) between centres within which the gripper may touch it;
-  // speed: m/s.
+  // `colour`: of the object, 0xRRGGBB; `reach`: the distance (m) between centres within which the gripper may touch it;
+  // `speed`: m/s.
   explicit CBTFootbotGrip(std::uint32_t colour, double reach = 0.22, double speed = 0.05);
 
   void Step(CCI_FootBotState& cRobotState) override;

@@ -25,7 +25,7 @@ void CBTFootbotObstacleAvoidance::Step(CCI_FootBotState& cRobotState)
 void CBTFootbotObstacleAvoidance::AvoidByVector(CCI_FootBotState& cRobotState)
 {
   const BTVector obstacle = BTFootbotProximityVector(cRobotState);
-  // What is behind is left behind by going on.
+  // Obstacles behind the robot need no reaction.
   if (obstacle.length <= threshold_ || std::abs(obstacle.angle) > 2 * kPi / 3) return;
   avoiding_ = true;
   BTFootbotSteer(cRobotState, obstacle.angle + kPi, speed_);
@@ -52,7 +52,7 @@ void CBTFootbotObstacleAvoidance::AvoidByWeights(CCI_FootBotState& cRobotState)
   const auto wheel = [&](double push) { return speed_ * std::max(-1.0, 1.0 - 2.0 * push); };
   double left_wheel = wheel(right);
   double right_wheel = wheel(left);
-  // Face to face with a wall both sides are alike; one way must be taken.
+  // In front of a wall both sides are equal, so the robot turns to one of them.
   if (left_wheel < 0 && right_wheel < 0) right_wheel = speed_;
   cRobotState.SetFootBotWheelsLinearVelocity(left_wheel, right_wheel);
 }

@@ -1,4 +1,4 @@
-// Obstacle avoidance: decides only while something is near, so that it can follow any other behaviour.
+// Obstacle avoidance. It decides only while an obstacle is near, so that it can be combined with any other behaviour.
 #pragma once
 
 #include "behavior/ci_behavior.h"
@@ -13,12 +13,12 @@ public:
     VERSION_BRAITENBERG    // each sensor slows the wheel on the other side (Braitenberg, "Vehicles", 1984)
   };
 
-  // speed: m/s; threshold: the largest reading that is ignored, 0..1.
+  // `speed`: m/s; `threshold`: the largest reading that is ignored, 0..1.
   explicit CBTFootbotObstacleAvoidance(EVersion version = VERSION_VECTOR_BASED, double speed = 0.1,
                                        double threshold = 0.02);
 
   void Step(CCI_FootBotState& cRobotState) override;
-  // True if the last step took over the wheels.
+  // Returns true if the last step set the wheels.
   bool IsAvoiding() const { return avoiding_; }
 
 private:

@@ -1,4 +1,4 @@
-// Random walk: drives straight on for a random while, then turns by a random angle.
+// Random walk: drives straight on for a random time, then turns by a random angle.
 #pragma once
 
 #include "behavior/ci_behavior.h"
@@ -7,7 +7,7 @@
 class CBTFootbotRandomWalk : public CCI_Behavior<CCI_FootBotState>
 {
 public:
-  // speed: m/s on the ground; mean_straight: s between two turns; largest_turn: radians to either side.
+  // `speed`: m/s on the ground; `mean_straight`: s between two turns; `largest_turn`: radians to either side.
   explicit CBTFootbotRandomWalk(double speed = 0.1, double mean_straight = 3.0, double largest_turn = 2.0);
 
   void Step(CCI_FootBotState& cRobotState) override;

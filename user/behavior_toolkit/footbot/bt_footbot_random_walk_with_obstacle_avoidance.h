@@ -1,4 +1,4 @@
-// Random walk with obstacle avoidance: the two behaviours one after the other, so that avoidance has priority.
+// Random walk with obstacle avoidance: the two behaviours in sequence, so that avoidance has priority.
 #pragma once
 
 #include <memory>

@@ -21,7 +21,7 @@ void CBTHandbotClimb::Step(CCI_HandBotState& cRobotState)
   }
   const double rest = rope_length_ - cRobotState.GetJoint(CCI_HandBotJointsSensor::ROPE_LENGTH);
   has_arrived_ = std::abs(rest) <= kClose;
-  // The last tick ends at the wanted length, not beyond.
+  // The last tick ends at the wanted length, not beyond it.
   const double velocity = rest / cRobotState.GetTickSeconds();
   cRobotState.SetWinchVelocity(has_arrived_ ? 0 : std::clamp(velocity, -speed_, speed_));
 }

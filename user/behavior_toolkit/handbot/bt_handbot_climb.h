@@ -1,4 +1,4 @@
-// Climbs on the rope: launches it, pulls itself up to a height by the length of the rope, and holds there.
+// Climbs on the rope. It launches the rope, pulls itself up to a height by the length of the rope, and holds there.
 #pragma once
 
 #include "behavior/ci_behavior.h"
@@ -7,7 +7,7 @@
 class CBTHandbotClimb : public CCI_Behavior<CCI_HandBotState>
 {
 public:
-  // rope_length: m of rope to leave between robot and ceiling; speed: m/s of rope.
+  // `rope_length`: m of rope between robot and ceiling at the end; `speed`: m/s of rope.
   explicit CBTHandbotClimb(double rope_length, double speed = 0.1)
       : CCI_Behavior("climb"), rope_length_(rope_length), speed_(speed)
   {

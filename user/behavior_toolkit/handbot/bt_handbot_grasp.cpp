@@ -50,7 +50,7 @@ void CBTHandbotGrasp::Step(CCI_HandBotState& cRobotState)
       break;
     case CLOSE_ARMS:
       cRobotState.SetArmVelocities(-arm_speed_, -arm_speed_);
-      // Arms that no longer move touch something, or have come together.
+      // Arms that no longer move touch an object, or each other.
       input(moved >= 0 && moved < kStill && last_angle_ < 2 * opening_ - kStill ? "contact" : "");
       break;
     case CLOSE_HANDS:

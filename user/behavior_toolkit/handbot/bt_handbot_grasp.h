@@ -1,4 +1,5 @@
-// Grasps with both hands: opens the arms and hands, closes the arms about what is between them, and closes the hands.
+// Grasps with both hands. It opens the arms and hands, closes the arms about an object between them, and closes the
+// hands.
 #pragma once
 
 #include "behavior/ci_behavior.h"
@@ -13,7 +14,7 @@ public:
   static constexpr unsigned int CLOSE_HANDS = 2;
   static constexpr unsigned int HOLD = 3;
 
-  // opening: radians that the arms open; arm_speed: rad/s.
+  // `opening`: radians that the arms open; `arm_speed`: rad/s.
   explicit CBTHandbotGrasp(double opening = 0.6, double arm_speed = 0.5);
 
   void Step(CCI_HandBotState& cRobotState) override;

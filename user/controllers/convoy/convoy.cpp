@@ -13,10 +13,10 @@ namespace
 {
 
 constexpr std::uint32_t kBack = CCI_Colour::RED;
-constexpr double kClear = 0.8;   // m: the leader turns left, away from what is nearer
+constexpr double kClear = 0.8;   // m: the leader turns left if an obstacle is nearer
 constexpr double kBend = 0.4;    // m: radius of its bends
-constexpr double kGain = 1.5;    // of the steering
-constexpr double kSlowDown = 4;  // 1/s: speed for each metre of distance too many
+constexpr double kGain = 1.5;    // gain of the steering
+constexpr double kSlowDown = 4;  // 1/s: change of speed for each metre of distance error
 
 }  // namespace
 
@@ -35,7 +35,7 @@ int CConvoy::Init(const TConfigurationTree t_tree)
 double CConvoy::FreeAhead() const
 {
   double free = std::numeric_limits<double>::infinity();
-  // Above the horizon: the floor lies below it.
+  // Only pixels above the horizon count, since the floor is below it.
   for (const auto& pixel : depth_->GetAllPixels().first(depth_->GetAllPixels().size() / 2))
     free = std::min(free, pixel.depth_m);
   return free;
@@ -43,7 +43,7 @@ double CConvoy::FreeAhead() const
 
 void CConvoy::ControlStep()
 {
-  // The two that look back.
+  // The two LEDs at the back are red.
   leds_->SetAllColours(CCI_Colour::BLACK);
   leds_->SetColour(5, kBack);
   leds_->SetColour(6, kBack);

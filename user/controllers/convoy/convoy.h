@@ -1,5 +1,5 @@
-// A robot of a convoy. All show red LEDs at their backs, which are seen from behind only; so each robot that sees red
-// follows the one ahead of it, and the one that sees none leads. A depth camera keeps the distance.
+// A robot of a convoy. All robots have red LEDs at their backs, which are visible only from behind. A robot that sees
+// red follows the robot ahead of it. The robot that sees none leads. A depth camera keeps the distance.
 #pragma once
 
 #include "ci_controller.h"
@@ -19,7 +19,7 @@ public:
   std::string StatusText() const override { return follows_ ? "follows" : "leads"; }
 
 private:
-  // The least depth of what stands up ahead, m.
+  // Returns the least depth of obstacles ahead, in m.
   double FreeAhead() const;
 
   swarmanoid::CCI_FootBotWheelsActuator* wheels_ = nullptr;

@@ -16,7 +16,7 @@ int CEPuckDiffusion::Init(const TConfigurationTree t_tree)
 
 void CEPuckDiffusion::ControlStep()
 {
-  // What is in front, by its side.
+  // Sums the readings in front, separately for each side.
   double left = 0;
   double right = 0;
   const auto readings = proximity_->GetAllSensorReadings();

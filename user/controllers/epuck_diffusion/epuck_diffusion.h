@@ -1,5 +1,5 @@
-// Drives straight on and turns away from what the proximity sensors see, with its LEDs on. For any robot with wheels,
-// proximity sensors and LEDs, such as the e-puck of user/entities.
+// Drives straight on and turns away from obstacles that the proximity sensors see, with its LEDs on. It works for any
+// robot with wheels, proximity sensors and LEDs, such as the e-puck of user/entities.
 #pragma once
 
 #include "ci_controller.h"
@@ -12,7 +12,7 @@ class CEPuckDiffusion : public CCI_Controller
 public:
   int Init(const TConfigurationTree t_tree) override;
   void ControlStep() override;
-  // Nothing is remembered between steps, so a run can be restored as it is.
+  // Nothing is remembered between steps, so a run can be restored without saved data.
   bool HasState() const override { return true; }
   bool StepsInParallel() const override { return true; }
 

@@ -24,7 +24,7 @@ void CFootBotAggregation::ControlStep()
   wheels_->SetFootBotWheelsLinearVelocity(speeds.x(), speeds.y());
 }
 
-// Whether the line straight ahead meets a body: its beacon is in the middle.
+// Returns whether the line straight ahead meets a body, whose beacon is in its middle.
 bool CFootBotAggregation::SeesRobot() const
 {
   const auto blobs = camera_->GetAllBlobs();

@@ -1,4 +1,4 @@
-// Aggregation without computation: one bit, whether another robot stands in front, chooses one of two pairs of wheel
+// Aggregation without computation: one bit, whether another robot is in front, chooses one of two pairs of wheel
 // speeds. Gauci, Chen, Li, Dodd, Gross, "Self-organized aggregation without computation", International Journal of
 // Robotics Research 33 (2014), https://doi.org/10.1177/0278364914525244.
 #pragma once
@@ -13,7 +13,7 @@ class CFootBotAggregation : public CCI_Controller
 public:
   int Init(const TConfigurationTree t_tree) override;
   void ControlStep() override;
-  // Nothing is remembered between steps, so a run can be restored as it is.
+  // Nothing is remembered between steps, so a run can be restored without saved data.
   bool HasState() const override { return true; }
 
 private:
@@ -23,5 +23,5 @@ private:
   CCI_FootBotBeaconActuator* beacon_ = nullptr;
   CCI_FootBotOmnidirectionalCameraSensor* camera_ = nullptr;
   double radius_m_ = 0;
-  swarmanoid::Vector2 free_m_s_, seen_m_s_;  // left and right wheel
+  swarmanoid::Vector2 free_m_s_, seen_m_s_;  // m/s of the left and right wheel
 };

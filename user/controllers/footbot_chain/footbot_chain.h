@@ -1,4 +1,4 @@
-// Pulling together: hold what the gripper touches, and drive once it is held.
+// Robots pull an object together: each grips what its gripper touches, and drives once it holds it.
 #pragma once
 
 #include "ci_controller.h"
@@ -11,7 +11,7 @@ class CFootBotChain : public CCI_Controller
 public:
   int Init(const TConfigurationTree t_tree) override;
   void ControlStep() override;
-  // Nothing is remembered between steps, so a run can be restored as it is.
+  // Nothing is remembered between steps, so a run can be restored without saved data.
   bool HasState() const override { return true; }
 
 private:

@@ -9,7 +9,7 @@ using namespace swarmanoid;
 namespace
 {
 
-// Unit vectors of the sensors in the frame of the robot: one table for all robots, which so fits the cache.
+// The unit vectors of the sensors in the frame of the robot. All robots share one table, so that it fits the cache.
 struct Directions
 {
   std::array<double, CCI_FootBotProximitySensor::NUM_SENSORS> cosines{};
@@ -42,7 +42,7 @@ int CFootBotDiffusion::Init(const TConfigurationTree t_tree)
 
 void CFootBotDiffusion::ControlStep()
 {
-  // Four partial sums side by side, so that the compiler can add four readings at a time.
+  // Four partial sums let the compiler add four readings at a time.
   constexpr unsigned kLanes = 4;
   std::array<double, kLanes> xs{};
   std::array<double, kLanes> ys{};

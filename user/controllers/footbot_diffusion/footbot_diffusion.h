@@ -1,8 +1,8 @@
-// Diffusion with obstacle avoidance: drive straight on, and turn away from what the proximity sensors see.
+// Diffusion with obstacle avoidance: drives straight on, and turns away from obstacles that the proximity sensors see.
 //
-// The readings are added up as vectors that point to the obstacles (Howard, Mataric and Sukhatme, "Mobile sensor
-// network deployment using potential fields", 2002). A sum that points back, or a short one beside the way, lets the
-// robot go on; otherwise it turns away from the sum with one wheel standing.
+// The readings are added as vectors that point to the obstacles (Howard, Mataric and Sukhatme, "Mobile sensor network
+// deployment using potential fields", 2002). If the sum points back, or is short and points aside, the robot goes on.
+// Otherwise it turns away from the sum with one wheel standing.
 #pragma once
 
 #include "ci_controller.h"
@@ -14,7 +14,7 @@ class CFootBotDiffusion : public CCI_Controller
 public:
   int Init(const TConfigurationTree t_tree) override;
   void ControlStep() override;
-  // Nothing is remembered between steps, so a run can be restored as it is.
+  // Nothing is remembered between steps, so a run can be restored without saved data.
   bool HasState() const override { return true; }
   bool StepsInParallel() const override { return true; }
 

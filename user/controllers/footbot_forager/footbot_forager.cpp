@@ -12,7 +12,7 @@ namespace
 {
 
 constexpr double kSpeed = 0.2;       // m/s
-constexpr double kGripWithin = 0.4;  // m between centres, from where the prey is approached head on
+constexpr double kGripWithin = 0.4;  // m between centres: from here the robot approaches the prey head on
 constexpr double kPatience = 30;     // s
 constexpr double kRest = 6;          // s
 constexpr std::uint32_t kPrey = CCI_Colour::YELLOW;

@@ -1,6 +1,6 @@
-// A footbot that forages: it goes to the nearest yellow prey that it sees, grips it, and carries it to the green nest;
-// it wanders while it sees none. Its LEDs are blue while it carries. What it does not achieve in half a minute it gives
-// up for some seconds, so that robots do not stand in each other's way for ever.
+// A footbot that forages. It goes to the nearest yellow prey that it sees, grips it, and carries it to the green nest.
+// It wanders while it sees no prey. Its LEDs are blue while it carries. After half a minute without success it gives up
+// for some seconds, so that robots do not block each other for ever.
 #pragma once
 
 #include "behavior/ci_behavior.h"
@@ -24,7 +24,7 @@ private:
   CBTFootbotRandomWalkWithObstacleAvoidance wander_;
   CBTFootbotObstacleAvoidance avoid_;
   CBTFootbotGrip grip_;
-  double busy_s_ = 0;  // with one prey
-  double rest_s_ = 0;  // left of giving up
+  double busy_s_ = 0;  // time with the current prey
+  double rest_s_ = 0;  // remaining time of giving up
   bool carried_ = false;
 };

@@ -14,13 +14,13 @@ int CFootBotRandomWalk::Init(const TConfigurationTree t_tree)
   return RETURN_OK;
 }
 
-// One tick a step, one tick a turn.
+// Ticks alternate between a step and a turn.
 void CFootBotRandomWalk::ControlStep()
 {
   const double tick_s = GetRobot()->GetTickSeconds();
   if (GetRobot()->GetTick() % 2 == 0)
     return wheels_->SetFootBotWheelsLinearVelocity(step_m_ / tick_s, step_m_ / tick_s);
-  // Angles that differ by whole circles are the same turn.
+  // The angle is reduced to half a circle, since whole circles change nothing.
   const double angle_rad = std::remainder(GetRobot()->GetRandom().Gaussian(0, deviation_rad_), 2 * kPi);
   const double speed_m_s = angle_rad * CCI_FootBotWheelsActuator::INTERWHEEL_DISTANCE_M / 2 / tick_s;
   wheels_->SetFootBotWheelsLinearVelocity(-speed_m_s, speed_m_s);

@@ -1,6 +1,6 @@
-// A correlated random walk: one step straight on, then a turn on the spot by a normally distributed angle, and so on.
-// Kareiva and Shigesada, "Analyzing insect movement as a correlated random walk", Oecologia 56 (1983),
-// https://doi.org/10.1007/BF00379695. It sees nothing: give it room.
+// A correlated random walk: steps straight on alternate with turns on the spot by normally distributed angles. Kareiva
+// and Shigesada, "Analyzing insect movement as a correlated random walk", Oecologia 56 (1983),
+// https://doi.org/10.1007/BF00379695. The robot has no sensors, so the arena must be large and free.
 #pragma once
 
 #include "ci_controller.h"
@@ -11,7 +11,7 @@ class CFootBotRandomWalk : public CCI_Controller
 public:
   int Init(const TConfigurationTree t_tree) override;
   void ControlStep() override;
-  // What it does follows from the tick, and from random numbers that are drawn for the tick.
+  // The step follows from the tick, and from random numbers that are drawn for the tick.
   bool HasState() const override { return true; }
 
 private:

@@ -9,7 +9,7 @@ namespace
 constexpr double kArmSpeed = 0.5;  // rad/s
 constexpr double kSpread = 1.0;    // rad
 constexpr double kForward = 0.01;  // rad
-constexpr double kLiftOff = 0.2;   // m: the robot leans forward under the load; the thing must clear the board
+constexpr double kLiftOff = 0.2;   // m: the robot leans forward under the load; the object must clear the board
 
 }  // namespace
 

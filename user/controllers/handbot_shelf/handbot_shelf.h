@@ -1,4 +1,5 @@
-// Fetching a thing from a shelf: up the rope with spread arms, left hand on the thing, arm aside, down, put down.
+// Fetches an object from a shelf. The robot climbs the rope with spread arms, grips the object with its left hand,
+// moves the arm aside, descends, and puts the object down.
 #pragma once
 
 #include "ci_controller.h"

@@ -33,7 +33,7 @@ void CKilobotGradient::ControlStep()
 {
   hops_ = is_seed_ ? 0 : Hops();
   CCI_RangeAndBearingActuator::Message message{};
-  message[0] = 1;  // tells it from silence
+  message[0] = 1;  // distinguishes the message from silence
   message[1] = static_cast<std::uint8_t>(hops_);
   sender_->SetMessage(message);
   leds_->SetAllColours(hops_ == kUnknown ? 0 : hops_ < kColours.size() ? kColours[hops_] : kFar);
@@ -48,11 +48,11 @@ unsigned CKilobotGradient::Hops() const
   unsigned least = kUnknown;
   for (const auto& packet : receiver_->GetAllPackets())
     if (packet.message[0] == 1) least = std::min<unsigned>(least, packet.message[1]);
-  // Numbers that only feed each other, once their seed is gone, grow until they are unknown.
+  // Without their seed, numbers that depend only on each other grow until they are unknown.
   return least >= kUnknown - 1 ? kUnknown : least + 1;
 }
 
-// Straight on or around one leg, as one motor or both do.
+// The robot goes straight on with both motors, or around one leg with one motor.
 void CKilobotGradient::Wander()
 {
   if (until_change_ == 0)

@@ -1,5 +1,5 @@
-// The gradient of the Kilobot labs (github.com/acornejo/kilobot-labs, lab 6): a seed says 0, each other robot says one
-// more than the least that it hears of its neighbours, and shows it by its LED. Robots that hear nobody wander.
+// The gradient of the Kilobot labs (github.com/acornejo/kilobot-labs, lab 6). A seed sends 0. Each other robot sends
+// one more than the least number that it hears, and shows it by its LED. Robots that hear no number wander.
 #pragma once
 
 #include "common/control_interface/ci_controller.h"
@@ -19,7 +19,7 @@ public:
   std::string StatusText() const override;
 
 private:
-  // Hops to the seed by what is heard; kUnknown if nobody near knows.
+  // Returns the hops to the seed, by the received numbers; kUnknown if no neighbour knows them.
   unsigned Hops() const;
   void Wander();
 

@@ -1,4 +1,4 @@
-// The containers of the two behaviours.
+// The controllers that contain the two behaviours.
 #include "behavior/ci_behavior_controller.h"
 #include "eyebot_guide.h"
 #include "footbot_retriever.h"

@@ -15,16 +15,16 @@ namespace
 {
 
 constexpr double kSearchSpeed = 0.25;   // m/s
-constexpr double kLeadingSpeed = 0.12;  // m/s: slower than a footbot that follows
+constexpr double kLeadingSpeed = 0.12;  // m/s: slower than a following footbot
 constexpr double kAtPrey = 0.08;        // m
-constexpr double kBesidePrey = 0.2;     // rad of tilt: the spot falls beside the prey, where it is seen
-constexpr double kFootbotNear = 0.5;    // m: a footbot farther off is waited for
+constexpr double kBesidePrey = 0.2;     // rad of tilt: the spot falls beside the prey, where the footbot sees it
+constexpr double kFootbotNear = 0.5;    // m: the guide waits for a footbot that is farther away
 constexpr double kFootbotClose = 0.25;  // m
-constexpr double kWaitFor = 5;          // s: then it is fetched, for something hides the spot from it
-constexpr double kSearchFor = 200;      // s of search: then it goes back to where the nest was
-constexpr double kHeldWithin = 0.35;    // m from the footbot that holds a prey
-constexpr double kAtPlace = 0.3;        // m: there
-constexpr double kPatience = 60;        // s without the footbot before the prey is looked for again
+constexpr double kWaitFor = 5;          // s: then the guide fetches it, since something hides the spot
+constexpr double kSearchFor = 200;      // s: then the guide returns to the remembered place of the nest
+constexpr double kHeldWithin = 0.35;    // m: greatest distance from a prey to the footbot that holds it
+constexpr double kAtPlace = 0.3;        // m: distance that counts as arrived
+constexpr double kPatience = 60;        // s without the footbot, before the guide looks for the prey again
 
 }  // namespace
 
@@ -126,7 +126,7 @@ const CCI_ColourBlob* CBTEyebotGuide::Carrier(const CCI_EyeBotState& cRobotState
 void CBTEyebotGuide::SearchForNest(CCI_EyeBotState& cRobotState)
 {
   const CCI_ColourBlob* footbot = Carrier(cRobotState);
-  if (footbot == nullptr) return;  // it comes
+  if (footbot == nullptr) return;  // the footbot is on its way
   if (footbot->distance_m <= (fetching_ ? kFootbotClose : kFootbotNear))
   {
     fetching_ = false;
@@ -149,7 +149,7 @@ void CBTEyebotGuide::SearchForNest(CCI_EyeBotState& cRobotState)
   go_to_nest_.Step(cRobotState);
 }
 
-// Walls that stop it make the memory wrong: it believes to have flown farther.
+// Walls that stop the eyebot make the memory wrong, since the eyebot assumes that it has flown farther.
 void CBTEyebotGuide::RememberNest(const CCI_EyeBotState& cRobotState)
 {
   if (const CCI_ColourBlob* nest = cRobotState.GetNearestColourBlob(kNest))

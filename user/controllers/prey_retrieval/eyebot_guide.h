@@ -1,6 +1,6 @@
 // The eyebot of the prey retrieval experiment (behaviour diagram: figure 4.6). It chooses one of the two preys at
-// random, looks for it, marks it with the laser, waits until a footbot grips it, and leads that footbot to the nest. If
-// it does not find the nest for long, it goes back to where it saw it last, by the way it has flown since.
+// random, looks for it, marks it with the laser, and waits until a footbot grips it. Then it leads that footbot to the
+// nest. If it does not find the nest for long, it flies back to where it saw the nest last, by dead reckoning.
 #pragma once
 
 #include <array>
@@ -31,10 +31,10 @@ public:
 private:
   void Fly(CCI_EyeBotState& cRobotState);
   std::string Transition(const CCI_EyeBotState& cRobotState) const;
-  // The footbot that holds its prey, as far as it can tell; nullptr if it sees none.
+  // Returns the footbot that seems to hold its prey; nullptr if it sees none.
   const CCI_ColourBlob* Carrier(const CCI_EyeBotState& cRobotState) const;
   void SearchForNest(CCI_EyeBotState& cRobotState);
-  // Keeps the place of the nest in its own frame.
+  // Updates the place of the nest in the eyebot's frame.
   void RememberNest(const CCI_EyeBotState& cRobotState);
   void GoBack(CCI_EyeBotState& cRobotState);
 
@@ -45,11 +45,11 @@ private:
   CBTEyebotHover hover_;
   std::uint32_t prey_colour_ = 0;  // 0: not chosen yet
   double since_footbot_s_ = 0;     // since the carrying footbot was last seen
-  bool knows_nest_ = false;        // it has seen the nest, and not missed it where it should be
-  double nest_x_ = 0;              // m, forward: where the nest should be
+  bool knows_nest_ = false;        // it has seen the nest, and has not missed it at the remembered place
+  double nest_x_ = 0;              // m, forward: the remembered place of the nest
   double nest_y_ = 0;              // m, to the left
-  std::array<double, 4> flown_{};  // the velocity of the step before: m/s forward, left and up, rad/s
-  double searched_s_ = 0;          // for the nest
-  double waited_s_ = 0;            // for a footbot that does not follow
-  bool fetching_ = false;          // it flies back to the footbot
+  std::array<double, 4> flown_{};  // the velocity of the previous step: m/s forward, left and up, rad/s
+  double searched_s_ = 0;          // time of the search for the nest
+  double waited_s_ = 0;            // time of waiting for a footbot that does not follow
+  bool fetching_ = false;          // the eyebot flies back to the footbot
 };

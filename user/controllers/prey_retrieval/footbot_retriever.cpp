@@ -19,11 +19,11 @@ namespace
 constexpr double kSpeed = 0.20;          // m/s
 constexpr double kWanderSpeed = 0.28;    // m/s
 constexpr double kCarryingSpeed = 0.15;  // m/s
-constexpr double kAtLaser = 0.45;        // m from the spot at which the prey beside it is looked for
+constexpr double kAtLaser = 0.45;        // m from the spot: the robot looks for the prey beside it
 constexpr double kRepulsion = 3;         // weight of obstacles against the way to the laser
-constexpr double kGripPatience = 25;     // s of attempts before the laser is looked for again
-constexpr double kAside = 0.4;           // rad: a spot farther aside asks for a turn
-constexpr double kHeldBack = 4;          // s of turning, several times what a turn takes: a wall holds the prey
+constexpr double kGripPatience = 25;     // s of attempts before the robot looks for the laser again
+constexpr double kAside = 0.4;           // rad: if the spot is farther aside, the robot turns
+constexpr double kHeldBack = 4;          // s of turning, several times the usual time: a wall holds the prey
 constexpr double kBackFor = 1.5;         // s
 constexpr double kGiveWay = 0.02;        // probability in each tick
 constexpr double kAvoidFor = 6;          // s after a carrying footbot was last seen
@@ -71,7 +71,7 @@ void CBTFootbotRetriever::Step(CCI_FootBotState& cRobotState)
 {
   const double tick = cRobotState.GetTickSeconds();
   in_state_s_ += tick;
-  // One's own LEDs are not in view.
+  // The robot does not see its own LEDs.
   since_signal_s_ = cRobotState.GetNearestColourBlob(kGripping) != nullptr ? 0 : since_signal_s_ + tick;
   if (input(Transition(cRobotState))) in_state_s_ = held_back_s_ = backing_s_ = 0;
 
@@ -111,7 +111,7 @@ std::string CBTFootbotRetriever::Transition(CCI_FootBotState& cRobotState) const
       return prey == nullptr || in_state_s_ > kGripPatience ? "preyLost" : "";
     case GO_TO_NEST:
       if (!cRobotState.IsGripping()) return "preyLost";
-      // Two that grip at the same time hinder each other; sooner or later one of them gives way.
+      // Two robots that grip at the same time block each other, so one of them gives way at random.
       return signal && cRobotState.GetRandom().Uniform() < kGiveWay ? "grippingFootbotSeen" : "";
     default:
       return since_signal_s_ > kAvoidFor ? "grippingFootbotGone" : "";
@@ -129,8 +129,8 @@ void CBTFootbotRetriever::GoToLaser(CCI_FootBotState& cRobotState)
   cRobotState.SetGripper(0);
   const CCI_ColourBlob* laser = cRobotState.GetNearestColourBlob(kLaser);
   if (laser == nullptr) return;
-  // The prey beside the spot is no obstacle; other robots are. Both wishes are added: one that overrode the other would
-  // let two robots stand face to face for ever.
+  // The prey beside the spot is no obstacle; other robots are. Both directions are added: with a priority, two robots
+  // could stand face to face for ever.
   SinCos wish = SinCosOf(laser->angle_rad);
   if (NearestPrey(cRobotState) == nullptr)
   {
@@ -153,7 +153,7 @@ void CBTFootbotRetriever::GoToNest(CCI_FootBotState& cRobotState)
 {
   cRobotState.SetGripper(1);
   follow_laser_.Step(cRobotState);
-  // A prey that stands against a wall cannot swing past it: it is pulled off first.
+  // A prey at a wall cannot swing past it, so the robot first pulls it off.
   const double tick = cRobotState.GetTickSeconds();
   const CCI_ColourBlob* laser = cRobotState.GetNearestColourBlob(kLaser);
   const bool aside = laser != nullptr && !follow_laser_.HasArrived() && std::abs(laser->angle_rad) > kAside;

@@ -1,6 +1,6 @@
 // The footbot of the prey retrieval experiment (behaviour diagram: figure 4.5). It wanders until it sees the laser,
-// goes to it, grips the prey there, and follows the laser to the nest with blue LEDs. It keeps out of the way of
-// another one that carries.
+// goes to it, grips the prey there, and follows the laser to the nest with blue LEDs. It avoids another footbot that
+// carries a prey.
 #pragma once
 
 #include <string>
@@ -35,7 +35,7 @@ private:
   void GripPrey(CCI_FootBotState& cRobotState);
   void GoToNest(CCI_FootBotState& cRobotState);
   void AvoidGrippingFootbot(CCI_FootBotState& cRobotState);
-  // The input that what the robot sees gives to the state machine.
+  // Returns the input of the state machine for what the robot sees.
   std::string Transition(CCI_FootBotState& cRobotState) const;
 
   CBTFootbotRandomWalkWithObstacleAvoidance wander_;
@@ -43,7 +43,7 @@ private:
   CBTFootbotGrip grip_;
   CBTFootbotFollowLaser follow_laser_;
   double in_state_s_ = 0;        // since the last transition
-  double held_back_s_ = 0;       // that it has tried in vain to turn to the laser with its prey
-  double backing_s_ = 0;         // for which it still drives back
-  double since_signal_s_ = 1e9;  // since another one with blue LEDs was seen
+  double held_back_s_ = 0;       // time in which it failed to turn to the laser with its prey
+  double backing_s_ = 0;         // remaining time of driving back
+  double since_signal_s_ = 1e9;  // since another robot with blue LEDs was seen
 };

@@ -1,4 +1,4 @@
-// The colours by which eyebot and footbots of the prey retrieval experiment understand one another.
+// The colours with which the eyebot and the footbots of the prey retrieval experiment communicate.
 #pragma once
 
 #include "ci_colour.h"

@@ -48,7 +48,7 @@ void CSoundSeeker::Drive()
   if (has_arrived_ || battery_->GetCharge() < 0.1) return wheels_->SetFootBotWheelsLinearVelocity(0, 0);
   double left = velocity_m_s_;
   double right = velocity_m_s_;
-  const auto turn = [&](double by)  // towards the left if positive
+  const auto turn = [&](double by)  // to the left if positive
   {
     left -= by * velocity_m_s_;
     right += by * velocity_m_s_;

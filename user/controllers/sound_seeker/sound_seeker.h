@@ -1,5 +1,5 @@
-// Looks for the loudest sound: drives towards it, turns away from what it touches, tells the others by radio when it
-// has arrived, and saves its battery.
+// Looks for the loudest sound. It drives towards the sound, turns away from obstacles that it touches, tells the others
+// by radio when it has arrived, and saves its battery.
 #pragma once
 
 #include "ci_battery_sensor.h"
@@ -26,7 +26,7 @@ public:
 
 private:
   void Listen();
-  // The wheel speeds towards the sound, around what is in the way.
+  // Sets the wheel speeds towards the sound, around obstacles.
   void Drive();
 
   swarmanoid::CCI_FootBotWheelsActuator* wheels_ = nullptr;
@@ -41,6 +41,6 @@ private:
   const swarmanoid::CCI_DistanceScannerSensor* scanner_ = nullptr;
   const swarmanoid::CCI_TagReaderSensor* tags_ = nullptr;
   double velocity_m_s_ = 0;
-  unsigned heard_ = 0;  // packets of those that arrived
+  unsigned heard_ = 0;  // packets of robots that have arrived
   bool has_arrived_ = false;
 };

@@ -1,4 +1,4 @@
-// Drives any robot on two wheels about without looking: straight on for a while, then around for a while.
+// Drives any robot on two wheels without sensors: straight on for a while, then around for a while.
 #pragma once
 
 #include "common/control_interface/ci_controller.h"

@@ -1,7 +1,7 @@
-// The e-puck, a small wheeled robot for teaching: a kind of robot that a library adds to the simulator. Everything that
-// the simulator knows of it is in this row. Lengths in metres; figures: https://cyberbotics.com/doc/guide/epuck (the
-// page of Webots, a simulator that models it), tables "E-puck features", "E-puck characteristics" and "Devices
-// orientations".
+// The e-puck, a small wheeled robot for teaching: a kind of robot that a library adds to the simulator. This row has
+// all that the simulator knows about it. Lengths are in metres. The figures are from
+// https://cyberbotics.com/doc/guide/epuck (the page of Webots, a simulator with a model of it), tables "E-puck
+// features", "E-puck characteristics" and "Devices orientations".
 #include "common/experiment/entity_kind.h"
 #include "common/math/elementary.h"
 
@@ -16,8 +16,8 @@ constexpr double kWheelRadius = 0.0205;
 constexpr double kAxle = 0.052;
 constexpr double kSensorHeight = 0.033;
 
-// x to the front, y to the left; directions counter-clockwise from the front. Number 0 is to the right of the front,
-// the others follow clockwise.
+// x is to the front, y to the left; directions are counter-clockwise from the front. Number 0 is to the right of the
+// front; the others follow clockwise.
 std::vector<ProximityRing::Sensor> ProximitySensors()
 {
   return {{{0.030, -0.010}, 1.27 - kPi / 2},      {{0.022, -0.025}, 0.77 - kPi / 2}, {{0, -0.031}, -kPi / 2},
@@ -69,10 +69,10 @@ EntityKindDescription EPuck()
   kind.mass_kg = 0.15;
   kind.colour = 0x2f9e44;
   kind.wheels = WheelDrive{kAxle, kWheelRadius, 0.25};
-  // Counter-clockwise from the front left, as rings of LEDs are numbered here.
+  // The LEDs are numbered counter-clockwise from the front left, as all rings of LEDs here.
   kind.leds = LedLayout{PlacesOnCircle(8, 0.033, kPi / 8), 0.0365, false};
   kind.proximity = ProximityRing{ProximitySensors(), kSensorHeight, 0.04};
-  // The extension with three sensors below the front.
+  // The ground sensors are those of the extension with three sensors below the front.
   kind.ground_points = {{0.03, 0.01}, {0.03, 0}, {0.03, -0.01}};
   kind.mesh = Mesh(kind.leds->places);
   return kind;

@@ -12,7 +12,7 @@ namespace
 {
 
 constexpr double kRadius = 0.0704;
-constexpr double kElevation = 0.0047;  // of the body above the ground
+constexpr double kElevation = 0.0047;  // height of the body above the ground
 constexpr double kTop = kElevation + 0.053;
 constexpr double kWheelRadius = 0.021;
 constexpr double kAxle = 0.1054;
@@ -21,7 +21,7 @@ constexpr double kMaxSpeed = 0.2;  // m/s
 constexpr double kSensorHeight = 0.0145;
 constexpr double kRange = 0.12;
 
-// Number 0 looks ahead, the others follow counter-clockwise.
+// Number 0 looks ahead; the others follow counter-clockwise.
 std::vector<ProximityRing::Sensor> InfraredSensors()
 {
   std::vector<ProximityRing::Sensor> sensors;

@@ -12,13 +12,13 @@ namespace
 {
 
 constexpr double kRadius = 0.0165;
-constexpr double kPinHeight = 0.0217;  // of the legs
+constexpr double kPinHeight = 0.0217;  // height of the legs
 constexpr double kHeight = kPinHeight + 0.0127;
 constexpr double kPinRadius = 0.0007;
-constexpr double kInterpinDistance = 0.025;  // between the legs that drive
-constexpr double kFrontPin = 0.025;          // from their line to the leg in front
-constexpr double kEccentricity = 0.0092;     // from their line to the middle of the body
-// It slides on its legs and has no wheels: what a leg rolls in a model of two wheels.
+constexpr double kInterpinDistance = 0.025;  // between the two driving legs
+constexpr double kFrontPin = 0.025;          // from the line between them to the front leg
+constexpr double kEccentricity = 0.0092;     // from the line between them to the middle of the body
+// It slides on its legs and has no wheels. This is the radius of a leg in a model with two wheels.
 constexpr double kLegAsWheel = 0.001;
 constexpr double kMaxSpeed = 0.03;  // m/s
 

@@ -22,8 +22,9 @@ constexpr double kRange = 0.1;
 constexpr double kTagHeight = 0.1385;
 constexpr double kTagSide = 0.0235;
 
-// Number 0 is to the right of the front, the others follow clockwise. They look away from the axes about which the
-// model turns them by a right angle: (0.218, 0.976), (0.730, 0.683), (1, 0), (0.630, -0.776) and their mirror images.
+// Number 0 is to the right of the front; the others follow clockwise. Their directions are perpendicular to the axes
+// about which the model turns them by a right angle: (0.218, 0.976), (0.730, 0.683), (1, 0), (0.630, -0.776) and their
+// mirror images.
 std::vector<ProximityRing::Sensor> Rangefinders()
 {
   const auto angle = [](double x, double y) { return Atan2(y, x); };
@@ -85,7 +86,7 @@ EntityKindDescription PiPuck()
   kind.mass_kg = kMass;
   kind.colour = 0x1b7f3b;
   kind.wheels = WheelDrive{kAxle, kWheelRadius, kMaxSpeed};
-  // Counter-clockwise from the front left, as rings of LEDs are numbered here.
+  // The LEDs are numbered counter-clockwise from the front left, as all rings of LEDs here.
   kind.leds = LedLayout{PlacesOnCircle(8, 0.033, kPi / 8), 0.0365, false};
   kind.proximity = ProximityRing{Rangefinders(), kSensorHeight, kRange};
   kind.mesh = Mesh(kind.leds->places);

@@ -1,9 +1,9 @@
-// Drawings of experiment functions: ids and headings of robots, the ways they have come, where their middle is and how
-// far they are spread. It changes nothing of the run. The key C forgets the ways; a robot that is selected gets a ring.
+// Draws with experiment functions: ids and headings of robots, their trails, their centre and their spread. It does not
+// change the run. The key C clears the trails; a selected robot gets a ring.
 //
 //   <drawn_swarm id="drawing" library="drawn_swarm">
 //     <robots>footbot</robots>  tag of the robots
-//     <every>5</every>          ticks between two places of a way
+//     <every>5</every>          ticks between two points of a trail
 //   </drawn_swarm>
 #include <cmath>
 #include <map>
@@ -71,7 +71,7 @@ public:
       if (!space.IsPresent(robot)) continue;
       places.push_back(space.GetPose(robot).position);
       middle += places.back();
-      // In the frame of the robot, with which they move.
+      // Drawings in the frame of the robot move with it.
       drawing.InFrameOf(robot);
       drawing.Text({0, 0, 0.3}, space.GetEntity(robot).GetId());
       drawing.Arrow({0.1, 0, 0.02}, {0.3, 0, 0.02}, {0xd02020, 1, 2});
@@ -96,7 +96,7 @@ public:
     if (input.kind == UserInput::Kind::kDeselected) selected_ = kNobody;
   }
 
-  // What it remembers is only drawn; a run that goes on begins new ways.
+  // The trails are only drawn, so a restored run begins new ones.
   bool HasState() const override { return true; }
 
 private:

@@ -1,7 +1,7 @@
-// The goal of the prey retrieval experiment: it is done when the prey that the guide chose stands in the nest, and
-// failed if that takes too long, or another prey is brought. Nobody tells which one it chose: it is the one below
-// the guide when a footbot grips for the first time. Writes the distance of each prey to the nest as CSV, and publishes
-// the least of them for studies: "to_nest".
+// The goal of the prey retrieval experiment. It is reached when the prey that the guide chose is in the nest. The
+// experiment fails if that takes too long, or if another prey is brought. The chosen prey is the one below the guide
+// when a footbot grips for the first time. Writes the distance of each prey to the nest as CSV, and publishes the least
+// of them for studies: "to_nest".
 //
 //   <prey_retrieval_goal id="goal" library="prey_retrieval_goal">
 //     <preys>prey_yellow, prey_magenta</preys>
@@ -107,7 +107,7 @@ public:
 
   void Destroy(SpaceEditor&) override { file_.reset(); }
 
-  // The file of a restored run starts where the run does.
+  // The file of a restored run starts at the tick of the restored state.
   bool HasState() const override { return true; }
   void SaveState(std::ostream& state) const override
   {
@@ -139,7 +139,7 @@ private:
   {
     return (prey.GetPosition() - nest_->GetPosition()).head<2>().norm();
   }
-  // The centre of the prey stands over the patch.
+  // Returns whether the centre of the prey is over the patch.
   bool IsInNest(const CSwarmanoidSpaceEntity& prey) const
   {
     const Vector3 seen = nest_->GetPose().Inverse().Apply(prey.GetPosition());
@@ -149,7 +149,7 @@ private:
 
   const CSwarmanoidSpaceEntity* nest_ = nullptr;
   const CSwarmanoidSpaceEntity* guide_ = nullptr;
-  const CSwarmanoidSpaceEntity* chosen_ = nullptr;  // while it is not known, none has been brought
+  const CSwarmanoidSpaceEntity* chosen_ = nullptr;  // nullptr: not known yet, so none has been brought
   std::vector<const CSwarmanoidSpaceEntity*> preys_;
   std::unique_ptr<std::FILE, Close> file_;
 };

@@ -1,5 +1,5 @@
-// A supply of preys: every so many ticks one is put into the arena at random, and those that reach the nest are taken
-// out. Robots may join in the same way. Done when enough preys were delivered.
+// A supply of preys. Every few ticks it puts a prey into the arena at random, and it removes preys that reach the nest.
+// Robots may join in the same way. The experiment is done when enough preys were delivered.
 //
 //   <prey_supply id="supply" library="prey_supply">
 //     <preys>prey</preys>       id of their <reserve>
@@ -121,7 +121,7 @@ private:
     return (entity.GetPosition() - nest_->GetPosition()).head<2>().norm() < nest_->GetSize().x();
   }
 
-  // At a place where nothing else is, if one is found in a few attempts and the reserve has one left.
+  // Adds an entity at a free place, if one is found in a few attempts and the reserve has one left.
   void AddOne(SpaceEditor& space, const std::string& reserve, RandomStream& random)
   {
     constexpr double kClearance = 0.3;  // m
@@ -136,7 +136,7 @@ private:
       const double y = random.Uniform(kClearance, size.y() - kClearance);
       const double heading = random.Uniform(-kPi, kPi);
       const Pose pose{{x, y, 0}, QuaternionFromEuler({0, 0, heading})};
-      // Large bodies reach farther than the clearance of their middles.
+      // Large bodies extend farther than the clearance of their middles.
       if (!space.GetQuery().FindWithin(pose.position, kClearance).empty() || !space.IsFree(reserve, pose)) continue;
       Write(all, "added", space.AddEntity(reserve, pose));
       return;

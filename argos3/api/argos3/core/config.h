@@ -1,7 +1,7 @@
-// What the build of ARGoS3 tells its users: Real is a double, controllers are libraries that are loaded.
+// The constants that the build of ARGoS3 gives its users: Real is a double, and controllers are loaded from libraries.
 #pragma once
 
-// The headers are C++11 but for constants that are inline, which compilers take anyway, and warn of.
+// The headers are C++11 except for inline constants, which older compilers accept with a warning.
 #if __cplusplus < 201703L && defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wc++17-extensions"
 #endif

@@ -1,16 +1,17 @@
-// What users do by keys, buttons and the picture: to what this page shows, and to the run.
+// The actions of users by keys, buttons and the picture, on the view of this page and on the run.
 import { copyOrShow } from "./clipboard.js";
 import { writeLink } from "./link.js";
 import { saveBlob } from "./ui/dom.js";
 import { robotValues } from "./view/robot_values.js";
 
 export class Actions {
-  // Of the page; its parts come by `reach`.
+  // `state` is that of the page; `reach` adds the parts of the page.
   constructor(state) {
     this.state = state;
   }
 
-  // parts: app, toolbar, list, inspector, log, picture, past, legend, tools, colourChoice, functionKeys of the page; send(request)
+  // `parts`: app, toolbar, list, inspector, log, picture, past, legend, tools, colourChoice, functionKeys of the page,
+  // and send(request).
   reach(parts) {
     Object.assign(this, parts);
   }
@@ -37,7 +38,7 @@ export class Actions {
     this.past.again();
   }
 
-  // Each: {entity, place: [x, y, z], yaw}
+  // Each change is {entity, place: [x, y, z], yaw}.
   move(changes) {
     const { editor, world } = this.state;
     if (editor) return editor.move(changes);
@@ -45,7 +46,7 @@ export class Actions {
       this.command({ do: "move", entity: world.ids[entity], position: [...place], angles: [0, 0, (yaw * 180) / Math.PI] });
   }
 
-  // pose: {x, y, z, heading}, m and degrees
+  // `pose`: {x, y, z, heading} in m and degrees.
   put(entity, verb, { x, y, z, heading }) {
     this.command({ do: verb, entity: this.state.world.ids[entity], position: [x, y, z], angles: [0, 0, heading] });
   }
@@ -58,13 +59,13 @@ export class Actions {
 
   // ---- what is selected ----
 
-  // further: the card of the one before stays.
+  // With `further`, the card of the previously selected entity stays.
   select(entity, further = false) {
     if (further && entity !== null) this.inspector.keepSelected();
     this.choose(entity, entity === null ? [] : [entity]);
   }
 
-  // Several at once: the first of them is shown in the inspector.
+  // Selects several entities; the inspector shows the first of them.
   selectAll(entities) {
     this.choose(entities[0] ?? null, entities);
   }
@@ -90,7 +91,8 @@ export class Actions {
     this.list.select(entity, chosen);
   }
 
-  // What the form of a card begins with; for one that is not in the arena, what is looked at.
+  // Returns the initial values of a card's form. For an entity outside the arena these are the point that the camera
+  // looks at.
   poseOf(entity) {
     const { picture } = this;
     const place = picture.placeOf(entity);
@@ -134,13 +136,13 @@ export class Actions {
     this.showToggle(name);
   }
 
-  // Its button is in the bar or among the tools.
+  // The button is in the bar or among the tools.
   showToggle(name) {
     this.toolbar.setToggle(name, this.picture.shows[name]);
     this.tools.set(name, this.picture.shows[name]);
   }
 
-  // The length that was measured goes with its tool.
+  // Switching the tool off also removes the measured length.
   switchTool(name) {
     const { picture } = this;
     picture[name] = !picture[name];
@@ -160,7 +162,7 @@ export class Actions {
     this.tools.set("heat", Boolean(this.picture.heat));
   }
 
-  // On a narrow screen the list of entities covers the picture only while it is wanted.
+  // On a narrow screen the list of entities covers the picture only while the user wants it.
   togglePanel(open = !this.app.classList.contains("list-open")) {
     this.app.classList.toggle("list-open", open);
     this.toolbar.setList(open);
@@ -168,17 +170,17 @@ export class Actions {
 
   // ---- what is taken along ----
 
-  // Of a picture or film that begins now.
+  // Returns the file name of a picture or film that begins now.
   fileName() {
     return `${this.state.world.experiment}_${this.state.frame?.tick ?? 0}`;
   }
 
-  // The picture as it is drawn, as a PNG.
+  // Saves the current picture as a PNG.
   savePicture() {
     this.picture.toCanvas().toBlob((blob) => saveBlob(blob, `${this.fileName()}.png`));
   }
 
-  // What a link says, once the experiment is there.
+  // Applies a link once the experiment has been received.
   openLink(wanted) {
     const { picture, state } = this;
     if (wanted.view) picture.view.viewpoint = wanted.view;

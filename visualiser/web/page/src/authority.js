@@ -1,15 +1,16 @@
-// Who may steer: what the server grants this page, and the token by which it proves that it may.
+// The rights to control the run: the grant of the server for this page, and the token by which the page proves its
+// right.
 import { keepToken, proofOf, takeToken } from "./token.js";
 
 export class Authority {
-  // parts: state, toolbar, tools, inspector of the page; send(request)
+  // `parts`: state, toolbar, tools, inspector of the page, and send(request).
   constructor(parts) {
     Object.assign(this, parts);
     this.token = takeToken();
     this.challenge = null;
   }
 
-  // Of a connection that begins: what this page may do without a proof, and what one has to answer; null: nothing.
+  // Handles a new connection: the rights of this page without a proof, and the challenge to answer; null: none.
   welcome(control, challenge) {
     this.challenge = challenge;
     this.grant(control);
@@ -23,7 +24,7 @@ export class Authority {
     for (const part of [this.toolbar, this.tools, this.inspector]) part.setControl(control);
   }
 
-  // That this page has the token, without telling it.
+  // Proves that this page has the token, without sending it.
   prove() {
     if (this.token && this.challenge) this.send({ do: "prove", proof: proofOf(this.token, this.challenge) });
   }
@@ -37,7 +38,7 @@ export class Authority {
     this.prove();
   }
 
-  // The address in the bar is another one.
+  // Handles another address in the address bar.
   addressChanged() {
     const given = takeToken();
     if (given === this.token) return;

@@ -1,4 +1,5 @@
-// Whether the text is in the clipboard; a browser that lets no page write there shows it to be copied, under a title.
+// Returns whether the text was copied to the clipboard. If the browser refuses, the text is shown under a title for
+// copying by hand.
 export async function copyOrShow(title, text) {
   try {
     await navigator.clipboard.writeText(text);

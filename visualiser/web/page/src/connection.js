@@ -1,10 +1,10 @@
-// The connection to the server: comes back by itself when the server does.
+// The connection to the server. It reconnects when the server comes back.
 
 const FIRST_DELAY_MS = 300;
 const LONGEST_DELAY_MS = 3000;
 
 export class Connection {
-  // handlers: onOpen(), onClose(), onText(message), onFrame(buffer)
+  // `handlers`: onOpen(), onClose(), onText(message), onFrame(buffer).
   constructor(handlers) {
     this.handlers = handlers;
     this.delay = FIRST_DELAY_MS;

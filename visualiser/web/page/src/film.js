@@ -1,12 +1,12 @@
-// A film of the picture, as the browser draws it: recorded until it is stopped, then saved.
+// Records a film of the picture as the browser draws it, until it is stopped, and saves it.
 import { h, saveBlob } from "./ui/dom.js";
 
-const RATE = 30; // pictures a second at most
-const BITS_A_PIXEL = 4; // a second
+const RATE = 30; // the most pictures a second
+const BITS_A_PIXEL = 4; // for each second
 const TYPES = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm", "video/mp4"];
 
 export class Film {
-  // actions: fileName(), changed(on), trouble(text)
+  // `actions`: fileName(), changed(on), trouble(text).
   constructor(picture, actions) {
     this.picture = picture;
     this.actions = actions;
@@ -22,7 +22,7 @@ export class Film {
     const type = globalThis.MediaRecorder && TYPES.find((each) => MediaRecorder.isTypeSupported(each));
     if (!type) return this.actions.trouble("This browser cannot film; P saves single pictures.");
     const { canvas } = this.picture.view;
-    // Of even size, as coders of films want it; it stays so if the window changes.
+    // Video encoders need an even size. The size stays if the window changes.
     [this.width, this.height] = [canvas.width & ~1, canvas.height & ~1];
     this.canvas = h("canvas", { width: this.width, height: this.height });
     this.context = this.canvas.getContext("2d", { alpha: false });
@@ -40,7 +40,7 @@ export class Film {
     this.picture.invalidate();
   }
 
-  // After each picture.
+  // Called after each picture.
   draw() {
     if (!this.recorder) return;
     const { picture, context } = this;

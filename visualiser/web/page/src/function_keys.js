@@ -1,9 +1,10 @@
-// Keys and selections that go to experiment functions instead of the page, while that is switched on.
+// Passes keys and selections to experiment functions instead of the page, while this is switched on.
 const NAMES = { " ": "Space", ArrowUp: "Up", ArrowDown: "Down", ArrowLeft: "Left", ArrowRight: "Right", Enter: "Return" };
 const SAME = ["Escape", "Tab", "Backspace", "Delete", "Insert", "Home", "End", "PageUp", "PageDown", "Shift", "Control", "Alt"];
 const SWITCH = "F8";
 
-// As functions know a key (docs/experiment_functions.md); null for what is no key of theirs.
+// Returns the name of a key for experiment functions (docs/experiment_functions.md); null for keys that they do not
+// get.
 export function nameOfKey(key) {
   if (NAMES[key]) return NAMES[key];
   if (SAME.includes(key) || /^F([1-9]|1[0-2])$/.test(key)) return key;
@@ -11,7 +12,8 @@ export function nameOfKey(key) {
 }
 
 export class FunctionKeys {
-  // actions: command(request), changed(on), selected(): the id of the selected entity or null, writes(element): text
+  // `actions`: command(request), changed(on), selected(): the id of the selected entity or null, writes(element):
+  // whether it takes text.
   constructor(actions) {
     this.actions = actions;
     this.on = false;
@@ -27,18 +29,18 @@ export class FunctionKeys {
     this.actions.changed(on);
   }
 
-  // All that are held: nobody hears of it while the page has no focus.
+  // Releases all held keys, since a page without focus gets no key events.
   release() {
     for (const key of this.held.values()) this.actions.command({ do: "release", key });
     this.held.clear();
   }
 
-  // id: of an entity, or null
+  // `id`: of an entity, or null.
   select(id) {
     if (this.on) this.actions.command(id === null ? { do: "deselect" } : { do: "select", entity: id });
   }
 
-  // Of the browser; true if the page has nothing to do with it.
+  // Handles a key event; returns true if the page must ignore it.
   down(event) {
     if (event.key === SWITCH) return false;
     if (!this.on || event.metaKey || (event.ctrlKey && event.key !== "Control")) return false;

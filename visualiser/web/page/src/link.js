@@ -1,8 +1,9 @@
-// A view as the fragment of an address, which no server sees: where the camera looks, what is selected and shown.
+// Stores a view in the fragment of an address, which browsers do not send to servers: the camera, the selection, and
+// the shown parts.
 
 const numbers = (list) => list.map((value) => Number(value.toFixed(4))).join(",");
 
-// view: {target, span, direction}; select: an id; shows: names; colours, quality: a name. All may be missing.
+// `view`: {target, span, direction}; `select`: an id; `shows`: names; `colours`, `quality`: a name. All are optional.
 export function writeLink({ view, select, shows, colours, quality }) {
   const fields = new URLSearchParams();
   if (view) {
@@ -17,7 +18,7 @@ export function writeLink({ view, select, shows, colours, quality }) {
   return fields.toString();
 }
 
-// What a fragment says; what is none is left out.
+// Reads a fragment; invalid parts are left out.
 export function readLink(fragment) {
   const fields = new URLSearchParams(fragment);
   const triple = (name) => {

@@ -1,11 +1,13 @@
-// Looking back at ticks of the past, on the page: what is shown instead of the present, and commands about what is looked at.
+// Looks back at ticks of the past on the page: shows them instead of the present, and offers commands for the shown
+// tick.
 import { Past } from "./past.js";
 import { copyOrShow } from "./clipboard.js";
 
 const PACE = 1; // times real time
 
 export class LookingBack {
-  // parts: state, timeline, inspector, toolbar, picture of the page; send(request); tell(text); changed(): shown or not
+  // `parts`: state, timeline, inspector, toolbar, picture of the page; send(request); tell(text); changed(): called
+  // when the past is shown or left.
   constructor(parts) {
     Object.assign(this, parts);
     this.past = new Past({ ask: (tick) => this.send({ do: "look_back", tick, entities: this.state.watched }), ended: () => this.showPresent() });
@@ -15,7 +17,7 @@ export class LookingBack {
     return this.past.isOn;
   }
 
-  // The tick; null: the present.
+  // Returns the tick; null: the present.
   get wanted() {
     return this.past.wanted;
   }
@@ -38,12 +40,12 @@ export class LookingBack {
     this.changed();
   }
 
-  // Once more: something else is wanted of it.
+  // Requests the tick again, for other details.
   again() {
     if (this.isOn) this.past.want(this.wanted, performance.now());
   }
 
-  // A state of the past has come.
+  // Shows a state of the past that has come.
   show(frame) {
     this.answered();
     if (!this.isOn) return;
@@ -64,7 +66,7 @@ export class LookingBack {
     this.timeline.showPlaying(this.isPlaying);
   }
 
-  // Of each picture.
+  // Called for each picture.
   advance(now) {
     this.past.advance(now, this.timeline.last, PACE / (this.state.world?.tickSeconds ?? 1));
   }
@@ -108,7 +110,7 @@ export class LookingBack {
     this.copy(`a new run from tick ${tick}`, this.state.branch);
   }
 
-  // What the journal does not have: the inside of the selected robot.
+  // Computes what the journal lacks: the status of the selected robot.
   inspect() {
     const { state } = this;
     const found = this.isOn ? this.runAt(this.wanted) : null;

@@ -1,4 +1,4 @@
-// The page of web_render: makes its parts, joins them, and draws.
+// The main module of web_render's page. It makes the parts of the page, joins them, and draws.
 import { Actions } from "./actions.js";
 import { Authority } from "./authority.js";
 import { Connection } from "./connection.js";
@@ -26,12 +26,12 @@ import { Picture } from "./view/picture.js";
 import { choices } from "./view/quality.js";
 import { robotValues } from "./view/robot_values.js";
 
-const HIDDEN_PERIOD_MS = 1000; // between frames while nobody sees the page
+const HIDDEN_PERIOD_MS = 1000; // between frames while the page is hidden
 const asked = new URLSearchParams(location.search).get("quality");
 const linked = readLink(location.hash.slice(1));
 const quality = [asked, linked.quality].find((name) => choices.includes(name)) ?? "auto";
 
-// editor: if the server edits a file
+// `editor`: set if the server edits a file.
 const state = { world: null, status: null, control: "read-only", selected: null, connected: false, frames: 0, drawn: 0, linkWaits: true, watched: [], run: null, live: null, editor: null };
 
 const send = (request) => connection.send(request);
@@ -153,7 +153,7 @@ function showState() {
   banner.show();
 }
 
-// There is a file instead of a run.
+// The server edits a file instead of showing a run.
 let loadingEditor = null;
 function startEditor() {
   state.status = { phase: "editing", real_time_factor: 0, speed_wanted: 1, processes: [] };
@@ -187,7 +187,7 @@ function drawNext(now) {
 }
 requestAnimationFrame(drawNext);
 
-// Another address in the bar of the same page: a token, or a link.
+// The user entered another address of the same page: a token, or a link.
 window.addEventListener("hashchange", () => {
   authority.addressChanged();
   if (state.world && picture.view?.world) actions.openLink(readLink(location.hash.slice(1)));

@@ -1,4 +1,4 @@
-// What tests, and the curious at their consoles, see of the page and do with it: window.swarmanoid.
+// The interface of the page for tests and for the browser's console: window.swarmanoid.
 import { cameraOf } from "./view/viewpoints.js";
 
 function inPage(picture, { x, y }) {
@@ -6,7 +6,7 @@ function inPage(picture, { x, y }) {
   return { x: box.left + x, y: box.top + y };
 }
 
-// The parts of the page, and what it does.
+// Returns an object with the parts of the page and its actions.
 export function pageHook({ state, past, timeline, viewpoints, list, picture, select, toggle, approach, colourBy, send }) {
   return {
     get past() {
@@ -54,7 +54,7 @@ export function pageHook({ state, past, timeline, viewpoints, list, picture, sel
     get drawn() {
       return state.drawn;
     },
-    // Milliseconds from the request of the page.
+    // Returns the milliseconds from the request of the page.
     get firstPicture() {
       return state.firstPicture ?? null;
     },
@@ -76,11 +76,11 @@ export function pageHook({ state, past, timeline, viewpoints, list, picture, sel
     get viewpoints() {
       return viewpoints.cameras;
     },
-    // What is drawn beside bodies: how many lines of each kind.
+    // Returns the number of drawn lines of each kind of mark.
     get marks() {
       return Object.fromEntries(picture.marks.lines({ link: 0 }).map(({ name, points }) => [name, points.length / 6]));
     },
-    // Of experiment functions, as they are shown.
+    // Returns the shown drawings of experiment functions.
     get drawing() {
       const drawing = picture.shownDrawing;
       const count = (groups, numbers) => groups.reduce((sum, { points }) => sum + points.length / numbers, 0);

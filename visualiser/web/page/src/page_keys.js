@@ -1,6 +1,7 @@
-// The keys of the page. As in the windows, where they have the same function.
+// The keys of the page. They have the same functions as in the windows.
 
-// parts: state, actions, toolbar, inspector, picture, viewpoints, past, film, help, log, list, functionKeys of the page
+// `parts`: state, actions, toolbar, inspector, picture, viewpoints, past, film, help, log, list, functionKeys of the
+// page.
 export function keysOf({ state, actions, toolbar, inspector, picture, viewpoints, past, film, help, log, list, functionKeys }) {
   const leave = () => {
     if (!help.element.hidden) help.toggle(false);

@@ -1,14 +1,14 @@
-// Looking back: asks the server for ticks of the past, one at a time, and plays them. What is wanted meanwhile waits, and
-// only the newest of it is asked for.
-const SILENCE_MS = 5000; // after which an answer is given up
+// Requests ticks of the past from the server, one at a time, and plays them. Requests wait meanwhile, and only the
+// newest one is sent.
+const SILENCE_MS = 5000; // after this time, an answer is no longer expected
 
 export class Past {
-  // actions: ask(tick), shown(tick), ended() when the present is reached
+  // `actions`: ask(tick), shown(tick), ended() when the present is reached.
   constructor(actions) {
     this.actions = actions;
-    this.wanted = null; // the tick that is looked at; null: the present
-    this.asked = null; // the one of which the answer is awaited
-    this.playing = null; // {tick, since}: where it began, and when
+    this.wanted = null; // the requested tick; null: the present
+    this.asked = null; // the tick whose answer is awaited
+    this.playing = null; // {tick, since}: the start of playing, and its time
   }
 
   get isOn() {
@@ -32,7 +32,7 @@ export class Past {
     this.actions.ask(this.wanted);
   }
 
-  // The state of a tick has come, or nothing can be shown of it.
+  // Handles the state of a tick, or the answer that it cannot be shown.
   answered(now) {
     const { asked } = this;
     this.asked = null;
@@ -43,7 +43,7 @@ export class Past {
     this.playing = on ? { tick: this.wanted, since: now } : null;
   }
 
-  // Of each picture. last: the newest tick; pace: ticks a second
+  // Called for each picture. `last`: the newest tick; `pace`: ticks a second.
   advance(now, last, pace) {
     if (!this.playing || (this.asked !== null && now - this.askedAt < SILENCE_MS)) return;
     const tick = this.playing.tick + Math.floor(((now - this.playing.since) * pace) / 1000);

@@ -1,8 +1,8 @@
-// The binary states of the server (docs/web_render.md), read in place: little-endian, structure of arrays.
+// Reads the binary states of the server (docs/web_render.md) in place: little-endian, structure of arrays.
 
-const KEY_MAGIC = 0x314d5753; // all of the state
-const PAST_MAGIC = 0x334d5753; // all of a state that was asked for
-const CHANGE_MAGIC = 0x324d5753; // what has changed since a key
+const KEY_MAGIC = 0x314d5753; // the whole state
+const PAST_MAGIC = 0x334d5753; // the whole state of a requested tick
+const CHANGE_MAGIC = 0x324d5753; // the changes since a key
 const HEADER_BYTES = 40;
 const STEP_M = 1e-4;
 
@@ -11,9 +11,9 @@ export const isPast = (buffer) => buffer.byteLength >= HEADER_BYTES && new DataV
 export const Flag = { lit: 1, unevenRing: 2, gripping: 4, laserOn: 8, beaconLit: 16, attached: 32, absent: 64 };
 export const RING_LEDS = 16;
 
-// Reads states in the order in which they come.
+// Reads states in the order of their arrival.
 export class FrameDecoder {
-  // null for a change whose key has not come. Throws an Error for anything else than a state.
+  // Returns null for a change whose key has not come. Throws an Error for data that is no state.
   decode(buffer) {
     const view = new DataView(buffer);
     const magic = buffer.byteLength < HEADER_BYTES ? 0 : view.getUint32(0, true);

@@ -1,17 +1,17 @@
-// What the server says: frames and messages, and whom on the page they are for.
+// Receives frames and messages of the server, and passes them to the parts of the page.
 import { FrameDecoder, isPast } from "./protocol.js";
 import { isDrawing, readDrawing } from "./view/drawing.js";
 import { World } from "./world.js";
 
 export class Reception {
-  // parts: state, actions, authority, toolbar, list, inspector, log, processes, timeline, viewpoints, banner, picture, past of the
-  // page; startEditor(), greet(): once the server has said welcome, showState()
+  // `parts`: state, actions, authority, toolbar, list, inspector, log, processes, timeline, viewpoints, banner,
+  // picture, past of the page; startEditor(); greet(): called once the server has sent its welcome; showState().
   constructor(parts) {
     Object.assign(this, parts);
     this.decoder = new FrameDecoder();
   }
 
-  // A connection begins or has ended.
+  // Handles the begin or the end of a connection.
   connected(isOpen) {
     if (isOpen) {
       this.decoder = new FrameDecoder();
@@ -45,7 +45,7 @@ export class Reception {
     if (Object.hasOwn(receivers, message.type)) receivers[message.type](this, message);
   }
 
-  // A tick before the last one, or going on after the end: a new run of the same experiment at the same address.
+  // Handles a tick before the last one, or a tick after the end: a new run of the same experiment at the same address.
   itBegan() {
     const { state } = this;
     this.log.add({ tick: 0, source: "page", level: "info", text: "the experiment was started again" });

@@ -1,10 +1,10 @@
-// The token of an address that may steer the run: kept for this tab, taken out of the address bar, and never sent. It
-// answers the server's challenge by HMAC-SHA256 (RFC 2104, FIPS 180-4). Written out here: a page that comes from another
-// machine without encryption has no crypto.subtle.
+// The token of an address that may control the run. It is kept for this tab, removed from the address bar, and never
+// sent. It answers the server's challenge by HMAC-SHA256 (RFC 2104, FIPS 180-4). The algorithm is written out here,
+// since a page from another machine without encryption has no crypto.subtle.
 const KEY = "swarmanoid.token";
 const BLOCK = 64; // bytes
 
-// Of the address, or of this tab from before; null if there is none.
+// Returns the token of the address, or the one that this tab has kept; null if none exists.
 export function takeToken() {
   const fields = new URLSearchParams(location.hash.slice(1));
   const given = fields.get("token");
@@ -21,7 +21,7 @@ export function keepToken(token) {
   sessionStorage.setItem(KEY, token);
 }
 
-// What the holder of a token answers, in hexadecimal digits.
+// Returns the answer of the token's holder to a challenge, in hexadecimal digits.
 export function proofOf(token, challenge) {
   const [key, text] = [token, challenge].map((each) => new TextEncoder().encode(each));
   const padded = (byte) => Uint8Array.from({ length: BLOCK }, (_, i) => (key[i] ?? 0) ^ byte);

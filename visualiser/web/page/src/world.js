@@ -1,7 +1,7 @@
-// What is known of the experiment: the table of entities, which stays, and the newest state, which moves.
+// The page's knowledge of the experiment: the table of entities, which is fixed, and the newest state, which changes.
 import { Flag } from "./protocol.js";
 
-// A jump further than this between two frames is no movement: somebody put the entity there.
+// A longer way between two frames is no motion: the entity was put there.
 const JUMP_M = 0.5;
 
 export class World {
@@ -19,15 +19,15 @@ export class World {
     this.beginsAtViewpoint = message.begins_at_viewpoint;
     this.ids = message.entities.id;
     this.kinds = message.entities.kind.map((kind) => message.kinds[kind]);
-    this.looks = message.looks; // by kind: what it is, and how it is drawn
+    this.looks = message.looks; // by kind: its properties, and how it is drawn
     this.engineOf = message.entities.engine;
     this.hostOf = message.entities.host;
     this.controllerOf = message.entities.controller;
-    this.meshes = message.meshes ?? []; // of the bodies
+    this.meshes = message.meshes ?? []; // meshes of the bodies
     this.bodyOf = new Map(this.bodies.map((body) => [body.entity, body]));
 
-    this.movable = []; // entity of each place in a frame
-    this.slots = new Int32Array(this.ids.length).fill(-1); // place in a frame of each entity
+    this.movable = []; // by index in a frame: the entity
+    this.slots = new Int32Array(this.ids.length).fill(-1); // by entity: the index in a frame
     message.entities.movable.forEach((moves, entity) => {
       if (!moves) return;
       this.slots[entity] = this.movable.length;
@@ -61,7 +61,7 @@ export class World {
   }
 }
 
-// The state between the last two frames, as drawn now.
+// The drawn state between the last two frames.
 export class Motion {
   constructor(count) {
     this.positions = new Float32Array(3 * count);
@@ -82,7 +82,7 @@ export class Motion {
     this.settled = false;
   }
 
-  // Fills positions and quaternions for a moment (ms). False if nothing has changed since the last call.
+  // Fills positions and quaternions for a moment (ms). Returns false if nothing has changed since the last call.
   sample(now) {
     const { frame, previous } = this;
     if (!frame || this.settled) return false;
@@ -115,7 +115,7 @@ export class Motion {
     return true;
   }
 
-  // Whether a movable entity is in the arena.
+  // Returns whether a movable entity is in the arena.
   isPresent(slot) {
     return !(this.colours[4 * slot + 3] & Flag.absent);
   }
@@ -126,7 +126,7 @@ export class Motion {
     return Math.atan2(2 * (q[i + 3] * q[i + 2] + q[i] * q[i + 1]), 1 - 2 * (q[i + 1] ** 2 + q[i + 2] ** 2));
   }
 
-  // "#rrggbb" of what shines or is painted, null if nothing does.
+  // Returns "#rrggbb" for an entity that shines or is painted, null for others.
   colour(slot, isRobot) {
     const c = 4 * slot;
     if (isRobot && !(this.colours[c + 3] & Flag.lit)) return null;

@@ -1,4 +1,4 @@
-// CCI_Controller: the base of controllers. Runs at a controller host, one object for each robot, in one thread.
+// CCI_Controller: the base of controllers. It runs at a controller host, one object for each robot, in one thread.
 #pragma once
 
 #include <argos3/core/control_interface/ci_actuator.h>
@@ -14,7 +14,7 @@ namespace argos
 class CCI_Controller : public CBaseConfigurableResource
 {
 public:
-  // The <params> of the controller.
+  // Gets the <params> of the controller.
   void Init(TConfigurationNode&) override {}
   virtual void ControlStep() {}
   void Reset() override {}
@@ -23,8 +23,8 @@ public:
   const std::string& GetId() const { return m_strId; }
   void SetId(const std::string& id) { m_strId = id; }
 
-  // The device that the experiment file lists under that tag. Throw CARGoSException, naming those listed, if it does
-  // not, or if it is of another type.
+  // Return the device with that tag in the experiment file. Throw CARGoSException with the listed devices if the tag is
+  // not listed, or if the device is of another type.
   template <class Actuator>
   Actuator* GetActuator(const std::string& tag)
   {

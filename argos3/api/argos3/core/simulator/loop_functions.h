@@ -1,4 +1,4 @@
-// CLoopFunctions: code around the steps of an experiment. Runs at the space server.
+// CLoopFunctions: code around the steps of an experiment. It runs at the space server.
 #pragma once
 
 #include <argos3/core/simulator/simulator.h>
@@ -16,13 +16,13 @@ namespace argos
 class CLoopFunctions : public CBaseConfigurableResource
 {
 public:
-  // <loop_functions>. Controllers are there, and their Init was called.
+  // Gets <loop_functions>. Controllers exist already, and their Init was called.
   void Init(TConfigurationNode&) override {}
   void Reset() override {}
   void Destroy() override {}
-  // After the physics of a tick and before the controllers.
+  // Called after the physics of a tick and before the controllers.
   virtual void PreStep() {}
-  // After the controllers; entities stand where the controllers saw them.
+  // Called after the controllers. Entities are where the controllers saw them.
   virtual void PostStep() {}
   virtual void PreExperiment() {}
   virtual void PostExperiment() {}
@@ -32,13 +32,14 @@ public:
   CSimulator& GetSimulator() { return CSimulator::GetInstance(); }
   CSpace& GetSpace() { return CSimulator::GetInstance().GetSpace(); }
 
-  // False if it would touch another body there; then nothing moves. Throws CARGoSException for what cannot move.
+  // Moves an entity. Returns false and moves nothing if it would touch another body. Throws CARGoSException for an
+  // entity that cannot move.
   virtual bool MoveEntity(CEmbodiedEntity& entity, const CVector3& position, const CQuaternion& orientation,
                           bool check_only = false, bool ignore_collisions = false);
-  // A light.
+  // Moves a light.
   virtual void MoveEntity(CPositionalEntity& entity, const CVector3& position, const CQuaternion& orientation);
-  // Puts into the arena an entity that the experiment file declares and that was removed, or a robot that it does not
-  // declare (in a run of one process; GetController() is there at once). The object becomes the simulator's. Throws
+  // Adds an entity that the experiment file declares and that was removed, or a robot that the file does not declare.
+  // Such robots need a run of one process; GetController() works at once. The simulator takes ownership. Throws
   // CARGoSException for a box, cylinder or light that the file does not declare, and if there are too many robots.
   virtual void AddEntity(CEntity& entity);
   virtual void RemoveEntity(const std::string& id);

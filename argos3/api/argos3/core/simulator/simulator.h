@@ -18,16 +18,16 @@ public:
   static CSimulator& GetInstance();
 
   CSpace& GetSpace() { return space_; }
-  // Throws CARGoSException if this process runs none.
+  // Throws CARGoSException if this process runs no loop functions.
   CLoopFunctions& GetLoopFunctions();
-  // Whatever the id: one engine has all.
+  // Returns the only engine for any id.
   CPhysicsEngine& GetPhysicsEngine(const std::string& id)
   {
     engine_.SetId(id);
     return engine_;
   }
   const CPhysicsEngine::TVector& GetPhysicsEngines() const { return engines_; }
-  // One of each type.
+  // Returns the only medium of each type.
   template <class Medium>
   Medium& GetMedium(const std::string& id)
   {
@@ -37,29 +37,28 @@ public:
     return medium;
   }
   UInt32 GetRandomSeed() const { return seed_; }
-  // A generator of the category "argos". Throws CARGoSException where nobody draws: outside controllers and loop
-  // functions.
+  // Returns a generator of the category "argos". Throws CARGoSException outside controllers and loop functions.
   CRandom::CRNG* GetRNG();
-  // How fast a run goes is a matter of --real-time.
+  // Returns false, since --real-time sets the speed of a run.
   bool IsRealTimeClock() const { return false; }
   void SetRealTimeClock(bool /*is_so*/) {}
   UInt32 GetNumThreads() const { return 0; }
   bool IsProfiling() const { return false; }
-  // The element of a controller, as it stands in the file. Throws CARGoSException for one that there is not, and as
+  // Returns the element of a controller as it is in the file. Throws CARGoSException for an unknown id, and as
   // GetConfigurationRoot.
   TConfigurationNode& GetConfigForController(const std::string& id);
-  // What GetRandomSeed says from now on; random generators and noise follow it from the next Reset on.
+  // Sets the result of GetRandomSeed. Random generators and noise use it from the next Reset on.
   void SetRandomSeed(UInt32 seed) { seed_ = seed; }
-  // The experiment file, as it stands there. Throws CARGoSException where no loop functions ask for it. Defined in the
-  // library: `swarmanoid` tells by its name that a library asks.
+  // Returns the experiment file. Throws CARGoSException outside loop functions. The function is defined in the library,
+  // since `swarmanoid` finds by its name which libraries call it.
   TConfigurationNode& GetConfigurationRoot();
-  // Ticks; 0: no end.
+  // Returns ticks; 0: no end.
   UInt32 GetMaxSimulationClock() const { return max_clock_; }
-  // The experiment ends after this step.
+  // Ends the experiment after this step.
   void Terminate() { terminated_ = true; }
-  // Random generators, noise, the space and the loop functions begin again, the clock at 0: Reset of all of them. Of
-  // the same seed the trial is the same. Called from Reset of the loop functions, it does not call that once more.
-  // Defined in the library: `swarmanoid` tells by its name that loop functions reset runs. Throws CARGoSException where
+  // Resets random generators, noise, the space and the loop functions, with the clock at 0. With the same seed the
+  // trial is the same. A call from Reset of the loop functions does not call that again. The function is defined in the
+  // library, since `swarmanoid` finds by its name which loop functions reset runs. Throws CARGoSException as
   // CSpace::Reset does.
   void Reset();
   void Reset(UInt32 seed)
@@ -69,22 +68,22 @@ public:
   }
   bool IsTerminated() const { return terminated_; }
 
-  // For a program that runs an experiment by itself, as often as it likes: SetExperimentFileName, LoadExperiment, then
-  // Execute and Reset, at the end Destroy. The experiment needs loop functions, runs in this process and shows nothing.
-  // Throw CARGoSException for what is wrong with the file, and what goes wrong in a run.
+  // For a program that runs experiments itself: SetExperimentFileName, LoadExperiment, then Execute and Reset as often
+  // as needed, at the end Destroy. The experiment needs loop functions, runs in this process and shows nothing. The
+  // functions throw CARGoSException for mistakes in the file and errors in a run.
   void SetExperimentFileName(const std::string& file) { experiment_file_ = file; }
   const std::string& GetExperimentFileName() const { return experiment_file_; }
-  // Up to Init of the loop functions.
+  // Loads the experiment, up to Init of the loop functions.
   void LoadExperiment();
-  // PreExperiment, steps until the experiment is over, PostExperiment.
+  // Calls PreExperiment, steps until the experiment is over, and calls PostExperiment.
   void Execute();
-  // One step.
+  // Does one step.
   void UpdateSpace();
   bool IsExperimentFinished() const;
-  // Another one may be loaded then.
+  // Ends the experiment; another one may be loaded then.
   void Destroy();
 
-  // For the bridge.
+  // For the bridge to the simulator.
   void Start(UInt32 seed, UInt32 max_clock)
   {
     seed_ = seed;

@@ -1,5 +1,5 @@
-// CRate: keeps a loop of a program at a rate, by the clock of the machine. What controllers of a simulation do should
-// not depend on it.
+// CRate: keeps a loop of a program at a rate, by the clock of the machine. Simulated controllers should not depend on
+// it.
 #pragma once
 
 #include <argos3/core/utility/datatypes/datatypes.h>
@@ -10,15 +10,15 @@ namespace argos
 class CRate
 {
 public:
-  // Times a second.
+  // `rate`: times a second.
   CRate(Real rate) { SetRate(rate); }
   Real GetRate() const { return rate_; }
-  // The period begins now.
+  // Starts the period now.
   void SetRate(Real rate);
-  // Since the latest Sleep.
+  // Returns the time since the last Sleep.
   UInt64 ElapsedUS() const;
   Real ElapsedS() const { return static_cast<Real>(ElapsedUS()) * 1e-6; }
-  // To the end of the period; says so on LOGERR if that has passed.
+  // Waits until the end of the period; reports on LOGERR if that has passed.
   void Sleep();
 
 private:

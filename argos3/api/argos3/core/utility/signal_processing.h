@@ -1,4 +1,4 @@
-// CStats and CRCLowPassFilter: of numbers that come one after another.
+// CStats and CRCLowPassFilter, for sequences of numbers.
 #pragma once
 
 #include <argos3/core/utility/math/general.h>
@@ -6,7 +6,7 @@
 namespace argos
 {
 
-// Mean and variance (Welford's sums).
+// Computes mean and variance (Welford's sums).
 class CStats
 {
 public:
@@ -18,7 +18,7 @@ public:
     squares_ += away * (value - mean_);
   }
   Real GetMean() const { return mean_; }
-  // Of the population that the numbers are a sample of; 0 for fewer than two.
+  // Returns the variance of the population from which the numbers are a sample; 0 for fewer than two.
   Real GetVariance() const { return count_ > 1 ? squares_ / static_cast<Real>(count_ - 1) : 0; }
   Real GetStdDev() const { return Sqrt(GetVariance()); }
 
@@ -28,12 +28,13 @@ private:
   Real squares_ = 0;
 };
 
-// Each output is between the input and the output before: `smoothing` 0 follows the input, 1 never moves.
+// Each output is between the input and the previous output: with `smoothing` 0 it follows the input, with 1 it never
+// changes.
 class CRCLowPassFilter
 {
 public:
   CRCLowPassFilter(Real smoothing) : smoothing_(smoothing) {}
-  // The first input goes through.
+  // The first input is returned unchanged.
   Real Filter(Real input)
   {
     output_ = is_first_ ? input : input + smoothing_ * (output_ - input);

@@ -1,4 +1,4 @@
-// Texts: conversions, splitting, replacing.
+// Converts, splits and replaces texts.
 #pragma once
 
 #include <argos3/core/utility/configuration/argos_exception.h>
@@ -23,7 +23,7 @@ T FromString(const std::string& text)
   return value;
 }
 
-// `count` values with `delimiter` between them. Throws CARGoSException if there are fewer.
+// Reads `count` values with `delimiter` between them. Throws CARGoSException if there are fewer.
 template <class T>
 void ParseValues(std::istream& input, UInt32 count, T* values, char delimiter = '\n')
 {
@@ -49,7 +49,7 @@ std::string StringToLowerCase(const std::string& text);
 void Replace(std::string& text, const std::string& original, const std::string& substitute);
 // `pattern`: an extended regular expression.
 bool MatchPattern(const std::string& text, const std::string& pattern);
-// $NAME becomes the value of that environment variable; one that is not set stays as it is.
+// Replaces $NAME by the value of that environment variable; an unset one stays unchanged.
 std::string& ExpandEnvVariables(std::string& text);
 
 }  // namespace argos

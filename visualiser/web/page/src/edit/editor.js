@@ -1,19 +1,20 @@
-// The page as an editor of an experiment file (docs/edit.md): loaded when the server says that there is a file instead of
-// a run. The server holds the text, makes the changes and says what is wrong with it; this asks for them and shows them.
+// The page as an editor of an experiment file (docs/edit.md). It is loaded when the server says that it edits a file
+// instead of showing a run. The server holds the text, makes the changes and checks the file. This module sends
+// requests and shows the results.
 import { h, setText } from "../ui/dom.js";
 import { ElementForm } from "./element_form.js";
 
 const LONGEST_REQUEST = 60000; // bytes; the server ends a connection with longer ones
 
 export class Editor {
-  // page: app, main, picture, left, send(request), choose(entities), tell(text), trouble(text)
+  // `page`: app, main, picture, left, send(request), choose(entities), tell(text), trouble(text).
   constructor(page) {
     this.page = page;
     this.document = null;
-    this.path = ""; // of the element whose form is shown
-    this.kind = null; // what the next click on the floor places
-    this.many = false; // whether several elements are selected, of which none has its form shown
-    this.waiting = []; // requests, until the one before is answered
+    this.path = ""; // path of the element whose form is shown
+    this.kind = null; // kind that the next click on the floor places
+    this.many = false; // whether several elements are selected; then no form is shown
+    this.waiting = []; // requests that wait for the answer to the previous one
     this.isBusy = false;
     this.form = new ElementForm({ edit: (change) => this.edit(change), open: (path) => this.open(path) });
     this.addBar();
@@ -44,10 +45,10 @@ export class Editor {
 
   // ---- what the server tells ----
 
-  // The token was proved: only now the server answers.
+  // Starts once the token was proved, since the server does not answer before.
   begin() {
     this.isBusy = false;
-    this.document = null; // another server may count from the start
+    this.document = null; // another server may count from the start again
     this.page.send({ do: "document" });
     this.show(this.path);
   }
@@ -72,11 +73,11 @@ export class Editor {
     this.form.show(form, this.document);
   }
 
-  // What was asked for is refused.
+  // Handles a refused request.
   refused(text) {
     this.isBusy = false;
     this.form.say(text);
-    // The element may have gone: then that above it is shown.
+    // If the element is gone, the element above it is shown.
     if (/not there any more/.test(text)) this.open(this.path.split("/").slice(0, -1).join("/"));
     else this.form.restore();
     this.sendNext();
@@ -141,7 +142,7 @@ export class Editor {
     this.ask({ do: "edit", ...change });
   }
 
-  // One after the other: an edit is of the text that the request before has made.
+  // Sends requests one after the other, since an edit refers to the text that the previous request has made.
   ask(request) {
     if (new TextEncoder().encode(JSON.stringify(request)).length > LONGEST_REQUEST) return this.form.say("This text is too long to be edited here.");
     this.waiting.push(request);
@@ -166,7 +167,7 @@ export class Editor {
     this.chooseShown();
   }
 
-  // The entities of the element whose form is shown are selected in the picture.
+  // Selects the entities of the shown element in the picture.
   chooseShown() {
     if (!this.document || this.many) return;
     const number = this.document.paths.indexOf(this.path);
@@ -174,7 +175,7 @@ export class Editor {
     this.page.choose(entities);
   }
 
-  // A click in the picture or the list.
+  // Handles a click in the picture or the list.
   select(entity) {
     if (entity === null) return this.open(this.document?.arena ?? "");
     const path = this.pathOf(entity);
@@ -185,7 +186,7 @@ export class Editor {
     return this.document?.paths[this.document.path_of[entity]];
   }
 
-  // changes: {entity, place: [x, y, z], yaw} of each
+  // `changes`: {entity, place: [x, y, z], yaw} for each entity.
   move(changes) {
     const places = changes.map(({ entity, place, yaw }) => ({ path: this.pathOf(entity), position: [...place], heading: (yaw * 180) / Math.PI }));
     if (places.every(({ path }) => path !== undefined)) this.edit({ change: "place", places });
@@ -204,14 +205,14 @@ export class Editor {
     this.page.main.classList.toggle("placing", kind !== null);
   }
 
-  // A click on the floor; true if it placed something.
+  // Handles a click on the floor; returns true if it placed an entity.
   place(point) {
     if (this.kind === null || !point || !this.document || this.document.arena === null) return false;
     this.edit({ change: "add", path: this.document.arena, tag: this.kind, at: point.slice(0, 2).map((metres) => Math.round(metres * 1000) / 1000) });
     return true;
   }
 
-  // True if the key was for the editor.
+  // Returns true if the editor has used the key.
   key(event) {
     const { tagName, value, dataset } = event.target;
     const typing = ["INPUT", "TEXTAREA"].includes(tagName) && value !== dataset.shown;
@@ -219,9 +220,9 @@ export class Editor {
     if (event.key === "Escape" && this.kind !== null) this.arm(null);
     else if (!(event.ctrlKey || event.metaKey) || event.altKey) return false;
     else if (key === "s") {
-      document.activeElement?.blur(); // what is typed is part of it
+      document.activeElement?.blur(); // the typed text belongs to the change
       this.ask({ do: "save" });
-    } else if (typing) return false; // a field undoes what was typed itself
+    } else if (typing) return false; // a field undoes its own typed text
     else if (key === "z") this.ask({ do: event.shiftKey ? "redo" : "undo" });
     else if (key === "y") this.ask({ do: "redo" });
     else return false;

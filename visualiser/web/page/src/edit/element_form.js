@@ -1,12 +1,12 @@
-// The panel on the right of the editor: the values of one element by a form made from the tables that declare them, its
-// parts, what may be added to it, and its text.
+// The panel on the right of the editor. It shows the values of one element in a form made from the tables that declare
+// them, its parts, the elements that may be added, and its text.
 import { h, setText } from "../ui/dom.js";
 
-const HINT = "place" + "holder"; // in two parts: the word alone is forbidden in this tree
+const HINT = "place" + "holder"; // in two parts, since a test forbids the word in the sources
 const NUMERIC = new Set(["integer", "number"]);
 
 export class ElementForm {
-  // actions: edit(change), open(path)
+  // `actions`: edit(change), open(path).
   constructor(actions) {
     this.actions = actions;
     this.said = h("div.refusal", { role: "alert" });
@@ -20,13 +20,13 @@ export class ElementForm {
     setText(this.said, text);
   }
 
-  // What is typed and was refused goes.
+  // Removes typed values that were refused.
   restore() {
     if (this.form) this.show(this.form, this.document, this.said.textContent);
   }
 
   show(form, document_, said = "") {
-    // A field that is left by the tabulator keeps the focus in the new form.
+    // After the Tab key, the new form keeps the focus at the next field.
     const focused = this.element.contains(document.activeElement) ? document.activeElement.name : null;
     const open = this.form?.path === form.path && this.body.querySelector("details.xml")?.open;
     this.form = form;
@@ -96,7 +96,7 @@ export class ElementForm {
   choice({ value, required, default: usual }, choices, onchange) {
     const options = choices.map((text) => h("option", { value: text }, text));
     if (!required || value === null) options.unshift(h("option", { value: "" }, required ? "choose …" : `default: ${usual || "none"}`));
-    // Another spelling, or something wrong, is shown as it stands.
+    // A value with another spelling, or a wrong one, is shown unchanged.
     if (value !== null && !choices.includes(value)) options.push(h("option", { value }, value));
     const select = h("select", { onchange }, ...options);
     select.value = value ?? "";

@@ -1,10 +1,10 @@
-// One line over the picture: that the page has no connection, that the run waits, has ended or began again.
+// A line over the picture about the connection and the run: disconnected, waiting, ended, or started again.
 import { h, setText } from "./dom.js";
 
 const NEWS_MS = 5000;
 
 export class Banner {
-  // state: of the page; isLookingBack(): whether it shows the past
+  // `state`: of the page; isLookingBack(): whether it shows the past.
   constructor(state, { isLookingBack }) {
     this.state = state;
     this.isLookingBack = isLookingBack;
@@ -12,7 +12,7 @@ export class Banner {
     this.newsUntil = 0;
   }
 
-  // The experiment was started again.
+  // Shows that the experiment was started again.
   itBegan() {
     this.newsUntil = Infinity;
     this.show();
@@ -37,7 +37,7 @@ export class Banner {
     return this.newsLasts() ? "The experiment was started again." : "";
   }
 
-  // The time of the news begins when nothing more urgent stands in its place.
+  // Starts the display time of the message once no more urgent one is shown.
   newsLasts() {
     if (this.newsUntil === Infinity) {
       this.newsUntil = performance.now() + NEWS_MS;

@@ -1,4 +1,4 @@
-// Small helpers for the panels.
+// Small functions for the panels.
 
 // h("button.big", { title: "…", onclick }, "text", child)
 export function h(what, attributes = {}, ...children) {
@@ -13,7 +13,7 @@ export function h(what, attributes = {}, ...children) {
   return element;
 }
 
-// Writes only what differs: the browser lays out nothing anew.
+// Writes only changed texts, so that the browser need not lay out the page again.
 export function setText(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
@@ -23,7 +23,7 @@ export function fixed(value, digits = 3) {
   return (Math.abs(value) < 0.5 * 10 ** -digits ? 0 : value).toFixed(digits);
 }
 
-// 12345.6 s as 3:25:45.6
+// Returns 12345.6 s as 3:25:45.6.
 export function clockText(seconds) {
   const hours = Math.floor(seconds / 3600);
   const minutes = Math.floor((seconds % 3600) / 60);
@@ -51,7 +51,7 @@ export function icon(name) {
   return svg;
 }
 
-// Downloads it.
+// Downloads the blob.
 export function saveBlob(blob, name) {
   const link = h("a", { href: URL.createObjectURL(blob), download: name.replaceAll(/[^\w.-]+/g, "_") });
   link.click();

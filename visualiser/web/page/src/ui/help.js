@@ -1,4 +1,4 @@
-// The keys, over everything.
+// The list of keys, over the whole page.
 import { h } from "./dom.js";
 
 const KEYS = [

@@ -1,5 +1,5 @@
-// The panel on the right: one card for the selected entity and for each that is pinned, with pose, owner, attributes,
-// readings and the state of the controller. Any number can be plotted by a click.
+// The panel on the right. It has a card for the selected entity and for each pinned one, with pose, owner, attributes,
+// readings and the state of the controller. A click plots a value; any number can be plotted.
 import { fixed, h, hex, setText } from "./dom.js";
 import { Flag } from "../protocol.js";
 import { Plot } from "./plot.js";
@@ -7,8 +7,9 @@ import { SwarmCard } from "./swarm_card.js";
 
 const DEGREES = 180 / Math.PI;
 const COLOURS = new Set(["led", "beacon", "colour", "laser_colour"]);
-const MANY = 8; // values of a device that are bars instead of rows
-const HIDDEN_ATTRIBUTES = new Set(["message", "radio", "report", "instruction"]); // bytes that devices show as what they are
+const MANY = 8; // from this number of values on, a device has bars instead of rows
+// Bytes that devices show in readable form.
+const HIDDEN_ATTRIBUTES = new Set(["message", "radio", "report", "instruction"]);
 
 // A row of a table: a name and a value that can be plotted.
 class Row {
@@ -20,7 +21,7 @@ class Row {
     if (unit !== null) {
       this.element.className = "plottable";
       this.element.addEventListener("click", () => card.togglePlot(key, `${name}`, unit));
-      // The row takes clicks, its name the keyboard.
+      // The row takes clicks; its name is a button for the keyboard.
       this.element.firstChild.replaceChildren(h("button.plot-button", { title: "Plot", "aria-label": `Plot ${name}` }, name));
     }
   }
@@ -45,7 +46,7 @@ class Row {
   }
 }
 
-// Many values of one kind, such as the rays of a ring: a bar for each.
+// Shows many values of one kind, such as the rays of a ring, with a bar for each.
 class Bars {
   constructor(card, section, key, names, unit) {
     this.unit = unit;
@@ -106,7 +107,7 @@ class Card {
     else this.addForm();
   }
 
-  // Moves the entity, takes it out of the arena or puts it in, to the millimetre and by the keyboard.
+  // Adds a form that moves the entity, or takes it out of the arena or into it, to the millimetre and by the keyboard.
   addForm() {
     const { actions } = this.panel;
     const field = (name, label, step) => {
@@ -123,7 +124,7 @@ class Card {
       (this.put = h("button.small", { type: "submit" }, "Move")),
       (this.remove = h("button.small", { type: "button", title: "Take it out of the arena  (Delete)", onclick: () => actions.remove(this.entity) }, "Remove")),
     );
-    // At once: the event `toggle` comes later, and would take the place of what is typed already.
+    // The form is filled at once. The event `toggle` comes later and would overwrite text that is typed already.
     const fill = () => details.open || this.fillForm();
     const details = h("details.place", {}, h("summary", { onclick: fill }, "Move, add, remove"), this.form);
     this.place = details;
@@ -268,7 +269,7 @@ class Card {
     return held.length ? held.join(", ") : "nothing";
   }
 
-  // Values of one unit share a plot.
+  // Values with the same unit share a plot.
   togglePlot(key, title, unit) {
     const open = this.plots.get(key);
     if (open) {
@@ -296,11 +297,11 @@ class Card {
 }
 
 export class Inspector {
-  // actions: watch(entities), follow(entity), deselect(), put(entity, "move" or "add", pose), remove(entity), poseOf(entity),
-  // swarmChanged(on)
+  // `actions`: watch(entities), follow(entity), deselect(), put(entity, "move" or "add", pose), remove(entity),
+  // poseOf(entity), swarmChanged(on).
   constructor(actions) {
     this.actions = actions;
-    this.cards = []; // the pinned ones, then the selected one
+    this.cards = []; // pinned cards, then the selected one
     this.selected = null;
     this.swarm = null;
     this.mayControl = false;
@@ -335,7 +336,7 @@ export class Inspector {
     this.refresh();
   }
 
-  // The card of the swarm, above the others.
+  // Shows or hides the card of the swarm, above the others.
   toggleSwarm(on = !this.swarm) {
     this.swarm?.element.remove();
     this.swarm = on ? new SwarmCard((text) => `${this.world.experiment} ${text}`, () => this.toggleSwarm(false)) : null;
@@ -344,7 +345,7 @@ export class Inspector {
     this.refresh();
   }
 
-  // What is selected next gets a card of its own.
+  // Pins the card, so that the next selection gets its own.
   keepSelected() {
     if (this.selected && !this.selected.pin.classList.contains("on")) this.togglePin();
   }
@@ -394,13 +395,13 @@ export class Inspector {
     for (const details of entities) for (const card of this.cards) if (card.entity === details.entity) card.addDetails(time, details);
   }
 
-  // What was computed of robots at the tick that is looked at, or why it cannot be.
+  // Shows the computed status of robots at the requested tick, or why it cannot be computed.
   addInside({ entities, error }) {
     if (error) for (const card of this.cards) if (this.world.isRobot(card.entity)) card.tell(error);
     this.addDetails({ time_s: null, entities });
   }
 
-  // on: what is shown from now on is of the past. Nothing of it goes into the plots, whose time goes on.
+  // `on`: the shown state is of the past from now on. Plots ignore it, since their time continues.
   lookBack(on) {
     this.past = on;
     for (const card of this.cards) card.lookBack(on);

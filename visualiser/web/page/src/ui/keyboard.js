@@ -1,6 +1,7 @@
-// The keys of the page: what is done for each, unless somebody writes text.
+// Calls the actions of the page's keys, unless the user types text.
 
-// keys: functions by event.key, or by its lower case; digit(number, event): with Ctrl; first(event): true if that was all; isReady()
+// `keys`: functions by event.key, or by its lower case; digit(number, event): with Ctrl; first(event): true if it has
+// used the key; isReady().
 export function listenToKeys({ keys, digit, first, isReady }) {
   window.addEventListener("keydown", (event) => {
     if (first(event)) return;

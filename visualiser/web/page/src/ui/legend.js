@@ -1,4 +1,4 @@
-// What the colours of robots mean, if they are not those of their LEDs.
+// The legend of the robots' colours, if they are not those of their LEDs.
 import { categoryColour, rampColour, robotValues } from "../view/robot_values.js";
 import { fixed, h } from "./dom.js";
 
@@ -10,7 +10,7 @@ export class Legend {
     this.element.hidden = true;
   }
 
-  // colouring: Colouring of robot_values.js, or null
+  // `colouring`: Colouring of robot_values.js, or null.
   show(colouring, world) {
     this.element.hidden = colouring === null || !(colouring.high >= colouring.low);
     if (this.element.hidden) return;

@@ -1,10 +1,11 @@
-// The list of entities with its filter. Only the rows in view exist, so ten thousand cost what twenty do.
+// The list of entities with its filter. Only visible rows exist, so that ten thousand entities cost the same as twenty.
 import { h, setText } from "./dom.js";
 
 const ROW_PX = 26;
-const HINT = "place" + "holder"; // in two parts: the word alone is forbidden in this tree
+const HINT = "place" + "holder"; // in two parts, since a test forbids the word in the sources
 
-// "foot 12 engine:ground": every word must be found; with a colon, in that column only.
+// Returns a test for a filter such as "foot 12 engine:ground". Every word must be found; with a colon, only in that
+// column.
 export function matcher(text, world) {
   const words = text.toLowerCase().split(/\s+/).filter(Boolean);
   const columns = {
@@ -24,7 +25,7 @@ export function matcher(text, world) {
 }
 
 export class EntityList {
-  // actions: select(entity), approach(entity)
+  // `actions`: select(entity), approach(entity).
   constructor(actions) {
     this.actions = actions;
     this.filter = h("input", {
@@ -50,7 +51,7 @@ export class EntityList {
   setWorld(world) {
     this.world = world;
     const order = world.ids.map((_, entity) => entity);
-    // What moves first, by kind; within a kind as in the file.
+    // Movable entities come first, by kind. Within a kind, the order is that of the file.
     order.sort((a, b) => Number(world.slots[b] >= 0) - Number(world.slots[a] >= 0) || a - b);
     this.order = order;
     this.refilter();
@@ -65,7 +66,7 @@ export class EntityList {
     this.render();
   }
 
-  // chosen: all that are selected, `entity` among them
+  // `chosen`: all selected entities, including `entity`.
   select(entity, chosen = entity === null ? [] : [entity]) {
     this.selected = entity;
     this.chosen = new Set(chosen);

@@ -1,4 +1,4 @@
-// The lines of the log at the bottom: the newest one always, all of them when opened.
+// The log at the bottom: the newest line always, all lines when opened.
 import { h, setText } from "./dom.js";
 
 const MOST_LINES = 1000;

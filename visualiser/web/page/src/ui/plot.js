@@ -1,4 +1,5 @@
-// Values of one unit over simulated time on a canvas: the last minute or the whole run, as a picture or a table, too.
+// Plots values of one unit over simulated time on a canvas, for the last minute or the whole run. It also gives them as
+// a picture or a table.
 import { h, saveBlob, setText } from "./dom.js";
 import { Series, toCsv } from "./series.js";
 
@@ -18,7 +19,7 @@ function numberText(value) {
 }
 
 export class Plot {
-  // fileName: without ending
+  // `fileName`: without ending.
   constructor(unit, fileName, onClose) {
     this.unit = unit;
     this.fileName = fileName;
@@ -79,7 +80,7 @@ export class Plot {
     saveBlob(new Blob([toCsv([...this.series.values()], this.unit)], { type: "text/csv" }), `${this.fileName()}.csv`);
   }
 
-  // With a background and the names: the canvas alone has neither.
+  // Saves the picture with background and names, which the canvas lacks.
   savePicture() {
     const ratio = window.devicePixelRatio || 1;
     const [width, height] = [this.canvas.width, this.canvas.height + 18 * ratio];
@@ -100,7 +101,7 @@ export class Plot {
     copy.toBlob((blob) => saveBlob(blob, `${this.fileName()}.png`));
   }
 
-  // What is shown: first and last time, lowest and highest value, on round numbers.
+  // Returns the first and last time, and the lowest and highest value, rounded.
   bounds() {
     const all = [...this.series.values()].filter(({ times }) => times.length > 0);
     if (all.length === 0) return null;
@@ -169,7 +170,7 @@ export class Plot {
   }
 }
 
-// The line, and about a mean the band of one standard deviation.
+// Draws the line and, for a mean, the band of one standard deviation around it.
 function drawSeries(context, { times, values, spreads }, first, x, y, colour) {
   if (spreads.length > 0) {
     context.beginPath();

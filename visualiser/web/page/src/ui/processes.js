@@ -1,4 +1,4 @@
-// The processes of the run: who they are, how far, who is late.
+// The processes of the run: names, progress and delays.
 import { h, setText } from "./dom.js";
 
 const LATE_S = 0.5;

@@ -1,9 +1,9 @@
-// A value over simulated time, for the whole run: where there are too many points the older half is thinned out.
+// A value over simulated time, for the whole run. With too many points, the older half is thinned out.
 
 export const MOST_POINTS = 20000;
 
 export class Series {
-  // name: what the legend and the table call it
+  // `name`: for the legend and the table.
   constructor(name) {
     this.name = name;
     this.clear();
@@ -12,10 +12,10 @@ export class Series {
   clear() {
     this.times = [];
     this.values = [];
-    this.spreads = []; // of a mean: the standard deviation; else empty
+    this.spreads = []; // for a mean: the standard deviation; else empty
   }
 
-  // spread: the standard deviation, of a mean. A value that is infinite, not a number or null is none.
+  // `spread`: the standard deviation of a mean. An infinite value, NaN or null makes a gap.
   add(time, value, spread) {
     const last = this.times.at(-1);
     if (last !== undefined && time < last) this.clear(); // another run
@@ -33,7 +33,7 @@ export class Series {
     for (const list of ["times", "values", "spreads"]) this[list] = this[list].filter(keeps);
   }
 
-  // The first point at or after a time.
+  // Returns the first point at or after a time.
   from(time) {
     let [low, high] = [0, this.times.length];
     while (low < high) {
@@ -47,7 +47,7 @@ export class Series {
 
 const quoted = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
 
-// All points of several series as a table: a line for each time, an empty field where a series has no value.
+// Returns all points of several series as a table: a line for each time, with an empty field if a series has no value.
 export function toCsv(series, unit) {
   const columns = series.flatMap(({ name, spreads }) => [name, ...(spreads.length > 0 ? [`${name}, standard deviation`] : [])]);
   const lines = [["time (s)", ...columns.map((name) => (unit ? `${name} (${unit})` : name))].map(quoted).join(",")];

@@ -1,13 +1,13 @@
-// The card of the swarm: mean and band of any value over all robots, or over those that are selected.
+// The card of the swarm: mean and band of any value over all robots, or over the selected ones.
 import { robotValues } from "../view/robot_values.js";
 import { h, setText } from "./dom.js";
 import { Plot } from "./plot.js";
 
 export class SwarmCard {
-  // fileName(text): the name of a file without ending; onClose()
+  // fileName(text): the name of a file without ending; onClose().
   constructor(fileName, onClose) {
     this.fileName = fileName;
-    this.plots = new Map(); // by the value's name
+    this.plots = new Map(); // by the name of the value
     this.who = h("div.dim");
     this.area = h("div.plots");
     this.choices = Object.entries(robotValues)
@@ -37,7 +37,7 @@ export class SwarmCard {
     for (const [each, button] of this.choices) button.setAttribute("aria-pressed", String(this.plots.has(each)));
   }
 
-  // robots: those that count; all: whether they are all of the experiment
+  // `robots`: the counted ones; `all`: whether they are all robots of the experiment.
   addFrame(frame, meter, robots, all) {
     setText(this.who, `mean and standard deviation of ${all ? "all " : ""}${robots.length} ${all ? "" : "selected "}robots`);
     for (const [name, plot] of this.plots) {
@@ -46,7 +46,7 @@ export class SwarmCard {
     }
   }
 
-  // Other robots: what was before does not belong to them.
+  // Clears the plots for other robots, since earlier values do not belong to them.
   clear() {
     for (const plot of this.plots.values()) for (const series of plot.series.values()) series.clear();
   }

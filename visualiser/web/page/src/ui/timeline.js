@@ -1,13 +1,13 @@
-// The timeline below the picture: which tick is shown, the events of the run as marks, and the way back to the present.
+// The timeline below the picture: the shown tick, the events of the run as marks, and the way back to the present.
 import { clockText, h, icon, setText } from "./dom.js";
 
 export class Timeline {
-  // actions: look(tick), play(), live(), branch()
+  // `actions`: look(tick), play(), live(), branch().
   constructor(actions) {
     this.actions = actions;
     this.first = this.last = 0;
     this.events = [];
-    this.past = null; // the tick that is looked at; null: the present
+    this.past = null; // the requested tick; null: the present
     this.play = h("button.icon", { onclick: () => actions.play() }, icon("resume"));
     this.track = h("input.track", {
       type: "range",
@@ -24,7 +24,7 @@ export class Timeline {
     this.showPlaying(false);
   }
 
-  // message: of the server; tickSeconds: of simulated time
+  // Takes a message of the server. `tickSeconds`: simulated time of a tick.
   set({ first, last, events, all_events: all }, tickSeconds) {
     Object.assign(this, { first, last, tickSeconds });
     this.element.hidden = last <= first;
@@ -56,7 +56,7 @@ export class Timeline {
     });
   }
 
-  // The tick of the past that is shown; null: the present.
+  // `past`: the shown tick of the past; null: the present.
   show(past) {
     this.past = past;
     this.track.value = past ?? this.last;
@@ -79,7 +79,7 @@ export class Timeline {
     this.live.setAttribute("aria-pressed", String(this.past === null));
   }
 
-  // The event after or before a tick.
+  // Returns the event after or before a tick.
   neighbour(tick, forward) {
     const ticks = this.events.map((event) => event.tick).filter((t) => t >= this.first && (forward ? t > tick : t < tick));
     return ticks.length === 0 ? null : forward ? Math.min(...ticks) : Math.max(...ticks);

@@ -1,11 +1,11 @@
-// The bar at the top: the experiment, its clock and pace, the controls, what is shown.
+// The bar at the top: the experiment, its clock and pace, the controls, and the view options.
 import { choices } from "../view/quality.js";
 import { clockText, h, icon, setText } from "./dom.js";
 
 const SPEEDS = [0.25, 0.5, 1, 2, 5, 10, 50, 0];
 
 export class Toolbar {
-  // actions: command(request), toggle(name), help(), top(), fit(), quality(name), plan(), list(), unlock()
+  // `actions`: command(request), toggle(name), help(), top(), fit(), quality(name), plan(), list(), unlock().
   constructor(actions) {
     this.actions = actions;
     this.name = h("span.name", {}, "Swarmanoid");
@@ -79,7 +79,7 @@ export class Toolbar {
     this.list.setAttribute("aria-expanded", String(open));
   }
 
-  // wanted: what was chosen; chosen: what is drawn
+  // `wanted`: the user's choice; `chosen`: the drawn quality.
   setQuality(wanted, chosen) {
     this.quality.value = wanted;
     const [auto] = this.quality.options;
@@ -93,7 +93,7 @@ export class Toolbar {
     this.toggles[name]?.setAttribute("aria-pressed", String(on));
   }
 
-  // control: "granted", "token needed", "wrong token" or "read-only"
+  // `control`: "granted", "token needed", "wrong token" or "read-only".
   setControl(control) {
     const granted = control === "granted";
     for (const element of [this.pause, this.step, this.speed, this.stop, this.reset]) element.disabled = !granted;

@@ -1,8 +1,9 @@
-// The tools over the picture, folded away until they are wanted: each is a button with its key, or a choice.
+// The tools over the picture, folded until the user opens them. Each is a button with its key, or a choice.
 import { h } from "./dom.js";
 
 export class Tools {
-  // groups: lists of {name, label, key, title, act, control} (control: only for who may steer) or elements
+  // `groups`: lists of elements, or of {name, label, key, title, act, control}. `control`: only for pages that may
+  // control the run.
   constructor(groups) {
     this.buttons = {};
     const part = (tool) => {

@@ -1,18 +1,19 @@
-// The viewpoints of the experiment and those that the user keeps: the menu that recalls them, their keys, and the flight through them.
+// The viewpoints of the experiment and those that the user stores: the menu that recalls them, their keys, and the
+// flight through them.
 import { Flight, cameraOf, viewOf, viewpointXml } from "../view/viewpoints.js";
 import { h } from "./dom.js";
 
 const MOST = 10;
 
 export class ViewpointsMenu {
-  // picture: of the page; world(): of the experiment; tell(text); left(): the camera follows nobody any more
+  // `picture`: of the page; world(): of the experiment; tell(text); left(): called when the camera stops following.
   constructor({ picture, world, tell, left }) {
     Object.assign(this, { picture, world, tell, left });
     this.cameras = [];
     this.element = h("select", { "aria-label": "Viewpoint", onchange: () => this.element.value !== "" && this.recall(Number(this.element.value)) });
   }
 
-  // list: {number, position, heading, pitch, roll} of each
+  // `list`: {number, position, heading, pitch, roll} of each.
   set(list) {
     this.cameras = [];
     for (const { number, ...camera } of list) this.cameras[number] = camera;
@@ -35,14 +36,14 @@ export class ViewpointsMenu {
     this.left();
   }
 
-  // Without a number: as the next one.
+  // Without a number, the next free one is used.
   async store(number = this.free) {
     const camera = cameraOf(this.picture.view.viewpoint);
     this.cameras[number] = camera;
     this.show();
     const xml = viewpointXml(number, camera);
     this.tell(`viewpoint ${number}: ${xml.replace("\n", " ")}`);
-    await navigator.clipboard?.writeText(xml).catch(() => {}); // the browser may let no page write there; the log has it
+    await navigator.clipboard?.writeText(xml).catch(() => {}); // the browser may refuse the copy; the log has the text
   }
 
   get free() {

@@ -1,5 +1,5 @@
-// The floor with its grid, and what stands on it: walls, blocks, patches, holes, lights, sounds and terrain. Of these only
-// lights, sounds and patches may come, go and move.
+// The floor with its grid, and the static content: walls, blocks, patches, holes, lights, sounds and terrain. Only
+// lights, sounds and patches may appear, disappear and move.
 import * as THREE from "three";
 import { floorPicture } from "./floor_picture.js";
 import { isPainted, meshGeometry } from "./object_mesh.js";
@@ -8,7 +8,8 @@ import { BoundaryWall } from "./walls.js";
 
 const FLAT_M = 0.0006; // between one layer on the floor and the next
 
-// Without a texture: to fill a picture with one costs a processor more than all that stands on it.
+// Lines are used instead of a texture, since filling a picture with a texture in software costs more than all bodies on
+// it.
 function gridLines(width, depth, step, colour) {
   const points = [];
   for (let x = step; x < width; x += step) points.push(x, 0, FLAT_M / 2, x, depth, FLAT_M / 2);
@@ -40,9 +41,9 @@ export class Arena {
     this.group = new THREE.Group();
     this.Material = quality.lit ? THREE.MeshStandardMaterial : THREE.MeshLambertMaterial;
     this.finish = quality.lit ? { roughness: 0.85, metalness: 0 } : {};
-    this.objects = new Map(); // entity to what bears its colour
-    this.moving = []; // those that movable entities have
-    this.walls = []; // at the edge of the arena
+    this.objects = new Map(); // entity to the mesh with its colour
+    this.moving = []; // objects of movable entities
+    this.walls = []; // walls at the edge of the arena
     scene.add(this.group);
     this.addFloor(theme, quality);
     let layer = 1;
@@ -147,7 +148,7 @@ export class Arena {
     return wall.object;
   }
 
-  // y of 0: a disc of radius x.
+  // If y is 0, the shape is a disc of radius x.
   flatShape(x, y) {
     return y === 0 ? new THREE.CircleGeometry(x, 64) : new THREE.PlaneGeometry(x, y);
   }
@@ -199,7 +200,7 @@ export class Arena {
     return group;
   }
 
-  // Heights at the middles of cells; cells without ground are left out.
+  // The heights are at the middles of cells; cells without ground are left out.
   makeTerrain({ low, high, columns, rows, heights }) {
     const positions = new Float32Array(3 * columns * rows);
     for (let row = 0; row < rows; row++)

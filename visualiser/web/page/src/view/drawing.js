@@ -1,12 +1,13 @@
-// What experiment functions draw, as the server tells it (docs/web_render.md): little-endian, read in place.
+// Reads drawings of experiment functions (docs/web_render.md) in place: little-endian.
 const DRAWING_MAGIC = 0x344d5753;
 const HEADER_BYTES = 32;
 const [LINE_WORDS, TRIANGLE_WORDS, DOT_WORDS] = [8, 10, 5];
 
 export const isDrawing = (buffer) => buffer.byteLength >= HEADER_BYTES && new DataView(buffer).getUint32(0, true) === DRAWING_MAGIC;
 
-// {tick, lines: [{width, colour, opacity, points}], triangles: [{opacity, …}], dots: [{diameter, …}], texts: [{place, text, colour, opacity}]}:
-// lists of what looks alike; points: three numbers a place. Throws an Error for anything else than a drawing.
+// Returns {tick, lines: [{width, colour, opacity, points}], triangles: [{opacity, …}], dots: [{diameter, …}], texts:
+// [{place, text, colour, opacity}]}. Shapes of equal look form one list; `points` has three numbers a place. Throws an
+// Error for data that is no drawing.
 export function readDrawing(buffer) {
   const view = new DataView(buffer);
   const [lines, triangles, dots] = [4, 8, 12].map((place) => view.getUint32(place, true));
@@ -16,7 +17,7 @@ export function readDrawing(buffer) {
   const numbers = new Float32Array(buffer, HEADER_BYTES, words);
   const colours = new Uint32Array(buffer, HEADER_BYTES, words);
   let at = 0;
-  // places: numbers of one; size: whether another number follows its colour
+  // `places`: the number of places of a shape; `size`: whether another number follows its colour.
   const read = (count, places, size) => {
     const groups = new Map();
     for (let i = 0; i < count; i++) {

@@ -1,4 +1,5 @@
-// What experiment functions draw, in three dimensions; drawing: of drawing.js. Texts are the overlay's.
+// Draws the drawings of experiment functions in three dimensions; `drawing` is that of drawing.js. The overlay draws
+// their texts.
 import * as THREE from "three";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
@@ -39,7 +40,7 @@ function triangles(group) {
   return new THREE.Mesh(places(group.points), new THREE.MeshBasicMaterial({ ...look(group), ...over }));
 }
 
-// As wide as they say, which the lines of WebGL are not.
+// The lines have their width in pixels, which WebGL's own lines lack.
 function lines(group) {
   const geometry = new LineSegmentsGeometry().setPositions(group.points);
   return new LineSegments2(geometry, new LineMaterial({ ...look(group), linewidth: group.width, polygonOffset: true, polygonOffsetFactor: -3, polygonOffsetUnits: -6 }));
@@ -47,7 +48,7 @@ function lines(group) {
 
 function dots(group) {
   const material = new THREE.PointsMaterial({ ...look(group), size: group.width * Math.min(window.devicePixelRatio || 1, 2), sizeAttenuation: false });
-  // Round ones, as balls would be: what they stand on hides no half of them.
+  // Dots are drawn like balls, so that the ground under them hides no half of them.
   material.onBeforeCompile = (shader) => {
     shader.vertexShader = shader.vertexShader.replace(
       "gl_PointSize = size;",

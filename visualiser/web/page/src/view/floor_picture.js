@@ -1,5 +1,5 @@
-// A picture on a patch of the floor, as the server sends it (runs of pixels in the colours of a palette), on a canvas: each
-// colour seen through the tint. Its first row is the highest y.
+// Draws a picture on a patch of the floor onto a canvas. The server sends runs of pixels in the colours of a palette,
+// and each colour is multiplied by the tint. The first row has the highest y.
 export function floorPicture({ columns, rows, palette, runs }, tint = 0xffffff) {
   const canvas = document.createElement("canvas");
   [canvas.width, canvas.height] = [columns, rows];

@@ -1,11 +1,11 @@
-// Whether WebGL is drawn by the processor, as on remote desktops and virtual machines, or is missing. To ask may take half
-// a second, so a worker asks (graphics_worker.js) while the page goes on.
+// Finds out whether WebGL is drawn by the processor, as on remote desktops and virtual machines, or is missing. The
+// test may take half a second, so a worker does it (graphics_worker.js) while the page continues.
 
 const PATIENCE_MS = 3000;
 
-// canvas: one that nobody uses
+// `canvas`: an unused one.
 export function drawsInSoftware(canvas) {
-  // Browsers that know it refuse at once, without starting to draw in software only to be asked.
+  // Browsers that know the answer refuse at once, without starting to draw in software.
   const gl = canvas.getContext("webgl2", { failIfMajorPerformanceCaveat: true });
   if (!gl) return true;
   const info = gl.getExtension("WEBGL_debug_renderer_info");
@@ -14,7 +14,7 @@ export function drawsInSoftware(canvas) {
   return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 }
 
-// A promise of that answer.
+// Returns a promise of that answer.
 export function findGraphics() {
   return new Promise((answer) => {
     const ask = () => answer(drawsInSoftware(document.createElement("canvas")));

@@ -1,10 +1,10 @@
-// Where robots have been how often: seconds in each cell of a grid over the arena, as a picture.
+// A heat map of the robots' positions: seconds in each cell of a grid over the arena, as a picture.
 import { Flag } from "../protocol.js";
 import { rampColour } from "./robot_values.js";
 
 const MOST_CELLS = 96; // along the longer side
 const LEAST_CELL_M = 0.08; // about half a footbot
-const FULL = 0.85; // opacity of the cell with most
+const FULL = 0.85; // opacity of the cell with the largest value
 const PICTURE_EVERY_S = 0.5; // of simulated time
 
 export class HeatMap {
@@ -19,7 +19,7 @@ export class HeatMap {
     this.pictureTime = -Infinity;
   }
 
-  // True if the picture has changed.
+  // Returns true if the picture has changed.
   add(frame) {
     if (this.time === null || frame.time < this.time) {
       this.time = frame.time;
@@ -45,7 +45,7 @@ export class HeatMap {
     return this.seconds.reduce((most, value) => Math.max(most, value), 0);
   }
 
-  // Row 0 has the lowest y.
+  // Draws the picture, whose row 0 has the lowest y.
   draw() {
     this.canvas ??= Object.assign(document.createElement("canvas"), { width: this.columns, height: this.rows });
     const context = this.canvas.getContext("2d");
@@ -53,7 +53,7 @@ export class HeatMap {
     const most = Math.max(this.most, 1e-9);
     this.seconds.forEach((value, i) => {
       if (value === 0) return;
-      const share = Math.sqrt(value / most); // rare visits are seen, too
+      const share = Math.sqrt(value / most); // the root makes rare visits visible
       image.data.set([...rampColour(share), 255 * FULL * (0.35 + 0.65 * share)], 4 * i);
     });
     context.putImageData(image, 0, 0);

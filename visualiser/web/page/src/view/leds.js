@@ -1,5 +1,5 @@
-// The colours of all LEDs in one texture, and the material that shows them: 20 texels a robot, 16 LEDs,
-// their mean and the beacon.
+// The colours of all LEDs in one texture, and the material that shows them. A robot has 20 texels: 16 LEDs, their mean
+// and the beacon.
 import * as THREE from "three";
 import { BEACON, MEAN_LED } from "./models.js";
 import { Flag, RING_LEDS } from "../protocol.js";
@@ -19,7 +19,7 @@ export class LedTexture {
     this.texture.needsUpdate = true;
   }
 
-  // From a frame; slotOf: place in the frame of an entity.
+  // Updates the texture from a frame. `slotOf`: index of an entity in the frame.
   update(frame, slotOf) {
     const colours = new Uint32Array(frame.colours.buffer, frame.colours.byteOffset, frame.count);
     let changed = false;
@@ -79,7 +79,7 @@ export function ledMaterial(texture) {
         shine = texelFetch(leds, ivec2(column, row), 0);
         gl_Position = projectionMatrix * modelViewMatrix * instanceMatrix * vec4(position, 1.0);
       }`,
-    // Colours of LEDs are shown as they are written, whatever the light of the scene.
+    // Colours of LEDs are shown unchanged, whatever the light of the scene.
     fragmentShader: `
       varying vec4 shine;
       varying float whole;

@@ -1,4 +1,4 @@
-// How things look, in 3D and in plan: what both kinds of view share and neither library needs.
+// The look of bodies and floor in 3D and in plan: constants for both views, without any library.
 
 // The palette of all renderers (visualiser/scene/material.h); a test compares the two.
 export const palette = {
@@ -15,7 +15,7 @@ export const palette = {
   ray_hit: 0xd9483b,
 };
 
-// By day that palette, by night one of the page's own.
+// The themes for day, which is that palette, and for night, which only the page has.
 export const themes = {
   light: { background: palette.sky, sky: 0xffffff, ground: 0xb9c0c9, sun: 2.1, hemisphere: 1.5, floor: palette.floor, line: palette.floor_line, rim: 0x9aa5b1, link: 0x6a48b8 },
   dark: { background: 0x11161d, sky: 0xdfe9f5, ground: 0x2b323c, sun: 1.9, hemisphere: 1.35, floor: 0x3a444f, line: 0x4c5763, rim: 0x687482, link: 0xb59cff },
@@ -24,13 +24,13 @@ export const themes = {
 export const SELECTION = 0x3d8bfd;
 export const GRIP = 0xf08a3c;
 export const LED_OFF = 0x59626c;
-// Of trails, in turn: neighbours can be told apart.
+// The colours of trails in turn; neighbours are easy to distinguish.
 export const TRAILS = [0x3d8bfd, 0xe08a2e, 0x2fa58a, 0xb65fcf, 0xd9575a, 0x8a9a2f, 0x4fa3c7, 0xa0785a];
 
 export const css = (colour) => `#${(colour & 0xffffff).toString(16).padStart(6, "0")}`;
 export const rgb = (colour) => [(colour >> 16) & 255, (colour >> 8) & 255, colour & 255];
 
-// For picking, labels and the choice of the level of detail.
+// Sizes for picking, labels and the choice of the level of detail.
 export const extents = {
   footbot: { radius: 0.09, height: 0.147 },
   eyebot: { radius: 0.25, height: 0.566 },
@@ -45,7 +45,7 @@ export function extentOf(world, entity) {
   return { radius: Math.hypot(x, y) / 2 || 0.1, height: z || 0.05 };
 }
 
-// A paint with the same hue, less loud, as all renderers use it for floors, walls, blocks and preys.
+// Returns a paint with the same hue, less saturated, as all renderers use it for floors, walls, blocks and preys.
 export function paint(colour) {
   const channels = rgb(colour);
   const grey = 0.3 * channels[0] + 0.59 * channels[1] + 0.11 * channels[2];
@@ -55,7 +55,7 @@ export function paint(colour) {
 // The lines of the floor, as in all renderers (visualiser/scene/floor_grid.h); a test compares the two.
 export const floorGrid = { spacings: [0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50, 100], most_cells: 14 };
 
-// Metres between them in an arena whose longer side is `extent`.
+// Returns the metres between them in an arena whose longer side is `extent`.
 export function gridStep(extent) {
   const { spacings, most_cells: cells } = floorGrid;
   return spacings.find((spacing) => extent <= cells * spacing) ?? spacings.at(-1);
@@ -64,7 +64,8 @@ export function gridStep(extent) {
 const TALL_M = 0.25; // lower walls hide nothing …
 const TALL_PART = 0.08; // … or in a small arena, lower than this part of its size
 
-// Whether a body is a wall at the edge of the arena: long, tall, and within half a thickness and a fiftieth of the arena's size of one of its sides.
+// Returns whether a body is a wall at the edge of the arena. It must be long and tall. It must be within half a
+// thickness, and a fiftieth of the arena's size, of one of the arena's sides.
 export function isBoundaryWall({ size: [x, y, z], position }, arena) {
   const thickness = Math.min(x, y);
   if (z < Math.min(TALL_M, TALL_PART * Math.max(arena[0], arena[1])) || Math.max(x, y) < 4 * thickness) return false;

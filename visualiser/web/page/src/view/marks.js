@@ -1,20 +1,21 @@
-// What is shown of entities beside their bodies if it is wanted, as the server tells it: rays of proximity sensors, the
-// bodies that engines collide, and who hears whom by range and bearing. Lines in metres, for whichever view draws them.
+// Optional marks of entities beside their bodies, from the server: rays of proximity sensors, the bodies that engines
+// collide, and the links of range and bearing. They are lines in metres, for either view.
 import { palette } from "./look.js";
 import { rotate } from "./turning.js";
 
-const [CYLINDER, HULL] = [1, 2]; // what the first number of a body says
-const MOST = { rays: 200, bodies: 400, links: 1000 }; // entities that are asked for: those next to the middle of the picture
+const [CYLINDER, HULL] = [1, 2]; // values of the first number of a body
+// The limits of requested entities, which are those nearest to the middle of the picture.
+const MOST = { rays: 200, bodies: 400, links: 1000 };
 const ASK_MS = 300;
-const MARGIN_PX = 40; // about the picture
+const MARGIN_PX = 40; // around the picture
 const ANTENNA_M = 0.1; // above the base
 const RIM = 24; // pieces of a circle
-const MOST_INK = 0.15; // of the picture
+const MOST_INK = 0.15; // the part of the picture that lines may cover
 const FAINTEST = 0.06;
-const SAMPLE = 200; // lines whose length in the picture is looked at
+const SAMPLE = 200; // lines whose length in the picture is measured
 
 export class Marks {
-  // send(request)
+  // `send`: send(request).
   constructor(picture, send) {
     this.picture = picture;
     this.send = send;
@@ -25,7 +26,7 @@ export class Marks {
     this.forget();
   }
 
-  // Another server, or another run: it is to be asked anew.
+  // Forgets the marks and requests them again, for another server or another run.
   forget() {
     this.told = null;
     this.asked = JSON.stringify({ rays: [], bodies: [], links: [] });
@@ -61,7 +62,7 @@ export class Marks {
       seen.push({ entity, away: Math.hypot(at.x - width / 2, at.y - height / 2) });
     }
     seen.sort((a, b) => a.away - b.away);
-    // In the order of the table: while the same are seen, nothing is asked anew.
+    // The entities are in the order of the table, so that an unchanged selection causes no new request.
     const nearest = (name, fits) =>
       shows[name] ? seen.map(({ entity }) => entity).filter(fits).slice(0, MOST[name]).sort((a, b) => a - b) : [];
     const isRobot = (entity) => world.isRobot(entity);
@@ -77,7 +78,8 @@ export class Marks {
     this.picture.invalidate();
   }
 
-  // Of an entity: [x, y, z] in its frame as a place of the space; null if it is not in the arena.
+  // Returns a function from a place [x, y, z] in the frame of an entity to the space; null if the entity is not in the
+  // arena.
   frameOf(entity) {
     const { picture, world } = this;
     const place = picture.placeOf(entity);
@@ -87,7 +89,7 @@ export class Marks {
     return (point) => rotate(point, quaternion, at).map((value, k) => value + place[k]);
   }
 
-  // [{name, colour, points, opacity}]: six numbers of `points` are a line.
+  // Returns [{name, colour, points, opacity}]. Six numbers of `points` are a line.
   lines(theme) {
     const { told, picture } = this;
     if (!told || !this.shown) return [];
@@ -104,7 +106,7 @@ export class Marks {
     ];
   }
 
-  // Lines that would fill the picture say nothing: the more of it they cover, the fainter they are.
+  // Returns the opacity of lines. The more of the picture they cover, the fainter they are.
   opacityOf(points) {
     const { view } = this.picture;
     const count = points.length / 6;
@@ -146,7 +148,7 @@ export class Marks {
     }
   }
 
-  // A whole line if both hear each other; else the half on the side of the one who is heard.
+  // Adds a whole line if both robots hear each other; else the half at the robot that is heard.
   addLinks({ both, one }, list) {
     const antenna = (entity) => this.frameOf(entity)?.([0, 0, ANTENNA_M]);
     const add = (from, to, part) => {

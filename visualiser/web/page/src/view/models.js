@@ -1,8 +1,9 @@
-// The bodies of the robots: the models that all renderers share (meshes.json), put together for instancing. Three levels of
-// detail and, for those that are a few pixels wide, a plain cylinder and a disc. Metres, base at z = 0, front along x.
+// The bodies of the robots: the models that all renderers share (meshes.json), prepared for instancing. They have three
+// levels of detail. Robots of a few pixels have a plain cylinder or a disc. Lengths are in metres, the base is at z =
+// 0, the front is along x.
 //
-// Of each level: `body` with colours at its vertices, `leds` whose attribute `led` is the number of each, and `clear` for
-// what is seen through.
+// Each level has `body` with colours at its vertices, `leds` whose attribute `led` is the number of the LED, and
+// `clear` for see-through parts.
 import * as THREE from "three";
 import { extents, paint } from "./look.js";
 
@@ -13,7 +14,7 @@ const BEACON_LIGHT = 16; // in meshes.json
 const PIXELS = [70, 14, 7];
 const DOT_PIXELS = 5;
 
-// Vertices without indices, as they come.
+// Collects vertices without indices.
 class Builder {
   constructor() {
     this.positions = [];
@@ -64,7 +65,7 @@ function buildLevel(meshes, parts, level, tint) {
   return { body: builders.body.build(), leds: builders.leds.build(), clear: builders.clear.build(), pixels: PIXELS[level] };
 }
 
-// A cylinder whose upper part has the mean colour of the LEDs, with a nose to the front.
+// Builds a cylinder whose upper part has the mean colour of the LEDs, with a nose to the front.
 function buildDot({ radius, height }) {
   const sides = 7;
   const body = new Builder();
@@ -88,7 +89,7 @@ function buildDot({ radius, height }) {
   return { body: body.build(), leds: leds.build(), clear: null, pixels: DOT_PIXELS };
 }
 
-// The cheapest: seventeen vertices.
+// Builds the cheapest model: seventeen vertices.
 function buildDisc({ radius, height }) {
   const sides = 6;
   const fan = (r, z) => [[0, 0, z], ...Array.from({ length: sides }, (_, i) => [r * Math.cos((2 * Math.PI * i) / sides), r * Math.sin((2 * Math.PI * i) / sides), z])];
@@ -112,7 +113,7 @@ function buildDisc({ radius, height }) {
   };
 }
 
-// By kind, nearest first. Those of users come with the world.
+// Returns the models by kind, nearest level first. Those of users' kinds come with the world.
 export function makeModels(meshes, looks) {
   const levels = (models, parts, extent, tint) => [...PIXELS.map((_, level) => buildLevel(models, parts, level, tint)), buildDot(extent), buildDisc(extent)];
   const own = Object.entries(meshes.robots).map(([kind, parts]) => [kind, levels(meshes, parts, extents[kind])]);

@@ -1,7 +1,8 @@
-// The meshes that objects of an experiment name (world.meshes): of size 1, to be scaled by the size of each.
+// The meshes that objects of an experiment name (world.meshes). They have size 1 and are scaled by the size of each
+// object.
 import * as THREE from "three";
 
-// With colours at its vertices if the file has colours: then those of the entities do not count.
+// The geometry has colours at its vertices if the file has colours. Then the colours of the entities are not used.
 export function meshGeometry({ levels: [{ positions, normals, index_steps: steps, colours }] }) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.Float32BufferAttribute(positions, 3));

@@ -1,9 +1,9 @@
-// What is written over the picture in any view: rings about what is selected, names, handles, box and tape, and in a corner
-// the scale and the axes.
+// Draws over the picture in any view: rings around selected entities, names, handles, box and tape, and in a corner the
+// scale and the axes.
 import { h, setText } from "../ui/dom.js";
 import { GRIP, SELECTION, css, extentOf } from "./look.js";
 
-const RING_PIXELS = 7; // least radius of the ring about a selected entity
+const RING_PIXELS = 7; // the least radius of the ring around a selected entity
 const MOST_LABELS = 150;
 const MOST_CONSIDERED = 400;
 const LABEL_PX = 13; // height
@@ -15,7 +15,7 @@ export class Overlay {
   constructor(container, picture) {
     this.picture = picture;
     this.canvas = h("canvas.labels", { "aria-hidden": "true" });
-    this.context = this.canvas.getContext("2d", { willReadFrequently: true }); // in memory: quick to begin
+    this.context = this.canvas.getContext("2d", { willReadFrequently: true }); // in memory, which starts quickly
     this.scaleText = h("span");
     this.scaleBar = h("div.scale-bar");
     this.axes = h("canvas.axes", { width: 64, height: 64, "aria-hidden": "true" });
@@ -60,7 +60,7 @@ export class Overlay {
     if (picture.tape) this.drawTape(picture.tape);
   }
 
-  // A circle on the floor; false if part of it is behind the eye.
+  // Draws a circle on the floor; returns false if part of it is behind the eye.
   circle([x, y, z], radius, from = 0, to = 2 * Math.PI) {
     const { context } = this;
     context.beginPath();
@@ -93,7 +93,7 @@ export class Overlay {
     if (main && this.picture.canMove(entity)) this.drawArrow(place, this.picture.yawOf(entity), radius);
   }
 
-  // Where it looks: a wedge outside of its ring.
+  // Draws the heading as a wedge outside of the ring.
   drawArrow([x, y, z], yaw, radius) {
     const at = (angle, distance) => this.view.project(x + distance * Math.cos(yaw + angle), y + distance * Math.sin(yaw + angle), z);
     const corners = [at(0, 1.45 * radius), at(0.22, 1.08 * radius), at(-0.22, 1.08 * radius)];
@@ -119,7 +119,7 @@ export class Overlay {
 
   // ---- handles ----
 
-  // CSS pixels of the two handles of the selected entity; null if there are none.
+  // Returns the CSS pixels of the two handles of the selected entity; null without handles.
   get handles() {
     const { picture } = this;
     if (!picture.handles || picture.selected === null || !picture.canMove(picture.selected) || !picture.actions.mayMove()) return null;
@@ -131,7 +131,7 @@ export class Overlay {
     return move && turn ? { move, turn } : null;
   }
 
-  // "move", "turn" or null
+  // Returns "move", "turn" or null.
   handleAt(at) {
     const handles = this.handles;
     if (!handles) return null;
@@ -170,7 +170,7 @@ export class Overlay {
       if (!at) continue;
       context.globalAlpha = opacity;
       context.fillStyle = css(colour);
-      // Dark ones can be read on what is dark, and light ones on what is light.
+      // Dark texts get a light rim and light texts a dark one, so that they are readable on any ground.
       context.strokeStyle = luminance(colour) < 128 ? "rgba(255, 255, 255, 0.6)" : "rgba(0, 0, 0, 0.6)";
       context.strokeText(text, at.x, at.y);
       context.fillText(text, at.x, at.y);
@@ -291,10 +291,10 @@ export class Overlay {
   }
 }
 
-// Of 0xRRGGBB, 0 to 255.
+// Returns 0 to 255 for 0xRRGGBB.
 const luminance = (colour) => 0.299 * (colour >> 16) + 0.587 * ((colour >> 8) & 255) + 0.114 * (colour & 255);
 
-// The longest round length (1, 2 or 5 and zeros) that is no longer than `most`.
+// Returns the longest round length (1, 2 or 5 and zeros) that is at most `most`.
 export function scaleLength(most) {
   const power = 10 ** Math.floor(Math.log10(most));
   return Number((power * [5, 2, 1].find((factor) => factor * power <= most)).toPrecision(1));

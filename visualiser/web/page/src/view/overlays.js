@@ -1,4 +1,4 @@
-// What the 3D view draws beside bodies: laser beams, grips and trails.
+// The marks of the 3D view beside bodies: laser beams, grips and trails.
 import * as THREE from "three";
 import { Flag } from "../protocol.js";
 import { GRIP, TRAILS, extentOf, rgb } from "./look.js";
@@ -6,7 +6,7 @@ import { jumped } from "./trail_record.js";
 
 const BEAMS = 256;
 
-// Beams with a spot where they end.
+// Beams with a spot at their ends.
 export class Beams {
   constructor(scene, world) {
     this.world = world;
@@ -52,7 +52,7 @@ export class Beams {
   }
 }
 
-// A line from each robot to what it holds, and to the ceiling if it is attached there.
+// Lines from each robot to what it holds, and to the ceiling if it is attached there.
 export class Grips {
   constructor(scene, world) {
     this.world = world;
@@ -88,7 +88,7 @@ export class Grips {
   }
 }
 
-// Lines of other makers: see marks.js. Those about bodies are seen through them.
+// Lines that marks.js makes. Bodies do not hide the lines around them.
 export class MarkLines {
   constructor(scene) {
     this.group = new THREE.Group();
@@ -119,7 +119,7 @@ export class MarkLines {
   }
 }
 
-// The trails: line segments in blocks, one block a sample, the oldest overwritten, fading with age.
+// The trails: line segments in blocks, one block a sample. The oldest block is overwritten, and lines fade with age.
 const RAISED_M = 0.006;
 
 export class Trails {
@@ -162,11 +162,11 @@ export class Trails {
     });
     this.lines = new THREE.LineSegments(geometry, this.material);
     this.lines.frustumCulled = false;
-    this.drawn = 0; // samples
+    this.drawn = 0; // number of drawn samples
     scene.add(this.lines);
   }
 
-  // Takes over what was recorded since the last call.
+  // Adds the samples that were recorded since the last call.
   update() {
     const { record } = this;
     this.lines.visible = record.on;
@@ -183,7 +183,7 @@ export class Trails {
     this.lines.geometry.setDrawRange(0, (Math.min(record.added, this.samples) * this.block) / 3);
   }
 
-  // The way from the sample before to this one.
+  // Writes the line from the previous sample to this one.
   write(number) {
     const { array } = this.positions;
     const start = (number % this.samples) * this.block;
@@ -196,7 +196,7 @@ export class Trails {
         array[start + 6 * i + 3 + k] = to[3 * i + k] + raised;
       }
     }
-    // Ranges gather until the next picture uploads them.
+    // Ranges accumulate until the next picture uploads them.
     this.positions.addUpdateRange(start, this.block);
     this.positions.needsUpdate = true;
   }

@@ -1,10 +1,10 @@
-// Which of the bodies that cannot move a ray meets first: for the editor, where they can be chosen, too.
+// Finds the static body that a ray meets first, for the editor, in which static bodies can be selected, too.
 
 const CUT_M = 0.35; // higher parts of walls are cut open
-const THIN_M = 0.02; // of what lies on the floor
-const SMALL_M = 0.12; // lights and sounds
+const THIN_M = 0.02; // thickness of flat bodies on the floor
+const SMALL_M = 0.12; // size of lights and sounds
 
-// origin, direction: of the ray, in metres. The entity; null if it meets none.
+// `origin`, `direction`: of the ray, in metres. Returns the entity; null if it meets none.
 export function pickBody(world, origin, direction) {
   let best = null;
   let nearest = Infinity;
@@ -20,7 +20,7 @@ export function pickBody(world, origin, direction) {
   return best;
 }
 
-// In the frame of the body.
+// Returns the box in the frame of the body.
 function boxOf({ role, form, based }, { size: [x, y, z] }) {
   if (form === "box" && !based) return { low: [-x / 2, -y / 2, -z / 2], high: [x / 2, y / 2, Math.min(z / 2, -z / 2 + Math.max(CUT_M, z / 10))] };
   if (form === "box") return { low: [-x / 2, -y / 2, 0], high: [x / 2, y / 2, z] };
@@ -30,10 +30,10 @@ function boxOf({ role, form, based }, { size: [x, y, z] }) {
     return { low: [-a, -b, 0], high: [a, b, THIN_M] };
   }
   if (role === "light" || role === "sound") return { low: [-SMALL_M, -SMALL_M, -SMALL_M], high: [SMALL_M, SMALL_M, SMALL_M] };
-  return {}; // terrain is chosen from the list
+  return {}; // terrain is selected in the list
 }
 
-// Along the ray to the box; null if it passes by.
+// Returns the distance along the ray to the box; null if it misses.
 function entry(from, direction, low, high) {
   let [near, far] = [0, Infinity];
   for (let k = 0; k < 3; k++) {
@@ -48,7 +48,7 @@ function entry(from, direction, low, high) {
   return near <= far ? near : null;
 }
 
-// A vector, turned by a quaternion x, y, z, w.
+// Returns a vector turned by a quaternion x, y, z, w.
 function turned([x, y, z, w], [a, b, c]) {
   const [i, j, k] = [2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)];
   return [a + w * i + y * k - z * j, b + w * j + z * i - x * k, c + w * k + x * j - y * i];

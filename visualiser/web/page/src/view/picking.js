@@ -1,10 +1,10 @@
-// Which entity is under the pointer: the nearest whose bounding sphere the ray of sight meets.
+// Finds the entity under the pointer: the nearest one whose bounding sphere the ray of sight meets.
 import * as THREE from "three";
 import { extentOf } from "./look.js";
 
 const raycaster = new THREE.Raycaster();
 
-// x, y: -1 to 1, as three.js counts. slack: radians by which a ray may miss.
+// `x`, `y`: -1 to 1, as in three.js. `slack`: radians by which a ray may miss.
 export function pick(world, motion, camera, x, y, slack = 0.004) {
   raycaster.setFromCamera(new THREE.Vector2(x, y), camera);
   const { origin, direction } = raycaster.ray;
@@ -30,7 +30,7 @@ export function pick(world, motion, camera, x, y, slack = 0.004) {
   return best;
 }
 
-// Where the ray meets the floor at a height; null if it does not.
+// Returns the point where the ray meets the floor at a height; null if it does not.
 export function floorPoint(camera, x, y, height) {
   raycaster.setFromCamera(new THREE.Vector2(x, y), camera);
   return raycaster.ray.intersectPlane(new THREE.Plane(new THREE.Vector3(0, 0, 1), -height), new THREE.Vector3());

@@ -1,5 +1,5 @@
-// The picture of the experiment: what is shown, whichever view draws it. The plan is part of this page; the view in three
-// dimensions is loaded when it is wanted, so that a browser that draws in software never waits for it.
+// The picture of the experiment: its content, independent of the view that draws it. The plan is part of this page. The
+// view in three dimensions is loaded on demand, so that a browser that draws in software never waits for it.
 import { h } from "../ui/dom.js";
 import { Motion } from "../world.js";
 import { HeatMap } from "./heat_map.js";
@@ -13,43 +13,42 @@ import { Governor, isPaced, qualities } from "./quality.js";
 import { Colouring, Meter } from "./robot_values.js";
 import { TrailRecord } from "./trail_record.js";
 
-const GRAPHICS_WAIT_MS = 100; // for the answer whether there is a graphics card, before the plan begins without it
+const GRAPHICS_WAIT_MS = 100; // for the test for a graphics card; afterwards the plan begins
 const GRAPHICS_KEY = "swarmanoid.graphics";
 const STEEPEST_GAZE = 1.5; // radians
-const DOWN_FROM_ABOVE = -0.6; // the gaze of one that flies begins so …
-const DOWN = -0.05; // … and of others so
+const DOWN_FROM_ABOVE = -0.6; // initial pitch of the view from a flying robot
+const DOWN = -0.05; // initial pitch of the view from other robots
 const HIGH_M = 0.5;
-const ARROW_GAZE = 0.09; // by which an arrow key turns it
+const ARROW_GAZE = 0.09; // angle of an arrow key
 
 export class Picture {
-  // actions: select(entity, further), selectAll(entities), approach(entity), move([{entity, place, yaw}]), mayMove(),
-  // trouble(text), send(request)
-  // wanted: one of quality.js
+  // `actions`: select(entity, further), selectAll(entities), approach(entity), move([{entity, place, yaw}]), mayMove(),
+  // trouble(text), send(request). `wanted`: one of quality.js.
   constructor(container, wanted, actions) {
     this.container = container;
     this.actions = actions;
     this.wanted = wanted;
-    this.software = null; // whether WebGL is slow or missing; not known before it matters
+    this.software = null; // whether WebGL is slow or missing; null: not tested yet
     this.governor = new Governor("high");
     this.shows = { ids: false, trails: false, beams: true, shadows: false, textures: true, rays: false, bodies: false, links: false };
     this.marks = new Marks(this, (request) => actions.send(request));
-    this.drawing = null; // what experiment functions draw, of drawing.js
-    this.looksBack = false; // at a tick of which no drawing is kept
+    this.drawing = null; // drawings of experiment functions, from drawing.js
+    this.looksBack = false; // shows a tick for which no drawing is stored
     this.selected = null;
-    this.edits = false; // whether what cannot move may be chosen and placed, too
-    this.chosen = []; // all that are selected, the one above among them
+    this.edits = false; // whether static entities may be selected and moved, too
+    this.chosen = []; // all selected entities, including the one above
     this.followed = null;
     this.aboard = null; // the robot that carries the camera, in three dimensions
-    this.gaze = { yaw: 0, pitch: 0 }; // how its camera is turned, radians
-    this.flight = null; // from viewpoint to viewpoint
-    this.colouring = null; // what robots are coloured by instead of by their LEDs
-    this.heat = null; // where they have been, if that is shown
+    this.gaze = { yaw: 0, pitch: 0 }; // direction of its camera, radians
+    this.flight = null; // flight from viewpoint to viewpoint
+    this.colouring = null; // a value that colours robots instead of their LEDs
+    this.heat = null; // the heat map, if it is shown
     this.measures = false; // whether a drag measures
     this.handles = false; // whether the selected entity has handles
-    this.tape = this.box = null; // what a drag has measured, or is about to select
-    this.ghosts = []; // where somebody drags entities to: {entity, place, yaw}
+    this.tape = this.box = null; // the measured length, or the box of a selection
+    this.ghosts = []; // positions to which entities are dragged: {entity, place, yaw}
     this.views = {};
-    this.view = null; // until one can draw
+    this.view = null; // null until a view can draw
     this.overlay = new Overlay(container, this);
     this.useWantedView();
   }
@@ -77,18 +76,18 @@ export class Picture {
     if (this.isPlan || (this.view === null && this.wantsPlan)) return "plan";
     return isPaced(this.wanted) ? this.governor.quality : this.wanted;
   }
-  // Of the view in three dimensions.
+  // Returns the quality of the view in three dimensions.
   get quality() {
     return qualities[isPaced(this.wanted) || this.wanted === "plan" ? this.governor.quality : this.wanted];
   }
 
-  // wanted: one of quality.js
+  // `wanted`: one of quality.js.
   setQuality(wanted) {
     this.wanted = wanted;
     this.useWantedView();
   }
 
-  // From the plan to three dimensions, and back.
+  // Switches from the plan to three dimensions, and back.
   switchView() {
     if (!this.isPlan) return this.setQuality("plan");
     this.setQuality(this.software === false ? "auto" : "3D");
@@ -102,7 +101,7 @@ export class Picture {
         localStorage.setItem(GRAPHICS_KEY, software ? "software" : "card");
         if (this.wanted === "auto" && !software) this.useWantedView();
       });
-      // What was found the last time is most likely so again.
+      // The result of the last visit is most likely still right.
       const wait = localStorage.getItem(GRAPHICS_KEY) === "software" ? 0 : GRAPHICS_WAIT_MS;
       if (wait > 0) await Promise.race([this.graphics, new Promise((done) => setTimeout(done, wait))]);
       if (turn !== this.turn) return;
@@ -125,7 +124,7 @@ export class Picture {
   async loadView3d() {
     this.loading ??= Promise.all([import("./view_3d.js"), fetch("meshes.json").then((answer) => answer.json())]);
     const [{ View3d }, meshes] = await this.loading.catch((error) => {
-      this.loading = null; // the next wish tries again
+      this.loading = null; // the next request tries again
       throw error;
     });
     if (this.views.solid) return this.views.solid;
@@ -152,7 +151,7 @@ export class Picture {
     if (this.aboard !== null) view.board(true);
   }
 
-  // What the view has missed.
+  // Gives a new view the state that it has missed.
   prepare(view) {
     if (view.world !== this.world) view.setWorld(this.world);
     if (this.colours) view.paint(this.colours);
@@ -211,7 +210,7 @@ export class Picture {
     this.onColouring?.();
   }
 
-  // name: one of robot_values.js, or null for the colours of LEDs.
+  // `name`: one of robot_values.js, or null for the colours of LEDs.
   colourBy(name) {
     this.colouring = name === null ? null : new Colouring(this.world, name);
     if (this.meter.frame) this.showFrame(this.meter.frame, performance.now());
@@ -223,7 +222,7 @@ export class Picture {
     this.view?.updateHeat();
   }
 
-  // null while it is not in the arena.
+  // Returns null while the entity is not in the arena.
   placeOf(entity) {
     const slot = this.world.slots[entity];
     if (slot < 0) return this.world.bodyOf.get(entity).position;
@@ -235,7 +234,7 @@ export class Picture {
     const [x, y, z, w] = this.world.bodyOf.get(entity).orientation;
     return Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
   }
-  // Whether a hand may move it.
+  // Returns whether the user may move the entity.
   canMove(entity) {
     return this.edits || this.world.slots[entity] >= 0;
   }
@@ -298,21 +297,21 @@ export class Picture {
     if (this.aboard !== null) this.board(null);
   }
 
-  // By radians to the left and up.
+  // Turns by radians to the left and up.
   turnGaze(left, up) {
     this.gaze.yaw += left;
     this.gaze.pitch = Math.max(-STEEPEST_GAZE, Math.min(STEEPEST_GAZE, this.gaze.pitch + up));
     this.invalidate();
   }
 
-  // By arrow keys: steps to the right and up.
+  // Handles arrow keys: steps to the right and up.
   step(right, up) {
     this.flight = null;
     if (this.aboard !== null) this.turnGaze(-ARROW_GAZE * right, ARROW_GAZE * up);
     else this.view?.step(right, up);
   }
 
-  // camera: of viewpoints.js
+  // `camera`: as in viewpoints.js.
   stand(camera) {
     this.leaveRobot();
     this.follow(null);
@@ -333,7 +332,7 @@ export class Picture {
 
   // ---- drawing ----
 
-  // Called for every picture of the browser. True if there was something new.
+  // Called for every picture of the browser. Returns true if the picture has changed.
   draw(now) {
     if (!this.world || !this.view) return false;
     const moved = this.motion.sample(now);
@@ -349,20 +348,20 @@ export class Picture {
     return drew;
   }
 
-  // One that leaves the arena is waited for where it was.
+  // If the entity leaves the arena, the camera waits where the entity was.
   keepUp() {
     const place = this.placeOf(this.followed);
     if (place && this.lastFollowed) this.view.shift(...[0, 1, 2].map((k) => place[k] - this.lastFollowed[k]));
     this.lastFollowed = place && [...place];
   }
 
-  // CSS pixels of the canvas at which the middle of an entity is seen.
+  // Returns the CSS pixels of the canvas at the middle of an entity.
   seen(entity) {
     const place = this.placeOf(entity);
     return place && this.view.project(place[0], place[1], place[2] + extentOf(this.world, entity).height / 2);
   }
 
-  // The picture with what is written over it, as it is now.
+  // Returns the current picture with the overlay.
   toCanvas() {
     this.invalidate();
     this.view.draw(true);

@@ -1,12 +1,12 @@
-// What the pointer does in any view: a click selects, a double click goes there, shift and drag moves a robot or selects
-// by a box; everything else is the camera's.
+// The actions of the pointer in any view. A click selects, a double click moves the camera there, and shift with a drag
+// moves a robot or selects by a box. Everything else moves the camera.
 import { pickBody } from "./pick_body.js";
 
 const CLICK_PIXELS = 4;
-const TURN_A_PIXEL = 0.005; // of the gaze from a robot, radians
-const TURN_A_STEP = Math.PI / 24; // of who is carried, for 100 pixels of the wheel
+const TURN_A_PIXEL = 0.005; // of the view from a robot, radians
+const TURN_A_STEP = Math.PI / 24; // of a dragged entity, for 100 pixels of the wheel
 
-// Drags entities over the floor; the others that are selected come along.
+// Drags entities over the floor, together with the other selected ones.
 class Carry {
   constructor(picture, view, entity, at) {
     const [x, y, z] = picture.placeOf(entity);
@@ -30,7 +30,7 @@ class Carry {
     const [dx, dy] = [point[0] - this.start[0], point[1] - this.start[1]];
     this.picture.ghosts = this.carried.map(({ entity, place: [x, y, z], yaw }) => ({ entity, place: [x + dx, y + dy, z], yaw }));
   }
-  // By the wheel: each about itself.
+  // Turns each entity about itself by the wheel.
   turn(angle) {
     for (const each of this.carried) each.yaw += angle;
     this.turned = true;
@@ -40,7 +40,7 @@ class Carry {
     const { ghosts, actions, chosen } = this.picture;
     this.picture.ghosts = [];
     if ((!clicked || this.turned) && ghosts.length > 0) actions.move(ghosts);
-    // Only now: the panel that opens moves the picture.
+    // The selection comes last, since the panel that opens moves the picture.
     if (!chosen.includes(this.entity)) actions.select(this.entity);
   }
 }
@@ -66,7 +66,7 @@ class Turn {
   }
 }
 
-// Looks about from the robot that carries the camera.
+// Turns the view from the robot that carries the camera.
 class Gaze {
   constructor(picture, at) {
     this.picture = picture;
@@ -103,7 +103,7 @@ class Box {
   }
 }
 
-// A length along the floor.
+// Measures a length along the floor.
 class Tape {
   constructor(picture, view, at) {
     this.picture = picture;
@@ -119,7 +119,7 @@ class Tape {
   }
 }
 
-// In the editor walls, patches and lights can be chosen, too, where no robot or prey is.
+// In the editor, walls, patches and lights can be selected, too, unless a robot or prey is there.
 function pickAt(picture, view, at) {
   const entity = view.pick(at);
   if (entity !== null || !picture.edits) return entity;

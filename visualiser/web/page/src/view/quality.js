@@ -1,9 +1,9 @@
-// How much a picture in three dimensions may cost: its quality holds the pace of the pictures. Without a graphics card the
+// Limits the cost of a picture in three dimensions: the quality follows the frame rate. Without a graphics card the
 // page begins with the plan (picture.js).
 
-// Best first. ratio: pixels drawn for one of the page, at most. lit: with gloss. finest: the first level of detail of robots
-// that is drawn. coarser: how much wider than usual a robot must be for its level. plain: a floor of one colour, and no soft
-// shadows.
+// Best first. `ratio`: the most drawn pixels for a pixel of the page. `lit`: with gloss. `finest`: the first level of
+// detail of robots that is drawn. `coarser`: how much wider than usual a robot must be for its level. `plain`: a floor
+// of one colour, and no soft shadows.
 export const qualities = {
   high: { ratio: 2, lit: true, shadows: true, finest: 0, coarser: 1, plain: false },
   medium: { ratio: 1, lit: false, shadows: false, finest: 0, coarser: 1, plain: false },
@@ -12,8 +12,8 @@ export const qualities = {
 };
 const names = Object.keys(qualities);
 
-// What can be asked for: a plan or three dimensions, as this machine can; the plan; three dimensions at the pace of the
-// pictures; one quality.
+// The choices: plan or three dimensions, depending on this machine; the plan; three dimensions with a quality that
+// follows the frame rate; one quality.
 export const choices = ["auto", "plan", "3D", ...names];
 export const isPaced = (wanted) => wanted === "auto" || wanted === "3D";
 
@@ -23,11 +23,11 @@ const FALL_AFTER_MS = 1200;
 const RISE_AFTER_MS = 6000;
 const FIRST_REST_MS = 30000; // before a quality that was too slow is tried again; doubled each time
 
-// Chooses a quality by the time between pictures that follow each other at once.
+// Chooses a quality by the time between consecutive pictures.
 export class Governor {
   constructor(quality) {
     this.quality = quality;
-    this.barred = new Map(); // quality to when it may be tried again
+    this.barred = new Map(); // by quality: when it may be tried again
     this.rest = FIRST_REST_MS;
     this.begin();
   }
@@ -39,7 +39,7 @@ export class Governor {
     this.quickSince = null;
   }
 
-  // drew: whether there was a picture now. True if the quality has changed.
+  // `drew`: whether there was a picture now. Returns true if the quality has changed.
   observe(now, drew) {
     const took = drew && this.last !== null ? now - this.last : null;
     this.last = drew ? now : null;

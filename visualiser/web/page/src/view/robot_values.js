@@ -1,13 +1,14 @@
-// Values of all robots that a frame tells: what robots can be coloured by, and what swarm plots show.
+// Values of all robots from frames. They can colour robots and appear in plots of the swarm.
 import { Flag } from "../protocol.js";
 import { TRAILS } from "./look.js";
 
 const DEGREES = 180 / Math.PI;
-const JUMP_M = 0.5; // further than this between two frames somebody put it there
+const JUMP_M = 0.5; // a longer way between two frames means that the robot was put there
 
 const yawAt = (q, slot) => 2 * Math.atan2(q[4 * slot + 2], q[4 * slot + 3]);
 
-// of(meter, slot): the value; undefined if there is none yet. categories: it tells one of several, and has no mean.
+// of(meter, slot) returns the value; undefined if it is unknown yet. `categories`: the value is one of several
+// categories and has no mean.
 export const robotValues = {
   speed: { unit: "m/s", of: ({ frame, before, elapsed }, slot) => (before ? step(frame, before, slot) / elapsed : undefined) },
   "turn rate": {
@@ -56,14 +57,14 @@ export class Meter {
     this.elapsed = this.before ? frame.time - this.before.time : 0;
   }
 
-  // Of a robot; undefined if it is not in the arena, or not known yet.
+  // Returns the value of a robot; undefined if the robot is not in the arena, or the value is unknown yet.
   value(name, entity) {
     const slot = this.world.slots[entity];
     if (!this.frame || this.frame.colours[4 * slot + 3] & Flag.absent) return undefined;
     return robotValues[name].of(this, slot);
   }
 
-  // Mean and standard deviation over robots; null if none has a value.
+  // Returns mean and standard deviation over robots; null if none has a value.
   statistics(name, entities) {
     let [count, sum, squares] = [0, 0, 0];
     for (const entity of entities) {
@@ -79,10 +80,10 @@ export class Meter {
   }
 }
 
-// From dark blue by green to yellow: matplotlib's viridis at quarters (https://bids.github.io/colormap/).
+// The ramp goes from dark blue by green to yellow: matplotlib's viridis at quarters (https://bids.github.io/colormap/).
 const RAMP = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]];
 
-// share: 0 to 1
+// `share`: 0 to 1.
 export function rampColour(share) {
   const place = Math.max(0, Math.min(1, share)) * (RAMP.length - 1);
   const low = Math.min(Math.floor(place), RAMP.length - 2);
@@ -98,7 +99,7 @@ export class Colouring {
     this.high = -Infinity;
   }
 
-  // The frame with other colours. The range grows with what is seen.
+  // Returns the frame with other colours. The range grows with the values.
   apply(frame, meter) {
     const { categories } = robotValues[this.name];
     const values = this.world.robots.map((entity) => meter.value(this.name, entity));

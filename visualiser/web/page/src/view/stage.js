@@ -1,20 +1,20 @@
-// The renderer, the camera and the light. Draws when something has changed, and not otherwise.
+// The renderer, the camera and the light. It draws only when something has changed.
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { themes } from "./look.js";
 import { FIELD_OF_VIEW, viewOf } from "./viewpoints.js";
 
 const OBLIQUE = [0.1, -0.8, 0.8]; // from the target to the camera
-const STEEPEST = Math.PI / 2 - 0.01; // of the arrow keys, and …
+const STEEPEST = Math.PI / 2 - 0.01; // limit for the arrow keys, and …
 const FLATTEST = 0.02;
 const radians = Math.PI / 180;
-// From the axes of a camera (x right, y up, looking along -z) to those of a robot (x ahead, z up).
+// Rotates the axes of a camera (x right, y up, looking along -z) to those of a robot (x ahead, z up).
 const AHEAD = new THREE.Quaternion().setFromRotationMatrix(
   new THREE.Matrix4().makeBasis(new THREE.Vector3(0, -1, 0), new THREE.Vector3(0, 0, 1), new THREE.Vector3(-1, 0, 0)),
 );
 
 export class Stage {
-  // smoothEdges stays as it is; all else follows the quality.
+  // `smoothEdges` is fixed; everything else follows the quality.
   constructor(container, smoothEdges, quality) {
     this.container = container;
     this.renderer = new THREE.WebGLRenderer({ antialias: smoothEdges, powerPreference: "high-performance" });
@@ -24,7 +24,7 @@ export class Stage {
     container.prepend(this.renderer.domElement);
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(FIELD_OF_VIEW, 1, 0.02, 1000);
-    this.held = false; // whether the camera stands as it was put, and not as the controls have it
+    this.held = false; // whether the camera was placed explicitly, and not by the controls
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.controls.enableDamping = true;
@@ -80,7 +80,7 @@ export class Stage {
     this.invalidate();
   }
 
-  // Pixels that one radian of the picture takes: for sizes on the screen.
+  // Returns the pixels of one radian of the picture, for sizes on the screen.
   get pixelsPerRadian() {
     return this.container.clientHeight / ((this.camera.fov * Math.PI) / 180);
   }
@@ -89,7 +89,7 @@ export class Stage {
     this.stale = true;
   }
 
-  // How near and far the camera may be.
+  // Sets how near and far the camera may be.
   setReach([width, depth]) {
     this.extent = Math.max(width, depth, 1);
     this.camera.near = Math.max(0.01, this.extent / 2000);
@@ -99,7 +99,7 @@ export class Stage {
     this.controls.minDistance = 0.15;
   }
 
-  // The whole arena in view. how: "oblique" or "top".
+  // Shows the whole arena. `how`: "oblique" or "top".
   frameArena(arena, how = "oblique") {
     const [width, depth, height] = arena;
     this.setReach(arena);
@@ -109,7 +109,8 @@ export class Stage {
     const corners = [0, width].flatMap((x) => [0, depth].flatMap((y) => [0, Math.min(height, 0.3)].map((z) => new THREE.Vector3(x, y, z))));
     const target = new THREE.Vector3(width / 2, depth / 2, 0);
     let distance = this.extent * 2;
-    // The corners' rectangle on the screen is centred and then fitted; some rounds, for the perspective changes it.
+    // The rectangle of the corners on the screen is centred and then fitted. Several rounds are needed, since the
+    // perspective changes it.
     for (let round = 0; round < 6; round++) {
       camera.position.copy(target).addScaledVector(direction, distance);
       camera.lookAt(target);
@@ -131,15 +132,15 @@ export class Stage {
     this.invalidate();
   }
 
-  // The camera exactly so, until a hand moves it. Such places may be below the floor or lean, as the controls' may not.
-  // camera: of viewpoints.js
+  // Places the camera exactly, until the user moves it. Unlike the controls, it may be below the floor or roll.
+  // `camera`: as in viewpoints.js.
   stand(camera) {
     const { position, heading, pitch, roll } = camera;
     const turn = new THREE.Quaternion().setFromEuler(new THREE.Euler(roll * radians, -pitch * radians, heading * radians, "ZYX"));
     this.put(new THREE.Vector3(...position), turn);
   }
 
-  // turn: of the axes of a robot
+  // `turn`: rotation of the axes of a robot.
   put(position, turn) {
     this.home = null;
     this.held = true;
@@ -153,7 +154,7 @@ export class Stage {
     this.invalidate();
   }
 
-  // From where the camera stands as it was put to where the controls would have it.
+  // Returns from an explicitly placed camera to the controls.
   release() {
     if (!this.held) return;
     this.held = false;
@@ -161,7 +162,7 @@ export class Stage {
     this.invalidate();
   }
 
-  // Turns the camera about its target as the arrow keys of the windows do, radians.
+  // Turns the camera about its target by radians, like the arrow keys of the windows.
   orbit(right, up) {
     this.release();
     const { viewpoint } = this;
@@ -171,7 +172,7 @@ export class Stage {
     this.viewpoint = { ...viewpoint, direction: [Math.cos(height) * Math.cos(azimuth), Math.cos(height) * Math.sin(azimuth), Math.sin(height)] };
   }
 
-  // Moves camera and target to look at a point from near by.
+  // Moves camera and target to look at a point from nearby.
   approach(point, distance) {
     this.home = null;
     this.held = false;
@@ -190,12 +191,12 @@ export class Stage {
     this.invalidate();
   }
 
-  // Metres that the picture shows from top to bottom at the point that is looked at, for each metre of distance.
+  // Returns the metres that the picture shows from top to bottom at the target, for each metre of distance.
   get spanOfDistance() {
     return 2 * Math.tan((this.camera.fov * Math.PI) / 360);
   }
 
-  // What is looked at, how much of it, and from where: the same for every view.
+  // Returns the target, the shown size, and the direction: the same for every view.
   get viewpoint() {
     const away = this.camera.position.clone().sub(this.controls.target);
     return { target: this.controls.target.toArray(), span: away.length() * this.spanOfDistance, direction: away.normalize().toArray() };
@@ -210,7 +211,7 @@ export class Stage {
     this.invalidate();
   }
 
-  // The sun stands above what is looked at; so its shadow map covers that, and not the whole arena.
+  // Places the sun above the target, so that its shadow map covers the visible part and not the whole arena.
   aimSun() {
     const distance = this.camera.position.distanceTo(this.controls.target);
     const reach = Math.min(Math.max(distance * 0.95, 0.8), (this.extent ?? 10) * 1.1);

@@ -1,5 +1,5 @@
-// All that moves, drawn by instancing: robots at five levels of detail, chosen by their size on the screen, preys and
-// blocks. One place of every instance array is one place of the frame.
+// All movable entities, drawn by instancing: robots at five levels of detail, chosen by their size on the screen, preys
+// and blocks. One index of every instance array is one index of the frame.
 import * as THREE from "three";
 import { extentOf, paint } from "./look.js";
 import { makeModels } from "./models.js";
@@ -7,7 +7,7 @@ import { isPainted, meshGeometry } from "./object_mesh.js";
 import { LedTexture, ledMaterial } from "./leds.js";
 import { Flag } from "../protocol.js";
 
-// Robots are never drawn smaller than this: those of a large arena would vanish between the pixels.
+// Robots are never drawn smaller than this, since those of a large arena would vanish between the pixels.
 const LEAST_PIXELS = 3.4;
 const LARGEST_SCALE = 8;
 
@@ -94,7 +94,7 @@ function softDisc(colour) {
 }
 
 export class Swarm {
-  // quality: one of quality.js
+  // `quality`: one of quality.js.
   constructor(scene, world, quality, meshes) {
     this.world = world;
     this.quality = quality;
@@ -123,7 +123,7 @@ export class Swarm {
     this.makeGlows();
   }
 
-  // Preys, blocks and objects of users that move: unit solids or meshes, scaled.
+  // Makes preys, blocks and users' objects that move: scaled unit solids or meshes.
   makeThings(Material, finish) {
     const { world } = this;
     const unit = {
@@ -152,7 +152,7 @@ export class Swarm {
     });
   }
 
-  // A soft dark disc on the ground below each robot: it ties the far ones to the floor at no cost.
+  // Makes a soft dark disc on the ground below each robot. It links distant robots to the floor at no cost.
   makeShadows() {
     const material = new THREE.MeshBasicMaterial({
       map: softDisc("0,0,0"),
@@ -167,7 +167,7 @@ export class Swarm {
     this.group.add(this.shadows);
   }
 
-  // The light of the LEDs on the floor about a robot.
+  // Makes the light of the LEDs on the floor around a robot.
   makeGlows() {
     const material = new THREE.MeshBasicMaterial({
       map: softDisc("255,255,255"),
@@ -187,7 +187,7 @@ export class Swarm {
     this.shining = [];
   }
 
-  // Real shadows instead of the discs.
+  // Draws real shadows instead of the discs.
   set castsShadows(on) {
     this.shadows.visible = !on && !this.quality.plain;
     for (const { layers } of this.herds) for (const layer of layers) layer.body.castShadow = layer.body.receiveShadow = on;
@@ -217,7 +217,7 @@ export class Swarm {
     this.glows.instanceColor.needsUpdate = this.shining.length > 0;
   }
 
-  // Where everything stands, as the camera sees it. pixelsPerRadian: height of the picture over its angle.
+  // Places all entities as the camera sees them. `pixelsPerRadian`: height of the picture over its angle.
   place(motion, camera, pixelsPerRadian) {
     const { positions: p, quaternions: q } = motion;
     const frustum = new THREE.Frustum().setFromProjectionMatrix(
@@ -257,7 +257,7 @@ export class Swarm {
     if (this.shining.length > 0) this.placeOnFloor(this.glows, this.shining, p, 0.003, 4.6);
   }
 
-  // Flat squares of so many radii below robots. Not on terrain, where the floor is elsewhere.
+  // Places flat squares of so many radii below robots. It skips terrain, whose floor is elsewhere.
   placeOnFloor(mesh, entities, p, height, radii) {
     const flat = [0, 0, 0, 1];
     const point = [0, 0, height];

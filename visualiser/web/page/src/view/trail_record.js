@@ -1,6 +1,6 @@
-// Where the robots have been: the last samples of all, in a ring, for whichever view draws them.
+// The recent positions of all robots: the last samples in a ring, for either view.
 
-export const JUMP_M = 0.5; // further than this between two samples somebody put it there
+export const JUMP_M = 0.5; // a longer way between two samples means that the robot was put there
 
 export class TrailRecord {
   constructor(world) {
@@ -14,12 +14,12 @@ export class TrailRecord {
   }
 
   clear() {
-    this.added = 0; // samples since the beginning; the last `capacity` of them are kept
+    this.added = 0; // samples since the start; the last `capacity` of them are kept
     this.lastTime = -Infinity;
-    this.beginnings = (this.beginnings ?? 0) + 1; // a view whose own count is another starts anew
+    this.beginnings = (this.beginnings ?? 0) + 1; // a view with another count starts again
   }
 
-  // Of all robots: x, y, z.
+  // Returns x, y, z of all robots.
   sample(number) {
     const length = 3 * this.world.robots.length;
     return this.places.subarray((number % this.capacity) * length, (number % this.capacity) * length + length);

@@ -1,4 +1,4 @@
-// The view in three dimensions: brings stage, arena, swarm and overlays together. Loaded only when it is wanted.
+// The view in three dimensions: joins stage, arena, swarm and overlays. It is loaded on demand.
 import * as THREE from "three";
 import { Arena } from "./arena.js";
 import { extentOf } from "./look.js";
@@ -10,13 +10,13 @@ import { Swarm } from "./swarm.js";
 const SHADOWS_UP_TO = 2500; // robots
 const WHEEL_STEP = 1.2;
 const HEAT_M = 0.0015; // above the floor
-const ARROW = (5 * Math.PI) / 180; // by which an arrow key turns the view
-const ABOVE_M = 0.02; // the eye of a robot, above its body …
-const FLYING_M = 0.5; // … or below that of one which is so high
+const ARROW = (5 * Math.PI) / 180; // angle by which an arrow key turns the view
+const ABOVE_M = 0.02; // height of the eye above a robot's body …
+const FLYING_M = 0.5; // … or below the body of a robot that is higher than this
 
 export class View3d {
-  // picture: what all views show; meshes: the models that all renderers share; smoothEdges: stays as it is, all else
-  // follows the quality. Throws if the browser has no WebGL 2.
+  // `picture`: the content that all views show; `meshes`: the models that all renderers share; `smoothEdges`: fixed,
+  // while everything else follows the quality. Throws if the browser has no WebGL 2.
   constructor(container, picture, meshes, smoothEdges) {
     this.picture = picture;
     this.meshes = meshes;
@@ -72,7 +72,7 @@ export class View3d {
     this.stage.invalidate();
   }
 
-  // The picture of the heat map is another; it lies on the floor.
+  // Handles another picture of the heat map, which lies on the floor.
   updateHeat() {
     const canvas = this.picture.heat?.canvas;
     if (!canvas || this.heat?.canvas !== canvas) {
@@ -83,7 +83,7 @@ export class View3d {
       const [width, depth] = this.world.arena;
       const map = new THREE.CanvasTexture(canvas);
       map.colorSpace = THREE.SRGBColorSpace;
-      map.flipY = false; // its first row has the lowest y
+      map.flipY = false; // the first row has the lowest y
       const mesh = new THREE.Mesh(new THREE.PlaneGeometry(width, depth), new THREE.MeshBasicMaterial({ map, transparent: true, depthWrite: false, polygonOffset: true, polygonOffsetFactor: -1 }));
       mesh.position.set(width / 2, depth / 2, HEAT_M);
       this.stage.scene.add(mesh);
@@ -105,7 +105,7 @@ export class View3d {
     this.swarm.updateColours(frame);
   }
 
-  // False if there is nothing new. moved: whether robots stand elsewhere than in the last picture.
+  // Returns false if nothing has changed. `moved`: whether robots have moved since the last picture.
   draw(moved) {
     if (this.picture.aboard !== null) this.lookFromRobot();
     if (!this.stage.held) this.stage.controls.update();
@@ -125,7 +125,7 @@ export class View3d {
     return true;
   }
 
-  // What shows drawings is loaded for the first of them: few experiments have any.
+  // The code for drawings is loaded for the first drawing, since few experiments have any.
   showDrawing(drawing) {
     if (drawing && !this.drawn && this.Drawn) this.drawn = new this.Drawn(this.stage.scene);
     if (this.drawn) this.drawn.update(drawing);
@@ -142,8 +142,8 @@ export class View3d {
     }
   }
 
-  // The camera on the robot that is boarded, turned as it is, and by the hand that looks about. Of one that is not in the
-  // arena the last place stays.
+  // Places the camera on the robot that carries it, with the robot's orientation and the user's gaze. If the robot is
+  // not in the arena, its last position is kept.
   lookFromRobot() {
     const { aboard, gaze, motion } = this.picture;
     const place = this.picture.placeOf(aboard);
@@ -159,7 +159,7 @@ export class View3d {
     this.stage.stale = stale || before.distanceToSquared(eye) > 0 || was.angleTo(camera.quaternion) > 0;
   }
 
-  // Whether a robot carries the camera.
+  // `on`: whether a robot carries the camera.
   board(on) {
     this.stage.controls.enabled = !on;
     if (!on) this.stage.release();
@@ -178,11 +178,11 @@ export class View3d {
   holdCamera(on) {
     this.stage.controls.enabled = !on && this.picture.aboard === null;
   }
-  // camera: of viewpoints.js
+  // `camera`: as in viewpoints.js.
   stand(camera) {
     this.stage.stand(camera);
   }
-  // By arrow keys.
+  // Handles arrow keys.
   step(right, up) {
     this.stage.orbit(right * ARROW, up * ARROW);
   }
@@ -215,7 +215,8 @@ export class View3d {
     this.stage.approach(new THREE.Vector3(place[0], place[1], place[2] + height / 2), Math.max(9 * radius, 1));
   }
 
-  // CSS pixels of the canvas; depth: squared distance from the eye; null if it is not in front of it.
+  // Returns the CSS pixels of the canvas and `depth`, the squared distance from the eye; null if the point is not in
+  // front of the eye.
   project(x, y, z) {
     this.point ??= new THREE.Vector3();
     const { camera, container } = this.stage;
@@ -225,7 +226,7 @@ export class View3d {
     return { x: ((this.point.x + 1) / 2) * container.clientWidth, y: ((1 - this.point.y) / 2) * container.clientHeight, depth };
   }
 
-  // CSS pixels that a metre takes at a place.
+  // Returns the CSS pixels of a metre at a place.
   pixelsPerMetre(x, y, z) {
     return this.stage.pixelsPerRadian / this.stage.camera.position.distanceTo(new THREE.Vector3(x, y, z));
   }
@@ -237,11 +238,11 @@ export class View3d {
   pick(at) {
     return pick(this.world, this.picture.motion, this.stage.camera, ...this.ray(at));
   }
-  // The ray of sight.
+  // Returns the ray of sight.
   sight(at) {
     return sight(this.stage.camera, ...this.ray(at));
   }
-  // [x, y, z] on the plane of that height, null if the ray of sight does not meet it.
+  // Returns [x, y, z] on the plane of that height; null if the ray of sight does not meet it.
   floorPoint(at, height) {
     return floorPoint(this.stage.camera, ...this.ray(at), height)?.toArray() ?? null;
   }

@@ -1,8 +1,8 @@
-// Viewpoints 0 to 9, as an experiment file gives them: a place (m), heading, pitch and roll (degrees); heading 0 looks along
-// x, 90 along y, a negative pitch looks down. And the flight from one to the next.
+// Viewpoints 0 to 9, as an experiment file gives them: a position (m), heading, pitch and roll (degrees). Heading 0
+// looks along x, 90 along y; a negative pitch looks down. The file also has the flight from one to the next.
 export const FIELD_OF_VIEW = 45; // degrees, from top to bottom
 const SPAN = 2 * Math.tan((FIELD_OF_VIEW * Math.PI) / 360); // m from top to bottom, for each metre of distance
-const LEAST_M = 0.3; // from the eye to what is looked at
+const LEAST_M = 0.3; // from the eye to the target
 const FLIGHT_MS = 3000; // from one viewpoint to the next
 
 const radians = (degrees) => (degrees * Math.PI) / 180;
@@ -13,8 +13,8 @@ export function forwardOf({ heading, pitch }) {
   return [Math.cos(p) * Math.cos(h), Math.cos(p) * Math.sin(h), Math.sin(p)];
 }
 
-// What such a camera looks at, how much of it and from where: the place of the floor in the middle of the picture, or what
-// is half an arena ahead. extent: the longer side of the arena, m
+// Returns the target of such a camera, the shown size and the direction. The target is the point of the floor in the
+// middle of the picture, or a point half an arena ahead. `extent`: the longer side of the arena, m.
 export function viewOf(camera, extent) {
   const forward = forwardOf(camera);
   const down = forward[2] < -0.02 ? camera.position[2] / -forward[2] : extent / 2;
@@ -26,7 +26,7 @@ export function viewOf(camera, extent) {
   };
 }
 
-// The camera of a view. A plan looks from above, with north up.
+// Returns the camera of a view. A plan looks from above, with north up.
 export function cameraOf({ target, span, direction }) {
   const away = direction ?? [0, 0, 1];
   const position = target.map((value, k) => value + (span / SPAN) * away[k]);
@@ -34,15 +34,15 @@ export function cameraOf({ target, span, direction }) {
   return { position, heading: flat < 1e-3 ? 90 : degrees(Math.atan2(-away[1], -away[0])), pitch: degrees(Math.atan2(-away[2], flat)), roll: 0 };
 }
 
-const digits = (value) => String(Number(value.toFixed(5)) + 0); // no -0
+const digits = (value) => String(Number(value.toFixed(5)) + 0); // avoids -0
 
-// The two elements that give it again in an experiment file.
+// Returns the two elements that give it again in an experiment file.
 export function viewpointXml(number, { position, heading, pitch, roll }) {
   const element = (name, values) => `<${name}_${number}>${values.map(digits).join(", ")}</${name}_${number}>`;
   return `${element("camera_view_XYZ", position)}\n${element("camera_view_HPR", [heading, pitch, roll])}`;
 }
 
-// Through several views, one after another: a smooth curve (Catmull-Rom) of the eye and of what it looks at.
+// A flight through several views, one after another: a smooth curve (Catmull-Rom) of the eye and of its target.
 export class Flight {
   constructor(views, start) {
     this.start = start;
@@ -56,7 +56,7 @@ export class Flight {
     return now - this.start >= FLIGHT_MS * (this.stops.length - 1);
   }
 
-  // The view at a moment (ms): the last one once it is over.
+  // Returns the view at a moment (ms): the last one once the flight is over.
   at(now) {
     const last = this.stops.length - 1;
     const way = Math.min((now - this.start) / FLIGHT_MS, last);

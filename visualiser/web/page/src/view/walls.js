@@ -1,10 +1,11 @@
-// Walls at the edge of the arena, cut open as in the other renderers (visualiser/scene/picking.cpp, visualiser/gl/draw_list.cpp):
-// those between the eye and the arena down to a kerb, the others where they are taller than what happens inside.
+// Walls at the edge of the arena, cut open as in the other renderers (visualiser/scene/picking.cpp,
+// visualiser/gl/draw_list.cpp). Walls between the eye and the arena are cut down to a kerb; the others are cut above
+// the height of the robots.
 import * as THREE from "three";
 
 const KERB_M = 0.04;
 const CUT_M = 0.35;
-const CUT_PART = 0.07; // of the arena's size, if that is more
+const CUT_PART = 0.07; // relative to the arena's size, if that is more
 
 export class BoundaryWall {
   // makeSolid(geometry, colour, more): a mesh, as the arena makes its solids.
@@ -31,7 +32,7 @@ export class BoundaryWall {
     return this.glass;
   }
 
-  // eye: null while there is none.
+  // `eye`: null while there is none.
   cutFor(eye) {
     const hides = eye !== null && this.inside * eye.clone().sub(this.position).dot(this.across) < 0;
     if (hides === this.hides) return;

@@ -1,4 +1,4 @@
-// What is made of parts: bodies, robots.
+// Entities that have parts: bodies and robots.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ public:
 
   // `name`: a type ("body"), one of several by its id ("led[led_3]"), or a part of a part ("leds.led[led_3]").
   bool HasComponent(const std::string& name) { return Find(name) != nullptr; }
-  // Throw CARGoSException for a part that it does not have.
+  // Throw CARGoSException for a part that does not exist.
   CEntity& GetComponent(const std::string& name);
   template <class Entity>
   Entity& GetComponent(const std::string& name)
@@ -38,7 +38,7 @@ public:
     in_order_.push_back(&component);
   }
   void UpdateComponents() {}
-  // All components with it.
+  // Enables or disables the entity with all its components.
   void SetEnabled(bool enabled) override
   {
     CEntity::SetEnabled(enabled);
@@ -65,12 +65,13 @@ public:
       : CEntity(parent, "led_" + std::to_string(number)), number_(number), first_colour_(colour)
   {
   }
-  // As it is in the arena; before AddEntity, and where no loop functions run, the one that it was made with.
+  // Returns the colour in the arena. Before AddEntity, and in a process without loop functions, it is the initial
+  // colour.
   CColor GetColor() const;
-  // Throws CARGoSException outside loop functions, and for an LED that the entity does not have. Before AddEntity it
-  // is the colour with which it comes.
+  // Sets the colour. Before AddEntity it is the colour with which the entity is added. Throws CARGoSException outside
+  // loop functions, and for an LED that the entity does not have.
   void SetColor(const CColor& colour);
-  // To the colour with which it came into the arena.
+  // Sets the colour with which the entity was added to the arena.
   void Reset() override;
   const CColor& GetInitColor() const { return first_colour_; }
   void SetInitColor(const CColor& colour) { first_colour_ = colour; }
@@ -85,8 +86,8 @@ private:
   CColor first_colour_;
 };
 
-// The LEDs of an entity. Those of a box or cylinder have one colour, which cameras see at its middle: the one that was
-// set last, and at first that of the first LED.
+// The LEDs of an entity. The LEDs of a box or cylinder have one colour, which cameras see at its middle: the one that
+// was set last, and at first that of the first LED.
 class CLEDEquippedEntity : public CComposableEntity
 {
 public:
@@ -96,14 +97,14 @@ public:
     for (const auto& led : leds_) led->Reset();
   }
   size_t GetNumLEDs() const { return leds_.size(); }
-  // To boxes and cylinders. The places have no effect.
+  // For boxes and cylinders. The positions have no effect.
   void AddLED(const CVector3& offset, const SAnchor& anchor, const CColor& colour = CColor::BLACK);
   void AddLEDRing(const CVector3& centre, Real radius, const CRadians& first_angle, UInt32 leds, const SAnchor& anchor,
                   const CColor& colour = CColor::BLACK);
   void AddToMedium(CLEDMedium&) {}
   void RemoveFromMedium() {}
   void SetMedium(CLEDMedium&) {}
-  // These throw CARGoSException for an LED beyond the last one, another number of colours, and as CLEDEntity.
+  // Throw CARGoSException for an LED beyond the last one, for a wrong number of colours, and as CLEDEntity.
   CLEDEntity& GetLED(UInt32 led);
   void SetLEDColor(UInt32 led, const CColor& colour) { GetLED(led).SetColor(colour); }
   void SetAllLEDsColors(const CColor& colour);
@@ -114,7 +115,7 @@ private:
   std::vector<std::shared_ptr<CLEDEntity>> leds_;  // shared with copies
 };
 
-// A box, a cylinder, a robot: it has a body.
+// An entity with a body: a box, a cylinder or a robot.
 class CBodyEntity : public CComposableEntity
 {
 public:
@@ -129,7 +130,7 @@ private:
   CEmbodiedEntity body_;
 };
 
-// A box or a cylinder, which may bear LEDs. A copy tells what the first one is.
+// A box or a cylinder, which may have LEDs. A copy shares the state of the original.
 class CObjectWithLEDs : public CBodyEntity
 {
 public:
@@ -150,12 +151,12 @@ private:
   CLEDEquippedEntity leds_;
 };
 
-// What a robot grips. A copy tells the same.
+// The gripper of a robot. A copy shares the state of the original.
 class CGripperEquippedEntity : public CEntity
 {
 public:
   explicit CGripperEquippedEntity(CEntity* parent) : CEntity(parent, "gripper_0") {}
-  // False outside loop functions, and for a robot without a gripper.
+  // Returns false outside loop functions, and for a robot without a gripper.
   bool IsGripping() const;
   // Throws CARGoSException if it grips nothing.
   CEmbodiedEntity& GetGrippedEntity() const;
@@ -165,7 +166,7 @@ private:
   CBodyEntity* Gripped() const;
 };
 
-// The battery of a robot. These throw CARGoSException for a robot without the sensor <battery>, and where its
+// The battery of a robot. The functions throw CARGoSException for a robot without the sensor <battery>, and if its
 // controller is not in this process.
 class CBatteryEquippedEntity : public CEntity
 {
@@ -174,7 +175,7 @@ public:
   Real GetFullCharge() const;
   Real GetAvailableCharge() const;
   void SetAvailableCharge(Real charge);
-  // To the charge of the experiment file; one without the sensor has none.
+  // Sets the charge of the experiment file. It does nothing for a robot without the sensor.
   void Reset() override;
   std::string GetTypeDescription() const override { return "battery"; }
 };
@@ -189,15 +190,16 @@ public:
     positions_[1].Set(0, -axle / 2, 0);
   }
   size_t GetNumWheels() const { return 2; }
-  // m, in the frame of the robot. These throw CARGoSException for a wheel beyond the second one.
+  // Positions are in m, in the frame of the robot. The functions throw CARGoSException for a wheel beyond the second
+  // one.
   const CVector3& GetWheelPosition(size_t wheel) const { return positions_[Checked(wheel)]; }
   Real GetWheelRadius(size_t wheel) const
   {
     Checked(wheel);
     return radius_;
   }
-  // m/s on the ground, as the controller commanded it; 0 before. Throws CARGoSException for a robot without the
-  // actuator differential_steering, and where its controller is not in this process.
+  // Returns m/s on the ground, as the controller commanded it; 0 before the first command. Throws CARGoSException for a
+  // robot without the actuator differential_steering, and if its controller is not in this process.
   Real GetWheelVelocity(size_t wheel) const;
   std::string GetTypeDescription() const override { return "wheels"; }
 
@@ -222,11 +224,11 @@ public:
   CRABEquippedEntity& GetRABEquippedEntity() { return rab_; }
   CGripperEquippedEntity& GetGripperEquippedEntity() { return gripper_; }
   CBatteryEquippedEntity& GetBatterySensorEquippedEntity() { return battery_; }
-  // Of a robot that loop functions made: the id of its controller in the experiment file.
+  // Returns the id in the experiment file of the controller of a robot that loop functions made.
   const std::string& ControllerOfMade() const { return controller_; }
 
 protected:
-  // Made by loop functions, for AddEntity.
+  // Loop functions make it for AddEntity.
   CRobotWithController(const std::string& id, unsigned leds, const std::string& controller, const CVector3& position,
                        const CQuaternion& orientation);
 

@@ -12,14 +12,15 @@ class CControllableEntity : public CEntity
 {
 public:
   using CEntity::CEntity;
-  // In a run of one process, from the first step on: Init of loop functions too. Throws CARGoSException otherwise, and
-  // for a robot without a controller. Of a robot that loop functions made, before AddEntity too.
+  // Returns the controller in a run of one process, from the first step and from Init of loop functions on. For a robot
+  // that loop functions made, it works before AddEntity, too. Throws CARGoSException otherwise, and for a robot without
+  // a controller.
   CCI_Controller& GetController();
   const CCI_Controller& GetController() const { return const_cast<CControllableEntity*>(this)->GetController(); }
-  // One that is disabled makes no control steps, and its actuators go on as they were told last. In a run of one
-  // process; throws CARGoSException otherwise.
+  // A disabled robot makes no control steps, and its actuators keep their last commands. Only in a run of one process;
+  // throws CARGoSException otherwise.
   void SetEnabled(bool enabled) override;
-  // Of its devices and its controller, if it has one in this process.
+  // Resets its devices and, if it is in this process, its controller.
   void Reset() override;
   std::string GetTypeDescription() const override { return "controller"; }
 };

@@ -10,15 +10,15 @@ namespace argos
 
 class CEmbodiedEntity;
 
-// A place on a body, which goes with it.
+// A point of a body, which moves with it.
 struct SAnchor
 {
   std::string Id = "origin";
   UInt32 Index = 0;
-  // In the frame of the body.
+  // The position in the frame of the body.
   CVector3 OffsetPosition;
   CQuaternion OffsetOrientation;
-  // In the arena.
+  // The position in the arena.
   CVector3 Position;
   CQuaternion Orientation;
   UInt32 InUseCount = 0;
@@ -30,7 +30,7 @@ struct SAnchor
   }
 };
 
-// Around a body, along the axes of the arena.
+// The box around a body, along the axes of the arena.
 struct SBoundingBox
 {
   CVector3 MinCorner;
@@ -41,7 +41,7 @@ struct SBoundingBox
   }
 };
 
-// A body in its engine, to look at.
+// A body in its engine, for reading.
 class CPhysicsModel
 {
 public:
@@ -50,10 +50,10 @@ public:
   const CPhysicsEngine& GetEngine() const { return *engine_; }
   CEmbodiedEntity& GetEmbodiedEntity() { return *body_; }
   const CEmbodiedEntity& GetEmbodiedEntity() const { return *body_; }
-  // As those of the body.
+  // Return the values of the body.
   const SBoundingBox& GetBoundingBox() const;
   bool IsCollidingWithSomething() const;
-  // The body tells of itself after each step.
+  // Does nothing, since the body is updated after each step.
   void UpdateEntityStatus() {}
 
 private:
@@ -69,8 +69,8 @@ public:
   bool IsMovable() const { return movable_; }
   const SAnchor& GetOriginAnchor() const { return m_sOriginAnchor; }
   SAnchor& GetOriginAnchor() { return m_sOriginAnchor; }
-  // Of anchors that are added here: robots bring only their origin. Throw CARGoSException for an id that there is
-  // already, and for one that there is not.
+  // Handle anchors that are added here; robots have only their origin. Throw CARGoSException for an id that exists
+  // already, and for one that does not exist.
   SAnchor& AddAnchor(const std::string& id, const CVector3& position = CVector3(),
                      const CQuaternion& orientation = CQuaternion());
   SAnchor& GetAnchor(const std::string& id);
@@ -78,11 +78,11 @@ public:
   void EnableAnchor(const std::string& id) { GetAnchor(id).Enable(); }
   void DisableAnchor(const std::string& id) { GetAnchor(id).Disable(); }
   bool IsAnchorEnabled(const std::string& id) { return GetAnchor(id).InUseCount > 0; }
-  // Puts them where the body is; called when it moves.
+  // Updates the anchors; called when the body moves.
   void UpdateAnchors();
-  // In the latest step. Throws CARGoSException outside loop functions.
+  // Returns the box in the latest step. Throws CARGoSException outside loop functions.
   const SBoundingBox& GetBoundingBox() const;
-  // One engine has all bodies; it goes by each name. Throws CARGoSException for another number.
+  // One engine has all bodies and accepts any name. Throws CARGoSException for another number.
   UInt32 GetPhysicsModelsNum() const { return 1; }
   CPhysicsModel& GetPhysicsModel(size_t number);
   CPhysicsModel& GetPhysicsModel(const std::string& engine);
@@ -90,24 +90,24 @@ public:
   {
     return const_cast<CEmbodiedEntity*>(this)->GetPhysicsModel(number);
   }
-  // To where it came into the arena, if it can move.
+  // Moves the entity, if it is movable, to where it was added to the arena.
   void Reset() override;
-  // The names of versions before 2014.
+  // Names of versions before 2014.
   const CVector3& GetPosition() const { return m_sOriginAnchor.Position; }
   const CQuaternion& GetOrientation() const { return m_sOriginAnchor.Orientation; }
-  // As MoveEntity of the loop functions.
+  // Moves the entity, as MoveEntity of the loop functions.
   bool MoveTo(const CVector3& position, const CQuaternion& orientation, bool check_only = false,
               bool ignore_collisions = false);
-  // Whether another body overlaps it where it stands.
+  // Returns whether another body overlaps it at its place.
   bool IsCollidingWithSomething() const;
   std::string GetTypeDescription() const override { return "body"; }
 
 protected:
   SAnchor m_sOriginAnchor;
   bool movable_;
-  std::map<std::string, SAnchor> anchors_;  // but the origin
+  std::map<std::string, SAnchor> anchors_;  // except the origin
   mutable SBoundingBox box_;
-  std::vector<CPhysicsModel> models_;  // one, once it was asked for
+  std::vector<CPhysicsModel> models_;  // one, after the first request
 };
 
 using TEmbodiedEntityVector = std::vector<CEmbodiedEntity*>;

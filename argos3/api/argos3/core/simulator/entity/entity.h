@@ -1,4 +1,5 @@
-// What stands in the arena, as loop functions see it. One object for each entity, for as long as the experiment runs.
+// CEntity: an entity of the arena, as loop functions see it. There is one object for each entity, as long as the
+// experiment runs.
 #pragma once
 
 #include <argos3/core/utility/configuration/base_configurable_resource.h>
@@ -28,19 +29,19 @@ public:
   void Destroy() override {}
   const std::string& GetId() const { return id_; }
   void SetId(const std::string& id) { id_ = id; }
-  // "foot-bot", "box", "body" …
+  // Returns the type: "foot-bot", "box", "body" …
   virtual std::string GetTypeDescription() const { return "entity"; }
-  // The ids of all that it is a part of, each with a dot behind it.
+  // Returns the ids of all entities that contain this one, each followed by a dot.
   std::string GetContext() const { return parent_ == nullptr ? "" : parent_->GetContext() + parent_->GetId() + "."; }
   bool HasParent() const { return parent_ != nullptr; }
-  // Throws CARGoSException if it has none.
+  // Throws CARGoSException if it has no parent.
   CComposableEntity& GetParent() const;
-  // The place of its root among all in the arena; -1 before it is there.
+  // Returns the index of its root in the arena; -1 before it is added.
   ssize_t GetIndex() const { return parent_ == nullptr ? index_ : parent_->GetIndex(); }
   void SetIndex(ssize_t index) { index_ = index; }
   void Enable() { SetEnabled(true); }
   void Disable() { SetEnabled(false); }
-  // Bodies and devices take part in a run while they are in the arena, whatever this says; controllers heed it.
+  // Sets a flag that only controllers obey. Bodies and devices take part in a run as long as they are in the arena.
   virtual void SetEnabled(bool enabled) { enabled_ = enabled; }
   bool IsEnabled() const { return enabled_; }
   void Update() {}
@@ -54,7 +55,7 @@ private:
   ssize_t index_ = -1;
 };
 
-// The order of the arena.
+// Orders entities as in the arena.
 struct SEntityComparator
 {
   bool operator()(const CEntity* a, const CEntity* b) const { return a->GetIndex() < b->GetIndex(); }

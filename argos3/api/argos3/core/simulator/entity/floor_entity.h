@@ -1,4 +1,4 @@
-// The floor, coloured by loop functions.
+// The floor, whose colours loop functions give.
 #pragma once
 
 #include <argos3/core/simulator/entity/entity.h>
@@ -11,9 +11,9 @@ class CFloorEntity : public CEntity
 {
 public:
   using CEntity::CEntity;
-  // What GetFloorColor of the loop functions says.
+  // Returns the result of GetFloorColor of the loop functions.
   CColor GetColorAtPoint(Real x, Real y);
-  // Sensors ask for the colours of this step anyway.
+  // Does nothing, since sensors read the colours in each step.
   void SetChanged() {}
   void ClearChanged() {}
   bool HasChanged() const { return false; }

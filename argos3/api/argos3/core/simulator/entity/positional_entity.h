@@ -1,4 +1,4 @@
-// What has a place.
+// CPositionalEntity: an entity with a position.
 #pragma once
 
 #include <argos3/core/simulator/entity/entity.h>
@@ -16,10 +16,10 @@ public:
   }
   virtual const CVector3& GetPosition() const { return m_cPosition; }
   virtual const CQuaternion& GetOrientation() const { return m_cOrientation; }
-  // Of the view alone: CLoopFunctions::MoveEntity moves an entity.
+  // Changes only this view; CLoopFunctions::MoveEntity moves an entity.
   void SetPosition(const CVector3& position) { m_cPosition = position; }
   void SetOrientation(const CQuaternion& orientation) { m_cOrientation = orientation; }
-  // As MoveEntity of the loop functions.
+  // Moves the entity, as MoveEntity of the loop functions.
   void MoveTo(const CVector3& position, const CQuaternion& orientation);
   std::string GetTypeDescription() const override { return "position"; }
 

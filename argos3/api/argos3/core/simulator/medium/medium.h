@@ -1,4 +1,4 @@
-// CMedium: what loop functions get from GetMedium of the simulator.
+// CMedium: the result of GetMedium of the simulator, for loop functions.
 #pragma once
 
 #include <argos3/core/utility/configuration/base_configurable_resource.h>

@@ -1,5 +1,5 @@
-// CPhysicsEngine: how long a tick is. One engine has all that an experiment in ARGoS3's XML gives to several. And what
-// bodies a ray meets, for loop functions.
+// CPhysicsEngine: gives the length of a tick, and for loop functions the bodies that a ray meets. One engine has all
+// bodies that ARGoS3's XML distributes over several.
 #pragma once
 
 #include <argos3/core/utility/datatypes/datatypes.h>
@@ -23,10 +23,10 @@ struct SEmbodiedEntityIntersectionItem
 };
 using TEmbodiedEntityIntersectionData = std::vector<SEmbodiedEntityIntersectionItem>;
 
-// The bodies that a ray meets, each where it comes first, the nearest one in front; the list is cleared before. False
-// if there are none. These throw CARGoSException outside loop functions.
+// Finds the bodies that a ray meets, each at its first point, nearest first. It clears the list first, and returns
+// false if there are none. These functions throw CARGoSException outside loop functions.
 bool GetEmbodiedEntitiesIntersectedByRay(TEmbodiedEntityIntersectionData& met, const CRay3& ray);
-// The nearest one; `met` has no entity if there is none. `ignored`: a body that the ray passes.
+// Finds the nearest body; `met` has no entity if none exists. `ignored`: a body that the ray passes.
 bool GetClosestEmbodiedEntityIntersectedByRay(SEmbodiedEntityIntersectionItem& met, const CRay3& ray);
 bool GetClosestEmbodiedEntityIntersectedByRay(SEmbodiedEntityIntersectionItem& met, const CRay3& ray,
                                               CEmbodiedEntity& ignored);
@@ -39,16 +39,16 @@ public:
 
   const std::string& GetId() const { return id_; }
   void SetId(const std::string& id) { id_ = id; }
-  // s
+  // Returns the tick in s.
   static Real GetSimulationClockTick() { return tick_s_; }
-  // Ticks a second.
+  // Returns the ticks a second.
   static Real GetInverseSimulationClockTick() { return 1 / tick_s_; }
-  // For the bridge: of the experiment.
+  // For the bridge: sets the tick of the experiment.
   static void SetSimulationClockTick(Real tick_s) { tick_s_ = tick_s; }
 
 private:
   static Real tick_s_;
-  std::string id_ = "engine";  // or the name by which it was asked for last
+  std::string id_ = "engine";  // changed to the last requested name
 };
 
 }  // namespace argos

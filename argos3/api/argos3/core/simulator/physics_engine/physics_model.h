@@ -1,4 +1,4 @@
-// CPhysicsModel: it stands beside the body.
+// CPhysicsModel, which embodied_entity.h declares.
 #pragma once
 
 #include <argos3/core/simulator/entity/embodied_entity.h>

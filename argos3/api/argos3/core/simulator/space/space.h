@@ -20,24 +20,24 @@ public:
   CEntity::TVector& GetRootEntityVector() { return entities_; }
   CEntity::TMap& GetEntityMapPerId() { return by_id_; }
   TMapPerTypePerId& GetEntityMapPerTypePerId() { return by_type_; }
-  // Throw CARGoSException for an unknown id, a type of which there is none, and an arena without a floor.
+  // Throw CARGoSException for an unknown id, a type without entities, and an arena without a floor.
   CEntity& GetEntity(const std::string& id);
   TMapPerType& GetEntitiesByType(const std::string& type);
   CFloorEntity& GetFloorEntity();
   // `pattern`: a regular expression.
   void GetEntitiesMatching(CEntity::TVector& found, const std::string& pattern);
 
-  // Ticks: 1 in the first step.
+  // Returns the ticks: 1 in the first step.
   UInt32 GetSimulationClock() const { return clock_; }
   const CVector3& GetArenaSize() const { return size_; }
   const CVector3& GetArenaCenter() const { return center_; }
   CRange<CVector3> GetArenaLimits() const { return {center_ - size_ / 2, center_ + size_ / 2}; }
-  // Those in the arena go back to where they came into it, with Reset of their parts, devices and controllers, and the
-  // clock to 0; who was added stays, and who was removed stays away. For loop functions, in a run of one process.
-  // Throws CARGoSException, and nothing is reset, if a controller of theirs is in another one.
+  // Resets the entities of the arena to their state when they were added, with their parts, devices and controllers,
+  // and the clock to 0. Added entities stay, and removed ones stay away. For loop functions in a run of one process.
+  // Throws CARGoSException, and resets nothing, if one of their controllers is in another process.
   void Reset();
 
-  // For the bridge that fills it.
+  // For the bridge that fills the space.
   void SetSimulationClock(UInt32 clock) { clock_ = clock; }
   void SetArena(const CVector3& size, const CVector3& center)
   {
@@ -46,7 +46,7 @@ public:
   }
   void SetFloor(CFloorEntity* floor) { floor_ = floor; }
   void Clear();
-  // By its type, with its parts; one of another type is left out.
+  // Adds an entity by its type, with its parts; other types are left out.
   void InsertAny(CEntity& entity);
   template <class Entity>
   void Insert(Entity& entity)
@@ -56,7 +56,7 @@ public:
     by_id_[entity.GetId()] = &entity;
     by_type_[entity.GetTypeDescription()][entity.GetId()] = CAny(&entity);
   }
-  // Of one of the entities, listed by its type alone.
+  // Adds a component, which is listed only by its type.
   template <class Component>
   void InsertComponent(const std::string& owner, Component& component)
   {

@@ -1,4 +1,4 @@
-// Reading elements of the experiment file. All throw CARGoSException with the place in the file.
+// Reads elements of the experiment file. All functions throw CARGoSException with the position in the file.
 #pragma once
 
 #include <argos3/core/utility/configuration/argos_exception.h>
@@ -37,7 +37,7 @@ struct SameType
   using Type = T;
 };
 
-// What a type is read by. Booleans are written true and false, bytes as numbers.
+// Read a value of a type. Booleans are written true and false, bytes as numbers.
 inline void ReadValue(const std::string& text, bool& value)
 {
   if (text != "true" && text != "false") throw ticpp::Exception("'" + text + "' is neither true nor false");

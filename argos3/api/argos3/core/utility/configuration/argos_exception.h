@@ -11,7 +11,7 @@ namespace argos
 class CARGoSException : public std::exception
 {
 public:
-  // `nested`: what led to it; its text follows the message.
+  // `nested`: the cause; its text follows the message.
   explicit CARGoSException(const std::string& message, std::exception* nested = nullptr)
       : text_(nested == nullptr ? message : message + ": " + nested->what())
   {
@@ -24,7 +24,7 @@ private:
 
 }  // namespace argos
 
-// Not in a build with NDEBUG, as assert.
+// As assert, it is removed in a build with NDEBUG.
 #ifndef NDEBUG
 #define ARGOS_ASSERT(CONDITION, MESSAGE)            \
   {                                                 \

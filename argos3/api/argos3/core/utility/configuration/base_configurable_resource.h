@@ -1,4 +1,4 @@
-// What has Init, Reset and Destroy.
+// CBaseConfigurableResource: an object with Init, Reset and Destroy.
 #pragma once
 
 #include <argos3/core/utility/configuration/argos_configuration.h>

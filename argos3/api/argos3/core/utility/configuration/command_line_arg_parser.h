@@ -1,4 +1,4 @@
-// CCommandLineArgParser: the options of a program of one's own: --name value, --flag, -n value, -f, -fg (several
+// CCommandLineArgParser: parses the options of a user's program: --name value, --flag, -n value, -f, -fg (several
 // flags).
 #pragma once
 
@@ -15,7 +15,7 @@ class CCommandLineArgParser
 public:
   virtual ~CCommandLineArgParser() = default;
 
-  // `flag` is false until Parse finds the option. `long_option` is without its hyphens.
+  // `flag` is false until Parse finds the option. `long_option` has no hyphens in front.
   void AddFlag(char short_option, const std::string& long_option, const std::string& description, bool& flag)
   {
     flag = false;
@@ -27,7 +27,7 @@ public:
     Add(short_option, long_option, description, false, value);
   }
   virtual void PrintUsage(CARGoSLog& log);
-  // Throws CARGoSException for an option that was not added, one without its value, and anything else.
+  // Throws CARGoSException for an unknown option, one without its value, and any other word.
   virtual void Parse(SInt32 count, char** words);
 
 private:
@@ -50,7 +50,7 @@ private:
   {
     value = FromString<T>(text);
   }
-  // With its blanks.
+  // Keeps the blanks.
   static void Read(const std::string& text, std::string& value) { value = text; }
   template <class Matches>
   const SOption& Find(const std::string& word, Matches matches) const;

@@ -1,4 +1,4 @@
-// CMemento: what can be saved into bytes and restored from them.
+// CMemento: an object that can be saved into bytes and restored from them.
 #pragma once
 
 #include <argos3/core/utility/datatypes/byte_array.h>
@@ -10,9 +10,9 @@ class CMemento
 {
 public:
   virtual ~CMemento() = default;
-  // Adds to the bytes.
+  // Appends to the bytes.
   virtual void SaveState(CByteArray& bytes) = 0;
-  // Takes its bytes from the front.
+  // Removes its bytes from the front.
   virtual void LoadState(CByteArray& bytes) = 0;
 };
 

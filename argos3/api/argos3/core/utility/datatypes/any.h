@@ -1,4 +1,4 @@
-// CAny: a value of any type, taken out by any_cast.
+// CAny: a value of any type, read by any_cast.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 namespace argos
 {
 
-// Not std::any, which controllers in the language of 2011 do not have.
+// It is not std::any, which C++11 controllers lack.
 class CAny
 {
 public:
@@ -22,7 +22,7 @@ public:
     return *this;
   }
   bool IsEmpty() const { return held_ == nullptr; }
-  // nullptr for another type than that which was put in.
+  // Returns nullptr for a type other than the stored one.
   template <class T>
   const T* Find() const
   {
@@ -42,17 +42,17 @@ private:
     T value;
   };
 
-  // It never changes, so copies share it.
+  // The value never changes, so copies share it.
   std::shared_ptr<const Holder> held_;
 };
 
-// nullptr for another type than that which was put in.
+// Returns nullptr for a type other than the stored one.
 template <class T>
 const T* any_cast(const CAny* any)
 {
   return any == nullptr ? nullptr : any->Find<T>();
 }
-// Throws std::bad_cast for another type than that which was put in.
+// Throws std::bad_cast for a type other than the stored one.
 template <class T>
 T any_cast(const CAny& any)
 {

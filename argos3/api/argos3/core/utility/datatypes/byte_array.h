@@ -1,4 +1,4 @@
-// CByteArray: bytes, as numbers in network order and texts are packed into messages.
+// CByteArray: bytes of a message. Numbers are packed in network order, texts with a final zero.
 #pragma once
 
 #include <argos3/core/utility/configuration/argos_exception.h>
@@ -22,7 +22,7 @@ public:
   void Swap(CByteArray& other) { bytes_.swap(other.bytes_); }
   void Resize(size_t size, UInt8 value = 0) { bytes_.resize(size, value); }
   void Zero() { std::fill(bytes_.begin(), bytes_.end(), UInt8{0}); }
-  // nullptr if it is empty.
+  // Returns nullptr if it is empty.
   const UInt8* ToCArray() const { return Empty() ? nullptr : bytes_.data(); }
   UInt8* ToCArray() { return Empty() ? nullptr : bytes_.data(); }
   // Throw CARGoSException beyond the end.
@@ -36,7 +36,7 @@ public:
     bytes_.insert(bytes_.end(), buffer, buffer + size);
     return *this;
   }
-  // Takes that many bytes from the front. Throws CARGoSException if there are fewer.
+  // Moves that many bytes from the front into `buffer`. Throws CARGoSException if there are fewer.
   CByteArray& FetchBuffer(UInt8* buffer, size_t size)
   {
     if (size > Size()) THROW_ARGOSEXCEPTION("a byte array of " << Size() << " bytes is asked for " << size);
@@ -44,14 +44,14 @@ public:
     bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(size));
     return *this;
   }
-  // The first `size` bytes leave.
+  // Removes the first `size` bytes.
   CByteArray& PopFront(size_t size)
   {
     bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(std::min(size, Size())));
     return *this;
   }
 
-  // Takes a value from the front.
+  // Removes a value from the front and returns it.
   template <class T>
   T PopFront()
   {
@@ -60,7 +60,7 @@ public:
     return value;
   }
 
-  // Whole numbers and floating-point numbers by their bits, the highest byte first.
+  // Appends whole numbers and floating-point numbers by their bits, highest byte first.
   template <class T, typename std::enable_if<std::is_arithmetic<T>::value, int>::type = 0>
   CByteArray& operator<<(T value)
   {

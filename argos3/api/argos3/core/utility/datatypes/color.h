@@ -1,4 +1,4 @@
-// CColor. In files: a name ("red", "gray50") or "r,g,b" or "r,g,b,a", each 0 to 255.
+// CColor. In files it is a name ("red", "gray50"), "r,g,b" or "r,g,b,a", each from 0 to 255.
 #pragma once
 
 #include <argos3/core/utility/string_utilities.h>
@@ -17,7 +17,7 @@ public:
       : red_(red), green_(green), blue_(blue), alpha_(alpha)
   {
   }
-  // 0xAARRGGBB.
+  // `argb`: 0xAARRGGBB.
   constexpr explicit CColor(UInt32 argb)
       : CColor(static_cast<UInt8>(argb >> 16), static_cast<UInt8>(argb >> 8), static_cast<UInt8>(argb),
                static_cast<UInt8>(argb >> 24))
@@ -33,11 +33,11 @@ public:
   void SetBlue(UInt8 blue) { blue_ = blue; }
   void SetAlpha(UInt8 alpha) { alpha_ = alpha; }
   void Set(UInt8 red, UInt8 green, UInt8 blue, UInt8 alpha = 255) { *this = CColor(red, green, blue, alpha); }
-  // As in files. Throws CARGoSException for what is no colour.
+  // Reads a colour as in files. Throws CARGoSException for an invalid one.
   void Set(const std::string& name);
-  // Brightness 0 to 255, weighted for the eye (ITU-R BT.601).
+  // Returns the brightness 0 to 255, weighted for the eye (ITU-R BT.601).
   Real ToGrayScale() const { return 0.299 * red_ + 0.587 * green_ + 0.114 * blue_; }
-  // 0xAABBGGRR.
+  // Returns 0xAABBGGRR.
   operator UInt32() const
   {
     return static_cast<UInt32>(alpha_) << 24 | static_cast<UInt32>(blue_) << 16 | static_cast<UInt32>(green_) << 8 |
@@ -49,7 +49,7 @@ public:
     return red_ == other.red_ && green_ == other.green_ && blue_ == other.blue_ && alpha_ == other.alpha_;
   }
   bool operator!=(const CColor& other) const { return !(*this == other); }
-  // Its name, or the four numbers if it has none.
+  // Writes its name, or the four numbers if it has none.
   friend std::ostream& operator<<(std::ostream& stream, const CColor& colour);
   friend std::istream& operator>>(std::istream& stream, CColor& colour);
 

@@ -1,4 +1,4 @@
-// The names of numbers in ARGoS3. It includes what controllers of others take for granted.
+// The number types of ARGoS3. It includes the headers that users' controllers rely on.
 #pragma once
 
 #include <argos3/core/config.h>
@@ -59,7 +59,7 @@ using ::UInt64;
 using ::UInt8;
 }  // namespace argos
 
-// To standard error, as printf.
+// Prints to standard error, as printf.
 #ifndef DEBUG
 #define DEBUG(...) std::fprintf(stderr, "[DEBUG] " __VA_ARGS__)
 #endif

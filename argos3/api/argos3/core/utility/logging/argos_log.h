@@ -1,5 +1,5 @@
-// LOG and LOGERR: lines for people. What robots say goes to the log of their process with robot and tick, what loop
-// functions say to standard error. A line is written when it ends.
+// LOG and LOGERR: lines for people. Lines of robots go to the log of their process with robot and tick; those of loop
+// functions go to standard error. A line is written when it ends.
 #pragma once
 
 #include <argos3/core/utility/datatypes/datatypes.h>
@@ -23,17 +23,17 @@ public:
     Append(text.str());
     return *this;
   }
-  // std::endl and its like.
+  // Handles std::endl and other manipulators.
   CARGoSLog& operator<<(std::ostream& (*manipulator)(std::ostream&));
   void Flush() {}
   void DisableColoredOutput() {}
   void EnableColoredOutput() {}
   bool IsColoredOutput() const { return false; }
-  // Lines of each thread stay together anyway.
+  // Does nothing, since lines of different threads are never mixed.
   void AddThreadSafeBuffer() {}
-  // All lines of this process, from now on. Throws CARGoSException if it cannot be written.
+  // Writes all later lines of this process to a file. Throws CARGoSException if it cannot be written.
   void RedirectToFile(const std::string& file);
-  // Given another buffer, all lines of this process go there.
+  // If the stream gets another buffer, all lines of this process go there.
   std::ostream& GetStream() { return stream_; }
 
 private:
@@ -41,14 +41,14 @@ private:
 
   const char* prefix_;
   std::ostream stream_;
-  std::streambuf* own_;  // none: lines go to the log
+  std::streambuf* own_;  // nullptr: lines go to the log
   std::ofstream file_;
 };
 
 extern CARGoSLog LOG;
 extern CARGoSLog LOGERR;
 
-// For RLOG and RLOGERR, in a controller.
+// Define RLOG and RLOGERR for controllers.
 #define RLOG argos::LOG << "[" << GetId() << "] "
 #define RLOGERR argos::LOGERR << "[" << GetId() << "] "
 

@@ -1,4 +1,4 @@
-// CRadians and CDegrees, and the trigonometric functions of them.
+// CRadians and CDegrees, and their trigonometric functions.
 #pragma once
 
 #include <argos3/core/utility/math/general.h>
@@ -9,7 +9,7 @@
 namespace argos
 {
 
-// What both units have in common.
+// The common operations of both units.
 template <class Angle>
 class CAngle
 {
@@ -147,7 +147,7 @@ constexpr CRadians ToRadians(const CDegrees& angle)
   return CRadians(angle.GetValue() * CDegrees::DEGREES_TO_RADIANS);
 }
 
-// a - b, within half a turn.
+// Returns a - b, within half a turn.
 inline CRadians NormalizedDifference(const CRadians& a, const CRadians& b) { return (a - b).SignedNormalize(); }
 inline CDegrees NormalizedDifference(const CDegrees& a, const CDegrees& b) { return (a - b).SignedNormalize(); }
 

@@ -1,4 +1,4 @@
-// CBox: a box that stands on its base, or lies turned; not one of the arena, which is CBoxEntity.
+// CBox: a box on its base, with any orientation. The box of an arena is CBoxEntity.
 #pragma once
 
 #include <argos3/core/utility/math/quaternion.h>
@@ -10,7 +10,7 @@ namespace argos
 class CBox
 {
 public:
-  // `position`: of the middle of the base.
+  // `position`: the middle of the base.
   CBox(const CVector3& size, const CVector3& position = CVector3(), const CQuaternion& orientation = CQuaternion())
       : size_(size), position_(position), orientation_(orientation)
   {
@@ -22,8 +22,8 @@ public:
   const CQuaternion& GetOrientation() const { return orientation_; }
   void SetOrientation(const CQuaternion& orientation) { orientation_ = orientation; }
 
-  // Whether the line of the ray meets it from the start on: at `t` for the first time, 1 at the end of the ray; from
-  // within, where it leaves.
+  // Returns whether the line of the ray meets it from the start on. `t` is the first point, 1 at the end of the ray. If
+  // the ray starts inside, `t` is where it leaves.
   bool Intersects(Real& t, const CRay3& ray) const
   {
     const CQuaternion back = orientation_.Inverse();

@@ -1,4 +1,4 @@
-// CConvexHull: the triangles around points in space.
+// CConvexHull: the triangles of the convex hull of points in space.
 #pragma once
 
 #include <argos3/core/utility/math/vector3.h>
@@ -19,12 +19,12 @@ public:
           VertexIndices{{a, b, c}}
     {
     }
-    CVector3 Normal;                      // outwards, as long as the parallelogram of two edges is large
-    Real Direction = 0;                   // a point is within if its product with the normal is not more
+    CVector3 Normal;                      // outwards; its length is the area of the parallelogram of two edges
+    Real Direction = 0;                   // a point is inside if its product with the normal is at most this
     std::array<UInt32, 3> VertexIndices;  // counter-clockwise, seen from outside
   };
 
-  // No faces around fewer than four points, or points of one plane.
+  // It has no faces for fewer than four points, or for points of one plane.
   CConvexHull(const std::vector<CVector3>& points);
   const std::vector<SFace>& GetFaces() const { return faces_; }
 

@@ -1,4 +1,4 @@
-// CCylinder: a cylinder on its base; not one of the arena, which is CCylinderEntity.
+// CCylinder: a cylinder on its base. The cylinder of an arena is CCylinderEntity.
 #pragma once
 
 #include <argos3/core/utility/math/ray3.h>
@@ -9,7 +9,7 @@ namespace argos
 class CCylinder
 {
 public:
-  // `position`: of the middle of the base; `axis`: of length 1.
+  // `position`: the middle of the base; `axis`: of length 1.
   CCylinder(Real radius, Real height, const CVector3& position = CVector3(), const CVector3& axis = CVector3::Z)
       : radius_(radius), height_(height), position_(position), axis_(axis)
   {
@@ -23,7 +23,7 @@ public:
   const CVector3& GetAxis() const { return axis_; }
   void SetAxis(const CVector3& axis) { axis_ = axis; }
 
-  // As that of CBox.
+  // Returns the same as CBox::Intersects.
   bool Intersects(Real& t, const CRay3& ray) const
   {
     const CVector3 start = ray.GetStart() - position_;
@@ -32,7 +32,7 @@ public:
     const Real climb = way.DotProduct(axis_);
     Real first = -std::numeric_limits<Real>::infinity();
     Real last = std::numeric_limits<Real>::infinity();
-    // Between the planes of base and top, and within the endless cylinder.
+    // The ray must be between the planes of base and top, and within the infinite cylinder.
     if (climb == 0 && (height < 0 || height > height_)) return false;
     if (climb != 0)
     {

@@ -1,4 +1,4 @@
-// Elementary functions under the names of ARGoS3.
+// Elementary functions with the names of ARGoS3.
 #pragma once
 
 #include <argos3/core/utility/datatypes/datatypes.h>
@@ -37,7 +37,7 @@ constexpr T& Max(T& a, T& b)
 {
   return a > b ? a : b;
 }
-// -1, 0 or 1.
+// Returns -1, 0 or 1.
 template <class T>
 constexpr SInt32 Sign(const T& value)
 {
@@ -48,7 +48,7 @@ constexpr T Square(const T& value)
 {
   return value * value;
 }
-// The fractional part decides: of a negative whole number it is the number below, as in ARGoS3.
+// As in ARGoS3, a negative number is truncated and decremented, so the result for a negative whole number is one less.
 inline SInt32 Floor(Real value)
 {
   const auto whole = static_cast<SInt32>(value);
@@ -69,7 +69,7 @@ inline bool DoubleEqAbsolute(Real a, Real b, Real epsilon)
 }
 inline bool DoubleEq(Real a, Real b) { return DoubleEqAbsolute(a, b, 0.0001); }
 
-// Along the lines between points, whose x ascend; beyond them along the first and the last line.
+// Interpolates linearly between points, whose x must ascend. Beyond them it continues the first and the last line.
 inline Real Interpolate(Real x, const std::vector<std::pair<Real, Real>>& points)
 {
   std::size_t last = 1;

@@ -9,7 +9,7 @@ namespace argos
 class CPlane
 {
 public:
-  // The floor.
+  // The default is the floor.
   CPlane() : normal_(CVector3::Z) {}
   CPlane(const CVector3& position, const CVector3& normal) : position_(position), normal_(normal) {}
   const CVector3& GetPosition() const { return position_; }

@@ -1,4 +1,4 @@
-// CPose2: place and heading on the plane; also the change from its frame to that around it.
+// CPose2: position and heading on the plane. It also converts from its frame to the frame around it.
 #pragma once
 
 #include <argos3/core/utility/math/quaternion.h>
@@ -13,7 +13,7 @@ public:
   CPose2() = default;
   CPose2(const CVector2& position, const CRadians& orientation) : position_(position), orientation_(orientation) {}
   CPose2(Real x, Real y, Real radians) : CPose2(CVector2(x, y), CRadians(radians)) {}
-  // The heading is that of a body that stands upright.
+  // Takes the heading of an upright body.
   CPose2(const CVector3& position, const CQuaternion& orientation) : position_(position.GetX(), position.GetY())
   {
     CVector3 axis;
@@ -24,7 +24,7 @@ public:
   const CVector2& GetPosition() const { return position_; }
   const CRadians& GetOrientation() const { return orientation_; }
   void Rotate(const CRadians& angle) { orientation_ += angle; }
-  // In its own frame.
+  // `offset` is in its own frame.
   void Translate(const CVector2& offset) { position_ = *this * offset; }
 
   CPose2 Inverse() const { return {CVector2(-position_).Rotate(-orientation_), -orientation_}; }
@@ -36,7 +36,7 @@ public:
     orientation_.SignedNormalize();
     return *this;
   }
-  // A point of its frame, in that around it.
+  // Returns a point of its frame in the frame around it.
   CVector2 operator*(const CVector2& point) const { return position_ + CVector2(point).Rotate(orientation_); }
   bool operator==(const CPose2& other) const
   {

@@ -1,4 +1,4 @@
-// CQuaternion. In files and Euler angles, rotations stand in the order z, y, x: about the axis x, then about y of the
+// CQuaternion. In files and Euler angles, rotations have the order z, y, x: about the axis x, then about y of the
 // rotated frame, then about its z.
 #pragma once
 
@@ -15,7 +15,7 @@ public:
   CQuaternion() = default;
   CQuaternion(Real w, Real x, Real y, Real z) : w_(w), v_(x, y, z) {}
   CQuaternion(const CRadians& angle, const CVector3& axis) { FromAngleAxis(angle, axis); }
-  // The shortest rotation that takes the direction of one vector to that of the other.
+  // Makes the shortest rotation from the direction of one vector to that of the other.
   CQuaternion(const CVector3& from, const CVector3& to) { BetweenTwoVectors(from, to); }
 
   Real GetW() const { return w_; }
@@ -40,7 +40,7 @@ public:
   {
     return *this = CQuaternion(Cos(angle * 0.5), axis * Sin(angle * 0.5));
   }
-  // No rotation is one about the z axis.
+  // The identity is returned as a rotation about the z axis.
   void ToAngleAxis(CRadians& angle, CVector3& axis) const
   {
     const Real sine = v_.Length();
@@ -67,7 +67,7 @@ public:
   bool operator==(const CQuaternion& other) const { return w_ == other.w_ && v_ == other.v_; }
   bool operator!=(const CQuaternion& other) const { return !(*this == other); }
 
-  // Euler angles z, y, x in degrees.
+  // Writes the Euler angles z, y, x in degrees.
   friend std::ostream& operator<<(std::ostream& stream, const CQuaternion& rotation)
   {
     CRadians z, y, x;
@@ -94,7 +94,7 @@ inline void CQuaternion::ToEulerAngles(CRadians& z, CRadians& y, CRadians& x) co
 {
   const auto [qx, qy, qz] = std::array<Real, 3>{GetX(), GetY(), GetZ()};
   const Real sine = 2 * (qx * qz + w_ * qy);
-  // Near a quarter turn about y, the axes of x and z are one: all of the rest is told as z.
+  // Near a quarter turn about y, the axes of x and z coincide: the whole remaining angle is returned as z.
   if (Abs(sine) > 0.998)
   {
     x = CRadians::ZERO;
@@ -116,7 +116,7 @@ inline CQuaternion& CQuaternion::BetweenTwoVectors(const CVector3& from, const C
     *this = CQuaternion(lengths + dot, CVector3(from).CrossProduct(to));
     return Normalize();
   }
-  // Opposite: half a turn about any axis across.
+  // The vectors are opposite: half a turn about any perpendicular axis is used.
   CVector3 axis = CVector3(from).CrossProduct(Abs(from.GetX()) < 0.9 * from.Length() ? CVector3::X : CVector3::Y);
   return FromAngleAxis(CRadians::PI, axis.Normalize());
 }

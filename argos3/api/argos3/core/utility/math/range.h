@@ -32,13 +32,13 @@ public:
   bool WithinMinBoundExcludedMaxBoundIncluded(const T& value) const { return value > min_ && value <= max_; }
   bool WithinMinBoundExcludedMaxBoundExcluded(const T& value) const { return value > min_ && value < max_; }
 
-  // Cuts the value to the range.
+  // Limits the value to the range.
   void TruncValue(T& value) const
   {
     if (value > max_) value = max_;
     if (value < min_) value = min_;
   }
-  // From 0 at the minimum to 1 at the maximum, cut to that.
+  // Returns 0 at the minimum to 1 at the maximum, limited to these.
   Real NormalizeValue(const T& value) const
   {
     T cut = value;
@@ -50,7 +50,7 @@ public:
   {
     mapped = static_cast<U>(NormalizeValue(value) * static_cast<Real>(range.GetSpan())) + range.GetMin();
   }
-  // Adds or takes away the span until the value lies within.
+  // Adds or subtracts the span until the value is inside.
   void WrapValue(T& value) const
   {
     for (T before = value; value > max_; before = value)

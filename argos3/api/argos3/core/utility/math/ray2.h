@@ -26,9 +26,9 @@ public:
   void ToVector(CVector2& vector) const { vector = end_ - start_; }
   // `t`: 0 at the start, 1 at the end.
   void GetPoint(CVector2& point, Real t) const { point = start_ + t * (end_ - start_); }
-  // From the start to the point at `t`.
+  // Returns the distance from the start to the point at `t`.
   Real GetDistance(Real t) const { return Abs(t) * GetLength(); }
-  // Whether the two cross, or touch; not those that are parallel.
+  // Returns whether the two cross or touch; parallel rays do not.
   bool Intersects(const CRay2& other) const
   {
     const CVector2 mine = end_ - start_;

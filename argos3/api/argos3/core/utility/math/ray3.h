@@ -29,9 +29,9 @@ public:
   CVector3& ToVector(CVector3& vector) const { return vector = end_ - start_; }
   // `t`: 0 at the start, 1 at the end.
   void GetPoint(CVector3& point, Real t) const { point = start_ + t * (end_ - start_); }
-  // From the start to the point at `t`.
+  // Returns the distance from the start to the point at `t`.
   Real GetDistance(Real t) const { return Abs(t) * GetLength(); }
-  // Whether it meets the plane, and where; a parallel ray does not.
+  // Returns whether it meets the plane, and where; a parallel ray does not.
   bool Intersects(const CPlane& plane, CVector3& point) const
   {
     CVector3 way;

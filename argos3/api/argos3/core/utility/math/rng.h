@@ -1,6 +1,6 @@
-// CRandom: random number generators. One that a controller or loop functions create is seeded from the seed of the
-// experiment, the id of the robot and the step in which it is created, so that it draws the same numbers in every run,
-// whatever the other robots do.
+// CRandom: random number generators. A generator of a controller or of loop functions gets its seed from the seed of
+// the experiment, the id of the robot, and the step in which it is created. So it draws the same numbers in every run,
+// independent of other robots.
 #pragma once
 
 #include <argos3/core/utility/math/angles.h>
@@ -22,15 +22,15 @@ public:
     ~CRNG();
 
     UInt32 GetSeed() const { return static_cast<UInt32>(seed_); }
-    // Of the numbers after the next Reset.
+    // Sets the seed for the numbers after the next Reset.
     void SetSeed(UInt32 seed) { seed_ = seed; }
     std::string GetType() const { return "philox4x32"; }
-    // There is one type.
+    // Does nothing, since there is one type.
     void SetType(const std::string& /*type*/) {}
     void Reset();
 
     bool Bernoulli(Real probability = 0.5);
-    // In [min, max).
+    // Return a number in [min, max).
     CRadians Uniform(const CRange<CRadians>& range);
     Real Uniform(const CRange<Real>& range);
     SInt32 Uniform(const CRange<SInt32>& range);
@@ -49,7 +49,7 @@ public:
     std::unique_ptr<Stream> stream_;
   };
 
-  // Generators of one name. Those of "argos" are seeded by the experiment, others by the seed given here.
+  // The generators of one name. The experiment seeds those of "argos"; the seed given here seeds others.
   class CCategory
   {
   public:
@@ -57,12 +57,12 @@ public:
     const std::string& GetId() const { return id_; }
     void SetId(const std::string& id) { id_ = id; }
     UInt32 GetSeed() const { return seed_; }
-    // Of the generators that are created from now on, and of those there are after the next reset.
+    // Sets the seed of generators that are created from now on, and of existing ones after the next reset.
     void SetSeed(UInt32 seed);
     CRNG* CreateRNG(const std::string& type = "");
     void ResetRNGs();
     void ReseedRNGs();
-    // For CSimulator::Reset: the seeds of all generators; 0 gives back those that they were created with.
+    // For CSimulator::Reset: changes the seeds of all generators; 0 restores the initial ones.
     void Vary(UInt32 variation);
 
   private:
@@ -72,17 +72,18 @@ public:
     std::vector<std::unique_ptr<CRNG>> generators_;
   };
 
-  // False if there is one of that name.
+  // Returns false if the name exists already.
   static bool CreateCategory(const std::string& category, UInt32 seed);
-  // All below throw CARGoSException for an unknown category.
+  // All functions below throw CARGoSException for an unknown category.
   static CCategory& GetCategory(const std::string& category);
   static bool ExistsCategory(const std::string& category);
   static void RemoveCategory(const std::string& category);
-  // Belongs to the controller or loop functions that create it. Those of other categories than "argos" may be created
-  // by a program before it loads an experiment: the seed of the category and their number seed them.
+  // Returns a generator that belongs to the controller or loop functions that create it. A program may create
+  // generators of other categories than "argos" before it loads an experiment: the seed of the category and their
+  // number seed them.
   static CRNG* CreateRNG(const std::string& category, const std::string& type = "");
   static UInt32 GetSeedOf(const std::string& category);
-  // Removes all categories but "argos", and the generators of that one.
+  // Removes all categories except "argos", and the generators of "argos".
   static void Reset();
   static void SetSeedOf(const std::string& category, UInt32 seed);
 };

@@ -1,4 +1,4 @@
-// CVector2. In files: "x,y". It is a matrix of one row or one column, too.
+// CVector2. In files it is "x,y". It can also be used as a matrix of one row or one column.
 #pragma once
 
 #include <argos3/core/utility/math/angles.h>

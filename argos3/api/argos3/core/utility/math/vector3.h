@@ -1,4 +1,4 @@
-// CVector3. In files: "x,y,z". It is a matrix of one row or one column, too.
+// CVector3. In files it is "x,y,z". It can also be used as a matrix of one row or one column.
 #pragma once
 
 #include <argos3/core/utility/math/vector2.h>
@@ -22,7 +22,7 @@ public:
   CVector3(const std::array<T, 3>& coordinates) : CVector3(coordinates[0], coordinates[1], coordinates[2])
   {
   }
-  // By length, inclination from the z axis, and azimuth.
+  // Makes a vector from its length, its inclination from the z axis, and its azimuth.
   CVector3(Real length, const CRadians& inclination, const CRadians& azimuth)
   {
     FromSphericalCoords(length, inclination, azimuth);
@@ -34,7 +34,7 @@ public:
   void SetX(Real x) { x_ = x; }
   void SetY(Real y) { y_ = y; }
   void SetZ(Real z) { z_ = z; }
-  // 0, 1, 2: x, y, z. Throws CARGoSException for others.
+  // 0, 1 and 2 are x, y and z. Throws CARGoSException for other numbers.
   const Real& operator[](UInt32 axis) const
   {
     if (axis > 2) THROW_ARGOSEXCEPTION("a CVector3 has no element " << axis << "; the last one is 2");
@@ -80,14 +80,14 @@ public:
     const CVector2 rotated = CVector2(x_, y_).Rotate(angle);
     return *this = CVector3(rotated.GetX(), rotated.GetY(), z_);
   }
-  // By the angle whose cosine and sine are x and y of `turn`.
+  // Rotates by the angle whose cosine and sine are x and y of `turn`.
   CVector3& RotateZ(const CVector2& turn)
   {
     return *this = CVector3(x_ * turn.GetX() - y_ * turn.GetY(), x_ * turn.GetY() + y_ * turn.GetX(), z_);
   }
   CVector3& Rotate(const CQuaternion& rotation);
   Real DotProduct(const CVector3& other) const { return x_ * other.x_ + y_ * other.y_ + z_ * other.z_; }
-  // This vector becomes its product with the other one.
+  // Replaces this vector by its product with the other one.
   CVector3& CrossProduct(const CVector3& other)
   {
     return *this =
@@ -115,7 +115,7 @@ public:
   bool operator!=(const CVector3& other) const { return !(*this == other); }
   operator CMatrix<1, 3>() const { return CMatrix<1, 3>(Coordinates().data()); }
   operator CMatrix<3, 1>() const { return CMatrix<3, 1>(Coordinates().data()); }
-  // In each of the three.
+  // Compares each of the three.
   bool operator<(const CVector3& other) const { return x_ < other.x_ && y_ < other.y_ && z_ < other.z_; }
   bool operator>(const CVector3& other) const { return other < *this; }
   bool operator<=(const CVector3& other) const { return x_ <= other.x_ && y_ <= other.y_ && z_ <= other.z_; }

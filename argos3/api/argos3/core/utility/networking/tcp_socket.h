@@ -1,4 +1,4 @@
-// CTCPSocket: a connection to another program. What a controller of a simulation makes of it cannot be repeated.
+// CTCPSocket: a connection to another program. The behaviour of a simulated controller that uses it cannot be repeated.
 #pragma once
 
 #include <argos3/core/utility/datatypes/byte_array.h>
@@ -9,7 +9,7 @@ namespace argos
 class CTCPSocket
 {
 public:
-  // `stream`: a socket that is connected; it is closed at the end.
+  // `stream`: a connected socket, which is closed at the end.
   explicit CTCPSocket(int stream = -1) : stream_(stream) {}
   ~CTCPSocket() { Disconnect(); }
   CTCPSocket(const CTCPSocket&) = delete;
@@ -17,15 +17,15 @@ public:
 
   bool IsConnected() const { return stream_ != -1; }
   int GetStream() const { return stream_; }
-  // All below throw CARGoSException for what the system refuses.
+  // All functions below throw CARGoSException if a system call fails.
   void Connect(const std::string& host, SInt32 port);
-  // Listens at the port and waits for the first one who connects: `client` is the other end.
+  // Listens at the port and waits for the first connection; `client` becomes its end here.
   void Accept(CTCPSocket& client, SInt32 port, SInt32 queue_length = 10);
   void Disconnect();
   void SendBuffer(const UInt8* bytes, size_t size);
-  // Waits until all are there. False if the other end is closed before.
+  // Waits until all bytes have come. Returns false if the other end closes before.
   bool ReceiveBuffer(UInt8* bytes, size_t size);
-  // With its length before it, as a UInt32 in network order.
+  // Sends the bytes after their length, a UInt32 in network order.
   void SendByteArray(const CByteArray& bytes);
   bool ReceiveByteArray(CByteArray& bytes);
 

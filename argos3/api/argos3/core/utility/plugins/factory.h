@@ -1,4 +1,4 @@
-// REGISTER_SYMBOL: the only kinds of plug-ins that libraries written for ARGoS3 bring here are controllers and loop
+// REGISTER_SYMBOL. The only plug-ins that libraries written for ARGoS3 can register here are controllers and loop
 // functions.
 #pragma once
 
@@ -12,7 +12,7 @@ namespace argos
 class CCI_Controller;
 class CLoopFunctions;
 
-// Used by the macros, while the library is loaded. Of two of one label the first one stays.
+// The macros use it while the library is loaded. If a label occurs twice, the first one stays.
 struct SControllerRegistration
 {
   SControllerRegistration(const char* label, CCI_Controller* (*create)());

@@ -1,4 +1,4 @@
-// CProfiler: how much time and memory a program takes between Start and Stop, written into a file.
+// CProfiler: writes the time and memory that a program takes between Start and Stop into a file.
 #pragma once
 
 #include <sys/resource.h>
@@ -13,13 +13,13 @@ namespace argos
 class CProfiler
 {
 public:
-  // `truncates`: whether the file begins anew. Throws CARGoSException if it cannot be written.
+  // `truncates`: empties the file first. Throws CARGoSException if it cannot be written.
   CProfiler(const std::string& file, bool truncates = true);
   void Start();
   void Stop();
-  // Lines with names, or one line of numbers in the same order.
+  // Writes lines with names, or one line of numbers in the same order.
   void Flush(bool human_readable);
-  // The process is measured with all its threads.
+  // Does nothing, since the process is measured with all its threads.
   void CollectThreadResourceUsage() {}
 
 private:

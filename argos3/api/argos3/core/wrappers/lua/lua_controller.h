@@ -1,5 +1,4 @@
-// CLuaController: a robot's script, for loop functions that read and write its variables. The Lua of the simulator
-// is 5.4.
+// CLuaController: a robot's script, whose variables loop functions can read and write. The simulator uses Lua 5.4.
 #pragma once
 
 #include <argos3/core/control_interface/ci_controller.h>
@@ -18,7 +17,7 @@ class CLuaController : public CCI_Controller
 {
 public:
   ~CLuaController() override;
-  // nullptr before Init of the controller. Leave its stack as it was.
+  // Returns nullptr before Init of the controller. The caller must leave the stack as it was.
   lua_State* GetLuaState() { return m_ptLuaState; }
   bool IsOK() const { return true; }
 

@@ -9,11 +9,11 @@ namespace argos
 class CBoxEntity : public CObjectWithLEDs
 {
 public:
-  // For AddEntity; the position is the middle of its base. Defined in the library: `swarmanoid` tells by its name among
-  // those that a library asks for that it makes boxes.
+  // For AddEntity; the position is the middle of its base. The constructor is defined in the library, since
+  // `swarmanoid` finds by its name which libraries make boxes.
   CBoxEntity(const std::string& id, const CVector3& position, const CQuaternion& orientation, bool movable,
              const CVector3& size, Real mass = 1.0);
-  // For the bridge.
+  // For the bridge to the simulator.
   CBoxEntity(const std::string& id, bool movable, unsigned leds, const CVector3& size, Real mass)
       : CObjectWithLEDs(id, movable, leds), size_(size), mass_(mass)
   {

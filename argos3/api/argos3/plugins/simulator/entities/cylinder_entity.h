@@ -9,10 +9,10 @@ namespace argos
 class CCylinderEntity : public CObjectWithLEDs
 {
 public:
-  // As that of CBoxEntity.
+  // For AddEntity, as the constructor of CBoxEntity.
   CCylinderEntity(const std::string& id, const CVector3& position, const CQuaternion& orientation, bool movable,
                   Real radius, Real height, Real mass = 1.0);
-  // For the bridge.
+  // For the bridge to the simulator.
   CCylinderEntity(const std::string& id, bool movable, unsigned leds, Real radius, Real height, Real mass)
       : CObjectWithLEDs(id, movable, leds), radius_(radius), height_(height), mass_(mass)
   {

@@ -1,4 +1,4 @@
-// The ground sensors of a robot: where the simulated ones are. Loop functions look at them and change none.
+// The positions of a robot's simulated ground sensors. Loop functions can only read them.
 #pragma once
 
 #include <argos3/core/simulator/entity/composable_entity.h>
@@ -17,7 +17,7 @@ public:
   };
   struct SSensor
   {
-    CVector2 Offset;  // in the frame of the anchor, m
+    CVector2 Offset;  // m, in the frame of the anchor
     ESensorType Type;
     SAnchor& Anchor;
     SSensor(const CVector2& offset, ESensorType type, SAnchor& anchor) : Offset(offset), Type(type), Anchor(anchor) {}
@@ -27,7 +27,7 @@ public:
 
   explicit CGroundSensorEquippedEntity(CEntity* parent, const std::string& id = "ground_0") : CEntity(parent, id) {}
   size_t GetNumSensors() const { return sensors_.size(); }
-  // Throw CARGoSException from GetNumSensors() on.
+  // Throw CARGoSException for numbers from GetNumSensors() on.
   SSensor& GetSensor(size_t sensor);
   const SSensor& GetSensor(size_t sensor) const
   {
@@ -36,7 +36,7 @@ public:
   TSensors& GetSensors() { return sensors_; }
   std::string GetTypeDescription() const override { return "ground_sensors"; }
 
-  // As that of CProximitySensorEquippedEntity.
+  // The arguments are as in CProximitySensorEquippedEntity.
   void Place(Real x, Real y, ESensorType type, SAnchor& anchor);
 
 private:

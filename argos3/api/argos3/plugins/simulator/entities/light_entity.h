@@ -11,11 +11,11 @@ namespace argos
 class CLightEntity : public CPositionalEntity
 {
 public:
-  // Defined in the library: `swarmanoid` tells by its name among those that a library asks for that it makes lights.
+  // The constructor is defined in the library, since `swarmanoid` finds by its name which libraries make lights.
   CLightEntity(const std::string& id, const CVector3& position, const CColor& colour, Real intensity);
-  // One that is nowhere: for controllers that keep a light of their own.
+  // Makes a light without a position, for controllers that keep their own light.
   CLightEntity() : CPositionalEntity(nullptr, "", CVector3(), CQuaternion()), intensity_(0) {}
-  // To the place and colour with which it came into the arena.
+  // Restores the position and colour with which it was added to the arena.
   void Reset() override;
   const CColor& GetColor() const { return colour_; }
   void SetColor(const CColor& colour);
@@ -23,7 +23,7 @@ public:
   void AddToMedium(CLEDMedium&) {}
   void RemoveFromMedium() {}
   Real GetIntensity() const { return intensity_; }
-  // Throws CARGoSException for a number that is not finite or below 0.
+  // Throws CARGoSException for a number that is negative or not finite.
   void SetIntensity(Real intensity);
   std::string GetTypeDescription() const override { return "light"; }
 

@@ -1,4 +1,4 @@
-// The light sensors of a robot: where the simulated ones are. Loop functions look at them and change none.
+// The positions of a robot's simulated light sensors. Loop functions can only read them.
 #pragma once
 
 #include <argos3/core/simulator/entity/composable_entity.h>
@@ -12,7 +12,7 @@ class CLightSensorEquippedEntity : public CEntity
 public:
   struct SSensor
   {
-    // In the frame of the anchor, m.
+    // The position in m, in the frame of the anchor.
     CVector3 Position;
     CVector3 Direction;
     SAnchor& Anchor;
@@ -27,7 +27,7 @@ public:
 
   explicit CLightSensorEquippedEntity(CEntity* parent, const std::string& id = "light_0") : CEntity(parent, id) {}
   size_t GetNumSensors() const { return sensors_.size(); }
-  // Throw CARGoSException from GetNumSensors() on.
+  // Throw CARGoSException for numbers from GetNumSensors() on.
   SSensor& GetSensor(size_t sensor);
   const SSensor& GetSensor(size_t sensor) const
   {
@@ -36,7 +36,7 @@ public:
   SSensor::TList& GetSensors() { return sensors_; }
   std::string GetTypeDescription() const override { return "light_sensors"; }
 
-  // As that of CProximitySensorEquippedEntity.
+  // The arguments are as in CProximitySensorEquippedEntity.
   void PlaceRing(Real height, Real radius, const CRadians& first_angle, Real range, unsigned sensors, SAnchor& anchor);
 
 private:

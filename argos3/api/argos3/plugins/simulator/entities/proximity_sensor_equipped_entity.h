@@ -1,4 +1,4 @@
-// The proximity sensors of a robot: where the simulated ones are. Loop functions look at them and change none.
+// The positions of a robot's simulated proximity sensors. Loop functions can only read them.
 #pragma once
 
 #include <argos3/core/simulator/entity/composable_entity.h>
@@ -12,7 +12,7 @@ class CProximitySensorEquippedEntity : public CEntity
 public:
   struct SSensor
   {
-    // In the frame of the anchor, m. The direction is as long as the sensor reaches.
+    // The position in m, in the frame of the anchor. The direction is as long as the range of the sensor.
     CVector3 Offset;
     CVector3 Direction;
     SAnchor& Anchor;
@@ -30,7 +30,7 @@ public:
   {
   }
   size_t GetNumSensors() const { return sensors_.size(); }
-  // Throw CARGoSException from GetNumSensors() on.
+  // Throw CARGoSException for numbers from GetNumSensors() on.
   SSensor& GetSensor(size_t sensor);
   const SSensor& GetSensor(size_t sensor) const
   {
@@ -39,7 +39,7 @@ public:
   TSensors& GetSensors() { return sensors_; }
   std::string GetTypeDescription() const override { return "proximity_sensors"; }
 
-  // For the robots of this library: what is added here, no simulated sensor follows.
+  // For the robots of this library. Sensors added here do not change the simulated ones.
   void Place(const CVector3& offset, const CRadians& heading, Real range, SAnchor& anchor);
   void PlaceRing(Real height, Real radius, const CRadians& first_angle, Real range, unsigned sensors, SAnchor& anchor);
 

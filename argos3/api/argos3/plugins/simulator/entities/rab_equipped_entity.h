@@ -1,4 +1,4 @@
-// What a robot has for range and bearing, as loop functions see it.
+// The range-and-bearing equipment of a robot, as loop functions see it.
 #pragma once
 
 #include <argos3/core/simulator/entity/positional_entity.h>
@@ -17,24 +17,24 @@ public:
   using TSet = CSet<CRABEquippedEntity*, SEntityComparator>;
 
   explicit CRABEquippedEntity(CEntity* parent) : CPositionalEntity(parent, "rab_0") {}
-  // Its antenna, 0.1 m above the base of the robot, and the robot's heading.
+  // Return the position of its antenna, 0.1 m above the base of the robot, and the robot's heading.
   const CVector3& GetPosition() const override;
   const CQuaternion& GetOrientation() const override;
   CEmbodiedEntity& GetEntityBody() const;
-  // These throw CARGoSException outside loop functions, and for a robot that is not in the arena.
-  // What it sent in the latest step; zeros if it sends nothing.
-  // What is written into it is sent, as by SetData, when the function of the loop functions ends that asked.
+  // Returns the bytes that it sent in the latest step; zeros if it sends nothing. Bytes written into the result are
+  // sent, as by SetData, when the current function of the loop functions ends. These functions throw CARGoSException
+  // outside loop functions, and for a robot outside the arena.
   CByteArray& GetData();
-  // Others receive it in the next step, unless its controller sends something else until then. Throws CARGoSException
-  // for another size than that of its messages.
+  // Sends the bytes: others receive them in the next step, unless its controller sends other bytes until then. Throws
+  // CARGoSException for a size other than that of its messages.
   void SetData(const CByteArray& data);
   void ClearData() { SetData(CByteArray(GetMsgSize())); }
-  // Zeros, if it sends anything.
+  // Sends zeros, if the robot sends.
   void Reset() override;
   size_t GetMsgSize() const;
-  // m, as in the experiment file.
+  // Returns m, as in the experiment file.
   Real GetRange() const;
-  // Throws CARGoSException for another range: it is that of the file for the whole run.
+  // Throws CARGoSException for another range, since the range of the file is valid for the whole run.
   void SetRange(Real range);
   std::string GetTypeDescription() const override { return "rab"; }
 

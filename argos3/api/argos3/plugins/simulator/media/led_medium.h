@@ -1,4 +1,5 @@
-// CLEDMedium, which loop functions hand to what they make. Cameras see all LEDs and lights here, whatever their medium.
+// CLEDMedium, which loop functions pass to entities that they make. Cameras see all LEDs and lights, whatever their
+// medium.
 #pragma once
 
 #include <argos3/core/simulator/medium/medium.h>

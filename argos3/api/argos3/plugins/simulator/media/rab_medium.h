@@ -1,4 +1,4 @@
-// CRABMedium, which loop functions ask who hears whom.
+// CRABMedium, from which loop functions read which robots hear each other.
 #pragma once
 
 #include <argos3/core/simulator/medium/medium.h>
@@ -12,9 +12,9 @@ class CRABMedium : public CMedium
 public:
   void AddEntity(CRABEquippedEntity&) {}
   void RemoveEntity(CRABEquippedEntity&) {}
-  // Those whose messages a robot can receive where they stand now: of the same size, within their range, nobody
-  // between. What a controller does not have a sensor range_and_bearing for is in none. It stays until asked for the
-  // same robot again. Throws CARGoSException outside loop functions.
+  // Returns the robots whose messages a robot can receive at its present position: of the same size, within their
+  // range, with no body between. Robots without a sensor range_and_bearing are in no list. The result is valid until
+  // the next call for the same robot. Throws CARGoSException outside loop functions.
   const CRABEquippedEntity::TSet& GetRABsCommunicatingWith(CRABEquippedEntity& receiver) const;
 
 private:

@@ -1,5 +1,5 @@
-// What stands still, seen from above: floor, grid, patches, holes, terrain, walls, lights. Drawn anew only if the view
-// moves or a colour changes.
+// The static content seen from above: floor, grid, patches, holes, terrain, walls, lights. It is drawn again only if
+// the view moves or a colour changes.
 import { css, gridStep, isBoundaryWall, paint, palette } from "../look.js";
 import { floorPicture } from "../floor_picture.js";
 import { fillBody, terrainPicture } from "./bodies.js";
@@ -34,7 +34,7 @@ export class Backdrop {
     return this.colours.get(body.entity) ?? [body.colour, 1];
   }
 
-  // frame: the transformation of the plan (camera.js); heat: a picture of the arena's size that lies on its floor, or null.
+  // `frame`: the transformation of the plan (camera.js). `heat`: a picture of the arena's size on its floor, or null.
   update(frame, theme, heat) {
     const key = `${frame.key} ${theme.floor}`;
     if (!this.stale && key === this.key) return;
@@ -55,14 +55,14 @@ export class Backdrop {
     }
     const still = (body) => ({ position: body.position, orientation: body.orientation });
     for (const body of this.solid) {
-      // The shadow of a wall about the arena would hide what happens inside.
+      // The shadow of a wall around the arena would hide robots inside.
       const casts = !isBoundaryWall(body, this.world.arena);
       fillBody(context, frame, this.world.look(body.entity), body, still(body), ...this.colourOf(body), casts);
     }
     this.pixels = null;
   }
 
-  // Of the whole picture, as 32-bit numbers.
+  // Returns the whole picture as 32-bit numbers.
   read() {
     const { canvas, context } = this;
     this.pixels ??= new Uint32Array(context.getImageData(0, 0, canvas.width, canvas.height).data.buffer);
@@ -95,7 +95,7 @@ export class Backdrop {
     context.setTransform(...frame.standing(body));
     if (body.picture) {
       context.imageSmoothingEnabled = false;
-      context.scale(1, -1); // its first row is the highest y
+      context.scale(1, -1); // the first row has the highest y
       context.drawImage(this.pictureOf(body), -x / 2, -y / 2, x, y);
       context.setTransform(1, 0, 0, 1, 0, 0);
       return;
@@ -121,7 +121,7 @@ export class Backdrop {
     const { context } = this;
     const { low, high } = body.terrain;
     if (!this.terrains.has(body.entity)) this.terrains.set(body.entity, terrainPicture(body.terrain));
-    context.setTransform(...frame.standing(body)); // its first row is the lowest y, and y points up
+    context.setTransform(...frame.standing(body)); // the first row has the lowest y, and y points up
     context.drawImage(this.terrains.get(body.entity), low[0], low[1], high[0] - low[0], high[1] - low[1]);
     context.setTransform(1, 0, 0, 1, 0, 0);
   }

@@ -1,20 +1,21 @@
-// Bodies that are no robots, seen from above: boxes as the outline of their corners, with a shadow that tells their height.
+// Bodies other than robots, seen from above: boxes as the outline of their corners, with a shadow that shows their
+// height.
 import { css, paint } from "../look.js";
 import { rotate } from "../turning.js";
 
 const SHADOW_LEAST_M = 0.02;
-const SHADOW_MOST_M = 0.6; // taller bodies throw no longer ones
-const SUN = [0.3, 0.4]; // metres of shadow a metre of height: it falls to +x and +y, as in three dimensions
+const SHADOW_MOST_M = 0.6; // taller bodies throw no longer shadows
+const SUN = [0.3, 0.4]; // metres of shadow a metre of height, towards +x and +y, as in three dimensions
 const TERRAIN_LOW = [0x6d, 0x6a, 0x5c];
 const TERRAIN_HIGH = [0xc6, 0xbb, 0xa2];
 
-// How far and where a shadow falls, in pixels, of what is so high above the floor.
+// Returns the offset in pixels of the shadow of a point at a height above the floor.
 export function shadowOf(frame, height) {
   const reach = Math.min(height, SHADOW_MOST_M) * frame.scale;
   return [SUN[0] * reach, -SUN[1] * reach];
 }
 
-// The outline of points, by Andrew's monotone chain.
+// Returns the outline of points, by Andrew's monotone chain.
 export function outline(points) {
   const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
   const half = (list) => {
@@ -32,7 +33,7 @@ export function outline(points) {
   return [...half(sorted), ...half(sorted.reverse())];
 }
 
-// Corners of a body in metres, and the height of its top.
+// Returns the corners of a body in metres, and the height of its top.
 function cornersOf({ form, based }, [sx, sy, sz], { position, orientation }) {
   const corners = [];
   const low = based || form === "cylinder" ? 0 : -sz / 2;
@@ -57,7 +58,7 @@ function trace(context, frame, corners, [dx, dy] = [0, 0]) {
 
 const darker = (colour) => css(((colour >> 1) & 0x7f7f7f) + ((colour >> 2) & 0x3f3f3f));
 
-// pose: {position, orientation}; colour: as the file says; casts: a shadow
+// `pose`: {position, orientation}; `colour`: as in the file; `casts`: whether it throws a shadow.
 export function fillBody(context, frame, look, body, pose, colour, intensity, casts = true) {
   const kind = look.form === "none" ? look.role : look.form;
   if (kind === "light") return drawLight(context, frame, pose.position, colour, intensity);
@@ -109,7 +110,7 @@ function drawSound(context, frame, [px, py], colour) {
   }
 }
 
-// A terrain as a picture of one pixel a cell: light where it is high, shaded by the sun. Row 0 has the lowest y.
+// Returns a terrain as a picture of one pixel a cell: light at high ground, shaded by the sun. Row 0 has the lowest y.
 export function terrainPicture({ low, high, columns, rows, heights }) {
   const canvas = document.createElement("canvas");
   [canvas.width, canvas.height] = [columns, rows];

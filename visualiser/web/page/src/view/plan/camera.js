@@ -1,10 +1,10 @@
-// Where the plan looks, and the hands that move it: drag, wheel, two fingers.
+// The camera of the plan, and the pointers that move it: drag, wheel, two fingers.
 
 const WHEEL_STEP = 1.2; // for 100 pixels of the wheel
 const KEY_PIXELS = 60;
 const LEAST_SPAN_M = 0.3; // from top to bottom
 const MOST_SCALE = 2500; // pixels a metre
-const MARGIN = 0.06; // of the picture, about the arena
+const MARGIN = 0.06; // part of the picture around the arena
 
 // The transformation from metres to pixels of the canvas.
 class Frame {
@@ -26,7 +26,7 @@ class Frame {
   metresY(pixels) {
     return (this.bottom - pixels) / this.scale;
   }
-  // For setTransform: the metres of a body that stands upright, y to its left.
+  // Returns the arguments of setTransform for an upright body in metres, with y to its left.
   standing({ position, orientation: [, , z, w] }) {
     const yaw = 2 * Math.atan2(z, w);
     const [cos, sin] = [this.scale * Math.cos(yaw), this.scale * Math.sin(yaw)];
@@ -35,14 +35,14 @@ class Frame {
 }
 
 export class PlanCamera {
-  // onChange: whatever has moved it
+  // `onChange`: called when the camera has moved.
   constructor(canvas, onChange) {
     this.canvas = canvas;
     this.onChange = onChange;
     this.centre = [0, 0];
-    this.height = 0; // of what is looked at: kept for other views
+    this.height = 0; // height of the target, kept for other views
     this.span = 10; // m from top to bottom
-    this.direction = null; // of the eye in a view of three dimensions: kept for it
+    this.direction = null; // direction of the eye in three dimensions, kept for that view
     this.home = null;
     this.enabled = true;
     this.held = false;
@@ -70,7 +70,7 @@ export class PlanCamera {
     this.kept ??= new Frame(Math.round(this.width * this.ratio), Math.round(this.pixels * this.ratio), this.ratio, this.centre, this.scale);
     return this.kept;
   }
-  // Pixels of the canvas a metre.
+  // Returns the pixels of the canvas a metre.
   get scale() {
     return (this.pixels * this.ratio) / this.span;
   }
@@ -102,13 +102,13 @@ export class PlanCamera {
     this.look(this.centre[0] + dx, this.centre[1] + dy, this.span);
   }
 
-  // By arrow keys: steps to the right and up.
+  // Handles arrow keys: steps to the right and up.
   step(right, up) {
     const metres = (KEY_PIXELS * this.ratio) / this.scale;
     this.shift(right * metres, up * metres);
   }
 
-  // Keeps what lies at a place of the canvas (CSS pixels) where it is.
+  // Zooms and keeps the point at a place of the canvas (CSS pixels) fixed.
   zoom(steps, at = { x: this.width / 2, y: this.pixels / 2 }) {
     const before = [this.frame.metresX(at.x * this.ratio), this.frame.metresY(at.y * this.ratio)];
     this.setSpan(this.span * WHEEL_STEP ** -steps);

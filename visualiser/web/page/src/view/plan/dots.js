@@ -1,27 +1,28 @@
-// Robots of a few pixels, written into the picture's memory: ten thousand cost a few milliseconds, as no drawing command
-// does. A dot is a disc in its colour with a rim that stands out from the floor, and a nose to the front.
+// Draws robots of a few pixels directly into the picture's memory. Ten thousand cost a few milliseconds; drawing
+// commands would cost far more. A dot is a disc in its colour with a rim that stands out from the floor, and a nose to
+// the front.
 import { rgb } from "../look.js";
 
-export const DOT_PIXELS = 10; // CSS pixels: wider robots are drawn as what they are
+export const DOT_PIXELS = 10; // CSS pixels: larger robots are drawn as sprites
 const HEADINGS = 16;
-const PLACES = 3; // of a pixel, along each side: dots glide instead of jumping
-const SAMPLES = 3; // of a pixel, along each side, for soft edges
-const NOSE_FROM = 5.6; // pixels: on smaller dots it would drown the colour
+const PLACES = 3; // positions in a pixel along each side, so that dots glide instead of jumping
+const SAMPLES = 3; // samples in a pixel along each side, for soft edges
+const NOSE_FROM = 5.6; // pixels: on smaller dots a nose would hide the colour
 const MOST_FAMILIES = 400;
 const NOSE = 0xf08a3c;
 
-// The rim of a dot: darker by day, lighter by night.
+// Returns the colour of a dot's rim: darker by day, lighter by night.
 export function rimOf(colour, dark) {
   return rgb(colour).reduce((sum, channel) => sum * 256 + Math.round(dark ? 0.5 * channel + 0.5 * 255 : 0.42 * channel), 0);
 }
 
 export class DotSprites {
   constructor() {
-    this.families = new Map(); // by size and colour: the sprites of all headings and places in a pixel
+    this.families = new Map(); // by size and colour: the sprites of all headings and subpixel positions
     this.key = null;
   }
 
-  // Draws a dot about x, y (pixels) into `pixels` of so many columns and rows. size: of its diameter, in half pixels.
+  // Draws a dot about x, y (pixels) into `pixels` with so many columns and rows. `size`: the diameter in half pixels.
   draw(pixels, columns, rows, x, y, size, yaw, colour, dark) {
     const key = (size * 2 + (dark ? 1 : 0)) * 0x1000000 + colour;
     if (key !== this.key) this.changeTo(key, size / 2, colour, dark);
@@ -61,7 +62,7 @@ export class DotSprites {
   }
 }
 
-// Those pixels of a dot that are not clear: where they are from its middle one, colour and opacity (0 to 256).
+// Returns the pixels of a dot that are not clear: the offsets from its middle pixel, colour and opacity (0 to 256).
 function makeSprite({ diameter, fill, rim }, heading, place) {
   const radius = diameter / 2;
   const inner = radius - Math.max(0.9, 0.13 * diameter);

@@ -1,5 +1,5 @@
-// The plan: the experiment from above, on a canvas without a graphics card. It begins without anything being loaded, and
-// draws ten thousand robots where the view in three dimensions draws ten.
+// The plan: the experiment from above, on a canvas without a graphics card. It starts without loading other code, and
+// draws ten thousand robots in the time in which the view in three dimensions draws ten without a graphics card.
 import { h } from "../../ui/dom.js";
 import { Flag } from "../../protocol.js";
 import { GRIP, css, extentOf, themes } from "../look.js";
@@ -9,18 +9,18 @@ import { PlanSwarm } from "./swarm.js";
 import { TrailLayer } from "./trail_layer.js";
 import { viewOf } from "../viewpoints.js";
 
-const MOST_RATIO = 2; // pixels drawn for one of the page
-const PICK_PIXELS = 6; // by which a click may miss
+const MOST_RATIO = 2; // the most drawn pixels for a pixel of the page
+const PICK_PIXELS = 6; // pixels by which a click may miss
 const BEAM_SPOT_M = 0.055;
 
 export class PlanView {
-  // picture: what all views show
+  // `picture`: the content that all views show.
   constructor(container, picture) {
     this.container = container;
     this.picture = picture;
     this.canvas = h("canvas.picture.plan", { role: "img", "aria-label": "The experiment from above" });
     container.prepend(this.canvas);
-    // In memory, not on a graphics card: dots are written there, and nothing has to be asked of a driver that may be slow.
+    // The canvas is in memory, not on a graphics card. Dots are written there, and a slow driver is never involved.
     this.context = this.canvas.getContext("2d", { alpha: false, willReadFrequently: true });
     this.backdrop = new Backdrop();
     this.trails = new TrailLayer();
@@ -67,7 +67,7 @@ export class PlanView {
     this.invalidate();
   }
 
-  // The picture of the heat map is another.
+  // Handles another picture of the heat map.
   updateHeat() {
     this.backdrop.stale = true;
     this.invalidate();
@@ -81,7 +81,7 @@ export class PlanView {
     this.stale = true;
   }
 
-  // False if there is nothing new. moved: whether robots stand elsewhere than in the last picture.
+  // Returns false if nothing has changed. `moved`: whether robots have moved since the last picture.
   draw(moved) {
     if (!moved && !this.stale) return false;
     this.stale = false;
@@ -102,7 +102,7 @@ export class PlanView {
     return true;
   }
 
-  // Of experiment functions, from above: areas, then lines, then points.
+  // Draws drawings of experiment functions from above: areas, then lines, then points.
   drawDrawing(frame, { triangles, lines, dots }) {
     const { context } = this;
     for (const { colour, opacity, points } of triangles) {
@@ -132,7 +132,7 @@ export class PlanView {
     context.globalAlpha = 1;
   }
 
-  // What stands still, and the robots that are dots.
+  // Draws the static content, and the robots that are dots.
   drawGround(frame, motion) {
     const { context, swarm, backdrop } = this;
     swarm.drawn = { dots: 0, sprites: 0 };
@@ -161,7 +161,7 @@ export class PlanView {
       context.moveTo(frame.x(from[0]), frame.y(from[1]));
       context.lineTo(frame.x(to[0]), frame.y(to[1]));
     }
-    // From above a rope to the ceiling is a point: a ring about it.
+    // From above, a rope to the ceiling is a point, shown by a ring.
     for (const { slots, radius } of this.swarm.herds)
       for (const slot of slots) {
         if (!(motion.colours[4 * slot + 3] & Flag.attached) || !motion.isPresent(slot)) continue;
@@ -234,7 +234,7 @@ export class PlanView {
     const { target, span } = this.camera.viewpoint;
     return [target[0], target[1], span];
   }
-  // camera: of viewpoints.js; the plan shows the place that it looks at
+  // `camera`: as in viewpoints.js. The plan shows the point that it looks at.
   stand(camera) {
     this.viewpoint = viewOf(camera, Math.max(...this.world.arena.slice(0, 2)));
   }
@@ -251,7 +251,7 @@ export class PlanView {
     this.camera.look(x, y, Math.max(9 * extentOf(this.world, entity).radius, 1));
   }
 
-  // CSS pixels of the canvas; depth: what is nearer to the eye has less.
+  // Returns the CSS pixels of the canvas. `depth` is smaller for points nearer to the eye.
   project(x, y, z) {
     const frame = this.camera.frame;
     return { x: frame.x(x) / frame.ratio, y: frame.y(y) / frame.ratio, depth: -z };
@@ -264,13 +264,13 @@ export class PlanView {
     return [frame.metresX(x * frame.ratio), frame.metresY(y * frame.ratio), height];
   }
 
-  // The ray of sight.
+  // Returns the ray of sight.
   sight(at) {
     const [x, y] = this.floorPoint(at, 0);
     return { origin: [x, y, 1e4], direction: [0, 0, -1] };
   }
 
-  // The entity whose outline is nearest to a place: robots before others, the highest of several.
+  // Returns the entity whose outline is nearest to a place: robots before others, the highest of several.
   pick(at) {
     const { world, picture } = this;
     const [x, y] = this.floorPoint(at, 0);

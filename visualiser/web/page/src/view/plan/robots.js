@@ -1,4 +1,4 @@
-// The robots as they look from above, in metres with the front along x: drawn once for each size into a sprite. Lengths are
+// Robots seen from above, in metres with the front along x. Each is drawn once for each size into a sprite. Lengths are
 // those of the models (visualiser/scene/*_mesh.cpp).
 import { css, extentOf, paint } from "../look.js";
 
@@ -112,7 +112,7 @@ const drawings = {
   },
 };
 
-// A robot of a user's kind: a disc in its paint.
+// Draws a robot of a user's kind: a disc in its paint.
 function drawOther(context, { radius, colour }) {
   softShadow(context, radius);
   disc(context, 0, 0, radius, DARK);
@@ -121,7 +121,7 @@ function drawOther(context, { radius, colour }) {
   wedge(context, 0.35 * radius, 0.98 * radius, 0.3 * radius, NOSE);
 }
 
-// A picture of one robot of a kind, front to the right; scale: pixels a metre.
+// Returns a picture of one robot of a kind, with its front to the right. `scale`: pixels a metre.
 export function makeSprite(world, entity, scale) {
   const { radius } = extentOf(world, entity);
   const half = Math.ceil(1.4 * Math.max(radius, 0.17 * (world.kinds[entity] === "handbot")) * scale) + 1;

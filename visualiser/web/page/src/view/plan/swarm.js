@@ -1,12 +1,12 @@
-// The robots and objects of the plan, at the level of detail that their size asks for: dots in the picture's memory, or
-// sprites with the LEDs drawn over them.
+// The robots and objects of the plan, at the level of detail for their size: dots in the picture's memory, or sprites
+// with the LEDs drawn over them.
 import { Flag, RING_LEDS } from "../../protocol.js";
 import { LED_OFF, css, extentOf } from "../look.js";
 import { fillBody, shadowOf } from "./bodies.js";
 import { DOT_PIXELS, DotSprites } from "./dots.js";
 import { makeSprite, ringOf } from "./robots.js";
 
-const LEAST_PIXELS = 6; // CSS pixels; smaller where robots stand close
+const LEAST_PIXELS = 6; // CSS pixels; less in dense swarms
 const LEAST_OF_SPACING = 0.75;
 const FLIES_M = 0.05;
 const GLOW_RADII = 2.3;
@@ -18,7 +18,7 @@ export class PlanSwarm {
     this.dots = new DotSprites();
     this.sprites = new Map(); // by kind: {scale, canvas}
     this.glows = new Map(); // by colour
-    // By kind, those that fly last.
+    // The kinds are ordered so that flying robots come last.
     const kinds = [...new Set(world.robots.map((entity) => world.kinds[entity]))];
     this.herds = kinds
       .map((kind) => {
@@ -35,7 +35,7 @@ export class PlanSwarm {
     this.rings = new Map(frame.rings.map(({ entity, colours }) => [this.world.slots[entity], colours]));
   }
 
-  // Pixels between which a robot's diameter is drawn.
+  // Returns the pixels to which a robot's diameter is limited.
   diameter(herd, frame) {
     const least = Math.min(LEAST_PIXELS * frame.ratio, Math.max(LEAST_OF_SPACING * this.spacing * frame.scale, 2 * frame.ratio));
     return Math.max(2 * herd.radius * frame.scale, least);
@@ -44,14 +44,14 @@ export class PlanSwarm {
     return this.diameter(herd, frame) < DOT_PIXELS * frame.ratio;
   }
 
-  // The colour of its LEDs; `off` if none is on.
+  // Returns the colour of its LEDs; `off` if all LEDs are off.
   colourAt(motion, slot, off) {
     const { colours } = motion;
     if (!(colours[4 * slot + 3] & Flag.lit)) return off;
     return (colours[4 * slot] << 16) | (colours[4 * slot + 1] << 8) | colours[4 * slot + 2];
   }
 
-  // Robots that are dots, into the memory of the picture.
+  // Writes robots that are dots into the memory of the picture.
   writeDots(pixels, frame, motion, dark) {
     this.drawn = { dots: 0, sprites: 0 };
     const off = dark ? OFF_BY_NIGHT : LED_OFF;
@@ -106,7 +106,7 @@ export class PlanSwarm {
     return seen.sort((a, b) => a.z - b.z);
   }
 
-  // Of those above the floor: the further from its robot, the higher that is.
+  // Draws shadows of robots above the floor. The higher a robot is, the further its shadow is from it.
   drawShadows(context, herd, seen, frame) {
     context.fillStyle = "rgb(0 0 0 / 0.2)";
     context.beginPath();
@@ -161,7 +161,7 @@ export class PlanSwarm {
     context.setTransform(1, 0, 0, 1, 0, 0);
   }
 
-  // Rings of one colour in one path for all of that colour; the others LED by LED.
+  // Draws LEDs. Rings of one colour share one path for each colour; the others are drawn LED by LED.
   drawLeds(context, herd, seen, frame, motion) {
     const ring = ringOf(this.world, herd.sample);
     const radius = ring.radius * frame.scale;

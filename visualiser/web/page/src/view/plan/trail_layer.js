@@ -1,9 +1,9 @@
-// The trails of the plan, on a canvas of their own: a new sample is drawn on top of the ones before, which fade a little;
-// all are drawn anew only if the view has moved.
+// The trails of the plan, on a separate canvas. A new sample is drawn on top of the earlier ones, which fade a little.
+// All are drawn again only if the view has moved.
 import { TRAILS, css } from "../look.js";
 import { jumped } from "../trail_record.js";
 
-const LEFT_AT_THE_END = 0.12; // of a trail's strength, when its sample is dropped
+const LEFT_AT_THE_END = 0.12; // of a trail's strength, when its sample is removed
 
 export class TrailLayer {
   constructor() {
@@ -11,7 +11,7 @@ export class TrailLayer {
     this.context = this.canvas.getContext("2d", { willReadFrequently: true });
   }
 
-  // True if there is something to show.
+  // Returns true if trails are visible.
   update(frame, record) {
     if (!record.on || record.added < 2) return false;
     const { canvas, context } = this;

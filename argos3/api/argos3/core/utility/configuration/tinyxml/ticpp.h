@@ -1,4 +1,4 @@
-// Elements of an experiment file as ARGoS3's controllers and loop functions see them: those of its library ticpp.
+// Elements of an experiment file for ARGoS3's controllers and loop functions, with the interface of its library ticpp.
 #pragma once
 
 #include <argos3/core/utility/datatypes/datatypes.h>
@@ -59,14 +59,14 @@ public:
 
   const std::string& Value() const { return name_; }
   void SetValue(const std::string& name) { name_ = name; }
-  // "file:line:column", or empty for one that code made.
+  // Returns "file:line:column"; empty for an element made by code.
   const std::string& Place() const { return place_; }
   void SetPlace(std::string place) { place_ = std::move(place); }
 
   bool HasAttribute(const std::string& name) const { return Find(name) != nullptr; }
-  // Empty if there is none.
+  // Returns an empty text if the attribute does not exist.
   std::string GetAttribute(const std::string& name) const;
-  // Leaves the value as it is if there is none and that is no mistake. Throws Exception with the place.
+  // Leaves the value unchanged if the attribute does not exist and is not required. Throws Exception with the position.
   template <class T>
   void GetAttribute(const std::string& name, T* value, bool required = true) const
   {
@@ -104,8 +104,8 @@ public:
   }
   void SetText(const std::string& text) { text_ = text; }
 
-  // The first or next one of that name, of any if it is empty. nullptr if there is none and that is no mistake,
-  // otherwise throw Exception.
+  // Return the first or next element of that name, or of any if the name is empty. They return nullptr if none exists
+  // and it is not required; otherwise they throw Exception.
   Element* FirstChildElement(const std::string& name = "", bool required = true);
   Element* NextSiblingElement(const std::string& name = "", bool required = true);
   Element& InsertEndChild(const Element& child);
@@ -138,10 +138,10 @@ private:
   std::vector<Attribute> attributes_;
   std::vector<std::unique_ptr<Element>> children_;
   Element* parent_ = nullptr;
-  std::size_t number_ = 0;  // among the children of the parent
+  std::size_t number_ = 0;  // index among the children of the parent
 };
 
-// for (it = it.begin(&node); it != it.end(); ++it), over all or those of one name.
+// Iterates over all children, or over those of one name: for (it = it.begin(&node); it != it.end(); ++it).
 template <class T>
 class Iterator
 {
@@ -181,7 +181,7 @@ private:
   T* current_ = nullptr;
 };
 
-// Over the attributes of an element.
+// Iterates over the attributes of an element.
 template <>
 class Iterator<Attribute>
 {

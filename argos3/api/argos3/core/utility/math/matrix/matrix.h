@@ -1,4 +1,4 @@
-// CMatrix<ROWS, COLS>: numbers in rows, counted from 0; zeros at first.
+// CMatrix<ROWS, COLS>: numbers in rows, counted from 0. They are zero at first.
 #pragma once
 
 #include <argos3/core/utility/configuration/argos_exception.h>
@@ -12,11 +12,12 @@ class CMatrix
 {
 public:
   CMatrix() { std::fill_n(m_pfValues, ROWS * COLS, Real(0)); }
-  // Row by row.
+  // `values` are row by row.
   CMatrix(const Real* values) { Set(values); }
   void Set(const Real* values) { std::copy_n(values, ROWS * COLS, m_pfValues); }
 
-  // By row and column, or counted row by row. Throw CARGoSException for an element that there is not.
+  // Return an element by row and column, or by its number row by row. Throw CARGoSException for an element that does
+  // not exist.
   Real& operator()(UInt32 row, UInt32 column) { return m_pfValues[IndexOf(row, column)]; }
   Real operator()(UInt32 row, UInt32 column) const { return m_pfValues[IndexOf(row, column)]; }
   Real& operator()(UInt32 index) { return m_pfValues[Checked(index)]; }
@@ -29,7 +30,8 @@ public:
       for (UInt32 column = 0; column < COLS; ++column) transposed(column, row) = (*this)(row, column);
     return transposed;
   }
-  // The part whose first element is at that row and column. Throws CARGoSException if it reaches beyond the matrix.
+  // Returns the part whose first element is at that row and column. Throws CARGoSException if it reaches beyond the
+  // matrix.
   template <UInt32 PART_ROWS, UInt32 PART_COLS>
   CMatrix<PART_ROWS, PART_COLS>& GetSubmatrix(CMatrix<PART_ROWS, PART_COLS>& part, UInt32 row, UInt32 column) const
   {
@@ -71,7 +73,7 @@ public:
     return product;
   }
 
-  // A line for each row, with one decimal.
+  // Writes a line for each row, with one decimal.
   friend std::ostream& operator<<(std::ostream& stream, const CMatrix& matrix)
   {
     std::ostringstream text;

@@ -11,7 +11,7 @@ class CRotationMatrix2 : public CSquareMatrix<2>
 {
 public:
   CRotationMatrix2() { SetIdentityMatrix(); }
-  // As it stands there: that it is a rotation is not checked.
+  // Copies the matrix without a check that it is a rotation.
   CRotationMatrix2(const CMatrix<2, 2>& matrix) { SetFromMatrix(matrix); }
   CRotationMatrix2(const CRadians& angle) { SetFromAngle(angle); }
   CRotationMatrix2(Real a, Real b, Real c, Real d) { SetFromValues(a, b, c, d); }
@@ -20,9 +20,9 @@ public:
   {
     for (UInt32 i = 0; i < 4; ++i) m_pfValues[i] = matrix(i);
   }
-  // Counter-clockwise.
+  // The angle is counter-clockwise.
   void SetFromAngle(const CRadians& angle) { SetFromValues(Cos(angle), -Sin(angle), Sin(angle), Cos(angle)); }
-  // Row by row.
+  // The values are row by row.
   void SetFromValues(Real a, Real b, Real c, Real d)
   {
     const Real values[] = {a, b, c, d};

@@ -11,7 +11,7 @@ class CRotationMatrix3 : public CSquareMatrix<3>
 {
 public:
   CRotationMatrix3() { SetIdentityMatrix(); }
-  // As it stands there: that it is a rotation is not checked.
+  // Copies the matrix without a check that it is a rotation.
   CRotationMatrix3(const CMatrix<3, 3>& matrix) { SetFromMatrix(matrix); }
   CRotationMatrix3(const CQuaternion& rotation) { SetFromQuaternion(rotation); }
   CRotationMatrix3(const CRadians& z, const CRadians& y, const CRadians& x) { SetFromAngles(z, y, x); }
@@ -24,7 +24,8 @@ public:
   {
     for (UInt32 i = 0; i < 9; ++i) m_pfValues[i] = matrix(i);
   }
-  // About the axis x, then y, then z, of a frame that does not turn: not the angles of CQuaternion, whose frame does.
+  // Rotates about the axes x, then y, then z of a fixed frame. The angles of CQuaternion differ, since its frame
+  // rotates.
   void SetFromAngles(const CRadians& z, const CRadians& y, const CRadians& x)
   {
     SetFromAxes(CVector3(CVector3::X).RotateX(x).RotateY(y).RotateZ(z),
@@ -36,7 +37,7 @@ public:
     SetFromAxes(CVector3(CVector3::X).Rotate(rotation), CVector3(CVector3::Y).Rotate(rotation),
                 CVector3(CVector3::Z).Rotate(rotation));
   }
-  // Row by row.
+  // The values are row by row.
   void SetFromValues(Real a, Real b, Real c, Real d, Real e, Real f, Real g, Real h, Real i)
   {
     const Real values[] = {a, b, c, d, e, f, g, h, i};
@@ -55,14 +56,15 @@ public:
   }
 
 private:
-  // Where it takes the axes.
+  // `x`, `y`, `z`: the images of the axes.
   void SetFromAxes(const CVector3& x, const CVector3& y, const CVector3& z)
   {
     SetFromValues(x.GetX(), y.GetX(), z.GetX(), x.GetY(), y.GetY(), z.GetY(), x.GetZ(), y.GetZ(), z.GetZ());
   }
 };
 
-// From the largest of its four elements: four times the product of it with each one is a sum of the matrix.
+// The largest of the four elements is computed first. Four times its product with each element is a sum of matrix
+// elements.
 inline CRotationMatrix3::operator CQuaternion() const
 {
   const CRotationMatrix3& m = *this;

@@ -1,4 +1,4 @@
-// CSquareMatrix<DIM>: determinant and inverse.
+// CSquareMatrix<DIM>: a matrix with determinant and inverse.
 #pragma once
 
 #include <argos3/core/utility/math/matrix/matrix.h>
@@ -26,10 +26,10 @@ public:
   }
 
   Real GetDeterminant() const;
-  // What the elements contribute to the determinant: those of the others, with alternating signs.
+  // Returns the cofactors: the determinants of the minors, with alternating signs.
   CSquareMatrix GetCofactorMatrix() const;
   CSquareMatrix GetTransposed() const { return CMatrix<DIM, DIM>::GetTransposed(); }
-  // Of a matrix whose determinant is 0, elements that are not finite.
+  // If the determinant is 0, the elements are not finite.
   CSquareMatrix GetInverse() const
   {
     CSquareMatrix inverse = GetCofactorMatrix().GetTransposed();
@@ -38,7 +38,7 @@ public:
   }
 };
 
-// Without one row and one column.
+// Returns the matrix without one row and one column.
 template <UInt32 DIM>
 CSquareMatrix<DIM - 1> MinorOf(const CSquareMatrix<DIM>& matrix, UInt32 row, UInt32 column)
 {
@@ -54,7 +54,7 @@ inline Real CSquareMatrix<1>::GetDeterminant() const
   return m_pfValues[0];
 }
 
-// Along the first row.
+// Expands the determinant along the first row.
 template <UInt32 DIM>
 Real CSquareMatrix<DIM>::GetDeterminant() const
 {

@@ -1,4 +1,4 @@
-// CTransformationMatrix2: a rotation in the plane, and a translation after it.
+// CTransformationMatrix2: a rotation in the plane, followed by a translation.
 #pragma once
 
 #include <argos3/core/utility/math/matrix/rotationmatrix2.h>
@@ -30,7 +30,7 @@ public:
     SetRotationMatrix(rotation);
     SetTranslationVector(translation);
   }
-  // Row by row.
+  // The values are row by row.
   void SetFromValues(Real a, Real b, Real c, Real d, Real e, Real f, Real g, Real h, Real i)
   {
     const Real values[] = {a, b, c, d, e, f, g, h, i};

@@ -1,4 +1,4 @@
-// CTransformationMatrix3: a rotation in space, and a translation after it.
+// CTransformationMatrix3: a rotation in space, followed by a translation.
 #pragma once
 
 #include <argos3/core/utility/math/matrix/rotationmatrix3.h>
@@ -31,7 +31,7 @@ public:
     SetRotationMatrix(rotation);
     SetTranslationVector(translation);
   }
-  // Row by row.
+  // The values are row by row.
   void SetFromValues(Real a, Real b, Real c, Real d, Real e, Real f, Real g, Real h, Real i, Real j, Real k, Real l,
                      Real m, Real n, Real o, Real p)
   {

@@ -17,7 +17,7 @@ public:
   CProximitySensorEquippedEntity& GetProximitySensorEquippedEntity() { return proximity_; }
   CLightSensorEquippedEntity& GetLightSensorEquippedEntity() { return light_; }
   CGroundSensorEquippedEntity& GetGroundSensorEquippedEntity() { return ground_; }
-  // As that of CFootBotEntity.
+  // The arguments are those of CFootBotEntity.
   CEPuckEntity(const std::string& id, const std::string& controller, const CVector3& position = CVector3(),
                const CQuaternion& orientation = CQuaternion(), Real rab_range = 0.8, size_t rab_data_size = 2,
                const std::string& battery_model = "");

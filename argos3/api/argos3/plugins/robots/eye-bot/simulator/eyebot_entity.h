@@ -13,7 +13,7 @@ class CEyeBotEntity : public CRobotWithController
 {
 public:
   explicit CEyeBotEntity(const std::string& id) : CRobotWithController(id, kLeds) { AddParts(); }
-  // As that of CFootBotEntity.
+  // The arguments are those of CFootBotEntity.
   CEyeBotEntity(const std::string& id, const std::string& controller, const CVector3& position = CVector3(),
                 const CQuaternion& orientation = CQuaternion(), Real rab_range = 3, size_t rab_data_size = 10,
                 const std::string& battery_model = "");

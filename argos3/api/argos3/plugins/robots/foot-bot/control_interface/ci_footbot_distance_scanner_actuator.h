@@ -1,4 +1,4 @@
-// The head of a foot-bot's distance scanner: off at the start.
+// The head of a foot-bot's distance scanner, which is off at the start.
 #pragma once
 
 #include <argos3/core/control_interface/ci_actuator.h>
@@ -10,11 +10,11 @@ namespace argos
 class CCI_FootBotDistanceScannerActuator : public CCI_Actuator
 {
 public:
-  // The head goes there and stays; switches it on.
+  // Turns the head to the angle, where it stays, and switches it on.
   virtual void SetAngle(const CRadians& angle) = 0;
-  // Turns a minute, counter-clockwise; switches it on.
+  // Sets the speed in turns a minute, counter-clockwise, and switches the head on.
   virtual void SetRPM(Real turns_a_minute) = 0;
-  // As SetAngle, with the angle that was set last, 0 at the start: what turned stands still.
+  // Does the same as SetAngle with the last angle, 0 at the start. A turning head stops.
   virtual void Enable() = 0;
   virtual void Disable() = 0;
 };

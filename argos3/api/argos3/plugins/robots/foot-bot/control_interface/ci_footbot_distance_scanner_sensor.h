@@ -1,6 +1,6 @@
-// Distances that the turning head of a foot-bot measured in the last tick, by the angle at which it looked: cm from the
-// body, -1 if something is too near for the beam, -2 if nothing is within its range. Short beams: to 26 cm, ahead and
-// back of the head; long ones: from 12 to 142 cm, to its left and right.
+// Distances that the turning head of a foot-bot measured in the last tick, by its angle. They are in cm from the body;
+// -1 means too near for the beam, -2 means nothing in range. Short beams reach to 26 cm, ahead and back of the head.
+// Long beams reach from 12 to 142 cm, to its left and right.
 #pragma once
 
 #include <argos3/core/control_interface/ci_sensor.h>

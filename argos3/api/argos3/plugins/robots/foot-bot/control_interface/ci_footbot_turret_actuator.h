@@ -19,7 +19,7 @@ public:
   };
 
   virtual void SetRotation(const CRadians& angle) = 0;
-  // Counter-clockwise, rad/s.
+  // `speed`: rad/s, counter-clockwise.
   virtual void SetRotationSpeed(SInt32 speed) = 0;
   virtual void SetMode(ETurretModes mode) = 0;
   void SetActiveWithRotation(const CRadians& angle)

@@ -17,11 +17,11 @@ public:
   CWheeledEntity& GetWheeledEntity() { return wheels_; }
   CProximitySensorEquippedEntity& GetProximitySensorEquippedEntity() { return proximity_; }
   CLightSensorEquippedEntity& GetLightSensorEquippedEntity() { return light_; }
-  // The four beside the motors, then the eight of the base.
+  // Has the four sensors beside the motors, then the eight of the base.
   CGroundSensorEquippedEntity& GetGroundSensorEquippedEntity() { return ground_; }
-  // For AddEntity. `controller`: its id in the experiment file. The ranges and apertures are those that robots of the
-  // file with the same controller have, whatever is given here. Defined in the library: `swarmanoid` tells by its name
-  // among those that a library asks for that it makes foot-bots.
+  // For AddEntity. `controller`: its id in the experiment file. The ranges and apertures are those of the file's robots
+  // with the same controller; the values given here are ignored. The constructor is defined in the library, since
+  // `swarmanoid` finds by its name which libraries make foot-bots.
   CFootBotEntity(const std::string& id, const std::string& controller, const CVector3& position = CVector3(),
                  const CQuaternion& orientation = CQuaternion(), Real rab_range = 3, size_t rab_data_size = 10,
                  const CRadians& omnidirectional_camera_aperture = CRadians(70 * ARGOS_PI / 180),

@@ -1,4 +1,4 @@
-// What is left in the battery.
+// The charge of the battery.
 #pragma once
 
 #include <argos3/core/control_interface/ci_sensor.h>
@@ -9,7 +9,7 @@ namespace argos
 class CCI_BatterySensor : public CCI_Sensor
 {
 public:
-  // 0 to 1; seconds.
+  // The charge is 0 to 1; the time is in seconds.
   struct SReading
   {
     Real AvailableCharge = 1;

@@ -22,7 +22,7 @@ public:
   struct SReadings
   {
     TBlobList BlobList;
-    UInt64 Counter = 0;  // of the pictures
+    UInt64 Counter = 0;  // the number of the picture
   };
   const SReadings& GetReadings() const { return m_sReadings; }
 

@@ -18,7 +18,7 @@ public:
     SBlob(const CColor& colour, SInt32 x, SInt32 y) : Color(colour), X(x), Y(y) {}
 
     CColor Color;
-    // Pixels of an image of 640 by 480: to the right, and down, from its upper left corner.
+    // Pixels of an image of 640 by 480, to the right and down from its upper left corner.
     SInt32 X = 0;
     SInt32 Y = 0;
 
@@ -31,7 +31,7 @@ public:
   struct SReadings
   {
     TBlobList BlobList;
-    UInt64 Counter = 0;  // of the pictures
+    UInt64 Counter = 0;  // the number of the picture
   };
   const SReadings& GetReadings() const { return m_sReadings; }
 

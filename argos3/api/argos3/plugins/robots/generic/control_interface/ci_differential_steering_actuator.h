@@ -9,7 +9,7 @@ namespace argos
 class CCI_DifferentialSteeringActuator : public CCI_Actuator
 {
 public:
-  // Speeds on the ground, cm/s.
+  // Sets the speeds on the ground in cm/s.
   virtual void SetLinearVelocity(Real left, Real right) = 0;
 };
 

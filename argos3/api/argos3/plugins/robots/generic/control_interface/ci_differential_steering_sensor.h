@@ -1,4 +1,4 @@
-// How the two wheels of a robot turned.
+// The motion of the two wheels of a robot.
 #pragma once
 
 #include <argos3/core/control_interface/ci_sensor.h>
@@ -9,7 +9,7 @@ namespace argos
 class CCI_DifferentialSteeringSensor : public CCI_Sensor
 {
 public:
-  // cm/s, cm in the last tick, cm.
+  // Velocities are in cm/s, distances of the last tick in cm, and the axis length in cm.
   struct SReading
   {
     Real VelocityLeftWheel = 0;

@@ -1,4 +1,4 @@
-// Where a robot is, in the arena.
+// The pose of a robot in the arena.
 #pragma once
 
 #include <argos3/core/control_interface/ci_sensor.h>

@@ -1,5 +1,5 @@
-// The infrared sensors around any robot that has them: exp(-distance in metres) of what is nearest, 0 if nothing is in
-// range.
+// The infrared sensors around any robot that has them. A reading is exp(-distance in metres) of the nearest body, 0 if
+// none is in range.
 #pragma once
 
 #include <argos3/core/control_interface/ci_sensor.h>
@@ -11,7 +11,7 @@ class CCI_ProximitySensor : public CCI_Sensor
 {
 public:
   using TReadings = std::vector<Real>;
-  // Counter-clockwise from the front left.
+  // Returns the readings counter-clockwise from the front left.
   const TReadings& GetReadings() const { return m_tReadings; }
 
 protected:

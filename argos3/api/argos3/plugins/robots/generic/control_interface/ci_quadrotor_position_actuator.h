@@ -1,4 +1,4 @@
-// Flies to a place.
+// Flies to a position.
 #pragma once
 
 #include <argos3/core/control_interface/ci_actuator.h>
@@ -11,7 +11,7 @@ namespace argos
 class CCI_QuadRotorPositionActuator : public CCI_Actuator
 {
 public:
-  // m, in the arena, or ahead, to the left and above of where the robot is.
+  // Set a position in m: in the arena, or ahead, to the left and above the robot.
   virtual void SetAbsolutePosition(const CVector3& position) = 0;
   virtual void SetRelativePosition(const CVector3& position) = 0;
   virtual void SetAbsoluteYaw(const CRadians& yaw) = 0;

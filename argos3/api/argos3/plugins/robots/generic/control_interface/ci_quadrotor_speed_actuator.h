@@ -11,9 +11,9 @@ namespace argos
 class CCI_QuadRotorSpeedActuator : public CCI_Actuator
 {
 public:
-  // m/s: ahead, to the left, up.
+  // `velocity`: m/s ahead, to the left and up.
   virtual void SetLinearVelocity(const CVector3& velocity) = 0;
-  // rad/s, counter-clockwise.
+  // `speed`: rad/s, counter-clockwise.
   virtual void SetRotationalSpeed(const CRadians& speed) = 0;
 };
 

@@ -1,4 +1,4 @@
-// Broadcasts bytes to all in range and sight. A robot always sends, zeros at first.
+// Broadcasts bytes to all robots in range and sight. A robot always sends; at first it sends zeros.
 #pragma once
 
 #include <argos3/core/control_interface/ci_actuator.h>
@@ -11,7 +11,7 @@ class CCI_RangeAndBearingActuator : public CCI_Actuator
 {
 public:
   size_t GetSize() const { return m_cData.Size(); }
-  // Throws CARGoSException if it is not of GetSize() bytes.
+  // Throws CARGoSException if the data do not have GetSize() bytes.
   void SetData(const CByteArray& data)
   {
     if (data.Size() != m_cData.Size())

@@ -1,4 +1,4 @@
-// Receives the bytes of all in range and sight.
+// Receives the bytes of all robots in range and sight.
 #pragma once
 
 #include <argos3/core/control_interface/ci_sensor.h>

@@ -1,4 +1,4 @@
-// Sensors in a ring around a robot: what those of lights and of near bodies have in common.
+// Sensors in a ring around a robot: the common base of light and proximity sensors.
 #pragma once
 
 #include <argos3/core/control_interface/ci_sensor.h>

@@ -1,5 +1,5 @@
-// The names of OpenGL that user functions draw with. Lines, points and areas between glBegin and glEnd are shown by the
-// visualisers; light, textures and lists are not there. The functions are members of CQTOpenGLUserFunctions.
+// The names of OpenGL with which user functions draw. The visualisers show lines, points and areas between glBegin and
+// glEnd. Light, textures and lists do not exist. The functions are members of CQTOpenGLUserFunctions.
 #pragma once
 
 #ifndef GL_VERSION_1_1
@@ -12,7 +12,7 @@ using GLubyte = unsigned char;
 using GLfloat = float;
 using GLdouble = double;
 
-// Numbers as OpenGL has them.
+// The constants have the values of OpenGL.
 enum : GLenum
 {
   GL_POINTS = 0x0000,

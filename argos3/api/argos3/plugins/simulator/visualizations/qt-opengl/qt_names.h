@@ -1,5 +1,5 @@
-// The few names of Qt that user functions need: keys, fonts, texts. Qt itself is not used. The headers in the folder qt
-// (<QKeyEvent> …) lead here.
+// The names of Qt that user functions need: keys, fonts, texts. Qt itself is not used. The headers in the folder qt
+// (<QKeyEvent> …) include this file.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 namespace Qt
 {
 
-// Numbers as Qt has them.
+// The constants have the values of Qt.
 enum Key
 {
   Key_Space = 0x20,
@@ -148,7 +148,7 @@ private:
   std::string text_;
 };
 
-// Texts have the font of the visualiser, whatever is asked for.
+// Texts have the font of the visualiser, whatever font is requested.
 class QFont
 {
 public:
@@ -177,7 +177,7 @@ public:
   QKeyEvent(int key, int modifiers, const std::string& text) : key_(key), modifiers_(modifiers), text_(text) {}
   int key() const { return key_; }
   int modifiers() const { return modifiers_; }
-  // What the key writes: one sign or nothing.
+  // Returns the character of the key, or an empty text.
   QString text() const { return text_; }
   bool isAutoRepeat() const { return false; }
   void accept() {}
@@ -189,7 +189,7 @@ private:
   std::string text_;
 };
 
-// Does not come here: windows and pages keep the mouse to themselves.
+// Never sent, since windows and pages handle the mouse themselves.
 class QMouseEvent
 {
 public:

@@ -1,4 +1,4 @@
-// What user functions know of the main window.
+// The part of the main window that user functions can use.
 #pragma once
 
 #include <argos3/plugins/simulator/visualizations/qt-opengl/qtopengl_widget.h>

@@ -1,5 +1,5 @@
-// CQTOpenGLUserFunctions: drawings and keys of users, as the Qt window of ARGoS3 has them. Here they run beside the
-// loop functions, and the visualisers of this simulator show what they draw. Nothing of Qt or OpenGL is used.
+// CQTOpenGLUserFunctions: drawings and keys of users, with the interface of ARGoS3's Qt window. They run beside the
+// loop functions, and the visualisers of this simulator show their drawings. Neither Qt nor OpenGL is used.
 //
 //   <visualization><qt-opengl><user_functions library="…" label="…"/></qt-opengl></visualization>
 #pragma once
@@ -23,18 +23,18 @@ namespace argos
 class CQTOpenGLUserFunctions : public CBaseConfigurableResource
 {
 public:
-  // <user_functions>, behind Init of the loop functions. Destroy comes before theirs.
+  // Gets <user_functions>, after Init of the loop functions. Destroy is called before theirs.
   void Init(TConfigurationNode&) override {}
   void Reset() override {}
   void Destroy() override {}
 
-  // A key, and whom a user selects, in a window or on a page of this simulator, or by `swarmanoid control`. They come
-  // between two steps, and may do what loop functions may.
+  // Handle a key and a user's selection, from a window or page of this simulator, or from `swarmanoid control`. They
+  // are called between two steps, and may do all that loop functions may do.
   virtual void KeyPressed(QKeyEvent* event) { GetQTOpenGLWidget().KeyPressed(event); }
   virtual void KeyReleased(QKeyEvent* event) { GetQTOpenGLWidget().KeyReleased(event); }
   virtual void EntitySelected(CEntity&) {}
   virtual void EntityDeselected(CEntity&) {}
-  // Nobody calls these here: windows and pages keep the mouse to themselves, and whoever moves an entity asks the run.
+  // Never called, since windows and pages handle the mouse themselves, and moves of entities are requests to the run.
   virtual void MouseKeyPressed(QMouseEvent*) {}
   virtual void MouseKeyReleased(QMouseEvent*) {}
   virtual void MouseMoved(QMouseEvent*) {}
@@ -43,44 +43,44 @@ public:
   {
   }
 
-  // nullptr: none is.
+  // Returns nullptr if no entity is selected.
   CEntity* GetSelectedEntity() { return selected_; }
-  // Here alone: windows and pages do not show it.
+  // Selects only here; windows and pages do not show it.
   virtual void SelectEntity(CEntity& entity);
   virtual void DeselectEntity();
 
-  // Called when a picture is due, if somebody looks; they can change nothing. In the world.
+  // Draws in the world. Called when a picture is due and a visualiser shows the run; it cannot change the run.
   virtual void DrawInWorld() {}
   virtual void Draw(CFloorEntity&) {}
-  // Not called: there is nothing to draw over pictures.
+  // Never called, since drawings over pictures do not exist here.
   virtual void DrawOverlay(QPainter&) {}
-  // `function` draws each entity of exactly this class, in the frame of the entity.
+  // Registers `function` to draw each entity of exactly this class, in the frame of the entity.
   template <typename USER_IMPL, typename ENTITY>
   void RegisterUserFunction(void (USER_IMPL::*function)(ENTITY&))
   {
     functions_.push_back({&typeid(ENTITY), [this, function](CEntity& entity)
                           { (static_cast<USER_IMPL&>(*this).*function)(static_cast<ENTITY&>(entity)); }});
   }
-  // The function that was registered last for its class, if there is one.
+  // Calls the function that was registered last for the entity's class, if one exists.
   virtual void Call(CEntity& entity);
 
   CQTOpenGLMainWindow& GetMainWindow() { return window_; }
   CQTOpenGLWidget& GetQTOpenGLWidget() { return window_.GetOpenGLWidget(); }
   CQTOpenGLWidget& GetOpenGLWidget() { return window_.GetOpenGLWidget(); }
 
-  // Within the functions above that draw; elsewhere they throw CARGoSException. Metres; widths and diameters in pixels.
-  // Orientations turn what lies in the plane of x and y.
+  // For use within the drawing functions above; elsewhere they throw CARGoSException. Lengths are in metres, widths and
+  // diameters in pixels. Orientations turn shapes of the x, y plane.
   void SetColor(const CColor& colour);
   void DrawPoint(const CVector3& position, const CColor& colour = CColor::RED, Real diameter = 5.0);
-  // Its base lies along x, its middle at the position; the tip points along y.
+  // The base lies along x with its middle at the position; the tip points along y.
   void DrawTriangle(const CVector3& position, const CQuaternion& orientation, Real base, Real height,
                     const CColor& colour = CColor::RED, bool fill = true);
-  // Convex if it is filled.
+  // A filled polygon must be convex.
   void DrawPolygon(const CVector3& position, const CQuaternion& orientation, const std::vector<CVector2>& points,
                    const CColor& colour = CColor::RED, bool fill = true);
   void DrawCircle(const CVector3& position, const CQuaternion& orientation, Real radius,
                   const CColor& colour = CColor::RED, bool fill = true, GLuint vertices = 20);
-  // The position is that of the middle.
+  // The position is the middle of the cylinder.
   void DrawCylinder(const CVector3& position, const CQuaternion& orientation, Real radius, Real height,
                     const CColor& colour = CColor::RED, GLuint vertices = 20);
   void DrawBox(const CVector3& position, const CQuaternion& orientation, const CVector3& size,
@@ -90,8 +90,8 @@ public:
                 const QFont& font = QFont());
 
 protected:
-  // Of OpenGL: shapes between glBegin and glEnd, moved by the matrices since, in the colour and width that were set.
-  // Whatever else is switched on or off changes nothing.
+  // Functions of OpenGL: shapes between glBegin and glEnd, moved by the matrices, in the current colour and width.
+  // Other switches have no effect.
   void glBegin(GLenum mode);
   void glEnd();
   void glVertex3d(GLdouble x, GLdouble y, GLdouble z);
@@ -117,12 +117,12 @@ protected:
   void glPopMatrix();
   void glTranslated(GLdouble x, GLdouble y, GLdouble z);
   void glTranslatef(GLfloat x, GLfloat y, GLfloat z) { glTranslated(x, y, z); }
-  // Degrees about an axis.
+  // Rotates by degrees about an axis.
   void glRotated(GLdouble angle, GLdouble x, GLdouble y, GLdouble z);
   void glRotatef(GLfloat angle, GLfloat x, GLfloat y, GLfloat z) { glRotated(angle, x, y, z); }
   void glScaled(GLdouble x, GLdouble y, GLdouble z);
   void glScalef(GLfloat x, GLfloat y, GLfloat z) { glScaled(x, y, z); }
-  // All that is set above.
+  // Saves all of the above.
   void glPushAttrib(GLbitfield);
   void glPopAttrib();
   void glEnable(GLenum) {}
@@ -140,7 +140,7 @@ private:
   CQTOpenGLMainWindow window_;
 };
 
-// Made by the macro below.
+// The macro below makes it.
 struct SUserFunctionsRegistration
 {
   SUserFunctionsRegistration(const char* label, CQTOpenGLUserFunctions* (*create)());

@@ -1,4 +1,4 @@
-// What user functions know of the window: there is none here, but the visualisers of this simulator.
+// The part of the widget that user functions can use. There is no Qt window; the visualisers of this simulator draw.
 #pragma once
 
 #include <argos3/plugins/simulator/visualizations/qt-opengl/qt_names.h>
@@ -9,12 +9,12 @@ namespace argos
 class CQTOpenGLWidget
 {
 public:
-  // Keys that user functions leave to the window. It has had them before.
+  // Gets keys that user functions pass on. Does nothing, since the window has handled them before.
   void KeyPressed(QKeyEvent*) {}
   void KeyReleased(QKeyEvent*) {}
-  // Pictures are drawn when a visualiser has time.
+  // Does nothing, since a visualiser draws when it has time.
   void update() {}
-  // As DrawText of the user functions, in the colour that SetColor or glColor was given last.
+  // Draws as DrawText of the user functions, in the last colour of SetColor or glColor.
   void renderText(double x, double y, double z, const QString& text, const QFont& font = QFont());
 };
 
