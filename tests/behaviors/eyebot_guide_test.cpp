@@ -4,47 +4,28 @@
 #include <gtest/gtest.h>
 
 #include "common/control_interface/ci_colour.h"
-#include "tests/world/fake_devices.h"
+#include "tests/behaviors/diagram.h"
 
 namespace swarmanoid::test
 {
 namespace
 {
 
-class EyebotDiagram : public testing::Test
+class EyebotDiagram : public Diagram<CCI_EyeBotState, CBTEyebotGuide>
 {
 protected:
-  EyebotDiagram()
+  EyebotDiagram() : Diagram("eyebot")
   {
     robot_.AddSensor("eyebot_camera", &camera_);
     robot_.AddActuator("eyebot_propellers", &propellers_);
     robot_.AddActuator("eyebot_laser", &laser_);
     state_.Init();
   }
-  unsigned See(const std::vector<CCI_ColourBlob>& blobs, int ticks = 1)
-  {
-    camera_.blobs = blobs;
-    for (int i = 0; i < ticks; ++i)
-    {
-      robot_.BeginStep(tick_, 0.1, RandomStream(1, 1, 0, static_cast<std::uint32_t>(tick_)));
-      ++tick_;
-      state_.ReadSensors();
-      behavior_.Step(state_);
-      state_.WriteActuators();
-    }
-    return behavior_.GetStateID();
-  }
   bool Flies() const { return propellers_.velocity[0] != 0 || propellers_.velocity[1] != 0; }
 
   using Guide = CBTEyebotGuide;
-  CCI_Robot robot_{"eb", "eyebot"};
-  FakeCamera camera_;
   FakePropellers propellers_;
   FakeLaser laser_;
-  CCI_EyeBotState state_{&robot_};
-  Guide behavior_;
-  std::uint64_t tick_ = 0;
-
   const CCI_ColourBlob near_signal_ = Blob(CCI_Colour::BLUE, 0.2);
 };
 

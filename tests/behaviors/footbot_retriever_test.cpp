@@ -4,17 +4,17 @@
 #include <gtest/gtest.h>
 
 #include "common/control_interface/ci_colour.h"
-#include "tests/world/fake_devices.h"
+#include "tests/behaviors/diagram.h"
 
 namespace swarmanoid::test
 {
 namespace
 {
 
-class FootbotDiagram : public testing::Test
+class FootbotDiagram : public Diagram<CCI_FootBotState, CBTFootbotRetriever>
 {
 protected:
-  FootbotDiagram()
+  FootbotDiagram() : Diagram("footbot")
   {
     robot_.AddSensor("footbot_omnidirectional_camera", &camera_);
     robot_.AddSensor("footbot_gripper", &gripper_sensor_);
@@ -24,33 +24,13 @@ protected:
     robot_.AddActuator("footbot_leds", &leds_);
     state_.Init();
   }
-  // The state after so many ticks with this in view.
-  unsigned See(const std::vector<CCI_ColourBlob>& blobs, int ticks = 1)
-  {
-    camera_.blobs = blobs;
-    for (int i = 0; i < ticks; ++i)
-    {
-      robot_.BeginStep(tick_, 0.1, RandomStream(1, 1, 0, static_cast<std::uint32_t>(tick_)));
-      ++tick_;
-      state_.ReadSensors();
-      behavior_.Step(state_);
-      state_.WriteActuators();
-    }
-    return behavior_.GetStateID();
-  }
 
   using Retriever = CBTFootbotRetriever;
-  CCI_Robot robot_{"fb", "footbot"};
-  FakeCamera camera_;
   FakeGripperSensor gripper_sensor_;
   FakeProximity proximity_;
   FakeWheels wheels_;
   FakeGripper gripper_;
   FakeLeds leds_;
-  CCI_FootBotState state_{&robot_};
-  Retriever behavior_;
-  std::uint64_t tick_ = 0;
-
   const CCI_ColourBlob far_laser_ = Blob(CCI_Colour::RED, 1);
   const CCI_ColourBlob near_laser_ = Blob(CCI_Colour::RED, 0.3);
   const CCI_ColourBlob prey_ = Blob(CCI_Colour::YELLOW, 0.3);

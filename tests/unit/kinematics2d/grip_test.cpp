@@ -35,14 +35,31 @@ void Drive(EngineFixture& f, std::size_t k, double left, double right)
   f.Command(2 * k + 1) = WheelSpeed(right);
 }
 
-TEST(Kinematics2dGrip, ARobotDrivesWithItsPreyAsIfItWereAlone)
+// Robots around a prey at (5, 5), with wheels, grippers and torques of their turrets.
+struct Group
 {
   EngineFixture f;
-  const auto prey = AddPrey(f, 5, 5);
-  const auto robot = AddRobotAround(f, 5, 5, 0);
-  f.AddCommands("footbot_wheels", 2, {robot});
-  f.AddCommands("footbot_gripper", 1, {robot});
-  f.AddSensors("footbot_turret_torque", 3, {robot});
+  std::uint32_t prey = AddPrey(f, 5, 5);
+  std::vector<std::uint32_t> robots;
+
+  explicit Group(const std::vector<double>& angles)
+  {
+    for (const double angle : angles) robots.push_back(AddRobotAround(f, 5, 5, angle));
+    f.AddCommands("footbot_wheels", 2, robots);
+    f.AddCommands("footbot_gripper", 1, robots);
+    f.AddSensors("footbot_turret_torque", 3, robots);
+  }
+  void Grip()
+  {
+    for (std::size_t k = 0; k < robots.size(); ++k) f.Command(2 * robots.size() + k) = 1;
+  }
+};
+
+TEST(Kinematics2dGrip, ARobotDrivesWithItsPreyAsIfItWereAlone)
+{
+  Group group({0});
+  auto& [f, prey, robots] = group;
+  const auto robot = robots[0];
   const Pose start = f.PoseOf(robot);
   const Pose held = start.Inverse().Compose(f.PoseOf(prey));
   f.Command(2) = 1;
@@ -69,14 +86,9 @@ TEST(Kinematics2dGrip, ARobotDrivesWithItsPreyAsIfItWereAlone)
 
 TEST(Kinematics2dGrip, OpposedRobotsHoldThePreyStillAndFeelTheTraction)
 {
-  EngineFixture f;
-  const auto prey = AddPrey(f, 5, 5);
-  const auto east = AddRobotAround(f, 5, 5, 0);
-  const auto west = AddRobotAround(f, 5, 5, kPi);
-  f.AddCommands("footbot_wheels", 2, {east, west});
-  f.AddCommands("footbot_gripper", 1, {east, west});
-  f.AddSensors("footbot_turret_torque", 3, {east, west});
-  f.Command(4) = f.Command(5) = 1;
+  Group group({0, kPi});
+  auto& [f, prey, robots] = group;
+  group.Grip();
   Drive(f, 0, -0.15, -0.15);
   Drive(f, 1, -0.15, -0.15);
   f.Ticks(20);
@@ -92,14 +104,9 @@ TEST(Kinematics2dGrip, OpposedRobotsHoldThePreyStillAndFeelTheTraction)
 // One would turn to the left, the other to the right: the prey between them would have to do both.
 TEST(Kinematics2dGrip, RobotsThatTurnAgainstEachOtherFeelTheTorque)
 {
-  EngineFixture f;
-  const auto prey = AddPrey(f, 5, 5);
-  const auto east = AddRobotAround(f, 5, 5, 0);
-  const auto west = AddRobotAround(f, 5, 5, kPi);
-  f.AddCommands("footbot_wheels", 2, {east, west});
-  f.AddCommands("footbot_gripper", 1, {east, west});
-  f.AddSensors("footbot_turret_torque", 3, {east, west});
-  f.Command(4) = f.Command(5) = 1;
+  Group group({0, kPi});
+  auto& [f, prey, robots] = group;
+  group.Grip();
   Drive(f, 0, -0.15, 0.15);
   Drive(f, 1, 0.15, -0.15);
   f.Ticks(20);
@@ -111,20 +118,12 @@ TEST(Kinematics2dGrip, RobotsThatTurnAgainstEachOtherFeelTheTorque)
 
 TEST(Kinematics2dGrip, ThreeRobotsTurnAPreyTogetherRigidly)
 {
-  EngineFixture f;
-  const auto prey = AddPrey(f, 5, 5);
-  std::vector<std::uint32_t> robots;
-  for (int k = 0; k < 3; ++k) robots.push_back(AddRobotAround(f, 5, 5, 2 * kPi * k / 3));
-  f.AddCommands("footbot_wheels", 2, robots);
-  f.AddCommands("footbot_gripper", 1, robots);
-  f.Start();
+  Group group({0, 2 * kPi / 3, 2 * kPi * 2 / 3});
+  auto& [f, prey, robots] = group;
   std::vector<Pose> held;
   for (const auto robot : robots) held.push_back(f.PoseOf(prey).Inverse().Compose(f.PoseOf(robot)));
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    f.Command(6 + k) = 1;
-    Drive(f, k, -0.05, 0.05);
-  }
+  group.Grip();
+  for (std::size_t k = 0; k < 3; ++k) Drive(f, k, -0.05, 0.05);
   f.Ticks(30);
   // By symmetry the whole turns about the prey.
   EXPECT_LT((f.PoseOf(prey).position - Vector3(5, 5, 0)).norm(), 1e-12);
@@ -156,14 +155,11 @@ TEST(Kinematics2dGrip, OnlyPreysInReachAreGripped)
 
 TEST(Kinematics2dGrip, AGroupThatRunsIntoAWallStopsAsAWhole)
 {
-  EngineFixture f;
+  Group group({kPi});
+  auto& [f, prey, robots] = group;
+  const auto robot = robots[0];
   f.Parameter("elasticity", "0");
-  const auto prey = AddPrey(f, 5, 5);
-  const auto robot = AddRobotAround(f, 5, 5, kPi);
   f.Add(EntityKind::kBlock, Vector3(5.35, 5, 0.25), {}, Vector3(0.1, 2, 0.5), false);
-  f.AddCommands("footbot_wheels", 2, {robot});
-  f.AddCommands("footbot_gripper", 1, {robot});
-  f.Start();
   const double distance = (f.PoseOf(prey).position - f.PoseOf(robot).position).norm();
   f.Command(2) = 1;
   Drive(f, 0, 0.2, 0.2);
