@@ -8,7 +8,7 @@
 
 #include "common/control_interface/ci_device.h"
 #include "controller_host/device.h"
-#include "tests/unit/every_plugin/scene.h"
+#include "tests/unit/every_plugin/small_scene.h"
 
 namespace swarmanoid
 {

@@ -171,7 +171,7 @@ TEST_F(SupervisorTest, StartsAllAgainWithAsManyControllerHostsAsAUserAsksFor)
   Add("controller host 0", "exec sleep 600");
   ReplaceBy("exit 0");
   plan_.processes.back().machine = "alpha";
-  plan_.settings.output_folder = folder_;
+  plan_.settings.output_folder = folder_.Path();
   scripts_["controller host 1"].second = "touch '" + (folder_ / "second host of incarnation ").string() + "'$1";
   const ClusterOutcome outcome = Run();
   EXPECT_EQ(outcome.kind, ClusterOutcome::kFinished) << outcome.reason;
