@@ -4,7 +4,6 @@
 #pragma once
 
 #include <chrono>
-#include <condition_variable>
 #include <deque>
 #include <functional>
 #include <map>
@@ -12,11 +11,11 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "common/journal/journal_format.h"
 #include "common/journal/tick_records.h"
+#include "common/threads/waiting.h"
 
 namespace swarmanoid
 {
@@ -97,7 +96,7 @@ public:
   HostTable Table(std::uint32_t number) const;
 
 private:
-  using Clock = std::chrono::steady_clock;
+  using Clock = RunClock;
 
   struct Block
   {
@@ -147,7 +146,7 @@ private:
   std::uint32_t segment_ = 0;
   ReusedMemory room_;         // the content of a block; only the writer's thread uses it
   mutable std::mutex mutex_;  // of what follows
-  std::condition_variable changed_;
+  RunCondition changed_;
   TickRows rows_;               // being filled
   std::vector<TickRows> free_;  // buffers to fill next
   std::deque<Block> queue_;
@@ -170,7 +169,7 @@ private:
   std::uint64_t all_bytes_ = 0;                 // of whole blocks in all segments
   std::uint64_t segment_from_ = 0;              // all_bytes_ when the newest segment was begun, or is to be
   std::uint64_t size_ = 0;                      // of whole blocks of the newest segment; the writer's thread
-  std::thread thread_;
+  RunThread thread_;
 };
 
 }  // namespace swarmanoid
