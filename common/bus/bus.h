@@ -134,6 +134,8 @@ std::string ReachableAddress(const BusOptions& options);
 // "host:pid" of this process.
 std::string ProcessId();
 std::string MachineName();
+// Whether a process of this machine is there.
+bool IsAlive(long pid);
 // Name of the user of this process, or the number where there is none.
 std::string UserName();
 

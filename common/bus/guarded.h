@@ -3,6 +3,7 @@
 #pragma once
 
 #include <mutex>
+#include <utility>
 
 namespace swarmanoid
 {
@@ -24,6 +25,9 @@ public:
     std::unique_lock<std::mutex> lock_;
     Held& value_;
   };
+
+  Guarded() = default;
+  explicit Guarded(Value value) : value_(std::move(value)) {}
 
   Access<Value> Lock() { return {mutex_, value_}; }
   Access<const Value> Lock() const { return {mutex_, value_}; }

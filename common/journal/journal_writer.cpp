@@ -17,7 +17,6 @@
 #include "common/configuration/output_file.h"
 #include "common/configuration/regular_file.h"
 #include "common/journal/journal_reader.h"
-#include "common/threads/start_thread.h"
 
 namespace swarmanoid
 {
@@ -125,12 +124,12 @@ JournalWriter::JournalWriter(const JournalReader& journal, std::uint64_t tick, b
 
 void JournalWriter::StartThread(bool beside_launcher)
 {
-  thread_ = swarmanoid::StartThread("writes the journal",
-                                    [this, beside_launcher]
-                                    {
-                                      if (beside_launcher) UseCoresOfLauncher();
-                                      Write();
-                                    });
+  thread_ = RunThread("writes the journal",
+                      [this, beside_launcher]
+                      {
+                        if (beside_launcher) UseCoresOfLauncher();
+                        Write();
+                      });
 }
 
 JournalWriter::~JournalWriter()

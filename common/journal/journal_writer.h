@@ -4,7 +4,6 @@
 #pragma once
 
 #include <chrono>
-#include <condition_variable>
 #include <deque>
 #include <functional>
 #include <map>
@@ -12,11 +11,11 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "common/journal/journal_format.h"
 #include "common/journal/tick_records.h"
+#include "common/threads/waiting.h"
 
 namespace swarmanoid
 {
@@ -98,7 +97,7 @@ public:
   HostTable Table(std::uint32_t number) const;
 
 private:
-  using Clock = std::chrono::steady_clock;
+  using Clock = RunClock;
 
   struct Block
   {
@@ -148,7 +147,7 @@ private:
   std::uint32_t segment_ = 0;
   ReusedMemory room_;         // the content of a block; only the writer's thread uses it
   mutable std::mutex mutex_;  // guards the members below
-  std::condition_variable changed_;
+  RunCondition changed_;
   TickRows rows_;               // the buffer that is being filled
   std::vector<TickRows> free_;  // buffers to fill next
   std::deque<Block> queue_;
@@ -171,7 +170,7 @@ private:
   std::uint64_t all_bytes_ = 0;                 // bytes of whole blocks in all segments
   std::uint64_t segment_from_ = 0;              // all_bytes_ at the start of the newest or next segment
   std::uint64_t size_ = 0;  // bytes of whole blocks of the newest segment; only the writer's thread uses it
-  std::thread thread_;
+  RunThread thread_;
 };
 
 }  // namespace swarmanoid

@@ -17,6 +17,7 @@
 
 #include "common/bus/membership/server_session.h"
 #include "common/bus/security/access_grant.h"
+#include "common/threads/waiting.h"
 #include "space_server/event_log.h"
 
 namespace swarmanoid
@@ -25,7 +26,7 @@ namespace swarmanoid
 class AccessGrants
 {
 public:
-  using Clock = std::chrono::steady_clock;
+  using Clock = RunClock;
 
   // Called in any thread.
   struct Callbacks

@@ -16,6 +16,7 @@
 #include "common/bus/membership/server_session.h"
 #include "common/checkpoint/checkpoint.h"
 #include "common/journal/journal_writer.h"
+#include "common/threads/waiting.h"
 
 namespace swarmanoid
 {
@@ -42,7 +43,7 @@ public:
   std::vector<std::uint64_t> Incomplete() const;
 
 private:
-  using Clock = std::chrono::steady_clock;
+  using Clock = RunClock;
 
   void Save(const SpaceServer& server);
   void Arrived(const SavedStateMessage& message);

@@ -150,10 +150,17 @@ void ServerProgram::HelpReplacements()
   repeat_after_ = kFirstRepeat;
 }
 
+void ServerProgram::SayWorldAgain()
+{
+  if (Clock::now() < world_said_ + kWorldAgain) return;
+  session_.SayWorldAgain();
+  world_said_ = Clock::now();
+}
+
 void ServerProgram::Collect()
 {
   const auto start = Clock::now();
-  auto again = start + kWorldAgain;
+  world_said_ = start;
   std::string said;
   while (true)
   {
@@ -162,11 +169,7 @@ void ServerProgram::Collect()
     PublishViews();
     const std::vector<std::string> missing = session_.Missing();
     if (missing.empty() && lockstep_.AllMatched()) return;
-    if (Clock::now() >= again)
-    {
-      session_.SayWorldAgain();
-      again = Clock::now() + kWorldAgain;
-    }
+    SayWorldAgain();
     const std::string text = Joined(missing);
     if (text != said && !text.empty() && (Clock::now() - start > 300ms || !said.empty()))
     {

@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <mutex>
@@ -18,6 +17,7 @@
 #include "common/bus/membership/status_channel.h"
 #include "common/bus/membership/worker_world.h"
 #include "common/run/run_settings.h"
+#include "common/threads/waiting.h"
 #include "space_server/cluster/checkpoint_writer.h"
 #include "space_server/cluster/lockstep.h"
 #include "space_server/cluster/recovery_service.h"
@@ -69,7 +69,7 @@ public:
   bool Failed() const { return failed_; }
 
 private:
-  using Clock = std::chrono::steady_clock;
+  using Clock = RunClock;
 
   // Between repetitions of what others may not have heard: at first, and at most.
   static constexpr std::chrono::milliseconds kFirstRepeat{100}, kLastRepeat{1000};
@@ -98,6 +98,8 @@ private:
   // Those who take the places of others get the journal; the state goes out again for them.
   void HelpReplacements();
   void Say(const std::string& text) const;
+  // For processes that have not heard of the run. Not too often.
+  void SayWorldAgain();
   // Until all processes of the run are there.
   void Collect();
   void RunTicks();
@@ -126,7 +128,7 @@ private:
   const Experiment& experiment_;
   StatusChannel& status_;
   std::mutex wake_mutex_;
-  std::condition_variable wake_;
+  RunCondition wake_;
   bool awake_ = false;
   std::optional<RestartPoint> restart_point_;
   std::optional<Checkpoint> restored_;  // until the journal has it
@@ -149,6 +151,7 @@ private:
   std::optional<std::uint64_t> told_tick_;
   Clock::time_point since_;  // the current tick is waited for
   Clock::time_point repeated_;
+  Clock::time_point world_said_;
   Clock::duration repeat_after_{};
   Clock::duration stall_said_{};
   std::uint64_t first_tick_ = 0;

@@ -92,6 +92,8 @@ bool ServerProgram::StallIsDue() const
 void ServerProgram::ReportStall(const std::string& who)
 {
   stall_said_ = Clock::now() - since_;
+  // A replacement waits for the world, and Fast DDS 2.9 may lose it while they meet.
+  SayWorldAgain();
   status_.Publish(ServerStall{who, std::round(Seconds(stall_said_))});
   Say(fmt::format("tick {}: waiting for {} since {:.0f} s", lockstep_.Tick(), who, Seconds(stall_said_)));
 }

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "common/bus/membership/server_session.h"
+#include "common/threads/waiting.h"
 #include "space_server/cluster/access_grants.h"
 
 namespace swarmanoid
@@ -20,7 +21,7 @@ namespace swarmanoid
 class ViewPublisher
 {
 public:
-  using Clock = std::chrono::steady_clock;
+  using Clock = RunClock;
 
   // `woken`: called in a thread of the bus when somebody asks for something else. Holders of grants get the same.
   ViewPublisher(ServerSession& session, AccessGrants& grants, std::function<void()> woken);

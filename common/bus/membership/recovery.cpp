@@ -16,7 +16,7 @@ namespace
 {
 
 using namespace std::chrono_literals;
-using Clock = std::chrono::steady_clock;
+using Clock = RunClock;
 
 constexpr auto kAskAgain = 200ms;
 

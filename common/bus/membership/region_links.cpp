@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "common/bus/membership/tick_gate.h"
 #include "common/bus/membership/worker_world.h"
@@ -166,13 +167,13 @@ void RegionTeamLink::Send()
 bool RegionTeamLink::SendAndWait(std::chrono::milliseconds most)
 {
   Send();
-  const auto until = std::chrono::steady_clock::now() + most;
+  const auto until = RunClock::now() + most;
   Patience patience;
   std::unique_lock lock(mutex_);
   const auto all_here = [this] { return std::ranges::all_of(places_, &Place::is_here); };
   while (!changed_.wait_for(lock, patience.time, [&] { return all_here() || begins_again_; }))
   {
-    if (std::chrono::steady_clock::now() > until) return false;
+    if (RunClock::now() > until) return false;
     lock.unlock();
     Send();
     patience.Grow();
@@ -279,10 +280,13 @@ unsigned RegionLink::Missing() const
 void RegionLink::TaskReceived(const MessageHeader& header, RegionTaskMessage& task)
 {
   const std::lock_guard lock(mutex_);
-  if (task.epoch < epoch_) return;
+  // It is older than the newest one: a repetition that comes late.
+  if (std::tie(task.epoch, task.number) < std::tie(epoch_, number_)) return;
   const bool is_known = task.epoch == epoch_ && task.number == number_;
   const bool builds_upon = task.number != kFirstTask && task.number != kEndOfRun;
-  if (is_known)
+  if (task.epoch == missed_epoch_)
+    is_lost_ = true;
+  else if (is_known)
     is_asked_again_ = is_done_;
   else if (builds_upon && (task.epoch != epoch_ || task.number != number_ + 1))
     is_lost_ = true;
@@ -326,16 +330,34 @@ void RegionLink::Swap(std::span<const ByteWriter> out, std::span<std::vector<cha
       if (!is_here(region)) return false;
     return true;
   };
+  // The others are never more than one ahead, unless they are ahead of the process before this one: then they do not
+  // say again what this one lacks.
+  const auto is_left_behind = [&]
+  {
+    return std::ranges::any_of(heard_,
+                               [&](const Halos& halos)
+                               {
+                                 return std::ranges::any_of(
+                                     halos, [&](const RegionHaloMessage& halo)
+                                     { return halo.epoch == task_.epoch && halo.number > exchanges_ + 1; });
+                               });
+  };
   Patience patience;
   std::unique_lock lock(mutex_);
-  while (!changed_.wait_for(lock, patience.time, [&] { return all_here() || has_next_ || is_closed_; }))
+  while (!changed_.wait_for(lock, patience.time,
+                            [&] { return all_here() || has_next_ || is_closed_ || is_left_behind(); }))
   {
     lock.unlock();
     WriteHalosAgain(true);
     patience.Grow();
     lock.lock();
   }
-  if (!all_here()) throw RegionsBeginAgain();
+  if (!all_here())
+  {
+    // The engine is asked for all when it says the task again.
+    if (is_left_behind()) missed_epoch_ = task_.epoch;
+    throw RegionsBeginAgain();
+  }
   for (std::size_t region = 0; region < regions_; ++region)
   {
     if (region == own_) continue;
@@ -376,7 +398,7 @@ void RegionLink::Answer(std::uint32_t epoch, std::uint32_t number, std::span<con
 
 void RegionLink::WriteAnswer()
 {
-  answered_ = std::chrono::steady_clock::now();
+  answered_ = RunClock::now();
   results_.Write(session_.Header(tick_, first_ + own_), answer_);
 }
 
@@ -385,8 +407,7 @@ void RegionLink::WriteAnswer()
 bool RegionLink::EngineHasLeft() const
 {
   if (!is_over_) return session_.HasLeft(engine_name_, tick_ + 1);
-  return tasks_.Writers() == 0 || session_.HasLeft(engine_name_, tick_) ||
-         std::chrono::steady_clock::now() - answered_ > kLinger;
+  return tasks_.Writers() == 0 || session_.HasLeft(engine_name_, tick_) || RunClock::now() - answered_ > kLinger;
 }
 
 RegionLink::Next RegionLink::WaitForNext()
@@ -403,6 +424,8 @@ RegionLink::Next RegionLink::WaitForNext()
       return Next::kEnd;
     }
     lock.lock();
+    // No task has come: the engine may have the result of the process before this one, and its first word is lost.
+    if (epoch_ == 0) return Next::kAskForAll;
   }
   if (is_closed_) return Next::kEnd;
   if (std::exchange(has_next_, false))

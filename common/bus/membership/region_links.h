@@ -9,7 +9,6 @@
 #include <array>
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -19,6 +18,7 @@
 #include "common/bus/membership/worker_session.h"
 #include "common/experiment/experiment.h"
 #include "common/messages/regions.h"
+#include "common/threads/waiting.h"
 
 namespace swarmanoid
 {
@@ -73,7 +73,7 @@ private:
   std::uint32_t epoch_, number_ = 0;  // of the present task
   std::vector<ByteWriter> parts_;
   mutable std::mutex mutex_;
-  std::condition_variable changed_;
+  RunCondition changed_;
   std::vector<Place> places_;
   bool begins_again_ = false;
   RegionResultMessage arriving_;  // of the subscription's thread
@@ -132,15 +132,16 @@ private:
   std::atomic<bool> is_over_ = false;
   RegionTaskMessage task_;  // in work, or done last
   RegionResultMessage answer_;
-  std::chrono::steady_clock::time_point answered_;
+  RunTime answered_;
   std::uint32_t exchanges_ = 0;  // in the epoch
   Halos said_;
   std::mutex mutex_;
-  std::condition_variable changed_;
+  RunCondition changed_;
   RegionTaskMessage next_;
   bool has_next_ = false;
   std::uint64_t next_tick_ = 0;
   std::uint32_t epoch_ = 0, number_ = 0;  // of the newest task that has come
+  std::uint32_t missed_epoch_ = 0;        // that the others began with the process before this one
   bool is_done_ = false;                  // that one, and answered
   bool is_asked_again_ = false;           // for the last answer
   bool is_lost_ = false;                  // a task came that builds upon others

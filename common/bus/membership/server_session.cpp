@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <cstdio>
-#include <tuple>
 #include <utility>
 
 #include "common/activity/print_error.h"
@@ -46,10 +45,10 @@ ServerSession::ServerSession(const BusOptions& options, WorldMessage world, std:
       expected_(std::move(expected)),
       callbacks_(std::move(callbacks)),
       key_(KeyOfRun(options)),
+      state_(State{ServerMembership(world_.run, expected_)}),
       directory_((RefuseSecondServer(world_.experiment, options.domain), world_.experiment), world_.run),
       bus_(WithKey(options, key_), "space server")
 {
-  for (const std::string& name : expected_) state_.Lock()->members[name];
   directory_.Announce(world_.experiment, options.domain, key_,
                       {options.network_interface, options.peers, options.discovery_server});
   world_.host = MachineName();
@@ -67,7 +66,7 @@ ServerSession::ServerSession(const BusOptions& options, WorldMessage world, std:
 void ServerSession::Open()
 {
   const std::string& partition = world_.experiment;
-  bus_.OnProcessGone([this](const std::string& gone, const std::string&, bool died) { Lost(gone, died); });
+  bus_.OnProcessGone([this](const std::string& gone, const std::string&, bool died) { Missed(gone, died); });
   bus_.OnBadMessage([this](const BadMessageReport& report) { return FailedBy(report); });
   joins_ =
       std::make_unique<Subscription<JoinMessage>>(bus_, partition, [this](const JoinMessage& join) { Joined(join); });
@@ -76,11 +75,8 @@ void ServerSession::Open()
   statuses_ = std::make_unique<Subscription<StatusMessage>>(bus_, partition,
                                                             [this](const StatusMessage& status)
                                                             {
-                                                              if (status.run != world_.run) return;
-                                                              const auto state = state_.Lock();
-                                                              const auto member = state->members.find(status.name);
-                                                              if (member != state->members.end())
-                                                                member->second.status = status;
+                                                              if (status.run == world_.run)
+                                                                state_.Lock()->membership.Heard(status);
                                                             });
   requests_ = std::make_unique<Subscription<ControlRequestMessage>>(
       bus_, partition, [this](const ControlRequestMessage& request) { Asked(request); });
@@ -91,8 +87,8 @@ void ServerSession::Open()
         if (request.run != world_.run) return;
         {
           const auto state = state_.Lock();
-          const auto member = state->members.find(request.name);
-          if (member == state->members.end() || member->second.process != request.process) return;
+          const auto* const member = state->membership.Find(request.name);
+          if (member == nullptr || member->process != request.process) return;
           state->recoveries.push_back(request);
         }
         callbacks_.changed();
@@ -121,18 +117,6 @@ HotScope ServerSession::Scope(std::size_t capacity, unsigned writers) const
   return {world_.experiment, directory_.Path(), world_.spread, capacity, writers};
 }
 
-bool ServerSession::IsOf(const Member& member, const std::string& process)
-{
-  return member.process.empty() || member.process == process;
-}
-
-bool ServerSession::MayJoinAs(const Member& member, const JoinMessage& join) const
-{
-  if (!awaits_ || member.left) return IsOf(member, join.process);
-  return join.incarnation > member.incarnation ||
-         (join.incarnation == member.incarnation && IsOf(member, join.process));
-}
-
 void ServerSession::Joined(const JoinMessage& join)
 {
   if (join.protocol != kProtocolVersion)
@@ -141,41 +125,10 @@ void ServerSession::Joined(const JoinMessage& join)
         fmt::format("{} ({}) speaks protocol version {}, the space server version {}; use programs of one release",
                     join.name, join.process, join.protocol, kProtocolVersion));
   if (join.run != world_.run) return;
-  bool taken = false;
-  {
-    const auto state = state_.Lock();
-    const auto member = state->members.find(join.name);
-    if (member == state->members.end())
-    {
-      state->attached[join.process] = join.name;
-      return;
-    }
-    taken = MayJoinAs(member->second, join);
-    if (taken)
-    {
-      Member& joined = member->second;
-      // It is said again until the run begins.
-      if (std::tie(joined.process, joined.ready, joined.incarnation) ==
-          std::tie(join.process, join.ready, join.incarnation))
-        return;
-      if (joined.process != join.process)
-      {
-        joined.status = {};
-        joined.released = false;
-        joined.done_at.reset();
-        // It has not heard who had left before, and may wait for one of them.
-        if (join.incarnation > 0)
-          for (const auto& [name, other] : state->members)
-            if (other.done_at) state->answers.push_back({world_.run, *other.done_at, name, other.process, ""});
-      }
-      std::tie(joined.process, joined.ready, joined.incarnation) = std::tie(join.process, join.ready, join.incarnation);
-      joined.machine = join.machine;
-      joined.reach = join.reach;
-      if (join.ready && join.incarnation > 0) state->replaced.emplace_back(join.name, join.incarnation);
-    }
-  }
-  if (taken) return callbacks_.changed();
-  Refuse(join, fmt::format("{} runs already; process {} is one too many", join.name, join.process));
+  const ServerMembership::Verdict verdict = state_.Lock()->membership.Heard(join);
+  if (verdict == ServerMembership::Verdict::kTaken) callbacks_.changed();
+  if (verdict == ServerMembership::Verdict::kNameTaken)
+    Refuse(join, fmt::format("{} runs already; process {} is one too many", join.name, join.process));
 }
 
 void ServerSession::Refuse(const JoinMessage& join, const std::string& reason)
@@ -187,42 +140,42 @@ void ServerSession::Refuse(const JoinMessage& join, const std::string& reason)
 void ServerSession::MemberLeft(const LeaveMessage& leave)
 {
   if (leave.run != world_.run || leave.name == "space server") return;
-  const bool in_order = leave.error.empty();
-  {
-    const auto state = state_.Lock();
-    const auto member = state->members.find(leave.name);
-    const bool of_run = member != state->members.end() && IsOf(member->second, leave.process) &&
-                        !(member->second.released && !in_order);
-    if (of_run && in_order && !member->second.left) state->just_left.push_back(leave.name);
-    if (of_run) member->second.left = true;
-    if (of_run && in_order && !member->second.released) member->second.done_at = leave.tick;
-    if (of_run && !in_order && !state->over)
-      state->Fail(fmt::format("{} failed at tick {}: {}", leave.name, leave.tick, leave.error));
-    state->answers.push_back({leave.run, leave.tick, "space server", leave.process, ""});
-  }
+  state_.Lock()->membership.Heard(leave);
   callbacks_.changed();
 }
 
-std::vector<std::string> ServerSession::TakeLeft() { return std::exchange(state_.Lock()->just_left, {}); }
+std::vector<std::string> ServerSession::TakeLeft()
+{
+  return std::exchange(state_.Lock()->membership.Latest().left, {});
+}
 
-std::vector<std::string> ServerSession::TakeLost() { return std::exchange(state_.Lock()->lost, {}); }
+std::vector<std::string> ServerSession::TakeLost()
+{
+  return std::exchange(state_.Lock()->membership.Latest().lost, {});
+}
 
 std::vector<std::pair<std::string, std::uint32_t>> ServerSession::TakeReplaced()
 {
-  return std::exchange(state_.Lock()->replaced, {});
+  return std::exchange(state_.Lock()->membership.Latest().replaced, {});
 }
 
-void ServerSession::Release(const std::string& name) { state_.Lock()->members.at(name).released = true; }
+void ServerSession::Release(const std::string& name) { state_.Lock()->membership.Release(name); }
 
-std::string ServerSession::ProcessOf(const std::string& name) const { return state_.Lock()->members.at(name).process; }
+std::string ServerSession::ProcessOf(const std::string& name) const
+{
+  return state_.Lock()->membership.Of(name).process;
+}
 
-std::string ServerSession::MachineOf(const std::string& name) const { return state_.Lock()->members.at(name).machine; }
+std::string ServerSession::MachineOf(const std::string& name) const
+{
+  return state_.Lock()->membership.Of(name).machine;
+}
 
-double ServerSession::ReachOf(const std::string& name) const { return state_.Lock()->members.at(name).reach; }
+double ServerSession::ReachOf(const std::string& name) const { return state_.Lock()->membership.Of(name).reach; }
 
 std::uint32_t ServerSession::Incarnation(const std::string& name) const
 {
-  return state_.Lock()->members.at(name).incarnation;
+  return state_.Lock()->membership.Of(name).incarnation;
 }
 
 std::vector<RecoveryRequestMessage> ServerSession::TakeRecoveryRequests()
@@ -233,48 +186,22 @@ std::vector<RecoveryRequestMessage> ServerSession::TakeRecoveryRequests()
 void ServerSession::AnswerLeaves()
 {
   // Not in the thread that reads them: what it writes comes to this process too.
-  for (const LeaveMessage& answer : std::exchange(state_.Lock()->answers, {})) leave_->Write(answer);
+  for (const LeaveMessage& answer : std::exchange(state_.Lock()->membership.Latest().answers, {}))
+    leave_->Write(answer);
 }
 
-void ServerSession::Lost(const std::string& process, bool died)
+void ServerSession::Missed(const std::string& process, bool died)
 {
-  {
-    const auto state = state_.Lock();
-    state->attached.erase(process);
-    for (auto& [name, member] : state->members)
-    {
-      if (member.process != process || member.released) continue;
-      if (!member.left && !state->over && awaits_)
-      {
-        state->lost.push_back(name);
-        continue;
-      }
-      if (!member.left && !state->over)
-        state->Fail(fmt::format("{} {} (process {})", name, died ? "does not answer any more" : "has left", process));
-      member.left = true;
-    }
-  }
+  state_.Lock()->membership.Missed(process, died);
   callbacks_.gone(process);
   callbacks_.changed();
 }
 
-void ServerSession::State::Fail(const std::string& text)
-{
-  if (!failure) failure = text;
-}
-
-// Whoever is in the run ends it by what he sends; anybody else is not heard.
+// A member ends the run by a bad message; other senders are not heard.
 bool ServerSession::FailedBy(const BadMessageReport& report)
 {
-  {
-    const auto state = state_.Lock();
-    const auto sender = std::find_if(state->members.begin(), state->members.end(),
-                                     [&](const auto& member) { return member.second.process == report.process; });
-    if (report.process.empty() || sender == state->members.end()) return false;
-    if (!state->over)
-      state->Fail(
-          fmt::format("{} sent a bad {} at tick {}: {}", sender->first, report.topic, report.tick, report.what));
-  }
+  const std::string what = fmt::format("sent a bad {} at tick {}: {}", report.topic, report.tick, report.what);
+  if (!state_.Lock()->membership.HeardBad(report.process, what)) return false;
   callbacks_.changed();
   return true;
 }
@@ -284,30 +211,29 @@ std::vector<std::string> ServerSession::Missing() const
   const auto state = state_.Lock();
   std::vector<std::string> missing;
   for (const std::string& name : expected_)
-    if (state->members.at(name).process.empty()) missing.push_back(name);
+    if (state->membership.Of(name).phase == ServerMembership::Phase::kAwaited) missing.push_back(name);
   if (!missing.empty()) return missing;
   // All have come; some still meet each other.
   for (const std::string& name : expected_)
-    if (!state->members.at(name).ready) missing.push_back(name);
+    if (state->membership.Of(name).phase == ServerMembership::Phase::kJoined) missing.push_back(name);
   return missing;
 }
 
-std::optional<std::string> ServerSession::Failure() const { return state_.Lock()->failure; }
+std::optional<std::string> ServerSession::Failure() const { return state_.Lock()->membership.Failure(); }
 
 std::string ServerSession::Status(const std::string& name, std::uint64_t tick) const
 {
   const auto state = state_.Lock();
-  const auto member = state->members.find(name);
-  return member == state->members.end() || member->second.status.tick != tick ? std::string()
-                                                                              : member->second.status.text;
+  const auto* const member = state->membership.Find(name);
+  return member == nullptr || member->status.tick != tick ? std::string() : member->status.text;
 }
 
 std::vector<ProcessStatus> ServerSession::Processes() const
 {
   const auto state = state_.Lock();
   std::vector<ProcessStatus> processes;
-  for (const std::string& name : expected_) processes.push_back({name, state->members.at(name).process, 0, 0, {}});
-  for (const auto& [process, name] : state->attached) processes.push_back({name, process, 0, 0, {}});
+  for (const std::string& name : expected_) processes.push_back({name, state->membership.Of(name).process, 0, 0, {}});
+  for (const auto& [process, name] : state->membership.Attached()) processes.push_back({name, process, 0, 0, {}});
   return processes;
 }
 
@@ -315,7 +241,7 @@ std::optional<std::string> ServerSession::FirstLeft() const
 {
   const auto state = state_.Lock();
   for (const std::string& name : expected_)
-    if (state->members.at(name).left) return name;
+    if (state->membership.Of(name).HasLeft()) return name;
   return std::nullopt;
 }
 
@@ -323,8 +249,8 @@ std::vector<std::string> ServerSession::NotLeft() const
 {
   const auto state = state_.Lock();
   std::vector<std::string> names;
-  for (const auto& [name, member] : state->members)
-    if (!member.left && !member.process.empty()) names.push_back(name);
+  for (const auto& [name, member] : state->membership.Members())
+    if (!member.HasLeft() && member.phase != ServerMembership::Phase::kAwaited) names.push_back(name);
   return names;
 }
 
@@ -388,13 +314,13 @@ void ServerSession::Reply(const ControlRequestMessage& request, bool ok, std::ui
 
 void ServerSession::LeaveToNext()
 {
-  state_.Lock()->over = true;
+  state_.Lock()->membership.End();
   replies_->WaitUntilRead(kLeaveTime_s);
 }
 
 void ServerSession::Leave(std::uint64_t tick, const std::string& error)
 {
-  state_.Lock()->over = true;
+  state_.Lock()->membership.End();
   leave_->Write({world_.run, tick, "space server", "", error});
   // Nobody is answered after it.
   if (leave_->WaitUntilRead(kLeaveTime_s)) replies_->WaitUntilRead(kLeaveTime_s);

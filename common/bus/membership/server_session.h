@@ -1,5 +1,6 @@
-// ServerSession: what the space server does beside its step: it publishes the world, collects the processes of the run,
-// notices when one fails or dies, and hears what users ask for. Its step runs in threads of the bus.
+// ServerSession: how the space server takes part in a run beside its step. It publishes the world, sends and receives
+// for its ServerMembership, which knows the processes, and hears what users ask for. Its step runs in threads of the
+// bus.
 #pragma once
 
 #include <deque>
@@ -13,6 +14,7 @@
 #include "common/bus/bus.h"
 #include "common/bus/guarded.h"
 #include "common/bus/membership/run_directory.h"
+#include "common/bus/membership/server_membership.h"
 
 namespace swarmanoid
 {
@@ -35,7 +37,7 @@ public:
   ~ServerSession();
   // From now on a process that dies does not fail the run: another one with a higher incarnation takes its place.
   // Before Open.
-  void AwaitReplacements() { awaits_ = true; }
+  void AwaitReplacements() { state_.Lock()->membership.AwaitReplacements(); }
   // Lets others find the run; the callbacks may be called from now on.
   void Open();
   // For those who have not heard of it.
@@ -98,19 +100,6 @@ public:
   void Leave(std::uint64_t tick, const std::string& error);
 
 private:
-  struct Member
-  {
-    std::string process;  // empty: not here yet
-    bool ready = false;
-    bool left = false;
-    std::optional<std::uint64_t> done_at;  // the tick at which it said that its work is done
-    bool released = false;                 // whoever comes takes its place
-    std::uint32_t incarnation = 0;
-    std::string machine{};  // as in JoinMessage
-    double reach = kReachesAll;
-    StatusMessage status;
-  };
-
   // What users asked for of late, with the answers that they got.
   struct Request
   {
@@ -123,36 +112,24 @@ private:
   // What the threads of the bus and the server's own share.
   struct State
   {
-    std::map<std::string, Member> members;
-    std::map<std::string, std::string> attached;  // name by process
-    std::optional<std::string> failure;
-    std::deque<Request> requests_seen;
-    std::vector<std::string> just_left;
-    std::vector<LeaveMessage> answers;
-    std::vector<std::string> lost;
-    std::vector<std::pair<std::string, std::uint32_t>> replaced;
-    std::vector<RecoveryRequestMessage> recoveries;
-    bool over = false;
+    ServerMembership membership;
+    std::deque<Request> requests_seen{};
+    std::vector<RecoveryRequestMessage> recoveries{};
 
     Request* FindRequest(const ControlRequestMessage& request);
-    void Fail(const std::string& text);
   };
 
-  // Whether the process is the member, or may become it.
-  static bool IsOf(const Member& member, const std::string& process);
-  bool MayJoinAs(const Member& member, const JoinMessage& join) const;
   void Asked(const ControlRequestMessage& request);
   void WriteReply(const ControlReplyMessage& reply);
   void Joined(const JoinMessage& join);
   void MemberLeft(const LeaveMessage& leave);
-  void Lost(const std::string& process, bool died);
+  void Missed(const std::string& process, bool died);
   void Refuse(const JoinMessage& join, const std::string& reason);
   bool FailedBy(const BadMessageReport& report);
 
   WorldMessage world_;
   std::vector<std::string> expected_;
   Callbacks callbacks_;
-  bool awaits_ = false;
   std::optional<RunKey> key_;
   Guarded<State> state_;
   RunDirectory directory_;

@@ -7,19 +7,17 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <condition_variable>
 #include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "common/bus/membership/stall_detector.h"
 #include "common/bus/membership/tick_gate.h"
 #include "common/bus/membership/worker_session.h"
 #include "common/bus/membership/worker_world.h"
-#include "common/threads/start_thread.h"
+#include "common/threads/waiting.h"
 
 namespace swarmanoid
 {
@@ -75,7 +73,7 @@ public:
   void Open(Calls calls, std::size_t capacity, unsigned writers)
   {
     calls_ = std::move(calls);
-    if (calls_.step_waits) stepper_ = StartThread("steps", [this] { StepAlways(); });
+    if (calls_.step_waits) stepper_ = RunThread("steps", [this] { StepAlways(); });
     writers_ = sources_.empty() ? 0 : writers;
     if (writers_ > 0)
       others_in_.emplace(session_.GetBus(), session_.Scope(capacity, writers),
@@ -124,12 +122,11 @@ public:
     if (!lock || is_stepping_)
     {
       session_.SetTick(stepping_);
-      return stall_.Observe(stepping_, busy(), StallDetector::Clock::now());
+      return stall_.Observe(stepping_, busy(), RunClock::now());
     }
     session_.SetTick(gate_.Tick());
     const bool waits = !sources_.empty() && gate_.Has(0) && !gate_.Complete();
-    return stall_.Observe(gate_.Tick(), waits ? "waits for " + Joined(gate_.Missing()) : "",
-                          StallDetector::Clock::now());
+    return stall_.Observe(gate_.Tick(), waits ? "waits for " + Joined(gate_.Missing()) : "", RunClock::now());
   }
 
   std::mutex& Mutex() { return mutex_; }
@@ -301,8 +298,8 @@ private:
   bool is_stepping_ = false;
   bool is_here_ = false;    // all of the tick, for the stepper
   bool is_closed_ = false;  // for the stepper
-  std::condition_variable wake_;
-  std::thread stepper_;
+  RunCondition wake_;
+  RunThread stepper_;
   StallDetector stall_;  // main thread
   std::optional<HotSubscription<Message>> others_in_;
   std::optional<HotSubscription<SpaceState>> states_in_;

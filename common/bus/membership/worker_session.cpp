@@ -1,10 +1,6 @@
 #include "common/bus/membership/worker_session.h"
 
 #include <fmt/format.h>
-#include <algorithm>
-#include <cerrno>
-#include <csignal>
-#include <cstdio>
 #include <new>
 #include <utility>
 
@@ -23,16 +19,14 @@ namespace
 {
 
 using namespace std::chrono_literals;
-using Clock = std::chrono::steady_clock;
+using Clock = RunClock;
+using Phase = WorkerMembership::Phase;
+using Event = WorkerMembership::Event;
+using Action = WorkerMembership::Action;
 
-constexpr auto kAgain = 1s;                                // what others may not have heard is said again
-constexpr auto kPatience = 1s;                             // before what is waited for is said
-constexpr auto kBrokenTime = 5s;                           // for the lease of a dead process to end
-constexpr auto kStuckTime = 2s;                            // likewise, if another process may take its place
-constexpr auto kPatienceForNext = 15s;                     // of observers, for another space server
-constexpr std::chrono::milliseconds kFirstRepeat = 100ms;  // of a Leave that is not answered
-constexpr std::chrono::milliseconds kLastRepeat = 1s;
-constexpr auto kInterruptedTime = 1s;  // for the answer to a Leave, if it was asked to end
+constexpr auto kPatience = 1s;          // until the process says what it waits for
+constexpr auto kPatienceForNext = 15s;  // of observers, for another space server
+constexpr auto kLook = 100ms;           // at whether the server is there, while this process leaves
 
 // The text of an experiment, whatever its seed and in whichever files its elements stand.
 std::string WithoutSeed(std::string_view xml)
@@ -44,8 +38,6 @@ std::string WithoutSeed(std::string_view xml)
   const std::size_t begin = text.rfind('\n', end);
   return text.erase(begin, end + kEnd.size() - begin);
 }
-
-bool IsAlive(pid_t process) { return kill(process, 0) == 0 || errno == EPERM; }
 
 }  // namespace
 
@@ -63,36 +55,24 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
       [this](const std::string& process, const std::string&, bool)
       {
         const std::lock_guard lock(mutex_);
-        if (process != server_process_) return;
-        server_lost_ = true;
+        if (process != membership_.Server()) return;
+        membership_.On(Event::kServerGone, Clock::now());
         changed_.notify_all();
       });
   bus_.OnBadMessage([this](const BadMessageReport& report) { return FailedBy(report); });
   worlds_ = std::make_unique<Subscription<WorldMessage>>(bus_, experiment.empty() ? "*" : experiment,
-                                                         [this](const WorldMessage& world)
-                                                         {
-                                                           const std::lock_guard lock(mutex_);
-                                                           if (have_world_)
-                                                           {
-                                                             if (is_observer_ && GoesOnWith(world)) next_world_ = world;
-                                                             return;
-                                                           }
-                                                           world_ = world;
-                                                           have_world_ = true;
-                                                           server_process_ =
-                                                               fmt::format("{}:{}", world.host, world.pid);
-                                                           changed_.notify_all();
-                                                         });
+                                                         [this](const WorldMessage& world) { HeardWorld(world); });
   // A grant that has ended tells no world, but why it has.
   if (options.grant) HearLeaves(experiment);
   WaitUntil(
       [&]
       {
         const std::lock_guard lock(mutex_);
-        if (!have_world_ && server && !IsAlive(*server))
+        const bool is_found = membership_.Now() != Phase::kSearching;
+        if (!is_found && server && !IsAlive(*server))
           throw BusError(
               fmt::format("experiment '{}' has ended: its space server, process {}, has gone", experiment, *server));
-        return have_world_;
+        return is_found;
       },
       [&]
       {
@@ -103,7 +83,7 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
     throw BusError(fmt::format(
         "the space server of '{}' ({}) speaks protocol version {}, this program version {}; use programs of "
         "one release",
-        world_.experiment, server_process_, world_.protocol, kProtocolVersion));
+        world_.experiment, membership_.Server(), world_.protocol, kProtocolVersion));
 
   if (!options.insecure && stop == nullptr) AllowOnly(world_.libraries, !options.key_file.empty() || options.grant);
   server_seen_ = ServerIsOnThisMachine();
@@ -112,32 +92,36 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
   status_ = std::make_unique<Publisher<StatusMessage>>(bus_, world_.experiment);
   leave_ = std::make_unique<Publisher<LeaveMessage>>(bus_, world_.experiment);
   if (leaves_ == nullptr) HearLeaves(world_.experiment);
-  join_->Write({ProcessId(), kProtocolVersion, world_.run, name_, false, incarnation_, machine_, reach_});
+  SayJoin(false);
+}
+
+void WorkerSession::HeardWorld(const WorldMessage& world)
+{
+  const std::lock_guard lock(mutex_);
+  if (membership_.Now() == Phase::kSearching)
+  {
+    world_ = world;
+    // The constructor says Join, as soon as it can write.
+    membership_.HeardWorld(fmt::format("{}:{}", world.host, world.pid), world.recorded, Clock::now());
+  }
+  else if (membership_.Observes() && GoesOnWith(world))
+  {
+    next_world_ = world;
+    membership_.On(Event::kServerGone, Clock::now());
+  }
+  changed_.notify_all();
 }
 
 void WorkerSession::HearLeaves(const std::string& experiment)
 {
-  leaves_ = std::make_unique<Subscription<LeaveMessage>>(bus_, experiment,
-                                                         [this](const LeaveMessage& leave)
-                                                         {
-                                                           const std::lock_guard lock(mutex_);
-                                                           const bool of_run = leave.run == world_.run;
-                                                           if (leave.name != "space server")
-                                                           {
-                                                             if (of_run && leave.error.empty())
-                                                               left_[leave.name] = leave.tick;
-                                                             return;
-                                                           }
-                                                           const bool own = leave.process == ProcessId();
-                                                           if (!leave.process.empty() && !own) return;
-                                                           const bool ends_share =
-                                                               !have_world_ && !own && !leave.error.empty();
-                                                           if (have_world_ ? !of_run : !ends_share) return;
-                                                           const bool answered = own && leave.error.empty();
-                                                           (answered ? answered_ : server_left_) = true;
-                                                           if (!leave.error.empty()) others_error_ = leave.error;
-                                                           changed_.notify_all();
-                                                         });
+  leaves_ =
+      std::make_unique<Subscription<LeaveMessage>>(bus_, experiment,
+                                                   [this](const LeaveMessage& leave)
+                                                   {
+                                                     const std::lock_guard lock(mutex_);
+                                                     membership_.Heard(leave, ProcessId(), world_.run, Clock::now());
+                                                     changed_.notify_all();
+                                                   });
 }
 
 WorkerSession::~WorkerSession()
@@ -157,7 +141,7 @@ void WorkerSession::ReleaseWorld()
 void WorkerSession::ObserveOnly()
 {
   const std::lock_guard lock(mutex_);
-  is_observer_ = true;
+  membership_.Observe();
 }
 
 bool WorkerSession::GoesOnWith(const WorldMessage& world) const
@@ -170,14 +154,14 @@ bool WorkerSession::FollowNext(const std::function<bool()>& idle)
 {
   {
     const std::lock_guard lock(mutex_);
-    if (!server_lost_ || server_left_ || !world_.recorded) return false;
+    if (membership_.End() != Phase::kCutOff || !world_.recorded) return false;
     Say(fmt::format("the space server has gone (process {}); waiting {} s for another one in its place",
-                    server_process_, kPatienceForNext.count()));
+                    membership_.Server(), kPatienceForNext.count()));
   }
   const auto start = Clock::now();
   while (true)
   {
-    if (idle() || IsStopped()) return false;
+    if (idle() || stop_) return false;
     std::unique_lock lock(mutex_);
     if (next_world_) break;
     if (Clock::now() - start > kPatienceForNext) return false;
@@ -187,14 +171,11 @@ bool WorkerSession::FollowNext(const std::function<bool()>& idle)
     const std::lock_guard lock(mutex_);
     world_ = std::move(*next_world_);
     next_world_.reset();
-    server_process_ = fmt::format("{}:{}", world_.host, world_.pid);
-    server_lost_ = false;
+    membership_.JoinNext(fmt::format("{}:{}", world_.host, world_.pid), world_.recorded, Clock::now());
     server_seen_ = ServerIsOnThisMachine();
-    others_error_.reset();
-    reason_ = EndReason::kFailed;
   }
   directory_ = std::make_unique<RunDirectory>(world_.experiment, world_.run);
-  join_->Write({ProcessId(), kProtocolVersion, world_.run, name_, true, incarnation_, machine_, reach_});
+  SayJoin(true);
   Say("the run goes on with another space server");
   return true;
 }
@@ -202,20 +183,13 @@ bool WorkerSession::FollowNext(const std::function<bool()>& idle)
 bool WorkerSession::RunHasEnded() const
 {
   const std::lock_guard lock(mutex_);
-  return server_left_ && !others_error_;
-}
-
-bool WorkerSession::IsOver() const
-{
-  const std::lock_guard lock(mutex_);
-  return others_error_ || server_left_ || ServerHasGone();
+  return membership_.End() == Phase::kRunOver;
 }
 
 bool WorkerSession::HasLeft(const std::string& name, std::uint64_t tick) const
 {
   const std::lock_guard lock(mutex_);
-  const auto found = left_.find(name);
-  return found != left_.end() && found->second >= tick;
+  return membership_.HasLeft(name, tick);
 }
 
 void WorkerSession::Trust(const std::string& name)
@@ -224,20 +198,15 @@ void WorkerSession::Trust(const std::string& name)
   trusted_.insert(name);
 }
 
-bool WorkerSession::IsOfTheRun(const BadMessageReport& report) const
-{
-  return (have_world_ && report.process == server_process_) || trusted_.count(report.name) > 0;
-}
-
 bool WorkerSession::FailedBy(const BadMessageReport& report)
 {
   const std::lock_guard lock(mutex_);
-  if (!IsOfTheRun(report)) return false;
-  if (!own_error_)
-  {
-    own_error_ = fmt::format("{} sent a bad {} at tick {}: {}", report.name, report.topic, report.tick, report.what);
-    NoteEnd(EndReason::kFailed, report.tick, *own_error_, true);
-  }
+  const bool is_server = membership_.Now() != Phase::kSearching && report.process == membership_.Server();
+  if (!is_server && trusted_.count(report.name) == 0) return false;
+  const std::string text =
+      fmt::format("{} sent a bad {} at tick {}: {}", report.name, report.topic, report.tick, report.what);
+  if (membership_.Now() < Phase::kFailed) NoteEnd(EndReason::kFailed, report.tick, text, true);
+  membership_.On(Event::kOwnFailure, Clock::now(), text);
   changed_.notify_all();
   return true;
 }
@@ -247,40 +216,25 @@ HotScope WorkerSession::Scope(std::size_t capacity, unsigned writers) const
   return {world_.experiment, directory_->Path(), world_.spread, capacity, writers};
 }
 
-void WorkerSession::CheckOthers()
+// The leases of a run on one machine are long: its launcher sees which process dies, but observers have no launcher.
+WorkerMembership::Sight WorkerSession::Sight() const
 {
-  const std::lock_guard lock(mutex_);
-  if (IsStopped())
-  {
-    reason_ = EndReason::kInterrupted;
-    throw BusError("interrupted by a signal");
-  }
-  // Whatever is thrown below, it is not this process that failed.
-  const EndReason before = std::exchange(reason_, EndReason::kOthers);
-  if (others_error_) throw BusError(*others_error_);
-  // It may have gone since.
-  if (server_left_) throw BusError("the run has ended");
-  cut_off_ = server_lost_ = ServerHasGone();
-  if (cut_off_) throw BusError(fmt::format("the space server has gone (process {})", server_process_));
-  if (BusIsBroken())
-  {
-    if (!broken_since_) broken_since_ = Clock::now();
-    stuck_ = Clock::now() - *broken_since_ > (world_.recorded ? kStuckTime : kBrokenTime);
-    if (stuck_) throw BusError("a process died, or was stopped, while it held shared memory of the run");
-  }
-  reason_ = before;
+  return {stop_, BusIsBroken(), server_seen_ && !ServerIsOnThisMachine()};
 }
 
-// The leases of a run on one machine are long: its launcher sees who dies, but those who are attached have none.
-bool WorkerSession::ServerHasGone() const
+void WorkerSession::CheckEnd()
 {
-  return server_lost_ || next_world_ || (server_seen_ && !ServerIsOnThisMachine());
+  Action action = Action::kNone;
+  {
+    const std::lock_guard lock(mutex_);
+    action = membership_.Look(Sight(), Clock::now());
+    if (membership_.HasEnded()) throw BusError(membership_.Text());
+  }
+  // Fast DDS may lose what was said while the reader was met, although the reader has acknowledged it.
+  if (action != Action::kNone && join_ != nullptr) SayJoin(action == Action::kSayReady);
 }
 
-bool WorkerSession::ServerIsOnThisMachine() const
-{
-  return world_.host == MachineName() && IsAlive(static_cast<pid_t>(world_.pid));
-}
+bool WorkerSession::ServerIsOnThisMachine() const { return world_.host == MachineName() && IsAlive(world_.pid); }
 
 void WorkerSession::Say(const std::string& text) const { PrintError("{}: {}\n", name_, text); }
 
@@ -290,7 +244,7 @@ void WorkerSession::WaitUntil(const std::function<bool()>& met, const std::funct
   std::string said;
   while (!met())
   {
-    CheckOthers();
+    CheckEnd();
     if (Clock::now() - start > kPatience)
       if (std::string text = what(); text != said)
       {
@@ -304,35 +258,35 @@ void WorkerSession::WaitUntil(const std::function<bool()>& met, const std::funct
 
 void WorkerSession::ReportReady()
 {
-  said_ready_ = Clock::now();
-  join_->Write({ProcessId(), kProtocolVersion, world_.run, name_, true, incarnation_, machine_, reach_});
+  {
+    const std::lock_guard lock(mutex_);
+    if (membership_.On(Event::kPrepared, Clock::now()) != Action::kSayReady) return;
+  }
+  SayJoin(true);
 }
 
-bool WorkerSession::HasBegun() const
+void WorkerSession::SayJoin(bool ready)
 {
-  const std::lock_guard lock(mutex_);
-  return first_tick_ && tick_ != *first_tick_;
+  join_->Write({ProcessId(), kProtocolVersion, world_.run, name_, ready, incarnation_, machine_, reach_});
 }
 
 void WorkerSession::Finish(std::uint64_t tick)
 {
   const std::lock_guard lock(mutex_);
-  tick_ = tick;
-  done_ = true;
+  membership_.AtTick(tick, Clock::now());
+  membership_.On(Event::kLastTick, Clock::now());
   changed_.notify_all();
 }
 
 void WorkerSession::Fail(std::uint64_t tick, const std::string& error, bool complete)
 {
   const std::lock_guard lock(mutex_);
-  tick_ = tick;
-  if (!own_error_)
-  {
-    own_error_ = error;
-    // At once: others may end because of it before this process does.
+  membership_.AtTick(tick, Clock::now());
+  // At once: others may end because of it before this process does.
+  if (membership_.Now() < Phase::kFailed)
     NoteEnd(EndReason::kFailed, tick, complete ? error : fmt::format("{} failed at tick {}: {}", name_, tick, error),
             complete);
-  }
+  membership_.On(Event::kOwnFailure, Clock::now(), error);
   changed_.notify_all();
 }
 
@@ -346,10 +300,7 @@ void WorkerSession::Notify()
 void WorkerSession::SetTick(std::uint64_t tick)
 {
   const std::lock_guard lock(mutex_);
-  // The run goes on: another process has taken the place of the one that died with its lock.
-  if (tick != tick_) broken_since_.reset();
-  tick_ = tick;
-  if (!first_tick_) first_tick_ = tick;
+  membership_.AtTick(tick, Clock::now());
 }
 
 void WorkerSession::Wait(std::chrono::milliseconds period, const std::function<std::optional<std::string>()>& idle)
@@ -398,26 +349,21 @@ void WorkerSession::WaitUntilDone(std::chrono::milliseconds period,
     if (const std::optional<std::string> text = idle(); text && *text != last_status_)
     {
       last_status_ = *text;
-      status_->Write({world_.run, tick_, name_, *text});
+      status_->Write({world_.run, Tick(), name_, *text});
     }
-    {
-      const std::lock_guard lock(mutex_);
-      if (own_error_)
-      {
-        reason_ = EndReason::kFailed;
-        throw BusError(*own_error_);
-      }
-      if (done_) return;
-    }
-    CheckOthers();
-    // Fast DDS may lose what was said while the reader was met, although the reader has acknowledged it.
-    if (!HasBegun() && Clock::now() - said_ready_ > kAgain) ReportReady();
+    CheckEnd();
     std::unique_lock lock(mutex_);
+    if (membership_.Now() == Phase::kFinishing) return;
     changed_.wait_for(lock, period,
-                      [this]
-                      { return notified_ || done_ || own_error_ || others_error_ || server_lost_ || server_left_; });
+                      [this] { return notified_ || membership_.HasEnded() || membership_.Now() == Phase::kFinishing; });
     notified_ = false;
   }
+}
+
+std::uint64_t WorkerSession::Tick() const
+{
+  const std::lock_guard lock(mutex_);
+  return membership_.Tick();
 }
 
 void WorkerSession::ReportFailure(const std::exception& error)
@@ -425,42 +371,44 @@ void WorkerSession::ReportFailure(const std::exception& error)
   const bool complete = dynamic_cast<const ActivityError*>(&error) != nullptr;
   const std::string text =
       dynamic_cast<const std::bad_alloc*>(&error) != nullptr ? OutOfMemoryText() : std::string(error.what());
-  if (dynamic_cast<const ConfigurationError*>(&error) != nullptr)
-    NoteEnd(EndReason::kInvalid, tick_, text, true);
-  else
-    NoteEnd(reason_, tick_, complete ? text : fmt::format("{} failed at tick {}: {}", name_, tick_, text), complete);
+  const std::uint64_t tick = Tick();
+  EndReason reason = EndReason::kInvalid;
   {
     const std::lock_guard lock(mutex_);
-    if (server_lost_ || server_left_) return;
+    if (!membership_.HasEnded()) membership_.On(Event::kOwnFailure, Clock::now(), text);
+    reason = membership_.Reason();
   }
+  if (dynamic_cast<const ConfigurationError*>(&error) != nullptr)
+    NoteEnd(EndReason::kInvalid, tick, text, true);
+  else
+    NoteEnd(reason, tick, complete ? text : fmt::format("{} failed at tick {}: {}", name_, tick, text), complete);
   LeaveRun(text);
 }
 
 void WorkerSession::LeaveRun(const std::string& error)
 {
-  const auto start = Clock::now();
-  auto repeat_after = kFirstRepeat;
   std::unique_lock lock(mutex_);
-  const LeaveMessage leave{world_.run, tick_, name_, ProcessId(), error};
-  const auto over = [this] { return answered_ || server_left_ || server_lost_; };
-  while (!over())
+  const LeaveMessage leave{world_.run, membership_.Tick(), name_, ProcessId(), error};
+  Action action = membership_.On(Event::kWorkEnded, Clock::now());
+  for (membership_.Look(Sight(), Clock::now()); membership_.Now() == Phase::kLeaving;
+       action = membership_.Look(Sight(), Clock::now()))
   {
     lock.unlock();
-    if (server_seen_ && !ServerIsOnThisMachine()) return;
-    if (BusIsBroken() || (IsStopped() && Clock::now() - start > kInterruptedTime)) return;
-    leave_->Write(leave);
+    if (action == Action::kSayLeave)
+    {
+      // The server does not answer a replacement whose Join it has not heard.
+      SayJoin(false);
+      leave_->Write(leave);
+    }
     lock.lock();
-    changed_.wait_for(lock, repeat_after, over);
-    repeat_after = std::min(2 * repeat_after, kLastRepeat);
+    changed_.wait_for(lock, kLook, [this] { return membership_.Now() == Phase::kLeft; });
   }
 }
 
 int WorkerSession::ExitCode() const
 {
-  if (reason_ == EndReason::kInterrupted) return kExitInterrupted;
-  if (reason_ != EndReason::kOthers || is_observer_) return kExitProcessFailed;
-  if (stuck_) return kExitStuck;
-  return cut_off_ ? kExitCutOff : kExitOthersFailed;
+  const std::lock_guard lock(mutex_);
+  return membership_.ExitCode();
 }
 
 int WorkerSession::Work(const std::function<void()>& work)
@@ -472,11 +420,14 @@ int WorkerSession::Work(const std::function<void()>& work)
   catch (const std::exception& error)
   {
     ReportFailure(error);
-    if (reason_ == EndReason::kFailed) throw;
+    {
+      const std::lock_guard lock(mutex_);
+      if (membership_.Reason() == EndReason::kFailed) throw;
+    }
     Say(error.what());
     return ExitCode();
   }
-  NoteEnd(EndReason::kDone, tick_, "");
+  NoteEnd(EndReason::kDone, Tick(), "");
   LeaveRun("");
   return kExitDone;
 }

@@ -1,13 +1,11 @@
-// WorkerSession: what every process of a run but the space server does beside its step: it finds the run, tells who it
-// is, reports what it waits for, and ends when the run ends or fails. Used by engine_worker, controller_host and
+// WorkerSession: how a worker takes part in a run beside its step. It sends, receives and measures time for its
+// WorkerMembership, which decides, and it reports what the worker waits for. Used by engine_worker, controller_host and
 // visualiser; the step itself runs in a thread of the bus.
 #pragma once
 
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <functional>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -17,6 +15,8 @@
 #include "common/activity/failure_report.h"
 #include "common/bus/bus.h"
 #include "common/bus/membership/run_directory.h"
+#include "common/bus/membership/worker_membership.h"
+#include "common/threads/waiting.h"
 
 namespace swarmanoid
 {
@@ -69,8 +69,6 @@ public:
   std::optional<BusError> Follow(std::chrono::milliseconds period, const std::function<void()>& idle);
   // Whether the server said that the run ended, and for no failure.
   bool RunHasEnded() const;
-  // Whether the run has ended or failed, or its server has gone: then Follow returns the reason.
-  bool IsOver() const;
   // Whether the process of that name has said that its work is done, at that tick or a later one.
   bool HasLeft(const std::string& name, std::uint64_t tick) const;
   // For observers, after Follow: if the server was lost and its run may go on with another one, says so and
@@ -92,55 +90,40 @@ public:
   void SetTick(std::uint64_t tick);
 
 private:
-  bool IsStopped() const { return stop_; }
-  bool IsOfTheRun(const BadMessageReport& report) const;
   bool FailedBy(const BadMessageReport& report);
-  void CheckOthers();
-  bool ServerIsOnThisMachine() const;
-  bool ServerHasGone() const;
-  bool GoesOnWith(const WorldMessage& world) const;
   void HearLeaves(const std::string& experiment);
-  bool HasBegun() const;
+  void HeardWorld(const WorldMessage& world);
+  bool GoesOnWith(const WorldMessage& world) const;
+  WorkerMembership::Sight Sight() const;
+  bool ServerIsOnThisMachine() const;
+  // Throws BusError once the membership has ended.
+  void CheckEnd();
   void WaitUntilDone(std::chrono::milliseconds period, const std::function<std::optional<std::string>()>& idle);
-  // Why this process ends, to whoever started it and to the server.
+  void SayJoin(bool ready);
+  std::uint64_t Tick() const;
+  // Why this process ends, to the launcher and to the server.
   void ReportFailure(const std::exception& error);
-  // Stays until the server has answered, or is not there any more: a process that goes before its Leave is read would
-  // be reported as dead.
+  // Stays until the server has answered, or has gone: a process that ends before its Leave is read would be reported as
+  // dead.
   void LeaveRun(const std::string& error);
   void Say(const std::string& text) const;
 
-  std::string name_;
-  unsigned incarnation_;
-  std::string machine_;
+  const std::string name_;
+  const unsigned incarnation_;
+  const std::string machine_;
   double reach_ = kReachesAll;
   const std::atomic<bool>& stop_;
   Bus bus_;
-  int domain_;
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  bool notified_ = false;
-  bool done_ = false;
-  std::uint64_t tick_ = 0;
-  std::optional<std::uint64_t> first_tick_;  // that this process was at when it began to wait
-  std::chrono::steady_clock::time_point said_ready_;
-  bool is_observer_ = false;
-  EndReason reason_ = EndReason::kFailed;  // why this process ends before its work is done
-  std::optional<std::string> own_error_;
-  std::optional<std::string> others_error_;
-  std::optional<std::chrono::steady_clock::time_point> broken_since_;
-  bool stuck_ = false;
-  bool cut_off_ = false;  // it ended since the space server had gone
-  bool server_lost_ = false;
-  bool server_seen_ = false;  // among the processes of this machine
-  bool server_left_ = false;
-  bool answered_ = false;  // the server has read that this process leaves
-  std::string server_process_;
-  std::set<std::string> trusted_;
-  std::map<std::string, std::uint64_t> left_;  // last tick by name
-  std::string last_status_;
+  const int domain_;
+  mutable std::mutex mutex_;  // of the membership, the worlds and what follows
+  RunCondition changed_;
+  WorkerMembership membership_;
+  bool notified_ = false;  // wakes the main thread once
   WorldMessage world_;
   std::optional<WorldMessage> next_world_;  // of the server that goes on with the run
-  bool have_world_ = false;
+  std::set<std::string> trusted_;
+  bool server_seen_ = false;  // among the processes of this machine; main thread
+  std::string last_status_;   // main thread
   std::unique_ptr<RunDirectory> directory_;
   std::unique_ptr<Subscription<WorldMessage>> worlds_;
   std::unique_ptr<Publisher<JoinMessage>> join_;

@@ -1,0 +1,133 @@
+// WorkerMembership: the part that a worker has in a run, from its search for the space server to its good-bye. It is a
+// phase and one transition function. WorkerSession tells it what was heard and what time it is, and does what it
+// returns. It knows no bus, no thread and no clock. docs/recovery.md prints the table.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "common/activity/activity.h"
+#include "common/bus/topics/session_messages.h"
+
+namespace swarmanoid
+{
+
+class WorkerMembership
+{
+public:
+  // From kStuck to kFailed are the ends, the weakest first. Until the process leaves, a stronger one replaces a weaker.
+  enum class Phase : std::uint8_t
+  {
+    kSearching,    // no space server was heard
+    kJoining,      // builds its part of the world, and meets the others
+    kReady,        // said that it can step
+    kStepping,     // ticks pass
+    kFinishing,    // the last tick is here
+    kStuck,        // a dead process holds a lock of the shared memory
+    kCutOff,       // the space server has gone
+    kRunOver,      // the space server said that the run is over
+    kRunFailed,    // the space server said that the run failed, or refused this process
+    kInterrupted,  // a signal asked for the end
+    kFailed,       // this process failed
+    kLeaving,      // says Leave until the server answers
+    kLeft
+  };
+  enum class Event : std::uint8_t
+  {
+    kWorldHeard,
+    kPrepared,    // the process can step
+    kTickPassed,  // since it was ready
+    kLastTick,
+    kUnheard,  // the last word is old: it may be lost
+    kBusStuck,
+    kServerGone,
+    kServerLeft,
+    kServerFailed,
+    kInterrupted,
+    kOwnFailure,
+    kNextServer,  // another one goes on with the run
+    kWorkEnded,   // the process has nothing more to do
+    kAnswered     // the server has read the Leave
+  };
+  enum class Action : std::uint8_t
+  {
+    kNone,
+    kSayJoin,
+    kSayReady,
+    kSayLeave
+  };
+  static constexpr std::array<std::string_view, 13> kPhases{
+      "Searching", "Joining",   "Ready",       "Stepping", "Finishing", "Stuck", "CutOff",
+      "RunOver",   "RunFailed", "Interrupted", "Failed",   "Leaving",   "Left"};
+  static constexpr std::array<std::string_view, 14> kEvents{
+      "WorldHeard", "Prepared",     "TickPassed",  "LastTick",   "Unheard",    "BusStuck",  "ServerGone",
+      "ServerLeft", "ServerFailed", "Interrupted", "OwnFailure", "NextServer", "WorkEnded", "Answered"};
+  static constexpr std::array<std::string_view, 4> kActions{"", "say Join", "say Join, ready", "say Leave"};
+
+  struct Next
+  {
+    Phase phase;
+    Action action = Action::kNone;
+    bool operator==(const Next&) const = default;
+  };
+  static Next Transition(Phase phase, Event event);
+
+  using Time = std::chrono::steady_clock::time_point;
+
+  // An observer: a failure of the run is a failure of this process, and another server may go on with the run.
+  void Observe() { observes_ = true; }
+  bool Observes() const { return observes_; }
+
+  // What was heard, or happened. `text` says why, for kServerFailed and kOwnFailure.
+  Action On(Event event, Time now, const std::string& text = {});
+  // A Leave message of anybody. `process`: "host:pid" of this one; `run`: that of the world.
+  void Heard(const LeaveMessage& leave, const std::string& process, std::uint64_t run, Time now);
+  // The server is this process. `replaces`: others take over when a process dies, so that a lock is waited for less.
+  Action HeardWorld(const std::string& server, bool replaces, Time now);
+  Action JoinNext(const std::string& server, bool replaces, Time now);
+  void AtTick(std::uint64_t tick, Time now);
+
+  // What the process sees when it looks around, as it does all the time.
+  struct Sight
+  {
+    bool is_interrupted = false;
+    bool bus_is_broken = false;
+    bool server_is_gone = false;
+  };
+  Action Look(const Sight& sight, Time now);
+
+  Phase Now() const { return phase_; }
+  bool HasEnded() const { return phase_ >= Phase::kStuck; }
+  // The end of this process, before it leaves; none if its work was done.
+  std::optional<Phase> End() const { return end_; }
+  // Of the end, for people.
+  std::string Text() const;
+  EndReason Reason() const;
+  int ExitCode() const;
+  std::uint64_t Tick() const { return tick_; }
+  const std::string& Server() const { return server_; }
+  // Whether the process of that name has said that its work is done, at that tick or a later one.
+  bool HasLeft(const std::string& name, std::uint64_t tick) const;
+
+private:
+  Phase phase_ = Phase::kSearching;
+  std::optional<Phase> end_;
+  bool observes_ = false;
+  bool replaces_ = false;
+  std::string server_;  // "host:pid"
+  std::string text_;
+  std::uint64_t tick_ = 0;
+  std::optional<std::uint64_t> first_tick_;  // the first one after it was ready
+  Time said_;
+  Time leaves_since_;
+  std::chrono::milliseconds repeat_after_{};
+  std::optional<Time> broken_since_;
+  std::map<std::string, std::uint64_t> left_;  // last tick by name
+};
+
+}  // namespace swarmanoid
