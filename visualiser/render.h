@@ -28,14 +28,20 @@ class ExperimentControl
 {
 public:
   virtual ~ExperimentControl() = default;
+  // Pauses the run before its next tick.
   virtual void Pause() = 0;
+  // Resumes a paused run.
   virtual void Resume() = 0;
+  // Runs this number of ticks and pauses again.
   virtual void Step(unsigned ticks) = 0;
   virtual void SetSpeed(double real_time_factor) = 0;  // times real time; 0: as fast as possible
+  // Moves an entity to a pose, in metres in the frame of the arena. The run refuses it with a note if the pose is not
+  // possible.
   virtual void MoveEntity(const std::string& id, const Pose& pose) = 0;
   // Adds an entity that is outside the arena: the one of that id, or the next one of the <reserve> of that id. The pose
   // is in metres in the frame of the arena.
   virtual void AddEntity(const std::string& id, const Pose& pose) = 0;
+  // Takes an entity that can move, or is of a <reserve>, out of the arena.
   virtual void RemoveEntity(const std::string& id) = 0;
   // Input for the experiment functions: a key by its name (UserInput), pressed or released, and the id of a selected
   // entity (empty: none).

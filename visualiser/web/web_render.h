@@ -95,7 +95,7 @@ private:
   std::map<std::uint64_t, std::vector<std::uint32_t>> watched_;  // by client
   std::mutex mutex_;                                             // guards requests_
   std::vector<Request> requests_;
-  std::atomic<bool> has_requests_{false};
+  std::atomic<bool> has_requests_{false};  // read without the mutex
 
   std::unique_ptr<PageHost> host_;             // its server's thread uses the members above
   std::unique_ptr<FrameWriter> past_frames_;   // only for the thread of look_back_

@@ -43,7 +43,9 @@ public:
   virtual ~WebServerEvents() = default;
   // Returns the first message for a new client.
   virtual std::string Welcome(std::uint64_t client) = 0;
+  // Gets a text message of a client.
   virtual void Received(std::uint64_t client, std::string_view text) = 0;
+  // Called when a client has disconnected.
   virtual void Left(std::uint64_t client) = 0;
 };
 
