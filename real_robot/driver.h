@@ -22,7 +22,7 @@ struct DriverSetup
   std::string robot_id;    // the robot's id in the logs
   std::string robot_kind;  // "footbot", "eyebot" or "handbot"
   std::string name_space;  // put before names of topics; may be empty
-  double tick_seconds;     // of one control step
+  double tick_seconds;     // duration of one control step
 };
 
 // A driver cannot work, for example without a port or a network. what() gives the reason and the cure. It ends the

@@ -43,7 +43,7 @@ std::string TextOf(const NewElement& element, std::string_view indent, std::stri
 // `inner_indent` precedes each further line.
 struct InsertionPlace
 {
-  std::string indent;    // of the children
+  std::string indent;    // indent of the children
   std::string line_end;  // "\n" or "\r\n", as the text has them
 };
 InsertionPlace PlaceForChild(std::string_view text, const XmlElement& parent);

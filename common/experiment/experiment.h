@@ -140,7 +140,7 @@ struct FunctionsConfiguration
 struct Experiment
 {
   std::string name;    // the file's name without folder and extension, unless <framework><name> says otherwise
-  std::string folder;  // of the experiment file: relative paths start here
+  std::string folder;  // the experiment file's folder, where relative paths start
   std::uint32_t clock_tick_ms = 100;
   std::uint64_t max_clock = 0;  // ticks; 0: until stopped
   std::uint64_t seed = 1;

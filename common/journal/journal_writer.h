@@ -42,7 +42,7 @@ inline constexpr std::uint32_t kUnknownTable = UINT32_MAX;
 struct JournalBudget
 {
   std::uint64_t bytes = 0;         // 0: everything
-  std::vector<std::string> parts;  // of the processes whose states are needed to continue the run
+  std::vector<std::string> parts;  // the processes whose states are needed to continue the run
 };
 
 // Returns the file of a segment. `path`: the first one; the others lie beside it, named by their numbers.

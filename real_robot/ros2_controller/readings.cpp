@@ -36,7 +36,7 @@ using Range = sensor_msgs::msg::dds_::Range_;
 using Illuminance = sensor_msgs::msg::dds_::Illuminance_;
 using Imu = sensor_msgs::msg::dds_::Imu_;
 
-constexpr double kBodyRadius_m = 0.085036758;  // of a footbot
+constexpr double kBodyRadius_m = 0.085036758;  // radius of a footbot
 constexpr double kFullScale_lx = 1000;         // the illuminance at which a footbot's light sensor reads 1
 constexpr std::uint8_t kInfrared = 1;          // sensor_msgs/msg/Range: INFRARED
 

@@ -10,7 +10,7 @@ namespace swarmanoid
 struct Ray
 {
   Vector3 origin;
-  Vector3 direction;  // of unit length
+  Vector3 direction;  // unit vector
 };
 
 struct Camera
@@ -19,7 +19,7 @@ struct Camera
   double heading = 0;  // degrees
   double pitch = 0;
   double roll = 0;
-  double field_of_view = 45;  // of the picture's height, degrees
+  double field_of_view = 45;  // vertical, in degrees
 
   Vector3 Forward() const;
   Vector3 Right() const;

@@ -72,7 +72,7 @@ private:
   double linger_s_ = -1;
   Clock::duration frame_period_{};
   double bytes_per_second_ = 0;  // for states, to each page
-  std::size_t sent_bytes_ = 0;   // of the last state
+  std::size_t sent_bytes_ = 0;   // bytes of the last state
   int changes_ = 0;              // since the last key
   std::unique_ptr<FrameWriter> frame_writer_;
   std::unique_ptr<LogFollower> logs_;

@@ -67,7 +67,7 @@ public:
     kWatched,
     kMarks,
     kDrawing,   // binary: drawings of experiment functions
-    kDocument,  // of the editor
+    kDocument,  // text: the document of the editor
     kCount
   };
 
