@@ -32,6 +32,7 @@ struct XmlRefusal
   std::function<int(std::size_t)> line;  // returns the line of an offset
 };
 
+// Returns the position of the mistake, and its text with the cure.
 XmlMistake ExplainRefusal(std::string_view text, const XmlRefusal& refusal);
 
 // Returns the offset of each attribute of the start tag at `tag`, which the parser has accepted.

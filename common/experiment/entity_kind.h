@@ -224,6 +224,7 @@ std::optional<EntityKind> KindOfTag(std::string_view tag);
 // PluginCatalogue::Add). Otherwise std::invalid_argument is thrown.
 void RegisterEntityKind(EntityKindDescription description);
 
+// Returns whether the kind has the role of a robot.
 bool IsRobot(EntityKind kind);
 // Returns whether no engine holds a body of the kind: lights, sounds and patches of the floor.
 bool IsBodiless(EntityKind kind);

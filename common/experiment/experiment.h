@@ -161,6 +161,7 @@ struct Experiment
   std::string effective_xml;  // a text that gives this experiment again, with --set and --seed applied
 
   double TickSeconds() const { return clock_tick_ms * 1e-3; }
+  // Returns the controller with that id; nullptr if it does not exist.
   const ControllerConfiguration* FindController(const std::string& id) const;
   // Returns whether some controller has a guard (IsGuarded).
   bool HasGuards() const;

@@ -72,6 +72,7 @@ public:
 
   void AddTick(const SpaceState& state, bool save, std::span<const SensorFrame> frames,
                std::span<const ControlCommands> commands);
+  // Add the saved state of the space, and of another process, at a tick.
   void Add(const SpaceSnapshot& snapshot);
   void Add(std::uint64_t tick, const SavedPart& part);
   // Starts a new table of controller hosts at the tick, when robots are assigned to other hosts. Later blocks belong to

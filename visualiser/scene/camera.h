@@ -21,6 +21,7 @@ struct Camera
   double roll = 0;
   double field_of_view = 45;  // vertical, in degrees
 
+  // Return the unit vectors of the camera in the space.
   Vector3 Forward() const;
   Vector3 Right() const;
   Vector3 Up() const;

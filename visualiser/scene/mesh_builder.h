@@ -31,6 +31,7 @@ public:
   void SetColour(Colour colour) { colour_ = colour; }  // for Material::kPainted
   void SetSegments(int segments) { segments_ = segments; }
 
+  // Adds a box between two corners.
   void Box(const Eigen::Vector3f& low, const Eigen::Vector3f& high, Material material);
   // Adds a profile turned about the z axis. Seen with the axis on the left, a profile that goes upwards has its outside
   // on the right. Normals are flat along the profile and round about the axis.

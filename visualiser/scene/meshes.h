@@ -60,6 +60,7 @@ struct RestingPart
   ModelId model;
   Eigen::Isometry3f place;
 };
+// Returns the parts of a robot; empty for Mechanism::kNone.
 std::vector<RestingPart> RestingParts(Mechanism robot);
 
 // Returns the surface of a terrain in its frame, in the colour of the entity (Material::kTint).

@@ -78,6 +78,7 @@ public:
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
 
+  // Returns the port, also if the system has chosen it.
   std::uint16_t Port() const;
   // Returns "http://127.0.0.1:8080/", or with a certificate "https://…".
   std::string Url() const;
