@@ -22,7 +22,7 @@ struct DriverSetup
   std::string robot_id;    // the robot's id in the logs
   std::string robot_kind;  // "footbot", "eyebot" or "handbot"
   std::string name_space;  // put before names of topics; may be empty
-  double tick_seconds;     // of one control step
+  double tick_seconds;     // duration of one control step
 };
 
 // A driver cannot work, for example without a port or a network. what() gives the reason and the cure. It ends the
@@ -45,6 +45,8 @@ class CSensorDriver
 {
 public:
   virtual ~CSensorDriver() = default;
+  // Opens the device. It is called once, before all other functions. Throws ConfigurationError for a wrong parameter,
+  // and DriverError if the device does not work.
   virtual void Init(const DriverSetup& setup) = 0;
   // Returns the object for the controller. It must live as long as the driver.
   virtual CCI_Sensor* Sensor() = 0;
@@ -60,7 +62,10 @@ class CActuatorDriver
 {
 public:
   virtual ~CActuatorDriver() = default;
+  // Opens the device. It is called once, before all other functions. Throws ConfigurationError for a wrong parameter,
+  // and DriverError if the device does not work.
   virtual void Init(const DriverSetup& setup) = 0;
+  // Returns the object for the controller. It must live as long as the driver.
   virtual CCI_Actuator* Actuator() = 0;
   // Sends the values that the controller set last to the hardware. It is called after each control step. Throws
   // DriverError.

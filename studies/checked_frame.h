@@ -24,6 +24,7 @@ std::vector<char> Framed(std::span<const char> content);
 class FrameReader
 {
 public:
+  // Appends received bytes.
   void Add(std::span<const char> bytes);
   // Returns the next content; nothing if it is not complete yet. Before the first one, some lines of other programs are
   // allowed, such as a shell's greeting. Throws FrameError.

@@ -34,6 +34,7 @@ public:
 
   // Returns whether the executor accepts another run.
   virtual bool HasRoom() const = 0;
+  // Accepts a run. HasRoom must be true.
   virtual void Give(RunOrder order) = 0;
   // Returns whether all accepted runs have their outcome, or were abandoned because the user interrupted.
   virtual bool IsIdle() const = 0;

@@ -1,3 +1,6 @@
+// A recursive descent parser with one function for all binary operators: kLevels lists them by precedence. Each rule
+// returns a Term, a function of the names' values, so that a condition is parsed once and evaluated for each point.
+// Numbers stand for truth values: 0 is false.
 #include "studies/expression.h"
 
 #include <fmt/format.h>

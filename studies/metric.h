@@ -19,6 +19,7 @@ public:
   virtual void Look(CSimulator&) {}
   // Appends the values of this tick: one for each entity, NaN for none; or a single one. docs/studies.md has the units.
   virtual void Measure(CSimulator& simulator, std::vector<double>& values) = 0;
+  // Adds the grid of a <coverage> at the end of the run.
   virtual void AddGrid(RunSamples&) const {}
   // Called at the end of a run of `ticks` ticks. Throws ConfigurationError if the metric names a value that did not
   // occur in the run.

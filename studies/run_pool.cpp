@@ -1,3 +1,6 @@
+// Each worker is a fork of this process with a socket pair. Orders and outcomes are frames of a length and bytes. A
+// worker answers its orders in their sequence, so that the first order of the list is the one in progress. A worker
+// that dies gives a failed outcome for that order, and its replacement gets the others.
 #include "studies/run_pool.h"
 
 #include <fmt/format.h>

@@ -51,7 +51,7 @@ private:
   const Study& study_;
   std::string folder_;
   std::uint64_t memory_bytes_ = 0;  // for all processes
-  std::uint64_t peak_bytes_ = 0;    // of the largest run so far
+  std::uint64_t peak_bytes_ = 0;    // memory of the largest run so far
   // Short runs are queued behind each other, so that no process waits for this one. Long runs are not queued.
   std::size_t orders_of_worker_ = 1;
   std::vector<Worker> workers_;

@@ -23,6 +23,7 @@ public:
   static std::vector<SlurmBatch> FindAll(const std::string& study_folder);
 
   const std::string& Job() const { return job_; }
+  // Stores the number of the submitted job.
   void SetJob(const std::string& job);
   std::string Script() const { return folder_ + "/run.sh"; }
   std::string LogPattern() const { return folder_ + "/task-%a.log"; }

@@ -1,3 +1,6 @@
+// Runs are submitted as arrays of tasks, whose files are in a SlurmBatch. Wait asks Slurm at intervals which tasks
+// still exist, and then reads new results. A task that has ended counts as lost only if its results do not appear
+// within kPatienceWithFiles, since shared file systems are slow.
 #include "studies/slurm_pool.h"
 
 #include <fmt/format.h>

@@ -16,7 +16,7 @@
 namespace swarmanoid
 {
 
-using StudySettings = std::vector<std::pair<std::string, std::string>>;  // as for --set: path and value
+using StudySettings = std::vector<std::pair<std::string, std::string>>;  // path and value, as for --set
 
 // A <set>, or one path of a <factor> with one of its values.
 struct StudyChange

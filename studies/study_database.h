@@ -37,6 +37,7 @@ public:
   StudyDatabase(const StudyDatabase&) = delete;
   StudyDatabase& operator=(const StudyDatabase&) = delete;
 
+  // Executes commands without values or results.
   void Execute(const std::string& commands);
   // The command must be destroyed before the database.
   std::unique_ptr<SqlCommand> Prepare(const std::string& command);
@@ -59,6 +60,7 @@ public:
   SqlCommand(const SqlCommand&) = delete;
   SqlCommand& operator=(const SqlCommand&) = delete;
 
+  // Bind the next value.
   SqlCommand& Bind(const std::string& text);
   // Binds a number; NaN becomes NULL.
   SqlCommand& Bind(double number);
@@ -73,6 +75,7 @@ public:
   // Executes to the end; the next execution needs new values.
   void Run();
 
+  // Returns the number of columns of the result.
   int Columns() const;
   std::string ColumnName(int column) const;
   // Return values of the current row.

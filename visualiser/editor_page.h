@@ -32,7 +32,7 @@ public:
   // Throws std::runtime_error.
   virtual void Open(const Parameters& parameters, const std::string& key, EditorRequests& requests) = 0;
   virtual std::string Url() const = 0;          // with the token
-  virtual std::string Fingerprint() const = 0;  // of the certificate; empty without TLS
+  virtual std::string Fingerprint() const = 0;  // that of the certificate; empty without TLS
   virtual std::string Warning() const = 0;      // states which other users can look or edit; empty if none
   // From now on all pages show this space. The space is not used after the call.
   virtual void Show(const CSwarmanoidSpace& space, const Assignment& assignment) = 0;

@@ -84,6 +84,7 @@ public:
   virtual ~ControlledRobot() = default;
   // Resets its devices and its controller.
   virtual void Reset() = 0;
+  // Enables or disables its control steps.
   virtual void SetEnabled(bool enabled) = 0;
 };
 
@@ -124,8 +125,11 @@ class ProgramRun
 {
 public:
   virtual ~ProgramRun() = default;
+  // Returns the editor for changes between the steps.
   virtual SpaceEditor& Editor() = 0;
+  // Runs one step.
   virtual void Step() = 0;
+  // Ends the run.
   virtual void Finish() = 0;
 };
 

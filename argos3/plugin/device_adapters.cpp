@@ -143,7 +143,7 @@ public:
     m_sReading.Position = translation_.Argos3Position(ours_.GetPosition());
     m_sReading.Orientation = Argos3Orientation(ours_.GetOrientation());
     if (axis_low_ == axis_high_) return;
-    // As in ARGoS3, the result may have another length.
+    // The result may have another length, as in ARGoS3.
     argos::CRadians angle;
     argos::CVector3 axis;
     m_sReading.Orientation.ToAngleAxis(angle, axis);

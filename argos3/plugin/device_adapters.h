@@ -29,7 +29,9 @@ class SensorBridge
 {
 public:
   virtual ~SensorBridge() = default;
+  // Returns the sensor for the controller.
   virtual argos::CCI_Sensor& Sensor() = 0;
+  // Takes the readings of our sensor, before each control step.
   virtual void Update() = 0;
 };
 
@@ -38,7 +40,9 @@ class ActuatorBridge
 {
 public:
   virtual ~ActuatorBridge() = default;
+  // Returns the actuator for the controller.
   virtual argos::CCI_Actuator& Actuator() = 0;
+  // Passes deferred commands to our actuator, after each control step.
   virtual void Commit() {}
 };
 

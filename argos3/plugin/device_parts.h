@@ -20,7 +20,7 @@ std::unique_ptr<ActuatorBridge> MakeEPuckActuator(const std::string& tag, const 
 std::unique_ptr<SensorBridge> MakePerspectiveCamera(const DeviceSetup& setup);
 std::unique_ptr<ActuatorBridge> MakeEyeBotActuator(const std::string& tag, const DeviceSetup& setup);
 
-inline constexpr double kCentimetres = 100;  // of a metre
+inline constexpr double kCentimetres = 100;  // in a metre
 
 // The alpha of a colour is the intensity of the LED.
 inline std::uint32_t Lit(const argos::CColor& colour)

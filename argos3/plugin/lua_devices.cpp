@@ -110,7 +110,7 @@ void AddLeds(lua_State* lua, argos::CCI_LEDsActuator& leds)
 
 // robot.range_and_bearing: bytes; cm, rad
 
-// As in ARGoS3, a number that is too large for a byte loses its higher bits.
+// A number that is too large for a byte loses its higher bits, as in ARGoS3.
 UInt8 ByteAt(lua_State* lua, int index)
 {
   const double value = luaL_checknumber(lua, index);

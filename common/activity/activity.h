@@ -100,7 +100,7 @@ struct ActivityPage
 
   std::atomic<std::uint64_t> magic;
   std::atomic<std::uint32_t> taken;   // 1: the process writes here
-  std::atomic<std::uint64_t> tick;    // of the last activity
+  std::atomic<std::uint64_t> tick;    // tick of the last activity
   std::atomic<std::uint32_t> kind;    // Actor::Kind
   std::atomic<std::uint32_t> number;  // Actor::number
   std::atomic<std::uint32_t> step;

@@ -36,7 +36,7 @@ private:
   void Run();
 
   Settings settings_;
-  std::mutex mutex_;
+  std::mutex mutex_;  // guards end_
   std::condition_variable ended_;
   bool end_ = false;
   std::thread thread_;

@@ -30,6 +30,7 @@ struct CheckpointOrigin
   std::uint64_t experiment = 0;  // FingerprintOf
   std::vector<LibraryBuild> libraries;
 };
+// Returns the origin of checkpoints that this process would take of the experiment.
 CheckpointOrigin OriginOf(const Experiment& experiment);
 
 struct Checkpoint
@@ -54,12 +55,14 @@ struct Checkpoint
       throw std::runtime_error("the checkpoint's part of the " + name + ": " + error.what());
     }
   }
+  // Returns the state of a part. Throws std::runtime_error if the checkpoint does not have it.
   std::span<const char> StateOf(const std::string& name) const;
 };
 
 // Returns equal numbers for experiments whose runs differ only in their length.
 std::uint64_t FingerprintOf(const Experiment& experiment);
 
+// Returns the bytes of the file.
 std::vector<char> EncodeCheckpoint(const Checkpoint& checkpoint);
 // Throws std::runtime_error if the bytes are no checkpoint, have another version of the format, or are cut short or
 // damaged.

@@ -47,7 +47,7 @@ private:
 
   void Visit(const ConfigurationNode& node, std::vector<Unread>& unread) const;
 
-  mutable std::mutex mutex_;
+  mutable std::mutex mutex_;  // guards asked_
   std::unordered_map<const ConfigurationNode*, Asked> asked_;
 };
 

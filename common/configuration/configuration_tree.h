@@ -77,6 +77,7 @@ public:
   const std::string& Text() const;
   SourceLocation Location() const;
 
+  // Returns the child elements in the order of the file.
   std::vector<TConfigurationTree> Children() const;
   // Returns the first child of that name, or a handle that does not exist.
   TConfigurationTree Child(std::string_view name) const;

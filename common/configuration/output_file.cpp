@@ -79,7 +79,7 @@ public:
   }
 
 private:
-  std::mutex mutex_;
+  std::mutex mutex_;  // guards paths_
   std::set<std::string> paths_;
 };
 

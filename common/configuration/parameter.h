@@ -34,7 +34,7 @@ struct ParameterSpec
   std::string name;
   ParameterType type = ParameterType::kNumber;
   std::string unit{};                          // SI symbol, empty for none
-  std::optional<std::string> default_value{};  // as written in a file; nullopt makes the parameter required
+  std::optional<std::string> default_value{};  // the text in a file; nullopt makes the parameter required
   std::string description{};                   // one plain sentence: meaning and consequence
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();

@@ -37,16 +37,18 @@ struct NewElement
   std::vector<std::pair<std::string, std::string>> values;
   bool as_elements = false;  // the form of the values; an id is always an attribute
 };
+// Returns the text of the element. `indent` precedes its further lines.
 std::string TextOf(const NewElement& element, std::string_view indent, std::string_view line_end);
 
-// A position for new text behind the last child: one or several elements, with no indent on the first line.
-// `inner_indent` precedes each further line.
+// The layout of the children of an element, for new ones.
 struct InsertionPlace
 {
-  std::string indent;    // of the children
+  std::string indent;    // indent of the children
   std::string line_end;  // "\n" or "\r\n", as the text has them
 };
 InsertionPlace PlaceForChild(std::string_view text, const XmlElement& parent);
+// Adds text behind the last child: one or several elements. The first line has no indent; the further lines have
+// theirs.
 TextEdits AppendChild(std::string_view text, const XmlElement& parent, const std::string& child);
 
 // Removes the element, with its line if nothing else is on it.

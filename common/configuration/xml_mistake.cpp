@@ -1,3 +1,6 @@
+// The parser reports an error code and an offset, which often lies behind the mistake. This file scans the text of the
+// refused markup again from its start, and chooses the first rule of XML 1.0 that it breaks. The result is the position
+// of the mistake and its cure.
 #include "common/configuration/xml_mistake.h"
 
 #include <fmt/format.h>

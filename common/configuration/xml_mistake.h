@@ -25,13 +25,14 @@ struct XmlMistake
 struct XmlRefusal
 {
   XML_Error error;
-  std::size_t offset;                    // of the byte that the parser refuses
-  std::size_t markup;                    // of the markup or text that this byte belongs to
-  std::size_t section;                   // of the last CDATA section
-  std::span<const std::size_t> open;     // of the start tags of the open elements
-  std::function<int(std::size_t)> line;  // of an offset
+  std::size_t offset;                    // the byte that the parser refuses
+  std::size_t markup;                    // the start of the markup or text with this byte
+  std::size_t section;                   // the start of the last CDATA section
+  std::span<const std::size_t> open;     // the start tags of the open elements
+  std::function<int(std::size_t)> line;  // returns the line of an offset
 };
 
+// Returns the position of the mistake, and its text with the cure.
 XmlMistake ExplainRefusal(std::string_view text, const XmlRefusal& refusal);
 
 // Returns the offset of each attribute of the start tag at `tag`, which the parser has accepted.

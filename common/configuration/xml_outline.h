@@ -37,6 +37,7 @@ struct XmlElement
   std::vector<TextSpan> notes;       // comments and processing instructions of the content
 
   bool HasNoEndTag() const { return whole.end == start.end; }
+  // Returns the attribute of that name; nullptr if it does not exist.
   const Attribute* FindAttribute(std::string_view wanted) const;
   // Returns the first child of that name; nullptr if none exists.
   const XmlElement* FindChild(std::string_view wanted) const;

@@ -17,7 +17,7 @@ struct XmlLimits
   std::size_t bytes = std::size_t{64} << 20U;
   int depth = 64;  // elements within elements
   std::size_t elements = 2'000'000;
-  std::size_t attributes = 8'000'000;  // of all elements
+  std::size_t attributes = 8'000'000;  // total for all elements
   int attributes_of_one = 64;
 };
 

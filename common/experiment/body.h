@@ -37,6 +37,7 @@ public:
   // `cell`: about the size of the most frequent body (m).
   BodyGrid(const Vector3& arena_size, double cell);
 
+  // Adds a body, whose `name` Find returns.
   void Add(const Body& body, std::uint32_t name);
   // Returns the name of a body that overlaps this one; nullopt if none does.
   std::optional<std::uint32_t> Find(const Body& body) const;

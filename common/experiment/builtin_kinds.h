@@ -8,6 +8,7 @@
 namespace swarmanoid
 {
 
+// Returns the rows of the simulator's own kinds.
 std::vector<EntityKindDescription> OwnKinds();
 
 // Parameters that several kinds have.

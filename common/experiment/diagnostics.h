@@ -15,6 +15,7 @@ namespace swarmanoid
 class Diagnostics
 {
 public:
+  // Adds a mistake. `message`: the mistake, the limit and the cure.
   void Add(const SourceLocation& location, std::string message);
   bool Empty() const { return count_ == 0; }
   std::size_t Count() const { return count_; }

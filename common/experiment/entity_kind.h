@@ -93,7 +93,7 @@ struct AttributeSpec
 {
   std::string_view name;
   int count;       // slots
-  double initial;  // of each slot; "colour" and "intensity" start as the experiment file says
+  double initial;  // value of each slot; "colour" and "intensity" start as the experiment file says
   std::string_view description;
   AttributeValue value = AttributeValue::kNumber;
 };
@@ -103,7 +103,7 @@ struct WheelDrive
 {
   double axle_m = 0;  // between the wheels
   double radius_m = 0;
-  double max_speed_m_s = 0.3;  // of a wheel, on the ground
+  double max_speed_m_s = 0.3;  // the greatest speed of a wheel on the ground
 };
 
 // LEDs, all at one height. They set the attribute "led".
@@ -224,6 +224,7 @@ std::optional<EntityKind> KindOfTag(std::string_view tag);
 // PluginCatalogue::Add). Otherwise std::invalid_argument is thrown.
 void RegisterEntityKind(EntityKindDescription description);
 
+// Returns whether the kind has the role of a robot.
 bool IsRobot(EntityKind kind);
 // Returns whether no engine holds a body of the kind: lights, sounds and patches of the floor.
 bool IsBodiless(EntityKind kind);

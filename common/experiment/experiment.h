@@ -140,7 +140,7 @@ struct FunctionsConfiguration
 struct Experiment
 {
   std::string name;    // the file's name without folder and extension, unless <framework><name> says otherwise
-  std::string folder;  // of the experiment file: relative paths start here
+  std::string folder;  // the experiment file's folder, where relative paths start
   std::uint32_t clock_tick_ms = 100;
   std::uint64_t max_clock = 0;  // ticks; 0: until stopped
   std::uint64_t seed = 1;
@@ -161,6 +161,7 @@ struct Experiment
   std::string effective_xml;  // a text that gives this experiment again, with --set and --seed applied
 
   double TickSeconds() const { return clock_tick_ms * 1e-3; }
+  // Returns the controller with that id; nullptr if it does not exist.
   const ControllerConfiguration* FindController(const std::string& id) const;
   // Returns whether some controller has a guard (IsGuarded).
   bool HasGuards() const;

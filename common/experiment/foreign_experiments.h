@@ -18,6 +18,7 @@ using ExperimentConverter = std::function<std::shared_ptr<const ConfigurationNod
     const ConfigurationNode& root, const std::string& folder, const ExperimentSettings& settings,
     std::vector<Diagnostic>& mistakes)>;
 
+// Registers the converter of files with that root element.
 void AddExperimentConverter(const std::string& root, ExperimentConverter converter);
 // Returns nullptr if no converter reads files with that root.
 const ExperimentConverter* FindExperimentConverter(const std::string& root);

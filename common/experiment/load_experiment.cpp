@@ -1,3 +1,6 @@
+// Loading has these stages: parse the XML, convert the file of another simulator, apply --set and --seed to the tree,
+// and read the sections in their order. All readers add mistakes to one list, so that a user sees all of them. The tree
+// with all changes is written as the effective text for the other processes.
 #include "common/experiment/load_experiment.h"
 
 #include <fmt/format.h>

@@ -14,7 +14,7 @@ namespace swarmanoid
 struct Diagnostic
 {
   SourceLocation location;
-  std::string message;  // what is wrong; what is allowed; did you mean …
+  std::string message;  // the mistake; the allowed values; did you mean …
 
   std::string Text() const { return location.Text() + ": " + message; }
 };

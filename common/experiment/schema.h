@@ -30,6 +30,7 @@ struct ElementSpec
   std::optional<EntityKind> entity;
 
   const std::string& Name() const { return tags.front(); }
+  // Returns whether the tag is the name or an alias.
   bool HasTag(const std::string& tag) const;
   // Returns the child element of that tag or name, nullptr for none.
   const ElementSpec* FindChild(const std::string& tag) const;

@@ -74,7 +74,7 @@ public:
   }
 
 private:
-  std::mutex mutex_;
+  std::mutex mutex_;  // guards made_
   std::map<std::size_t, Made> made_;
 };
 

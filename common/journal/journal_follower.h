@@ -38,7 +38,7 @@ private:
   bool has_start_ = false;
   std::vector<JournalPlace> places_;
   std::uint32_t segment_ = 0;
-  std::uint64_t offset_ = 0;  // of the first unread byte in the newest segment
+  std::uint64_t offset_ = 0;  // position of the first unread byte in the newest segment
 };
 
 }  // namespace swarmanoid

@@ -1,3 +1,10 @@
+// Adding and writing meet in a queue of blocks under mutex_. Ticks gather in rows_ and become a block when they are
+// many, old or awaited. The writer's thread takes one block at a time, packs, compresses and appends it, and then
+// enters it into the lists.
+//
+// Invariants: a file ends with a whole block; the first block of a segment names the controller hosts of all its
+// blocks; all parts of one saved state are in one segment. DropOldSegments keeps the newest complete state and all
+// ticks since then.
 #include "common/journal/journal_writer.h"
 
 #include <fcntl.h>

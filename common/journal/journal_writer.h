@@ -41,7 +41,7 @@ inline constexpr std::uint32_t kUnknownTable = UINT32_MAX;
 struct JournalBudget
 {
   std::uint64_t bytes = 0;         // 0: everything
-  std::vector<std::string> parts;  // of the processes whose states are needed to continue the run
+  std::vector<std::string> parts;  // the processes whose states are needed to continue the run
 };
 
 // Returns the file of a segment. `path`: the first one; the others lie beside it, named by their numbers.
@@ -71,6 +71,7 @@ public:
 
   void AddTick(const SpaceState& state, bool save, std::span<const SensorFrame> frames,
                std::span<const ControlCommands> commands);
+  // Add the saved state of the space, and of another process, at a tick.
   void Add(const SpaceSnapshot& snapshot);
   void Add(std::uint64_t tick, const SavedPart& part);
   // Starts a new table of controller hosts at the tick, when robots are assigned to other hosts. Later blocks belong to

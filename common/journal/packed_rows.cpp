@@ -72,7 +72,7 @@ void RowPacker::Pack()
 {
   // All eight bytes of each number are written; the next number overwrites the unneeded ones.
   char* out = room_.AtLeast(used_ + (waiting_ * row_ + 1) * sizeof(std::uint64_t)) + used_;
-  std::array<Line, kSide> lines{};  // of the ticks
+  std::array<Line, kSide> lines{};  // one for each tick
   for (std::size_t first = 0; first < row_; first += kSide)
   {
     const std::size_t count = std::min(kSide, row_ - first);

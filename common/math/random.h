@@ -76,6 +76,7 @@ public:
   RandomStream(RandomStream&&) = default;
   RandomStream& operator=(RandomStream&&) = default;
 
+  // Returns 32 random bits.
   std::uint32_t Bits();
   // Returns a uniform number in [0, 1) with 53 random bits.
   double Uniform();

@@ -93,6 +93,7 @@ public:
     std::vector<std::pair<PluginKind, std::string>> labels;  // including the refused ones
     std::vector<std::string> problems;
   };
+  // Start and end the collection of registrations for one library.
   void BeginLibrary();
   Registrations EndLibrary();
 

@@ -106,7 +106,8 @@ struct Form<ServerFinished>
                                      &ServerFinished::real_time_factor};
 };
 
-constexpr std::array<std::string_view, 4> kPhases{"loading", "waiting", "running", "paused"};  // as ServerState::Phase
+// The words are in the order of ServerState::Phase.
+constexpr std::array<std::string_view, 4> kPhases{"loading", "waiting", "running", "paused"};
 
 std::string Written(std::uint64_t value) { return fmt::format("{}", value); }
 std::string Written(double value) { return fmt::format("{}", value); }

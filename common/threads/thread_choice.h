@@ -67,7 +67,7 @@ private:
 
   bool shares_ = false;
   unsigned period_ = kFirstPeriod;
-  unsigned pieces_ = 0;                       // of the current period
+  unsigned pieces_ = 0;                       // in the current period
   Duration alone_before_ = Duration::zero();  // set when several threads became late; 0 if they are not
   Duration alone_ = Duration::max();
   Duration shared_ = Duration::max();

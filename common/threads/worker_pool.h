@@ -79,8 +79,8 @@ private:
   bool shares_ = true;
   void (*call_)(const void* context, unsigned k) = nullptr;  // nullptr ends the threads
   const void* context_ = nullptr;
-  std::atomic<unsigned> piece_ = 0;
-  std::atomic<unsigned> busy_ = 0;
+  std::atomic<unsigned> piece_ = 0;  // number of the current piece; its change publishes call_ and context_
+  std::atomic<unsigned> busy_ = 0;   // threads that have not finished their part
   std::vector<std::thread> workers_;
 };
 

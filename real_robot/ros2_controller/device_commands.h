@@ -23,8 +23,11 @@ public:
   virtual bool Take() = 0;
   // Tells the actuator the command that was taken last. Throws DriverError, with the topic, if it is none.
   virtual void Apply() = 0;
+  // Waits for a command, at most this time (s).
   virtual void Wait(double seconds) = 0;
+  // Returns the number of known publishers.
   virtual unsigned Publishers() const = 0;
+  // Returns the name of the topic.
   virtual std::string Name() const = 0;
 };
 

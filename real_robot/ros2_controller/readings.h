@@ -21,6 +21,7 @@ public:
   virtual ~ReadingPublisher() = default;
   // What the sensor reads in this control step.
   virtual void Publish(const Header& header) = 0;
+  // Returns the number of known listeners.
   virtual unsigned Listeners() const = 0;
 };
 

@@ -28,7 +28,7 @@ class Search:
         for row in study.last:
             (values if row["seed"] in seeds else fresh).setdefault(row["point"], []).append(row[self.metric])
             self.factors[row["point"]] = {name: row[name] for name, _ in study.factors}
-        # Those with all seeds and all values.
+        # Keep only points with all seeds and all values.
         self.points = [p for p in sorted(values) if len(values[p]) == len(seeds) and None not in values[p]]
         self.values = [aggregated(self.aggregate, values[p]) for p in self.points]
         better = np.maximum if self.goal == "max" else np.minimum

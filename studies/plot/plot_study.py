@@ -39,10 +39,10 @@ class Study:
         self.states = dict(self.database.execute("SELECT state, COUNT(*) FROM runs GROUP BY state"))
         self.levels = {name: [row[0] for row in self.database.execute(f'SELECT "{name}" FROM runs GROUP BY "{name}" ORDER BY MIN(point)')]
                        for name, _ in self.factors}
-        # The last row of each run.
+        # Use the last row of each run.
         self.last = self.rows("SELECT r.* FROM results r JOIN (SELECT point, seed, MAX(tick) AS tick FROM results GROUP BY point, seed) l "
                               "ON r.point = l.point AND r.seed = l.seed AND r.tick = l.tick ORDER BY r.point, r.seed")
-        # Without 'every' each run has one row, at its end, and nothing is known of the time before.
+        # Without 'every' each run has only one row, at its end, so there is no course over time.
         self.has_time = any(self.database.execute("SELECT 1 FROM samples GROUP BY point, seed HAVING COUNT(*) > 2 LIMIT 1"))
 
     def results_between(self, first, last):

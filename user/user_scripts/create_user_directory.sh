@@ -21,7 +21,7 @@ paths='    <controller_path>../simulation_build/controllers</controller_path>\n 
 for experiment in sample_footbot diffusion_10 prey_retrieval; do
   sed "s|^ *<framework>|&\n$paths|" "$user/../configs/$experiment.xml" >"$1/experiments/$experiment.xml"
 done
-# What made the directory builds it: the installation that this script is part of, or the build of the source tree.
+# The installation that contains this script, or the build of the source tree, also builds the directory.
 place=$user/../../..
 if [ ! -x "$place/bin/swarmanoid" ]; then place=$user/../build; fi
 realpath -m "$place" >"$1/.swarmanoid"

@@ -36,10 +36,10 @@ private:
   Visualiser& visualiser_;
   RemoteMonitor& monitor_;
   Clock::duration period_;
-  std::atomic<std::uint64_t> run_;
+  std::atomic<std::uint64_t> run_;  // threads of the bus read it
   Clock::time_point drawn_{};
   bool terminated_ = false;
-  std::mutex mutex_;
+  std::mutex mutex_;  // guards snapshot_ and fresh_, which a thread of the bus writes
   SpaceSnapshot snapshot_;
   bool fresh_ = false;
   Subscription<ViewMessage> views_in_;

@@ -50,17 +50,18 @@ private:
 
   Bus& bus_;
   std::string partition_;
-  std::atomic<std::uint64_t> run_;
-  std::size_t entities_;  // the number of entities in the space
+  std::atomic<std::uint64_t> run_;  // threads of the bus read it
+  std::size_t entities_;            // the number of entities in the space
   ViewRequestMessage requests_;
   Clock::time_point requested_{};
 
-  std::mutex mutex_;  // guards the members below, which messages of the bus change
+  std::mutex mutex_;  // guards the next four members, which threads of the bus change
   RunStatus heard_status_;
   bool over_ = false;
   std::vector<RunNote> heard_notes_;
   std::map<std::uint32_t, RobotStatus> heard_robots_;
 
+  // Copies for the main thread.
   RunStatus status_;
   std::vector<RunNote> notes_;
   std::map<std::uint32_t, RobotStatus> robots_;

@@ -153,7 +153,7 @@ private:
   const CSwarmanoidSpace* space_ = nullptr;
   std::optional<PlanScene> scene_;
   OutputFiles files_;
-  std::string file_;  // as the user named it
+  std::string file_;  // the name that the user gave
   std::vector<std::uint64_t> ticks_;
   PlanPageOptions page_;
   std::vector<PlanPanel> panels_;

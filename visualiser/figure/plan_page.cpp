@@ -414,7 +414,7 @@ private:
   double bar_mm_ = 0;
   std::string bar_text_;
   int lines_ = 0;
-  std::vector<Vector2> places_;  // of the legend's entries, mm
+  std::vector<Vector2> places_;  // mm: positions of the legend's entries
 };
 
 std::string EndingOf(const std::string& path) { return std::filesystem::path(path).extension().string(); }

@@ -23,7 +23,7 @@ struct PlanPageOptions
 {
   double width_mm = 120;
   double font_pt = 7;
-  double dpi = 300;   // of .png
+  double dpi = 300;   // for .png
   int columns = 1;    // panels beside each other
   PlanRegion region;  // the shown part of the arena
   PlanRegion arena;

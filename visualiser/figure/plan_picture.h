@@ -47,8 +47,8 @@ struct PlanShape
   bool dashed = false;
   double detail_m = 0;  // drawn only if this length is at least a millimetre on the page; 0: always
   std::string text{};
-  int columns = 0;                      // of an image
-  std::vector<std::uint32_t> pixels{};  // of an image: 0xAARRGGBB, rows from the top
+  int columns = 0;                      // for an image
+  std::vector<std::uint32_t> pixels{};  // for an image: 0xAARRGGBB, rows from the top
 };
 
 using PlanPicture = std::vector<PlanShape>;

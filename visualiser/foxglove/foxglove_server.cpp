@@ -116,8 +116,8 @@ public:
 private:
   struct Count
   {
-    std::atomic<std::size_t> now = 0;
-    std::atomic<std::uint64_t> ever = 0;
+    std::atomic<std::size_t> now = 0;     // subscriptions at present
+    std::atomic<std::uint64_t> ever = 0;  // subscriptions since the start
   };
 
   // All members are used in the thread of the server.

@@ -1,3 +1,6 @@
+// A frame has these passes: the shadow map; solid bodies, ground and floor, with depth; patches and drawings on the
+// floor, with a depth offset; the sky; then all see-through things without writing depth; and last the texts. The
+// picture is drawn with several samples a pixel and copied to the target at the end.
 #include "visualiser/gl/gl_scene.h"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// ViewVolume computes the frustum of the camera as five planes without a far plane; a sphere is visible if it is
+// outside of none. SunVolume is an orthographic view along the light, fitted to the visible part of the ground, so that
+// the shadow map spends its texels there.
 #include "visualiser/gl/view_volume.h"
 
 #include <algorithm>

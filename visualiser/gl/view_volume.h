@@ -14,6 +14,7 @@ struct ViewVolume
   // `low`, `high`: the bounds of all content.
   ViewVolume(const Camera& camera, int width, int height, const Vector3& low, const Vector3& high);
 
+  // Returns whether a sphere may be visible; it may return true for a sphere near an edge.
   bool Sees(const Eigen::Vector3f& centre, float radius) const;
   // Returns the radius of a sphere in pixels.
   float PixelsOf(const Eigen::Vector3f& centre, float radius) const;
@@ -33,6 +34,7 @@ struct SunVolume
 {
   SunVolume(const Vector3& towards_sun, const Vector3& low, const Vector3& high);
 
+  // Returns whether a sphere may throw a shadow into the volume.
   bool Holds(const Eigen::Vector3f& centre, float radius) const;
 
   Eigen::Matrix4f view_projection;  // maps to -1..1

@@ -35,7 +35,7 @@ private:
   DrawOptions draw_options_;
   SceneOptions scene_options_;
   RunMonitor* monitor_ = nullptr;   // not null if the pictures show the status of the run
-  std::vector<std::string> names_;  // of the entities and their owners
+  std::vector<std::string> names_;  // names of the entities and their owners
   std::uint64_t every_ = 1;
   std::uint64_t next_ = 0;  // the next picture is drawn at this tick or the first later one
   std::uint64_t last_ = 0;

@@ -90,6 +90,7 @@ struct KeyBinding
   std::string_view meaning;
 };
 
+// Returns the table of keys in the order of the help.
 std::span<const KeyBinding> KeyBindings();
 
 struct KeyCommand
@@ -97,6 +98,7 @@ struct KeyCommand
   Action action;
   int number = 0;  // the number of a viewpoint
 };
+// Returns the command of a key; nullopt for a key without one.
 std::optional<KeyCommand> CommandOf(const KeyPress& press);
 // Returns the name of a key for experiment functions (UserInput); empty for keys that they do not get.
 std::string NameOfKey(int key);

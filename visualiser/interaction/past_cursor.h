@@ -94,7 +94,7 @@ private:
   std::optional<LookBackRequest> inspected_;  // the last request to `inside_`
   PastInsideAnswer of_inside_;
 
-  std::mutex mutex_;
+  std::mutex mutex_;  // guards arrived_
   Arrived arrived_;
   // These members are last, since their threads use the ones above.
   std::unique_ptr<PlaybackReader> look_back_;

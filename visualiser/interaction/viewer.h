@@ -83,6 +83,7 @@ public:
   void Press(const KeyPress& press);
   // Handles the release of a key.
   void Release(int key);
+  // Executes the command of a key or of its button.
   void Do(const KeyCommand& command);
   void MousePress(MouseButton button, double x, double y, bool ctrl, bool shift);
   void MouseMove(double x, double y);
@@ -96,6 +97,7 @@ public:
   // Updates the scene and the watched robots to the shown state.
   const Scene& Refresh();
 
+  // Selects an entity. `in_further_window`: its inspector opens beside the others.
   void Select(std::uint32_t entity, bool in_further_window = false);
   void Deselect();
   void CloseInspector(std::uint32_t entity);

@@ -32,6 +32,7 @@ protected:
   virtual void Open(const std::string& title, int width, int height, const Parameters& parameters) = 0;
   // Passes the events since the last call to the viewer. Returns true if there were any.
   virtual bool TakeEvents() = 0;
+  // Returns true once the user has closed the window.
   virtual bool WindowWantsToClose() const = 0;
   // Returns false if the window is not visible.
   virtual bool WindowIsVisible() const = 0;

@@ -10,7 +10,7 @@ namespace swarmanoid
 struct Ray
 {
   Vector3 origin;
-  Vector3 direction;  // of unit length
+  Vector3 direction;  // unit vector
 };
 
 struct Camera
@@ -19,8 +19,9 @@ struct Camera
   double heading = 0;  // degrees
   double pitch = 0;
   double roll = 0;
-  double field_of_view = 45;  // of the picture's height, degrees
+  double field_of_view = 45;  // vertical, in degrees
 
+  // Return the unit vectors of the camera in the space.
   Vector3 Forward() const;
   Vector3 Right() const;
   Vector3 Up() const;

@@ -19,8 +19,8 @@ using Eigen::Translation3f;
 using Eigen::Vector3f;
 using Kind = DrawnShape::Kind;
 
-constexpr int kSides = 36;            // of a circle
-constexpr float kHeadPart = 0.25F;    // of an arrow …
+constexpr int kSides = 36;            // edges of a circle
+constexpr float kHeadPart = 0.25F;    // length of an arrow's head relative to the arrow …
 constexpr float kLongestHead = 0.1F;  // … but no more metres
 constexpr float kHeadSlope = 0.4F;
 

@@ -38,7 +38,7 @@ struct DrawnMarks
   };
   struct Text
   {
-    Eigen::Vector3f place;  // of its left end
+    Eigen::Vector3f place;  // the left end of the text
     std::string_view text;  // a view into the space's drawing
     Colour colour;
     float opacity;

@@ -9,7 +9,7 @@ namespace swarmanoid
 struct LedRing
 {
   int leds;
-  float first_angle;  // of the middle of LED 0, rad
+  float first_angle;  // rad, to the middle of LED 0
   float radius;
   float low, high;  // z
   float lit;        // the fraction of the circle that shines

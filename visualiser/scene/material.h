@@ -45,6 +45,7 @@ struct MaterialLook
 inline constexpr int kLightsPerRobot = 17;
 inline constexpr int kBeaconLight = 16;
 
+// Returns the look of a material: colour, gloss and opacity.
 const MaterialLook& LookOf(Material material);
 
 inline Material LedMaterial(int led) { return static_cast<Material>(static_cast<int>(Material::kLed0) + led); }

@@ -17,7 +17,7 @@ namespace swarmanoid
 struct MeshVertex
 {
   Eigen::Vector3f position;
-  Eigen::Vector3f normal;  // of unit length
+  Eigen::Vector3f normal;  // unit vector
   Material material = Material::kTint;
   float shade = 1;           // 0..1: the part of the sky's light that reaches it; less in corners
   Colour colour = 0xffffff;  // for Material::kPainted
@@ -32,7 +32,7 @@ struct Mesh
   std::size_t Triangles() const { return indices.size() / 3; }
 };
 
-inline constexpr int kLevels = 3;  // of detail: 0 near, 2 far away
+inline constexpr int kLevels = 3;  // levels of detail: 0 near, 2 far away
 
 struct Model
 {

@@ -28,9 +28,10 @@ public:
   void SetPlace(const Eigen::Isometry3f& place) { place_ = place; }
   void SetPlace(float x, float y, float z) { place_ = Eigen::Isometry3f(Eigen::Translation3f(x, y, z)); }
   void SetShade(float shade) { shade_ = shade; }
-  void SetColour(Colour colour) { colour_ = colour; }  // of Material::kPainted
+  void SetColour(Colour colour) { colour_ = colour; }  // for Material::kPainted
   void SetSegments(int segments) { segments_ = segments; }
 
+  // Adds a box between two corners.
   void Box(const Eigen::Vector3f& low, const Eigen::Vector3f& high, Material material);
   // Adds a profile turned about the z axis. Seen with the axis on the left, a profile that goes upwards has its outside
   // on the right. Normals are flat along the profile and round about the axis.

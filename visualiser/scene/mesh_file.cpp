@@ -158,7 +158,7 @@ MeshFile ReadMeshFile(const std::string& path)
 
 std::shared_ptr<const MeshFile> LoadMeshFile(const std::string& path)
 {
-  static std::mutex mutex;
+  static std::mutex mutex;  // guards loaded
   static std::map<std::string, std::shared_ptr<const MeshFile>> loaded;
   const std::lock_guard lock(mutex);
   std::shared_ptr<const MeshFile>& file = loaded[path];

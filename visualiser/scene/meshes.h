@@ -23,7 +23,7 @@ enum class ModelId : std::uint16_t
   kHandbotHead,    // turns about x; origin: on its axis
   kHandbotArm,     // from the shoulder along x
   kHandbotFinger,  // half of a hand, from its hinge along x; the other one is turned by 180 degrees about x
-  kBox,            // of side 1 about its centre
+  kBox,            // a cube of side 1 about its centre
   kCylinder,       // radius 1, from z = 0 to 1
   kBall,           // radius 1
   kDisc,           // radius 1 in the plane z = 0, facing up
@@ -60,6 +60,7 @@ struct RestingPart
   ModelId model;
   Eigen::Isometry3f place;
 };
+// Returns the parts of a robot; empty for Mechanism::kNone.
 std::vector<RestingPart> RestingParts(Mechanism robot);
 
 // Returns the surface of a terrain in its frame, in the colour of the entity (Material::kTint).

@@ -185,7 +185,7 @@ private:
   DrawnMarks drawn_;
   std::vector<std::pair<std::uint32_t, std::shared_ptr<const Terrain>>> terrains_;
   std::vector<std::uint32_t> large_;                     // bodies too large for the search around a line
-  double search_radius_ = 0;                             // of the largest other body
+  double search_radius_ = 0;                             // radius of the largest other body
   std::uint32_t areas_ = 0;                              // number of patches and holes
   std::map<std::uint32_t, std::vector<Colour>> paints_;  // by patch with a picture: the colours of its items
   // Made at first use.

@@ -31,7 +31,7 @@ struct VideoWriter::State
   AVPacket* packet = nullptr;
   SwsContext* converter = nullptr;
   std::int64_t last = -1;
-  std::int64_t duration = 40;  // of a picture, ms
+  std::int64_t duration = 40;  // ms: time of a picture
   bool open = false;
 
   ~State()

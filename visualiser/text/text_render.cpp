@@ -300,7 +300,7 @@ void CTextRender::AppendLine(const CSwarmanoidSpaceEntity& entity)
   for (std::size_t c = 0; c < columns_.size(); ++c)
   {
     if (c > 0) buffer_ += separator;
-    // As in figure 3.11 of the report, the line has one field more than the titles: the one under #.
+    // The line follows figure 3.11 of the report: it has one field more than the titles: the one under #.
     if (c == 1 && format_ == Format::kTable) buffer_ += separator;
     if (json) buffer_.append(keys_[c]).append(columns_[c].is_number ? ":" : ":\"");
     const std::size_t start = buffer_.size();

@@ -30,7 +30,7 @@ using Json = nlohmann::ordered_json;
 constexpr double kLastTick = 1e15;
 constexpr std::size_t kMostEvents = 1000;  // the most marks of a timeline
 constexpr int kTerrainSamples = 128;       // along each side
-constexpr int kPicturePixels = 256;        // of a picture on the floor, along each side
+constexpr int kPicturePixels = 256;        // for a picture on the floor, along each side
 
 std::string Text(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 

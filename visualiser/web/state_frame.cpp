@@ -1,3 +1,6 @@
+// A key frame has all positions, orientations and colours. A change has one step of six bytes for each entity, relative
+// to the key, and full poses and colours only of entities for which a step is not enough. All changes refer to the key
+// and not to each other, so that a page may miss any of them.
 #include "visualiser/web/state_frame.h"
 
 #include <algorithm>

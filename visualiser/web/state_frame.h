@@ -35,8 +35,8 @@ static_assert(sizeof(FrameHeader) == 40);
 // The counts that follow the header of a change.
 struct ChangeCounts
 {
-  std::uint32_t poses = 0;    // of FramePose
-  std::uint32_t colours = 0;  // of FrameColour
+  std::uint32_t poses = 0;    // number of FramePose
+  std::uint32_t colours = 0;  // number of FrameColour
 };
 
 // The change of each movable entity: its motion in the plane, and its heading.

@@ -72,7 +72,7 @@ private:
   double linger_s_ = -1;
   Clock::duration frame_period_{};
   double bytes_per_second_ = 0;  // for states, to each page
-  std::size_t sent_bytes_ = 0;   // of the last state
+  std::size_t sent_bytes_ = 0;   // bytes of the last state
   int changes_ = 0;              // since the last key
   std::unique_ptr<FrameWriter> frame_writer_;
   std::unique_ptr<LogFollower> logs_;
@@ -95,7 +95,7 @@ private:
   std::map<std::uint64_t, std::vector<std::uint32_t>> watched_;  // by client
   std::mutex mutex_;                                             // guards requests_
   std::vector<Request> requests_;
-  std::atomic<bool> has_requests_{false};
+  std::atomic<bool> has_requests_{false};  // read without the mutex
 
   std::unique_ptr<PageHost> host_;             // its server's thread uses the members above
   std::unique_ptr<FrameWriter> past_frames_;   // only for the thread of look_back_

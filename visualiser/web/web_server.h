@@ -43,7 +43,9 @@ public:
   virtual ~WebServerEvents() = default;
   // Returns the first message for a new client.
   virtual std::string Welcome(std::uint64_t client) = 0;
+  // Gets a text message of a client.
   virtual void Received(std::uint64_t client, std::string_view text) = 0;
+  // Called when a client has disconnected.
   virtual void Left(std::uint64_t client) = 0;
 };
 
@@ -65,7 +67,7 @@ public:
     kWatched,
     kMarks,
     kDrawing,   // binary: drawings of experiment functions
-    kDocument,  // of the editor
+    kDocument,  // text: the document of the editor
     kCount
   };
 
@@ -76,6 +78,7 @@ public:
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
 
+  // Returns the port, also if the system has chosen it.
   std::uint16_t Port() const;
   // Returns "http://127.0.0.1:8080/", or with a certificate "https://…".
   std::string Url() const;

@@ -46,6 +46,7 @@ public:
     Droppable(const Droppable&) = delete;
     Droppable& operator=(const Droppable&) = delete;
 
+    // Closes the connection.
     virtual void Drop() = 0;
 
     const asio::ip::address address;

@@ -57,6 +57,7 @@ class PointPlaces
 {
 public:
   explicit PointPlaces(const PointCloud& cloud);
+  // Returns the position of a point in metres.
   Vector3 At(std::size_t point) const;
 
 private:

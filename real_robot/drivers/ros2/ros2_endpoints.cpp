@@ -149,7 +149,7 @@ struct Writer::Ends : dds::DataWriterListener
   std::shared_ptr<Participant> participant = Participant::Of();
   dds::DataWriter* writer = nullptr;
   bool latched = false;
-  std::atomic<int> listeners = 0;
+  std::atomic<int> listeners = 0;  // a thread of Fast DDS writes it
 
   // Called in a thread of Fast DDS.
   void on_publication_matched(dds::DataWriter*, const dds::PublicationMatchedStatus& status) override

@@ -43,6 +43,7 @@ public:
   };
   Writer(const std::string& topic, const MessageType& type, Keeps keeps = Keeps::kLatest);
   ~Writer();
+  // Publishes a message of the type. It waits at most 20 ms for slow listeners.
   void Write(void* message);
   // Waits until all reliable listeners have it, half a second at most.
   void Flush();

@@ -32,7 +32,9 @@ public:
   std::vector<DriverSource> Sources() const override { return {subscriber_->Source()}; }
 
 private:
+  // Reads further parameters; called in Init.
   virtual void Configure(const Parameters&) {}
+  // Converts a message to the readings of the sensor.
   virtual void Read(const Message& message) = 0;
 
   std::optional<Subscriber<Message>> subscriber_;
@@ -64,7 +66,9 @@ public:
   }
 
 private:
+  // Reads further parameters; called in Init.
   virtual void Configure(const Parameters& parameters) = 0;
+  // Converts the message of one sensor to its reading.
   virtual double ReadingOf(const Message& message) const = 0;
 
   std::array<std::optional<Subscriber<Message>>, Interface::NUM_SENSORS> subscribers_;

@@ -16,6 +16,7 @@ class CCI_Controller : public CBaseConfigurableResource
 public:
   // Gets the <params> of the controller.
   void Init(TConfigurationNode&) override {}
+  // Called at each tick, after the sensors were read.
   virtual void ControlStep() {}
   void Reset() override {}
   void Destroy() override {}

@@ -15,6 +15,7 @@ public:
   void Init(TConfigurationNode&) override {}
   void Reset() override {}
   void Destroy() override {}
+  // Switch the sensor on and off.
   virtual void Enable() { enabled_ = true; }
   virtual void Disable() { enabled_ = false; }
   bool IsEnabled() const { return enabled_; }

@@ -24,9 +24,12 @@ public:
   virtual void PreStep() {}
   // Called after the controllers. Entities are where the controllers saw them.
   virtual void PostStep() {}
+  // Called before the first step and after the last one.
   virtual void PreExperiment() {}
   virtual void PostExperiment() {}
+  // Returns true to end the experiment; called after each step.
   virtual bool IsExperimentFinished() { return false; }
+  // Returns the colour of a point of the floor, in metres in the frame of the arena.
   virtual CColor GetFloorColor(const CVector2&) { return CColor::WHITE; }
 
   CSimulator& GetSimulator() { return CSimulator::GetInstance(); }
@@ -42,6 +45,7 @@ public:
   // Such robots need a run of one process; GetController() works at once. The simulator takes ownership. Throws
   // CARGoSException for a box, cylinder or light that the file does not declare, and if there are too many robots.
   virtual void AddEntity(CEntity& entity);
+  // Remove an entity from the arena. Throw CARGoSException for an entity that is not in it or cannot be removed.
   virtual void RemoveEntity(const std::string& id);
   virtual void RemoveEntity(CEntity& entity);
 };

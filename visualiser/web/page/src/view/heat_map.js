@@ -5,7 +5,7 @@ import { rampColour } from "./robot_values.js";
 const MOST_CELLS = 96; // along the longer side
 const LEAST_CELL_M = 0.08; // about half a footbot
 const FULL = 0.85; // opacity of the cell with the largest value
-const PICTURE_EVERY_S = 0.5; // of simulated time
+const PICTURE_EVERY_S = 0.5; // simulated time
 
 export class HeatMap {
   constructor(world) {

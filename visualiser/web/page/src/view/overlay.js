@@ -26,7 +26,7 @@ export class Overlay {
 
   setWorld(world) {
     this.world = world;
-    this.widths = new Map(); // of names, by entity
+    this.widths = new Map(); // widths of names, by entity
   }
 
   get view() {

@@ -3,8 +3,8 @@
 import { pickBody } from "./pick_body.js";
 
 const CLICK_PIXELS = 4;
-const TURN_A_PIXEL = 0.005; // of the view from a robot, radians
-const TURN_A_STEP = Math.PI / 24; // of a dragged entity, for 100 pixels of the wheel
+const TURN_A_PIXEL = 0.005; // radians that the view from a robot turns
+const TURN_A_STEP = Math.PI / 24; // angle that a dragged entity turns for 100 pixels of the wheel
 
 // Drags entities over the floor, together with the other selected ones.
 class Carry {

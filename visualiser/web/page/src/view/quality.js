@@ -33,7 +33,7 @@ export class Governor {
   }
 
   begin() {
-    this.times = []; // of the last pictures, as many as fill FALL_AFTER_MS
+    this.times = []; // times of the last pictures, as many as fill FALL_AFTER_MS
     this.sum = 0;
     this.last = null;
     this.quickSince = null;

@@ -24,7 +24,7 @@ private:
 
 }  // namespace argos
 
-// As assert, it is removed in a build with NDEBUG.
+// A build with NDEBUG removes it, as it removes assert.
 #ifndef NDEBUG
 #define ARGOS_ASSERT(CONDITION, MESSAGE)            \
   {                                                 \

@@ -26,6 +26,7 @@ public:
   {
     Add(short_option, long_option, description, false, value);
   }
+  // Prints the options with their descriptions.
   virtual void PrintUsage(CARGoSLog& log);
   // Throws CARGoSException for an unknown option, one without its value, and any other word.
   virtual void Parse(SInt32 count, char** words);

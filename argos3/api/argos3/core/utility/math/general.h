@@ -48,7 +48,7 @@ constexpr T Square(const T& value)
 {
   return value * value;
 }
-// As in ARGoS3, a negative number is truncated and decremented, so the result for a negative whole number is one less.
+// A negative number is truncated and decremented, as in ARGoS3, so the result for a negative whole number is one less.
 inline SInt32 Floor(Real value)
 {
   const auto whole = static_cast<SInt32>(value);

@@ -3,7 +3,7 @@
 import { TRAILS, css } from "../look.js";
 import { jumped } from "../trail_record.js";
 
-const LEFT_AT_THE_END = 0.12; // of a trail's strength, when its sample is removed
+const LEFT_AT_THE_END = 0.12; // strength of a trail, when its sample is removed
 
 export class TrailLayer {
   constructor() {

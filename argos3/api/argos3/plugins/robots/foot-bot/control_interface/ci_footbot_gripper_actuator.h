@@ -14,7 +14,9 @@ public:
   static const CRadians LOCKED_POSITIVE;
   static const CRadians LOCKED_NEGATIVE;
 
+  // Sets the angle of the jaws: 0 is open, +-pi/2 is closed.
   virtual void SetAperture(const CRadians& aperture) = 0;
+  // Do nothing here.
   virtual void EnableCheckForObjectGrippedRoutine() {}
   virtual void DisableCheckForObjectGrippedRoutine() {}
   void LockPositive() { SetAperture(LOCKED_POSITIVE); }

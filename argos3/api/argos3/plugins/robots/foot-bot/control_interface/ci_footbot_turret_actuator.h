@@ -18,6 +18,7 @@ public:
     MODE_POSITION_CONTROL
   };
 
+  // Sets the angle to turn to in the mode MODE_POSITION_CONTROL, counter-clockwise.
   virtual void SetRotation(const CRadians& angle) = 0;
   // `speed`: rad/s, counter-clockwise.
   virtual void SetRotationSpeed(SInt32 speed) = 0;
