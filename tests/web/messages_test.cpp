@@ -35,14 +35,14 @@ TEST(WebMessages, RequestsAreRead)
 nlohmann::json JsonOf(const ControlOrder& order)
 {
   nlohmann::json json{{"do", order.verb}};
-  for (const auto& [name, value] : order.arguments)
-    if (const auto* pose = std::get_if<std::vector<double>>(&value))
+  for (const ControlArgument& argument : order.arguments)
+    if (const auto* pose = std::get_if<std::vector<double>>(&argument.value))
     {
       json["position"] = std::vector<double>(pose->begin(), pose->begin() + 3);
       if (pose->size() == 6) json["angles"] = std::vector<double>(pose->begin() + 3, pose->end());
     }
     else
-      std::visit([&](const auto& plain) { json[name] = plain; }, value);
+      std::visit([&](const auto& plain) { json[argument.name] = plain; }, argument.value);
   return json;
 }
 
