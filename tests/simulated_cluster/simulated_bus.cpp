@@ -1,0 +1,303 @@
+// common/bus/bus.h, the folder of a run and the identity of processes for simulated processes. The simulated cluster
+// links this in place of the bus; all that stands above it is the code of the product.
+#include <fmt/format.h>
+
+#include "common/bus/bus.h"
+#include "common/bus/membership/run_directory.h"
+#include "common/bus/topics/message_fields.h"
+#include "tests/simulated_cluster/simulated_network.h"
+
+namespace swarmanoid
+{
+
+using test::IdOf;
+using test::Sample;
+using test::SimulatedBus;
+using test::SimulatedNetwork;
+using test::SimulatedReader;
+using test::SimulatedWriter;
+using test::Simulation;
+
+bool BusIsBroken() { return false; }
+
+void EndAtOnce(int code) { Simulation::Current().EndProcess(code); }
+
+std::string ProcessId() { return IdOf(Simulation::Current().CurrentProcess()); }
+
+std::string MachineName() { return Simulation::Current().CurrentProcess().machine; }
+
+bool IsAlive(long pid)
+{
+  for (const auto& process : Simulation::Current().Processes())
+    if (process->pid == pid) return process->is_alive;
+  return false;
+}
+
+std::string UserName() { return "user"; }
+
+std::string ReachableAddress(const BusOptions&) { return "127.0.0.1"; }
+
+std::optional<RunKey> GivenKey(const BusOptions& options) { return options.key; }
+
+struct Bus::Impl
+{
+  std::shared_ptr<SimulatedBus> bus;
+};
+
+Bus::Bus(const BusOptions&, const std::string& name)
+    : impl_(std::make_unique<Impl>(Impl{SimulatedNetwork::Current().Join(name)}))
+{
+}
+
+Bus::~Bus() { SimulatedNetwork::Current().Leave(impl_->bus); }
+
+void Bus::OnProcessGone(std::function<void(const std::string&, const std::string&, bool)> callback)
+{
+  impl_->bus->on_gone = std::move(callback);
+}
+
+void Bus::OnBadMessage(std::function<bool(const BadMessageReport&)> callback)
+{
+  impl_->bus->on_bad = std::move(callback);
+}
+
+bool Bus::MaySpeakTo(const std::string&) { return true; }
+
+void Bus::OnRefused(std::function<void(const BadMessageReport&)> callback)
+{
+  impl_->bus->on_refused = std::move(callback);
+}
+
+std::uint64_t Bus::Dropped() const { return impl_->bus->dropped; }
+
+namespace
+{
+
+void Report(SimulatedBus& bus, const std::string& topic, const Sample& sample, const std::string& what)
+{
+  const BadMessageReport report{topic, sample.process, sample.name, sample.header.tick, what, sample.name};
+  if (!bus.on_bad || !bus.on_bad(report)) ++bus.dropped;
+}
+
+std::string PartitionOf(const HotScope& scope)
+{
+  return scope.listener.empty() ? scope.experiment : scope.experiment + "/" + scope.listener;
+}
+
+template <class Message>
+std::string TopicOf(const std::optional<ShareChannel>& share)
+{
+  return share ? fmt::format("{}/{}", kTopicOf<Message>, share->id) : std::string(kTopicOf<Message>);
+}
+
+std::shared_ptr<SimulatedReader> NewReader(const std::string& topic, const std::string& partition, std::size_t depth)
+{
+  auto reader = std::make_shared<SimulatedReader>();
+  reader->process = &Simulation::Current().CurrentProcess();
+  reader->topic = topic;
+  reader->partition = partition;
+  reader->depth = depth;
+  return reader;
+}
+
+}  // namespace
+
+template <class Message>
+struct HotPublisher<Message>::Impl
+{
+  std::shared_ptr<SimulatedWriter> writer;
+};
+
+template <class Message>
+HotPublisher<Message>::HotPublisher(Bus& bus, const HotScope& scope)
+    : impl_(std::make_unique<Impl>(Impl{SimulatedNetwork::Current().AddWriter(*bus.Internals().bus, kTopicOf<Message>,
+                                                                              kTopicOf<Message>, PartitionOf(scope))}))
+{
+}
+
+template <class Message>
+HotPublisher<Message>::~HotPublisher()
+{
+  SimulatedNetwork::Current().Close(*impl_->writer);
+}
+
+template <class Message>
+void HotPublisher<Message>::Write(const MessageHeader& header, const Message& message)
+{
+  SimulatedNetwork::Current().Send(*impl_->writer, {std::make_shared<const Message>(message), header, {}, {}});
+}
+
+template <class Message>
+unsigned HotPublisher<Message>::Readers() const
+{
+  return SimulatedNetwork::Current().Readers(*impl_->writer);
+}
+
+template <class Message>
+struct HotSubscription<Message>::Impl
+{
+  std::shared_ptr<SimulatedReader> reader;
+};
+
+template <class Message>
+HotSubscription<Message>::HotSubscription(Bus& bus, const HotScope& scope, Handler handler)
+    : impl_(std::make_unique<Impl>(Impl{
+          NewReader(kTopicOf<Message>, PartitionOf(scope),
+                    static_cast<std::size_t>(QosOf(kTopicOf<Message>).reader_depth) * std::max(scope.writers, 1U))}))
+{
+  impl_->reader->take = [its_bus = bus.Internals().bus, handler = std::move(handler)](const Sample& sample)
+  {
+    try
+    {
+      Message* const place = handler.choose(sample.header);
+      if (place == nullptr) return;
+      *place = *static_cast<const Message*>(sample.message.get());
+      if (handler.check) handler.check(sample.header, *place);
+      handler.received(sample.header, *place);
+    }
+    catch (const BadMessage& error)
+    {
+      Report(*its_bus, kTopicOf<Message>, sample, error.what());
+    }
+  };
+  SimulatedNetwork::Current().Add(impl_->reader);
+}
+
+template <class Message>
+HotSubscription<Message>::~HotSubscription()
+{
+  SimulatedNetwork::Current().Close(*impl_->reader);
+}
+
+template <class Message>
+unsigned HotSubscription<Message>::Writers() const
+{
+  return SimulatedNetwork::Current().Writers(*impl_->reader);
+}
+
+template <class Message>
+struct Publisher<Message>::Impl
+{
+  std::shared_ptr<SimulatedWriter> writer;
+};
+
+template <class Message>
+Publisher<Message>::Publisher(Bus& bus, const std::string& partition, const std::optional<ShareChannel>& share)
+    : impl_(std::make_unique<Impl>(Impl{SimulatedNetwork::Current().AddWriter(
+          *bus.Internals().bus, TopicOf<Message>(share), kTopicOf<Message>, partition)}))
+{
+}
+
+template <class Message>
+Publisher<Message>::~Publisher()
+{
+  SimulatedNetwork::Current().Close(*impl_->writer);
+}
+
+template <class Message>
+void Publisher<Message>::Write(const Message& message)
+{
+  SimulatedNetwork::Current().Send(*impl_->writer, {std::make_shared<const Message>(message), {}, {}, {}});
+}
+
+template <class Message>
+unsigned Publisher<Message>::Readers() const
+{
+  return SimulatedNetwork::Current().Readers(*impl_->writer);
+}
+
+template <class Message>
+bool Publisher<Message>::WaitUntilRead(double seconds)
+{
+  Simulation& simulation = Simulation::Current();
+  const RunTime until =
+      simulation.Now() + std::chrono::duration_cast<test::Duration>(std::chrono::duration<double>(seconds));
+  while (*impl_->writer->underway > 0)
+  {
+    if (simulation.Now() >= until) return false;
+    simulation.Sleep(std::chrono::milliseconds(2));
+  }
+  return true;
+}
+
+template <class Message>
+struct Subscription<Message>::Impl
+{
+  std::shared_ptr<SimulatedReader> reader;
+};
+
+template <class Message>
+Subscription<Message>::Subscription(Bus& bus, const std::string& partition,
+                                    std::function<void(const Message&)> received,
+                                    const std::optional<ShareChannel>& share)
+    : impl_(std::make_unique<Impl>(Impl{NewReader(TopicOf<Message>(share), partition, 0)}))
+{
+  impl_->reader->take = [its_bus = bus.Internals().bus, received = std::move(received)](const Sample& sample)
+  {
+    try
+    {
+      received(*static_cast<const Message*>(sample.message.get()));
+    }
+    catch (const ForeignMessage&)
+    {
+      ++its_bus->dropped;
+    }
+    catch (const BadMessage& error)
+    {
+      Report(*its_bus, kTopicOf<Message>, sample, error.what());
+    }
+  };
+  SimulatedNetwork::Current().Add(impl_->reader);
+}
+
+template <class Message>
+Subscription<Message>::~Subscription()
+{
+  SimulatedNetwork::Current().Close(*impl_->reader);
+}
+
+template <class Message>
+unsigned Subscription<Message>::Writers() const
+{
+  return SimulatedNetwork::Current().Writers(*impl_->reader);
+}
+
+#define SWARMANOID_INSTANTIATE(MESSAGE) \
+  template class HotPublisher<MESSAGE>; \
+  template class HotSubscription<MESSAGE>;
+SWARMANOID_INSTANTIATE(SpaceState)
+SWARMANOID_INSTANTIATE(LocalState)
+SWARMANOID_INSTANTIATE(ControlCommands)
+SWARMANOID_INSTANTIATE(UpdateMessage)
+SWARMANOID_INSTANTIATE(SensorFrame)
+SWARMANOID_INSTANTIATE(DrawnMessage)
+SWARMANOID_INSTANTIATE(RegionTaskMessage)
+SWARMANOID_INSTANTIATE(RegionHaloMessage)
+SWARMANOID_INSTANTIATE(RegionResultMessage)
+#undef SWARMANOID_INSTANTIATE
+
+#define SWARMANOID_INSTANTIATE(MESSAGE) \
+  template class Publisher<MESSAGE>;    \
+  template class Subscription<MESSAGE>;
+SWARMANOID_INSTANTIATE(WorldMessage)
+SWARMANOID_INSTANTIATE(JoinMessage)
+SWARMANOID_INSTANTIATE(ViewMessage)
+SWARMANOID_INSTANTIATE(ControlRequestMessage)
+SWARMANOID_INSTANTIATE(ControlReplyMessage)
+SWARMANOID_INSTANTIATE(StatusMessage)
+SWARMANOID_INSTANTIATE(SavedStateMessage)
+SWARMANOID_INSTANTIATE(RecoveryRequestMessage)
+SWARMANOID_INSTANTIATE(RecoveryBlockMessage)
+SWARMANOID_INSTANTIATE(ViewRequestMessage)
+SWARMANOID_INSTANTIATE(RunStatusMessage)
+SWARMANOID_INSTANTIATE(RobotStatusMessage)
+SWARMANOID_INSTANTIATE(LeaveMessage)
+#undef SWARMANOID_INSTANTIATE
+
+RunDirectory::RunDirectory(const std::string&, std::uint64_t) {}
+void RunDirectory::Leave() {}
+void RunDirectory::Announce(const std::string&, int, const std::optional<RunKey>&, const RunNetwork&) {}
+void RunDirectory::AnnounceFolder(const std::string&) {}
+std::vector<LocalRun> FindLocalRuns() { return {}; }
+
+}  // namespace swarmanoid

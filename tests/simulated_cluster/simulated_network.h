@@ -1,0 +1,132 @@
+// SimulatedNetwork: the messages of simulated processes on their way. simulated_bus.cpp makes common/bus/bus.h of it.
+//
+// It promises what DDS promises, and no more: the messages of a writer keep their order, those of different writers do
+// not. Messages of a tick are lost on one machine, and late on a network. The others are late, but come. A reader that
+// does not read loses the oldest.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/bus/bus.h"
+#include "common/bus/topics/qos.h"
+#include "tests/simulated_cluster/simulation.h"
+
+namespace swarmanoid::test
+{
+
+struct NetworkFaults
+{
+  bool has_network = false;  // several machines; otherwise all processes share the memory of one
+  double latency_factor = 1;
+  double loss = 0;           // of a message of a tick
+  double duplicates = 0;     // the same, once more and later
+  double lost_at_match = 0;  // of what is kept for those who come later
+};
+
+// What a reader gets with a message.
+struct Sample
+{
+  std::shared_ptr<const void> message;
+  MessageHeader header{};  // of a message of a tick
+  std::string process;     // of the writer
+  std::string name;
+};
+
+struct SimulatedReader
+{
+  SimulatedProcess* process = nullptr;
+  std::string topic;
+  std::string partition;
+  std::size_t depth = 0;  // 0: all are kept
+  bool is_open = true;
+  std::deque<Sample> samples;
+  std::function<void(const Sample&)> take;
+};
+
+struct SimulatedWriter
+{
+  struct Link
+  {
+    std::shared_ptr<SimulatedReader> reader;
+    RunTime met_by_writer, met_by_reader;
+    RunTime newest{};  // arrival
+    bool is_cut = false;
+  };
+
+  SimulatedProcess* process = nullptr;
+  std::string topic;
+  std::string partition;
+  std::string name;  // of its process on the bus
+  TopicQos qos;
+  bool is_open = true;
+  std::vector<Link> links;
+  std::deque<Sample> kept;
+  std::shared_ptr<int> underway = std::make_shared<int>(0);
+};
+
+struct SimulatedBus
+{
+  SimulatedProcess* process = nullptr;
+  std::string name;
+  std::function<void(const std::string&, const std::string&, bool)> on_gone{};
+  std::function<bool(const BadMessageReport&)> on_bad{};
+  std::function<void(const BadMessageReport&)> on_refused{};
+  std::uint64_t dropped = 0;
+};
+
+class SimulatedNetwork
+{
+public:
+  SimulatedNetwork(Simulation& simulation, const NetworkFaults& faults, Duration lease);
+  ~SimulatedNetwork();
+  static SimulatedNetwork& Current();
+
+  std::shared_ptr<SimulatedBus> Join(const std::string& name);
+  void Leave(const std::shared_ptr<SimulatedBus>& bus);
+  std::shared_ptr<SimulatedWriter> AddWriter(SimulatedBus& bus, const std::string& topic, const std::string& base,
+                                             const std::string& partition);
+  void Add(const std::shared_ptr<SimulatedReader>& reader);
+  void Close(SimulatedWriter& writer);
+  void Close(SimulatedReader& reader);
+  void Send(SimulatedWriter& writer, Sample sample);
+  unsigned Readers(const SimulatedWriter& writer) const;
+  unsigned Writers(const SimulatedReader& reader) const;
+
+  // What happens to processes. After the lease the others miss them.
+  void Died(SimulatedProcess& process);
+  void Stopped(SimulatedProcess& process, Duration time);
+  // No message passes between that machine and the others for a time.
+  void Cut(const std::string& machine, Duration time);
+  bool IsCut(const std::string& machine) const;
+
+  std::function<void(const SimulatedWriter&, const SimulatedReader&, const Sample&)> on_send;  // for traces
+
+private:
+  void Meet(const std::shared_ptr<SimulatedWriter>& writer, const std::shared_ptr<SimulatedReader>& reader,
+            Duration after);
+  void Deliver(const SimulatedWriter& writer, SimulatedWriter::Link& link, const Sample& sample, bool may_be_lost);
+  void Arrive(const std::shared_ptr<SimulatedReader>& reader, const Sample& sample,
+              const std::shared_ptr<int>& underway, RunTime at);
+  bool AreApart(const SimulatedProcess& a, const SimulatedProcess& b) const;
+  // One of them does not hear the other any more, or again.
+  void Part(SimulatedProcess& of, SimulatedProcess& from, bool died);
+  void MeetAgain(SimulatedProcess& a, SimulatedProcess& b);
+
+  Simulation& simulation_;
+  NetworkFaults faults_;
+  Duration lease_;
+  std::vector<std::shared_ptr<SimulatedBus>> buses_;
+  std::vector<std::shared_ptr<SimulatedWriter>> writers_;
+  std::vector<std::shared_ptr<SimulatedReader>> readers_;
+  std::map<std::string, RunTime> cut_until_;  // by machine
+};
+
+std::string IdOf(const SimulatedProcess& process);
+
+}  // namespace swarmanoid::test
