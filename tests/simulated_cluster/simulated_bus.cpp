@@ -85,9 +85,9 @@ std::string PartitionOf(const HotScope& scope)
 }
 
 template <class Message>
-std::string TopicOf(const std::optional<ShareChannel>& share)
+std::string TopicOf(const std::optional<GrantChannel>& grant)
 {
-  return share ? fmt::format("{}/{}", kTopicOf<Message>, share->id) : std::string(kTopicOf<Message>);
+  return grant ? fmt::format("{}/{}", kTopicOf<Message>, grant->id) : std::string(kTopicOf<Message>);
 }
 
 std::shared_ptr<SimulatedReader> NewReader(const std::string& topic, const std::string& partition, std::size_t depth)
@@ -182,9 +182,9 @@ struct Publisher<Message>::Impl
 };
 
 template <class Message>
-Publisher<Message>::Publisher(Bus& bus, const std::string& partition, const std::optional<ShareChannel>& share)
+Publisher<Message>::Publisher(Bus& bus, const std::string& partition, const std::optional<GrantChannel>& grant)
     : impl_(std::make_unique<Impl>(Impl{SimulatedNetwork::Current().AddWriter(
-          *bus.Internals().bus, TopicOf<Message>(share), kTopicOf<Message>, partition)}))
+          *bus.Internals().bus, TopicOf<Message>(grant), kTopicOf<Message>, partition)}))
 {
 }
 
@@ -229,8 +229,8 @@ struct Subscription<Message>::Impl
 template <class Message>
 Subscription<Message>::Subscription(Bus& bus, const std::string& partition,
                                     std::function<void(const Message&)> received,
-                                    const std::optional<ShareChannel>& share)
-    : impl_(std::make_unique<Impl>(Impl{NewReader(TopicOf<Message>(share), partition, 0)}))
+                                    const std::optional<GrantChannel>& grant)
+    : impl_(std::make_unique<Impl>(Impl{NewReader(TopicOf<Message>(grant), partition, 0)}))
 {
   impl_->reader->take = [its_bus = bus.Internals().bus, received = std::move(received)](const Sample& sample)
   {
