@@ -56,29 +56,32 @@ void Serve(EditSession& session, EditorPage& page)
   }
 }
 
-// Offers to make a missing file. Without a terminal it only says how.
-void OfferToMake(const std::string& file)
+// Offers to make a missing file. Without a terminal it only says how. Returns whether there is a file then.
+bool OfferToMake(const std::string& file)
 {
   const std::filesystem::path path(file);
   std::error_code none;
-  if (std::filesystem::exists(path, none)) return;
+  if (std::filesystem::exists(path, none)) return true;
   const std::string make = "swarmanoid new experiment " + path.stem().string();
   const bool can_make = path.extension() == ".xml" && !path.has_parent_path();
   if (!can_make || isatty(STDIN_FILENO) != 1 || isatty(STDERR_FILENO) != 1)
-    throw UsageError(fmt::format("there is no file {}; make one: {}", Quoted(file), make));
+  {
+    PrintError("{}: there is no such file; make one: {}\n", file, make);
+    return false;
+  }
   PrintError("There is no file {}. Make it, with a robot and walls? [Y/n] ", Quoted(file));
   std::string answer;
   std::getline(std::cin, answer);
-  if (!answer.empty() && answer[0] != 'y' && answer[0] != 'Y') throw UsageError("nothing was made");
+  if (!answer.empty() && answer[0] != 'y' && answer[0] != 'Y') return false;
   NewExperiment(path.stem().string());
-  // In a user directory it belongs to the folder of its experiments.
-  if (!std::filesystem::exists(path, none)) throw UsageError("edit it there");
+  // In a user directory it belongs to the folder of its experiments, which the line above names.
+  return std::filesystem::exists(path, none);
 }
 
 int Edit(const EditOptions& options)
 {
   RegisterBuiltins();
-  OfferToMake(options.file);
+  if (!OfferToMake(options.file)) return kExitInvalidFile;
   std::vector<std::string> words = options.parameters;
   words.emplace_back("allow_control=true");
   const PluginDescription& description = FindRenderer("web_render");

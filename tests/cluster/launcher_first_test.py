@@ -129,8 +129,10 @@ class First(harness.LauncherTest):
         sample = harness.CONFIGS / "sample_footbot.xml"
         said, exit_code = on_terminal(self.folder, "run", sample, "--ticks", "60", "--single-process")
         self.assertEqual(exit_code, 0, said)
-        runs = list((self.folder / "runs").iterdir())
-        self.assertEqual(len(runs), 1)
+        latest = self.folder / "runs" / "latest"
+        self.assertTrue(latest.is_symlink())
+        runs = [path for path in latest.parent.iterdir() if path != latest]
+        self.assertEqual(runs, [latest.parent / os.readlink(latest)])
         self.assertTrue((runs[0] / "film.mp4").exists())
         self.assertIn(f"runs/{runs[0].name}/picture.png", said)
         self.assertLess(said.index("finished:"), said.index("Picture:"))

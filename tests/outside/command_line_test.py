@@ -33,7 +33,7 @@ class CommandLine(OutsideTest):
                      says="swarmanoid run does not take '--sed'; did you mean '--set'? All options: swarmanoid run --help")
         self.refused("swarmanoid", "attach", says=["attach needs KIND: text, ", "for example: swarmanoid attach text\n"])
         self.refused("swarmanoid", "replay", self.folder, "text", "--verify", says="leave out it or 'text'")
-        self.refused("swarmanoid", "edit", "first_try.xml", says="make one: swarmanoid new experiment first_try")
+        self.refused("swarmanoid", "edit", "first_try.xml", says="make one: swarmanoid new experiment first_try", code=3)
         self.refused("swarmanoid", "run", "--no-such", says="All options: swarmanoid run --help")
         self.refused("swarmanoid", "run", self.folder, says="this is a folder", code=3)
         self.refused("swarmanoid", "sweep", file, says="an experiment is run by: swarmanoid run", code=3)

@@ -62,13 +62,13 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
   bus_.OnBadMessage([this](const BadMessageReport& report) { return FailedBy(report); });
   worlds_ = std::make_unique<Subscription<WorldMessage>>(bus_, experiment.empty() ? "*" : experiment,
                                                          [this](const WorldMessage& world) { HeardWorld(world); });
-  // A grant that has ended tells no world, but why it has.
+  // A grant that has ended sends no world, but the reason of its end.
   if (options.grant) HearLeaves(experiment);
   WaitUntil(
       [&]
       {
         const std::lock_guard lock(mutex_);
-        const bool is_found = membership_.Now() != Phase::kSearching;
+        const bool is_found = membership_.Now() != Phase::kSearching && !membership_.HasEnded();
         if (!is_found && server && !IsAlive(*server))
           throw BusError(
               fmt::format("experiment '{}' has ended: its space server, process {}, has gone", experiment, *server));
