@@ -1,4 +1,4 @@
-// What terrain is to a two-dimensional engine: walls where it stands higher above the plane than a wheel can climb.
+// Terrain in a two-dimensional engine: it is a wall if it is higher above the plane than a wheel can climb.
 #pragma once
 
 #include <string>

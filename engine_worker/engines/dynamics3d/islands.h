@@ -1,5 +1,5 @@
-// Islands: entities that touch or hold one another, directly or through others (a union-find). Used by OdeWorld, which
-// solves each island with objects by itself.
+// Islands: sets of entities that touch or hold each other, directly or through others (a union-find). Used by OdeWorld,
+// which solves each island with objects by itself.
 #pragma once
 
 #include <algorithm>

@@ -16,8 +16,8 @@ struct VoxelContact
   double depth = 0;                   // m, positive where the sphere reaches into the solid
 };
 
-// Appends the contacts cell by cell, but for those that a neighbouring cell covers: a plane made of cells has one
-// normal and no edges. A centre within the solid is led out through the nearest free face.
+// Appends the contacts cell by cell. Contacts that a neighbouring cell covers are left out, so a plane made of cells
+// has one normal and no edges. A centre within the solid is led out through the nearest free face.
 void FindVoxelContacts(const VoxelTerrain& terrain, const Vector3& centre, double radius,
                        std::vector<VoxelContact>& contacts);
 

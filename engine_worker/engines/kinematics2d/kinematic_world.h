@@ -95,7 +95,8 @@ public:
   std::uint32_t BlockColumns() const { return plane_.contacts.broad.BlockColumns(); }
   std::uint32_t BlockCount() const { return plane_.contacts.broad.BlockCount(); }
   std::vector<std::uint32_t> BodiesInBlocks() const;
-  // region_of_block[k] has block k, from the next Advance on. Throws std::runtime_error for what is no cut.
+  // Sets new cuts: region_of_block[k] has block k, from the next Advance on. Throws std::runtime_error for invalid
+  // cuts.
   void MoveCuts(std::span<const std::uint8_t> region_of_block);
 
   // The state has poses, turrets and grips. Twists and followers' goals are commands and not part of it.
