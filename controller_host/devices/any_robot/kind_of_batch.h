@@ -1,4 +1,4 @@
-// What the devices that take their shape from a row of the table of kinds share.
+// Functions for devices whose shape comes from a row of the table of kinds.
 #pragma once
 
 #include "common/space/space.h"

@@ -1,6 +1,6 @@
-// The cameras of the three robots: the footbot's omnidirectional one and the one that looks ahead, the eyebot's that
-// looks down and the one that turns with its laser, the handbot's that looks ahead; each ideal (with noise on distance
-// and angle) and with noise in pixels.
+// The cameras of the three robots: the footbot's omnidirectional and forward cameras, the eyebot's downward one and the
+// one that turns with its laser, and the handbot's forward one. Each has an ideal model (with noise on distance and
+// angle) and one with noise in pixels.
 #include <algorithm>
 
 #include "common/control_interface/eyebot/ci_eyebot_camera_sensor.h"
@@ -18,7 +18,7 @@ namespace swarmanoid
 namespace
 {
 
-// What differs between the robots.
+// The differences between the robots.
 struct FootbotCamera
 {
   using Interface = CCI_FootBotOmnidirectionalCameraSensor;

@@ -92,7 +92,7 @@ protected:
   {
     Pie& pie = pies_[k];
     pie.Clear();
-    // Local copies: steps through memory would follow one another.
+    // Local copies let the compiler keep the pointers in registers.
     Pie::Slice* const slices = pie.Slices();
     const std::uint32_t* const source = seen.source.data();
     const double* const distances = seen.distance.data();

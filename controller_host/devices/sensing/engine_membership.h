@@ -1,5 +1,5 @@
-// Which entities live in a common physics engine: engines are closed worlds, and bodies of different worlds neither
-// touch nor hide one another. Used by the sensors of a controller host; fixed after construction.
+// The entities that share a physics engine. Engines are closed worlds: bodies of different engines neither touch nor
+// hide each other. Used by the sensors of a controller host; fixed after construction.
 #pragma once
 
 #include <cstdint>
