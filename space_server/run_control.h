@@ -137,7 +137,7 @@ private:
   std::vector<RecordedEvent> repeated_;
   std::size_t next_repeated_ = 0;
   std::uint64_t asked_from_;
-  mutable std::mutex mutex_;
+  mutable std::mutex mutex_;  // guards requests_, notes_ and faults_
   std::vector<ControlRequestMessage> requests_;
   std::vector<ControlRequestMessage> notes_;  // for the event log
   std::vector<RecordedFault> faults_;         // that are not told yet

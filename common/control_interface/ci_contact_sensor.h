@@ -1,4 +1,4 @@
-// Where a robot touches others: a bumper all around it.
+// CCI_ContactSensor: a bumper all around a robot, which tells where the robot touches other bodies.
 #pragma once
 
 #include <span>

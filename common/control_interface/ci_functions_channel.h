@@ -26,7 +26,7 @@ public:
   // The report of this tick; the last one counts. The functions have it in their PostStep of the tick. Throws
   // std::length_error for more than kMaxMessageBytes.
   virtual void ReportBytes(std::span<const std::uint8_t> bytes) = 0;
-  // A number, an enumeration, a struct of those without pointers.
+  // Reports a number, an enumeration, or a struct of these without pointers.
   template <class Message>
   void Report(const Message& message)
   {
@@ -43,7 +43,8 @@ public:
   }
 
 private:
-  // A report in each step while it is reporting: so many of the bytes behind that.
+  // Sends a report in each step while values[0] is above 0.5. The next value is the count of bytes, and the bytes
+  // follow.
   static void SetNumbers(CCI_ReportActuator& report, std::span<const double> values)
   {
     if (values[0] > 0.5)

@@ -1,4 +1,4 @@
-// The sensors under any robot whose kind has them: they see the floor.
+// CCI_GroundSensor: the sensors under any robot whose kind has them, which see the floor.
 #pragma once
 
 #include <cstdint>

@@ -23,8 +23,10 @@ public:
 
   // Sends these bytes in every tick from now on; others receive them one tick later.
   virtual void SetMessage(const Message& message) = 0;
+  // Sends nothing from this tick on.
   virtual void StopSending() = 0;
-  // Of a message: NUM_BYTES, or more if the experiment file gives the actuator more ("bytes").
+  // Returns the number of bytes of a message: NUM_BYTES, or more if the experiment file gives the actuator more
+  // ("bytes").
   virtual unsigned GetNumBytes() const { return NUM_BYTES; }
   // SetMessage of any length up to GetNumBytes(); zeros follow. Throws std::length_error for more.
   virtual void SetBytes(std::span<const std::uint8_t> bytes)
@@ -81,7 +83,7 @@ public:
 
   static void Declare(Declaration& columns)
   {
-    // As many for each packet, so that rows are equally long.
+    // Each packet has the same number of columns, so that rows are equally long.
     const auto further = [](const CCI_RangeAndBearingSensor& sensor, const Packet& packet)
     {
       const std::span<const std::uint8_t> bytes = sensor.GetFurtherBytes(packet);

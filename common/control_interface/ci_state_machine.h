@@ -10,8 +10,9 @@ class CCI_StateMachine
 {
 public:
   virtual ~CCI_StateMachine() = default;
-  // False before the start state is set; then there is no name.
+  // Returns false before the start state is set.
   virtual bool HasStarted() const = 0;
+  // Returns the name of the current state. The machine must have started.
   virtual const std::string& GetStateName() const = 0;
 };
 

@@ -37,7 +37,7 @@ struct ControlParameter
   std::vector<std::string> choices{};
 };
 
-// Each of these may ask for what those before it may ask for.
+// Each group may send the requests of the groups before it too.
 enum class Asker
 {
   kOperator,  // holders of operator grants
@@ -57,7 +57,7 @@ enum class Effect
   kNote        // something happened that was not asked for
 };
 
-// What a request counts as if the run ended before it was executed.
+// The meaning of a request if the run ended before it was executed.
 enum class AtEnd
 {
   kRefused,
@@ -74,7 +74,7 @@ struct ControlVerb
   Asker who = Asker::kOperator;
   AtEnd at_end = AtEnd::kRefused;
   bool announced = false;  // the run's console tells that it was done
-  // Returns what is wrong with arguments that are each right; empty if nothing is.
+  // Returns the mistake of arguments that are each valid alone, or an empty text.
   std::string (*check)(const ControlOrder& order) = nullptr;
 
   // Repeated with the states of the run, by --events.

@@ -39,14 +39,14 @@ struct RunStatus
   std::vector<ProcessStatus> processes;  // the space server first; in one process that alone
 };
 
-// What somebody asked of the run and what came of it.
+// A request to the run and its result.
 struct RunNote
 {
   std::uint64_t tick = 0;    // at which it took effect
   bool done = true;          // false: refused
   std::string text;          // "moved 'fb_0' at tick 12", "move: there is no entity 'fb_x'"
   std::string from;          // "host:pid" of the asker; empty in one process
-  std::uint32_t number = 0;  // of the request, among those of the asker
+  std::uint32_t number = 0;  // of the request, among those of its sender
 };
 
 }  // namespace swarmanoid

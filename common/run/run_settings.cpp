@@ -17,7 +17,7 @@ namespace
 
 using enum ParameterType;
 
-// As for the elements of the experiment file.
+// The limits are those of the elements of the experiment file.
 constexpr double kMostTicks = 1e15;
 constexpr double kFastest = 1e6;
 // The limits are those of the processes of a cluster (BusOptionTable).
@@ -26,7 +26,7 @@ constexpr double kLongestLease_s = 3600;
 constexpr double kShortestStep_s = 1e-3;
 constexpr double kLongestStep_s = 1e6;
 
-// Who takes a setting; each is for those before it too.
+// The programs that take a setting. Each program takes the settings of those before it too.
 enum class For
 {
   kLauncher,

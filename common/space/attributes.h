@@ -1,6 +1,6 @@
-// The attributes of each kind of entity: numbers beside the pose that all processes see. LEDs, laser, gripper and the
-// like. Colours are 0xRRGGBB as a number. The table decides what travels, what the state hash covers and what renderers
-// show.
+// The attributes of each kind of entity: numbers besides the pose that all processes see, such as LEDs, laser and
+// gripper. Colours are 0xRRGGBB as a number. The table decides which numbers are sent, covered by the state hash and
+// shown by renderers.
 #pragma once
 
 #include <span>

@@ -40,7 +40,8 @@ public:
   // The number of an attribute (attributes.h); throws std::out_of_range for a name that the kind does not have, and for
   // an element beyond its number.
   double GetAttribute(std::string_view name, int element = 0) const;
-  // For the one who owns the space (the space server, a replica). Experiment functions take SpaceEditor::SetAttribute.
+  // Only the owner of the space (the space server, a replica) may call this. Experiment functions use
+  // SpaceEditor::SetAttribute.
   void SetAttribute(std::string_view name, double value, int element = 0);
   std::uint32_t SlotOf(std::string_view name, int element = 0) const;
   std::uint32_t FirstSlot() const { return first_slot_; }

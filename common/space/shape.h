@@ -25,7 +25,7 @@ struct Shape
 };
 
 Shape ShapeOf(const EntityConfiguration& configuration);
-// Of the sphere about the shape's centre that holds it.
+// Returns the radius (m) of the sphere about the shape's centre that contains the shape.
 double BoundingRadius(const Shape& shape);
 
 // The fraction 0..1 of the way from `from` to `to` (space coordinates) at which the segment enters the shape; 0 if

@@ -50,7 +50,7 @@ private:
   std::mutex& step_;
   std::atomic<bool> watched_ = false;
 
-  std::mutex mutex_;  // of what follows; taken after step_ if both are
+  std::mutex mutex_;  // guards the members below; taken after step_ if both are needed
   std::map<std::string, Request> requests_;
   std::vector<std::uint32_t> robots_;  // of this host, ascending
   bool every_tick_ = false;

@@ -36,7 +36,7 @@ private:
   bool IsServer(const SpawnedProcess& process) const;
 
   SystemSpawner others_;
-  mutable std::mutex mutex_;
+  mutable std::mutex mutex_;  // guards the members below that are not atomic
   std::condition_variable changed_;
   std::optional<ProcessCommand> command_;
   bool cancelled_ = false;

@@ -1,4 +1,4 @@
-// What a device reads or is told, as numbers: the columns that its interface declares (ci_columns.h).
+// The readings or settings of a device as numbers, in the columns that its interface declares (ci_columns.h).
 #pragma once
 
 #include <map>
@@ -14,7 +14,7 @@ namespace swarmanoid::python
 std::map<std::string, CCI_Sensor*> SensorsOf(const CCI_Robot& robot);
 std::map<std::string, CCI_Actuator*> ActuatorsOf(const CCI_Robot& robot);
 
-// Of columns, with their units: "left [rad/s]", "colour".
+// Returns the names of columns with their units: "left [rad/s]", "colour".
 std::vector<std::string> NamesOf(const std::vector<CCI_Column>& columns);
 
 // A sensor of a robot, which outlives it.
@@ -31,7 +31,7 @@ public:
   // sensor gives another number of them than it states.
   void ReadColumns(std::vector<double>& values) const;
   void ReadRows(std::vector<double>& values) const;
-  // The ids of the entities that the rows are about; empty if the sensor does not tell.
+  // Returns the ids of the entities that the rows are about, or nothing if the sensor does not have them.
   std::vector<std::string> RowIds() const;
 
 private:

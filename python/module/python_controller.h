@@ -12,7 +12,7 @@
 namespace swarmanoid::python
 {
 
-// What a controller in Python sees of its robot: swarmanoid.Robot.
+// The robot of a controller in Python: swarmanoid.Robot.
 class PythonRobot
 {
 public:

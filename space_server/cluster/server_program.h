@@ -130,7 +130,7 @@ private:
   const ServerOptions& options_;
   const Experiment& experiment_;
   StatusChannel& status_;
-  std::mutex wake_mutex_;
+  std::mutex wake_mutex_;  // guards awake_
   RunCondition wake_;
   bool awake_ = false;
   std::optional<RestartPoint> restart_point_;

@@ -46,7 +46,7 @@ public:
 
   unsigned int GetID() const { return id_; }
   const std::string& GetName() const { return name_; }
-  // Where an input leads; this state itself if it has no transition for it.
+  // Returns the state that an input leads to, or this state if it has no transition for the input.
   State* Next(const T& on)
   {
     const auto found = transitions_.find(on);

@@ -14,7 +14,7 @@ namespace swarmanoid
 // another ending, is none or is cut short.
 std::unique_ptr<octomap::OcTree> ReadOctoMap(const std::string& path);
 
-// As .bt. Throws std::runtime_error if the file cannot be written.
+// Writes a map as .bt. Throws std::runtime_error if the file cannot be written.
 void WriteOctoMap(const std::string& path, const octomap::OcTree& map);
 
 }  // namespace swarmanoid
