@@ -1,6 +1,6 @@
-// What a shell may offer for the word that is being typed after `swarmanoid`: commands, options and their values from
-// the command line's own declaration, experiments that run here, plug-ins, values of --set. The scripts of the shells
-// in launcher/completion ask for it by `swarmanoid --complete WORDS...`.
+// The suggestions for the word being typed after `swarmanoid`: commands, options and their values from the command
+// line's own declaration, running experiments, plug-ins, values of --set. The shell scripts in launcher/completion ask
+// for them by `swarmanoid --complete WORDS...`.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Where the parts of Swarmanoid lie on this machine, found from the place of the running program.
+// The positions of Swarmanoid's parts on this machine, found from the path of the running program.
 #pragma once
 
 #include <string>

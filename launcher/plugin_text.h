@@ -1,4 +1,4 @@
-// What `swarmanoid list` says about plug-ins and their parameters, for people and for programs that complete words.
+// The output of `swarmanoid list` about plug-ins and their parameters, for users and for completion.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -16,7 +16,7 @@ std::string PluginKindTitle(PluginKind kind);
 // The label, with the implementation of a device: "footbot_wheels / dummy_footbot_wheels".
 std::string PluginName(const PluginDescription& plugin);
 
-// Several lines: what it is, and a line for each parameter.
+// Returns several lines: a description, and a line for each parameter.
 std::string PluginDetails(PluginKind kind, const PluginDescription& plugin);
 
 // For programs. A line for each plug-in and one for each of its parameters, fields separated by tabs: kind, label,

@@ -8,7 +8,7 @@
 namespace swarmanoid
 {
 
-// What stands for what: {"name", "wall_follower"} for @name@.
+// The text of each mark of a template: {"name", "wall_follower"} for @name@.
 using TemplateValues = std::map<std::string, std::string>;
 
 // Small letters, digits and '_', a letter first.

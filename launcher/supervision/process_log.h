@@ -14,8 +14,7 @@ namespace swarmanoid
 class ProcessLog
 {
 public:
-  // Throws std::runtime_error if the file cannot be made.
-  // `goes_on`: after what is in it.
+  // Opens a log. With `goes_on` it appends to an existing file. Throws std::runtime_error if the file cannot be made.
   explicit ProcessLog(std::string path, bool goes_on = false);
 
   // Adds a line without the colours that a process by ssh sends, which believes to write to a terminal.

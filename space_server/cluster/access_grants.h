@@ -125,7 +125,7 @@ private:
   std::vector<std::unique_ptr<Side>> sides_;
   std::atomic<unsigned> open_ = 0;  // sides
 
-  std::mutex mutex_;  // guards the members below
+  std::mutex mutex_;  // guards the members down to stopped_
   Inbox inbox_;
   std::deque<std::pair<std::string, std::uint32_t>> of_members_;  // requests about grants, by client and number
   std::map<std::string, Watched> watched_;                        // robots by client
