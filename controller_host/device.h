@@ -112,8 +112,8 @@ const CCI_Columns* ColumnsOf()
     return columns(&Batch::Actuator);
 }
 
-// What the interface of a type of device declares, for programs that have no device: nullptr if that is not known, or
-// nothing. The registration of a batch sets it.
+// FindColumns returns the declared columns of a device type for programs without a device. It returns nullptr if they
+// are unknown or the interface declares none. The registration of a batch sets them.
 const CCI_Columns* FindColumns(PluginKind kind, const std::string& label);
 void SetColumns(PluginKind kind, const std::string& label, const CCI_Columns* columns);
 

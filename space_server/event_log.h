@@ -61,7 +61,7 @@ struct EarlierRequests
   std::optional<ControlRequestMessage> step;    // one that is not done yet
   std::optional<std::uint64_t> pause_at;        // the run is paused, or will be at this tick
   std::optional<double> speed;
-  std::vector<ControlOrder> grants;  // the orders that made those that were not revoked
+  std::vector<ControlOrder> grants;  // orders of the grants that were not revoked
   std::uint64_t until = 0;           // the tick of the newest
 };
 // Reads the requests from the log of events, which may be missing. It cuts an incomplete last line off the file.

@@ -162,7 +162,7 @@ void Surroundings::AddAttributes(const SpaceState& state)
 {
   AttributeChanges& changes = part_.attributes;
   changes.Clear();
-  // Slots ascend, and so do the entities that have them, before those of presence.
+  // Slots ascend, and so do their entities. The slots of presence come last.
   const std::uint32_t first_presence = first_slots_.back();
   std::uint32_t entity = 0;
   for (const std::uint32_t slot : state.attributes.slots)

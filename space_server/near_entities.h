@@ -52,8 +52,8 @@ private:
   std::vector<char> is_near_;               // of each cell
   std::vector<char> is_told_;               // of each entity; always set for entities that cannot move
   std::vector<char> is_always_told_;        // of each that can
-  std::vector<std::uint32_t> first_slots_;  // of each entity, and behind the last one that of their presence
-  std::vector<double> x_, y_;               // of those that can move, where they were searched
+  std::vector<std::uint32_t> first_slots_;  // of each entity; at the end the first slot of their presence
+  std::vector<double> x_, y_;               // of the movable entities at the last search
   SentPoses told_poses_;
   bool holds_ = false;                  // there was a search
   std::vector<std::uint32_t> entered_;  // entities that the last message did not have

@@ -30,7 +30,7 @@ struct RunControlSetup
   std::vector<RecordedEvent> repeated;  // of an earlier run, to be done again
   // The run resumes after its space server has died. `repeated` then has the changes of the dead server.
   bool goes_on = false;
-  std::uint64_t asked_from = 0;                 // ticks before are done again: nobody comes in between
+  std::uint64_t asked_from = 0;                 // earlier ticks are computed again, without new requests
   std::uint64_t pause_at = 0;                   // 0: does not
   std::optional<ControlRequestMessage> step{};  // that ends there
   std::vector<RecordedFault> failed{};          // of controllers, in the log of events already
@@ -145,7 +145,7 @@ private:
   std::vector<RecordedFault> logged_faults_;
   bool paused_;
   bool stop_ = false;
-  std::optional<std::string> stop_unlogged_;  // who asked
+  std::optional<std::string> stop_unlogged_;  // the user who asked
   std::string why_stopped_;
   bool may_reset_;
   std::optional<ResetRequest> reset_;

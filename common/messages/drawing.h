@@ -33,7 +33,7 @@ struct DrawnShape
     kArrows,      // of each: from, to
     kPolygon,     // filled, convex; of each corner: x, y, z
     kCircle,      // its line: middle, orientation (x, y, z, w), radius
-    kDisc,        // filled: likewise
+    kDisc,        // filled; as kCircle
     kBox,         // middle, orientation, size
     kCylinder,    // middle, orientation, radius, height
     kText         // where its left end stands; and one text

@@ -34,7 +34,7 @@ struct RunStatus
   std::uint64_t tick = 0;                // of the run; a picture may show an earlier one
   double speed_wanted = 0;               // simulated seconds in a second; 0: as fast as possible
   double real_time_factor = 0;           // simulated seconds in a second, over the last second or so; 0 while paused
-  double ticks_per_second = 0;           // likewise
+  double ticks_per_second = 0;           // as above
   std::string ended;                     // kFinished: why, if it is not for maxclock or the experiment's own decision
   std::vector<ProcessStatus> processes;  // the space server first; in one process that alone
 };

@@ -56,8 +56,9 @@ bool WasKilled(const ProcessEnd& ended, bool elsewhere);
 // Returns true if both died in the same step of the same code. A process that replaces them will die there too.
 bool DiedAlike(const ActivityRecord& a, const ActivityRecord& b);
 
-// One line: who failed, how, and at which tick. `actor_of` names who ran in a process that was killed; `server_tick` is
-// that of the run, for processes that say none; `killed_for_memory` as KernelKillsForMemory tells.
+// A failed process, described in one line: its name, the failure and the tick. `actor_of` names the code that ran in a
+// killed process. `server_tick` is the run's tick, for processes without their own. `killed_for_memory` is the result
+// of KernelKillsForMemory.
 struct FailedProcess
 {
   std::string name;

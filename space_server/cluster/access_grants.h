@@ -63,7 +63,7 @@ private:
   struct Side
   {
     AccessGrant grant;
-    std::string by;       // who made it
+    std::string by;       // the member that made it
     std::string ended{};  // why, if it has
     bool told = false;    // that something was refused
     bool is_new = true;
@@ -89,7 +89,7 @@ private:
     std::vector<std::uint32_t> robots;
     Clock::time_point heard;
   };
-  // What threads of the bus have left for the main thread. Guarded by mutex_.
+  // Messages that threads of the bus left for the main thread. Guarded by mutex_.
   struct Inbox
   {
     std::deque<ControlRequestMessage> of_members;

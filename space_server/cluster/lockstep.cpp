@@ -320,7 +320,7 @@ void Lockstep::Go(std::uint64_t until)
   until_ = until;
   if (!held_) return;
   Send(false);
-  // An experiment without engines, hosts and visualisers waits for nobody.
+  // An experiment without engines, hosts and visualisers has no answers to wait for.
   while (gate_.Complete() && !finished_ && !held_) Complete();
 }
 

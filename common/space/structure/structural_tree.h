@@ -28,8 +28,8 @@ public:
   std::uint32_t GetRoot() const { return root_; }
   // The root and all that are connected to it, ascending.
   const std::vector<std::uint32_t>& GetMembers() const { return members_; }
-  // Returns the pose of each member, in their order, if one of them is at a pose and carries the others along as one
-  // rigid body. That member has the pose to the last bit; the others have theirs to the rounding of doubles.
+  // Returns the pose of each member, in their order, when one member is at a pose and carries the others as one rigid
+  // body. That member has the pose to the last bit; the others have theirs to the rounding of doubles.
   std::vector<Pose> PosesAt(std::uint32_t member, const Pose& pose) const;
   std::vector<Pose> PosesAt(const Pose& root_pose) const { return PosesAt(root_, root_pose); }
 

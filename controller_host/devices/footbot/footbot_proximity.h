@@ -62,7 +62,7 @@ private:
   void SenseNear();
   // Computes the readings by a search around each robot, if the neighbours are not known.
   void SenseAll();
-  // Lists the robots of the batch, all or those that are due, in the order of the grid.
+  // Lists all robots of the batch, or only those with readings due, in the order of the grid.
   void ListOwn(bool all);
   // Fetches what Sense will read of robots that come later in that order.
   void Prefetch(std::size_t later) const;

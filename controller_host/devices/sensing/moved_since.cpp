@@ -50,7 +50,7 @@ double MovedSince::FurthestSquare(std::size_t begin, std::size_t end) const
   const PoseArrays& poses = space_.Poses();
   double furthest = 0, tilt = 0;
   std::size_t k = begin;
-  // Of bodies that follow one another, several at a time.
+  // Consecutive bodies are processed several at a time.
   if (begin < end && bodies_[end - 1] - bodies_[begin] == end - 1 - begin)
   {
     DoubleLanes furthest_of{}, tilt_of{};

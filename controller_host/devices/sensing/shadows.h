@@ -100,7 +100,7 @@ private:
 
   const SensorWorld& world_;
   bool share_engines_ = false;  // all movable bodies are in the same engines
-  bool are_exact_ = false;      // all are upright cylinders of one size that hide one another
+  bool are_exact_ = false;      // all are upright cylinders of one size that hide each other
   Vector3 source_ = Vector3::Zero();
   float reach_ = 0;           // m
   float low_ = 0, high_ = 0;  // m, from the source: of all bodies

@@ -239,7 +239,7 @@ private:
   std::vector<Nearness> nearness_;       // of them
   std::vector<std::uint32_t> isolated_;  // bodies, ascending
   std::vector<std::uint32_t> solved_;    // dynamic ones that are in Box2D, ascending
-  std::vector<Way> ways_;                // of those
+  std::vector<Way> ways_;                // of the bodies in moving_
 };
 
 }  // namespace swarmanoid::dynamics2d

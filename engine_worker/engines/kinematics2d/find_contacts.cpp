@@ -54,7 +54,7 @@ void AddContacts(const PlaneState& plane, PairBatch& batch, ContactList& contact
         double dy = a.y - b.y;
         if (i != first || j != second)
         {
-          // From the difference of the leaders to that of the bodies.
+          // The shift turns the difference of the leaders into the difference of the bodies.
           const PoseStore& now = bodies.now;
           const double shift_x = dx - (now.x[i] - now.x[j]);
           const double shift_y = dy - (now.y[i] - now.y[j]);

@@ -45,7 +45,7 @@ struct Contacts
   BroadPhase broad;
   VerletList verlet_list;
   bool is_listed = false;               // the Verlet list has the pairs of this substep
-  std::vector<std::uint32_t> blocks;    // those that are computed here, ascending
+  std::vector<std::uint32_t> blocks;    // the blocks that this process computes, ascending
   std::vector<ContactBlock> of_blocks;  // one for each of them
   std::vector<Part> parts;              // one for each thread, then one for bodies too large for the cells
   std::vector<ContactBlock> of_large;   // one for each part of the pairs of large bodies

@@ -80,7 +80,7 @@ SeparatingPlane PlaneAlong(const MovingPart& first, const MovingPart& second, do
   return plane;
 }
 
-// Of `shortest`, along (x, y), and of the planes with other normals, the one that leaves most.
+// Returns the plane that leaves most room, among `shortest`, along (x, y), and planes with other normals.
 SeparatingPlane BestPlane(const MovingPart& first, const MovingPart& second, double x, double y,
                           const SeparatingPlane& shortest, double allowed)
 {
