@@ -23,7 +23,7 @@ struct BranchRequest
 };
 // Reads "RUN@TICK". Returns nullopt for any other text.
 std::optional<BranchRequest> ReadRunAtTick(const std::string& text);
-// The same, but throws UsageError.
+// Returns the same, but throws UsageError.
 BranchRequest ReadBranchRequest(const std::string& text);
 
 // Returns the request for a run that branches off, with the values taken from the other run: the experiment, if none is

@@ -13,7 +13,7 @@ namespace swarmanoid
 // "Physics engines", "Experiment functions".
 std::string PluginKindTitle(PluginKind kind);
 
-// The label, with the implementation of a device: "footbot_wheels / dummy_footbot_wheels".
+// Returns the label, with the implementation of a device: "footbot_wheels / dummy_footbot_wheels".
 std::string PluginName(const PluginDescription& plugin);
 
 // Returns several lines: a description, and a line for each parameter.
@@ -28,7 +28,7 @@ std::string PluginRows(PluginKind kind, const PluginDescription& plugin);
 // is allowed, and what it means, separated by tabs. Without the arena.
 std::string SettingRows(const Experiment& experiment);
 
-// The same as objects.
+// Returns the same as objects.
 nlohmann::ordered_json PluginJson(PluginKind kind, const PluginDescription& plugin);
 nlohmann::ordered_json SettingsJson(const Experiment& experiment);
 

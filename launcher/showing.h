@@ -32,11 +32,11 @@ bool HasPictures(const Experiment& experiment);
 // Returns the path relative to the current folder if the file is in it, otherwise the path unchanged.
 std::string ShortPath(const std::string& path);
 
-// The experiment with the visualisations of `kinds`, such as "web" or "opengl". `with_own`: beside its own ones,
-// otherwise instead of them. Throws UsageError if there is no such renderer.
+// Returns the experiment with the visualisations of `kinds`, such as "web" or "opengl". `with_own`: beside its own
+// ones, otherwise instead of them. Throws UsageError if there is no such renderer.
 std::unique_ptr<Experiment> WithShown(const Experiment& experiment, const std::vector<std::string>& kinds,
                                       bool with_own);
-// The text with the visualisation in the place of its own ones.
+// Returns the text with the visualisation in the place of its own ones.
 std::string WithVisualisation(const std::string& effective_xml, const std::string& element);
 
 // Ticks of a film, so that it is made within some seconds: fewer for more robots, never more than `ran` (0: not known).

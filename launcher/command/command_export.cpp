@@ -198,7 +198,7 @@ void ExportCsv(const ExportOptions& options, RecordedRun& run, const std::vector
   table.Close();
 }
 
-// False if some events cannot be read, which standard error says.
+// Returns false if some events cannot be read, which standard error says.
 bool ExportMcap(const ExportOptions& options, RecordedRun& run, std::vector<std::size_t> entities)
 {
   const EventLines events = ReadEventLines(run.Folder() + "/events.csv");

@@ -18,7 +18,7 @@ namespace swarmanoid
 // Refuses a request of a page: throws std::invalid_argument with a text for the user.
 [[noreturn]] void RefuseEdit(const std::string& text);
 
-// A handle of an element that outlives it.
+// Returns a handle of an element that outlives it.
 TConfigurationTree TreeOf(const ConfigurationNode& node);
 
 using ElementPath = std::vector<std::size_t>;  // child numbers, from the root on
@@ -60,7 +60,7 @@ public:
   // Returns the element of each entity of the experiment. Entities of one <distribute> or <reserve> share the element
   // within it.
   const std::vector<ElementPath>& EntityPaths() const { return entity_paths_; }
-  // Whether its entities have their places from the element above it.
+  // Returns whether its entities have their places from the element above it.
   bool IsDistributed(const ElementPath& path) const;
 
   // The changes. Each throws std::invalid_argument with a text for the user, and then changes nothing.

@@ -62,7 +62,7 @@ ClusterPlan MakePlan(const RunRequest& request, const Experiment& experiment);
 // Changes the plan to one controller host on each of the machines.
 void SetControllerHosts(ClusterPlan& plan, const std::vector<std::string>& machines);
 
-// Whether all processes but visualisers run fastest, or are requested to run, on one core of this machine.
+// Returns whether all processes but visualisers run fastest, or are requested to run, on one core of this machine.
 bool SharesOneCore(const ClusterPlan& plan);
 
 // Returns a warning before the start if --controller-hosts, `requested`, is more than the robots need or than `cores`

@@ -30,7 +30,8 @@ public:
   // --engine-host: "ENGINE=HOST". Throws UsageError.
   void AddEngine(const std::string& setting);
 
-  // The machine of a process, by the file's word for its role ("engine") and its id ("ground"). kHere for this machine.
+  // Returns the machine of a process, by the file's word for its role ("engine") and its id ("ground"). kHere for this
+  // machine.
   std::string MachineOf(const std::string& role, const std::string& id) const;
   // Returns true if processes run only on this machine and cannot be moved to another one.
   bool AllHere() const;
@@ -57,7 +58,7 @@ private:
   void TakeLine(const std::string& line, const std::string& at);
   void TakeCores(const std::vector<std::string>& key, const std::string& value, const std::string& at);
   void TakeMachinesForRuns(const std::vector<std::string>& machines, const std::string& at);
-  // The words of the template with a command for a machine in it.
+  // Returns the words of the template with a command for a machine in it.
   std::vector<std::string> Reached(const std::vector<std::string>& words, const std::string& machine) const;
 
   std::map<std::pair<std::string, std::string>, std::string> of_processes_;  // by role and id; without id: all others

@@ -21,7 +21,7 @@ public:
   SignalDescriptor& operator=(const SignalDescriptor&) = delete;
 
   int Descriptor() const { return signals_.Get(); }
-  // The next signal that arrived, if any. Does not wait.
+  // Returns the next signal that arrived, if any. Does not wait.
   std::optional<int> Take();
 
 private:

@@ -530,7 +530,7 @@ void Supervisor::KillToStartAgain()
   SignalAll(SIGKILL);
 }
 
-// Whether the processes, which have all ended, must start again.
+// Returns whether the processes, which have all ended, must start again.
 bool Supervisor::MustStartAgain()
 {
   if (attribute_at_ && phase_ != Phase::kDying) Attribute();

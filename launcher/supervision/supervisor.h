@@ -145,7 +145,7 @@ private:
   // Ends, and which process failed first.
   void CollectEnds();
   void TakeEnd(const ClusterMember& member);
-  // Whether nothing that happens to the process changes the run: it has left in good order.
+  // Returns whether nothing that happens to the process changes the run: it has left in good order.
   bool IsDone(const ClusterMember& member) const;
   void AttributeWithin(std::chrono::milliseconds patience);
   // Finds the process that failed first among those that have ended or reported a failure. If there is one, ends the
@@ -159,7 +159,7 @@ private:
   bool CountDeath(const ClusterMember& member);
   // A controller that died with the process, that may fail, and that has not died there before.
   std::optional<ControllerDeath> NewDeath(const ClusterMember& member) const;
-  // Whether the process died on its way to another machine, which the run waits for.
+  // Returns whether the process died on its way to another machine, which the run waits for.
   bool IsOnItsWay(const ClusterMember& member) const;
   void KillStopped();
 
