@@ -34,7 +34,7 @@ ControlRequestMessage NoteOf(const std::string& verb, const std::string& about, 
 // the file. Throws ConfigurationError with file and line if a line is no event of this experiment. An incomplete last
 // line, as after the death of a run, is left out with a message on standard error.
 std::vector<RecordedEvent> ReadEvents(const std::string& path, const Experiment& experiment);
-// The same from the text of the file.
+// Returns the same from the text of the file.
 std::vector<RecordedEvent> ParseEvents(const std::string& text, const std::string& path, const Experiment& experiment);
 
 // A line of a log of events, for what passes it on as it is.

@@ -60,7 +60,7 @@ public:
   // id, an empty reserve and an entity that is present. It throws the same if the body would overlap another one of the
   // same engine.
   std::string AddEntity(std::string_view id, const Pose& pose);
-  // Whether AddEntity would find the place free of bodies. Throws as AddEntity does, except for the place.
+  // Returns whether AddEntity would find the place free of bodies. Throws as AddEntity does, except for the place.
   bool IsFree(std::string_view id, const Pose& pose) const;
   // Removes an entity that can move, or is of a <reserve>, from the arena. All its grips end. Throws
   // std::invalid_argument for any other entity, and for one that is not in the arena.

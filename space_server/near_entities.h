@@ -37,8 +37,8 @@ public:
   // out. The space outlives the object.
   Surroundings(const CSwarmanoidSpace& space, std::span<const std::uint32_t> robots, double reach_m);
 
-  // The part of the state of the space's tick. To be called once for each tick, and all ticks; the first one has the
-  // poses of all that are near. Valid until the next call.
+  // Returns the part of the state of the space's tick. It must be called once for each tick, from the first one on. The
+  // first result has the poses of all near entities. The result is valid until the next call.
   LocalState& Part(const SpaceState& state);
 
 private:

@@ -85,7 +85,7 @@ public:
   void BeginAgain(std::uint64_t first_tick, std::uint32_t variation);
   // The current tick is the last one.
   void Finish() { last_ = true; }
-  // True if Finish was called, or the experiment functions ended the run.
+  // Returns true if Finish was called, or the experiment functions ended the run.
   bool IsFinished() const { return last_; }
   // Has experiment functions draw, if something changed since they did. Throws as Advance does.
   void Draw();
@@ -97,10 +97,10 @@ public:
   void Select(const std::string& id);
   // Ends the experiment functions, once; later calls do nothing.
   void Destroy();
-  // True if the experiment functions say that the experiment failed: exit code 1.
+  // Returns true if the experiment functions say that the experiment failed: exit code 1.
   bool HasFailed() const { return failed_; }
 
-  // True if maxclock is reached or Finish was called.
+  // Returns true if maxclock is reached or Finish was called.
   bool IsLast() const { return last_ || (experiment_.max_clock != 0 && space_.GetTick() >= experiment_.max_clock); }
 
 private:

@@ -26,7 +26,7 @@ struct UserInput
   const CSwarmanoidSpaceEntity* entity = nullptr;  // of the last two
 };
 
-// Whether a key can be called so.
+// Returns whether this is the name of a key.
 bool IsKeyName(const std::string& name);
 
 }  // namespace swarmanoid

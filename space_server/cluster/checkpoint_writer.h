@@ -35,7 +35,7 @@ public:
   // The state of the server's tick goes out now. Whether it asks for the states of all after its step. Throws
   // std::runtime_error if the server cannot be saved.
   bool Sending(const SpaceServer& server);
-  // Whether all save their states before they step at the tick.
+  // Returns whether all save their states before they step at the tick.
   bool IsWanted(std::uint64_t tick) const;
   // Main thread: writes what is complete. Throws std::runtime_error.
   void Work();
@@ -47,7 +47,7 @@ private:
 
   void Save(const SpaceServer& server);
   void Arrived(const SavedStateMessage& message);
-  // Whether the run takes a checkpoint at the tick.
+  // Returns whether the run takes a checkpoint at the tick.
   bool IsOfFile(std::uint64_t tick) const;
   bool IsComplete(const Checkpoint& checkpoint) const;
 

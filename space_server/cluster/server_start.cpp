@@ -36,7 +36,8 @@ RunControlSetup MakeRunControlSetup(const ServerOptions& options, const Experime
   return setup;
 }
 
-// The reply to a request that an earlier space server executed. A change of the controller hosts starts a new server.
+// Returns the reply to a request that an earlier space server executed. A change of the controller hosts starts a new
+// server.
 std::string DoneText(const ControlRequestMessage& request, const Assignment& assignment)
 {
   if (FindControlVerb(request.verb)->effect != Effect::kPlacement) return request.verb + " was done";
