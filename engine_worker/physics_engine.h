@@ -108,7 +108,7 @@ public:
   // The run begins again (SpaceEditor::BeginAgain), after EntityMoved was called for each moved entity. State that does
   // not follow from the space must return to the state of a new engine.
   virtual void BeginAgain() { Canonicalise(); }
-  // True if Canonicalise has nothing to drop at any tick: then SaveState is exact after each Update.
+  // Returns true if Canonicalise has nothing to drop at any tick: then SaveState is exact after each Update.
   virtual bool IsAlwaysCanonical() const { return false; }
 
   // Makes a region of an engine that can be split (PluginDescription::can_split), in a process of its own. Only this

@@ -42,7 +42,7 @@ inline constexpr std::size_t kMostCutCorners = 8;  // of a polygon that the engi
 class PlaneFrame
 {
 public:
-  // The plane perpendicular to an axis, at a signed distance (m) from the origin. Its axes (u, v, normal) are,
+  // Returns the plane perpendicular to an axis, at a signed distance (m) from the origin. Its axes (u, v, normal) are,
   // right-handed: z: (x, y, z), x: (y, z, x), y: (z, x, y).
   PlaneFrame(PlaneAxis axis, double distance);
   // Any plane: the x, y of the frame are u, v, and its z is the normal.
@@ -55,8 +55,8 @@ public:
   // ToSpace(ToPlane(p), StanceOf(p)) is p, but for rounding.
   Pose ToSpace(const PlanePose& pose, const PlaneStance& stance = {}) const;
 
-  // The convex polygon, counter-clockwise in (u, v), in which the plane cuts a box with edges `size` about the centre
-  // `pose`; empty if it does not. A box that only rests on the plane is cut by it too.
+  // Returns the convex polygon, counter-clockwise in (u, v), in which the plane cuts a box with edges `size` about the
+  // centre `pose`; empty if it does not. A box that only rests on the plane is cut by it too.
   std::vector<Vector2> CutBox(const Pose& pose, const Vector3& size) const;
   // Returns the cut of the plane with the box or the hull of an entity with its origin at `pose`. For a hull it is a
   // polygon within the cut, with at most kMostCutCorners corners.

@@ -58,7 +58,7 @@ public:
   void Init(const CSwarmanoidSpace& space, const PlaneFrame& frame, PlaneGrips& grips);
   void AddOwned(const CSwarmanoidSpaceEntity& entity);
 
-  // True for a channel of this model. Throws std::runtime_error for values that are not finite.
+  // Returns true for a channel of this model. Throws std::runtime_error for values that are not finite.
   bool Command(const ChannelBlock& block, std::span<const double> values);
   // Before the plane's motion: hands and ropes take hold and let go; then all joints and heights at the end of the
   // tick.

@@ -13,8 +13,8 @@ namespace swarmanoid
 // How far above the plane (m) the terrain is cut: lower steps are driven over.
 inline constexpr double kTerrainStep_m = 0.02;
 
-// The cut as rectangles, counter-clockwise in (u, v). Throws ConfigurationError if the plane is not parallel to the
-// terrain's own ground, or its file cannot be read.
+// Returns the cut as rectangles, counter-clockwise in (u, v). Throws ConfigurationError if the plane is not parallel to
+// the terrain's own ground, or its file cannot be read.
 std::vector<std::vector<Vector2>> TerrainWalls(const EntityConfiguration& terrain, const std::string& experiment_folder,
                                                const PlaneFrame& plane);
 

@@ -126,7 +126,7 @@ public:
   // The nearest body that the gripper touches and may take, or kNoBody. A structure must not become a loop.
   int FindGrippable(int body) const;
   void Grip(int body, int target);
-  // True if a grip of this body on the target would make a loop.
+  // Returns true if a grip of this body on the target would make a loop.
   bool WouldClose(int body, int target) const { return LeadsTo(target, body); }
   void Release(int body);
   // Ends the grips of a body, and those on it, for which `ends(body, gripped)` returns true.

@@ -37,7 +37,7 @@ public:
   void Save(ByteWriter& state) const override;
   void Load(ByteReader& state) override;
 
-  // The thrust of the last step in newton.
+  // Returns the thrust of the last step in newton.
   double ThrustForTest() const { return thrust_; }
 
 private:

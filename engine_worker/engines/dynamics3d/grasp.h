@@ -28,7 +28,7 @@ public:
   void Release();
 
   bool IsHolding() const { return link() != nullptr; }
-  // The entity held, kNoEntity for none.
+  // Returns the entity held, kNoEntity for none.
   std::uint32_t Held() const;
   bool HoldsMovable() const;
   Link* link() { return scene_.links.Find(serial_); }

@@ -72,7 +72,7 @@ Parting ByFaces(const Polytope& of, const Polytope& other)
   return best;
 }
 
-// Whether the arcs from a to b and from c to d of the sphere of normals cross.
+// Returns whether the arcs from a to b and from c to d of the sphere of normals cross.
 bool ArcsCross(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d)
 {
   const Vector3 across_ab = b.cross(a);

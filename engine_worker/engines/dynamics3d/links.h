@@ -102,7 +102,7 @@ public:
     }
     return others;
   }
-  // Whether two entities hang together by links, the world not counted as a member.
+  // Returns whether two entities hang together by links, the world not counted as a member.
   bool AreConnected(std::uint32_t a, std::uint32_t b) const;
   // Marks the entities that have links.
   void Mark(std::vector<std::uint8_t>& has_links) const;

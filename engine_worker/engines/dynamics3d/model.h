@@ -108,7 +108,7 @@ dMass CylinderMass(double mass, double radius, double height);  // axis z
 dMass BoxMass(double mass, const Vector3& size);
 dMass SphereMass(double mass, double radius);
 dMass HullMass(double mass, const ConvexHull& hull);
-// The same mass, its inertia times `factor`: what a geared motor adds to a part that it turns.
+// Returns the same mass, its inertia times `factor`: what a geared motor adds to a part that it turns.
 dMass Geared(dMass mass, double factor);
 
 }  // namespace swarmanoid::dynamics3d

@@ -123,7 +123,8 @@ public:
   dWorldID World() const { return world_; }
   const WorldSettings& Settings() const { return settings_; }
 
-  // A body of that mass distribution, its centre of mass at the origin. The number counts from 0. Mirrors need no mass.
+  // Adds a body of that mass distribution, with its centre of mass at the origin, and returns its number, from 0 on.
+  // Mirrors need no mass.
   int AddBody(const BodyOwner& owner, const dMass& mass);
   std::size_t BodyCount() const { return bodies_.size(); }
   dBodyID Body(int number) const { return bodies_[static_cast<std::size_t>(number)].body; }
@@ -162,7 +163,7 @@ public:
   void WakeAll();
   std::size_t SleeperCount() const;
 
-  // The solid (of another entity, accepted by the filter) that reaches deepest into a sphere; nullptr for none.
+  // Returns the solid (of another entity, accepted by the filter) that reaches deepest into a sphere; nullptr for none.
   const Solid* FindTouching(const Vector3& centre, double radius, std::uint32_t but_not,
                             const std::function<bool(const Solid&)>& accept) const;
   // Distance to the first static solid along a unit vector; infinity for none within `range`.

@@ -40,7 +40,7 @@ private:
 
 inline constexpr std::size_t kPrismSides = 16;
 
-// The rotation of a geom.
+// Returns the rotation of a geom.
 Eigen::Matrix3d AxesOf(dGeomID geom);
 
 }  // namespace swarmanoid::dynamics3d

@@ -92,7 +92,8 @@ DriveDescription DriveOf(const WheeledShape& shape, const WorldSettings& setting
 // Faster robots, which brake harder, are solved. Wheels swing beyond their commands by less than the twentieth.
 double LargestFreeSpeed(const WheeledShape& shape) { return 1.05 * shape.free_speed / kFreeSpeed; }
 
-// Whether the wheels neither slip nor are lifted on the tightest arc at that speed; if it `brakes`, as hard as it can.
+// Returns whether the wheels neither slip nor are lifted on the tightest arc at that speed; if it `brakes`, as hard as
+// it can.
 bool KeepsItsWheelsDown(const WheeledShape& shape, const WorldSettings& settings, bool brakes)
 {
   const DriveDescription drive = DriveOf(shape, settings);

@@ -52,7 +52,8 @@ public:
   double LargestSpeed() const;
   Vector2 GroundPoint() const;  // below its middle
 
-  // Whether the robot rolls on level ground as its wheels turn, so that the closed form goes on where the solver is.
+  // Returns whether the robot rolls on level ground as its wheels turn, so that the closed form goes on where the
+  // solver is.
   bool RollsFreely() const;
   bool IsFree() const { return is_free_; }
   void BecomeFree();

@@ -76,7 +76,7 @@ public:
   double TurretAngle(std::uint32_t body) const { return plane_.bodies.turret_angle[body]; }
   const CollisionModel& ModelOf(std::uint32_t body) const { return plane_.bodies.ModelOf(body); }
   Placed PlacedAt(std::uint32_t body) const { return plane_.bodies.PlacedNow(body); }
-  // The deepest overlap of two bodies, or of a body and the static shapes.
+  // Returns the deepest overlap of two bodies, or of a body and the static shapes.
   double OverlapForTest(std::uint32_t a, std::uint32_t b) const;
   double StaticOverlapForTest(std::uint32_t body) const;
   // The arc that the body's centre drove forward (m) and its turn (rad) in the last Advance, collisions included.

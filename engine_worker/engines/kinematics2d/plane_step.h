@@ -101,7 +101,7 @@ struct PlaneState
   WorkerPool* Pool() const { return IfItShares(pool); }
   // Each body leads itself and can be pushed.
   bool EachIsFree() const { return groups.grips.empty() && bodies.followers.empty(); }
-  // The angle that a leader wants to turn by.
+  // Returns the angle that a leader wants to turn by.
   double TurnOf(std::uint32_t leader, double seconds) const { return groups.Twists(bodies).turn[leader] * seconds; }
   // Calls act(k) for each of the Contacts::parts that has blocks, each in a thread of its own.
   template <class Act>

@@ -74,7 +74,7 @@ public:
   bool IsOwn(std::uint32_t body) const { return is_own_[body] != 0; }
   // Throws std::runtime_error for a body that the region does not own.
   std::uint32_t FindOwn(std::uint32_t number_in_whole) const;
-  // The bodies that it owns, ascending. Valid until the next call.
+  // Returns the bodies that it owns, ascending. Valid until the next call.
   std::span<const std::uint32_t> ListOwn();
   // The bodies that this region and another one hold, ascending.
   std::span<const std::uint32_t> Common(unsigned region) const { return common_[region]; }

@@ -27,7 +27,7 @@ struct Extent
   double turn_rate;
 };
 
-// How far a part reaches along (x, y) from its body, and how much further, at most, for each part of its turn.
+// Returns how far a part reaches along (x, y) from its body, and how much further, at most, for each part of its turn.
 Extent ExtentAlong(const MovingPart& side, double x, double y)
 {
   double at_start = -1e300;
