@@ -70,8 +70,8 @@ public:
   // Calls Destroy of every controller, once.
   void Destroy();
 
-  // The inside of a robot after its last control step; false if it is not of this host. Changes nothing: what a
-  // controller throws here is shown instead.
+  // Fills in the inside of a robot after its last control step. Returns false if the robot is not of this host. Changes
+  // nothing: an exception of a controller is shown instead.
   bool Describe(std::uint32_t entity, RobotStatus& status) const;
 
   const HostLayout& Layout() const { return layout_; }
@@ -116,7 +116,7 @@ private:
   void StepInParallel(std::uint64_t tick);
   void StepGuarded(std::uint64_t tick);
   void TryStep(Robot& robot, std::uint64_t tick);
-  // False if it took more than its time budget.
+  // Returns false if it took more than its time budget.
   bool StepInTime(Robot& robot, std::uint64_t tick);
   std::optional<FaultKind> Known(std::uint64_t tick, std::uint32_t robot) const;
   // `text` goes to the log of this process, and `thrown`, what an exception said, to the events of the run.

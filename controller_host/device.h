@@ -55,7 +55,7 @@ class SensorBatch
 public:
   virtual ~SensorBatch() = default;
   virtual void Init(const DeviceSetup& setup) = 0;
-  // The object given to the controller of robot k; it lives as long as the batch.
+  // Returns the object given to the controller of robot k; it lives as long as the batch.
   virtual CCI_Sensor* Sensor(std::size_t k) = 0;
   // Computes the readings of all robots from the space at its tick. `channel` has the values that engines sent, for
   // specific sensors. An exception ends the run and names the device.

@@ -22,7 +22,7 @@ public:
   // streams.
   explicit DeviceStreams(const DeviceSetup& setup, std::string_view quantity = {});
 
-  // The stream of robot k of the batch at the StreamTick() of the space.
+  // Returns the stream of robot k of the batch at the StreamTick() of the space.
   RandomStream Of(std::size_t k) const;
   // Returns the stream of robot k for `whom`: StreamName(id) of another entity, or StreamPart(name, number) of a part.
   RandomStream Of(std::size_t k, std::uint64_t whom) const;

@@ -13,7 +13,7 @@ namespace swarmanoid
 namespace
 {
 
-// All slots of some attributes, robot after robot.
+// Returns all slots of some attributes, robot after robot.
 std::vector<std::uint32_t> SlotsOf(const DeviceSetup& setup, const std::vector<std::string>& attributes)
 {
   std::vector<std::uint32_t> slots;

@@ -7,7 +7,7 @@
 namespace swarmanoid
 {
 
-// The row of the robots of a batch: the reader of experiments sees to it that they are of one kind.
+// Returns the row of the robots of a batch: the reader of experiments sees to it that they are of one kind.
 inline const EntityKindDescription& KindOfBatch(const DeviceSetup& setup)
 {
   return DescriptionOf(setup.space.GetEntity(setup.robots.front()).GetKind());

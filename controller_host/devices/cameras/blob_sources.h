@@ -57,13 +57,14 @@ public:
   // of `numbers` and returns the count.
   std::size_t Collect(std::span<const std::int32_t> places, std::vector<std::int32_t>& numbers) const;
   const BlobSource& Source(std::size_t number) const { return sources_[number]; }
-  // The name of a source for random streams, by the id of its entity and its part. Laser spots have the eyebot's.
+  // Returns the name of a source for random streams, by the id of its entity and its part. Laser spots have the
+  // eyebot's.
   std::uint64_t NameOf(std::size_t number) const;
   // Returns for each source the nearest of the eight colours with the bits red (4), green (2) and blue (1); 0 is black.
   const std::uint8_t* Hues() const { return hue_.data(); }
   // Returns true if a source is visible only from within a cone. Otherwise IsSeenFrom need not be called.
   bool HasCones() const { return !cones_.empty(); }
-  // Whether an eye is within the cone of a source, if it has one.
+  // Returns whether an eye is within the cone of a source, if it has one.
   bool IsSeenFrom(const Vector3& eye, std::size_t number) const
   {
     const Cone& cone = cones_[number];

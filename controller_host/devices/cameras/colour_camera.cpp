@@ -10,7 +10,7 @@ namespace swarmanoid
 namespace
 {
 
-// Whether a place is in a round view straight down.
+// Returns whether a place is in a round view straight down.
 inline bool IsBelow(double x, double y, double z, double tangent, double square_range)
 {
   const double border = z * tangent;

@@ -105,7 +105,7 @@ protected:
     const SinCos tilt = SinCosOf(space_->Attributes()[directions_[k].tilt]);
     return {tilt.sin * pan.cos, tilt.sin * pan.sin, -tilt.cos};
   }
-  // The axes of the image of robot k, in its frame: x along the line of sight, y level and to the left.
+  // Returns the axes of the image of robot k, in its frame: x along the line of sight, y level and to the left.
   Eigen::Matrix3d ImageOf(std::size_t k) const
   {
     const SinCos pan = SinCosOf(space_->Attributes()[directions_[k].pan]);

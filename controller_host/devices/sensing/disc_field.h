@@ -37,7 +37,8 @@ class SeenPoints
 public:
   void Resize(std::size_t points) { groups_.resize((points + kLanes - 1) / kLanes); }
   bool operator[](std::size_t point) const { return (groups_[point / kLanes] >> point % kLanes & 1U) != 0; }
-  // A bit for each of the kLanes points from `first` on, a multiple of kLanes. Bits behind the last point are 0.
+  // Returns a bit for each of the kLanes points from `first` on, a multiple of kLanes. Bits behind the last point are
+  // 0.
   unsigned Group(std::size_t first) const { return groups_[first / kLanes]; }
   void SetGroup(std::size_t first, unsigned seen) { groups_[first / kLanes] = static_cast<std::uint8_t>(seen); }
   void HideAll() { std::fill(groups_.begin(), groups_.end(), std::uint8_t{0}); }

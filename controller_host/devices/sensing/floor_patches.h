@@ -38,7 +38,7 @@ struct FloorPatch
   }
 };
 
-// All of them, in the order of the file. Reads the pictures; throws ConfigurationError.
+// Returns all of them, in the order of the file. Reads the pictures; throws ConfigurationError.
 std::vector<FloorPatch> FloorPatchesOf(const CSwarmanoidSpace& space);
 
 }  // namespace swarmanoid

@@ -27,9 +27,9 @@ public:
   // Returns true if neighbours may be taken from a search at the reference tick. All bodies must be upright, and so
   // slow that it pays.
   bool Holds() const { return lifetime_.HasList(); }
-  // Whether then is now.
+  // Returns whether the reference tick is the present tick.
   bool IsNow() const { return is_now_; }
-  // A number for then: another one each time.
+  // Returns a number of the reference tick, which differs from all earlier ones.
   std::uint64_t Number() const { return number_; }
   // Two bodies have come nearer to each other by at most this since then, and to what stands by half of it, m.
   double Margin() const { return margin_; }

@@ -74,10 +74,10 @@ public:
 
   // Returns the bodies that may be sorted: the movable entities with a body, ascending.
   std::span<const std::uint32_t> Bodies() const { return bodies_; }
-  // The movable bodies in the order of their cells: entity indices.
+  // Returns the movable bodies in the order of their cells: entity indices.
   std::span<const std::uint32_t> Sorted() const { return {entity_.data(), count_}; }
 
-  // The middles of the circles around kLanes bodies, given by their places.
+  // Returns the middles of the circles around kLanes bodies, given by their places.
   std::pair<FloatLanes, FloatLanes> MiddlesAt(const std::int32_t* places) const
   {
     const IntLanes at = LoadLanes(places);

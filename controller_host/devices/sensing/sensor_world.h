@@ -31,16 +31,17 @@ public:
   // one.
   void Refresh(WorkerPool* pool = nullptr);
 
-  // Whether a body has parts that reach beyond its shape (CollisionModels::Articulated): it is sensed part by part.
+  // Returns whether a body has parts that reach beyond its shape (CollisionModels::Articulated): it is sensed part by
+  // part.
   bool IsArticulated(std::uint32_t entity) const { return !parts_of_.empty() && parts_of_[entity] >= 0; }
-  // Whether some body is.
+  // Returns whether any body has such parts.
   bool HasArticulated() const { return !parts_.empty(); }
-  // The parts of such a body in the frame of its entity, as of the last Refresh.
+  // Returns the parts of such a body in the frame of its entity, as of the last Refresh.
   std::span<const CollisionBody> PartsOf(std::uint32_t entity) const
   {
     return parts_[static_cast<std::size_t>(parts_of_[entity])];
   }
-  // The fraction of the way from one point to another at which it meets a body; nullopt if it does not.
+  // Returns the fraction of the way from one point to another at which it meets a body; nullopt if it does not.
   std::optional<double> HitOn(std::uint32_t body, const Vector3& from, const Vector3& to) const
   {
     if (IsArticulated(body)) return SegmentHit(PartsOf(body), space_.GetPose(body), from, to);
@@ -59,8 +60,8 @@ public:
   };
   template <class Accept>
   Met FirstMet(const Vector3& from, const Vector3& to, Accept&& accept) const;
-  // Whether `body` can hide things from `observer`: they share an engine, or the body stands in the space without being
-  // part of any engine's world.
+  // Returns whether `body` can hide things from `observer`: they share an engine, or the body stands in the space
+  // without being part of any engine's world.
   bool CanHideFrom(std::uint32_t observer, std::uint32_t body) const
   {
     return membership_.ShareEngine(observer, body) ||

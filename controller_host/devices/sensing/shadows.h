@@ -27,7 +27,7 @@ public:
   IntLanes Of(FloatLanes turn) const;
   int Last() const { return count_ - 1; }
   std::size_t Wrapped(int sector) const { return static_cast<std::size_t>(sector & (count_ - 1)); }
-  // A vector along the lower border of a sector.
+  // Returns a vector along the lower border of a sector.
   Vector2 Border(std::size_t sector) const;
 
 private:
@@ -50,7 +50,7 @@ class FixedShadows
 {
 public:
   void Place(const SensorWorld& world, const Vector3& source);
-  // Whether one of them hides the source from a point of `robot`, which is `length` m away in the xy plane.
+  // Returns whether one of them hides the source from a point of `robot`, which is `length` m away in the xy plane.
   bool Hide(const SensorWorld& world, std::uint32_t robot, const Vector3& point, std::size_t sector,
             float length) const;
   const Sectors& Directions() const { return sectors_; }

@@ -151,7 +151,7 @@ void SightLines::CollectBodies()
               are_origins_ && discs == &near_);
 }
 
-// Whether an upright body around the eye is surely farther to one side than all points and the eye.
+// Returns whether an upright body around the eye is surely farther to one side than all points and the eye.
 bool SightLines::IsOutside(std::size_t near)
 {
   if (!has_outline_) FindOutline();

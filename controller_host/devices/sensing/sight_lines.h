@@ -23,7 +23,8 @@ public:
   // Starts a new search: an eye of `observer`, for points within `reach` m in the xy plane. The world must be
   // refreshed.
   void LookFrom(std::uint32_t observer, const Vector3& eye, double reach);
-  // The movable bodies around the eye, without the observer: entity indices, and places in the order of the grid.
+  // Returns the movable bodies around the eye, without the observer: entity indices, and places in the order of the
+  // grid.
   std::span<const std::int32_t> AroundForTest() const { return {near_.entity.data(), near_.count}; }
   std::span<const std::int32_t> PlacesAround() const { return {near_.place.data(), near_.count}; }
   // A point by its offset from the eye; `owner`: the entity that it is part of, or kNobody.
