@@ -22,7 +22,7 @@ struct CCI_ColourBlob
 class CCI_ColourBlobSensor : public CCI_SensorOf<CCI_ColourBlobSensor>
 {
 public:
-  // All blobs in view, in no particular order, valid until the next control step.
+  // Returns all blobs in view, in no particular order, valid until the next control step.
   virtual std::span<const CCI_ColourBlob> GetAllBlobs() const = 0;
 
   // Returns the nearest blob whose hue is that of `colour` (CCI_Colour::Nearest), or nullptr if no blob has it.

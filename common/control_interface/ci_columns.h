@@ -139,7 +139,7 @@ public:
     readings.push_back({{std::move(column)}, count, SizeOf(get), read});
     return *this;
   }
-  // A range with a number for each of these columns.
+  // Returns a range with a number for each of these columns.
   template <class Get>
   CCI_ColumnsOf& AddAll(std::vector<CCI_Column> columns, Get get)
   {
@@ -160,7 +160,7 @@ public:
     return *this;
   }
 
-  // The rows: the items of a range. `name`: of one of them, "blob".
+  // Returns the rows: the items of a range. `name`: of one of them, "blob".
   template <class Get, class... Gets>
   CCI_ColumnsOf& AddRows(std::string name, Get get, CCI_Field<Gets>... fields)
   {

@@ -12,8 +12,8 @@ namespace swarmanoid
 class CCI_ContactSensor : public CCI_SensorOf<CCI_ContactSensor>
 {
 public:
-  // The directions of all that touches the robot, radians, counter-clockwise from the front, -pi..pi; in no particular
-  // order, valid until the next control step.
+  // Returns the directions of all that touches the robot, radians, counter-clockwise from the front, -pi..pi; in no
+  // particular order, valid until the next control step.
   virtual std::span<const double> GetAllContacts() const = 0;
   bool IsTouched() const { return !GetAllContacts().empty(); }
 

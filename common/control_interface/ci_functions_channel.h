@@ -55,11 +55,11 @@ private:
 class CCI_InstructionSensor : public CCI_SensorOf<CCI_InstructionSensor>
 {
 public:
-  // Whether an instruction arrived in this tick; the last one stays readable.
+  // Returns whether an instruction arrived in this tick; the last one stays readable.
   virtual bool IsNew() const = 0;
-  // The last instruction; empty before the first one. Valid until the next control step.
+  // Returns the last instruction; empty before the first one. Valid until the next control step.
   virtual std::span<const std::uint8_t> GetBytes() const = 0;
-  // The same as a message; nullopt if it has another size.
+  // Returns the same as a message; nullopt if it has another size.
   template <class Message>
   std::optional<Message> Get() const
   {

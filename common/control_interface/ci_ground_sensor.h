@@ -15,7 +15,7 @@ class CCI_GroundSensor : public CCI_SensorOf<CCI_GroundSensor>
 public:
   // Brightness of the floor under each sensor, 0 (black, or a hole) to 1 (white).
   virtual std::span<const double> GetAllSensorReadings() const = 0;
-  // The colour of the floor (0xRRGGBB) under the centre of the robot; without noise.
+  // Returns the colour of the floor (0xRRGGBB) under the centre of the robot; without noise.
   virtual std::uint32_t GetFloorColour() const = 0;
 
   static void Declare(Declaration& columns)

@@ -19,7 +19,8 @@ public:
     double elevation_rad = 0;  // above the horizontal plane of the robot
   };
 
-  // The pressure of all sounds together, in the unit of Sound::loudness; 20 log10 of it are decibels. 0: silence.
+  // Returns the pressure of all sounds together, in the unit of Sound::loudness; 20 log10 of it are decibels. 0:
+  // silence.
   virtual double GetLoudness() const = 0;
   // Returns the heard sources if the implementation separates them, in no particular order. The span is valid until the
   // next control step.

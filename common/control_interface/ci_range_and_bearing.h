@@ -74,9 +74,10 @@ public:
     std::uint32_t further = 0;  // for GetFurtherBytes
   };
 
-  // All packets received in this tick, in no particular order, valid until the next control step.
+  // Returns all packets received in this tick, in no particular order, valid until the next control step.
   virtual std::span<const Packet> GetAllPackets() const = 0;
-  // The bytes of a packet behind its first NUM_BYTES: none if its sender has no longer messages. Valid as the packets.
+  // Returns the bytes of a packet behind its first NUM_BYTES: none if its sender has no longer messages. Valid as the
+  // packets.
   virtual std::span<const std::uint8_t> GetFurtherBytes(const Packet&) const { return {}; }
   // How many there are in the longest message that any robot of the experiment can send.
   virtual unsigned GetMostFurtherBytes() const { return 0; }

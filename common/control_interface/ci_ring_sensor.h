@@ -13,7 +13,7 @@ namespace swarmanoid
 class CCI_RingSensor : public CCI_SensorOf<CCI_RingSensor>
 {
 public:
-  // All readings, 0 to 1, valid until the next control step.
+  // Returns all readings, 0 to 1, valid until the next control step.
   virtual std::span<const double> GetAllSensorReadings() const = 0;
   // Returns the direction of a sensor: radians, counter-clockwise from the front. Throws std::out_of_range if the
   // sensor does not exist.

@@ -41,11 +41,11 @@ public:
   CCI_Sensor* GetSensor(const std::string& type) const;
   bool HasActuator(const std::string& type) const { return Find(actuators_, type) != nullptr; }
   bool HasSensor(const std::string& type) const { return Find(sensors_, type) != nullptr; }
-  // The labels of all that the configuration lists, in ascending order.
+  // Returns the labels of all that the configuration lists, in ascending order.
   std::vector<std::string> ActuatorTypes() const;
   std::vector<std::string> SensorTypes() const;
 
-  // The same, checked: throws CCI_DeviceError if the device is of another interface.
+  // Returns the same, checked: throws CCI_DeviceError if the device is of another interface.
   template <class Interface>
   Interface& Actuator(const std::string& type) const
   {
@@ -57,7 +57,7 @@ public:
     return Checked<Interface>(GetSensor(type), type);
   }
 
-  // The clock: ticks since the start, and seconds of one tick and since the start.
+  // Returns the clock: ticks since the start, and seconds of one tick and since the start.
   std::uint64_t GetTick() const { return tick_; }
   double GetTickSeconds() const { return tick_seconds_; }
   double GetTime() const { return static_cast<double>(tick_) * tick_seconds_; }
@@ -103,7 +103,7 @@ private:
   template <class Device>
   using Devices = std::vector<std::pair<const std::string*, Device*>>;
 
-  // A text that all robots of a process share.
+  // Returns a text that all robots of a process share.
   static const std::string* Shared(const std::string& text);
   template <class Device>
   static void Add(Devices<Device>& devices, const std::string& type, Device* device);

@@ -16,7 +16,7 @@ public:
   virtual const std::string& GetStateName() const = 0;
 };
 
-// Empty for nullptr and for a machine that has not started.
+// Returns an empty result for nullptr and for a machine that has not started.
 inline std::string StateNameOf(const CCI_StateMachine* machine)
 {
   return machine != nullptr && machine->HasStarted() ? machine->GetStateName() : std::string();

@@ -49,7 +49,7 @@ ControllerChannels ChannelsOf(const ControllerConfiguration& controller)
 
 using ChannelMap = std::map<std::string, int> ControllerChannels::*;
 
-// The blocks of one message: channels in order of their names, robots ascending. `robots` must be ascending.
+// Returns the blocks of one message: channels in order of their names, robots ascending. `robots` must be ascending.
 std::vector<ChannelBlock> MakeBlocks(const std::vector<std::uint32_t>& robots,
                                      const std::vector<const ControllerChannels*>& channels_of, ChannelMap member,
                                      std::size_t& size)

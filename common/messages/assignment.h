@@ -18,7 +18,8 @@ struct HostTable
   std::uint32_t hosts = 1;
   std::vector<std::uint32_t> of_robots;  // of each entity with a controller, in their order
   bool operator==(const HostTable&) const = default;
-  // Whether all robots are of hosts that there are, and there are not more of these than of robots, but one at least.
+  // Returns whether all robots are of hosts that there are, and there are not more of these than of robots, but one at
+  // least.
   bool IsSound() const;
 };
 

@@ -23,7 +23,7 @@ private:
   AttributeChanges ordered_;
 };
 
-// Whether slots ascend, each with a value.
+// Returns whether slots ascend, each with a value.
 bool IsOrdered(const AttributeChanges& changes);
 
 // Adds the values of `slots` (ascending) that differ from those of the space (`known`, all slots). A slot that has a

@@ -99,7 +99,7 @@ std::string FormOf(const ControlVerb& verb);
 // Throws std::invalid_argument, which says the form.
 ControlOrder ParseOrder(const ControlVerb& verb, const std::map<std::string, std::string>& named,
                         const std::vector<std::string>& words);
-// The other way round: a text that ParseOrder reads as the same value.
+// Does the reverse: returns a text that ParseOrder reads as the same value.
 std::string TextOf(const ControlParameter& parameter, const ControlValue& value);
 // "move fb_0 1 2 0", for people.
 std::string TextOf(const ControlOrder& order);
@@ -111,12 +111,12 @@ struct OrderColumns
   std::string numbers;
 };
 OrderColumns ColumnsOf(const ControlOrder& order);
-// The other way round. Throws std::invalid_argument.
+// Does the reverse. Throws std::invalid_argument.
 ControlOrder OrderOf(const ControlVerb& verb, const OrderColumns& columns);
 
 // A line for each verb that `asker` may use: "  FORM    help".
 std::string ControlVerbHelp(Asker asker);
-// The same as a table in Markdown, for docs/command.md.
+// Returns the same as a table in Markdown, for docs/command.md.
 std::string ControlVerbTable(Asker asker);
 
 }  // namespace swarmanoid

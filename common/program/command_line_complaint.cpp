@@ -16,7 +16,7 @@ namespace swarmanoid
 namespace
 {
 
-// The first required option without a value.
+// Returns the first required option without a value.
 const CLI::Option* MissingOption(const CLI::App& command)
 {
   for (const CLI::Option* option : command.get_options())

@@ -14,9 +14,9 @@ namespace swarmanoid
 // In the order of the slots.
 std::span<const AttributeSpec> AttributesOf(EntityKind kind);
 int AttributeCount(EntityKind kind);
-// The attribute of that name; nullptr if the kind has none.
+// Returns the attribute of that name; nullptr if the kind has none.
 const AttributeSpec* FindAttribute(EntityKind kind, std::string_view name);
-// The first slot of an attribute within its entity, or -1.
+// Returns the first slot of an attribute within its entity, or -1.
 int AttributeOffset(EntityKind kind, std::string_view name);
 
 }  // namespace swarmanoid

@@ -38,7 +38,7 @@ private:
 // Works as SegmentHit of common/space/shape.h, for the first hit of the bodies of an entity at a pose.
 std::optional<double> SegmentHit(std::span<const CollisionBody> bodies, const Pose& pose, const Vector3& from,
                                  const Vector3& to);
-// How far a body reaches from the origin of its entity at most, m.
+// Returns how far a body reaches from the origin of its entity at most, m.
 double ReachOf(const CollisionBody& body);
 
 }  // namespace swarmanoid

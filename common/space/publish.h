@@ -32,7 +32,7 @@ public:
   PublishedNumbers(const PublishedNumbers&) = delete;
   PublishedNumbers& operator=(const PublishedNumbers&) = delete;
 
-  // The last one of each name.
+  // Returns the last one of each name.
   const std::map<std::string, double, std::less<>>& Values() const { return values_; }
 
 private:

@@ -33,7 +33,7 @@ public:
 
   // Entities within a distance (m) of a point, ascending by index.
   const std::vector<std::uint32_t>& FindWithin(const Vector3& point, double distance);
-  // The same about an entity, without itself.
+  // Returns the same about an entity, without itself.
   const std::vector<std::uint32_t>& FindWithin(const CSwarmanoidSpaceEntity& entity, double distance);
   const std::vector<std::uint32_t>& FindInBox(const Vector3& low, const Vector3& high);
   // Return the nearest entity within a distance (m), or nullptr.
@@ -50,8 +50,8 @@ public:
   // transparent. Bodies are those of CollisionModels.
   std::optional<Hit> FindFirstHit(const Vector3& from, const Vector3& to, std::uint32_t observer,
                                   std::span<const std::uint32_t> ignored = {});
-  // Whether one entity's point is hidden from another's: anything between but the two themselves that shares an engine
-  // with either, or never moves and is in no engine: as cameras see it.
+  // Returns whether one entity's point is hidden from another's: anything between but the two themselves that shares an
+  // engine with either, or never moves and is in no engine: as cameras see it.
   bool IsOccluded(const Vector3& from, const Vector3& to, std::uint32_t observer, std::uint32_t target);
 
   // One bit for each engine that an entity is bound to.

@@ -62,7 +62,7 @@ public:
   std::uint32_t PresenceSlot(std::size_t index) const { return first_presence_ + static_cast<std::uint32_t>(index); }
   // Returns the grips between entities, from the attributes "gripped".
   const StructuralTree& Structure() const { return structure_; }
-  // The slots of the attribute "gripped" of an entity, one for each of its grippers.
+  // Returns the slots of the attribute "gripped" of an entity, one for each of its grippers.
   std::uint32_t FirstHandSlot(std::size_t index) const;
   std::span<const double> Hands(std::size_t index) const;
   // Indices of the entities that can move, ascending.

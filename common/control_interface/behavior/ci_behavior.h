@@ -31,7 +31,7 @@ public:
   // Save and load the state between ticks, with that of sub-behaviours. Only runs with checkpoints need them.
   virtual void SaveState(std::ostream&) const {}
   virtual void LoadState(std::istream&) {}
-  // A few words for visualisers, such as the current state.
+  // Returns a few words for visualisers, such as the current state.
   virtual std::string StatusText() const { return name_; }
   // Returns the current state of a behaviour that is a state machine. A combiner may return that of the active
   // behaviour.

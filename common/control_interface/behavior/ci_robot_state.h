@@ -24,7 +24,7 @@ public:
     pending_ = true;
   }
   const T& Get() const { return value_; }
-  // True if it was set since the last write; for combiners that ask which of two copies wanted something.
+  // Returns true if it was set since the last write; for combiners that ask which of two copies wanted something.
   bool IsPending() const { return pending_; }
   // Hands the value to `write` if it is pending.
   template <class Write>
@@ -51,7 +51,7 @@ public:
   std::uint64_t GetTick() const { return robot_->GetTick(); }
   double GetTickSeconds() const { return robot_->GetTickSeconds(); }
   double GetTime() const { return robot_->GetTime(); }
-  // The random numbers of the robot in this tick; shared by all copies, drawn in the order of the calls.
+  // Returns the random numbers of the robot in this tick; shared by all copies, drawn in the order of the calls.
   RandomStream& GetRandom() { return robot_->GetRandom(); }
 
   // Range and bearing, of all robots. Throws CCI_DeviceError if the controller does not list it.

@@ -68,7 +68,7 @@ public:
   FSM(const FSM&) = delete;
   FSM& operator=(const FSM&) = delete;
 
-  // The id and name of the current state. Throws std::logic_error before setStartState.
+  // Returns the id and name of the current state. Throws std::logic_error before setStartState.
   unsigned int GetStateID() const { return Current().GetID(); }
   const std::string& GetStateName() const override { return Current().GetName(); }
   bool HasStarted() const override { return current_ != nullptr; }

@@ -47,12 +47,12 @@ public:
   virtual const char* Name() const = 0;
 
 protected:
-  // A first guess at the distance between neighbours, where the search for the nearest starts.
+  // Returns a first guess at the distance between neighbours, where the search for the nearest starts.
   virtual double Spacing() const = 0;
   virtual const PointArrays& Points() const = 0;
 };
 
-// The index for an arena: as <arena optimization> says; 3D takes the oct-tree if a layered grid would be mostly
+// Returns the index for an arena: as <arena optimization> says; 3D takes the oct-tree if a layered grid would be mostly
 // empty.
 std::unique_ptr<PositionalIndex> MakePositionalIndex(SpaceOptimization optimization, const Vector3& arena_size,
                                                      std::size_t expected_points);

@@ -10,8 +10,8 @@
 namespace swarmanoid
 {
 
-// A .bt (occupied or free) or .ot (probabilities) file. Throws std::runtime_error naming a file that is not there, has
-// another ending, is none or is cut short.
+// Reads a .bt (occupied or free) or .ot (probabilities) file. Throws std::runtime_error, which names the file, if it
+// does not exist, has another ending, is no such map or is incomplete.
 std::unique_ptr<octomap::OcTree> ReadOctoMap(const std::string& path);
 
 // Writes a map as .bt. Throws std::runtime_error if the file cannot be written.

@@ -37,8 +37,8 @@ public:
   virtual bool IsSolid(const Vector3& point) const = 0;
   // Returns the height (m) of the highest solid surface at or below a point, or nullopt if no surface is there.
   virtual std::optional<double> GroundBelow(const Vector3& point) const = 0;
-  // The fraction 0..1 of the way at which a segment enters something solid; 0 if it starts inside, nullopt if it
-  // never does.
+  // Returns the fraction 0..1 of the way at which a segment enters something solid; 0 if it starts inside, nullopt if
+  // it never does.
   virtual std::optional<double> SegmentHit(const Vector3& from, const Vector3& to) const = 0;
   // Returns the solid area at a height as few rectangles: the walls that a 2D engine at this height sees.
   virtual std::vector<TerrainRectangle> Section(double height) const = 0;
@@ -117,7 +117,7 @@ private:
   double lowest_ = 0, highest_ = 0;
 };
 
-// The terrain of an entity of kind kTerrain. Each file is read once in a process. Throws ConfigurationError.
+// Returns the terrain of an entity of kind kTerrain. Each file is read once in a process. Throws ConfigurationError.
 std::shared_ptr<const Terrain> LoadTerrain(const EntityConfiguration& configuration,
                                            const std::string& experiment_folder);
 
