@@ -19,7 +19,7 @@ namespace swarmanoid::python
 namespace
 {
 
-// A copy that cannot be written.
+// Returns a copy that cannot be written.
 template <class Numbers>
 py::array Frozen(const Numbers& values)
 {

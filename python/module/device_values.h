@@ -10,7 +10,7 @@
 namespace swarmanoid::python
 {
 
-// The devices of a robot, by type.
+// Returns the devices of a robot, by type.
 std::map<std::string, CCI_Sensor*> SensorsOf(const CCI_Robot& robot);
 std::map<std::string, CCI_Actuator*> ActuatorsOf(const CCI_Robot& robot);
 
@@ -24,7 +24,7 @@ public:
   SensorReader() = default;
   SensorReader(std::string type, const CCI_Sensor& sensor);
 
-  // The names of its columns; empty: it has none.
+  // Returns the names of its columns; empty: it has none.
   const std::vector<std::string>& Columns() const { return columns_; }
   const std::vector<std::string>& Rows() const { return rows_; }
   // The readings in place of `values`: a number for each column, or row after row. Throws std::runtime_error if the
