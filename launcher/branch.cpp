@@ -191,7 +191,7 @@ Branch::Branch(const RunSettings& settings, const Experiment& experiment) : requ
   std::ifstream(scratch_.Path() + "/found") >> hash_ >> first_tick_;
 }
 
-// In the child.
+// Computes the state in the child process.
 void Branch::Compute(const RunSettings& settings, const Experiment& experiment)
 {
   ApplyLimitsHere(settings);

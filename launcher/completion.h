@@ -16,9 +16,9 @@ namespace swarmanoid
 
 inline constexpr const char* kCompleteFlag = "--complete";
 
-// The words after `swarmanoid`, of which the last, possibly empty, is being typed. A line for each candidate that
-// begins like it, with a tab and its meaning if there is one. The line ":files .xml" stands for files with that ending,
-// and folders; ":files" for all files.
+// Takes the words after `swarmanoid`; the last one, possibly empty, is being typed. Returns a line for each candidate
+// that begins like it, with a tab and its meaning if it has one. The line ":files .xml" means files with that ending,
+// and folders; ":files" means all files.
 std::vector<std::string> Completions(const CLI::App& app, const std::vector<std::string>& words);
 
 }  // namespace swarmanoid

@@ -19,13 +19,13 @@ std::string PluginName(const PluginDescription& plugin);
 // Returns several lines: a description, and a line for each parameter.
 std::string PluginDetails(PluginKind kind, const PluginDescription& plugin);
 
-// For programs. A line for each plug-in and one for each of its parameters, fields separated by tabs: kind, label,
-// implementation, parameter (empty for the plug-in itself), type, unit, default, least, largest, choices, text;
-// "required" stands for the default of a parameter that has none.
+// Returns text for programs: a line for each plug-in and one for each of its parameters, with fields separated by tabs.
+// The fields are kind, label, implementation, parameter (empty for the plug-in itself), type, unit, default, least,
+// largest, choices, text. The default is "required" for a parameter that has none.
 std::string PluginRows(PluginKind kind, const PluginDescription& plugin);
 
-// For programs. A line for each value that --set may change in an experiment: PATH=VALUE with the present value, what
-// is allowed, and what it means, separated by tabs. Without the arena.
+// Returns text for programs: a line for each value that --set may change in an experiment, without the arena. It has
+// PATH=VALUE with the present value, the allowed values, and the meaning, separated by tabs.
 std::string SettingRows(const Experiment& experiment);
 
 // Returns the same as objects.

@@ -1,4 +1,4 @@
-// Files made from templates, in which @name@, @class@ and the like stand for the names that a user chose.
+// Files made from templates, in which @name@, @class@ and similar marks are replaced by the names that a user chose.
 #pragma once
 
 #include <filesystem>

@@ -45,7 +45,7 @@ void Complain(const ClusterOutcome& outcome)
 
 RunResult ResultOf(const ClusterOutcome& outcome)
 {
-  // In the order of ClusterOutcome::Kind.
+  // The codes are in the order of ClusterOutcome::Kind.
   constexpr std::array kCodes{kExitDone, kExitExperimentFailed, kExitInterrupted, kExitProcessFailed, kExitInvalidFile};
   RunResult result{.exit_code = kCodes[outcome.kind], .summary = {}, .failure = outcome.reason};
   if (!outcome.finished) return result;
