@@ -13,7 +13,7 @@
 namespace swarmanoid
 {
 
-// Tells a robot something: its next control step has it. Throws std::invalid_argument for an unknown id, and for an
+// Sends a robot an instruction for its next control step. Throws std::invalid_argument for an unknown id, and for an
 // entity that takes no instructions.
 template <class Message>
 void Instruct(SpaceEditor& space, std::string_view robot, const Message& message)

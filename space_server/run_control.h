@@ -46,7 +46,7 @@ class RunControl
 {
 public:
   using Clock = std::chrono::steady_clock;
-  // Called with what came of a request, by the thread that paces the run.
+  // Called with the result of a request, by the thread that paces the run.
   using Answer =
       std::function<void(const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)>;
 
@@ -75,7 +75,7 @@ public:
   void Start(std::uint64_t tick, Clock::time_point now);
   // Returns true if the run must hold before the next state is sent, because of pending requests or a limited pace.
   bool WantsHold() const;
-  // Carries out what was asked; the server is between two ticks. Throws ConfigurationError if an event of an earlier
+  // Carries out the requests while the server is between two ticks. Throws ConfigurationError if an event of an earlier
   // run cannot be repeated.
   void Work(SpaceServer& server);
   Decision Decide(std::uint64_t tick, Clock::time_point now);

@@ -15,13 +15,14 @@
 namespace swarmanoid
 {
 
-// All of these throw std::invalid_argument that names the entity and what is wrong.
+// All functions below throw std::invalid_argument that names the entity and the mistake.
 
-// An entity that can move and is in the arena.
+// Returns an entity that can move and is in the arena.
 const CSwarmanoidSpaceEntity& FindToMove(const CSwarmanoidSpace& space, std::string_view id);
-// An entity that can come, and is not in the arena: the one of that id, or the next one of the <reserve> of that id.
+// Returns an entity that can be added and is not in the arena: the one of that id, or the next one of the <reserve> of
+// that id.
 const CSwarmanoidSpaceEntity& FindToAdd(const CSwarmanoidSpace& space, std::string_view id);
-// An entity that can go, and is in the arena.
+// Returns an entity that can be removed and is in the arena.
 const CSwarmanoidSpaceEntity& FindToRemove(const CSwarmanoidSpace& space, std::string_view id);
 
 // Returns an entity in the arena whose body would overlap the entity's body at this pose, with one engine having both.

@@ -138,7 +138,7 @@ void SpaceServer::Advance(std::span<const EngineUpdate* const> updates,
   editor_.BeginStep({program_random_, space_.StreamTick()});
 }
 
-// In the order of the entities, whichever their hosts.
+// Faults are reported in the order of the entities, for any assignment to hosts.
 void SpaceServer::TellFaults(std::span<const ControlCommands* const> commands) const
 {
   // The commands come from the control steps of this earlier tick.

@@ -49,7 +49,7 @@ public:
   // Sends the reply to a request to all observers. Any thread may call it.
   void Replied(const ControlReplyMessage& reply);
 
-  // Opens, answers and ends what is due.
+  // Opens, answers and ends grants as far as that is due.
   void Work(std::uint64_t tick);
   unsigned ViewReaders() const;
   unsigned StatusReaders() const;

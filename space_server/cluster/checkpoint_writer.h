@@ -37,7 +37,7 @@ public:
   bool Sending(const SpaceServer& server);
   // Returns whether all save their states before they step at the tick.
   bool IsWanted(std::uint64_t tick) const;
-  // Main thread: writes what is complete. Throws std::runtime_error.
+  // Writes the complete checkpoints, in the main thread. Throws std::runtime_error.
   void Work();
   // Returns the ticks of checkpoints that lack the part of a process other than the server.
   std::vector<std::uint64_t> Incomplete() const;
