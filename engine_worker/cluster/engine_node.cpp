@@ -87,7 +87,7 @@ public:
         });
   }
 
-  // After the last tick.
+  // Called after the last tick.
   void Finish()
   {
     saved_.Flush();

@@ -30,7 +30,7 @@ public:
   void BeginAgain() override;
   std::string StatusText() const override;
 
-  // For tests: gives an owned entity a velocity in the plane.
+  // Gives an owned entity a velocity in the plane, for tests.
   void SetVelocity(std::uint32_t entity, const dynamics2d::PlaneVelocity& velocity);
 
 private:

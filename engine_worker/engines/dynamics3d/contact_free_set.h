@@ -34,7 +34,7 @@ public:
   void AfterStep();
   void EndTick();
 
-  // In the last step.
+  // Returns the number of free robots in the last step.
   std::size_t Count() const;
 
 private:

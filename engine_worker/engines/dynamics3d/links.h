@@ -25,7 +25,7 @@ struct LinkSpec
   int body_b = -1;  // -1: the world
   std::uint32_t entity_a = kNoEntity;
   std::uint32_t entity_b = kNoEntity;
-  // At the time of creation, in the frame of the engine.
+  // Values at the time of creation, in the frame of the engine.
   double anchor[3] = {0, 0, 0};
   double axis[3] = {0, 0, 1};
   double other[3] = {0, 0, 0};
