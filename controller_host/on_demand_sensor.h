@@ -32,7 +32,7 @@ public:
       return Make(k);
     robot.store(static_cast<std::uint8_t>(bits | asked_), std::memory_order_relaxed);
   }
-  // After the control steps of a tick.
+  // Must be called after the control steps of a tick.
   void EndSteps();
 
 protected:

@@ -28,7 +28,8 @@ public:
   RandomStream Of(std::size_t k, std::uint64_t whom) const;
   // Fills `samples` with the results of successive calls of noise.Sample with Of(k), several at a time.
   void Sample(const NoiseModel& noise, std::size_t k, std::span<double> samples) const;
-  // The same for several robots, as many for each, one robot behind the other: faster than one robot after the other.
+  // Does the same for several robots, with equal counts and one robot after the other in `samples`. It is faster than
+  // calls for single robots.
   void Sample(const NoiseModel& noise, std::span<const std::uint32_t> ks, std::span<double> samples) const;
   // Fills `samples` with one result of noise.Sample with Of(k, whom) for each of `whoms`.
   void Sample(const NoiseModel& noise, std::size_t k, std::span<const std::uint64_t> whoms,

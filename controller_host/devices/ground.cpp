@@ -159,7 +159,7 @@ private:
     std::fill_n(values, points_.size(), Brightness(floor_colour_));
     values[points_.size()] = floor_colour_;
     if (!world_->Terrain().IsEmpty() && !IsOnPlane(robots_[k])) SenseTerrain(robots_[k], pose, values);
-    // In the order of the experiment file.
+    // The patches are in the order of the experiment file.
     for (const std::uint32_t p : patches_in_.In(cells_.CellOf(pose.position.x(), pose.position.y())))
     {
       const FloorPatch& patch = patches_[p];

@@ -123,7 +123,7 @@ private:
     return true;
   }
 
-  // In the frame of the robot, 1 m along the axis.
+  // Makes the rays in the frame of the robot, with a length of 1 m along the axis.
   void MakeRays(unsigned width, unsigned height, double field_of_view, const SinCos& pan, const SinCos& tilt)
   {
     const Vector3 axis(tilt.cos * pan.cos, tilt.cos * pan.sin, tilt.sin);

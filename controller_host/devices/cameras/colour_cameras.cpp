@@ -29,7 +29,7 @@ struct FootbotPerspectiveCamera
 {
   using Interface = CCI_FootBotPerspectiveCameraSensor;
   static constexpr const char* kLabel = "footbot_perspective_camera";
-  // In the rim, as high as the beacon: ARGoS3, foot-bot.
+  // The camera is in the rim, as high as the beacon (ARGoS3, foot-bot).
   static CameraModel Model() { return {CameraModel::View::kAhead, {0.085036758, 0, 0.174}, 0, 0}; }
 };
 struct EyebotCamera

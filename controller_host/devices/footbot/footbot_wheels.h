@@ -46,7 +46,7 @@ protected:
     // NaN passes through, since the host reports it with the robot's name.
     return std::clamp(velocity, -limit_, limit_);
   }
-  // To each wheel that moves.
+  // Adds noise to each wheel that moves.
   void AddNoise(const ChannelView& channel) const;
 
   double limit_ = 0;  // rad/s

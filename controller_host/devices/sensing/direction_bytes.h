@@ -36,7 +36,7 @@ struct DirectionBytes
   // direction 2 ... width - 2 steps after `first` surely meets the cylinder. 255 means unknown.
   std::vector<std::int32_t> middles;
 
-  // Both in steps a metre.
+  // Sets the bytes of the cylinders. Distances are in steps, with `steps_per_m` steps per metre.
   void Read(const NearBodies& discs, float steps_per_m, bool with_middles);
 };
 

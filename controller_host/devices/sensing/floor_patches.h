@@ -30,7 +30,7 @@ struct FloorPatch
     if (is_disc) return x * x + y * y <= half_x * half_x;
     return __builtin_fabs(x) <= half_x && __builtin_fabs(y) <= half_y;
   }
-  // At a point of it.
+  // Returns the colour at a point of the patch.
   std::uint32_t Colour(std::uint32_t tint, double x, double y) const
   {
     if (picture == nullptr) return tint;
