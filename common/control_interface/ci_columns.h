@@ -148,7 +148,7 @@ public:
     readings.push_back({std::move(columns), 1, {}, read});
     return *this;
   }
-  // The fields of each item of a range, which has as many items at every tick.
+  // Adds the fields of each item of a range, which must have the same number of items at every tick.
   template <class Get, class... Gets>
   CCI_ColumnsOf& AddEach(Get get, CCI_Field<Gets>... fields)
   {

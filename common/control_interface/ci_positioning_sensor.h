@@ -10,7 +10,7 @@ namespace swarmanoid
 class CCI_PositioningSensor : public CCI_SensorOf<CCI_PositioningSensor>
 {
 public:
-  // In the space, m: of the base of the robot.
+  // Returns the position of the robot's base in the space, m.
   virtual Vector3 GetPosition() const = 0;
   // Returns the rotation from the frame of the robot to that of the space, as a unit quaternion.
   virtual Quaternion GetOrientation() const = 0;

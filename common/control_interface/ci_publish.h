@@ -33,7 +33,7 @@ struct CCI_PublishedNumber
   double value;
 };
 
-// In a report: 16 bits of the name, and the number.
+// An entry of a report: 16 bits of the name, and the number.
 inline constexpr std::size_t kPublishedBytes = sizeof(std::uint16_t) + sizeof(double);
 inline constexpr std::size_t kMostPublished = kMaxMessageBytes / kPublishedBytes;
 

@@ -120,7 +120,7 @@ private:
     random_ = {control_step_key_, random_tick_};
     has_random_ = true;
   }
-  // To standard error: without a runtime that has a log.
+  // Writes to standard error, for robots without a runtime that has a log.
   static void WriteLog(const CCI_Robot& robot, std::string_view text);
 
   template <class Interface, class Device>

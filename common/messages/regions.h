@@ -49,7 +49,7 @@ public:
 
   virtual ~RegionTeam() = default;
   virtual unsigned RegionCount() const = 0;
-  // Until then the engine does all by itself.
+  // Returns false while the engine must do all work by itself.
   virtual bool IsReady() const = 0;
   // Passes a task to all regions and fills in the results. `write` is called once, and again with `anew` whenever a
   // process has replaced a region. If `anew` is true, the first call has it too. Throws std::runtime_error with the

@@ -110,7 +110,7 @@ std::string MemoryLimitMistake(const std::string& text)
   return SizeMistake(text);
 }
 
-// 0 stands for the default; what lies between is refused here, before a process refuses it.
+// 0 means the default. Values between 0 and the limit are refused here, before a process refuses them.
 std::string LeaseMistake(const std::string& text)
 {
   const double lease_s = ParseNumber(text).value_or(0);

@@ -11,7 +11,7 @@
 namespace swarmanoid
 {
 
-// In the order of the slots.
+// Returns the attributes in the order of the slots.
 std::span<const AttributeSpec> AttributesOf(EntityKind kind);
 int AttributeCount(EntityKind kind);
 // Returns the attribute of that name; nullptr if the kind has none.

@@ -7,7 +7,8 @@
 namespace swarmanoid
 {
 
-// Bytes of a message of this robot: CCI_RangeAndBearingActuator::NUM_BYTES, or as many as its actuator says.
+// Returns the bytes of a message of this robot: CCI_RangeAndBearingActuator::NUM_BYTES, or the number given for its
+// actuator.
 int MessageBytes(const Experiment& experiment, const EntityConfiguration& robot);
 // Returns the number of further slots, 0 if the messages of the entity fit.
 int FurtherMessageSlots(const Experiment& experiment, const EntityConfiguration& entity);

@@ -30,8 +30,8 @@ inline constexpr double kNormTolerance = 1e-6;
 
 bool AllFinite(std::span<const double> values);
 
-// Throw StateError. Poses are structures of arrays over `entities`, as in EngineUpdate.
-// As many numbers as there should be, all finite, orientations of norm 1.
+// The checks throw StateError. Poses are structures of arrays over `entities`, as in EngineUpdate. CheckPoses requires
+// the right count of numbers, all finite, and orientations of norm 1.
 void CheckPoses(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities, std::span<const double> poses);
 // Returns the entities that are present but farther outside the arena than Experiment::limit_m, as indices into
 // `entities`.
@@ -57,7 +57,7 @@ void CheckIsNoHold(const CSwarmanoidSpace& space, std::uint32_t slot);
 // The entity that has a slot.
 std::uint32_t EntityOfSlot(const CSwarmanoidSpace& space, std::uint32_t slot);
 
-// A state that was saved: as many numbers as the space has, each as it must be. Throws StateError.
+// Checks a saved state: the count of numbers must be that of the space, and each must be valid. Throws StateError.
 void CheckSnapshot(const CSwarmanoidSpace& space, const SpaceSnapshot& snapshot);
 
 // Checks that all values of the channels are finite. `what` names them in messages: "commands" or "readings".
