@@ -50,8 +50,7 @@ bool IsStuck(const std::optional<ProcessEnd>& ended);
 // Returns true if a process has died without a report of a mistake, so that a process that replaces it may get further.
 // `elsewhere` means that it was started on another machine.
 bool MayBeReplaced(const ProcessEnd& ended, const ActivityRecord& record, bool elsewhere);
-// Returns true if a signal from outside ended the process, or the connection to it was cut. Its own code is then not
-// the cause.
+// Returns true if SIGKILL ended the process, or its connection by ssh failed. Its own code is then not the cause.
 bool WasKilled(const ProcessEnd& ended, bool elsewhere);
 // Returns true if both died in the same step of the same code. A process that replaces them will die there too.
 bool DiedAlike(const ActivityRecord& a, const ActivityRecord& b);
