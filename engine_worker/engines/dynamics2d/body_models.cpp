@@ -135,8 +135,8 @@ BodyModel MovableModel(const CSwarmanoidSpaceEntity& entity, EMotion motion, con
   else
   {
     if (size.x() < kSmallest_m || size.y() < kSmallest_m || size.z() < kSmallest_m) TooSmall(entity);
-    // A block may lean in mid-run, when an engine is made again. Blocks that the engine moves keep the outline of the
-    // start.
+    // An engine that is made again in mid-run finds blocks at other poses. Blocks that the engine moves keep the
+    // outline of the start.
     if (motion == EMotion::kDynamic && is_free_box)
       model.polygon = CutOf(entity, entity.GetConfiguration().pose, plane);
     else

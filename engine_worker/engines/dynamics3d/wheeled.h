@@ -75,7 +75,7 @@ private:
   double radius_;
   double height_;
   double largest_free_rate_;  // rad/s, of the wheels of a free robot
-  bool brakes_freely_;        // at full torque; if false, only a robot that keeps its speed is free
+  bool brakes_freely_;        // its wheels stay down at full braking; if false, only a steady robot is free
   DifferentialDrive drive_;
   dJointID axles_[2] = {nullptr, nullptr};        // left, right
   std::array<double, 2> wheel_command_ = {0, 0};  // rad/s
