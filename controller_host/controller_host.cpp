@@ -106,7 +106,7 @@ ChannelSlice SliceOf(const std::vector<ChannelBlock>& blocks, const std::string&
   return slice;
 }
 
-// In how many parts a sensor of so many robots is split: each costs a little by itself.
+// Returns the number of parts into which a sensor of `robots` is split. Each part has a small cost of its own.
 std::size_t PartsOf(std::size_t robots, unsigned threads)
 {
   constexpr std::size_t kLeast = 400;  // robots of a part
@@ -118,7 +118,7 @@ constexpr std::uint32_t kMostRestarts = 3;
 constexpr std::uint64_t kRestartMemory = 100;
 constexpr std::size_t kLongestFault = 200;  // bytes of the text of an exception that the run is told
 
-// What shows, or is heard, of a robot. Others, such as angles, stay.
+// The attributes of a robot that others can see or hear. They become 0; other attributes, such as angles, stay.
 constexpr std::string_view kSilenced[] = {"led", "beacon", "laser", "message", "radio", "report"};
 
 double ThreadMilliseconds()
@@ -236,7 +236,7 @@ ControllerHost::~ControllerHost()
   }
   catch (const std::exception&)
   {
-    // Already reported by whoever called Destroy first, or the run has failed before.
+    // The caller of Destroy has reported the first error already, or the run has failed before.
   }
 }
 
@@ -360,7 +360,7 @@ void ControllerHost::Destroy()
   for (Robot& robot : robots_)
   {
     if (robot.controller == nullptr || robot.IsStopped()) continue;
-    // Of the last control step: whether the last state still reaches a host depends on how it is started.
+    // The tick is that of the last control step, because the last state may not reach a host.
     const std::uint64_t tick = stepped_tick_;
     robot.interface->BeginStep(
         tick, space_.GetTickSeconds(),
@@ -376,7 +376,7 @@ void ControllerHost::Sense(std::span<const SensorFrame* const> frames)
   const std::uint64_t tick = space_.GetTick();
   if (sensed_tick_ == tick) return;
   sensed_tick_ = tick;
-  // What the engines sensed.
+  // Copies the values that the engines sensed.
   if (!frames.empty())
     for (const ValueCopy& copy : layout_.sensor_copies)
     {
@@ -475,7 +475,7 @@ void ControllerHost::CommitActuators()
                 actuator.batch->Commit({commands_.values, actuator.slice.offsets, actuator.slice.width},
                                        commands_.attributes);
               });
-    // Nobody would hear them: commands of channels go to the engines alone.
+    // Commands of channels go to the engines only, so the server would miss these attributes.
     if (actuator.slice.width > 0 && commands_.attributes.slots.size() > first)
       throw ControllerError("actuator '" + actuator.device->type + "' (" + actuator.device->implementation +
                             "): it has a channel, so it must not change attributes");
@@ -486,7 +486,7 @@ void ControllerHost::CommitActuators()
   CheckCommands();
 }
 
-// What a device has just added, from `first` on.
+// Checks the attributes that a device has just added, from `first` on.
 void ControllerHost::CheckAttributesOf(const DeviceConfiguration& device, std::span<const std::uint32_t> robots,
                                        std::size_t first) const
 {
@@ -512,7 +512,7 @@ void ControllerHost::CheckAttributesOf(const DeviceConfiguration& device, std::s
 void ControllerHost::CheckCommands()
 {
   if (AllFinite(commands_.values)) return;
-  // Devices may share a channel: the one that does it again is the one.
+  // Several devices may share a channel. The last one that sets a value has set it.
   for (Batches::Actuator& actuator : batches_->actuators)
     for (std::size_t k = 0; k < actuator.slice.offsets.size(); ++k)
       for (int i = 0; i < actuator.slice.width; ++i)
@@ -537,7 +537,7 @@ void ControllerHost::FailCommand(std::uint32_t robot, const DeviceConfiguration&
                         std::to_string(stepped_tick_) + "; commands must be finite numbers");
 }
 
-// Those that may step in parallel come first, however many threads there are, and those with a guard last.
+// Controllers that may step in parallel come first, with any number of threads, and controllers with a guard come last.
 void ControllerHost::RunControllers(std::uint64_t tick)
 {
   if (IfItShares(batches_->pool) != nullptr && parallel_.size() > 1)
@@ -639,7 +639,7 @@ void ControllerHost::TryStep(Robot& robot, std::uint64_t tick)
     thrown = CurrentExceptionText();
   }
   SetCureOfStep("");
-  // A process that died in this step has told the devices nothing. An exception must leave the same.
+  // After an exception, devices must be as before the step, since a replaced process would not have run it either.
   if (thrown && is_restarted) LoadDevices(robot);
   if (thrown) return TakeFault(robot, FaultKind::kThrew, tick, "failed: " + *thrown, *thrown);
   if (in_time && known != FaultKind::kTooSlow) return;
@@ -825,8 +825,8 @@ std::unique_ptr<StepTimeout> WatchTimeBudgets(const Experiment& experiment, cons
                             ActivityStep::kControlStep});
 }
 
-// The next functions save and load the memory of controllers and devices, robot by robot, so that another number of
-// hosts can go on with it.
+// The next functions save and load the state of controllers and devices robot by robot, so that another number of hosts
+// can continue.
 
 // Changes of entities other than the robots belong to the first robot.
 std::vector<AttributeChanges> ControllerHost::ChangesByRobot() const

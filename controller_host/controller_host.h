@@ -29,17 +29,17 @@ public:
 class ControllerHost
 {
 public:
-  // `space` is the replica of this process; it and `assignment` outlive the host. Loads the controller libraries,
-  // creates devices and controllers and calls Init. The threads of `pool`, if there is one, share the work of the
-  // sensors, and of the controllers that say that they may (StepsInParallel); their number, at most
-  // SharedActivity::kMostThreads, changes no bit of the results. Throws ActivityError, which names the robot or device
-  // whose code failed, or ConfigurationError.
+  // Loads the controller libraries, creates devices and controllers, and calls Init. `space` is the replica of this
+  // process; it and `assignment` outlive the host. The threads of `pool`, if it is given, share the work of the sensors
+  // and of controllers that allow it (StepsInParallel). At most SharedActivity::kMostThreads take part, and their
+  // number changes no bit of the results. Throws ActivityError, which names the robot or device whose code failed, or
+  // ConfigurationError.
   ControllerHost(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t host,
                  WorkerPool* pool = nullptr);
   ~ControllerHost();
 
-  // How far in the plane an entity may be from all robots of the host without being missed by the devices, if it is
-  // left out of the space with all that is farther away, m; infinite if they may ask for any. Origins of both count.
+  // Returns the distance (m, in the plane, between origins) beyond which entities may be missing from the space without
+  // a change for the devices. It is infinite if a device may ask for any entity.
   double Reach() const;
 
   // Brings the sensors to the tick of the space. `frames`: one for each of layout.frames_from, in that order; empty at
@@ -48,35 +48,37 @@ public:
   // Senses, runs the controllers and commits the actuators. The result, the commands that act at this tick, is valid
   // until the next call.
   const ControlCommands& Tick(std::span<const SensorFrame* const> frames);
-  // Where the commands that act at a tick are found after Tick.
+  // Returns the commands that act at a tick, after its Tick.
   const ControlCommands& Commands() const { return ahead_ == 0 ? commands_ : due_; }
-  // Of the last control steps, which act framework.ahead ticks after these.
+  // Returns the commands of the last control steps, which act framework.ahead ticks later.
   const ControlCommands& NewestCommands() const { return commands_; }
-  // Where commands act a tick late: those of the tick of the space, before its Tick. Null otherwise.
+  // Returns the commands that act at the tick of the space, before its Tick, if commands act a tick late. Otherwise it
+  // returns nullptr.
   const ControlCommands* Due();
-  // What is known of ticks to come: the same controllers fail in them, those that died are not called, and before
-  // `until` no time is measured.
+  // Sets the faults recorded for ticks to come. The same controllers fail in them, controllers that died are not
+  // called, and no time is measured before `until`.
   void Know(RecordedFaults known);
   // The tick to come was done before, with these faults and no others.
   void KnowTick(std::uint64_t tick, const ControllerFaults& faults);
-  // If a controller kills this process whose on_failure says otherwise: what its user can do. A literal.
+  // Sets the advice for users if a controller kills this process although on_failure asks for something else. The text
+  // must be a literal.
   void SetCureOfDeath(const char* cure) { cure_of_death_ = cure; }
-  // What controllers and devices remember. Saving throws ActivityError if a controller cannot be saved (HasState
-  // is false).
+  // Saves the state of controllers and devices. Throws ActivityError if a controller cannot be saved (HasState is
+  // false).
   void SaveState(ByteWriter& state) const;
   void LoadState(ByteReader& state);
   // Calls Destroy of every controller, once.
   void Destroy();
 
-  // The inside of a robot after its last control step; false if it is not of this host. Changes nothing: what a
-  // controller throws here is shown instead.
+  // Fills in the inside of a robot after its last control step. Returns false if the robot is not of this host. Changes
+  // nothing: an exception of a controller is shown instead.
   bool Describe(std::uint32_t entity, RobotStatus& status) const;
 
   const HostLayout& Layout() const { return layout_; }
 
 private:
   struct Batches;
-  // Of a robot whose controller may fail, or has a time budget.
+  // The guard of a robot whose controller may fail or has a time budget.
   struct Guard
   {
     const ControllerConfiguration* configuration = nullptr;
@@ -96,7 +98,7 @@ private:
 
     bool IsStopped() const { return guard != nullptr && guard->stopped; }
   };
-  // What is commanded for robots that are stopped.
+  // The commands for robots that are stopped.
   struct Silence
   {
     std::vector<std::uint32_t> robots;                          // entities, ascending
@@ -107,21 +109,21 @@ private:
   void UpdateSensors(std::uint64_t tick);
   void UpdateParts(std::uint64_t tick);
   void RunControllers(std::uint64_t tick);
-  // The steps of some robots in their order. `activity` hears whose it is.
+  // Runs the steps of some robots in their order. `activity` is told which robot it is.
   template <class ActivityOfThread>
   void ControlSteps(std::span<const std::uint32_t> robots, std::uint64_t tick, ActivityOfThread& activity);
   void StepInTurn(std::span<const std::uint32_t> robots, std::uint64_t tick);
   void StepInParallel(std::uint64_t tick);
   void StepGuarded(std::uint64_t tick);
   void TryStep(Robot& robot, std::uint64_t tick);
-  // False if it took more than its time budget.
+  // Returns false if it took more than its time budget.
   bool StepInTime(Robot& robot, std::uint64_t tick);
   std::optional<FaultKind> Known(std::uint64_t tick, std::uint32_t robot) const;
   // `text` goes to the log of this process, and `thrown`, what an exception said, to the events of the run.
   void TakeFault(Robot& robot, FaultKind kind, std::uint64_t tick, const std::string& text, const std::string& thrown);
   // Throws ActivityError if the controller cannot begin again.
   void Restart(Robot& robot, std::uint64_t tick);
-  // What the devices of a robot remember, before its step and, if the step failed, again after it.
+  // Saves the state of a robot's devices before its step, and restores it if the step failed.
   void SaveDevices(const Robot& robot);
   void LoadDevices(const Robot& robot);
   // Calls use(batch, number of the robot in it) with each sensor and actuator of a robot.
@@ -138,7 +140,7 @@ private:
   void SaveLastStates(std::uint64_t tick);
   void DescribeController(const Robot& robot, RobotStatus& status) const;
   void CommitActuators();
-  // What no controller may command: throws ControllerError with robot, device, tick and value.
+  // Throws ControllerError with robot, device, tick and value if a command is not allowed.
   void CheckCommands();
   void CheckAttributesOf(const DeviceConfiguration& device, std::span<const std::uint32_t> robots,
                          std::size_t first) const;
@@ -148,7 +150,7 @@ private:
   const CSwarmanoidSpace& space_;
   const HostLayout& layout_;
   std::vector<Robot> robots_;
-  // Numbers in robots_: those whose controllers may step at the same time, those with a guard, and the others.
+  // Numbers in robots_: controllers that may step at the same time, the others, and those with a guard.
   std::vector<std::uint32_t> parallel_;
   std::vector<std::uint32_t> in_turn_;
   std::vector<std::uint32_t> guarded_;

@@ -26,11 +26,11 @@ namespace swarmanoid
 
 class CSwarmanoidSpace;
 
-// What a device of a type draws random numbers for; a sensor and an actuator of one type draw different ones.
+// Return the name of a device type for random numbers. A sensor and an actuator of one type have different ones.
 inline std::uint64_t SensorStream(const std::string& type) { return StreamName("sensor " + type); }
 inline std::uint64_t ActuatorStream(const std::string& type) { return StreamName("actuator " + type); }
 
-// What a batch is made from. The references outlive the batch.
+// The arguments for making a batch. The references outlive the batch.
 struct DeviceSetup
 {
   Parameters parameters;              // of the device's element
@@ -47,7 +47,7 @@ struct ChannelView
   int width = 0;
 };
 
-// Of devices that ask for the whole space.
+// The reach of devices that ask for the whole space.
 inline constexpr double kReachesEverywhere = std::numeric_limits<double>::infinity();
 
 class SensorBatch
@@ -55,18 +55,18 @@ class SensorBatch
 public:
   virtual ~SensorBatch() = default;
   virtual void Init(const DeviceSetup& setup) = 0;
-  // The object given to the controller of robot k; it lives as long as the batch.
+  // Returns the object given to the controller of robot k; it lives as long as the batch.
   virtual CCI_Sensor* Sensor(std::size_t k) = 0;
-  // Computes the readings of all robots from the space at its tick. `channel`: what the engines sent (specific
-  // sensors).
+  // Computes the readings of all robots from the space at its tick. `channel` has the values that engines sent, for
+  // specific sensors. An exception ends the run and names the device.
   virtual void Update(const ChannelView& channel) = 0;
-  // After Init: how far from the origin of a robot, in the plane, the nearest point of a body or source may be on which
-  // its readings depend, m. What is farther away may be missing from the space of the host (docs/scaling.md).
+  // Returns the distance (m, in the plane, from the origin of a robot) up to which bodies or sources can change its
+  // readings. Called after Init. Anything farther away may be missing from the space of the host (docs/scaling.md).
   virtual double Reach() const { return kReachesEverywhere; }
-  // What the device of robot k remembers between ticks, if anything.
+  // Save and load the state that the device of robot k keeps between ticks. Devices without state need neither.
   virtual void SaveState(std::size_t, ByteWriter&) const {}
   virtual void LoadState(std::size_t, ByteReader&) {}
-  // Likewise what follows from the space alone: the same for all robots, whichever hosts they are of.
+  // Save and load state that follows from the space alone, so that it is equal for all robots in all hosts.
   virtual void SaveCommon(ByteWriter&) const {}
   virtual void LoadCommon(ByteReader&) {}
 };
@@ -77,11 +77,12 @@ public:
   virtual ~ActuatorBatch() = default;
   virtual void Init(const DeviceSetup& setup) = 0;
   virtual CCI_Actuator* Actuator(std::size_t k) = 0;
-  // Turns what the controllers set into channel values (specific) or attribute changes (generic; slots ascending).
+  // Writes the values that the controllers set: into the channel (specific devices), or as attribute changes with
+  // ascending slots (generic devices).
   virtual void Commit(const ChannelView& channel, AttributeChanges& changes) = 0;
-  // As that of sensors: of what it asks of others to know its commands.
+  // Returns the distance (m, in the plane) up to which other entities can change its commands, as SensorBatch::Reach.
   virtual double Reach() const { return kReachesEverywhere; }
-  // What the device of robot k remembers between ticks, if anything.
+  // Save and load the state that the device of robot k keeps between ticks. Devices without state need neither.
   virtual void SaveState(std::size_t, ByteWriter&) const {}
   virtual void LoadState(std::size_t, ByteReader&) {}
 };
@@ -94,8 +95,7 @@ PluginRegistry<ActuatorBatch>& PluginRegistry<ActuatorBatch>::Instance();
 // Adds the devices of this folder to the registries. Idempotent.
 void RegisterBuiltinDevices();
 
-// What the objects declare that a batch gives to controllers: its Sensor or Actuator returns their class. nullptr if it
-// returns the base of all.
+// Returns the columns of the class that a batch's Sensor or Actuator returns, or nullptr if it returns the base class.
 template <class Batch>
 const CCI_Columns* ColumnsOf()
 {
@@ -112,8 +112,8 @@ const CCI_Columns* ColumnsOf()
     return columns(&Batch::Actuator);
 }
 
-// What the interface of a type of device declares, for programs that have no device: nullptr if that is not known, or
-// nothing. The registration of a batch sets it.
+// FindColumns returns the declared columns of a device type for programs without a device. It returns nullptr if they
+// are unknown or the interface declares none. The registration of a batch sets them.
 const CCI_Columns* FindColumns(PluginKind kind, const std::string& label);
 void SetColumns(PluginKind kind, const std::string& label, const CCI_Columns* columns);
 

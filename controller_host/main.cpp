@@ -26,7 +26,7 @@ int main(int count, char** arguments)
   return RunWorker(program, count, arguments, HostOptionTable,
                    [](const WorkerSettings& settings, const BusOptions& bus)
                    {
-                     // What controllers log.
+                     // This level shows the log of controllers.
                      OpenLog({.process = "controller_host", .stderr_level = LogLevel::kInfo});
                      return RunControllerHost(settings, bus);
                    });

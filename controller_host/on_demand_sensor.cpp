@@ -68,7 +68,7 @@ void OnDemandSensor::Make(std::size_t k)
   note();
 }
 
-// Between steps those that were asked for are kept.
+// Readings that were requested between steps are kept.
 void OnDemandSensor::MakeRest()
 {
   all_are_due_ = false;

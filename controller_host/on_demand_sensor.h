@@ -1,5 +1,5 @@
-// Sensors whose readings are made when a controller asks for them: one that reads the camera in some of its states
-// alone, or lists a device that it never reads, costs no more than it uses. Base of a SensorBatch besides.
+// OnDemandSensor: a sensor whose readings are computed when a controller asks for them. A controller that reads a
+// camera only in some states, or never, pays only for its use. It is a second base class of a SensorBatch.
 #pragma once
 
 #include <atomic>
@@ -12,12 +12,13 @@
 namespace swarmanoid
 {
 
-// Readings follow from the state of the space at the tick and from random numbers that are named by robot and tick, so
-// it changes no bit of them when they are made, nor who else asks. What was asked for in the last two ticks is made
-// ahead, by Update and all threads that there are; the rest when it is asked for.
+// Readings follow from the state of the space at the tick and from random numbers named by robot and tick. So the time
+// and the order of their computation change no bit. Update computes the readings that were used in the last two ticks,
+// in all threads. Others are computed on request.
 //
-// Who asks between the control steps of two ticks gets what the controller got in its step, or, if it did not ask, what
-// the space says now: what others had made ahead is forgotten, so that this depends on the controller alone.
+// A request between the control steps of two ticks gets the readings of the robot's step. If the controller did not ask
+// in its step, it gets readings of the present space. Readings that were computed ahead are dropped, so that the result
+// depends on the controller alone.
 class OnDemandSensor : public SplitSensor
 {
 public:
@@ -31,23 +32,23 @@ public:
       return Make(k);
     robot.store(static_cast<std::uint8_t>(bits | asked_), std::memory_order_relaxed);
   }
-  // After the control steps of a tick.
+  // Must be called after the control steps of a tick.
   void EndSteps();
 
 protected:
-  // Of so many robots; all are made ahead in the first tick.
+  // Prepares for `robots` robots. All readings are computed ahead in the first tick.
   void InitDemand(std::size_t robots);
-  // All that Update does: makes new what the batches share, then the readings that are due.
+  // Does the work of Update: refreshes the data that batches share, then computes the readings that are due.
   void MakeAhead();
-  // Which are to be made by MakeDue, and whether that is all of them.
+  // Return whether MakeDue must compute the readings of robot k, and whether it must compute all.
   bool IsDue(std::size_t k) const { return due_[k] != 0; }
   bool AllAreDue() const { return all_are_due_; }
 
 private:
   // Makes the readings of all robots that are due.
   virtual void MakeDue() = 0;
-  // Of one robot, when it is asked for. Whether that was done; otherwise those of all robots that have none are made:
-  // for sensors that make them together.
+  // Computes the readings of one robot on request and returns true. If it returns false, the readings of all robots
+  // without readings are computed together.
   virtual bool MakeAlone(std::size_t) { return false; }
 
   // Says which are due, and whether there are any.
@@ -55,7 +56,7 @@ private:
   void Make(std::size_t k);
   void MakeRest();
 
-  // Of what each robot has: bits.
+  // The bits of a robot's state.
   static constexpr std::uint8_t kAsked = 1;        // its controller asked in its step
   static constexpr std::uint8_t kThere = 2;        // readings of this tick
   static constexpr std::uint8_t kAskedBefore = 4;  // its controller asked in the step before
@@ -64,10 +65,10 @@ private:
   std::vector<std::uint8_t> robots_asked_;
   std::vector<std::uint8_t> due_;
   std::uint8_t there_ = 0;  // the bits, of which one says that readings need not be made now
-  std::uint8_t asked_ = 0;  // those that are set when they are asked for now
+  std::uint8_t asked_ = 0;  // the bits to set when readings are requested now
   bool in_steps_ = false;
   bool all_are_due_ = false;
-  std::mutex making_;  // what follows, and what MakeAlone uses
+  std::mutex making_;  // guards the members below and those that MakeAlone uses
   std::atomic<bool> rest_is_there_{false};
 };
 

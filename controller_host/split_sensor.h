@@ -1,5 +1,5 @@
-// Sensors whose robots several threads may share: a batch in each, for some of the robots. Base of a SensorBatch
-// besides.
+// SplitSensor: a sensor whose robots several threads may share, with one batch for the robots of each thread. It is a
+// second base class of a SensorBatch.
 #pragma once
 
 namespace swarmanoid
@@ -12,8 +12,8 @@ class SplitSensor
 {
 public:
   virtual ~SplitSensor() = default;
-  // Makes new what all batches of the process share, from the space at its tick, before their Update: in one thread, or
-  // in those of `pool`.
+  // Refreshes the data that all batches of the process share, from the space at its tick and before their Update. It
+  // runs in one thread, or in those of `pool`.
   virtual void RefreshShared(WorkerPool* pool) = 0;
 };
 

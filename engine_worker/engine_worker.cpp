@@ -121,7 +121,7 @@ void EngineWorker::ReadCommands(std::span<const ControlCommands* const> commands
   StopInactive();
 }
 
-// Robots that are not in the arena do nothing, whatever they were told last.
+// Robots outside the arena ignore their commands and do nothing.
 void EngineWorker::StopInactive()
 {
   if (space_.Absent().empty()) return;
@@ -149,7 +149,7 @@ void EngineWorker::KeepInactive()
   }
 }
 
-// The server checks again what reaches it; here the engine itself is told.
+// The server checks all results again. This check names the mistake to the engine's author earlier.
 void EngineWorker::CheckResults() const
 {
   CheckPoses(space_, layout_.owned, update_.poses);

@@ -15,10 +15,10 @@ namespace swarmanoid
 // Adds dummy_engine (kinematics2d), dynamics2d and dynamics3d to the registry. Idempotent.
 void RegisterBuiltinEngines();
 
-// The one that the configuration asks for. Throws ConfigurationError if there is none.
+// Returns the engine that the configuration asks for. Throws ConfigurationError if it is not registered.
 const PluginRegistry<CPhysicsEngine>::Entry& RegisteredEngine(const EngineConfiguration& configuration);
 
-// An engine failed, or gave what cannot be part of the state: what() names the engine, the tick and what is wrong.
+// An engine failed, or its result cannot be part of the state. what() names the engine, the tick and the mistake.
 class EngineError : public ActivityError
 {
 public:
@@ -35,14 +35,14 @@ public:
                RegionTeam* team = nullptr, WorkerPool* pool = nullptr);
   ~EngineWorker();
 
-  // From the state in the space and the commands of its tick (one for each of layout.commands_from, in that order) to
-  // the update of the next tick. `moved`: SpaceState::moved. The results are valid until the next call. Throws
-  // EngineError.
+  // Computes the update of the next tick from the state in the space and the commands of its tick. `commands` has one
+  // entry for each of layout.commands_from, in that order. `moved` is SpaceState::moved. The results are valid until
+  // the next call. Throws EngineError.
   void Tick(std::span<const std::uint32_t> moved, std::span<const ControlCommands* const> commands);
   const EngineUpdate& Update() const { return update_; }
   const SensorFrame& Sensors() const { return frame_; }
 
-  // Between two ticks, for who saves the state at a tick at which engines are not canonicalised.
+  // Makes the engine canonical between two ticks, to save the state at a tick at which that does not happen anyway.
   void Canonicalise();
 
   // The engine's state with its last sensor values, as of a tick at which engines are canonicalised.
@@ -53,7 +53,7 @@ public:
   const EngineLayout& Layout() const { return layout_; }
 
 private:
-  // Runs a check of what came or was made; what fails has the engine and the tick.
+  // Runs a check of inputs or results. A failure throws EngineError with the engine and the tick.
   template <class Check>
   void Checked(const Check& check) const;
   void ReadCommands(std::span<const ControlCommands* const> commands);

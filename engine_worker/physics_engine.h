@@ -56,7 +56,7 @@ struct EngineSetup
   Parameters parameters;          // of the engine's element, by the table that it registered
   const CSwarmanoidSpace& space;  // this process's replica: entities, poses of the tick that the step starts from
   const EngineLayout& layout;     // the order of owned entities, command and sensor channels
-  // Of an engine that is split in a cluster: those who compute the regions of its world. Otherwise nullptr.
+  // The processes that compute the regions of a split engine in a cluster, otherwise nullptr.
   RegionTeam* team = nullptr;
   unsigned threads = 1;  // that the process has for its work
   // The process has a pool (common/threads/worker_pool.h) if it has several threads. Its Shares() says at each tick
@@ -88,12 +88,12 @@ public:
   virtual void AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding binding) = 0;
   virtual void Start() {}
 
-  // Advances the engine by one clock tick in `subclock` equal steps. Mirrors are first put where the space has them.
-  // Fills `update.poses` (sized by the caller: 7 doubles for each of layout.owned, structure of arrays x y z qx qy qz
-  // qw, global frame), adds to update.attributes what changed (grips, turret angles …), fills `sensors`
-  // (layout.sensors). What it gives is checked: as many poses as there are, all numbers finite, quaternions of norm 1,
-  // slots and values of attributes as common/space/attributes.h has them. A mistake, and any exception, ends the run
-  // with an error that names the engine, the entity, the tick and the value.
+  // Advances the engine by one clock tick in `subclock` equal steps. Mirrors are first moved to their poses in the
+  // space. Fills `update.poses`, sized by the caller: 7 doubles for each of layout.owned (m and unit quaternions,
+  // global frame). They are a structure of arrays x y z qx qy qz qw. Adds changes (grips, turret angles …) to
+  // update.attributes and fills `sensors` (layout.sensors). The caller checks the result: finite numbers, quaternions
+  // of norm 1, and slots and values of attributes as in common/space/attributes.h. A mistake or an exception ends the
+  // run with an error that names the engine, the entity, the tick and the value.
   virtual void Update(const EngineCommands& commands, EngineUpdate& update, std::span<double> sensors) = 0;
 
   // An owned entity was put elsewhere from outside; its pose is to be read from the space.
@@ -105,15 +105,15 @@ public:
   virtual void LoadState(ByteReader& state) = 0;
   // Drops everything that the saved state does not hold (caches, contact order). Called at the same ticks in every run.
   virtual void Canonicalise() = 0;
-  // The run begins again (SpaceEditor::BeginAgain); EntityMoved was told before. What does not follow from the space
-  // returns to how the engine was made.
+  // The run begins again (SpaceEditor::BeginAgain), after EntityMoved was called for each moved entity. State that does
+  // not follow from the space must return to the state of a new engine.
   virtual void BeginAgain() { Canonicalise(); }
-  // True if Canonicalise has nothing to drop at any tick: then SaveState is exact after each Update.
+  // Returns true if Canonicalise has nothing to drop at any tick: then SaveState is exact after each Update.
   virtual bool IsAlwaysCanonical() const { return false; }
 
-  // Of an engine that can be split (PluginDescription::can_split): in a process of its own, nothing else is called of
-  // it. The result is one region of the world of another one of the same tag, which has a team, and tells it all in its
-  // first task: there is no space and no experiment here. `exchange` outlives the result.
+  // Makes a region of an engine that can be split (PluginDescription::can_split), in a process of its own. Only this
+  // function is called on such an object. The region belongs to an engine of the same tag with a team, and gets all
+  // data in its first task, without a space and an experiment. `exchange` outlives the result.
   virtual std::unique_ptr<EngineRegion> MakeRegion(unsigned region, RegionExchange& exchange);
 
   // Numbers about the last update for diagnosis: contacts, pairs. One short line, may be empty.

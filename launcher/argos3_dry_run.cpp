@@ -16,7 +16,8 @@ LoadedExperiment Load(const ConfigurationNode& experiment, const std::string& fo
   return LoadExperimentText(WriteXml(experiment), "rehearsal.xml", folder, {.settings = settings});
 }
 
-// Those that are of what only the rehearsal will tell, or are mistakes, which the run tells, are left out.
+// Returns the settings that this experiment has. Other settings concern objects that only the rehearsal makes, or are
+// mistakes, which the run reports.
 ExperimentSettings Fitting(const ConfigurationNode& experiment, const std::string& folder,
                            const ExperimentSettings& settings)
 {

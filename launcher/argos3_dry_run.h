@@ -6,7 +6,8 @@
 namespace swarmanoid
 {
 
-// In a process of its own. None if Init fails: whoever runs the experiment is told why.
+// Runs Init of the experiment's loop functions in a process of its own, and returns the bodies that they make. It
+// returns none if Init fails; the run then reports why.
 argos3::MadeBodies RehearseArgos3(const ConfigurationNode& experiment, const std::string& folder,
                                   const ExperimentSettings& settings);
 

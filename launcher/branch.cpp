@@ -63,7 +63,7 @@ void RequireBuilds(const JournalStart& start, const Experiment& experiment, bool
                "; branch with that build, run it again with this one, or let --any-build take it");
 }
 
-// What the child found, for the process that runs the branch.
+// The result of the child, for the process that runs the branch.
 struct ComputedState
 {
   std::uint64_t hash = 0;
@@ -191,7 +191,7 @@ Branch::Branch(const RunSettings& settings, const Experiment& experiment) : requ
   std::ifstream(scratch_.Path() + "/found") >> hash_ >> first_tick_;
 }
 
-// In the child.
+// Computes the state in the child process.
 void Branch::Compute(const RunSettings& settings, const Experiment& experiment)
 {
   ApplyLimitsHere(settings);
@@ -224,7 +224,8 @@ void Branch::Compute(const RunSettings& settings, const Experiment& experiment)
             fmt::format("{} {}\n", found.hash, found.checkpoint ? found.checkpoint->snapshot.tick : 0));
 }
 
-// Those of the first tick of a run come before its state.
+// Returns the lines of events after a tick. Events of the first tick of a run come before its state, so 0 includes
+// them.
 std::string Branch::EventsBetween(std::uint64_t after, std::uint64_t last, const std::string& file) const
 {
   const EventLines events = ReadEventLines(file);
@@ -243,7 +244,7 @@ void Branch::Install(RunSettings& settings, const Experiment& experiment, const 
   if (!settings.events.empty()) events += EventsBetween(request_.tick, UINT64_MAX, settings.events);
   settings.events = folder + "/" + kEventsFile;
   WriteText(settings.events, events);
-  // What was too slow then is not measured again; with changes nobody knows what would be.
+  // The recorded faults replace measurements of time. With a changed experiment, the faults of this run are unknown.
   if (same_fingerprint_) settings.faults_of = request_.run;
   const std::string state = scratch_.Path() + "/" + kStateFile;
   if (!fs::exists(state)) return;

@@ -21,13 +21,13 @@ struct BranchRequest
   std::string run;  // its folder
   std::uint64_t tick = 0;
 };
-// From "RUN@TICK"; nullopt for anything else.
+// Reads "RUN@TICK". Returns nullopt for any other text.
 std::optional<BranchRequest> ReadRunAtTick(const std::string& text);
-// The same, but throws UsageError.
+// Returns the same, but throws UsageError.
 BranchRequest ReadBranchRequest(const std::string& text);
 
-// The request for a run that branches off, with what it takes from the other one: the experiment, if none is named, and
-// the number of controller hosts. Throws UsageError.
+// Returns the request for a run that branches off, with the values taken from the other run: the experiment, if none is
+// named, and the number of controller hosts. Throws UsageError.
 RunRequest RequestOfBranch(const RunRequest& request);
 
 class Branch
@@ -42,11 +42,12 @@ public:
   int ExitCode() const { return exit_code_; }
   const BranchRequest& Of() const { return request_; }
   std::uint64_t Hash() const { return hash_; }  // of the state at the tick
-  // Where the new run begins: at the tick, or before it if what engines remember there cannot be saved.
+  // Returns the tick at which the new run begins. It is earlier than the requested tick if an engine's state cannot be
+  // saved there.
   std::uint64_t FirstTick() const { return first_tick_; }
   const std::vector<BranchChange>& Changes() const { return changes_; }
 
-  // What the run begins with, written into its folder, and the settings that make it begin so.
+  // Writes the start state of the new run into its folder, and changes the settings so that it starts from it.
   void Install(RunSettings& settings, const Experiment& experiment, const std::string& folder) const;
 
 private:

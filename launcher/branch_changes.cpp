@@ -22,7 +22,7 @@ std::string AttributeOf(const Node& node, const std::string& name)
   return {};
 }
 
-// Where a change is: the tags from the section down, and how --set names it.
+// The position of a change: the tags from the section down, and its name for --set.
 struct TreePath
 {
   std::vector<std::string> tags;
@@ -127,7 +127,7 @@ private:
   }
 };
 
-// Another seed may have put elsewhere what cannot move, and so is no part of what was saved.
+// Another seed may have moved entities that cannot move during a run. The saved state does not have their poses.
 void RequireSameBodies(const Experiment& before, const Experiment& after)
 {
   const auto refuse = [](const std::string& id)

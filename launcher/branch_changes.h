@@ -1,5 +1,5 @@
-// What a branch of a run changes in its experiment, and what of that may change in the middle of a run. Used by
-// `swarmanoid run --branch`.
+// The differences between the experiment of a branch and that of its run, and a check of which of them may change in
+// mid-run. Used by `swarmanoid run --branch`.
 #pragma once
 
 #include <string>
@@ -17,7 +17,8 @@ struct BranchChange
   bool matters;       // to the state: it is no visualisation, length or name
 };
 
-// In the order of the file. Throws UsageError that names one that may not change, and why.
+// Returns the changes in the order of the file. Throws UsageError that names a change that is not allowed, and the
+// reason.
 std::vector<BranchChange> ChangesBetween(const Experiment& before, const Experiment& after);
 
 }  // namespace swarmanoid

@@ -87,7 +87,7 @@ private:
       for (std::string choice; std::getline(choices, choice, '|');) Offer(choice);
   }
 
-  // Of the experiment file that stands among the words.
+  // Offers the values of the experiment file on the command line.
   void OfferSettings()
   {
     if (given_.empty()) return;

@@ -1,6 +1,6 @@
-// What a shell may offer for the word that is being typed after `swarmanoid`: commands, options and their values from
-// the command line's own declaration, experiments that run here, plug-ins, values of --set. The scripts of the shells
-// in launcher/completion ask for it by `swarmanoid --complete WORDS...`.
+// The suggestions for the word being typed after `swarmanoid`: commands, options and their values from the command
+// line's own declaration, running experiments, plug-ins, values of --set. The shell scripts in launcher/completion ask
+// for them by `swarmanoid --complete WORDS...`.
 #pragma once
 
 #include <string>
@@ -16,9 +16,9 @@ namespace swarmanoid
 
 inline constexpr const char* kCompleteFlag = "--complete";
 
-// The words after `swarmanoid`, of which the last, possibly empty, is being typed. A line for each candidate that
-// begins like it, with a tab and its meaning if there is one. The line ":files .xml" stands for files with that ending,
-// and folders; ":files" for all files.
+// Takes the words after `swarmanoid`; the last one, possibly empty, is being typed. Returns a line for each candidate
+// that begins like it, with a tab and its meaning if it has one. The line ":files .xml" means files with that ending,
+// and folders; ":files" means all files.
 std::vector<std::string> Completions(const CLI::App& app, const std::vector<std::string>& words);
 
 }  // namespace swarmanoid

@@ -1,4 +1,4 @@
-// The words after `swarmanoid control`, and what is said if nobody answers them. Also for requests from Python.
+// The words after `swarmanoid control`, and the message if the run does not answer. Used for requests from Python too.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +26,8 @@ ControlWords ParseControlWords(std::vector<std::string> words, const std::map<st
 // How long a run may stand still without a reply. A process that replaces a worker may have to compute all ticks again.
 double PatienceFor(const ControlOrder& order, double otherwise_s);
 
-// For those who got no answer: what the run does, after "does not answer". `dropped`: messages that were not
-// understood.
+// Returns the rest of a message after "does not answer": the state of the run. `dropped` is the number of messages that
+// were not understood.
 std::string WhyNoAnswer(const std::optional<RunStatus>& status, std::uint64_t dropped, bool insecure);
 
 }  // namespace swarmanoid

@@ -133,7 +133,7 @@ Finding SharedMemory()
   return {"shared memory", Verdict::kGood, what};
 }
 
-// What one socket sends to the group another one of the same interface gets.
+// Returns true if a packet that one socket sends to the group reaches another socket of the same interface.
 bool MulticastArrives(const in_addr& interface)
 {
   const FileDescriptor receiver(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));

@@ -1,4 +1,4 @@
-// What a run needs of this machine, tried out. Used by `swarmanoid doctor`.
+// Checks of this machine for runs, by trial. Used by `swarmanoid doctor`.
 #pragma once
 
 #include <string>
@@ -22,7 +22,7 @@ struct Finding
   std::string cure{};  // empty if there is nothing to do
 };
 
-// In this order; takes some seconds. `folder`: of what it writes, which is removed.
+// Returns the findings in a fixed order; takes some seconds. Files are written to `folder` and removed.
 std::vector<Finding> Examine(const std::string& folder);
 
 }  // namespace swarmanoid

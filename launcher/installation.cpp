@@ -17,7 +17,7 @@ fs::path OwnFolder() { return fs::path(OwnProgram()).parent_path(); }
 
 fs::path SampleFolder() { return OwnFolder().parent_path() / "share" / "swarmanoid" / "configs"; }
 
-// Of an installation or a build folder; empty if it holds no programs.
+// Returns the folder of programs of an installation or a build folder, or an empty path if it has none.
 fs::path ProgramsUnder(const fs::path& prefix)
 {
   std::error_code none;
@@ -26,7 +26,8 @@ fs::path ProgramsUnder(const fs::path& prefix)
   return {};
 }
 
-// Those of the package that this program belongs to, or, if it is a user's own, this library.
+// Returns the programs of the package that this program belongs to. For a user's own program, it is the package of this
+// library.
 fs::path FolderOfPrograms()
 {
   const fs::path own = OwnFolder();

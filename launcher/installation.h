@@ -1,4 +1,4 @@
-// Where the parts of Swarmanoid lie on this machine, found from the place of the running program.
+// The positions of Swarmanoid's parts on this machine, found from the path of the running program.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 namespace swarmanoid
 {
 
-// The path of this program.
+// Returns the path of this program.
 std::string OwnProgram();
-// The folder of the programs. SWARMANOID_PROGRAM_DIR in the environment names another one.
+// Returns the folder of the programs. SWARMANOID_PROGRAM_DIR in the environment names another one.
 std::string ProgramFolder();
-// The folder of what users copy: templates and samples.
+// Returns the folder of what users copy: templates and samples.
 std::string UserFilesFolder();
 // The experiments that come along: their names, in order, and the file of one.
 std::vector<std::string> SampleNames();

@@ -56,7 +56,7 @@ int main(int count, char** arguments)
   std::vector<char*> given;
   for (std::string& word : words) given.push_back(word.data());
 
-  // Of renderers in this process and in those that it starts.
+  // The command for renderers, in this process and in those that it starts.
   setenv(kCommandVariable, OwnProgram().c_str(), 1);
   int verb_code = kExitDone;
   const int exit_code = RunProgram(

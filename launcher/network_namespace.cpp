@@ -38,7 +38,7 @@ void WriteOnce(const char* file, const std::string& text)
     RefuseIsolation(file);
 }
 
-// Empty if nobody may know.
+// Returns the namespace of a process, or an empty text if this user may not know it.
 std::string NamespaceOf(const std::string& process, const char* kind)
 {
   std::error_code none;

@@ -1,7 +1,7 @@
-// A run in a network of its own on this machine (`swarmanoid run --isolated`): a network namespace with nothing but a
-// loopback interface, and for those who are not root a user namespace that owns it. Nobody else's program can send
-// anything to the run, or see that it is there; whoever is the same user enters. docs/security.md says what it costs.
-// Used by the launcher while it has one thread.
+// A run in a network of its own on this machine (`swarmanoid run --isolated`): a network namespace with only a loopback
+// interface. Users other than root also get a user namespace that owns it. Programs of other users can neither send to
+// the run nor see it; programs of the same user can enter. docs/security.md has the costs. The launcher uses it while
+// it has one thread.
 #pragma once
 
 #include <sys/types.h>
@@ -9,7 +9,7 @@
 namespace swarmanoid
 {
 
-// This process, and those that it starts. Throws UsageError if the system forbids it.
+// Isolates this process and those that it starts. Throws UsageError if the system forbids it.
 void IsolateNetwork();
 // Into the network of another process of this user, if that is in another one. Throws UsageError.
 void EnterNetworkOf(pid_t process);

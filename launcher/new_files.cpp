@@ -176,7 +176,7 @@ std::string TextOf(const fs::path& file)
   return {std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
 }
 
-// The robot of the behaviour controller in a folder; nullptr if there is none.
+// Returns the robot of the behaviour controller in a folder, or nullptr if it has none.
 const RobotKind* RobotOfControllerIn(const fs::path& folder)
 {
   for (const auto& entry : fs::directory_iterator(folder))

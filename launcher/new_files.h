@@ -1,5 +1,5 @@
-// What `swarmanoid new` makes. All of these write files, say which and what comes next, and throw UsageError if a
-// name cannot be used, something is there already or this is the wrong folder.
+// The files that `swarmanoid new` makes. Each function writes files, and prints their names and the next step. It
+// throws UsageError if a name is invalid, a file exists already, or the folder is the wrong one.
 #pragma once
 
 #include <string>

@@ -7,7 +7,7 @@
 namespace swarmanoid
 {
 
-// The arguments of this process, the program first.
+// Returns the arguments of this process, the program first.
 std::vector<std::string> OriginalCommand();
 
 }  // namespace swarmanoid

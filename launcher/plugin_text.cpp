@@ -60,7 +60,7 @@ void AppendSettings(std::string& rows, const std::string& path, const TConfigura
 {
   for (const ParameterSpec& parameter : parameters)
   {
-    // An id is what the path names the element by.
+    // The id is left out, since paths name elements by it.
     if (parameter.type == ParameterType::kTree || IsNumbered(parameter) || parameter.name == "id") continue;
     const std::string value = tree.Value(parameter.name).value_or(parameter.default_value.value_or(""));
     rows += fmt::format("{}.{}={}\t{}\t{}\n", path, parameter.name, Field(value), Field(AllowedText(parameter)),
@@ -75,7 +75,7 @@ void AppendPlugin(std::string& rows, const std::string& path, const TConfigurati
   if (plugin != nullptr) AppendSettings(rows, path, tree, plugin->parameters);
 }
 
-// "left [rad/s], right [rad/s]"; of those that are numbered the first and the last: "0 … 23".
+// Returns "left [rad/s], right [rad/s]". Of numbered columns it has the first and the last: "0 … 23".
 std::string ColumnsText(const std::vector<CCI_ColumnGroup>& groups)
 {
   std::string text;

@@ -1,4 +1,4 @@
-// What `swarmanoid list` says about plug-ins and their parameters, for people and for programs that complete words.
+// The output of `swarmanoid list` about plug-ins and their parameters, for users and for completion.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -13,22 +13,22 @@ namespace swarmanoid
 // "Physics engines", "Experiment functions".
 std::string PluginKindTitle(PluginKind kind);
 
-// The label, with the implementation of a device: "footbot_wheels / dummy_footbot_wheels".
+// Returns the label, with the implementation of a device: "footbot_wheels / dummy_footbot_wheels".
 std::string PluginName(const PluginDescription& plugin);
 
-// Several lines: what it is, and a line for each parameter.
+// Returns several lines: a description, and a line for each parameter.
 std::string PluginDetails(PluginKind kind, const PluginDescription& plugin);
 
-// For programs. A line for each plug-in and one for each of its parameters, fields separated by tabs: kind, label,
-// implementation, parameter (empty for the plug-in itself), type, unit, default, least, largest, choices, text;
-// "required" stands for the default of a parameter that has none.
+// Returns text for programs: a line for each plug-in and one for each of its parameters, with fields separated by tabs.
+// The fields are kind, label, implementation, parameter (empty for the plug-in itself), type, unit, default, least,
+// largest, choices, text. The default is "required" for a parameter that has none.
 std::string PluginRows(PluginKind kind, const PluginDescription& plugin);
 
-// For programs. A line for each value that --set may change in an experiment: PATH=VALUE with the present value, what
-// is allowed, and what it means, separated by tabs. Without the arena.
+// Returns text for programs: a line for each value that --set may change in an experiment, without the arena. It has
+// PATH=VALUE with the present value, the allowed values, and the meaning, separated by tabs.
 std::string SettingRows(const Experiment& experiment);
 
-// The same as objects.
+// Returns the same as objects.
 nlohmann::ordered_json PluginJson(PluginKind kind, const PluginDescription& plugin);
 nlohmann::ordered_json SettingsJson(const Experiment& experiment);
 

@@ -13,7 +13,7 @@
 namespace swarmanoid
 {
 
-// A run whose folder exists. `request` has this folder as its output folder and, for a cluster, the domain.
+// A run whose folder exists. Its `request` has this folder as output folder and, for a cluster, the domain.
 struct PreparedRun
 {
   RunRequest request;

@@ -29,7 +29,7 @@ void AddOptionsOfKind(CLI::App& verb, std::size_t position, std::vector<std::str
   }
   catch (const ConfigurationError&)
   {
-    // The command says what is wrong with it.
+    // The command reports the mistake of this word.
   }
 }
 

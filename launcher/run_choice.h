@@ -21,8 +21,8 @@ struct RunChoice
   RunNetwork network{};          // of a run of this machine
 };
 
-// The only run on this machine, or the run of that name. With a domain, it may be on another machine. Throws
-// UsageError, with a list of the runs, if there is none or more than one.
+// Returns the only run on this machine, or the run with that name. With a domain, the run may be on another machine.
+// Throws UsageError, with a list of the runs, if no run or more than one matches.
 RunChoice ChooseRun(const std::string& name, std::optional<int> domain);
 
 // The run of a grant. Throws UsageError unless `name` is empty or its name.

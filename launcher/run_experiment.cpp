@@ -244,7 +244,7 @@ int RunAsCluster(PreparedRun& first)
   if (!first.request->domain)
     first.request = first.request.With([&](RunSettings& settings) { settings.domain = free_domain.emplace().Id(); });
   first.manifest.domain = first.request->domain;
-  // Until the process ends: the last line may find no reader either.
+  // The signal stays ignored until the process ends, since the last line may have no reader either.
   std::signal(SIGPIPE, SIG_IGN);
   // A signal that comes between two runs ends the second one.
   SignalDescriptor interrupts;

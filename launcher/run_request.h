@@ -1,5 +1,5 @@
-// RunRequest: what the user wants to be run. It is immutable, and its options have been checked against each other, so
-// that no later step of a run meets a contradiction. The plan of a cluster follows from it and from the experiment.
+// RunRequest: a user's request to run an experiment. It is immutable, and its options have been checked against each
+// other, so later steps of a run meet no contradiction. It and the experiment determine the plan of a cluster.
 #pragma once
 
 #include <functional>

@@ -40,7 +40,7 @@ std::size_t Robots(const Experiment& experiment)
       std::ranges::count_if(experiment.entities, [](const auto& entity) { return IsRobot(entity.kind); }));
 }
 
-// Ticks until the experiment ends by itself; 0 if it does not within those of a film.
+// Returns the ticks until the experiment ends by itself, or 0 if a film is shorter.
 std::uint64_t LengthOf(const Experiment& experiment, const fs::path& folder)
 {
   const fs::path file = folder / "shown.xml", output = folder / "shown";

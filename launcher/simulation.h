@@ -11,8 +11,9 @@
 namespace swarmanoid
 {
 
-// `watch`, if there is one, is called at each tick from the first one on, before the state of the tick is written,
-// drawn or sent, always in this process and this thread: with it, this process is the space server of the cluster.
+// `watch`, if given, is called at each tick from the first one on, before the state of the tick is written, drawn or
+// sent. It is always called in this process and this thread: with `watch`, this process is the space server of the
+// cluster.
 int RunSimulation(int count, char** arguments, const std::function<void(CSimulator&)>& watch = {});
 
 }  // namespace swarmanoid

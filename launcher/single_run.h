@@ -6,7 +6,7 @@
 namespace swarmanoid
 {
 
-// From now on the code of users in this process runs within the limits of the settings, and slow code is reported.
+// From now on users' code in this process runs within the limits of the settings, and slow code is reported.
 void ApplyLimitsHere(const RunSettings& settings);
 
 RunResult RunHere(const PreparedRun& prepared);

@@ -28,7 +28,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-// What came of it goes into the pipe: code of users may end the process with any exit code.
+// The result goes into the pipe, since users' code may end the process with any exit code.
 int TryHere(const Experiment& experiment, const Trial& trial)
 {
   try

@@ -1,6 +1,6 @@
-// Whether a run of an experiment can start: everything is made as at tick 0 and thrown away, so that `swarmanoid check`
-// refuses what engines, controllers and experiment functions refuse. In a process of its own, since code of users may
-// crash or never return.
+// SmokeTest: whether a run of an experiment can start. It makes everything as at tick 0 and drops it. So `swarmanoid
+// check` refuses what engines, controllers and experiment functions refuse. It uses a process of its own, since users'
+// code may crash or never return.
 #pragma once
 
 #include <chrono>
@@ -20,9 +20,9 @@ struct Trial
 };
 int TryRun(const Experiment& experiment, const Trial& trial);
 
-// kExitDone, or another exit code of common/activity/exit_codes.h, with the mistake on standard error. What the code of
-// users prints goes there too; files that experiment functions write go into a folder that is removed. Does not return
-// before the trial ends, which is ended after `most`.
+// Makes the run of tick 0 in a child process. Returns kExitDone or another exit code of common/activity/exit_codes.h,
+// with the mistake on standard error. Output of users' code goes there too. Files of experiment functions go into a
+// folder that is removed. Returns when the trial ends, at the latest after `most`.
 int SmokeTest(const Experiment& experiment, std::chrono::seconds most = std::chrono::seconds(60));
 
 }  // namespace swarmanoid

@@ -1,4 +1,4 @@
-// Files made from templates, in which @name@, @class@ and the like stand for the names that a user chose.
+// Files made from templates, in which @name@, @class@ and similar marks are replaced by the names that a user chose.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 namespace swarmanoid
 {
 
-// What stands for what: {"name", "wall_follower"} for @name@.
+// The text of each mark of a template: {"name", "wall_follower"} for @name@.
 using TemplateValues = std::map<std::string, std::string>;
 
 // Small letters, digits and '_', a letter first.

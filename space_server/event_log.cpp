@@ -32,10 +32,11 @@ constexpr std::string_view kHeader = "tick,request,entity,numbers,from,number,wh
 constexpr std::size_t kFewestFields = 4;
 constexpr std::size_t kMostFields = 8;
 
-// The last field of a line: the checksum of what is before it.
+// Returns the last field of a line: the checksum of the text before it.
 std::string CheckOf(std::string_view line) { return fmt::format("{:08x}", XXH32(line.data(), line.size(), 0)); }
 
-// Lines of a file whose header has the checksum have one, too, though it may be empty.
+// Returns true for the header. If the header has a checksum column, other lines must have that field too, possibly
+// empty.
 bool IsHeader(const std::string& line, int number, std::size_t& fewest)
 {
   if (number != 1 || !line.starts_with("tick,")) return false;
@@ -43,8 +44,8 @@ bool IsHeader(const std::string& line, int number, std::size_t& fewest)
   return true;
 }
 
-// Returns what is wrong with a line, or nothing. The line must have `fewest` fields at least. A line that a user wrote
-// has no checksum.
+// Returns the mistake of a line, or an empty text. The line must have at least `fewest` fields. A line that a user
+// wrote has no checksum.
 std::string MistakeOfLine(const std::string& line, const std::vector<std::string>& fields, std::size_t fewest)
 {
   if (fields.size() < fewest || fields.size() > kMostFields)
@@ -95,8 +96,8 @@ std::optional<std::uint64_t> WholeNumber(std::string_view text)
   return number;
 }
 
-// The start of a last line without an end, if the file is one that a run wrote: such a run ends each line. What others
-// write may lack the last end.
+// Returns the position of an incomplete last line. Runs end each line, so only files of runs can have one. Files of
+// users may lack the last line end.
 std::size_t CutShortAt(std::string_view text)
 {
   if (text.empty() || text.back() == '\n' || !text.starts_with("tick,")) return text.size();
@@ -128,7 +129,7 @@ std::string ReadWithoutCutLine(const std::string& path)
 
 bool IsRepeated(const ControlVerb& verb) { return verb.IsRepeated(); }
 
-// Lines whose verb is not `wanted` may have been written by another version, and are not read further.
+// Lines with an unwanted verb may come from another version, so only the verb is read.
 std::vector<RecordedEvent> ParseAll(const std::string& text, const std::string& path, const Experiment& experiment,
                                     bool (*wanted)(const ControlVerb&))
 {

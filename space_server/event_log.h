@@ -1,6 +1,5 @@
-// What users changed in a run from outside, as a file: events.csv in the folder of the run. Written by the control
-// control; read to repeat the changes in another run (`swarmanoid run EXPERIMENT --events FILE`). docs/command.md has
-// the format.
+// The file events.csv in the folder of a run: the changes that users made to the run from outside. The run control
+// writes it. `swarmanoid run EXPERIMENT --events FILE` reads it to repeat the changes. docs/command.md has the format.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +17,7 @@ namespace swarmanoid
 
 struct RecordedEvent
 {
-  std::uint64_t tick = 0;  // before whose state it is done
+  std::uint64_t tick = 0;  // the event happens before the state of this tick
   ControlRequestMessage request;
   SourceLocation location;
   bool logged = false;  // by this run already, before its space server died
@@ -31,11 +30,11 @@ inline constexpr const char* kFailedController = "failed";
 // Makes a line that is no request. `about` is the topic or the robot, `from` the sender or what the controller did.
 ControlRequestMessage NoteOf(const std::string& verb, const std::string& about, const std::string& from);
 
-// The events that change the outcome of a run (move, add, remove, keys and selections, stop), in the order of the file.
-// Throws ConfigurationError, with file and line, for what is no event of this experiment. If the last line was cut
-// short, as by the death of the run, it is left out, and standard error says so.
+// Returns the events that change the outcome of a run (move, add, remove, keys and selections, stop), in the order of
+// the file. Throws ConfigurationError with file and line if a line is no event of this experiment. An incomplete last
+// line, as after the death of a run, is left out with a message on standard error.
 std::vector<RecordedEvent> ReadEvents(const std::string& path, const Experiment& experiment);
-// The same from the text of the file.
+// Returns the same from the text of the file.
 std::vector<RecordedEvent> ParseEvents(const std::string& text, const std::string& path, const Experiment& experiment);
 
 // A line of a log of events, for what passes it on as it is.
@@ -47,13 +46,13 @@ struct EventLine
 struct EventLines
 {
   std::vector<EventLine> lines;
-  // What cannot be read, with file and line. A last line that was cut short is not among it.
+  // The mistakes of lines that cannot be read, with file and line. An incomplete last line is not in the list.
   std::vector<std::string> damaged;
 };
-// Those of a file; none if it does not exist. Throws ConfigurationError if it cannot be read.
+// Returns the lines of a file, or none if it does not exist. Throws ConfigurationError if it cannot be read.
 EventLines ReadEventLines(const std::string& path);
 
-// What was asked of a run whose space server has died, for the next one.
+// The requests to a run whose space server has died, for the next server.
 struct EarlierRequests
 {
   std::vector<RecordedEvent> changes;           // as ReadEvents has them
@@ -62,29 +61,30 @@ struct EarlierRequests
   std::optional<ControlRequestMessage> step;    // one that is not done yet
   std::optional<std::uint64_t> pause_at;        // the run is paused, or will be at this tick
   std::optional<double> speed;
-  std::vector<ControlOrder> grants;  // the orders that made those that were not revoked
+  std::vector<ControlOrder> grants;  // orders of the grants that were not revoked
   std::uint64_t until = 0;           // the tick of the newest
 };
-// From its log of events, which may be lacking; the half of a line at its end is cut off. `pause_at`: of its start.
-// Throws ConfigurationError.
+// Reads the requests from the log of events, which may be missing. It cuts an incomplete last line off the file.
+// `pause_at` is that of the start of the run. Throws ConfigurationError.
 EarlierRequests ReadEarlierRequests(const std::string& path, const Experiment& experiment,
                                     std::optional<std::uint64_t> pause_at);
-// Those of `repeated` that the run had not done yet, after those that it had.
+// Appends the events of `repeated` that the run had not executed yet.
 void AddUndone(std::vector<RecordedEvent>& done, const std::vector<RecordedEvent>& repeated);
-// "user@host:pid" of who asked, as far as it is known.
+// Returns the sender of a request as "user@host:pid", as far as it is known.
 std::string AskerOf(const ControlRequestMessage& request);
 
 class EventLog
 {
 public:
-  // The file is made with the first event, unless there is one that `goes_on`. Empty path: nothing is written.
+  // The file is made with the first event. With `goes_on` an existing file is continued. With an empty path nothing is
+  // written.
   explicit EventLog(std::string path, bool goes_on = false) : path_(std::move(path)), goes_on_(goes_on) {}
   ~EventLog();
   EventLog(const EventLog&) = delete;
   EventLog& operator=(const EventLog&) = delete;
 
-  // With who asked, and when if it came from outside of this process. Throws std::runtime_error if the file cannot be
-  // written.
+  // Writes a line with the sender of the request, and the time if it came from another process. Throws
+  // std::runtime_error if the file cannot be written.
   void Write(std::uint64_t tick, const ControlRequestMessage& request);
 
 private:

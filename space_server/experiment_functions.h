@@ -32,10 +32,10 @@ class CSwarmanoidSpace;
 
 class SpaceServer;
 
-// What experiment functions, and programs around a CSimulator, may do to the space: every change is seen by all
-// processes in the state that goes out next, and is part of the experiment: the state hash covers it. What cannot be
-// part of a state is refused by std::invalid_argument: numbers that are not finite, orientations that are no unit
-// quaternions, places farther outside the arena than its limit.
+// The changes that experiment functions, and programs around a CSimulator, may make to the space. All processes see a
+// change in the state that is sent next, and the state hash covers it. A value that cannot be part of a state is
+// refused by std::invalid_argument. This means numbers that are not finite, orientations that are no unit quaternions,
+// and positions too far outside the arena.
 class SpaceEditor
 {
 public:
@@ -45,38 +45,37 @@ public:
   }
 
   const CSwarmanoidSpace& GetSpace() const;
-  // Questions about the space: who is near, what is between.
+  // Returns the queries of the space, such as neighbours and lines of sight.
   SpaceQuery& GetQuery();
-  // Who holds whom, as the engines last told.
+  // Returns the grips between entities, as the engines last reported them.
   const StructuralTree& GetStructure() const;
-  // Puts a movable entity elsewhere, and all that are connected to it by grips along with it, as one rigid body: they
-  // go on to hold one another. Throws as MoveEntity.
+  // Moves a movable entity and all entities that are connected to it by grips, as one rigid body. The grips stay.
+  // Throws as MoveEntity.
   void MoveCompound(std::string_view id, const Pose& pose);
   // Puts a movable entity elsewhere, alone: it lets go and is let go. Throws std::invalid_argument for an unknown id
   // and an entity that cannot move or is not in the arena.
   void MoveEntity(std::string_view id, const Pose& pose);
-  // Puts an entity into the arena: the next one of the <reserve> of that id, or the entity of that id, which waits or
-  // was removed. Returns its id. A robot's controller goes on with what it remembers. Throws std::invalid_argument for
-  // an unknown id, a reserve that is used up, an entity that is there already, and a place where its body would overlap
-  // another one of the same engine.
+  // Puts an entity into the arena and returns its id. It is the next one of the <reserve> of that id, or a waiting or
+  // removed entity of that id. The controller of a robot keeps its state. Throws std::invalid_argument for an unknown
+  // id, an empty reserve and an entity that is present. It throws the same if the body would overlap another one of the
+  // same engine.
   std::string AddEntity(std::string_view id, const Pose& pose);
-  // Whether AddEntity would find the place free of bodies. Throws as AddEntity does, except for the place.
+  // Returns whether AddEntity would find the place free of bodies. Throws as AddEntity does, except for the place.
   bool IsFree(std::string_view id, const Pose& pose) const;
-  // Takes an entity that can move, or is of a <reserve>, out of the arena; it lets go of what it holds and is let go.
-  // Throws std::invalid_argument for any other, and for one that is not there.
+  // Removes an entity that can move, or is of a <reserve>, from the arena. All its grips end. Throws
+  // std::invalid_argument for any other entity, and for one that is not in the arena.
   void RemoveEntity(std::string_view id);
   // Changes an attribute (common/space/attributes.h), such as the colour of a nest. Throws std::invalid_argument for an
-  // unknown id or name, an element that the attribute does not have, and a value that it cannot have. "gripped" is told
-  // by the engines: 0 makes the gripper let go, all else is refused.
+  // unknown id, name or element, and for a value outside the attribute's range. The engines set "gripped", so only 0 is
+  // accepted, which ends the grip.
   void SetAttribute(std::string_view id, std::string_view attribute, double value, int element = 0);
-  // From now on ticks count from `first_tick` for random numbers of all (noise, robots, functions) and for what engines
-  // forget from time to time, so that a run whose entities were put back repeats itself; `variation`: 0 for the same
-  // numbers, others for others. It is no part of the state: throws
-  // std::logic_error if the run is a cluster, and such a run cannot be saved.
+  // Random numbers of noise, robots and functions, and periodic events of engines, count ticks from `first_tick` from
+  // now on. So a run whose entities were put back repeats itself. `variation` 0 gives the same numbers, other values
+  // give others. Such a run cannot be saved. Throws std::logic_error in a cluster.
   void BeginAgain(std::uint64_t first_tick, std::uint32_t variation);
-  // Random numbers of these functions in this step: Init, a PreStep, PostStep or IsFinished, Destroy. They go on from
-  // call to call, are others in the next step, and depend on the seed, the id of the functions, the step and the tick
-  // alone, so that they are equal in every run. Keep no reference beyond the step.
+  // Returns the random numbers of these functions in this step: Init, a PreStep, PostStep or IsFinished, Destroy. They
+  // continue from call to call and differ between steps. They depend only on the seed, the id of the functions, the
+  // step and the tick, so they are equal in every run. The reference is valid during the step only.
   RandomStream& GetRandom() const { return random_; }
   // The folder of the run: files of the functions go there.
   const std::string& GetOutputFolder() const { return output_folder_; }
@@ -84,7 +83,7 @@ public:
   // ConfigurationError, with the cure, if the name leaves the folder, or a file is there that this run did not make.
   std::string MakeOutputFile(const TConfigurationTree& tree, const std::string& parameter) const;
 
-  // For the server, before it calls functions, and to go on with the random numbers of who was called before.
+  // The server sets the random numbers before it calls functions, and takes them back afterwards.
   void BeginStep(RandomStream random) { random_ = std::move(random); }
   RandomStream LeaveStep() { return std::move(random_); }
 
@@ -117,8 +116,8 @@ public:
   virtual Outcome IsFinished(const SpaceEditor&) { return Outcome::kRunning; }
   virtual void Destroy(SpaceEditor&) {}
 
-  // Draws into the pictures of the tick. Called only if somebody looks: before each tick if the run has visualisers
-  // that are waited for, otherwise when a picture is due. So it must change nothing that later steps depend on.
+  // Draws into the pictures of the tick. If the run waits for visualisers, it is called before each tick. Otherwise it
+  // is called when a picture is due. It must not change anything that later steps depend on.
   virtual void Draw(const SpaceEditor&, Drawing&) {}
   // A user pressed or released a key for the functions, or selected an entity, in a window, on a page or by `swarmanoid
   // control`. Called between two ticks; it may change the space as PreStep may, and is repeated with the other events

@@ -1,5 +1,5 @@
-// The program that holds the state and the clock of an experiment: the space server's role at the bus, with the control
-// service and what the launcher is told.
+// The space_server program: the process that holds the state and the clock of an experiment. It connects the role to
+// the bus, with the control service and the reports to the launcher.
 #include "common/plugin_descriptions/describe_builtins.h"
 #include "common/program/interrupts.h"
 #include "common/program/program.h"

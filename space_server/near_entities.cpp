@@ -13,11 +13,11 @@ namespace swarmanoid
 namespace
 {
 
-// Ticks without a search: who is within the margin beyond the reach is told too.
+// Entities within the margin beyond the reach are sent too, so that the search is not repeated at each tick.
 constexpr double kMargin_m = 0.5;
 constexpr double kRounding_m = 0.01;
 
-// Where all are, and so about where they will be; who is elsewhere then counts to the nearest cell.
+// Returns cells over the present positions. An entity that leaves this area counts as in the nearest cell.
 PlaneCells<double> CellsOver(const CSwarmanoidSpace& space, const PoseArrays& poses, double reach_m)
 {
   double edge = reach_m + kMargin_m + kRounding_m;
@@ -36,7 +36,7 @@ PlaneCells<double> CellsOver(const CSwarmanoidSpace& space, const PoseArrays& po
   return {left, bottom, right - left, top - bottom, edge, true};
 }
 
-// The cells in which somebody is near one of the robots.
+// Marks the cells next to a robot: all entities within its reach are in them.
 void MarkNear(const PlaneCells<double>& cells, std::span<const std::uint32_t> robots, const PoseArrays& poses,
               std::vector<char>& is_near)
 {
@@ -48,7 +48,7 @@ void MarkNear(const PlaneCells<double>& cells, std::span<const std::uint32_t> ro
   }
 }
 
-// Of the tick, with no pose yet.
+// Starts the message of the tick, without poses.
 void Begin(LocalState& part, const SpaceState& state)
 {
   part.tick = state.tick;
@@ -103,7 +103,7 @@ Surroundings::Surroundings(const CSwarmanoidSpace& space, std::span<const std::u
 LocalState& Surroundings::Part(const SpaceState& state)
 {
   entered_.clear();
-  // Who is put elsewhere may be tilted in the plane for a tick, and see farther than its sensors say.
+  // A robot that was moved from outside may be tilted for a tick and see beyond the reach of its sensors.
   const bool all = !state.moved.empty();
   if (!holds_ || all || HaveLeftMargin()) Search(all);
 
@@ -113,7 +113,7 @@ LocalState& Surroundings::Part(const SpaceState& state)
   for (std::size_t k = 0; k < movable.size(); ++k)
   {
     if (!IsNear(part_.near, k)) continue;
-    // Its pose may have been told long ago, to another process.
+    // The pose of an entity that enters may have been sent long ago, or to another process.
     const bool is_new = entered != entered_.end() && *entered == movable[k];
     if (is_new) ++entered;
     if (told_poses_.HasChanged(k) || is_new) part_.entities.push_back(movable[k]);
@@ -141,7 +141,7 @@ void Surroundings::Search(bool all)
 {
   const PoseArrays& poses = space_.Poses();
   const std::span<const std::uint32_t> movable = space_.Movable();
-  // A search that tells all says nothing about who will be near.
+  // A search that sends all entities does not tell which ones will be near at later ticks.
   holds_ = !all;
   std::fill(is_near_.begin(), is_near_.end(), all);
   if (!all) MarkNear(cells_, robots_, poses, is_near_);
@@ -162,7 +162,7 @@ void Surroundings::AddAttributes(const SpaceState& state)
 {
   AttributeChanges& changes = part_.attributes;
   changes.Clear();
-  // Slots ascend, and so do the entities that have them, before those of presence.
+  // Slots ascend, and so do their entities. The slots of presence come last.
   const std::uint32_t first_presence = first_slots_.back();
   std::uint32_t entity = 0;
   for (const std::uint32_t slot : state.attributes.slots)

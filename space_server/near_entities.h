@@ -1,6 +1,5 @@
-// Surroundings: what a controller host is told of a tick where states go over a network: of the entities that can move
-// those alone that are near its robots. So what a host hears does not grow with the swarm, if robots that are near one
-// another are of one host.
+// Surroundings: the part of the state that a controller host gets over a network. It has only the movable entities near
+// the robots of the host. So the message does not grow with the swarm, if robots near each other are of one host.
 #pragma once
 
 #include <array>
@@ -17,12 +16,13 @@ namespace swarmanoid
 
 class CSwarmanoidSpace;
 
-// Which poses have changed since they were told.
+// Remembers the last sent pose of each movable entity.
 class SentPoses
 {
 public:
   explicit SentPoses(const CSwarmanoidSpace& space);
-  // Of a movable entity, by its number among these: whether its pose is another one than when this was last asked.
+  // Returns true if the pose of a movable entity differs from its pose at the last call. `movable` is its number among
+  // the movable entities.
   bool HasChanged(std::size_t movable);
 
 private:
@@ -33,12 +33,12 @@ private:
 class Surroundings
 {
 public:
-  // `robots`: those of the host. `reach_m`: who is farther away from all of them, in the plane, need not be told. The
-  // space outlives it.
+  // `robots` are the robots of the host. Entities farther than `reach_m` from all of them, in the plane, may be left
+  // out. The space outlives the object.
   Surroundings(const CSwarmanoidSpace& space, std::span<const std::uint32_t> robots, double reach_m);
 
-  // The part of the state of the space's tick. To be called once for each tick, and all ticks; the first one has the
-  // poses of all that are near. Valid until the next call.
+  // Returns the part of the state of the space's tick. It must be called once for each tick, from the first one on. The
+  // first result has the poses of all near entities. The result is valid until the next call.
   LocalState& Part(const SpaceState& state);
 
 private:
@@ -50,23 +50,24 @@ private:
   std::span<const std::uint32_t> robots_;
   PlaneCells<double> cells_;                // as wide as reach and margin
   std::vector<char> is_near_;               // of each cell
-  std::vector<char> is_told_;               // of each entity; always of those that cannot move
+  std::vector<char> is_told_;               // of each entity; always set for entities that cannot move
   std::vector<char> is_always_told_;        // of each that can
-  std::vector<std::uint32_t> first_slots_;  // of each entity, and behind the last one that of their presence
-  std::vector<double> x_, y_;               // of those that can move, where they were searched
+  std::vector<std::uint32_t> first_slots_;  // of each entity; at the end the first slot of their presence
+  std::vector<double> x_, y_;               // of the movable entities at the last search
   SentPoses told_poses_;
   bool holds_ = false;                  // there was a search
-  std::vector<std::uint32_t> entered_;  // whom the message before had not
+  std::vector<std::uint32_t> entered_;  // entities that the last message did not have
   LocalState part_;
 };
 
-// What an engine is told likewise: the state without the poses of those that it has moved itself.
+// The part of the state that an engine gets over a network: all but the poses that the engine computed itself.
 class EngineNews
 {
 public:
-  // `owned`: those that the engine moves, ascending. The space outlives it.
+  // `owned` are the entities that the engine moves, ascending. The space outlives the object.
   EngineNews(const CSwarmanoidSpace& space, std::span<const std::uint32_t> owned);
-  // As Surroundings::Part.
+  // Returns the part of the state of the space's tick. It must be called once for each tick. The result is valid until
+  // the next call.
   LocalState& Part(const SpaceState& state);
 
 private:

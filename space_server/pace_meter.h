@@ -16,7 +16,7 @@ public:
 
   explicit PaceMeter(double tick_seconds) : tick_seconds_(tick_seconds) {}
 
-  // The run is at `tick`. True if the pace was measured anew.
+  // Takes the tick of the run. Returns true if there is a new measurement of the pace.
   bool Observe(std::uint64_t tick, Clock::time_point now)
   {
     if (!measuring_) Rest(tick, now);

@@ -13,7 +13,7 @@
 namespace swarmanoid
 {
 
-// Tells a robot something: its next control step has it. Throws std::invalid_argument for an unknown id, and for an
+// Sends a robot an instruction for its next control step. Throws std::invalid_argument for an unknown id, and for an
 // entity that takes no instructions.
 template <class Message>
 void Instruct(SpaceEditor& space, std::string_view robot, const Message& message)
@@ -29,7 +29,8 @@ void Instruct(SpaceEditor& space, std::string_view robot, const Message& message
   space.SetAttribute(robot, "instruction", space.GetSpace().FindEntity(robot)->GetAttribute("instruction") + 1);
 }
 
-// How many reports a robot has made, and the last one; nullopt if there is none yet, or one of another size.
+// Returns the number of reports that a robot has made, and the last one. ReportOf returns nullopt if there is no
+// report, or one of another size.
 inline double ReportsOf(const CSwarmanoidSpaceEntity& robot) { return robot.GetAttribute("report"); }
 template <class Message>
 std::optional<Message> ReportOf(const CSwarmanoidSpaceEntity& robot)

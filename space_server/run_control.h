@@ -28,14 +28,14 @@ struct RunControlSetup
   double real_time_factor = 0;          // 0: as fast as possible
   std::string event_log;                // file for what users ask; empty: none
   std::vector<RecordedEvent> repeated;  // of an earlier run, to be done again
-  // Of a run that goes on after its space server has died. `repeated` has what that one did.
+  // The run resumes after its space server has died. `repeated` then has the changes of the dead server.
   bool goes_on = false;
-  std::uint64_t asked_from = 0;                 // ticks before are done again: nobody comes in between
+  std::uint64_t asked_from = 0;                 // earlier ticks are computed again, without new requests
   std::uint64_t pause_at = 0;                   // 0: does not
   std::optional<ControlRequestMessage> step{};  // that ends there
   std::vector<RecordedFault> failed{};          // of controllers, in the log of events already
   WorkerPlacement places{};
-  bool may_reset = false;  // whoever started the run begins it again if a user asks
+  bool may_reset = false;  // the launcher starts the run again if a user asks for a reset
   // Has another process take the place of a worker.
   std::function<void(const WorkerPlacement::Move&)> move{};
   // Starts all processes again, with controller hosts on these machines. Empty if that is not possible.
@@ -46,7 +46,7 @@ class RunControl
 {
 public:
   using Clock = std::chrono::steady_clock;
-  // Called with what came of a request, by the thread that paces the run.
+  // Called with the result of a request, by the thread that paces the run.
   using Answer =
       std::function<void(const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)>;
 
@@ -59,36 +59,37 @@ public:
 
   RunControl(const Experiment& experiment, RunControlSetup setup, Answer answer);
 
-  // From any thread: a request has come.
+  // Takes a request. Any thread may call it.
   void Ask(const ControlRequestMessage& request);
-  // From any thread: writes a line of the event log. The request was executed elsewhere, or is a note.
+  // Writes a line of the event log for a request that was executed elsewhere, or for a note. Any thread may call it.
   void Note(const ControlRequestMessage& request);
 
-  // Likewise: controllers failed, and the run goes on.
+  // Logs failed controllers of a run that goes on. Any thread may call it.
   void Failed(const std::vector<RecordedFault>& faults);
 
-  // A process has taken the place of a worker, on that machine: elsewhere than asked if none could start there.
+  // A process has replaced a worker, on that machine. It may be another machine than requested if the worker could not
+  // start there.
   void Arrived(const WorkerPlacement::Move& worker, const std::string& process, std::uint64_t tick);
 
   // The first tick may start.
   void Start(std::uint64_t tick, Clock::time_point now);
-  // The run is to hold before the next state is sent: requests wait, or somebody sets the pace.
+  // Returns true if the run must hold before the next state is sent, because of pending requests or a limited pace.
   bool WantsHold() const;
-  // Carries out what was asked; the server is between two ticks. Throws ConfigurationError if an event of an earlier
+  // Carries out the requests while the server is between two ticks. Throws ConfigurationError if an event of an earlier
   // run cannot be repeated.
   void Work(SpaceServer& server);
   Decision Decide(std::uint64_t tick, Clock::time_point now);
-  // The run is to end at its tick. `who` asked for it, for the log of events.
+  // Ends the run at its current tick. `who` is the sender of the request, for the log of events.
   void Stop(const std::string& who);
   // The run ends at `tick` already, because a visualiser of it asked.
   void Stopped(std::uint64_t tick, const std::string& who);
   bool Paused() const { return paused_ && !stop_; }
   double Speed() const { return real_time_factor_; }
-  // "stopped by <who>", empty unless somebody asked for the end.
+  // Returns "stopped by <who>", or an empty text if no user asked for the end.
   const std::string& WhyStopped() const { return why_stopped_; }
   // Set if it ends because a user wants it to begin again.
   const std::optional<ResetRequest>& Reset() const { return reset_; }
-  // Answers those who still wait for a step.
+  // Replies to clients that still wait for the end of a step.
   void Ended(std::uint64_t tick);
 
 private:
@@ -136,7 +137,7 @@ private:
   std::vector<RecordedEvent> repeated_;
   std::size_t next_repeated_ = 0;
   std::uint64_t asked_from_;
-  mutable std::mutex mutex_;
+  mutable std::mutex mutex_;  // guards requests_, notes_ and faults_
   std::vector<ControlRequestMessage> requests_;
   std::vector<ControlRequestMessage> notes_;  // for the event log
   std::vector<RecordedFault> faults_;         // that are not told yet
@@ -144,7 +145,7 @@ private:
   std::vector<RecordedFault> logged_faults_;
   bool paused_;
   bool stop_ = false;
-  std::optional<std::string> stop_unlogged_;  // who asked
+  std::optional<std::string> stop_unlogged_;  // the user who asked
   std::string why_stopped_;
   bool may_reset_;
   std::optional<ResetRequest> reset_;
@@ -156,7 +157,7 @@ private:
   std::function<void(const std::vector<std::string>&)> rebalance_;
   std::optional<ControlRequestMessage> move_request_;
   std::set<std::string> moving_;  // workers
-  std::string moved_;             // who has arrived, for the asker
+  std::string moved_;             // the workers that have arrived, for the reply
   bool pace_changed_ = false;
   std::uint64_t pace_tick_ = 0;
   Clock::time_point pace_start_;

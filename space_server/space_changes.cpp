@@ -92,7 +92,7 @@ Pose PoseOf(const ControlOrder& order, const Quaternion& orientation, const CSwa
   return pose;
 }
 
-// All that go elsewhere together stay in the arena, and none overlaps one that stays where it is.
+// Throws unless all moved entities stay in the arena and none overlaps an entity that is not moved.
 void RequireRoomFor(const CSwarmanoidSpace& space, const std::vector<MoveRequest>& moves)
 {
   std::vector<std::uint32_t> together;

@@ -1,5 +1,5 @@
-// Changes of the arena from outside physics: who may be moved, added and removed, and where to. Experiment functions
-// (SpaceEditor) and users (RunControl) share these rules; what passes is carried out by SpaceServer::Move.
+// The rules for moving, adding and removing entities from outside physics. Experiment functions (SpaceEditor) and users
+// (RunControl) share them. SpaceServer::Move carries out the accepted changes.
 #pragma once
 
 #include <span>
@@ -15,18 +15,19 @@
 namespace swarmanoid
 {
 
-// All of these throw std::invalid_argument that names the entity and what is wrong.
+// All functions below throw std::invalid_argument that names the entity and the mistake.
 
-// An entity that can move and is in the arena.
+// Returns an entity that can move and is in the arena.
 const CSwarmanoidSpaceEntity& FindToMove(const CSwarmanoidSpace& space, std::string_view id);
-// An entity that can come, and is not in the arena: the one of that id, or the next one of the <reserve> of that id.
+// Returns an entity that can be added and is not in the arena: the one of that id, or the next one of the <reserve> of
+// that id.
 const CSwarmanoidSpaceEntity& FindToAdd(const CSwarmanoidSpace& space, std::string_view id);
-// An entity that can go, and is in the arena.
+// Returns an entity that can be removed and is in the arena.
 const CSwarmanoidSpaceEntity& FindToRemove(const CSwarmanoidSpace& space, std::string_view id);
 
-// One that is in the arena and that the entity, at this pose, would stick in: their bodies overlap, and an engine has
-// both. nullptr if the place is free. As when the experiment file is read: by the plain bodies, without terrain.
-// `together` (ascending): entities that go elsewhere with it.
+// Returns an entity in the arena whose body would overlap the entity's body at this pose, with one engine having both.
+// nullptr means that the position is free. The check uses the plain bodies without terrain, as the reading of an
+// experiment file does. `together` (ascending) are entities that move with it.
 const CSwarmanoidSpaceEntity* FindInTheWay(const CSwarmanoidSpace& space, const CSwarmanoidSpaceEntity& entity,
                                            const Pose& pose, std::span<const std::uint32_t> together = {});
 void RequireFree(const CSwarmanoidSpace& space, const CSwarmanoidSpaceEntity& entity, const Pose& pose,
@@ -38,7 +39,7 @@ std::vector<MoveRequest> CompoundAt(const CSwarmanoidSpace& space, const CSwarma
 // An entity goes to where it waits while it is not in the arena.
 MoveRequest Removal(const CSwarmanoidSpaceEntity& entity);
 
-// What requests of users ask for. Their orders are without error (OrderError).
+// The changes that a user's request asks for. The orders must be without error (OrderError).
 struct SpaceChange
 {
   std::vector<MoveRequest> moves;

@@ -138,10 +138,10 @@ void SpaceServer::Advance(std::span<const EngineUpdate* const> updates,
   editor_.BeginStep({program_random_, space_.StreamTick()});
 }
 
-// In the order of the entities, whichever their hosts.
+// Faults are reported in the order of the entities, for any assignment to hosts.
 void SpaceServer::TellFaults(std::span<const ControlCommands* const> commands) const
 {
-  // Of the control steps that made the commands.
+  // The commands come from the control steps of this earlier tick.
   const std::uint64_t tick = space_.GetTick() - std::min<std::uint64_t>(space_.GetTick(), experiment_.ahead);
   std::vector<RecordedFault> faults;
   for (const ControlCommands* command : commands)
@@ -347,7 +347,7 @@ void SpaceServer::Check(const EngineUpdate& update) const
 void SpaceServer::Merge(const EngineUpdate& update)
 {
   const std::vector<std::uint32_t>& owned = assignment_.engines[update.engine].owned;
-  // First: who is beyond the limit lets go.
+  // Entities beyond the limit release their grips first.
   Merge(update.attributes);
   if (experiment_.beyond_limit == BeyondLimit::kStop)
     space_.SetPoses(owned, update.poses);

@@ -20,7 +20,7 @@
 namespace swarmanoid
 {
 
-// What is asked from outside between two ticks, in the order of arrival at the server.
+// A move that a user or the experiment asks for between two ticks. Moves are carried out in the order of arrival.
 struct MoveRequest
 {
   std::uint32_t entity = 0;
@@ -36,70 +36,71 @@ public:
   SpaceServer(const Experiment& experiment, const Assignment& assignment, const std::string& output_folder);
   ~SpaceServer();
 
-  // Who hears that the run goes on, but not as asked; otherwise the log. Called within Advance.
+  // Sets the receiver of warnings: the run goes on, but not exactly as requested. The default is the log. Called within
+  // Advance.
   void SetWarningHandler(std::function<void(const std::string&)> warn) { warn_ = std::move(warn); }
 
-  // Likewise: who hears of controllers that failed while the run goes on.
+  // Sets the receiver of reports about controllers that failed in a run that goes on. Called within Advance.
   using FaultHandler = std::function<void(const std::vector<RecordedFault>& of_a_tick)>;
   void SetFaultHandler(FaultHandler handler) { fault_ = std::move(handler); }
 
   const CSwarmanoidSpace& Space() const { return space_; }
-  // For those who change the experiment from outside physics.
+  // Returns the editor for changes from outside physics.
   SpaceEditor& Editor() { return editor_; }
-  // The state at the current tick as what changed; what the cluster publishes. It stays until that of the tick after
-  // the next one is asked for.
+  // Returns the changes of the state at the current tick, as the cluster publishes them. The reference is valid until
+  // State is called for the tick after the next one.
   const SpaceState& State();
   // The entities that were put elsewhere at the current tick, ascending.
   std::span<const std::uint32_t> Moved();
   void WriteSnapshot(SpaceSnapshot& snapshot) const;
-  // What the server remembers beside the snapshot. Saving throws std::runtime_error if experiment functions cannot
-  // be saved (HasState is false), or began the run again.
+  // Saves the server's own state, which is not in the snapshot. Throws std::runtime_error if experiment functions
+  // cannot be saved (HasState is false) or have begun the run again.
   void SaveState(ByteWriter& state) const;
-  // The space as in the snapshot, which must fit it; what is sent next is complete only for those who have it too.
+  // Restores the space from a snapshot, which must fit it. The next state that is sent is complete only for processes
+  // that have the snapshot too.
   void LoadState(const SpaceSnapshot& snapshot, ByteReader& state);
 
-  // After LoadState, for those who have the state of the tick before: these attributes have changed since.
+  // Marks attributes as changed after LoadState, for processes that have the state of the tick before.
   void Resend(const AttributeChanges& changes) { changed_slots_ = changes.slots; }
 
-  // For what comes from another process, before Advance; roles of this process have checked their results themselves.
-  // Throw std::runtime_error that names the engine or the host which gave what cannot be part of the state, the entity,
-  // the tick of the step and the value.
+  // Checks messages of other processes before Advance; roles in this process check their results themselves. Throws
+  // std::runtime_error that names the engine or host, the entity, the tick of the step and the wrong value.
   void Check(const EngineUpdate& update) const;
   void Check(const ControlCommands& commands) const;
-  // To the next tick: updates in engine order (all engines), commands in host order (those that report to the server),
-  // all checked. An attribute set by both an engine and a host has the engine's value. Entities that their engine took
-  // beyond the limit of the world are treated as the experiment says.
+  // Advances the space to the next tick. The updates of all engines are in engine order, and the commands of hosts that
+  // report to the server are in host order. All must be checked. If an engine and a host set the same attribute, the
+  // engine's value counts. The experiment file says what happens to entities beyond the limit of the world.
   void Advance(std::span<const EngineUpdate* const> updates, std::span<const ControlCommands* const> commands);
-  // Puts entities elsewhere, into the arena or out of it at the current tick, before its state goes out: all or none.
-  // Those that hold one another go on to, if they all stay in the arena; what they hold otherwise, and who else holds
-  // them, lets go. Throws StateError for what cannot be a pose, or is too far from the arena.
+  // Moves entities, into the arena or out of it, at the current tick and before its state is sent: all or none. Grips
+  // between moved entities stay if these all stay in the arena. All other grips of moved entities end. Throws
+  // StateError for values that are no pose, and for positions too far from the arena.
   void Move(std::span<const MoveRequest> requests);
   void Move(const MoveRequest& request) { Move({&request, 1}); }
-  // Changes one attribute at the current tick, before its state goes out. Throws StateError for a value that it cannot
-  // have. Of who is held, 0 alone is taken, which ends the hold.
+  // Changes one attribute at the current tick, before its state is sent. Throws StateError for a value outside its
+  // range. The attribute "gripped" accepts only 0, which ends the grip.
   void SetAttribute(std::uint32_t slot, double value);
   // All roles read this space: they are in one process with the server.
   void ShareSpace() { shares_space_ = true; }
-  // As SpaceEditor says.
+  // Does what SpaceEditor::BeginAgain describes.
   void BeginAgain(std::uint64_t first_tick, std::uint32_t variation);
   // The current tick is the last one.
   void Finish() { last_ = true; }
-  // True if Finish was called, or the experiment functions ended the run.
+  // Returns true if Finish was called, or the experiment functions ended the run.
   bool IsFinished() const { return last_; }
   // Has experiment functions draw, if something changed since they did. Throws as Advance does.
   void Draw();
   // The states that go out have what they drew.
   void SetDrawsIntoStates() { draws_into_states_ = true; }
-  // Gives all experiment functions a key ("I"), pressed or released, or selects an entity (its id; empty: none). Throws
-  // std::invalid_argument if there are no functions, no such key or no such entity.
+  // Passes a key ("I"), pressed or released, to all experiment functions, or selects an entity by its id (empty: none).
+  // Throws std::invalid_argument if there are no functions, no such key or no such entity.
   void PressKey(const std::string& key, bool pressed);
   void Select(const std::string& id);
   // Ends the experiment functions, once; later calls do nothing.
   void Destroy();
-  // True if the experiment functions say that the experiment failed: exit code 1.
+  // Returns true if the experiment functions say that the experiment failed: exit code 1.
   bool HasFailed() const { return failed_; }
 
-  // True if maxclock is reached or Finish was called.
+  // Returns true if maxclock is reached or Finish was called.
   bool IsLast() const { return last_ || (experiment_.max_clock != 0 && space_.GetTick() >= experiment_.max_clock); }
 
 private:
@@ -113,10 +114,10 @@ private:
 
   void Merge(const EngineUpdate& update);
   void Merge(const AttributeChanges& changes);
-  // Holds or removes those that the engine took beyond the limit.
+  // Takes the poses of an engine. Entities beyond the limit are held at it or removed.
   void SetPosesWithinLimit(const EngineUpdate& update, std::span<const std::uint32_t> owned);
   void Put(std::span<const MoveRequest> requests);
-  // Ends the holds of an entity but those on or by `kept` (ascending).
+  // Ends all grips of an entity except those with entities in `kept` (ascending).
   void EndHolds(std::uint32_t entity, std::span<const std::uint32_t> kept);
   void EndHold(std::uint32_t gripper, std::uint32_t gripped);
   void Change(std::uint32_t slot, double value);
@@ -140,13 +141,13 @@ private:
   std::array<SpaceState, 2> states_;  // of even and odd ticks
   std::vector<std::uint32_t> changed_slots_;
   std::vector<std::uint32_t> moved_;
-  std::vector<bool> told_;  // of each entity: whether it is told already that it was held
+  std::vector<bool> told_;  // of each entity: whether its hold at the limit was reported
   bool shares_space_ = false;
   bool last_ = false;
   bool failed_ = false;
   bool destroyed_ = false;
   SpaceEditor editor_;
-  StreamKey program_random_;  // of those who change the experiment between two steps
+  StreamKey program_random_;  // for programs that change the experiment between two steps
   std::vector<Functions> functions_;
   std::function<void(const std::string&)> warn_;
   FaultHandler fault_;

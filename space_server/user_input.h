@@ -1,4 +1,4 @@
-// What a user does in a window or on a page that is for experiment functions: keys, and which entity is selected.
+// The input of a user, in a window or on a page, for experiment functions: keys, and the selected entity.
 #pragma once
 
 #include <string>
@@ -14,19 +14,19 @@ struct UserInput
   {
     kKeyPressed,
     kKeyReleased,
-    kSelected,   // an entity; whoever was selected before was deselected first
+    kSelected,   // an entity; the one selected before was deselected first
     kDeselected  // the entity that was
   };
 
   Kind kind = Kind::kKeyPressed;
-  // "A" to "Z", "0" to "9", another sign that is on the key, "Space", "Return", "Escape", "Tab", "Backspace", "Delete",
-  // "Insert", "Home", "End", "PageUp", "PageDown", "Up", "Down", "Left", "Right", "Shift", "Control", "Alt", "F1" to
-  // "F12".
+  // The name of the key: "A" to "Z", "0" to "9", another sign on the key, "Space", "Return", "Escape", "Tab",
+  // "Backspace", "Delete", "Insert", "Home", "End", "PageUp", "PageDown", "Up", "Down", "Left", "Right", "Shift",
+  // "Control", "Alt", "F1" to "F12".
   std::string key;
   const CSwarmanoidSpaceEntity* entity = nullptr;  // of the last two
 };
 
-// Whether a key can be called so.
+// Returns whether this is the name of a key.
 bool IsKeyName(const std::string& name);
 
 }  // namespace swarmanoid

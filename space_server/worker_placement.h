@@ -1,5 +1,5 @@
-// Where the workers of a run are, and where they may go: for users who ask for other places of them. Used by
-// RunControl.
+// WorkerPlacement: the machine of each worker of a run, and the machines that it may move to. RunControl uses it for
+// users' requests.
 #pragma once
 
 #include <map>
@@ -17,10 +17,10 @@ inline constexpr const char* kHere = "here";
 class WorkerPlacement
 {
 public:
-  // Of a run whose processes nobody can move.
+  // Makes the placement of a run whose processes cannot be moved.
   WorkerPlacement() = default;
-  // `machines`: all that workers may be on; `places`: "WORKER=MACHINE", of all workers; of two with one name the last
-  // one counts. Throws std::invalid_argument for what is none.
+  // `machines` are all machines that workers may run on. `places` are "WORKER=MACHINE" for all workers; if a worker
+  // appears twice, the last entry counts. Throws std::invalid_argument for a malformed entry.
   WorkerPlacement(std::vector<std::string> machines, const std::vector<std::string>& places);
 
   struct Move
@@ -28,19 +28,21 @@ public:
     std::string worker;
     std::string machine;
   };
-  // The moves that an order asks for; none if the machine to drain has no worker. The orders are without error
-  // (OrderError). Throw std::invalid_argument with the cure.
+  // Returns the moves that an order asks for; none if the machine to drain has no worker. The orders must be without
+  // error (OrderError). Throws std::invalid_argument that says what to do.
   std::vector<Move> ReadHostMove(const ControlOrder& order) const;
   std::vector<Move> ReadEngineMove(const ControlOrder& order) const;
   std::vector<Move> ReadDrain(const ControlOrder& order) const;
   // "here: space server, engine 'ground'; beta: controller host 0".
   std::string Text() const;
-  // Whether the space server can start again, beside the launcher; without it nobody shares out robots anew.
+  // Returns true if the space server can start again, on the machine of the launcher. Only then can robots be
+  // distributed to other hosts.
   bool ServerMayStartAgain() const;
-  // Where controller hosts are to be, in their order, after what hosts asks for: at most so many. New ones are on the
-  // machine that is named, or here if there is none. 0 more: where they are. Throws likewise.
+  // Returns the machines of controller hosts in their order, for a request of `hosts`, with at most `most` hosts. New
+  // ones run on the named machine, or here by default. If no more are asked for, hosts stay where they are. Throws
+  // std::invalid_argument.
   std::vector<std::string> ReadHosts(const ControlOrder& order, std::size_t most) const;
-  // Nothing of a worker that nobody moves, and of a machine that the run does not have.
+  // Records a move. It ignores workers that cannot be moved and machines that the run does not have.
   void Put(const Move& move);
 
 private:

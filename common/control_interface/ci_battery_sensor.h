@@ -1,4 +1,4 @@
-// What is left in the battery of a robot.
+// CCI_BatterySensor: the remaining charge of a robot's battery.
 #pragma once
 
 #include "common/control_interface/ci_device.h"

@@ -29,7 +29,7 @@ struct CCI_Colour
     return (2 * red > strongest ? RED : 0) | (2 * green > strongest ? GREEN : 0) | (2 * blue > strongest ? BLUE : 0);
   }
 
-  // The colour of a column of numbers, cut to BLACK..WHITE.
+  // Returns the colour of a column of numbers, cut to BLACK..WHITE.
   static std::uint32_t FromNumber(double number)
   {
     return static_cast<std::uint32_t>(std::clamp(number, double{BLACK}, double{WHITE}));

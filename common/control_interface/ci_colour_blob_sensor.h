@@ -22,10 +22,10 @@ struct CCI_ColourBlob
 class CCI_ColourBlobSensor : public CCI_SensorOf<CCI_ColourBlobSensor>
 {
 public:
-  // All blobs in view, in no particular order, valid until the next control step.
+  // Returns all blobs in view, in no particular order, valid until the next control step.
   virtual std::span<const CCI_ColourBlob> GetAllBlobs() const = 0;
 
-  // The nearest blob whose colour is of the hue of `colour` (CCI_Colour::Nearest), nullptr if there is none.
+  // Returns the nearest blob whose hue is that of `colour` (CCI_Colour::Nearest), or nullptr if no blob has it.
   static const CCI_ColourBlob* FindNearest(std::span<const CCI_ColourBlob> blobs, std::uint32_t colour)
   {
     const CCI_ColourBlob* nearest = nullptr;

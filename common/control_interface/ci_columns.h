@@ -1,6 +1,6 @@
-// The columns of a device: the numbers that it reads or is told, each with a name, a unit and a range, and with what
-// reads it from the interface of the device. The interface declares them once. Python, Lua, the topics of ROS 2, the
-// inspectors, `swarmanoid inspect`, `swarmanoid list plugins` and the tests are written over this declaration.
+// The columns of a device: the numbers that it reads or is set to. Each has a name, a unit, a range, and a function
+// that reads it from the interface of the device. The interface declares them once. Python, Lua, the topics of ROS 2,
+// the inspectors, `swarmanoid inspect`, `swarmanoid list plugins` and the tests use this declaration.
 //
 //   class CCI_CompassSensor : public CCI_SensorOf<CCI_CompassSensor>
 //   {
@@ -31,8 +31,8 @@ namespace swarmanoid
 
 class CCI_Device;
 
-// One of the numbers that a device reads or is told, as a column of a table. It is the same at every tick, and for all
-// robots that carry the device alike.
+// One number that a device reads or is set to, as a column of a table. It is the same at every tick, and for all robots
+// with the same device.
 struct CCI_Column
 {
   enum class For
@@ -44,7 +44,7 @@ struct CCI_Column
 
   std::string name;    // "left"; "led #": one of several, whose number from 0 takes the place of '#'
   std::string unit{};  // "m/s"; empty for plain numbers. "colour": 0xRRGGBB, 0 is off. "yes/no": 1 or 0
-  // What the values lie between, noise included.
+  // The range of the values, noise included.
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
   bool may_be_infinite = false;  // infinity is a reading, too: nothing was found. People are not shown it
@@ -84,18 +84,18 @@ struct CCI_ColumnGroup
   bool IsFor(CCI_Column::For audience) const { return columns.front().IsFor(audience); }
 };
 
-// The declaration of an interface, as all who show devices see it.
+// The declaration of an interface, in the form for programs that show devices.
 struct CCI_Columns
 {
   // The readings that every tick has.
   std::vector<CCI_ColumnGroup> readings;
-  // The readings whose number differs from tick to tick, such as blobs or packets: what one of them is called, and its
-  // columns. `read_rows` appends row after row, `read_row_ids` the ids of the entities that the rows are about.
+  // The readings whose count differs between ticks, such as blobs or packets: the name of one of them, and its columns.
+  // `read_rows` appends row after row. `read_row_ids` appends the ids of the entities that the rows are about.
   std::string row_name;
   std::vector<CCI_ColumnGroup> row;
   std::function<void(const CCI_Device&, CCI_Column::For, std::vector<double>&)> read_rows;
   std::function<void(const CCI_Device&, std::vector<std::string>&)> read_row_ids;
-  // What an actuator is told, all at once.
+  // The columns that an actuator is set to, all at once.
   std::vector<CCI_ColumnGroup> settings;
   std::function<void(CCI_Device&, std::span<const double>)> set;
 };
@@ -119,13 +119,14 @@ struct CCI_Field
   Get get;
 };
 
-// What the interface `Device` writes its declaration with. Readings are numbers, switches, enumerations, or ranges.
+// The class with which the interface `Device` writes its declaration. Readings are numbers, switches, enumerations, or
+// ranges.
 template <class Device>
 class CCI_ColumnsOf : public CCI_Columns
 {
 public:
-  // A reading, or each number of a range. `count`: so many numbers are taken of a range whose size differs; zeros
-  // follow.
+  // Adds a reading, or each number of a range. `count` is the number of columns for a range of variable size; missing
+  // numbers become zeros.
   template <class Get>
   CCI_ColumnsOf& Add(CCI_Column column, Get get, std::size_t count = kNumbersIn<ResultOf<Get>>)
   {
@@ -138,7 +139,7 @@ public:
     readings.push_back({{std::move(column)}, count, SizeOf(get), read});
     return *this;
   }
-  // A range with a number for each of these columns.
+  // Returns a range with a number for each of these columns.
   template <class Get>
   CCI_ColumnsOf& AddAll(std::vector<CCI_Column> columns, Get get)
   {
@@ -147,7 +148,7 @@ public:
     readings.push_back({std::move(columns), 1, {}, read});
     return *this;
   }
-  // The fields of each item of a range, which has as many items at every tick.
+  // Adds the fields of each item of a range, which must have the same number of items at every tick.
   template <class Get, class... Gets>
   CCI_ColumnsOf& AddEach(Get get, CCI_Field<Gets>... fields)
   {
@@ -159,7 +160,7 @@ public:
     return *this;
   }
 
-  // The rows: the items of a range. `name`: of one of them, "blob".
+  // Returns the rows: the items of a range. `name`: of one of them, "blob".
   template <class Get, class... Gets>
   CCI_ColumnsOf& AddRows(std::string name, Get get, CCI_Field<Gets>... fields)
   {
@@ -180,7 +181,8 @@ public:
     return *this;
   }
 
-  // What an actuator is told. `by`: a function of it with an argument for each column; colours are std::uint32_t.
+  // Declares the settings of an actuator. `by` is a member function with an argument for each column; colours are
+  // std::uint32_t.
   template <class... Arguments>
   CCI_ColumnsOf& Set(const std::vector<CCI_Column>& columns, void (Device::*by)(Arguments...))
   {
@@ -192,8 +194,8 @@ public:
                  std::apply([&](const auto&... each) { (device.*by)(each...); }, all);
                });
   }
-  // `by`: a function of the actuator and a number for each column. `count`: how often a column whose name has a '#' is
-  // repeated, an integer or a function of the actuator.
+  // Declares the settings of an actuator. `by` is a function of the actuator and a number for each column. `count` is
+  // an integer or a function of the actuator: it repeats a column whose name has a '#'.
   template <class By, class Count = std::size_t>
   CCI_ColumnsOf& Set(const std::vector<CCI_Column>& columns, By by, Count count = {})
   {
@@ -224,7 +226,7 @@ private:
     else
       values.insert(values.end(), std::begin(value), std::end(value));
   }
-  // Of a range whose type does not have its size.
+  // Returns the size of a range whose type does not have it.
   template <class Get>
   static std::function<std::size_t(const CCI_Device&)> SizeOf(Get get)
   {

@@ -1,4 +1,4 @@
-// Where a robot touches others: a bumper all around it.
+// CCI_ContactSensor: a bumper all around a robot, which tells where the robot touches other bodies.
 #pragma once
 
 #include <span>
@@ -12,8 +12,8 @@ namespace swarmanoid
 class CCI_ContactSensor : public CCI_SensorOf<CCI_ContactSensor>
 {
 public:
-  // The directions of all that touches the robot, radians, counter-clockwise from the front, -pi..pi; in no particular
-  // order, valid until the next control step.
+  // Returns the directions of all that touches the robot, radians, counter-clockwise from the front, -pi..pi; in no
+  // particular order, valid until the next control step.
   virtual std::span<const double> GetAllContacts() const = 0;
   bool IsTouched() const { return !GetAllContacts().empty(); }
 

@@ -1,8 +1,8 @@
 // CCI_Controller: the base of every robot controller. The same class runs in the simulator and on the robot.
 //
-// A controller library holds one or more such classes, each registered by REGISTER_CONTROLLER with the tag that names
-// it in <controllers> and the table of its <parameters>. The runtime makes one object for each robot, calls Init once,
-// ControlStep every tick, Destroy at the end, all from one thread unless StepsInParallel says otherwise.
+// A controller library holds one or more such classes. REGISTER_CONTROLLER registers each with its tag in <controllers>
+// and the table of its <parameters>. The runtime makes one object for each robot, calls Init once, ControlStep every
+// tick, and Destroy at the end. All calls come from one thread unless StepsInParallel returns true.
 #pragma once
 
 #include <iosfwd>
@@ -31,6 +31,7 @@ public:
   // Reads the sensors and sets the actuators, once each tick.
   virtual void ControlStep() = 0;
   virtual void Destroy() {}
+  // Called once at the end of the run.
 
   // Optional: all that the controller remembers between ticks, so that a run can go on from a checkpoint. A controller
   // that remembers nothing overrides HasState alone; if it is left false, checkpoints of the run are refused.
@@ -40,20 +41,21 @@ public:
 
   // Shown by visualisers beside the robot: the state of the controller in a few words. Optional.
   virtual std::string StatusText() const { return {}; }
-  // Likewise: the current state of its state machine. Controllers made of behaviours or derived from FSM have it.
+  // Returns the current state of the controller's state machine, for visualisers. Controllers made of behaviours or
+  // derived from FSM have it.
   virtual std::string StateName() const;
 
-  // Controllers that declare no parameters: what Init did not ask for is taken for misspelt and refused. True for one
-  // that keeps the tree and asks later, or asks for some parameters only now and then.
+  // Returns true if the controller reads some parameters after Init or only sometimes. Otherwise a parameter that Init
+  // did not read is refused as misspelt. Only for controllers that declare no parameters.
   virtual bool ReadsParametersLater() const { return false; }
 
-  // True: ControlStep of several robots may run at the same time in threads of one process (`--threads`). It reads and
-  // writes nothing then that another robot's step writes: no static variables and no files of several robots. What
-  // the Common Interface gives belongs to the robot. False: one robot after the other.
+  // Returns true if ControlStep of several robots may run at the same time in threads of one process (`--threads`). It
+  // must then share no data that another robot's step writes: no static variables and no common files. All objects of
+  // the Common Interface belong to one robot. If false, robots step one after the other.
   virtual bool StepsInParallel() const { return false; }
 
   CCI_Robot* GetRobot() const { return robot_; }
-  // For the runtime, before Init.
+  // The runtime calls this before Init.
   void SetRobot(CCI_Robot* robot) { robot_ = robot; }
 
 private:
@@ -78,8 +80,9 @@ struct ControllerRegistration
 using swarmanoid::CCI_Controller;
 using swarmanoid::ParameterType;
 
-// REGISTER_CONTROLLER(CSampleFootBotController, "sample_footbot_controller"), and behind it, if wanted, one line that
-// says what the controller does. Or with the table of its parameters, so that mistakes in them are found before a run:
+// REGISTER_CONTROLLER(CSampleFootBotController, "sample_footbot_controller") may have a third argument: one line that
+// says what the controller does. The other form has the table of its parameters, so that mistakes in them are found
+// before a run:
 //
 //   REGISTER_CONTROLLER(CWalker, {.label = "walker",
 //                                 .brief = "walks straight on",

@@ -1,4 +1,5 @@
-// A camera that gives a small image: of each pixel how far away what it shows is, and its colour.
+// CCI_DepthCameraSensor: a camera with a small image. Each pixel has the distance and the colour of the visible
+// surface.
 #pragma once
 
 #include <algorithm>
@@ -19,14 +20,16 @@ class CCI_DepthCameraSensor : public CCI_SensorOf<CCI_DepthCameraSensor>
 public:
   struct Pixel
   {
-    // m along the axis of the camera, not along the ray; infinity if nothing is in range (as ROS has it: REP 118).
+    // The depth in m along the axis of the camera, not along the ray. It is infinity if nothing is in range (REP 118 of
+    // ROS).
     double depth_m = std::numeric_limits<double>::infinity();
     std::uint32_t colour = 0;  // 0xRRGGBB; 0 if nothing is in range
+    // Return the size of the image in pixels.
   };
 
   virtual unsigned GetWidth() const = 0;
   virtual unsigned GetHeight() const = 0;
-  // rad, between the left and the right border of the image. Pixels are square.
+  // Returns the angle (rad) between the left and the right border of the image. Pixels are square.
   virtual double GetFieldOfView() const = 0;
   // Row after row from the top, each from the left: GetWidth() · GetHeight() pixels, valid until the next control step.
   virtual std::span<const Pixel> GetAllPixels() const = 0;

@@ -21,37 +21,38 @@ struct CCI_Reading
   double value = 0;
 };
 
-// A device as everybody sees it who does not know its interface. Its columns follow from the declaration of its
-// interface, which is CCI_SensorOf or CCI_ActuatorOf of itself.
+// The base of all devices, for programs that do not know their interface. The columns follow from the declaration of
+// the interface, which is CCI_SensorOf or CCI_ActuatorOf of itself.
 class CCI_Device
 {
 public:
   virtual ~CCI_Device() = default;
 
-  // What the interface declares; nothing if it declares nothing.
+  // Returns the declaration of the interface, which may be empty.
   virtual const CCI_Columns& Declared() const;
 
   // The readings that every tick has, and appends one number for each.
   std::vector<CCI_Column> Columns() const;
   void ReadColumns(std::vector<double>& values) const;
-  // The columns of one of the readings whose number differs from tick to tick, and appends row after row.
+  // Rows returns the columns of readings whose count differs between ticks. ReadRows appends them row after row.
   std::vector<CCI_Column> Rows() const;
   void ReadRows(std::vector<double>& values) const;
-  // Appends the ids of the entities that the rows are about, one for each row. Nothing if the device does not tell.
+  // Appends the id of the entity that each row is about, or nothing if the device does not know it.
   void ReadRowIds(std::vector<std::string>& ids) const;
 
-  // For people who watch the robot: appends the present readings, and what the device was told last.
+  // Appends the present readings and the last settings, for users who watch the robot.
   void Describe(std::vector<CCI_Reading>& readings) const;
 
 protected:
-  // Of actuators: appends what was set last, a number for each column. Nothing: the implementation does not keep it.
+  // Appends the last settings of an actuator, a number for each column, or nothing if the implementation does not keep
+  // them.
   virtual void ReadSettings(std::vector<double>&) const {}
 
 private:
   void DescribeRows(std::vector<CCI_Reading>& readings) const;
 };
 
-// Base of all sensor interfaces. Readings in a control step are those of its start, whenever they are asked for.
+// The base of all sensor interfaces. Readings in a control step are those of its start, at any time in the step.
 class CCI_Sensor : public CCI_Device
 {
 };
@@ -60,10 +61,10 @@ class CCI_Sensor : public CCI_Device
 class CCI_Actuator : public CCI_Device
 {
 public:
-  // The numbers that the actuator can be told by SetColumns. Empty: there are none.
+  // Returns the columns that SetColumns can set, in SI units. It is empty if the actuator has none.
   std::vector<CCI_Column> Columns() const;
-  // Sets all columns at once. `values` has a finite number for each of them; what is beyond a range is cut to it.
-  // Switches are on above 0.5.
+  // Sets all columns at once. `values` must have a finite number for each column. Values outside a range are clamped to
+  // it. Switches are on above 0.5.
   void SetColumns(std::span<const double> values) { Declared().set(*this, values); }
 };
 

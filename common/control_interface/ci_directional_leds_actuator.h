@@ -1,5 +1,5 @@
-// The LEDs of any robot that has some, each of them seen only from within a cone about its axis, as cameras see LEDs
-// behind a lens.
+// CCI_DirectionalLedsActuator: LEDs of any robot that has some, each visible only from within a cone about its axis.
+// Cameras see them as LEDs behind a lens.
 #pragma once
 
 #include "common/control_interface/ci_led_ring_actuator.h"

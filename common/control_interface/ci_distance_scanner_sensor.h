@@ -25,7 +25,7 @@ public:
     Echo echo = Echo::kNothing;
   };
 
-  // All readings of the last tick, beam after beam, valid until the next control step.
+  // Returns all readings of the last tick, beam after beam, valid until the next control step.
   virtual std::span<const Reading> GetAllReadings() const = 0;
 
   static void Declare(Declaration& columns)

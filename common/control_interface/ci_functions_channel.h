@@ -26,7 +26,7 @@ public:
   // The report of this tick; the last one counts. The functions have it in their PostStep of the tick. Throws
   // std::length_error for more than kMaxMessageBytes.
   virtual void ReportBytes(std::span<const std::uint8_t> bytes) = 0;
-  // A number, an enumeration, a struct of those without pointers.
+  // Reports a number, an enumeration, or a struct of these without pointers.
   template <class Message>
   void Report(const Message& message)
   {
@@ -43,7 +43,8 @@ public:
   }
 
 private:
-  // A report in each step while it is reporting: so many of the bytes behind that.
+  // Sends a report in each step while values[0] is above 0.5. The next value is the count of bytes, and the bytes
+  // follow.
   static void SetNumbers(CCI_ReportActuator& report, std::span<const double> values)
   {
     if (values[0] > 0.5)
@@ -54,11 +55,11 @@ private:
 class CCI_InstructionSensor : public CCI_SensorOf<CCI_InstructionSensor>
 {
 public:
-  // Whether an instruction arrived in this tick; the last one stays readable.
+  // Returns whether an instruction arrived in this tick; the last one stays readable.
   virtual bool IsNew() const = 0;
-  // The last instruction; empty before the first one. Valid until the next control step.
+  // Returns the last instruction; empty before the first one. Valid until the next control step.
   virtual std::span<const std::uint8_t> GetBytes() const = 0;
-  // The same as a message; nullopt if it has another size.
+  // Returns the same as a message; nullopt if it has another size.
   template <class Message>
   std::optional<Message> Get() const
   {

@@ -1,4 +1,4 @@
-// The sensors under any robot whose kind has them: they see the floor.
+// CCI_GroundSensor: the sensors under any robot whose kind has them, which see the floor.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ class CCI_GroundSensor : public CCI_SensorOf<CCI_GroundSensor>
 public:
   // Brightness of the floor under each sensor, 0 (black, or a hole) to 1 (white).
   virtual std::span<const double> GetAllSensorReadings() const = 0;
-  // The colour of the floor (0xRRGGBB) under the centre of the robot; without noise.
+  // Returns the colour of the floor (0xRRGGBB) under the centre of the robot; without noise.
   virtual std::uint32_t GetFloorColour() const = 0;
 
   static void Declare(Declaration& columns)

@@ -15,9 +15,9 @@ namespace swarmanoid
 class CCI_LedRingActuator : public CCI_ActuatorOf<CCI_LedRingActuator>
 {
 public:
+  // Returns the number of LEDs on the ring.
   virtual unsigned GetNumLeds() const = 0;
-  // Colours are 0xRRGGBB, 0 is off; higher bits are ignored. LEDs count counter-clockwise from the front left; an index
-  // beyond the ring throws std::out_of_range.
+  // Sets all LEDs. Colours are 0xRRGGBB, 0 is off; higher bits are ignored.
   virtual void SetAllColours(std::uint32_t colour) = 0;
   // A colour for each LED; another number of them than GetNumLeds() throws std::invalid_argument.
   void SetAllActuatorOutputs(std::span<const std::uint32_t> colours)
@@ -27,6 +27,7 @@ public:
                                   std::to_string(GetNumLeds()) + " LEDs");
     for (unsigned led = 0; led < GetNumLeds(); ++led) SetColour(led, colours[led]);
   }
+  // Sets one LED. LEDs count counter-clockwise from the front left. An index beyond the ring throws std::out_of_range.
   virtual void SetColour(unsigned led, std::uint32_t colour) = 0;
 
   static void Declare(Declaration& columns)

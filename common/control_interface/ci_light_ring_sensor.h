@@ -1,4 +1,4 @@
-// The 24 light sensors around the body of a robot. The base of those of footbots and eyebots.
+// The 24 light sensors around the body of a robot: the base of the footbot's and the eyebot's light sensors.
 #pragma once
 
 #include <span>

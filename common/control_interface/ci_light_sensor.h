@@ -1,5 +1,5 @@
-// A ring of light sensors around the body, each of which tells how bright the lights are that it sees. Type label
-// "light". Any robot can carry it.
+// CCI_LightSensor: a ring of light sensors around the body of any robot, each with the brightness of the lights that it
+// sees. The type label is "light".
 #pragma once
 
 #include "common/control_interface/ci_ring_sensor.h"

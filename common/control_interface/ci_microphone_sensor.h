@@ -1,4 +1,4 @@
-// What a robot hears of the sound sources of the arena.
+// CCI_MicrophoneSensor: the sound sources of the arena that a robot hears.
 #pragma once
 
 #include <span>
@@ -19,10 +19,11 @@ public:
     double elevation_rad = 0;  // above the horizontal plane of the robot
   };
 
-  // The pressure of all sounds together, in the unit of Sound::loudness; 20 log10 of it are decibels. 0: silence.
+  // Returns the pressure of all sounds together, in the unit of Sound::loudness; 20 log10 of it are decibels. 0:
+  // silence.
   virtual double GetLoudness() const = 0;
-  // Each source that is heard, if the implementation tells them apart; in no particular order, valid until the next
-  // control step.
+  // Returns the heard sources if the implementation separates them, in no particular order. The span is valid until the
+  // next control step.
   virtual std::span<const Sound> GetAllSounds() const = 0;
 
   static void Declare(Declaration& columns)

@@ -27,8 +27,8 @@ public:
 
   // Sector i spans the angles i .. i + 1 times 2 pi / GetNumSectors(), counter-clockwise from the front.
   virtual unsigned GetNumSectors() const = 0;
-  // All sectors for one of the colours of CCI_Colour other than black; blobs of other colours count for the nearest
-  // one. Throws std::invalid_argument for another colour. Valid until the next control step.
+  // Returns all sectors for one of the colours of CCI_Colour other than black; blobs of other colours count for the
+  // nearest one. Throws std::invalid_argument for another colour. Valid until the next control step.
   virtual std::span<const Slice> GetAllSlices(std::uint32_t colour) const = 0;
   // Throws std::out_of_range for a sector from GetNumSectors() on.
   const Slice& GetSlice(std::uint32_t colour, unsigned sector) const

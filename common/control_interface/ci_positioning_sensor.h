@@ -1,4 +1,4 @@
-// Where a robot is, as a tracking system or satellites tell it.
+// CCI_PositioningSensor: the pose of a robot from a tracking system or satellites.
 #pragma once
 
 #include "common/control_interface/ci_device.h"
@@ -10,9 +10,9 @@ namespace swarmanoid
 class CCI_PositioningSensor : public CCI_SensorOf<CCI_PositioningSensor>
 {
 public:
-  // In the space, m: of the base of the robot.
+  // Returns the position of the robot's base in the space, m.
   virtual Vector3 GetPosition() const = 0;
-  // From the frame of the robot to that of the space.
+  // Returns the rotation from the frame of the robot to that of the space, as a unit quaternion.
   virtual Quaternion GetOrientation() const = 0;
   // Radians, counter-clockwise from the x axis of the space, -pi..pi.
   double GetHeading() const { return YawOf(GetOrientation()); }

@@ -1,4 +1,4 @@
-// The infrared proximity sensors of any robot whose kind has them. Type label "proximity".
+// CCI_ProximitySensor: the infrared proximity sensors of any robot whose kind has them. The type label is "proximity".
 #pragma once
 
 #include "common/control_interface/ci_ring_sensor.h"

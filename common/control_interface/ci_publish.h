@@ -33,14 +33,14 @@ struct CCI_PublishedNumber
   double value;
 };
 
-// In a report: 16 bits of the name, and the number.
+// An entry of a report: 16 bits of the name, and the number.
 inline constexpr std::size_t kPublishedBytes = sizeof(std::uint16_t) + sizeof(double);
 inline constexpr std::size_t kMostPublished = kMaxMessageBytes / kPublishedBytes;
 
 inline std::uint16_t ShortName(std::string_view name) { return static_cast<std::uint16_t>(StreamName(name)); }
 
-// Once a step, up to three numbers; they hold until the next report. Throws std::length_error for more, and
-// std::invalid_argument for two names whose 16 bits are equal.
+// Reports up to three numbers, at most once a step; they hold until the next report. Throws std::length_error for more
+// numbers, and std::invalid_argument for two names with equal 16 bits.
 inline void Publish(const CCI_Robot& robot, std::initializer_list<CCI_PublishedNumber> numbers)
 {
   if (!robot.HasActuator("report")) return;
@@ -63,7 +63,8 @@ inline void Publish(const CCI_Robot& robot, std::initializer_list<CCI_PublishedN
   robot.Actuator<CCI_ReportActuator>("report").ReportBytes(std::span(bytes).first(count * kPublishedBytes));
 }
 
-// For who takes the table: nullopt if a report does not have the name, or is no such report.
+// Returns a published number for the table of a study. Returns nullopt if the report does not have the name, or is of
+// another form.
 inline std::optional<double> PublishedNumberIn(std::span<const std::uint8_t> report, std::string_view name)
 {
   if (report.size() % kPublishedBytes != 0) return std::nullopt;

@@ -33,7 +33,8 @@ public:
   }
 
 private:
-  // A packet in each step while it is sending: so many of the bytes behind that.
+  // Sends a packet in each step while values[0] is above 0.5. The next value is the count of bytes, and the bytes
+  // follow.
   static void SetNumbers(CCI_RadioActuator& radio, std::span<const double> values)
   {
     if (values[0] > 0.5) SendNumbers<MAX_BYTES>(values.subspan(1), [&](auto bytes) { radio.Send(bytes); });
@@ -53,8 +54,8 @@ public:
     std::span<const std::uint8_t> Bytes() const { return {bytes.data(), length}; }
   };
 
-  // All packets that arrived in this tick, in the order in which they were sent and, of one tick, of the entities in
-  // the experiment file. Valid until the next control step.
+  // Returns all packets that arrived in this tick, in the order of sending. Packets of one tick are in the order of the
+  // entities in the experiment file. The span is valid until the next control step.
   virtual std::span<const Packet> GetAllPackets() const = 0;
 
   static void Declare(Declaration& columns)

@@ -23,8 +23,10 @@ public:
 
   // Sends these bytes in every tick from now on; others receive them one tick later.
   virtual void SetMessage(const Message& message) = 0;
+  // Sends nothing from this tick on.
   virtual void StopSending() = 0;
-  // Of a message: NUM_BYTES, or more if the experiment file gives the actuator more ("bytes").
+  // Returns the number of bytes of a message: NUM_BYTES, or more if the experiment file gives the actuator more
+  // ("bytes").
   virtual unsigned GetNumBytes() const { return NUM_BYTES; }
   // SetMessage of any length up to GetNumBytes(); zeros follow. Throws std::length_error for more.
   virtual void SetBytes(std::span<const std::uint8_t> bytes)
@@ -72,16 +74,17 @@ public:
     std::uint32_t further = 0;  // for GetFurtherBytes
   };
 
-  // All packets received in this tick, in no particular order, valid until the next control step.
+  // Returns all packets received in this tick, in no particular order, valid until the next control step.
   virtual std::span<const Packet> GetAllPackets() const = 0;
-  // The bytes of a packet behind its first NUM_BYTES: none if its sender has no longer messages. Valid as the packets.
+  // Returns the bytes of a packet behind its first NUM_BYTES: none if its sender has no longer messages. Valid as the
+  // packets.
   virtual std::span<const std::uint8_t> GetFurtherBytes(const Packet&) const { return {}; }
   // How many there are in the longest message that any robot of the experiment can send.
   virtual unsigned GetMostFurtherBytes() const { return 0; }
 
   static void Declare(Declaration& columns)
   {
-    // As many for each packet, so that rows are equally long.
+    // Each packet has the same number of columns, so that rows are equally long.
     const auto further = [](const CCI_RangeAndBearingSensor& sensor, const Packet& packet)
     {
       const std::span<const std::uint8_t> bytes = sensor.GetFurtherBytes(packet);

@@ -1,5 +1,5 @@
-// Sensors in a ring around the body of any robot, of which each has one reading. The base of those of proximity and of
-// light.
+// CCI_RingSensor: sensors in a ring around the body of any robot, with one reading each. The base of proximity and
+// light sensors.
 #pragma once
 
 #include <span>
@@ -13,10 +13,10 @@ namespace swarmanoid
 class CCI_RingSensor : public CCI_SensorOf<CCI_RingSensor>
 {
 public:
-  // All readings, 0 to 1, valid until the next control step.
+  // Returns all readings, 0 to 1, valid until the next control step.
   virtual std::span<const double> GetAllSensorReadings() const = 0;
-  // Where a sensor looks: radians, counter-clockwise from the front. Throws std::out_of_range for a sensor that is not
-  // there.
+  // Returns the direction of a sensor: radians, counter-clockwise from the front. Throws std::out_of_range if the
+  // sensor does not exist.
   virtual double GetAngle(unsigned sensor) const = 0;
 
   static void Declare(Declaration& columns) { columns.Add({"#", "", 0, 1}, &CCI_RingSensor::GetAllSensorReadings); }

@@ -21,7 +21,7 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-// What a controller draws random numbers for: its steps. The runtime names the streams of GetRandom by them.
+// The steps of a controller that draw random numbers. The runtime names the streams of GetRandom by them.
 inline constexpr std::uint64_t kInitStream = StreamName("controller Init");
 inline constexpr std::uint64_t kControlStepStream = StreamName("controller ControlStep");
 inline constexpr std::uint64_t kDestroyStream = StreamName("controller Destroy");
@@ -35,17 +35,17 @@ public:
   // "footbot", "eyebot" or "handbot".
   const std::string& GetKind() const { return *kind_; }
 
-  // The device registered under a type label ("footbot_wheels"), for as long as the controller lives.
-  // Throws CCI_DeviceError, naming those listed, if the configuration does not list it.
+  // Returns the device registered under a type label ("footbot_wheels"), valid as long as the controller. Throws
+  // CCI_DeviceError, which names the listed devices, if the configuration does not list the label.
   CCI_Actuator* GetActuator(const std::string& type) const;
   CCI_Sensor* GetSensor(const std::string& type) const;
   bool HasActuator(const std::string& type) const { return Find(actuators_, type) != nullptr; }
   bool HasSensor(const std::string& type) const { return Find(sensors_, type) != nullptr; }
-  // The labels of all that the configuration lists, in ascending order.
+  // Returns the labels of all that the configuration lists, in ascending order.
   std::vector<std::string> ActuatorTypes() const;
   std::vector<std::string> SensorTypes() const;
 
-  // The same, checked: throws CCI_DeviceError if the device is of another interface.
+  // Returns the same, checked: throws CCI_DeviceError if the device is of another interface.
   template <class Interface>
   Interface& Actuator(const std::string& type) const
   {
@@ -57,14 +57,14 @@ public:
     return Checked<Interface>(GetSensor(type), type);
   }
 
-  // The clock: ticks since the start, and seconds of one tick and since the start.
+  // Returns the clock: ticks since the start, and seconds of one tick and since the start.
   std::uint64_t GetTick() const { return tick_; }
   double GetTickSeconds() const { return tick_seconds_; }
   double GetTime() const { return static_cast<double>(tick_) * tick_seconds_; }
 
-  // Random numbers of this robot in this step: Init, a ControlStep or Destroy. They go on from call to call, are others
-  // in the next step, and depend on the seed, the id of the robot, the step and its tick alone, so that they are equal
-  // in every run. Keep no reference beyond the step.
+  // Returns the random numbers of this robot in this step: Init, a ControlStep or Destroy. They continue from call to
+  // call and differ between steps. They depend only on the seed, the id of the robot, the step and its tick, so they
+  // are equal in every run. The reference is valid during the step only.
   RandomStream& GetRandom()
   {
     if (!has_random_) BeginRandom();
@@ -76,7 +76,7 @@ public:
   // files.
   void Log(std::string_view text) const { log_(*this, text); }
 
-  // For the runtime that owns the robot.
+  // The functions below are for the runtime that owns the robot.
   using LogSink = void (*)(const CCI_Robot& robot, std::string_view text);
   void SetLog(LogSink log) { log_ = log; }
   void AddActuator(const std::string& type, CCI_Actuator* actuator) { Add(actuators_, type, actuator); }
@@ -88,8 +88,8 @@ public:
     random_ = std::move(random);
     has_random_ = true;
   }
-  // Likewise a control step with random numbers of that key and of `random_tick`: most steps draw none. The tick lasts
-  // as long as before.
+  // Begins a control step with random numbers of that key and of `random_tick`, which are made on first use, since most
+  // steps draw none. The duration of a tick stays as it was.
   void SetControlStepKey(const StreamKey& key) { control_step_key_ = key; }
   void BeginControlStep(std::uint64_t tick, std::uint64_t random_tick)
   {
@@ -103,11 +103,11 @@ private:
   template <class Device>
   using Devices = std::vector<std::pair<const std::string*, Device*>>;
 
-  // A text that all robots of a process share.
+  // Returns a text that all robots of a process share.
   static const std::string* Shared(const std::string& text);
   template <class Device>
   static void Add(Devices<Device>& devices, const std::string& type, Device* device);
-  // Null if there is none.
+  // Returns nullptr if the device is not listed.
   template <class Device>
   static Device* Find(const Devices<Device>& devices, const std::string& type);
   // The device, or an error that says what to do: list it, ask for the other kind, or spell it as listed.
@@ -120,7 +120,7 @@ private:
     random_ = {control_step_key_, random_tick_};
     has_random_ = true;
   }
-  // To standard error: without a runtime that has a log.
+  // Writes to standard error, for robots without a runtime that has a log.
   static void WriteLog(const CCI_Robot& robot, std::string_view text);
 
   template <class Interface, class Device>
@@ -130,7 +130,7 @@ private:
     throw CCI_DeviceError("robot '" + id_ + "': device '" + type + "' is not of the interface asked for");
   }
 
-  // What each step writes, together.
+  // Members that each step writes are next to each other.
   std::uint64_t tick_ = 0, random_tick_ = 0;
   bool has_random_ = true;
   double tick_seconds_ = 0.1;

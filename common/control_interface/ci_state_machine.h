@@ -10,12 +10,13 @@ class CCI_StateMachine
 {
 public:
   virtual ~CCI_StateMachine() = default;
-  // False before the start state is set; then there is no name.
+  // Returns false before the start state is set.
   virtual bool HasStarted() const = 0;
+  // Returns the name of the current state. The machine must have started.
   virtual const std::string& GetStateName() const = 0;
 };
 
-// Empty for nullptr and for a machine that has not started.
+// Returns an empty result for nullptr and for a machine that has not started.
 inline std::string StateNameOf(const CCI_StateMachine* machine)
 {
   return machine != nullptr && machine->HasStarted() ? machine->GetStateName() : std::string();

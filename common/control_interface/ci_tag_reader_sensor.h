@@ -19,7 +19,7 @@ public:
     double distance_m = 0;  // from the antenna to its position, as the strength of its answer tells it
   };
 
-  // All tags that answered in this tick, in no particular order, valid until the next control step.
+  // Returns all tags that answered in this tick, in no particular order, valid until the next control step.
   virtual std::span<const Tag> GetAllTags() const = 0;
 
   static void Declare(Declaration& columns)

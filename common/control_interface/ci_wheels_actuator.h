@@ -1,4 +1,4 @@
-// The two driven wheels of any robot whose kind has them.
+// CCI_WheelsActuator: the two driven wheels of any robot whose kind has them.
 #pragma once
 
 #include "common/control_interface/ci_device.h"
@@ -9,11 +9,11 @@ namespace swarmanoid
 class CCI_WheelsActuator : public CCI_ActuatorOf<CCI_WheelsActuator>
 {
 public:
-  // Metres.
+  // Return the radius of the wheels and the distance between them, m.
   virtual double GetWheelRadius() const = 0;
   virtual double GetInterwheelDistance() const = 0;
-  // Angular velocities in rad/s; positive drives forward. Values beyond the limit of the robot are clamped to it; one
-  // that is not a number ends a simulation with an error.
+  // Sets angular velocities in rad/s; positive drives forward. Values beyond the limit of the robot are clamped to it.
+  // NaN ends a simulation with an error.
   virtual void SetAngularVelocity(double left, double right) = 0;
   // Speeds of the wheels on the ground in m/s.
   void SetLinearVelocity(double left, double right)

@@ -9,8 +9,9 @@
 namespace swarmanoid
 {
 
-// What Init returned. `id`: of the controller in the experiment file. Throws what Init throws, and ConfigurationError
-// with each parameter that it never read, its place and the nearest of those that it did read.
+// Calls Init and returns its result. `id` is the controller's id in the experiment file. Passes on exceptions of Init.
+// Throws ConfigurationError with each parameter that Init never read, its position and the nearest parameter that Init
+// did read.
 int InitController(CCI_Controller& controller, const PluginDescription& description, const std::string& id,
                    const TConfigurationTree& parameters);
 

@@ -49,7 +49,7 @@ ControllerChannels ChannelsOf(const ControllerConfiguration& controller)
 
 using ChannelMap = std::map<std::string, int> ControllerChannels::*;
 
-// The blocks of one message: channels in order of their names, robots ascending. `robots` must be ascending.
+// Returns the blocks of one message: channels in order of their names, robots ascending. `robots` must be ascending.
 std::vector<ChannelBlock> MakeBlocks(const std::vector<std::uint32_t>& robots,
                                      const std::vector<const ControllerChannels*>& channels_of, ChannelMap member,
                                      std::size_t& size)
@@ -113,7 +113,7 @@ std::vector<std::uint32_t> SourcesOf(const std::vector<ValueCopy>& copies)
   return sources;
 }
 
-// Of each entity: the first engine that lists it, if it can move; -1 if there is none.
+// Returns for each movable entity the first engine that lists it, and -1 for all others.
 std::vector<int> OwnersOf(const Experiment& experiment)
 {
   std::vector<int> owners(experiment.entities.size(), -1);
@@ -124,7 +124,7 @@ std::vector<int> OwnersOf(const Experiment& experiment)
   return owners;
 }
 
-// Those with a controller, ascending.
+// Returns the robots with a controller, ascending.
 std::vector<std::uint32_t> RobotsOf(const Experiment& experiment)
 {
   std::vector<std::uint32_t> robots;
@@ -133,7 +133,7 @@ std::vector<std::uint32_t> RobotsOf(const Experiment& experiment)
   return robots;
 }
 
-// Of each entity, in the plane.
+// Returns the position of each entity in the plane.
 std::vector<Vector2> PlacesOf(const Experiment& experiment, std::span<const double> poses)
 {
   std::vector<Vector2> places;
@@ -153,9 +153,9 @@ std::vector<Vector2> PlacesOf(const Experiment& experiment, std::span<const doub
   return places;
 }
 
-// Orders robots so that those of the hosts from `first` to before `last` stand one behind the other, near ones
-// together: halved across the longer side of where they are, again and again. `begin`: of the robots of each host,
-// and the end. They come ordered by engine; where they are of several, these are kept apart.
+// Orders the robots of the hosts from `first` to before `last` so that near ones are together. The set is halved across
+// the longer side of its area, again and again. `begin` has the start of each host's robots, and the end. The robots
+// come ordered by engine; robots of different engines are kept apart.
 void OrderByPlace(const std::vector<Vector2>& places, const std::vector<int>& owner, std::span<const std::size_t> begin,
                   std::size_t first, std::size_t last, std::vector<std::uint32_t>& robots)
 {
@@ -196,7 +196,7 @@ HostTable DealRobots(const Experiment& experiment, unsigned hosts, std::span<con
   table.of_robots.resize(robots.size());
   if (table.hosts == 1) return table;
 
-  // As many robots each, ordered by engine, then place.
+  // Each host gets about as many robots, ordered by engine, then position.
   const std::vector<int> owner = OwnersOf(experiment);
   std::vector<std::uint32_t> ordered = robots;
   std::ranges::stable_sort(ordered, {}, [&](std::uint32_t robot) { return owner[robot]; });

@@ -1,6 +1,6 @@
-// Who does what: which host runs which robots, which engine owns which entities, and where each value of a specific
-// device stands in the messages between them. A pure function of the experiment and the host table, equal in every
-// process.
+// Assignment: which host runs which robots, which engine owns which entities, and the position of each value of a
+// specific device in the messages between them. It is a pure function of the experiment and the host table, so it is
+// equal in every process.
 #pragma once
 
 #include <span>
@@ -12,13 +12,14 @@
 namespace swarmanoid
 {
 
-// Which controller host runs which robot.
+// The controller host of each robot.
 struct HostTable
 {
   std::uint32_t hosts = 1;
   std::vector<std::uint32_t> of_robots;  // of each entity with a controller, in their order
   bool operator==(const HostTable&) const = default;
-  // Whether all robots are of hosts that there are, and there are not more of these than of robots, but one at least.
+  // Returns whether all robots are of hosts that there are, and there are not more of these than of robots, but one at
+  // least.
   bool IsSound() const;
 };
 
@@ -74,13 +75,14 @@ struct Assignment
   std::vector<int> host;   // of each entity: host index, -1 for none
 };
 
-// Each host has about as many robots, of one engine if it may be, and near one another: the swarm is halved across its
-// longer side, again and again. There are never more hosts than robots, and always at least one. `poses`: where they
-// are, as in SpaceState; none: where they start. Throws std::runtime_error if these are of other entities.
+// Distributes robots to hosts. Each host has about as many robots, near each other and of one engine if possible: the
+// swarm is halved across its longer side, again and again. There is at least one host, and never more hosts than
+// robots. `poses` are as in SpaceState; if empty, the start poses count. Throws std::runtime_error if they are of other
+// entities.
 HostTable DealRobots(const Experiment& experiment, unsigned hosts, std::span<const double> poses = {});
 // Needs the device registries. Throws std::runtime_error if the table is of other robots.
 Assignment MakeAssignment(const Experiment& experiment, const HostTable& table);
-// With robots dealt by where they start.
+// Makes the assignment with robots distributed by their start poses.
 Assignment MakeAssignment(const Experiment& experiment, unsigned hosts);
 
 std::string EngineName(const Experiment& experiment, std::size_t engine);  // "engine 'ground'"
@@ -90,7 +92,8 @@ std::string RegionName(const Experiment& experiment, std::size_t engine, unsigne
 unsigned RegionNumber(const Experiment& experiment, std::size_t engine, unsigned region);
 // How many processes an engine has beside its worker: 0 if it is not split.
 unsigned RegionsOf(const EngineConfiguration& engine);
-// The engine that moves an entity, and the host that runs its controller; empty if there is none.
+// Return the engine that moves an entity, and the host that runs its controller. The text is empty if there is no such
+// process.
 std::string OwnerName(const Experiment& experiment, const Assignment& assignment, std::size_t entity);
 std::string HostNameOf(const Assignment& assignment, std::size_t entity);
 

@@ -12,7 +12,7 @@ bool IsOrdered(const AttributeChanges& changes)
          std::adjacent_find(changes.slots.begin(), changes.slots.end(), std::greater_equal<>()) == changes.slots.end();
 }
 
-// Whoever adds goes through his robots in order, so there are a few ascending runs to merge.
+// Devices add changes in the order of robots, so there are a few ascending runs to merge.
 void AttributeOrder::Apply(AttributeChanges& changes)
 {
   if (IsOrdered(changes)) return;

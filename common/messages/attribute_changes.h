@@ -1,5 +1,5 @@
-// The order of AttributeChanges: slots ascend and stand once, whoever added them. Used by the roles before they hand
-// their changes over, and by devices.
+// The order of AttributeChanges: slots ascend, and each is in the list once. Used by the roles before they send their
+// changes, and by devices.
 #pragma once
 
 #include <span>
@@ -23,11 +23,11 @@ private:
   AttributeChanges ordered_;
 };
 
-// Whether slots ascend, each with a value.
+// Returns whether slots ascend, each with a value.
 bool IsOrdered(const AttributeChanges& changes);
 
-// Adds the values of `slots` (ascending) that differ from those of the space (`known`, all slots), or for whose slot
-// there is a change already: who reports last decides on a slot, even by leaving it as it is.
+// Adds the values of `slots` (ascending) that differ from those of the space (`known`, all slots). A slot that has a
+// change already is added too, since the last reporter decides, even if it restores the old value.
 void ReportChanges(std::span<const std::uint32_t> slots, std::span<const double> values,
                    const SparseVector<double>& known, AttributeChanges& changes);
 

@@ -24,7 +24,7 @@ struct ControlArgument
   bool operator==(const ControlArgument&) const = default;
 };
 
-// What is asked, without who asks it. The arguments are in the order of the verb's parameters.
+// A request without its sender. The arguments are in the order of the verb's parameters.
 struct ControlOrder
 {
   std::string verb;

@@ -37,7 +37,7 @@ struct ControlParameter
   std::vector<std::string> choices{};
 };
 
-// Each of these may ask for what those before it may ask for.
+// Each group may send the requests of the groups before it too.
 enum class Asker
 {
   kOperator,  // holders of operator grants
@@ -57,7 +57,7 @@ enum class Effect
   kNote        // something happened that was not asked for
 };
 
-// What a request counts as if the run ended before it was executed.
+// The meaning of a request if the run ended before it was executed.
 enum class AtEnd
 {
   kRefused,
@@ -74,7 +74,7 @@ struct ControlVerb
   Asker who = Asker::kOperator;
   AtEnd at_end = AtEnd::kRefused;
   bool announced = false;  // the run's console tells that it was done
-  // Returns what is wrong with arguments that are each right; empty if nothing is.
+  // Returns the mistake of arguments that are each valid alone, or an empty text.
   std::string (*check)(const ControlOrder& order) = nullptr;
 
   // Repeated with the states of the run, by --events.
@@ -99,7 +99,7 @@ std::string FormOf(const ControlVerb& verb);
 // Throws std::invalid_argument, which says the form.
 ControlOrder ParseOrder(const ControlVerb& verb, const std::map<std::string, std::string>& named,
                         const std::vector<std::string>& words);
-// The other way round: a text that ParseOrder reads as the same value.
+// Does the reverse: returns a text that ParseOrder reads as the same value.
 std::string TextOf(const ControlParameter& parameter, const ControlValue& value);
 // "move fb_0 1 2 0", for people.
 std::string TextOf(const ControlOrder& order);
@@ -111,12 +111,12 @@ struct OrderColumns
   std::string numbers;
 };
 OrderColumns ColumnsOf(const ControlOrder& order);
-// The other way round. Throws std::invalid_argument.
+// Does the reverse. Throws std::invalid_argument.
 ControlOrder OrderOf(const ControlVerb& verb, const OrderColumns& columns);
 
 // A line for each verb that `asker` may use: "  FORM    help".
 std::string ControlVerbHelp(Asker asker);
-// The same as a table in Markdown, for docs/command.md.
+// Returns the same as a table in Markdown, for docs/command.md.
 std::string ControlVerbTable(Asker asker);
 
 }  // namespace swarmanoid

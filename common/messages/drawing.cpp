@@ -45,7 +45,7 @@ std::uint32_t WidthOf(const Ink& ink)
   return static_cast<std::uint32_t>(std::lround(ink.width * 16));
 }
 
-// Of the numbers of a shape: how many belong together, and how many there are at least and at most.
+// The numbers of a shape come in groups of `step`, at least `least` and at most `most` of them.
 struct Counts
 {
   std::uint32_t step, least, most;
@@ -242,7 +242,7 @@ void Drawing::Text(const Vector3& place, std::string_view text, const Ink& ink)
   if (!Add(Kind::kText, ink, 3)) return;
   Put(place);
   std::size_t end = std::min(text.size(), kLongestText);
-  // Not within a character of UTF-8.
+  // The cut must not be within a character of UTF-8.
   while (end < text.size() && end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80) --end;
   texts.emplace_back(text.substr(0, end));
 }

@@ -22,7 +22,7 @@ struct Ink
   double width = 1;                 // pixels: of lines, and the diameter of points
 };
 
-// As it travels: its numbers and texts stand in the lists of the drawing, one shape behind the other.
+// A shape in its serialised form. Its numbers and texts are in the lists of the drawing, one shape after the other.
 struct DrawnShape
 {
   enum class Kind : std::uint32_t
@@ -33,7 +33,7 @@ struct DrawnShape
     kArrows,      // of each: from, to
     kPolygon,     // filled, convex; of each corner: x, y, z
     kCircle,      // its line: middle, orientation (x, y, z, w), radius
-    kDisc,        // filled: likewise
+    kDisc,        // filled; as kCircle
     kBox,         // middle, orientation, size
     kCylinder,    // middle, orientation, radius, height
     kText         // where its left end stands; and one text
@@ -51,17 +51,18 @@ struct DrawnShape
 class Drawing
 {
 public:
-  // Of one tick. What is beyond is left out, which IsFull tells.
+  // The limits of a tick. More shapes are left out, and IsFull returns true.
   static constexpr std::size_t kMostShapes = 20'000;
   static constexpr std::size_t kMostNumbers = 300'000;  // a segment has six
   static constexpr std::size_t kMostTexts = 5'000;
   static constexpr std::size_t kLongestText = 256;  // bytes; longer ones are cut
   static constexpr double kWidest = 4095;           // pixels
 
-  // ---- For who draws. Metres. Numbers that are not finite, sizes below 0, opacities and widths out of range and
-  // polygons of fewer than three corners throw std::invalid_argument.
+  // ---- The functions for drawing. Lengths are in metres. They throw std::invalid_argument for numbers that are not
+  // finite, sizes below 0, opacities and widths out of range, and polygons of fewer than three corners.
 
-  // What follows is in the frame of that entity (its index), and moves with it; InSpace: in the space, as at first.
+  // InFrameOf puts the following shapes into the frame of that entity (its index), so that they move with it. InSpace
+  // puts them into the space, which is the default.
   void InFrameOf(std::uint32_t entity) { frame_ = entity + 1; }
   void InSpace() { frame_ = 0; }
 
@@ -85,8 +86,8 @@ public:
   // Something was left out.
   bool IsFull() const { return is_full_; }
 
-  // What is wrong with one that came from elsewhere, for a space of so many entities; empty: nothing. Texts are looked
-  // at by who reads them.
+  // Returns the mistake of a drawing from another process, for a space of `entities` entities, or an empty text. Texts
+  // are checked by the renderer that reads them.
   std::string Mistake(std::size_t entities) const;
 
   bool operator==(const Drawing& other) const

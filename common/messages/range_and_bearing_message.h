@@ -36,7 +36,7 @@ inline RangeAndBearingMessage UnpackedMessage(const double* values)
   return message;
 }
 
-// Of any length; `values`: a number for each five bytes or fewer.
+// Packs bytes of any length. `values` gets one number for each five bytes or fewer.
 inline void PackBytes(std::span<const std::uint8_t> bytes, double* values)
 {
   for (std::size_t i = 0; i < bytes.size(); i += kBytesInNumber)

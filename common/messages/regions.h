@@ -1,6 +1,6 @@
-// How an engine that is split speaks with the processes that have the regions of its world, and these with one another.
-// An engine whose world is split calls a RegionTeam; a process of a region has an EngineRegion do each task, which
-// calls a RegionExchange. The bus implements both calls between processes, tests within one.
+// The calls between a split engine and the processes that have the regions of its world, and between these processes.
+// The engine calls a RegionTeam. The process of a region passes each task to an EngineRegion, which calls a
+// RegionExchange. The bus implements both interfaces between processes, and tests implement them in one process.
 #pragma once
 
 #include <functional>
@@ -18,13 +18,13 @@ class RegionExchange
 public:
   virtual ~RegionExchange() = default;
   virtual unsigned RegionCount() const = 0;
-  // Sends out[k] to region k and fills in[k] with what region k sends in the same call; that of the caller to itself
-  // means nothing. Returns when all are here; all call it equally often in a task. Throws RegionsBeginAgain, or what
-  // ends the process.
+  // Sends out[k] to region k and fills in[k] with the bytes that region k sends in the same call. A region's entry for
+  // itself has no meaning. Returns when all bytes are here; all regions must call it equally often in a task. Throws
+  // RegionsBeginAgain, or an error that ends the process.
   virtual void Swap(std::span<const ByteWriter> out, std::span<std::vector<char>> in) = 0;
 };
 
-// The task cannot be done, since a region is another process now: another task follows that says all anew.
+// The task cannot be done, since another process has replaced a region. Another task follows, with all data.
 class RegionsBeginAgain : public std::runtime_error
 {
 public:
@@ -36,7 +36,7 @@ class EngineRegion
 {
 public:
   virtual ~EngineRegion() = default;
-  // Does what the engine asks for, of a tick. What it throws, but RegionsBeginAgain, is thrown at the engine too.
+  // Does a task of the engine in a tick. The engine gets any exception except RegionsBeginAgain too.
   virtual void Work(std::span<const char> task, ByteWriter& result) = 0;
 };
 
@@ -44,15 +44,16 @@ public:
 class RegionTeam
 {
 public:
-  // Fills in the task of each region. `anew`: they know nothing, and are told all.
+  // Fills in the task of each region. If `anew` is true, the regions know nothing and need all data.
   using WriteTasks = std::function<void(bool anew, std::span<ByteWriter> tasks)>;
 
   virtual ~RegionTeam() = default;
   virtual unsigned RegionCount() const = 0;
-  // Until then the engine does all by itself.
+  // Returns false while the engine must do all work by itself.
   virtual bool IsReady() const = 0;
-  // Has all regions do a task, and fills in the results. `write` is called once, and again with `anew` whenever a
-  // region comes to be another process; `anew`: at first, too. Throws std::runtime_error with what a region threw.
+  // Passes a task to all regions and fills in the results. `write` is called once, and again with `anew` whenever a
+  // process has replaced a region. If `anew` is true, the first call has it too. Throws std::runtime_error with the
+  // error of a region.
   virtual void Work(bool anew, const WriteTasks& write, std::span<std::vector<char>> results) = 0;
 };
 

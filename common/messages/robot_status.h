@@ -1,5 +1,5 @@
-// What goes on inside one robot, for people who watch it: its readings, what it commands, the state of its controller.
-// Made by controller hosts for the robots that somebody watches.
+// The inside of one robot for users: its readings, its commands, the state of its controller. Controller hosts make it
+// for the robots that a visualiser watches.
 #pragma once
 
 #include <cstdint>

@@ -34,19 +34,19 @@ struct RunStatus
   std::uint64_t tick = 0;                // of the run; a picture may show an earlier one
   double speed_wanted = 0;               // simulated seconds in a second; 0: as fast as possible
   double real_time_factor = 0;           // simulated seconds in a second, over the last second or so; 0 while paused
-  double ticks_per_second = 0;           // likewise
+  double ticks_per_second = 0;           // as above
   std::string ended;                     // kFinished: why, if it is not for maxclock or the experiment's own decision
   std::vector<ProcessStatus> processes;  // the space server first; in one process that alone
 };
 
-// What somebody asked of the run and what came of it.
+// A request to the run and its result.
 struct RunNote
 {
   std::uint64_t tick = 0;    // at which it took effect
   bool done = true;          // false: refused
   std::string text;          // "moved 'fb_0' at tick 12", "move: there is no entity 'fb_x'"
   std::string from;          // "host:pid" of the asker; empty in one process
-  std::uint32_t number = 0;  // of the request, among those of the asker
+  std::uint32_t number = 0;  // of the request, among those of its sender
 };
 
 }  // namespace swarmanoid

@@ -1,5 +1,5 @@
-// What the roles say to one another each tick. Plain values; the bus carries them between processes, and the single
-// process passes them by reference. Buffers are reused: steady running allocates nothing.
+// The messages between the roles in each tick. They are plain values: the bus carries them between processes, and a run
+// in one process passes them by reference. Buffers are reused, so steady running allocates nothing.
 #pragma once
 
 #include <algorithm>
@@ -44,15 +44,17 @@ struct SpaceState
   Drawing drawing{};                 // of experiment functions, if the run has visualisers
 };
 
-// Space server to one process, in runs over a network: the state with the poses of some of the movable entities alone,
-// of those that are not where they were at the tick before. A controller host is told of those that its sensors may
-// reach
-// (`near`), and all others are not in the arena for it; `attributes` are of these and of all that cannot move, and
-// those that were not near at the tick before have all slots, and a pose. An engine worker is told of those that it
-// does not move itself, and of those that were moved.
+// From the space server to one process, in runs over a network: the state with the poses of the movable entities that
+// the process needs and that have changed since the last tick.
+//
+// A controller host gets the entities that its sensors may reach (`near`); for it, all others are outside the arena.
+// `attributes` are those of these entities and of all that cannot move. An entity that was not near at the tick before
+// has all slots and a pose.
+//
+// An engine worker gets the entities that it does not move itself, and those that were moved from outside.
 struct LocalState : SpaceState
 {
-  std::vector<std::uint32_t> entities;  // whose poses these are, ascending
+  std::vector<std::uint32_t> entities;  // the entities of the poses, ascending
   std::vector<std::uint32_t> near;      // of hosts: bits of the movable entities, in the order of SpaceState::poses
 };
 
@@ -61,7 +63,7 @@ inline bool IsNear(const std::vector<std::uint32_t>& near, std::size_t movable)
   return (near[movable / 32] >> movable % 32 & 1U) != 0;
 }
 
-// Space server to those who join late: the whole state at a tick.
+// From the space server to processes that join late: the whole state at a tick.
 struct SpaceSnapshot
 {
   std::uint64_t tick = 0;
@@ -72,7 +74,7 @@ struct SpaceSnapshot
   Drawing drawing{};               // in views alone
 };
 
-// How a controller failed whose run goes on (OnFailure).
+// The way in which a controller failed in a run that goes on (OnFailure).
 enum class FaultKind : std::uint32_t
 {
   kThrew = 1,
@@ -85,7 +87,7 @@ inline const char* FaultText(FaultKind kind)
          : kind == FaultKind::kDied ? "died"
                                     : "took more processor time than it may";
 }
-// Those of a tick.
+// The faults of a tick.
 struct ControllerFaults
 {
   // The bytes that the texts of a tick may have, besides the end of each line. Later texts are cut.
@@ -110,7 +112,7 @@ struct ControllerFaults
     if (text.size() <= kMostText - std::min(used, kMostText)) texts.insert(texts.end(), text.begin(), text.end());
     texts.push_back('\n');
   }
-  // The text of each robot; empty ones where there is none.
+  // Returns the text of each robot, which may be empty.
   std::vector<std::string> Texts() const
   {
     std::vector<std::string> lines(robots.size());
@@ -125,7 +127,8 @@ struct ControllerFaults
   // Texts are for people: they make no difference.
   bool operator==(const ControllerFaults& other) const { return robots == other.robots && kinds == other.kinds; }
 };
-// What is known of ticks that were done before: the same controllers fail in them, and no time is measured.
+// A fault of a tick that was computed before. When the tick is repeated, the same controllers fail, and no time is
+// measured.
 struct RecordedFault
 {
   std::uint64_t tick = 0;
@@ -151,7 +154,7 @@ struct RecordedFaults
   }
 };
 
-// Controller host to engines and server: what the robots of the host do in the tick that starts at `tick`.
+// From a controller host to engines and server: the commands of the host's robots in the tick that starts at `tick`.
 struct ControlCommands
 {
   std::uint64_t tick = 0;

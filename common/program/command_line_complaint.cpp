@@ -16,7 +16,7 @@ namespace swarmanoid
 namespace
 {
 
-// The first required option without a value.
+// Returns the first required option without a value.
 const CLI::Option* MissingOption(const CLI::App& command)
 {
   for (const CLI::Option* option : command.get_options())
@@ -24,7 +24,7 @@ const CLI::Option* MissingOption(const CLI::App& command)
   return nullptr;
 }
 
-// Says what the missing option is, and gives the first example of the command.
+// Explains the missing option, and gives the first example of the command.
 std::string MissingText(const std::string& name, const CLI::App& command, const CLI::Option& missing)
 {
   std::string text = fmt::format("{} needs {}: {}", name, missing.get_name(), missing.get_description());
@@ -60,7 +60,7 @@ std::string CommandLineComplaint(const CLI::App& app, const CLI::Error& error)
     if (const CLI::Option* missing = MissingOption(*command)) return MissingText(name, *command, *missing);
   if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr || left.empty()) return error.what();
 
-  // What follows an unknown option is its value.
+  // The word after an unknown option is its value.
   const auto option = std::find_if(left.begin(), left.end(), [](const std::string& word) { return word[0] == '-'; });
   const std::string word = option == left.end() ? left.front() : option->substr(0, option->find('='));
   std::vector<std::string> taken, options;

@@ -1,4 +1,4 @@
-// What is said of words on the command line that a command does not take.
+// The message for words on the command line that a command does not take.
 #pragma once
 
 #include <string>
@@ -12,7 +12,8 @@ class Error;
 namespace swarmanoid
 {
 
-// The words, what the command takes instead, and the nearest of that; for other errors what they say themselves.
+// Returns the unknown words, the words that the command takes instead, and the nearest of these. For other errors it
+// returns their own text.
 std::string CommandLineComplaint(const CLI::App& app, const CLI::Error& error);
 
 }  // namespace swarmanoid

@@ -113,7 +113,7 @@ std::string Body(const CLI::App& app, const std::string& name, bool whole)
   return text;
 }
 
-// Of the program, or of one of its commands.
+// Returns the page of the program, or of one of its commands.
 std::string Page(const CLI::App& program, const CLI::App* command)
 {
   const CLI::App& app = command == nullptr ? program : *command;

@@ -34,7 +34,7 @@ std::string NameOf(const OptionSpec& option)
   return IsPositional(option) ? option.value.name : "--" + option.value.name;
 }
 
-// What the target holds, one text for each time that the option is to be written.
+// Returns the values of the target as texts, one for each time that the option is to be written.
 std::vector<std::string> TextsOf(const OptionTarget& target)
 {
   using Texts = std::vector<std::string>;

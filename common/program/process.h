@@ -17,7 +17,7 @@
 namespace swarmanoid
 {
 
-// What a process is started with.
+// The command and the environment with which a process is started.
 struct ProcessCommand
 {
   std::string name{};                                              // for the user: "engine_worker ground"
@@ -45,8 +45,8 @@ struct SpawnedProcess
   FileDescriptor output;  // its standard output
   FileDescriptor errors;  // its standard error
   FileDescriptor end;     // readable once it has ended
-  // What it says of itself, also when it is dead; null if this system has no memory for it. One that was started on
-  // another machine says nothing.
+  // The page on which the process reports its activity; it can be read after its death. It is null if the system has no
+  // memory for it. A process on another machine has no reports.
   std::shared_ptr<const ActivityPage> activity;
   FileDescriptor input{};  // its standard input, if there is something for it to read
 };
@@ -57,14 +57,15 @@ public:
   virtual ~ProcessSpawner() = default;
   // Throws std::runtime_error, naming the program, if it cannot be started.
   virtual SpawnedProcess Start(const ProcessCommand& command) = 0;
-  // Of a process whose `end` is readable; waits for it otherwise. Kills what it started and left behind. Call once.
+  // Returns the end of a process. Waits unless its `end` is readable. Kills the processes that it left behind. Call it
+  // once.
   virtual ProcessEnd Collect(const SpawnedProcess& process) = 0;
   // Sends a signal to the process and all that it started.
   virtual void Signal(const SpawnedProcess& process, int signal) = 0;
 };
 
-// Real processes: each leads a process group of its own, and ends with the process that started it. They inherit no
-// descriptors but those that are given here.
+// Starts real processes. Each leads a process group of its own, and ends with the process that started it. They inherit
+// only the descriptors that are given here.
 class SystemSpawner : public ProcessSpawner
 {
 public:

@@ -38,7 +38,7 @@ void Complain(const std::string& program, std::string_view what)
   std::fputs((Coloured(STDERR_FILENO, Colour::kRed, program) + Showable(fmt::format(": {}\n", what))).c_str(), stderr);
 }
 
-// What the exception being handled says, and the exit code that it means.
+// Prints the exception being handled, and returns its exit code.
 int Report(const std::string& program)
 {
   try
@@ -62,7 +62,7 @@ int Report(const std::string& program)
   }
   catch (const std::exception& error)
   {
-    // Printing throws this if standard output is full or closed; then that is what is said.
+    // Printing throws this if standard output is full or closed. The message must then say so.
     const auto* const of_system = dynamic_cast<const std::system_error*>(&error);
     if (of_system != nullptr) errno = of_system->code().value();
     if (of_system != nullptr && std::ferror(stdout) != 0 && errno == EPIPE)

@@ -1,5 +1,5 @@
-// The frame around every program: it registers plug-ins, reads the command line, catches signals, and turns whatever
-// goes wrong into a line on standard error that names the program, and an exit code.
+// The frame around every program. It registers plug-ins, reads the command line and catches signals. It turns each
+// error into a line on standard error that names the program, and an exit code.
 #pragma once
 
 #include <functional>

@@ -4,20 +4,19 @@
 namespace swarmanoid
 {
 
-// Opens standard input, output and error if the process was started without them. Otherwise the next file that it
-// opens would get their numbers, and what is printed would go into that file. What is printed then is an error.
+// Opens standard input, output and error if the process was started without them. Otherwise the next opened files would
+// get their numbers, and printed text would go into them. Printing to such an output is an error.
 void OpenStandardFiles();
 
-// Tells that the program which read the output has closed it, as `head` does. It has seen enough: what is printed from
-// then on is not missed.
+// Records that the reader of the output has closed it, as `head` does. Text that is printed afterwards is not needed.
 void ReaderOfOutputHasGone();
 
-// Writes out what was printed. Returns false if anything that this process printed is lost, unless its reader has gone.
-// The first call that finds it prints an error.
+// Writes out all printed text. Returns false if any of it was lost, unless the reader has closed the output. The first
+// call that finds a loss prints an error.
 bool OutputIsWritten();
 
-// The exit code of a program that has printed its results: that of a failed process if they are lost, unless it has
-// another one already.
+// Returns the exit code of a program that has printed its results. If they were lost and `code` is no failure, it is
+// that of a failed process.
 int ExitCodeWithOutput(int code);
 
 }  // namespace swarmanoid

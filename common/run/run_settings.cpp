@@ -17,7 +17,7 @@ namespace
 
 using enum ParameterType;
 
-// As for the elements of the experiment file.
+// The limits are those of the elements of the experiment file.
 constexpr double kMostTicks = 1e15;
 constexpr double kFastest = 1e6;
 // The limits are those of the processes of a cluster (BusOptionTable).
@@ -26,7 +26,7 @@ constexpr double kLongestLease_s = 3600;
 constexpr double kShortestStep_s = 1e-3;
 constexpr double kLongestStep_s = 1e6;
 
-// Who takes a setting; each is for those before it too.
+// The programs that take a setting. Each program takes the settings of those before it too.
 enum class For
 {
   kLauncher,
@@ -110,7 +110,7 @@ std::string MemoryLimitMistake(const std::string& text)
   return SizeMistake(text);
 }
 
-// 0 stands for the default; what lies between is refused here, before a process refuses it.
+// 0 means the default. Values between 0 and the limit are refused here, before a process refuses them.
 std::string LeaseMistake(const std::string& text)
 {
   const double lease_s = ParseNumber(text).value_or(0);

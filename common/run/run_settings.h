@@ -63,7 +63,7 @@ struct SimulatorOptions
   // controller host. 0: the number of free cores in one process, and one thread in a host. Their number changes no bit
   // of the results.
   unsigned threads = 0;
-  // For one process. A signal handler sets it; the run stops at the end of the tick.
+  // Ends the run at the end of the tick, for a run in one process. A signal handler sets it.
   const std::atomic<bool>* stop = nullptr;
 };
 
@@ -92,7 +92,7 @@ struct RunSettings : ExperimentChoice, SimulatorOptions
   std::string memory_limit;   // for each process, as "2GiB"; empty: the environment's limit, or the default
 };
 
-// Returns the limits of users' code: those of the settings, else those of the environment.
+// Returns the limits of users' code from the settings, or else from the environment.
 Limits LimitsOf(const RunSettings& settings);
 
 // Return the options of `swarmanoid run`, which are all settings, and those of the space server. They are valid as long

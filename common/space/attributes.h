@@ -1,6 +1,6 @@
-// The attributes of each kind of entity: numbers beside the pose that all processes see. LEDs, laser, gripper and the
-// like. Colours are 0xRRGGBB as a number. The table decides what travels, what the state hash covers and what renderers
-// show.
+// The attributes of each kind of entity: numbers besides the pose that all processes see, such as LEDs, laser and
+// gripper. Colours are 0xRRGGBB as a number. The table decides which numbers are sent, covered by the state hash and
+// shown by renderers.
 #pragma once
 
 #include <span>
@@ -11,12 +11,12 @@
 namespace swarmanoid
 {
 
-// In the order of the slots.
+// Returns the attributes in the order of the slots.
 std::span<const AttributeSpec> AttributesOf(EntityKind kind);
 int AttributeCount(EntityKind kind);
-// The attribute of that name; nullptr if the kind has none.
+// Returns the attribute of that name; nullptr if the kind has none.
 const AttributeSpec* FindAttribute(EntityKind kind, std::string_view name);
-// The first slot of an attribute within its entity, or -1.
+// Returns the first slot of an attribute within its entity, or -1.
 int AttributeOffset(EntityKind kind, std::string_view name);
 
 }  // namespace swarmanoid

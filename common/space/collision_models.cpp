@@ -14,7 +14,7 @@ namespace swarmanoid
 namespace
 {
 
-// What reaches less far beyond the plain body is none to sensors: a gripper, the wheels.
+// Bodies that extend beyond the plain body by less are ignored by sensors: a gripper, the wheels.
 constexpr double kBeyondPlainBody = 0.02;  // m
 
 }  // namespace

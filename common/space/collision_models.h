@@ -1,6 +1,6 @@
-// CollisionModels: the bodies of all entities as their engines collide them, for those who ask what is in the way:
-// sensors, queries, renderers. What they tell follows from the descriptions of the engines and the state alone, so it
-// is the same in every process. Engines are described in all processes; their code is not needed.
+// CollisionModels: the bodies of all entities in the form in which their engines collide them, for sensors, queries and
+// renderers. The result follows from the descriptions of the engines and the state alone, so it is equal in every
+// process. All processes have these descriptions; the engines' code is not needed.
 #pragma once
 
 #include <optional>
@@ -21,11 +21,11 @@ public:
   // The space outlives it.
   explicit CollisionModels(const CSwarmanoidSpace& space);
 
-  // The bodies of an entity as the engine that moves it collides them now, in its frame; its plain body if no engine
-  // has it, or the engine tells nothing. `bodies` is cleared first.
+  // Sets `bodies` to the bodies of an entity in its frame, as the engine that moves it collides them now. It is the
+  // plain body if no engine has the entity, or the engine describes none.
   void BodiesOf(std::uint32_t entity, std::vector<CollisionBody>& bodies) const;
-  // Movable entities with bodies that reach beyond the plain one, such as arms, and those with a hull, ascending. Of
-  // all others the plain body is what sensors and queries go by.
+  // Returns the movable entities with a hull or with bodies that extend beyond the plain one, such as arms, ascending.
+  // For all others, sensors and queries use the plain body.
   std::span<const std::uint32_t> Articulated() const { return articulated_; }
   bool IsArticulated(std::uint32_t entity) const;
 
@@ -35,10 +35,10 @@ private:
   std::vector<std::uint32_t> articulated_;
 };
 
-// As SegmentHit of common/space/shape.h, of the bodies of an entity at a pose: the first one that is met.
+// Works as SegmentHit of common/space/shape.h, for the first hit of the bodies of an entity at a pose.
 std::optional<double> SegmentHit(std::span<const CollisionBody> bodies, const Pose& pose, const Vector3& from,
                                  const Vector3& to);
-// How far a body reaches from the origin of its entity at most, m.
+// Returns how far a body reaches from the origin of its entity at most, m.
 double ReachOf(const CollisionBody& body);
 
 }  // namespace swarmanoid

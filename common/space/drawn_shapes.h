@@ -1,4 +1,4 @@
-// What experiment functions draw, shape by shape, for those who show it.
+// The shapes that experiment functions draw, one by one, for renderers.
 #pragma once
 
 #include <span>
@@ -9,8 +9,8 @@
 namespace swarmanoid
 {
 
-// Calls draw(shape, numbers, text, frame) for each shape but those of entities that are not in the arena. `numbers` and
-// `text` are its own; `frame` is where they count from.
+// Calls draw(shape, numbers, text, frame) for each shape, except those of entities outside the arena. `numbers` and
+// `text` belong to the shape, and its coordinates are in `frame`.
 template <class Draw>
 void ForEachDrawnShape(const CSwarmanoidSpace& space, const Draw& draw)
 {

@@ -13,8 +13,8 @@ namespace swarmanoid
 
 class CSwarmanoidSpace;
 
-// By the tag of the kind ("footbot"): indices, ascending, of those that are in the arena and of those that are not.
-// Throws std::invalid_argument for an unknown tag.
+// Returns the indices of all entities of a kind, by its tag ("footbot"), ascending. Entities outside the arena are
+// included. Throws std::invalid_argument for an unknown tag.
 std::vector<std::uint32_t> GetEntitiesByKind(const CSwarmanoidSpace& space, std::string_view tag);
 
 }  // namespace swarmanoid

@@ -29,18 +29,19 @@ public:
   std::uint32_t GetIndex() const { return index_; }
   bool IsMovable() const { return configuration_.movable; }
   const EntityConfiguration& GetConfiguration() const { return configuration_; }
-  // The size of the body along its axes in metres; cylinders: radius, radius, height. The position is the centre of the
-  // base for robots and preys, and of the body for blocks.
+  // Returns the size of the body along its axes in metres; cylinders: radius, radius, height. The position is the
+  // centre of the base for robots and preys, and of the body for blocks.
   const Vector3& GetSize() const { return configuration_.size; }
 
   Pose GetPose() const;
   Vector3 GetPosition() const;
   Quaternion GetOrientation() const;
 
-  // The number of an attribute (attributes.h); throws std::out_of_range for a name that the kind does not have, and for
-  // an element beyond its number.
+  // Returns the number of an attribute (attributes.h); throws std::out_of_range for a name that the kind does not have,
+  // and for an element beyond its number.
   double GetAttribute(std::string_view name, int element = 0) const;
-  // For the one who owns the space (the space server, a replica). Experiment functions take SpaceEditor::SetAttribute.
+  // Only the owner of the space (the space server, a replica) may call this. Experiment functions use
+  // SpaceEditor::SetAttribute.
   void SetAttribute(std::string_view name, double value, int element = 0);
   std::uint32_t SlotOf(std::string_view name, int element = 0) const;
   std::uint32_t FirstSlot() const { return first_slot_; }
@@ -60,7 +61,7 @@ class CRobotEntity : public CSwarmanoidSpaceEntity
 {
 public:
   using CSwarmanoidSpaceEntity::CSwarmanoidSpaceEntity;
-  // The id of the controller in <controllers>; empty for none.
+  // Returns the id of the controller in <controllers>; empty for none.
   const std::string& GetControllerId() const { return configuration_.controller; }
 };
 
@@ -72,7 +73,7 @@ public:
   std::uint32_t GetLedColour(int led) const;
   std::uint32_t GetBeaconColour() const;
   double GetGripperAperture() const;
-  // The entity held by the gripper, or nullptr.
+  // Returns the entity held by the gripper, or nullptr.
   const CSwarmanoidSpaceEntity* GetGrippedEntity() const;
   double GetTurretAngle() const;
 };
@@ -83,7 +84,7 @@ public:
   using CRobotEntity::CRobotEntity;
   static constexpr int kLeds = 12;
   std::uint32_t GetLedColour(int led) const;
-  // The entity held by a hand (0 left, 1 right), or nullptr.
+  // Returns the entity held by a hand (0 left, 1 right), or nullptr.
   const CSwarmanoidSpaceEntity* GetGrippedEntity(int hand) const;
 };
 

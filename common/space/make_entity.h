@@ -9,7 +9,7 @@
 namespace swarmanoid
 {
 
-// Its memory is that of a resource, which frees it: side by side, in the order of the entities.
+// Ends the lifetime of an entity. Its memory belongs to a resource, which holds all entities in their order.
 struct EndEntity
 {
   void operator()(CSwarmanoidSpaceEntity* entity) const { std::destroy_at(entity); }

@@ -1,5 +1,5 @@
-// Messages of range and bearing that have more bytes than the attribute "message" of a kind has room for. A robot whose
-// actuator sends more has further slots of that attribute behind all that its kind has, of five bytes each.
+// Slots for messages of range and bearing that are longer than the attribute "message" of a kind. A robot whose
+// actuator sends more bytes has further slots of that attribute after all slots of its kind, five bytes each.
 #pragma once
 
 #include "common/experiment/experiment.h"
@@ -7,9 +7,10 @@
 namespace swarmanoid
 {
 
-// Bytes of a message of this robot: CCI_RangeAndBearingActuator::NUM_BYTES, or as many as its actuator says.
+// Returns the bytes of a message of this robot: CCI_RangeAndBearingActuator::NUM_BYTES, or the number given for its
+// actuator.
 int MessageBytes(const Experiment& experiment, const EntityConfiguration& robot);
-// 0 for all whose messages fit.
+// Returns the number of further slots, 0 if the messages of the entity fit.
 int FurtherMessageSlots(const Experiment& experiment, const EntityConfiguration& entity);
 
 }  // namespace swarmanoid

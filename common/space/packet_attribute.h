@@ -21,7 +21,7 @@ struct AttributePacket
   std::array<std::uint8_t, 32> bytes{};
 
   AttributePacket() = default;
-  // At most kMostPacketBytes of them.
+  // Takes at most kMostPacketBytes bytes.
   explicit AttributePacket(std::span<const std::uint8_t> given) : length(static_cast<std::uint32_t>(given.size()))
   {
     std::copy(given.begin(), given.end(), bytes.begin());

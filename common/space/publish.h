@@ -1,6 +1,6 @@
-// Numbers of experiment functions for the table of a study (docs/studies.md): <published name="preys"> takes the last
-// one of the name. They are no part of the state. Whoever measures a run (a PublishedNumbers) gets them in the process
-// of the space server; if nobody does, publishing costs a look at an empty list. One thread.
+// Publish: numbers of experiment functions for the table of a study (docs/studies.md). <published name="preys"> takes
+// the last number of this name. The numbers are no part of the state. A PublishedNumbers in the process of the space
+// server collects them. Without one, publishing costs a look at an empty list. Only one thread may use it.
 //
 //   Publish(space.GetSpace(), "preys", delivered_);
 #pragma once
@@ -23,7 +23,7 @@ namespace swarmanoid
 
 class CSwarmanoidSpace;
 
-// What is published about a space as long as this is there. The space outlives it.
+// Collects the numbers that are published about a space during its lifetime. The space outlives it.
 class PublishedNumbers
 {
 public:
@@ -32,7 +32,7 @@ public:
   PublishedNumbers(const PublishedNumbers&) = delete;
   PublishedNumbers& operator=(const PublishedNumbers&) = delete;
 
-  // The last one of each name.
+  // Returns the last one of each name.
   const std::map<std::string, double, std::less<>>& Values() const { return values_; }
 
 private:
@@ -48,7 +48,7 @@ private:
   std::map<std::string, double, std::less<>> values_;
 };
 
-// Throws std::invalid_argument for a number that is not finite, whether or not somebody measures.
+// Publishes a number under a name. Throws std::invalid_argument if it is not finite, even if no object collects it.
 inline void Publish(const CSwarmanoidSpace& space, std::string_view name, double value)
 {
   if (!std::isfinite(value))

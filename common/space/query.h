@@ -1,6 +1,6 @@
-// Questions about the space: who is near, who is in a box, what stands between two points. One object for each role
-// that asks; it brings its index up to date when the space has changed. Answers are by position of the entity's origin,
-// and hold only entities that are in the arena.
+// SpaceQuery: the entities near a point or in a box, and the bodies between two points. Each role that needs it has one
+// object, which updates its index when the space has changed. Answers go by the position of the entity's origin, and
+// have only entities in the arena.
 #pragma once
 
 #include <memory>
@@ -26,17 +26,17 @@ class CSwarmanoidSpace;
 class SpaceQuery
 {
 public:
-  // Reads the terrains of the experiment. Throws ConfigurationError for those, and for more than 64 engines. The space
-  // outlives the query.
+  // Reads the terrains of the experiment. Throws ConfigurationError for a mistake in them, and for more than 64
+  // engines. The space outlives the query.
   explicit SpaceQuery(const CSwarmanoidSpace& space);
   ~SpaceQuery();
 
   // Entities within a distance (m) of a point, ascending by index.
   const std::vector<std::uint32_t>& FindWithin(const Vector3& point, double distance);
-  // The same about an entity, without itself.
+  // Returns the same about an entity, without itself.
   const std::vector<std::uint32_t>& FindWithin(const CSwarmanoidSpaceEntity& entity, double distance);
   const std::vector<std::uint32_t>& FindInBox(const Vector3& low, const Vector3& high);
-  // The nearest entity within a distance; nullptr if there is none.
+  // Return the nearest entity within a distance (m), or nullptr.
   const CSwarmanoidSpaceEntity* FindNearest(const Vector3& point, double distance);
   const CSwarmanoidSpaceEntity* FindNearest(const CSwarmanoidSpaceEntity& entity, double distance);
 
@@ -45,13 +45,13 @@ public:
     std::uint32_t entity = 0;
     double fraction = 0;  // of the way
   };
-  // The first body that the straight line from one point to another meets in the worlds of an observer: engines are
-  // closed to one another, so only entities that share an engine with the observer count. `ignored`: entities that are
-  // looked through. Bodies are those of CollisionModels.
+  // Returns the first body that the straight line between two points meets in the worlds of an observer. Engines are
+  // closed to each other, so only entities that share an engine with the observer count. Entities in `ignored` are
+  // transparent. Bodies are those of CollisionModels.
   std::optional<Hit> FindFirstHit(const Vector3& from, const Vector3& to, std::uint32_t observer,
                                   std::span<const std::uint32_t> ignored = {});
-  // Whether one entity's point is hidden from another's: anything between but the two themselves that shares an engine
-  // with either, or never moves and is in no engine: as cameras see it.
+  // Returns whether one entity's point is hidden from another's: anything between but the two themselves that shares an
+  // engine with either, or never moves and is in no engine: as cameras see it.
   bool IsOccluded(const Vector3& from, const Vector3& to, std::uint32_t observer, std::uint32_t target);
 
   // One bit for each engine that an entity is bound to.

@@ -8,7 +8,7 @@ namespace swarmanoid
 namespace
 {
 
-// The part of a segment that lies between two bounds on one axis; false if there is none.
+// Shortens a segment to the part between two bounds on one axis. Returns false if no part is left.
 bool ClipSlab(double start, double step, double low, double high, double& enter, double& leave)
 {
   if (step == 0) return start >= low && start <= high;

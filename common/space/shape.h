@@ -25,11 +25,11 @@ struct Shape
 };
 
 Shape ShapeOf(const EntityConfiguration& configuration);
-// Of the sphere about the shape's centre that holds it.
+// Returns the radius (m) of the sphere about the shape's centre that contains the shape.
 double BoundingRadius(const Shape& shape);
 
-// The fraction 0..1 of the way from `from` to `to` (space coordinates) at which the segment enters the shape; 0 if
-// it starts inside, nullopt if it misses. Exact up to rounding.
+// Returns the fraction 0..1 of the way from `from` to `to` (space coordinates) at which the segment enters the shape; 0
+// if it starts inside, nullopt if it misses. Exact up to rounding.
 std::optional<double> SegmentHit(const Shape& shape, const Pose& pose, const Vector3& from, const Vector3& to);
 
 }  // namespace swarmanoid

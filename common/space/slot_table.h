@@ -1,5 +1,5 @@
-// What each slot of the attributes stands for, and of whom it is. Entities of one layout stand together in most
-// experiments: one run for each such group, in place of a number for each slot.
+// SlotTable: the meaning and the entity of each slot of the attributes. In most experiments entities with the same
+// slots are consecutive. So the table has one entry for each such group, not one for each slot.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ public:
   // The next entity in order: the attributes of its kind, then `further` slots of a long message.
   void Add(EntityKind kind, std::uint32_t further);
 
-  // Of all attributes; behind them stands the presence of each entity.
+  // Returns the number of slots of all attributes, with the presence of each entity at the end.
   std::uint32_t size() const { return slots_; }
   AttributeValue operator[](std::uint32_t slot) const
   {

@@ -190,7 +190,8 @@ void CSwarmanoidSpace::Apply(const LocalState& state, std::vector<std::uint32_t>
   SetAttributes(state.attributes);
 }
 
-// Who is not near is not there, and holds nobody: whom it may hold by now is not told.
+// In a local state, an entity that is not near counts as outside the arena and holds nothing. The message does not tell
+// its grips.
 void CSwarmanoidSpace::LeaveOut(const std::vector<std::uint32_t>& near)
 {
   AttributeChanges changes;

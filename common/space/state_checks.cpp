@@ -85,7 +85,7 @@ bool AllOfNormOne(const double* qx, const double* qy, const double* qz, const do
       size.z()));
 }
 
-// What a slot must hold; nullptr if the value is right.
+// Returns the requirement for the values of a slot, or nullptr if the value meets it.
 const char* MistakeOf(AttributeValue kind, double value, std::size_t entities)
 {
   const auto whole = [value](double most) { return value >= 0 && value <= most && value == std::floor(value); };
@@ -107,8 +107,8 @@ const char* MistakeOf(AttributeValue kind, double value, std::size_t entities)
   return nullptr;
 }
 
-// What the hands of some entities hold; all others hold what they hold in the space. Each robot holds one movable
-// thing, of those that can be held, and nobody holds itself by others.
+// Checks the entities that these hands hold; all other hands hold what they hold in the space. A robot may hold one
+// movable entity of a kind that can be held. No entity may hold itself through others.
 void CheckHands(const CSwarmanoidSpace& space, const std::map<std::uint32_t, std::vector<double>>& hands)
 {
   const StructuralTree& structure = space.Structure();
@@ -246,7 +246,7 @@ void CheckHolds(const CSwarmanoidSpace& space, std::span<const std::uint32_t> ow
 {
   const auto is_hold = [&](std::uint32_t slot) { return space.AttributeValues()[slot] == AttributeValue::kEntity; };
   if (std::none_of(changes.slots.begin(), changes.slots.end(), is_hold)) return;
-  // What those who changed hold afterwards.
+  // The entities that the changed hands hold afterwards.
   std::map<std::uint32_t, std::vector<double>> hands;
   for (std::size_t k = 0; k < changes.slots.size(); ++k)
   {

@@ -1,7 +1,7 @@
-// What may enter the state: finite numbers, unit quaternions, slots that exist, poses within reach of the arena. Asked
-// by the space server about all that it merges, by engine workers about what their engine gives, and by controller
-// hosts about what their controllers command. Whole arrays in one pass without branches; only if that finds a
-// mistake is it looked for. Any thread.
+// Checks of values that enter the state: finite numbers, unit quaternions, slots that exist, poses within the limit of
+// the arena. The space server checks all that it merges. Engine workers check the results of their engine, and
+// controller hosts the commands of their controllers. Whole arrays are checked in one pass without branches. Only if
+// that finds a mistake is its place searched. Any thread may call these functions.
 #pragma once
 
 #include <span>
@@ -18,8 +18,7 @@ namespace swarmanoid
 
 class CSwarmanoidSpace;
 
-// Something that must not enter the state. what() names the entity and the value; who gave it and when is added by
-// those who ask.
+// A value must not enter the state. what() names the entity and the value. The caller adds the source and the tick.
 class StateError : public std::invalid_argument
 {
 public:
@@ -31,36 +30,37 @@ inline constexpr double kNormTolerance = 1e-6;
 
 bool AllFinite(std::span<const double> values);
 
-// Throw StateError. Poses are structures of arrays over `entities`, as in EngineUpdate.
-// As many numbers as there should be, all finite, orientations of norm 1.
+// The checks throw StateError. Poses are structures of arrays over `entities`, as in EngineUpdate. CheckPoses requires
+// the right count of numbers, all finite, and orientations of norm 1.
 void CheckPoses(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities, std::span<const double> poses);
-// Which of them are in the arena by their presence, but farther outside than Experiment::limit_m: places in `entities`.
+// Returns the entities that are present but farther outside the arena than Experiment::limit_m, as indices into
+// `entities`.
 std::vector<std::size_t> FindBeyondLimit(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities,
                                          std::span<const double> poses);
-// None of them is.
+// Throws unless all entities are within the limit.
 void CheckWithinLimit(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities,
                       std::span<const double> poses);
-// What is to be the pose of an entity in the arena.
+// Checks the new pose of an entity in the arena.
 void CheckPose(const CSwarmanoidSpace& space, std::uint32_t entity, const Pose& pose);
 
 // Slots of entities (none of the presence) with values of their kind.
 void CheckAttributes(const CSwarmanoidSpace& space, const AttributeChanges& changes);
 void CheckAttribute(const CSwarmanoidSpace& space, std::uint32_t slot, double value);
 
-// Who holds whom after the changes of an engine, of which CheckAttributes finds nothing wrong: kinds that can grip and
-// be gripped, one movable thing for each robot, no loops, and nobody but those that the engine moves (`owned`,
-// ascending).
+// Checks the grips after the changes of an engine, which CheckAttributes has accepted. Only kinds that can grip and be
+// gripped, one movable entity for each robot, and no loops are allowed. Only entities that the engine moves (`owned`,
+// ascending) may change.
 void CheckHolds(const CSwarmanoidSpace& space, std::span<const std::uint32_t> owned, const AttributeChanges& changes);
-// Whether a slot says who is held: only engines tell that.
+// Throws if the slot is one of "gripped", which only engines may set.
 void CheckIsNoHold(const CSwarmanoidSpace& space, std::uint32_t slot);
 
 // The entity that has a slot.
 std::uint32_t EntityOfSlot(const CSwarmanoidSpace& space, std::uint32_t slot);
 
-// A state that was saved: as many numbers as the space has, each as it must be. Throws StateError.
+// Checks a saved state: the count of numbers must be that of the space, and each must be valid. Throws StateError.
 void CheckSnapshot(const CSwarmanoidSpace& space, const SpaceSnapshot& snapshot);
 
-// All values of the channels finite; `what` says what they are: "commands" or "readings".
+// Checks that all values of the channels are finite. `what` names them in messages: "commands" or "readings".
 void CheckChannels(const CSwarmanoidSpace& space, std::span<const ChannelBlock> blocks, std::span<const double> values,
                    const char* what);
 

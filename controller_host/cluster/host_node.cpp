@@ -74,7 +74,7 @@ public:
   }
   ~HostNode() { inputs_.Close(); }
 
-  // Until all whom this host hears or speaks to are there.
+  // Waits until all processes that this host sends to or receives from have joined.
   void WaitForOthers()
   {
     unsigned readers = 0;
@@ -122,8 +122,8 @@ private:
     return writers;
   }
 
-  // To where the run begins. Nobody sends the frames of the first tick: there are none, or the engines saved them first
-  // of all.
+  // Restores the state at which the run begins. The first tick has no frames, or the checkpoint has those that engines
+  // saved.
   void Restore()
   {
     replica_.Restore(session_.Name(), role_);
@@ -135,7 +135,7 @@ private:
     }
   }
 
-  // The step of a tick once more. Its commands, with how its controllers failed, may be those of the next record.
+  // Repeats the step of a tick. Its commands and failed controllers may be in the next record.
   void Redo(const TickRecord& record, const TickRecord* next)
   {
     TakeFrames(record.frames);
@@ -144,7 +144,7 @@ private:
       role_.KnowTick(record.state.tick, acting->commands.at(host_).faults);
     Step(record.state.tick);
     saved_.Ready(record.state.tick + 1, role_, record.save);
-    // The present tick, whose commands may not have gone out.
+    // The commands of the present tick may not have been sent.
     if (record.commands.empty()) return;
     const ControlCommands& before = record.commands.at(host_);
     const ControlCommands& now = role_.Commands();
@@ -153,7 +153,7 @@ private:
       RefuseRecovery(session_.Name(), record.state.tick, "other commands");
   }
 
-  // Of all engines; none if the tick is the first one.
+  // Takes this host's frames from those of all engines. The first tick has none.
   void TakeFrames(const std::vector<SensorFrame>& all)
   {
     const auto& from = role_.Layout().frames_from;
@@ -171,7 +171,8 @@ private:
 
   void Tick()
   {
-    // Nobody has sent those of the first tick, or the one whose place this is died before it did.
+    // The commands of the first tick may be unsent, and the process that this one replaces may have died before
+    // sending.
     if (const ControlCommands* due = has_sent_ ? nullptr : role_.Due()) Send(*due, false);
     Step(inputs_.Tick());
     inputs_.Next();

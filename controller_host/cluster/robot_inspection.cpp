@@ -38,7 +38,7 @@ void RobotInspection::Requested(const ViewRequestMessage& request)
     Collect(client_request.heard);
     if (robots_.empty()) return;
   }
-  // A paused run makes no step: what there is is told at once.
+  // A paused run makes no step, so the present values are sent at once.
   const std::lock_guard step(step_);
   const std::lock_guard lock(mutex_);
   Send(Clock::now());
@@ -83,7 +83,7 @@ void RobotInspection::Send(Clock::time_point now)
   }
   catch (const BusError&)
   {
-    // Those who watch miss one; the run goes on.
+    // An observer misses one message, and the run goes on.
   }
 }
 

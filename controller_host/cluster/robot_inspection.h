@@ -1,5 +1,5 @@
-// RobotInspection: tells visualisers the inside of the robots that they watch, after the commands of a tick are sent.
-// If nobody watches it costs a look at a flag. Used by the controller_host program; requests come in threads of the
+// RobotInspection: sends visualisers the inside of the robots that they watch, after the commands of a tick are sent.
+// Without visualisers it costs one test of a flag. Used by the controller_host program; requests come in threads of the
 // bus.
 #pragma once
 
@@ -20,7 +20,7 @@ namespace swarmanoid
 class RobotInspection
 {
 public:
-  // `step`: held while the host steps; the run may be paused when somebody begins to watch.
+  // `step` is held while the host steps. The object locks it too, since a visualiser may ask while the run is paused.
   RobotInspection(WorkerSession& session, const ControllerHost& role, std::uint32_t host, std::mutex& step);
   ~RobotInspection();
 
@@ -40,7 +40,7 @@ private:
   };
 
   void Requested(const ViewRequestMessage& request);
-  // What all ask for together.
+  // Collects the robots that all visualisers together ask for.
   void Collect(Clock::time_point now);
   void Publish();
   void Send(Clock::time_point now);
@@ -50,7 +50,7 @@ private:
   std::mutex& step_;
   std::atomic<bool> watched_ = false;
 
-  std::mutex mutex_;  // of what follows; taken after step_ if both are
+  std::mutex mutex_;  // guards the members below; taken after step_ if both are needed
   std::map<std::string, Request> requests_;
   std::vector<std::uint32_t> robots_;  // of this host, ascending
   bool every_tick_ = false;

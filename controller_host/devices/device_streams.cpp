@@ -49,8 +49,8 @@ constexpr std::uint32_t kKeySteps[2] = {0x9E3779B9U, 0xBB67AE85U};
 // 32 bits in each lane; those above them may be anything.
 using Words = std::array<UnsignedLongLanes, 4>;
 
-// Philox4x32 of as many counters as there are lanes, several times: each round waits for the one before it, so others
-// of the same key are computed meanwhile.
+// Computes Philox4x32 for as many counters as there are lanes, kTimes at once. Each round depends on the one before, so
+// several independent computations overlap.
 template <std::size_t kTimes>
 std::array<Words, kTimes> PhiloxEach(std::array<Words, kTimes> counters, std::array<std::uint32_t, 2> key)
 {
@@ -81,8 +81,8 @@ void InGroups(std::size_t count, const Draw& draw)
   if (first < count) draw.template operator()<1>(first);
 }
 
-// As RandomStream::Centred makes them of two words: the 53 highest bits of both words, in two parts that doubles hold
-// exactly.
+// Makes the numbers of RandomStream::Centred from two words: the 53 highest bits of both, in two parts that doubles
+// hold exactly.
 DoubleLanes CentredOf(UnsignedLongLanes high, UnsignedLongLanes low)
 {
   constexpr std::uint64_t kWord = 0xffffffff;
@@ -94,7 +94,7 @@ DoubleLanes CentredOf(UnsignedLongLanes high, UnsignedLongLanes low)
   return upper_part * 0x1p-21 + (lower_part * 0x1p-53 + 0x1p-54);
 }
 
-// first, first + 1 …
+// Returns first, first + 1 … in the lanes.
 UnsignedLongLanes Numbered(std::uint64_t first)
 {
   std::array<std::uint64_t, kDoubleLanes> numbers;
@@ -102,7 +102,7 @@ UnsignedLongLanes Numbered(std::uint64_t first)
   return LoadAs<UnsignedLongLanes>(numbers.data());
 }
 
-// What RandomStream(key, tick, whom) is made of.
+// The words that RandomStream(key, tick, whom) is made of.
 struct StreamWords
 {
   StreamWords(const StreamKey& stream, std::uint64_t tick)
@@ -119,7 +119,7 @@ struct StreamWords
   Words counter{};
 };
 
-// As NoiseModel::Sample makes them of such numbers, in place.
+// Turns such numbers into the samples of NoiseModel::Sample, in place.
 void MakeSamples(const NoiseModel& noise, std::span<double> samples)
 {
   if (noise.kind == NoiseModel::Kind::kTruncatedGaussian)

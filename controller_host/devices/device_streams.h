@@ -1,6 +1,6 @@
-// The random numbers of a device: one stream for each robot of the batch and each quantity that is disturbed, and
-// within them one for each other entity, blob or part that a number is about. What is drawn for one of them never
-// depends on the others. Used by the batches, in their thread.
+// The random numbers of a device. Each robot of the batch has one stream for each disturbed quantity, and in it one for
+// each other entity, blob or part. The numbers of one stream never depend on other streams. Used by the batches, in
+// their thread.
 #pragma once
 
 #include <span>
@@ -18,21 +18,23 @@ class DeviceStreams
 {
 public:
   DeviceStreams() = default;
-  // `quantity` tells those of one device apart: "range", "bearing". The space of the setup must outlive the streams.
+  // `quantity` distinguishes the quantities of one device: "range", "bearing". The space of the setup must outlive the
+  // streams.
   explicit DeviceStreams(const DeviceSetup& setup, std::string_view quantity = {});
 
-  // The stream of robot k of the batch at the StreamTick() of the space.
+  // Returns the stream of robot k of the batch at the StreamTick() of the space.
   RandomStream Of(std::size_t k) const;
-  // What robot k draws about `whom`: StreamName(id) of another entity, StreamPart(name, number) of a part.
+  // Returns the stream of robot k for `whom`: StreamName(id) of another entity, or StreamPart(name, number) of a part.
   RandomStream Of(std::size_t k, std::uint64_t whom) const;
-  // What noise.Sample gives call by call with Of(k): several at a time.
+  // Fills `samples` with the results of successive calls of noise.Sample with Of(k), several at a time.
   void Sample(const NoiseModel& noise, std::size_t k, std::span<double> samples) const;
-  // The same for several robots, as many for each, one robot behind the other: faster than one robot after the other.
+  // Does the same for several robots, with equal counts and one robot after the other in `samples`. It is faster than
+  // calls for single robots.
   void Sample(const NoiseModel& noise, std::span<const std::uint32_t> ks, std::span<double> samples) const;
-  // What it gives once with Of(k, whom) for each of them.
+  // Fills `samples` with one result of noise.Sample with Of(k, whom) for each of `whoms`.
   void Sample(const NoiseModel& noise, std::size_t k, std::span<const std::uint64_t> whoms,
               std::span<double> samples) const;
-  // What robot k draws once for the whole run about part `part` of the device.
+  // Returns the stream of robot k for part `part` of the device that is drawn once for the whole run.
   RandomStream Once(std::size_t k, std::uint64_t part) const { return {Key(k), 0, part}; }
 
 private:
@@ -42,7 +44,7 @@ private:
     return keys_[k];
   }
   void MakeKeys() const;
-  // What RandomStream::Centred gives call by call with Of(k).
+  // Fills `numbers` with the results of successive calls of RandomStream::Centred with Of(k).
   void Draw(std::size_t k, std::span<double> numbers) const;
 
   const CSwarmanoidSpace* space_ = nullptr;

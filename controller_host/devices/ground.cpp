@@ -1,7 +1,7 @@
-// The ground sensors of the footbot (all of its eight as greys, those of its base, those of its motors), and of any
-// robot whose kind has them: brightness of the floor under some points, and its colour under the middle. Patches lie on
-// one another in the order of the experiment file, some with a picture; holes, of the floor or of terrain, are black.
-// Generic.
+// The ground sensors: those of the footbot (all eight in grey, those of its base, those of its motors), and those of
+// any robot whose kind has them. They read the brightness of the floor under some points and its colour under the
+// middle. Patches cover each other in the order of the experiment file, and some have a picture. Holes in the floor or
+// in terrain are black. Generic.
 #include <algorithm>
 
 #include "common/control_interface/ci_ground_sensor.h"
@@ -60,7 +60,7 @@ public:
   FixedGround(const double* values, std::size_t) : ReadingsOf<Interface, Interface::NUM_SENSORS>(values) {}
 };
 
-// Where the sensors look, and what they make of a brightness.
+// The positions of the sensors, and their reading for a brightness.
 struct AsTheKindSays
 {
   static std::vector<Vector2> Points(const DeviceSetup& setup) { return KindOfBatch(setup).ground_points; }
@@ -159,7 +159,7 @@ private:
     std::fill_n(values, points_.size(), Brightness(floor_colour_));
     values[points_.size()] = floor_colour_;
     if (!world_->Terrain().IsEmpty() && !IsOnPlane(robots_[k])) SenseTerrain(robots_[k], pose, values);
-    // In the order of the experiment file.
+    // The patches are in the order of the experiment file.
     for (const std::uint32_t p : patches_in_.In(cells_.CellOf(pose.position.x(), pose.position.y())))
     {
       const FloorPatch& patch = patches_[p];
@@ -188,8 +188,8 @@ private:
     for (std::size_t i = 0; i < points_.size(); ++i) values[i] = Model::Reading(values[i]);
   }
 
-  // If a terrain of the robot's world has no ground near it, and the floor z = 0 is not near either, there is a
-  // hole. The engines of planes have ground everywhere.
+  // There is a hole if no terrain of the robot's world has ground near it, and the floor z = 0 is not near either.
+  // Engines of planes have ground everywhere.
   void SenseTerrain(std::uint32_t robot, const Pose& pose, double* values) const
   {
     const auto counts = [&](std::uint32_t terrain) { return world_->CanHideFrom(robot, terrain); };

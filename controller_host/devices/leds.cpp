@@ -67,7 +67,7 @@ private:
   double observable_angle_;
 };
 
-// Who sees them is a matter of the cameras: LedConesOf.
+// The cameras decide who sees them, by LedConesOf.
 class DirectionalRingActuator : public AttributeActuator
 {
 public:

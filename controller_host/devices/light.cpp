@@ -23,8 +23,8 @@ namespace
 // Half a step of a converter of 12 bits: a bulb that is less bright than this where a robot stands is not seen there.
 constexpr double kNegligible = 1e-4;
 
-// How bright a bulb is by its intensity I and the square of its distance d in m, up to which distance it is seen, and
-// from which height above the base.
+// The brightness of a bulb from its intensity I and the square of its distance d in m. The model also has the distance
+// up to which a bulb is seen, and the least height above the base.
 struct InverseSquare  // (I / d)^2
 {
   template <class Interface>
@@ -46,7 +46,7 @@ struct Argos3  // exp(-2 d / I), nothing beyond d / I = 2.5: footbot_light_rotzo
   static constexpr double kEnds = 2.5;
 };
 
-// As WrapAngle.
+// Does what WrapAngle does, for lanes.
 inline DoubleLanes Wrapped(DoubleLanes angle)
 {
   constexpr double kRounder = 0x1.8p52;  // adding it leaves no fraction
@@ -117,7 +117,8 @@ private:
     }
   }
 
-  // Where the sensors of the robots that are due are, in the order of the grid's cells: neighbours stay in the cache.
+  // Collects the sensor positions of robots that are due, in the order of the grid's cells, so that neighbours stay in
+  // the cache.
   void CollectPoints()
   {
     points_.count = 0;
@@ -164,7 +165,8 @@ private:
               brightness_[i]);
   }
 
-  // Turned into the frame of a robot. Of an upright one, what is left of the product where x and y are 0.
+  // Turns a direction into the frame of a robot. For an upright robot the quaternion has x = y = 0, which shortens the
+  // product.
   Vector3 InFrameOf(std::uint32_t robot, const Vector3& way) const
   {
     const PoseArrays& poses = this->space_->Poses();
@@ -192,7 +194,7 @@ private:
   std::vector<FixedShadows> fixed_;  // by bulb
   std::unique_ptr<MovingShadows> shadows_;
   std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1
-  std::vector<std::uint32_t> made_;            // k of those whose readings were due
+  std::vector<std::uint32_t> made_;            // k of the robots whose readings were due
   SightedPoints points_;                       // of this tick
   std::vector<std::uint32_t> seen_;            // of them, by the bulb in turn
   std::vector<double> ahead_, beside_, bearing_, brightness_;

@@ -32,7 +32,7 @@ struct NoiseModel
   double Sample(RandomStream&& random) const { return Sample(random); }
 };
 
-// From NoiseParameters(…, prefix).
+// Returns the noise that the parameters of NoiseParameters(…, prefix) describe.
 NoiseModel NoiseFrom(const Parameters& parameters, const std::string& prefix = "");
 
 }  // namespace swarmanoid

@@ -13,7 +13,7 @@ namespace swarmanoid
 namespace
 {
 
-// All slots of some attributes, robot after robot.
+// Returns all slots of some attributes, robot after robot.
 std::vector<std::uint32_t> SlotsOf(const DeviceSetup& setup, const std::vector<std::string>& attributes)
 {
   std::vector<std::uint32_t> slots;
@@ -90,7 +90,7 @@ void AttributeActuator::CommitWithNoise(AttributeChanges& changes) const
     const std::span<const double> wanted(&values_[k * width_], width_);
     for (std::size_t i = 0; i < width_; ++i)
     {
-      // What was told one colour stays of one colour: cameras make one blob of it.
+      // LEDs that were set to one colour keep one colour after noise, since cameras make one blob of them.
       const auto same = static_cast<std::size_t>(std::find(wanted.begin(), wanted.end(), wanted[i]) - wanted.begin());
       double* its = &shown[k * width_];
       its[i] =

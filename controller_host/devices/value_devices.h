@@ -14,7 +14,7 @@
 namespace swarmanoid
 {
 
-// As many numbers for each robot.
+// The same count of numbers for each robot.
 class DeviceValues
 {
 protected:
@@ -53,8 +53,8 @@ protected:
   double most_ = std::numeric_limits<double>::infinity();
 };
 
-// Writes its numbers into attributes of its robots, those that differ from the space. Noise is for attributes that are
-// colours: added to red, green and blue of those that are lit, the same for all of a robot that are of one colour.
+// Writes its numbers into attributes of its robots, if they differ from those in the space. Noise is for attributes
+// that are colours. It is added to red, green and blue of lit ones, and equal for all LEDs of a robot with one colour.
 class AttributeActuator : public ValueActuator
 {
 public:
@@ -88,7 +88,7 @@ private:
   std::vector<double> samples_;
 };
 
-// What the engine says, with noise.
+// Reads the channel of the engine and adds noise.
 class ChannelSensor : public ValueSensor
 {
 public:
@@ -108,7 +108,7 @@ private:
   std::vector<std::uint32_t> slots_;
 };
 
-// What a controller holds of a sensor whose interface is one group of COUNT numbers.
+// The controller's object for a sensor whose interface is one group of COUNT numbers.
 template <class Interface, std::size_t COUNT>
 class ReadingsOf : public Interface
 {
@@ -143,7 +143,7 @@ private:
   std::size_t k_;
 };
 
-// What a controller holds of an actuator whose columns are its numbers, in the same order.
+// The controller's object for an actuator whose columns are its numbers, in the same order.
 template <class Interface>
 class CommandsOf : public Interface
 {
@@ -187,8 +187,8 @@ public:
   Device* Sensor(std::size_t k) override { return &this->devices_[k]; }
 };
 
-// A specific actuator that sends what was set on it: COUNT numbers from place FIRST of the channel on, with their noise
-// from 0 to MOST; 0: without a limit.
+// A specific actuator that sends the COUNT numbers that were set, from place FIRST of the channel on. Noise is added,
+// and the result is limited to 0 to MOST (0: no limit).
 template <class Device, std::size_t COUNT, int MOST = 0, std::size_t FIRST = 0>
 class ChannelCommands : public ActuatorsOf<ChannelActuator, Device>
 {

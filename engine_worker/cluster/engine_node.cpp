@@ -52,7 +52,7 @@ public:
   }
   ~EngineNode() { inputs_.Close(); }
 
-  // Until all whom this engine hears or speaks to are there.
+  // Waits until all processes that this engine sends to or receives from have joined.
   void WaitForOthers()
   {
     unsigned frame_readers = 0;
@@ -87,7 +87,7 @@ public:
         });
   }
 
-  // After the last tick.
+  // Called after the last tick.
   void Finish()
   {
     saved_.Flush();
@@ -142,7 +142,7 @@ private:
     saved_.Ready(tick + 1, role_, record.save);
   }
 
-  // Where its own entities are that nobody has moved, it has said itself.
+  // The message lacks the poses that this engine computed itself, so they come from its last update.
   void Apply(const LocalState& state)
   {
     CSwarmanoidSpace& space = *replica_.space;
@@ -152,7 +152,7 @@ private:
     space.SetAttributes(state.attributes);
   }
 
-  // What was computed for the tick against what the run went on with.
+  // Compares the update that was computed again with the tick that the run went on with.
   void CheckAgainst(const TickRecord& record)
   {
     if (!has_update_) return;
@@ -233,7 +233,7 @@ private:
   std::optional<HotPublisher<SensorFrame>> frames_;
 };
 
-// What a region does with its bodies the engine worker tells it: of the experiment it needs to know the engines alone.
+// The engine worker sends a region everything about its bodies. The region needs only the engines of the experiment.
 std::unique_ptr<Experiment> EnginesOf(const WorldMessage& world)
 {
   LoadOptions options;

@@ -19,7 +19,7 @@ bool Box2dIsFused()
   return !circle.TestPoint(here, {0x1.efba92p-1F, 0x1.6c0f34p-1F});
 }
 
-// The square of 1 + e is 1 + 2 e + e², whose last term is lost if the product is rounded before the sum.
+// The square of 1 + e is 1 + 2 e + e². If the product is rounded before the sum, the last term is lost.
 bool OdeIsFused()
 {
   constexpr dReal e = 0x1p-30;

@@ -27,8 +27,9 @@ public:
   // The objects may have moved since.
   void Forget() { sorted_ = false; }
 
-  // The numbers of the objects that come within `distance` (m) of a point, and of some others, ascending; valid until
-  // the next call. `place_of(k)` tells the origin of object k; not a number if it is out of reach for all.
+  // Returns the numbers of the objects within `distance` (m) of a point, and possibly some more, ascending. The result
+  // is valid until the next call. `place_of(k)` returns the origin of object k, or NaN if the object is out of reach
+  // for every search.
   template <class PlaceOf>
   std::span<const std::uint32_t> Near(const Experiment& experiment, const Vector3& point, double distance,
                                       const PlaceOf& place_of)

@@ -29,8 +29,8 @@ struct PlanePose
   double heading = 0;
 };
 
-// What a plane pose leaves out of a space pose: the signed distance from the plane (m), and the lean that comes before
-// the heading. Zero and identity for what stands upright on the plane.
+// The part of a space pose that a plane pose lacks: the signed distance from the plane (m), and the lean, which is
+// applied before the heading. Both are zero and identity for an entity that stands upright on the plane.
 struct PlaneStance
 {
   double height = 0;
@@ -42,7 +42,7 @@ inline constexpr std::size_t kMostCutCorners = 8;  // of a polygon that the engi
 class PlaneFrame
 {
 public:
-  // The plane perpendicular to an axis, at a signed distance (m) from the origin. Its axes (u, v, normal) are,
+  // Returns the plane perpendicular to an axis, at a signed distance (m) from the origin. Its axes (u, v, normal) are,
   // right-handed: z: (x, y, z), x: (y, z, x), y: (z, x, y).
   PlaneFrame(PlaneAxis axis, double distance);
   // Any plane: the x, y of the frame are u, v, and its z is the normal.
@@ -55,11 +55,11 @@ public:
   // ToSpace(ToPlane(p), StanceOf(p)) is p, but for rounding.
   Pose ToSpace(const PlanePose& pose, const PlaneStance& stance = {}) const;
 
-  // The convex polygon, counter-clockwise in (u, v), in which the plane cuts a box with edges `size` about the centre
-  // `pose`; empty if it does not. A box that only rests on the plane is cut by it too.
+  // Returns the convex polygon, counter-clockwise in (u, v), in which the plane cuts a box with edges `size` about the
+  // centre `pose`; empty if it does not. A box that only rests on the plane is cut by it too.
   std::vector<Vector2> CutBox(const Pose& pose, const Vector3& size) const;
-  // Likewise of the box or the hull of an entity with its origin at `pose`; of a hull within it, with at most
-  // kMostCutCorners corners.
+  // Returns the cut of the plane with the box or the hull of an entity with its origin at `pose`. For a hull it is a
+  // polygon within the cut, with at most kMostCutCorners corners.
   std::vector<Vector2> CutBody(const CSwarmanoidSpaceEntity& entity, const Pose& pose) const;
   // True where the plane cuts the upright cylinder or robot that is `height` metres high and has its base at `pose`.
   bool CutsUpright(const Pose& pose, double height) const;
@@ -72,7 +72,7 @@ private:
   Pose inverse_;
 };
 
-// By the parameters that place a plane, the same for all two-dimensional engines (PlaneParameters,
+// Returns the plane that the parameters describe. They are the same for all two-dimensional engines (PlaneParameters,
 // common/plugin_descriptions).
 PlaneFrame PlaneFrom(const Parameters& parameters);
 

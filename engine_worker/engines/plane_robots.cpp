@@ -16,7 +16,7 @@ namespace
 constexpr double kGravity = 9.81;      // m/s2
 constexpr double kMagnetReach = 0.03;  // m, as in dynamics3d
 
-// From a point to a body, m; 0 inside.
+// Returns the distance (m) from a point to a body, 0 inside.
 double DistanceTo(const Shape& shape, const Pose& pose, const Vector3& point)
 {
   const Vector3 local = pose.orientation.conjugate() * (point - pose.position) - shape.centre;
@@ -172,8 +172,8 @@ void PlaneRobots::UseHands(Handbot& handbot)
   }
 }
 
-// 1 + the nearest object within the reach of a hand, 0 if there is none. The head rolls about its forward axis and
-// has both arms; an arm's aperture opens it outwards.
+// Returns 1 + the nearest object within the reach of a hand, or 0 if there is no such object. The head rolls about its
+// forward axis and carries both arms; an arm's aperture opens it outwards.
 std::uint32_t PlaneRobots::ObjectAt(const Handbot& handbot, std::size_t hand) const
 {
   const double side = hand == 0 ? 1 : -1;
@@ -297,7 +297,7 @@ void PlaneRobots::Report(AttributeChanges& changes) const
   }
 }
 
-// Without the commands, which come anew each tick.
+// The state has no commands, since each tick brings new ones.
 void PlaneRobots::SaveState(ByteWriter& state) const
 {
   for (const Handbot& handbot : handbots_)

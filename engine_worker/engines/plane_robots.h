@@ -1,11 +1,11 @@
-// What robots on a plane do beside driving on it: the handbot's head, arms, wrists, hands and rope, and the eyebot's
-// magnet, as kinematic models. Shared by kinematics2d and dynamics2d, in their engine's thread.
+// The parts of robots on a plane other than their drive: the handbot's head, arms, wrists, hands and rope, and the
+// eyebot's magnet, as kinematic models. Shared by kinematics2d and dynamics2d, in their engine's thread.
 //
-// Joints turn at the speeds that they are told, within their ranges. A hand that closes takes the nearest block or prey
-// of the engine within its reach in the space; hand and object then are one rigid whole on the plane, and a handbot
-// holds one object at a time, with one hand or both. The rope goes straight up to the ceiling; its winch sets the
-// height of the robot above the plane, and of what it holds. What is let go in the air falls freely. Collisions are
-// those of the plane at any height.
+// Joints turn at their commanded speeds within their ranges. A hand that closes takes the nearest block or prey of the
+// engine within its reach in the space. Hand and object then move as one rigid body on the plane. A handbot holds one
+// object at a time, with one hand or both. The rope goes straight up to the ceiling. Its winch sets the height of the
+// robot above the plane, and that of a held object. Objects released in the air fall freely. Collisions are those of
+// the plane at any height.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,7 @@ struct PlaneHandbot : HandbotParts
   static constexpr double kWinchSpeed = 0.15;
 };
 
-// What the model asks of its engine.
+// The questions and requests of the model to its engine.
 class PlaneGrips
 {
 public:
@@ -58,14 +58,15 @@ public:
   void Init(const CSwarmanoidSpace& space, const PlaneFrame& frame, PlaneGrips& grips);
   void AddOwned(const CSwarmanoidSpaceEntity& entity);
 
-  // True for a channel of this model. Throws std::runtime_error for values that are not finite.
+  // Returns true for a channel of this model. Throws std::runtime_error for values that are not finite.
   bool Command(const ChannelBlock& block, std::span<const double> values);
   // Before the plane's motion: hands and ropes take hold and let go; then all joints and heights at the end of the
   // tick.
   void Advance(double seconds);
   // Eyebots that hang on the ceiling, and do not move.
   const std::vector<std::uint32_t>& Attached() const { return attached_; }
-  // Somebody put an entity elsewhere: it stands on the plane there, and holds and is held by whom the space says.
+  // An entity was put elsewhere from outside. It stands on the plane there, and the space says what it holds and what
+  // holds it.
   void Moved(std::uint32_t entity);
 
   // Raises poses (EngineUpdate::poses, of `owned`) by the heights of their entities above where they stand.
@@ -81,7 +82,7 @@ private:
     std::uint32_t entity = 0;
     double rates[5] = {};  // commands, rad/s: head, arms, wrists
     bool close[2] = {};
-    bool has_hands = false;  // somebody commands them
+    bool has_hands = false;  // a controller commands them
     bool launch = false;
     double winch = 0;  // m/s
 

@@ -1,3 +1,11 @@
+// Problem: find the bodies that can touch no other body within a tick.
+//
+// Method: each body has an outline of circles or one circle, and a largest way. Candidates come from a grid
+// (kinematics2d/broad_phase.h). For each pair, the distance of the outlines minus both ways is compared with the
+// margin.
+//
+// Invariant: the result follows from the outlines and ways alone. Two thresholds (margin and margin + kBand) let the
+// caller apply hysteresis, so that few bodies change sides.
 #include "engine_worker/engines/separation_test.h"
 
 #include <algorithm>
@@ -77,7 +85,7 @@ bool SeparationTest::Find(std::span<const MovingOutline> bodies, double margin, 
   for (const MovingOutline& body : bodies)
     if (body.present) longest = std::max(longest, body.whole.way);
   const double reach = 2 * longest + margin + kBand;
-  // Not a number, too.
+  // The condition is also true for NaN.
   if (!(reach <= largest_margin_))
   {
     nearness.assign(bodies.size(), Nearness::kNear);

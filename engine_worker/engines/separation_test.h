@@ -37,7 +37,7 @@ struct MovingOutline
   }
 };
 
-// What never moves: a convex polygon in the plane or, with a radius, the circle around its only corner.
+// An outline that never moves: a convex polygon in the plane or, with a radius, the circle around its only corner.
 struct StaticOutline
 {
   std::vector<Vector2> corners;
@@ -58,11 +58,11 @@ double DistanceTo(const StaticOutline& outline, const Vector2& point);
 class SeparationTest
 {
 public:
-  // `longest_way`: beyond twice that nobody counts as far.
+  // Sets the bodies and static outlines. `longest_way` bounds the search: beyond twice this way, no body counts as far.
   void Configure(std::span<const MovingOutline> bodies, std::vector<StaticOutline> statics, double longest_way);
-  // Of each body: what is left between it and others once both have gone their ways, compared with `margin` and with
-  // `margin` + kBand. `near_pairs` gets the pairs with less than `margin` left, numbered as the broad phase does.
-  // False if somebody is so fast that all count as near, without pairs.
+  // Sets the nearness of each body from the smallest gap that remains after both bodies of a pair have gone their ways.
+  // It is compared with `margin` and `margin` + kBand. `near_pairs` gets the pairs with a smaller gap than `margin`,
+  // numbered as in the broad phase. Returns false if a body is too fast; then all bodies count as near, without pairs.
   bool Find(std::span<const MovingOutline> bodies, double margin, std::vector<Nearness>& nearness,
             std::vector<kinematics2d::Pair>* near_pairs = nullptr);
   std::span<const StaticOutline> Statics() const { return statics_; }

@@ -1,4 +1,4 @@
-// `swarmanoid check`: is this experiment file right, and what is in it?
+// `swarmanoid check`: checks an experiment file, and lists its content.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -69,7 +69,8 @@ nlohmann::ordered_json JsonOf(const std::vector<Diagnostic>& diagnostics)
   return json;
 }
 
-// What is wrong with the file stands in `errors`; what else keeps it from starting is told on standard error.
+// Returns the result as JSON. `errors` has the mistakes of the file; other reasons that keep it from starting go to
+// standard error.
 nlohmann::ordered_json JsonOf(const Experiment& experiment)
 {
   nlohmann::ordered_json json{

@@ -34,7 +34,7 @@ struct ControlOptions
   std::vector<std::string> words;
   BusOptions bus;
   bool json = false;
-  std::map<std::string, std::optional<std::uint64_t>> parameters;  // those that are given as --name
+  std::map<std::string, std::optional<std::uint64_t>> parameters;  // the parameters given as --name
   double patience_s = kPatience_s;
 };
 

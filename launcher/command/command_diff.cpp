@@ -19,8 +19,7 @@ namespace swarmanoid
 namespace
 {
 
-// The first robot that was commanded something else; nothing if there is none. The commands are of one host, which has
-// all robots.
+// Returns the first robot with other commands, or nothing. The commands must be of one host that has all robots.
 std::optional<std::uint32_t> OtherCommands(const CSwarmanoidSpace& space, const HostLayout& layout,
                                            const ControlCommands& a, const ControlCommands& b)
 {
@@ -43,7 +42,7 @@ std::optional<std::uint32_t> OtherCommands(const CSwarmanoidSpace& space, const 
   return std::nullopt;
 }
 
-// Whose fault the difference may be: what the robots did in the tick before, if it can be compared.
+// Returns the likely cause of the difference: the commands of the robots in the tick before, if they can be compared.
 std::string CauseOf(const RecordedRun& a, const TickRecord& of_a, const RecordedRun& b, const TickRecord& of_b)
 {
   if (of_a.commands.empty() || of_b.commands.empty()) return {};

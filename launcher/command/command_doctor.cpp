@@ -1,4 +1,4 @@
-// `swarmanoid doctor`: is all there that runs need on this machine, and what is to be done about the rest?
+// `swarmanoid doctor`: checks what runs need on this machine, and says how to mend the rest.
 #include <fmt/format.h>
 #include <unistd.h>
 

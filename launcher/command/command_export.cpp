@@ -1,4 +1,4 @@
-// `swarmanoid export`: what the journal of a run has, for other tools.
+// `swarmanoid export`: writes the content of a run's journal for other tools.
 #include <fmt/format.h>
 #include <fnmatch.h>
 #include <CLI/CLI.hpp>
@@ -74,7 +74,7 @@ std::vector<ExportColumn> ColumnsOfPoses()
   };
 }
 
-// Of all kinds in the space, with their numbers of elements.
+// Returns the attributes of all kinds in the space, with their numbers of elements.
 std::vector<std::pair<std::string, int>> AttributesIn(const CSwarmanoidSpace& space)
 {
   std::vector<std::pair<std::string, int>> attributes;
@@ -198,7 +198,7 @@ void ExportCsv(const ExportOptions& options, RecordedRun& run, const std::vector
   table.Close();
 }
 
-// False if some events cannot be read, which standard error says.
+// Returns false if some events cannot be read, which standard error says.
 bool ExportMcap(const ExportOptions& options, RecordedRun& run, std::vector<std::size_t> entities)
 {
   const EventLines events = ReadEventLines(run.Folder() + "/events.csv");

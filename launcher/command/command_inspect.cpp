@@ -89,7 +89,7 @@ std::string ReadingText(const CCI_Reading& reading)
   return fmt::format("{:.6g}{}{}", reading.value, reading.unit.empty() ? "" : " ", reading.unit);
 }
 
-// Of a ring: "0", "1" or "led 0", "led 1" and so on.
+// Returns true for the readings of a ring: "0", "1" or "led 0", "led 1" and so on.
 bool AreNumbered(const std::vector<CCI_Reading>& readings)
 {
   if (readings.size() < 2 || !readings.front().name.ends_with('0')) return false;

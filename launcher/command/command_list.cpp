@@ -34,7 +34,8 @@ constexpr std::array kKinds{PluginKind::kEngine,
                             PluginKind::kEntityKind,
                             PluginKind::kController};
 
-// Of a user directory, where build.sh puts its plug-ins; the current folder is taken for one.
+// Returns the plug-in folders of a user directory, in which build.sh puts them. The current folder may be such a
+// directory.
 std::vector<std::string> OwnFolders()
 {
   std::vector<std::string> folders;
@@ -56,8 +57,8 @@ bool IsLabel(const std::string& name)
       kKinds, [&](PluginKind kind) { return !PluginCatalogue::Instance().Implementations(kind, name).empty(); });
 }
 
-// Libraries are loaded. The labels of which more is to be said: those that stand among the names, and those of a
-// library that was found by its name.
+// Loads the named libraries. Returns the labels to describe in detail: labels among the names, and those of libraries
+// found by name.
 std::vector<std::string> LoadNamed(const std::vector<std::string>& names)
 {
   std::vector<std::string> labels;
@@ -86,7 +87,8 @@ std::vector<std::string> LoadNamed(const std::vector<std::string>& names)
   return labels;
 }
 
-// Every library of plug-ins that came with the simulator or was built here. Those that cannot be loaded are named.
+// Loads every library of plug-ins of the simulator, and those that were built here. Names the libraries that cannot be
+// loaded.
 void LoadAll()
 {
   for (const std::string& folder : SearchedFolders())

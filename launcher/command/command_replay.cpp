@@ -1,4 +1,4 @@
-// `swarmanoid replay`: shows what the journal of a run has, or computes the run again and compares.
+// `swarmanoid replay`: shows the journal of a run, or computes the run again and compares.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -45,7 +45,7 @@ struct ReplayOptions
 // All roles in this process, with what users asked, beside the states of the journal.
 int Verify(RecordedRun& run)
 {
-  // With the users' libraries, unlike what only shows.
+  // The users' libraries are loaded, since the run is computed again.
   const auto experiment = LoadOrComplain(run.Folder() + "/experiment.xml", {});
   if (!experiment) return kExitInvalidFile;
   const ScratchFolder scratch;
@@ -92,7 +92,7 @@ int Verify(RecordedRun& run)
   return kExitDone;
 }
 
-// How the replay goes. The journal has nothing of what is inside robots.
+// Shows the progress of the replay. The journal has nothing of the inside of robots.
 class ReplayMonitor : public RunMonitor
 {
 public:

@@ -41,7 +41,7 @@ std::vector<OptionSpec> ResumeOptionTable(RunSettings& settings)
   return options;
 }
 
-// The folder has only those events of --events that the run came to, so the user must name the file again.
+// The folder has only the events of --events that the run reached, so the user must name the file again.
 void RequireEvents(const std::string& run_folder)
 {
   std::error_code none;

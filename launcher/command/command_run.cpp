@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kRuns = "runs";
 
-// Whether the user is at a terminal, has no runs yet, and gives no option of scripts.
+// Returns whether the user is at a terminal, has no runs yet, and gives no option of scripts.
 bool IsFirst(const RunSettings& options)
 {
   std::error_code none;

@@ -1,5 +1,5 @@
-// `swarmanoid share`: lets somebody who is no member of a run look at it, or steer it, from another machine or as
-// another user, or anybody look with any DDS; lists those who may, and ends it.
+// `swarmanoid share`: lets other users or machines observe or steer a run as non-members, or lets anyone observe it
+// with any DDS. It also lists and ends these grants.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -17,7 +17,7 @@ namespace swarmanoid
 class RegisterSubCommand
 {
 public:
-  // Adds the sub-command. When it is the one that was asked for, it leaves its exit code in `exit_code`.
+  // Adds the sub-command. If the user calls it, it sets `exit_code`.
   using Add = void (*)(CLI::App& app, int& exit_code);
 
   // `order`: the help lists sub-commands with smaller numbers first.

@@ -95,7 +95,7 @@ Json JsonOf(const ParameterSpec& spec)
   return json;
 }
 
-// What the text of a parameter may refer to: the ids of controllers, of engines, of entities.
+// Returns the values that a parameter may refer to: the ids of controllers, of engines, of entities.
 std::vector<std::string> SuggestionsFor(const EditedExperiment& experiment, const std::string& tag,
                                         const std::string& parameter)
 {

@@ -23,7 +23,8 @@ struct EditRequest
 
 // Throws std::invalid_argument, with a text for the user, for anything else than a request.
 EditRequest ParseEditRequest(std::string_view text);
-// The change of an "edit". Gives the path of an element that was added; empty if none was. Throws likewise.
+// Carries out the change of an "edit". Returns the path of an added element, or an empty path. Throws
+// std::invalid_argument.
 ElementPath CarryOut(const EditRequest& request, EditedExperiment& experiment);
 
 struct DocumentState
@@ -38,7 +39,7 @@ struct DocumentState
 };
 // "document": what there is to say of the text after each change.
 std::string DocumentText(const EditedExperiment& experiment, const DocumentState& state);
-// "form": the values of an element, and what it may hold.
+// Returns the answer to "form": the values of an element, and its possible children.
 std::string FormText(const EditedExperiment& experiment, const ElementPath& path);
 
 }  // namespace swarmanoid

@@ -109,12 +109,12 @@ void EditSession::Idle()
   changed_on_disk_ = changed;
   try
   {
-    // Who has changed nothing here wants what is there.
+    // If the user has changed nothing here, the file on disk replaces the text.
     if (changed && was_saved) Reload();
   }
   catch (const std::invalid_argument&)
   {
-    // It is no experiment now, or gone: what is here stays, and the page says so.
+    // The file is gone or no experiment. The text here stays, and the page says so.
   }
   Show();
   Tell();

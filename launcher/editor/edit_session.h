@@ -1,5 +1,5 @@
-// What pages ask of an experiment that is edited, as JSON (docs/edit.md has the messages), and what they are told of
-// it: the document after each change, the form of an element, the start state. Used by `swarmanoid edit`.
+// EditSession: the requests of pages about an edited experiment, and the messages to them, as JSON (docs/edit.md).
+// Pages get the document after each change, the form of an element, and the start state. Used by `swarmanoid edit`.
 #pragma once
 
 #include <chrono>
@@ -21,7 +21,7 @@ public:
   // Throws ConfigurationError if the file cannot be edited. The page outlives the session.
   EditSession(const std::string& file, EditorPage& page);
 
-  // Tells the page everything: once it is open.
+  // Sends the page everything, once it is open.
   void Begin();
   std::string Carry(std::string_view request) override;
   // To be called now and then: looks at the file on disk and at the check that goes on.

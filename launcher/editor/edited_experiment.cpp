@@ -256,7 +256,7 @@ ElementPath EditedExperiment::Add(const ElementPath& parent, const std::string& 
     RefuseEdit(fmt::format("{} takes no{} <{}>", NameOf(parent), child == form.children.end() ? "" : " further", tag));
   const XmlElement& above = At(parent);
   NewElement element{tag, ValuesForNew(tag, child->required, *this, parent, at), false};
-  // As those beside it are written.
+  // The new element is written in the form of its siblings.
   for (const XmlElement& other : above.children) element.as_elements |= HasValuesAsElements(other);
   const InsertionPlace place = PlaceForChild(Text(), above);
   const bool has_id = !element.values.empty() && element.values.front().first == "id";

@@ -1,5 +1,5 @@
-// The text of an experiment that is edited, and what is known of it: its elements, mistakes and start state. Each
-// change is one step of its history. Used by `swarmanoid edit`.
+// EditedExperiment: the text of an edited experiment with its elements, mistakes and start state. Each change is one
+// step of its history. Used by `swarmanoid edit`.
 #pragma once
 
 #include <memory>
@@ -15,10 +15,10 @@
 namespace swarmanoid
 {
 
-// What a page asks for cannot be done: throws std::invalid_argument with a text for the user.
+// Refuses a request of a page: throws std::invalid_argument with a text for the user.
 [[noreturn]] void RefuseEdit(const std::string& text);
 
-// A handle of an element that outlives it.
+// Returns a handle of an element that outlives it.
 TConfigurationTree TreeOf(const ConfigurationNode& node);
 
 using ElementPath = std::vector<std::size_t>;  // child numbers, from the root on
@@ -27,7 +27,7 @@ using ElementPath = std::vector<std::size_t>;  // child numbers, from the root o
 std::string PathText(const ElementPath& path);
 ElementPath ParsePath(const std::string& text);
 
-// Where an entity is put.
+// The position of an entity.
 struct Placing
 {
   ElementPath path;
@@ -44,7 +44,7 @@ public:
   const std::string& Text() const { return text_.Text(); }
   const EditedText& History() const { return text_; }
   const std::vector<Diagnostic>& Mistakes() const { return loaded_.errors; }
-  // As far as it can be read; nullptr if nothing can be made of it.
+  // Returns the experiment as far as it can be read, or nullptr if it cannot be read at all.
   const Experiment* GetExperiment() const { return loaded_.experiment.get(); }
   const std::string& Places() const { return loaded_.places; }
 
@@ -57,9 +57,10 @@ public:
   std::string NameOf(const ElementPath& path) const;
   // The element that a line and column are in.
   ElementPath PathAt(const SourceLocation& place) const;
-  // Of each entity of the experiment: its element. Those of one <distribute> or <reserve> share the one within it.
+  // Returns the element of each entity of the experiment. Entities of one <distribute> or <reserve> share the element
+  // within it.
   const std::vector<ElementPath>& EntityPaths() const { return entity_paths_; }
-  // Whether its entities have their places from the element above it.
+  // Returns whether its entities have their places from the element above it.
   bool IsDistributed(const ElementPath& path) const;
 
   // The changes. Each throws std::invalid_argument with a text for the user, and then changes nothing.
@@ -68,7 +69,7 @@ public:
   // Gives the path of the new element. `at`: where an entity is put on the floor (m).
   ElementPath Add(const ElementPath& parent, const std::string& tag, const std::optional<Vector2>& at);
   void Remove(const std::vector<ElementPath>& paths);
-  // The whole element anew.
+  // Replaces the whole element.
   void Rewrite(const ElementPath& path, const std::string& xml);
   // The entities of a <distribute> one by one, in its place.
   void WriteOut(const ElementPath& path);
@@ -78,7 +79,7 @@ public:
   bool Redo();
 
 private:
-  // What becomes of a text; throws if it cannot be read.
+  // The parsed form of a text. Making it throws if the text cannot be read.
   struct Reading
   {
     std::shared_ptr<const ConfigurationNode> tree;

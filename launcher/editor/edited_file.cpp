@@ -54,7 +54,7 @@ public:
 
   void Fill(std::string_view text, const struct stat& like)
   {
-    // Who may read it stays; the owner too, as far as this user may say so.
+    // The permissions stay. The owner stays too, if this user may set it.
     if (fchown(file_, like.st_uid, like.st_gid) != 0 && errno != EPERM) Fail("cannot keep its owner");
     if (fchmod(file_, like.st_mode & 07777U) != 0) Fail("cannot keep its permissions");
     while (!text.empty())

@@ -1,5 +1,5 @@
-// The file of an experiment that is edited: written beside and renamed, so that at every moment the old or the new one
-// is there as a whole, and looked at for changes of others. Used by `swarmanoid edit`.
+// EditedFile: the file of an edited experiment. It is written beside the old one and renamed, so that a whole file is
+// there at every moment. It also detects changes by other programs. Used by `swarmanoid edit`.
 #pragma once
 
 #include <sys/stat.h>
@@ -13,19 +13,19 @@ namespace swarmanoid
 class EditedFile
 {
 public:
-  // Links are followed: what they lead to is written. Throws ConfigurationError if it cannot be read.
+  // Opens a file; links are followed, and their target is written. Throws ConfigurationError if it cannot be read.
   explicit EditedFile(const std::string& path);
 
   const std::string& Path() const { return path_; }  // as it was given
-  // What was last read or written.
+  // Returns the text that was last read or written.
   const std::string& Text() const { return text_; }
-  // Whether the file holds something else now, or is gone. Quick while nobody has touched it.
+  // Returns true if the file was removed or has another content. This is fast if the file was not touched.
   bool HasChanged();
-  // What it holds now; throws ConfigurationError.
+  // Returns the present content of the file; throws ConfigurationError.
   std::string OnDisk() const;
-  // That this is what was read.
+  // Records that this text was read.
   void Accept(const std::string& text);
-  // Throws std::runtime_error, with the cure; then the file is what it was.
+  // Writes the file. Throws std::runtime_error with the cure; the file then has its old content.
   void Write(const std::string& text);
 
 private:

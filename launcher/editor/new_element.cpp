@@ -17,7 +17,7 @@ namespace
 
 using Node = ConfigurationNode;
 
-// The last element of that tag beside the new one, which it is made like; nullptr if there is none.
+// Returns the last sibling with that tag, whose values the new element copies, or nullptr.
 const Node* LastLike(const Node& parent, const std::string& tag)
 {
   const auto found = std::ranges::find_if(parent.children.rbegin(), parent.children.rend(),
@@ -25,7 +25,7 @@ const Node* LastLike(const Node& parent, const std::string& tag)
   return found == parent.children.rend() ? nullptr : found->get();
 }
 
-// "fb_4" after "fb_3", "footbot_1" if there is none yet.
+// Returns "fb_4" after "fb_3", or "footbot_1" for the first one.
 std::string FreeId(const EditedExperiment& experiment, const Node& parent, const std::string& tag, const Node* like)
 {
   std::set<std::string> taken;
@@ -42,7 +42,7 @@ std::string FreeId(const EditedExperiment& experiment, const Node& parent, const
   return stem + std::to_string(number);
 }
 
-// Of the implementations of a device the simulator's own come first.
+// Prefers the simulator's own implementations of a device.
 std::string ChoiceOf(const std::vector<std::string>& choices)
 {
   for (const char* own : {"generic_", "dummy_"})
@@ -77,7 +77,8 @@ std::string ValueOfType(const ParameterSpec& spec)
   return "";
 }
 
-// How high above the floor its position is: as those like it, if they have the same size, or so that it stands.
+// Returns the height of the position above the floor: that of the copied entity if it has the same size, or the height
+// at which the new one stands.
 double HeightOf(EntityKind kind, const Node* like, const std::optional<std::vector<double>>& size)
 {
   const EntityKindDescription& row = DescriptionOf(kind);
@@ -124,7 +125,7 @@ std::vector<std::pair<std::string, std::string>> ValuesForNew(const std::string&
     else if (spec.name == "quantity")
       add(spec.name, "10");
     else if (spec.name != "position")
-      // A wall of the same size would be in the same places.
+      // Vectors are not copied: a wall with the same corners would be in the same place.
       add(spec.name, copied && spec.type != ParameterType::kVector3 ? *copied : ValueOfType(spec));
   }
   if (!kind) return values;
@@ -155,7 +156,7 @@ std::string EntitiesOneByOne(const EditedExperiment& experiment, const std::vect
   const std::string deep = outer_lines.line_end + PlaceForChild(text, distribution).indent;
   const std::string flat = outer_lines.line_end + outer_lines.indent;
 
-  // Its lines stand deeper than those that take its place.
+  // The lines of the entity have a deeper indent than those that replace the <distribute>.
   std::string sample(one->whole.Of(text));
   for (std::size_t at = sample.find(deep); at != std::string::npos; at = sample.find(deep, at + flat.size()))
     sample.replace(at, deep.size(), flat);

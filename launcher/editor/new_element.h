@@ -1,5 +1,5 @@
-// What an element of an experiment file begins with that a user adds in the editor: values that stand for what is
-// required, an id that nobody has, a place on the floor. Used by EditedExperiment.
+// The first values of an element that a user adds in the editor: the required values, a free id, a position on the
+// floor. Used by EditedExperiment.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace swarmanoid
 
 class EditedExperiment;
 
-// As a user writes it: at most four digits behind the point.
+// Returns a number in the form that users write: at most four digits after the point.
 std::string NumberText(double number);
 
 // `at`: where an entity of <arena> is put (m); nothing: in the middle.

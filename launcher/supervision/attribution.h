@@ -1,5 +1,6 @@
-// Attribution: which process of a cluster failed, as opposed to those that ended because it did, and the line that says
-// so. Pure functions over what processes say of themselves and how they ended; used by the supervisor.
+// Attribution: finds the process of a cluster that failed, as opposed to processes that ended because of it, and makes
+// the line about it. The functions are pure. Their input is the reports of processes and how they ended. Used by the
+// supervisor.
 #pragma once
 
 #include <chrono>
@@ -15,7 +16,7 @@
 namespace swarmanoid
 {
 
-// What a process says of itself on its page (ActivityPage).
+// The report of a process on its page (ActivityPage).
 struct ActivityRecord
 {
   bool taken = false;  // it has the page
@@ -30,10 +31,10 @@ struct ActivityRecord
 };
 ActivityRecord ReadActivity(const ActivityPage* page);
 
-// How much an end says about who failed; the lower, the more.
+// How much the end of a process says about the failure; lower values say more.
 enum class Evidence
 {
-  kDeath,        // it was killed, or reports the failure of somebody's code
+  kDeath,        // it was killed, or reports the failure of users' code
   kFailure,      // it failed by itself
   kEarlyEnd,     // it ended without a failure before the run did; that may still come to its end
   kConsequence,  // it ended since another one did
@@ -42,20 +43,21 @@ enum class Evidence
 // `ended`: nothing while the process runs; it may have said already that it failed.
 Evidence EvidenceOf(const std::optional<ProcessEnd>& ended, const ActivityRecord& record);
 
-// Whether a process has ended since one that died holds a lock of the shared memory that they had: then no other
-// process gets further in this memory.
+// Returns true if a process has ended because a dead one holds a lock of their shared memory. Other processes with this
+// memory will then stop too.
 bool IsStuck(const std::optional<ProcessEnd>& ended);
 
-// Whether a process has died, rather than said what is wrong, so that a process that replaces it may get further.
-// `elsewhere`: it was started on another machine.
+// Returns true if a process has died without a report of a mistake, so that a process that replaces it may get further.
+// `elsewhere` means that it was started on another machine.
 bool MayBeReplaced(const ProcessEnd& ended, const ActivityRecord& record, bool elsewhere);
-// Whether somebody else ended it, or the connection to it: not by what it did.
+// Returns true if SIGKILL ended the process, or its connection by ssh failed. Its own code is then not the cause.
 bool WasKilled(const ProcessEnd& ended, bool elsewhere);
-// Whether both died of the same step of the same code: whoever comes next will, too.
+// Returns true if both died in the same step of the same code. A process that replaces them will die there too.
 bool DiedAlike(const ActivityRecord& a, const ActivityRecord& b);
 
-// One line: who failed, how, and at which tick. `actor_of` names who ran in a process that was killed; `server_tick` is
-// that of the run, for processes that say none; `killed_for_memory` as KernelKillsForMemory tells.
+// A failed process, described in one line: its name, the failure and the tick. `actor_of` names the code that ran in a
+// killed process. `server_tick` is the run's tick, for processes without their own. `killed_for_memory` is the result
+// of KernelKillsForMemory.
 struct FailedProcess
 {
   std::string name;

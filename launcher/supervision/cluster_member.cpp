@@ -62,10 +62,10 @@ void ClusterMember::ReadOutput(const OnLine& on_line, std::size_t limit)
     limit -= bytes.size();
     output_lines_.Add(bytes, take);
   }
-  // A process that has ended may have left the descriptor to a child of its own: what is there now is all that counts.
+  // A process that has ended may have left the descriptor to a child, so only the output that is there now counts.
   if (limit > 0 && end_) process_.output.Reset();
   if (!OutputClosed() || !end_ || std::exchange(output_taken_, true)) return;
-  // Of one that was killed the last line may be half of one.
+  // The last line of a killed process may be incomplete.
   if (end_->signal == 0) output_lines_.Finish(take);
 }
 

@@ -55,18 +55,18 @@ struct ClusterPlan
   bool is_serial = false;             // one engine in one thread, and no tick ahead: only controller hosts run at once
 };
 
-// Throws UsageError if the machines are given for processes that the run does not have, or if the experiment needs the
-// network that --isolated takes from it. The request has the domain.
+// Makes the plan. Throws UsageError if machines are given for processes that the run does not have, or if the
+// experiment needs the network that --isolated takes from it. The request must have the domain.
 ClusterPlan MakePlan(const RunRequest& request, const Experiment& experiment);
 
 // Changes the plan to one controller host on each of the machines.
 void SetControllerHosts(ClusterPlan& plan, const std::vector<std::string>& machines);
 
-// Whether all processes but visualisers run fastest, or are requested to run, on one core of this machine.
+// Returns whether all processes but visualisers run fastest, or are requested to run, on one core of this machine.
 bool SharesOneCore(const ClusterPlan& plan);
 
-// Tells the user before the start that --controller-hosts, `requested`, is more than the robots need or than `cores`
-// can run. 0 cores: some hosts are on other machines. Empty: nothing to tell.
+// Returns a warning before the start if --controller-hosts, `requested`, is more than the robots need or than `cores`
+// can run. Otherwise it is empty. 0 cores means that some hosts are on other machines.
 std::string NoteAboutControllerHosts(unsigned requested, std::size_t robots, std::size_t cores);
 
 // A controller that took its process with it.
@@ -85,7 +85,7 @@ struct Incarnation
   std::vector<ControllerDeath> deaths;  // of controllers in the earlier processes
 };
 
-// What is known only when the processes start.
+// Values that are known only when the processes start.
 struct ClusterStart
 {
   std::string program_folder;

@@ -45,7 +45,7 @@ void Complain(const ClusterOutcome& outcome)
 
 RunResult ResultOf(const ClusterOutcome& outcome)
 {
-  // In the order of ClusterOutcome::Kind.
+  // The codes are in the order of ClusterOutcome::Kind.
   constexpr std::array kCodes{kExitDone, kExitExperimentFailed, kExitInterrupted, kExitProcessFailed, kExitInvalidFile};
   RunResult result{.exit_code = kCodes[outcome.kind], .summary = {}, .failure = outcome.reason};
   if (!outcome.finished) return result;
@@ -125,7 +125,7 @@ std::function<bool(std::uint32_t)> MayFailOf(const Experiment& experiment)
   };
 }
 
-// The clusters of this machine whose processes share one core, counted by core.
+// Returns the clusters of this machine whose processes share one core, counted by core.
 std::map<int, std::size_t> RunsByCore()
 {
   std::map<int, std::size_t> runs;
@@ -146,8 +146,8 @@ std::map<int, std::size_t> RunsByCore()
   return runs;
 }
 
-// The core for a cluster whose processes share one. Two clusters on one core would starve each other while other cores
-// are idle. Clusters that start at the same time do not see each other, but they have different domains.
+// Returns the core for a cluster whose processes share one. Two clusters on one core would starve each other while
+// other cores are idle. Clusters that start at the same time do not see each other, but they have different domains.
 std::vector<int> ChooseCore(int domain)
 {
   std::vector<int> cores = AvailableCores();

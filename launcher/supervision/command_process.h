@@ -19,7 +19,7 @@ public:
   CommandProcess& operator=(const CommandProcess&) = delete;
 
   bool Ended();
-  // The exit code; of a child that a signal ended, that of a process that failed.
+  // Waits and returns the exit code. For a child that a signal ended, it is that of a failed process.
   int Wait();
 
 private:
@@ -28,7 +28,7 @@ private:
   bool ended_ = false;
 };
 
-// Empty if there is none.
+// Returns the first line of a file, or an empty text.
 std::string FirstLineOf(const std::string& file);
 
 // While an object lives, Ctrl-C is for the children alone.

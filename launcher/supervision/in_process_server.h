@@ -1,5 +1,5 @@
-// A cluster whose space server is this process: so a user's program looks at each tick where its own variables are. The
-// supervisor starts, stops and hears it like any other process, from a thread of its own.
+// InProcessServer: the space server of a cluster in this process, so that a user's program can read its own variables
+// at each tick. The supervisor starts, stops and hears it like any other process, from a thread of its own.
 #pragma once
 
 #include <atomic>
@@ -21,22 +21,23 @@ public:
   ProcessEnd Collect(const SpawnedProcess& process) override;
   void Signal(const SpawnedProcess& process, int signal) override;
 
-  // What there is to do, in the thread that calls Run: the command line, the descriptor for status lines, and what
-  // asks for the end of the run after its tick, and at once. Returns the exit code.
+  // The work in the thread that calls Run. It gets the command line, the descriptor for status lines, and two flags: to
+  // end the run after its tick, and at once. It returns the exit code.
   using Work = std::function<int(const std::vector<std::string>& arguments, int status, const std::atomic<bool>& stop,
                                  const std::atomic<bool>& abandon)>;
   // Waits until the server is started, does its work, and returns when it has ended, or will not be started.
   void Run(const Work& work);
   // No server will be started any more.
   void Cancel();
-  // It was killed and goes on all the same: somebody's code does not return. The supervisor takes it for dead.
+  // Returns true if the server was killed but goes on, because users' code does not return. The supervisor treats it as
+  // dead.
   bool IsStuck() const;
 
 private:
   bool IsServer(const SpawnedProcess& process) const;
 
   SystemSpawner others_;
-  mutable std::mutex mutex_;
+  mutable std::mutex mutex_;  // guards the members below that are not atomic
   std::condition_variable changed_;
   std::optional<ProcessCommand> command_;
   bool cancelled_ = false;

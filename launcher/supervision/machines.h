@@ -1,5 +1,5 @@
-// Machines: on which machine each process of a cluster runs, or the runs of a study, and with which command a process
-// is started there. Read from the file of --hosts, whose format docs/command.md and docs/studies.md describe.
+// Machines: the machine of each process of a cluster, or of the runs of a study, and the command that starts a process
+// there. Read from the file of --hosts (docs/command.md and docs/studies.md have its format).
 #pragma once
 
 #include <map>
@@ -30,9 +30,10 @@ public:
   // --engine-host: "ENGINE=HOST". Throws UsageError.
   void AddEngine(const std::string& setting);
 
-  // The machine of a process, by the file's word for its role ("engine") and its id ("ground"). kHere for this machine.
+  // Returns the machine of a process, by the file's word for its role ("engine") and its id ("ground"). kHere for this
+  // machine.
   std::string MachineOf(const std::string& role, const std::string& id) const;
-  // Whether this machine is the only one that processes run on or may be moved to.
+  // Returns true if processes run only on this machine and cannot be moved to another one.
   bool AllHere() const;
   // The names of all other machines that are named for processes, each once, in alphabetical order.
   std::vector<std::string> Names() const;
@@ -40,10 +41,11 @@ public:
   ProcessCommand CommandOn(const ProcessCommand& command, const std::string& machine) const;
   // Options that every process gets.
   const std::vector<std::string>& Options() const { return options_; }
-  // The ids of the processes of a role that the file names, to find those that the experiment does not have.
+  // Returns the ids of the processes of a role that the file names, to find ids that the experiment does not have.
   std::vector<std::string> Named(const std::string& role) const;
 
-  // For studies: the machines of the line `runs`, each once. Throws UsageError if `cores` is given for another one.
+  // Returns the machines of the line `runs`, each once, for studies. Throws UsageError if `cores` is given for another
+  // one.
   std::vector<RunMachine> ForRuns() const;
   // Silence of a machine after which it counts as dead.
   unsigned LeaseSeconds() const { return lease_s_; }
@@ -56,7 +58,7 @@ private:
   void TakeLine(const std::string& line, const std::string& at);
   void TakeCores(const std::vector<std::string>& key, const std::string& value, const std::string& at);
   void TakeMachinesForRuns(const std::vector<std::string>& machines, const std::string& at);
-  // The words of the template with a command for a machine in it.
+  // Returns the words of the template with a command for a machine in it.
   std::vector<std::string> Reached(const std::vector<std::string>& words, const std::string& machine) const;
 
   std::map<std::pair<std::string, std::string>, std::string> of_processes_;  // by role and id; without id: all others

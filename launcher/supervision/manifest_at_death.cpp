@@ -51,7 +51,7 @@ public:
     while (count > 0) Add({&reversed[--count], 1});
     return *this;
   }
-  // What is no UTF-8 becomes a question mark.
+  // Invalid UTF-8 becomes a question mark.
   JsonPiece& AddQuoted(std::string_view text)
   {
     Add("\"");
@@ -78,7 +78,7 @@ private:
   std::size_t length_ = 0;
 };
 
-// As TimeStamp writes it.
+// Adds the time in the format of TimeStamp.
 void AddTime(JsonPiece& json, std::chrono::seconds offset)
 {
   timespec now{};

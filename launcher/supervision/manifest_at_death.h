@@ -1,6 +1,5 @@
-// ManifestAtDeath: completes the manifest of a run whose process dies of somebody's code, or is killed by the user:
-// then nobody returns to write it. For runs in this process, and for programs of users that are the space server of a
-// cluster.
+// ManifestAtDeath: completes the manifest of a run if users' code or the user kills the process, so that the usual end
+// is not reached. Used by runs in this process, and by users' programs that are the space server of a cluster.
 #pragma once
 
 #include <memory>
@@ -20,7 +19,7 @@ public:
   ManifestAtDeath(const ManifestAtDeath&) = delete;
   ManifestAtDeath& operator=(const ManifestAtDeath&) = delete;
 
-  // What a signal handler needs, made before.
+  // The data of the signal handler, made in advance.
   struct Prepared;
 
 private:

@@ -14,14 +14,13 @@ namespace swarmanoid
 class ProcessLog
 {
 public:
-  // Throws std::runtime_error if the file cannot be made.
-  // `goes_on`: after what is in it.
+  // Opens a log. With `goes_on` it appends to an existing file. Throws std::runtime_error if the file cannot be made.
   explicit ProcessLog(std::string path, bool goes_on = false);
 
   // Adds a line without the colours that a process by ssh sends, which believes to write to a terminal.
   void Add(std::string_view line);
   const std::string& Path() const { return path_; }
-  // At most kLines.
+  // Returns the last lines, at most kLines.
   const std::deque<std::string>& LastLines() const { return last_lines_; }
   // Why lines are missing from the file; empty if none are.
   const std::string& Trouble() const { return trouble_; }

@@ -1,4 +1,4 @@
-// What a process does, as proc(5) has it.
+// The state of a process, from proc(5).
 #pragma once
 
 #include <sys/types.h>
@@ -6,9 +6,9 @@
 namespace swarmanoid
 {
 
-// True if the process waits for something by its own will, and does not work, nor was it stopped.
+// Returns true if the process waits for something by its own will, and does not work, nor was it stopped.
 bool IsAsleep(pid_t pid);
-// By a signal.
+// Returns true if a signal has stopped the process.
 bool IsStoppedBySignal(pid_t pid);
 
 }  // namespace swarmanoid

@@ -11,7 +11,7 @@
 namespace swarmanoid
 {
 
-// What there is to show.
+// The values of the display.
 struct RunProgress
 {
   std::string phase;  // "starting", "waiting for engine_worker ground", "running", "paused", "stopping"
@@ -19,7 +19,7 @@ struct RunProgress
   std::uint64_t max = 0;  // 0: without end
   double real_time_factor = 0;
   int processes = 0;        // alive; 0: not shown
-  std::string waiting_for;  // who keeps the run from going on; empty for nobody
+  std::string waiting_for;  // the process that the run waits for; may be empty
   double waited_s = 0;
 };
 
@@ -40,7 +40,7 @@ public:
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
-  // kTerminal if the descriptor is one.
+  // Returns kTerminal if the descriptor is a terminal.
   static Style StyleFor(int descriptor, bool quiet);
 
   void Show(const RunProgress& progress, Clock::time_point now);

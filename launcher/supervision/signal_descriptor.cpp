@@ -9,7 +9,7 @@ namespace swarmanoid
 namespace
 {
 
-// As nohup(1) has it for SIGHUP.
+// Returns true if the signal is ignored, as nohup(1) does with SIGHUP.
 bool IsIgnored(int signal)
 {
   struct sigaction action

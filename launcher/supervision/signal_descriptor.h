@@ -1,6 +1,6 @@
-// Ctrl-C and its kin as something to wait for. While an object lives, SIGINT,
-// SIGTERM and SIGHUP do nothing but make the descriptor readable, and writing to a closed pipe is an error instead of a
-// death. One at a time, made before any thread.
+// SignalDescriptor: Ctrl-C and similar signals as an event of a descriptor. While an object lives, SIGINT, SIGTERM and
+// SIGHUP only make the descriptor readable, and writing to a closed pipe is an error instead of a death. Only one
+// object may exist at a time, made before any thread.
 #pragma once
 
 #include <signal.h>
@@ -21,7 +21,7 @@ public:
   SignalDescriptor& operator=(const SignalDescriptor&) = delete;
 
   int Descriptor() const { return signals_.Get(); }
-  // The next signal that arrived, if any. Does not wait.
+  // Returns the next signal that arrived, if any. Does not wait.
   std::optional<int> Take();
 
 private:

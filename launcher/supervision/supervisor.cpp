@@ -340,7 +340,7 @@ void Supervisor::Attribute()
     Evidence evidence = EvidenceOf(member->End(), record);
     if (evidence == Evidence::kEarlyEnd && left_.contains(member->Name())) continue;
     if (member->End() && IsDone(*member)) continue;
-    // For processes of other machines: the server often knows who began.
+    // For processes on other machines, the server often knows which one failed first.
     const bool accused = evidence == Evidence::kFailure && server_error_.starts_with(member->Name());
     if (accused) evidence = Evidence::kDeath;
     const auto order = static_cast<std::uint64_t>(noticed - ended_.begin());
@@ -420,7 +420,7 @@ bool Supervisor::CountDeath(const ClusterMember& member)
   Deaths& deaths = deaths_[member.Name()];
   if (progress_.tick > deaths.tick) deaths = {};
   if (deaths.count >= run_.retries || DiedAlike(deaths.last, record)) return false;
-  // What the server says of its tick comes late; and after a restart, ticks that were done come again.
+  // The server's reports of its tick are late, and after a restart earlier ticks come again.
   deaths = {deaths.count + 1, std::max({deaths.tick, progress_.tick, record.tick}), record};
   return true;
 }
@@ -484,7 +484,7 @@ bool Supervisor::Restart(const ClusterMember& first, Evidence evidence)
 {
   const bool all_can =
       std::all_of(members_.begin(), members_.end(), [](const auto& member) { return member->Planned().replaceable; });
-  // A server that has told its result may still have to say by its exit code what the experiment thinks of it.
+  // A server that has reported its result must still give the verdict of the experiment by its exit code.
   const bool goes_on =
       phase_ == Phase::kRunning || (outcome_.kind == ClusterOutcome::kFinished && &first == members_.front().get());
   if (!goes_on || !all_can) return false;
@@ -530,7 +530,7 @@ void Supervisor::KillToStartAgain()
   SignalAll(SIGKILL);
 }
 
-// Whether the processes, which have all ended, must start again.
+// Returns whether the processes, which have all ended, must start again.
 bool Supervisor::MustStartAgain()
 {
   if (attribute_at_ && phase_ != Phase::kDying) Attribute();
@@ -578,7 +578,7 @@ void Supervisor::TakeInterrupts()
 {
   while (const auto signal = interrupts_.Take())
   {
-    // A lost terminal sends more than one, and what was begun may come to its end.
+    // A lost terminal sends several signals, and an end that has begun may complete.
     if (*signal == SIGHUP && phase_ != Phase::kRunning && phase_ != Phase::kRestarting)
     {
       if (phase_ == Phase::kStopping && !deadline_) deadline_ = now_() + times_.forced_stop;

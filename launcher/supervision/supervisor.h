@@ -55,7 +55,7 @@ struct ClusterOutcome
   std::vector<std::pair<std::string, std::string>> processes;  // names and logs of all that were planned
 };
 
-// What the supervisor needs to know of a run beside its plan.
+// The facts about a run that the supervisor needs besides its plan.
 struct SupervisedRun
 {
   std::function<ProcessCommand(const ClusterPlan& plan, std::size_t process, const Incarnation& incarnation)>
@@ -91,7 +91,7 @@ public:
              SupervisedRun run, const SupervisorTimes& times = {}, std::function<Clock::time_point()> now = Clock::now);
 
   ClusterOutcome Run(ClusterPlan plan);
-  // The processes that were started, to look for what they leave behind.
+  // Returns all processes that were started, so that tests can find what they leave behind.
   const std::vector<pid_t>& PidsForTest() const { return pids_; }
 
 private:
@@ -111,7 +111,7 @@ private:
     std::uint64_t tick = 0;
     ActivityRecord last;
   };
-  // The lines that a visualiser has written, and those that were shown.
+  // The lines that a visualiser has written, and those already shown.
   struct Screen
   {
     unsigned incarnation = 0;
@@ -145,20 +145,21 @@ private:
   // Ends, and which process failed first.
   void CollectEnds();
   void TakeEnd(const ClusterMember& member);
-  // Whether nothing that happens to the process changes the run: it has left in good order.
+  // Returns whether nothing that happens to the process changes the run: it has left in good order.
   bool IsDone(const ClusterMember& member) const;
   void AttributeWithin(std::chrono::milliseconds patience);
-  // Ends the run by the fault of the process that failed first, if one of those that have ended, or said so, failed.
+  // Finds the process that failed first among those that have ended or reported a failure. If there is one, ends the
+  // run.
   void Attribute();
   std::string TextOf(const ClusterMember& failed) const;
 
   // Replacing one process.
   bool Replace(const ClusterMember& member);  // false if that is no use
-  // Counts the death of a process. False if it is one too many, or of the same cause again.
+  // Counts the death of a process. Returns false if the limit is exceeded, or the cause is the same as before.
   bool CountDeath(const ClusterMember& member);
   // A controller that died with the process, that may fail, and that has not died there before.
   std::optional<ControllerDeath> NewDeath(const ClusterMember& member) const;
-  // Whether the process died on its way to another machine, which the run waits for.
+  // Returns whether the process died on its way to another machine, which the run waits for.
   bool IsOnItsWay(const ClusterMember& member) const;
   void KillStopped();
 
@@ -194,7 +195,7 @@ private:
   std::vector<std::unique_ptr<ClusterMember>> members_;  // in the order of the plan, but while all start again
   std::vector<pid_t> pids_;
 
-  // What the space server has said.
+  // The last reports of the space server.
   std::optional<Clock::time_point> began_;  // its first tick
   Clock::time_point heard_{};               // when it last said anything
   std::string server_error_;

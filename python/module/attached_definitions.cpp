@@ -1,4 +1,4 @@
-// swarmanoid._module.AttachedRun: what python/swarmanoid/attached.py stands on.
+// swarmanoid._module.AttachedRun: the base of python/swarmanoid/attached.py.
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -19,7 +19,7 @@ namespace swarmanoid::python
 namespace
 {
 
-// A copy that cannot be written.
+// Returns a copy that cannot be written.
 template <class Numbers>
 py::array Frozen(const Numbers& values)
 {
@@ -122,7 +122,7 @@ std::unique_ptr<AttachedRun> Attach(const std::string& experiment, std::optional
   options.experiment = experiment;
   options.domain = domain;
   options.bus.key_file = key;
-  // As for the command: who names other machines does not mean this one alone.
+  // If other machines are named, the run is not restricted to this one, as for the command.
   options.bus.network_interface = network_interface;
   options.bus.peers = peers;
   options.bus.discovery_server = discovery_server;

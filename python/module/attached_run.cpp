@@ -128,7 +128,8 @@ void AttachedRun::Run(const AttachedRunOptions& options)
   changed_.notify_all();
 }
 
-// Libraries are loaded while Python is held, as when a Simulation is made: whose check counts is clear then.
+// Libraries are loaded while this thread holds Python's lock, as when a Simulation is made. So no other thread loads
+// one.
 void AttachedRun::MakeReplica(const WorldMessage& world)
 {
   const py::gil_scoped_acquire python;

@@ -1,7 +1,7 @@
-// swarmanoid.attach: this Python process as a member of a running experiment. It looks on as an attached visualiser
-// does, so that the run never waits for it, and asks what `swarmanoid control` asks. A thread of its own follows the
-// run; messages come in threads of the bus, and all public functions are called by threads of Python that hold the
-// interpreter's lock, which they give away while they wait.
+// swarmanoid.attach: this Python process as a member of a running experiment. It observes as an attached visualiser
+// does, so the run never waits for it. It sends the requests of `swarmanoid control`. A thread of its own follows the
+// run, and messages come in threads of the bus. Threads of Python call all public functions. They hold the
+// interpreter's lock, and release it while they wait.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -57,13 +57,13 @@ struct AttachedRunOptions
 class AttachedRun
 {
 public:
-  // Throws UsageError if there is no such run or no key for it, TimeOver if it is not heard in time, RunError if it
-  // ended meanwhile, ConfigurationError if its experiment cannot be read here.
+  // Joins the run. Throws UsageError if the run or the key for it does not exist, TimeOver if the run does not answer
+  // in time, RunError if it ended meanwhile, and ConfigurationError if its experiment cannot be read here.
   explicit AttachedRun(const AttachedRunOptions& options);
   ~AttachedRun() { Close(); }
 
   const RunChoice& Choice() const { return choice_; }
-  // Of the latest server. The space has the entities; its state is that of the latest call of WithState.
+  // World is that of the latest server. Space has the entities, with the state of the latest call of WithState.
   WorldMessage World();
   const CSwarmanoidSpace& Space() const { return *replica_->space; }
 
@@ -73,15 +73,16 @@ public:
   using Reader =
       std::function<void(const CSwarmanoidSpace& space, const SpaceSnapshot& snapshot, std::uint64_t number)>;
   bool WithState(const Reader& read);
-  // Until a state has come that is not among the first `taken` ones, nor among the first `stale` ones unless no tick
-  // follows it, and is of `tick` or later; or the run is over, which returns false. Throws TimeOver; negative: as long
-  // as it takes.
+  // Waits for a state of `tick` or later that is not among the first `taken` ones. It must not be among the first
+  // `stale` ones either, unless no tick follows it. Returns false if the run is over. Throws TimeOver; a negative time
+  // is no limit.
   bool Wait(std::uint64_t taken, std::uint64_t stale, std::uint64_t tick, double timeout_s);
 
-  // The words of `swarmanoid control`. Throws UsageError for words that are none, RunError if nobody answers.
+  // Sends a request in the words of `swarmanoid control`. Throws UsageError for invalid words, RunError if the run does
+  // not answer.
   ControlReplyMessage Control(const std::vector<std::string>& words, const std::map<std::string, std::string>& options);
   RunStatus Status();
-  // The inside of a robot, which is told from the first call on. Throws TimeOver.
+  // Returns the inside of a robot, which the run sends from the first call on. Throws TimeOver.
   RobotStatus Robot(std::uint32_t entity, double timeout_s);
 
   // Whether there is nothing to come any more, and why if it is a failure.
@@ -111,11 +112,11 @@ private:
   std::atomic<bool> stop_ = false;  // without waiting for anybody
   bool closed_ = false;
 
-  std::mutex asking_;  // held by who uses client_
+  std::mutex asking_;  // guards client_
   ControlClient* client_ = nullptr;
   Bus* bus_ = nullptr;
 
-  std::mutex mutex_;  // of all below
+  std::mutex mutex_;  // guards all members below
   std::condition_variable changed_;
   bool ready_ = false;
   bool leaving_ = false;
@@ -135,7 +136,7 @@ private:
   std::thread thread_;
 };
 
-// swarmanoid._module.AttachedRun and its exception.
+// Adds swarmanoid._module.AttachedRun and its exception.
 void DefineAttachedRun(pybind11::module_& module);
 
 }  // namespace swarmanoid::python

@@ -1,4 +1,4 @@
-// What a device reads or is told, as numbers: the columns that its interface declares (ci_columns.h).
+// The readings or settings of a device as numbers, in the columns that its interface declares (ci_columns.h).
 #pragma once
 
 #include <map>
@@ -10,11 +10,11 @@
 namespace swarmanoid::python
 {
 
-// The devices of a robot, by type.
+// Returns the devices of a robot, by type.
 std::map<std::string, CCI_Sensor*> SensorsOf(const CCI_Robot& robot);
 std::map<std::string, CCI_Actuator*> ActuatorsOf(const CCI_Robot& robot);
 
-// Of columns, with their units: "left [rad/s]", "colour".
+// Returns the names of columns with their units: "left [rad/s]", "colour".
 std::vector<std::string> NamesOf(const std::vector<CCI_Column>& columns);
 
 // A sensor of a robot, which outlives it.
@@ -24,14 +24,14 @@ public:
   SensorReader() = default;
   SensorReader(std::string type, const CCI_Sensor& sensor);
 
-  // The names of its columns; empty: it has none.
+  // Returns the names of its columns; empty: it has none.
   const std::vector<std::string>& Columns() const { return columns_; }
   const std::vector<std::string>& Rows() const { return rows_; }
   // The readings in place of `values`: a number for each column, or row after row. Throws std::runtime_error if the
   // sensor gives another number of them than it states.
   void ReadColumns(std::vector<double>& values) const;
   void ReadRows(std::vector<double>& values) const;
-  // The ids of the entities that the rows are about; empty if the sensor does not tell.
+  // Returns the ids of the entities that the rows are about, or nothing if the sensor does not have them.
   std::vector<std::string> RowIds() const;
 
 private:

@@ -15,7 +15,7 @@ ExternalRobots*& Current()
   return current;
 }
 
-// The array of a device of a group, with room for one robot more.
+// Returns the array of a device of a group, with room for one robot more.
 DeviceArray& WithRow(std::map<std::string, DeviceArray>& arrays, const std::string& type,
                      const std::vector<std::string>& columns)
 {

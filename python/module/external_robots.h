@@ -32,17 +32,17 @@ public:
   const std::vector<ExternalController*>& Robots() const { return robots_; }
   std::vector<std::string> Ids() const;
 
-  // By type of device; those that have columns. They stay where they are.
+  // Returns the devices that have columns, by type. The arrays keep their addresses.
   std::map<std::string, DeviceArray>& Sensors() { return sensors_; }
   std::map<std::string, DeviceArray>& Actuators() { return actuators_; }
-  // Types of sensors whose readings differ in number, with the names of their columns.
+  // Returns the types of sensors whose count of readings differs between ticks, with the names of their columns.
   const std::map<std::string, std::vector<std::string>>& RowSensors() const { return row_sensors_; }
   // The rows of one robot, row by row, and the ids of the entities that they are about. Throws std::out_of_range for a
   // type that is no such sensor.
   std::vector<double> Rows(std::size_t robot, const std::string& type) const;
   std::vector<std::string> RowIds(std::size_t robot, const std::string& type) const;
 
-  // Copies what the sensors read into the arrays.
+  // Copies the readings of the sensors into the arrays.
   void Read();
 
 private:
@@ -60,7 +60,7 @@ public:
   explicit ExternalRobots(const Experiment& experiment);
 
   std::map<std::string, ExternalGroup>& Groups() { return groups_; }
-  // Of a robot, by its id.
+  // Returns the group of a robot, by its id.
   ExternalGroup& GroupOf(const std::string& robot);
   void Read()
   {

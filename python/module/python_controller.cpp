@@ -23,7 +23,8 @@ template <class Map>
   throw py::key_error(text);
 }
 
-// Reaches the object that a user's class made for a robot. Whoever steps the simulation has let Python go meanwhile.
+// Calls the object that a user's class made for a robot. The caller that steps the simulation has released Python's
+// lock.
 class PythonController : public CCI_Controller
 {
 public:
@@ -162,7 +163,7 @@ void RegisterPythonController(const std::string& label, py::object type)
 {
   if (!py::hasattr(type, "control_step"))
     throw py::type_error("the class of the controller '" + label + "' has no method control_step(self, robot)");
-  // A class that is defined anew, as in a notebook, takes the place of the first one.
+  // A class that is defined again, as in a notebook, replaces the first one.
   static auto* const types = new std::map<std::string, py::object>;
   const bool is_new = !types->contains(label);
   (*types)[label] = std::move(type);

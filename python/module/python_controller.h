@@ -12,7 +12,7 @@
 namespace swarmanoid::python
 {
 
-// What a controller in Python sees of its robot: swarmanoid.Robot.
+// The robot of a controller in Python: swarmanoid.Robot.
 class PythonRobot
 {
 public:
@@ -48,7 +48,7 @@ private:
 // Makes `type`, a class of Python with control_step(robot), a controller of experiment files: <label …>.
 void RegisterPythonController(const std::string& label, pybind11::object type);
 
-// A tree of a configuration: a dict of texts and of dicts, of lists where names are repeated.
+// Returns a tree of a configuration: a dict of texts and of dicts, of lists where names are repeated.
 pybind11::object ToPython(const TConfigurationTree& tree);
 
 }  // namespace swarmanoid::python

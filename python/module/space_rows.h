@@ -1,5 +1,5 @@
-// Which row or slot of the arrays is whose: the same for a simulation of this process and for a run that it looks on
-// at.
+// The entities and attributes of the rows and slots of arrays, for a simulation of this process and for an observed
+// run.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ class CSwarmanoidSpace;
 namespace swarmanoid::python
 {
 
-// Of all entities, in the order of the space.
+// Return the ids and kinds of all entities, in the order of the space.
 std::vector<std::string> IdsOf(const CSwarmanoidSpace& space);
 std::vector<std::string> KindsOf(const CSwarmanoidSpace& space);
 // Slot of its first element and number of elements. Throws pybind11::index_error and, with the names that there are,

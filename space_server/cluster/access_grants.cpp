@@ -18,11 +18,11 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t kMostGrants = 16;   // at once
 constexpr std::size_t kMostEnded = 64;    // that are remembered
-constexpr std::size_t kMostWaiting = 64;  // messages of holders; a flood is not heard whole
+constexpr std::size_t kMostWaiting = 64;  // messages of holders; a flood is dropped beyond this
 constexpr auto kRenewWatched = 1s;
 constexpr auto kWatchedTime = 3s;  // after which a request that is not repeated is void
 
-// Of the client of a request, so that no holder of a grant speaks for somebody else.
+// Returns a client name that includes the grant, so that the holder of a grant cannot use another client's name.
 std::string ClientBy(const std::string& client, const AccessGrant& grant)
 {
   return fmt::format("{} by {}", client, grant.Name());
@@ -84,7 +84,7 @@ void AccessGrants::Replied(const ControlReplyMessage& reply)
   if (open_ == 0) return;
   {
     const std::lock_guard lock(mutex_);
-    // What members are told of grants is for members.
+    // Replies about grants go to members only.
     if (std::ranges::find(of_members_, std::pair(reply.client, reply.number)) != of_members_.end()) return;
     inbox_.replies.push_back(reply);
   }
@@ -114,7 +114,7 @@ void AccessGrants::Open(Side& side)
   side.channel = ChannelOf(*session_.Key(), side.grant);
   Bus& bus = session_.GetBus();
   WorldMessage world = session_.World();
-  // Who looks on begins with a view.
+  // An observer first gets a whole view.
   world.checkpoint.clear();
   const std::string partition = world.experiment;
   const auto& channel = side.channel;
@@ -139,7 +139,7 @@ void AccessGrants::Open(Side& side)
   side.worlds->Write(world);
 }
 
-// What goes wrong with a grant is no matter of the run.
+// An error of a grant ends the grant, not the run.
 void AccessGrants::TryToOpen(Side& side, std::uint64_t tick)
 {
   try
@@ -152,7 +152,7 @@ void AccessGrants::TryToOpen(Side& side, std::uint64_t tick)
   }
 }
 
-// From now on nothing is sealed by its key but refusals.
+// Ends a grant. Afterwards its key seals refusals only.
 void AccessGrants::End(Side& side, std::uint64_t tick, const std::string& why)
 {
   side.ended = why;

@@ -1,7 +1,8 @@
-// Access grants: what the space server does for those who look at the run, or steer it, without being members
-// (access_grant.h). Each grant has topics and a key of its own; only here do they meet those of the run, so that what a
-// holder says is checked before anybody believes it. Members make and revoke grants by requests. Requests and replies
-// come in threads of the bus; all else is called by the main thread of the space_server program.
+// Access grants: the space server's part for observers and users who steer the run without being members
+// (access_grant.h). Each grant has topics and a key of its own. Only this class connects them with the topics of the
+// run, and it checks each message of a holder before the run gets it. Members make and revoke grants by requests.
+// Threads of the bus deliver requests and replies; the main thread of the space_server program calls all other
+// functions.
 #pragma once
 
 #include <atomic>
@@ -43,12 +44,12 @@ public:
 
   // The orders that made the grants of an earlier server of this run. Before Work.
   void Restore(const std::vector<ControlOrder>& grants);
-  // From any thread: a member asks for a verb of Asker::kOwner.
+  // Takes a request of a member whose verb is of Asker::kOwner. Any thread may call it.
   void Ask(const ControlRequestMessage& request);
-  // Likewise: all observers see what came of a request.
+  // Sends the reply to a request to all observers. Any thread may call it.
   void Replied(const ControlReplyMessage& reply);
 
-  // Opens, answers and ends what is due.
+  // Opens, answers and ends grants as far as that is due.
   void Work(std::uint64_t tick);
   unsigned ViewReaders() const;
   unsigned StatusReaders() const;
@@ -62,7 +63,7 @@ private:
   struct Side
   {
     AccessGrant grant;
-    std::string by;       // who made it
+    std::string by;       // the member that made it
     std::string ended{};  // why, if it has
     bool told = false;    // that something was refused
     bool is_new = true;
@@ -88,7 +89,7 @@ private:
     std::vector<std::uint32_t> robots;
     Clock::time_point heard;
   };
-  // What threads of the bus have left for the main thread.
+  // Messages that threads of the bus left for the main thread. Guarded by mutex_.
   struct Inbox
   {
     std::deque<ControlRequestMessage> of_members;
@@ -124,14 +125,14 @@ private:
   std::vector<std::unique_ptr<Side>> sides_;
   std::atomic<unsigned> open_ = 0;  // sides
 
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards the members down to stopped_
   Inbox inbox_;
   std::deque<std::pair<std::string, std::uint32_t>> of_members_;  // requests about grants, by client and number
   std::map<std::string, Watched> watched_;                        // robots by client
   bool watched_changed_ = false;
   bool stopped_ = false;
 
-  // Whose inside holders of grants want to see; nothing is made before.
+  // The topics for the inside of robots. They are made when a holder of a grant first asks for one.
   std::unique_ptr<Publisher<ViewRequestMessage>> robots_wanted_;
   std::unique_ptr<Subscription<RobotStatusMessage>> robots_in_;
   Clock::time_point robots_requested_;

@@ -13,7 +13,7 @@ namespace
 
 using namespace std::chrono_literals;
 
-// Between two states in the journal: whoever takes the place of another process does at most about as much again.
+// The time between two saved states in the journal. A process that replaces another one computes about this much again.
 constexpr auto kSavePeriod = 500ms;
 constexpr std::size_t kWantedKept = 64;
 
@@ -93,7 +93,7 @@ void CheckpointWriter::Arrived(const SavedStateMessage& message)
   if (!IsOfFile(message.tick)) return;
   const std::lock_guard lock(mutex_);
   Checkpoint& checkpoint = unfinished_[message.tick];
-  // Whoever takes the place of another process may say again what that one said.
+  // A process that replaces another one may send the same part again.
   for (const SavedPart& part : checkpoint.parts)
     if (part.name == message.name) return;
   checkpoint.parts.push_back({message.name, message.state});
@@ -126,7 +126,7 @@ void CheckpointWriter::Work()
       checkpoint = std::move(found->second);
       unfinished_.erase(found);
     }
-    // As in a run in one process: the server's part, then those of engines and hosts in their order.
+    // The order is that of a run in one process: the server's part, then those of engines and hosts in their order.
     const auto place = [this](const SavedPart& part)
     { return part.name == kServerPart ? -1 : std::find(parts_.begin(), parts_.end(), part.name) - parts_.begin(); };
     std::sort(checkpoint.parts.begin(), checkpoint.parts.end(),

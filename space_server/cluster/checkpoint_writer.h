@@ -1,7 +1,7 @@
 // CheckpointWriter: decides when the processes of a cluster save their states, and puts checkpoints together from them.
-// The server's own part comes from the thread that sends the state, the parts of engines and hosts from the bus; all go
-// into the journal as they are, and the main thread of the space_server program writes the files of checkpoints while
-// the run goes on.
+// The thread that sends the state gives the server's own part; the bus delivers the parts of engines and hosts. All
+// parts go into the journal unchanged. The main thread of the space_server program writes checkpoint files during the
+// run.
 #pragma once
 
 #include <chrono>
@@ -35,11 +35,11 @@ public:
   // The state of the server's tick goes out now. Whether it asks for the states of all after its step. Throws
   // std::runtime_error if the server cannot be saved.
   bool Sending(const SpaceServer& server);
-  // Whether all save their states before they step at the tick.
+  // Returns whether all save their states before they step at the tick.
   bool IsWanted(std::uint64_t tick) const;
-  // Main thread: writes what is complete. Throws std::runtime_error.
+  // Writes the complete checkpoints, in the main thread. Throws std::runtime_error.
   void Work();
-  // Ticks of checkpoints that the server gave its part of, and others not.
+  // Returns the ticks of checkpoints that lack the part of a process other than the server.
   std::vector<std::uint64_t> Incomplete() const;
 
 private:
@@ -47,7 +47,7 @@ private:
 
   void Save(const SpaceServer& server);
   void Arrived(const SavedStateMessage& message);
-  // Whether the run takes a checkpoint at the tick.
+  // Returns whether the run takes a checkpoint at the tick.
   bool IsOfFile(std::uint64_t tick) const;
   bool IsComplete(const Checkpoint& checkpoint) const;
 
@@ -60,9 +60,9 @@ private:
   std::string folder_;
   JournalWriter* journal_;
   std::function<void()> changed_;
-  mutable std::mutex mutex_;                        // of what follows
+  mutable std::mutex mutex_;                        // guards the members below
   std::map<std::uint64_t, Checkpoint> unfinished_;  // by tick
-  std::set<std::uint64_t> wanted_;                  // ticks of which all shall save their states, the last ones
+  std::set<std::uint64_t> wanted_;                  // the last ticks at which all processes save their states
   Clock::time_point saved_;                         // when the server was last saved
   std::unique_ptr<Subscription<SavedStateMessage>> states_in_;
 };

@@ -34,7 +34,7 @@ unsigned LocalStates::Readers() const
   return readers;
 }
 
-// Those who read have said before the first state how far they reach, and so do all that take their places.
+// Every subscribed host has reported its reach before the first state. So has every process that replaces one.
 void LocalStates::FindReaches()
 {
   if (std::exchange(reaches_are_known_, true)) return;

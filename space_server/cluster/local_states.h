@@ -1,6 +1,6 @@
-// LocalStates: what the space server tells single processes of a tick where states go over a network, in place of the
-// state of all: engines, and controller hosts that have said how far they reach. Used by Lockstep, with its mutex
-// locked.
+// LocalStates: the parts of the state that the space server sends to single processes over a network, instead of the
+// whole state. Engines get parts, and so do controller hosts that have reported their reach. Used by Lockstep, with its
+// mutex locked.
 #pragma once
 
 #include <functional>
@@ -23,7 +23,7 @@ public:
 
   bool IsEmpty() const { return listeners_.empty(); }
   unsigned Readers() const;
-  // The state of the space's tick; if the header says that it is repeated, what was told before.
+  // Sends the state of the space's tick. If the header says that it is repeated, the last message is sent again.
   void Write(const MessageHeader& header, const SpaceState& state);
 
 private:

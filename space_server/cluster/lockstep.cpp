@@ -199,7 +199,7 @@ void Lockstep::Complete()
     gate_.Next();
     goes_on = !holds && !server_.IsLast();
     if (goes_on) Send(false);
-    // While the others work on the next tick; their answers wait for the end of this one.
+    // The journal is written while the workers compute the next tick. Their answers wait until this tick ends.
     keep();
   }
   catch (...)
@@ -219,10 +219,10 @@ void Lockstep::Complete()
 void Lockstep::Send(bool repeated)
 {
   const std::uint64_t tick = server_.Space().GetTick();
-  // Whoever goes on from the checkpoint watches this tick again.
+  // A run restored from the checkpoint calls the watcher for this tick again.
   if (!repeated)
   {
-    // Whoever goes on from here finds the lines of the ticks before.
+    // The hash log on disk must have the lines of all ticks before the checkpoint.
     if (checkpoints_.IsWanted(tick)) hash_log_.Flush();
     saves_ = checkpoints_.Sending(server_);
   }
@@ -233,11 +233,11 @@ void Lockstep::Send(bool repeated)
   if (hash_log_.IsOpen() && !repeated) hash_log_.Write(state.tick, server_.Space().Hash());
   held_ = false;
   const MessageHeader header{session_.World().run, state.tick, 0, repeated, 0, saves_};
-  // Where all hear what is theirs, nobody may read this.
+  // If every process gets its local state, the whole state may have no readers.
   if (local_states_.IsEmpty() || states_.Readers() > 0) states_.Write(header, state);
   local_states_.Write(header, state);
   if (!state.last) return;
-  // For those who look back: nobody steps there.
+  // Readers of the journal need the last state. It has no commands, since no process computes a step from it.
   if (journal_ != nullptr && !finished_) journal_->AddTick(state, saves_, Frames(), {});
   finished_ = true;
   stopped_();
@@ -259,7 +259,8 @@ void Lockstep::Record(const SpaceState& state, bool saves, std::span<const Senso
               updates_[e].recorded.end(), frames_[e].values.begin());
 }
 
-// Nobody sends those of the first tick.
+// Returns the sensor frames of the tick. The frames of the first tick come from the start of the run, not from
+// messages.
 std::span<const SensorFrame> Lockstep::Frames() const
 {
   if (gate_.Tick() == first_tick_) return first_frames_;
@@ -319,7 +320,7 @@ void Lockstep::Go(std::uint64_t until)
   until_ = until;
   if (!held_) return;
   Send(false);
-  // An experiment without engines, hosts and visualisers waits for nobody.
+  // An experiment without engines, hosts and visualisers has no answers to wait for.
   while (gate_.Complete() && !finished_ && !held_) Complete();
 }
 

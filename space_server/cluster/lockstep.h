@@ -37,10 +37,10 @@ public:
            JournalWriter* journal, const RestartPoint* restart_point, std::function<void()> stopped);
   ~Lockstep();
 
-  // Whether all workers' topics have met those of the server.
+  // Returns true once the topics of all workers have matched those of the server.
   bool AllMatched() const;
 
-  // What follows is for the main thread.
+  // The main thread calls the functions below.
 
   // Between two ticks: the state of Tick() is made, but not sent.
   bool Held() const;
@@ -58,7 +58,7 @@ public:
   std::optional<std::string> Failure() const;
   // After the last state. Throws if lines of it are lost.
   void CloseHashLog();
-  // Those whose answer to the current tick is missing.
+  // Returns the names of the processes whose answer to the current tick is missing.
   std::vector<std::string> Missing() const;
   struct Present
   {
@@ -81,8 +81,8 @@ private:
   void Send(bool repeated);
   void Complete();
   std::span<const SensorFrame> Frames() const;
-  // Writes a tick into the journal: what the server did not hear itself, the engines reported. Then frames_ are those
-  // of the next tick.
+  // Writes a tick into the journal. The engines report the commands that the server did not receive itself. Afterwards
+  // frames_ has the frames of the next tick.
   void Record(const SpaceState& state, bool saves, std::span<const SensorFrame> frames);
   template <class Message>
   Message* PlaceOf(const MessageHeader& header, std::uint64_t tick, std::optional<std::size_t> part, Message& place);
@@ -92,7 +92,7 @@ private:
   void GoOn();
 
   ServerSession& session_;
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // guards the members below
   SpaceServer& server_;
   CheckpointWriter& checkpoints_;
   JournalWriter* journal_;
@@ -106,7 +106,7 @@ private:
   std::size_t visualisers_ = 0;
   unsigned workers_ = 0;
   TickGate gate_;
-  std::map<std::string, std::uint32_t> away_;  // unheard, with the incarnations of those that take their places
+  std::map<std::string, std::uint32_t> away_;  // processes without contact, with the incarnations of their replacements
   std::vector<UpdateMessage> updates_;
   std::vector<const EngineUpdate*> updates_here_;
   std::array<std::vector<ControlCommands>, 2> commands_;  // of all hosts, at even and odd ticks

@@ -1,4 +1,5 @@
-// Which processes of a run are late, as people are told. Used by the main thread of the space_server program.
+// Finds the processes of a run that are late, for messages to users. Used by the main thread of the space_server
+// program.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@ struct LateProcess
   std::string doing;  // as it says; may be empty
 };
 
-// Those whose answer to `tick` is missing, or those whom they in turn wait for; each once.
+// Returns the processes whose answer to `tick` is missing, or the processes that they in turn wait for, each once.
 std::vector<LateProcess> LateProcesses(const ServerSession& session, const std::vector<std::string>& missing,
                                        std::uint64_t tick);
 

@@ -33,7 +33,7 @@ std::optional<std::pair<JournalPlace, JournalPlace>> NewestState(const std::vect
   return std::nullopt;
 }
 
-// Whether the blocks have all ticks of the journal from that one on.
+// Returns whether the blocks have all ticks of the journal from that one on.
 bool HasTicksFrom(const std::vector<JournalPlace>& places, std::uint64_t tick)
 {
   return std::ranges::any_of(places, [tick](const JournalPlace& place)

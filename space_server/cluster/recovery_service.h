@@ -1,5 +1,5 @@
-// RecoveryService: sends the journal to processes that take the place of others. Used by the main thread of the
-// space_server program.
+// RecoveryService: sends the journal to processes that replace others. Used by the main thread of the space_server
+// program.
 #pragma once
 
 #include <map>
@@ -23,18 +23,19 @@ public:
   {
   }
 
-  // Answers what was asked for. Throws BusError for what nobody can take the place of, as the journal has ended.
+  // Answers the pending requests for the journal. Throws BusError for a process that cannot be replaced because the
+  // journal has ended.
   void Work();
 
 private:
-  // What one process is sent: blocks of the journal, then one of the tick that the run waits at.
+  // The content for one process: blocks of the journal, then a block of the tick at which the run waits.
   struct Plan
   {
     std::vector<JournalPlace> places;
     std::vector<char> last;
   };
   Plan MakePlan(const std::string& name);
-  // As the present controller hosts understand it.
+  // Returns a block of the journal in the layout of the present controller hosts.
   std::vector<char> BlockAt(const JournalPlace& place);
 
   ServerSession& session_;

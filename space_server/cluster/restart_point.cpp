@@ -27,7 +27,7 @@ RestartPoint::RestartPoint(const RunSettings& settings, const Experiment& experi
   tick_ = start.first_tick;
   if (const auto newest = journal_->RecordOf(EndTickOf(start, journal_->Places()) - 1))
     newest_poses_ = newest->state.poses;
-  // A checkpoint that the run takes there is on the disk, or somebody's part of it may be lost.
+  // A tick whose checkpoint file is due is usable only if the file exists. Otherwise the part of a process may be lost.
   const auto usable = [&](std::uint64_t tick)
   {
     const bool of_file = settings.checkpoint_every != 0 && tick % settings.checkpoint_every == 0;
@@ -57,7 +57,7 @@ void RestartPoint::ShareOut(JournalWriter& journal, const Experiment& experiment
     journal.BeginHosts(hosts, tick_);
   else if (journal_->NewestHostsSavedUntil(tick_, PartsOf(experiment, hosts.hosts)))
     return;
-  // A server that died just here has said whose the robots are, and perhaps not what they remember.
+  // A server that died at this point has written the new assignment of robots, but perhaps not their saved states.
   const auto checkpoint = journal_->WholeCheckpointUntil(tick_, experiment, hosts);
   if (!checkpoint) return;
   journal.Add(checkpoint->snapshot);

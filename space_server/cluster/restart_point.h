@@ -1,6 +1,6 @@
-// RestartPoint: where a space server takes a run up whose space server has died, from the folder of the run. The
-// journal says what the state was, the log of events what users asked. Made and used by the main thread of the
-// space_server program before its first tick.
+// RestartPoint: the tick at which a new space server resumes a run after the death of the old one, read from the folder
+// of the run. The journal has the states, and the log of events has the requests of users. The main thread of the
+// space_server program makes and uses it before its first tick.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ public:
   // Throws std::runtime_error if the journal is of something else.
   RestartPoint(const RunSettings& settings, const Experiment& experiment);
 
-  // The newest tick at which the server was saved and whose record is in the journal; otherwise the first one of the
-  // run.
+  // Returns the newest tick at which the server was saved and whose record is in the journal. Otherwise it returns the
+  // first tick of the run.
   std::uint64_t Tick() const { return tick_; }
   // Brings the server there, which is where the run began.
   void Restore(SpaceServer& server) const;
@@ -33,14 +33,15 @@ public:
   // If other controller hosts had the robots: has the journal say so, with the newest state that all processes saved,
   // shared out among these.
   void ShareOut(JournalWriter& journal, const Experiment& experiment, const HostTable& hosts) const;
-  // Of the tick; nothing if it is the first one.
+  // Returns the record of the tick, or nothing if it is the first one.
   const std::optional<TickRecord>& Record() const { return record_; }
-  // Of the newest tick that the journal has, which may be a later one; none if it has none.
+  // Returns the poses of the newest tick in the journal, which may be later than Tick(). They are empty if the journal
+  // has no tick.
   const std::vector<double>& NewestPoses() const { return newest_poses_; }
   const EarlierRequests& Requests() const { return requests_; }
-  // Of controllers, in ticks that are done again. Some may stand there twice.
+  // Returns the failures of controllers in ticks that are computed again. A failure may be in the list twice.
   RecordedFaults Faults() const;
-  // What is asked of the run from now on, after what was asked before.
+  // Fills in the requests that the run has still to execute, and those that it executed before.
   void Prepare(RunControlSetup& setup) const;
 
 private:

@@ -9,8 +9,8 @@ namespace swarmanoid
 {
 
 void AddServerOptions(CLI::App& app, ServerOptions& options);
-// Reads the experiment and serves it. Returns the exit code, where the run has failed too, which is told on the status
-// channel.
+// Reads the experiment and serves it. Returns the exit code, also if the run has failed; the status channel has the
+// reason.
 int Serve(const ServerOptions& options);
 
 }  // namespace swarmanoid

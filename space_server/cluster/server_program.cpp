@@ -21,7 +21,7 @@ using namespace std::chrono_literals;
 
 constexpr auto kPeriod = 50ms;         // of the main thread, when nothing happens
 constexpr double kLastViewTime_s = 1;  // observers may be stopped
-constexpr auto kWorldAgain = 3s;       // to those who have not heard of the run
+constexpr auto kWorldAgain = 3s;       // between announcements to processes that have not joined
 constexpr auto kBrokenTime = 5s;       // for the lease of a dead process to end
 constexpr auto kStuckTime = 1s;        // for another process to take its place
 
@@ -45,7 +45,7 @@ int ServerProgram::Run()
             complete ? error.what() : fmt::format("space server failed at tick {}: {}", lockstep_.Tick(), error.what()),
             complete);
     if (journal_) journal_->Flush();
-    // Who looks on waits for the server that takes the place of one that is stuck.
+    // Observers wait for the server that replaces a stuck one, so they get no end of the run.
     if (!stuck_ || !options_.awaits_replacements)
     {
       grants_.Leave(lockstep_.Tick(), error.what(), kLastViewTime_s);
@@ -87,11 +87,11 @@ void ServerProgram::Sleep(Clock::time_point until)
 void ServerProgram::CheckFailures()
 {
   if (options_.abandon != nullptr && *options_.abandon) throw BusError("the run was given up");
-  // Whoever started the processes knows that one may end before it can.
+  // The launcher is told which processes have left, so that it expects their end.
   for (const std::string& name : session_.TakeLeft()) status_.Publish(ServerLeft{name});
   session_.AnswerLeaves();
   HelpReplacements();
-  // Asked first: who leaves in good order has the last state, and who does not has failed.
+  // The order matters: a process that leaves in good order has the last state. Any other one has failed.
   const std::optional<std::string> left = session_.FirstLeft();
   if (const auto failure = lockstep_.Failure()) throw BusError(*failure);
   if (const auto failure = session_.Failure())
@@ -177,7 +177,7 @@ void ServerProgram::Collect()
       status_.Publish(ServerState{ServerState::kWaiting, text});
       said = text;
     }
-    // Endpoints of others are met without a word: look often while nobody is missing.
+    // Endpoints match without a message, so poll often once all processes have joined.
     Sleep(Clock::now() + (missing.empty() ? 1ms : 10ms));
   }
 }
@@ -253,7 +253,7 @@ void ServerProgram::Close()
   CheckFailures();
   FinishCheckpoints();
   lockstep_.WithServer([](SpaceServer& server) { server.Destroy(); });
-  // After it nobody waits for the last state any more.
+  // After the last state was read, no process waits for another one.
   views_.WaitUntilRead(kLastViewTime_s);
   grants_.Leave(result.ticks, "", kLastViewTime_s);
   if (BeginsAgain())

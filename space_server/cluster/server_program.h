@@ -1,5 +1,5 @@
-// ServerProgram: the main thread of the space_server program. Starts the run, paces it, answers users, watches who is
-// late, and ends it; the ticks themselves run in threads of the bus (Lockstep).
+// ServerProgram: the main thread of the space_server program. It starts the run, paces it, answers users, reports late
+// processes, and ends the run. The ticks themselves run in threads of the bus (Lockstep).
 #pragma once
 
 #include <atomic>
@@ -33,17 +33,18 @@ namespace swarmanoid
 struct ServerOptions : RunSettings
 {
   int status_fd = -1;
-  // Whoever started the processes starts others in the places of those that die.
+  // The launcher replaces processes that die.
   bool awaits_replacements = false;
-  // Seconds that the run has taken already whose journal is in the output folder, and which goes on; negative: it
+  // The seconds that the run took before it is resumed from the journal in the output folder. Negative: a new run
   // starts.
   double goes_on_after_s = -1;
   BusOptions bus;
-  // Of workers, if whoever started them can move them: "WORKER=MACHINE", and all machines.
+  // The positions of workers, "WORKER=MACHINE", and all machines, if the launcher can move workers. Otherwise both are
+  // empty.
   std::vector<std::string> worker_places;
   std::vector<std::string> machines;
-  // Called before the state of each tick goes out, in the thread that runs the program; what it changes through the
-  // server is part of the state.
+  // Called before the state of each tick is sent, in the thread that runs the program. Its changes to the server are
+  // part of the state.
   std::function<void(SpaceServer&)> watch;
   // In a process that lives on after the run: set if the run is to be given up at once.
   const std::atomic<bool>* abandon = nullptr;
@@ -75,9 +76,9 @@ private:
   static constexpr std::chrono::milliseconds kFirstRepeat{100}, kLastRepeat{1000};
 
   static double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
-  // By where the robots are, where the run starts or goes on.
+  // Returns the assignment of robots to hosts by the positions at which the run starts or resumes.
   HostTable Hosts() const;
-  // The world, likewise.
+  // Returns the description of the run for its processes, with the same positions.
   WorldMessage World();
   std::span<const RenderConfiguration> Visualisers() const;
   std::vector<std::string> Expected(std::span<const RenderConfiguration> visualisers) const;
@@ -95,26 +96,28 @@ private:
   void Reply(const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text);
   JournalWriter* Journal() { return journal_ ? &*journal_ : nullptr; }
   void CheckFailures();
-  // Those who take the places of others get the journal; the state goes out again for them.
+  // Sends the journal to processes that replace others, and then the current state again.
   void HelpReplacements();
   void Say(const std::string& text) const;
-  // For processes that have not heard of the run. Not too often.
+  // Announces the run to processes that have not heard of it, at most once in a fixed time.
   void SayWorldAgain();
-  // Until all processes of the run are there.
+  // Waits until all processes of the run have joined.
   void Collect();
   void RunTicks();
   void ReportState();
-  // To whoever started the run, and decides by it where those are replaced that die.
+  // Reports the tick to the launcher, which uses it to decide whether to replace a process that dies.
   void TellTick();
   // Progress, late answers, stalls.
   void ReportProgress();
-  // Since since_ somebody has been waited for long, and it has not been said lately.
+  // Returns true if the run has waited long since since_ and has not reported it lately.
   bool StallIsDue() const;
   void ReportStall(const std::string& who);
-  // Whom the run waits for: those whose answer is missing, or those whom they in turn wait for.
+  // Returns the names of the processes that the run waits for: those of missing answers, or the processes that these
+  // wait for.
   std::string LateNames(std::uint64_t tick) const;
   RunStatus::Phase Phase() const;
-  // Those who look on wait for the server with which the run begins again, and hear of no end.
+  // Returns true if the run begins again after a reset. Observers then wait for the next server and get no end of the
+  // run.
   bool BeginsAgain() const { return run_control_.Reset().has_value() && KeepsJournal(); }
   // Attached visualisers see the whole state now and then, and how the run goes.
   void PublishViews();
@@ -127,7 +130,7 @@ private:
   const ServerOptions& options_;
   const Experiment& experiment_;
   StatusChannel& status_;
-  std::mutex wake_mutex_;
+  std::mutex wake_mutex_;  // guards awake_
   RunCondition wake_;
   bool awake_ = false;
   std::optional<RestartPoint> restart_point_;

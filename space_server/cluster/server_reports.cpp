@@ -1,4 +1,4 @@
-// What is told of a run: to whoever started it, to those who ask, and to observers.
+// The reports of a run to the launcher, to users who ask, and to observers.
 #include "space_server/cluster/server_program.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// What a run begins with, or goes on with.
+// The start of a run, and its resumption from a checkpoint or a journal.
 #include "space_server/cluster/server_program.h"
 
 #include <fmt/format.h>
@@ -36,7 +36,8 @@ RunControlSetup MakeRunControlSetup(const ServerOptions& options, const Experime
   return setup;
 }
 
-// The reply to a request that an earlier space server executed. A change of the controller hosts starts a new server.
+// Returns the reply to a request that an earlier space server executed. A change of the controller hosts starts a new
+// server.
 std::string DoneText(const ControlRequestMessage& request, const Assignment& assignment)
 {
   if (FindControlVerb(request.verb)->effect != Effect::kPlacement) return request.verb + " was done";
@@ -166,7 +167,8 @@ WorldMessage ServerProgram::World()
                  });
   if (restored_)
   {
-    // The hosts of a run that goes on elsewhere have other robots than those that it began with.
+    // A run that resumes with another assignment has other robots in its hosts, so the saved parts are distributed
+    // again.
     if (GoesOn()) restored_->parts = SharedOut(std::move(restored_->parts), experiment_, assignment_.table);
     restored_->LoadPart(kServerPart, [&](ByteReader& state) { server_.LoadState(restored_->snapshot, state); });
     world.checkpoint = EncodeCheckpoint(*restored_);
@@ -207,7 +209,7 @@ void ServerProgram::OpenJournal()
   const JournalStart start{OriginOf(experiment_), assignment_.table, server_.Space().GetTick()};
   journal_.emplace(file, ContentOf(start), beside_launcher, std::move(budget));
   if (!restored_) return;
-  // For those who look back, and resume: what no message of a tick tells.
+  // The journal needs the restored state for playback and resumption, since no message of a tick has it.
   journal_->Add(restored_->snapshot);
   for (const SavedPart& part : restored_->parts) journal_->Add(restored_->snapshot.tick, part);
   restored_.reset();

@@ -11,8 +11,8 @@ namespace
 using namespace std::chrono_literals;
 
 constexpr double kMostViews = 30;  // a second
-// A state that does not change is sent again for a while: after somebody has come, since Fast DDS may lose what is sent
-// while a reader is met; after a request, since whoever asked cannot tell which views were sent before the answer.
+// An unchanged state is sent again for a while. Fast DDS may lose messages while a new reader is matched. A client that
+// sent a request cannot tell which views are newer than the reply.
 constexpr auto kTimeOfRepeats = 10s;
 constexpr int kLeastViews = 4;
 constexpr auto kStatusPeriod = 100ms;
@@ -59,7 +59,7 @@ void ViewPublisher::Lost(const std::string& process)
   requests_.erase(process);
 }
 
-// The pace of the one who asks for most. Readers that have sent no request get the most there is.
+// Returns the period of the fastest client. Readers that have sent no request get the highest rate.
 ViewPublisher::Clock::duration ViewPublisher::ViewPeriod(Clock::time_point now) const
 {
   const std::lock_guard lock(mutex_);
@@ -128,7 +128,7 @@ void ViewPublisher::SendStatus(const RunStatus& status, Clock::time_point now)
   said_ = now;
 }
 
-// Somebody who is stopped reads neither, and is waited for once.
+// A stopped observer reads neither topic, so wait for it only once.
 void ViewPublisher::WaitUntilRead(double seconds)
 {
   if (views_.WaitUntilRead(seconds)) statuses_.WaitUntilRead(seconds);

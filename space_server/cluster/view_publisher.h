@@ -1,6 +1,6 @@
-// ViewPublisher: sends views to those who watch the run from outside it. They get the whole state at the pace that they
-// ask for, and how the run goes; they never slow it. Requests come in threads of the bus; all else is called by the
-// main thread of the space_server program.
+// ViewPublisher: sends views to observers outside the run. They get the whole state at the rate that they ask for, and
+// the status of the run. They never slow the run. Requests come in threads of the bus; the main thread of the
+// space_server program calls all other functions.
 #pragma once
 
 #include <atomic>
@@ -23,19 +23,19 @@ class ViewPublisher
 public:
   using Clock = RunClock;
 
-  // `woken`: called in a thread of the bus when somebody asks for something else. Holders of grants get the same.
+  // `woken` is called in a thread of the bus when the requested rate changes. Holders of grants get the same views.
   ViewPublisher(ServerSession& session, AccessGrants& grants, std::function<void()> woken);
   ~ViewPublisher();
 
-  // Views. One is due when somebody has come; then, at the pace that is asked for, while ticks pass, and for some
-  // seconds after somebody came or was answered.
+  // Returns true if a view is due. The first one is due when an observer has joined. Later ones come at the requested
+  // rate during ticks, and for some seconds after a join or a reply.
   bool ViewIsDue(std::uint64_t tick, Clock::time_point now);
   void SendView(SpaceSnapshot& snapshot, Clock::time_point now);
-  // In any thread: a request was answered. The state may have changed though the tick is the same, and whoever asked
-  // waits for a view that is newer than the answer.
+  // Makes a view due after a reply: the state may have changed at the same tick, and the client waits for it. Any
+  // thread may call it.
   void Renew() { changed_ = true; }
 
-  // RunStatus. `phase`: as it would be told.
+  // Returns true if a status is due. `phase` is the current phase.
   bool StatusIsDue(RunStatus::Phase phase, Clock::time_point now);
   void SendStatus(const RunStatus& status, Clock::time_point now);
 
@@ -44,7 +44,7 @@ public:
 
   // When one of them may be due.
   Clock::time_point Next() const;
-  // In any thread: somebody wants views.
+  // Takes the rate that a client asks for. Any thread may call it.
   void Requested(const ViewRequestMessage& request);
   // A process is lost or has left.
   void Lost(const std::string& process);
@@ -62,9 +62,9 @@ private:
   ServerSession& session_;
   AccessGrants& grants_;
   std::function<void()> woken_;
-  mutable std::mutex mutex_;
+  mutable std::mutex mutex_;                 // guards requests_ and asked_first_
   std::map<std::string, Request> requests_;  // by client
-  bool asked_first_ = false;                 // somebody has, since the last look
+  bool asked_first_ = false;                 // a new client has asked since the last check
 
   Publisher<ViewMessage> views_;
   ViewMessage view_;

@@ -21,17 +21,20 @@ public:
   CCI_Behavior(const CCI_Behavior&) = delete;
   CCI_Behavior& operator=(const CCI_Behavior&) = delete;
 
+  // Called once before the first step.
   virtual void Init() {}
   // Decides for one tick: reads `cRobotState` and writes actuator values into it.
   virtual void Step(RobotState& cRobotState) = 0;
+  // Called once after the last step.
   virtual void Destroy() {}
 
-  // What the behaviour remembers between ticks, its sub-behaviours included; needed only for runs with checkpoints.
+  // Save and load the state between ticks, with that of sub-behaviours. Only runs with checkpoints need them.
   virtual void SaveState(std::ostream&) const {}
   virtual void LoadState(std::istream&) {}
-  // A few words for visualisers, such as the current state.
+  // Returns a few words for visualisers, such as the current state.
   virtual std::string StatusText() const { return name_; }
-  // The current state of a behaviour that is a state machine; combiners may give that of the behaviour that acts.
+  // Returns the current state of a behaviour that is a state machine. A combiner may return that of the active
+  // behaviour.
   virtual std::string StateName() const { return StateNameOf(dynamic_cast<const CCI_StateMachine*>(this)); }
 
   const std::string& GetName() const { return name_; }

@@ -23,14 +23,14 @@ public:
 
   // Looks up the devices that the controller lists. Once, before the first tick.
   void Init();
-  // At the start of a control step, and at its end.
+  // ReadSensors is called at the start of a control step, and WriteActuators at its end.
   void ReadSensors();
   void WriteActuators();
 
   // Sensors. Angles in radians counter-clockwise from the front, distances in metres.
   double GetAltitude() const;
 
-  // Actuators. What was set in a step before is not part of a saved state: a behaviour that needs it keeps it.
+  // Actuators. Settings of earlier steps are not part of a saved state, so a behaviour that needs them must store them.
   void SetVelocity(double forward, double left, double up, double yaw_rate);  // m/s in the robot's frame, rad/s
   const std::array<double, 4>& GetVelocity() const { return velocity_.Get(); }
   // Flies there and hovers, as CCI_EyeBotPropellersActuator; of velocity and position the one set later counts.

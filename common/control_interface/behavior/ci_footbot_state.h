@@ -41,7 +41,7 @@ public:
 
   // Looks up the devices that the controller lists. Once, before the first tick.
   void Init();
-  // At the start of a control step, and at its end.
+  // ReadSensors is called at the start of a control step, and WriteActuators at its end.
   void ReadSensors();
   void WriteActuators();
 
@@ -53,7 +53,7 @@ public:
   static double GetLightSensorAngle(unsigned sensor) { return CCI_FootBotLightSensor::AngleOf(sensor); }
   void GetAllGroundSensorReadings(double* readings) const;  // NUM_GROUND_SENSORS values, 0..1
   std::uint32_t GetFloorColour() const;                     // 0xRRGGBB under the centre
-  // As CCI_PieCameraSensor; the colour is one of CCI_Colour other than black.
+  // See CCI_PieCameraSensor. The colour is a CCI_Colour other than black.
   unsigned GetNumPieCameraSectors() const;
   const CCI_PieCameraSensor::Slice& GetPieCameraSlice(std::uint32_t colour, unsigned sector) const;
   bool IsGripping() const;

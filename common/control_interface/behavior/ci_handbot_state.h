@@ -25,7 +25,7 @@ public:
 
   // Looks up the devices that the controller lists. Once, before the first tick.
   void Init();
-  // At the start of a control step, and at its end.
+  // ReadSensors is called at the start of a control step, and WriteActuators at its end.
   void ReadSensors();
   void WriteActuators();
 

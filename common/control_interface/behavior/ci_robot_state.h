@@ -1,6 +1,6 @@
-// CCI_RobotState: the base of the robot states. A robot state is a copyable snapshot of a robot: sensor readings, read
-// once a tick before the first behaviour, and actuator values, written to the robot once after the last. Behaviours see
-// nothing else, so a copy of the state is a robot of its own: what is set on a copy stays there.
+// CCI_RobotState: the base of the robot states. A robot state is a copyable snapshot of a robot. Its sensor readings
+// are read once a tick before the first behaviour, and its actuator values are written once after the last one.
+// Behaviours see nothing else, so a change of a copied state does not change the robot.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ public:
     pending_ = true;
   }
   const T& Get() const { return value_; }
-  // True if it was set since the last write; for combiners that ask which of two copies wanted something.
+  // Returns true if it was set since the last write; for combiners that ask which of two copies wanted something.
   bool IsPending() const { return pending_; }
   // Hands the value to `write` if it is pending.
   template <class Write>
@@ -51,7 +51,7 @@ public:
   std::uint64_t GetTick() const { return robot_->GetTick(); }
   double GetTickSeconds() const { return robot_->GetTickSeconds(); }
   double GetTime() const { return robot_->GetTime(); }
-  // The random numbers of the robot in this tick; shared by all copies, drawn in the order of the calls.
+  // Returns the random numbers of the robot in this tick; shared by all copies, drawn in the order of the calls.
   RandomStream& GetRandom() { return robot_->GetRandom(); }
 
   // Range and bearing, of all robots. Throws CCI_DeviceError if the controller does not list it.
@@ -60,7 +60,7 @@ public:
   void StopRangeAndBearing();
 
 protected:
-  // What each robot's state does in its own functions of these names, for the devices of all robots.
+  // Each robot's state calls these in its own functions of similar names, for the devices that all robots have.
   void InitCommon();
   void ReadCommonSensors();
   void WriteCommonActuators();
@@ -76,7 +76,7 @@ protected:
   {
     return robot_->HasActuator(type) ? &robot_->Actuator<Interface>(type) : nullptr;
   }
-  // Throws CCI_DeviceError, naming the device and those listed, if `device` is nullptr.
+  // Throws CCI_DeviceError, which names the device and the listed ones, if `device` is nullptr.
   void RequireSensor(const void* device, const char* type) const
   {
     if (device == nullptr) robot_->GetSensor(type);

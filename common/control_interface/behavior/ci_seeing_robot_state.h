@@ -48,7 +48,7 @@ public:
   std::uint32_t GetLedColour(unsigned led) const { return colours_.Get().at(led); }
 
 protected:
-  // The types of the two devices; both texts outlive the state.
+  // Returns the types of the two devices; both texts outlive the state.
   CCI_SeeingRobotState(CCI_Robot* robot, const char* camera_type, const char* leds_type)
       : CCI_RobotState(robot), camera_type_(camera_type), leds_type_(leds_type)
   {

@@ -46,7 +46,7 @@ public:
 
   unsigned int GetID() const { return id_; }
   const std::string& GetName() const { return name_; }
-  // Where an input leads; this state itself if it has no transition for it.
+  // Returns the state that an input leads to, or this state if it has no transition for the input.
   State* Next(const T& on)
   {
     const auto found = transitions_.find(on);
@@ -68,7 +68,7 @@ public:
   FSM(const FSM&) = delete;
   FSM& operator=(const FSM&) = delete;
 
-  // The id and name of the current state. Throws std::logic_error before setStartState.
+  // Returns the id and name of the current state. Throws std::logic_error before setStartState.
   unsigned int GetStateID() const { return Current().GetID(); }
   const std::string& GetStateName() const override { return Current().GetName(); }
   bool HasStarted() const override { return current_ != nullptr; }

@@ -11,6 +11,7 @@ class CCI_EyeBotAttachmentActuator : public CCI_ActuatorOf<CCI_EyeBotAttachmentA
 public:
   // Attaches as soon as the top of the robot reaches the ceiling, and stays so until Detach.
   virtual void Attach() = 0;
+  // Releases the ceiling.
   virtual void Detach() = 0;
 
   static void Declare(Declaration& columns)

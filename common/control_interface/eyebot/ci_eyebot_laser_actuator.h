@@ -12,11 +12,13 @@ namespace swarmanoid
 class CCI_EyeBotLaserActuator : public CCI_ActuatorOf<CCI_EyeBotLaserActuator>
 {
 public:
+  // Switch the laser on or off. It is off at first.
   virtual void SwitchOn() = 0;
   virtual void SwitchOff() = 0;
   virtual void SetColour(std::uint32_t colour) = 0;  // 0xRRGGBB; red at first; 0 shows no spot
-  // Tilt: radians from straight down, cut to 0..MAX_TILT. Pan: the direction of the tilt, radians counter-clockwise
-  // from the front. One that is not finite ends a simulation with an error.
+  // Sets the direction of the laser. The tilt is in radians from straight down, clamped to 0..MAX_TILT. The pan is the
+  // direction of the tilt, radians counter-clockwise from the front. A value that is not finite ends a simulation with
+  // an error.
   static constexpr double MAX_TILT = 1.2217304763960306;  // 70 degrees
   virtual void SetDirection(double pan, double tilt) = 0;
 

@@ -13,15 +13,15 @@ namespace swarmanoid
 class CCI_EyeBotPropellersActuator : public CCI_ActuatorOf<CCI_EyeBotPropellersActuator>
 {
 public:
-  // Velocity in the frame of the robot: forward, left, up in m/s; yaw rate in rad/s, positive counter-clockwise.
-  // Clamped to the limits of the implementation; what is not a number ends a simulation. Planes ignore `up`.
+  // Sets the velocity in the frame of the robot: forward, left, up in m/s; yaw rate in rad/s, positive
+  // counter-clockwise. Values are clamped to the limits of the implementation. NaN ends a simulation with an error.
+  // Two-dimensional engines ignore `up`.
   virtual void SetVelocity(double forward, double left, double up, double yaw_rate) = 0;
-  // Flies to a position (m, in the space) and a heading (radians) and hovers there, until told otherwise. What
-  // is not a finite number ends a simulation with an error. Implementations without position control throw
-  // CCI_DeviceError.
+  // Flies to a position (m, in the space) and a heading (radians) and hovers there until the next command. A value that
+  // is not finite ends a simulation with an error. Implementations without position control throw CCI_DeviceError.
   virtual void SetPosition(const Vector3& position, double yaw) = 0;
   void Hover() { SetVelocity(0, 0, 0, 0); }
-  // Where it flies; nothing if it flies by velocity.
+  // The target of position control; empty if the robot flies by velocity.
   struct Target
   {
     double x_m, y_m, z_m, yaw_rad;

@@ -1,4 +1,4 @@
-// The eight sensors around the base of a footbot that tell a black floor from a white one.
+// The eight sensors around the base of a footbot, which distinguish a black floor from a white one.
 #pragma once
 
 #include <array>

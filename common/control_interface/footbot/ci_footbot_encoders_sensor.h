@@ -1,4 +1,4 @@
-// The wheel encoders of a footbot: odometry. They tell how the wheels turned, which differs from the command if the
+// The wheel encoders of a footbot: odometry. They measure how the wheels turned, which differs from the command if the
 // robot was blocked or pulled.
 #pragma once
 

@@ -9,10 +9,11 @@ namespace swarmanoid
 class CCI_FootBotGripperActuator : public CCI_ActuatorOf<CCI_FootBotGripperActuator>
 {
 public:
-  // 0 opens it, 1 closes it; beyond LOCK_THRESHOLD it takes hold of what it touches and keeps it (ARGoS3, foot-bot).
+  // 0 is open and 1 is closed. Beyond LOCK_THRESHOLD the gripper grips the body that it touches and keeps it (ARGoS3,
+  // foot-bot).
   static constexpr double LOCK_THRESHOLD = 0.5;
 
-  // Values are cut to 0..1; one that is not a number ends a simulation with an error.
+  // Sets the gripper. Values are clamped to 0..1. NaN ends a simulation with an error.
   virtual void SetGripper(double closed) = 0;
   void Grip() { SetGripper(1); }
   void Release() { SetGripper(0); }

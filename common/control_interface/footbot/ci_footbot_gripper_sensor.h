@@ -1,4 +1,4 @@
-// What the gripper of a footbot does: its aperture, and what it holds.
+// The gripper of a footbot: its aperture and the gripped entity.
 #pragma once
 
 #include <string>
@@ -12,11 +12,12 @@ class CCI_FootBotGripperSensor : public CCI_SensorOf<CCI_FootBotGripperSensor>
 {
 public:
   static constexpr double OPEN_APERTURE = 1.5707963267948966;  // 90 degrees
-  // Radians, 0 (closed) to OPEN_APERTURE. The gripper is closed until the end of the first control step, when it does
-  // what its actuator is told; without the actuator it stays so.
+  // Returns the aperture in radians, 0 (closed) to OPEN_APERTURE. The gripper is closed until the end of the first
+  // control step, when it follows its actuator. Without the actuator it stays closed.
   virtual double GetAperture() const = 0;
+  // Returns true while the gripper holds an entity.
   virtual bool IsGripping() const = 0;
-  // The id of the entity that it holds, empty for none. Real robots cannot tell: there it is always empty.
+  // Returns the id of the gripped entity, or an empty text. Real robots cannot know it, so there it is always empty.
   virtual std::string GetHeldId() const { return {}; }
 
   static void Declare(Declaration& columns)

@@ -1,5 +1,5 @@
-// Showing a direction on the LED ring of a footbot: a modality of the LEDs. Use it or footbot_leds, not both: the one
-// that is listed later in the experiment file wins.
+// Shows a direction on the LED ring of a footbot. Use this device or footbot_leds, not both: the one that is listed
+// later in the experiment file wins.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +16,7 @@ public:
   // Lights the LEDs around this direction, radians counter-clockwise from the front of the body, in a colour
   // (0xRRGGBB). A direction that is not a finite number ends a simulation with an error.
   virtual void SetDirection(double angle, std::uint32_t colour) = 0;
+  // Switches the LEDs of the direction off.
   virtual void HideDirection() = 0;
 
   static void Declare(Declaration& columns)

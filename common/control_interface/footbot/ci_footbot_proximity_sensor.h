@@ -20,7 +20,7 @@ public:
   static constexpr double SPACING = 0.2617993877991494;      // 15 degrees
   static constexpr double RANGE_M = 0.1;                     // unless the experiment file says otherwise
 
-  // All readings, 0 (nothing in range) to 1 (touching), valid until the next control step.
+  // Returns all readings, 0 (nothing in range) to 1 (touching), valid until the next control step.
   virtual std::span<const double, NUM_SENSORS> GetAllSensorReadings() const = 0;
 
   // Copies them to `readings`, which holds NUM_SENSORS numbers.

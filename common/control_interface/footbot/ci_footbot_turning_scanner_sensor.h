@@ -13,7 +13,9 @@ class CCI_FootBotTurningScannerSensor : public CCI_DistanceScannerSensor
 public:
   // The head turns on, rad/s counter-clockwise. Throws std::invalid_argument for a number that is not finite.
   virtual void Turn(double speed_rad_s) = 0;
-  // The head is at that angle at once and stays there, rad counter-clockwise from the front. Throws likewise.
+  // Turns the head to an angle at once, rad counter-clockwise from the front. It stays there. Throws as the functions
+  // above.
+  // Stops the scanner, which then has no readings.
   virtual void Look(double angle_rad) = 0;
   virtual void SwitchOff() = 0;
 };

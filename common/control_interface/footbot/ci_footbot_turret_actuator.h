@@ -9,8 +9,8 @@ namespace swarmanoid
 class CCI_FootBotTurretActuator : public CCI_ActuatorOf<CCI_FootBotTurretActuator>
 {
 public:
-  // rad/s, positive counter-clockwise; clamped to the limit of the implementation. What is not a number ends a
-  // simulation.
+  // Sets the angular velocity in rad/s, positive counter-clockwise, clamped to the limit of the implementation. NaN
+  // ends a simulation with an error.
   virtual void SetTurretAngularVelocity(double velocity) = 0;
 
   static void Declare(Declaration& columns)

@@ -14,8 +14,8 @@ public:
   static constexpr double WHEEL_RADIUS_M = 0.029112741;
   static constexpr double INTERWHEEL_DISTANCE_M = 0.14;
 
-  // Angular velocities of the wheels in rad/s; positive drives forward. Values beyond the implementation's limit are
-  // clamped to it; one that is not a number ends a simulation with an error.
+  // Sets angular velocities of the wheels in rad/s; positive drives forward. Values beyond the implementation's limit
+  // are clamped to it. NaN ends a simulation with an error.
   virtual void SetFootBotWheelsAngularVelocity(double left, double right) = 0;
   // Speeds of the wheels on the ground in m/s: angular velocity times radius.
   void SetFootBotWheelsLinearVelocity(double left, double right)

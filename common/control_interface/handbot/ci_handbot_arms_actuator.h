@@ -9,8 +9,9 @@ namespace swarmanoid
 class CCI_HandBotArmsActuator : public CCI_ActuatorOf<CCI_HandBotArmsActuator>
 {
 public:
-  // Angular velocities in rad/s, clamped to MAX_SPEED; what is no number ends a simulation. An arm opens from 0
-  // (along the robot) to MAX_ARM, a wrist turns from 0 to MAX_WRIST (ARGoS 2, hand-bot); the joints stop there.
+  // Angular velocities are in rad/s and clamped to MAX_SPEED. NaN ends a simulation with an error. An arm opens from 0
+  // (along the robot) to MAX_ARM, and a wrist turns from 0 to MAX_WRIST (ARGoS 2, hand-bot). The joints stop at these
+  // limits.
   static constexpr double MAX_ARM = 1.0471975511965976;    // 60 degrees
   static constexpr double MAX_WRIST = 1.5707963267948966;  // 90 degrees
   static constexpr double MAX_SPEED = 3;                   // rad/s
@@ -20,6 +21,7 @@ public:
     SetArmVelocities(velocities[0], velocities[1]);
     SetWristVelocities(velocities[2], velocities[3]);
   }
+  // Set the angular velocities of both arms or both wrists, rad/s. Positive values open an arm.
   virtual void SetArmVelocities(double left, double right) = 0;
   virtual void SetWristVelocities(double left, double right) = 0;
 

@@ -14,11 +14,12 @@ public:
     LEFT = 0,
     RIGHT = 1
   };
-  // A closing hand takes hold of what it touches; an opening one lets go. Group-level form: {left, right}.
+  // Sets both hands, {left, right}. A closing hand grips the body that it touches; an opening hand releases it.
   void SetAllActuatorOutputs(const bool (&closed)[2])
   {
     for (const Hand hand : {LEFT, RIGHT}) closed[hand] ? Close(hand) : Open(hand);
   }
+  // Close or open one hand.
   virtual void Close(Hand hand) = 0;
   virtual void Open(Hand hand) = 0;
 

@@ -10,7 +10,8 @@ class CCI_HandBotHeadActuator : public CCI_ActuatorOf<CCI_HandBotHeadActuator>
 {
 public:
   static constexpr double MAX_SPEED = 3;  // rad/s
-  // rad/s, positive raises the left arm; clamped to MAX_SPEED. What is not a number ends a simulation.
+  // Sets the angular velocity in rad/s, clamped to MAX_SPEED. Positive values raise the left arm. NaN ends a simulation
+  // with an error.
   virtual void SetHeadAngularVelocity(double velocity) = 0;
 
   static void Declare(Declaration& columns)

@@ -1,4 +1,4 @@
-// The state of a handbot's joints, hands and rope, and what the hands hold.
+// The state of a handbot's joints, hands and rope, and the entities that the hands hold.
 #pragma once
 
 #include <span>
@@ -28,9 +28,11 @@ public:
     ROPE_LENGTH,    // m
     NUM_READINGS
   };
+  // Returns all readings in the order and the units of Reading.
   virtual std::span<const double, NUM_READINGS> GetAllSensorReadings() const = 0;
   double GetReading(Reading reading) const { return GetAllSensorReadings()[reading]; }
-  // The id of the entity that a hand holds, empty for none. Real robots cannot tell: there it is always empty.
+  // Returns the id of the entity that a hand holds, or an empty text. Real robots cannot know it, so there it is always
+  // empty.
   virtual std::string GetHeldId(CCI_HandBotHandsActuator::Hand) const { return {}; }
 
   static void Declare(Declaration& columns)

@@ -11,8 +11,10 @@ class CCI_HandBotRopeActuator : public CCI_ActuatorOf<CCI_HandBotRopeActuator>
 public:
   static constexpr double MAX_WINCH_SPEED = 0.15;  // m/s
   virtual void Launch() = 0;                       // attaches to what is above; stays so until Release
+  // Detaches the rope from the ceiling.
   virtual void Release() = 0;
-  // m/s of rope let out; negative pulls the robot up. Clamped to MAX_WINCH_SPEED; what is no number ends a simulation.
+  // Sets the speed of rope let out, in m/s, clamped to MAX_WINCH_SPEED. Negative values pull the robot up. NaN ends a
+  // simulation with an error.
   virtual void SetWinchVelocity(double velocity) = 0;
 
   static void Declare(Declaration& columns)

@@ -11,7 +11,7 @@ namespace swarmanoid
 class GridIndex : public PositionalIndex
 {
 public:
-  // layered: cells in z too; otherwise each cell is a column.
+  // `layered` makes cells in z too; otherwise each cell is a column.
   GridIndex(const Vector3& arena_size, std::size_t expected_points, bool layered);
 
   void Update(const PointArrays& points) override;
@@ -36,7 +36,7 @@ private:
   PointArrays points_;
   CellSort sort_;
   std::vector<std::uint32_t> id_;  // sorted by cell, then ascending
-  std::vector<double> x_, y_, z_;  // sorted likewise
+  std::vector<double> x_, y_, z_;  // in the same order
 };
 
 }  // namespace swarmanoid

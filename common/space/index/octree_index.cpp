@@ -31,7 +31,7 @@ public:
   std::uint32_t Bucket() const { return value; }
   void SetBucket(std::uint32_t bucket) { value = bucket; }
   bool HasChildArray() const { return children != nullptr; }
-  // OctoMap leaves the array of a node behind whose last child is deleted.
+  // OctoMap does not free the array of a node whose last child was deleted, so this does.
   void FreeChildArray()
   {
     delete[] children;

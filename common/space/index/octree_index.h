@@ -1,5 +1,5 @@
-// The oct-tree arrangement of PositionalIndex: an OctoMap tree whose leaves hold the points within them. A point that
-// stays in its leaf costs nothing but a comparison, and empty space costs nothing at all.
+// OctreeIndex: the oct-tree form of PositionalIndex. It is an OctoMap tree whose leaves hold the points within them. A
+// point that stays in its leaf costs one comparison, and empty space costs nothing.
 #pragma once
 
 #include "common/space/index/positional_index.h"

@@ -1,5 +1,5 @@
-// Where entities are, arranged so that those near a place are found without looking at all. One interface, several
-// arrangements with the same results: a flat grid (2D), a layered grid (3D), an oct-tree (large, sparse or uneven 3D).
+// PositionalIndex: finds the entities near a position without a test of all. There are several forms with equal
+// results: a flat grid (2D), a layered grid (3D), an oct-tree (large, sparse or uneven 3D).
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 namespace swarmanoid
 {
 
-// Positions of n points, one array a component; all of the same length.
+// The positions of n points, one array for each component, all of the same length.
 struct PointArrays
 {
   std::span<const double> x;
@@ -36,23 +36,23 @@ public:
   // that is not a number is never found. Costs O(n), and only the points that changed their cell in an oct-tree.
   virtual void Update(const PointArrays& points) = 0;
 
-  // The points whose distance to the centre is at most `radius` metres, ascending. `found` is cleared first.
+  // Finds the points whose distance to the centre is at most `radius` metres, ascending. `found` is cleared first.
   virtual void FindWithin(const Vector3& centre, double radius, std::vector<std::uint32_t>& found) const = 0;
   // The points in a closed box, ascending. `found` is cleared first.
   virtual void FindInBox(const Vector3& low, const Vector3& high, std::vector<std::uint32_t>& found) const = 0;
-  // The nearest point within `radius` other than `excluded`; of equally near ones the lowest. nullopt if there is
-  // none.
+  // Returns the nearest point within `radius` other than `excluded`, or nullopt if there is no such point. If several
+  // are equally near, it is the one with the lowest number.
   std::optional<std::uint32_t> FindNearest(const Vector3& centre, double radius, std::uint32_t excluded = kNone) const;
 
   virtual const char* Name() const = 0;
 
 protected:
-  // A first guess at the distance between neighbours, where the search for the nearest starts.
+  // Returns a first guess at the distance between neighbours, where the search for the nearest starts.
   virtual double Spacing() const = 0;
   virtual const PointArrays& Points() const = 0;
 };
 
-// The index for an arena: as <arena optimization> says; 3D takes the oct-tree if a layered grid would be mostly
+// Returns the index for an arena: as <arena optimization> says; 3D takes the oct-tree if a layered grid would be mostly
 // empty.
 std::unique_ptr<PositionalIndex> MakePositionalIndex(SpaceOptimization optimization, const Vector3& arena_size,
                                                      std::size_t expected_points);

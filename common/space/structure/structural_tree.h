@@ -1,8 +1,8 @@
-// The structural tree: which entity grips which. Trees whose roots are the gripped objects and whose leaves grip; a
-// prey or a handbot may be held by several, a robot holds one thing with each gripper, loops are refused. Connections
-// are rigid. The space has one (CSwarmanoidSpace::Structure), made from the attributes "gripped", so that every replica
-// has the same one, and it is part of the state hash and of checkpoints; engines tell by these attributes who took hold
-// and who let go.
+// StructuralTree: the grips between entities. The root of a tree is a gripped object, and leaves grip. A prey or a
+// handbot may be held by several entities, a robot holds one entity with each gripper, and loops are refused.
+// Connections are rigid. The space has one (CSwarmanoidSpace::Structure), made from the attributes "gripped". So every
+// replica has the same tree, and it is part of the state hash and of checkpoints. Engines report grips and releases by
+// these attributes.
 #pragma once
 
 #include <functional>
@@ -18,8 +18,8 @@ namespace swarmanoid
 
 class CSwarmanoidSpace;
 
-// A set of connected entities that act as a whole: the root, which nothing else of the set is held by, and those that
-// hold it or one another. A value: valid until the tree changes.
+// A set of connected entities that move as a whole: the root, which no other member holds, and the entities that hold
+// it or each other. It is valid until the tree changes.
 class CCompoundEntity
 {
 public:
@@ -28,8 +28,8 @@ public:
   std::uint32_t GetRoot() const { return root_; }
   // The root and all that are connected to it, ascending.
   const std::vector<std::uint32_t>& GetMembers() const { return members_; }
-  // Where each member is, in their order, when one of them is at a pose and carries the others along as one rigid body.
-  // That one has the pose to the last bit; the others have theirs to the rounding of doubles.
+  // Returns the pose of each member, in their order, when one member is at a pose and carries the others as one rigid
+  // body. That member has the pose to the last bit; the others have theirs to the rounding of doubles.
   std::vector<Pose> PosesAt(std::uint32_t member, const Pose& pose) const;
   std::vector<Pose> PosesAt(const Pose& root_pose) const { return PosesAt(root_, root_pose); }
 
@@ -50,27 +50,27 @@ public:
   // The entity that one holds, or kNothing.
   int GetHeld(std::uint32_t gripper) const { return held_[gripper]; }
   bool Holds(std::uint32_t gripper, std::uint32_t gripped) const { return held_[gripper] == static_cast<int>(gripped); }
-  // Those that hold an entity, ascending.
+  // Returns the entities that hold an entity, ascending.
   std::vector<std::uint32_t> GetHolders(std::uint32_t gripped) const;
   // Itself if it holds nothing.
   std::uint32_t GetRoot(std::uint32_t entity) const;
   CCompoundEntity GetCompound(std::uint32_t member) const;
 
-  // What speaks against `gripper` holding `gripped`: "" if nothing does. `held_after` tells of each entity what it will
-  // hold when all that changes together has changed, or kNothing.
+  // Returns the reason why `gripper` cannot hold `gripped`, or "". `held_after` returns for each entity what it will
+  // hold after all changes of the same tick, or kNothing.
   std::string MistakeIn(std::uint32_t gripper, std::uint32_t gripped,
                         const std::function<int(std::uint32_t entity)>& held_after) const;
 
-  // For the space, after a change of the attributes: takes over what they say, of one entity or of all.
+  // The space calls these after a change of the attributes, to update one entity or all.
   void Follow(std::uint32_t gripper);
   void FollowAll();
 
-  // Kinds with a gripper: footbots and handbots. Kinds that can be held: those with a gripping strip (footbots,
-  // handbots, preys) and movable blocks.
+  // CanGrip is true for kinds with a gripper: footbots and handbots. CanBeGripped is true for kinds with a gripping
+  // strip (footbots, handbots, preys) and movable blocks.
   static bool CanGrip(const EntityConfiguration& entity);
   static bool CanBeGripped(const EntityConfiguration& entity);
-  // The movable entity of those that the hands of a robot hold (values of the attribute "gripped"), or kNothing. A hand
-  // on a shelf holds on to the world: no part of a structure that moves.
+  // Returns the movable entity among those that the hands of a robot hold (values of the attribute "gripped"), or
+  // kNothing. A hand on a shelf holds the world, which is not part of a moving structure.
   static int HeldBy(const Experiment& experiment, std::span<const double> hands);
 
 private:

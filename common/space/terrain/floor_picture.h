@@ -29,14 +29,16 @@ public:
     return picture_.pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(picture_.columns) +
                            static_cast<std::size_t>(column)];
   }
-  // Of the pixel that holds a point; across and up are 0 … 1 from the patch's left lower corner, and are cut to that.
+  // Returns the colour of the pixel at a point. `across` and `up` are 0 … 1 from the patch's left lower corner, and are
+  // clamped to that.
   std::uint32_t ColourAt(double across, double up) const;
 
 private:
   ColourPicture picture_;
 };
 
-// Of a patch; nullptr for one without a picture. Each file is read once in a process. Throws ConfigurationError.
+// Returns the picture of a patch, or nullptr for a patch without one. Each file is read once in a process. Throws
+// ConfigurationError.
 std::shared_ptr<const FloorPicture> LoadFloorPicture(const EntityConfiguration& configuration,
                                                      const std::string& experiment_folder);
 

@@ -12,7 +12,7 @@ namespace swarmanoid
 namespace
 {
 
-// As of PNGs: a picture of so many takes a gigabyte.
+// The same limit as for PNGs. A picture of this size takes a gigabyte.
 constexpr std::uint64_t kMostJpegPixels = std::uint64_t{1} << 26U;
 
 // Errors of libjpeg come back by longjmp, so no function that may meet one has objects of its own.
@@ -38,7 +38,7 @@ struct JpegReader
     longjmp(reader.back_, 1);
   }
 
-  // What is damaged is read as far as it goes, but not what is cut short.
+  // A damaged picture is read as far as possible, but an incomplete one is refused.
   static void OnWarning(j_common_ptr jpeg, int level)
   {
     if (level < 0 && jpeg->err->msg_code == JWRN_JPEG_EOF) OnError(jpeg);

@@ -9,8 +9,8 @@ namespace swarmanoid
 {
 
 bool IsJpeg(std::string_view bytes);
-// Grey or colours of 8 bits. Decoded with whole numbers alone, so that all processes see the same pixels. Throws
-// std::runtime_error saying what is wrong with the bytes.
+// Decodes grey or colours of 8 bits, with integers alone, so that all processes see the same pixels. Throws
+// std::runtime_error that says what is wrong with the bytes.
 ColourPicture JpegPicture(std::string_view bytes);
 
 }  // namespace swarmanoid

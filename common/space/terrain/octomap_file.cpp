@@ -25,7 +25,7 @@ constexpr const char* kBinaryStart = "# Octomap OcTree binary file";
 constexpr const char* kFullStart = "# Octomap OcTree file";
 
 constexpr std::uint64_t kMostTreeBytes = std::uint64_t{1} << 30U;
-// A tree of so many takes some gigabytes.
+// A tree of this size takes some gigabytes.
 constexpr std::size_t kMostNodes = std::size_t{1} << 26U;
 constexpr int kDepth = 16;  // of OctoMap's trees
 constexpr double kFinest = 1e-6;
@@ -65,11 +65,11 @@ bool ReadOldHeader(std::istream& file, Header& header)
   return file && type == kOccupancyTree;
 }
 
-// What a node in the data says of its eight children.
+// The children of a node, as the data describes them.
 struct Children
 {
   int nodes = 0;
-  int described = 0;  // those that follow in the data, one after the other, each with its own children
+  int described = 0;  // children described later in the data, one after the other, each with its own children
 };
 
 // Two bytes, two bits a child: unknown, a free leaf, an occupied leaf, described.
@@ -92,8 +92,8 @@ Children ChildrenInFull(const char* node)
   return {count, count};
 }
 
-// OctoMap reads a node within a node, as deep as the data says, and makes what it says: both are bounded here. Returns
-// why the data is no tree of that many nodes, nullptr if it is.
+// OctoMap recurses as deep as the data says and allocates what it says. This check bounds both. Returns the reason why
+// the data is no tree of that many nodes, or nullptr.
 const char* MistakeInData(std::string_view data, bool is_binary, std::size_t nodes)
 {
   const std::size_t bytes = is_binary ? 2 : sizeof(float) + 1;

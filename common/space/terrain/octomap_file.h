@@ -10,11 +10,11 @@
 namespace swarmanoid
 {
 
-// A .bt (occupied or free) or .ot (probabilities) file. Throws std::runtime_error naming a file that is not there, has
-// another ending, is none or is cut short.
+// Reads a .bt (occupied or free) or .ot (probabilities) file. Throws std::runtime_error, which names the file, if it
+// does not exist, has another ending, is no such map or is incomplete.
 std::unique_ptr<octomap::OcTree> ReadOctoMap(const std::string& path);
 
-// As .bt. Throws std::runtime_error if the file cannot be written.
+// Writes a map as .bt. Throws std::runtime_error if the file cannot be written.
 void WriteOctoMap(const std::string& path, const octomap::OcTree& map);
 
 }  // namespace swarmanoid

@@ -17,7 +17,7 @@ namespace
 
 constexpr std::uint64_t kMostPictureBytes = std::uint64_t{1} << 30U;
 constexpr png_uint_32 kMostPixelsOfRow = 1U << 16U;
-// A picture of so many takes a gigabyte.
+// A picture of this size takes a gigabyte.
 constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 26U;
 
 // A file that libpng reads. Its errors come back by longjmp, so no function that may meet one has objects of its own.
@@ -74,7 +74,7 @@ struct Reader
   std::string error;
 };
 
-// What a file holds: rows of samples, 1 to 4 of them a pixel, of 8 or 16 bits.
+// The content of a file: rows of samples, 1 to 4 of them a pixel, of 8 or 16 bits.
 struct Samples
 {
   int columns = 0;

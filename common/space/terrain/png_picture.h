@@ -27,7 +27,7 @@ struct ColourPicture
 // claims. Colours count as 0.299 R + 0.587 G + 0.114 B, transparency does not. Throws std::runtime_error naming a file
 // that cannot be read.
 GreyPicture ReadGreyPicture(const std::string& path);
-// Likewise, also of a JPEG; of samples with 16 bits the upper 8.
+// Reads a PNG or a JPEG; 16-bit samples keep their upper 8 bits. Throws as the function above.
 ColourPicture ReadColourPicture(const std::string& path);
 
 }  // namespace swarmanoid

@@ -35,12 +35,12 @@ public:
   virtual Vector3 Low() const = 0;
   virtual Vector3 High() const = 0;
   virtual bool IsSolid(const Vector3& point) const = 0;
-  // The highest solid surface at or below a point; nullopt if there is none.
+  // Returns the height (m) of the highest solid surface at or below a point, or nullopt if no surface is there.
   virtual std::optional<double> GroundBelow(const Vector3& point) const = 0;
-  // The fraction 0..1 of the way at which a segment enters something solid; 0 if it starts inside, nullopt if it
-  // never does.
+  // Returns the fraction 0..1 of the way at which a segment enters something solid; 0 if it starts inside, nullopt if
+  // it never does.
   virtual std::optional<double> SegmentHit(const Vector3& from, const Vector3& to) const = 0;
-  // What is solid at a height, as few rectangles: the walls that a 2D engine at this height sees.
+  // Returns the solid area at a height as few rectangles: the walls that a 2D engine at this height sees.
   virtual std::vector<TerrainRectangle> Section(double height) const = 0;
 };
 
@@ -87,7 +87,7 @@ public:
   // `height` metres, grey in proportion (png_picture.h). Throws std::runtime_error, naming the file, if it cannot
   // be read or is smaller than 2 by 2 pixels.
   HeightTerrain(const std::string& path, double size_x, double size_y, double height);
-  // From heights in metres, columns * rows of them, along x first, the first row at y = 0.
+  // Makes a terrain from columns * rows heights in metres, along x first, with the first row at y = 0.
   HeightTerrain(std::vector<double> heights, int columns, int rows, double size_x, double size_y);
 
   Vector3 Low() const override { return {0, 0, lowest_}; }
@@ -99,7 +99,7 @@ public:
 
   int Columns() const { return columns_; }
   int Rows() const { return rows_; }
-  // Of a grid point, in metres.
+  // Returns the height of a grid point, in metres.
   double Height(int column, int row) const
   {
     return heights_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
@@ -117,7 +117,7 @@ private:
   double lowest_ = 0, highest_ = 0;
 };
 
-// The terrain of an entity of kind kTerrain. Each file is read once in a process. Throws ConfigurationError.
+// Returns the terrain of an entity of kind kTerrain. Each file is read once in a process. Throws ConfigurationError.
 std::shared_ptr<const Terrain> LoadTerrain(const EntityConfiguration& configuration,
                                            const std::string& experiment_folder);
 

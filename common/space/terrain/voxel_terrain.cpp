@@ -24,7 +24,7 @@ VoxelTerrain::VoxelTerrain(const std::string& path)
   const auto tree = ReadOctoMap(path);
   cell_ = tree->getResolution();
 
-  // The occupied leaves in units of the smallest cell; large leaves stand for many cells.
+  // An occupied leaf in units of the smallest cell. A large leaf covers many cells.
   struct Cube
   {
     long x, y, z, width;

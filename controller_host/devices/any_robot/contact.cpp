@@ -1,6 +1,6 @@
-// The contact sensor: where the outline of a robot, as seen from above, comes within a small reach of that of another
-// body of its engines at the same height. Exact for upright bodies; of tilted ones the outline turned to their heading.
-// Generic.
+// The contact sensor: it reports where the outline of a robot, seen from above, is within a small distance of another
+// body. The body must be of the robot's engines and at the same height. The result is exact for upright bodies; tilted
+// ones have their outline turned to their heading. Generic.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -47,7 +47,7 @@ struct Approach
   Vector2 place = Vector2::Zero();
 };
 
-// From a point to a rectangle.
+// Returns the direction and distance from a point to a rectangle.
 Approach Nearest(const Vector2& point, const Outline& box)
 {
   Approach nearest{-1, point};

@@ -56,7 +56,7 @@ private:
   double field_of_view_;
 };
 
-// What gives an entity its colour.
+// The source of an entity's colour.
 struct Surface
 {
   static constexpr std::uint32_t kNoSlot = 0xffffffff;
@@ -123,7 +123,7 @@ private:
     return true;
   }
 
-  // In the frame of the robot, 1 m along the axis.
+  // Makes the rays in the frame of the robot, with a length of 1 m along the axis.
   void MakeRays(unsigned width, unsigned height, double field_of_view, const SinCos& pan, const SinCos& tilt)
   {
     const Vector3 axis(tilt.cos * pan.cos, tilt.cos * pan.sin, tilt.sin);
@@ -203,7 +203,7 @@ private:
     return static_cast<std::uint32_t>(space_->Attributes()[surface.colour_slot]);
   }
 
-  // Of the nearest lit LED that makes a spot there, and looks at the eye; 0: none.
+  // Returns the colour of the nearest lit LED whose spot covers the point and that faces the eye, or 0.
   std::uint32_t LedColour(std::uint32_t entity, const Surface& surface, const Vector3& eye, const Vector3& point) const
   {
     const SparseVector<double>& attributes = space_->Attributes();

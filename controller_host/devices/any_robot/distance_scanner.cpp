@@ -31,7 +31,7 @@ struct Beam
   double longest;
 };
 
-// footbot_distance_scanner_rotzonly_sensor.cpp of ARGoS3.
+// The values are those of footbot_distance_scanner_rotzonly_sensor.cpp of ARGoS3.
 struct FootbotHead
 {
   static constexpr double kHeight = 0.123199866;
@@ -45,7 +45,7 @@ struct FootbotHead
   static double Speed(const Parameters& parameters) { return parameters.Number("rotation_speed"); }
 };
 
-// eyebot_distance_scanner_sensor.cpp of ARGoS 2.
+// The values are those of eyebot_distance_scanner_sensor.cpp of ARGoS 2.
 struct EyebotRing
 {
   static constexpr double kHeight = 0.1;
@@ -93,7 +93,7 @@ struct DistanceScanner : public CCI_DistanceScannerSensor
   std::vector<Reading> readings;
 };
 
-// What the batches of both have in common: each robot has a Scanner, which the derived class fills.
+// The common part of the batches: each robot has a Scanner, which the derived class fills.
 template <class Head, class Scanner>
 class ScannerBatch : public SensorBatch
 {
@@ -127,7 +127,7 @@ public:
 
 protected:
   virtual void Scan(std::size_t k, Scanner& scanner, const Pose& pose) = 0;
-  // Along a beam of the robot whose head has turned on from an angle (rad).
+  // Measures along a beam of the robot, after its head has turned by `turned` from the angle `head` (rad).
   Reading Measure(std::size_t k, const Pose& pose, const Beam& beam, double head, double turned) const
   {
     return Measured(*world_, robots_[k], pose, beam, Head::kHeight, WrapAngle(beam.angle + head + turned));
@@ -159,7 +159,7 @@ public:
   void RefreshShared(WorkerPool* pool) override { this->world_->Refresh(pool); }
 
 private:
-  // The head starts ahead at tick 0; the readings are those of the way since the last tick.
+  // The head looks ahead at tick 0. The readings are those along its way since the last tick.
   void Scan(std::size_t k, DistanceScanner& scanner, const Pose& pose) override
   {
     std::vector<Reading>& readings = scanner.readings;
@@ -175,7 +175,7 @@ private:
   double step_ = 0;  // rad in a tick
 };
 
-// The footbot's, commanded by its controller, as that of ARGoS3.
+// The footbot's scanner with a head that the controller turns, as in ARGoS3.
 class TurningScanner : public CCI_FootBotTurningScannerSensor
 {
 public:

@@ -1,4 +1,4 @@
-// What the devices that take their shape from a row of the table of kinds share.
+// Functions for devices whose shape comes from a row of the table of kinds.
 #pragma once
 
 #include "common/space/space.h"
@@ -7,7 +7,7 @@
 namespace swarmanoid
 {
 
-// The row of the robots of a batch: the reader of experiments sees to it that they are of one kind.
+// Returns the row of the robots of a batch: the reader of experiments sees to it that they are of one kind.
 inline const EntityKindDescription& KindOfBatch(const DeviceSetup& setup)
 {
   return DescriptionOf(setup.space.GetEntity(setup.robots.front()).GetKind());

@@ -1,6 +1,6 @@
-// Light sensors in a ring around the body, as ARGoS3 has them on any robot (light_default_sensor.cpp): each adds up
-// (I / d)^2 of the lights of intensity I that it sees at a distance of d m, whatever the angle; the own body is in the
-// way of those on its other side. Generic.
+// Light sensors in a ring around the body, as ARGoS3 has them on any robot (light_default_sensor.cpp). Each sensor adds
+// up (I / d)^2 of the lights of intensity I that it sees at a distance of d m, at any angle. The own body hides lights
+// on the other side. Generic.
 #include <algorithm>
 #include <memory>
 
@@ -79,7 +79,7 @@ private:
     if (intensity <= 0 || !space_->IsPresent(bulbs_[b].entity)) return;
     const Vector3 source = space_->GetPose(bulbs_[b].entity).position;
     CollectFacing(source);
-    // Half a step of a converter of 12 bits: what is darker is not seen.
+    // Darker lights are not seen: this is half a step of a 12-bit converter.
     constexpr double kNegligible = 1e-4;
     fixed_[b].Place(*world_, source);
     shadows_->Sort(source, intensity / __builtin_sqrt(kNegligible));

@@ -1,6 +1,6 @@
-// Microphones: the pressure of each sound source falls with its distance (a free field without echoes). Three models:
-// a directional array in the free field, the same with bodies that muffle what is behind them, and a single capsule.
-// Generic.
+// Microphones: the pressure of each sound source falls with its distance (a free field without echoes). The three
+// models are a directional array in the free field, an array with bodies that muffle sources behind them, and a single
+// capsule. Generic.
 #include <algorithm>
 #include <memory>
 

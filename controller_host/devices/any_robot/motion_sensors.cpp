@@ -67,7 +67,7 @@ private:
   DeviceStreams heading_streams_;
 };
 
-// The poses of the robots one tick before. Those that were not in the arena then have none.
+// The poses of the robots one tick before. Robots that were outside the arena have none.
 class LastPoses
 {
 public:
@@ -188,7 +188,7 @@ public:
   }
 
 private:
-  // As charged as in the first tick behind the beginning, and no way was made to where the robots stand.
+  // Restores the charge of the first tick. Moving the robots to their new positions counts as no way.
   void BeginAgain()
   {
     charges_ = first_charges_;

@@ -1,5 +1,5 @@
-// The proximity sensors of any robot whose kind has them: a ray for each, from where the row says. Generic. (The
-// footbot's own sensor does the same for its ring, several rays at a time.)
+// The proximity sensors of any robot whose kind has them: one ray for each sensor in the row of the kind. Generic. The
+// footbot's own sensor computes its ring of rays several at a time.
 #include <algorithm>
 
 #include "common/control_interface/ci_proximity_sensor.h"

@@ -1,6 +1,5 @@
-// Proximity sensors as rays from a robot against the outlines of the bodies in range, and terrain: 1 where something
-// touches the sensor, falling evenly to 0 at the range. The base of those that take their places from a kind or a
-// joint. Generic.
+// Proximity sensors as rays from a robot against the outlines of bodies in range and terrain. A reading is 1 at contact
+// and falls linearly to 0 at the range. The base of sensors with positions from a kind or a joint. Generic.
 #pragma once
 
 #include <memory>
@@ -30,7 +29,8 @@ protected:
   // Takes the noise from the parameters. What controllers hold has to Want its readings. `reach`: how far from the
   // origin of its robot a ray can end, m.
   void InitRays(const DeviceSetup& setup, std::size_t count, double range_m, double reach_m);
-  // As many as were told, of robot k at the current tick; valid until the next call.
+  // Returns the rays of robot k at the current tick, as many as Init was given. The result is valid until the next
+  // call.
   virtual std::span<const ProximitySensorRay> RaysOf(std::size_t k) = 0;
 
 private:

@@ -1,5 +1,5 @@
-// What a controller holds of a ring of sensors whose readings are made when they are asked for. Interface:
-// CCI_RingSensor, or one derived from it.
+// The controller's object for a ring of sensors whose readings are computed on demand. Its interface is CCI_RingSensor
+// or a class derived from it.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
-// The wheels of any robot whose kind has them. Specific: the engine drives the body from the channel "wheels", [left,
-// right] wheel angular velocity in rad/s.
+// The wheels of any robot whose kind has them. Specific: the channel "wheels" has the angular velocities [left, right]
+// in rad/s, and the engine drives the body.
 #include <algorithm>
 
 #include "common/control_interface/ci_wheels_actuator.h"
@@ -20,7 +20,7 @@ public:
   double GetInterwheelDistance() const override { return drive_.axle_m; }
   void SetAngularVelocity(double left, double right) override
   {
-    // A NaN stays one: the host says whose it is.
+    // NaN passes through, since the host reports it with the robot's name.
     values_[0] = std::clamp(left, -limit_, limit_);
     values_[1] = std::clamp(right, -limit_, limit_);
   }

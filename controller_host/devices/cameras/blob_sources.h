@@ -16,7 +16,7 @@ namespace swarmanoid
 
 struct BlobSource
 {
-  // Which of the coloured parts of an entity; LEDs of one colour on one ring are named by the first of them.
+  // The coloured part of an entity. LEDs of one colour on one ring have the name of the first of them.
   enum Part : std::uint32_t
   {
     kFirstLed = 0,
@@ -38,39 +38,40 @@ public:
   static constexpr double kStandOut = 0.01;
 
   explicit BlobSources(SensorWorld& world);
-  // One for each world while somebody holds it, as SensorWorld::Of.
+  // Returns the object of a world, shared as long as a batch holds it, as SensorWorld::Of.
   static std::shared_ptr<BlobSources> Of(const std::shared_ptr<SensorWorld>& world);
 
   // The world must be refreshed.
   void Refresh();
 
-  // Those on the movable body at a place in the grid of the world.
+  // Returns the sources on the movable body at a place in the grid of the world.
   std::span<const BlobSource> AtForTest(std::uint32_t place) const
   {
     return {sources_.data() + start_[place], start_[place + 1] - start_[place]};
   }
-  // Those that are on none: lights, patches, laser spots, bodies that never move.
+  // Returns the sources on no movable body: lights, patches, laser spots, bodies that never move.
   std::span<const BlobSource> Free() const { return All().subspan(FirstFree()); }
   std::span<const BlobSource> All() const { return sources_; }
   std::size_t FirstFree() const { return start_.back(); }
-  // The numbers of those on the bodies at these places, and then of the free ones: fills the start of `numbers`, and
-  // returns how many they are.
+  // Collects the numbers of the sources on the bodies at these places, then those of the free sources. Fills the start
+  // of `numbers` and returns the count.
   std::size_t Collect(std::span<const std::int32_t> places, std::vector<std::int32_t>& numbers) const;
   const BlobSource& Source(std::size_t number) const { return sources_[number]; }
-  // The name of a source for random streams, by the id of its entity and its part. Laser spots have the eyebot's.
+  // Returns the name of a source for random streams, by the id of its entity and its part. Laser spots have the
+  // eyebot's.
   std::uint64_t NameOf(std::size_t number) const;
-  // Of each source the nearest of the eight colours with the bits red (4), green (2) and blue (1); 0 is black.
+  // Returns for each source the nearest of the eight colours with the bits red (4), green (2) and blue (1); 0 is black.
   const std::uint8_t* Hues() const { return hue_.data(); }
-  // Whether some source is seen from within a cone only; if not, nobody need ask IsSeenFrom.
+  // Returns true if a source is visible only from within a cone. Otherwise IsSeenFrom need not be called.
   bool HasCones() const { return !cones_.empty(); }
-  // Whether an eye is within the cone of a source, if it has one.
+  // Returns whether an eye is within the cone of a source, if it has one.
   bool IsSeenFrom(const Vector3& eye, std::size_t number) const
   {
     const Cone& cone = cones_[number];
     const Vector3 offset = eye - sources_[number].position;
     return cone.cosine < -1 || offset.dot(cone.axis) >= cone.cosine * __builtin_sqrt(offset.squaredNorm());
   }
-  // Whether there may be laser spots, whose eyebots may be far away.
+  // Returns true if laser spots may exist. Their eyebots may be far away.
   bool HasLasers() const { return !lasers_.empty(); }
   // No source is lower than this, m in the space.
   double LowestHeight() const { return lowest_; }
@@ -80,7 +81,7 @@ private:
   struct Bearer
   {
     std::uint32_t entity;
-    const EntityKindDescription* ring;  // whose LEDs it has; nullptr: it has one colour of its own
+    const EntityKindDescription* ring;  // the LEDs of the entity; nullptr if it has one colour
     std::uint32_t led_slot, beacon_slot, turret_slot, colour_slot;
     double middle;  // m: height of the middle of the body
     std::optional<LedCones> cones{};

@@ -10,7 +10,7 @@ namespace swarmanoid
 namespace
 {
 
-// Whether a place is in a round view straight down.
+// Returns whether a place is in a round view straight down.
 inline bool IsBelow(double x, double y, double z, double tangent, double square_range)
 {
   const double border = z * tangent;
@@ -126,7 +126,7 @@ void ColourCamera::Look(std::size_t k)
   if (seen_.count >= kManyAtATime) ExtractAll();
 }
 
-// Angles of many at a time: the steps of one follow one another, and would be waited for.
+// Computes the angles of many blobs at a time, since the steps for one blob depend on each other.
 void ColourCamera::ExtractAll()
 {
   // Whole lanes: what stands behind the last one is as harmless.
@@ -185,7 +185,7 @@ inline void ColourCamera::Add(std::size_t source, const View& view)
   seen_.count += IsInView(place);
 }
 
-// Upright, with the axis straight down: turned to the robot's axes at last, when only those seen are left.
+// The camera looks straight down from an upright robot. Only the visible blobs are turned into the robot's axes.
 void ColourCamera::LookDown(const View& view)
 {
   const std::size_t near = sources_->Collect(lines_->PlacesAround(), found_);
@@ -258,7 +258,7 @@ void ColourCamera::LookAnywhere(const View& view)
   KeepSeen(first);
 }
 
-// The points of the lines of sight are those from `first` on.
+// The points of the lines of sight correspond to the blobs from `first` on.
 void ColourCamera::KeepSeen(std::size_t first)
 {
   const std::size_t count = lines_->Points().count;

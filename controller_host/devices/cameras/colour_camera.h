@@ -1,5 +1,5 @@
-// Cameras with colour blob extraction: which blobs are in the field of view and not hidden, for all robots of a batch.
-// The base of the cameras of all robots and of the pie camera; see blob_sources.h for what they see. Generic.
+// Cameras with colour blob extraction: the visible blobs in the field of view, for all robots of a batch. The base of
+// the cameras of all robots and of the pie camera. blob_sources.h has the sources of blobs. Generic.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@
 namespace swarmanoid
 {
 
-// Where a camera sits and looks, in the frame of its robot.
+// The position and direction of a camera in the frame of its robot.
 struct CameraModel
 {
   enum class View
@@ -41,7 +41,8 @@ protected:
   // Takes <aperture> and <range> from the parameters. What controllers hold has to Want its blobs.
   void InitCamera(const DeviceSetup& setup, CameraModel model);
 
-  // Blobs in view, those of several robots one behind another, by lanes: room for more behind `count`.
+  // The visible blobs of several robots, one robot after the other, in lanes. The arrays have room for more behind
+  // `count`.
   struct Seen
   {
     std::size_t count = 0;
@@ -55,9 +56,9 @@ protected:
   };
   // Called before some calls of Extract: computes more about all that were seen.
   virtual void Measure(const Seen&) {}
-  // Called once for each robot: it sees those from `first` to before `behind`.
+  // Called once for each robot, which sees the blobs from `first` to before `behind`.
   virtual void Extract(std::size_t k, const Seen& seen, std::size_t first, std::size_t behind) = 0;
-  // Where the camera of robot k looks, in its frame: of kTurned.
+  // Returns the direction of the camera of robot k in the robot's frame, for cameras that turn (kTurned).
   virtual Vector3 AxisOf(std::size_t) const { return Vector3::UnitX(); }
   const BlobSources& Sources() const { return *sources_; }
 
@@ -75,7 +76,7 @@ private:
   };
   struct Viewed
   {
-    std::size_t k, behind;  // where those that robot k sees end
+    std::size_t k, behind;  // the end of the blobs that robot k sees
   };
 
   void MakeDue() override;

@@ -1,6 +1,6 @@
-// The cameras of the three robots: the footbot's omnidirectional one and the one that looks ahead, the eyebot's that
-// looks down and the one that turns with its laser, the handbot's that looks ahead; each ideal (with noise on distance
-// and angle) and with noise in pixels.
+// The cameras of the three robots: the footbot's omnidirectional and forward cameras, the eyebot's downward one and the
+// one that turns with its laser, and the handbot's forward one. Each has an ideal model (with noise on distance and
+// angle) and one with noise in pixels.
 #include <algorithm>
 
 #include "common/control_interface/eyebot/ci_eyebot_camera_sensor.h"
@@ -18,7 +18,7 @@ namespace swarmanoid
 namespace
 {
 
-// What differs between the robots.
+// The differences between the robots.
 struct FootbotCamera
 {
   using Interface = CCI_FootBotOmnidirectionalCameraSensor;
@@ -29,7 +29,7 @@ struct FootbotPerspectiveCamera
 {
   using Interface = CCI_FootBotPerspectiveCameraSensor;
   static constexpr const char* kLabel = "footbot_perspective_camera";
-  // In the rim, as high as the beacon: ARGoS3, foot-bot.
+  // The camera is in the rim, as high as the beacon (ARGoS3, foot-bot).
   static CameraModel Model() { return {CameraModel::View::kAhead, {0.085036758, 0, 0.174}, 0, 0}; }
 };
 struct EyebotCamera
@@ -105,7 +105,7 @@ protected:
     const SinCos tilt = SinCosOf(space_->Attributes()[directions_[k].tilt]);
     return {tilt.sin * pan.cos, tilt.sin * pan.sin, -tilt.cos};
   }
-  // The axes of the image of robot k, in its frame: x along the line of sight, y level and to the left.
+  // Returns the axes of the image of robot k, in its frame: x along the line of sight, y level and to the left.
   Eigen::Matrix3d ImageOf(std::size_t k) const
   {
     const SinCos pan = SinCosOf(space_->Attributes()[directions_[k].pan]);

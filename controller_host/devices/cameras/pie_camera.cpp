@@ -44,7 +44,7 @@ public:
       std::fill_n(&slices_[colour * sectors_], sectors_, Slice{});
     }
   }
-  // The slices, to be filled; `colours` has a bit for each colour put into them.
+  // Returns the slices, to be filled; `colours` has a bit for each colour put into them.
   Slice* Slices() { return slices_.data(); }
   void SetColours(unsigned colours) { colours_ = colours; }
 
@@ -61,7 +61,7 @@ class PieCamera : public ColourCamera
 public:
   void Init(const DeviceSetup& setup) override
   {
-    // The eye of the omnidirectional camera.
+    // Returns the eye of the omnidirectional camera.
     InitCamera(setup, {CameraModel::View::kDown, {0, 0, 0.2887}, 0, 0});
     noise_ = NoiseFrom(setup.parameters);
     streams_ = DeviceStreams(setup);
@@ -92,7 +92,7 @@ protected:
   {
     Pie& pie = pies_[k];
     pie.Clear();
-    // Local copies: steps through memory would follow one another.
+    // Local copies let the compiler keep the pointers in registers.
     Pie::Slice* const slices = pie.Slices();
     const std::uint32_t* const source = seen.source.data();
     const double* const distances = seen.distance.data();

@@ -78,8 +78,8 @@ void FootbotProximity::MakeDue()
 
 void FootbotProximity::SenseAll()
 {
-  // In the order of the grid's cells, where it has the places of the robots: neighbours stay in the cache. What is kept
-  // of a robot itself lies anywhere.
+  // Robots are listed in the order of the grid's cells, so that their neighbours stay in the cache. The sensor's own
+  // data has no such order.
   ListOwn(AllAreDue());
   if (world_->Grid().AllUpright())
     for (std::size_t first = 0; first < listed_; first += kLanes)
@@ -182,7 +182,7 @@ void FootbotProximity::ListOwn(bool all)
   listed_ = 0;
   const auto list_those = [&](const auto& number_of, const auto& is_due)
   {
-    // Without a branch: which robots are of another batch nobody can foretell.
+    // The loop has no branch, since robots of another batch come in an unpredictable order.
     for (std::size_t place = 0; place < sorted.size(); ++place)
     {
       const std::uint32_t k = number_of(sorted[place]);
@@ -210,7 +210,7 @@ void FootbotProximity::Prefetch(std::size_t later) const
   __builtin_prefetch(&saw_[number_[later + kAhead]]);
   const std::uint32_t k = number_[later];
   if (!saw_[k]) return;
-  // Who was near somebody mostly is so again.
+  // Neighbours rarely change between ticks, so the last tick's neighbours are prefetched.
   __builtin_prefetch(&sensors_[k], 1);
   const PoseArrays& poses = world_->Space().Poses();
   __builtin_prefetch(&poses.qz[robots_[k]]);
@@ -289,7 +289,7 @@ void FootbotProximity::LookAt(std::uint32_t robot, const Vector3& sensors, bool 
   rays_.AddUprightBox(world_->Space().Poses(), robot, body, shape.half_size);
 }
 
-// From the distances of a robot, if something touched its rays.
+// Computes the readings of a robot from its distances, if its rays met a body.
 void FootbotProximity::FinishReadings(std::size_t k)
 {
   if (!rays_.Touched() && !noise_.IsActive()) return;
@@ -318,7 +318,7 @@ void FootbotProximity::Disturb()
   disturbed_ = seeing_.size();
 }
 
-// As the engine collides them: a handbot's arms, a hull.
+// The parts are the engine's collision bodies: a handbot's arms, a hull.
 void FootbotProximity::AddParts(std::uint32_t robot, std::uint32_t body)
 {
   const Pose pose = world_->Space().GetPose(body);

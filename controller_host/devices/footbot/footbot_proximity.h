@@ -32,14 +32,15 @@ public:
   double Reach() const override { return rays_.Reach() + kHeight; }
 
 protected:
-  // From distances in m (more than the range: nothing there) to readings, before noise and the cut to 0..1.
+  // Computes readings from distances in m (beyond the range if the ray meets nothing), before noise and the limits
+  // 0..1.
   virtual void Respond(const double* distances, double* readings) const = 0;
 
   double Range() const { return rays_.Range(); }  // m
 
 private:
   static constexpr double kHeight = FootbotProximityRays::kHeight;
-  // Of robots that see nothing, with all others of them.
+  // The shared readings of robots that sense nothing.
   static constexpr FootbotProximityRays::Values kNoReadings{};
 
   class Readings : public ReadingsOnDemand<CCI_FootBotProximitySensor, FootbotProximityRays::kRays>
@@ -54,26 +55,27 @@ private:
   void Forget();
   // ReusedMemory for the readings of a robot until Forget. What others have stays where it is.
   double* NewReadings(std::size_t k);
-  // Where no body has parts that move by themselves, and all stand upright: finds out who is near whom, or will be as
-  // long as MovedSince holds; and senses by what was found out.
+  // These functions need upright bodies without moving parts. FindNear finds the neighbours of each robot, valid while
+  // MovedSince holds. SenseNear computes the readings from them.
   bool KnowsNear() const;
   void FindNear();
   void SenseNear();
-  // Where that is not known: looks around each robot.
+  // Computes the readings by a search around each robot, if the neighbours are not known.
   void SenseAll();
-  // Lists the robots of the batch, all or those that are due, in the order of the grid.
+  // Lists all robots of the batch, or only those with readings due, in the order of the grid.
   void ListOwn(bool all);
   // Fetches what Sense will read of robots that come later in that order.
   void Prefetch(std::size_t later) const;
-  // The robot that is listed there. SenseUpright: where nobody is tilted; what is near is looked for around several.
+  // Sense computes the readings of the robot at this position of the list. SenseUpright searches around several robots
+  // at once and needs upright bodies.
   void Sense(std::size_t listed);
   void SenseUpright(std::size_t first, std::size_t last);
-  // Looks at a body near a robot whose sensors are at this height.
+  // Adds a body near a robot whose sensors are at this height.
   void LookAt(std::uint32_t robot, const Vector3& sensors, bool upright, std::uint32_t body, const BodyShape& shape,
               const Vector3& at, bool body_upright);
   void FinishReadings(std::size_t k);
   double* ReadingsAt(std::size_t place) { return blocks_[place / kBlock][place % kBlock].values; }
-  // Noise for those robots' readings that have none yet.
+  // Adds noise to the readings of robots that have none yet.
   void Disturb();
   void AddAny(std::uint32_t robot, const Shape& shape, const Pose& other);
   template <class HitOf>
@@ -89,38 +91,39 @@ private:
   std::vector<std::uint32_t> number_;  // k of each that is listed
   std::vector<std::int32_t> place_;    // and its place in the grid; both have kLanes more
   std::unique_ptr<FixedBodies> fixed_;
-  // A robot, and those of near_ that are near it: from `fixed` on bodies that never move.
+  // A robot and its neighbours in near_. From `fixed` on they are bodies that never move.
   struct Surroundings
   {
     std::uint32_t k, first, count, fixed;
   };
   bool remembers_ = false;
-  std::uint64_t near_since_ = 0;            // MovedSince::Number
-  std::vector<Surroundings> surroundings_;  // ascending; without those who have nobody near, if nothing else is seen
-  std::vector<std::uint32_t> near_;         // entities
-  std::unique_ptr<FixedBodies> fixed_for_long_;  // those that come near as long as MovedSince may hold
+  std::uint64_t near_since_ = 0;  // MovedSince::Number
+  // ascending; robots without neighbours are left out if nothing else can be sensed
+  std::vector<Surroundings> surroundings_;
+  std::vector<std::uint32_t> near_;              // entities
+  std::unique_ptr<FixedBodies> fixed_for_long_;  // bodies that may come near while MovedSince holds
   NoiseModel noise_;
   DeviceStreams streams_;
   FootbotProximityRays rays_;  // of the robot being sensed
-  // Those that are not all 0, in the order in which they were made: that of the grid, so that they come one after the
-  // other in memory.
+  // Readings that are not all 0, in the order of their computation. That is the order of the grid, so neighbours are
+  // close in memory.
   static constexpr std::size_t kBlock = 256;
   std::vector<std::unique_ptr<FootbotProximityRays::Values[]>>
       blocks_;                         // of kBlock each; room for all from the start, as others read meanwhile
-  std::vector<std::uint32_t> seeing_;  // k of those that have readings
+  std::vector<std::uint32_t> seeing_;  // k of the robots that have readings
   std::size_t disturbed_ = 0;          // how many of them have noise
   std::vector<std::uint8_t> saw_;      // whether robot k had readings before
   std::vector<Readings> sensors_;
 };
 
-// y = 1 below a contact distance, else a / (d + b): the curve that ARGoS3 fitted to the robot.
+// y = 1 below a contact distance, else a / (d + b). ARGoS3 fitted this curve to the robot.
 class RayCastProximity : public FootbotProximity
 {
 protected:
   void Respond(const double* distances, double* readings) const override;
 };
 
-// y = c0 + c1 d + c2 d^2 + ..., the coefficients given by the user.
+// y = c0 + c1 d + c2 d^2 + ..., with coefficients from the experiment file.
 class PolynomialProximity : public FootbotProximity
 {
 public:

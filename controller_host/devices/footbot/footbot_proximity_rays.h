@@ -1,6 +1,6 @@
-// The 24 rays of a footbot's proximity sensors, and how far along each is what they meet: discs, boxes and sides in the
-// plane, or anything in the space. Used by FootbotProximity for one robot after another, in its thread; inline, as this
-// is most of its time.
+// The 24 rays of a footbot's proximity sensors, and the distance along each to the bodies that it meets: discs, boxes
+// and sides in the plane, or any shape in the space. FootbotProximity uses it for one robot after another, in its
+// thread. It is inline because the sensor spends most of its time here.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ class FootbotProximityRays
 {
 public:
   static constexpr unsigned kRays = CCI_FootBotProximitySensor::NUM_SENSORS;
-  // Of the sensors above the base of the footbot (ARGoS3, foot-bot).
+  // The height of the sensors above the base of the footbot (ARGoS3, foot-bot).
   static constexpr double kHeight = 0.06;
 
   // A number for each ray.
@@ -31,19 +31,20 @@ public:
   // In metres: the rays start on a ring of this radius around the robot's centre and end after this range.
   void Configure(double ring_radius, double range);
   double Range() const { return range_; }
-  // From the robot's centre to the end of a ray, m.
+  // Returns the distance (m) from the robot's centre to the end of a ray.
   double Reach() const { return ring_radius_ + range_; }
 
   // Another robot: nothing was met.
   void Reset() { touched_ = false; }
   bool Touched() const { return touched_; }
-  // To the nearest of what was met, m: infinity for rays that met nothing. Only if some did.
+  // Returns the distances (m) to the nearest body along each ray, infinity for rays that met nothing. Valid only if a
+  // ray met something.
   const double* Distances() const { return distances_.values; }
 
-  // A disc whose centre is (dx, dy) from the robot's.
+  // Adds a disc whose centre is at (dx, dy) from the robot's centre.
   void AddDisc(const PoseArrays& poses, std::uint32_t robot, double dx, double dy, double radius);
   void AddUprightBox(const PoseArrays& poses, std::uint32_t robot, std::uint32_t body, const Vector3& half_size);
-  // hit_of(from, to): the part of the way between two points in the space where something is, if it is there.
+  // hit_of(from, to) returns the fraction of the way between two points in the space at which a body is met, if any.
   template <class HitOf>
   void AddInSpace(const Pose& robot, const HitOf& hit_of);
 

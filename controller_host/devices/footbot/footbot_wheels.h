@@ -15,7 +15,7 @@
 namespace swarmanoid
 {
 
-// What a controller holds: the speeds that it asked for.
+// The controller's object: it keeps the speeds that were set.
 class SimulatedFootbotWheels : public CCI_FootBotWheelsActuator
 {
 public:
@@ -43,10 +43,10 @@ public:
 protected:
   double Clamped(double velocity) const
   {
-    // A NaN stays one: the host says whose it is.
+    // NaN passes through, since the host reports it with the robot's name.
     return std::clamp(velocity, -limit_, limit_);
   }
-  // To each wheel that moves.
+  // Adds noise to each wheel that moves.
   void AddNoise(const ChannelView& channel) const;
 
   double limit_ = 0;  // rad/s
@@ -57,8 +57,8 @@ private:
   NoiseModel noise_;  // m/s on the ground
 };
 
-// v' = bias + factor * v + noise for each wheel, only while the wheel is told to move: a bias and a factor that never
-// change, an assumption.
+// v' = bias + factor * v + noise for each wheel, only while the wheel has a command other than 0. Bias and factor never
+// change, which is our assumption.
 class NoisyFootbotWheels : public DummyFootbotWheels
 {
 public:
@@ -70,8 +70,8 @@ private:
   std::array<double, 2> factor_{};
 };
 
-// v' = factor * (v + bias) for both wheels while one of them is told to move; the bias of each wheel is drawn once, its
-// factor in every tick, both Gaussian: differential_steering_default_actuator.cpp of ARGoS3.
+// v' = factor * (v + bias) for both wheels while one of them has a command other than 0. The bias of each wheel is
+// drawn once and its factor in every tick, both Gaussian (differential_steering_default_actuator.cpp of ARGoS3).
 class Argos3FootbotWheels : public DummyFootbotWheels
 {
 public:

@@ -1,5 +1,5 @@
-// Showing a direction on the footbot's LED ring: lights the LEDs nearest to it. The ring turns with the turret, so the
-// lit LEDs are chosen anew each tick. Generic.
+// The preferential direction of the footbot: it lights the LEDs of the ring nearest to a direction. The ring turns with
+// the turret, so each tick selects the lit LEDs again. Generic.
 #include "common/control_interface/ci_robot.h"
 #include "common/control_interface/footbot/ci_footbot_preferential_direction_actuator.h"
 #include "common/math/elementary.h"

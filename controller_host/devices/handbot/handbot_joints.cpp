@@ -1,6 +1,6 @@
-// Head, arms, wrists and hands of the handbot. Channel "handbot_arms": angular velocities in rad/s of head, left arm,
-// right arm, left wrist, right wrist. Channel "handbot_hands": 1 closes, 0 opens, left and right. The sensor reads what
-// the engine reports as attributes.
+// Head, arms, wrists and hands of the handbot. The channel "handbot_arms" has angular velocities in rad/s: head, left
+// arm, right arm, left wrist, right wrist. The channel "handbot_hands" has 1 for closing and 0 for opening, left and
+// right. The sensor reads the attributes that the engine reports.
 #include <algorithm>
 
 #include "common/control_interface/handbot/ci_handbot_arms_actuator.h"

@@ -23,9 +23,9 @@ constexpr double kHandReach_m = 0.4;
 
 using HandRays = std::span<ProximitySensorRay, CCI_HandBotProximitySensor::SENSORS_OF_HAND>;
 
-// In the frame of a hand, from the middle of its palm, x along the arm: 0 to 2 on the left claw and 9 to 11 on the
-// right one look to the other claw, which is ahead where the hand is wide open; 3 to 5 above and 6 to 8 below look
-// ahead.
+// The rays in the frame of a hand, from the middle of its palm, with x along the arm. Rays 0 to 2 on the left claw and
+// 9 to 11 on the right one look at the other claw. If the hand is wide open, the other claw is ahead. Rays 3 to 5 above
+// and 6 to 8 below look ahead.
 void SetRays(double aperture, HandRays rays)
 {
   constexpr double kWidth = HandbotParts::kClawWidth;

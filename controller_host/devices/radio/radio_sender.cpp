@@ -87,7 +87,7 @@ private:
       values[0] += 1;
       PackPacket(packet, values + 1);
     }
-    // What is not used is not saved up for more than the longest packet.
+    // The unused rate is saved up to at most the longest packet.
     const double most = std::max<double>(CCI_RadioActuator::MAX_BYTES, bytes_per_tick_);
     queue.budget = is_limited ? std::min(queue.budget + bytes_per_tick_, most) : most;
   }

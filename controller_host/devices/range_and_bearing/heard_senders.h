@@ -1,5 +1,5 @@
-// Those whom receivers of range and bearing hear, robot after robot in one list, so that their angles are computed many
-// at a time. Used by the receivers' batch. Steady running allocates nothing.
+// The senders that receivers of range and bearing hear, robot after robot in one list, so that many angles are computed
+// at a time. Used by the receivers' batch. In steady running it allocates nothing.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ namespace swarmanoid
 class HeardSenders
 {
 public:
-  // From antenna to antenna, m: along the axes of the space, then, once turned, of the receiver's body. `place`: of the
-  // sender in the grid. There is always room for some behind `count`.
+  // The way from antenna to antenna (m): along the axes of the space, then, after Turn, of the receiver's body. `place`
+  // is that of the sender in the grid. The arrays have some room behind `count`.
   struct Lanes
   {
     std::int32_t* place;
@@ -25,15 +25,15 @@ public:
     double* flat;                         // m, in the plane of the body
   };
 
-  // ReusedMemory for so many more, and some lanes.
+  // Reserves ReusedMemory for `more` senders and some lanes.
   void Reserve(std::size_t more);
   const Lanes& At() const { return lanes_; }
-  // Adds so many whose places stand behind the others already, turned to the body of an upright receiver at `own`; no
-  // heights if all bodies of the grid, which must be upright, are level.
+  // Adds senders whose places are already behind the others, turned into the frame of an upright receiver at `own`.
+  // Without heights if all bodies of the grid, which must be upright, are level.
   void Add(std::size_t more, const NeighbourGrid& grid, const Vector3& own, const Heading& heading);
   void Move(std::size_t from, std::size_t to);
 
-  // From the axes of the space to those of a body: those from `first` on.
+  // Turns the ways from `first` on into the axes of a body.
   void Turn(std::size_t first, const Heading& heading);
   void Turn(std::size_t first, const Eigen::Matrix3d& to_body);
   // Range and angles of all. `are_level`: none is higher than its receiver, whatever the heights here.

@@ -1,5 +1,5 @@
-// Receives the bytes of range and bearing, for all robots: those within range and in line of sight of a sender get its
-// message one tick later, with the place of the sender.
+// The receivers of range and bearing, for all robots. A robot within range and line of sight of a sender gets its
+// message one tick later, with the position of the sender.
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -26,7 +26,7 @@ constexpr std::size_t kFirstBytes = CCI_RangeAndBearingActuator::NUM_BYTES;
 class Receiver : public CCI_RangeAndBearingSensor
 {
 public:
-  // Bytes behind the first ten, of those senders that have more.
+  // The bytes after the first ten, for senders that have more.
   using Further = std::vector<std::vector<std::uint8_t>>;
 
   Receiver(OnDemandSensor& batch, std::size_t k, const Further& further) : batch_(batch), k_(k), further_(further) {}
@@ -109,7 +109,7 @@ public:
     messages_are_read_ = false;
   }
   void Update(const ChannelView&) override { MakeAhead(); }
-  // A robot that is tilted has its antenna beside it, and so has who is heard.
+  // The antenna of a tilted robot is beside its origin, for receiver and sender.
   double Reach() const override { return range_ + 2 * kAntennaHeight_m; }
 
 private:
@@ -118,7 +118,7 @@ private:
     RangeAndBearingMessage bytes{};
     bool is_sent = false;
   };
-  // Where those heard by one robot end in the list of all.
+  // The end of the senders that one robot hears, in the list of all.
   struct Reception
   {
     std::size_t k, behind;
@@ -212,7 +212,8 @@ private:
     if (heard_.count >= kManyAtATime) Deliver();
   }
 
-  // Looks before listening: quicker if most send and many hide one another. The places stand behind those heard.
+  // Checks lines of sight before range. This is faster if most robots send and many hide each other. The places are
+  // written behind the list.
   std::span<const std::int32_t> PlacesSeen()
   {
     lines_->LookAtBodiesAround();
@@ -241,7 +242,7 @@ private:
     KeepOnly(first, [&](std::size_t i) { return seen[i - first]; });
   }
 
-  // Adds those at these places. The places may stand where they are written to.
+  // Adds the senders at these places. The places may be in the memory that is written.
   void Listen(std::span<const std::int32_t> places, std::uint32_t robot)
   {
     const NeighbourGrid& grid = world_->Grid();
@@ -278,7 +279,7 @@ private:
     }
   }
 
-  // Of those added from `first` on, keeps those for whom keep(i) holds.
+  // Removes the senders from `first` on for which keep(i) is false.
   template <class Keep>
   void KeepOnly(std::size_t first, Keep&& keep)
   {
@@ -287,7 +288,7 @@ private:
       if (keep(i)) heard_.Move(i, kept++);
     heard_.count = kept;
   }
-  // Keeps those who send and are near enough.
+  // Keeps the robots that send and are near enough.
   void KeepSenders(std::size_t first)
   {
     const HeardSenders::Lanes& at = heard_.At();
@@ -299,7 +300,7 @@ private:
              });
   }
 
-  // Packets for all who have listened since the last time.
+  // Makes the packets of all robots that have listened since the last call.
   void Deliver()
   {
     heard_.Measure(world_->Grid().AllUpright() && world_->Grid().AllLevel());
@@ -318,7 +319,7 @@ private:
     heard_.count = 0;
   }
 
-  // A packet from each of those heard who sends and is near enough.
+  // Makes a packet of each robot in the list that sends and is near enough.
   template <bool kAllSend>
   void MakePackets(Receiver& receiver, std::size_t first, std::size_t behind) const
   {
@@ -346,7 +347,7 @@ private:
     return further_of_entity_.empty() ? 0 : further_of_entity_[entity];
   }
 
-  // To the packets that MakePackets made of the same.
+  // Adds the further bytes to the packets that MakePackets made of the same senders.
   void AddFurther(std::size_t k, std::size_t first, std::size_t behind)
   {
     const HeardSenders::Lanes& from = heard_.At();
@@ -360,13 +361,13 @@ private:
     }
   }
 
-  // The name of a sender in the list of those heard.
+  // Returns the stream name of a sender in the list.
   std::uint64_t SenderOf(std::size_t i) const
   {
     return names_[world_->Grid().Sorted()[static_cast<std::size_t>(heard_.At().place[i])]];
   }
 
-  // To the packets that MakePackets made of the same.
+  // Adds noise to the packets that MakePackets made of the same senders.
   void AddNoise(std::size_t k, std::size_t first, std::size_t behind)
   {
     const HeardSenders::Lanes& from = heard_.At();
@@ -404,7 +405,7 @@ private:
   std::vector<std::uint32_t> message_slots_;  // by entity
   Receiver::Further further_bytes_;
   std::vector<std::uint32_t> further_slots_;      // the first one of each
-  std::vector<std::uint32_t> further_of_entity_;  // empty if nobody has any
+  std::vector<std::uint32_t> further_of_entity_;  // empty if no sender has further bytes
   std::vector<Sent> messages_;                    // by place in the grid, of this tick
   bool messages_are_read_ = false;                // in this tick
   std::vector<std::int32_t> place_of_entity_;     // k of an entity, or -1

@@ -33,8 +33,8 @@ struct BodyShape : Shape
 
 BodyShape BodyShapeOf(const EntityConfiguration& entity);
 
-// The bodies of all entities of a space, in entity order. Those that are alike are one: what a swarm has in common
-// stays in the cache.
+// The bodies of all entities of a space, in entity order. Equal bodies are stored once, so that those of a swarm stay
+// in the cache.
 class BodyShapes
 {
 public:

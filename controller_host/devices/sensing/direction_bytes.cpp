@@ -20,7 +20,7 @@ void DirectionBytes::Read(const NearBodies& discs, float steps_per_m, bool with_
     const FloatLanes more = exact * 1e-4F + (1e-4F + 2e-6F * length);
     const FloatLanes radius = exact + more;
 
-    // The tangents; who is nearer than that stands in all directions.
+    // The slopes of the tangents. A cylinder that is nearer than this covers all directions.
     const IntLanes is_around = length <= radius * 1.01F;
     const FloatLanes tangent = SquareRoot(is_around ? Everywhere(1.0F) : square - radius * radius);
     const FloatLanes slope = radius / tangent;
@@ -35,7 +35,7 @@ void DirectionBytes::Read(const NearBodies& discs, float steps_per_m, bool with_
 
     const IntLanes turn = LowestByte(Truncated(TurnInBytes(x, y)));
     const FloatLanes steps = length * steps_per_m;
-    // Where a step of direction is wider than the difference between the radius with all roundings and without.
+    // The test is sure if a step of direction is wider than the error of the radius by all roundings.
     const IntLanes is_sure = ~is_around & (steps < kFarthestByte - 2) & (3 * more < tangent * (0.8F / 64));
     const IntLanes behind = is_sure ? Truncated(steps + (1 + kAside)) : Everywhere(255);
     StoreLanes(turn | in_steps(steps) << 8 | behind << 16, &middles[i]);

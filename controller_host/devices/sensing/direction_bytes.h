@@ -1,7 +1,7 @@
 // Directions around an eye in the xy plane and distances from it, in bytes, so that one instruction compares 16 or 32
-// of them: which lines of sight may meet which upright cylinders is told by a few such comparisons, and only these
-// pairs are tested exactly. Directions are told by y / (|x| + |y|) of each quadrant, which grows with the angle and
-// takes no arc tangent. Used by DiscField and DiscCover.
+// of them. A few comparisons find the lines of sight that may meet an upright cylinder, and only these pairs get an
+// exact test. A direction is y / (|x| + |y|) in each quadrant, which grows with the angle and needs no arc tangent.
+// Used by DiscField and DiscCover.
 #pragma once
 
 #include <cstdint>
@@ -26,17 +26,17 @@ inline FloatLanes TurnInBytes(FloatLanes x, FloatLanes y)
 
 inline constexpr std::int32_t kMeetsNothing = 255 << 16;
 
-// Of cylinders around an eye, with room for kLanes more.
+// Values of the cylinders around an eye, with room for kLanes more.
 struct DirectionBytes
 {
   // The lowest byte `first`, then `width` and `near`: a line that meets the cylinder has the direction `first` or one
   // of the `width` steps behind it, and reaches the distance `near`.
   std::vector<std::int32_t> meets;
-  // Only if asked for. Direction and distance of the middle, then `behind`: a line that reaches this distance in a
-  // direction that is 2 ... width - 2 steps behind `first` surely meets the cylinder; 255: unknown.
+  // The direction and distance of the middle, then `behind`; made only on request. A line that reaches `behind` in a
+  // direction 2 ... width - 2 steps after `first` surely meets the cylinder. 255 means unknown.
   std::vector<std::int32_t> middles;
 
-  // Both in steps a metre.
+  // Sets the bytes of the cylinders. Distances are in steps, with `steps_per_m` steps per metre.
   void Read(const NearBodies& discs, float steps_per_m, bool with_middles);
 };
 

@@ -9,7 +9,7 @@ namespace
 
 constexpr std::uint8_t kUnknown = 255;
 
-// kByteLanes bytes from kByteLanes - n on: n that are 0, then others.
+// Reading kByteLanes bytes from kByteLanes - n on gives n bytes of 0, then others.
 constexpr auto kBeyond = []
 {
   std::array<std::uint8_t, 2 * kByteLanes> bytes{};

@@ -1,6 +1,6 @@
-// What a crowd of upright cylinders around an eye, all as high and as low as every line of sight, surely hides of
-// itself: for each of 256 directions the distance behind which nothing is seen. What it leaves is tested exactly, and
-// only with cylinders that stand before it. Used by DiscField. Steady running allocates nothing.
+// DiscCover: for each of 256 directions, the distance beyond which a crowd of upright cylinders around an eye surely
+// hides everything. All lines of sight must be within the heights of all cylinders. Points that are not covered get an
+// exact test, only with cylinders before them. Used by DiscField. In steady running it allocates nothing.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace swarmanoid
 class DiscCover
 {
 public:
-  // From bytes with middles.
+  // Makes the cover from bytes that have middles.
   void Lay(const DirectionBytes& bytes, std::size_t count);
   // Whether the cover surely hides the middles of cylinders, by their bytes.
   IntLanes HidesMiddles(IntLanes middles) const;
@@ -28,7 +28,7 @@ private:
 
   void Cover(std::size_t first, int directions, std::uint8_t distance);
 
-  // A turn, and what goes beyond its end.
+  // A whole turn, and a copy of its start so that reads may go beyond its end.
   std::array<std::uint8_t, 2 * kTurn + 2 * kByteLanes> behind_{};
   std::array<std::uint8_t, 2 * kTurn + 2 * kByteLanes> farthest_{};  // of kWindow directions from this one on
 };

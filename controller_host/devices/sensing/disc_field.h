@@ -1,12 +1,13 @@
-// Upright cylinders around an eye, and which lines of sight they hide, several at a time. Used by SightLines. Steady
-// running allocates nothing.
+// DiscField: upright cylinders around an eye, and the lines of sight that they hide, several at a time. Used by
+// SightLines. In steady running it allocates nothing.
 //
-// Pairs of a line and a cylinder that may meet are told by direction and distance in bytes; those are tested exactly.
-// Of a crowd that looks at itself, cylinders and lines are left out before that surely are hidden by what is nearest.
-// Many cylinders of different heights, or looked at for other points, are held by direction: split into the four
-// quadrants around the eye and into eight sectors of each; one that touches several stands in all of them. Cells are
-// tested to one depth, only the fullest further, whatever hides a point: branches that depend on it would be guessed
-// wrong half of the time and cost more than the tests.
+// Direction and distance in bytes select the pairs of a line and a cylinder that may meet; these get an exact test. In
+// a crowd that looks at itself, cylinders and lines that the nearest cylinders surely hide are dropped first.
+//
+// Many cylinders of different heights, or with other points, are stored by direction: in the four quadrants around the
+// eye and eight sectors of each. A cylinder that touches several sectors is in all of them. Cells are tested to one
+// depth, and only the fullest one further, even if a point is already hidden. A branch on the result would be
+// mispredicted half of the time and cost more than the tests.
 #pragma once
 
 #include <algorithm>
@@ -26,17 +27,18 @@ struct SightPoints
   std::vector<float> x, y, z;
   std::vector<std::int32_t> owner;  // the entity that a point is part of: it does not hide its own points
 
-  // ReusedMemory for so many, and the kLanes.
+  // Reserves ReusedMemory for `points` and kLanes more.
   void Reserve(std::size_t points);
 };
 
-// Which of the points are seen.
+// The set of visible points.
 class SeenPoints
 {
 public:
   void Resize(std::size_t points) { groups_.resize((points + kLanes - 1) / kLanes); }
   bool operator[](std::size_t point) const { return (groups_[point / kLanes] >> point % kLanes & 1U) != 0; }
-  // A bit for each of the kLanes points from `first` on, a multiple of kLanes. Bits behind the last point are 0.
+  // Returns a bit for each of the kLanes points from `first` on, a multiple of kLanes. Bits behind the last point are
+  // 0.
   unsigned Group(std::size_t first) const { return groups_[first / kLanes]; }
   void SetGroup(std::size_t first, unsigned seen) { groups_[first / kLanes] = static_cast<std::uint8_t>(seen); }
   void HideAll() { std::fill(groups_.begin(), groups_.end(), std::uint8_t{0}); }
@@ -57,10 +59,11 @@ class DiscField
 {
 public:
   // Takes the cylinders around an eye at height `eye` (m, in the space) that reach into the heights from `lowest` to
-  // `highest`, which hold 0, relative to the eye. They must stay until the last Look. `reach`: m, how far points
-  // usually lie. `at_themselves`: the points will be the origins of the cylinders, in their order, moved by one height.
+  // `highest`. These are relative to the eye and include 0. The cylinders must stay until the last Look. `reach` (m) is
+  // the usual distance of points. `at_themselves` means that the points are the cylinders' origins, in their order,
+  // moved by one height.
   void Sort(const NearBodies& discs, float eye, float lowest, float highest, float reach, bool at_themselves);
-  // Which of the points none of them hides; the heights of the points are within those given to Sort.
+  // Finds the points that no cylinder hides. The heights of the points must be within those given to Sort.
   void Look(const SightPoints& points, SeenPoints& seen);
 
 private:
@@ -70,7 +73,7 @@ private:
   static constexpr std::size_t kFew = 56;     // more than this are thinned out or split into sectors
   static constexpr std::size_t kBlock = 64;   // cylinders whose pairs are tested at once
 
-  // How the cylinders' heights go with those of the points.
+  // The relation of the cylinders' heights to those of the points.
   enum class Heights
   {
     kSpanning,  // all are as high and as low as every line
@@ -107,7 +110,7 @@ private:
     std::size_t count;
     IntLanes hidden;  // a bit for each line
   };
-  // What the owner of a point is.
+  // The owner of each point.
   enum class Owners
   {
     kSamePlaces,  // the cylinder at the same place

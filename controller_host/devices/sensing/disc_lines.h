@@ -6,8 +6,8 @@
 namespace swarmanoid
 {
 
-// The line from the eye to a point is as high as a cylinder from one place of it to another; the cylinder hides the
-// point where what is nearest between these places is within its circle.
+// The line from the eye to a point is within the height of a cylinder between two of its places. The cylinder hides the
+// point if the nearest place between them is within its circle.
 inline IntLanes Meets(FloatLanes circle_x, FloatLanes circle_y, FloatLanes square, FloatLanes x, FloatLanes y,
                       FloatLanes first, FloatLanes last)
 {

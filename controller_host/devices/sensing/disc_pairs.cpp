@@ -10,8 +10,8 @@ namespace swarmanoid
 namespace
 {
 
-// Of the masks of two cylinders all bits but those of their own places; from the middle on, by half the first place
-// from that of the first line on.
+// These masks clear the bits of two cylinders' own places. The first half is read for the cylinders' first place, and
+// the second half relative to the place of the first line.
 constexpr std::size_t kOwnMiddle = 32;
 constexpr auto kNotOwn = []
 {

@@ -1,5 +1,5 @@
-// Which entities live in a common physics engine: engines are closed worlds, and bodies of different worlds neither
-// touch nor hide one another. Used by the sensors of a controller host; fixed after construction.
+// The entities that share a physics engine. Engines are closed worlds: bodies of different engines neither touch nor
+// hide each other. Used by the sensors of a controller host; fixed after construction.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 namespace swarmanoid
 {
 
-// Whether the robots of an engine stay upright and at their height.
+// Returns whether the robots of an engine stay upright and at their height.
 bool IsPlane(const EngineConfiguration& engine);
 
 class EngineMembership
@@ -18,7 +18,7 @@ class EngineMembership
 public:
   explicit EngineMembership(const Experiment& experiment);
 
-  // True if some engine has both; never for an entity that is in no engine.
+  // Returns true if some engine has both; never for an entity that is in no engine.
   bool ShareEngine(std::uint32_t a, std::uint32_t b) const
   {
     return shared_[class_of_[a] * class_count_ + class_of_[b]] != 0;

@@ -1,5 +1,5 @@
-// The patches of the floor and the holes in it, as sensors see them: those that look straight down, and cameras. They
-// lie on one another in the order of the experiment file.
+// The patches of the floor and the holes in it, for downward sensors and cameras. Patches cover each other in the order
+// of the experiment file.
 #pragma once
 
 #include <memory>
@@ -21,16 +21,16 @@ struct FloorPatch
   std::uint32_t colour_slot;
   double half_x, half_y;  // m; discs: radius in half_x
   double radius;          // m, of the circle around it
-  Pose pose;              // set by who uses it
+  Pose pose;              // set by the user of the patch
   std::shared_ptr<const FloorPicture> picture;
 
-  // Of a point in its frame.
+  // Returns true if a point in its frame is within the patch.
   bool Contains(double x, double y) const
   {
     if (is_disc) return x * x + y * y <= half_x * half_x;
     return __builtin_fabs(x) <= half_x && __builtin_fabs(y) <= half_y;
   }
-  // At a point of it.
+  // Returns the colour at a point of the patch.
   std::uint32_t Colour(std::uint32_t tint, double x, double y) const
   {
     if (picture == nullptr) return tint;
@@ -38,7 +38,7 @@ struct FloorPatch
   }
 };
 
-// All of them, in the order of the file. Reads the pictures; throws ConfigurationError.
+// Returns all of them, in the order of the file. Reads the pictures; throws ConfigurationError.
 std::vector<FloorPatch> FloorPatchesOf(const CSwarmanoidSpace& space);
 
 }  // namespace swarmanoid

@@ -37,7 +37,7 @@ void MovedSince::Follow(WorkerPool* pool)
   const double furthest = std::sqrt(*std::max_element(furthest_.begin(), furthest_.end()));
   if (Holds() && furthest <= margin_ / 2 && std::ranges::equal(absent_, space_.Absent())) return;
 
-  // Somebody who was put elsewhere is no measure of their speed.
+  // A body that was put elsewhere says nothing about the speed of the bodies.
   if (Holds())
     margin_ = std::clamp(2 * kAim * std::min(furthest, margin_) / lifetime_.Age(), kLeastMargin, kMostMargin);
   const bool all_upright = std::isfinite(furthest);
@@ -50,7 +50,7 @@ double MovedSince::FurthestSquare(std::size_t begin, std::size_t end) const
   const PoseArrays& poses = space_.Poses();
   double furthest = 0, tilt = 0;
   std::size_t k = begin;
-  // Of bodies that follow one another, several at a time.
+  // Consecutive bodies are processed several at a time.
   if (begin < end && bodies_[end - 1] - bodies_[begin] == end - 1 - begin)
   {
     DoubleLanes furthest_of{}, tilt_of{};

@@ -1,6 +1,7 @@
-// How far the movable bodies have gone since a tick at which somebody looked who is near whom: as long as nobody went
-// further than half a margin, nobody is near who was not within that margin then (Verlet, "Computer experiments on
-// classical fluids", Physical Review 159, 1967). For sensors that look for the same neighbours in tick after tick.
+// MovedSince: how far the movable bodies have gone since the reference tick, at which neighbours were searched. While
+// no body has gone farther than half a margin, all neighbours are among those found within that margin (Verlet,
+// "Computer experiments on classical fluids", Physical Review 159, 1967). Used by sensors that look for the same
+// neighbours tick after tick.
 #pragma once
 
 #include <cstdint>
@@ -23,18 +24,18 @@ public:
 
   // Looks at the poses of the space, once for each of its revisions; in the threads of `pool`, if there is one.
   void Follow(WorkerPool* pool);
-  // Whether who is near may be told from what was then, now or later: all stand upright, and they are so slow that it
-  // pays.
+  // Returns true if neighbours may be taken from a search at the reference tick. All bodies must be upright, and so
+  // slow that it pays.
   bool Holds() const { return lifetime_.HasList(); }
-  // Whether then is now.
+  // Returns whether the reference tick is the present tick.
   bool IsNow() const { return is_now_; }
-  // A number for then: another one each time.
+  // Returns a number of the reference tick, which differs from all earlier ones.
   std::uint64_t Number() const { return number_; }
   // Two bodies have come nearer to each other by at most this since then, and to what stands by half of it, m.
   double Margin() const { return margin_; }
 
 private:
-  // The square of the furthest way, or infinity if somebody does not stand upright.
+  // Returns the square of the furthest way, or infinity if a body is not upright.
   double FurthestSquare(std::size_t begin, std::size_t end) const;
   void Begin();
 

@@ -142,7 +142,7 @@ NeighbourGrid::Facts NeighbourGrid::FindCells(std::size_t begin, std::size_t end
   const PoseArrays& poses = space_.Poses();
   Facts facts;
   std::size_t b = begin;
-  // Of upright bodies that follow one another, all of one shape, several at a time.
+  // Several consecutive upright bodies of one shape are processed at a time.
   if (shape_of_all_ != nullptr)
   {
     facts.largest = begin < end ? static_cast<float>(shape_of_all_->radius) : 0;
@@ -212,7 +212,7 @@ void NeighbourGrid::OutlineAlike(const BodyShape& shape, std::size_t begin, std:
 bool NeighbourGrid::OutlineEach(std::size_t begin, std::size_t end)
 {
   const PoseArrays& poses = space_.Poses();
-  // As the first of all, whatever thread has that one.
+  // The shape is that of the first body of all, in every thread.
   const BodyShape& shape_of_first = shapes_[entity_[0]];
   const float radius = CircleOf(poses, entity_[0], shape_of_first).radius;
   const auto low = static_cast<float>(poses.z[entity_[0]] + shape_of_first.low);
@@ -334,8 +334,7 @@ FixedBodies::FixedBodies(const CSwarmanoidSpace& space, const BodyShapes& shapes
   frame_ = FrameOver(extent, smallest_cell, fixed.empty() ? 1 : kCells);
   margin_ = MarginOf(extent);
 
-  // For each body the rectangle of cells around its bounding circle or box; in it, the cells whose centre is near
-  // enough.
+  // For each body, the cells in the rectangle around its bounding circle or box whose centre is near enough.
   const double edge = 1 / static_cast<double>(frame_.rows.inverse_edge);
   const double around = reach + static_cast<double>(margin_) + edge * 0.70711;
   const std::uint32_t last_column = frame_.columns.Count() - 1;

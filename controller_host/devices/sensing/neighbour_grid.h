@@ -1,13 +1,13 @@
-// Who is near: the bodies of a space on two flat grids in the xy plane, rebuilt from the pose arrays once a tick.
-// Movable bodies are counting-sorted by cell; the others are listed once in every cell that they come near. Searches
-// may report bodies that are a little too far (single precision with a margin); the exact test is the caller's. Steady
-// running allocates nothing.
+// NeighbourGrid: finds bodies near a position. The bodies of a space are on two flat grids in the xy plane, rebuilt
+// from the pose arrays once a tick. Movable bodies are counting-sorted by cell. The others are listed in every cell
+// that they come near. Searches may report bodies that are slightly too far (single precision with a margin), so the
+// caller must test exactly. In steady running it allocates nothing.
 //
-// GridIndex (common/space/index) is made from the same cells (common/math/cells.h), for other questions: it finds the
-// origins of all entities, exactly, in entity order, behind an interface that an oct-tree serves as well. What sensors
-// ask of theirs would cost it its speed or these promises: bodies by their outlines, eight at a time, in the order of
-// the cells so that neighbours stay in the cache. A search of 3 m among one body a square metre takes 80 ns here and
-// 620 ns there.
+// GridIndex (common/space/index) has the same cells (common/math/cells.h) for other questions. It finds the origins of
+// all entities, exactly and in entity order, behind an interface that an oct-tree implements too. Sensors need bodies
+// by their outlines, eight at a time, in the order of the cells, so that neighbours stay in the cache. One class for
+// both would lose speed or these promises. A search of 3 m among one body per square metre takes 80 ns here and 620 ns
+// with GridIndex.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@
 namespace swarmanoid
 {
 
-// Cells in single precision, and those along a way or around a point.
+// Cells in single precision, and the cells along a way or around a point.
 struct CellFrame : PlaneCells<float>
 {
   using PlaneCells::PlaneCells;
@@ -68,22 +68,22 @@ class NeighbourGrid
 public:
   NeighbourGrid(const CSwarmanoidSpace& space, const BodyShapes& shapes);
 
-  // Sorts the movable bodies that are in the arena from the poses of the space: those that wait outside it sense
-  // nothing and are not sensed. The threads of `pool`, if there is one, share the work.
+  // Sorts the movable bodies in the arena from the poses of the space. Bodies outside it sense nothing and are not
+  // sensed. The threads of `pool`, if it is given, share the work.
   void Rebuild(WorkerPool* pool = nullptr);
 
-  // Those that may ever be sorted: the movable entities with a body, ascending.
+  // Returns the bodies that may be sorted: the movable entities with a body, ascending.
   std::span<const std::uint32_t> Bodies() const { return bodies_; }
-  // The movable bodies in the order of their cells: entity indices.
+  // Returns the movable bodies in the order of their cells: entity indices.
   std::span<const std::uint32_t> Sorted() const { return {entity_.data(), count_}; }
 
-  // The middles of the circles around kLanes bodies, given by their places.
+  // Returns the middles of the circles around kLanes bodies, given by their places.
   std::pair<FloatLanes, FloatLanes> MiddlesAt(const std::int32_t* places) const
   {
     const IntLanes at = LoadLanes(places);
     return {Gathered(x_.data(), at), Gathered(y_.data(), at)};
   }
-  // Where the bodies are, in the same order, m in the space.
+  // Return the positions of the bodies in the same order (m in the space).
   const double* OriginX() const { return origin_x_.data(); }
   const double* OriginY() const { return origin_y_.data(); }
   const double* OriginZ() const { return origin_z_.data(); }
@@ -106,13 +106,13 @@ public:
   {
     ForEachPlaceNear(x, y, reach, [&](std::size_t place) { visit(entity_[place]); });
   }
-  // Likewise visit(place), in the order of Sorted().
+  // Calls visit(place) for the same bodies, in the order of Sorted().
   template <class Visit>
   void ForEachPlaceNear(double x, double y, double reach, Visit&& visit) const;
-  // What ForEachOtherNear takes: the cells around kLanes bodies, given by their places.
+  // Finds the cells around kLanes bodies, given by their places, for ForEachOtherNear.
   void FindWindows(const std::int32_t* places, double reach, CellWindows& windows) const;
-  // As ForEachPlaceNear around the body at a place, without itself. It must be upright; `windows` and `lane`: its
-  // cells, for this reach or more.
+  // Works as ForEachPlaceNear around the body at a place, without that body, which must be upright. `windows` and
+  // `lane` are its cells for this reach or more.
   template <class Visit>
   void ForEachOtherNear(std::size_t place, double reach, const CellWindows& windows, std::size_t lane,
                         Visit&& visit) const;
@@ -121,12 +121,12 @@ public:
   void ForEachSpanNear(double x, double y, double reach, Visit&& visit) const;
   // Fills `near` with these bodies, without `left_out`; it needs room for all.
   void CollectNear(double x, double y, double reach, std::uint32_t left_out, NearBodies& near) const;
-  // As ForEachNear for bodies whose circle comes near the segment between two points in the xy plane.
+  // Works as ForEachNear for bodies whose circle comes near the segment between two points in the xy plane.
   template <class Visit>
   void ForEachAlong(const Vector3& from, const Vector3& to, Visit&& visit) const;
 
 private:
-  // What is true of all bodies that a thread had.
+  // Properties of all bodies in the part of a thread.
   struct Facts
   {
     float largest = 0;
@@ -135,11 +135,11 @@ private:
     bool alike = true;
   };
 
-  // Of all bodies, by part(begin, end) of each thread.
+  // Combines part(begin, end) of all threads.
   template <class Part>
   Facts InAllParts(WorkerPool* pool, const Part& part);
-  // From `begin` to before `end`: the cells of bodies as they come; then where they are in the order of the cells, and
-  // their outlines there, of upright ones of one shape and of any.
+  // FindCells finds the cells of the bodies from `begin` to before `end`. Gather copies positions and outlines in the
+  // order of the cells; the outline functions do it for upright bodies of one shape and for any bodies.
   Facts FindCells(std::size_t begin, std::size_t end, std::uint32_t* cells) const;
   Facts Gather(std::size_t begin, std::size_t end);
   void OutlineAlike(const BodyShape& shape, std::size_t begin, std::size_t end);
@@ -152,7 +152,7 @@ private:
   const BodyShape* shape_of_all_ = nullptr;  // if the movable bodies have one, and it stays as it is
   CellFrame frame_;
   std::vector<std::uint32_t> bodies_;  // movable entities with a body, ascending
-  std::vector<std::uint32_t> here_;    // those of them that are in the arena, if some are not
+  std::vector<std::uint32_t> here_;    // the bodies in the arena, if some are outside
   std::size_t count_ = 0;
   float margin_ = 0;          // covers the rounding to single precision
   float largest_radius_ = 0;  // of this tick
@@ -164,7 +164,7 @@ private:
   CellSort sort_;
   std::span<const std::uint32_t> sorted_from_;  // bodies_ or here_
   std::vector<Facts> facts_;                    // of each thread
-  // By place in the sorted order, with far-away padding at the end.
+  // Values by place in the sorted order, with far-away padding at the end.
   std::vector<float> x_, y_, radius_, low_, high_;
   std::vector<double> origin_x_, origin_y_, origin_z_;
   std::vector<std::uint32_t> entity_;
@@ -182,7 +182,7 @@ public:
     return lists_.In(frame_.CellOf(static_cast<float>(x), static_cast<float>(y)));
   }
 
-  // Likewise of the cell of a point.
+  // Returns the bodies listed in the cell of a point.
   std::span<const std::uint32_t> InCell(std::int32_t cell) const { return lists_.In(static_cast<std::uint32_t>(cell)); }
   // The cells of kLanes points.
   void FindCells(const NeighbourGrid& grid, const std::int32_t* places, std::int32_t* cells) const;
@@ -198,7 +198,7 @@ public:
                               for (const std::uint32_t body : lists_.In(first, last)) visit(body);
                             });
   }
-  // Likewise for every body that comes near the square of half side `reach` around (x, y).
+  // Calls visit for every listed body that comes near the square of half side `reach` around (x, y).
   template <class Visit>
   void ForEachInSquare(double x, double y, double reach, Visit&& visit) const
   {

@@ -37,7 +37,8 @@ public:
       if (accept(placed.entity)) first = std::min(first, HitOf(placed, from, to));
     return first;
   }
-  // How far below a point (m) the highest ground of these terrains lies; nullopt if there is none.
+  // Returns the distance (m) from a point down to the highest ground of these terrains, or nullopt if no ground is
+  // below it.
   template <class Accept>
   std::optional<double> DepthOfGround(const Vector3& point, Accept&& accept) const
   {

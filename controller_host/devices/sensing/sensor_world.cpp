@@ -11,7 +11,7 @@ namespace swarmanoid
 namespace
 {
 
-// What is articulated is no cylinder to those who treat cylinders in short.
+// Articulated bodies must not be treated as simple cylinders.
 BodyShapes SensedBodies(const CSwarmanoidSpace& space, const CollisionModels& models)
 {
   BodyShapes bodies(space);

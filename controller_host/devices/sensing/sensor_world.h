@@ -24,23 +24,24 @@ class SensorWorld
 public:
   explicit SensorWorld(const CSwarmanoidSpace& space);
 
-  // The world of a space: the same object for all who ask while one of them holds it (shared: batches come and go).
+  // Returns the world of a space. It is one shared object as long as a batch holds it, since batches come and go.
   static std::shared_ptr<SensorWorld> Of(const CSwarmanoidSpace& space);
 
   // Brings the grid to the poses of the space, once for all batches of a step; in the threads of `pool`, if there is
   // one.
   void Refresh(WorkerPool* pool = nullptr);
 
-  // Whether a body has parts that reach beyond its shape (CollisionModels::Articulated): it is sensed part by part.
+  // Returns whether a body has parts that reach beyond its shape (CollisionModels::Articulated): it is sensed part by
+  // part.
   bool IsArticulated(std::uint32_t entity) const { return !parts_of_.empty() && parts_of_[entity] >= 0; }
-  // Whether some body is.
+  // Returns whether any body has such parts.
   bool HasArticulated() const { return !parts_.empty(); }
-  // The parts of such a body in the frame of its entity, as of the last Refresh.
+  // Returns the parts of such a body in the frame of its entity, as of the last Refresh.
   std::span<const CollisionBody> PartsOf(std::uint32_t entity) const
   {
     return parts_[static_cast<std::size_t>(parts_of_[entity])];
   }
-  // The fraction of the way from one point to another at which it meets a body; nullopt if it does not.
+  // Returns the fraction of the way from one point to another at which it meets a body; nullopt if it does not.
   std::optional<double> HitOn(std::uint32_t body, const Vector3& from, const Vector3& to) const
   {
     if (IsArticulated(body)) return SegmentHit(PartsOf(body), space_.GetPose(body), from, to);
@@ -51,7 +52,7 @@ public:
   // accept(entity) holds; more than 1 if it meets none.
   template <class Accept>
   double FirstHit(const Vector3& from, const Vector3& to, Accept&& accept) const;
-  // Likewise, with the entity that is met; of several that are met at once the first of the file.
+  // The first hit, with the entity that was met. If several are met at once, it is the first one of the file.
   struct Met
   {
     double part = 2;
@@ -59,8 +60,8 @@ public:
   };
   template <class Accept>
   Met FirstMet(const Vector3& from, const Vector3& to, Accept&& accept) const;
-  // Whether `body` can hide things from `observer`: they share an engine, or the body stands in the space without being
-  // part of any engine's world.
+  // Returns whether `body` can hide things from `observer`: they share an engine, or the body stands in the space
+  // without being part of any engine's world.
   bool CanHideFrom(std::uint32_t observer, std::uint32_t body) const
   {
     return membership_.ShareEngine(observer, body) ||
@@ -72,9 +73,9 @@ public:
   const BodyExtent& Extent(std::uint32_t entity) const { return bodies_[entity].extent; }
   const BodyShapes& Bodies() const { return bodies_; }
   const EngineMembership& Membership() const { return membership_; }
-  // As of the last Refresh.
+  // Returns the grid of the last Refresh.
   const NeighbourGrid& Grid() const { return grid_; }
-  // For who remembers who is near. Refresh does not follow it.
+  // Returns the movement of the bodies, for sensors that keep their neighbours. Refresh does not update it.
   MovedSince& Moved() { return moved_; }
   // StreamName of the id of each entity; made when first asked for. Valid as long as the world.
   std::span<const std::uint64_t> Names();
@@ -86,7 +87,7 @@ private:
   const CSwarmanoidSpace& space_;
   CollisionModels models_;
   std::vector<std::int32_t> parts_of_;             // of each entity its place in parts_, or -1; empty if none has parts
-  std::vector<std::vector<CollisionBody>> parts_;  // of those that are articulated
+  std::vector<std::vector<CollisionBody>> parts_;  // of the entities that are articulated
   BodyShapes bodies_;
   EngineMembership membership_;
   NeighbourGrid grid_;

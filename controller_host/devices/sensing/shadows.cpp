@@ -11,7 +11,7 @@ namespace swarmanoid
 namespace
 {
 
-// m: more than single precision rounds at such a distance.
+// The margin (m) is more than the rounding of single precision at this distance.
 float MarginAt(float distance) { return 2e-5F + 2e-6F * distance; }
 FloatLanes MarginAt(FloatLanes distance) { return 2e-5F + 2e-6F * distance; }
 
@@ -58,7 +58,7 @@ double DistanceToSide(const Vector2& from, const Vector2& to)
   return (from + part * side).norm();
 }
 
-// From the origin, to the nearest and to the farthest place of a polygon.
+// Returns the distances from the origin to the nearest and to the farthest point of a polygon.
 std::array<double, 2> Distances(const std::vector<Vector2>& corners)
 {
   double near = 1e300;
@@ -151,7 +151,7 @@ void FixedShadows::Add(const SensorWorld& world, std::uint32_t entity)
   std::vector<Vector2> outline;
   for (int corner = 0; corner < 4; ++corner)
   {
-    // Of others than upright boxes the square around them; a little wider than the rounding of directions.
+    // Bodies other than upright boxes get the square around them, slightly wider than the rounding of directions.
     const double wider = 1e-4 + 2e-6 * centre.norm();
     const double x = (is_box ? shape.half_size.x() : reach.radius) + wider;
     const double y = (is_box ? shape.half_size.y() : reach.radius) + wider;
@@ -274,7 +274,7 @@ void MovingShadows::Sort(const Vector3& source, double reach)
     const FloatLanes square = x * x + y * y;
     const FloatLanes distance = SquareRoot(square);
     const FloatLanes radius = LoadLanes(&body_radius_[group]) * 1.0001F + 2 * MarginAt(distance);
-    // The tangents, to both sides; who is nearer than that stands in all directions.
+    // The slopes of the tangents on both sides. A body that is nearer than this covers all directions.
     const IntLanes is_around = distance <= radius * 1.01F;
     const FloatLanes slope = radius / SquareRoot(is_around ? Everywhere(1.0F) : square - radius * radius);
     constexpr float kAside = 8e-6F;

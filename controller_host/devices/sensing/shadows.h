@@ -1,6 +1,7 @@
-// Who sees a source of light: the bodies around it sorted by direction and distance, movable ones once a tick, so that
-// for each robot only those are looked at that stand on its line of sight. The answers are those of
-// SensorWorld::FirstHit for each line. Used by the batches of light sensors. Steady running allocates nothing.
+// Shadows: finds the points that see a source of light. The bodies around the source are sorted by direction and
+// distance, movable ones once a tick, so that each robot is tested only with bodies on its line of sight. The answers
+// equal those of SensorWorld::FirstHit for each line. Used by the batches of light sensors. In steady running it
+// allocates nothing.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +14,8 @@
 namespace swarmanoid
 {
 
-// Directions around a source in the xy plane cut into sectors. They are told by y / (|x| + |y|) of each quadrant, which
-// grows with the angle and takes no arc tangent: 0 ... 4 is a turn.
+// The directions around a source in the xy plane, cut into sectors. A direction is y / (|x| + |y|) in each quadrant,
+// which grows with the angle and needs no arc tangent. A turn is 0 ... 4.
 class Sectors
 {
 public:
@@ -22,11 +23,11 @@ public:
 
   std::size_t Count() const { return static_cast<std::size_t>(count_); }
   static FloatLanes TurnOf(FloatLanes x, FloatLanes y);
-  // Not yet wrapped: a turn may lie a little beyond both ends.
+  // Returns sectors that are not wrapped: a turn may lie slightly beyond both ends.
   IntLanes Of(FloatLanes turn) const;
   int Last() const { return count_ - 1; }
   std::size_t Wrapped(int sector) const { return static_cast<std::size_t>(sector & (count_ - 1)); }
-  // A vector along the lower border of a sector.
+  // Returns a vector along the lower border of a sector.
   Vector2 Border(std::size_t sector) const;
 
 private:
@@ -49,7 +50,7 @@ class FixedShadows
 {
 public:
   void Place(const SensorWorld& world, const Vector3& source);
-  // Whether one of them hides the source from a point of `robot`, which is `length` m away in the xy plane.
+  // Returns whether one of them hides the source from a point of `robot`, which is `length` m away in the xy plane.
   bool Hide(const SensorWorld& world, std::uint32_t robot, const Vector3& point, std::size_t sector,
             float length) const;
   const Sectors& Directions() const { return sectors_; }
@@ -99,14 +100,14 @@ private:
 
   const SensorWorld& world_;
   bool share_engines_ = false;  // all movable bodies are in the same engines
-  bool are_exact_ = false;      // all are upright cylinders of one size that hide one another
+  bool are_exact_ = false;      // all are upright cylinders of one size that hide each other
   Vector3 source_ = Vector3::Zero();
   float reach_ = 0;           // m
   float low_ = 0, high_ = 0;  // m, from the source: of all bodies
   float largest_ = 0;         // m: radius
   Sectors sectors_{8};
   float rings_per_m_ = 0;
-  // By body, then by place in the order of the cells: a sector has kRings of them.
+  // Values by body, then by place in the order of the cells. A sector has kRings cells.
   std::vector<float> body_x_, body_y_, body_radius_;
   std::vector<std::uint32_t> cells_, members_;
   CellSort sort_;

@@ -151,7 +151,7 @@ void SightLines::CollectBodies()
               are_origins_ && discs == &near_);
 }
 
-// Whether an upright body around the eye is surely farther to one side than all points and the eye.
+// Returns whether an upright body around the eye is surely farther to one side than all points and the eye.
 bool SightLines::IsOutside(std::size_t near)
 {
   if (!has_outline_) FindOutline();
@@ -259,7 +259,7 @@ bool SightLines::HiddenByTerrain(std::size_t point) const
     return world_.CanHideFrom(observer_, terrain) ||
            (owner != kNobody && world_.Membership().ShareEngine(owner, terrain));
   };
-  // What lies on the ground, as spots of lasers, is not hidden by it.
+  // Points on the ground, such as laser spots, are not hidden by it.
   constexpr double kOnGround = 0.005;  // m
   const double length = way.norm();
   return world_.Terrain().FirstHit(eye_, eye_ + way, hides) * length < length - kOnGround;

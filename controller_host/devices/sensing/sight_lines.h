@@ -1,6 +1,6 @@
-// What an observer sees of some points: exact lines of sight against the bodies around and the terrain, many at a
-// time. They hide what lies behind them if they share an engine with the observer or with the owner of the point;
-// nobody hides himself.
+// SightLines: the points that an observer sees, by exact lines of sight against the bodies around and the terrain, many
+// at a time. A body hides points if it shares an engine with the observer or with the owner of the point. No body hides
+// its own points.
 #pragma once
 
 #include <span>
@@ -20,9 +20,11 @@ public:
   // `reach`: how far points usually lie from the eye in the xy plane, m.
   SightLines(const SensorWorld& world, double reach);
 
-  // Starts anew: an eye of `observer`, for points within `reach` m in the xy plane. The world must be refreshed.
+  // Starts a new search: an eye of `observer`, for points within `reach` m in the xy plane. The world must be
+  // refreshed.
   void LookFrom(std::uint32_t observer, const Vector3& eye, double reach);
-  // The movable bodies around the eye, without the observer: entity indices, and places in the order of the grid.
+  // Returns the movable bodies around the eye, without the observer: entity indices, and places in the order of the
+  // grid.
   std::span<const std::int32_t> AroundForTest() const { return {near_.entity.data(), near_.count}; }
   std::span<const std::int32_t> PlacesAround() const { return {near_.place.data(), near_.count}; }
   // A point by its offset from the eye; `owner`: the entity that it is part of, or kNobody.
@@ -35,12 +37,14 @@ public:
     points_.z[i] = static_cast<float>(offset.z());
     points_.owner[i] = static_cast<std::int32_t>(owner);
   }
-  // Instead of adding points: one on each movable body around the eye, in the order of PlacesAround(), at its origin
-  // moved by the height of the eye above the origin of the observer. For worlds without tilted bodies.
+  // Adds one point on each movable body around the eye, in the order of PlacesAround(), instead of AddPoint. The points
+  // are at the origins, moved by the height of the eye above the observer's origin. The world must have no tilted
+  // bodies.
   void LookAtBodiesAround();
   // If callers put many points at once.
   SightPoints& Points() { return points_; }
-  // For each point, in the order of AddPoint, whether it is seen. Valid until the next LookFrom.
+  // Returns for each point, in the order of AddPoint, whether it is visible. The result is valid until the next
+  // LookFrom.
   const SeenPoints& Solve();
 
 private:
@@ -78,7 +82,7 @@ private:
 
   NearBodies discs_;  // upright cylinders that hide things from the observer, if not all that are near do
   DiscField field_;
-  // Of the points and the eye.
+  // The bounds of the points and the eye.
   float lowest_ = 0, highest_ = 0;
   bool has_outline_ = false;
   float left_ = 0, right_ = 0, back_ = 0, front_ = 0;

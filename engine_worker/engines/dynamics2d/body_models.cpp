@@ -42,7 +42,7 @@ double AreaOf(const std::vector<Vector2>& polygon)
   return twice / 2;
 }
 
-// The moment of inertia about the origin of a polygon with even density, for each kilogram.
+// Returns the moment of inertia about the origin of a polygon with even density, for each kilogram.
 double UnitInertia(const std::vector<Vector2>& polygon)
 {
   double moment = 0;
@@ -55,7 +55,8 @@ double UnitInertia(const std::vector<Vector2>& polygon)
   return moment / 12 / AreaOf(polygon);
 }
 
-// The cut of a block at `at` by the plane, in the frame of its pose on the plane; empty where it does not reach it.
+// Returns the cut of a block at `at` by the plane, in the frame of its pose on the plane; empty where it does not reach
+// it.
 std::vector<Vector2> CutOf(const CSwarmanoidSpaceEntity& entity, const Pose& at, const PlaneFrame& plane)
 {
   std::vector<Vector2> outline = plane.CutBody(entity, at);
@@ -70,7 +71,7 @@ std::vector<Vector2> CutOf(const CSwarmanoidSpaceEntity& entity, const Pose& at,
   return outline;
 }
 
-// The least width of a convex polygon.
+// Returns the least width of a convex polygon.
 double WidthOf(const std::vector<Vector2>& polygon)
 {
   double width = std::numeric_limits<double>::infinity();
@@ -134,7 +135,8 @@ BodyModel MovableModel(const CSwarmanoidSpaceEntity& entity, EMotion motion, con
   else
   {
     if (size.x() < kSmallest_m || size.y() < kSmallest_m || size.z() < kSmallest_m) TooSmall(entity);
-    // An engine that is made anew in mid-run finds blocks elsewhere: those that it moves keep the outline of the start.
+    // An engine that is made again in mid-run finds blocks at other poses. Blocks that the engine moves keep the
+    // outline of the start.
     if (motion == EMotion::kDynamic && is_free_box)
       model.polygon = CutOf(entity, entity.GetConfiguration().pose, plane);
     else

@@ -20,7 +20,7 @@ struct FixedBody
   BodyModel model;
   PlanePose pose;
 };
-// The body of something fixed; nullopt where the plane does not cut it.
+// Returns the body of something fixed; nullopt where the plane does not cut it.
 std::optional<FixedBody> FixedModel(const CSwarmanoidSpaceEntity& entity, const PlaneFrame& plane,
                                     const Dynamics2dParameters& parameters);
 
@@ -31,7 +31,7 @@ BodyModel StaticModel(std::vector<Vector2> polygon, const Dynamics2dParameters& 
 // where the plane does not cut it or cuts less than the solver can hold.
 std::vector<Vector2> MirrorOutline(const CSwarmanoidSpaceEntity& entity, const PlaneFrame& plane);
 
-// True while a mirror's body reaches the plane.
+// Returns true while a mirror's body reaches the plane.
 bool ReachesPlane(const CSwarmanoidSpaceEntity& entity, const PlaneFrame& plane);
 
 }  // namespace swarmanoid::dynamics2d

@@ -92,7 +92,8 @@ void CDynamics2dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding
     }
     case EBinding::kOwned:
     {
-      // Where it began: an engine that is made anew in mid-run may find it lifted by a handbot.
+      // The check uses the start pose, since an engine that is made again in mid-run may find a block lifted by a
+      // handbot.
       if (IsFreeBox(entity.GetKind()) && plane_.CutBody(entity, entity.GetConfiguration().pose).empty())
         throw ConfigurationError(
             entity.GetConfiguration().location,
@@ -334,7 +335,8 @@ void CDynamics2dEngine::BeginAgain()
 {
   for (const Footbot& footbot : footbots_)
     world_->SetTurretAngle(footbot.body, space_->Attributes()[footbot.turret_slot]);
-  // What leans as at first does to the last bit, which what is computed from a pose does not.
+  // A stance computed from a pose is rounded. If it is nearly the first stance, it becomes the first one to the last
+  // bit.
   constexpr double kSame = 1e-12;
   for (Owned& owned : owned_)
     if (std::abs(owned.stance.height - owned.first_stance.height) < kSame &&

@@ -30,7 +30,7 @@ public:
   void BeginAgain() override;
   std::string StatusText() const override;
 
-  // For tests: gives an owned entity a velocity in the plane.
+  // Gives an owned entity a velocity in the plane, for tests.
   void SetVelocity(std::uint32_t entity, const dynamics2d::PlaneVelocity& velocity);
 
 private:
@@ -41,7 +41,7 @@ private:
     int body;
     PlaneStance stance, first_stance;
   };
-  // One that another engine moves.
+  // A body that another engine moves.
   struct Mirror
   {
     const CSwarmanoidSpaceEntity* entity;
@@ -57,7 +57,7 @@ private:
     double gripper = 0;        // command: 0 open … 1 closed
     double half_axle = 0;      // m
     std::uint32_t aperture_slot, gripped_slot, turret_slot;
-    // What the sensors sum up over the sub-steps of a tick.
+    // The values that the sensors add up over the substeps of a tick.
     double left_arc = 0, right_arc = 0;  // m
     dynamics2d::TurretLoad load;
     dynamics2d::PlaneVelocity velocity;  // at the start of the tick

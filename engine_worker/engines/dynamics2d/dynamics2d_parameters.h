@@ -20,7 +20,7 @@ struct Dynamics2dParameters
   double wheel_friction = 0.8;
   double ground_friction = 0.5;
   double density = 200;  // kg/m3
-  // kg, by the tag of the robot; others have the mass of their row, or the density.
+  // Mass in kg by the robot's tag. Other robots have the mass of their row in the table of kinds, or the density.
   std::map<std::string, double> robot_mass = {{"footbot", 1.6}, {"handbot", 3}, {"eyebot", 0.5}};
   double drive_force = 15;      // N
   double eyebot_force = 5;      // N

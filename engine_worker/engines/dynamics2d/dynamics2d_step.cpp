@@ -68,7 +68,7 @@ void Dynamics2dWorld::KeepRemainder(Body& body, const b2Vec2& before, double sec
   SetPosition(body, now.x + body.remainder_x, now.y + body.remainder_y, body.b2->GetAngle());
 }
 
-// Returns units a second, along the chord of the arc of a step of so many seconds.
+// Returns the velocity along the chord of the arc of a step of `seconds`, in units per second.
 PlaneVelocity Dynamics2dWorld::WantedVelocity(const Body& body, double seconds) const
 {
   const double turn = body.drive.turn * seconds;

@@ -24,7 +24,7 @@ enum class EMotion
   kStatic
 };
 
-// What a body is made of; fixed once it is in the world.
+// The properties of a body, fixed once it is in the world.
 struct BodyModel
 {
   EMotion motion = EMotion::kDynamic;
@@ -97,8 +97,8 @@ public:
   int AddBody(BodyModel model, const PlanePose& pose);
   void Build();
 
-  // Begins a tick of so many seconds: decides which bodies are isolated. Until it ends, bodies may not be placed,
-  // driven or gripped.
+  // Begins a tick of `seconds` and decides which bodies are isolated. Bodies must not be placed, driven or gripped
+  // before it ends.
   void BeginTick(double seconds);
   // Advances by `seconds`, a part of the tick.
   void Step(double seconds);
@@ -107,7 +107,7 @@ public:
 
   PlanePose PoseOf(int body) const;
   PlaneVelocity VelocityOf(int body) const;
-  // Grips stay: the caller also puts those bodies there that it grips or that grip it.
+  // Sets the pose of a body. Its grips stay, so the caller must also place the bodies that it grips or that grip it.
   void Place(int body, const PlanePose& pose);
   void SetVelocity(int body, const PlaneVelocity& velocity);
   // Another polygon for a body that has one; the old one stays if no corner is farther off than `tolerance` (m).
@@ -126,10 +126,10 @@ public:
   // The nearest body that the gripper touches and may take, or kNoBody. A structure must not become a loop.
   int FindGrippable(int body) const;
   void Grip(int body, int target);
-  // True if a grip of this body on the target would make a loop.
+  // Returns true if a grip of this body on the target would make a loop.
   bool WouldClose(int body, int target) const { return LeadsTo(target, body); }
   void Release(int body);
-  // Ends those grips of a body and on it for which `ends(body, gripped)` is true.
+  // Ends the grips of a body, and those on it, for which `ends(body, gripped)` returns true.
   template <class Ends>
   void ReleaseIf(int body, const Ends& ends)
   {
@@ -165,7 +165,8 @@ private:
   {
     BodyModel model;
     BodyState start{};  // while it is not in Box2D
-    // What Box2D's position lacks, decimetres: single precision would add to or take from the way of each step.
+    // The part of the position (decimetres) that Box2D's single precision cannot hold. Without it each step would lose
+    // or gain some of its way.
     double remainder_x = 0;
     double remainder_y = 0;
     bool solid = true;
@@ -233,12 +234,12 @@ private:
   SeparationTest isolation_;
   bool isolation_is_configured_ = false;
   double tick_ = 0;                      // seconds
-  std::vector<std::uint32_t> moving_;    // bodies that are not static, ascending: those that isolation_ knows
+  std::vector<std::uint32_t> moving_;    // bodies that are not static, ascending, as isolation_ has them
   std::vector<MovingOutline> outlines_;  // of them
   std::vector<Nearness> nearness_;       // of them
   std::vector<std::uint32_t> isolated_;  // bodies, ascending
   std::vector<std::uint32_t> solved_;    // dynamic ones that are in Box2D, ascending
-  std::vector<Way> ways_;                // of those
+  std::vector<Way> ways_;                // of the bodies in moving_
 };
 
 }  // namespace swarmanoid::dynamics2d

@@ -124,7 +124,7 @@ Dynamics2dWorld::Way Dynamics2dWorld::WayFrom(const Body& body, double metres)
   return {state.x, state.y, state.angle, (metres + kPushed) * kUnitsPerMetre};
 }
 
-// Sets the place of a body, and how far it gets by itself within so many seconds.
+// Sets the outline of a body at its position, and how far the body can move by itself within `seconds`.
 void Dynamics2dWorld::Outline(const Body& body, double seconds, MovingOutline& outline) const
 {
   const BodyModel& model = body.model;

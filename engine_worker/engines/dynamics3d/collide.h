@@ -1,5 +1,5 @@
-// Where two geoms touch: ODE's dCollide, and our own code where a body is to come to rest on several points at once:
-// convex hulls with all but terrain, parallel cylinders, cylinders on planes.
+// Collide: the contacts of two geoms. ODE's dCollide finds most of them. Our own code handles the pairs that must rest
+// on several points at once: convex hulls with all but terrain, parallel cylinders, cylinders on planes.
 #pragma once
 
 #include <ode/ode.h>
@@ -13,7 +13,7 @@
 namespace swarmanoid::dynamics3d
 {
 
-// A hull as ODE wants it, about its centre of mass; for the geoms made from it, whose Solid keeps it.
+// A hull in ODE's form, about its centre of mass. The Solid of each geom made from it must keep it alive.
 class HullShape
 {
 public:
@@ -33,7 +33,7 @@ private:
   std::vector<unsigned> faces_;
 };
 
-// As dCollide: the number of contacts, whose normals point into the first geom; at most as many as there is room for.
+// Works as dCollide: returns the number of contacts, at most the size of `contacts`. Normals point into the first geom.
 int Collide(dGeomID first, dGeomID second, std::span<dContactGeom> contacts);
 
 }  // namespace swarmanoid::dynamics3d

@@ -1,3 +1,11 @@
+// Problem: most robots on wheels touch only level ground, and the solver spends most of its time on them.
+//
+// Method: at the start of a tick, separation_test.h finds the bodies that can meet no other body before the tick ends.
+// The closed form of their drive (differential_drive.h) moves them. A body that may meet others is compared with these
+// in each step, and becomes solved when a gap gets small.
+//
+// Invariant: the set follows from the bodies at the start of the tick alone. If a solved body goes farther than the
+// search allowed for, the search is repeated.
 #include "engine_worker/engines/dynamics3d/contact_free_set.h"
 
 #include <algorithm>
@@ -11,11 +19,11 @@ namespace swarmanoid::dynamics3d
 namespace
 {
 
-// Whoever is nearer than this (m) at the end of a step is solved: robots lean by less.
+// Robots closer than this (m) at the end of a step are solved. The lean of a robot moves its outline by less.
 constexpr double kTouch = 3e-3;
 // Bodies may be pushed, or speed up, by so much more (m) than they move by themselves.
 constexpr double kPushed = 0.02;
-// Whoever goes faster than this (m/s) has everybody solved: cells for all that it may meet would hold too many.
+// If a body is faster than this (m/s), all bodies are solved: the cells that it may reach would hold too many.
 constexpr double kFastest = 2;
 constexpr double kArms = 0.2;     // m, by which robots without wheels may grow
 constexpr double kFarAway = 1e4;  // m
@@ -202,7 +210,7 @@ void ContactFreeSet::Search()
   for (std::size_t k = 0; k < bodies_.size(); ++k) bodies_[k].is_near = nearness_[k] == Nearness::kNear;
 }
 
-// Where a body is, and how far it gets by itself within so many seconds.
+// Sets the outline of a body at its position, and how far the body can move by itself within `seconds`.
 void ContactFreeSet::Outline(const Body& body, double seconds, MovingOutline& outline)
 {
   outline.present = true;
@@ -219,12 +227,12 @@ void ContactFreeSet::Outline(const Body& body, double seconds, MovingOutline& ou
   const std::array<double, 6> box = BoxOf(body);
   const dBodyID main = MainBodyOf(body);
   outline.whole = {(box[0] + box[1]) / 2, (box[2] + box[3]) / 2, body.radius, SpeedInPlane(main) * seconds};
-  // What flies over all robots, and cannot fall on one.
+  // A body above all robots is left out if it cannot fall onto one.
   const double falls = FallOf(main) * seconds - scene_.world.Settings().gravity.z() * seconds * seconds / 2;
   outline.present = box[4] - falls < top_ + kPushed;
 }
 
-// Whether somebody that the solver moves left, or leaves in the next step, what the search took him to need.
+// Returns true if a solved body has left, or leaves in the next step, the area that the search assumed for it.
 bool ContactFreeSet::IsSomebodyTooFar() const
 {
   for (std::size_t k = 0; k < bodies_.size(); ++k)
@@ -245,7 +253,7 @@ bool ContactFreeSet::IsTooFar(const Body& body, const MovingOutline& outline) co
   return FarthestCorner(box, whole.x, whole.y) + next > whole.radius + whole.way + kPushed;
 }
 
-// By how much a body comes nearer to others in a step at most, m.
+// Returns the largest distance (m) by which a body can come nearer to others in one step.
 double ContactFreeSet::LargestStep(const Body& body) const
 {
   if (body.robot != nullptr && body.robot->IsUpright()) return body.robot->LargestSpeed() * step_seconds_;
@@ -330,7 +338,7 @@ void ContactFreeSet::AdvanceTo(Body& body, int step) const
   body.advanced = step;
 }
 
-// Those who can meet nobody do all of their steps at once.
+// Robots near others advance step by step. All other free robots do their steps at once, in EndTick.
 void ContactFreeSet::AfterStep()
 {
   ++step_;

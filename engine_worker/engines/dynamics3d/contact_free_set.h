@@ -1,6 +1,7 @@
-// ContactFreeSet: which robots on wheels touch nothing but level ground, so that their closed form moves them and the
-// solver does not. Once a tick it is searched who can meet nobody until the tick ends; the others compare themselves
-// with those near them in each step. All follows from the bodies at the start of the tick. Owned by the engine.
+// ContactFreeSet: the robots on wheels that touch only level ground, so that a closed form moves them instead of the
+// solver. Once a tick it finds the robots that cannot meet another body before the tick ends. The other robots are
+// compared with bodies near them in each step. The result follows from the bodies at the start of the tick. Owned by
+// the engine.
 #pragma once
 
 #include <cstdint>
@@ -21,9 +22,9 @@ public:
   {
   }
 
-  // Where the ground is open.
+  // Adds an area without ground.
   void AddHole(StaticOutline outline) { holes_.push_back(std::move(outline)); }
-  // As the model was made, before it is placed: nothing may depend on where that is.
+  // Adds a model before it is placed, since nothing may depend on its position.
   void AddOwned(Model& model) { Add(model, true); }
   void AddMirror(Model& model) { Add(model, false); }
 
@@ -33,7 +34,7 @@ public:
   void AfterStep();
   void EndTick();
 
-  // In the last step.
+  // Returns the number of free robots in the last step.
   std::size_t Count() const;
 
 private:
@@ -44,7 +45,7 @@ private:
     bool owned = false;
     double radius = 0;         // m, around its middle, however it turns
     bool may_be_free = false;  // in this tick
-    bool is_near = false;      // somebody that it may meet in this tick
+    bool is_near = false;      // there is a body that it may meet in this tick
     bool touches = false;      // or nearly
     int advanced = 0;          // steps of this tick that the closed form has done
 

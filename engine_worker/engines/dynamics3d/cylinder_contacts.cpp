@@ -108,7 +108,7 @@ int CollideCylinderWithPlane(dGeomID geom, dGeomID plane_geom, std::span<dContac
     add(lower + down * (cylinder.radius / length));
     add(upper + down * (cylinder.radius / length));
   }
-  // A rim that lies flat bears on points that are fixed to it, so that it does not wobble.
+  // A rim that lies flat gets contacts at points fixed to the rim, so that it does not wobble.
   if (std::abs(along) > kFlat)
   {
     const dReal* r = dGeomGetRotation(geom);

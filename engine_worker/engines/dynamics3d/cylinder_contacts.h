@@ -9,10 +9,10 @@
 namespace swarmanoid::dynamics3d
 {
 
-// Two cylinders that stand side by side, such as the bodies of two robots: ODE leaves this pair to a general convex
-// algorithm that gives one contact at an arbitrary height, which tips robots over.
-// Fills up to two contacts, at the ends of the common height, for cylinders whose axes are parallel within 20 degrees.
-// Returns their number, or -1 if the cylinders stand otherwise (also one above the other) and ODE is to be asked.
+// Finds contacts of two cylinders that stand side by side, such as the bodies of two robots. ODE's general convex
+// algorithm would give one contact at an arbitrary height, which tips robots over. Fills up to two contacts at the ends
+// of the common height, if the axes are parallel within 20 degrees. Returns their number, or -1 for cylinders in other
+// positions (also one above the other), which ODE must handle.
 int CollideParallelCylinders(dGeomID a, dGeomID b, std::span<dContactGeom> contacts);
 
 // Contacts of a cylinder with a plane: where its rims are deepest, and four points of a rim that lies flat. Returns

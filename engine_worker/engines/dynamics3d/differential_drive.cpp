@@ -64,7 +64,7 @@ void DifferentialDrive::Accelerate(PlaneMotion& motion, const std::array<double,
     motion.rates = commands;
     return;
   }
-  // Each motor in turn gives what it can of what is left to do; the wheels hardly depend on one another.
+  // Each motor in turn gives as much as it can of the missing speed. The two wheels hardly depend on each other.
   const double determinant = own_ * own_ - other_ * other_;
   const auto gained = [&](std::size_t wheel)
   { return seconds * (own_ * torque[wheel] - other_ * torque[1 - wheel]) / determinant; };

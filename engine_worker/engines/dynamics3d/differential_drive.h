@@ -1,6 +1,6 @@
-// DifferentialDrive: how a robot on two driven wheels moves on level ground while nothing else touches it. What the
-// solver computes for its bodies, without the robot's pitch: in each step the wheels come as near to their commands as
-// their motors can bring robot and wheels, and the robot goes along an arc. Used by WheeledModel.
+// DifferentialDrive: the motion of a robot on two driven wheels on level ground without other contacts. It computes
+// what the solver would, without the robot's pitch. In each step the wheels come as near to their commands as the
+// motors allow, and the robot moves along an arc. Used by WheeledModel.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct DriveDescription
   double free_rate = 0;     // rad/s, of a wheel that needs no torque
 };
 
-// Where a robot is in the plane, and how fast its wheels turn.
+// The pose and speed of a robot in the plane, and the rates of its wheels.
 struct PlaneMotion
 {
   double x = 0, y = 0;
@@ -35,7 +35,8 @@ class DifferentialDrive
 public:
   explicit DifferentialDrive(const DriveDescription& description);
 
-  // Of a direct-current motor, N m: what is left of the stall torque or, braking, what comes on top of it.
+  // Returns the largest torque (N m) of a direct-current motor: the stall torque less the loss by speed, or more than
+  // it when braking.
   double LargestTorque(double command, double rate) const;
   void Advance(PlaneMotion& motion, const std::array<double, 2>& commands, int steps, double step_seconds) const;
 

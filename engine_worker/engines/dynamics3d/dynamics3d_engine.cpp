@@ -146,7 +146,7 @@ void CDynamics3dEngine::Start() { AddHoles(); }
 void CDynamics3dEngine::Update(const EngineCommands& commands, EngineUpdate& update, std::span<double> sensors)
 {
   for (MirrorModel* mirror : mirrors_) mirror->Follow();
-  // There may be no floor where entities wait that are not in the arena: they must not fall for ever.
+  // Entities outside the arena may have no floor below them, so they are placed again and cannot fall.
   for (Model* model : owned_)
     if (const std::uint32_t entity = model->GetSpaceEntity().GetIndex(); !space_->IsPresent(entity))
       model->Place(scene_->frame.ToLocal(space_->GetPose(entity)));

@@ -25,7 +25,7 @@ public:
   void EntityMoved(std::uint32_t entity) override;
   void SaveState(ByteWriter& state) const override;
   void LoadState(ByteReader& state) override;
-  // Nothing is hidden: contacts are made anew in each step, in an order that only the entities decide.
+  // The engine has no hidden state: each step makes all contacts again, in an order that follows from the entities.
   void Canonicalise() override {}
   bool IsAlwaysCanonical() const override { return true; }
   std::string StatusText() const override;
@@ -33,7 +33,7 @@ public:
   // Returns nullptr for entities without a body.
   const dynamics3d::Model* ModelForTest(std::uint32_t entity) const { return scene_->models[entity]; }
   dynamics3d::OdeWorld& WorldForTest() { return *world_; }
-  // Of the last step, robots that the solver did not move.
+  // Returns the number of robots that the solver did not move in the last step.
   std::size_t FreeRobotCount() const { return free_robots_ ? free_robots_->Count() : 0; }
 
 private:

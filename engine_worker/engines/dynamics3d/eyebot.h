@@ -1,5 +1,5 @@
-// The eyebot in 3D: one body that hovers by thrust along its own axis and turns by torques, under a controller that
-// follows velocity commands, and that can hang at the ceiling.
+// The eyebot in 3D: a single body that hovers by thrust along its own axis and turns by torques. A controller follows
+// velocity commands. The eyebot can also hang from the ceiling.
 #pragma once
 
 #include "engine_worker/engines/dynamics3d/model.h"
@@ -26,7 +26,7 @@ struct EyebotShape
 class EyebotModel : public Model
 {
 public:
-  // ceiling_m: height of the ceiling in the space; infinity for none.
+  // ceiling_m is the height of the ceiling in the space, or infinity if the arena has no ceiling.
   EyebotModel(Scene& scene, const CSwarmanoidSpaceEntity& entity, double ceiling_m);
 
   void Place(const Pose& pose) override;
@@ -37,7 +37,7 @@ public:
   void Save(ByteWriter& state) const override;
   void Load(ByteReader& state) override;
 
-  // The thrust of the last step in newton.
+  // Returns the thrust of the last step in newton.
   double ThrustForTest() const { return thrust_; }
 
 private:

@@ -98,7 +98,7 @@ void FootbotModel::BeforeStep(double seconds)
 void FootbotModel::AfterStep(double seconds)
 {
   WheeledModel::AfterStep(seconds);
-  // The turret follows what it holds, or its command.
+  // The turret turns with the gripped body, or by its command if the gripper is empty.
   const Link* link = gripper_.link();
   turret_angle_ += (link != nullptr ? link->HingeSpeed() : turret_command_) * seconds;
   if (link == nullptr) return;

@@ -1,5 +1,5 @@
-// The footbot in 3D: a wheeled robot with a turret and a gripper on it. The turret has no mass: its angle counts for
-// the gripper, whose joint it drives when something is held.
+// The footbot in 3D: a wheeled robot with a turret and a gripper on it. The turret has no mass. Its angle places the
+// gripper, and its motor drives the joint of a gripped body.
 #pragma once
 
 #include "engine_worker/engines/dynamics3d/grasp.h"
@@ -8,8 +8,9 @@
 namespace swarmanoid::dynamics3d
 {
 
-// Metres and kilograms. Radius, height, wheels: the ARGoS 3 model; total mass 1.6 kg as there. The height of the centre
-// of mass (batteries low in the base), the share and inertia of the wheels and the torques are assumptions of ours.
+// Metres and kilograms. Radius, height, wheels and the total mass of 1.6 kg are those of the ARGoS 3 model. The height
+// of the centre of mass (batteries low in the base), the share and inertia of the wheels, and the torques are our
+// assumptions.
 struct FootbotShape
 {
   static constexpr double kRadius = 0.085036758;
@@ -57,7 +58,7 @@ private:
   double turret_target_ = 0;  // rad: where the motor wants a loaded turret
   double aperture_ = 0;       // rad
   Grasp gripper_;
-  // Of the last tick.
+  // Values of the last tick.
   Vector3 velocity_at_start_ = Vector3::Zero();
   Vector3 grip_force_ = Vector3::Zero();
   double grip_torque_ = 0;

@@ -1,5 +1,5 @@
-// One gripper: a place on a body that takes hold of what it touches, and a motor (turret, wrist) that turns what it
-// holds. Used by the models of footbots and handbots.
+// Grasp: one gripper. It grips the body that it touches, at a point of its own body, and a motor (turret, wrist) turns
+// the gripped body. Used by the models of footbots and handbots.
 #pragma once
 
 #include <functional>
@@ -21,14 +21,14 @@ class Grasp
 public:
   Grasp(Scene& scene, const GraspGeometry& geometry) : scene_(scene), geometry_(geometry) {}
 
-  // Takes hold of what the tip touches, if the rules of the structural tree let it: no loops, but for what `also_held`
-  // (the robot's other hand) holds; nothing that another engine moves. Tip and axis in the frame of the engine.
+  // Grips the body that the tip touches, if the structural tree allows it: no loops, and no body of another engine.
+  // `other_hand` is the robot's other hand, which may hold the same body. Tip and axis are in the frame of the engine.
   void TryToHold(std::uint32_t robot, int body, const Vector3& tip, const Vector3& anchor, const Vector3& axis,
                  const Grasp* other_hand);
   void Release();
 
   bool IsHolding() const { return link() != nullptr; }
-  // The entity held, kNoEntity for none.
+  // Returns the entity held, kNoEntity for none.
   std::uint32_t Held() const;
   bool HoldsMovable() const;
   Link* link() { return scene_.links.Find(serial_); }

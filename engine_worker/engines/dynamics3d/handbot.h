@@ -1,5 +1,5 @@
-// The handbot in 3D: a trunk, a head that turns about the forward axis and has two arms, a hand on a wrist at the end
-// of each, a rope to the ceiling with a winch, and fans that keep the heading while the robot hangs on it.
+// The handbot in 3D: a trunk, a head that turns about the forward axis, and two arms on the head with a hand on a wrist
+// at the end of each. A rope to the ceiling has a winch, and fans keep the heading while the robot hangs on it.
 #pragma once
 
 #include "common/plugin_descriptions/robot_parts.h"
@@ -15,7 +15,8 @@ struct HandbotShape : HandbotParts
   static constexpr double kTrunkCentre = 0.06;
   static constexpr double kHeadMass = 0.3;
   static constexpr double kArmMass = 0.25;
-  // The geared motors add to what turns, times that of a plain box; less would sag under a book at few iterations.
+  // Geared motors multiply the inertia of the part that they turn, here relative to a plain box. With less, arms would
+  // sag under a book at few iterations.
   static constexpr double kHeadInertia = 10;
   static constexpr double kArmInertia = 4;
   static constexpr double kMass = kTrunkMass + kHeadMass + 2 * kArmMass;

@@ -15,8 +15,8 @@ namespace swarmanoid::dynamics3d
 namespace
 {
 
-// A face is taken for the axis of least overlap unless edges overlap less by this factor and length: what comes to rest
-// on a face does not change its mind.
+// A face is chosen as the axis of least overlap unless edges overlap less by this factor and length. So a body that
+// rests on a face keeps this axis.
 constexpr double kEdgeFactor = 0.95;
 constexpr double kEdgeMargin = 1e-5;  // m
 constexpr double kSameFace = 1e-6;    // m: the first body's face, if both overlap by as much
@@ -27,7 +27,7 @@ struct Touching
   double depth;
 };
 
-// What the thread works in.
+// The buffers of a thread.
 struct Workspace
 {
   Polytope a;
@@ -72,7 +72,7 @@ Parting ByFaces(const Polytope& of, const Polytope& other)
   return best;
 }
 
-// Whether the arcs from a to b and from c to d of the sphere of normals cross.
+// Returns whether the arcs from a to b and from c to d of the sphere of normals cross.
 bool ArcsCross(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d)
 {
   const Vector3 across_ab = b.cross(a);
@@ -116,7 +116,7 @@ Parting ByEdges(const Polytope& a, const Polytope& b)
   return best;
 }
 
-// The middle between two lines where they are nearest to one another.
+// Returns the middle of the shortest connection of two edges.
 Vector3 BetweenEdges(const Polytope& a, const Polytope& b, const Parting& parting)
 {
   const auto& edge_a = a.Topology().edges[parting.edge_a].corners;
@@ -149,7 +149,8 @@ void Clip(const std::vector<Vector3>& polygon, const Vector3& normal, double dis
   }
 }
 
-// Where the other body's face against it reaches below a face.
+// Finds the points at which the other body's opposite face reaches below a face: the face is clipped, and points above
+// it are dropped.
 void TouchFace(const Polytope& of, const Polytope& other, const Parting& parting, Workspace& work)
 {
   const ConvexHull& shape = of.Topology();
@@ -175,7 +176,7 @@ void TouchFace(const Polytope& of, const Polytope& other, const Parting& parting
   work.found.push_back({other.Corners()[deepest], -parting.separation});
 }
 
-// The deepest contact, then those farthest from the ones that are there already.
+// Keeps the deepest contact, then the contacts that are farthest from those already kept.
 void KeepFew(std::vector<Touching>& found, std::size_t room)
 {
   if (found.size() <= room) return;
@@ -324,7 +325,8 @@ int CollideWithBall(const Polytope& body, const Vector3& centre, double radius, 
   return Put(found, -normal, hull, other, contacts);
 }
 
-// As a row of balls, half a radius apart, of which the deepest at each half of it counts.
+// Treats the capsule as a row of balls, half a radius apart. The deepest ball in each half of the capsule gives a
+// contact.
 int CollideCapsule(const Polytope& body, dGeomID hull, dGeomID capsule, std::span<dContactGeom> contacts)
 {
   dReal radius = 0;
@@ -358,7 +360,7 @@ int CollidePlane(const Polytope& body, dGeomID hull, dGeomID plane_geom, std::sp
   return Put(found, normal, hull, plane_geom, contacts);
 }
 
-// Where it goes in; a ray that begins inside meets nothing.
+// Finds the point at which a ray enters the hull. A ray that begins inside has no contact.
 int CollideRay(const Polytope& body, dGeomID hull, dGeomID ray, std::span<dContactGeom> contacts)
 {
   dVector3 start;

@@ -1,5 +1,5 @@
-// Islands: entities that touch or hold one another, directly or through others (a union-find). Used by OdeWorld, which
-// solves each island with objects by itself.
+// Islands: sets of entities that touch or hold each other, directly or through others (a union-find). Used by OdeWorld,
+// which solves each island with objects by itself.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ public:
     const std::uint32_t y = Of(b);
     parents_[std::max(x, y)] = std::min(x, y);
   }
-  // The island of an entity: the smallest entity in it.
+  // Returns the island of an entity: the smallest entity in it.
   std::uint32_t Of(std::uint32_t entity)
   {
     while (parents_[entity] != entity) entity = parents_[entity] = parents_[parents_[entity]];

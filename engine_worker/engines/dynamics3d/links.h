@@ -1,5 +1,5 @@
-// LinkTable: the joints that come and go while the engine runs: grips, ropes, magnets. Each remembers the poses that
-// its bodies had when it was made, because a joint made anew from other poses would not be the same to the last bit.
+// LinkTable: the joints that come and go during a run: grips, ropes, magnets. Each joint remembers the poses of its
+// bodies when it was made. A joint that is made again from other poses would differ in the last bit.
 #pragma once
 
 #include <memory>
@@ -25,7 +25,7 @@ struct LinkSpec
   int body_b = -1;  // -1: the world
   std::uint32_t entity_a = kNoEntity;
   std::uint32_t entity_b = kNoEntity;
-  // At the time of creation, in the frame of the engine.
+  // Values at the time of creation, in the frame of the engine.
   double anchor[3] = {0, 0, 0};
   double axis[3] = {0, 0, 1};
   double other[3] = {0, 0, 0};
@@ -81,11 +81,12 @@ public:
   explicit LinkTable(OdeWorld& world) : world_(world) {}
 
   Link& Add(const LinkSpec& spec);
-  // nullptr if there is none (any more). 0 is never a serial.
+  // Returns the link, or nullptr if it does not exist or was removed. 0 is never a serial.
   Link* Find(std::uint32_t serial);
   const Link* Find(std::uint32_t serial) const;
   void Remove(std::uint32_t serial);
-  // Of the links of an entity, those for which `ends(spec)` is true. Whether it has others.
+  // Removes the links of an entity for which `ends(spec)` returns true. Returns true if other links of the entity
+  // remain.
   template <class Ends>
   bool RemoveIf(std::uint32_t entity, const Ends& ends)
   {
@@ -101,7 +102,7 @@ public:
     }
     return others;
   }
-  // Whether two entities hang together by links, the world not counted as a member.
+  // Returns whether two entities hang together by links, the world not counted as a member.
   bool AreConnected(std::uint32_t a, std::uint32_t b) const;
   // Marks the entities that have links.
   void Mark(std::vector<std::uint8_t>& has_links) const;

@@ -15,7 +15,7 @@ namespace swarmanoid::dynamics3d
 
 class Model;
 
-// Where the engine's frame stands in the space.
+// The position of the engine's frame in the space.
 class Frame
 {
 public:
@@ -32,7 +32,7 @@ private:
   Pose inverse_;
 };
 
-// What all models of an engine share. Owned by the engine, outlives them.
+// Objects that all models of an engine share. The engine owns it, and it outlives the models.
 struct Scene
 {
   OdeWorld& world;
@@ -47,7 +47,7 @@ struct Scene
   bool CanBeHeld(std::uint32_t entity) const;
 };
 
-// Writes attributes of one entity that differ from what the space has.
+// Writes the attributes of one entity that differ from those in the space.
 class AttributeReport
 {
 public:
@@ -71,7 +71,7 @@ public:
 
   // Puts all bodies at rest where the entity's own position and orientation say.
   virtual void Place(const Pose& pose);
-  // Puts all bodies there as they stand to one another, at rest.
+  // Moves all bodies rigidly so that the entity has this pose, at rest.
   void Carry(const Pose& pose);
   Pose CurrentPose() const;
   int MainBody() const { return bodies_.front().number; }
@@ -86,7 +86,7 @@ public:
   virtual void AfterStep(double /*seconds*/) {}
   virtual void Report(AttributeReport& /*report*/) const {}
 
-  // What the bodies and links do not hold.
+  // Saves the state of the model that is not in its bodies and links.
   virtual void Save(ByteWriter& /*state*/) const {}
   virtual void Load(ByteReader& /*state*/) {}
 
@@ -108,7 +108,7 @@ dMass CylinderMass(double mass, double radius, double height);  // axis z
 dMass BoxMass(double mass, const Vector3& size);
 dMass SphereMass(double mass, double radius);
 dMass HullMass(double mass, const ConvexHull& hull);
-// The same mass, its inertia times `factor`: what a geared motor adds to a part that it turns.
+// Returns the same mass, its inertia times `factor`: what a geared motor adds to a part that it turns.
 dMass Geared(dMass mass, double factor);
 
 }  // namespace swarmanoid::dynamics3d

@@ -19,7 +19,7 @@ bool IsCylinder(EntityKind kind) { return DescriptionOf(kind).form == BodyForm::
 
 bool StandsOnBase(EntityKind kind) { return DescriptionOf(kind).origin == BodyOrigin::kBase; }
 
-// What an entity of any kind collides as. `centre`: of its body, in the frame of the entity.
+// The collision shape of an entity of any kind. `centre` is that of its body, in the frame of the entity.
 struct Outline
 {
   dGeomID geom = nullptr;

@@ -16,16 +16,17 @@ constexpr double kCasterDamping = 0.05;  // s: N s/m per N/m
 // Slower than this a contact is taken to stick, and its friction works along the pull of gravity.
 constexpr double kSlip = 1e-3;  // m/s
 
-// Objects that overlap part by a fifth of it a step, but no faster than this or, from 7.5 mm on at steps of 5 ms, a
-// fiftieth a step: ODE makes the parting a speed that bodies keep, so that what should not bounce would. Robots press
-// on one another with few iterations, and need the fifth.
+// Overlapping objects separate by a fifth of the overlap in a step, limited by this speed. At steps of 5 ms the limit
+// applies to overlaps below 7.5 mm; deeper ones separate by a fiftieth. ODE turns this correction into a velocity that
+// bodies keep, so faster correction would make objects bounce. Robots are solved with few iterations and need the
+// fifth.
 constexpr double kPartingSpeed = 0.03;  // m/s
 constexpr double kLargestPart = 0.2;
 constexpr double kSmallestPart = 0.02;
 
 bool IsGround(const Solid& solid) { return solid.surface == ESurface::kGround || solid.surface == ESurface::kTerrain; }
 
-// Of two things, one of which may be the ground.
+// Returns the friction between two bodies, of which one may be the ground.
 double FrictionOf(const Solid& a, const Solid& b, double of_world)
 {
   if (IsGround(a)) return b.touch.ground_friction.value_or(of_world);

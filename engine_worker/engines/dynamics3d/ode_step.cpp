@@ -33,7 +33,8 @@ std::mutex& ShuffleMutex()
   return mutex;
 }
 
-// By the step alone, so that equal islands do the same wherever they are, and whoever else there is.
+// The seed depends on the step alone, so that equal islands get equal results wherever they are and whatever else
+// exists.
 unsigned long SeedOf(std::uint64_t step)
 {
   std::uint64_t x = step * 0x9e3779b97f4a7c15U;
@@ -81,7 +82,7 @@ void OdeWorld::Step(double seconds, std::uint64_t number)
   RestObjects(seconds);
 }
 
-// What sleeps has contacts only with what is awake, and is woken by them.
+// A sleeping object has contacts only with bodies that are awake, and such a contact wakes it.
 void OdeWorld::FindContacts()
 {
   contacts_.clear();
@@ -190,7 +191,7 @@ int OdeWorld::ObjectIterations(int objects) const
   return settings_.object_iterations * std::min(20 + objects, 80) / 20;
 }
 
-// Each by itself, so that it depends on nobody else.
+// Each island is solved by itself, so that its result depends on no other one.
 void OdeWorld::SolveObjectIslands(double seconds, std::uint64_t number)
 {
   if (island_bodies_.empty()) return;

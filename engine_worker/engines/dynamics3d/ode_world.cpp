@@ -252,7 +252,8 @@ RawPose RawPoseOf(dBodyID body)
 
 void SetRawPose(dBodyID body, const RawPose& pose)
 {
-  // dBodySetQuaternion would normalise again and change the last bits, so both go in through the pointers.
+  // dBodySetQuaternion would normalise again and change the last bits. So quaternion and rotation are written through
+  // the pointers.
   std::copy_n(pose.quaternion, 4, const_cast<dReal*>(dBodyGetQuaternion(body)));
   dRfromQ(const_cast<dReal*>(dBodyGetRotation(body)), pose.quaternion);
   dBodySetPosition(body, pose.position[0], pose.position[1], pose.position[2]);

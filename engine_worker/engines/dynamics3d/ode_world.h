@@ -40,7 +40,7 @@ enum class ESurface : std::uint8_t
   kTerrain  // ground too
 };
 
-// How an entity rubs and bounces; what is left open is as the world has it.
+// Friction and restitution of an entity. Values that are not set are those of the world.
 struct Touch
 {
   std::optional<double> friction;         // with others: the geometric mean of both
@@ -49,8 +49,8 @@ struct Touch
   double caster_stiffness = 0;            // N/m
 };
 
-// Who collides with whom. Static solids, mirrors included, never meet one another; wheels pass other robots (the wheel
-// stands within the outline of the chassis).
+// The layers decide which bodies can collide. Static solids, mirrors included, never collide with each other. Wheels do
+// not collide with other robots, since a wheel lies within the outline of its chassis.
 enum class ELayer : std::uint8_t
 {
   kStatic,
@@ -60,7 +60,7 @@ enum class ELayer : std::uint8_t
   kVoxels
 };
 
-// What a contact needs to know of a geom. Numbers are given in the order of creation.
+// The properties of a geom that contacts need. Solids are numbered in the order of creation.
 struct Solid
 {
   dGeomID geom = nullptr;
@@ -123,7 +123,8 @@ public:
   dWorldID World() const { return world_; }
   const WorldSettings& Settings() const { return settings_; }
 
-  // A body of that mass distribution, its centre of mass at the origin. The number counts from 0. Mirrors need no mass.
+  // Adds a body of that mass distribution, with its centre of mass at the origin, and returns its number, from 0 on.
+  // Mirrors need no mass.
   int AddBody(const BodyOwner& owner, const dMass& mass);
   std::size_t BodyCount() const { return bodies_.size(); }
   dBodyID Body(int number) const { return bodies_[static_cast<std::size_t>(number)].body; }
@@ -134,12 +135,12 @@ public:
   // The box around all solids of an entity that has bodies: least and largest x, y and z.
   std::array<double, 6> BoxOf(int body) const;
 
-  // Starts the set of solids of one entity; those of a set never collide with one another.
+  // Begins the solids of one entity. Solids of one entity never collide with each other.
   void BeginEntity(std::uint32_t entity, const Touch& touch = {});
   // Takes over a geom made with no space. body -1: it stands where it is.
   void AddSolid(dGeomID geom, int body, ELayer layer, ESurface surface = ESurface::kPlain,
                 const Pose& offset_in_body = {});
-  // What the geom of the solid that came last was made of.
+  // Keeps the shape from which the geom of the last solid was made.
   void KeepShape(std::shared_ptr<const HullShape> shape) { solids_.back()->shape = std::move(shape); }
   std::span<const std::unique_ptr<Solid>> Solids() const { return solids_; }
 
@@ -158,11 +159,11 @@ public:
   std::span<const int> Objects() const { return objects_; }  // numbers of bodies
   const Rest& RestOf(int body) const { return bodies_[static_cast<std::size_t>(body)].rest; }
   void SetRest(int body, const Rest& rest);
-  // What supported an object may be gone.
+  // Wakes all objects, since the support of a sleeping one may be gone.
   void WakeAll();
   std::size_t SleeperCount() const;
 
-  // The solid (of another entity, accepted by the filter) that reaches deepest into a sphere; nullptr for none.
+  // Returns the solid (of another entity, accepted by the filter) that reaches deepest into a sphere; nullptr for none.
   const Solid* FindTouching(const Vector3& centre, double radius, std::uint32_t but_not,
                             const std::function<bool(const Solid&)>& accept) const;
   // Distance to the first static solid along a unit vector; infinity for none within `range`.
@@ -240,12 +241,12 @@ private:
   std::vector<IgnoredPair> ignored_;
   std::function<bool(const Vector3&)> is_open_;
   double step_seconds_ = 0;
-  // Of the last step.
+  // Values of the last step.
   std::vector<Contact> contacts_;
   Islands islands_;
   std::vector<bool> has_object_;         // by island
   std::vector<Member> island_bodies_;    // of islands with objects
-  std::vector<Member> island_contacts_;  // likewise
+  std::vector<Member> island_contacts_;  // of islands with objects
   std::vector<bool> is_in_island_;       // by contact
 };
 
@@ -261,7 +262,7 @@ RawPose RawOf(const Pose& pose);
 inline Vector3 VectorOf(const dReal* v) { return {v[0], v[1], v[2]}; }
 Pose PoseOf(dBodyID body);
 Vector3 PointVelocity(dBodyID body, const Vector3& point);
-// Directions between the frame of a body and that of the engine.
+// These functions turn directions between the frame of a body and the frame of the engine.
 Vector3 VectorToWorld(dBodyID body, const Vector3& v);
 Vector3 VectorFromWorld(dBodyID body, const Vector3& v);
 void Stop(dBodyID body);

@@ -9,7 +9,7 @@ namespace swarmanoid::dynamics3d
 namespace
 {
 
-// Of sides 2: from -1 to 1.
+// Returns the box from -1 to 1 on each axis.
 const ConvexHull& UnitBox()
 {
   static const ConvexHull box = []

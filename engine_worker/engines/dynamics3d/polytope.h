@@ -21,11 +21,11 @@ public:
   const std::vector<Vector3>& Normals() const { return normals_; }
   const ConvexHull& Topology() const { return *topology_; }
   const Vector3& Centre() const { return centre_; }
-  // Of the plane of a face, from the origin along its normal.
+  // Returns the distance of the plane of a face from the origin, along the face's normal.
   double Distance(std::size_t face) const { return distances_[face]; }
   // The farthest distance of a corner along a direction, and which corner it is.
   double Reach(const Vector3& direction, std::size_t& corner) const;
-  // The face whose normal is most against a direction.
+  // Returns the face whose normal is most opposite to a direction.
   std::size_t FaceAgainst(const Vector3& direction) const;
 
 private:
@@ -40,7 +40,7 @@ private:
 
 inline constexpr std::size_t kPrismSides = 16;
 
-// The rotation of a geom.
+// Returns the rotation of a geom.
 Eigen::Matrix3d AxesOf(dGeomID geom);
 
 }  // namespace swarmanoid::dynamics3d

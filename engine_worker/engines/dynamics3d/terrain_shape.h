@@ -10,7 +10,7 @@
 namespace swarmanoid::dynamics3d
 {
 
-// What a terrain's solid needs as long as its world lives: keep it until after the world is gone.
+// The memory behind a terrain's solid. It must outlive the world.
 class TerrainShape
 {
 public:

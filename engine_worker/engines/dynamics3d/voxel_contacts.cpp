@@ -12,7 +12,8 @@ namespace
 
 using Cell = std::array<int, 3>;
 
-// A normal that leans to a face by more than 17 degrees, and one that is the face's to 8 degrees.
+// kFacing is the largest lean of a normal towards a face, 17 degrees. kLevel means that the normal is the face's to 8
+// degrees.
 constexpr double kFacing = 0.3;
 constexpr double kLevel = 0.99;
 
@@ -27,7 +28,7 @@ Vector3 LowCorner(const VoxelTerrain& terrain, const Cell& cell)
   return terrain.Low() + terrain.CellSize() * Vector3(cell[0], cell[1], cell[2]);
 }
 
-// Of a centre inside the cell.
+// Finds the contact for a centre inside the cell, through the nearest free face.
 bool FindWayOut(const VoxelTerrain& terrain, const Cell& cell, const Vector3& centre, double radius,
                 VoxelContact& contact)
 {

@@ -16,8 +16,8 @@ struct VoxelContact
   double depth = 0;                   // m, positive where the sphere reaches into the solid
 };
 
-// Appends the contacts cell by cell, but for those that a neighbouring cell covers: a plane made of cells has one
-// normal and no edges. A centre within the solid is led out through the nearest free face.
+// Appends the contacts cell by cell. Contacts that a neighbouring cell covers are left out, so a plane made of cells
+// has one normal and no edges. A centre within the solid is led out through the nearest free face.
 void FindVoxelContacts(const VoxelTerrain& terrain, const Vector3& centre, double radius,
                        std::vector<VoxelContact>& contacts);
 
@@ -28,12 +28,13 @@ struct CellBox
   std::array<int, 3> high;
 };
 
-// The cells that a box (m) reaches, and one more to each side, within the map; empty if it does not reach the map.
+// Returns the cells that a box (m) reaches, and one more to each side, within the map; empty if it does not reach the
+// map.
 CellBox CellsAround(const VoxelTerrain& terrain, const Vector3& low, const Vector3& high);
 // The occupied cells of a range as few boxes, none in two. `taken` is memory to work in.
 void MergeCells(const VoxelTerrain& terrain, const CellBox& range, std::vector<bool>& taken,
                 std::vector<CellBox>& boxes);
-// Whether a contact at a point of a box of cells presses against a face that a neighbouring cell covers.
+// Returns whether a contact at a point of a box of cells presses against a face that a neighbouring cell covers.
 bool IsCovered(const VoxelTerrain& terrain, const CellBox& box, const Vector3& point, const Vector3& normal);
 
 }  // namespace swarmanoid::dynamics3d

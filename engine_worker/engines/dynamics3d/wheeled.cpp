@@ -14,17 +14,18 @@ namespace
 
 constexpr double kGearedInertia = 10;  // of a wheel, times that of a sphere
 constexpr double kGravity = 9.81;      // m/s2
-// Of a robot's weight, what its wheels can count on: they carry 77 % of it, and are to grip when the motors stall. If
-// they spun, Coulomb's friction would be the same at any speed, and nobody could say which of two robots that push
-// each other gives way.
+// The part of a robot's weight that its wheels can rely on. They carry 77 %, and must not slip when the motors stall.
+// If they slipped, Coulomb's friction would be equal at any speed, and the outcome of two robots pushing each other
+// would be open.
 constexpr double kUsableWeight = 0.73;
-// Of the largest speed of a kind, where its motors have no torque left: at half of it they have most power.
+// The speed at which motors have no torque left, as a multiple of the kind's largest speed. Motors have most power at
+// half of it.
 constexpr double kFreeSpeed = 2;
 
 // Casters are soft enough to leave the weight to the wheels, and so stiff that stalled motors tilt the robot by that.
 constexpr double kStallTilt = 0.02;  // rad
 
-// What both motors may exert on the ground together, N. `grip`: of the wheels, m/s2.
+// Returns the force (N) that both motors together can exert on the ground. `grip` is that of the wheels, m/s2.
 double StallForce(const WheeledShape& shape, double grip)
 {
   return kUsableWeight * (shape.chassis_mass + 2 * shape.wheel_mass) * std::min(grip, kGravity);
@@ -91,7 +92,8 @@ DriveDescription DriveOf(const WheeledShape& shape, const WorldSettings& setting
 // Faster robots, which brake harder, are solved. Wheels swing beyond their commands by less than the twentieth.
 double LargestFreeSpeed(const WheeledShape& shape) { return 1.05 * shape.free_speed / kFreeSpeed; }
 
-// Whether the wheels neither slip nor are lifted on the tightest arc at that speed; if it `brakes`, as hard as it can.
+// Returns whether the wheels neither slip nor are lifted on the tightest arc at that speed; if it `brakes`, as hard as
+// it can.
 bool KeepsItsWheelsDown(const WheeledShape& shape, const WorldSettings& settings, bool brakes)
 {
   const DriveDescription drive = DriveOf(shape, settings);
@@ -121,7 +123,7 @@ double RadiusOf(const WheeledShape& shape)
   }
   else if (!shape.is_cylinder)
     square = shape.size.head<2>().squaredNorm() / 4;
-  // Wheels touch with their treads, whose edges may stand out.
+  // The treads of the wheels touch the ground, and their edges may stand out beyond the chassis.
   const double edge = shape.half_track + kWheelFlank * shape.wheel_radius;
   const double tread = std::sqrt(1 - kWheelFlank * kWheelFlank) * shape.wheel_radius;
   return std::sqrt(std::max(square, edge * edge + tread * tread));
@@ -134,7 +136,7 @@ double HighestOf(const ConvexHull& hull)
   return highest;
 }
 
-// What is left of a hull above a height.
+// Returns the part of a hull above a height.
 std::shared_ptr<const HullShape> Raised(const ConvexHull& hull, double height)
 {
   std::vector<Vector3> corners = hull.corners;

@@ -1,6 +1,6 @@
-// A robot on two driven wheels in 3D: a chassis with the wheels on it, and two casters. The footbot is one, with a
-// turret and a gripper; a user's kind with wheels is nothing more. Its bodies are moved by the solver or, while it is
-// free, by the closed form of its drive, which they follow when they are told.
+// A robot on two driven wheels in 3D: a chassis with the wheels on it, and two casters. The footbot adds a turret and a
+// gripper; a user's kind with wheels adds nothing. The solver moves its bodies. While the robot is free, the closed
+// form of its drive computes the motion, and MoveBodies copies it to the bodies.
 #pragma once
 
 #include <array>
@@ -29,7 +29,8 @@ struct WheeledShape
   double inertia_height = 0;
   double free_speed = 0;  // m/s of a wheel's rim, where the motor has no torque left
 
-  // What a row says, and the proportions of the footbot for what it does not. `density`: kg/m3, of one without a mass.
+  // Returns the shape that the row of the kind describes, with the proportions of the footbot for missing values.
+  // `density` (kg/m3) is used for a kind without a mass.
   static WheeledShape Of(const CSwarmanoidSpaceEntity& entity, double density);
 };
 
@@ -47,11 +48,12 @@ public:
   double Radius() const { return radius_; }  // m, of the upright robot about its vertical axis
   double Height() const { return height_; }  // m, of its highest point
   bool IsUpright() const;
-  // m/s, faster than which no part of its outline gets by itself.
+  // Returns the largest speed (m/s) that any part of the outline can reach by itself.
   double LargestSpeed() const;
   Vector2 GroundPoint() const;  // below its middle
 
-  // Whether the robot rolls on level ground as its wheels turn, so that the closed form goes on where the solver is.
+  // Returns whether the robot rolls on level ground as its wheels turn, so that the closed form goes on where the
+  // solver is.
   bool RollsFreely() const;
   bool IsFree() const { return is_free_; }
   void BecomeFree();
@@ -73,7 +75,7 @@ private:
   double radius_;
   double height_;
   double largest_free_rate_;  // rad/s, of the wheels of a free robot
-  bool brakes_freely_;        // as hard as it can; else only who keeps his speed is free
+  bool brakes_freely_;        // its wheels stay down at full braking; if false, only a steady robot is free
   DifferentialDrive drive_;
   dJointID axles_[2] = {nullptr, nullptr};        // left, right
   std::array<double, 2> wheel_command_ = {0, 0};  // rad/s

@@ -10,12 +10,13 @@ namespace
 {
 
 constexpr double kUprightCosine = 0.995;  // of 5.7 degrees
-// What rolls on level ground has no more than this of any other motion.
+// A robot that rolls on level ground stays within these limits for all other motions.
 constexpr double kFreeCosine = 1 - 1.8e-5;          // of 0.34 degrees
 constexpr double kLowest = -1e-3, kHighest = 2e-4;  // m, of the origin above the ground
 constexpr double kOtherSpeed = 3e-3;                // m/s
 constexpr double kOtherTurn = 0.03;                 // rad/s
-// Whoever would tip if he braked is free while his wheels turn within this part of their largest rate as they are told.
+// A robot that would tip when braking is free only while its wheel rates are within this part of the largest rate of
+// their commands.
 constexpr double kSteady = 0.02;
 
 double TiltCosine(dBodyID body) { return dBodyGetRotation(body)[10]; }
@@ -101,7 +102,7 @@ void WheeledModel::MoveBodies()
   motion_.half_cosine = 1;
   motion_.half_sine = 0;
   const Vector3 from = VectorOf(dBodyGetPosition(Chassis()));
-  // What stands keeps its bits.
+  // A robot that stands still keeps its pose to the last bit.
   const bool has_moved = turn_sine != 0 || motion_.x != from.x() || motion_.y != from.y();
   const Vector3 velocity = drive_.Speed(motion_) * Vector3(motion_.cosine, motion_.sine, 0);
   const double spin = drive_.Turn(motion_);

@@ -188,7 +188,7 @@ void BroadPhase::FindPairs(double margin, std::span<const std::uint32_t> blocks,
 
 void BroadPhase::SweepBlock(float reach, std::uint32_t block, std::vector<Pair>& pairs) const
 {
-  // Most searches find nobody or one. Those that do are noted without a branch, and only then taken apart.
+  // Most searches find at most one body. Those with a find are recorded without a branch, and evaluated afterwards.
   struct Finds
   {
     std::uint32_t body, from, hits;

@@ -50,7 +50,7 @@ struct PlaneGrid
   // Makes cells for bodies with circles of these radii around them. Bodies may leave `area`; many of them far outside
   // only cost time.
   static PlaneGrid For(const Bounds& area, std::span<const double> radii, double largest_margin);
-  // Whether Configure can take it.
+  // Returns whether Configure can take it.
   bool IsSound() const;
 };
 
@@ -74,7 +74,7 @@ public:
   void Sort(const PoseStore& poses, std::span<const std::uint8_t> present, WorkerPool* pool = nullptr);
   const PlaneCells<double>& Cells() const { return cells_; }
   std::uint32_t BlockCount() const { return block_columns_ * block_rows_; }
-  // The numbers of all blocks, ascending.
+  // Returns the numbers of all blocks, ascending.
   std::span<const std::uint32_t> Blocks() const { return blocks_; }
   std::uint32_t BlockColumns() const { return block_columns_; }
   // Calls act(first, last) with the first and the last cell of each row of a block.
@@ -87,7 +87,7 @@ public:
     ForEachRowOf(block, [&](std::uint32_t first, std::uint32_t last)
                  { std::fill(of_cells.begin() + first, of_cells.begin() + last + 1, value); });
   }
-  // Whether a body of this radius is too big for the cells.
+  // Returns whether a body of this radius is too big for the cells.
   bool IsLarge(double radius) const { return radius > grid_.largest_radius; }
   // The bodies that are too big, ascending.
   std::span<const std::uint32_t> Large() const { return large_; }
@@ -104,7 +104,7 @@ public:
   // After Sort: bodies whose circles are less than `margin` apart, and bodies with the static shapes near them, block
   // by block in the order of their cells. Large bodies are left out.
   void FindPairs(double margin, std::span<const std::uint32_t> blocks, PairList& found) const;
-  // Whether FindPairs finds this pair when bodies are there: `reach` is that of its margin.
+  // Returns whether FindPairs finds this pair when bodies are there: `reach` is that of its margin.
   bool IsNear(const Pair& pair, float reach, const PoseStore& poses) const
   {
     const auto x = static_cast<float>(poses.x[pair.first]);

@@ -115,7 +115,7 @@ public:
   void Solve(std::span<const std::vector<ContactBlock>> colours, std::span<const double> mobility, double tolerance,
              double most, std::vector<double>& x, std::vector<double>& y, WorkerPool* pool, Border* border = nullptr);
 
-  // Whether the last Solve moved it.
+  // Returns whether the last Solve moved it.
   bool IsPushed(std::uint32_t leader) const { return last_push_[leader] != 0; }
   // Calls act(leader) for each leader that the last Solve moved, in the threads of `pool` if there is one.
   template <class Act>

@@ -23,7 +23,7 @@ namespace
 constexpr std::size_t kPairsAhead = 12;
 constexpr std::size_t kLeastBodies = 512;  // below, handing parts over to threads takes longer
 
-// The part of an overlap that came from approaching, along the direction that parts the bodies.
+// Returns the part of an overlap that came from approaching, along the direction that parts the bodies.
 double BounceOf(const Touch& touch, double dx, double dy, const PoseStore& before, std::uint32_t i, std::uint32_t j)
 {
   const double length = touch.reach - touch.depth;
@@ -54,7 +54,7 @@ void AddContacts(const PlaneState& plane, PairBatch& batch, ContactList& contact
         double dy = a.y - b.y;
         if (i != first || j != second)
         {
-          // From the difference of the leaders to that of the bodies.
+          // The shift turns the difference of the leaders into the difference of the bodies.
           const PoseStore& now = bodies.now;
           const double shift_x = dx - (now.x[i] - now.x[j]);
           const double shift_y = dy - (now.y[i] - now.y[j]);
@@ -75,7 +75,7 @@ void AddContacts(const PlaneState& plane, PairBatch& batch, ContactList& contact
   batch.Clear();
 }
 
-// Whether two bodies, or a body and a static shape, are near enough for the exact test.
+// Returns whether two bodies, or a body and a static shape, are near enough for the exact test.
 bool CanTouch(const PlaneState& plane, const Pair& pair, const Placed& first, const Placed& second, bool each_is_free)
 {
   if (!plane.bodies.IsStatic(pair.second))

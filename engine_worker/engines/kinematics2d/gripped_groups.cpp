@@ -81,7 +81,7 @@ void Groups::Rebuild(const Bodies& bodies)
 const Grip* Groups::FindGrip(std::uint32_t body) const
 {
   if (leader[body] == body) return nullptr;
-  // Its leader is what it holds.
+  // The leader of a gripped body is the body that it holds.
   const auto found = std::lower_bound(grips.begin(), grips.end(), Grip{body, leader[body], {}}, IsBefore);
   return found == grips.end() || found->body != body ? nullptr : &*found;
 }

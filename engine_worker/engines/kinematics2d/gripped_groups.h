@@ -43,7 +43,7 @@ struct Groups
       act(std::span<const Grip>(&grips[starts[g]], starts[g + 1] - starts[g]));
   }
 
-  // Of a body or a static shape.
+  // Returns the leader of a body or a static shape.
   std::uint32_t LeaderOf(std::uint32_t body) const
   {
     return leader[std::min(body, static_cast<std::uint32_t>(leader.size() - 1))];

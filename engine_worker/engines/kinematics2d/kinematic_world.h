@@ -76,7 +76,7 @@ public:
   double TurretAngle(std::uint32_t body) const { return plane_.bodies.turret_angle[body]; }
   const CollisionModel& ModelOf(std::uint32_t body) const { return plane_.bodies.ModelOf(body); }
   Placed PlacedAt(std::uint32_t body) const { return plane_.bodies.PlacedNow(body); }
-  // The deepest overlap of two bodies, or of a body and the static shapes.
+  // Returns the deepest overlap of two bodies, or of a body and the static shapes.
   double OverlapForTest(std::uint32_t a, std::uint32_t b) const;
   double StaticOverlapForTest(std::uint32_t body) const;
   // The arc that the body's centre drove forward (m) and its turn (rad) in the last Advance, collisions included.
@@ -95,7 +95,8 @@ public:
   std::uint32_t BlockColumns() const { return plane_.contacts.broad.BlockColumns(); }
   std::uint32_t BlockCount() const { return plane_.contacts.broad.BlockCount(); }
   std::vector<std::uint32_t> BodiesInBlocks() const;
-  // region_of_block[k] has block k, from the next Advance on. Throws std::runtime_error for what is no cut.
+  // Sets new cuts: region_of_block[k] has block k, from the next Advance on. Throws std::runtime_error for invalid
+  // cuts.
   void MoveCuts(std::span<const std::uint8_t> region_of_block);
 
   // The state has poses, turrets and grips. Twists and followers' goals are commands and not part of it.

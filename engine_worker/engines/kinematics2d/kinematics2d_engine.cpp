@@ -38,7 +38,7 @@ bool IsPrey(const CSwarmanoidSpaceEntity& entity)
   return kind.role == EntityRole::kObject && kind.form == BodyForm::kCylinder && kind.grippable;
 }
 
-// The area of the plane that the arena covers.
+// Returns the area of the plane that the arena covers.
 Bounds AreaOf(const PlaneFrame& frame, const Vector3& arena)
 {
   Bounds area{1e300, 1e300, -1e300, -1e300};

@@ -57,8 +57,8 @@ private:
   std::uint32_t BodyOf(std::uint32_t entity) const;
   kinematics2d::Pose2 PlanePoseOf(const Pose& pose) const;
   kinematics2d::CollisionModel ModelOf(const CSwarmanoidSpaceEntity& entity) const;
-  // The outline in which the plane cuts a block, in the frame of the block's plane pose; without polygons if it does
-  // not.
+  // Returns the outline in which the plane cuts a block, in the frame of the block's plane pose; without polygons if it
+  // does not.
   kinematics2d::CollisionModel Outline(const CSwarmanoidSpaceEntity& block, const Pose& at) const;
 
   bool Hold(std::uint32_t robot, std::uint32_t object) override;

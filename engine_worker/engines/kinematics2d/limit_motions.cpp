@@ -72,13 +72,13 @@ void LimitWay(Bodies& bodies, std::uint32_t leader, double most)
   now.y[leader] = before.y[leader] + part * dy;
 }
 
-// The way (m) of a member about its prey.
+// Returns the way (m) of a member about its prey.
 double ArcOf(const PlaneState& plane, const Grip& grip, double seconds)
 {
   return std::fabs(plane.TurnOf(grip.prey, seconds)) * grip.Arm();
 }
 
-// Whether the circles around two bodies overlap where they are now.
+// Returns whether the circles around two bodies overlap where they are now.
 bool CirclesMeet(const Bodies& bodies, const Pair& pair)
 {
   const double dx = bodies.now.x[pair.first] - bodies.now.x[pair.second];
@@ -121,7 +121,7 @@ void FindOverlapsOf(PlaneState& plane, std::span<const Pair> pairs, std::atomic<
   look();
 }
 
-// Whether the circles around two bodies can come to overlap, each on a part of its way.
+// Returns whether the circles around two bodies can come to overlap, each on a part of its way.
 bool CanMeet(const PlaneState& plane, const Pair& pair)
 {
   const auto [a, b] = pair;

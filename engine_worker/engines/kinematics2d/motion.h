@@ -36,7 +36,7 @@ inline Rotor Conjugate(Rotor r) { return {-r.z, r.w}; }
 inline double CosOf(Rotor r) { return r.w * r.w - r.z * r.z; }
 inline double SinOf(Rotor r) { return 2 * r.z * r.w; }
 Pose2 Compose(const Pose2& frame, const Pose2& local);
-// The pose of `inner` in the frame of `outer`.
+// Returns the pose of `inner` in the frame of `outer`.
 Pose2 Relative(const Pose2& outer, const Pose2& inner);
 // Where a body at this twist is after `seconds`.
 Pose2 Advanced(const Pose2& pose, const Twist& twist, double seconds);

@@ -7,7 +7,8 @@ namespace swarmanoid::kinematics2d
 namespace
 {
 
-// A row of robots that touch one another and drive on needs as many rounds as its allowed overlap goes into its way.
+// A row of robots that touch each other and drive on needs about as many rounds as its way divided by its allowed
+// overlap.
 constexpr int kMostRounds = 64;
 // Parts that rise by less change nothing that can be seen.
 constexpr double kLeastRise = 1e-3;

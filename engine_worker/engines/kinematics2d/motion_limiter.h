@@ -78,7 +78,7 @@ public:
   void Raise();
 
   double PartOf(std::uint32_t motion) const { return part_[place_[motion]]; }
-  // The leaders with a limited motion, after Raise; each once.
+  // Returns the leaders with a limited motion, after Raise; each once.
   const std::vector<std::uint32_t>& Limited() const { return limited_; }
 
 private:

@@ -128,7 +128,7 @@ private:
   void PolygonWithPolygon(std::size_t p, std::size_t q);
   static Faces SeparationAlong(const Polygon& faces, const Polygon& other, const Axes& faces_axes,
                                const Axes& other_axes, Points between);
-  // Those that are not too shallow. Parts are numbered from the circles on.
+  // Adds the touches that are not too shallow. Parts are numbered from the circles on.
   void Add(const Touches& touches);
 
   std::size_t count_ = 0;
@@ -142,7 +142,7 @@ private:
   LongLanes kept_;  // of each lane: the finds that count, one bit each
 };
 
-// The deepest overlap in metres; 0 if there is none.
+// Returns the deepest overlap in metres, or 0 if the bodies do not overlap.
 double Overlap(const Placed& a, const Placed& b);
 
 }  // namespace swarmanoid::kinematics2d

@@ -135,7 +135,8 @@ private:
   }
 };
 
-// The radius of the core of an outline: of a circle about the origin that it fills, but not less than a part of all.
+// Returns the radius of the core of an outline: of a circle about the origin that it fills, but not less than a part of
+// all.
 double CoreOf(const CollisionModel& outline);
 
 }  // namespace swarmanoid::kinematics2d

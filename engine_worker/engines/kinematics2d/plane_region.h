@@ -20,7 +20,7 @@ public:
   // It speaks to the others by `exchange`, which outlives it. Throws std::runtime_error if there is no such region.
   PlaneRegion(unsigned region, RegionExchange& exchange, unsigned halo = kHalo);
   ~PlaneRegion() override;
-  // Throws std::runtime_error for what is no task.
+  // Executes a task and writes its result. Throws std::runtime_error for a malformed task.
   void Work(std::span<const char> task, ByteWriter& result) override;
   // The number of bodies that it holds.
   std::size_t BodyCount() const;

@@ -45,7 +45,7 @@ struct Contacts
   BroadPhase broad;
   VerletList verlet_list;
   bool is_listed = false;               // the Verlet list has the pairs of this substep
-  std::vector<std::uint32_t> blocks;    // those that are computed here, ascending
+  std::vector<std::uint32_t> blocks;    // the blocks that this process computes, ascending
   std::vector<ContactBlock> of_blocks;  // one for each of them
   std::vector<Part> parts;              // one for each thread, then one for bodies too large for the cells
   std::vector<ContactBlock> of_large;   // one for each part of the pairs of large bodies
@@ -101,7 +101,7 @@ struct PlaneState
   WorkerPool* Pool() const { return IfItShares(pool); }
   // Each body leads itself and can be pushed.
   bool EachIsFree() const { return groups.grips.empty() && bodies.followers.empty(); }
-  // The angle that a leader wants to turn by.
+  // Returns the angle that a leader wants to turn by.
   double TurnOf(std::uint32_t leader, double seconds) const { return groups.Twists(bodies).turn[leader] * seconds; }
   // Calls act(k) for each of the Contacts::parts that has blocks, each in a thread of its own.
   template <class Act>

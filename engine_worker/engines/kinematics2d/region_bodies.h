@@ -74,7 +74,7 @@ public:
   bool IsOwn(std::uint32_t body) const { return is_own_[body] != 0; }
   // Throws std::runtime_error for a body that the region does not own.
   std::uint32_t FindOwn(std::uint32_t number_in_whole) const;
-  // The bodies that it owns, ascending. Valid until the next call.
+  // Returns the bodies that it owns, ascending. Valid until the next call.
   std::span<const std::uint32_t> ListOwn();
   // The bodies that this region and another one hold, ascending.
   std::span<const std::uint32_t> Common(unsigned region) const { return common_[region]; }
@@ -105,7 +105,7 @@ private:
   unsigned halo_;
   RegionMail mail_;
 
-  // Of each cell.
+  // Values of each cell.
   std::vector<std::uint8_t> owner_;
   std::vector<Regions> holders_;
   std::vector<std::uint8_t> inner_;  // this region alone holds the bodies in it
@@ -113,7 +113,7 @@ private:
 
   bool is_shared_out_ = false;
   double way_ = 0;  // m: no body has gone further since the bodies were shared out
-  // Of each body that is held.
+  // Values of each body that is held.
   std::vector<std::uint32_t> numbers_;  // in the whole plane, ascending
   std::vector<std::uint8_t> is_own_;
   std::vector<std::uint8_t> is_everywhere_;  // all regions hold it

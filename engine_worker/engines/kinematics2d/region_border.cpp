@@ -18,7 +18,7 @@ namespace swarmanoid::kinematics2d
 namespace
 {
 
-// The motion of another leader: number_of(leader) instead of its own.
+// Returns the motion of another leader: number_of(leader) instead of its own.
 template <class NumberOf>
 std::uint32_t Renamed(std::uint32_t motion, const NumberOf& number_of)
 {

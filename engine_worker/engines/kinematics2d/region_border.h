@@ -21,9 +21,9 @@ public:
 
   // Each number becomes the largest one of all regions.
   void ShareMaxima(std::initializer_list<double*> numbers);
-  // Leaves those of the pairs of large bodies that this region computes, each as a part of its own.
+  // Keeps only the pairs of large bodies that this region computes, each as a part of its own.
   void ChoosePairsOfLarge();
-  // The contacts of groups and of large bodies of all regions take the place of those of this one.
+  // Replaces this region's contacts of groups and large bodies by those of all regions.
   void ShareContacts();
   bool OverlapsAnywhere() const { return overlaps_anywhere_; }
   bool AfterColour(Stamp begin, bool moved) override;
@@ -82,7 +82,7 @@ private:
   bool overlaps_anywhere_ = false;
   std::vector<Order> order_of_large_;  // of each pair of Contacts::PairsOfLarge
   std::vector<SharedContact> shared_contacts_;
-  // Of each leader in a shared contact, by number in the whole plane; one more for static shapes.
+  // Values of each leader in a shared contact, by number in the whole plane. Static shapes have one more entry.
   std::vector<std::uint32_t> shared_numbers_;
   std::vector<std::uint32_t> shared_bodies_;  // kNobody if the region does not hold it
   std::vector<double> shared_x_, shared_y_, shared_mobility_;

@@ -79,7 +79,7 @@ private:
       const Part slice =
           upright ? Part{cut, part.bottom, cut + 1, part.top} : Part{part.left, cut, part.right, cut + 1};
       const std::uint64_t with = before + LoadIn(slice) * count;
-      // Where it comes nearest to what is wanted.
+      // The cut is put where the sum is nearest to the wanted one.
       if (before >= wanted || (with > wanted && with - wanted > wanted - before)) break;
       before = with;
     }

@@ -88,12 +88,12 @@ void PutBody(const Bodies& bodies, std::uint32_t body, std::uint32_t number, Byt
 BodyMessage GetBody(const Bodies& bodies, ByteReader& message);
 
 void PutModel(const CollisionModel& model, ByteWriter& message);
-// Throws std::runtime_error for what is no model.
+// Reads a model. Throws std::runtime_error for malformed data.
 CollisionModel GetModel(ByteReader& message);
 
 // Throws std::runtime_error: an engine and its regions, or two regions, do not fit together.
 [[noreturn]] void RefuseRegion(const char* reason);
-// Throws std::runtime_error for what is no cut of the plane into so many regions.
+// Throws std::runtime_error if the cuts do not fit the plane and the number of regions.
 void CheckCuts(const BroadPhase& broad, std::span<const std::uint8_t> region_of_block, unsigned regions);
 
 }  // namespace swarmanoid::kinematics2d

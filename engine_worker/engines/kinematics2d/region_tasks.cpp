@@ -22,7 +22,7 @@ namespace
 constexpr std::uint8_t kNoRegion = 0xff;
 constexpr std::size_t kPieceOfPlan = 1 << 19;  // bytes
 
-// What stays as it is while a region knows all, or is replaced by name.
+// Returns the part of the plane that stays unchanged while a region has its state, or that is replaced by name.
 ByteWriter PlanOf(const PlaneState& plane)
 {
   const Bodies& bodies = plane.bodies;

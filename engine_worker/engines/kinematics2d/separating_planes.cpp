@@ -27,7 +27,7 @@ struct Extent
   double turn_rate;
 };
 
-// How far a part reaches along (x, y) from its body, and how much further, at most, for each part of its turn.
+// Returns how far a part reaches along (x, y) from its body, and how much further, at most, for each part of its turn.
 Extent ExtentAlong(const MovingPart& side, double x, double y)
 {
   double at_start = -1e300;
@@ -80,7 +80,7 @@ SeparatingPlane PlaneAlong(const MovingPart& first, const MovingPart& second, do
   return plane;
 }
 
-// Of `shortest`, along (x, y), and of the planes with other normals, the one that leaves most.
+// Returns the plane that leaves most room, among `shortest`, along (x, y), and planes with other normals.
 SeparatingPlane BestPlane(const MovingPart& first, const MovingPart& second, double x, double y,
                           const SeparatingPlane& shortest, double allowed)
 {

@@ -28,7 +28,7 @@ struct MovingPart
   double from_x = 0, from_y = 0;              // from the leader to the body
   double centre_way_x = 0, centre_way_y = 0;  // the way of the part's centre by turning, in first order
 
-  // nullptr if the part is a circle.
+  // Returns nullptr if the part is a circle.
   const Polygon* OwnPolygon() const
   {
     const auto circles = static_cast<std::size_t>(model->circles);
@@ -46,7 +46,8 @@ struct SeparatingPlane
   std::array<Approach, 4> approaches;
 };
 
-// The plane that suits two near parts best. `touch`: where they are nearest; `allowed`: the overlap (m) left alone.
+// Returns the plane that suits two near parts best. `touch`: where they are nearest; `allowed`: the overlap (m) left
+// alone.
 SeparatingPlane PlaneBetween(const MovingPart& first, const MovingPart& second, const Touch& touch, double allowed);
 
 }  // namespace swarmanoid::kinematics2d

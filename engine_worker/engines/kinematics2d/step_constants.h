@@ -8,7 +8,7 @@ namespace swarmanoid::kinematics2d
 // In one substep a body goes at most this part of its core's radius: two that meet head-on cannot pass through each
 // other.
 inline constexpr double kWayInCore = 0.5;
-// Of a core's radius against the median one, and against the body's own bounding radius.
+// The radius of a core relative to the median one (widest), and relative to the body's own bounding radius (thinnest).
 inline constexpr double kWidestCore = 3;
 inline constexpr double kThinnestCore = 0.1;
 inline constexpr int kMostSubsteps = 1024;
@@ -16,7 +16,7 @@ inline constexpr int kMostSubsteps = 1024;
 inline constexpr double kSlowestSeparation = 0.0025;
 // Outlines nearer than this (metres) are contacts: pushing one may close the gap.
 inline constexpr double kContactMargin = 0.02;
-// Of one pair, those contacts count that are at most this much (metres) less deep than its deepest one.
+// A pair keeps the contacts that are at most this much (metres) less deep than its deepest one.
 inline constexpr double kTouchesApart = 0.01;
 // Overlap that is left alone, as a part of the smallest core's radius; the solver aims at a quarter of it.
 inline constexpr double kAllowedOverlap = 0.004;

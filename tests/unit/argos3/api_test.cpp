@@ -141,7 +141,7 @@ TEST(Argos3Api, RandomNumbersHaveTheirMomentsAndRepeat)
   EXPECT_NE(random.Uniform(CRange<Real>(0, 1)), next);
   EXPECT_THROW(CRandom::CreateRNG("argos"), CARGoSException) << "nobody speaks whose numbers they would be";
   EXPECT_THROW(CRandom::CreateRNG("mine"), CARGoSException);
-  // Of a program, by the seed that it gives.
+  // Draws numbers as a program with this seed does.
   const auto drawn = [](UInt32 seed)
   {
     CRandom::CreateCategory("mine", seed);

@@ -1,4 +1,4 @@
-// What ARGoS3's utilities have besides mathematics: colours, bytes, options, statistics, sockets.
+// ARGoS3's utilities other than mathematics: colours, bytes, options, statistics, sockets.
 #include <argos3/core/utility/configuration/command_line_arg_parser.h>
 #include <argos3/core/utility/configuration/memento.h>
 #include <argos3/core/utility/datatypes/any.h>

@@ -20,7 +20,7 @@ class RandomWalk : public testing::Test
 protected:
   RandomWalk() { robot_.AddActuator("footbot_wheels", &wheels_); }
 
-  // What the wheels are told at each of some ticks.
+  // Returns the wheel commands at each of some ticks.
   std::vector<Wheels> Walk(CBTFootbotRandomWalk& walk, std::uint64_t from, std::uint64_t to)
   {
     std::vector<Wheels> told;

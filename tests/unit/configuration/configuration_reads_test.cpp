@@ -1,4 +1,4 @@
-// What nobody asked for in a configuration tree is found, wherever it stands.
+// Values of a configuration tree that were never read are found, at any place.
 #include "common/configuration/configuration_reads.h"
 
 #include <gtest/gtest.h>

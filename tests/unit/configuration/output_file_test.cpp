@@ -123,7 +123,7 @@ TEST_F(OutputFileTest, AFolderThatOthersCanWriteOrOwnIsNoFolderForARun)
   EXPECT_EQ(OutputFolderMistake(run + "/none"), "");
   ASSERT_EQ(chmod(run.c_str(), 0777), 0);
   EXPECT_THAT(OutputFolderMistake(run), HasSubstr("all users can write there"));
-  // Nobody can remove files of others there.
+  // The sticky bit keeps users from removing files of other users.
   ASSERT_EQ(chmod(run.c_str(), 01777), 0);
   EXPECT_EQ(OutputFolderMistake(run), "");
   // Root has to give a folder away; others have some that are root's.

@@ -223,7 +223,7 @@ bool RestIsBlank(const std::string& text, const TextSpan& span, const TextSpan& 
   return rest.find_first_not_of(" \t\r\n") == std::string::npos && std::ranges::count(rest, '\n') <= 1;
 }
 
-// What the value of a parameter reads as: blanks at both ends are not part of it, and an element is what it was.
+// Blanks at both ends are not part of a parameter's value, and other elements stay unchanged.
 TEST(XmlEdit, ChangesNothingElseInRandomDocuments)
 {
   int edits_made = 0, beside_comments = 0;

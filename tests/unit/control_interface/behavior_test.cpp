@@ -1,4 +1,4 @@
-// What behaviours mean: sensors are read once, later behaviours override earlier ones, copies are independent.
+// The rules of behaviours: sensors are read once, later behaviours override earlier ones, copies are independent.
 #include <gmock/gmock.h>
 
 #include "common/control_interface/behavior/ci_behavior_controller.h"

@@ -1,4 +1,4 @@
-// What robot states wrap beyond wheels and proximity: snapshots that copies keep, and values that are written once.
+// The parts of robot states other than wheels and proximity: copies keep their snapshot, and values are written once.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

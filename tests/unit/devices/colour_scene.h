@@ -1,4 +1,4 @@
-// What colour cameras see of a world of tests.
+// ColourScene: the blobs that colour cameras see in a test world.
 #pragma once
 
 #include "common/control_interface/ci_colour_blob_sensor.h"

@@ -1,4 +1,4 @@
-// What controllers command is checked by their host: a value that is no number is a mistake of the controller.
+// A controller host checks the commands of its controllers: NaN is a mistake of the controller.
 #include <gmock/gmock.h>
 
 #include <functional>
@@ -39,7 +39,7 @@ public:
 
 REGISTER_CONTROLLER(Commander, "commands_test")
 
-// An actuator of one's own that sets an attribute of somebody.
+// An actuator of a user that sets an attribute of some entity.
 class Painter : public ActuatorBatch
 {
 public:
@@ -71,7 +71,7 @@ Experiment TwoRobots(EntityKind kind, const std::vector<std::pair<std::string, s
   return experiment;
 }
 
-// What is told if the second one of these robots does `command` at tick 5.
+// Returns the error message if the second robot does `command` at tick 5.
 std::string Mistake(EntityKind kind, const std::vector<std::pair<std::string, std::string>>& actuators,
                     const std::function<void(CCI_Robot& robot)>& command)
 {

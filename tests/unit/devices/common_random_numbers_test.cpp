@@ -1,4 +1,4 @@
-// Noise belongs to the pair that it is about: who else is there, and what else they do, changes none of it.
+// The noise of a pair depends on the pair alone. Other entities and their actions do not change it.
 #include <map>
 
 #include "common/control_interface/ci_colour.h"
@@ -194,7 +194,7 @@ TEST(CommonRandomNumbers, AThirdRobotOfAnotherColourChangesNoSliceOfThePie)
   }
 }
 
-// Who is told a quantity more about a packet is told the others as before.
+// Adding one quantity to a packet does not change the noise of the others.
 TEST(CommonRandomNumbers, NoiseOnOneQuantityChangesNoOther)
 {
   const auto bearing = [](const TestParameters& more)

@@ -1,4 +1,4 @@
-// What controllers log has the robot and the tick beside it.
+// Log lines of controllers have the robot and the tick.
 #include <gmock/gmock.h>
 
 #include "common/control_interface/ci_controller.h"

@@ -28,7 +28,7 @@ struct Scene
   bool at_themselves = false;
 };
 
-// Crowds and single cylinders, beside one another or one in another, at the eye and far away.
+// Makes crowds and single cylinders, beside each other or overlapping, at the eye and far away.
 Scene MakeScene(RandomStream& random, std::size_t count, Heights heights, bool at_themselves)
 {
   Scene scene;

@@ -1,4 +1,4 @@
-// What ground sensors read from a picture on the floor, against the pixels that the test has painted.
+// The readings of ground sensors on a picture on the floor equal the pixels that the test has painted.
 #include <png.h>
 #include <unistd.h>
 

@@ -78,7 +78,7 @@ TEST(FootbotProximity, SeesAWallAheadAtTheDistanceOfEachRay)
   for (unsigned i = 6; i < 18; ++i) EXPECT_EQ(readings[i], 0);
 }
 
-// Of a wall whose ends are out of reach only the side is looked at; of one that just does not get there, all of it.
+// If the ends of a wall are out of reach, only its side is tested. If an end is just within reach, the whole wall is.
 TEST(FootbotProximity, ALongWallReadsBitForBitAsABoxThatEndsWhereTheRaysDo)
 {
   constexpr double kReach = kBody + 0.1;
@@ -239,7 +239,7 @@ TEST(FootbotProximity, FollowsTheRobotsAndForgetsWhatIsGone)
   for (const double reading : ReadingsOf(sensor, 0)) EXPECT_EQ(reading, 0);
 }
 
-// Who is near is found out now and then and remembered; a new sensor looks for itself.
+// Neighbours are searched from time to time and kept; a new sensor searches by itself.
 TEST(FootbotProximity, WhoIsRememberedIsWhoIsNear)
 {
   for (const double step : {0.002, 0.005, 0.02, 0.1})
@@ -266,7 +266,7 @@ TEST(FootbotProximity, WhoIsRememberedIsWhoIsNear)
         pose.position += Vector3(random.Uniform(-step, step), random.Uniform(-step, step), 0);
         world.Space().SetPose(k, pose);
       }
-      // Somebody is put elsewhere; somebody falls over, lies for some ticks and gets up.
+      // One robot is put elsewhere. Another one falls over, lies for some ticks and gets up.
       if (tick % 17 == 0) world.Space().SetPose(5, {{2.8, random.Uniform(0.3, 2.7), 0}, Quaternion::Identity()});
       if (tick == 30) world.Space().SetPose(7, {{1, 1, 0}, Quaternion(Eigen::AngleAxisd(0.3, Vector3::UnitX()))});
       if (tick == 40) world.Space().SetPose(7, {{1, 1, 0}, Quaternion::Identity()});
@@ -286,7 +286,7 @@ TEST(FootbotProximity, WhoIsRememberedIsWhoIsNear)
   }
 }
 
-// Readings lie side by side in the order in which they were made, whoever they are of.
+// Readings are stored side by side in the order of their computation, for all robots.
 TEST(FootbotProximity, OfManyThatSeeEachHasItsOwn)
 {
   TestWorld world;
@@ -294,7 +294,7 @@ TEST(FootbotProximity, OfManyThatSeeEachHasItsOwn)
   std::vector<std::uint32_t> robots;
   for (std::uint32_t n = 0; n < kPairs; ++n)
   {
-    // From the far end on, so that the order of places is not that of numbers; nearer and nearer to one another.
+    // The robots begin at the far end, so the order of places is not that of numbers. The gaps get smaller.
     const double x = 9.5 - 0.45 * (n % 20);
     const double y = 9.5 - 0.45 * (n / 20);
     const double gap = 0.175 + 0.09 * n / kPairs;

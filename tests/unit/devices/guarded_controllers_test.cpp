@@ -161,7 +161,7 @@ TEST_F(GuardedControllers, OneThatIsStoppedCommandsNothingAndIsDark)
     EXPECT_THAT(commands.values, ElementsAre(0, 0, Gt(0), Gt(0))) << tick;
     EXPECT_THAT(run.Leds(0), Each(0));
     EXPECT_THAT(run.Leds(1), Each(0xff0000));
-    // Somebody else switches one on.
+    // The test switches an LED on from outside.
     if (tick == 4) run.space.SetAttribute(run.space.GetEntity(0).SlotOf("led", 3), 0xff);
     run.Tick(tick);
     EXPECT_TRUE(commands.faults.robots.empty());
@@ -262,14 +262,14 @@ TEST_F(GuardedControllers, WhatIsKnownOfATickIsNotMeasured)
   {
     if (tick < 3) Spin(60);
   };
-  // Of that tick.
+  // The faults of that tick are known.
   Hosted run(OnFailure::kStopRobot, 30);
   run.host.KnowTick(0, {});
   EXPECT_TRUE(run.Tick(0).faults.robots.empty());
   run.host.KnowTick(1, {{1}, {FaultKind::kTooSlow}});
   EXPECT_EQ(run.Tick(1).faults, (ControllerFaults{{1}, {FaultKind::kTooSlow}}));
   EXPECT_EQ(run.Tick(2).faults, (ControllerFaults{{0}, {FaultKind::kTooSlow}}));  // measured
-  // Of all until then.
+  // The faults of all ticks until then are known.
   Hosted other(OnFailure::kStopRobot, 30);
   other.host.Know({2, {{1, 1, FaultKind::kTooSlow}}});
   EXPECT_TRUE(other.Tick(0).faults.robots.empty());

@@ -94,7 +94,7 @@ TEST(LateCommands, AreThoseThatWouldHaveActedATickBefore)
 
 TEST(LateCommands, AreSaved)
 {
-  // As after the steps that light the LEDs and that fail.
+  // The checkpoints are after the step that lights the LEDs and after the step that fails.
   for (const std::uint64_t ticks : {2U, 4U})
   {
     Hosted whole(1), restored(1);

@@ -127,7 +127,7 @@ TEST(LongMessages, EachLengthArrivesWhole)
     ASSERT_EQ(receiver.GetAllPackets().size(), 1U);
     EXPECT_EQ(BytesOf(receiver, receiver.GetAllPackets()[0]), message);
 
-    // Of two senders each has its own; what is shorter than the one before ends with zeros.
+    // Two senders have messages of their own. A shorter message than the one before ends with zeros.
     std::vector<std::uint8_t> shorter = Numbered(7, 100);
     first.SetBytes(shorter);
     const auto other = Numbered(static_cast<std::size_t>(bytes), 200);
@@ -183,7 +183,7 @@ TEST(LongMessages, TheFileGivesTenToTenThousandBytes)
   EXPECT_NE(mistakes("10001").find("from 10 to 10000"), std::string::npos) << mistakes("10001");
 }
 
-// What no five bytes are does not enter the state, in the further slots either.
+// Values that are not five bytes do not enter the state, in the further slots either.
 TEST(LongMessages, NumbersThatAreNoBytesAreNamedWithTheirElement)
 {
   TestWorld world;

@@ -100,7 +100,7 @@ TEST(Battery, KeepsItsChargeOutsideTheArena)
   EXPECT_NEAR(step(true, 3, 2), 0.499, 1e-12);
 }
 
-// What remembers goes on from a saved state as if there had been no break.
+// Sensors with a memory continue from a saved state without a difference.
 TEST(MotionSensors, GoOnFromASavedState)
 {
   for (const char* type : {"gyroscope", "battery"})

@@ -21,7 +21,7 @@ protected:
     std::iota(bodies_.begin(), bodies_.end(), 0U);
   }
 
-  // One of them goes so far in each tick; how often it was looked anew in so many.
+  // Moves one body by `metres` in each tick, and returns the number of searches in `ticks` ticks.
   int Looks(MovedSince& moved, double metres, int ticks)
   {
     int looks = 0;

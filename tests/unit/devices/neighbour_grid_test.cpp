@@ -1,4 +1,4 @@
-// The grid of neighbours is the same whoever made it: one thread or several.
+// One thread and several threads make the same grid of neighbours.
 #include "controller_host/devices/sensing/neighbour_grid.h"
 
 #include "tests/unit/devices/test_world.h"

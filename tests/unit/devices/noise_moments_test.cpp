@@ -52,7 +52,7 @@ public:
   }
 };
 
-// What of a device is looked at.
+// The readings of a device that are tested.
 struct Case
 {
   const char* type;

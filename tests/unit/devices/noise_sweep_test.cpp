@@ -80,7 +80,7 @@ public:
     AddEyebot(5, 5.5, 2);
     Add(EntityKind::kLightBulb, {4.9, 4, 0.5}, 0, {0, 0, 0}, false);
     AddPrey(4.95, 5.35, 0.05, 0.1);
-    // Of a grey that is hardly white.
+    // The patch has a grey that is almost white.
     const auto floor = Add(EntityKind::kGroundPatch, {5, 5, 0}, 0, {2, 2, 0}, false, -1);
     Configuration().entities[floor].colour = 0x808080;
     AddPrey(4.8727, 4.9537, 0.05, 0.1);  // touches the first footbot
@@ -276,7 +276,7 @@ std::vector<double> OutcomeOf(const ActuatorBatch&, const PluginDescription& dev
   return outcome;
 }
 
-// What makes a difference in a unit.
+// Returns a noise that makes a clear difference in a unit.
 double LargeIn(const std::string& unit)
 {
   return unit == "1/255" ? 20 : unit == "pixels" ? 5 : unit == "rad" ? 0.5 : 0.05;

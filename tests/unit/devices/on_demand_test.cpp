@@ -1,4 +1,4 @@
-// Sensors whose readings are made when a controller asks for them: whoever asks, and when, the readings are the same.
+// Sensors with readings on demand: the readings do not depend on which controllers ask, nor on the time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -147,14 +147,15 @@ TEST_P(OnDemand, GivesWhatIsGivenToThoseWhoAlwaysAsk)
   EXPECT_GT(something, 10U);
 }
 
-// After the step: what its controller got, or what is there now, whoever else has asked.
+// After the step, a request gets the readings of the controller's step, or those of the present space. Requests of
+// other robots make no difference.
 TEST_P(OnDemand, BetweenStepsDependsOnTheRobotAlone)
 {
   TestSensor asked = Make(), unasked = Make(), later = Make();
   for (std::uint64_t tick = 0; tick < 6; ++tick)
   {
     Change(tick);
-    // Of robot 0 it is made ahead, of robot 1 when others are, of robot 2 not at all.
+    // Readings of robot 0 are computed ahead, those of robot 1 with others, and those of robot 2 never.
     for (TestSensor* sensor : {&asked, &unasked})
     {
       sensor->Update();
@@ -225,7 +226,7 @@ class Counting : public OnDemandSensor
 public:
   explicit Counting(bool alone) : makes_alone_(alone) { InitDemand(4); }
   void RefreshShared(WorkerPool*) override {}
-  // What was made by a tick whose controllers ask for these.
+  // Returns the readings that a tick computes if these controllers ask.
   std::string Tick(const std::vector<std::size_t>& asks)
   {
     made_.clear();

@@ -23,16 +23,16 @@ using namespace std::chrono_literals;
 
 constexpr std::uint64_t kShared = 5;  // a tick that several threads share, if there are several
 
-// What the controllers of a test saw.
+// The observations of the controllers of a test.
 struct Seen
 {
   std::mutex mutex;
   std::set<std::thread::id> threads;
   std::vector<std::string> order;  // of the robots that step in turn
-  std::vector<std::string> wrong;  // of whom the process, asked from within or outside, did not know
+  std::vector<std::string> wrong;  // robots whose running code the process could not name
   std::atomic<int> within = 0;
   std::atomic<int> most_within = 0;
-  bool meet = false;  // those who may step at the same time wait for one another
+  bool meet = false;  // controllers that may step at the same time wait for each other
   std::set<std::string> fails;
 };
 Seen* seen = nullptr;

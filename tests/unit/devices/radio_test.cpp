@@ -19,7 +19,7 @@ public:
     senders_ = std::make_unique<TestActuator>(*this, "radio", "generic_radio", robots_, sender);
     receivers_ = std::make_unique<TestSensor>(*this, "radio", "generic_radio", robots_, receiver);
   }
-  // As a host does: sensors, what controllers do, actuators; then the state of the next tick.
+  // Runs a tick as a host does: sensors, controllers, actuators, then the state of the next tick.
   template <class Act>
   void Tick(Act act)
   {

@@ -92,7 +92,7 @@ TEST(RangeAndBearing, RobotsAndBlocksBlockIt)
   EXPECT_EQ(heard, (std::vector<int>{3, 5}));
 }
 
-// What a robot receives does not depend on who else receives, nor on how many others send.
+// The messages of a robot do not depend on other receivers, nor on the number of other senders.
 TEST(RangeAndBearing, EachReceiverOfACrowdHearsWhatItHearsAlone)
 {
   TestWorld world;
@@ -140,8 +140,8 @@ TEST(RangeAndBearing, EachReceiverOfACrowdHearsWhatItHearsAlone)
   EXPECT_GT(packets, 1500U);
 }
 
-// The way from antenna to antenna in the frame of the receiver's body decides all three numbers: robots at different
-// heights, receivers and senders that lean, few who send or nearly all, with packets lost or without.
+// The way from antenna to antenna in the frame of the receiver's body decides all three numbers. The test has robots at
+// different heights, receivers and senders that lean, few or many senders, and packets lost or not.
 TEST(RangeAndBearing, EveryPacketIsOfItsSenderInThreeDimensions)
 {
   for (const bool leaning : {false, true})

@@ -1,4 +1,4 @@
-// Whoever looks at the sensors of a tick before its step takes nothing from the controllers.
+// Reading the sensors of a tick before its step changes nothing for the controllers.
 #include <gtest/gtest.h>
 
 #include "common/control_interface/ci_controller.h"

@@ -209,7 +209,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Sensor{"positioning", "generic_positioning"}),
     [](const auto& of) { return of.param.type; });
 
-// Nobody may be left out for them.
+// These sensors need every entity.
 TEST(Reach, OfLightAndSoundIsWithoutEnd)
 {
   std::mt19937 random(7);

@@ -1,4 +1,5 @@
-// Bodies that meet nobody within a tick are left out of the solver: who they are, and that it makes no difference.
+// Bodies that meet no other body within a tick are left out of the solver. The tests check which ones, and that it
+// makes no difference.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -11,7 +12,7 @@ namespace swarmanoid
 namespace
 {
 
-// Two worlds that differ only in somebody far away who is so fast that the solver moves everybody.
+// Two worlds that differ in one distant body, which is so fast that the solver moves all bodies.
 class Pair
 {
 public:
@@ -89,7 +90,7 @@ TEST(Dynamics2d, AnIsolatedPreySlidesAndSpinsAsTheSolverWouldHaveIt)
   EXPECT_GT((worlds.isolated.Position(prey) - Vector3(2, 2, 0)).norm(), 0.1);
 }
 
-// A prey that nobody could reach by itself within the tick is hit by one that was hit.
+// The prey is out of reach of any single body within the tick, but a body that was hit reaches it.
 TEST(Dynamics2d, WhoIsPushedFarWithinATickMeetsThoseWhoWereIsolated)
 {
   Dynamics2dTestWorld world("restitution", "1", "ground_friction", "0");

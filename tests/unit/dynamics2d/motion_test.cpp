@@ -221,7 +221,7 @@ TEST(Dynamics2d, AFootbotDrivesAsFastFarFromTheOriginAsNearIt)
     Dynamics2dTestWorld world;
     const auto straight = world.AddFootbot(place, place);
     const auto slant = world.AddFootbot(place, place + 1, kPi / 6);
-    // 1 cm beside them: bodies that nobody is near are not in the solver.
+    // The bodies are 1 cm apart, since bodies without neighbours are not in the solver.
     const auto beside = world.AddFootbot(place, place - 0.18);
     const auto beside_slant = world.AddFootbot(place + 0.09, place + 1 - 0.156, kPi / 6);
     world.Start();

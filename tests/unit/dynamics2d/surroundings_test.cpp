@@ -213,7 +213,7 @@ TEST(Dynamics2d, TerrainIsWallsAtTheHeightOfThePlane)
   EXPECT_GT(at_walls, 0) << "some reach a wall";
 }
 
-// A pile of robots driven against one another: no overlap that lasts, nothing thrown away.
+// A pile of robots drives against each other. No overlap lasts, and no robot is thrown away.
 TEST(Dynamics2d, ACrowdStaysApart)
 {
   Dynamics2dTestWorld world;

@@ -1,4 +1,4 @@
-// Equal robots that work against one another: nobody wins, whoever is listed first.
+// If equal robots work against each other, none wins, in any order of the file.
 #include "dynamics3d_test_world.h"
 
 namespace swarmanoid

@@ -10,8 +10,8 @@ namespace swarmanoid
 namespace
 {
 
-// Footbots that grip, drag and let go of preys and one another, a handbot with book and rope, an eyebot, blocks to
-// bump into: all with commands that depend on seed and tick alone.
+// Footbots that grip, drag and release preys and each other, a handbot with book and rope, an eyebot, and blocks to
+// bump into. All commands depend on seed and tick alone.
 class BusyWorld : public Dynamics3dTestWorld
 {
 public:

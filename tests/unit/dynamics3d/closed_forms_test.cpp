@@ -172,7 +172,7 @@ TEST(Dynamics3dClosedForms, AFootbotDrivesAtTheSpeedOfItsWheels)
   EXPECT_LT(world.Tilt(footbot), DegreesToRadians(1));
 }
 
-// What the accelerometer reads, along the axes of the space and without gravity.
+// Returns the acceleration of the accelerometer, along the axes of the space and without gravity.
 Vector3 AccelerationOf(Dynamics3dTestWorld& world, std::uint32_t footbot)
 {
   Vector3 felt;

@@ -1,4 +1,4 @@
-// Robots that touch nothing but level ground are moved by a closed form: who they are, and that it makes no difference.
+// A closed form moves robots that touch only level ground. The tests check which ones, and that it makes no difference.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -227,7 +227,7 @@ TEST(Dynamics3dFreeRobots, NobodyIsFreeOnWhatIsNotLevelGround)
       << "they touch";
 }
 
-// Something that falls fast, far away, has nobody else solved; beside them it has, and it may hit one.
+// A body that falls fast far away makes no other body solved. Above the robots it does, since it may hit one.
 TEST(Dynamics3dFreeRobots, WhatFallsIsMetBelowIt)
 {
   Dynamics3dTestWorld world;
@@ -248,7 +248,7 @@ TEST(Dynamics3dFreeRobots, WhatFallsIsMetBelowIt)
   EXPECT_GT(world.Position(prey).z(), 0.1) << "it lies on the robot, or has bounced";
 }
 
-// What they do in the solver is near enough to a roll, at all lengths of its steps, at rest and on the tightest curve.
+// In the solver the robots almost roll, at all lengths of its steps, at rest and on the tightest curve.
 TEST(Dynamics3dFreeRobots, WhoWasSolvedBecomesFree)
 {
   for (const char* step : {"2.5", "5", "10"})
@@ -304,7 +304,7 @@ TEST(Dynamics3dFreeRobots, TheArenasWallsAreMet)
     EXPECT_NEAR((world.Position(robots[static_cast<std::size_t>(k)]) - Vector3(1, 1, 0)).norm(), 1 - 0.085, 2e-3);
 }
 
-// What is faster than anybody expected is met all the same: those who could not be reached are searched anew.
+// A body that is faster than expected is still met: the search for free robots is repeated.
 TEST(Dynamics3dFreeRobots, WhoIsPushedFarWithinATickMeetsThoseWhoWereFree)
 {
   Dynamics3dTestWorld world("restitution", "1", "friction", "0");
@@ -321,7 +321,7 @@ TEST(Dynamics3dFreeRobots, WhoIsPushedFarWithinATickMeetsThoseWhoWereFree)
   EXPECT_GT(world.Position(robot).x() - world.Position(hit).x(), 0.17 - 0.01);
 }
 
-// A swarm that drives, meets walls and one another, pushes, grips and parts.
+// A swarm that drives, meets walls and other robots, pushes, grips and parts.
 class Crowd : public Dynamics3dTestWorld
 {
 public:
@@ -393,7 +393,8 @@ TEST(Dynamics3dFreeRobots, ARestoredRunHasTheSameBits)
   EXPECT_GT(counts.size(), 5U) << "robots become free and cease to be";
 }
 
-// Beside each with each: whoever is far from all is free, whoever touches is not, and nobody passes through another.
+// Compared with all pairs: robots far from all others are free, touching robots are not, and none passes through
+// another.
 TEST(Dynamics3dFreeRobots, WhoIsFreeIsWhoTouchesNobody)
 {
   Crowd world;
@@ -407,7 +408,7 @@ TEST(Dynamics3dFreeRobots, WhoIsFreeIsWhoTouchesNobody)
       for (std::size_t b = 0; b < Crowd::kRobots; ++b)
         if (a != b) gap = std::min(gap, (world.PlaceOf(a) - world.PlaceOf(b)).norm() - 2 * 0.085036758);
       ASSERT_GT(gap, -3e-3) << "tick " << tick;
-      // Of the last step: those that have parted since, or not met yet, are not decided upon.
+      // The positions are those after the last step, so pairs that have just parted or will just meet are not tested.
       if (gap < 0)
       {
         ASSERT_FALSE(IsFree(world, world.Robot(a))) << "tick " << tick << ", robot " << a;

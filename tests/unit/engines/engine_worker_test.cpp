@@ -1,4 +1,4 @@
-// What an engine hands over is checked by its worker, and a mistake names the engine.
+// The engine worker checks the results of its engine, and a mistake names the engine.
 #include "engine_worker/engine_worker.h"
 #include "common/space/attributes.h"
 #include "controller_host/device.h"

@@ -1,4 +1,4 @@
-// Who can meet nobody within a tick, beside a comparison of each with each.
+// The bodies that can meet no other body within a tick are those that a comparison of all pairs finds.
 #include "engine_worker/engines/separation_test.h"
 
 #include <gtest/gtest.h>

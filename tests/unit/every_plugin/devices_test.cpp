@@ -48,7 +48,7 @@ TEST(SimplestScenes, ARobotAloneReadsFiniteNumbersWithinTheirRanges)
       });
 }
 
-// Where two devices share what they compute, one alone may meet what nobody made ready for it.
+// If two devices share computed data, one device alone might find it missing.
 TEST(SimplestScenes, EachDeviceByItselfNeedsNoOther)
 {
   ForEachSet(

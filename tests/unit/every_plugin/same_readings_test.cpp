@@ -38,8 +38,8 @@ struct CarryingRobot
   std::vector<Device> actuators, sensors;
 };
 
-// What the last tick must read, in each engine that serves the device: equal within a tolerance. `value`: what it is
-// known to be.
+// The expected reading of the last tick, equal within a tolerance in each engine that serves the device. `value` is the
+// known value.
 struct Reading
 {
   std::string robot, sensor, column;

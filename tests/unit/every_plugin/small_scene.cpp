@@ -90,7 +90,7 @@ private:
         Complain(device, fmt::format("Describe: '{}' is {}", reading.name, reading.value));
   }
 
-  // First in the middle of each range, then at its end; about 1 where there is none.
+  // Sets the middle of each range first, and then its end. Columns without a range get about 1.
   void Tell(const std::string& type, CCI_Actuator& actuator) const
   {
     const std::string device = "actuator " + type;
@@ -124,7 +124,7 @@ void RequireDefaults(const std::string& owner, const std::vector<ParameterSpec>&
            "EntityElement in tests/unit/every_plugin/small_scene.cpp";
 }
 
-// What an entity needs beside its place: attributes of its element.
+// The attributes that the element of an entity needs besides its position.
 const std::map<std::string, std::string>& ElementsOfKinds()
 {
   static const std::map<std::string, std::string> attributes = {{"block", " size='0.2,0.2,0.2'"},
@@ -251,7 +251,7 @@ std::string EntityElement(EntityKind kind, const std::string& id, double x, doub
 
 std::string Waiting(EntityKind kind, const std::string& id, const std::string& controller)
 {
-  // What comes and goes must be able to move.
+  // An entity of a <reserve> must be able to move.
   const std::string movable = DescriptionOf(kind).mobility == Mobility::kIfAsked ? " movable='true'" : "";
   return "<reserve quantity='1'>" + ElementOf(kind, id, movable, controller) + "</reserve>";
 }

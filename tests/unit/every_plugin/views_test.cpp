@@ -50,7 +50,7 @@ void Check(const std::string& device, const std::vector<CCI_ColumnGroup>& groups
     {
       EXPECT_EQ(column.audience, group.columns.front().audience) << device << " " << column.name;
       if (column.audience != CCI_Column::For::kEverybody) one_sided.insert(device + " " + column.name);
-      // Of a target that is there or not people are shown the parts, without a number.
+      // A target that may be absent is shown to people in its parts, without a number.
       if (column.audience == CCI_Column::For::kPeople) continue;
       EXPECT_EQ(column.name.find('#') != std::string::npos, group.count != 1)
           << device << " '" << column.name << "': names have a '#' if the column is repeated";

@@ -50,7 +50,7 @@ TEST(ArenaPhysics, FindsOutQuicklyThatNoIdFitsALongPattern)
   EXPECT_NE(Fitting(pattern + "q").find("no entity fits"), std::string::npos);
 }
 
-// As processes do that compute a part of an engine's world, however many entities there are.
+// Processes with a part of an engine's world read the experiment in this way, with any number of entities.
 TEST(ArenaPhysics, EnginesMayBeReadAlone)
 {
   const std::string text =

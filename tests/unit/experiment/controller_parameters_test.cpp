@@ -53,7 +53,7 @@ TEST(ControllerParameters, AreCompleteInTheExperiment)
   EXPECT_EQ(tree.GetVector2("target"), Vector2(1, 2));
   EXPECT_EQ(tree.GetText("weights"), "/experiments/net.txt");
   EXPECT_EQ(loaded.experiment->functions.at(0).tree.GetInteger("every"), 20);
-  // Whoever reads the experiment from this text fills in the defaults himself.
+  // A reader of this text adds the defaults itself.
   EXPECT_EQ(loaded.experiment->effective_xml.find("velocity"), std::string::npos);
 }
 

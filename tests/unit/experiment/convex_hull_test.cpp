@@ -41,7 +41,8 @@ TEST(ConvexHull, ABoxHasSixFacesAndTheMassOfABox)
   EXPECT_NEAR(hull.DepthOf({0.1, 0.1, 0.7}), -0.1, 1e-15);
 }
 
-// Of the corner of a cube: volume 1/6, centre 1/4, about it moments of 1/80 and products of -1/480 (by hand).
+// The corner of a cube has volume 1/6 and centre 1/4. About the centre it has moments of 1/80 and products of -1/480
+// (by hand).
 TEST(ConvexHull, ATetrahedronHasTheInertiaOfItsIntegrals)
 {
   const ConvexHull hull = HullOf(std::vector<Vector3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});

@@ -88,7 +88,8 @@ TEST(Distribute, TheSeedDecidesThePlacesAndNothingElse)
   }
 }
 
-// Common random numbers: an entity is placed by its id, wherever in the file it stands and whoever stands before it.
+// Common random numbers: an entity is placed by its id, independent of its place in the file and the entities before
+// it.
 TEST(Distribute, OthersInTheFileShiftNoPlaces)
 {
   const std::string robots = "<distribute quantity='20'><footbot id='fb'/></distribute>";

@@ -327,7 +327,7 @@ TEST(MistakesTogether, ConsequencesOfAMistakeAreLeftOut)
            "<all/>");
   EXPECT_THAT(errors, testing::HasSubstr("none.bt"));
   EXPECT_EQ(count(errors), 1) << errors;
-  // What has another cause is still reported.
+  // Mistakes with another cause are still reported.
   EXPECT_THAT(told("<rover urdf='none.urdf'/>", rover, "<entity id='s'/>"),
               testing::HasSubstr("there is no entity 's'"));
   EXPECT_THAT(told("<rover urdf='none.urdf'/>", "<rovr id='r'/>", ""), testing::HasSubstr("has no element <rovr>"));

@@ -1,4 +1,4 @@
-// What a worker reads of an experiment stands where its user wrote it.
+// Mistakes that a worker finds in an experiment have the line of the user's file.
 #include "common/experiment/places.h"
 
 #include <gmock/gmock.h>

@@ -50,7 +50,7 @@ std::vector<std::string> AttributesOf(EntityKind kind)
   return names;
 }
 
-// What is said of a row that is refused.
+// Returns the error message for a refused row.
 std::string RefusalOf(EntityKindDescription row)
 {
   return test::MessageOf<std::invalid_argument>([&] { RegisterEntityKind(std::move(row)); }, "it was taken");

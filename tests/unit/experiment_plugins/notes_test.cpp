@@ -1,5 +1,4 @@
-// What `swarmanoid check` tells beside mistakes, and start poses off a plane; with engines of its own, which stay
-// registered.
+// The warnings of `swarmanoid check`, and start poses off a plane. The engines of this test stay registered.
 #include "common/experiment/notes.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Journals with a budget: the newest is kept, whole and readable, and nothing is dropped that somebody needs.
+// Journals with a size limit keep the newest ticks whole and readable, and drop nothing that a restart needs.
 #include <unistd.h>
 
 #include <filesystem>
@@ -23,7 +23,7 @@ constexpr std::uint64_t kBudget = 64U << 10U;
 constexpr std::uint64_t kPeriod = 50;  // ticks between two saved states
 const std::vector<std::string> kParts{kServerPart, "engine 'ground'"};
 
-// Numbers that nobody can compress; the same for a tick in each run.
+// Returns numbers that cannot be compressed. They are equal for a tick in each run.
 SpaceState NoisyState(std::uint64_t tick)
 {
   std::mt19937_64 random(tick);
@@ -97,7 +97,8 @@ TEST_F(JournalSegmentsTest, ABudgetKeepsTheNewestAndASavedStateBeforeIt)
   EXPECT_FALSE(journal.TakeExcess());
 }
 
-// Who goes on with other controller hosts begins a segment, with a state that is older than the tick where it goes on.
+// A run that resumes with other controller hosts begins a segment. Its state is older than the tick at which it
+// resumes.
 TEST_F(JournalSegmentsTest, OtherControllerHostsBeginASegment)
 {
   {
@@ -147,7 +148,7 @@ TEST_F(JournalSegmentsTest, OtherControllerHostsBeginASegment)
             150U);
 }
 
-// As many as before, with other robots.
+// The number of hosts is the same, but they have other robots.
 TEST_F(JournalSegmentsTest, TheSameHostsWithOtherRobotsBeginASegment)
 {
   const HostTable first{2, {0, 0, 1, 1}}, second{2, {0, 1, 0, 1}};
@@ -167,7 +168,7 @@ TEST_F(JournalSegmentsTest, TheSameHostsWithOtherRobotsBeginASegment)
   EXPECT_EQ(after.Hosts(), second);
   EXPECT_EQ(after.CheckpointAt(100, kParts, 0)->StateOf(kServerPart)[0], 's');
   EXPECT_EQ(after.CheckpointAt(100, kParts, 1)->StateOf(kServerPart)[0], 't');
-  // What goes on later is of the second ones as well.
+  // A later writer has the second hosts as well.
   JournalWriter later(after, 100, false, {0, kParts});
   later.AddTick(NoisyState(100), false, {}, {});
   later.Flush();
@@ -231,7 +232,7 @@ TEST_F(JournalSegmentsTest, ATableOfHostsThatThereAreNotIsRefused)
 // Ticks that were added before the state of an earlier one came stand in the segment before that state.
 TEST_F(JournalSegmentsTest, NothingIsDroppedThatFollowsAStateThatCameLate)
 {
-  constexpr std::uint64_t kSmallBudget = 1024;  // so that a segment is deleted as soon as nobody needs it
+  constexpr std::uint64_t kSmallBudget = 1024;  // deletes a segment as soon as it is not needed
   JournalWriter journal(Path(), StartOfRun(), false, {kSmallBudget, kParts});
   for (std::uint64_t tick = 0; tick < 1000; ++tick)
   {

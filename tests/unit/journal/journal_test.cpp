@@ -76,7 +76,7 @@ std::vector<TickRecord> SomeTicks(std::size_t count, unsigned seed)
     for (std::uint32_t slot = 0; slot < 9; ++slot)
       if (random() % 3 == 0) record.state.attributes.Add(slot, real(random));
     if (random() % 4 == 0) record.state.moved = {1, 7};
-    // Nobody sends the frames of the first tick.
+    // The frames of the first tick are never sent.
     if (t > 0) record.frames = {{t, 0, {}}, {t, 1, {real(random), 0.25, -0.0}}};
     record.commands = {{t, 0, {real(random), 1}, {}, {}}, {t, 1, {}, record.state.attributes, {}}};
     if (random() % 5 == 0) record.commands[1].faults = {{3, 8}, {FaultKind::kTooSlow, FaultKind::kDied}};
@@ -318,7 +318,7 @@ TEST_F(JournalTest, ARunGoesOnAtTheNewestTickThatTheServerSavedAndOfWhichTheReco
   EXPECT_EQ(journal.RestartTick([](std::uint64_t tick) { return tick != 6; }), 4U);
   EXPECT_EQ(journal.RecordOf(6)->state.tick, 6U);
   EXPECT_FALSE(journal.RecordOf(12));
-  // A cut before the record of tick 6: who steps again there lacks its sensor frames.
+  // The cut is before the record of tick 6, so its sensor frames are missing for a restart there.
   const auto& places = journal.Places();
   const auto sixth = std::find_if(places.begin(), places.end(),
                                   [](const JournalPlace& place)

@@ -167,7 +167,8 @@ double DeepestOverlap(const Crowd& scene, double widest, const Skips& skips)
 
 TEST(KinematicCrowd, BlindRobotsNeverOverlapAtAnyDensityAndSpeed)
 {
-  // Footbots that see nobody, on a grid within walls; each drives a curve, another one every second or two.
+  // Footbots that sense no other robot, on a grid within walls. Each drives a curve, and gets another one every second
+  // or two.
   for (const int steps : {1, 3})
     for (const double speed : {0.05, 0.08, 0.1, 0.12, 0.3})
       for (const double spacing : {0.2, 0.21, 0.25, 0.33})
@@ -243,7 +244,7 @@ TEST(KinematicCrowd, OutlinesOfAllKindsGripsTurretsAndMirrorsNeverOverlap)
     scene.world.Start({0, 0, width, y + 0.15});
     for (const auto& [robot, prey] : grips) scene.world.AddGrip(robot, prey);
 
-    // A mirror gives way to nobody: those that it meets, it may press.
+    // A mirror gives way to no body, and may press the bodies that it meets.
     const auto with_mirrors = [&](std::uint32_t a, std::uint32_t b) { return a >= mirrors[0] || b >= mirrors[0]; };
     ASSERT_LE(DeepestOverlap(scene, 0.3, with_mirrors), 1e-9) << seed;
     const double speed = random.Uniform(0.05, 0.4);
@@ -273,7 +274,7 @@ TEST(KinematicCrowd, OutlinesOfAllKindsGripsTurretsAndMirrorsNeverOverlap)
       scene.world.Advance(kCrowdTick, steps);
       ASSERT_LE(DeepestOverlap(scene, 0.3, with_mirrors), scene.world.AllowedOverlapForTest() + 1e-9)
           << "seed " << seed << " tick " << tick;
-      // Into whom a mirror comes it comes no faster than it moves.
+      // A mirror enters a body no faster than it moves.
       const double in_mirror = DeepestOverlap(
           scene, 0.3, [&](std::uint32_t a, std::uint32_t b) { return a >= mirrors[0] || b < mirrors[0]; });
       ASSERT_LE(in_mirror, std::max(deepest_in_mirror, scene.world.AllowedOverlapForTest()) + way + 1e-9) << seed;
@@ -310,7 +311,7 @@ TEST(KinematicCrowd, WhoWasPutIntoOthersPartsFromThemAndNeverSinksDeeper)
 
 TEST(KinematicCrowd, ACrowdThatDrivesOnTogetherIsNotHeldByAJamElsewhere)
 {
-  // Twenty in a row, a tenth of a millimetre apart, and five that press one another against a wall.
+  // Twenty discs in a row, a tenth of a millimetre apart, and five that press each other against a wall.
   Crowd scene;
   const Outline disc{{{{0, 0}}, 0.085}};
   for (int k = 0; k < 20; ++k) scene.Add(disc, 0.1701 * k, 0, 0);

@@ -229,7 +229,7 @@ TEST(Kinematics2dEngine, TurretsTurnAndReportTheirAngle)
   EXPECT_TRUE(f.LastUpdate().attributes.slots.empty());
 }
 
-// Nobody can command it, so the engine does not look at it each tick.
+// No command exists for it, so the engine does not look at it each tick.
 TEST(Kinematics2dEngine, ATurretThatSomebodyTurnsInTheSpaceIsTurnedBack)
 {
   EngineFixture f;

@@ -58,7 +58,7 @@ TEST(Groups, TheTwistOfManyIsTheLeastSquaresOne)
   for (std::uint32_t body = 1; body <= robots.size(); ++body)
     scene.bodies.twists.Set(body, {random.Uniform(-0.1, 0.1), 0, random.Uniform(-1, 1)});
   FindGroupTwists(scene.bodies, scene.groups);
-  // What the wheels of all members miss, if the group moves like this.
+  // Returns the sum of squares that the wheels of all members miss if the group moves like this.
   const auto missed = [&](const Twist& group)
   {
     double sum = 0;

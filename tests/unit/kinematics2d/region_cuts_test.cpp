@@ -1,4 +1,4 @@
-// The regions of a plane have about as much to do as one another.
+// The regions of a plane have about equal work.
 #include "engine_worker/engines/kinematics2d/region_cuts.h"
 
 #include <gtest/gtest.h>

@@ -20,14 +20,14 @@
 namespace swarmanoid::kinematics2d
 {
 
-// Where the regions of one process, each in a thread of its own, leave their messages for one another.
+// Hub: passes messages between the regions of one process, each of which has a thread of its own.
 class Hub
 {
 public:
   explicit Hub(unsigned regions) : left_(regions), taken_(regions) {}
 
   unsigned RegionCount() const { return static_cast<unsigned>(left_.size()); }
-  // Of all calls of Swap so far, which are the same for each region; all messages together.
+  // Return the number of calls of Swap so far, which is equal for each region, and the bytes of all messages.
   std::uint64_t Rounds() const { return rounds_; }
   std::uint64_t Bytes() const { return bytes_; }
   // One of them takes part no more: the others need not wait for it.
@@ -129,7 +129,7 @@ public:
 
   // How often the world gave them something to do.
   unsigned Works() const { return works_; }
-  // As Replace, when it does so for the n-th time.
+  // Calls Replace when a task is done for the n-th time.
   void ReplaceAt(unsigned work, unsigned region) { replaced_.emplace(work, region); }
   // Another one takes its place, which knows nothing.
   void Replace(unsigned region)
@@ -165,7 +165,7 @@ public:
     return all;
   }
 
-  // Of the region that took most of it.
+  // Returns the seconds of the slowest region.
   double SlowestSeconds() const { return *std::max_element(seconds_.begin(), seconds_.end()); }
 
 private:

@@ -1,5 +1,5 @@
-// What happens in a world of the kinematic engine, told by one that is whole, and told again by one that is cut into
-// regions: for tests that compare the two.
+// A series of events in a world of the kinematic engine. A whole world records it, and a world cut into regions repeats
+// it, for tests that compare the two.
 #pragma once
 
 #include <algorithm>
@@ -42,7 +42,7 @@ struct Scene
   std::uint32_t Bodies() const { return static_cast<std::uint32_t>(side * side * density); }
   bool IsFootbot(std::uint32_t body) const { return body % 10 != 3 && body % 10 != 7; }
   bool IsPrey(std::uint32_t body) const { return body % 10 == 3; }
-  // Of the last follower alone, which has another outline from time to time.
+  // Only the last follower has this model, whose outline changes from time to time.
   static constexpr std::uint32_t ModelOfLast() { return 4; }
   // Some boxes are too large for the cells.
   bool IsLarge(std::uint32_t body) const { return has_large && body % 400 == 27; }
@@ -106,7 +106,7 @@ struct Jump
   std::uint32_t body;
   Pose2 pose;
 };
-// What happens at a tick beside what follows from the numbers of the bodies, and what came of it in the whole world.
+// The events of a tick that do not follow from the numbers of the bodies, and their result in the whole world.
 struct Tick
 {
   std::vector<GripChange> grips;
@@ -115,7 +115,7 @@ struct Tick
   std::vector<double> turrets, travel;
 };
 
-// As told to body `number`.
+// Returns the twist that body `number` is commanded.
 inline Twist TwistAt(const Scene& scene, std::uint32_t number, std::uint64_t tick)
 {
   RandomStream random(scene.seed, 2, number, tick / 10);
@@ -133,7 +133,7 @@ inline void Command(const Scene& scene, KinematicWorld& world, std::uint32_t bod
   if (scene.has_changes && body % 53 == 1) world.SetPresent(body, tick / 11 % 3 != 0);
 }
 
-// What is done to the world before it goes on.
+// Applies the events of a tick to the world before it advances.
 inline void Act(const Scene& scene, KinematicWorld& world, const Tick& now, std::uint64_t tick)
 {
   for (const GripChange& change : now.grips)

@@ -93,7 +93,7 @@ TEST(KinematicRegions, RandomWorldsGoAsInOneWhereverTheCutsJumpInEachTick)
   }
 }
 
-// Those who hold a body know it for long; meanwhile it is pushed, limited and computed by others.
+// Regions hold a body for long, and meanwhile other regions push, limit and compute it.
 TEST(KinematicRegions, RandomWorldsGoAsInOneWhereCutsStay)
 {
   for (std::uint64_t seed = 20; seed < 28; ++seed)
@@ -166,7 +166,7 @@ TEST(KinematicRegions, AnotherOneMayTakeThePlaceOfARegionAtAnyTick)
   EXPECT_EQ(outcome.differences, 0U) << outcome.first;
 }
 
-// As of the map of a building: a message of a task has no room for them.
+// The walls are as many as in the map of a building, more than fit a message of a task.
 TEST(KinematicRegions, AnyNumberOfWallsIsToldPieceByPiece)
 {
   Scene scene;

@@ -163,8 +163,8 @@ TEST(KinematicWorld, AThousandRobotsPushedIntoACornerStayApartAndFinite)
       world.SetTwist(k, {0.3 * Cos(angle), 0.3 * Sin(angle), random.Uniform(-1, 1)});
     }
     world.Advance(kTick, 1);
-    // No energy from nothing: nobody is thrown further than a collision at full speed explains, and all together do not
-    // go further than all alone would, in the squares that stand for the energy.
+    // Energy does not grow: no body is thrown further than a collision at full speed explains. The sum of squared ways
+    // is not larger than for bodies without collisions.
     double energy = 0;
     for (std::uint32_t k = 0; k < 1000; ++k)
     {
@@ -209,7 +209,7 @@ TEST(KinematicWorld, AFollowerPushesAndIsNotPushed)
     EXPECT_EQ(world.Poses().x[follower], 0.03 * tick);
     EXPECT_GT(world.Poses().x[pushed] - world.Poses().x[follower], 0.2 - 1e-4);
   }
-  // Lifted out of the plane it touches nobody.
+  // A body lifted out of the plane touches no other body.
   const double before = world.Poses().x[pushed];
   world.Follow(follower, {before, 0, RotorOf(0)}, false);
   world.Advance(kTick, 1);

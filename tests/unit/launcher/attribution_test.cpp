@@ -50,7 +50,7 @@ TEST(Attribution, OneThatDiedIsReplacedAndOneThatSaysWhatIsWrongIsNot)
   EXPECT_TRUE(MayBeReplaced(Killed(SIGKILL), Record(EndReason::kOthers), false)) << "given up as it gave up the server";
   EXPECT_TRUE(MayBeReplaced(Exited(128 + SIGKILL), Record(EndReason::kOthers), true));
   EXPECT_TRUE(MayBeReplaced(Exited(kExitCutOff), Record(EndReason::kOthers), false));
-  // Of a process of another machine there is its exit code.
+  // For a process on another machine, only the exit code is known.
   EXPECT_TRUE(MayBeReplaced(Exited(kExitCutOff), ActivityRecord(), true));
   EXPECT_TRUE(MayBeReplaced(Exited(255), ActivityRecord(), true));
   EXPECT_FALSE(MayBeReplaced(Exited(kExitInterrupted), ActivityRecord(), true));

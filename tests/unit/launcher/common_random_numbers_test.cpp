@@ -1,5 +1,5 @@
-// What stays the same under which change: the table of docs/determinism.md, line by line. Robots that stand still with
-// noisy sensors write down all that they draw and read.
+// The table of docs/determinism.md, line by line: which results stay the same under which change. Robots that stand
+// still with noisy sensors record all their draws and readings.
 #include <gtest/gtest.h>
 
 #include <algorithm>

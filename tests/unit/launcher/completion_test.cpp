@@ -1,4 +1,4 @@
-// What shells offer after `swarmanoid`.
+// The suggestions of shells after `swarmanoid`.
 #include <gmock/gmock.h>
 
 #include <CLI/CLI.hpp>

@@ -157,7 +157,7 @@ TEST_F(EditSessionTest, ReadsWhatOthersWriteIfNothingIsChangedHere)
   Ask({{"do", "undo"}});
   EXPECT_FALSE(page_.document["saved"]);
 
-  // What is no experiment is not read: what is here stays.
+  // A file that is no experiment is not read, and the present text stays.
   Ask({{"do", "save"}});
   Write("<ahss-config>");
   EXPECT_TRUE(Eventually(

@@ -92,7 +92,7 @@ TEST(EditedExperiment, AddsWhatStandsOnTheFloorWithAFreeId)
   experiment.Add(kArena, "nest", std::nullopt);
   EXPECT_TRUE(experiment.Mistakes().empty()) << experiment.Mistakes().front().Text();
   EXPECT_EQ(experiment.GetExperiment()->entities.size(), 6U);
-  // What a kind of robot gets from those beside it.
+  // Elements that the file cannot have there are refused.
   EXPECT_EQ(RefusalOf([&] { experiment.Add({0}, "footbot", std::nullopt); }), "<framework> takes no <footbot>");
   EXPECT_EQ(RefusalOf([&] { experiment.Add({}, "arena", std::nullopt); }), "<ahss-config> takes no further <arena>");
 }

@@ -60,7 +60,7 @@ TEST(EditedFile, NoticesWhatOthersWrite)
   EXPECT_TRUE(file.HasChanged());
   Write(path, "one");
   EXPECT_FALSE(file.HasChanged());
-  // As editors do: another file in its place, of the same length.
+  // Editors replace the file by another one, here of the same length.
   Write(path.string() + "~", "own");
   fs::rename(path.string() + "~", path);
   EXPECT_TRUE(file.HasChanged());

@@ -1,4 +1,4 @@
-// Messages between controllers and those who see the whole space: experiment functions, programs around a simulator.
+// Messages between controllers and code that sees the whole space: experiment functions, programs around a simulator.
 #include <gtest/gtest.h>
 
 #include "common/control_interface/ci_controller.h"

@@ -1,4 +1,4 @@
-// What users are told of a journal that lacks something.
+// The messages to users about an incomplete journal.
 #include <unistd.h>
 
 #include <filesystem>

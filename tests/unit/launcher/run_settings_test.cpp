@@ -154,7 +154,7 @@ TEST(RunSettings, NumbersOutsideTheirRangeAreRefusedWithTheCure)
   EXPECT_THAT(ErrorOf({"a.xml", "--restore", "/nowhere"}), HasSubstr("no such file"));
 }
 
-// What the launcher takes, a process that it starts must take, too: 0 alone may stand for a default.
+// A process must accept each value that the launcher accepts. Only 0 may stand for a default.
 TEST(RunSettings, NumbersThatTheLauncherTakesAreTakenByItsProcesses)
 {
   RunSettings run;

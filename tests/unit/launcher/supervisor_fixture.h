@@ -72,7 +72,7 @@ protected:
             .arguments = {"/bin/sh", "-c", incarnation == 0 ? first : others, "sh", std::to_string(incarnation)}};
   }
 
-  // Scripts, and the test itself, tell one another how far they are by files.
+  // Scripts and the test tell each other their progress by files.
   std::string Mark(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }
   std::string Tell(const std::string& name) const { return "touch " + Mark(name) + "; "; }
   std::string Await(const std::string& name) const { return "until [ -e " + Mark(name) + " ]; do sleep 0.01; done; "; }

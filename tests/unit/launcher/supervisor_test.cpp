@@ -1,4 +1,4 @@
-// What the supervisor says of a cluster: how it ended, and who failed first.
+// The supervisor's verdict about a cluster: how it ended, and which process failed first.
 #include "launcher/supervision/supervisor.h"
 
 #include "tests/unit/launcher/supervisor_fixture.h"
@@ -75,7 +75,7 @@ TEST_F(SupervisorTest, AWorkerMayEndLongBeforeTheServersLastWordOnceItHasLeft)
 
 TEST_F(SupervisorTest, TheWordThatAWorkerHasLeftMayComeAfterItsEnd)
 {
-  // As on another machine.
+  // The process may be on another machine.
   AddServer("echo state running; " + Await("ended") + "echo left engine_worker ground; " + kFinishing);
   Add("engine_worker ground", Tell("ended") + "exit 0");
   EXPECT_EQ(Run().kind, ClusterOutcome::kFinished);

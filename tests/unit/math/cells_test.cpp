@@ -185,7 +185,7 @@ TEST(CellSort, StandsMembersOfACellTogetherInTheirOrder)
   for (const std::size_t cells : {1U, 2U, 50U, 3000U})
   {
     sort.SetCells(cells);
-    // Sorted anew with more and with fewer members; none at all too.
+    // The cells are sorted again with more and with fewer members, and with none.
     for (const std::size_t members : {0U, 1U, 700U, 13U})
     {
       std::vector<std::vector<std::uint32_t>> expected(cells);
@@ -257,7 +257,7 @@ TEST(CellLists, ListEachMemberInAllItsCells)
   EXPECT_THAT(lists.In(1), ElementsAre(30));
   EXPECT_THAT(lists.In(1, 2), ElementsAre(30, 40, 30));
   EXPECT_THAT(lists.In(3), IsEmpty());
-  // Filled anew, it forgets what it had.
+  // Filling the lists again removes their old content.
   lists.Add(1, 5);
   lists.Close(2);
   EXPECT_THAT(lists.In(0), IsEmpty());

@@ -25,7 +25,7 @@ std::vector<float> Numbers()
   return numbers;
 }
 
-// What the lanes hold, bit by bit, since -0 and NaN count.
+// Compares the lanes bit by bit, since -0 and NaN count.
 template <class Lanes, class Number>
 void ExpectLanes(Lanes lanes, const Number& number)
 {

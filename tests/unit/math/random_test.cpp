@@ -41,8 +41,8 @@ TEST(Random, StreamsDifferInEachPartOfTheirName)
   }
 }
 
-// Who, what, whom and when as they occur: a swarm of numbered ids, parts of them, some devices, ticks in a row. Of
-// 2 * 10^6 draws of 64 bits two are equal by chance with probability 10^-7.
+// The names are typical: a swarm of numbered ids, parts of them, some devices, ticks in a row. Among 2 * 10^6 draws of
+// 64 bits, two are equal by chance with probability 10^-7.
 TEST(Random, NearNamesNeverDrawTheSame)
 {
   std::vector<std::uint64_t> drawn;

@@ -196,7 +196,7 @@ TEST(ReproducibleMath, ComesBeforeLibm)
     const bool only_for_others =
         std::string(name).find("f64") != std::string::npos || std::string(name).find("f32") != std::string::npos;
     EXPECT_EQ(own == nullptr, only_for_others) << name;
-    // What is linked against libm finds its versions with us, too.
+    // Code that is linked against libm finds all versions of its symbols in our library.
     void* const libm = dlopen("libm.so.6", RTLD_NOW | RTLD_NOLOAD);
     ASSERT_NE(libm, nullptr);
     int versions = 0;

@@ -120,7 +120,7 @@ TEST(SparseVector, ShowsTheSameInEachWay)
   }
 }
 
-// As long as the slots of a kind may be.
+// The slots of a kind may be this long.
 TEST(SparseVector, APartMayBeLongerThanAPage)
 {
   constexpr std::size_t kLong = 1000;

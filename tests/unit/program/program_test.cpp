@@ -44,7 +44,7 @@ TEST(Program, ItsExitCodeTellsHowItEnded)
   EXPECT_EQ(CodeOf([]() -> int { throw 5; }), 4);
 }
 
-// As after a connection by ssh has broken: nothing that is written arrives.
+// Nothing that is written arrives, as after a broken connection by ssh.
 TEST(Program, EndsInOrderIfNobodyReadsItsErrors)
 {
   const int errors = dup(STDERR_FILENO);

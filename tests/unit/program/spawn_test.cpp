@@ -1,4 +1,4 @@
-// What a program that is started gets from the one that starts it, and what it does not.
+// The things that a started program inherits from its parent, and those that it does not.
 #include "common/program/spawn.h"
 
 #include <fcntl.h>
@@ -20,7 +20,7 @@ namespace
 
 using testing::MatchesRegex;
 
-// What a script of the shell writes to standard output; its exit code follows.
+// Returns the standard output of a shell script, followed by its exit code.
 std::string OutputOf(const std::string& script, SpawnSettings settings = {.words = {}})
 {
   Pipe output = MakePipe();
@@ -51,7 +51,7 @@ TEST(Spawn, ReadsNothingAndWritesWhereItIsTold)
 
 TEST(Spawn, InheritsNoDescriptorButThoseThatAreGiven)
 {
-  // As a library opens them that knows nothing of programs that are started.
+  // The file is opened without O_CLOEXEC, as by a library that knows nothing of child processes.
   const FileDescriptor open_file(open("/dev/null", O_RDONLY));
   const FileDescriptor kept(open("/dev/null", O_RDONLY | O_CLOEXEC));
   const std::string is_open = "for f in {} {}; do test -e /proc/self/fd/$f && echo $f; done; true";
@@ -105,7 +105,7 @@ TEST(Spawn, ThrowsIfThereIsNoSuchProgram)
     {
       EXPECT_STREQ(error.what(), says);
     }
-  // Nobody is left who would have to be waited for.
+  // No child is left to wait for.
   EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
 }
 

@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 
 constexpr std::int64_t kMillisecond = 1'000'000;
 
-// What the drivers and the controller of a test share.
+// The state that the drivers and the controller of a test share.
 struct World
 {
   std::int64_t now = 0;

@@ -214,7 +214,7 @@ TEST_F(Reserve, MistakesAreNamed)
     EXPECT_FALSE(space.IsFree("prey", At(3.175, 3)));
     keep([&] { space.AddEntity("prey", At(3.175, 3)); });
     keep([&] { space.AddEntity("box", At(9, 6, 0.1)); });
-    // What has no body fits anywhere.
+    // An entity without a body fits anywhere.
     EXPECT_TRUE(space.IsFree("lamp", At(3, 3)));
   };
   const auto experiment = Load("dummy_engine");

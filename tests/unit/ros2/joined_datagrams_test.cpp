@@ -68,7 +68,7 @@ TEST(JoinedDatagrams, SubmessagesOfAllFollowOneAnotherBehindOneHeader)
   std::vector<std::pair<int, int>> expected;
   for (int filling = 1; filling <= 3; ++filling)
   {
-    // What the one before said of time and destination ends.
+    // The time and destination of the datagram before no longer apply.
     if (filling > 1) expected.emplace_back(kTimestamp, -1);
     if (filling > 1) expected.emplace_back(kDestination, 0);
     for (const auto& submessage : own) expected.push_back(submessage);

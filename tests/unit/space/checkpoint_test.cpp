@@ -151,7 +151,7 @@ TEST_F(CheckpointFile, IsRestoredIntoALongerRunAndIntoNoOtherOne)
               testing::ThrowsMessage<std::runtime_error>(HasSubstr("it is of another experiment")));
 }
 
-// Of a robot each.
+// Makes an experiment of `robots` robots.
 Experiment ExperimentOf(std::size_t robots)
 {
   std::vector<std::string> ids;
@@ -192,7 +192,7 @@ TEST_F(CheckpointFile, OfMoreOrFewerControllerHostsIsSharedOut)
   checkpoint.parts.push_back(HostPart(1, {{{{0, 2}, "radio"}}, {{2, "c"}, {3, "d"}, {4, "e"}}}));
   checkpoint.snapshot.poses = InARow(5);
   WriteCheckpoint(path_, checkpoint);
-  // As many as before, with robots that are near one another now.
+  // The number of hosts is the same, but their robots are near each other now.
   const Checkpoint two = ReadCheckpoint(path_, experiment, {2, false});
   EXPECT_EQ(two.parts.size(), 4U);
   EXPECT_EQ(StateOf(two, 0).robots, (std::map<std::uint32_t, std::string>{{3, "d"}, {4, "e"}}));

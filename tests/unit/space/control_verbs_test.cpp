@@ -38,7 +38,7 @@ ControlValue GoodValue(const ControlParameter& parameter)
   return {};
 }
 
-// Of the type of the parameter and out of its range, then of another type.
+// Returns a value of the parameter's type outside its range, and a value of another type.
 std::vector<ControlValue> BadValues(const ControlParameter& parameter)
 {
   const ControlValue other = parameter.type == ArgumentType::kPose ? ControlValue(1.5) : std::vector<double>{1, 2, 3};

@@ -172,7 +172,7 @@ TEST(SpaceQuery, WorldsThatAreClosedToEachOtherDoNotOcclude)
   EXPECT_FALSE(query.FindFirstHit({1, 1, 0.1}, {3, 1, 0.1}, 5).has_value());
 }
 
-// As for cameras: what is looked at is hidden by what stands in its own world.
+// Cameras need this: an entity is also hidden by bodies of its own world.
 TEST(SpaceQuery, TheWorldOfTheOneThatIsLookedAtHidesIt)
 {
   Experiment experiment = TwoWorlds();

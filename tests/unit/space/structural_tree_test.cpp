@@ -46,7 +46,7 @@ protected:
   {
     return space.Structure().GetCompound(member).GetMembers();
   }
-  // What an engine that moves all is told when it says that these hold one another.
+  // Returns the error for an engine that moves all entities and reports these holds.
   std::string MistakeIn(const std::vector<std::pair<std::uint32_t, int>>& holds)
   {
     AttributeChanges changes;

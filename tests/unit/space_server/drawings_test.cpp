@@ -1,4 +1,4 @@
-// What experiment functions draw, and the keys and selections that they get.
+// The drawings of experiment functions, and the keys and selections that they get.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -17,7 +17,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// What the functions below do and heard.
+// The record of the functions below.
 struct Told
 {
   int draws = 0;
@@ -35,7 +35,7 @@ public:
   void Draw(const SpaceEditor& editor, Drawing& drawing) override
   {
     ++told.draws;
-    // Of this step alone: it changes no number of the others.
+    // The draw is from this step alone, so it changes no number of other steps.
     editor.GetRandom().Uniform();
     for (std::size_t k = 0; k < told.segments; ++k) drawing.Segment({0, 0, 0}, {1, 0, 0}, {told.colour});
     drawing.InFrameOf(told.wrong ? 7 : 0);

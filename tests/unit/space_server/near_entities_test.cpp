@@ -120,7 +120,7 @@ TEST_F(SurroundingsTest, TellAllAttributesOfWhoComesIn)
   EXPECT_EQ(part.attributes.values[beacon - first], 0xff00);
 }
 
-// Whoever hears it now may be another process than when it was told last.
+// The receiver may be another process than the one that got the last message.
 TEST_F(SurroundingsTest, TellThePoseOfWhoComesInAgainAtTheSamePlace)
 {
   Put(30, 2.5);
@@ -166,7 +166,7 @@ TEST_F(SurroundingsTest, MakeAReplicaInWhichOthersAreNotThere)
   EXPECT_FALSE(replica.IsPresent(30));
 }
 
-// A hold that ended while nobody told: the replica must not have both hold one another later.
+// The hold ended while it was not sent. The replica must not later have two entities hold each other.
 TEST_F(SurroundingsTest, WhoIsNotToldHoldsNobody)
 {
   CSwarmanoidSpace replica(experiment_);
@@ -191,7 +191,7 @@ TEST_F(SurroundingsTest, WhoIsNotToldHoldsNobody)
   EXPECT_EQ(replica.Hands(30)[0], 0);
 }
 
-// What an engine has moved itself it need not be told, unless somebody else has moved it since.
+// An engine does not need the poses that it computed, unless they were changed from outside.
 TEST_F(SurroundingsTest, AnEngineIsToldOfOthersAndOfWhoWasMoved)
 {
   std::vector<std::uint32_t> owned;

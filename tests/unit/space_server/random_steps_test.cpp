@@ -12,7 +12,7 @@ namespace swarmanoid
 namespace
 {
 
-// What was drawn: by id, step and tick.
+// The drawn numbers by id, step and tick.
 std::map<std::string, std::vector<double>> drawn;
 
 class CDrawingFunctions : public CExperimentFunctions

@@ -1,4 +1,4 @@
-// Who stands in the way of an entity that is added.
+// The entities that block the position of an added entity.
 #include "space_server/space_changes.h"
 
 #include <gmock/gmock.h>
@@ -35,7 +35,7 @@ protected:
     for (const std::size_t engine : engines) experiment_.engines[engine].entities.push_back(index);
     return index;
   }
-  // The id of who stands in the way, "" for nobody.
+  // Returns the id of the blocking entity, or "".
   std::string At(const std::string& id, const Vector3& place, double yaw = 0)
   {
     const CSwarmanoidSpace space(experiment_);

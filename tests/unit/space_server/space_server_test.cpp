@@ -65,7 +65,7 @@ TEST(SpaceServer, UpdatesOfAllEnginesMakeTheNextState)
   EXPECT_THAT(std::vector<double>(state.poses.begin(), state.poses.begin() + 3), ElementsAre(1.5, 2.5, 3.5));
 }
 
-// Who does not read this space would draw other random numbers.
+// A role that does not read this space would draw other random numbers.
 TEST(SpaceServer, ARunBeginsAgainInOneProcessAloneAndIsNotSavedThen)
 {
   const Experiment experiment = TwoEngines();
@@ -135,7 +135,7 @@ TEST(SpaceServer, AMoveIsToldOnceWithItsPose)
   EXPECT_TRUE(server.State().moved.empty());
 }
 
-// What a checkpoint keeps beside the snapshot.
+// The server's own state in a checkpoint, beside the snapshot.
 TEST(SpaceServer, ARestoredOneKnowsItsEndAndWhoWasMoved)
 {
   const Experiment experiment = TwoEngines();

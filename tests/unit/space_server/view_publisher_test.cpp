@@ -25,7 +25,7 @@ protected:
   {
   }
 
-  // As if the time were now_: whether a view is due, which is sent then.
+  // Returns true if a view is due at the time now_, and sends it.
   bool Sends(std::uint64_t tick = 0)
   {
     if (!views_.ViewIsDue(tick, now_)) return false;
@@ -57,7 +57,7 @@ TEST_F(ViewPublisherTest, WhatDoesNotChangeIsSentToNewcomersOnly)
   const Subscription<ViewMessage> views(looker, "viewed", [&](const ViewMessage&) { ++heard; });
   ASSERT_TRUE(Eventually([&] { return Sends(); }));
   EXPECT_TRUE(Eventually([&] { return heard == 1; }));
-  // It may have been lost on its way to somebody who was just met.
+  // The view may have been lost on its way to a reader that was just matched.
   EXPECT_GT(SentWithin(10s), 100);
   EXPECT_EQ(SentWithin(60s), 0);
 

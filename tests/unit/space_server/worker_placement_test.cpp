@@ -1,4 +1,4 @@
-// Where workers may go, and what is told to those who ask for what cannot be.
+// The machines that workers may move to, and the messages for impossible requests.
 #include "space_server/worker_placement.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// What travels between a study and the processes that run it elsewhere.
+// The messages between a study and the processes that run it elsewhere.
 #include <gmock/gmock.h>
 
 #include "common/program/usage_error.h"

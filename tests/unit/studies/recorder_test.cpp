@@ -252,7 +252,7 @@ TEST(StudyMetrics, WhatIsPublishedJoinsTheTable)
   EXPECT_EQ(row.at("reports.mean"), 5) << "one report a step, whatever it holds";
 }
 
-// What the end of a run says about a metric.
+// Returns the complaint about a metric at the end of a run.
 std::string ComplaintAfter(const std::string& metric, int ticks)
 {
   const auto experiment = Scene(Footbot("a", 2, 2, 0), ticks);

@@ -1,4 +1,4 @@
-// What experiment functions draw, as renderers of pictures get it.
+// The drawings of experiment functions in the form for renderers of pictures.
 #include "visualiser/scene/drawn_marks.h"
 
 #include <gmock/gmock.h>

@@ -69,7 +69,7 @@ protected:
         picture.At(static_cast<int>(std::lround(kDots * x_mm)), static_cast<int>(std::lround(kDots * y_mm)));
     return static_cast<std::uint32_t>(pixel[0] << 16 | pixel[1] << 8 | pixel[2]);
   }
-  // Of a plan of the whole arena without captions.
+  // Returns the colour in a plan of the whole arena without captions.
   static std::uint32_t ColourIn(const Picture& picture, double x_m, double y_m)
   {
     return ColourAt(picture, kMargin + 25 * x_m, kMargin + 25 * (2 - y_m));

@@ -1,5 +1,5 @@
-// Pictures of the GL renderer, drawn without X. Golden pictures lie in tests/golden; SWARMANOID_WRITE_GOLDEN=1 writes
-// them anew, and SWARMANOID_PICTURES=FOLDER writes what is drawn, larger, to be looked at.
+// Pictures of the GL renderer, drawn without X. Golden pictures lie in tests/golden, and SWARMANOID_WRITE_GOLDEN=1
+// writes them again. SWARMANOID_PICTURES=FOLDER writes larger pictures to look at.
 #include "visualiser/gl/gl_scene.h"
 
 #include <gtest/gtest.h>
@@ -249,7 +249,7 @@ TEST(GlScene, MarksAreDrawnWhereAsked)
   EXPECT_GT(CountDifferent(bare, DrawWorld(world, camera, selected)), 60);
 }
 
-// As the ground sensors see them: the later one in the file.
+// The later patch of the file is on top, as for the ground sensors.
 TEST(GlScene, OfPatchesThatOverlapTheLaterOneIsOnTop)
 {
   for (const bool red_last : {false, true})

@@ -90,7 +90,7 @@ TEST_F(PastInsideTest, RobotsWithControllersAreAskedForAtTheirTick)
   EXPECT_EQ(robot.actuators.at(0).readings.at(0).unit, "m/s");
 }
 
-// The first is computed for ever; nobody waits for it once another tick is looked at.
+// The first request is computed for ever. Once another tick is asked for, no client waits for it.
 TEST_F(PastInsideTest, OnlyTheNewestTickIsAnswered)
 {
   Write(fmt::format("case \"$2\" in *@5) exec sleep 1000;; esac\necho '{{\"robots\": [{}]}}'", kRobot));
@@ -100,7 +100,7 @@ TEST_F(PastInsideTest, OnlyTheNewestTickIsAnswered)
   for (std::uint64_t tick = 6; tick <= 60; ++tick) inside->Ask(1, {tick, {1}});
   ASSERT_TRUE(Eventually([&] { return Count() == 1; }));
   EXPECT_EQ(answers_[0].second.tick, 60u);
-  // Who has left, and robots without controllers, are not computed for.
+  // Nothing is computed for clients that have left, nor for robots without controllers.
   inside->Ask(2, {5, {1}});
   inside->Forget(2);
   inside->Ask(3, {5, {2}});

@@ -238,7 +238,7 @@ TEST(Scene, RaysOfProximitySensorsStopAtBodies)
   controller.sensors.push_back({"footbot_proximity", "generic_footbot_proximity", {}});
   world.Add(EntityKind::kFootbot, "fb", {1, 1, 0}).controller = "c";
   world.AddBody(EntityKind::kBlock, "block", {1.235, 1, 0.1}, {0.2, 1, 0.2});
-  // As the sensors do, rays meet what is in the robot's engine.
+  // Rays meet the bodies of the robot's engine, as for the sensors.
   world.GetExperiment().engines.emplace_back().entities = {0, 1};
   Scene scene(world.Space());
   SceneOptions options;

@@ -1,4 +1,4 @@
-// What a person does at a window, without the window: keys, mouse, selection, filter, plots, requests to the run.
+// The input of a user at a window, without the window: keys, mouse, selection, filter, plots, requests to the run.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -297,7 +297,7 @@ TEST_F(ViewerTest, DraggingTurnsAndShiftsTheView)
   viewer.MouseRelease(MouseButton::kLeft);
   EXPECT_NEAR(viewer.camera.heading, before.heading - 30, 1e-6);
   EXPECT_FALSE(viewer.shown.scene.selected);
-  // What was under the mouse follows it.
+  // The point under the mouse follows it.
   const Vector3 floor = PointOnFloor(viewer.camera.RayThrough(400, 300, kWidth, kHeight), 0, 10);
   viewer.MousePress(MouseButton::kRight, 400, 300, false, false);
   viewer.MouseMove(440, 280);
@@ -333,7 +333,7 @@ TEST_F(ViewerTest, ValuesReadAsPeopleReadThem)
   EXPECT_EQ(text("turret angle"), "0.000 rad");
 }
 
-// What an inspector lists of one entity: "group.value=text", in its order, without the attributes.
+// Returns the inspector's lines for one entity: "group.value=text", in its order, without the attributes.
 std::vector<std::string> Listed(Viewer& viewer, std::uint32_t entity)
 {
   std::vector<std::string> texts;
