@@ -56,7 +56,10 @@ ControlWords ParseControlWords(std::vector<std::string> words, const std::map<st
   }
   catch (const std::invalid_argument& error)
   {
-    throw UsageError(error.what());
+    std::string text = error.what();
+    if (verb->parameters.empty() && words.size() == 2)
+      text += fmt::format("; if it is the name of an experiment: swarmanoid control {1} {0}", words[0], words[1]);
+    throw UsageError(text);
   }
   return control;
 }

@@ -1,6 +1,7 @@
 // `swarmanoid control`: sends one request to the space server of a running experiment, and prints the reply. Words,
 // options, help and completion follow from common/messages/control_verbs.h.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -56,6 +57,9 @@ int Control(ControlOptions& options, bool domain_given)
   const RunChoice run =
       token ? RunOf(*token, words.experiment)
             : ChooseRun(words.experiment, domain_given ? std::optional(options.bus.domain) : std::nullopt);
+  // Another terminal may have started the run.
+  if (words.experiment.empty() && !token && isatty(STDERR_FILENO) == 1)
+    PrintError("control: the run of {} in domain {}\n", Quoted(run.experiment), run.domain);
   CheckInsecure(run, options.bus);
   options.bus.domain = run.domain;
   UseNetworkOf(run, options.bus);

@@ -57,6 +57,7 @@ TEST(ControlWords, TheSeedOfAResetIsAnOption)
 
 TEST(ControlWords, MisspeltVerbsAreNamed)
 {
+  EXPECT_THAT(ErrorOf({"pause", "diffusion_10"}), HasSubstr("swarmanoid control diffusion_10 pause"));
   EXPECT_THAT(ErrorOf({"paus"}), HasSubstr("did you mean 'pause'?"));
   EXPECT_THAT(ErrorOf({"spede", "2"}), HasSubstr("there is no request 'spede'"));
   EXPECT_THAT(ErrorOf({"spede", "2"}), HasSubstr("did you mean 'speed'?"));
