@@ -27,7 +27,7 @@ const kQuestions = [
   ["learning", "docs/python.html"],
   ["ticks per second", "docs/performance.html"],
   ["process dies", "docs/recovery.html"],
-  ["token", "docs/security.html"],
+  ["stranger", "docs/security.html"],
   ["footbot_proximity", "docs/devices.html"],
   ["which engine", "docs/engines.html"],
 ];
