@@ -30,6 +30,7 @@ using namespace std::chrono_literals;
 
 constexpr auto kBound = 600s;  // of virtual time
 constexpr auto kFinish = 10s;  // for processes to end after the last tick
+constexpr auto kOthers = 3s;   // until the cause of an end is known that is another process's
 constexpr std::uint64_t kMostSteps = 400'000;
 constexpr Duration kLease = 7s;                          // --lease and the silence after it
 constexpr Duration kLocalLease = std::chrono::hours(1);  // the launcher sees which process died
@@ -351,8 +352,17 @@ private:
     }
     if (left_.contains(member->name)) return;
     if (members_.front().process != nullptr && !members_.front().process->is_alive) return;
-    if (process.exit_code && process.exit_code != kExitCutOff)
-      return Trouble(fmt::format("{} ends with {}", process.name, *process.exit_code));
+    const std::string text =
+        process.exit_code ? fmt::format("{} ends with {}", process.name, *process.exit_code) : std::string();
+    // The launcher waits for the cause of such an end. A replacement may end so because the space server has read the
+    // Leave of its predecessor, and is about to tell the launcher.
+    if (process.exit_code == kExitOthersFailed && member->incarnation > 0)
+      return simulation_.After(kOthers,
+                               [this, text, name = member->name]
+                               {
+                                 if (!left_.contains(name) && !server_is_done_) Trouble(text);
+                               });
+    if (process.exit_code && process.exit_code != kExitCutOff) return Trouble(text);
     ++result_.replaced;
     ++member->incarnation;
     StartMember(static_cast<std::size_t>(member - members_.begin()));
