@@ -29,7 +29,7 @@ const kQuestions = [
   ["process dies", "docs/recovery.html"],
   ["stranger", "docs/security.html"],
   ["footbot_proximity", "docs/devices.html"],
-  ["which engine", "docs/engines.html"],
+  ["physics engine", "docs/engines.html"],
 ];
 
 const site = process.argv[2];
