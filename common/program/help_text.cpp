@@ -61,7 +61,9 @@ public:
     const auto options = app->get_options([](const CLI::Option* option) { return !option->get_group().empty(); });
     const auto [notes, examples] = SplitFooter(app->get_footer());
 
-    std::string text = Wrapped(app->get_description() + (app->get_description().ends_with('.') ? "" : "."), width);
+    std::string purpose = app->get_description() + (app->get_description().ends_with('.') ? "" : ".");
+    std::replace(purpose.begin(), purpose.end(), '\n', ' ');
+    std::string text = Wrapped(purpose, width);
     text += "\n\nUsage: " + name;
     std::string arguments;
     for (const CLI::Option* option : options)
