@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <vector>
 
@@ -20,13 +21,29 @@ std::multimap<int, RegisterSubCommand::Add>& Registered()
   return registered;
 }
 
+// The heading of the help that a sub-command stands under, by the order of the first one below it.
+const std::map<int, const char*>& Headings()
+{
+  static const std::map<int, const char*> headings{{1, "Run experiments"},
+                                                   {3, "Look at runs that are over"},
+                                                   {7, "Watch and steer runs"},
+                                                   {10, "Write experiments and plug-ins"},
+                                                   {15, "Try it"},
+                                                   {17, "Studies"}};
+  return headings;
+}
+
 }  // namespace
 
 RegisterSubCommand::RegisterSubCommand(int order, Add add) { Registered().emplace(order, add); }
 
 void AddSubCommands(CLI::App& app, int& exit_code, const std::string& word)
 {
-  for (const auto& [order, add] : Registered()) add(app, exit_code);
+  for (const auto& [order, add] : Registered())
+  {
+    add(app, exit_code);
+    app.get_subcommands({}).back()->group(std::prev(Headings().upper_bound(order))->second);
+  }
   if (word.empty() || word.starts_with("-")) return;
   std::vector<std::string> names;
   for (const CLI::App* known : app.get_subcommands({})) names.push_back(known->get_name());

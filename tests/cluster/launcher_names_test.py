@@ -28,8 +28,8 @@ class Names(harness.LauncherTest):
     def commands_of(self, *command):
         """The command and those below it, with their options that take a value and their positionals, from their help."""
         text = self.command(*command, "--help").stdout
-        commands = text.partition("\nCommands:\n")[2].partition("\n\n")[0]
-        below = re.findall(r"^  ([a-z][a-z-]+)  ", commands, re.MULTILINE)
+        # Commands stand before the options. What stands after these is no command.
+        below = re.findall(r"^  ([a-z][a-z-]+)  ", text.partition("\nOptions:\n")[0], re.MULTILINE)
         # An option with a value has its type behind it, in capitals or as alternatives.
         options = re.findall(r"^  (--[a-z][a-z0-9-]*) [^ ]", text, re.MULTILINE)
         places = re.findall(r"^  ([A-Z][A-Z_@]*) ", text.partition("Arguments:")[2].partition("\n\n")[0], re.MULTILINE)
