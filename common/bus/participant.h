@@ -119,15 +119,15 @@ private:
 class RenewedReader
 {
 public:
-  // `make` gives a reader for the listener of the subscription.
+  // `make` returns a reader for the listener of the subscription.
   RenewedReader(Bus& bus, std::function<std::unique_ptr<ReaderEnd>()> make);
   ~RenewedReader();
   RenewedReader(const RenewedReader&) = delete;
   RenewedReader& operator=(const RenewedReader&) = delete;
 
-  // From its listener, too: a new one takes its place soon, and not before the last one is a second old.
+  // Replaces the reader soon, but not before it is a second old. Its listener may call it, too.
   void Renew();
-  // Whether that has happened: messages may come again.
+  // Returns whether the reader was replaced, so that messages may come again.
   bool WasRenewed() const { return renewed_; }
   unsigned Matched() const;
 
