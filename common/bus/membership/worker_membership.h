@@ -87,7 +87,7 @@ public:
   Action On(Event event, Time now, const std::string& text = {});
   // Handles a Leave message of any process. `process`: "host:pid" of this one; `run`: the run of the world.
   void Heard(const LeaveMessage& leave, const std::string& process, std::uint64_t run, Time now);
-  // `server` is this process's server. `replaces`: dead processes are replaced, so the wait for a lock is shorter.
+  // `server`: "host:pid" of the server. `replaces`: dead processes are replaced, so the wait for a lock is shorter.
   Action HeardWorld(const std::string& server, bool replaces, Time now);
   Action JoinNext(const std::string& server, bool replaces, Time now);
   void AtTick(std::uint64_t tick, Time now);
