@@ -111,7 +111,7 @@ public:
   // Called with each bad message. True: its sender belongs to the run, which ends because of it. Otherwise the bus
   // drops and counts the message. It reports the first one of a sender on a topic on standard error.
   void OnBadMessage(std::function<bool(const BadMessageReport&)> callback);
-  // Whether this process holds the key of the run of that experiment, or needs none.
+  // Returns whether this process holds the key of the run of that experiment, or needs none.
   bool MaySpeakTo(const std::string& experiment);
   // Called once for each process and topic when a message was refused because it is not sealed by the key of the run,
   // or repeats one; with what is wrong with it.

@@ -111,7 +111,7 @@ public:
   int ExitCode() const;
   std::uint64_t Tick() const { return tick_; }
   const std::string& Server() const { return server_; }
-  // Whether the process of that name has said that its work is done, at that tick or a later one.
+  // Returns whether the process of that name has finished its work, at that tick or a later one.
   bool HasLeft(const std::string& name, std::uint64_t tick) const;
 
 private:
