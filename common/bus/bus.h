@@ -25,15 +25,16 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-// What came over the wire is not what a message of its kind may be. Thrown by whoever reads or takes a message; the bus
-// drops the message and knows who sent it.
+// A message from the wire is invalid for its kind. Code that reads or takes a message throws this. The bus drops the
+// message and records its sender.
 class BadMessage : public BusError
 {
 public:
   using BusError::BusError;
 };
 
-// A message that is not for this run, though a member once sent it. It is refused, and nobody fails for it.
+// The message belongs to another run, although a member sent it once. It is refused, and no process fails because of
+// it.
 class ForeignMessage : public BadMessage
 {
 public:
@@ -44,21 +45,22 @@ struct BadMessageReport
 {
   std::string topic;
   std::string process;     // "host:pid" of the sender, as it said when it joined; empty if it did not
-  std::string name;        // likewise, "engine 'ground'"
-  std::uint64_t tick = 0;  // of the message, if it has one
+  std::string name;        // the sender's name in the run, "engine 'ground'"
+  std::uint64_t tick = 0;  // the message's tick, if it has one
   std::string what;
-  std::string sender{};  // for people: by its own word, or an unknown process
+  std::string sender{};  // for people: the name that the sender gave, or an unknown process
 };
 
 // True once a process died while it held a lock in shared memory: threads of the bus wait for it and cannot be ended.
 bool BusIsBroken();
-// Ends the program without waiting for threads of the bus. A failed run ends so: somebody may have died as above.
+// Ends the program without waiting for threads of the bus. A failed run ends so, because a process may have died with a
+// lock.
 [[noreturn]] void EndAtOnce(int code);
 
 inline constexpr int kDefaultDomain = 77;
 
-// A way beside the topics of the members of a run, with a key of its own, between the space server and those who look
-// at a run, or steer it, without being members (access_grant.h).
+// A separate channel with its own key. It connects the space server to programs that observe or steer a run without
+// being members (access_grant.h).
 struct GrantChannel
 {
   std::string id;
@@ -80,12 +82,12 @@ struct BusOptions
   // Largest datagram, larger messages are cut. Otherwise as large as possible on this machine, and one packet on a
   // network: of a larger one that is cut into packets all are lost with one.
   std::optional<int> datagram_bytes;
-  // The key of the run, where it comes from: itself, a descriptor or a file that holds it. Otherwise, for a space
-  // server, a new one; for others those of the runs of this user on this machine.
+  // The source of the run's key: the key itself, a descriptor or a file. Without one, a space server makes a new key.
+  // Other processes use the keys of this user's runs on this machine.
   std::optional<RunKey> key{};
   int key_fd = -1;
   std::string key_file{};
-  bool insecure = false;  // no key: whoever is in the domain belongs to the run
+  bool insecure = false;  // no key: every process in the domain belongs to the run
   // All messages of this process that are not of a tick go this way.
   std::optional<GrantChannel> grant{};
 
@@ -102,14 +104,14 @@ public:
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
 
-  // Called when another process of the run has gone (without a word if `died`), with "host:pid" and its name. Anybody
-  // can say in the name of a process that it goes: it is believed if that process is silent from then on.
+  // Called with "host:pid" and the name when another process of the run has gone (without a Leave if `died`). Any
+  // process can forge a Leave. So the bus believes it only if the named process is silent afterwards.
   void OnProcessGone(std::function<void(const std::string& process, const std::string& name, bool died)> callback);
 
-  // Called with each bad message. True: its sender belongs to the run, which ends for that. Otherwise the message is
-  // dropped and counted, and the first of a sender on a topic is told on standard error.
+  // Called with each bad message. True: its sender belongs to the run, which ends because of it. Otherwise the bus
+  // drops and counts the message. It reports the first one of a sender on a topic on standard error.
   void OnBadMessage(std::function<bool(const BadMessageReport&)> callback);
-  // Whether this process holds the key of the run of that experiment, or needs none.
+  // Returns whether this process holds the key of the run of that experiment, or needs none.
   bool MaySpeakTo(const std::string& experiment);
   // Called once for each process and topic when a message was refused because it is not sealed by the key of the run,
   // or repeats one; with what is wrong with it.
@@ -124,7 +126,8 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
-// The key that a process was given, if any. Not twice: what a descriptor gives is read. Throws BusError.
+// Returns the key that the process was given, if any. Call it once, because a descriptor can be read only once. Throws
+// BusError.
 std::optional<RunKey> GivenKey(const BusOptions& options);
 
 // The IPv4 address under which processes of other machines reach this one; "127.0.0.1" if the bus uses no network.
@@ -134,12 +137,12 @@ std::string ReachableAddress(const BusOptions& options);
 // "host:pid" of this process.
 std::string ProcessId();
 std::string MachineName();
-// Whether a process of this machine is there.
+// Returns whether a process of this machine exists.
 bool IsAlive(long pid);
-// Name of the user of this process, or the number where there is none.
+// Returns the user name of this process, or the user's number if it has no name.
 std::string UserName();
 
-// Where the messages of a tick travel.
+// Says where the messages of a tick travel.
 struct HotScope
 {
   std::string experiment;    // partition

@@ -1,6 +1,6 @@
-// What the bus does a little later, unless it is not needed any more: in a thread of its own, as no thread of DDS may
-// wait, or take apart what it runs in. Delays are times of listening (ListeningClock): a process that could not hear
-// waits longer. From any thread.
+// Calls functions of the bus after a delay, unless they are cancelled. It has its own thread, because a DDS thread must
+// not wait or destroy the reader that called it. Delays are measured in listening time (ListeningClock), so a process
+// that could not listen waits longer. Any thread may call it.
 #pragma once
 
 #include <chrono>
@@ -26,13 +26,13 @@ public:
   DelayedCalls(const DelayedCalls&) = delete;
   DelayedCalls& operator=(const DelayedCalls&) = delete;
 
-  // Nothing if there is one of that name already.
+  // Does nothing if a call of that name is already pending.
   void Schedule(const std::string& name, std::chrono::duration<double> delay, std::function<void()> call);
-  // It is not called, unless it is being called already.
+  // Cancels the call, unless it already runs.
   void Forget(const std::string& name);
-  // It is not called any more, nor is it being called.
+  // Cancels the call, and waits for it if it already runs.
   void Cancel(const std::string& name);
-  // Likewise for all.
+  // Cancels all calls, and waits for the one that runs.
   void Stop();
 
 private:

@@ -21,7 +21,8 @@ namespace swarmanoid
 namespace
 {
 
-// Higher ones use ports that the kernel gives to other programs (32768 and above); 0 is everybody's default.
+// Higher domains use ports that the kernel gives to other programs (32768 and above). Domain 0 is the default of all
+// programs.
 constexpr int kFirstDomain = 1;
 constexpr int kLastDomain = 99;
 

@@ -1,4 +1,4 @@
-// Choosing a DDS domain that nobody on this machine uses. Used by the launcher and tests.
+// Chooses a DDS domain that no process on this machine uses. Used by the launcher and tests.
 #pragma once
 
 namespace swarmanoid

@@ -40,7 +40,7 @@ constexpr std::size_t kSendersTold = 100;     // of bad messages, by topic
 constexpr std::size_t kLongestUser = 100;     // bytes
 constexpr std::size_t kLongestSender = 200;   // bytes of a name in the log
 
-// What Fast DDS says: by itself it writes to standard output, which is for the results of a run.
+// Routes the log of Fast DDS. By default it writes to standard output, which is for the results of a run.
 class DdsLog : public dds::LogConsumer
 {
 public:
@@ -105,7 +105,7 @@ std::vector<std::string> InterfaceAddresses(const std::string& wanted)
     inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in*>(entry->ifa_addr)->sin_addr, text, sizeof(text));
     known += fmt::format(", {} ({})", entry->ifa_name, text);
     if (wanted != entry->ifa_name && wanted != text) continue;
-    // A participant on it would hear nobody, for ever.
+    // A participant on it would never hear any other.
     if ((entry->ifa_flags & IFF_RUNNING) == 0)
     {
       freeifaddrs(list);
@@ -120,8 +120,9 @@ std::vector<std::string> InterfaceAddresses(const std::string& wanted)
 
 std::atomic<bool> broken = false;
 
-// A thread of the bus that waits for a lock of a dead process gets an exception that nobody catches. It is put to
-// sleep; the lease of the dead process tells the main thread who it was. The main thread itself would sleep for ever.
+// A bus thread that waits for a lock of a dead process gets an exception that no code catches. That thread is put to
+// sleep. The dead process's lease tells the main thread which process died. The main thread itself would sleep for
+// ever.
 void SleepInsteadOfTerminate()
 {
   if (!std::current_exception()) DieOf("called std::terminate");
@@ -321,7 +322,7 @@ void Bus::Impl::OnParticipant(const DiscoveredParticipant& found)
     const auto known = processes.find(prefix);
     if (known == processes.end()) return;
     gone = known->second;
-    // Anybody can say that his process is one of the run, and go.
+    // Any process can claim to be a process of the run, and leave.
     if (!insecure && recognised.count(prefix) == 0)
     {
       processes.erase(known);
@@ -330,7 +331,7 @@ void Bus::Impl::OnParticipant(const DiscoveredParticipant& found)
     if (insecure) processes.erase(known);
   }
   if (insecure) return Gone(gone, died);
-  // Likewise that it is to be missed after a shorter silence than it wants.
+  // A forged announcement can also shorten the lease of the process.
   later.Schedule(who.str(), died ? silence_of_dead_ : silence_of_leavers_,
                  [this, prefix, gone, died]
                  {

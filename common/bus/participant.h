@@ -26,19 +26,20 @@ struct Bus::Impl : ParticipantListener
 
   void OnParticipant(const DiscoveredParticipant& participant) override;
 
-  // A message that was dropped for what is wrong with it; it may end the run if its sender belongs to that.
+  // Reports a message that was dropped because it is invalid. It may end the run if its sender is a member.
   void Report(const std::string& topic, const rtps::GUID_t& writer, std::uint64_t tick, const std::string& what);
-  // A message that was dropped because nobody knows whose it is.
+  // Reports a message that was dropped because its sender is unknown.
   void Refuse(const std::string& topic, const rtps::GUID_t& writer, const std::string& what);
-  // A datagram that was dropped because of its structure. It may say that it is from any process, so its sender is
-  // known by its address alone.
+  // Reports a datagram that was dropped because of its structure. It can name any process as its source, so only its
+  // address identifies the sender.
   void RefuseDatagram(const std::string& what, const std::string& address);
-  // A datagram that was dropped because somebody without the key spoke in the name of that process, or about it.
+  // Reports a datagram that was dropped because a sender without the key used the name of that process, or spoke about
+  // it.
   void RefuseDatagram(const GuidPrefix& member, const std::string& sender);
   // A message with a good seal has come from that process.
   void Recognise(const rtps::GUID_t& writer);
 
-  // The topic of that name; its type is registered by the first who asks.
+  // Returns the topic of that name. The first call registers its type.
   dds::Topic* TopicOf(const std::string& name, const std::function<dds::TypeSupport()>& make_type);
 
   dds::DomainParticipant* participant = nullptr;
@@ -67,8 +68,8 @@ private:
   // True for the first of that sender and topic.
   bool Drop(const BadMessageReport& report);
 
-  // Silence after which a process that said that it leaves has left, as anybody can say in its name; and after which
-  // one that was missed is dead, as anybody can say that it is to be missed soon.
+  // The silence after which a forged Leave is excluded: a process that said Leave has left, and a missed process is
+  // dead. Any process can forge a Leave or a short lease.
   const std::chrono::duration<double> silence_of_leavers_;
   const std::chrono::duration<double> silence_of_dead_;
 };
@@ -112,20 +113,21 @@ private:
   dds::DataReader* reader_;
 };
 
-// Somebody spoke in the name of a writer: DDS counts his message as that of the writer, and drops the right one, which
-// has the same number. A new reader begins anew, and hears what is kept for those who come later. Of a subscription.
+// Replaces the reader of a subscription after another process has sent in the name of a writer. DDS counts the forged
+// message as the writer's, and drops the real one with the same number. A new reader starts again, and receives what is
+// kept for late readers.
 class RenewedReader
 {
 public:
-  // `make` gives a reader for the listener of the subscription.
+  // `make` returns a reader for the listener of the subscription.
   RenewedReader(Bus& bus, std::function<std::unique_ptr<ReaderEnd>()> make);
   ~RenewedReader();
   RenewedReader(const RenewedReader&) = delete;
   RenewedReader& operator=(const RenewedReader&) = delete;
 
-  // From its listener, too: a new one takes its place soon, and not before the last one is a second old.
+  // Replaces the reader soon, but not before it is a second old. Its listener may call it, too.
   void Renew();
-  // Whether that has happened: messages may come again.
+  // Returns whether the reader was replaced, so that messages may come again.
   bool WasRenewed() const { return renewed_; }
   unsigned Matched() const;
 
@@ -135,7 +137,7 @@ private:
   std::function<std::unique_ptr<ReaderEnd>()> make_;
   std::atomic<bool> renewed_ = false;
   mutable std::mutex mutex_;
-  std::shared_ptr<ReaderEnd> reader_;  // held while somebody asks it
+  std::shared_ptr<ReaderEnd> reader_;  // held while a thread uses it
 };
 
 dds::DataWriterQos WriterQos(const TopicQos& topic);

@@ -28,7 +28,7 @@ public:
   virtual void Join(int thread) = 0;
 };
 
-// From now on; nullptr: the time of the machine. No other thread may run meanwhile.
+// Replaces the time source; nullptr restores the machine's. No other thread may run meanwhile.
 void SimulateTime(SimulatedTime* time);
 
 // A clock as the standard library wants it, with the time points of the steady clock.
@@ -42,7 +42,7 @@ struct RunClock
   static time_point now();
 };
 
-// As std::condition_variable.
+// Has the interface of std::condition_variable.
 class RunCondition
 {
 public:
@@ -81,7 +81,7 @@ private:
   std::condition_variable condition_;
 };
 
-// As std::thread.
+// Has the interface of std::thread.
 class RunThread
 {
 public:

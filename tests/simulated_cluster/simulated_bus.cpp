@@ -1,5 +1,5 @@
-// common/bus/bus.h, the folder of a run and the identity of processes for simulated processes. The simulated cluster
-// links this in place of the bus; all that stands above it is the code of the product.
+// Implements common/bus/bus.h, the folder of a run and the identity of processes for simulated processes. The simulated
+// cluster links this instead of the bus. All code above it is the product's.
 #include <fmt/format.h>
 
 #include "common/bus/bus.h"

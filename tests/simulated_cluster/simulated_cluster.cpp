@@ -30,7 +30,7 @@ using namespace std::chrono_literals;
 
 constexpr auto kBound = 600s;  // of virtual time
 constexpr auto kFinish = 10s;  // for processes to end after the last tick
-constexpr auto kOthers = 3s;   // until the cause of an end is known that is another process's
+constexpr auto kOthers = 3s;   // until the cause of an end is known, if another process caused it
 constexpr std::uint64_t kMostSteps = 400'000;
 constexpr Duration kLease = 7s;                          // --lease and the silence after it
 constexpr Duration kLocalLease = std::chrono::hours(1);  // the launcher sees which process died
@@ -43,7 +43,7 @@ std::string Content(const std::string& file)
   return text.str();
 }
 
-// What the launcher starts.
+// A process that the launcher starts.
 struct Member
 {
   std::string name;
@@ -51,7 +51,7 @@ struct Member
   WorkerSettings settings{};
   bool is_host = false;
   unsigned incarnation = 0;
-  SimulatedProcess* process = nullptr;  // the newest
+  SimulatedProcess* process = nullptr;  // the newest one
 };
 
 class Cluster
@@ -160,7 +160,7 @@ private:
     for (unsigned host = 0; host < scene_.hosts; ++host) add(HostName(host), {.host = host}, true);
   }
 
-  // Faults come at steps, so that they meet each state of the processes, however short.
+  // Faults occur at steps, so that they hit each state of the processes, however short.
   void DrawEvents()
   {
     SeededRandom& random = simulation_.Random();
@@ -223,7 +223,7 @@ private:
                       [this, number, start = starts_]
                       {
                         Member& member = members_[number];
-                        if (start != starts_) return;  // all start again meanwhile
+                        if (start != starts_) return;  // all processes have started again meanwhile
                         if (network_.IsCut(member.machine)) return StartMember(number);
                         Say(fmt::format("starts {}, incarnation {}", member.name, member.incarnation));
                         member.settings.incarnation = member.incarnation;
@@ -277,7 +277,7 @@ private:
     }
   }
 
-  // The status lines of a space server.
+  // Reads the status lines of a space server.
   struct StatusFile
   {
     StatusFile() : descriptor(memfd_create("status", 0)) {}
@@ -313,7 +313,8 @@ private:
     simulation_.After(kFinish, [this] { EndLateReplacements(); });
   }
 
-  // The launcher ends what was started for a process whose Leave had been read: no server tells it of the end.
+  // The launcher ends a replacement for a process whose Leave has been read. No server tells the replacement of the
+  // end.
   void EndLateReplacements()
   {
     for (const Member& member : members_)
@@ -328,7 +329,7 @@ private:
         simulation_.After(1ms, [this, process = member.process] { simulation_.Kill(*process); });
   }
 
-  // The launcher looks at the status lines all the time.
+  // The launcher reads the status lines all the time.
   void Look()
   {
     ReadStatus();
@@ -368,7 +369,7 @@ private:
     StartMember(static_cast<std::size_t>(member - members_.begin()));
   }
 
-  // All processes are killed, and start again where the journal ends.
+  // Kills all processes. They start again at the end of the journal.
   void Restart()
   {
     Say("starts all again");
@@ -449,7 +450,7 @@ private:
   std::set<std::string> left_;
   std::vector<std::string> errors_;
   StatusFile* status_ = nullptr;
-  unsigned starts_ = 0;  // of all processes
+  unsigned starts_ = 0;  // of all processes together
   bool restarts_ = false;
   bool server_is_done_ = false;
   Simulation simulation_;

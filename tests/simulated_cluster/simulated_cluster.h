@@ -1,6 +1,6 @@
-// SimulatedCluster: a whole run in one thread: space server, engine workers, regions, controller hosts and journal, all
-// with the code of the product, and a launcher that starts and replaces them. One seed decides the machines, what the
-// network does to messages, and when processes are killed, stopped and cut off.
+// SimulatedCluster runs a whole run in one thread: space server, engine workers, regions, controller hosts and journal.
+// They use the code of the product. A simulated launcher starts and replaces them. One seed decides the machines and
+// what the network does to messages. It also decides when processes are killed, stopped and cut off.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace swarmanoid::test
 {
 
-// An experiment, and what it gives in one process.
+// An experiment, and its result in one process.
 struct Scene
 {
   std::string name;
@@ -34,11 +34,11 @@ struct ScheduleResult
   unsigned kills = 0, stops = 0, cuts = 0, replaced = 0, restarts = 0;
 };
 
-// What is said of a schedule on standard error.
+// Chooses what is printed about a schedule on standard error.
 struct Trace
 {
   bool events = false;
-  std::string messages{};  // of topics that begin so; empty: none
+  std::string messages{};  // of topics with this prefix; empty: none
 };
 
 // `folder`: for the journal; its content is removed.

@@ -90,7 +90,7 @@ ScheduleResult RunSeed(std::uint64_t seed, const Trace& trace = {})
   return RunSchedule(Scenes()[seed % Scenes().size()], seed, Folder(), trace);
 }
 
-// What the processes say goes nowhere: there are thousands of them.
+// Discards the output of the processes, since there are thousands of them.
 class Silence
 {
 public:
@@ -147,7 +147,7 @@ TEST(SimulatedCluster, EndsWithTheHashesOfOneProcessWhateverHappens)
       sum.virtual_s, sum.kills, sum.stops, sum.cuts, sum.replaced, sum.restarts);
 }
 
-// Without it no seed would be worth printing.
+// A failing seed is useful only if it repeats its run exactly.
 TEST(SimulatedCluster, RepeatsEachStepOfASeed)
 {
   const Silence silence;

@@ -1,8 +1,8 @@
-// SimulatedNetwork: the messages of simulated processes on their way. simulated_bus.cpp makes common/bus/bus.h of it.
+// SimulatedNetwork delivers the messages of simulated processes. simulated_bus.cpp builds common/bus/bus.h on it.
 //
-// It promises what DDS promises, and no more: the messages of a writer keep their order, those of different writers do
-// not. Messages of a tick are lost on one machine, and late on a network. The others are late, but come. A reader that
-// does not read loses the oldest.
+// It guarantees what DDS guarantees, and no more. The messages of one writer keep their order; those of different
+// writers do not. Messages of a tick may be lost on one machine, and late on a network. Other messages may be late, but
+// arrive. A slow reader loses the oldest messages.
 #pragma once
 
 #include <deque>
@@ -26,10 +26,10 @@ struct NetworkFaults
   double latency_factor = 1;
   double loss = 0;           // of a message of a tick
   double duplicates = 0;     // the same, once more and later
-  double lost_at_match = 0;  // of what is kept for those who come later
+  double lost_at_match = 0;  // of messages kept for processes that join later
 };
 
-// What a reader gets with a message.
+// A message as a reader gets it.
 struct Sample
 {
   std::shared_ptr<const void> message;
@@ -98,10 +98,10 @@ public:
   unsigned Readers(const SimulatedWriter& writer) const;
   unsigned Writers(const SimulatedReader& reader) const;
 
-  // What happens to processes. After the lease the others miss them.
+  // Faults of processes. After the lease the others report the process as gone.
   void Died(SimulatedProcess& process);
   void Stopped(SimulatedProcess& process, Duration time);
-  // No message passes between that machine and the others for a time.
+  // Stops all messages between that machine and the others for a time.
   void Cut(const std::string& machine, Duration time);
   bool IsCut(const std::string& machine) const;
 
@@ -114,7 +114,7 @@ private:
   void Arrive(const std::shared_ptr<SimulatedReader>& reader, const Sample& sample,
               const std::shared_ptr<int>& underway, RunTime at);
   bool AreApart(const SimulatedProcess& a, const SimulatedProcess& b) const;
-  // One of them does not hear the other any more, or again.
+  // Changes whether one of them receives messages of the other.
   void Part(SimulatedProcess& of, SimulatedProcess& from, bool died);
   void MeetAgain(SimulatedProcess& a, SimulatedProcess& b);
 

@@ -24,7 +24,7 @@ struct Killed
 {
 };
 
-// What the C++ runtime keeps for each thread, and here for each fiber: the exceptions that are being handled.
+// The data that the C++ runtime keeps for each thread, and here for each fiber: the exceptions that are being handled.
 struct HandledExceptions
 {
   void* caught = nullptr;
@@ -38,7 +38,7 @@ void Exchange(HandledExceptions& out, const HandledExceptions& in)
   *globals = in;
 }
 
-// Stacks are used again: to map one takes as long as a whole small run.
+// Stacks are reused, because mapping one takes as long as a whole small run.
 std::vector<void*>& FreeStacks()
 {
   static std::vector<void*> stacks;
@@ -222,7 +222,7 @@ void Simulation::Join(int thread)
   Fiber& fiber = *running_process_->fibers[static_cast<std::size_t>(thread)];
   std::mutex own;
   std::unique_lock lock(own);
-  // Within destructors, too, which must not throw. The threads of a process are killed before the main one.
+  // This also runs within destructors, which must not throw. The threads of a process are killed before the main one.
   while (fiber.state != Fiber::State::kEnded) Suspend(&fiber, lock, now_ + std::chrono::hours(1));
 }
 
@@ -264,7 +264,7 @@ void Simulation::Kill(SimulatedProcess& process)
   process.calls.clear();
   std::erase_if(ready_, [&](const Fiber* fiber) { return fiber->process == &process; });
   for (const auto& fiber : process.fibers) fiber->is_killed = true;
-  // The main one last: it waits for the others.
+  // The main fiber is last, because it waits for the others.
   for (std::size_t k = process.fibers.size(); k-- > 0;)
   {
     Fiber& fiber = *process.fibers[k];

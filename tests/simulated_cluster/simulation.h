@@ -59,8 +59,8 @@ struct SimulatedProcess
   std::string machine;
   long pid = 0;
   bool is_alive = true;
-  bool ends_at_once = false;                // it asked for it: no fiber of it runs any more
-  bool has_left_bus = false;                // in good order
+  bool ends_at_once = false;                // the process asked for it: none of its fibers runs again
+  bool has_left_bus = false;                // by a Leave
   std::optional<int> exit_code;             // none: it runs, or was killed
   RunTime stopped_until{};                  // as by SIGSTOP
   std::deque<std::function<void()>> calls;  // for the thread of its bus
@@ -75,18 +75,18 @@ public:
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  // The one that runs; the bus of the simulated processes needs it.
+  // Returns the running process; the bus of the simulated processes needs it.
   static Simulation& Current();
 
   SimulatedProcess& Start(const std::string& name, const std::string& machine, std::function<int()> main);
   void Kill(SimulatedProcess& process);
   void Stop(SimulatedProcess& process, Duration time);
-  // Calls it between two fibers.
+  // Calls the function between two fibers.
   void At(RunTime time, std::function<void()> call);
   void After(Duration time, std::function<void()> call) { At(now_ + time, std::move(call)); }
-  // Calls it in the thread of the process's bus.
+  // Calls the function in the thread of the process's bus.
   void Post(SimulatedProcess& process, std::function<void()> call);
-  // One more step; false if nothing can happen any more.
+  // Does one more step. Returns false if nothing can happen any more.
   bool Step();
 
   SimulatedProcess& CurrentProcess() const { return *running_process_; }

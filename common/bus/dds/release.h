@@ -1,4 +1,4 @@
-// Which release of Fast DDS this was compiled against.
+// Defines the release of Fast DDS that this was compiled against.
 #pragma once
 
 #if __has_include(<fastdds/config.hpp>)

@@ -18,12 +18,12 @@ namespace
 constexpr auto kRepeat = 250ms;
 constexpr auto kStatusTime = 1s;
 constexpr double kLate_s = 0.5;
-// For a space server that was heard and has gone: on a busy machine another one takes its time to go on with the run.
+// The time for another space server to resume the run after the first has gone. A busy machine needs this long.
 constexpr auto kRestartTime = 15s;
 
 }  // namespace
 
-// Process ids come again: requests of another process of our number must not be taken for repetitions of ours.
+// The system reuses process ids. A request of another process with our id must not be taken for a repetition of ours.
 ControlClient::ControlClient(Bus& bus, const std::string& experiment, std::uint64_t run)
     : bus_(bus),
       experiment_(experiment),
@@ -55,8 +55,9 @@ std::optional<ControlReplyMessage> ControlClient::Ask(const ControlOrder& order,
   std::unique_lock lock(mutex_);
   got_on_ = Clock::now();
   const auto start = Clock::now();
-  bool is_gone = false;  // who was asked
-  // The bus calls us while it holds locks that it takes for these questions, too: none of ours may be held meanwhile.
+  bool is_gone = false;  // the space server has left
+  // The bus holds locks when it calls us, and takes the same locks for these questions. So our lock must be released
+  // meanwhile.
   const auto without_lock = [&](const auto& call)
   {
     lock.unlock();
@@ -71,14 +72,15 @@ std::optional<ControlReplyMessage> ControlClient::Ask(const ControlOrder& order,
   };
   while (without_lock([this] { return requests_.Readers() == 0 || replies_.Writers() == 0; }))
     if (answered_.wait_for(lock, 2ms), !is_patient()) return std::nullopt;
-  // A grant that has ended tells nothing of the run any more, and refuses whatever is asked.
+  // A grant that has ended carries no status of the run, and every request is refused.
   const bool by_grant = bus_.Internals().grant.has_value();
   while (run_ == 0 && !(by_grant && Clock::now() - start > kStatusTime))
     if (answered_.wait_for(lock, 2ms), !is_patient()) return std::nullopt;
   reply_.reset();
   request.number = ++number_;
   request.run = run_;
-  // We may know the server before it knows us: then its answer finds nobody, and the same request is answered again.
+  // We may discover the server before it discovers us. Its answer is then lost, and the server answers the same request
+  // again.
   while (!reply_ && is_patient())
   {
     const bool is_heard = without_lock(
@@ -89,7 +91,7 @@ std::optional<ControlReplyMessage> ControlClient::Ask(const ControlOrder& order,
         });
     answered_.wait_for(lock, kRepeat, [this] { return reply_.has_value(); });
     is_gone = !is_heard && status_ && status_->phase != RunStatus::Phase::kFinished;
-    // A run that ends upon the request may be gone before its answer finds us.
+    // If a request ends the run, the run may be gone before its answer arrives.
     if (reply_ || is_heard) continue;
     const bool finished = status_ && status_->phase == RunStatus::Phase::kFinished;
     if (at_end != AtEnd::kCauses && !finished) continue;
@@ -101,7 +103,7 @@ std::optional<ControlReplyMessage> ControlClient::Ask(const ControlOrder& order,
   return reply_;
 }
 
-// A run that is slow because it is told to be has nobody who is late.
+// A process is not late if the run is slow on request.
 void ControlClient::Heard(const RunStatusMessage& message)
 {
   const std::lock_guard lock(mutex_);

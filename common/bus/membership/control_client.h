@@ -19,18 +19,19 @@ namespace swarmanoid
 class ControlClient
 {
 public:
-  // `run`: WorldMessage::run, where it is known; otherwise Ask learns it.
+  // `run`: WorldMessage::run, if known; otherwise Ask learns it.
   ControlClient(Bus& bus, const std::string& experiment, std::uint64_t run = 0);
 
-  // Sends an order and waits for the reply as long as the run gets on: the reply to a step comes at its end. Returns
-  // nullopt if nothing was heard of the run for `timeout_s` (15 s after its space server has gone, since another one
-  // may come), if it stood still that long while it waited for one of its processes, or if `given_up` returns true,
-  // which is called several times a second. An order with an error (OrderError) is not sent: the reply is made here.
+  // Sends an order and waits for the reply as long as the run makes progress. The reply to a step comes at its end.
+  // Returns nullopt if the run was silent for `timeout_s`. The limit is 15 s after the space server has gone, since
+  // another one may come. Returns nullopt also if the run waited that long for one of its processes, or if `given_up`
+  // returns true. `given_up` is called several times a second. An order with an error (OrderError) is not sent; the
+  // reply is made here.
   std::optional<ControlReplyMessage> Ask(const ControlOrder& order, double timeout_s,
                                          const std::function<bool()>& given_up = nullptr);
-  // Another space server goes on with the run, under that number.
+  // Another space server resumes the run under that number.
   void FollowRun(std::uint64_t run);
-  // How the run went when it was heard last; nullopt if no Ask has heard of it.
+  // Returns the status of the run that was received last; nullopt if no Ask has received one.
   std::optional<RunStatus> LatestStatus();
   // Sends without waiting for a reply. Returns why the order is not sent (OrderError); empty if it was sent.
   std::string Send(const ControlOrder& order);
@@ -52,7 +53,7 @@ private:
   std::optional<ControlReplyMessage> reply_;
   Publisher<ControlRequestMessage> requests_;
   Subscription<ControlReplyMessage> replies_;
-  std::unique_ptr<Subscription<RunStatusMessage>> statuses_;  // made by Ask, for those who wait
+  std::unique_ptr<Subscription<RunStatusMessage>> statuses_;  // made by Ask
 };
 
 }  // namespace swarmanoid

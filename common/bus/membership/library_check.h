@@ -1,5 +1,5 @@
-// Which libraries a worker loads: those that the World of its run names by their digests, and if its key came from
-// elsewhere than from this user, only from folders that it was itself started with. Used by WorkerSession.
+// Restricts the libraries that a worker loads. The World of its run names the allowed ones by their digests. If the key
+// came from another user, only the folders that the worker was started with are allowed. Used by WorkerSession.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 namespace swarmanoid
 {
 
-// From now on, for the whole process. `own_folders_only`: those of StandardPluginFolders alone.
+// Sets the allowed libraries for the whole process. `own_folders_only`: allows only those in StandardPluginFolders.
 void AllowOnly(const std::vector<WorldLibrary>& libraries, bool own_folders_only);
 
 }  // namespace swarmanoid

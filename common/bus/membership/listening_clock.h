@@ -1,6 +1,6 @@
-// ListeningClock: how long this process has been able to hear others. On a machine with far too much work, or while it
-// is stopped, its threads do not run, and what others send waits unread. That time says nothing about the others: a
-// process that works must not count as dead because of it.
+// ListeningClock measures how long this process has been able to hear others. On an overloaded machine, or while the
+// process is stopped, its threads do not run, and messages wait unread. That time says nothing about the others. A
+// working process must not count as dead because of it.
 #pragma once
 
 #include <algorithm>
@@ -16,12 +16,12 @@ public:
   using Clock = std::chrono::steady_clock;
   using Duration = Clock::duration;
 
-  // A thread that measures a silence asks for the time once in this period. Of the time between two questions at most
-  // kMostBetween counts: the rest is time in which the thread did not run.
+  // A thread that measures a silence asks for the time once in this period. At most kMostBetween counts between two
+  // questions. The thread did not run in the rest of the time.
   static constexpr Duration kPeriod = std::chrono::milliseconds(50);
   static constexpr Duration kMostBetween = 2 * kPeriod;
 
-  // The time of listening at `now`, which never decreases.
+  // Returns the listening time at `now`. It never decreases.
   Duration At(Clock::time_point now)
   {
     if (last_) listened_ += std::clamp(now - *last_, Duration::zero(), kMostBetween);

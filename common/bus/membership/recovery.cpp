@@ -75,7 +75,7 @@ public:
 private:
   WorkerSession& session_;
   Publisher<RecoveryRequestMessage> requests_;
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // protects the following members
   std::uint32_t wanted_ = 0;
   bool here_ = false;
   RecoveryBlockMessage block_;

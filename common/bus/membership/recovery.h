@@ -1,6 +1,6 @@
-// How a process takes the place of another one that has died: the server sends it, block by block, what the other one
-// took in since the newest tick at which its state was saved, and it does the same again, without a word to anybody.
-// Used by the programs of engines, hosts and visualisers before their first step.
+// Recovers a process that replaces a dead one. The server sends, in blocks, all inputs of the dead process since its
+// newest saved state. The new process repeats those steps and sends nothing meanwhile. Engines, hosts and visualisers
+// use it before their first step.
 #pragma once
 
 #include <functional>
@@ -16,19 +16,19 @@ namespace swarmanoid
 
 struct RecoverySteps
 {
-  std::function<void()> begin;                  // from where the run began, since no state was saved
-  std::function<void(ByteReader& state)> load;  // from a saved state
-  // The space has the state of the record. The last one of a host may be of the tick that the run waits at, and has no
-  // commands. `next`: the record after it, or null.
+  std::function<void()> begin;                  // starts at the beginning of the run, if no state was saved
+  std::function<void(ByteReader& state)> load;  // loads a saved state
+  // Repeats a step; the space has the state of the record. The last record of a host may belong to the tick that the
+  // run waits at, and has no commands. `next`: the record after it, or null.
   std::function<void(const TickRecord& record, const TickRecord* next)> step{};
   std::function<void(const std::vector<SensorFrame>&)>
-      frames{};  // of the tick that comes next; none if it is the first
+      frames{};  // of the tick that comes next; empty if it is the first
 };
 
-// Until the tick that the process waits for, which is returned. Throws BusError.
+// Recovers up to the tick that the process waits for, and returns that tick. Throws BusError.
 std::uint64_t Recover(WorkerSession& session, WorkerWorld& replica, const RecoverySteps& steps);
 
-// The process is not the one that it takes the place of: it computed something else.
+// Refuses a recovery whose results differ from those of the dead process.
 [[noreturn]] void RefuseRecovery(const std::string& name, std::uint64_t tick, const std::string& what);
 
 }  // namespace swarmanoid

@@ -21,13 +21,14 @@ constexpr std::uint32_t kEndOfRun = ~0U;
 constexpr std::chrono::milliseconds kFirstWait = 100ms;  // of what may have been lost
 constexpr std::chrono::milliseconds kLastWait = 1s;
 constexpr std::chrono::milliseconds kLook = 2ms;          // whether the engine has left, after the end of the run
-constexpr std::chrono::milliseconds kLookBefore = 500ms;  // likewise, before it
-// After the end of the run, without being asked by an engine that asks each 0.1 s: it may have left unheard, and the
-// bus takes one that was killed for living a while.
+constexpr std::chrono::milliseconds kLookBefore = 500ms;  // the same, before the end of the run
+// How long a region stays after the end of the run if the engine, which asks every 0.1 s, is silent. The engine's Leave
+// may be lost, and the bus takes a killed engine for living for a while.
 constexpr std::chrono::milliseconds kLinger = 5s;
 constexpr std::chrono::milliseconds kForEver = std::chrono::hours(24 * 365);
 
-// What is said among the processes of one engine, and to one region.
+// Returns the scope of messages among the processes of one engine. ToRegion returns the scope of messages to one
+// region.
 HotScope AmongEngine(const WorkerSession& session, std::uint32_t engine, std::size_t capacity, unsigned writers)
 {
   HotScope scope = session.Scope(capacity, writers);
@@ -65,7 +66,7 @@ void Pack(std::span<const ByteWriter> parts, RegionMessage& message)
   }
 }
 
-// Grows while nobody answers.
+// The interval between repetitions. It grows while no answer comes.
 struct Patience
 {
   std::chrono::milliseconds time = kFirstWait;
@@ -79,7 +80,7 @@ RegionTeamLink::RegionTeamLink(WorkerSession& session, const Experiment& experim
     : session_(session),
       engine_(static_cast<std::uint32_t>(engine)),
       first_(RegionNumber(experiment, engine, 0)),
-      // Whatever a worker before this one said is of an earlier epoch.
+      // The messages of earlier workers have an earlier epoch.
       epoch_(session.Header(0, 0).incarnation << 16U),
       places_(RegionsOf(experiment.engines[engine])),
       results_(session.GetBus(), AmongEngine(session, engine_, limits.ResultBytes(), RegionCount()),
@@ -211,20 +212,20 @@ void RegionTeamLink::Work(bool anew, const WriteTasks& write, std::span<std::vec
   {
     const std::span<const char> error = PartOf(places_[k].result, 1);
     if (!error.empty()) throw std::runtime_error(std::string(error.begin(), error.end()));
-    // It is all there is.
+    // The result is the message's only part.
     results[k].swap(places_[k].result.bytes);
   }
 }
 
 void RegionTeamLink::End()
 {
-  // In an epoch of its own: there may have been no task, and epoch 0 is of those that begin again.
+  // The end of the run has an epoch of its own. There may have been no task, and regions that begin again have epoch 0.
   MakeTask(epoch_ + 1, kEndOfRun, std::vector<ByteWriter>(places_.size()));
   session_.WaitUntil(
       [this]
       {
         {
-          // One that is there only now may have said so: it is told at once.
+          // A region that has just started may have asked for a new begin. It is told the end at once instead.
           const std::lock_guard lock(mutex_);
           begins_again_ = false;
         }
@@ -272,7 +273,7 @@ RegionLink::~RegionLink() = default;
 
 unsigned RegionLink::Missing() const
 {
-  // Its own reader and writer meet, too.
+  // The process's own reader and writer match each other, too.
   const unsigned others = regions_ - std::min({regions_, halos_out_.Readers(), halos_in_.Writers()});
   return others + 1 - std::min({1U, results_.Readers(), tasks_.Writers()});
 }
@@ -280,7 +281,7 @@ unsigned RegionLink::Missing() const
 void RegionLink::TaskReceived(const MessageHeader& header, RegionTaskMessage& task)
 {
   const std::lock_guard lock(mutex_);
-  // It is older than the newest one: a repetition that comes late.
+  // A task older than the newest one is a late repetition.
   if (std::tie(task.epoch, task.number) < std::tie(epoch_, number_)) return;
   const bool is_known = task.epoch == epoch_ && task.number == number_;
   const bool builds_upon = task.number != kFirstTask && task.number != kEndOfRun;
@@ -330,8 +331,8 @@ void RegionLink::Swap(std::span<const ByteWriter> out, std::span<std::vector<cha
       if (!is_here(region)) return false;
     return true;
   };
-  // The others are never more than one ahead, unless they are ahead of the process before this one: then they do not
-  // say again what this one lacks.
+  // The other regions are at most one exchange ahead of this one. They are further ahead only if they exchanged with
+  // its predecessor. Then they do not repeat what this process lacks.
   const auto is_left_behind = [&]
   {
     return std::ranges::any_of(heard_,
@@ -354,7 +355,7 @@ void RegionLink::Swap(std::span<const ByteWriter> out, std::span<std::vector<cha
   }
   if (!all_here())
   {
-    // The engine is asked for all when it says the task again.
+    // This process asks the engine for a new epoch when the engine repeats the task.
     if (is_left_behind()) missed_epoch_ = task_.epoch;
     throw RegionsBeginAgain();
   }
@@ -373,7 +374,7 @@ void RegionLink::WriteHalo(const RegionHaloMessage& halo, bool lacks_others)
   halos_out_.Write(header, halo);
 }
 
-// The last two: one that lags behind lacks the first of them.
+// Writes the last two messages again, because a region that lags behind lacks the first of them.
 void RegionLink::WriteHalosAgain(bool lacks_others)
 {
   for (const std::uint32_t number : {exchanges_ - 1, exchanges_})
@@ -402,8 +403,8 @@ void RegionLink::WriteAnswer()
   results_.Write(session_.Header(tick_, first_ + own_), answer_);
 }
 
-// What it answered last may be lost, and would go with its process: it stays for as long as the engine asks. An engine
-// that leaves in good order has done the last tick, even if this region was not there to be told so.
+// A region stays as long as the engine asks, because its last answer may be lost. An engine that leaves in good order
+// has done the last tick, even if this region was not told so.
 bool RegionLink::EngineHasLeft() const
 {
   if (!is_over_) return session_.HasLeft(engine_name_, tick_ + 1);
@@ -416,7 +417,7 @@ RegionLink::Next RegionLink::WaitForNext()
   const auto is_due = [this] { return has_next_ || is_asked_again_ || is_halo_missed_ || is_lost_ || is_closed_; };
   while (!changed_.wait_for(lock, is_over_ ? kLook : kLookBefore, is_due))
   {
-    // The bus calls with locks of its own, which this asks for.
+    // The bus calls back while it holds its own locks, and EngineHasLeft needs those locks.
     lock.unlock();
     if (EngineHasLeft())
     {
@@ -424,7 +425,7 @@ RegionLink::Next RegionLink::WaitForNext()
       return Next::kEnd;
     }
     lock.lock();
-    // No task has come: the engine may have the result of the process before this one, and its first word is lost.
+    // No task has come. The engine may hold the predecessor's result, and the first answer of this process may be lost.
     if (epoch_ == 0) return Next::kAskForAll;
   }
   if (is_closed_) return Next::kEnd;
@@ -443,7 +444,7 @@ RegionLink::Next RegionLink::WaitForNext()
 
 void RegionLink::Serve(EngineRegion& region)
 {
-  // In case that the engine knew another one in this place.
+  // The engine may know an earlier process of this region, so this one announces itself.
   Answer(0, 0, {}, "");
   ByteWriter result;
   for (Next next = WaitForNext(); next != Next::kEnd; next = WaitForNext())

@@ -1,9 +1,9 @@
-// The two ends between an engine that is split and the processes of its regions, at the bus: RegionTeamLink at the
-// engine worker, RegionLink at a region. docs/wire.md tells who says what.
+// The two ends of the bus connection between a split engine and its region processes. RegionTeamLink is at the engine
+// worker, RegionLink at a region. docs/wire.md describes the messages.
 //
-// A task is done by all regions together: each waits for the others several times in it. So if one of them is another
-// process now, the task is given to all again, with all that they have to know (a new epoch), and those that were in
-// the middle of it drop it.
+// All regions do a task together, and each waits for the others several times in it. If one of them is replaced, the
+// engine sends the task to all again with all the state that they need (a new epoch). Regions that are in the middle of
+// the old task drop it.
 #pragma once
 
 #include <array>
@@ -26,19 +26,19 @@ namespace swarmanoid
 class RegionTeamLink final : public RegionTeam
 {
 public:
-  // Of an engine that is split.
+  // The engine must be split.
   RegionTeamLink(WorkerSession& session, const Experiment& experiment, std::size_t engine, const RegionLimits& limits);
   ~RegionTeamLink() override;
 
-  // Regions whose topics have not been met yet.
+  // Returns the number of regions whose topics are not matched yet.
   unsigned Missing() const;
-  // All have been met: they do the tasks from now on. `role`: the mutex of the role, which Work unlocks while it waits,
+  // Starts the tasks, once all regions are matched. `role`: the mutex of the role. Work unlocks it while it waits,
   // since threads of the bus may need it.
   void Begin(std::mutex& role);
-  // The regions that a task waits for: "region 2 of engine 'ground'"; empty if none.
+  // Returns the regions that a task waits for, "region 2 of engine 'ground'"; empty if none.
   std::string Awaited() const;
   void SetTick(std::uint64_t tick) { tick_ = tick; }
-  // The run is over: regions are told, so that they leave; those that are still on their way are waited for. Throws
+  // Tells the regions that the run is over, so that they leave. Waits for regions that are still starting. Throws
   // BusError if the run is given up meanwhile.
   void End();
 
@@ -51,17 +51,17 @@ private:
   {
     std::string name;
     std::unique_ptr<HotPublisher<RegionTaskMessage>> tasks;
-    RegionTaskMessage task;  // the present one
-    bool is_here = false;    // its result
+    RegionTaskMessage task;  // the current task
+    bool is_here = false;    // the result has arrived
     RegionResultMessage result;
   };
 
-  // A task of all regions.
+  // Prepares a task for all regions.
   void MakeTask(std::uint32_t epoch, std::uint32_t number, std::span<const ByteWriter> parts);
-  // To those whose results are not here.
+  // Sends the task to the regions whose results are missing.
   void Send();
-  // Sends the task until all results are here, or a region has to be told all: true for the former. False also if it
-  // takes longer than `most`.
+  // Sends the task until all results have arrived, and returns true. Returns false if a region needs a new epoch, or if
+  // it takes longer than `most`.
   bool SendAndWait(std::chrono::milliseconds most);
   void Received(const MessageHeader& header, RegionResultMessage& result);
 
@@ -70,13 +70,13 @@ private:
   const std::uint32_t first_;  // number of region 0
   std::mutex* role_ = nullptr;
   std::atomic<std::uint64_t> tick_ = 0;
-  std::uint32_t epoch_, number_ = 0;  // of the present task
+  std::uint32_t epoch_, number_ = 0;  // of the current task
   std::vector<ByteWriter> parts_;
   mutable std::mutex mutex_;
   RunCondition changed_;
   std::vector<Place> places_;
   bool begins_again_ = false;
-  RegionResultMessage arriving_;  // of the subscription's thread
+  RegionResultMessage arriving_;  // used by the subscription's thread
   HotSubscription<RegionResultMessage> results_;
 };
 
@@ -87,12 +87,12 @@ public:
              const RegionLimits& limits);
   ~RegionLink() override;
 
-  // Of the engine worker and the other regions, those whose topics have not been met yet.
+  // Returns how many of the engine worker and the other regions have topics that are not matched yet.
   unsigned Missing() const;
-  // Does tasks until the run is over and the engine has left, or the program asks for the end (Close). What fails is
-  // told to the engine.
+  // Does tasks until the run is over and the engine has left, or until the program calls Close. Failures are reported
+  // to the engine.
   void Serve(EngineRegion& region);
-  // The engine has said that the run is over, or left. Others may have left already.
+  // Returns whether the engine has left or said that the run is over. Other processes may have left already.
   bool IsOver() const { return is_over_; }
   void Close();
 
@@ -100,26 +100,26 @@ public:
   void Swap(std::span<const ByteWriter> out, std::span<std::vector<char>> in) override;
 
 private:
-  // What another region said last in an even or odd message.
+  // The last messages of another region: one with an even number, one with an odd number.
   using Halos = std::array<RegionHaloMessage, 2>;
 
   void Answer(std::uint32_t epoch, std::uint32_t number, std::span<const char> result, const std::string& error);
   void WriteAnswer();
   void TaskReceived(const MessageHeader& header, RegionTaskMessage& task);
   void HaloReceived(const MessageHeader& header, RegionHaloMessage& halo);
-  // What a region does next, between two tasks.
+  // The next action of a region between two tasks.
   enum class Next
   {
     kTask,
     kAnswerAgain,
-    kHalosAgain,  // another one has not got the last ones
-    kAskForAll,   // a task came that builds upon others
+    kHalosAgain,  // another region lacks the last messages
+    kAskForAll,   // a task came that needs earlier tasks
     kEnd
   };
   Next WaitForNext();
   bool EngineHasLeft() const;
   void WriteHalo(const RegionHaloMessage& halo, bool lacks_others = false);
-  // Those of the task that another one may lack.
+  // Repeats the messages of the task that another region may lack.
   void WriteHalosAgain(bool lacks_others);
 
   WorkerSession& session_;
@@ -130,7 +130,7 @@ private:
   const unsigned regions_;     // of the engine
   std::uint64_t tick_ = 0;
   std::atomic<bool> is_over_ = false;
-  RegionTaskMessage task_;  // in work, or done last
+  RegionTaskMessage task_;  // the current task, or the last one
   RegionResultMessage answer_;
   RunTime answered_;
   std::uint32_t exchanges_ = 0;  // in the epoch
@@ -141,13 +141,13 @@ private:
   bool has_next_ = false;
   std::uint64_t next_tick_ = 0;
   std::uint32_t epoch_ = 0, number_ = 0;  // of the newest task that has come
-  std::uint32_t missed_epoch_ = 0;        // that the others began with the process before this one
-  bool is_done_ = false;                  // that one, and answered
-  bool is_asked_again_ = false;           // for the last answer
-  bool is_lost_ = false;                  // a task came that builds upon others
-  bool is_halo_missed_ = false;           // somebody says again what all have heard
+  std::uint32_t missed_epoch_ = 0;        // the epoch that the others began with the predecessor of this process
+  bool is_done_ = false;                  // the newest task is done and answered
+  bool is_asked_again_ = false;           // the engine asks for the last answer again
+  bool is_lost_ = false;                  // a task came that needs earlier tasks
+  bool is_halo_missed_ = false;           // another region repeats a message that all have received
   bool is_closed_ = false;
-  std::vector<Halos> heard_;  // of each region
+  std::vector<Halos> heard_;  // the messages of each region
   RegionTaskMessage arriving_task_;
   RegionHaloMessage arriving_halo_;
   HotPublisher<RegionHaloMessage> halos_out_;

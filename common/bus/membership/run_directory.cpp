@@ -35,7 +35,7 @@ constexpr const char* kKeyFile = "key";
 constexpr const char* kNetworkFile = "network";
 constexpr const char* kReleaseFile = "fast_dds";
 constexpr const char* kMarkerPrefix = "process.";
-// In every folder that we make for a run: what lacks it is not ours to remove.
+// Marks every folder that we make for a run. A folder without the mark is not ours and is never removed.
 constexpr const char* kRunFile = ".swarmanoid-run";
 constexpr std::string_view kRunText = "This folder belongs to a run of Swarmanoid, and is removed with it.\n";
 
@@ -60,7 +60,7 @@ private:
   int number_;
 };
 
-// What a folder or file of ours is not: null text if it is one. `status` is of an open descriptor.
+// Returns why a folder or file is not ours; nullptr if it is. `status` belongs to an open descriptor.
 const char* WhyNotOurs(const struct stat& status)
 {
   if (status.st_uid != geteuid()) return "belongs to another user";
@@ -68,8 +68,8 @@ const char* WhyNotOurs(const struct stat& status)
   return nullptr;
 }
 
-// A folder within `parent` (AT_FDCWD: a path) that is no link and only this user can write. Otherwise none, with errno
-// or, if it is there and not ours, `why`.
+// Opens a folder within `parent` (AT_FDCWD: a path) that is no link and only this user can write. On failure returns an
+// empty descriptor. Then errno says why or, if the folder exists and is not ours, `why` does.
 Descriptor OpenOwnFolder(int parent, const std::string& name, const char** why = nullptr)
 {
   Descriptor folder(openat(parent, name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
@@ -82,7 +82,7 @@ Descriptor OpenOwnFolder(int parent, const std::string& name, const char** why =
   return reason == nullptr ? std::move(folder) : Descriptor(-1);
 }
 
-// A regular file of this user, within a folder of this user.
+// Opens a regular file of this user within a folder of this user.
 Descriptor OpenOwnFile(int folder, const std::string& name, int flags)
 {
   Descriptor file(openat(folder, name.c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0600));
@@ -113,7 +113,7 @@ bool WriteText(int folder, const std::string& name, std::string_view text)
 std::vector<std::string> NamesIn(int folder)
 {
   std::vector<std::string> names;
-  // The stream closes a descriptor of its own.
+  // The stream closes its descriptor, so it gets a copy.
   const int copy = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (copy < 0) return names;
   const std::unique_ptr<DIR, int (*)(DIR*)> stream(fdopendir(copy), &closedir);
@@ -135,7 +135,7 @@ int OpenLocked(int folder, const std::string& name, const std::string& path, int
   return -1;
 }
 
-// Made if it is not there. `variable`: of the environment, which puts it elsewhere.
+// Opens the folder, and makes it first if it does not exist. `variable`: the environment variable that moves it.
 Descriptor MakeOwnFolder(int parent, const std::string& name, const std::string& path, const char* variable)
 {
   if (mkdirat(parent, name.c_str(), 0700) != 0 && errno != EEXIST)
@@ -148,7 +148,7 @@ Descriptor MakeOwnFolder(int parent, const std::string& name, const std::string&
   throw BusError(fmt::format("'{}' {}; remove it, or name another folder by {}", path, why, variable));
 }
 
-// Held while folders are made or removed, so that no half-made folder is taken for a dead one.
+// Locks the making and removing of folders, so that no half-made folder is taken for a dead one.
 class FolderLock
 {
 public:
@@ -181,12 +181,12 @@ bool HasLiveProcess(int run)
 
 bool IsRun(int folder) { return TextOf(folder, kRunFile) == kRunText; }
 
-// The files of a run lie flat in its folder. What else somebody put there stays, and the folder with it.
+// Removes a run's folder. The files of a run lie flat in it. Other files stay, and then the folder stays, too.
 void RemoveRun(int parent, const std::string& name)
 {
   const Descriptor run = OpenOwnFolder(parent, name);
   if (!run || !IsRun(*run)) return;
-  // Last of all the file that says whose it is, so that what is left of a removal that was interrupted is known.
+  // The file that marks the folder is removed last, so that the rest of an interrupted removal is recognised.
   for (const std::string& file : NamesIn(*run))
     if (file != kRunFile) unlinkat(*run, file.c_str(), 0);
   const std::vector<std::string> rest = NamesIn(*run);
@@ -195,16 +195,16 @@ void RemoveRun(int parent, const std::string& name)
   unlinkat(parent, name.c_str(), AT_REMOVEDIR);
 }
 
-// None if there is no such folder, or it is not ours.
+// Returns an empty descriptor if the folder does not exist or is not ours.
 Descriptor OpenSharedFolder() { return OpenOwnFolder(AT_FDCWD, SharedFolder()); }
 
-// With a FolderLock.
+// The caller must hold a FolderLock.
 void RemoveSharedFolderIfEmpty()
 {
   if (OpenSharedFolder()) rmdir(SharedFolder().c_str());
 }
 
-// With a FolderLock.
+// The caller must hold a FolderLock.
 void RemoveDeadRunsOf(int shared)
 {
   for (const std::string& name : NamesIn(shared))
@@ -221,7 +221,7 @@ std::string FileName(const std::string& experiment, std::uint64_t run)
   return fmt::format("{}-{:016x}", name.substr(0, 100), run);
 }
 
-// One line for the interface, one for the discovery server, one for each peer.
+// Writes one line for the interface, one for the discovery server, and one for each peer.
 std::string TextOf(const RunNetwork& network)
 {
   std::string text = network.network_interface + "\n" + network.discovery_server + "\n";
@@ -239,7 +239,7 @@ RunNetwork NetworkOfText(const std::string& text)
   return network;
 }
 
-// The folder that AnnounceFolder wrote; empty if none.
+// Returns the folder that AnnounceFolder wrote; empty if none.
 std::string FolderIn(int run)
 {
   std::istringstream text(TextOf(run, kFolderFile));
@@ -277,12 +277,12 @@ RunDirectory::RunDirectory(const std::string& experiment, std::uint64_t run)
 {
   const FolderLock lock;
   const Descriptor shared = MakeOwnFolder(AT_FDCWD, SharedFolder(), SharedFolder(), kSharedVariable);
-  // On a machine that others start workers on, nobody else would.
+  // If others start workers on this machine, no launcher removes dead runs here.
   RemoveDeadRunsOf(*shared);
   name_ = FileName(experiment, run);
   path_ = SharedFolder() + "/" + name_;
   const Descriptor folder = MakeOwnFolder(*shared, name_, path_, kSharedVariable);
-  // The state of the run lies in it, in files that the bus makes readable for all.
+  // The folder holds the state of the run, in files that the bus makes readable for all.
   if (fchmod(*folder, 0700) != 0)
     throw BusError(fmt::format("cannot keep other users out of '{}': {}", path_, std::strerror(errno)));
   if (!IsRun(*folder) && (!NamesIn(*folder).empty() || !WriteText(*folder, kRunFile, kRunText)))
@@ -310,7 +310,7 @@ void RunDirectory::Leave()
   }
   catch (const BusError&)
   {
-    // The folder of all runs has been removed by someone else: nothing is left to tidy.
+    // Another process has removed the folder of all runs, so nothing is left to tidy.
   }
 }
 
@@ -338,7 +338,7 @@ void RunDirectory::AnnounceFolder(const std::string& of_run)
 
 void RequireSameRelease(const std::string& directory, const std::string& release)
 {
-  // Processes of a run come at the same time.
+  // Processes of a run arrive here at the same time.
   const FolderLock lock;
   const Descriptor folder = OpenOwnFolder(AT_FDCWD, directory);
   std::string of_run = folder ? TextOf(*folder, kReleaseFile) : std::string();

@@ -16,15 +16,15 @@
 namespace swarmanoid
 {
 
-// The folder of all runs of this user. The environment variable SWARMANOID_SHARED_FOLDER puts it elsewhere; what else
-// lies there stays untouched.
+// Returns the folder of all runs of this user. The environment variable SWARMANOID_SHARED_FOLDER moves it. Other files
+// in it stay untouched.
 std::string SharedFolder();
 
-// Where the lock files of this user are, which outlive runs: in XDG_RUNTIME_DIR, or else in /tmp. Made if needed.
-// Throws BusError.
+// Returns the folder of this user's lock files, which outlive runs. It is in XDG_RUNTIME_DIR, or else in /tmp, and is
+// made if needed. Throws BusError.
 std::string LockFolder();
 
-// How the processes of a run reach each other, as BusOptions has it.
+// How the processes of a run reach each other. The fields are those of BusOptions.
 struct RunNetwork
 {
   std::string network_interface = "lo";
@@ -45,10 +45,10 @@ public:
   RunDirectory(const RunDirectory&) = delete;
   RunDirectory& operator=(const RunDirectory&) = delete;
 
-  // For the space server: lets FindLocalRuns find this run with its network, and processes of this user its key.
+  // For the space server: lets FindLocalRuns find this run with its network. Lets processes of this user find its key.
   void Announce(const std::string& experiment, int domain, const std::optional<RunKey>& key,
                 const RunNetwork& network = {});
-  // Where the run keeps its journal, for FolderOfRun. Throws BusError.
+  // Stores the path of the run's journal for FolderOfRun. Throws BusError.
   void AnnounceFolder(const std::string& folder);
   const std::string& Path() const { return path_; }
 
@@ -60,8 +60,8 @@ private:
   bool server_ = false;
 };
 
-// Says that this process shares memory in the folder of a run by messages of Fast DDS. `release`: of Fast DDS, since
-// each release lays its memory out in its own way. Throws BusError if another process of the run has another release.
+// Declares that this process shares memory in the folder of a run by messages of Fast DDS. `release`: the release of
+// Fast DDS, because each has its own memory layout. Throws BusError if another process of the run has another release.
 void RequireSameRelease(const std::string& directory, const std::string& release);
 
 // An experiment whose space server runs on this machine.
@@ -71,15 +71,16 @@ struct LocalRun
   int domain = 0;
   long server = 0;  // process id
   std::string directory;
-  std::string folder{};         // with its journal; empty: it keeps none
-  std::optional<RunKey> key{};  // none: whoever is in the domain belongs to it
+  std::string folder{};         // with its journal; empty if it keeps none
+  std::optional<RunKey> key{};  // none: every process in the domain belongs to the run
   RunNetwork network{};
 };
 
 std::vector<LocalRun> FindLocalRuns();
-// As its space server announced it; empty if it runs elsewhere, belongs to another user, keeps no journal or is over.
+// Returns the journal folder that the run's space server announced. It is empty if the server runs elsewhere, belongs
+// to another user, keeps no journal or has ended.
 std::string FolderOfRun(const std::string& experiment, std::uint64_t run);
-// Removes the folders of runs of which no process is alive, and nothing else.
+// Removes the folders of runs without a living process, and nothing else.
 void RemoveDeadRuns();
 
 }  // namespace swarmanoid

@@ -1,5 +1,5 @@
-// The workers' side of checkpoints: tells the server what a role remembers at the ticks that the run takes them. Used
-// by engine_worker and controller_host in the threads of the bus that step the role.
+// The workers' side of checkpoints: sends the server the state of a role at the ticks of a checkpoint. Used by
+// engine_worker and controller_host, in the threads of the bus that step the role.
 #pragma once
 
 #include <optional>
@@ -15,8 +15,8 @@ namespace swarmanoid
 class SavedStates
 {
 public:
-  // Tries once whether the role can be saved. If the run takes checkpoints, it must be, and this throws what its
-  // SaveState throws; if it only keeps a journal, whoever takes the place of this process starts where the run did.
+  // Tries once whether the role can be saved. If the run takes checkpoints, a failure throws the exception of the
+  // role's SaveState. If it only keeps a journal, a replacement of this process starts at the beginning of the run.
   template <class Role>
   SavedStates(WorkerSession& session, const std::string& name, const Role& role) : session_(session), name_(name)
   {
@@ -25,9 +25,9 @@ public:
     publisher_.emplace(session.GetBus(), session.World().experiment);
   }
 
-  // Whether the server is there.
+  // Returns whether the server's reader is matched.
   bool Matched() const { return !publisher_ || publisher_->Readers() >= 1; }
-  // The role has stepped and is about to step at `tick`. `wanted`: MessageHeader::save of the step.
+  // Saves the role, which is about to step at `tick`. `wanted`: MessageHeader::save of the step.
   template <class Role>
   void Ready(std::uint64_t tick, const Role& role, bool wanted)
   {
@@ -36,7 +36,7 @@ public:
     role.SaveState(state);
     publisher_->Write({session_.World().run, tick, name_, state.Bytes()});
   }
-  // Waits until the server has got all.
+  // Waits until the server has received all states.
   void Flush()
   {
     if (publisher_) publisher_->WaitUntilRead(10);

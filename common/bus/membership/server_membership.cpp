@@ -8,7 +8,7 @@ namespace swarmanoid
 namespace
 {
 
-// Whether the process is the member, or may become it.
+// Returns whether the process is the member, or may become it.
 bool IsOf(const ServerMembership::Member& member, const std::string& process)
 {
   return member.process.empty() || member.process == process;
@@ -89,7 +89,7 @@ ServerMembership::Verdict ServerMembership::Heard(const JoinMessage& join)
   Member& member = found->second;
   if (!MayJoinAs(member, join)) return Verdict::kNameTaken;
   const bool is_another = member.process != join.process;
-  // It is said again until the run begins.
+  // A process repeats its Join until the run begins.
   if (!is_another && member.incarnation == join.incarnation && (!join.ready || member.phase != Phase::kJoined))
     return Verdict::kNothingNew;
   if (is_another)
@@ -99,7 +99,7 @@ ServerMembership::Verdict ServerMembership::Heard(const JoinMessage& join)
     member.process = join.process;
     member.status = {};
     member.done_at.reset();
-    // It has not heard who had left before, and may wait for one of them.
+    // The new process has missed earlier Leaves, and may wait for a process that has left.
     if (join.incarnation > 0)
       for (const auto& [name, other] : members_)
         if (other.done_at) news_.answers.push_back({run_, *other.done_at, name, other.process, ""});
@@ -116,7 +116,8 @@ void ServerMembership::Heard(const LeaveMessage& leave)
 {
   const auto found = members_.find(leave.name);
   const bool is_of_run = found != members_.end() && IsOf(found->second, leave.process);
-  // A replacement whose Join was lost says both again; the run would wait for its predecessor.
+  // If a replacement's Join was lost, it repeats Join and Leave. An answer now would leave the run waiting for its
+  // predecessor.
   const bool is_unheard = found != members_.end() && !is_of_run && awaits_ && !found->second.HasLeft() &&
                           !found->second.replaced.contains(leave.process);
   if (is_unheard) return;

@@ -1,6 +1,6 @@
-// ServerMembership: which processes take part in a run, as the space server knows it. Each has a phase; one function
-// says what an event changes. ServerSession tells it what was heard, and does what it returns. It knows no bus, no
-// thread and no clock. docs/recovery.md prints the table.
+// ServerMembership records which processes take part in a run, for the space server. Each has a phase, and one function
+// defines how an event changes it. ServerSession reports events to it, and does what it returns. It uses no bus, thread
+// or clock. docs/recovery.md prints the table.
 #pragma once
 
 #include <array>
@@ -65,32 +65,32 @@ public:
   struct Member
   {
     Phase phase = Phase::kAwaited;
-    std::string process{};                   // the newest; empty: none has come
+    std::string process{};                   // the newest one; empty if none has come
     std::optional<std::uint64_t> done_at{};  // the tick at which it said that its work is done
     std::uint32_t incarnation = 0;
     std::string machine{};  // as in JoinMessage
     double reach = kReachesAll;
     StatusMessage status{};
-    std::set<std::string> replaced{};  // the processes before
+    std::set<std::string> replaced{};  // the earlier processes
 
     bool HasLeft() const { return phase >= Phase::kDone; }
   };
 
-  // What the server's main thread has to do, since it last took it.
+  // The events that the server's main thread has not handled yet.
   struct News
   {
     std::vector<std::string> left;
     std::vector<std::string> lost;
-    std::vector<std::pair<std::string, std::uint32_t>> replaced;  // that can step, with their incarnations
+    std::vector<std::pair<std::string, std::uint32_t>> replaced;  // those that can step, with their incarnations
     std::vector<LeaveMessage> answers;
   };
 
   // `expected`: names of the processes that the run waits for.
   ServerMembership(std::uint64_t run, const std::vector<std::string>& expected);
 
-  // From now on a process that is lost does not fail the run: one with a higher incarnation replaces it.
+  // A lost process no longer fails the run. A process with a higher incarnation replaces it.
   void AwaitReplacements() { awaits_ = true; }
-  // The run is over: what happens to processes is no failure any more.
+  // The run is over, so that the end of a process is no failure any more.
   void End() { is_over_ = true; }
 
   enum class Verdict
@@ -102,9 +102,9 @@ public:
   Verdict Heard(const JoinMessage& join);
   void Heard(const LeaveMessage& leave);
   void Heard(const StatusMessage& status);
-  // The process has left the bus, without a word if it `died`.
+  // The process has left the bus, without a Leave if `died`.
   void Missed(const std::string& process, bool died);
-  // False if no member has sent it.
+  // Returns false if no member has sent the message.
   bool HeardBad(const std::string& process, const std::string& what);
   // Another process is about to replace the one of that name.
   void Release(const std::string& name) { On(name, Event::kReleased); }
@@ -113,7 +113,7 @@ public:
   const Member* Find(const std::string& name) const;
   const std::map<std::string, Member>& Members() const { return members_; }
   const std::map<std::string, std::string>& Attached() const { return attached_; }  // name by process
-  // The first failure of a process, with its name.
+  // Returns the first failure of a process, with its name.
   const std::optional<std::string>& Failure() const { return failure_; }
   News& Latest() { return news_; }
 

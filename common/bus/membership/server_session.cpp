@@ -14,7 +14,7 @@ namespace
 
 constexpr double kLeaveTime_s = 1.0;
 
-// Two experiments of one name in one domain would hear each other.
+// Throws if the experiment runs already. Two experiments of one name in one domain would hear each other.
 void RefuseSecondServer(const std::string& experiment, int domain)
 {
   for (const LocalRun& run : FindLocalRuns())
@@ -185,7 +185,7 @@ std::vector<RecoveryRequestMessage> ServerSession::TakeRecoveryRequests()
 
 void ServerSession::AnswerLeaves()
 {
-  // Not in the thread that reads them: what it writes comes to this process too.
+  // The answers are not written in the reading thread, because this process receives them too.
   for (const LeaveMessage& answer : std::exchange(state_.Lock()->membership.Latest().answers, {}))
     leave_->Write(answer);
 }
@@ -197,7 +197,7 @@ void ServerSession::Missed(const std::string& process, bool died)
   callbacks_.changed();
 }
 
-// A member ends the run by a bad message; other senders are not heard.
+// Returns whether a member ends the run by a bad message. Messages of other senders are dropped.
 bool ServerSession::FailedBy(const BadMessageReport& report)
 {
   const std::string what = fmt::format("sent a bad {} at tick {}: {}", report.topic, report.tick, report.what);
@@ -213,7 +213,7 @@ std::vector<std::string> ServerSession::Missing() const
   for (const std::string& name : expected_)
     if (state->membership.Of(name).phase == ServerMembership::Phase::kAwaited) missing.push_back(name);
   if (!missing.empty()) return missing;
-  // All have come; some still meet each other.
+  // All processes have joined; some are still matching each other.
   for (const std::string& name : expected_)
     if (state->membership.Of(name).phase == ServerMembership::Phase::kJoined) missing.push_back(name);
   return missing;
@@ -256,13 +256,13 @@ std::vector<std::string> ServerSession::NotLeft() const
 
 void ServerSession::Asked(const ControlRequestMessage& request)
 {
-  // What the server before this one has taken is only answered again.
+  // A request that an earlier server accepted is only answered again.
   const bool is_known = state_.Lock()->FindRequest(request) != nullptr;
   if (key_ && request.run != world_.run && !is_known) throw ForeignMessage("it was asked of another run");
   Ask(request);
 }
 
-// Askers repeat what is not answered in time.
+// Clients repeat a request that is not answered in time.
 void ServerSession::Ask(const ControlRequestMessage& request)
 {
   std::optional<Request> known;
@@ -322,7 +322,7 @@ void ServerSession::Leave(std::uint64_t tick, const std::string& error)
 {
   state_.Lock()->membership.End();
   leave_->Write({world_.run, tick, "space server", "", error});
-  // Nobody is answered after it.
+  // No request is answered afterwards.
   if (leave_->WaitUntilRead(kLeaveTime_s)) replies_->WaitUntilRead(kLeaveTime_s);
 }
 

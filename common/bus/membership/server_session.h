@@ -1,6 +1,5 @@
-// ServerSession: how the space server takes part in a run beside its step. It publishes the world, sends and receives
-// for its ServerMembership, which knows the processes, and hears what users ask for. Its step runs in threads of the
-// bus.
+// ServerSession connects the space server to a run, apart from its step. It publishes the world, and sends and receives
+// for its ServerMembership. It receives the requests of users. Its step runs in threads of the bus.
 #pragma once
 
 #include <deque>
@@ -26,7 +25,7 @@ public:
   struct Callbacks
   {
     std::function<void(const ControlRequestMessage&)> asked;
-    std::function<void()> changed;                         // somebody joined, failed, left, or is waiting
+    std::function<void()> changed;                         // a process joined, failed, left, or waits
     std::function<void(const std::string& process)> gone;  // a process has left the bus
     std::function<void(const ControlReplyMessage&)> replied{};
   };
@@ -35,72 +34,72 @@ public:
   // the domain already.
   ServerSession(const BusOptions& options, WorldMessage world, std::vector<std::string> expected, Callbacks callbacks);
   ~ServerSession();
-  // From now on a process that dies does not fail the run: another one with a higher incarnation takes its place.
-  // Before Open.
+  // A process that dies no longer fails the run. A process with a higher incarnation replaces it. Call it before Open.
   void AwaitReplacements() { state_.Lock()->membership.AwaitReplacements(); }
   // Lets others find the run; the callbacks may be called from now on.
   void Open();
-  // For those who have not heard of it.
+  // Repeats the world for processes that have not received it.
   void SayWorldAgain();
-  // No callback is called any more.
+  // Ends all callbacks.
   void Close();
 
   Bus& GetBus() { return bus_; }
   const WorldMessage& World() const { return world_; }
-  // Of the run; none if anybody is let in.
+  // Returns the key of the run; none if every process is let in.
   const std::optional<RunKey>& Key() const { return key_; }
   HotScope Scope(std::size_t capacity, unsigned writers) const;
 
-  // Those that are not ready yet, in the order of `expected`.
+  // Returns the processes that are not ready yet, in the order of `expected`.
   std::vector<std::string> Missing() const;
-  // The first failure of a process, with its name.
+  // Returns the first failure of a process, with its name.
   std::optional<std::string> Failure() const;
-  // What `name` said last that it waits for or is busy with, at that tick; empty for nothing.
+  // Returns what `name` last reported to wait for or to do at that tick; empty for nothing.
   std::string Status(const std::string& name, std::uint64_t tick) const;
-  // Those of the run in the order of `expected`, then the visualisers that are attached; names and processes only.
+  // Returns the processes of the run in the order of `expected`, then the attached visualisers. Only names and
+  // processes are set.
   std::vector<ProcessStatus> Processes() const;
-  // One of those expected that has left, if any has.
+  // Returns an expected process that has left, if any has.
   std::optional<std::string> FirstLeft() const;
-  // Those expected that have said since the last call that their work is done.
+  // Returns the expected processes that have finished their work since the last call.
   std::vector<std::string> TakeLeft();
-  // Those expected that have been silent for the lease since the last call, if others may take their places.
+  // Returns the expected processes that were silent for the lease since the last call, if others may replace them.
   std::vector<std::string> TakeLost();
-  // Those that take the places of others, with their incarnations, and have become ready since the last call.
+  // Returns the replacements that have become ready since the last call, with their incarnations.
   std::vector<std::pair<std::string, std::uint32_t>> TakeReplaced();
-  // Another process is about to take the place of the one that has the name: nobody cares any more how this one ends.
+  // Another process is about to replace the one of that name. The end of the old process no longer matters.
   void Release(const std::string& name);
-  // "host:pid" of the one that has the name now.
+  // Returns "host:pid" of the process that now has the name.
   std::string ProcessOf(const std::string& name) const;
-  // As whoever started it calls it; empty if nobody said.
+  // Returns the machine's name as its launcher calls it; empty if unknown.
   std::string MachineOf(const std::string& name) const;
-  // Of a host that hears LocalState: JoinMessage::reach.
+  // Returns JoinMessage::reach of a host that hears LocalState.
   double ReachOf(const std::string& name) const;
-  // Of the process that has the name now.
+  // Returns the incarnation of the process that now has the name.
   std::uint32_t Incarnation(const std::string& name) const;
-  // What such processes ask for, and the answer.
+  // Returns the requests of recovering processes. Their answer follows.
   std::vector<RecoveryRequestMessage> TakeRecoveryRequests();
   void Answer(const RecoveryBlockMessage& block) { blocks_->Write(block); }
-  // Lets those go who said that they leave. To be called again and again by the server's own thread.
+  // Answers the Leaves of processes. The server's own thread must call it repeatedly.
   void AnswerLeaves();
-  // Those expected that have joined and not left.
+  // Returns the expected processes that have joined and not left.
   std::vector<std::string> NotLeft() const;
 
-  // Before Open: a server of this run before this one has taken the request, and answered it unless `waits`. Whoever
-  // repeats it is not taken for somebody who asks anew, and is told the text.
+  // An earlier server of this run has accepted the request, and answered it unless `waits`. A retried request is not
+  // executed again; the stored text is sent. Call it before Open.
   void Remember(const ControlRequestMessage& request, bool waits, const std::string& text);
-  // As if it had come over the bus: done once, and answered each time.
+  // Handles a request as if it had come over the bus. It is executed once, and answered each time.
   void Ask(const ControlRequestMessage& request);
   void Reply(const ControlRequestMessage& request, bool ok, std::uint64_t tick, const std::string& text);
   void LeaveDirectory() { directory_.Leave(); }
-  // Where the run keeps its journal, for processes of this machine.
+  // Stores the path of the run's journal for processes of this machine.
   void AnnounceFolder(const std::string& folder) { directory_.AnnounceFolder(folder); }
-  // The run is over, and begins again with another server: observers wait for that one.
+  // Leaves because another server resumes the run. Observers wait for that server.
   void LeaveToNext();
-  // Tells all that the run is over, and why.
+  // Tells all processes that the run is over, and why.
   void Leave(std::uint64_t tick, const std::string& error);
 
 private:
-  // What users asked for of late, with the answers that they got.
+  // The recent requests of users, with their answers.
   struct Request
   {
     std::string client;
@@ -109,7 +108,7 @@ private:
   };
   static constexpr std::size_t kRequestsKept = 256;
 
-  // What the threads of the bus and the server's own share.
+  // The state that the server's own thread and the threads of the bus share.
   struct State
   {
     ServerMembership membership;

@@ -1,4 +1,4 @@
-// StallDetector: notices that a process has been in one state for too long. Asked from time to time, by one thread.
+// StallDetector notices that a process has been in one state for too long. One thread polls it.
 #pragma once
 
 #include <chrono>
@@ -14,8 +14,8 @@ class StallDetector
 public:
   using Clock = std::chrono::steady_clock;
 
-  // `state`: what the process waits for or does at `tick`, empty for nothing worth telling. Returned once it has been
-  // the same for a second.
+  // `state`: what the process waits for or does at `tick`; empty if it is not worth reporting. Returns the state once
+  // it has been the same for a second.
   std::optional<std::string> Observe(std::uint64_t tick, const std::string& state, Clock::time_point now)
   {
     if (!since_ || tick != tick_ || state != state_)

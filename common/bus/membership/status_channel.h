@@ -1,5 +1,5 @@
-// StatusChannel: how the space server tells whoever started it what it is doing: one line an event on a descriptor, at
-// most ten progress lines a second (server_status.h).
+// StatusChannel reports the space server's status to the process that started it. It writes one line for each event to
+// a descriptor, with at most ten progress lines a second (server_status.h).
 #pragma once
 
 #include <fcntl.h>
@@ -16,8 +16,8 @@ namespace swarmanoid
 class StatusChannel
 {
 public:
-  // Negative: nobody listens. If the descriptor is standard output, what anybody prints goes to standard error from
-  // here on: no word of experiment functions is taken for one of the server.
+  // A negative descriptor has no listener. If the descriptor is standard output, other output goes to standard error
+  // from now on. So output of experiment functions is not taken for status lines.
   explicit StatusChannel(int descriptor) : descriptor_(descriptor)
   {
     if (descriptor_ != STDOUT_FILENO) return;
@@ -27,12 +27,12 @@ public:
 
   bool IsOpen() const { return descriptor_ >= 0; }
 
-  // From any thread.
+  // Any thread may call it.
   void Publish(const ServerStatus& status)
   {
     if (!IsOpen()) return;
     const std::string line = ServerStatusLine(status) + "\n";
-    // A launcher that has gone is noticed elsewhere.
+    // The server notices elsewhere that its launcher has gone.
     if (write(descriptor_, line.data(), line.size()) < 0) descriptor_ = -1;
   }
 

@@ -1,6 +1,5 @@
-// TickGate: what a process still waits for before it can go on to the next tick. The parts are the messages of one
-// tick, each expected once; late repetitions are recognised and a message that skips a tick is an error. Not
-// thread-safe.
+// TickGate knows what a process still waits for before the next tick. The parts are the messages of one tick, each
+// expected once. It recognises late repetitions. A message that skips a tick is an error. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -16,31 +15,31 @@ public:
   enum class Verdict
   {
     kExpected,  // take it
-    kBefore,    // of the tick just done: somebody has not got our answer
+    kBefore,    // of the previous tick: the sender lacks our answer
     kDrop       // old, or here already
   };
 
   struct Part
   {
     std::string name;       // for errors: "state of the space server"
-    bool may_lead = false;  // its sender does not wait for us: it may be one tick ahead
+    bool may_lead = false;  // its sender does not wait for us, so it may be one tick ahead
   };
 
   explicit TickGate(std::vector<Part> parts, std::uint64_t first_tick = 0);
 
-  // Throws BadMessage for a tick that cannot follow.
+  // Says what to do with a message. Throws BadMessage for a tick that cannot follow.
   Verdict Offer(std::size_t part, std::uint64_t tick) const;
-  // The expected message is in its place. True if nothing is missing for the current tick any more.
+  // The expected message has arrived. Returns true if the current tick is complete.
   bool Arrived(std::size_t part, std::uint64_t tick);
   bool Complete() const { return missing_ == 0; }
-  // To the next tick.
+  // Advances to the next tick.
   void Next();
-  // The first tick is another one; nothing is here yet.
+  // Sets another first tick, before any message has arrived.
   void StartAt(std::uint64_t tick) { tick_ = tick; }
-  // The messages of that name that are here have to come again, from whoever takes the place of their sender: those of
-  // lower incarnations that are still on their way are not heard.
+  // Discards the messages of that name that have arrived, because the sender's replacement sends them again. Messages
+  // of lower incarnations that are still on their way are ignored.
   void Withdraw(const std::string& name, std::uint32_t incarnation);
-  // Whether a message is of a process that was replaced: one of its part with a higher incarnation was heard.
+  // Returns whether a message comes from a replaced process: its part has sent a higher incarnation.
   bool IsReplaced(std::size_t part, std::uint32_t incarnation);
 
   std::uint64_t Tick() const { return tick_; }

@@ -1,7 +1,7 @@
-// TickInputs: what a worker takes in before each of its steps: the state of the space, and one message from each of
-// some other processes. They come in any order, early, late or again; once all of a tick are here, the worker steps, in
-// the thread of the bus that brought the last one, or in a thread of its own if the step waits for others. Used by
-// engine_worker and controller_host.
+// TickInputs collects what a worker needs before each of its steps: the state of the space, and one message from each
+// of some other processes. Messages may be early, late or repeated. Once a tick is complete, the worker steps in the
+// bus thread that brought the last message. If the step waits for others, it has its own thread. Used by engine_worker
+// and controller_host.
 #pragma once
 
 #include <algorithm>
@@ -33,18 +33,18 @@ public:
     TickGate::Part part;
   };
 
-  // All are called with Mutex() locked. What step throws ends the run.
+  // All are called with Mutex() locked. An exception of `step` ends the run.
   struct Calls
   {
     std::function<Message*(std::size_t other, std::uint64_t tick)> place;  // where a message is to be put
-    std::function<void()> step;                                            // all of tick Tick() is here
-    std::function<void()> answer_again;  // somebody has not got the answer to the tick before Tick()
-    // The step waits for messages of others, and unlocks Mutex() meanwhile: it has a thread of its own.
+    std::function<void()> step;                                            // the inputs of tick Tick() are complete
+    std::function<void()> answer_again;  // a process lacks the answer to the tick before Tick()
+    // The step waits for messages of others and unlocks Mutex() meanwhile, so it has its own thread.
     bool step_waits = false;
   };
 
-  // `late`: what the worker says of a tick is for the one after; so the server does not wait for its step, and may be a
-  // tick ahead.
+  // `late`: the worker's messages of a tick are used at the next tick. So the server does not wait for the step, and
+  // may be a tick ahead.
   TickInputs(WorkerSession& session, WorkerWorld& replica, const std::vector<Other>& others, bool late = false)
       : session_(session),
         space_(*replica.space),
@@ -58,18 +58,18 @@ public:
     }
   }
 
-  // The states are those that the server tells this process alone: `name` as LocalState says, and its number. `apply`
-  // brings the space to the tick of one. Before Open.
+  // Receives the states that the server sends only to this process. `name` and `number` identify it, as in LocalState.
+  // `apply` brings the space to the tick of such a state. Call it before Open.
   void HearPart(std::string name, std::uint32_t number, std::function<void(const LocalState&)> apply)
   {
     part_ = {std::move(name), number, std::move(apply)};
   }
 
-  // The first step is at another tick. Before Open.
+  // Sets another tick for the first step. Call it before Open.
   void StartAt(std::uint64_t tick) { gate_.StartAt(tick); }
 
-  // Messages come from now on. `writers`: of all messages of this kind, no matter for whom they are; `capacity`: bytes
-  // of the largest.
+  // Starts to receive messages. `writers`: of all messages of this kind, for any receiver. `capacity`: bytes of the
+  // largest.
   void Open(Calls calls, std::size_t capacity, unsigned writers)
   {
     calls_ = std::move(calls);
@@ -87,7 +87,7 @@ public:
       Hear(states_in_, session_.Scope(limits_.StateBytes(), 1), {});
   }
 
-  // No message comes and none of the calls runs after this. Before anything that they use goes.
+  // Stops messages and calls. It must run before anything that the calls use is destroyed.
   void Close()
   {
     states_in_.reset();
@@ -102,7 +102,7 @@ public:
     stepper_.join();
   }
 
-  // The last state has come: others may have left already.
+  // Returns whether the last state has come. Other processes may have left already.
   bool Over() const { return over_; }
   // Whether the states of the server can be read, and how many of the other writers have not been found yet.
   bool ServerIsHere() const { return (part_ ? part_in_->Writers() : states_in_->Writers()) >= 1; }
@@ -112,10 +112,12 @@ public:
     return writers_ - std::min(here, writers_);
   }
 
-  // For a message that this process has from its start, such as restored sensor values: nobody sends it.
+  // Marks a message as present that this process has from its start, such as restored sensor values. No process sends
+  // it.
   void HaveFirst(std::size_t other) { gate_.Arrived(1 + other, gate_.Tick()); }
 
-  // If the tick takes long: whom the worker waits for or, while it works, `busy`. For the main thread.
+  // If the tick takes long, returns which processes the worker waits for or, while it works, `busy`. For the main
+  // thread.
   std::optional<std::string> Stall(const std::function<std::string()>& busy)
   {
     std::unique_lock lock(mutex_, std::try_to_lock);
@@ -130,12 +132,12 @@ public:
   }
 
   std::mutex& Mutex() { return mutex_; }
-  // Of Tick().
+  // Returns the state of Tick().
   const SpaceState& State() const { return states_[gate_.Tick() % 2]; }
-  // Whether the state of the step asks for what the process remembers after it.
+  // Returns whether the state of the step asks the role to save its state afterwards.
   bool Saves() const { return saves_[stepping_ % 2]; }
   std::uint64_t Tick() const { return gate_.Tick(); }
-  // The step of Tick() is done.
+  // Ends the step of Tick().
   void Next() { gate_.Next(); }
 
 private:
@@ -146,7 +148,7 @@ private:
     return parts;
   }
 
-  // Which of the other processes sent it; their number if it is none of them.
+  // Returns the index of the sender among the other processes, or their number if it is none of them.
   std::size_t OtherOf(const MessageHeader& header) const
   {
     return static_cast<std::size_t>(std::find(sources_.begin(), sources_.end(), header.source) - sources_.begin());
@@ -190,7 +192,7 @@ private:
         Finish(header.tick);
     }
     else if (header.tick + 1 == gate_.Tick() || header.tick == gate_.Tick())
-      // The server lacks the answer to the tick before, or somebody whom this process waits for lacks it.
+      // The server, or another process that this one waits for, lacks the answer to the previous tick.
       calls_.answer_again();
   }
 
@@ -213,7 +215,7 @@ private:
     if (gate_.Arrived(1 + OtherOf(header), header.tick) && !over_) Go();
   }
 
-  // The state of the tick is here. False if it is the last one.
+  // Takes the state of the tick. Returns false if it is the last one.
   bool Enter()
   {
     const LocalState& state = states_[gate_.Tick() % 2];
@@ -232,7 +234,7 @@ private:
     session_.Finish(tick);
   }
 
-  // All of the tick is here.
+  // The tick is complete.
   void Go()
   {
     if (is_stepping_) return;  // it looks again after the step
@@ -281,7 +283,7 @@ private:
   std::vector<std::uint32_t> sources_;
   unsigned writers_ = 0;
   Calls calls_;
-  std::mutex mutex_;  // of the gate, the states and all that the calls touch
+  std::mutex mutex_;  // protects the gate, the states and all that the calls touch
   TickGate gate_;
   std::array<LocalState, 2> states_;  // of even and odd ticks; of all entities, unless it hears a part
   std::array<bool, 2> saves_{};

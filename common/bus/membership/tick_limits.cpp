@@ -22,7 +22,7 @@ void FillSlots(AttributeChanges& changes, std::size_t slots)
   for (std::size_t slot = 0; slot < slots; ++slot) changes.Add(static_cast<std::uint32_t>(slot), 0);
 }
 
-// All different: no column is shorter on the wire.
+// The values are all different, so that no column is shorter on the wire.
 void FillPoses(std::vector<double>& poses, std::size_t entities)
 {
   poses.resize(kPoseColumns * entities);
@@ -41,23 +41,23 @@ void CheckLength(const char* field, std::size_t length, std::size_t wanted)
   if (length != wanted) RefuseField(field, fmt::format("it has {} numbers, not {}", length, wanted));
 }
 
-// Of the senders of a kind, the one that the message names.
+// Returns the entry of the sender that the message names.
 std::size_t OfSource(const std::vector<std::size_t>& numbers, const MessageHeader& header)
 {
   TickLimits::CheckSource(header, numbers.size());
   return numbers[header.source];
 }
 
-// For what does not grow with the bodies, and crowds of few that grip.
+// Covers fixed parts, and small crowds with many grips.
 constexpr std::size_t kRegionAtLeast = 1 << 20;
 
 }  // namespace
 
-// Of a body its state and a grip; of a mirror its outline, too.
+// A body needs its state and a grip; a mirror also needs its outline.
 std::size_t RegionLimits::TaskBytes() const { return kRegionAtLeast + 144 * bodies + 4096 * mirrors; }
-// Twice what it takes if all change their regions at once.
+// The size is twice that of all bodies changing their regions at once.
 std::size_t RegionLimits::HaloBytes() const { return kRegionAtLeast + 256 * bodies; }
-// Of a body its pose, turret and way.
+// A body needs its pose, turret and way.
 std::size_t RegionLimits::ResultBytes() const { return kRegionAtLeast + 72 * bodies; }
 
 TickLimits::TickLimits(const CSwarmanoidSpace& space, const Assignment& assignment, bool recorded)
@@ -149,7 +149,7 @@ void TickLimits::Check(const MessageHeader& header, const SpaceState& state) con
   CheckDrawing(state.drawing);
 }
 
-// Whom it is for is known to those who hear it.
+// The subscriber has already checked that the message is addressed to this process.
 void TickLimits::Check(const MessageHeader&, const LocalState& state) const
 {
   for (std::size_t k = 0; k < state.entities.size(); ++k)
@@ -234,7 +234,7 @@ void TickLimits::CheckFaults(const ControllerFaults& faults) const
   }
 }
 
-// They ascend: the last one is the largest.
+// The slots ascend, so the last one is the largest.
 void TickLimits::CheckSlots(const AttributeChanges& changes) const
 {
   const std::vector<std::uint32_t>& slots = changes.slots;

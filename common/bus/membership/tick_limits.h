@@ -1,6 +1,6 @@
-// TickLimits: what an experiment makes of the messages of a tick: how long their arrays are, and which slots and
-// entities there are. From it follow the room that messages need and the check of those that arrive. Same in every
-// process of a run; read-only, so any thread may ask.
+// TickLimits derives the limits of tick messages from an experiment: the lengths of arrays, and the valid slots and
+// entities. They give the memory that messages need, and the checks of arriving messages. All processes of a run have
+// the same limits. Read-only, so any thread may ask.
 #pragma once
 
 #include <cstdint>
@@ -32,27 +32,27 @@ public:
   // `recorded`: WorldMessage::recorded.
   TickLimits(const CSwarmanoidSpace& space, const Assignment& assignment, bool recorded);
 
-  // Bytes of the largest message of a kind, no matter of whom.
+  // Return the bytes of the largest message of a kind, from any sender.
   std::size_t StateBytes() const;
   std::size_t LocalStateBytes() const;
   std::size_t CommandBytes() const;
   std::size_t UpdateBytes() const;
   std::size_t FrameBytes() const;
   static std::size_t DrawnBytes();
-  // Of the largest engine that is split.
+  // Returns the limits of the largest split engine.
   RegionLimits Regions() const { return {most_in_regions_, most_mirrors_}; }
 
-  // Throw BadMessage, with the name of the field.
+  // Check a message. Throw BadMessage with the name of the field.
   void Check(const MessageHeader& header, const SpaceState& state) const;
   void Check(const MessageHeader& header, const LocalState& state) const;
   void Check(const MessageHeader& header, const ControlCommands& commands) const;
   void Check(const MessageHeader& header, const UpdateMessage& update) const;
   void Check(const MessageHeader& header, const SensorFrame& frame) const;
   void Check(const SpaceSnapshot& snapshot) const;
-  // The same for who sends a message of that kind, before it is read.
+  // Checks the sender of a message of that kind, before the message is read.
   template <class Message>
   void CheckSource(const MessageHeader& header) const;
-  // Where `senders` may send such a message, numbered from 0.
+  // The same if the senders are numbered from 0 to `senders` - 1.
   static void CheckSource(const MessageHeader& header, std::size_t senders);
 
 private:
@@ -66,13 +66,13 @@ private:
   std::size_t slots_;
   bool draws_;                               // states have what experiment functions draw
   std::vector<bool> is_movable_;             // of each entity
-  std::vector<bool> may_fail_;               // likewise
+  std::vector<bool> may_fail_;               // of each entity
   std::vector<std::size_t> command_values_;  // of each host
   std::vector<std::size_t> owned_;           // of each engine
   std::vector<std::size_t> recorded_;        // of each engine: numbers in UpdateMessage::recorded
   std::vector<std::size_t> sensor_values_;   // of each engine
   std::size_t most_in_regions_ = 0;          // bodies of one engine that is split
-  std::size_t most_mirrors_ = 0;             // likewise, of other engines' bodies
+  std::size_t most_mirrors_ = 0;             // bodies of other engines in one split engine
 };
 
 }  // namespace swarmanoid

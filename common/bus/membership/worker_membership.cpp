@@ -43,7 +43,7 @@ std::optional<Phase> EndOf(Event event)
   }
 }
 
-// Whether the server still expects a word of this process.
+// Returns whether the server still expects a message of this process.
 bool IsExpected(Phase phase)
 {
   return phase < Phase::kStuck || phase == Phase::kInterrupted || phase == Phase::kFailed;
@@ -134,7 +134,7 @@ void WorkerMembership::Heard(const LeaveMessage& leave, const std::string& proce
   }
   const bool is_for_this = leave.process == process;
   if (!leave.process.empty() && !is_for_this) return;
-  // A share that has ended tells no world, but why it has.
+  // The end of an access grant is reported without a world.
   const bool ends_share = phase_ == Phase::kSearching && !is_for_this && !leave.error.empty();
   if (!is_of_run && !ends_share) return;
   if (!leave.error.empty())

@@ -1,6 +1,6 @@
-// WorkerMembership: the part that a worker has in a run, from its search for the space server to its good-bye. It is a
-// phase and one transition function. WorkerSession tells it what was heard and what time it is, and does what it
-// returns. It knows no bus, no thread and no clock. docs/recovery.md prints the table.
+// WorkerMembership is a worker's membership in a run, from the search for the space server to the Leave. It has a phase
+// and one transition function. WorkerSession reports messages and the time to it, and does what it returns. It uses no
+// bus, thread or clock. docs/recovery.md prints the table.
 #pragma once
 
 #include <array>
@@ -43,14 +43,14 @@ public:
     kPrepared,    // the process can step
     kTickPassed,  // since it was ready
     kLastTick,
-    kUnheard,  // the last word is old: it may be lost
+    kUnheard,  // the last message is old and may be lost
     kBusStuck,
     kServerGone,
     kServerLeft,
     kServerFailed,
     kInterrupted,
     kOwnFailure,
-    kNextServer,  // another one goes on with the run
+    kNextServer,  // another server resumes the run
     kWorkEnded,   // the process has nothing more to do
     kAnswered     // the server has read the Leave
   };
@@ -83,16 +83,16 @@ public:
   void Observe() { observes_ = true; }
   bool Observes() const { return observes_; }
 
-  // What was heard, or happened. `text` says why, for kServerFailed and kOwnFailure.
+  // Handles an event. `text` says why, for kServerFailed and kOwnFailure.
   Action On(Event event, Time now, const std::string& text = {});
-  // A Leave message of anybody. `process`: "host:pid" of this one; `run`: that of the world.
+  // Handles a Leave message of any process. `process`: "host:pid" of this one; `run`: the run of the world.
   void Heard(const LeaveMessage& leave, const std::string& process, std::uint64_t run, Time now);
-  // The server is this process. `replaces`: others take over when a process dies, so that a lock is waited for less.
+  // `server`: "host:pid" of the server. `replaces`: dead processes are replaced, so the wait for a lock is shorter.
   Action HeardWorld(const std::string& server, bool replaces, Time now);
   Action JoinNext(const std::string& server, bool replaces, Time now);
   void AtTick(std::uint64_t tick, Time now);
 
-  // What the process sees when it looks around, as it does all the time.
+  // The observations that the process makes repeatedly.
   struct Sight
   {
     bool is_interrupted = false;
@@ -103,15 +103,15 @@ public:
 
   Phase Now() const { return phase_; }
   bool HasEnded() const { return phase_ >= Phase::kStuck; }
-  // The end of this process, before it leaves; none if its work was done.
+  // Returns how this process ended, before it leaves; none if its work was done.
   std::optional<Phase> End() const { return end_; }
-  // Of the end, for people.
+  // Returns the reason of the end, for people.
   std::string Text() const;
   EndReason Reason() const;
   int ExitCode() const;
   std::uint64_t Tick() const { return tick_; }
   const std::string& Server() const { return server_; }
-  // Whether the process of that name has said that its work is done, at that tick or a later one.
+  // Returns whether the process of that name has finished its work, at that tick or a later one.
   bool HasLeft(const std::string& name, std::uint64_t tick) const;
 
 private:

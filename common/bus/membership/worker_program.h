@@ -1,4 +1,4 @@
-// The frame of the programs of the workers: engine_worker, controller_host and visualiser.
+// The common main function of the workers: engine_worker, controller_host and visualiser.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,12 +12,12 @@
 namespace swarmanoid
 {
 
-// A program with a worker's options, those of the bus, and those that `declare` adds.
+// Runs a program with a worker's options, the bus options, and the options that `declare` adds.
 int RunWorker(const ProgramDescription& program, int count, char** arguments, WorkerTable table,
               const std::function<int(const WorkerSettings&, const BusOptions&)>& run,
               const std::function<void(CLI::App&)>& declare = nullptr);
 
-// The number of the engine or visualisation (`kind`) with that id.
+// Returns the number of the engine or visualisation (`kind`) with that id.
 template <class Part>
 std::size_t NumberOf(const Experiment& experiment, const std::vector<Part>& parts, const char* kind,
                      const std::string& id)

@@ -28,7 +28,7 @@ constexpr auto kPatience = 1s;          // until the process says what it waits 
 constexpr auto kPatienceForNext = 15s;  // of observers, for another space server
 constexpr auto kLook = 100ms;           // at whether the server is there, while this process leaves
 
-// The text of an experiment, whatever its seed and in whichever files its elements stand.
+// Returns the text of an experiment without its seed. Its elements may come from several files.
 std::string WithoutSeed(std::string_view xml)
 {
   std::string text(WithoutPlaces(xml));
@@ -101,7 +101,7 @@ void WorkerSession::HeardWorld(const WorldMessage& world)
   if (membership_.Now() == Phase::kSearching)
   {
     world_ = world;
-    // The constructor says Join, as soon as it can write.
+    // The constructor sends Join as soon as it can write.
     membership_.HeardWorld(fmt::format("{}:{}", world.host, world.pid), world.recorded, Clock::now());
   }
   else if (membership_.Observes() && GoesOnWith(world))
@@ -216,7 +216,8 @@ HotScope WorkerSession::Scope(std::size_t capacity, unsigned writers) const
   return {world_.experiment, directory_->Path(), world_.spread, capacity, writers};
 }
 
-// The leases of a run on one machine are long: its launcher sees which process dies, but observers have no launcher.
+// The leases of a run on one machine are long, because its launcher sees which process dies. Observers have no
+// launcher.
 WorkerMembership::Sight WorkerSession::Sight() const
 {
   return {stop_, BusIsBroken(), server_seen_ && !ServerIsOnThisMachine()};
@@ -230,7 +231,7 @@ void WorkerSession::CheckEnd()
     action = membership_.Look(Sight(), Clock::now());
     if (membership_.HasEnded()) throw BusError(membership_.Text());
   }
-  // Fast DDS may lose what was said while the reader was met, although the reader has acknowledged it.
+  // Fast DDS may lose messages that were sent while the reader was matched, although the reader has acknowledged them.
   if (action != Action::kNone && join_ != nullptr) SayJoin(action == Action::kSayReady);
 }
 
@@ -282,7 +283,7 @@ void WorkerSession::Fail(std::uint64_t tick, const std::string& error, bool comp
 {
   const std::lock_guard lock(mutex_);
   membership_.AtTick(tick, Clock::now());
-  // At once: others may end because of it before this process does.
+  // The failure is reported at once, because other processes may end because of it before this one does.
   if (membership_.Now() < Phase::kFailed)
     NoteEnd(EndReason::kFailed, tick, complete ? error : fmt::format("{} failed at tick {}: {}", name_, tick, error),
             complete);
@@ -396,7 +397,7 @@ void WorkerSession::LeaveRun(const std::string& error)
     lock.unlock();
     if (action == Action::kSayLeave)
     {
-      // The server does not answer a replacement whose Join it has not heard.
+      // The server does not answer a replacement whose Join was lost.
       SayJoin(false);
       leave_->Write(leave);
     }

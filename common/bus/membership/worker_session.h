@@ -1,6 +1,6 @@
-// WorkerSession: how a worker takes part in a run beside its step. It sends, receives and measures time for its
-// WorkerMembership, which decides, and it reports what the worker waits for. Used by engine_worker, controller_host and
-// visualiser; the step itself runs in a thread of the bus.
+// WorkerSession connects a worker to a run, apart from its step. It sends, receives and measures time for its
+// WorkerMembership, which decides. It reports what the worker waits for. The step itself runs in a thread of the bus.
+// Used by engine_worker, controller_host and visualiser.
 #pragma once
 
 #include <atomic>
@@ -24,12 +24,11 @@ namespace swarmanoid
 class WorkerSession
 {
 public:
-  // Waits for the space server of `experiment` (empty: of the first one that is heard), saying so. `name` as in
-  // JoinMessage. Throws BusError if its protocol is another one, or when interrupted.
-  // `server`: the process on this machine that is expected to be it; BusError if it ends before it is heard.
-  // `incarnation`: how many processes of that name the run has had before this one. `machine`: as in JoinMessage.
-  // `stop`: for a session within a program of somebody else, which sets it where others are interrupted by a signal,
-  // and says itself by AllowOnly which libraries may be loaded while it loads some.
+  // Waits for the space server of `experiment` (empty: the first server that is heard) and reports the wait. `name` is
+  // that of JoinMessage. Throws BusError if the server's protocol differs, or when interrupted. `server`: the server's
+  // process on this machine; BusError if it ends before it is heard. `incarnation`: how many processes of that name the
+  // run has had before. `machine`: as in JoinMessage. `stop`: for a session within another program, which sets it to
+  // interrupt the session. That program calls AllowOnly itself while it loads libraries.
   WorkerSession(const BusOptions& options, const std::string& experiment, const std::string& name,
                 std::optional<int> server = std::nullopt, unsigned incarnation = 0, const std::string& machine = {},
                 const std::atomic<bool>* stop = nullptr);
@@ -40,7 +39,7 @@ public:
   const std::string& Name() const { return name_; }
   bool TakesAPlace() const { return incarnation_ > 0; }
   const WorldMessage& World() const { return world_; }
-  // Lets go of what serves to make the world alone (xml, entities, checkpoint). Not for observers.
+  // Releases what only building the world needs (xml, entities, checkpoint). Not for observers.
   void ReleaseWorld();
   Bus& GetBus() { return bus_; }
   HotScope Scope(std::size_t capacity, unsigned writers) const;
@@ -49,44 +48,44 @@ public:
     return {world_.run, tick, source, false, incarnation_};
   }
 
-  // Waits until `met` is true; after a while it says "waiting for <what>". Throws BusError if the run ends before.
+  // Waits until `met` is true; after a while it reports "waiting for <what>". Throws BusError if the run ends before.
   void WaitUntil(const std::function<bool()>& met, const std::function<std::string()>& what);
-  // Before ReportReady: of a host that hears LocalState (JoinMessage::reach).
+  // Sets JoinMessage::reach of a host that hears LocalState. Call it before ReportReady.
   void SetReach(double reach_m) { reach_ = reach_m; }
   // Tells the server that this process can step.
   void ReportReady();
 
-  // Does the work of the process, all of it after the constructor, and tells the server how it ended. Returns the exit
-  // code; throws what `work` throws.
+  // Does all work of the process after the constructor, and tells the server how it ended. Returns the exit code.
+  // Exceptions of `work` pass through.
   int Work(const std::function<void()>& work);
 
-  // Within the work: waits until the run ends. `idle` is called by every Notify, and at least once in a `period`. If
-  // this process is late, it returns why ("waits for engine 'ground'", "controller of 'fb_3'"), which goes to the
-  // server. Ends the program if this process or another one failed.
+  // Waits until the run ends. Call it within the work. `idle` is called by every Notify, and at least once in a
+  // `period`. If this process is late, `idle` returns why ("waits for engine 'ground'", "controller of 'fb_3'"). The
+  // reason goes to the server. Ends the program if this process or another one failed.
   void Wait(std::chrono::milliseconds period, const std::function<std::optional<std::string>()>& idle);
-  // As Wait, for a process that still has something to do after the run: returns nothing once Finish was called, or the
-  // reason for which the run ended.
+  // Waits like Wait, for a process that has more to do after the run. Returns nothing once Finish was called, or the
+  // reason for the end of the run.
   std::optional<BusError> Follow(std::chrono::milliseconds period, const std::function<void()>& idle);
-  // Whether the server said that the run ended, and for no failure.
+  // Returns whether the server said that the run ended without a failure.
   bool RunHasEnded() const;
-  // Whether the process of that name has said that its work is done, at that tick or a later one.
+  // Returns whether the process of that name has finished its work, at that tick or a later one.
   bool HasLeft(const std::string& name, std::uint64_t tick) const;
-  // For observers, after Follow: if the server was lost and its run may go on with another one, says so and
-  // waits for that one, and joins it. False if none has come in time, or `idle`, which is called all the while, returns
-  // true.
+  // For observers, after Follow. If the server was lost and another may resume the run, reports so, waits for that
+  // server and joins it. Returns false if no server has come in time, or if `idle` returns true. `idle` is called
+  // repeatedly.
   bool FollowNext(const std::function<bool()>& idle);
-  // Says that this process failed, or has nothing to do any more in a run that failed, and ends the program.
+  // Reports that this process failed, or has nothing left to do in a failed run, and ends the program.
   [[noreturn]] void GiveUp(const std::exception& error);
   int ExitCode() const;
-  // Before messages come: `name` is a process of the run, which ends when it sends a bad message. The space server is
-  // one from the start.
+  // Declares that `name` is a process of the run, which ends if that process sends a bad message. Call it before
+  // messages come. The space server is trusted from the start.
   void Trust(const std::string& name);
-  // From any thread: the work is done, or failed, or `idle` is to be called.
+  // Any thread may report that the work is done or failed, or that `idle` must be called.
   void Finish(std::uint64_t tick);
-  // `complete`: the text says by itself who failed.
+  // `complete`: the text itself names the process that failed.
   void Fail(std::uint64_t tick, const std::string& error, bool complete = false);
   void Notify();
-  // The tick that Status messages have.
+  // Sets the tick of Status messages.
   void SetTick(std::uint64_t tick);
 
 private:
@@ -101,9 +100,9 @@ private:
   void WaitUntilDone(std::chrono::milliseconds period, const std::function<std::optional<std::string>()>& idle);
   void SayJoin(bool ready);
   std::uint64_t Tick() const;
-  // Why this process ends, to the launcher and to the server.
+  // Reports to the launcher and the server why this process ends.
   void ReportFailure(const std::exception& error);
-  // Stays until the server has answered, or has gone: a process that ends before its Leave is read would be reported as
+  // Stays until the server has answered or gone. A process that ends before its Leave is read would be reported as
   // dead.
   void LeaveRun(const std::string& error);
   void Say(const std::string& text) const;
@@ -115,12 +114,12 @@ private:
   const std::atomic<bool>& stop_;
   Bus bus_;
   const int domain_;
-  mutable std::mutex mutex_;  // of the membership, the worlds and what follows
+  mutable std::mutex mutex_;  // protects the membership, the worlds and the following members
   RunCondition changed_;
   WorkerMembership membership_;
   bool notified_ = false;  // wakes the main thread once
   WorldMessage world_;
-  std::optional<WorldMessage> next_world_;  // of the server that goes on with the run
+  std::optional<WorldMessage> next_world_;  // of the server that resumes the run
   std::set<std::string> trusted_;
   bool server_seen_ = false;  // among the processes of this machine; main thread
   std::string last_status_;   // main thread

@@ -37,7 +37,7 @@ WorkerWorld::WorkerWorld(const WorldMessage& world, bool load_controllers)
   experiment = LoadWorld(world, options);
   space = std::make_unique<CSwarmanoidSpace>(*experiment);
 
-  // A worker on another machine may have other plug-ins, and so another world, under the same names.
+  // A worker on another machine may have other plug-ins under the same names, and so another world.
   bool is_same = space->Size() == world.entities.size();
   for (std::size_t i = 0; is_same && i < space->Size(); ++i) is_same = IsSame(space->GetEntity(i), world.entities[i]);
   if (!is_same)
@@ -89,7 +89,7 @@ bool EnginesHearParts(const WorldMessage& world) { return world.spread; }
 
 std::string PartNameOfEngine(std::size_t engine) { return "engine " + std::to_string(engine); }
 
-// No engine waits for a host without robots.
+// No engine waits for a host without robots, so the server does.
 bool ServerHears(const HostLayout& host) { return host.reports_to_server || host.robots.empty(); }
 
 std::string VisualiserName(const RenderConfiguration& render) { return fmt::format("visualiser '{}'", render.id); }

@@ -1,5 +1,5 @@
-// The world as a worker builds it from the space server's description: experiment, assignment and a space of its own.
-// Used by engine workers, controller hosts and visualisers.
+// A worker's world, built from the space server's description: experiment, assignment and its own space. Used by engine
+// workers, controller hosts and visualisers.
 #pragma once
 
 #include <memory>
@@ -15,24 +15,23 @@
 namespace swarmanoid
 {
 
-// What the world's experiment file says. The plug-in registries are filled. Throws ConfigurationError naming every
-// mistake.
+// Loads the world's experiment. The plug-in registries are filled. Throws ConfigurationError that names every mistake.
 std::unique_ptr<Experiment> LoadWorld(const WorldMessage& world, const LoadOptions& options);
 
 struct WorkerWorld
 {
-  // Throws as LoadWorld. `load_controllers`: only controller hosts need the users' libraries.
+  // Throws like LoadWorld. `load_controllers`: only controller hosts need the users' libraries.
   WorkerWorld(const WorldMessage& world, bool load_controllers);
 
   std::unique_ptr<Experiment> experiment;
   Assignment assignment;
-  // At tick 0 until Restore is called, so that all are made alike, whether the run starts or goes on.
+  // The space is at tick 0 until Restore is called. So all processes build it alike, whether the run starts or resumes.
   std::unique_ptr<CSwarmanoidSpace> space;
   std::unique_ptr<const TickLimits> limits;
-  std::optional<Checkpoint> checkpoint;  // to go on from
+  std::optional<Checkpoint> checkpoint;  // the point where the run resumes
   std::uint64_t FirstTick() const { return checkpoint ? checkpoint->snapshot.tick : 0; }
 
-  // Brings the space, and a role by its LoadState, to where the run goes on; does nothing if it starts.
+  // Brings the space and a role (by its LoadState) to the checkpoint. Does nothing if the run starts.
   template <class Role>
   void Restore(const std::string& name, Role& role)
   {
@@ -43,19 +42,19 @@ struct WorkerWorld
   void RestoreSpace();
 };
 
-// What the space server says of its world.
+// Returns the space server's description of its world.
 WorldMessage DescribeWorld(const CSwarmanoidSpace& space, std::uint64_t run, const std::string& file,
                            const HostTable& hosts);
 
-// Whether hosts hear LocalState, if they know how far they reach: in memory that processes share it would save nothing,
-// and a single host knows all.
+// Returns whether hosts hear LocalState, if they know their reach. It saves nothing in shared memory, and a single host
+// knows all entities.
 bool HostsAskForParts(const WorldMessage& world);
-// Likewise engines, which say themselves where their own entities are.
+// Returns the same for engines, which report the positions of their own entities themselves.
 bool EnginesHearParts(const WorldMessage& world);
-// Behind the slash of its partition.
+// Returns the name behind the slash of the engine's partition.
 std::string PartNameOfEngine(std::size_t engine);
 
-// Whether the server waits for the commands of a host.
+// Returns whether the server waits for the commands of a host.
 bool ServerHears(const HostLayout& host);
 
 std::string VisualiserName(const RenderConfiguration& render);  // "visualiser 'text'"

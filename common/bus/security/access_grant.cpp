@@ -35,7 +35,7 @@ std::optional<Number> NumberOfText(const std::string& text)
   return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
 }
 
-// The address of this machine from which datagrams to that one go out.
+// Returns the address of this machine that datagrams to the other machine leave from.
 std::string OwnAddressTowards(const std::string& address)
 {
   sockaddr_in there{};
@@ -110,7 +110,7 @@ std::string TextOf(const AccessToken& token)
 std::optional<AccessToken> TokenOfText(const std::string& text)
 {
   if (text.size() > kLongestToken) return std::nullopt;
-  // The name of the experiment is last: it may have commas.
+  // The name of the experiment is last, because it may have commas.
   std::vector<std::string> parts;
   std::istringstream stream(text);
   for (std::string part; parts.size() + 1 < kParts && std::getline(stream, part, ',');) parts.push_back(part);
@@ -159,7 +159,7 @@ void UseToken(const AccessToken& token, BusOptions& options)
   options.domain = token.domain;
   if (!options.Spread()) options.network_interface = on_this_machine ? "lo" : own;
   options.discovery_server = token.discovery_server;
-  // Found without multicast, too.
+  // Discovery must work without multicast, too.
   if (!on_this_machine && token.discovery_server.empty()) options.peers = {token.address};
   options.grant = GrantChannel{token.grant.id, token.key};
   options.key = token.key;

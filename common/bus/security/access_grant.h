@@ -1,8 +1,8 @@
-// An access grant: what somebody needs to look at a run, or to steer it, without being a member of it. Its key follows
-// from the key of the run, and does not tell that one; the space server speaks to its holders over topics of their own
-// (GrantChannel), so that they can say nothing that members believe. An open view is a grant without a key: programs of
-// any DDS read it, and nothing that they say is heard. Used by the launcher, the visualiser and the space server;
-// docs/security.md tells what a holder can do.
+// An access grant lets a program observe or steer a run without being a member of it. The grant's key is derived from
+// the run's key and does not reveal it. The space server uses separate topics for grants (GrantChannel), so holders
+// cannot send messages that members accept. An open view is a grant without a key. Programs of any DDS can read it, and
+// their messages are ignored. Used by the launcher, the visualiser and the space server. docs/security.md lists what a
+// holder can do.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,14 @@ namespace swarmanoid
 
 enum class GrantRole
 {
-  kWatcher,   // looks at the run
-  kOperator,  // steers it too
-  kOpenView,  // anybody looks
+  kWatcher,   // observes the run
+  kOperator,  // also steers it
+  kOpenView,  // every program may read
 };
-// "watch", "operate" and "open", in tokens and requests; nullopt for other words.
+// Returns "watch", "operate" and "open", in tokens and requests. The inverse returns nullopt for other words.
 const char* RoleWord(GrantRole role);
 std::optional<GrantRole> GrantRoleOf(const std::string& word);
-// "watcher", "operator" and "open view", for people.
+// Returns "watcher", "operator" and "open view", for people.
 const char* RoleName(GrantRole role);
 
 struct AccessGrant
@@ -37,14 +37,14 @@ struct AccessGrant
   std::string Name() const;
 };
 
-// What the topics of an open view have behind their slash.
+// The partition suffix of an open view's topics, behind the slash.
 inline constexpr const char* kOpenChannel = "open";
 
 std::string NewGrantId();
 bool IsGrantId(const std::string& text);
 GrantChannel ChannelOf(const RunKey& run_key, const AccessGrant& grant);
 
-// What the holder of one with a key is given, in one word, beside the name of the experiment.
+// The token that the holder of a grant with a key gets, beside the experiment's name.
 struct AccessToken
 {
   AccessGrant grant;
@@ -56,17 +56,17 @@ struct AccessToken
 };
 
 std::string TextOf(const AccessToken& token);
-// nullopt for anything else.
+// Returns nullopt for anything else.
 std::optional<AccessToken> TokenOfText(const std::string& text);
 
-// The token in the environment of this process, which other users cannot see, unlike its words. Throws BusError if it
-// is none, or has ended.
+// Reads the token from the environment of this process, which other users cannot see, unlike its arguments. Throws
+// BusError if the token is invalid or has ended.
 inline constexpr const char* kTokenVariable = "SWARMANOID_SHARE";
 std::optional<AccessToken> TokenOfEnvironment();
-// What a bus needs to use it. The interface is that by which this machine reaches the space server. Throws BusError.
+// Returns the bus options that use the token. The interface is the one that reaches the space server. Throws BusError.
 void UseToken(const AccessToken& token, BusOptions& options);
 
-// 2026-11-23T05:15:00Z
+// Returns a time such as 2026-11-23T05:15:00Z.
 std::string UtcText(std::int64_t seconds);
 
 }  // namespace swarmanoid

@@ -27,10 +27,10 @@ constexpr std::size_t kHeaderBytes = kPrefixAt + sizeof(GuidPrefix);
 constexpr std::size_t kWriterAt = 12;          // in a submessage with data, with its header
 constexpr unsigned char kOfDdsItself = 0xc0U;  // in the last byte of the id of a writer or reader
 constexpr char kFirst[4] = {kKind, kLittleEndian, static_cast<char>(DatagramSignatures::kBytes - 4), 0};
-constexpr std::array<char, 4> kAnnouncer{0, 1, 0, static_cast<char>(0xc2)};  // writes who a process is
-// In front of whose announcement this one answers.
+constexpr std::array<char, 4> kAnnouncer{0, 1, 0, static_cast<char>(0xc2)};  // announces a process
+// The process answers this announcement.
 constexpr std::array<char, 4> kAnswered{0x0f, static_cast<char>(0x80), 24, 0};
-// What Fast DDS puts at the end of each datagram about the network, and fills in below our transport.
+// The submessage that Fast DDS appends to each datagram on the network, and fills in below our transport.
 constexpr char kStatistics = static_cast<char>(0x80);
 constexpr std::size_t kStatisticsBytes = 60;
 constexpr char kStatisticsFirst[4] = {kStatistics, kLittleEndian, kStatisticsBytes - 4, 0};
@@ -50,7 +50,7 @@ std::size_t StatisticsAtEnd(std::span<const char> datagram)
   return std::memcmp(end - kStatisticsBytes, kStatisticsFirst, sizeof kStatisticsFirst) == 0 ? kStatisticsBytes : 0;
 }
 
-// The submessage at the front, which tells its own length, or has all that is left.
+// Returns the first submessage. It has its own length, or extends to the end.
 std::span<const char> FirstSubmessage(std::span<const char> bytes)
 {
   const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(bytes[at]); };
@@ -71,7 +71,7 @@ bool IsAnnouncement(std::span<const char> submessage)
   return submessage[0] == kData && StandsAt(submessage, kAnnouncer, kWriterAt);
 }
 
-// `code`: room for it, or the one that has to come out.
+// `code`: the buffer for the new code, or the expected code.
 bool Authenticate(EVP_CIPHER_CTX& cipher, std::uint64_t number, std::span<const char> bytes, char* code, bool makes)
 {
   unsigned char nothing = 0;
@@ -147,7 +147,7 @@ bool DatagramSignatures::IsSigned(std::span<const char>& datagram)
   {
     Cipher cipher = MakeCipher(key, salt, kPurpose, false);
     if (!is_good(*cipher)) continue;
-    // Salts that anybody made up take no room.
+    // Only good salts are stored, so invented ones take no memory.
     checkers_[salt] = std::move(cipher);
     return true;
   }
@@ -163,10 +163,10 @@ DatagramSignatures::Checked DatagramSignatures::CheckUnsigned(std::span<const ch
   while (rest.size() >= 4)
   {
     const std::span<const char> submessage = FirstSubmessage(rest);
-    // Anybody may speak to a member.
+    // Every process may address a member.
     if (submessage[0] != kInfoDestination)
       if (const auto member = FindMember(submessage)) return Forged(*member);
-    // A name could be cut in two; nobody has as much to say of himself.
+    // A name could be split over fragments. No process needs fragments to describe itself.
     const bool is_cut = submessage[0] == kDataFragment && submessage.size() >= kWriterAt + 4 &&
                         (static_cast<unsigned char>(submessage[kWriterAt + 3]) & kOfDdsItself) == kOfDdsItself;
     if (is_cut && !members_.empty()) return Forged(members_.begin()->first);

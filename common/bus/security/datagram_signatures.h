@@ -1,17 +1,16 @@
-// Signed datagrams: nobody without the key of the run speaks in the name of its processes, or about them, to DDS
-// itself: who they are, which writers they have, what was lost. Of one bus; from any thread. No header of Fast DDS is
-// used.
+// Signed datagrams protect DDS itself. Without the key of the run, no process can send in the name of its processes. It
+// cannot announce them, their writers or lost messages either. Each bus has one object; any thread may use it. No
+// header of Fast DDS is used.
 //
 // A process that holds the key of its run ends each datagram with a submessage of RTPS of its own, which others skip:
 //
 //   kind, flags, length 4 | salt 12 | number 8 | code 16
 //
-// in front of the statistics that Fast DDS ends them with, which are not signed, and not read by who holds a key.
-// The code is that of AES-256-GCM over all before it, under a key that follows from that of the run and the salt, which
-// the process draws when it starts. A process that signed once is known by its GUID prefix; from then on nothing
-// without a signature is heard that is said by it, or that names it. Others are heard as before: processes of other
-// users and runs, and holders of shares. A signed datagram that comes again is for RTPS, which numbers what changes
-// anything.
+// The signature stands before the statistics of Fast DDS. These are not signed, and processes with a key do not read
+// them. The code is that of AES-256-GCM over all bytes before it. Its key is derived from the run's key and the salt,
+// which the process draws when it starts. A process that has signed once is known by its GUID prefix. From then on,
+// unsigned datagrams that come from it or name it are dropped. Other processes are heard as before: those of other
+// users and runs, and holders of grants. RTPS handles repeated signed datagrams, because it numbers all changes.
 #pragma once
 
 #include <array>
@@ -29,7 +28,7 @@
 namespace swarmanoid
 {
 
-// Of a process in RTPS.
+// The prefix of a process's identifiers in RTPS.
 using GuidPrefix = std::array<char, 12>;
 
 class DatagramSignatures
@@ -38,7 +37,7 @@ public:
   using Clock = std::chrono::steady_clock;
   static constexpr std::size_t kBytes = 4 + kSaltBytes + 8 + kCodeBytes;
 
-  // What a process sent before it signed may come behind what it signed: that is not heard, and not told, for
+  // Unsigned datagrams of a process may arrive after its first signed one. They are dropped without a report for
   // `settling`. A stranger that is silent for `absence` is not counted any more.
   explicit DatagramSignatures(std::shared_ptr<KeyRing> keys, Clock::duration settling = std::chrono::seconds(2),
                               Clock::duration absence = std::chrono::seconds(100))
@@ -46,32 +45,32 @@ public:
   {
   }
 
-  // Processes without the key that may announce themselves at a time. Each costs a process memory and, when it ends,
-  // tens of milliseconds. With a few hundred a run goes on as without; a thousand make it end half a minute late.
+  // How many processes without the key may be announced at a time. Each costs a process memory and, when it ends, tens
+  // of milliseconds. A few hundred do not disturb a run; a thousand delay its end by half a minute.
   static constexpr std::size_t kMostStrangers = 256;
 
-  // Itself without a key; otherwise signed, in `room`. Throws BusError.
+  // Returns the datagram itself without a key; otherwise the signed one, in `room`. Throws BusError.
   std::span<const char> Sign(std::span<const char> datagram, std::vector<char>& room);
 
   struct Checked
   {
-    std::span<const char> datagram;  // without its signature; empty if nobody may hear it
-    // The process that it is about, if somebody else sent it.
+    std::span<const char> datagram;  // without its signature; empty if it must be dropped
+    // The process that it claims to be from or is about, if its sender is another process.
     std::optional<GuidPrefix> forged{};
-    // There are too many strangers for this one to be heard.
+    // The datagram is dropped because there are too many strangers.
     bool is_one_too_many = false;
     // This process has a key, and the sender did not sign with it.
     bool is_of_stranger = false;
   };
-  // Throws BusError.
+  // Checks a datagram. Throws BusError.
   Checked Check(std::span<const char> datagram);
 
 private:
-  // Cuts off a signature that is there. True if it is good.
+  // Removes a signature, if there is one. Returns true if it is good.
   bool IsSigned(std::span<const char>& datagram);
-  // Whether it speaks for a member, or names one.
+  // Checks whether the datagram comes from a member or names one.
   Checked CheckUnsigned(std::span<const char> datagram);
-  // Counts it among the strangers. False if there are too many.
+  // Counts the process among the strangers. Returns false if there are too many.
   bool MayAnnounce(const GuidPrefix& stranger);
   Checked Forged(const GuidPrefix& member) const;
   std::optional<GuidPrefix> FindMember(std::span<const char> submessage) const;
@@ -79,15 +78,15 @@ private:
   const std::shared_ptr<KeyRing> keys_;
   const Clock::duration settling_;
   const Clock::duration absence_;
-  std::mutex signs_;  // of the next four
+  std::mutex signs_;  // protects the next four
   std::optional<RunKey> key_;
   Salt salt_{};
   Cipher signer_;
   std::uint64_t number_ = 0;
-  std::mutex checks_;                                  // of what follows
-  std::map<Salt, Cipher> checkers_;                    // of those who signed
-  std::map<GuidPrefix, Clock::time_point> members_;    // likewise, and this process: since when
-  std::map<GuidPrefix, Clock::time_point> strangers_;  // that announced themselves without the key: when last
+  std::mutex checks_;                                  // protects the following members
+  std::map<Salt, Cipher> checkers_;                    // of the processes that have signed
+  std::map<GuidPrefix, Clock::time_point> members_;    // the processes that have signed, and this one: since when
+  std::map<GuidPrefix, Clock::time_point> strangers_;  // announced without the key: when last
 };
 
 }  // namespace swarmanoid

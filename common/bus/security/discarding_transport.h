@@ -17,17 +17,17 @@
 namespace swarmanoid
 {
 
-// The address of endpoints that hear nobody over the network: of a kind that no transport here speaks.
+// The address of endpoints that receive nothing over the network. No transport here uses its kind.
 rtps::Locator_t NowhereLocator();
 
-// Called in threads of the transport. The functions are empty once the bus goes: a participant may outlive it until the
-// program ends.
+// Called in threads of the transport. The functions are empty once the bus is destroyed, because a participant may live
+// until the program ends.
 struct DatagramListener
 {
   std::mutex mutex;
-  // A datagram was dropped: what is wrong with it, and the address that it came from.
+  // Reports a dropped datagram: its defect and the address that it came from.
   std::function<void(const std::string& what, const std::string& address)> malformed;
-  // A process in whose name a stranger spoke, and the address and port of the stranger.
+  // Reports the process that a stranger impersonated, and the address and port of the stranger.
   std::function<void(const GuidPrefix& member, const std::string& sender)> forged;
 };
 

@@ -45,7 +45,8 @@ bool KeyRing::Try(const std::string& partition, const std::function<bool(const R
   if (found != known_.end())
   {
     if (opens(found->second)) return true;
-    // Whoever sends what no key opens does not make us look all the time. Another run may have begun.
+    // Another run may have begun, so the runs are searched again. The interval limits the cost of messages that no key
+    // opens.
     const Clock::time_point now = Clock::now();
     if (now - looked_ < kBetweenLooks) return false;
     looked_ = now;
@@ -55,7 +56,7 @@ bool KeyRing::Try(const std::string& partition, const std::function<bool(const R
     if (run.domain != domain_ || !run.key || (partition != "*" && partition != run.experiment)) continue;
     if (!opens(*run.key)) continue;
     known_[run.experiment] = *run.key;
-    // From the first message of a run that it hears a process can be known to others.
+    // Other processes can recognise this process once it has received its first message of a run.
     if (!own_) own_ = run.key;
     return true;
   }

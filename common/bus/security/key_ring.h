@@ -1,5 +1,5 @@
-// The keys by which a process knows the messages of its run: the one that it was given, or those of the runs of its
-// user in its domain. Used by the bus; from any thread.
+// The keys that identify messages of a process's run: the given key, or those of its user's runs in its domain. Used by
+// the bus; any thread may call it.
 #pragma once
 
 #include <chrono>
@@ -18,17 +18,17 @@ namespace swarmanoid
 class KeyRing
 {
 public:
-  // `given`: the only key that counts; otherwise they are looked for among the runs of this machine.
+  // `given`: the only valid key. Without it, keys are searched for among the runs of this machine.
   KeyRing(int domain, std::optional<RunKey> given) : domain_(domain), given_(given) {}
 
-  // By which messages to the run of that experiment are sealed.
+  // Returns the key that seals messages to the run of that experiment.
   std::optional<RunKey> Of(const std::string& experiment);
-  // By which datagrams are signed: the one by which a message was sealed last or, before, the first that came; if none
-  // did, none.
+  // Returns the key that signs datagrams. It is the key that sealed the last message or, before that, the first key
+  // that opened one. It is empty if there is none.
   std::optional<RunKey> Own() const;
-  // All that messages came by, and that they are sealed by.
+  // Returns all keys that have opened or sealed a message.
   std::vector<RunKey> Known() const;
-  // Whether one of the keys `opens` a message that came in `partition`, an experiment or "*".
+  // Returns whether one of the keys `opens` a message that came in `partition`, an experiment or "*".
   bool Try(const std::string& partition, const std::function<bool(const RunKey&)>& opens);
 
 private:
@@ -36,10 +36,10 @@ private:
 
   const int domain_;
   const std::optional<RunKey> given_;
-  mutable std::mutex mutex_;             // of what follows
+  mutable std::mutex mutex_;             // protects the following members
   std::optional<RunKey> own_;            // if none was given
   std::map<std::string, RunKey> known_;  // by experiment
-  Clock::time_point looked_;             // among the runs, while a key was known
+  Clock::time_point looked_;             // the last search while a key was known
 };
 
 }  // namespace swarmanoid

@@ -39,7 +39,7 @@ std::string Hexadecimal(const Bytes& bytes)
   return text;
 }
 
-// Up to the end of the first line.
+// Returns the text up to the end of the first line.
 std::string FirstLineFrom(int descriptor)
 {
   std::string line;
@@ -107,7 +107,7 @@ RunKey KeyOfDescriptor(int descriptor)
   };
   if (fstat(descriptor, &status) == 0 && !S_ISREG(status.st_mode))
   {
-    // What ssh hands on comes through a terminal, which would repeat it into the log.
+    // The input from ssh comes through a terminal, which would echo it into the log.
     termios terminal{};
     if (tcgetattr(descriptor, &terminal) == 0)
     {

@@ -1,6 +1,6 @@
-// The key of a run: whoever holds it belongs to the run. The launcher draws it and hands it to each process by its
-// standard input; a space server that was started by hand draws its own. It lies in the folder of the run, which only
-// its user can open, for those whom the same user starts later. Used by the bus, the launcher and tests.
+// The key of a run. Every process with the key belongs to the run. The launcher draws it and passes it to each process
+// on standard input. A space server that was started by hand draws its own. Processes that the same user starts later
+// find it in the folder of the run, which only that user can open. Used by the bus, the launcher and tests.
 #pragma once
 
 #include <array>
@@ -13,23 +13,23 @@ namespace swarmanoid
 
 using RunKey = std::array<unsigned char, 32>;
 
-// Throws BusError if the system gives no random numbers.
+// Draws a new key. Throws BusError if the system gives no random numbers.
 RunKey NewRunKey();
 
-// As 64 hexadecimal digits, and back; nullopt for anything else. Blanks and line ends around them mean nothing.
+// Converts to 64 hexadecimal digits, and back; nullopt for anything else. Blanks and line ends around them are ignored.
 std::string TextOfKey(const RunKey& key);
 std::optional<RunKey> KeyOfText(const std::string& text);
 
-// The key in a file that only this user can read, or that an open descriptor gives. If a descriptor is no file it is
-// asked for on standard error, by kKeyPrompt, once a terminal shows it to nobody. Throws BusError.
+// Reads the key from a file that only this user can read, or from an open descriptor. If the descriptor is no file, it
+// prints kKeyPrompt on standard error, once the terminal does not echo. Throws BusError.
 RunKey KeyOfFile(const std::string& path);
 RunKey KeyOfDescriptor(int descriptor);
 inline constexpr const char* kKeyPrompt = "swarmanoid: give the key of the run";
 
-// A key that follows from another one (HKDF-SHA256, RFC 5869), and does not tell that one. Throws BusError.
+// Derives a key from another one (HKDF-SHA256, RFC 5869) that does not reveal it. Throws BusError.
 RunKey DerivedKey(const RunKey& key, std::span<const char> salt, const std::string& purpose);
 
-// SHA-256 of a file, as 64 hexadecimal digits; empty if it cannot be read.
+// Returns the SHA-256 of a file, as 64 hexadecimal digits; empty if it cannot be read.
 std::string DigestOfFile(const std::string& path);
 
 }  // namespace swarmanoid

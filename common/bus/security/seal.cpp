@@ -19,7 +19,7 @@ constexpr std::size_t kSealNumberAt = kEncapsulationBytes + kSaltBytes;
 constexpr std::size_t kEncryptedAt = kSealNumberAt + sizeof(std::uint64_t);
 constexpr std::size_t kNonceBytes = 12;
 
-// Threads of Fast DDS seal until the process has ended: libcrypto must not take itself down in an exit handler before.
+// Threads of Fast DDS seal messages until the process has ended, so libcrypto must not clean up in an exit handler.
 [[maybe_unused]] const int kStaysUp = OPENSSL_init_crypto(OPENSSL_INIT_NO_ATEXIT, nullptr);
 
 unsigned char* Bytes(char* bytes) { return reinterpret_cast<unsigned char*>(bytes); }
@@ -27,7 +27,7 @@ const unsigned char* Bytes(const char* bytes) { return reinterpret_cast<const un
 
 std::string PurposeOf(const std::string& topic) { return "swarmanoid message " + topic; }
 
-// Whose encapsulation, salt and number stand at the front of `payload`.
+// Starts with the encapsulation, salt and number at the front of `payload`.
 bool StartPayload(EVP_CIPHER_CTX& cipher, const char* payload)
 {
   std::uint64_t number = 0;
@@ -95,7 +95,7 @@ void Sealer::Seal(std::span<char> payload, const WriterId& writer)
       EVP_CipherUpdate(cipher_.get(), Bytes(secret), &count, Bytes(secret), static_cast<int>(size)) == 1 &&
       EVP_CipherFinal_ex(cipher_.get(), Bytes(secret + size), &count) == 1 &&
       EVP_CIPHER_CTX_ctrl(cipher_.get(), EVP_CTRL_AEAD_GET_TAG, static_cast<int>(kCodeBytes), secret + size) == 1;
-  // Never in the clear.
+  // A message is never sent in the clear.
   if (!good) std::memset(secret, 0, size + kCodeBytes);
 }
 
@@ -117,7 +117,7 @@ std::optional<Opener::Opened> Opener::OpenBy(const RunKey& key, std::span<const 
   const Salt salt = SaltOf(payload);
   Cipher cipher = MakeCipher(key, salt, PurposeOf(topic_), false);
   auto opened = Decrypt(*cipher, payload, room);
-  // Salts that anybody made up take no room.
+  // Only good salts are stored, so invented ones take no memory.
   if (opened) known_[salt] = std::move(cipher);
   return opened;
 }

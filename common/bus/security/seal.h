@@ -1,9 +1,9 @@
-// Sealed messages: nobody without the key of the run can read them, make one, change one, say one as another writer or
-// on another topic, or say one again. Used by the bus; knows nothing of DDS.
+// Sealed messages. Without the key of the run, no process can read, make or change one. It cannot send one as another
+// writer or on another topic, or repeat one. Used by the bus; does not depend on DDS.
 //
-// AES-256-GCM (NIST SP 800-38D). Each writer draws a salt, from which and the topic its own key follows (HKDF-SHA256,
-// RFC 5869); the number of the message, which ascends, is the nonce. So no nonce comes twice under one key, whatever
-// process takes the place of another.
+// AES-256-GCM (NIST SP 800-38D). Each writer draws a salt. Its key is derived from the run's key, the salt and the
+// topic (HKDF-SHA256, RFC 5869). The nonce is the ascending number of the message. So no nonce is used twice under one
+// key, even if one process replaces another.
 //
 //   encapsulation 4 | salt 12 | number 8 | encrypted: writer 16, fields of the message | code 16
 #pragma once
@@ -29,8 +29,8 @@ inline constexpr std::size_t kSaltBytes = 12;
 inline constexpr std::size_t kWriterBytes = 16;
 inline constexpr std::size_t kCodeBytes = 16;
 inline constexpr std::size_t kSealedFieldsAt = 4 + kSaltBytes + 8 + kWriterBytes;  // in a payload
-// Of a payload that is sealed, and of the zeros behind its fields: RTPS lengthens payloads to whole words, and whoever
-// opens it must find the code at the end.
+// The zeros behind a payload's fields, and its sealed size. RTPS pads payloads to whole words, and the
+// receiver must find the code at the end.
 inline constexpr std::size_t kWordBytes = 4;
 constexpr std::size_t PaddingOf(std::size_t payload_bytes)
 {
@@ -40,10 +40,10 @@ constexpr std::size_t SealedBytes(std::size_t payload_bytes)
 {
   return payload_bytes + PaddingOf(payload_bytes) + kSealedFieldsAt - 4 + kCodeBytes;
 }
-// By how many bytes at most a sealed payload is longer.
+// The largest growth of a payload when it is sealed.
 inline constexpr std::size_t kMostSealBytes = SealedBytes(1) - 1;
 
-// Who writes: the GUID of a DDS writer.
+// The GUID of a DDS writer.
 using WriterId = std::array<char, kWriterBytes>;
 using Salt = std::array<char, kSaltBytes>;
 
@@ -53,14 +53,14 @@ struct CipherFree
 };
 using Cipher = std::unique_ptr<EVP_CIPHER_CTX, CipherFree>;
 
-// Drawn at random. Throws BusError if the system gives no random numbers.
+// Draws a random salt. Throws BusError if the system gives no random numbers.
 Salt NewSalt();
-// AES-256-GCM with the key that follows from that of the run, the salt and the purpose. Throws BusError.
+// Returns AES-256-GCM with a key derived from the run's key, the salt and the purpose. Throws BusError.
 Cipher MakeCipher(const RunKey& key, const Salt& salt, const std::string& purpose, bool encrypts);
-// For the message of that number, of which `clear` is authenticated and not encrypted. False if libcrypto fails.
+// Starts the message of that number. `clear` is authenticated and not encrypted. Returns false if libcrypto fails.
 bool StartMessage(EVP_CIPHER_CTX& cipher, std::uint64_t number, std::span<const char> clear);
 
-// Of one writer. One thread at a time.
+// Seals the messages of one writer. One thread at a time.
 class Sealer
 {
 public:
@@ -68,7 +68,7 @@ public:
   Sealer(const RunKey& key, const std::string& topic);
 
   const RunKey& Key() const { return key_; }
-  // `payload` has the fields of the message at kSealedFieldsAt, and kCodeBytes of room behind them.
+  // Seals a message. `payload` has its fields at kSealedFieldsAt, and kCodeBytes of room behind them.
   void Seal(std::span<char> payload, const WriterId& writer);
 
 private:
@@ -78,7 +78,7 @@ private:
   std::uint64_t number_ = 0;  // of the last message
 };
 
-// Of one reader. One thread at a time.
+// Opens the messages of one reader. One thread at a time.
 class Opener
 {
 public:
@@ -86,20 +86,20 @@ public:
 
   struct Opened
   {
-    WriterId writer;  // who sealed it
+    WriterId writer;  // the sealing writer
     Salt salt;
     std::uint64_t number = 0;
     std::span<const char> payload;  // as if it had not been sealed
   };
 
-  // What the payload holds, which is written into `room`; nullopt if it is of a writer that is not known yet, or nobody
-  // sealed it. Writers that OpenBy met are known.
+  // Decrypts the payload into `room`. Returns nullopt if the writer is not known yet or the seal is not good. A writer
+  // is known once OpenBy has opened one of its messages.
   std::optional<Opened> Open(std::span<const char> payload, std::vector<char>& room);
   bool Knows(std::span<const char> payload) const;
-  // The same with a key that may be the right one.
+  // Does the same with a key that may be the right one.
   std::optional<Opened> OpenBy(const RunKey& key, std::span<const char> payload, std::vector<char>& room);
 
-  // Whether its number is higher than those before it of its writer and instance; and that it is one of them now.
+  // IsNew: whether the number is higher than all earlier ones of its writer and instance. Note records the number.
   bool IsNew(const Opened& opened, const std::string& instance = {}) const;
   void Note(const Opened& opened, const std::string& instance = {})
   {

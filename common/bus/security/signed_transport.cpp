@@ -58,7 +58,7 @@ private:
     if (descriptor_.listener->forged) descriptor_.listener->forged(member, sender);
   }
 
-  // Nothing is ever thrown into DDS.
+  // No exception may reach DDS.
   static bool Try(const std::function<void()>& call)
   {
     try

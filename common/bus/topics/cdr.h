@@ -1,7 +1,7 @@
-// The bytes of messages: XCDR1, little-endian, as idl/swarmanoid.idl defines them. Three archives go through the fields
-// of a message (message_fields.h): one counts its bytes, one writes and one reads them. Whatever is read is checked
-// before it is used or room is made for it; whatever does not hold throws BadMessage with the name of the field. Used
-// by the bus alone; knows nothing of DDS.
+// The bytes of messages: XCDR1, little-endian, as idl/swarmanoid.idl defines them. Three archives visit the fields of a
+// message (message_fields.h): one counts its bytes, one writes and one reads them. Every value is checked before it is
+// used or memory is allocated for it. An invalid value throws BadMessage with the name of the field. Used only by the
+// bus; does not depend on DDS.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +38,7 @@ struct FlagBit
   bool* value;
 };
 
-// Copies doubles and says whether all are finite, in one pass over memory.
+// Copies doubles and returns whether all are finite, in one pass over memory.
 inline bool CopyFinite(double* to, const char* from, std::size_t count)
 {
   constexpr std::size_t kBlock = 512;  // stays in the cache between the two loops
@@ -78,7 +78,7 @@ struct ByteMemory
   std::size_t at = 0;
 };
 
-// Counts or writes.
+// Counts or writes the fields.
 template <class Bytes>
 class CdrOutput
 {
@@ -95,7 +95,7 @@ public:
     Put(value);
   }
   void Signed(const char*, const std::int64_t& value) { Put(value); }
-  // Sixteen bits on the wire.
+  // The value has 16 bits on the wire.
   void Short(const char*, const std::uint32_t& value) { Put(static_cast<std::uint16_t>(value)); }
   void Constant(const char*, std::uint32_t value) { Put(value); }
   template <class Enum>
@@ -132,7 +132,7 @@ public:
     Align(sizeof(T));
     bytes_.Put(values.data(), values.size() * sizeof(T));
   }
-  // Of the columns in `uniform` the first number.
+  // A column in `uniform` has only its first number.
   void Columns(const std::vector<double>& poses, std::uint32_t uniform)
   {
     const std::size_t entities = poses.size() / kPoseColumns;
@@ -179,12 +179,12 @@ public:
 
   explicit CdrReader(std::span<const char> bytes) : bytes_(bytes) {}
 
-  // Nothing but padding may be left.
+  // Only padding may be left.
   void End() const
   {
     if (bytes_.size() - at_ > 3) RefuseField("end", "more bytes follow than the message has");
   }
-  // The message is of another version of the protocol: what follows may mean anything.
+  // Returns whether the message has another protocol version, so that the rest cannot be interpreted.
   bool IsForeign() const { return foreign_; }
 
   void Version(const char* field, std::uint32_t& value)
@@ -220,7 +220,7 @@ public:
       RefuseField(field, "there is no such value as " + std::to_string(number));
     value = static_cast<Enum>(number);
   }
-  // Those of `others` that are set.
+  // Reads the flags. Returns the bits of `others` that are set.
   std::uint32_t Flags(const char* field, std::initializer_list<FlagBit> flags, std::uint32_t others = 0)
   {
     std::uint32_t bits = 0;

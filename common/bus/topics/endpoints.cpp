@@ -7,7 +7,7 @@ namespace swarmanoid
 namespace
 {
 
-constexpr int kExtraSamples = 4;  // that a reader may hold while the writer goes on
+constexpr int kExtraSamples = 4;  // a reader may hold these while the writer continues
 constexpr int kMaximalProcesses = 4096;
 
 DdsDuration Milliseconds(double ms) { return Seconds(ms / 1e3); }
@@ -30,9 +30,11 @@ dds::DataWriterQos WriterQos(const TopicQos& topic)
   qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
   qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   qos.data_sharing().off();
-  // While somebody has not confirmed a message. Waiting for a lost one is what loss costs.
+  // Sets the heartbeat period while a reader has not confirmed a message. The period is the delay that a lost message
+  // causes.
   SetHeartbeatPeriod(qos, Milliseconds(topic.hot ? 1 : 5));
-  // Otherwise one goes with every datagram of a message, and is answered with a list of those that are on their way.
+  // Otherwise each datagram of a message has a heartbeat. The reader would answer with a list of datagrams still under
+  // way.
   qos.reliable_writer_qos().disable_heartbeat_piggyback = topic.hot;
   SetNackResponseDelay(qos, Milliseconds(0));
   SetNackSuppression(qos, Milliseconds(0));
@@ -68,8 +70,8 @@ WriterEnd::WriterEnd(Bus& bus, dds::Topic* topic, const std::string& partition, 
   if (writer_ == nullptr) throw BusError("cannot write topic " + topic->get_name());
 }
 
-// Emptied first: Fast DDS 2.9 gives the messages of a writer back one by one while its heartbeat may look for gaps
-// between them, which then never ends and holds the lock that all wait for (its pull request 4076).
+// Empties the writer first. Fast DDS 2.9 returns a writer's messages one by one while its heartbeat may look for gaps
+// between them. The heartbeat then never ends and holds the lock that all others need (its pull request 4076).
 WriterEnd::~WriterEnd()
 {
   std::size_t removed = 0;
@@ -110,7 +112,7 @@ RenewedReader::RenewedReader(Bus& bus, std::function<std::unique_ptr<ReaderEnd>(
       name_("reader " + std::to_string(reinterpret_cast<std::uintptr_t>(this))),
       make_(std::move(make))
 {
-  // Its listener may ask for a new one before it is here.
+  // The listener may ask for a new reader before the first one exists.
   std::shared_ptr<ReaderEnd> first = make_();
   const std::lock_guard lock(mutex_);
   reader_ = std::move(first);

@@ -1,5 +1,5 @@
-// Whole messages as the payloads of DDS: four bytes that name the encoding, then the fields. Used by the bus and the
-// tests of its messages; knows nothing of DDS.
+// Whole messages as payloads of DDS: four bytes for the encoding, then the fields. Used by the bus and the tests of its
+// messages; does not depend on DDS.
 #pragma once
 
 #include "common/bus/topics/message_fields.h"
@@ -10,7 +10,7 @@ namespace swarmanoid
 inline constexpr std::size_t kEncapsulation = 4;
 inline constexpr char kEncodingXcdr1[kEncapsulation] = {0, 1, 0, 0};  // little-endian; the last two bytes are options
 
-// The payload without its first bytes. Throws BadMessage if it is of another encoding.
+// Returns the payload without its first bytes. Throws BadMessage if it has another encoding.
 inline std::span<const char> BodyOf(std::span<const char> payload)
 {
   if (payload.size() < kEncapsulation || payload[0] != kEncodingXcdr1[0] || payload[1] != kEncodingXcdr1[1])
@@ -31,8 +31,8 @@ void GoThrough(Archive& archive, const Message& message)
   Fields(archive, const_cast<Message&>(message));
 }
 
-// Bytes of a payload that is not sealed. `parts`: a header and a message of a tick, or another message. Throws
-// BadMessage if a name in it cannot be sent.
+// Returns the bytes of a payload that is not sealed. `parts`: a header and a message of a tick, or another message.
+// Throws BadMessage if a name in it cannot be sent.
 template <class... Parts>
 std::size_t PayloadSize(const Parts&... parts)
 {
@@ -50,7 +50,7 @@ void WritePayload(char* out, const Parts&... parts)
   GoThrough(writer, parts...);
 }
 
-// Likewise, with room for SealedBytes: what a Sealer can seal.
+// The same, with SealedBytes of room, for a Sealer.
 template <class... Parts>
 void WriteUnsealed(char* out, const Parts&... parts)
 {
@@ -59,7 +59,7 @@ void WriteUnsealed(char* out, const Parts&... parts)
   GoThrough(writer, parts...);
 }
 
-// Throws BadMessage; what was read of the message until then must not be used.
+// Reads a message. Throws BadMessage; the message must not be used then.
 template <class Message>
 void ReadPayload(std::span<const char> payload, Message& message)
 {
@@ -71,13 +71,13 @@ void ReadPayload(std::span<const char> payload, Message& message)
   }
   catch (const BadMessage&)
   {
-    // Who speaks another version is told so, whatever else he says.
+    // A sender with another protocol version is told so, whatever else is wrong.
     if (!reader.IsForeign()) throw;
   }
 }
 
-// A message of a tick. `choose` gives the place for it when its header is known, or nullptr to drop it; `check` throws
-// BadMessage if it is not what the experiment makes of it. Returns the place.
+// Reads a message of a tick. `choose` returns its destination once the header is read, or nullptr to drop it. `check`
+// throws BadMessage if the experiment does not allow it. Returns the destination.
 template <class Message, class Choose, class Check>
 Message* ReadTickPayload(std::span<const char> payload, MessageHeader& header, const Choose& choose, const Check& check)
 {

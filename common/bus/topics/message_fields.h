@@ -1,6 +1,6 @@
-// The fields of every message, once and in the order of idl/swarmanoid.idl: what counts, writes, reads and checks the
-// bytes of a message (cdr.h) goes through them here. A test compares the bytes with those of the types made from the
-// IDL. Used by the bus alone.
+// The fields of every message, in the order of idl/swarmanoid.idl. The code that counts, writes, reads and checks the
+// bytes of a message (cdr.h) visits them here. A test compares the bytes with those of the types made from the IDL.
+// Used only by the bus.
 #pragma once
 
 #include <numeric>
@@ -80,7 +80,7 @@ void PoseFields(Archive& archive, std::vector<double>& poses, std::initializer_l
   }
 }
 
-// What is wrong with the shapes is found by TickLimits, which knows the entities.
+// TickLimits checks the shapes, because it knows the entities.
 template <class Archive>
 void Fields(Archive& archive, Drawing& drawing)
 {
@@ -97,7 +97,7 @@ void Fields(Archive& archive, Drawing& drawing)
   archive.List("shape_texts", drawing.texts, [](Archive& a, std::string& text) { a.Text("shape_texts", text); });
 }
 
-// What the state of all and that for one process begin with.
+// The common first fields of the full state and the state for one process.
 template <class Archive>
 void StateFields(Archive& archive, MessageHeader& header, SpaceState& message)
 {
@@ -443,7 +443,7 @@ void Fields(Archive& archive, LeaveMessage& message)
   archive.Text("error", message.error);
 }
 
-// The key of topics with instances, nullptr for others.
+// Returns the key of a topic with instances, nullptr for others.
 template <class Message>
 const std::string* KeyOf(const Message&)
 {

@@ -1,5 +1,5 @@
-// Type support of all messages: between the plain structs of the roles and the payloads of DDS, in one pass. Nothing is
-// ever thrown into DDS: what is wrong with a payload is kept for the reader, which knows the sender.
+// Type support of all messages: converts between plain structs and payloads in one pass. No exception may reach DDS. An
+// error of a payload is kept for the reader, which knows the sender.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ template <class Message>
 class MessageType : public DataType
 {
 public:
-  // `payload_bytes`: the room that is made before the first message.
+  // `payload_bytes`: the memory that is allocated before the first message.
   MessageType(std::size_t payload_bytes, bool keyed)
       : DataType(std::string("swarmanoid::wire::") + kTopicOf<Message>, payload_bytes, keyed)
   {
@@ -27,7 +27,7 @@ protected:
   {
     return {reinterpret_cast<const char*>(payload.data), payload.length};
   }
-  // `size`: of the payload before it is sealed. Without a sealer it stays in the clear.
+  // `size`: the bytes of the payload before it is sealed. Without a sealer it stays in the clear.
   template <class... Parts>
   static bool WriteParts(Payload& payload, std::size_t size, Sealer* sealer, const WriterId& writer,
                          const Parts&... parts)
@@ -71,7 +71,7 @@ struct HotOpener
   std::vector<char> room;  // as large as the largest message that came
 };
 
-// What a reader hands to the type support: where the message goes is decided when its header is known.
+// A reader passes this to the type support. The destination of the message is chosen when its header is read.
 template <class Message>
 struct HotRead
 {
@@ -81,7 +81,7 @@ struct HotRead
   std::string error;           // not empty: what is wrong with it
   HotOpener* opener = nullptr;
   std::optional<Opener::Opened> opened{};  // if it was sealed
-  const char* refused = nullptr;           // why nobody knows whose it is
+  const char* refused = nullptr;           // why its sender is unknown
 };
 
 inline constexpr const char* kNoSeal =
@@ -90,7 +90,7 @@ inline constexpr const char* kNoSeal =
 inline constexpr const char* kRepetition = "it is a repetition of a message that has come before";
 inline constexpr const char* kOtherWriter = "it is a message of another writer of this run";
 
-// Bounded by a capacity chosen at run time, which data sharing asks for.
+// The size has a bound that is chosen at run time, because data sharing needs one.
 template <class Message>
 class HotType : public MessageType<Message>
 {
@@ -170,7 +170,7 @@ struct ColdCall
   const Message* out = nullptr;          // to write
   std::size_t size = 0;                  // of its payload before it is sealed
   Sealer* sealer = nullptr;              // of what is written; none: it stays in the clear
-  WriterId writer{};                     // likewise
+  WriterId writer{};                     // the writer of that message
   Message* in = nullptr;                 // to read
   std::vector<char>* payload = nullptr;  // to read only later
   std::string error;                     // not empty: what is wrong with it
@@ -240,7 +240,7 @@ public:
 private:
   static constexpr std::size_t kFirstRoom = 1024;
 
-  // Of DDS itself, to find the key of a message.
+  // DDS calls it to find the key of a message.
   struct OwnedCall : ColdCall<Message>
   {
     OwnedCall() { this->in = &message; }

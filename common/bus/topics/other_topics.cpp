@@ -11,10 +11,10 @@ namespace swarmanoid
 namespace
 {
 
-// ReusedMemory for messages up to this (bytes) is used again. Worlds come once, and may have a hundred times as much.
+// ReusedMemory up to this size (bytes) is kept. Worlds come once, and may be a hundred times as large.
 constexpr std::size_t kKept = 1 << 20;
 
-// Those of a grant have a name of their own, so that readers of the run do not hear what they cannot open.
+// The topics of a grant have their own name, so that members' readers do not receive messages that they cannot open.
 template <class Message>
 std::string TopicName(const std::optional<GrantChannel>& grant)
 {
@@ -50,7 +50,7 @@ struct Publisher<Message>::Impl
   {
   }
 
-  // For the present key of the run; nullptr if anybody is let in.
+  // Uses the current key of the run; nullptr if every process is let in.
   Sealer* SealerNow()
   {
     if (bus.insecure || (grant && !grant->key)) return nullptr;
@@ -158,7 +158,7 @@ struct Subscription<Message>::Impl : dds::DataReaderListener
     std::span<const char> bytes = payload;
     try
     {
-      // Nothing of a message is looked at before it is known whose it is.
+      // The seal of a message is checked before its fields are read.
       if (!bus.insecure)
       {
         opened = Open();

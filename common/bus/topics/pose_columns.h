@@ -1,5 +1,5 @@
-// The poses of a message: seven columns, one behind the other. A column that has the same bits for all entities, as the
-// height of robots on a plane, goes over the wire as one number. Used by message_fields.h.
+// The poses of a message: seven columns, one after the other. A column with the same bits for all entities is sent as
+// one number, such as the height of robots on a plane. Used by message_fields.h.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ inline std::uint32_t UniformColumns(const std::vector<double>& poses)
   return uniform;
 }
 
-// Makes whole columns of what was read. False if no poses have these numbers.
+// Expands the received columns. Returns false if no poses have these numbers.
 inline bool SpreadColumns(std::vector<double>& numbers, std::uint32_t uniform)
 {
   if (uniform == 0) return true;
@@ -37,7 +37,7 @@ inline bool SpreadColumns(std::vector<double>& numbers, std::uint32_t uniform)
   const std::size_t entities = (numbers.size() - single) / (kPoseColumns - single);
   std::size_t from = numbers.size();
   numbers.resize(kPoseColumns * entities);
-  // From the last one: it moves away from those that are still to be read.
+  // The loop starts with the last column, so that columns still to be read are not overwritten.
   for (std::size_t k = kPoseColumns; k-- > 0;)
   {
     double* column = numbers.data() + k * entities;

@@ -18,32 +18,32 @@ namespace swarmanoid
 // Equal to PROTOCOL_VERSION of the IDL; a test says so.
 inline constexpr std::uint32_t kProtocolVersion = 20;
 
-// What precedes every message of a tick.
+// Precedes every message of a tick.
 struct MessageHeader
 {
   std::uint64_t run = 0;
   std::uint64_t tick = 0;
   std::uint32_t source = 0;
   bool repeated = false;
-  std::uint32_t incarnation = 0;  // of the sender; one that was replaced is not heard any more
-  bool save = false;              // SpaceState: what remembers saves its state after the step to the next tick
+  std::uint32_t incarnation = 0;  // of the sender; messages of a replaced process are dropped
+  bool save = false;              // SpaceState: roles with memory save their state after the step to the next tick
 };
 
-// Engine worker to server.
+// An engine worker sends it to the server.
 struct UpdateMessage : EngineUpdate
 {
-  // For the journal, if the run keeps one: the commands that the step took, laid out as EngineLayout::commands says,
-  // and behind them the values of the SensorFrame of the same tick.
+  // For the journal, if the run keeps one: the commands that the step took, laid out as EngineLayout::commands says.
+  // The values of the SensorFrame of the same tick follow.
   std::vector<double> recorded;
 };
 
-// Visualiser of the experiment to server: the state of the header's tick is drawn.
+// A visualiser of the experiment tells the server that it has drawn the state of the header's tick.
 struct DrawnMessage
 {
   bool terminate = false;
 };
 
-// Between the engine worker of an engine that is split and the processes of its regions, and between these.
+// The messages between a split engine's worker and its region processes, and among the region processes.
 struct RegionMessage
 {
   std::uint32_t epoch = 0;
@@ -98,7 +98,7 @@ struct WorldMessage
   RecordedFaults known{};
 };
 
-// JoinMessage::reach of those who hear the state of all.
+// JoinMessage::reach of processes that receive the state of all.
 inline constexpr double kReachesAll = -1;
 
 struct JoinMessage

@@ -28,7 +28,7 @@ std::string PartitionOf(const HotScope& scope)
   return scope.listener.empty() ? scope.experiment : scope.experiment + "/" + scope.listener;
 }
 
-// What leaves the machine is sealed, unless the run lets anybody in. Throws BusError.
+// Returns the key that seals messages to other machines; none if the run lets every process in. Throws BusError.
 std::optional<RunKey> KeyOfTicks(Bus& bus, const HotScope& scope)
 {
   if (!scope.spread || bus.Internals().insecure) return std::nullopt;
@@ -37,7 +37,7 @@ std::optional<RunKey> KeyOfTicks(Bus& bus, const HotScope& scope)
   return key;
 }
 
-// Whoever writes to memory that is not there is killed.
+// The system kills a process that writes to shared memory beyond the free space.
 void RequireSharedMemory(std::size_t bytes)
 {
   if (SharedMemoryFree() >= bytes + kOtherFiles) return;
@@ -47,7 +47,7 @@ void RequireSharedMemory(std::size_t bytes)
       SharedMemoryFolder(), SharedMemoryFree() / 1024, (bytes + kOtherFiles) / 1024));
 }
 
-// Who may share memory: processes of one user, on one kernel, in one network namespace.
+// Identifies processes that can share memory: the same user, kernel and network namespace.
 std::uint16_t MachineId()
 {
   std::string identity;
@@ -64,9 +64,10 @@ bool SharesMemory(Bus& bus, const HotScope& scope)
   return !scope.directory.empty() && (!scope.spread || bus.Internals().insecure);
 }
 
-// Through shared memory, which only processes of this user can open. A datagram in the name of a writer that shares
-// memory would end its reader, so memory and network are not used together, unless anybody is let in: an endpoint whose
-// only address is of a kind that the participant does not speak is found by others, and hears nobody.
+// Uses shared memory, which only processes of this user can open. A forged datagram of a writer that shares memory
+// would end its reader. So memory and network are not used together, unless every process is let in. The endpoint's
+// only address has a kind that the participant does not speak. Others discover the endpoint, but it receives nothing
+// from the network.
 template <class Qos>
 void ShareData(Qos& qos, Bus& bus, const HotScope& scope)
 {
@@ -126,7 +127,7 @@ void HotPublisher<Message>::Write(const MessageHeader& header, const Message& me
   }
   catch (const std::exception&)
   {
-    // A reader died while it held its lock. Its lease will say who it was.
+    // A reader died while it held its lock. Its lease will tell which process it was.
     MarkBroken();
     return;
   }
@@ -197,7 +198,7 @@ struct HotSubscription<Message>::Impl : dds::DataReaderListener
   Handler handler;
   HotOpener opener;
   std::mutex mutex;          // data sharing and network readers call from threads of their own
-  std::set<WriterId> known;  // who have sealed a message
+  std::set<WriterId> known;  // the writers that have sealed a message
   RenewedReader reader;
 };
 
