@@ -1,13 +1,14 @@
 #include "common/program/help_text.h"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <string_view>
 #include <vector>
+
+#include "common/program/standard_output.h"
 
 namespace swarmanoid
 {
@@ -18,14 +19,6 @@ constexpr std::size_t kWidthOfFiles = 100;
 constexpr std::size_t kLeastWidth = 60;
 constexpr std::size_t kMostWidth = 120;
 constexpr std::size_t kColumn = 27;  // where descriptions begin
-
-std::size_t TerminalWidth()
-{
-  winsize size{};
-  if (isatty(STDOUT_FILENO) != 1 || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0)
-    return kWidthOfFiles;
-  return std::clamp<std::size_t>(size.ws_col, kLeastWidth, kMostWidth);
-}
 
 // One row of a list: the name, and the description in a column beside it.
 std::string Row(const std::string& name, std::string description, std::size_t width)
@@ -56,7 +49,7 @@ class HelpFormatter : public CLI::FormatterBase
 public:
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode) const override
   {
-    const std::size_t width = TerminalWidth();
+    const std::size_t width = std::clamp(TerminalWidth(STDOUT_FILENO).value_or(kWidthOfFiles), kLeastWidth, kMostWidth);
     const auto commands = app->get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
     const auto options = app->get_options([](const CLI::Option* option) { return !option->get_group().empty(); });
     const auto [notes, examples] = SplitFooter(app->get_footer());
@@ -114,7 +107,7 @@ std::pair<std::string, std::string> SplitFooter(const std::string& footer)
   return {footer, ""};
 }
 
-std::string Wrapped(const std::string& text, std::size_t width, std::size_t indent)
+std::string Wrapped(const std::string& text, std::size_t width)
 {
   std::string wrapped;
   std::string_view rest = text;
@@ -124,15 +117,13 @@ std::string Wrapped(const std::string& text, std::size_t width, std::size_t inde
     std::string_view line = rest.substr(0, end);
     rest.remove_prefix(std::min(end + 1, rest.size()));
     const bool is_fixed = line.starts_with(' ');
-    std::size_t room = width;
-    while (!is_fixed && line.size() > room)
+    while (!is_fixed && line.size() > width)
     {
-      std::size_t cut = line.rfind(' ', room);
+      std::size_t cut = line.rfind(' ', width);
       if (cut == std::string_view::npos || cut == 0) cut = line.find(' ');
       if (cut == std::string_view::npos) break;
-      wrapped.append(line.substr(0, cut)).append("\n").append(indent, ' ');
+      wrapped.append(line.substr(0, cut)).append("\n");
       line.remove_prefix(cut + 1);
-      room = width - indent;
     }
     wrapped.append(line);
     if (end < text.size() && (!rest.empty() || text.ends_with('\n'))) wrapped += '\n';

@@ -19,8 +19,8 @@ std::shared_ptr<CLI::FormatterBase> MakeHelpFormatter();
 // Splits a footer into the notes and the examples, which follow the line "Examples:".
 std::pair<std::string, std::string> SplitFooter(const std::string& footer);
 
-// Breaks the lines of `text` at blanks, so that none is longer than `width` characters if it can be broken. The second
-// and later parts of a line begin with `indent` blanks. Lines that begin with a blank are not broken.
-std::string Wrapped(const std::string& text, std::size_t width, std::size_t indent = 0);
+// Breaks the lines of `text` at blanks, so that none is longer than `width` characters if it can be broken. Lines that
+// begin with a blank are not broken.
+std::string Wrapped(const std::string& text, std::size_t width);
 
 }  // namespace swarmanoid

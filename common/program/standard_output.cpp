@@ -1,6 +1,7 @@
 #include "common/program/standard_output.h"
 
 #include <fcntl.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -20,6 +21,13 @@ namespace
 std::atomic<bool> reader_has_gone = false;
 
 }  // namespace
+
+std::optional<std::size_t> TerminalWidth(int descriptor)
+{
+  winsize size{};
+  if (ioctl(descriptor, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return std::nullopt;
+  return size.ws_col;
+}
 
 void ReaderOfOutputHasGone() { reader_has_gone = true; }
 

@@ -1,12 +1,18 @@
 // Standard output, where programs print their results: a result that cannot be written is an error of the program.
 #pragma once
 
+#include <cstddef>
+#include <optional>
+
 namespace swarmanoid
 {
 
 // Opens standard input, output and error if the process was started without them. Otherwise the next opened files would
 // get their numbers, and printed text would go into them. Printing to such an output is an error.
 void OpenStandardFiles();
+
+// Returns the columns of the terminal that the descriptor is, or nothing if it is none.
+std::optional<std::size_t> TerminalWidth(int descriptor);
 
 // Records that the reader of the output has closed it, as `head` does. Text that is printed afterwards is not needed.
 void ReaderOfOutputHasGone();

@@ -1,28 +1,16 @@
 #include "launcher/supervision/progress_display.h"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cmath>
 
 #include "common/configuration/shown_text.h"
+#include "common/program/standard_output.h"
 
 namespace swarmanoid
 {
-namespace
-{
-
-std::size_t TerminalWidth(int descriptor)
-{
-  winsize size{};
-  if (ioctl(descriptor, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
-  return size.ws_col;
-}
-
-}  // namespace
-
 std::string DurationText(double seconds)
 {
   if (seconds < 1) return fmt::format("{:.0f} ms", seconds * 1000);
@@ -45,7 +33,7 @@ void ProgressDisplay::Show(const RunProgress& progress, Clock::time_point now)
   const std::string text = Showable(Text(progress));
   if (style_ == Style::kTerminal)
   {
-    Write(fmt::format("\r{}\x1b[K", text.substr(0, TerminalWidth(descriptor_) - 1)));
+    Write(fmt::format("\r{}\x1b[K", text.substr(0, TerminalWidth(descriptor_).value_or(80) - 1)));
     line_shown_ = true;
     return;
   }

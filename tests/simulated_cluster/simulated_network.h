@@ -15,7 +15,7 @@
 
 #include "common/bus/bus.h"
 #include "common/bus/topics/qos.h"
-#include "tests/simulated_cluster/simulation.h"
+#include "tests/simulated_cluster/simulated_processes.h"
 
 namespace swarmanoid::test
 {

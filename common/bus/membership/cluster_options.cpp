@@ -140,7 +140,7 @@ std::vector<OptionSpec> BusOptionTable(BusOptions& options)
        "0"},
       {{.name = "insecure",
         .type = kBoolean,
-        .description = "Without a key: whoever is in the domain may take part, watch and steer"},
+        .description = "Without a key: every program in the domain may take part, watch and steer"},
        &options.insecure},
   };
 }

@@ -120,7 +120,7 @@ TEST(Help, LinesAreBrokenAtBlanksAndNoWordIsLost)
   EXPECT_EQ(Wrapped("", 10), "");
   EXPECT_EQ(Wrapped("one two three", 20), "one two three");
   EXPECT_EQ(Wrapped("one two three", 7), "one two\nthree");
-  EXPECT_EQ(Wrapped("one two three", 8, 2), "one two\n  three");
+  EXPECT_EQ(Wrapped("one two three", 8), "one two\nthree");
   EXPECT_EQ(Wrapped("alongword two", 4), "alongword\ntwo");
   EXPECT_EQ(Wrapped("  an example that is not broken\nbut this", 5), "  an example that is not broken\nbut\nthis");
 }

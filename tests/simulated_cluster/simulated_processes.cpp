@@ -1,4 +1,4 @@
-#include "tests/simulated_cluster/simulation.h"
+#include "tests/simulated_cluster/simulated_processes.h"
 
 #include <cxxabi.h>
 #include <sys/mman.h>
