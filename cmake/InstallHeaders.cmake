@@ -1,6 +1,7 @@
 # Installs the public headers: those of this list and all headers that they include. cmake/SwarmanoidInstall.cmake runs this script at
-# each installation, with SOURCE (the folder of the sources) and DESTINATION. tests/package/installed_headers.py checks that
-# listings, samples and templates find what they include, and that nothing else is installed. A folder stands for all its headers.
+# each installation, with SOURCE and GENERATED (the folders of the sources, and of headers that the build makes) and DESTINATION.
+# tests/package/installed_headers.py checks that listings, samples and templates find what they include, and that nothing else is
+# installed. A folder stands for all its headers.
 cmake_minimum_required(VERSION 3.25)
 
 set(PUBLIC_HEADERS
@@ -39,7 +40,7 @@ set(PUBLIC_HEADERS
   real_robot/driver.h)
 
 # The folders in which users' compilers look for headers.
-set(INCLUDE_FOLDERS ${SOURCE} ${SOURCE}/common/control_interface ${SOURCE}/user/behavior_toolkit)
+set(INCLUDE_FOLDERS ${SOURCE} ${GENERATED} ${SOURCE}/common/control_interface ${SOURCE}/user/behavior_toolkit)
 
 set(waiting)
 foreach(entry IN LISTS PUBLIC_HEADERS)
@@ -72,7 +73,12 @@ while(waiting)
 endwhile()
 
 foreach(header IN LISTS installed)
-  file(RELATIVE_PATH path ${SOURCE} ${header})
+  cmake_path(IS_PREFIX GENERATED ${header} is_generated)
+  if(is_generated)
+    file(RELATIVE_PATH path ${GENERATED} ${header})
+  else()
+    file(RELATIVE_PATH path ${SOURCE} ${header})
+  endif()
   get_filename_component(folder ${path} DIRECTORY)
   file(INSTALL DESTINATION ${DESTINATION}/${folder} TYPE FILE FILES ${header})
 endforeach()

@@ -19,8 +19,9 @@ set(CMAKE_LINK_DEPENDS_NO_SHARED ON)
 # plug-ins, so that they are not among the libraries of the system.
 set(SWARMANOID_ROLES_FOLDER ${CMAKE_INSTALL_LIBEXECDIR}/swarmanoid)
 set(SWARMANOID_PLUGINS_FOLDER ${CMAKE_INSTALL_LIBDIR}/swarmanoid)
-# Each installed file belongs to one of the components runtime, dev, doc and links. Packages leave out links.
-set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME runtime)
+# Each installed file belongs to one of the components core, pictures, dev, doc and links. Packages leave out links. Files of core need
+# no libraries of graphics and video.
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME core)
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
 endif()
@@ -180,11 +181,16 @@ function(swarmanoid_sort_sources target)
   endforeach()
 endfunction()
 
-# swarmanoid_install_library(NAME) installs a library. Code that was linked against one minor version does not load another.
+# swarmanoid_install_library(NAME [PICTURES]) installs a library. Code that was linked against one minor version does not load
+# another. Libraries of PICTURES are for the renderers alone: users' code cannot link them.
 function(swarmanoid_install_library name)
   set_target_properties(${name} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
-  install(TARGETS ${name} EXPORT SwarmanoidTargets
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT dev)
+  if("PICTURES" IN_LIST ARGN)
+    install(TARGETS ${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT pictures NAMELINK_SKIP)
+  else()
+    install(TARGETS ${name} EXPORT SwarmanoidTargets
+      LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT core NAMELINK_COMPONENT dev)
+  endif()
 endfunction()
 
 # The next two functions set the optimisation of releases. Code that runs in each tick over all robots has CMake's default, -O3. GCC
@@ -221,11 +227,12 @@ function(swarmanoid_shared_headers)
   endforeach()
 endfunction()
 
-# swarmanoid_library(NAME [STATIC] [BY_FOLDER] SOURCES... [OFF_THE_TICK SOURCES...] [PUBLIC libs...] [PRIVATE libs...]) adds a library
-# with the warnings above. Shared libraries are installed and exported as Swarmanoid::NAME. Static libraries stay inside the build.
+# swarmanoid_library(NAME [STATIC] [PICTURES] [BY_FOLDER] SOURCES... [OFF_THE_TICK SOURCES...] [PUBLIC libs...] [PRIVATE libs...]) adds
+# a library with the warnings above. Shared libraries are installed, and exported as Swarmanoid::NAME unless they are of PICTURES.
+# Static libraries stay inside the build.
 # BY_FOLDER is passed to swarmanoid_sort_sources.
 function(swarmanoid_library name)
-  cmake_parse_arguments(ARG "STATIC;BY_FOLDER" "" "SOURCES;OFF_THE_TICK;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "STATIC;PICTURES;BY_FOLDER" "" "SOURCES;OFF_THE_TICK;PUBLIC;PRIVATE" ${ARGN})
   if(ARG_STATIC)
     add_library(${name} STATIC ${ARG_SOURCES})
   else()
@@ -233,7 +240,11 @@ function(swarmanoid_library name)
     # Names are looked up when the library is loaded. Each run of a study is a copy of a process, and would otherwise look them up
     # again.
     target_link_options(${name} PRIVATE LINKER:-z,now)
-    swarmanoid_install_library(${name})
+    set(pictures)
+    if(ARG_PICTURES)
+      set(pictures PICTURES)
+    endif()
+    swarmanoid_install_library(${name} ${pictures})
   endif()
   add_library(Swarmanoid::${name} ALIAS ${name})
   set_target_properties(${name} PROPERTIES OUTPUT_NAME swarmanoid_${name})
@@ -280,9 +291,9 @@ function(swarmanoid_program name)
     set(folder ${SWARMANOID_ROLES_FOLDER})
     file(RELATIVE_PATH place /${CMAKE_INSTALL_BINDIR} /${folder}/${name})
     install(CODE "
-      set(bin \$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR})
-      file(MAKE_DIRECTORY \${bin})
-      file(CREATE_LINK ${place} \${bin}/${name} SYMBOLIC)" COMPONENT links)
+      set(bin \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}\")
+      file(MAKE_DIRECTORY \"\${bin}\")
+      file(CREATE_LINK ${place} \"\${bin}/${name}\" SYMBOLIC)" COMPONENT links)
   endif()
   file(RELATIVE_PATH libraries /${folder} /${CMAKE_INSTALL_LIBDIR})
   set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")

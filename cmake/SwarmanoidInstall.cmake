@@ -8,6 +8,7 @@ set(HEADER_FOLDER ${CMAKE_INSTALL_INCLUDEDIR}/swarmanoid)
 
 install(CODE "
   set(SOURCE \"${CMAKE_SOURCE_DIR}\")
+  set(GENERATED \"${CMAKE_BINARY_DIR}/generated\")
   set(DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${HEADER_FOLDER}\")
   include(\"${CMAKE_SOURCE_DIR}/cmake/InstallHeaders.cmake\")" COMPONENT dev)
 
@@ -32,7 +33,7 @@ configure_file(cmake/SwarmanoidUser.cmake ${CMAKE_BINARY_DIR}/SwarmanoidUser.cma
 configure_file(cmake/config.h.in ${CMAKE_BINARY_DIR}/config.h.in COPYONLY)
 
 # The IDL files are the messages of the ros2 drivers.
-install(DIRECTORY idl DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid COMPONENT dev)
+install(DIRECTORY idl DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid COMPONENT dev PATTERN generate.py EXCLUDE)
 
 # These are the experiments, and the samples and templates that users copy.
 install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/swarmanoid)
@@ -61,4 +62,12 @@ install(FILES launcher/completion/swarmanoid.fish DESTINATION ${CMAKE_INSTALL_DA
 
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/swarmanoid COMPONENT links)  # Debian packages have a file `copyright` instead
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/swarmanoid COMPONENT doc)
-install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/swarmanoid COMPONENT doc)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/swarmanoid COMPONENT doc PATTERN notebooks EXCLUDE)
+
+# The examples of the pages, for users to copy: the notebooks, and a user directory with all that `swarmanoid new` makes in it.
+set(EXAMPLES_FOLDER ${CMAKE_INSTALL_DATADIR}/doc/swarmanoid/examples)
+install(DIRECTORY docs/notebooks DESTINATION ${EXAMPLES_FOLDER} COMPONENT doc)
+install(CODE "
+  set(PROGRAM \"$<TARGET_FILE:swarmanoid>\")
+  set(DESTINATION \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${EXAMPLES_FOLDER}/own_code\")
+  include(\"${CMAKE_SOURCE_DIR}/cmake/InstallExamples.cmake\")" COMPONENT doc)

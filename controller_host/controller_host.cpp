@@ -1,3 +1,15 @@
+// A tick of a host is: copy what the engines sensed, update all sensors, run the controllers, commit the actuators.
+// Devices work in batches over the robots of one controller entry, because a batch reads memory in order and is called
+// once. Big sensors are split among threads by robots; controllers that declare it are run by several threads as well.
+//
+// Invariants: the result does not depend on the number of threads or hosts. Each robot draws from its own streams;
+// attributes are applied in a fixed order (AttributeOrder); of several failures the one of the first robot is reported.
+// A command or attribute that is not finite ends the run with the robot, its controller and the device, before an
+// engine or the space gets it.
+//
+// Controllers with a guard (on_failure, time_budget_ms) run one after the other, behind the others. What happened to
+// them is part of the commands, so that a process that repeats these ticks (recovery) takes the same decisions from the
+// record instead of measuring again: processor time would differ.
 #include "controller_host/controller_host.h"
 
 #include <fmt/format.h>
@@ -21,6 +33,7 @@
 #include "common/space/state_checks.h"
 #include "common/threads/worker_pool.h"
 #include "controller_host/device.h"
+#include "controller_host/device_faults.h"
 #include "controller_host/on_demand_sensor.h"
 #include "controller_host/split_sensor.h"
 
@@ -180,7 +193,8 @@ ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& 
     }
   }
 
-  // Init in entity order, whatever the controllers.
+  if (!experiment.faults.empty()) MakeFaults();
+  // Init is called in entity order, whatever the controllers are.
   for (Robot& robot : robots_)
   {
     const ControllerConfiguration& configuration =
@@ -197,12 +211,61 @@ ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& 
                             std::to_string(result));
   }
 
+  ListSteps();
+  SaveLastStates(0);
+}
+
+void ControllerHost::ListSteps()
+{
+  for (auto* list : {&parallel_, &in_turn_, &guarded_}) list->clear();
+  Clear(commands_.faults);
   for (std::uint32_t k = 0; k < robots_.size(); ++k)
+  {
+    if (device_faults_ != nullptr && device_faults_->SwitchedOff(k) != nullptr) continue;
     if (robots_[k].guard != nullptr)
       guarded_.push_back(k);
     else
       (robots_[k].controller->StepsInParallel() ? parallel_ : in_turn_).push_back(k);
-  SaveLastStates(0);
+  }
+}
+
+void ControllerHost::MakeFaults()
+{
+  const Experiment& experiment = space_.GetExperiment();
+  device_faults_ = std::make_unique<DeviceFaults>(space_, robots_.size());
+  for (const FaultConfiguration& fault : experiment.faults)
+  {
+    device_faults_->Begin(fault);
+    const auto concerns = [&](const DeviceConfiguration& device)
+    { return fault.device.empty() || fault.device == device.type; };
+    for (const std::uint32_t entity : fault.entities)
+    {
+      const auto place = std::ranges::lower_bound(layout_.robots, entity);
+      if (place == layout_.robots.end() || *place != entity) continue;
+      const auto k = static_cast<std::size_t>(place - layout_.robots.begin());
+      const auto number_in = [k](const std::vector<std::size_t>& robots) -> std::optional<std::size_t>
+      {
+        const auto found = std::ranges::lower_bound(robots, k);
+        if (found == robots.end() || *found != k) return std::nullopt;
+        return static_cast<std::size_t>(found - robots.begin());
+      };
+      if (fault.kind == DeviceFaultKind::kOff) device_faults_->AddOff(k);
+      if (fault.of_sensors && fault.kind != DeviceFaultKind::kOff)
+        for (const Batches::Sensor& sensor : batches_->sensors)
+        {
+          const DeviceConfiguration& device = experiment.controllers[sensor.number.first].sensors[sensor.number.second];
+          if (!concerns(device)) continue;
+          if (const auto n = number_in(sensor.robots))
+            device_faults_->Add({.sensor = sensor.batch.get(), .on_demand = sensor.on_demand, .k = *n, .robot = k},
+                                entity, device);
+        }
+      if (fault.of_actuators)
+        for (const Batches::Actuator& actuator : batches_->actuators)
+          if (concerns(*actuator.device))
+            if (const auto n = number_in(actuator.places))
+              device_faults_->Add({.actuator = actuator.batch.get(), .k = *n, .robot = k}, entity, *actuator.device);
+    }
+  }
 }
 
 double ControllerHost::Reach() const
@@ -310,6 +373,13 @@ void ControllerHost::MakeBatches(const ControllerConfiguration& configuration, c
 
 void ControllerHost::DescribeController(const Robot& robot, RobotStatus& status) const
 {
+  if (device_faults_ != nullptr)
+    if (const auto* fault = device_faults_->SwitchedOff(static_cast<std::size_t>(&robot - robots_.data())))
+    {
+      status.state = "off";
+      status.text = fmt::format("the fault '{}' switched it off", fault->id);
+      return;
+    }
   if (robot.IsStopped())
   {
     status.state = "stopped";
@@ -377,15 +447,21 @@ void ControllerHost::Sense(std::span<const SensorFrame* const> frames)
   if (sensed_tick_ == tick) return;
   sensed_tick_ = tick;
   // Copies the values that the engines sensed.
+  const auto take = [&](const ValueCopy& copy)
+  {
+    const auto source = std::find(layout_.frames_from.begin(), layout_.frames_from.end(), copy.source);
+    const SensorFrame& frame = *frames[static_cast<std::size_t>(source - layout_.frames_from.begin())];
+    std::copy_n(frame.values.begin() + static_cast<std::ptrdiff_t>(copy.from), copy.count,
+                sensor_values_.begin() + static_cast<std::ptrdiff_t>(copy.to));
+  };
   if (!frames.empty())
-    for (const ValueCopy& copy : layout_.sensor_copies)
-    {
-      const auto source = std::find(layout_.frames_from.begin(), layout_.frames_from.end(), copy.source);
-      const SensorFrame& frame = *frames[static_cast<std::size_t>(source - layout_.frames_from.begin())];
-      std::copy_n(frame.values.begin() + static_cast<std::ptrdiff_t>(copy.from), copy.count,
-                  sensor_values_.begin() + static_cast<std::ptrdiff_t>(copy.to));
-    }
+  {
+    for (const ValueCopy& copy : layout_.sensor_copies) take(copy);
+    for (const RobotCopy& choice : layout_.sensor_choices)
+      if (space_.EngineBefore(choice.robot) == choice.copy.source) take(choice.copy);
+  }
   UpdateSensors(tick);
+  if (device_faults_ != nullptr) device_faults_->ChangeReadings();
 }
 
 const ControlCommands& ControllerHost::Tick(std::span<const SensorFrame* const> frames)
@@ -393,6 +469,7 @@ const ControlCommands& ControllerHost::Tick(std::span<const SensorFrame* const> 
   const std::uint64_t tick = space_.GetTick();
   Due();
   Sense(frames);
+  if (device_faults_ != nullptr && device_faults_->SwitchRobots()) ListSteps();
   RunControllers(tick);
   for (const Batches::Sensor& sensor : batches_->sensors)
     if (sensor.on_demand != nullptr) sensor.on_demand->EndSteps();
@@ -458,7 +535,7 @@ void ControllerHost::UpdateParts(std::uint64_t tick)
     pool.Run(update);
   else
     for (unsigned part = 0; part < pool.Threads(); ++part) update(part);
-  // The first of the robots, whichever thread was first.
+  // The failure of the first robot is reported, whichever thread was first.
   for (const Batches::Failure& failure : failures)
     if (failure.what != nullptr)
       RunCodeOf(failure.actor, ActivityStep::kUpdate, tick, [&] { std::rethrow_exception(failure.what); });
@@ -467,6 +544,7 @@ void ControllerHost::UpdateParts(std::uint64_t tick)
 void ControllerHost::CommitActuators()
 {
   commands_.attributes.Clear();
+  if (device_faults_ != nullptr) device_faults_->ChangeSettings();
   for (Batches::Actuator& actuator : batches_->actuators)
   {
     const std::size_t first = commands_.attributes.slots.size();
@@ -481,6 +559,7 @@ void ControllerHost::CommitActuators()
                             "): it has a channel, so it must not change attributes");
     CheckAttributesOf(*actuator.device, actuator.robots, first);
   }
+  if (device_faults_ != nullptr) device_faults_->RestoreSettings();
   if (!silence_.robots.empty()) SilenceStopped();
   batches_->order.Apply(commands_.attributes);
   CheckCommands();
@@ -575,7 +654,7 @@ void ControllerHost::StepInParallel(std::uint64_t tick)
           batches_->stopped[k] = std::current_exception();
         }
       });
-  // The first of the robots, whichever thread was first.
+  // The failure of the first robot is reported, whichever thread was first.
   for (const std::exception_ptr& stopped : batches_->stopped)
     if (stopped != nullptr) std::rethrow_exception(stopped);
 }
@@ -606,7 +685,7 @@ void ControllerHost::ControlSteps(std::span<const std::uint32_t> robots, std::ui
 
 void ControllerHost::StepGuarded(std::uint64_t tick)
 {
-  commands_.faults.Clear();
+  Clear(commands_.faults);
   Activity activity(robots_[guarded_.front()].actor, ActivityStep::kControlStep, tick);
   for (const std::uint32_t k : guarded_)
   {
@@ -716,7 +795,7 @@ void ControllerHost::TakeFault(Robot& robot, FaultKind kind, std::uint64_t tick,
   Guard& guard = *robot.guard;
   const std::string what = ActivityText(robot.actor, ActivityStep::kControlStep, tick) + " " + text;
   if (!guard.configuration->MayFail()) throw ControllerError(what);
-  commands_.faults.Add(robot.entity, kind, ShowableLine(thrown, kLongestFault));
+  Add(commands_.faults, robot.entity, kind, ShowableLine(thrown, kLongestFault));
   if (tick - guard.failed_at > kRestartMemory) guard.restarts = 0;
   guard.kind = kind;
   guard.failed_at = tick;
@@ -872,7 +951,7 @@ void ControllerHost::LoadCommands(std::uint32_t entity, ByteReader& bytes)
   if (slots.size() != values.size()) throw StateError("there are other attributes than values of them");
   for (std::size_t k = 0; k < slots.size(); ++k) commands_.attributes.Add(slots[k], values[k]);
   if (!bytes.Get<bool>()) return;
-  commands_.faults.Add(entity, bytes.Get<FaultKind>(), "");
+  Add(commands_.faults, entity, bytes.Get<FaultKind>(), "");
 }
 
 void ControllerHost::SaveState(ByteWriter& state) const
@@ -910,9 +989,10 @@ void ControllerHost::SaveState(ByteWriter& state) const
   }
   for (const Batches::Actuator& actuator : batches_->actuators)
     for (std::size_t n = 0; n < actuator.robots.size(); ++n) actuator.batch->SaveState(n, of_robot[actuator.places[n]]);
+  if (device_faults_ != nullptr) device_faults_->SaveState(of_robot);
   for (std::size_t k = 0; k < robots_.size(); ++k)
     all.robots[robots_[k].entity].assign(of_robot[k].Bytes().begin(), of_robot[k].Bytes().end());
-  Write(all, state);
+  WriteFields(state, all);
 }
 
 void ControllerHost::LoadState(ByteReader& state)
@@ -921,8 +1001,8 @@ void ControllerHost::LoadState(ByteReader& state)
   due_tick_.reset();
   silence_ = {};
   commands_.attributes.Clear();
-  commands_.faults.Clear();
-  const HostState all = ReadHostState(state);
+  Clear(commands_.faults);
+  const auto all = ReadFields<HostState>(state);
   std::vector<ByteReader> of_robot;
   for (const Robot& robot : robots_)
   {
@@ -962,6 +1042,7 @@ void ControllerHost::LoadState(ByteReader& state)
   }
   for (Batches::Actuator& actuator : batches_->actuators)
     for (std::size_t n = 0; n < actuator.robots.size(); ++n) actuator.batch->LoadState(n, of_robot[actuator.places[n]]);
+  if (device_faults_ != nullptr) device_faults_->LoadState(of_robot);
   batches_->order.Apply(commands_.attributes);
   for (const ByteReader& bytes : of_robot)
     if (!bytes.AtEnd()) throw std::runtime_error("saved state: what a robot saved is longer than what it loads");

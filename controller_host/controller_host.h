@@ -9,15 +9,17 @@
 #include <vector>
 
 #include "common/activity/failure_report.h"
-#include "common/activity/step_timeout.h"
 #include "common/control_interface/ci_controller.h"
+#include "common/limits/step_timeout.h"
 #include "common/messages/assignment.h"
-#include "common/messages/robot_status.h"
 #include "common/threads/worker_pool.h"
 #include "controller_host/device.h"
+#include "idl/robot_status.h"
 
 namespace swarmanoid
 {
+
+class DeviceFaults;
 
 // A controller failed: what() names the robot, the controller, the tick and the reason.
 class ControllerError : public ActivityError
@@ -106,6 +108,9 @@ private:
     std::vector<std::pair<std::size_t, std::size_t>> commands;  // first and behind the last in ControlCommands::values
   };
 
+  void MakeFaults();
+  // Lists the robots whose controllers are called: all that are not switched off by a fault.
+  void ListSteps();
   void UpdateSensors(std::uint64_t tick);
   void UpdateParts(std::uint64_t tick);
   void RunControllers(std::uint64_t tick);
@@ -150,7 +155,8 @@ private:
   const CSwarmanoidSpace& space_;
   const HostLayout& layout_;
   std::vector<Robot> robots_;
-  // Numbers in robots_: controllers that may step at the same time, the others, and those with a guard.
+  // The numbers are positions in robots_: controllers that may step at the same time, the others, and those with a
+  // guard.
   std::vector<std::uint32_t> parallel_;
   std::vector<std::uint32_t> in_turn_;
   std::vector<std::uint32_t> guarded_;
@@ -160,6 +166,7 @@ private:
   ControllerFaults faults_of_tick_;
   const char* cure_of_death_ = "";
   std::unique_ptr<Batches> batches_;
+  std::unique_ptr<DeviceFaults> device_faults_;  // null without <faults>
   std::vector<double> sensor_values_;
   const std::uint32_t ahead_;  // framework.ahead
   std::uint64_t stepped_tick_ = 0;

@@ -12,13 +12,16 @@
 
 #include "common/configuration/parameter.h"
 #include "common/control_interface/ci_device.h"
+#include "common/math/random.h"
 #include "common/messages/tick_messages.h"
 #include "common/plugins/registry.h"
 #include "common/serialisation/bytes.h"
-#include "controller_host/devices/noise.h"
+#include "controller_host/exposed_values.h"
 
 #ifndef SWARMANOID_OWN_SOURCES
-#include <common/space/space.h>  // for plug-ins, which mostly need it
+// Plug-ins mostly need these.
+#include <common/space/space.h>
+#include <controller_host/devices/noise.h>
 #endif
 
 namespace swarmanoid
@@ -26,7 +29,8 @@ namespace swarmanoid
 
 class CSwarmanoidSpace;
 
-// Return the name of a device type for random numbers. A sensor and an actuator of one type have different ones.
+// These functions return the name of a device type for random numbers. A sensor and an actuator of one type have
+// different names.
 inline std::uint64_t SensorStream(const std::string& type) { return StreamName("sensor " + type); }
 inline std::uint64_t ActuatorStream(const std::string& type) { return StreamName("actuator " + type); }
 
@@ -54,6 +58,7 @@ class SensorBatch
 {
 public:
   virtual ~SensorBatch() = default;
+  // Makes one device for each robot of the setup. Throws ConfigurationError for a user's mistake.
   virtual void Init(const DeviceSetup& setup) = 0;
   // Returns the object given to the controller of robot k; it lives as long as the batch.
   virtual CCI_Sensor* Sensor(std::size_t k) = 0;
@@ -63,11 +68,16 @@ public:
   // Returns the distance (m, in the plane, from the origin of a robot) up to which bodies or sources can change its
   // readings. Called after Init. Anything farther away may be missing from the space of the host (docs/scaling.md).
   virtual double Reach() const { return kReachesEverywhere; }
-  // Save and load the state that the device of robot k keeps between ticks. Devices without state need neither.
+  // Adds the readings of robot k, in memory that faults change after Update. A device that does not override it cannot
+  // have faults.
+  virtual void Expose(std::size_t, ExposedValues&) {}
+  // Saves the state that the device of robot k keeps between ticks. Devices without state need not override it.
   virtual void SaveState(std::size_t, ByteWriter&) const {}
+  // Restores the state of robot k from SaveState. Throws std::runtime_error if the data is too short.
   virtual void LoadState(std::size_t, ByteReader&) {}
-  // Save and load state that follows from the space alone, so that it is equal for all robots in all hosts.
+  // Saves state that follows from the space alone, so that it is equal for all robots in all hosts.
   virtual void SaveCommon(ByteWriter&) const {}
+  // Restores the state from SaveCommon.
   virtual void LoadCommon(ByteReader&) {}
 };
 
@@ -75,15 +85,21 @@ class ActuatorBatch
 {
 public:
   virtual ~ActuatorBatch() = default;
+  // Makes one device for each robot of the setup. Throws ConfigurationError for a user's mistake.
   virtual void Init(const DeviceSetup& setup) = 0;
+  // Returns the object given to the controller of robot k; it lives as long as the batch.
   virtual CCI_Actuator* Actuator(std::size_t k) = 0;
   // Writes the values that the controllers set: into the channel (specific devices), or as attribute changes with
   // ascending slots (generic devices).
   virtual void Commit(const ChannelView& channel, AttributeChanges& changes) = 0;
   // Returns the distance (m, in the plane) up to which other entities can change its commands, as SensorBatch::Reach.
   virtual double Reach() const { return kReachesEverywhere; }
-  // Save and load the state that the device of robot k keeps between ticks. Devices without state need neither.
+  // Adds the settings of robot k, in memory that faults change during Commit. A device that does not override it cannot
+  // have faults.
+  virtual void Expose(std::size_t, ExposedValues&) {}
+  // Saves the state that the device of robot k keeps between ticks. Devices without state need not override it.
   virtual void SaveState(std::size_t, ByteWriter&) const {}
+  // Restores the state of robot k from SaveState. Throws std::runtime_error if the data is too short.
   virtual void LoadState(std::size_t, ByteReader&) {}
 };
 
@@ -131,7 +147,7 @@ struct DeviceRegistration
 
 }  // namespace swarmanoid
 
-// REGISTER_SENSOR(CMySensorBatch, description), REGISTER_ACTUATOR(...): for devices in a user's library.
+// REGISTER_SENSOR(CMySensorBatch, description) and REGISTER_ACTUATOR(...) register devices of a user's library.
 #define REGISTER_SENSOR(CLASS, ...)                                                                              \
   namespace                                                                                                      \
   {                                                                                                              \

@@ -1,3 +1,6 @@
+// One step of an engine: it collects the commands of its robots, calls the engine, and checks what the engine returns
+// before any other role sees it. Each engine call runs within an activity (common/activity), so that an error names the
+// engine and the tick.
 #include "engine_worker/engine_worker.h"
 
 #include <fmt/format.h>
@@ -27,7 +30,8 @@ EngineWorker::EngineWorker(const CSwarmanoidSpace& space, const Assignment& assi
     : space_(space),
       assignment_(assignment),
       layout_(assignment.engines[engine]),
-      actor_(EngineActor(space.GetExperiment(), engine))
+      actor_(EngineActor(space.GetExperiment(), engine)),
+      members_(space, assignment, static_cast<std::uint32_t>(engine))
 {
   const EngineConfiguration& configuration = space.GetExperiment().engines[engine];
   const PluginRegistry<CPhysicsEngine>::Entry& entry = RegisteredEngine(configuration);
@@ -41,11 +45,16 @@ EngineWorker::EngineWorker(const CSwarmanoidSpace& space, const Assignment& assi
         for (const std::uint32_t index : configuration.entities)
         {
           const CSwarmanoidSpaceEntity& entity = space.GetEntity(index);
-          const bool owned = assignment.owner[index] == static_cast<int>(engine);
           const bool fixed = !entity.IsMovable() || IsBodiless(entity.GetKind());
-          engine_->AddEntity(entity, fixed ? EBinding::kFixed : owned ? EBinding::kOwned : EBinding::kMirror);
+          // An entity that changes its engine is both a mirror and owned.
+          if (fixed)
+            engine_->AddEntity(entity, EBinding::kFixed);
+          else if (std::ranges::binary_search(layout_.mirrored, index))
+            engine_->AddEntity(entity, EBinding::kMirror);
+          if (std::ranges::binary_search(layout_.owned, index)) engine_->AddEntity(entity, EBinding::kOwned);
         }
         engine_->Start();
+        members_.Begin(*engine_);
       });
 
   command_values_.resize(layout_.command_size);
@@ -68,11 +77,19 @@ void EngineWorker::Tick(std::span<const std::uint32_t> moved, std::span<const Co
   RunCodeOf(actor_, ActivityStep::kUpdate, tick,
             [&]
             {
+              members_.Follow(*engine_);
               for (const std::uint32_t entity : moved)
-                if (std::binary_search(layout_.owned.begin(), layout_.owned.end(), entity))
+              {
+                const bool may_move_it = std::ranges::binary_search(layout_.owned, entity);
+                if (may_move_it && !members_.IsElsewhere(entity))
                   engine_->EntityMoved(entity);
+                else if (may_move_it || std::ranges::binary_search(layout_.mirrored, entity))
+                  engine_->MirrorMoved(entity);
+              }
               if (std::exchange(first_tick_, space_.FirstTick()) != space_.FirstTick()) engine_->BeginAgain();
+              members_.StopElsewhere(command_values_);
               engine_->Update({layout_.commands, command_values_}, update_, frame_.values);
+              members_.TellVelocities(*engine_, update_);
             });
   // The engine was lent these.
   update_.tick = frame_.tick;
@@ -80,6 +97,7 @@ void EngineWorker::Tick(std::span<const std::uint32_t> moved, std::span<const Co
   Checked(
       [&]
       {
+        members_.LeaveOutElsewhere(update_);
         KeepInactive();
         CheckResults();
         order_.Apply(update_.attributes);
@@ -156,12 +174,15 @@ void EngineWorker::CheckResults() const
   CheckAttributes(space_, update_.attributes);
   CheckHolds(space_, layout_.owned, update_.attributes);
   if (space_.GetExperiment().beyond_limit == BeyondLimit::kStop) CheckWithinLimit(space_, layout_.owned, update_.poses);
+  if (space_.GetExperiment().outside_volumes == OutsideVolumes::kStop)
+    CheckInVolumes(space_, index_, layout_, update_.poses);
   CheckChannels(space_, layout_.sensors, frame_.values, "readings");
 }
 
 void EngineWorker::SaveState(ByteWriter& state) const
 {
   state.PutArray(frame_.values);
+  members_.SaveState(state);
   RunCodeOf(actor_, ActivityStep::kSaveState, space_.GetTick(), [&] { engine_->SaveState(state); });
 }
 
@@ -169,7 +190,12 @@ void EngineWorker::LoadState(ByteReader& state)
 {
   frame_.values = state.GetArray<double>();
   if (frame_.values.size() != layout_.sensor_size) throw std::runtime_error("saved state: it is of another experiment");
-  RunCodeOf(actor_, ActivityStep::kLoadState, space_.GetTick(), [&] { engine_->LoadState(state); });
+  RunCodeOf(actor_, ActivityStep::kLoadState, space_.GetTick(),
+            [&]
+            {
+              members_.LoadState(state, *engine_);
+              engine_->LoadState(state);
+            });
 }
 
 }  // namespace swarmanoid

@@ -8,6 +8,7 @@
 #include "common/activity/failure_report.h"
 #include "common/messages/attribute_changes.h"
 #include "engine_worker/physics_engine.h"
+#include "engine_worker/volume_members.h"
 
 namespace swarmanoid
 {
@@ -28,9 +29,9 @@ public:
 class EngineWorker
 {
 public:
-  // `space` is the replica of this process; it, `assignment` and `team` outlive the worker. `team`: of an engine that
-  // is split, otherwise nullptr. `pool`: threads that the engine may use, beside
-  // others. Throws ConfigurationError, or ActivityError naming the engine that failed; so does Tick.
+  // `space` is the replica of this process; it, `assignment` and `team` outlive the worker. `team` is nullptr unless
+  // the engine is split. `pool` has threads that the engine may use, beside others. Throws ConfigurationError, or
+  // ActivityError naming the engine that failed; so does Tick.
   EngineWorker(const CSwarmanoidSpace& space, const Assignment& assignment, std::size_t engine,
                RegionTeam* team = nullptr, WorkerPool* pool = nullptr);
   ~EngineWorker();
@@ -51,6 +52,8 @@ public:
 
   CPhysicsEngine& Engine() { return *engine_; }
   const EngineLayout& Layout() const { return layout_; }
+  // Returns the owned entities that other engines moved in the last tick, ascending.
+  std::span<const std::uint32_t> Elsewhere() const { return members_.Elsewhere(); }
 
 private:
   // Runs a check of inputs or results. A failure throws EngineError with the engine and the tick.
@@ -65,6 +68,7 @@ private:
   const Assignment& assignment_;
   const EngineLayout& layout_;
   const Actor actor_;
+  VolumeMembers members_;
   std::uint32_t index_ = 0;
   std::unique_ptr<CPhysicsEngine> engine_;
   std::vector<double> command_values_;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,6 +35,13 @@ enum class EBinding
   kOwned,   // the engine moves it
   kMirror,  // movable, but another engine moves it: it follows the space, pushes and is not pushed
   kFixed    // it never moves
+};
+
+// The velocity of an entity in the frame of the space.
+struct EntityVelocity
+{
+  Vector3 linear = Vector3::Zero();   // m/s, of its position
+  Vector3 angular = Vector3::Zero();  // rad/s
 };
 
 // The other self of a space entity inside an engine: masses, speeds, joints. Engines may derive from it or keep flat
@@ -70,7 +78,7 @@ struct EngineCommands
   const std::vector<ChannelBlock>& blocks;
   std::span<const double> values;
 
-  // Values of a block, `width` doubles for each of its entities.
+  // Returns the values of a block, `width` doubles for each of its entities.
   std::span<const double> Of(const ChannelBlock& block) const
   {
     return values.subspan(block.offset, block.entities.size() * static_cast<std::size_t>(block.width));
@@ -82,10 +90,12 @@ class CPhysicsEngine
 public:
   virtual ~CPhysicsEngine() = default;
 
-  // In this order: Init, AddEntity for every entity in entity order, Start, then Update once each tick.
-  // A user's mistake throws ConfigurationError.
+  // Reads the parameters. The simulator calls Init, AddEntity for every entity in entity order, Start, then Update once
+  // a tick. A user's mistake throws ConfigurationError.
   virtual void Init(const EngineSetup& setup) = 0;
+  // Adds an entity with its pose and size in the space. Throws ConfigurationError if the engine cannot have it.
   virtual void AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding binding) = 0;
+  // Called after the last AddEntity, before the first Update or LoadState. Throws ConfigurationError.
   virtual void Start() {}
 
   // Advances the engine by one clock tick in `subclock` equal steps. Mirrors are first moved to their poses in the
@@ -98,10 +108,27 @@ public:
 
   // An owned entity was put elsewhere from outside; its pose is to be read from the space.
   virtual void EntityMoved(std::uint32_t entity) = 0;
+  // A mirror was put elsewhere from outside, so its last way says nothing about the next one.
+  virtual void MirrorMoved(std::uint32_t /*entity*/) {}
 
-  // Checkpoint: after Canonicalise, SaveState and LoadState into an engine made from the same experiment, all further
-  // updates have the same bits as without them.
+  // The next three calls are for engines with PluginDescription::hands_over, and entities that change their engine. The
+  // engine gets each of these twice: by AddEntity as kMirror, then as kOwned. One of the two bodies touches others, and
+  // the other one touches nothing. After Start all are handed over that other engines move at first.
+  //
+  // From now on the engine moves the entity. The space has its pose and attributes, such as the angle of its turret. It
+  // has no grips, rope or magnet. Called before Update and LoadState.
+  virtual void TakeOver(std::uint32_t entity, const EntityVelocity& velocity);
+  // From now on another engine moves the entity, which is a mirror here. What the engine reports about it is ignored.
+  // Called before Update and LoadState.
+  virtual void HandOver(std::uint32_t entity);
+  // Returns the velocity of an owned entity after Update, or nothing for an engine without velocities: then that of the
+  // way of the last tick counts.
+  virtual std::optional<EntityVelocity> VelocityOf(std::uint32_t /*entity*/) const { return std::nullopt; }
+
+  // Saves a checkpoint. After Canonicalise, SaveState and LoadState into an engine made from the same experiment, all
+  // further updates have the same bits as without them.
   virtual void SaveState(ByteWriter& state) const = 0;
+  // Restores a saved state. Throws std::runtime_error for data that is not a state of this experiment.
   virtual void LoadState(ByteReader& state) = 0;
   // Drops everything that the saved state does not hold (caches, contact order). Called at the same ticks in every run.
   virtual void Canonicalise() = 0;
@@ -116,14 +143,14 @@ public:
   // data in its first task, without a space and an experiment. `exchange` outlives the result.
   virtual std::unique_ptr<EngineRegion> MakeRegion(unsigned region, RegionExchange& exchange);
 
-  // Numbers about the last update for diagnosis: contacts, pairs. One short line, may be empty.
+  // Returns numbers about the last update for diagnosis, such as contacts or pairs, in one short line; it may be empty.
   virtual std::string StatusText() const { return {}; }
 };
 
 template <>
 PluginRegistry<CPhysicsEngine>& PluginRegistry<CPhysicsEngine>::Instance();
 
-// Used by REGISTER_PHYSICS_ENGINE.
+// Registers an engine; REGISTER_PHYSICS_ENGINE makes one.
 struct PhysicsEngineRegistration
 {
   PhysicsEngineRegistration(const PluginDescription& description, std::unique_ptr<CPhysicsEngine> (*create)())
@@ -137,7 +164,7 @@ struct PhysicsEngineRegistration
 using swarmanoid::CPhysicsEngine;
 using swarmanoid::CPhysicsEngineEntity;
 
-// REGISTER_PHYSICS_ENGINE(CMyEngine, description): description is a PluginDescription expression.
+// REGISTER_PHYSICS_ENGINE(CMyEngine, description) registers an engine; description is a PluginDescription expression.
 #define REGISTER_PHYSICS_ENGINE(CLASS, ...)                                                                      \
   namespace                                                                                                      \
   {                                                                                                              \

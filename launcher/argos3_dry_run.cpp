@@ -1,8 +1,8 @@
 #include "launcher/argos3_dry_run.h"
 
 #include "common/configuration/xml_writer.h"
-#include "launcher/scratch_folder.h"
 #include "launcher/smoke_test.h"
+#include "launcher/system/scratch_folder.h"
 #include "simulation/register_all.h"
 
 namespace swarmanoid
@@ -40,7 +40,7 @@ argos3::MadeBodies RehearseArgos3(const ConfigurationNode& experiment, const std
   if (!loaded.experiment) loaded = Load(experiment, folder, Fitting(experiment, folder, settings));
   if (!loaded.experiment) return {};
   const ScratchFolder scratch;
-  // Init of loop functions comes in the first step.
+  // Init of loop functions runs in the first step.
   TryRun(*loaded.experiment, {.folder = scratch.Path(), .steps = 1, .is_silent = true});
   return argos3::ReadMadeBodies(scratch.Path());
 }

@@ -1,4 +1,4 @@
-// A rehearsal of the Init of ARGoS3's loop functions, for the reader of its files (argos3/converter/convert.h).
+// Runs the Init of ARGoS3's loop functions in advance, for the reader of ARGoS3's files (argos3/converter/convert.h).
 #pragma once
 
 #include "argos3/converter/convert.h"

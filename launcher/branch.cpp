@@ -1,3 +1,9 @@
+// A journal has the states that processes have saved at some ticks only. A branch computes the run again from the
+// nearest one up to the wanted tick, with the recorded events and faults. It compares the result with the journal. A
+// child process does this, because the code of users runs in it.
+//
+// Invariant: a branch without changes has the bits of the run that it comes from. If the state of its tick cannot be
+// saved unchanged, it starts from an earlier one and repeats the ticks between.
 #include "launcher/branch.h"
 
 #include <fmt/format.h>
@@ -12,13 +18,14 @@
 #include <fstream>
 #include <sstream>
 
-#include "common/activity/exit_codes.h"
 #include "common/activity/failure_report.h"
-#include "common/activity/print_error.h"
 #include "common/checkpoint/library_builds.h"
+#include "common/errors/exit_codes.h"
+#include "common/errors/print_error.h"
+#include "common/program/shell_word.h"
 #include "common/program/usage_error.h"
 #include "common/space/space.h"
-#include "launcher/single_run.h"
+#include "launcher/supervision/single_run.h"
 #include "simulation/load.h"
 #include "simulation/playback/recorded_run.h"
 #include "simulation/watched_simulator.h"
@@ -67,10 +74,11 @@ void RequireBuilds(const JournalStart& start, const Experiment& experiment, bool
 struct ComputedState
 {
   std::uint64_t hash = 0;
-  std::optional<Checkpoint> checkpoint;  // none: only the first tick will do
+  std::optional<Checkpoint> checkpoint;  // none: only the first tick can be used
 };
 
-// The state of the tick, or, if it cannot be saved as it is and may not be changed, the newest before that can.
+// Computes the state of the tick. If it cannot be saved unchanged and `exactly` forbids a change, computes the newest
+// earlier state that can be saved.
 ComputedState ComputeState(RecordedRun& run, const Experiment& experiment, const SimulatorOptions& options,
                            unsigned hosts, std::uint64_t tick, bool exactly)
 {
@@ -98,7 +106,7 @@ ComputedState ComputeState(RecordedRun& run, const Experiment& experiment, const
     throw std::runtime_error(
         fmt::format("computed again, tick {} differs from the journal: {} (in the journal, and computed); what the run "
                     "uses is not deterministic, or changed since; `swarmanoid replay {} --verify` names the first tick",
-                    tick, difference, run.Folder()));
+                    tick, difference, ShellWord(run.Folder())));
   found.hash = simulator.GetSpace().Hash();
   const bool canonical_now = WatchedSimulator::IsCanonical(simulator);
   if (canonical_now || exactly) save(!canonical_now);
@@ -162,7 +170,7 @@ Branch::Branch(const RunSettings& settings, const Experiment& experiment) : requ
     try
     {
       Compute(settings, *before);
-      // Its controllers and engines may find that the state is not theirs.
+      // The controllers and engines of the changed experiment may find that the state does not fit them.
       if (matters_ && fs::exists(scratch_.Path() + "/" + kStateFile))
       {
         Checkpoint state = ReadCheckpoint(scratch_.Path() + "/" + kStateFile, *before,

@@ -1,5 +1,5 @@
-// Branches: runs that begin as an earlier run was at one of its ticks. Used by `swarmanoid run --branch`, before the
-// folder of the new run is made.
+// Branch: a run that begins at a tick of an earlier run, with that run's state. `swarmanoid run --branch` uses it,
+// before the folder of the new run is made.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 #include "common/experiment/experiment.h"
 #include "common/run/run_settings.h"
 #include "launcher/branch_changes.h"
-#include "launcher/run_request.h"
-#include "launcher/scratch_folder.h"
+#include "launcher/supervision/run_request.h"
+#include "launcher/system/scratch_folder.h"
 
 namespace swarmanoid
 {
@@ -33,15 +33,15 @@ RunRequest RequestOfBranch(const RunRequest& request);
 class Branch
 {
 public:
-  // Computes the state, from the nearest that was saved, with what went in then, and compares it with the journal's;
-  // in a process of its own, since it is the code of users that computes. `experiment`: of the branch. Throws
-  // UsageError if there is no such tick, or the state does not fit the experiment.
+  // Computes the state from the nearest saved one and the recorded inputs, and compares it with the journal. A process
+  // of its own does this, since it runs users' code. `experiment`: that of the branch. Throws UsageError if the tick
+  // does not exist, or if the state does not fit the experiment.
   Branch(const RunSettings& settings, const Experiment& experiment);
 
   // If it is not kExitDone, that process failed and has said why.
   int ExitCode() const { return exit_code_; }
   const BranchRequest& Of() const { return request_; }
-  std::uint64_t Hash() const { return hash_; }  // of the state at the tick
+  std::uint64_t Hash() const { return hash_; }  // Returns the hash of the state at the tick.
   // Returns the tick at which the new run begins. It is earlier than the requested tick if an engine's state cannot be
   // saved there.
   std::uint64_t FirstTick() const { return first_tick_; }
@@ -56,7 +56,7 @@ private:
 
   BranchRequest request_;
   std::vector<BranchChange> changes_;
-  bool matters_ = false;  // some change does
+  bool matters_ = false;  // some change affects the state
   bool same_fingerprint_ = false;
   ScratchFolder scratch_;
   int exit_code_ = 0;

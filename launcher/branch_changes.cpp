@@ -43,7 +43,7 @@ struct TreePath
   std::string Tag(std::size_t depth) const { return depth < tags.size() ? tags[depth] : std::string(); }
 };
 
-// Why that may not change once a run has begun; empty if it may. `whole`: an element came or went.
+// Returns why a value must not change once a run has begun; empty if it may. `whole`: an element was added or removed.
 std::string ReasonAgainst(const TreePath& at, bool whole)
 {
   const std::string section = at.Tag(0), last = at.tags.back();
@@ -95,7 +95,7 @@ private:
     if (before != after) Note(at, fmt::format("{} instead of {}", Shown(after), Shown(before)));
   }
 
-  // Elements with one tag and id, in their order.
+  // Compares elements with the same tag and id, in their order.
   void CompareChildren(const Node& before, const Node& after, const TreePath& at)
   {
     std::vector<const Node*> left;

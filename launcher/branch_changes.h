@@ -1,5 +1,5 @@
 // The differences between the experiment of a branch and that of its run, and a check of which of them may change in
-// mid-run. Used by `swarmanoid run --branch`.
+// mid-run. `swarmanoid run --branch` uses it.
 #pragma once
 
 #include <string>
@@ -12,9 +12,9 @@ namespace swarmanoid
 
 struct BranchChange
 {
-  std::string path;   // as --set takes it
+  std::string path;   // in the form of --set
   std::string value;  // "0.05 instead of 0.1", "new", "left out"
-  bool matters;       // to the state: it is no visualisation, length or name
+  bool matters;       // whether it affects the state: visualisations, length and name do not
 };
 
 // Returns the changes in the order of the file. Throws UsageError that names a change that is not allowed, and the

@@ -19,14 +19,14 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "common/activity/exit_codes.h"
 #include "common/bus/dds_environment.h"
-#include "common/bus/membership/run_directory.h"
+#include "common/bus/run_directory.h"
+#include "common/errors/exit_codes.h"
 #include "common/program/file_descriptor.h"
 #include "engine_worker/engines/fused_libraries.h"
-#include "launcher/installation.h"
 #include "launcher/showing.h"
-#include "launcher/supervision/command_process.h"
+#include "launcher/system/command_process.h"
+#include "launcher/system/installation.h"
 #include "simulation/run_folder.h"
 
 namespace swarmanoid
@@ -41,7 +41,7 @@ constexpr double kSharedMemory_MiB = 128;  // a run of 10,000 robots takes less
 constexpr double kDisk_MiB = 500;
 constexpr rlim_t kOpenFiles = 512;
 constexpr const char* kSample = "sample_footbot";
-constexpr const char* kMulticastGroup = "239.255.0.1";  // of DDS discovery (RTPS 2.2, 9.6.1.4.1)
+constexpr const char* kMulticastGroup = "239.255.0.1";  // the group of DDS discovery (RTPS 2.2, 9.6.1.4.1)
 
 double FreeMiB(const std::string& folder)
 {
@@ -52,7 +52,7 @@ double FreeMiB(const std::string& folder)
   return static_cast<double>(space.f_bavail) * static_cast<double>(space.f_frsize) / kMiB;
 }
 
-// A short run of a sample; its hash, or the first line that it complains with.
+// A short run of a sample: its hash, or the first line of its complaint.
 struct Trial
 {
   std::string hash;
@@ -75,7 +75,7 @@ Trial TryRun(const fs::path& folder, const std::string& name, const std::vector<
 Finding OneProcess(const Trial& trial)
 {
   if (trial.hash.empty())
-    return {"run", Verdict::kBad, "in one process: " + trial.complaint, "install Swarmanoid again, or build it anew"};
+    return {"run", Verdict::kBad, "in one process: " + trial.complaint, "install Swarmanoid again, or build it again"};
   return {"run", Verdict::kGood, "50 ticks in one process, hash " + trial.hash};
 }
 
@@ -205,7 +205,7 @@ Finding Graphics(const fs::path& folder)
   if (exit_code == kExitDone && fs::exists(output / "drawn.png"))
     return {"pictures", Verdict::kGood, "OpenGL draws without a window"};
   return {"pictures", Verdict::kLimited, FirstLineOf(errors),
-          "for pictures, films and windows: apt-get install libegl1 libgl1-mesa-dri"};
+          "for pictures, films and windows: the package swarmanoid, and apt-get install libegl1 libgl1-mesa-dri"};
 }
 
 Finding Display()

@@ -1,4 +1,4 @@
-// Checks of this machine for runs, by trial. Used by `swarmanoid doctor`.
+// `swarmanoid doctor` checks here by trial whether this machine can do runs.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@ namespace swarmanoid
 enum class Verdict
 {
   kGood,
-  kLimited,  // runs go; something else does not
-  kBad       // no cluster runs here
+  kLimited,  // runs work, but other functions do not
+  kBad       // no cluster can run here
 };
 
 struct Finding

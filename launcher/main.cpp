@@ -11,11 +11,11 @@
 #include "common/configuration/trust.h"
 #include "common/program/program.h"
 #include "common/program/standard_output.h"
+#include "launcher/command/completion.h"
 #include "launcher/command/sub_command.h"
-#include "launcher/completion.h"
-#include "launcher/installation.h"
-#include "studies/study_worker.h"
-#include "visualiser/past_inside.h"
+#include "launcher/system/installation.h"
+#include "studies/executors/study_worker.h"
+#include "visualiser/robot_playback.h"
 
 namespace
 {
@@ -74,6 +74,6 @@ int main(int count, char** arguments)
         AddSubCommands(app, verb_code, words.size() > 1 ? words[1] : "");
       },
       [&] { return verb_code; });
-  // The help was not asked for.
+  // Without arguments the help is printed, although the user did not ask for it.
   return count == 1 && exit_code == kExitDone ? kExitUsage : exit_code;
 }

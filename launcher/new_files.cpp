@@ -16,8 +16,9 @@
 #include <vector>
 
 #include "common/configuration/wording.h"
+#include "common/program/shell_word.h"
 #include "common/program/usage_error.h"
-#include "launcher/installation.h"
+#include "launcher/system/installation.h"
 #include "launcher/template_files.h"
 
 namespace swarmanoid
@@ -34,7 +35,7 @@ struct RobotKind
   const char* name;
   const char* state;
   const char* state_header;
-  const char* example;  // of a behaviour's step
+  const char* example;  // example of a behaviour's step
 };
 
 constexpr std::array kRobots{
@@ -62,7 +63,7 @@ const RobotKind& Robot(const std::string& name)
       fmt::format("there is no robot {}; the robots are {}{}", Quoted(name), Listed(names), DidYouMean(name, names)));
 }
 
-// The user directory that we are in: the nearest folder upwards that has controllers/ and build.sh.
+// Returns the user directory around the current folder: the nearest folder upwards that has controllers/ and build.sh.
 fs::path UserDirectory()
 {
   for (fs::path folder = fs::current_path();; folder = folder.parent_path())
@@ -82,7 +83,7 @@ fs::path RequireUserDirectory()
   return folder;
 }
 
-// Each becomes a target of the user's build.
+// Refuses a name that cannot be a target of the user's build, or that is taken.
 void RefuseTakenTarget(const fs::path& user, const std::string& name)
 {
   const std::vector<std::string> taken{"all",     "clean", "codegen", "depend",     "edit_cache",    "help",
@@ -117,7 +118,7 @@ void MakeFile(const std::string& from, const fs::path& to, const TemplateValues&
   fmt::print("  {}\n", fs::relative(to).string());
 }
 
-// How the user calls this program: by its name if that finds it.
+// Returns the command by which the user calls this program: its name if the PATH finds it, otherwise its path.
 std::string ProgramName()
 {
   const fs::path own = OwnProgram();
@@ -133,18 +134,18 @@ std::string ProgramName()
 
 void TellRun(const fs::path& experiment)
 {
-  fmt::print("Next:\n  {} run {}\n", ProgramName(), fs::relative(experiment).string());
+  fmt::print("Next:\n  {} run {}\n", ShellWord(ProgramName()), ShellWord(fs::relative(experiment)));
 }
 
 void TellNext(const fs::path& user, const fs::path& experiment)
 {
   const std::string build = fs::relative(user / "build.sh").string();
-  fmt::print("Next:\n  {}{}\n", build.starts_with("..") ? "" : "./", build);
-  if (!experiment.empty()) fmt::print("  {} run {}\n", ProgramName(), fs::relative(experiment).string());
+  fmt::print("Next:\n  {}\n", ShellWord(build.starts_with("..") ? build : "./" + build));
+  if (!experiment.empty()) fmt::print("  {} run {}\n", ShellWord(ProgramName()), ShellWord(fs::relative(experiment)));
 }
 
-// A plug-in of the user directory that we are in, in `folder`, and an experiment with it. `templates`: their folder,
-// and the start of their names. `with_controller`: a controller that uses it, too.
+// Makes a plug-in in `folder` of the user directory, and an experiment with it. `templates`: their folder, and the
+// start of their names. `with_controller`: also makes a controller that uses it.
 void NewPlugin(const std::string& name, const char* what, const char* folder, const std::string& templates,
                const std::vector<std::string>& endings, bool with_controller = false)
 {
@@ -191,7 +192,7 @@ const RobotKind* RobotOfControllerIn(const fs::path& folder)
 
 }  // namespace
 
-// A script makes user directories, since build_framework does it before anything is built.
+// Makes a user directory by a script, since build_framework makes one before anything is built.
 void NewUserDirectory(const std::string& directory)
 {
   const std::string script = fs::path(UserFilesFolder()) / "user_scripts" / "create_user_directory.sh";
@@ -229,7 +230,7 @@ void NewDevice(const std::string& name) { NewPlugin(name, "sensor", "devices", "
 
 void NewEntity(const std::string& name) { NewPlugin(name, "kind of robot", "entities", "entity", {".cpp"}, true); }
 
-// The simulator reads the script: there is nothing to build.
+// Makes a controller in Lua. The simulator reads the script, so nothing must be built.
 void NewLua(const std::string& name)
 {
   RequireIdentifier(name);

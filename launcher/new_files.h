@@ -18,10 +18,10 @@ void NewRenderer(const std::string& name);
 void NewDevice(const std::string& name);
 void NewEntity(const std::string& name);
 void NewLua(const std::string& name);
-// An OctoMap file and an experiment on it, here or in the user directory.
+// Makes an OctoMap file and an experiment on it, here or in the user directory.
 void NewTerrain(const std::string& name, const RoughTerrain& terrain);
 
-// Names left empty follow from the controller's.
+// The names of a behaviour controller. Empty names follow from that of the controller.
 struct BehaviorControllerNames
 {
   std::string name;            // wall_follower: its folder, files, library and tag
@@ -36,8 +36,8 @@ void NewBehaviorController(BehaviorControllerNames names);
 struct BehaviorNames
 {
   std::string name;        // bt_footbot_wall_watch: its files
-  std::string class_name;  // CBTFootbotWallWatch
-  std::string controller;  // the behaviour controller that it is for; empty: the one in this folder
+  std::string class_name;  // the behaviour controller that uses it; empty: the one in this folder
+  std::string controller;  // must be the robot of that controller; empty: that robot
   std::string robot;       // refused if it is not that controller's; empty: whatever that is
 };
 void NewBehavior(BehaviorNames names);

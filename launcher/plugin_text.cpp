@@ -21,7 +21,7 @@ namespace swarmanoid
 namespace
 {
 
-// Tabs and ends of lines separate fields and rows.
+// Replaces tabs and line ends, which separate fields and rows.
 std::string Field(std::string text)
 {
   std::ranges::replace_if(
@@ -37,7 +37,7 @@ std::string DefaultOf(const ParameterSpec& parameter)
 
 std::string Bound(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
-// Columns as wide as their widest text; the last one as it is.
+// Makes columns as wide as their widest text, except for the last one.
 std::string Aligned(const std::vector<std::array<std::string, 6>>& rows)
 {
   std::array<std::size_t, 6> widths{};
@@ -75,7 +75,7 @@ void AppendPlugin(std::string& rows, const std::string& path, const TConfigurati
   if (plugin != nullptr) AppendSettings(rows, path, tree, plugin->parameters);
 }
 
-// Returns "left [rad/s], right [rad/s]". Of numbered columns it has the first and the last: "0 … 23".
+// Returns "left [rad/s], right [rad/s]". For numbered columns the text has the first and the last number: "0 … 23".
 std::string ColumnsText(const std::vector<CCI_ColumnGroup>& groups)
 {
   std::string text;

@@ -9,23 +9,26 @@
 #include <optional>
 #include <utility>
 
-#include "common/activity/exit_codes.h"
-#include "common/activity/print_error.h"
+#include "argos3/converter/convert.h"
 #include "common/bus/free_domain.h"
 #include "common/checkpoint/checkpoint.h"
 #include "common/checkpoint/library_builds.h"
 #include "common/configuration/wording.h"
+#include "common/configuration/xml_reader.h"
+#include "common/errors/exit_codes.h"
+#include "common/errors/print_error.h"
+#include "common/experiment/foreign_experiments.h"
 #include "common/journal/journal_reader.h"
 #include "common/math/reproducible_math.h"
 #include "common/program/standard_output.h"
 #include "common/program/usage_error.h"
 #include "launcher/branch.h"
 #include "launcher/original_command.h"
-#include "launcher/prepared_run.h"
 #include "launcher/showing.h"
-#include "launcher/single_run.h"
 #include "launcher/supervision/cluster_plan.h"
 #include "launcher/supervision/cluster_run.h"
+#include "launcher/supervision/prepared_run.h"
+#include "launcher/supervision/single_run.h"
 #include "simulation/load.h"
 #include "space_server/event_log.h"
 
@@ -92,6 +95,10 @@ PreparedRun Prepare(const RunRequest& request, std::unique_ptr<const Experiment>
         settings.output_folder = folder.Path();
         ready(settings, manifest, folder);
       });
+  const auto absolute = [](const std::string& path)
+  { return path.empty() ? path : std::filesystem::absolute(path).lexically_normal().string(); };
+  manifest.hash_log = absolute(prepared->hash_log);
+  manifest.restored_from = absolute(prepared->restore_file);
   folder.Write("experiment.xml", experiment->effective_xml);
   folder.Write("manifest.json", manifest.Text());
   folder.BecomeLatest();
@@ -202,7 +209,7 @@ void RefuseBadFaults(const RunRequest& request, const Experiment& experiment)
   if (request->faults_of.empty()) return;
   try
   {
-    // An experiment without guards has no faults to repeat, but the run must be one of it.
+    // An experiment without guards has no faults to repeat, but the run must still be one of this experiment.
     if (experiment.HasGuards())
       FaultsOfRun(request->faults_of, experiment, 0);
     else if (JournalReader(JournalFile(request->faults_of)).Start().origin.experiment != FingerprintOf(experiment))
@@ -246,7 +253,7 @@ int RunAsCluster(PreparedRun& first)
   first.manifest.domain = first.request->domain;
   // The signal stays ignored until the process ends, since the last line may have no reader either.
   std::signal(SIGPIPE, SIG_IGN);
-  // A signal that comes between two runs ends the second one.
+  // A signal between two runs ends the second one.
   SignalDescriptor interrupts;
   return RunUntilEnd(first,
                      [&](PreparedRun& run)
@@ -273,14 +280,11 @@ void Install(const Branch& branch, const Experiment& experiment, const RunFolder
                                branch.FirstTick()));
 }
 
-bool IsOfArgos3(const RunRequest& request) { return std::filesystem::path(request->file).extension() == ".argos"; }
-
-// Loop functions of ARGoS3 may reach into controllers, which takes one process.
-bool WantsOneProcess(const RunRequest& request, const Experiment& experiment)
+// Returns whether the run needs one process: loop functions of ARGoS3 may access controllers.
+bool WantsOneProcess(const RunRequest& request, const Experiment& experiment, bool is_of_argos3)
 {
-  return IsOfArgos3(request) && !experiment.functions.empty() && !request->single_process &&
-         request->controller_hosts == 1 && request->hosts_file.empty() && request->engine_hosts.empty() &&
-         !request->domain;
+  return is_of_argos3 && !experiment.functions.empty() && !request->single_process && request->controller_hosts == 1 &&
+         request->hosts_file.empty() && request->engine_hosts.empty() && !request->domain;
 }
 
 }  // namespace
@@ -289,6 +293,7 @@ int RunExperiment(RunRequest request)
 {
   RequireReproducibleMath();
   if (!request->branch.empty()) request = RequestOfBranch(request);
+  if (!request->visualisations && request->show.empty()) LetUserFunctionsBeMissing();
   auto experiment = LoadOrComplain(request->file, request.Changes());
   if (!experiment) return kExitInvalidFile;
   std::vector<std::string> shown = request->show;
@@ -298,7 +303,8 @@ int RunExperiment(RunRequest request)
     experiment = WithShown(*experiment, shown, request->visualisations);
     request = request.With([](RunSettings& settings) { settings.visualisations = true; });
   }
-  if (WantsOneProcess(request, *experiment))
+  const bool is_of_argos3 = IsForeignExperiment(ReadTextFile(request->file));
+  if (WantsOneProcess(request, *experiment, is_of_argos3))
   {
     request = request.With([](RunSettings& settings) { settings.single_process = true; });
     PrintError(
@@ -322,9 +328,8 @@ int RunExperiment(RunRequest request)
                               [&](RunSettings& settings, Manifest& manifest, const RunFolder& folder)
                               {
                                 if (branch) Install(*branch, loaded, folder, settings, manifest);
-                                // The space server reads our files alone.
-                                if (IsOfArgos3(request) || !shown.empty())
-                                  settings.file = folder.File("experiment.xml");
+                                // The space server reads only files of Swarmanoid.
+                                if (is_of_argos3 || !shown.empty()) settings.file = folder.File("experiment.xml");
                               });
     return run.request->single_process ? RunUntilEnd(run, RunHere) : RunAsCluster(run);
   }

@@ -2,7 +2,7 @@
 // the manifest, runs, and writes the last line.
 #pragma once
 
-#include "launcher/run_request.h"
+#include "launcher/supervision/run_request.h"
 
 namespace swarmanoid
 {

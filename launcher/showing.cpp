@@ -9,17 +9,20 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <ranges>
 #include <thread>
 #include <vector>
 
-#include "common/activity/exit_codes.h"
-#include "common/activity/print_error.h"
+#include "common/configuration/configuration_tree.h"
 #include "common/configuration/wording.h"
+#include "common/configuration/xml_writer.h"
+#include "common/errors/exit_codes.h"
+#include "common/errors/print_error.h"
 #include "common/experiment/load_experiment.h"
 #include "common/plugins/catalogue.h"
 #include "common/program/usage_error.h"
-#include "launcher/installation.h"
-#include "launcher/supervision/command_process.h"
+#include "launcher/system/command_process.h"
+#include "launcher/system/installation.h"
 #include "simulation/run_folder.h"
 
 namespace swarmanoid
@@ -29,7 +32,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-constexpr double kRobotTicks = 3e5;  // that a film may take: some seconds in the slowest engine
+constexpr double kRobotTicks = 3e5;  // the most robot ticks of a film: it takes some seconds in the slowest engine
 constexpr std::uint64_t kFewestTicks = 100;
 constexpr std::uint64_t kMostPictures = 100;
 constexpr double kPicturesPerSecond = 20;
@@ -40,16 +43,24 @@ std::size_t Robots(const Experiment& experiment)
       std::ranges::count_if(experiment.entities, [](const auto& entity) { return IsRobot(entity.kind); }));
 }
 
+// Returns where a helper process that draws no page writes its errors: the terminal, where it shows its progress, too;
+// otherwise a file.
+std::string ErrorsOf(std::vector<std::string>& words, const fs::path& folder)
+{
+  if (isatty(STDERR_FILENO) == 1) return "/dev/stderr";
+  words.emplace_back("--quiet");
+  return folder / "shown.log";
+}
+
 // Returns the ticks until the experiment ends by itself, or 0 if a film is shorter.
 std::uint64_t LengthOf(const Experiment& experiment, const fs::path& folder)
 {
   const fs::path file = folder / "shown.xml", output = folder / "shown";
   std::ofstream(file) << experiment.effective_xml;
   const std::string most = std::to_string(TicksOfFilm(experiment, 0));
-  const int exit_code = CommandProcess({OwnProgram(), "run", file, "--single-process", "--quiet", "--no-visualisers",
-                                        "--ticks", most, "--output", output},
-                                       folder / "shown.log")
-                            .Wait();
+  std::vector<std::string> words{OwnProgram(), "run",      file,  "--single-process", "--no-visualisers", "--ticks",
+                                 most,         "--output", output};
+  const int exit_code = CommandProcess(words, ErrorsOf(words, folder)).Wait();
   const bool ended = exit_code == kExitDone || exit_code == kExitExperimentFailed;
   const std::uint64_t ticks = ended ? ReadManifest(output).value("ticks", std::uint64_t{0}) : 0;
   fs::remove_all(output);
@@ -112,11 +123,24 @@ std::unique_ptr<Experiment> WithShown(const Experiment& experiment, const std::v
   std::string text = experiment.effective_xml;
   for (std::size_t k = 0; k < kinds.size(); ++k)
   {
-    const std::string tag = kinds[k].ends_with("_render") ? kinds[k] : kinds[k] + "_render";
+    const std::vector<std::string> words = SplitWords(kinds[k]);
+    const std::string kind = words.empty() ? "" : words.front();
+    const std::string tag = kind.ends_with("_render") ? kind : kind + "_render";
     if (std::ranges::find(known, tag) == known.end())
       throw UsageError(fmt::format("--show: there is no renderer {}; there are {}", Quoted(tag), Listed(known)));
-    const std::string element = fmt::format("<{} id=\"shown{}\"{}/>", tag, k == 0 ? "" : fmt::format("_{}", k + 1),
-                                            tag == "web_render" ? " allow_control=\"true\"" : "");
+    std::string parameters;
+    for (const std::string& word : words | std::views::drop(1))
+    {
+      const std::size_t sign = word.find('=');
+      if (sign == 0 || sign == std::string::npos)
+        throw UsageError(fmt::format("--show: {} of '{}' must be NAME=VALUE, as in --show \"image video=film.webm\"",
+                                     Quoted(word), kinds[k]));
+      parameters += fmt::format(" {}=\"{}\"", word.substr(0, sign), EscapedAttribute(word.substr(sign + 1)));
+    }
+    if (tag == "web_render" && parameters.find(" allow_control=") == std::string::npos)
+      parameters += " allow_control=\"true\"";
+    const std::string element =
+        fmt::format("<{} id=\"shown{}\"{}/>", tag, k == 0 ? "" : fmt::format("_{}", k + 1), parameters);
     const std::size_t end = text.find("</visualisations>");
     if (end != std::string::npos && (with_own || k > 0))
       text.insert(end, "  " + element + "\n  ");
@@ -141,10 +165,10 @@ int Show(const Experiment& experiment, ShowingKind kind, const std::string& fold
   const fs::path file = fs::path(folder) / "shown.xml", output = fs::path(folder) / "shown";
   const fs::path complaints = fs::path(folder) / "shown.log";
   std::string element = R"(<web_render id="shown" allow_control="true"/>)";
-  std::vector<std::string> words{OwnProgram(), "run", file, "--single-process", "--quiet", "--output", output};
+  std::vector<std::string> words{OwnProgram(), "run", file, "--single-process", "--output", output};
   if (kind != ShowingKind::kFilm)
   {
-    words.insert(words.end(), {"--real-time", "1"});
+    words.insert(words.end(), {"--quiet", "--real-time", "1"});
   }
   else
   {
@@ -152,7 +176,7 @@ int Show(const Experiment& experiment, ShowingKind kind, const std::string& fold
     const std::uint64_t ticks = TicksOfFilm(experiment, ran > 0 ? ran : LengthOf(experiment, folder));
     const std::uint64_t every = (ticks + kMostPictures - 1) / kMostPictures;
     const double speed = static_cast<double>(every) * experiment.TickSeconds() * kPicturesPerSecond;
-    // Shadows take half of the time.
+    // Shadows would double the time.
     element = fmt::format(
         R"(<image_render id="film" size="640, 480" every="{}" speed="{}" video="film.mp4" use_shadows="false"/>)"
         R"(<image_render id="picture" every="{}" file="picture.png"/>)",
@@ -161,8 +185,9 @@ int Show(const Experiment& experiment, ShowingKind kind, const std::string& fold
   }
   std::ofstream(file) << WithVisualisation(experiment.effective_xml, element);
 
+  const std::string errors = kind == ShowingKind::kFilm ? ErrorsOf(words, folder) : complaints.string();
   const InterruptsLeftToHelper interrupts;
-  CommandProcess child(words, complaints);
+  CommandProcess child(words, errors);
   if (kind != ShowingKind::kFilm)
   {
     const fs::path url = output / "web_render.url";

@@ -1,6 +1,6 @@
 // Shows an experiment to a user at a terminal who asked for no visualisation: on a page in the browser if there is a
 // display, otherwise as a picture and a film. The experiment is run again for that, in a process of its own, with the
-// same bits. So the run itself is not slowed. Used by the commands `demo` and `run`.
+// same bits. So the run itself is not slowed. The commands `demo` and `run` use it.
 #pragma once
 
 #include <memory>
@@ -14,12 +14,12 @@ namespace swarmanoid
 
 enum class ShowingKind
 {
-  kPage,        // its address is told
-  kOpenedPage,  // and given to the browser
+  kPage,        // the address of the page is printed
+  kOpenedPage,  // the page is also opened in the browser
   kFilm
 };
 
-// The page if this session has a display or names a browser.
+// Returns a page if this session has a display or names a browser, otherwise a film.
 ShowingKind KindForSession();
 // Returns true if standard output and error are a terminal.
 bool IsAtTerminal();
@@ -39,7 +39,8 @@ std::unique_ptr<Experiment> WithShown(const Experiment& experiment, const std::v
 // Returns the text with the visualisation in the place of its own ones.
 std::string WithVisualisation(const std::string& effective_xml, const std::string& element);
 
-// Ticks of a film, so that it is made within some seconds: fewer for more robots, never more than `ran` (0: not known).
+// Returns the number of ticks of a film that is made within some seconds: fewer ticks for more robots, and never more
+// than `ran` (0: unknown).
 std::uint64_t TicksOfFilm(const Experiment& experiment, std::uint64_t ran);
 
 // Shows the experiment, with files in `folder`, which must exist. Prints on standard error where to look. Returns the

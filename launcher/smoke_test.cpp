@@ -15,11 +15,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/activity/exit_codes.h"
 #include "common/activity/failure_report.h"
-#include "common/activity/print_error.h"
-#include "launcher/scratch_folder.h"
+#include "common/errors/exit_codes.h"
+#include "common/errors/print_error.h"
+#include "launcher/system/scratch_folder.h"
 #include "simulation/simulator.h"
+#include "visualiser/visualiser.h"
 
 namespace swarmanoid
 {
@@ -38,6 +39,8 @@ int TryHere(const Experiment& experiment, const Trial& trial)
     options.visualisations = false;
     CSimulator simulator(experiment, options);
     for (int step = 0; step < trial.steps; ++step) simulator.Step();
+    if (trial.visualisations)
+      for (const RenderConfiguration& render : experiment.visualisations) MakeRenderer(render);
     return kExitDone;
   }
   catch (const ConfigurationError& error)
@@ -57,7 +60,7 @@ int TryHere(const Experiment& experiment, const Trial& trial)
   }
 }
 
-// The process ended, and its end of the pipe was closed. False: it did not in time.
+// Waits until the process has ended and its end of the pipe is closed. Returns false if that takes longer than `most`.
 bool Ended(int pipe, std::chrono::seconds most)
 {
   using Clock = std::chrono::steady_clock;
@@ -74,10 +77,10 @@ bool Ended(int pipe, std::chrono::seconds most)
 
 }  // namespace
 
-int SmokeTest(const Experiment& experiment, std::chrono::seconds most)
+int SmokeTest(const Experiment& experiment, bool visualisations)
 {
   const ScratchFolder folder;
-  return TryRun(experiment, {.folder = folder.Path(), .most = most});
+  return TryRun(experiment, {.folder = folder.Path(), .visualisations = visualisations});
 }
 
 int TryRun(const Experiment& experiment, const Trial& trial)

@@ -11,17 +11,17 @@ namespace swarmanoid
 // The text of each mark of a template: {"name", "wall_follower"} for @name@.
 using TemplateValues = std::map<std::string, std::string>;
 
-// Small letters, digits and '_', a letter first.
+// Returns whether the name consists of small letters, digits and '_', and begins with a letter.
 bool IsIdentifier(const std::string& name);
-// Letters, digits and '_', a capital letter first.
+// Returns whether the name consists of letters, digits and '_', and begins with a capital letter.
 bool IsClassName(const std::string& name);
-// "CWallFollower" for "wall_follower".
+// Returns "CWallFollower" for "wall_follower".
 std::string ClassName(const std::string& name);
-// "CBTFootbotStop" for "bt_footbot_stop", "CBTStop" for "stop".
+// Returns "CBTFootbotStop" for "bt_footbot_stop", and "CBTStop" for "stop".
 std::string BehaviorClassName(const std::string& name);
 std::string FilledIn(std::string text, const TemplateValues& values);
 
-// Throws UsageError if there is something already.
+// Throws UsageError if a file or folder of that name exists.
 void RefuseExisting(const std::filesystem::path& path);
 // Writes `to`, and its folder if needed. Throws std::runtime_error.
 void WriteFromTemplate(const std::filesystem::path& from, const std::filesystem::path& to,

@@ -1,3 +1,10 @@
+// A step of the controller is due once in each period of the monotonic clock. The times are multiples of the period
+// from the start, so errors of single steps do not add up; steps that were missed are skipped, since several in a row
+// would let the controller act on the same readings.
+//
+// Before the first step every sensor must have a value. Later a silent sensor stops the robot in the same period, and
+// the controller pauses until the sensor is back: a robot that drives on old readings does damage. Whatever ends the
+// loop, End() or an exception, the actuators are stopped.
 #include "real_robot/control_loop.h"
 
 #include <ctime>

@@ -77,8 +77,8 @@ public:
   virtual std::vector<std::string> Sinks() const { return {}; }
 };
 
-// For the macros below. `type`: the device's label in experiment files; `name`: of the driver, for robot files;
-// `robots`: the kinds that it supports, empty for all.
+// Describes a driver, for the macros below. `type` is the device's label in experiment files, `name` that of the driver
+// in robot files, and `robots` has the kinds that it supports, empty for all.
 PluginDescription DescribeDriver(const std::string& type, const std::string& name, const std::string& brief,
                                  std::vector<std::string> robots = {}, std::vector<ParameterSpec> parameters = {});
 

@@ -1,3 +1,9 @@
+// A robot is put together in an order that keeps it safe: libraries, controller and drivers are found and all
+// parameters are checked before the first driver opens a device, so a mistake in a file moves nothing. Random numbers
+// come from the same streams as in the simulator, by seed, id and step, so a controller draws the same numbers in both.
+//
+// The controller's Init runs when every sensor has a value (control_loop.cpp). Stopping is tried for each actuator,
+// even if another one has failed; the destructor stops, too.
 #include "real_robot/robot.h"
 
 #include <fmt/format.h>

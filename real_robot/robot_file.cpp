@@ -1,3 +1,7 @@
+// One controller of an experiment file is run on a robot, and the file stays the one of the simulator: its world is
+// ignored, and only what a robot needs is read (period, seed, controller, device lists). A robot file adds what the
+// simulator does not know, namely id, name space and drivers. Its elements are checked against the names that may stand
+// in it, with a proposal for a misspelt one; all errors have file and line.
 #include "real_robot/robot_file.h"
 
 #include <unistd.h>

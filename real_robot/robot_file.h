@@ -42,7 +42,7 @@ struct RobotConfiguration
   std::string preferred_driver;
 };
 
-// Choices of the command line; empty: those of the file, or the defaults.
+// The choices of the command line; an empty one leaves that of the file, or the default.
 struct RobotChoice
 {
   std::string controller{};  // its id in the experiment file

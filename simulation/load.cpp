@@ -6,8 +6,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "common/activity/print_error.h"
 #include "common/configuration/wording.h"
+#include "common/errors/print_error.h"
+#include "common/program/shell_word.h"
 #include "common/space/terrain/floor_picture.h"
 #include "common/space/terrain/terrain.h"
 #include "simulation/register_all.h"
@@ -38,9 +39,9 @@ std::string AdviceAboutFolder(const fs::path& folder)
     return fmt::format(
         "the folder of a run. See the run: swarmanoid replay {0}; go on with it: swarmanoid resume {0}; "
         "run it again: swarmanoid run {1}",
-        name, (folder / "experiment.xml").string());
+        ShellWord(name), ShellWord(folder / "experiment.xml"));
   if (fs::exists(folder / "study.sqlite", none))
-    return fmt::format("the folder of a study. Go on with it: swarmanoid sweep {} --resume", name);
+    return fmt::format("the folder of a study. Go on with it: swarmanoid sweep {} --resume", ShellWord(name));
   const std::vector<std::string> files = ExperimentsIn(folder);
   if (files.empty()) return "a folder without experiment files. Make one: swarmanoid new experiment NAME";
   return fmt::format("a folder. Name an experiment file in it, such as {}", (folder / files.front()).string());
@@ -80,7 +81,7 @@ bool FilesAreGood(const Experiment& experiment)
   return good;
 }
 
-std::unique_ptr<Experiment> LoadOrComplain(const std::string& file, const LoadOptions& options)
+std::unique_ptr<Experiment> LoadOrComplain(const std::string& file, const LoadOptions& options, std::string* places)
 {
   RegisterBuiltins();
   std::error_code none;
@@ -95,6 +96,7 @@ std::unique_ptr<Experiment> LoadOrComplain(const std::string& file, const LoadOp
     PrintError("{}: {}\n", file,
                loaded.errors.size() == 1 ? "1 error" : fmt::format("{} errors", loaded.errors.size()));
   if (loaded.experiment && !FilesAreGood(*loaded.experiment)) return nullptr;
+  if (places != nullptr) *places = std::move(loaded.places);
   return std::move(loaded.experiment);
 }
 

@@ -1,4 +1,4 @@
-// Reading an experiment for a verb of the command: built-in plug-ins known, all errors shown.
+// Reads an experiment for a sub-command. The simulator's plug-ins are registered, and all errors are printed.
 #pragma once
 
 #include <memory>
@@ -11,10 +11,12 @@
 namespace swarmanoid
 {
 
-// nullptr if the file is wrong: then all its errors are on standard error.
-std::unique_ptr<Experiment> LoadOrComplain(const std::string& file, const LoadOptions& options);
-// Every process of a run reads the maps of terrains and the pictures of the floor; what is wrong with them is told on
-// standard error before any of them starts.
+// Returns nullptr if the file has mistakes, after all of them were printed on standard error. `places` gets
+// LoadedExperiment::places.
+std::unique_ptr<Experiment> LoadOrComplain(const std::string& file, const LoadOptions& options,
+                                           std::string* places = nullptr);
+// Returns false if a map of a terrain or a picture of the floor cannot be read, after the mistakes were printed on
+// standard error. Every process of a run reads these files, so the check comes before any of them starts.
 bool FilesAreGood(const Experiment& experiment);
 
 }  // namespace swarmanoid

@@ -40,7 +40,7 @@ std::string HostName()
   return name;
 }
 
-// As the kernel calls it; empty if it does not.
+// Returns the processor's name as the kernel reports it, or an empty text.
 std::string ProcessorName()
 {
   std::ifstream file("/proc/cpuinfo");
@@ -55,7 +55,7 @@ std::string ProcessorName()
       fmt::format("cannot make the run folder '{}': {}; name another one with --output", path, reason));
 }
 
-// A user's mistake costs no run: an old folder is never written over.
+// Makes a requested folder. It must be new or empty, so that a mistake of the user never overwrites an old run.
 std::string MakeAsked(const std::string& asked)
 {
   std::error_code error;
@@ -136,6 +136,8 @@ std::string Manifest::Text() const
   json["seed"] = seed;
   json["command"] = command;
   json["started"] = started;
+  if (!hash_log.empty()) json["hash_log"] = hash_log;
+  if (!restored_from.empty()) json["restored_from"] = restored_from;
   if (branch_of)
     json["branch_of"] = {{"run", branch_of->run},
                          {"tick", branch_of->tick},

@@ -22,15 +22,16 @@ public:
 class RunFolder
 {
 public:
-  // Makes the folder: `asked` itself, which must be new or empty, or if that is empty, a new one of the experiment's
-  // name and the time under runs/. Throws RunFolderError with the cure.
+  // Makes the folder `asked`, which must be new or empty. If `asked` is empty, makes a new folder under runs/, named by
+  // the experiment and the time. Throws RunFolderError with the cure.
   RunFolder(const std::string& asked, const std::string& experiment);
 
   const std::string& Path() const { return path_; }  // absolute
   std::string File(const std::string& name) const { return path_ + "/" + name; }
-  // Writes a whole file, or throws RunFolderError and leaves the one that was there.
+  // Writes a whole file. Throws RunFolderError if that fails; an old file of that name then stays.
   void Write(const std::string& name, const std::string& text) const;
-  // Lets the link `latest` beside a folder under runs/ name this run. It costs only the link if that is not possible.
+  // Lets the link `latest` beside a folder under runs/ name this run. If that is not possible, only the link is
+  // missing.
   void BecomeLatest() const;
 
 private:
@@ -38,26 +39,26 @@ private:
   bool is_under_runs_;
 };
 
-// The run that another one branched off.
+// The origin of a run that branched off another one.
 struct BranchOrigin
 {
-  std::string run;  // its folder
+  std::string run;  // folder of the other run
   std::uint64_t tick = 0;
-  std::uint64_t hash = 0;        // of its state there
-  std::uint64_t first_tick = 0;  // of the branch
+  std::uint64_t hash = 0;        // hash of the other run's state at the tick
+  std::uint64_t first_tick = 0;  // first tick of the branch
   std::vector<std::string> changes;
 };
 
-// The run that was reset, and so began again as this one.
+// The origin of a run that began again after a reset.
 struct ResetOrigin
 {
-  std::string run;  // its folder
+  std::string run;  // folder of the run that was reset
   std::uint64_t tick = 0;
   bool paused = false;
   double real_time_factor = 0;
 };
 
-// manifest.json: what was run, how, and what came of it. docs/command.md describes the fields.
+// It is the content of manifest.json: the settings of a run and its result. docs/command.md describes the fields.
 struct Manifest
 {
   std::string experiment;
@@ -65,14 +66,16 @@ struct Manifest
   std::uint64_t experiment_hash = 0;  // XXH3-64 of experiment.xml
   std::uint64_t seed = 0;
   std::vector<std::string> command;
-  std::vector<std::pair<std::string, std::string>> libraries;  // name and build-id, of all that computes the state
+  std::vector<std::pair<std::string, std::string>> libraries;  // name and build-id of all code that computes the state
   std::string started;
+  std::string hash_log;       // its absolute path; empty: none
+  std::string restored_from;  // the absolute path of the checkpoint that the run began with; empty: none
   std::optional<BranchOrigin> branch_of;
   std::optional<ResetOrigin> reset_of;
   std::optional<int> domain;                                   // clusters only
   std::vector<std::pair<std::string, std::string>> processes;  // name and log
 
-  // Known at the end.
+  // The fields below are known at the end.
   std::string ended;
   std::optional<int> exit_code;
   std::optional<std::uint64_t> ticks;
@@ -84,10 +87,10 @@ struct Manifest
   std::string Text() const;
 };
 
-// Of the folder of a run that has ended. Throws std::exception.
+// Reads the manifest of a run that has ended. Throws std::exception.
 nlohmann::json ReadManifest(const std::string& folder);
 
-// Local time as 2031-05-17T09:30:00+0200.
+// Returns the local time as 2031-05-17T09:30:00+0200.
 std::string TimeStamp();
 std::uint64_t TextHash(const std::string& text);
 

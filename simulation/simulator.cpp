@@ -1,3 +1,9 @@
+// All roles work one after the other in this process and share one space, so no message is copied: each reads the
+// results of the others through pointers, which stay. The order is that of a cluster. So both compute the same bits
+// (docs/determinism.md).
+//
+// Invariant: in each tick the hosts go first, then the engines, and at last the server, which merges the results of
+// both.
 #include "simulation/simulator.h"
 
 #include <fmt/format.h>
@@ -7,13 +13,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 
 #include "common/activity/failure_report.h"
 #include "common/activity/shared_activity.h"
 #include "common/checkpoint/checkpoint.h"
+#include "common/errors/print_error.h"
 #include "common/experiment/load_experiment.h"
 #include "common/journal/journal_reader.h"
+#include "common/journal/journal_writer.h"
 #include "common/math/reproducible_math.h"
 #include "common/messages/assignment.h"
 #include "common/program/usage_error.h"
@@ -25,6 +34,7 @@
 #include "engine_worker/engine_worker.h"
 #include "simulation/register_all.h"
 #include "simulation/steering.h"
+#include "simulation/watched_simulator.h"
 #include "space_server/space_server.h"
 #include "visualiser/visualiser.h"
 
@@ -38,7 +48,7 @@ double SecondsSince(std::chrono::steady_clock::time_point start)
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Those that this process may use, less those that the machine was busy with in the last minute; at least one.
+// Returns the cores that this process may use, minus those that the machine kept busy in the last minute; at least one.
 unsigned FreeCores()
 {
   cpu_set_t cores;
@@ -129,7 +139,17 @@ struct CSimulator::Roles
       checkpoint.LoadPart(HostName(h), [&](ByteReader& state) { hosts[h]->LoadState(state); });
   }
 
-  // What the engines sensed, for a host.
+  // Writes the tick whose state was last taken, with the frames and the commands of its step.
+  void Record(bool has_commands)
+  {
+    recorded_frames.resize(journal_state->tick == 0 ? 0 : engines.size());
+    for (std::size_t e = 0; e < recorded_frames.size(); ++e) recorded_frames[e] = engines[e]->Sensors();
+    recorded_commands.resize(has_commands ? hosts.size() : 0);
+    for (std::size_t h = 0; h < recorded_commands.size(); ++h) recorded_commands[h] = hosts[h]->Commands();
+    journal->AddTick(*journal_state, false, recorded_frames, recorded_commands);
+  }
+
+  // Returns the sensor frames that the engines made for a host.
   std::span<const SensorFrame* const> Frames(std::size_t host) const
   {
     return space.GetTick() == 0 ? std::span<const SensorFrame* const>()
@@ -157,18 +177,23 @@ struct CSimulator::Roles
   SpaceServer server;
   const CSwarmanoidSpace& space;
   Steering steering;
-  std::unique_ptr<WorkerPool> pool;  // of the roles, which work one after the other; none for one thread
+  std::unique_ptr<WorkerPool> pool;  // shared by the roles, which work one after the other; nullptr for one thread
   ThreadedTicks sharing;
   std::vector<std::unique_ptr<EngineWorker>> engines;
   std::vector<std::unique_ptr<ControllerHost>> hosts;
   std::unique_ptr<StepTimeout> time_budgets;
   std::vector<std::unique_ptr<Visualiser>> visualisers;
   HashLog hash_log;
-  // The messages of a tick; the roles reuse their buffers, so these pointers stay.
-  std::vector<std::vector<const SensorFrame*>> frames;  // of each host
+  // These pointers lead to the messages of a tick. The roles reuse their buffers, so the pointers stay.
+  std::vector<std::vector<const SensorFrame*>> frames;  // by host
   std::vector<const ControlCommands*> commands;
   std::vector<std::vector<const ControlCommands*>> commands_of_engines;
   std::vector<const EngineUpdate*> updates;
+
+  std::optional<JournalWriter> journal;
+  const SpaceState* journal_state = nullptr;  // of the present tick
+  std::vector<SensorFrame> recorded_frames;
+  std::vector<ControlCommands> recorded_commands;
 
   std::uint64_t first_tick = 0;
   std::chrono::steady_clock::time_point start;
@@ -224,15 +249,17 @@ bool CSimulator::Step()
                [&]
                {
                  for (std::size_t h = 0; h < r.hosts.size(); ++h) r.hosts[h]->Tick(r.Frames(h));
+                 if (r.journal) r.Record(true);
                  for (std::size_t e = 0; e < r.engines.size(); ++e)
                    r.engines[e]->Tick(r.server.Moved(), r.commands_of_engines[e]);
                  r.server.Advance(r.updates, r.commands);
                });
   Show();
+  if (r.journal) r.journal_state = &r.server.State();
   return true;
 }
 
-// The state of a tick goes to all who look at it; they may end the experiment.
+// Shows the state of a tick to the watch function, the hash log and the visualisers. They may end the experiment.
 void CSimulator::Show()
 {
   Roles& r = *roles_;
@@ -240,7 +267,7 @@ void CSimulator::Show()
   const std::uint64_t tick = r.space.GetTick();
   if (r.options.checkpoint_every != 0 && tick > r.first_tick && tick % r.options.checkpoint_every == 0)
     WriteCheckpoint(r.options.output_folder + "/" + CheckpointName(tick), r.TakeCheckpoint());
-  // Whoever goes on from the checkpoint watches this tick again.
+  // A run restored from the checkpoint calls the watch function for this tick again.
   if (r.watch)
   {
     r.watching = true;
@@ -255,6 +282,21 @@ void CSimulator::Show()
   if (terminator != nullptr && !r.server.IsLast()) r.steering.Stopped(terminator->Id());
   r.over = terminator != nullptr || r.server.IsLast();
   r.summary.interrupted = r.steering.Interrupted();
+}
+
+void WatchedSimulator::KeepJournal(CSimulator& simulator, const std::string& file)
+{
+  CSimulator::Roles& r = *simulator.roles_;
+  std::filesystem::create_directories(std::filesystem::path(file).parent_path());
+  const JournalStart start{r.origin, r.assignment.table, r.space.GetTick()};
+  r.journal.emplace(file, ContentOf(start));
+  r.journal_state = &r.server.State();
+}
+
+bool WatchedSimulator::Describe(const CSimulator& simulator, std::uint32_t robot, RobotStatus& status)
+{
+  const CSimulator::Roles& r = *simulator.roles_;
+  return r.hosts.at(static_cast<std::size_t>(r.assignment.host.at(robot)))->Describe(robot, status);
 }
 
 Checkpoint CSimulator::TakeCheckpoint(bool canonicalise)
@@ -293,6 +335,12 @@ const RunSummary& CSimulator::Finish()
   r.summary.wall_s = SecondsSince(r.start);
   r.summary.real_time_factor =
       RealTimeFactor(r.summary.ticks - r.first_tick, r.experiment.TickSeconds(), r.summary.wall_s);
+  if (r.journal)
+  {
+    r.Record(false);
+    r.journal->Flush();
+    if (const auto trouble = r.journal->TakeTrouble()) PrintError("the journal ends before the run: {}\n", *trouble);
+  }
   r.hash_log.Close();
   r.summary.hash = r.space.Hash();
   for (const auto& visualiser : r.visualisers) visualiser->Finish();

@@ -1,6 +1,7 @@
-// CSimulator: the abstract algorithm of the simulator. All roles of an experiment in this process, called in turn, one
-// tick at a time: no DDS, no copies, same results as a cluster. For `swarmanoid run --single-process`, for tests, and
-// for the programs of users that look at every tick or run an experiment many times. One thread.
+// CSimulator: the abstract algorithm of the simulator. It calls all roles of an experiment in this process in turn, one
+// tick at a time. It uses no DDS and no copies, and gives the same results as a cluster. It serves `swarmanoid run
+// --single-process`, tests, and users' programs that look at every tick or run an experiment many times. One thread
+// uses it.
 //
 //   const auto experiment = ReadExperiment("experiments/retrieval.xml", {{"framework.seed", "3"}});
 //   CSimulator simulator(*experiment);
@@ -34,29 +35,31 @@ struct Checkpoint;
 class CSimulator
 {
 public:
-  // The experiment at tick 0, or where its checkpoint is; it must outlive the simulator. Throws ConfigurationError,
-  // ActivityError (common/activity/failure_report.h), which names whose code failed, or another std::runtime_error with
-  // a text for the user; so do Sense, Step and Finish. Code that crashes or calls exit ends the program with such a
-  // line and exit code 4. The function that RunSimulation calls at each tick gets one too, only to look at: there Step
-  // and Finish throw std::logic_error.
+  // Starts at tick 0 or at the checkpoint of `options`. The experiment must outlive the simulator. Throws
+  // ConfigurationError, ActivityError (common/activity/failure_report.h), which names the plug-in that failed, or
+  // another std::runtime_error with a text for the user. Sense, Step and Finish throw the same. Code that crashes or
+  // calls exit ends the program with such a line and exit code 4. The function that RunSimulation calls at each tick
+  // gets a simulator only for reading and editing: its Step and Finish throw std::logic_error.
   explicit CSimulator(const Experiment& experiment, const SimulatorOptions& options = {});
   ~CSimulator();
   CSimulator(const CSimulator&) = delete;
   CSimulator& operator=(const CSimulator&) = delete;
 
-  // What the robots' sensors read at the current tick, for who looks at them before their controllers do; else Step
-  // begins with it. What the editor changes between the two is sensed one tick later.
+  // Reads the robots' sensors at the current tick, for programs that look at the readings before the controllers do.
+  // Otherwise Step does this first. Changes by the editor between Sense and Step are sensed one tick later.
   void Sense();
-  // Controllers, physics, visualisations: to the next tick. False, and nothing happens, if the experiment is over.
+  // Advances to the next tick: controllers, physics, visualisations. Returns false and does nothing if the experiment
+  // is over.
   bool Step();
-  // Ends controllers, experiment functions and visualisations; later calls give the same summary.
+  // Ends controllers, experiment functions and visualisations, and returns the summary. Later calls return the same
+  // one.
   const RunSummary& Finish();
 
-  // The state at the current tick, to be read.
+  // Returns the state at the current tick, for reading.
   const CSwarmanoidSpace& GetSpace() const;
-  // For changes between two steps, with the rules of experiment functions (space_server/experiment_functions.h). They
-  // take effect with the next step and are part of the experiment: they change the hash, and a run without the program
-  // lacks them.
+  // Returns the editor for changes between two steps, with the rules of experiment functions
+  // (space_server/experiment_functions.h). Changes take effect with the next step and are part of the experiment. They
+  // change the hash, and a run without the program lacks them.
   SpaceEditor& GetEditor();
   const Experiment& GetExperiment() const;
 
@@ -64,23 +67,24 @@ private:
   struct Roles;
   friend struct WatchedSimulator;
   using Watch = std::function<void(CSimulator&)>;
-  // `watch` is called at each tick, before anybody else is shown its state.
+  // `watch` is called at each tick, before its state is written, drawn or sent.
   CSimulator(const Experiment& experiment, const SimulatorOptions& options, Watch watch, unsigned hosts = 1);
-  // Of a run that others step: to look at it.
+  // Makes a simulator without roles of its own, to look at a run that others step.
   explicit CSimulator(SpaceServer& server);
   void Show();
-  // What all roles remember. `canonicalise`: engines are brought to what they save, as at each canonical_period.
+  // Returns the state of all roles. `canonicalise`: engines are first brought to the state that they save, as at each
+  // canonical_period.
   Checkpoint TakeCheckpoint(bool canonicalise);
-  // Whether what engines save is all that they remember now.
+  // Returns whether the engines now remember nothing beyond the state that they save.
   bool IsCanonical() const;
   void RefuseWithin(const char* function) const;
 
   SpaceServer* server_ = nullptr;
-  std::unique_ptr<Roles> roles_;  // where this steps them
+  std::unique_ptr<Roles> roles_;  // nullptr if others step the roles
 };
 
-// Reads an experiment file with all built-in plug-ins, `settings` as for --set (path and value). Throws
-// ConfigurationError with all mistakes of the file, one a line.
+// Reads an experiment file with all built-in plug-ins. `settings` are paths and values as for --set. Throws
+// ConfigurationError with all mistakes of the file, one in each line.
 std::unique_ptr<Experiment> ReadExperiment(const std::string& file,
                                            const std::vector<std::pair<std::string, std::string>>& settings = {});
 

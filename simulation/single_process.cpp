@@ -13,6 +13,7 @@ RunSummary RunSingleProcess(const Experiment& experiment, const SingleProcessOpt
   using Clock = std::chrono::steady_clock;
 
   CSimulator simulator = WatchedSimulator::Running(experiment, options, options.watch);
+  if (!options.journal_file.empty()) WatchedSimulator::KeepJournal(simulator, options.journal_file);
   Clock::time_point reported = Clock::now();
   while (simulator.Step())
   {

@@ -1,8 +1,9 @@
-// A whole run in one process, from the first tick to the last: CSimulator, with someone told how far it is.
+// Runs a whole experiment in one process with CSimulator, from the first tick to the last, and reports the progress.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <string>
 
 #include "simulation/simulator.h"
 
@@ -11,13 +12,14 @@ namespace swarmanoid
 
 struct SingleProcessOptions : SimulatorOptions
 {
-  // Called at each tick from the first one on, before its state is written or drawn.
+  // It is called at each tick from the first one on, before the state of the tick is written or drawn.
   std::function<void(CSimulator&)> watch;
-  // Called now and then (at most ten times a second) with the tick just finished.
+  // It is called at most ten times a second with the tick just finished.
   std::function<void(std::uint64_t tick)> progress;
+  std::string journal_file;  // empty: none
 };
 
-// Throws as CSimulator.
+// Throws the exceptions of CSimulator.
 RunSummary RunSingleProcess(const Experiment& experiment, const SingleProcessOptions& options);
 
 }  // namespace swarmanoid

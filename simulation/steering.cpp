@@ -57,7 +57,7 @@ void Steering::WaitForGo(const std::vector<std::unique_ptr<Visualiser>>& visuali
     until_ = decision.until;
     if (decision.go) return;
     if (run_control_.Paused()) pace_.Rest(tick, now);
-    // A short wait is not worth a look at the windows, which Draw gives.
+    // Windows are not updated in a short wait, since drawing may take longer than the wait.
     const bool idle = !decision.due || *decision.due - now >= kIdlePeriod;
     if (idle && !visualisers.empty()) server_.Draw();
     if (idle)

@@ -1,5 +1,5 @@
-// Steering of a run in one process: what users ask through its visualisations is carried out between two ticks, as the
-// space server does it in a cluster, and visualisations are told how the run goes. Used by CSimulator; one thread.
+// Steering: controls a run in one process. It carries out users' requests from visualisations between two ticks, as the
+// space server does in a cluster, and gives visualisations the status of the run. CSimulator uses it, in one thread.
 #pragma once
 
 #include <atomic>
@@ -20,18 +20,18 @@ namespace swarmanoid
 class Steering : public RunMonitor
 {
 public:
-  // `stop`: as in SimulatorOptions. The references outlive this.
+  // `stop`: see SimulatorOptions. The references must outlive the object.
   Steering(const Experiment& experiment, SpaceServer& server, RunControlSetup setup, const std::atomic<bool>* stop);
 
   ExperimentControl& Control() { return control_; }
-  // Whose robots can be watched.
+  // Sets the controller host whose robots can be watched.
   void SetHost(const ControllerHost& host) { host_ = &host; }
 
-  // Returns when the state of the space's tick may be shown and stepped: waits while the run is paused or ahead of its
-  // pace, and does what was asked. The visualisers stay alive meanwhile. Whoever asks for the end makes the tick the
+  // Returns when the state of the space's tick may be shown and stepped. It waits while the run is paused or ahead of
+  // its pace, and carries out requests meanwhile. Visualisers stay responsive. A request for the end makes the tick the
   // last one.
   void WaitForGo(const std::vector<std::unique_ptr<Visualiser>>& visualisers);
-  // A visualiser asked for the end after the tick was shown.
+  // Records that a visualiser asked for the end after the tick was shown.
   void Stopped(const std::string& visualiser);
   void Ended();
   const std::optional<ResetRequest>& Reset() const { return run_control_.Reset(); }

@@ -1,8 +1,8 @@
-// The simulators that the function of a user's program sees, which looks at each tick of a run. Used by the runs in one
-// process and as a cluster.
+// Makes the simulators that a user's watch function gets at each tick, in one process and as a cluster.
 #pragma once
 
 #include "common/checkpoint/checkpoint.h"
+#include "idl/robot_status.h"
 #include "simulation/simulator.h"
 
 namespace swarmanoid
@@ -12,12 +12,12 @@ using WatchFunction = std::function<void(CSimulator&)>;
 
 struct WatchedSimulator
 {
-  // One that runs the experiment, and calls `watch`.
+  // Returns a simulator that runs the experiment and calls `watch`.
   static CSimulator Running(const Experiment& experiment, const SimulatorOptions& options, WatchFunction watch)
   {
     return {experiment, options, std::move(watch)};
   }
-  // One with as many controller hosts as the cluster whose checkpoints it reads and takes.
+  // Returns a simulator with as many controller hosts as the cluster whose checkpoints it reads and takes.
   static CSimulator Computing(const Experiment& experiment, const SimulatorOptions& options, unsigned hosts)
   {
     return {experiment, options, {}, hosts};
@@ -27,7 +27,12 @@ struct WatchedSimulator
     return simulator.TakeCheckpoint(canonicalise);
   }
   static bool IsCanonical(const CSimulator& simulator) { return simulator.IsCanonical(); }
-  // One to look at the space server of a cluster.
+  // Writes the journal of the run from the present tick on. Throws std::runtime_error if the file cannot be made. The
+  // journal has the states of all ticks and what controllers commanded, but no saved states: no run continues from it.
+  static void KeepJournal(CSimulator& simulator, const std::string& file);
+  // Describes a robot after its last control step. Returns false for an entity without a controller.
+  static bool Describe(const CSimulator& simulator, std::uint32_t robot, RobotStatus& status);
+  // Returns a simulator for reading the space server of a cluster.
   static CSimulator Of(SpaceServer& server) { return CSimulator(server); }
 };
 

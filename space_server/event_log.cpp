@@ -15,10 +15,10 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "common/activity/print_error.h"
 #include "common/configuration/output_file.h"
 #include "common/configuration/regular_file.h"
 #include "common/configuration/wording.h"
+#include "common/errors/print_error.h"
 #include "common/messages/control_verbs.h"
 #include "common/program/csv.h"
 
@@ -80,7 +80,7 @@ std::string NowInUtc()
   return text;
 }
 
-// The other way round than AskerOf.
+// Sets the sender from the text that AskerOf makes.
 void SetAsker(ControlRequestMessage& request, const std::string& asker)
 {
   const std::size_t at = asker.find('@');
@@ -200,7 +200,7 @@ void AddFault(std::vector<RecordedFault>& faults, const RecordedEvent& event, co
   const auto entity =
       std::ranges::find(experiment.entities, event.request.Get<std::string>("entity"), &EntityConfiguration::id);
   if (entity == experiment.entities.end()) return;
-  // "controller 'c' threw an exception: the text of it".
+  // The text begins with the name of the controller: "controller 'c' threw an exception: the text of it".
   const std::string asker = AskerOf(event.request);
   const std::size_t id_end = asker.find("' ");
   if (id_end == std::string::npos) return;

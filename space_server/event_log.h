@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "common/experiment/experiment.h"
-#include "common/messages/control_request.h"
 #include "common/messages/tick_messages.h"
+#include "idl/control_request_message.h"
 
 namespace swarmanoid
 {
@@ -20,14 +20,15 @@ struct RecordedEvent
   std::uint64_t tick = 0;  // the event happens before the state of this tick
   ControlRequestMessage request;
   SourceLocation location;
-  bool logged = false;  // by this run already, before its space server died
+  bool logged = false;  // this run has logged it already, before its space server died
 };
 
-// The verbs of two kinds of lines that are no requests: a message from outside the run was refused, and a controller
-// failed while the run goes on.
+// The verbs of the kinds of lines that are no requests: a message from outside the run was refused, a controller failed
+// while the run goes on, and a fault of devices began or ended.
 inline constexpr const char* kRefusedMessage = "refused";
 inline constexpr const char* kFailedController = "failed";
-// Makes a line that is no request. `about` is the topic or the robot, `from` the sender or what the controller did.
+inline constexpr const char* kDeviceFault = "fault";
+// Makes a line that is no request. `about` is the topic, the robot or the fault, `from` the sender or what happened.
 ControlRequestMessage NoteOf(const std::string& verb, const std::string& about, const std::string& from);
 
 // Returns the events that change the outcome of a run (move, add, remove, keys and selections, stop), in the order of
@@ -37,7 +38,7 @@ std::vector<RecordedEvent> ReadEvents(const std::string& path, const Experiment&
 // Returns the same from the text of the file.
 std::vector<RecordedEvent> ParseEvents(const std::string& text, const std::string& path, const Experiment& experiment);
 
-// A line of a log of events, for what passes it on as it is.
+// A line of a log of events, for code that passes it on unchanged.
 struct EventLine
 {
   std::uint64_t tick = 0;
@@ -55,14 +56,14 @@ EventLines ReadEventLines(const std::string& path);
 // The requests to a run whose space server has died, for the next server.
 struct EarlierRequests
 {
-  std::vector<RecordedEvent> changes;           // as ReadEvents has them
-  std::vector<RecordedFault> failed;            // of controllers
-  std::vector<ControlRequestMessage> answered;  // and whether its asker had an answer coming
-  std::optional<ControlRequestMessage> step;    // one that is not done yet
+  std::vector<RecordedEvent> changes;           // the changes that ReadEvents returns
+  std::vector<RecordedFault> failed;            // failures of controllers
+  std::vector<ControlRequestMessage> answered;  // with a flag: whether the client still waits for a reply
+  std::optional<ControlRequestMessage> step;    // a step that has not ended yet
   std::optional<std::uint64_t> pause_at;        // the run is paused, or will be at this tick
   std::optional<double> speed;
   std::vector<ControlOrder> grants;  // orders of the grants that were not revoked
-  std::uint64_t until = 0;           // the tick of the newest
+  std::uint64_t until = 0;           // the tick of the newest line
 };
 // Reads the requests from the log of events, which may be missing. It cuts an incomplete last line off the file.
 // `pause_at` is that of the start of the run. Throws ConfigurationError.

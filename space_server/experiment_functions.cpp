@@ -57,14 +57,23 @@ SpaceQuery& SpaceEditor::GetQuery()
 
 const StructuralTree& SpaceEditor::GetStructure() const { return server_.Space().Structure(); }
 
-void SpaceEditor::MoveCompound(std::string_view id, const Pose& pose)
+void SpaceEditor::MoveCompound(std::string_view id, const Pose& pose, EOccupied occupied)
 {
-  server_.Move(CompoundAt(server_.Space(), FindToMove(server_.Space(), id), pose));
+  const CSwarmanoidSpace& space = server_.Space();
+  const CSwarmanoidSpaceEntity& entity = FindToMove(space, id);
+  CheckPose(space, entity.GetIndex(), pose);
+  const std::vector<MoveRequest> moves = CompoundAt(space, entity, pose);
+  if (occupied == EOccupied::kRefuse) RequireFree(space, moves);
+  server_.Move(moves);
 }
 
-void SpaceEditor::MoveEntity(std::string_view id, const Pose& pose)
+void SpaceEditor::MoveEntity(std::string_view id, const Pose& pose, EOccupied occupied)
 {
-  server_.Move({FindToMove(server_.Space(), id).GetIndex(), pose});
+  const CSwarmanoidSpace& space = server_.Space();
+  const CSwarmanoidSpaceEntity& entity = FindToMove(space, id);
+  CheckPose(space, entity.GetIndex(), pose);
+  if (occupied == EOccupied::kRefuse) RequireFree(space, entity, pose);
+  server_.Move({entity.GetIndex(), pose});
 }
 
 bool SpaceEditor::IsFree(std::string_view id, const Pose& pose) const

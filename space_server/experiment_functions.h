@@ -1,6 +1,6 @@
-// CExperimentFunctions: a user's code around the steps of an experiment. It runs at the space server and sees and
-// changes the whole space: it measures, moves entities, paints the floor, and decides when the experiment is over and
-// whether it succeeded. A plug-in.
+// CExperimentFunctions: a user's code around the steps of an experiment. It runs at the space server, and sees and
+// changes the whole space. It measures, moves entities, paints the floor, and decides when the experiment is over and
+// whether it succeeded. It is a plug-in.
 //
 //   <experiment_functions>
 //     <prey_retrieval id="goal" library="prey_retrieval"><metrics>metrics.csv</metrics></prey_retrieval>
@@ -32,6 +32,13 @@ class CSwarmanoidSpace;
 
 class SpaceServer;
 
+// It tells what a move does if another body stands at the new position.
+enum class EOccupied
+{
+  kRefuse,
+  kOverlap
+};
+
 // The changes that experiment functions, and programs around a CSimulator, may make to the space. All processes see a
 // change in the state that is sent next, and the state hash covers it. A value that cannot be part of a state is
 // refused by std::invalid_argument. This means numbers that are not finite, orientations that are no unit quaternions,
@@ -51,10 +58,11 @@ public:
   const StructuralTree& GetStructure() const;
   // Moves a movable entity and all entities that are connected to it by grips, as one rigid body. The grips stay.
   // Throws as MoveEntity.
-  void MoveCompound(std::string_view id, const Pose& pose);
-  // Puts a movable entity elsewhere, alone: it lets go and is let go. Throws std::invalid_argument for an unknown id
-  // and an entity that cannot move or is not in the arena.
-  void MoveEntity(std::string_view id, const Pose& pose);
+  void MoveCompound(std::string_view id, const Pose& pose, EOccupied occupied = EOccupied::kRefuse);
+  // Moves a movable entity alone: all its grips end. Throws std::invalid_argument for an unknown id, for an entity that
+  // cannot move or is not in the arena, and for a position where its body would overlap another one of the same engine,
+  // unless `occupied` allows it. The engine then pushes the two apart.
+  void MoveEntity(std::string_view id, const Pose& pose, EOccupied occupied = EOccupied::kRefuse);
   // Puts an entity into the arena and returns its id. It is the next one of the <reserve> of that id, or a waiting or
   // removed entity of that id. The controller of a robot keeps its state. Throws std::invalid_argument for an unknown
   // id, an empty reserve and an entity that is present. It throws the same if the body would overlap another one of the
@@ -71,16 +79,17 @@ public:
   void SetAttribute(std::string_view id, std::string_view attribute, double value, int element = 0);
   // Random numbers of noise, robots and functions, and periodic events of engines, count ticks from `first_tick` from
   // now on. So a run whose entities were put back repeats itself. `variation` 0 gives the same numbers, other values
-  // give others. Such a run cannot be saved. Throws std::logic_error in a cluster.
+  // give others. The run cannot be saved afterwards. Throws std::logic_error in a cluster.
   void BeginAgain(std::uint64_t first_tick, std::uint32_t variation);
   // Returns the random numbers of these functions in this step: Init, a PreStep, PostStep or IsFinished, Destroy. They
   // continue from call to call and differ between steps. They depend only on the seed, the id of the functions, the
   // step and the tick, so they are equal in every run. The reference is valid during the step only.
   RandomStream& GetRandom() const { return random_; }
-  // The folder of the run: files of the functions go there.
+  // Returns the folder of the run, in which the functions write their files.
   const std::string& GetOutputFolder() const { return output_folder_; }
   // Makes the file that a parameter of the functions names, below that folder, and returns its path for writing. Throws
-  // ConfigurationError, with the cure, if the name leaves the folder, or a file is there that this run did not make.
+  // ConfigurationError, with the cure, if the name leaves the folder, or if a file of that name exists that this run
+  // did not make.
   std::string MakeOutputFile(const TConfigurationTree& tree, const std::string& parameter) const;
 
   // The server sets the random numbers before it calls functions, and takes them back afterwards.
@@ -91,7 +100,7 @@ private:
   SpaceServer& server_;
   std::string output_folder_;
   std::unique_ptr<SpaceQuery> query_;
-  mutable RandomStream random_{0, 0, 0, 0};  // IsFinished, which changes nothing, may draw too
+  mutable RandomStream random_{0, 0, 0, 0};  // mutable, since IsFinished may draw random numbers, too
 };
 
 class CExperimentFunctions
@@ -100,34 +109,38 @@ public:
   enum class Outcome
   {
     kRunning,
-    kDone,   // the experiment reached its goal: it ends, exit code 0
-    kFailed  // it can no longer reach it: it ends, exit code 1
+    kDone,   // the experiment reached its goal: it ends with exit code 0
+    kFailed  // it cannot reach its goal any more: it ends with exit code 1
   };
 
   virtual ~CExperimentFunctions() = default;
 
-  // In this order: Init once, then PreStep before the controllers of each tick and PostStep after its physics, at the
-  // end Destroy. A user's mistake throws ConfigurationError; any exception stops the run and is shown with the id of
-  // the functions.
+  // The server calls Init once, before the first tick. A user's mistake throws ConfigurationError. Any exception of
+  // this function and of those below stops the run and is shown with the id of the functions.
   virtual void Init(const TConfigurationTree t_tree, SpaceEditor& space) = 0;
+  // The server calls PreStep before the controllers of each tick.
   virtual void PreStep(SpaceEditor&) {}
+  // The server calls PostStep after the physics of each tick.
   virtual void PostStep(SpaceEditor&) {}
-  // Asked after Init and after each PostStep.
+  // Decides whether the experiment is over. The server calls it after Init and after each PostStep.
   virtual Outcome IsFinished(const SpaceEditor&) { return Outcome::kRunning; }
+  // The server calls Destroy once, at the end.
   virtual void Destroy(SpaceEditor&) {}
 
   // Draws into the pictures of the tick. If the run waits for visualisers, it is called before each tick. Otherwise it
   // is called when a picture is due. It must not change anything that later steps depend on.
   virtual void Draw(const SpaceEditor&, Drawing&) {}
-  // A user pressed or released a key for the functions, or selected an entity, in a window, on a page or by `swarmanoid
-  // control`. Called between two ticks; it may change the space as PreStep may, and is repeated with the other events
-  // of a run. References in the input are valid during the call.
+  // Handles the input of a user in a window, on a page or by `swarmanoid control`: a key is pressed or released, or an
+  // entity is selected. The server calls it between two ticks. It may change the space as PreStep may, and is repeated
+  // with the other events of a run. References in the input are valid during the call.
   virtual void Input(const UserInput&, SpaceEditor&) {}
 
-  // Optional: all that the functions remember between ticks, so that a run can go on from a checkpoint. Functions that
-  // remember nothing override HasState alone; if it is left false, checkpoints of the run are refused.
+  // Returns false if the functions cannot be saved; checkpoints of the run are then refused. Runs that continue from a
+  // checkpoint need the state between ticks. Functions without state override only HasState.
   virtual bool HasState() const { return false; }
+  // Saves the state between ticks.
   virtual void SaveState(std::ostream&) const {}
+  // Loads what SaveState has saved.
   virtual void LoadState(std::istream&) {}
 };
 
@@ -135,7 +148,7 @@ template <>
 PluginRegistry<CExperimentFunctions>& PluginRegistry<CExperimentFunctions>::Instance();
 extern template class PluginRegistry<CExperimentFunctions>;
 
-// Used by REGISTER_EXPERIMENT_FUNCTIONS.
+// The macro REGISTER_EXPERIMENT_FUNCTIONS makes one of these for each class.
 struct ExperimentFunctionsRegistration
 {
   ExperimentFunctionsRegistration(const PluginDescription& description,
@@ -149,7 +162,7 @@ struct ExperimentFunctionsRegistration
 
 using swarmanoid::CExperimentFunctions;
 
-// REGISTER_EXPERIMENT_FUNCTIONS(CMyFunctions, description): description is a PluginDescription expression.
+// REGISTER_EXPERIMENT_FUNCTIONS(CMyFunctions, description) registers the class; the description is a PluginDescription.
 #define REGISTER_EXPERIMENT_FUNCTIONS(CLASS, ...)                                                                      \
   namespace                                                                                                            \
   {                                                                                                                    \

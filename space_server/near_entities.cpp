@@ -1,3 +1,10 @@
+// Over a network, a controller host needs only the entities that its robots can sense, and an engine only what others
+// changed (EngineNews). A search marks the cells of a grid next to the robots. It includes a margin, and stays good
+// until some entity has moved by half of it (as the lists of neighbours of L. Verlet, "Computer experiments on
+// classical fluids", Physical Review 159, 1967).
+//
+// Invariants: the bits of each pose that a receiver needs are those of the space; an entity that enters the
+// surroundings is sent whole; positions outside the grid count as in its nearest cell, so none is lost.
 #include "space_server/near_entities.h"
 
 #include <algorithm>
@@ -5,6 +12,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "common/space/space.h"
 
@@ -66,7 +74,7 @@ void WritePoses(const PoseArrays& poses, LocalState& part)
 
 }  // namespace
 
-// No pose has these bits: the first time all have changed.
+// No pose has these bits, so all poses have changed at the first call.
 SentPoses::SentPoses(const CSwarmanoidSpace& space)
     : space_(space), told_(space.Movable().size(), {std::numeric_limits<double>::quiet_NaN()})
 {
@@ -78,7 +86,7 @@ bool SentPoses::HasChanged(std::size_t movable)
   const std::uint32_t entity = space_.Movable()[movable];
   const std::array<double, 7> now{poses.x[entity],  poses.y[entity],  poses.z[entity], poses.qx[entity],
                                   poses.qy[entity], poses.qz[entity], poses.qw[entity]};
-  // Minus zero is another pose.
+  // The bits are compared, since minus zero is another pose.
   if (std::memcmp(now.data(), told_[movable].data(), sizeof(now)) == 0) return false;
   told_[movable] = now;
   return true;
@@ -89,7 +97,7 @@ Surroundings::Surroundings(const CSwarmanoidSpace& space, std::span<const std::u
 {
   is_near_.resize(cells_.Count());
   is_told_.resize(space.Size(), 1);
-  // Floors, lights and the like may be large, and are few.
+  // Floors, lights and similar entities may be large, so they are always sent; they are few.
   for (const std::uint32_t entity : space.Movable())
     is_always_told_.push_back(IsBodiless(space.GetEntity(entity).GetKind()));
   first_slots_.reserve(space.Size() + 1);
@@ -184,8 +192,8 @@ void Surroundings::AddAttributes(const SpaceState& state)
   for (const std::uint32_t slot : changes.slots) changes.values.push_back(space_.Attributes()[slot]);
 }
 
-EngineNews::EngineNews(const CSwarmanoidSpace& space, std::span<const std::uint32_t> owned)
-    : space_(space), owned_(owned), told_poses_(space)
+EngineNews::EngineNews(const CSwarmanoidSpace& space, std::vector<std::uint32_t> owned)
+    : space_(space), owned_(std::move(owned)), told_poses_(space)
 {
 }
 

@@ -48,14 +48,14 @@ private:
 
   const CSwarmanoidSpace& space_;
   std::span<const std::uint32_t> robots_;
-  PlaneCells<double> cells_;                // as wide as reach and margin
-  std::vector<char> is_near_;               // of each cell
-  std::vector<char> is_told_;               // of each entity; always set for entities that cannot move
-  std::vector<char> is_always_told_;        // of each that can
-  std::vector<std::uint32_t> first_slots_;  // of each entity; at the end the first slot of their presence
-  std::vector<double> x_, y_;               // of the movable entities at the last search
+  PlaneCells<double> cells_;                // cells as wide as reach and margin
+  std::vector<char> is_near_;               // by cell
+  std::vector<char> is_told_;               // by entity; always set for entities that cannot move
+  std::vector<char> is_always_told_;        // by movable entity
+  std::vector<std::uint32_t> first_slots_;  // by entity; at the end the first slot of their presence
+  std::vector<double> x_, y_;               // positions of the movable entities at the last search
   SentPoses told_poses_;
-  bool holds_ = false;                  // there was a search
+  bool holds_ = false;                  // set if a search was made
   std::vector<std::uint32_t> entered_;  // entities that the last message did not have
   LocalState part_;
 };
@@ -64,15 +64,15 @@ private:
 class EngineNews
 {
 public:
-  // `owned` are the entities that the engine moves, ascending. The space outlives the object.
-  EngineNews(const CSwarmanoidSpace& space, std::span<const std::uint32_t> owned);
+  // `owned` are the entities that the engine alone moves, ascending. The space outlives the object.
+  EngineNews(const CSwarmanoidSpace& space, std::vector<std::uint32_t> owned);
   // Returns the part of the state of the space's tick. It must be called once for each tick. The result is valid until
   // the next call.
   LocalState& Part(const SpaceState& state);
 
 private:
   const CSwarmanoidSpace& space_;
-  std::span<const std::uint32_t> owned_;
+  std::vector<std::uint32_t> owned_;
   SentPoses told_poses_;
   LocalState part_;
 };

@@ -1,4 +1,4 @@
-// PaceMeter: how fast a run goes, over the last second or so. One thread.
+// PaceMeter: measures the speed of a run over about the last second. One thread uses it.
 #pragma once
 
 #include <chrono>
@@ -30,7 +30,7 @@ public:
     since_ = now;
     return true;
   }
-  // The run is paused at `tick`: the time until it goes on does not count.
+  // The run is paused at `tick`: the time until it continues does not count.
   void Rest(std::uint64_t tick, Clock::time_point now)
   {
     measuring_ = false;

@@ -1,5 +1,5 @@
-// The end of the experiment functions of the channel to controllers (common/control_interface/ci_functions_channel.h).
-// Used by functions, and by programs around a CSimulator, between two ticks.
+// The experiment functions' end of the channel to controllers (common/control_interface/ci_functions_channel.h).
+// Functions, and programs around a CSimulator, use it between two ticks.
 #pragma once
 
 #include <cstring>

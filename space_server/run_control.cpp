@@ -1,3 +1,11 @@
+// Requests come from any thread and wait in a queue. The thread that paces the run asks WantsHold, stops before the
+// next tick, and carries them out there (Work). So each takes effect at one tick, and can be repeated from the log of
+// events. The pace counts from the last change of it: tick n is due at its simulated time since then, divided by the
+// real-time factor.
+//
+// Invariants: each request is answered, at the latest when the run ends, or by the next server if all processes start
+// again; a change is in the log before its answer is sent; events of a repeated log come before new requests of the
+// same tick.
 #include "space_server/run_control.h"
 
 #include <fmt/format.h>
@@ -28,6 +36,18 @@ RunControl::RunControl(const Experiment& experiment, RunControlSetup setup, Answ
       move_(std::move(setup.move)),
       rebalance_(std::move(setup.rebalance))
 {
+  for (const FaultConfiguration& fault : experiment.faults)
+  {
+    const auto add = [&](std::uint64_t tick, const char* what)
+    {
+      const std::string text = fmt::format("{}: {} of {}; robots: {}", what, fault.kind_name,
+                                           fault.device.empty() ? "all" : fault.device, fault.entities.size());
+      device_faults_.emplace_back(tick, NoteOf(kDeviceFault, fault.id, text));
+    };
+    add(fault.from, "begins");
+    if (fault.to != 0) add(fault.to, "ends");
+  }
+  std::ranges::stable_sort(device_faults_, {}, [](const auto& event) { return event.first; });
 }
 
 void RunControl::Ask(const ControlRequestMessage& request)
@@ -73,6 +93,18 @@ void RunControl::WriteNotes(std::uint64_t tick)
   for (const ControlRequestMessage& note : notes) event_log_.Write(tick, note);
 }
 
+// After BeginAgain, ticks of faults are no longer those of the run.
+void RunControl::WriteDeviceFaults(const CSwarmanoidSpace& space)
+{
+  const std::uint64_t tick = space.GetTick();
+  for (; next_device_fault_ < device_faults_.size(); ++next_device_fault_)
+  {
+    const auto& [at, event] = device_faults_[next_device_fault_];
+    if (at > tick) return;
+    if (at == tick && tick >= asked_from_ && space.FirstTick() == 0) event_log_.Write(tick, event);
+  }
+}
+
 void RunControl::Start(std::uint64_t tick, Clock::time_point now) { SetPace(tick, now); }
 
 void RunControl::SetPace(std::uint64_t tick, Clock::time_point now)
@@ -107,6 +139,7 @@ void RunControl::Work(SpaceServer& server)
 {
   const std::uint64_t tick = server.Space().GetTick();
   WriteNotes(tick);
+  WriteDeviceFaults(server.Space());
   if (pause_at_ != 0 && tick >= pause_at_)
   {
     pause_at_ = 0;
@@ -253,7 +286,7 @@ void RunControl::ResetRun(const Execution& execution)
 {
   if (!may_reset_)
     throw std::invalid_argument(
-        "nobody would start this run again; `swarmanoid run` does, for runs without a program of the user's own "
+        "nothing would start this run again; `swarmanoid run` does, for runs without a program of the user's own "
         "around them");
   ControlRequestMessage written = execution.request;
   const auto seed = written.Get<std::int64_t>("seed", static_cast<std::int64_t>(experiment_.seed));
@@ -372,11 +405,10 @@ RunControl::Decision RunControl::Decide(std::uint64_t tick, Clock::time_point no
   else
   {
     decision.until = pause_at_;
-    if (next_repeated_ < repeated_.size())
-    {
-      const std::uint64_t event = repeated_[next_repeated_].tick;
-      decision.until = decision.until == 0 ? event : std::min(decision.until, event);
-    }
+    const auto hold_at = [&](std::uint64_t event)
+    { decision.until = decision.until == 0 ? event : std::min(decision.until, event); };
+    if (next_repeated_ < repeated_.size()) hold_at(repeated_[next_repeated_].tick);
+    if (next_device_fault_ < device_faults_.size()) hold_at(device_faults_[next_device_fault_].first);
   }
   decision.go = true;
   return decision;

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "common/messages/control_request.h"
 #include "common/run/run_summary.h"
+#include "idl/control_request_message.h"
 #include "space_server/event_log.h"
 #include "space_server/space_changes.h"
 #include "space_server/space_server.h"
@@ -24,19 +24,19 @@ namespace swarmanoid
 
 struct RunControlSetup
 {
-  bool paused = false;                  // at first
+  bool paused = false;                  // whether the run starts paused
   double real_time_factor = 0;          // 0: as fast as possible
-  std::string event_log;                // file for what users ask; empty: none
-  std::vector<RecordedEvent> repeated;  // of an earlier run, to be done again
+  std::string event_log;                // file for users' requests; empty: none
+  std::vector<RecordedEvent> repeated;  // events of an earlier run that are repeated
   // The run resumes after its space server has died. `repeated` then has the changes of the dead server.
   bool goes_on = false;
   std::uint64_t asked_from = 0;                 // earlier ticks are computed again, without new requests
-  std::uint64_t pause_at = 0;                   // 0: does not
-  std::optional<ControlRequestMessage> step{};  // that ends there
-  std::vector<RecordedFault> failed{};          // of controllers, in the log of events already
+  std::uint64_t pause_at = 0;                   // 0: the run does not pause
+  std::optional<ControlRequestMessage> step{};  // the step that ends there
+  std::vector<RecordedFault> failed{};          // failures of controllers that the log of events has already
   WorkerPlacement places{};
   bool may_reset = false;  // the launcher starts the run again if a user asks for a reset
-  // Has another process take the place of a worker.
+  // Replaces a worker by another process.
   std::function<void(const WorkerPlacement::Move&)> move{};
   // Starts all processes again, with controller hosts on these machines. Empty if that is not possible.
   std::function<void(const std::vector<std::string>& machines)> rebalance{};
@@ -46,7 +46,7 @@ class RunControl
 {
 public:
   using Clock = std::chrono::steady_clock;
-  // Called with the result of a request, by the thread that paces the run.
+  // The thread that paces the run calls it with the result of a request.
   using Answer =
       std::function<void(const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)>;
 
@@ -54,7 +54,7 @@ public:
   {
     bool go = false;
     std::uint64_t until = 0;               // with go: hold before this tick is sent; 0: run on
-    std::optional<Clock::time_point> due;  // without go: when it will be time, unless paused
+    std::optional<Clock::time_point> due;  // without go: the time of the next tick, unless paused
   };
 
   RunControl(const Experiment& experiment, RunControlSetup setup, Answer answer);
@@ -71,7 +71,7 @@ public:
   // start there.
   void Arrived(const WorkerPlacement::Move& worker, const std::string& process, std::uint64_t tick);
 
-  // The first tick may start.
+  // Allows the first tick to start.
   void Start(std::uint64_t tick, Clock::time_point now);
   // Returns true if the run must hold before the next state is sent, because of pending requests or a limited pace.
   bool WantsHold() const;
@@ -81,13 +81,13 @@ public:
   Decision Decide(std::uint64_t tick, Clock::time_point now);
   // Ends the run at its current tick. `who` is the sender of the request, for the log of events.
   void Stop(const std::string& who);
-  // The run ends at `tick` already, because a visualiser of it asked.
+  // The run ends at `tick` already, because one of its visualisers asked for the end.
   void Stopped(std::uint64_t tick, const std::string& who);
   bool Paused() const { return paused_ && !stop_; }
   double Speed() const { return real_time_factor_; }
   // Returns "stopped by <who>", or an empty text if no user asked for the end.
   const std::string& WhyStopped() const { return why_stopped_; }
-  // Set if it ends because a user wants it to begin again.
+  // Returns the request to start the run again, if a user made one.
   const std::optional<ResetRequest>& Reset() const { return reset_; }
   // Replies to clients that still wait for the end of a step.
   void Ended(std::uint64_t tick);
@@ -128,6 +128,7 @@ private:
   void ListMachines(const Execution& execution);
   void RequireNoMove() const;
   void WriteNotes(std::uint64_t tick);
+  void WriteDeviceFaults(const CSwarmanoidSpace& space);
   void DropStep(std::uint64_t tick, const char* why);
   void SetPace(std::uint64_t tick, Clock::time_point now);
 
@@ -140,9 +141,12 @@ private:
   mutable std::mutex mutex_;  // guards requests_, notes_ and faults_
   std::vector<ControlRequestMessage> requests_;
   std::vector<ControlRequestMessage> notes_;  // for the event log
-  std::vector<RecordedFault> faults_;         // that are not told yet
+  std::vector<RecordedFault> faults_;         // faults that are not logged yet
 
   std::vector<RecordedFault> logged_faults_;
+  // The beginnings and ends of device faults, by tick.
+  std::vector<std::pair<std::uint64_t, ControlRequestMessage>> device_faults_;
+  std::size_t next_device_fault_ = 0;
   bool paused_;
   bool stop_ = false;
   std::optional<std::string> stop_unlogged_;  // the user who asked
@@ -156,7 +160,7 @@ private:
   std::function<void(const WorkerPlacement::Move&)> move_;
   std::function<void(const std::vector<std::string>&)> rebalance_;
   std::optional<ControlRequestMessage> move_request_;
-  std::set<std::string> moving_;  // workers
+  std::set<std::string> moving_;  // workers that have not arrived yet
   std::string moved_;             // the workers that have arrived, for the reply
   bool pace_changed_ = false;
   std::uint64_t pace_tick_ = 0;

@@ -41,7 +41,7 @@ void RequireRemovable(const CSwarmanoidSpaceEntity& entity)
                   TagName(entity.GetKind()), entity.GetId()));
 }
 
-// The first entity of a reserve that is not in the arena.
+// Returns the first entity of a reserve that is not in the arena. Throws if the reserve is unknown or empty.
 const CSwarmanoidSpaceEntity& FirstWaiting(const CSwarmanoidSpace& space, std::string_view reserve)
 {
   std::set<std::string> reserves;
@@ -65,7 +65,7 @@ const CSwarmanoidSpaceEntity& FirstWaiting(const CSwarmanoidSpace& space, std::s
                   quantity, Quoted(reserve), last->GetConfiguration().location.line));
 }
 
-// No body reaches farther from the position of its entity.
+// Returns a bound for the distance between the position of an entity and any point of its body.
 double ReachOf(const CSwarmanoidSpaceEntity& entity) { return entity.GetSize().norm(); }
 
 std::optional<placement::Body> BodyAt(const CSwarmanoidSpaceEntity& entity, const Pose& pose)
@@ -95,8 +95,6 @@ Pose PoseOf(const ControlOrder& order, const Quaternion& orientation, const CSwa
 // Throws unless all moved entities stay in the arena and none overlaps an entity that is not moved.
 void RequireRoomFor(const CSwarmanoidSpace& space, const std::vector<MoveRequest>& moves)
 {
-  std::vector<std::uint32_t> together;
-  for (const MoveRequest& move : moves) together.push_back(move.entity);
   for (const MoveRequest& move : moves)
   {
     const CSwarmanoidSpaceEntity& entity = space.GetEntity(move.entity);
@@ -105,8 +103,8 @@ void RequireRoomFor(const CSwarmanoidSpace& space, const std::vector<MoveRequest
     if (at.x() < 0 || at.y() < 0 || at.x() > size.x() || at.y() > size.y())
       Refuse(fmt::format("'{}' would come to {:.4g}, {:.4g}, {:.4g}, outside the arena; `detach` moves one alone",
                          entity.GetId(), at.x(), at.y(), at.z()));
-    RequireFree(space, entity, move.pose, together);
   }
+  RequireFree(space, moves);
 }
 
 }  // namespace
@@ -170,6 +168,13 @@ void RequireFree(const CSwarmanoidSpace& space, const CSwarmanoidSpaceEntity& en
                   "choose a free place",
                   entity.GetId(), pose.position.x(), pose.position.y(), pose.position.z(), TagName(there->GetKind()),
                   there->GetId(), at.x(), at.y(), at.z()));
+}
+
+void RequireFree(const CSwarmanoidSpace& space, const std::vector<MoveRequest>& moves)
+{
+  std::vector<std::uint32_t> together;
+  for (const MoveRequest& move : moves) together.push_back(move.entity);
+  for (const MoveRequest& move : moves) RequireFree(space, space.GetEntity(move.entity), move.pose, together);
 }
 
 std::vector<MoveRequest> CompoundAt(const CSwarmanoidSpace& space, const CSwarmanoidSpaceEntity& entity,

@@ -1,5 +1,5 @@
-// The rules for moving, adding and removing entities from outside physics. Experiment functions (SpaceEditor) and users
-// (RunControl) share them. SpaceServer::Move carries out the accepted changes.
+// These rules say how entities may be moved, added and removed from outside physics. Experiment functions (SpaceEditor)
+// and users (RunControl) share them. SpaceServer::Move carries out the accepted changes.
 #pragma once
 
 #include <span>
@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "common/messages/control_request.h"
 #include "common/messages/tick_messages.h"
 #include "common/space/entity.h"
+#include "idl/control_request_message.h"
 #include "space_server/space_server.h"
 
 namespace swarmanoid
@@ -32,11 +32,14 @@ const CSwarmanoidSpaceEntity* FindInTheWay(const CSwarmanoidSpace& space, const 
                                            const Pose& pose, std::span<const std::uint32_t> together = {});
 void RequireFree(const CSwarmanoidSpace& space, const CSwarmanoidSpaceEntity& entity, const Pose& pose,
                  std::span<const std::uint32_t> together = {});
+// The entities of these moves (ascending) move together.
+void RequireFree(const CSwarmanoidSpace& space, const std::vector<MoveRequest>& moves);
 
-// An entity goes to a pose, and all that holds it or is held with it, as one rigid body.
+// Returns the moves that bring an entity to a pose, with all entities that are connected to it by grips, as one rigid
+// body.
 std::vector<MoveRequest> CompoundAt(const CSwarmanoidSpace& space, const CSwarmanoidSpaceEntity& entity,
                                     const Pose& pose);
-// An entity goes to where it waits while it is not in the arena.
+// Returns the move that takes an entity out of the arena, to its waiting pose.
 MoveRequest Removal(const CSwarmanoidSpaceEntity& entity);
 
 // The changes that a user's request asks for. The orders must be without error (OrderError).

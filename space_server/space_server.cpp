@@ -1,3 +1,10 @@
+// The next state is the last one, changed by the commands of the hosts and then by the updates of the engines. Both are
+// merged in the order of their numbers. The order of arrival has no influence. After that the experiment functions may
+// change the space.
+//
+// Invariants: every value is checked before any is merged (Check); an entity that is moved from outside leaves all
+// grips but those with entities that move together with it; drawing and input have random streams of their own, so that
+// a run that is drawn has the same numbers as one that is not.
 #include "space_server/space_server.h"
 
 #include <fmt/format.h>
@@ -9,6 +16,7 @@
 
 #include "common/experiment/actors.h"
 #include "common/logging/log.h"
+#include "common/space/bound_entities.h"
 #include "common/space/space.h"
 #include "common/space/state_checks.h"
 
@@ -129,6 +137,7 @@ void SpaceServer::Advance(std::span<const EngineUpdate* const> updates,
   for (const ControlCommands* command : commands) Merge(command->attributes);
   TellFaults(commands);
   for (const EngineUpdate* update : updates) Merge(*update);
+  HandOverAll();
   space_.SetTick(space_.GetTick() + 1);
 
   CallFunctions(ActivityStep::kPostStep, [this](const Functions& functions) { functions.object->PostStep(editor_); });
@@ -147,7 +156,7 @@ void SpaceServer::TellFaults(std::span<const ControlCommands* const> commands) c
   for (const ControlCommands* command : commands)
   {
     if (command->faults.robots.empty()) continue;
-    std::vector<std::string> texts = command->faults.Texts();
+    std::vector<std::string> texts = TextsOf(command->faults);
     for (std::size_t k = 0; k < texts.size(); ++k)
       faults.push_back({tick, command->faults.robots[k], command->faults.kinds[k], std::move(texts[k])});
   }
@@ -291,6 +300,17 @@ void SpaceServer::Put(std::span<const MoveRequest> requests)
     Change(space_.PresenceSlot(request.entity), request.present ? 1 : 0);
     moved_.push_back(request.entity);
   }
+  for (const MoveRequest& request : requests)
+  {
+    const std::size_t choice = experiment_.engine_choices.PlaceOf(request.entity);
+    if (choice == experiment_.engine_choices.entities.size()) continue;
+    const std::uint32_t slot = space_.EngineSlot(choice);
+    for (std::uint32_t part = EngineSlots::kVelocity; part < EngineSlots::kCount; ++part) Change(slot + part, 0);
+    HandOver(choice, true);
+    // No engine has sensed anything before the first tick.
+    if (space_.GetTick() == space_.FirstTick())
+      Change(slot + EngineSlots::kBefore, space_.Attributes()[slot + EngineSlots::kEngine]);
+  }
 }
 
 void SpaceServer::EndHolds(std::uint32_t entity, std::span<const std::uint32_t> kept)
@@ -336,6 +356,8 @@ void SpaceServer::Check(const EngineUpdate& update) const
     CheckAttributes(space_, update.attributes);
     CheckHolds(space_, owned, update.attributes);
     if (experiment_.beyond_limit == BeyondLimit::kStop) CheckWithinLimit(space_, owned, update.poses);
+    if (experiment_.outside_volumes == OutsideVolumes::kStop)
+      CheckInVolumes(space_, update.engine, assignment_.engines[update.engine], update.poses);
   }
   catch (const StateError& error)
   {
@@ -347,12 +369,46 @@ void SpaceServer::Check(const EngineUpdate& update) const
 void SpaceServer::Merge(const EngineUpdate& update)
 {
   const std::vector<std::uint32_t>& owned = assignment_.engines[update.engine].owned;
+  const EngineUpdate& own = OwnPart(update);
   // Entities beyond the limit release their grips first.
-  Merge(update.attributes);
+  Merge(own.attributes);
   if (experiment_.beyond_limit == BeyondLimit::kStop)
-    space_.SetPoses(owned, update.poses);
+    space_.SetPoses(owned, own.poses);
   else
-    SetPosesWithinLimit(update, owned);
+    SetPosesWithinLimit(own, owned);
+}
+
+const EngineUpdate& SpaceServer::OwnPart(const EngineUpdate& update)
+{
+  const EngineLayout& layout = assignment_.engines[update.engine];
+  if (layout.changing.empty()) return update;
+  own_part_ = update;
+  for (const VolumeMember& member : layout.members)
+    if (!space_.IsMovedBy(member.choice, update.engine)) PutPose(space_, layout, member.place, own_part_.poses);
+  return own_part_;
+}
+
+void SpaceServer::HandOverAll()
+{
+  for (std::size_t choice = 0; choice < experiment_.engine_choices.entities.size(); ++choice)
+  {
+    const std::uint32_t slot = space_.EngineSlot(choice);
+    Change(slot + EngineSlots::kBefore, space_.Attributes()[slot + EngineSlots::kEngine]);
+    HandOver(choice, false);
+  }
+}
+
+void SpaceServer::HandOver(std::size_t choice, bool was_put)
+{
+  const EngineChoices& choices = experiment_.engine_choices;
+  const std::uint32_t entity = choices.entities[choice];
+  const std::uint32_t slot = space_.EngineSlot(choice) + EngineSlots::kEngine;
+  const auto now = static_cast<std::size_t>(space_.Attributes()[slot]);
+  const Vector3 at = space_.GetPose(entity).position;
+  if (!space_.IsPresent(entity) || (!was_put && experiment_.engines[now].volume.Holds(at)) || IsBound(space_, entity))
+    return;
+  const std::uint32_t next = EngineAt(experiment_, choices.sets[choices.set_of[choice]], at);
+  if (next != EngineChoices::kNoEngine) Change(slot, next);
 }
 
 void SpaceServer::SetPosesWithinLimit(const EngineUpdate& update, std::span<const std::uint32_t> owned)

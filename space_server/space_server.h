@@ -1,5 +1,5 @@
-// The role that owns the original space and its clock. A step function: merges what engines and hosts did into the next
-// state, after it has checked it: nothing else writes to the space.
+// SpaceServer: the role that owns the original space and its clock. It is a step function: it checks the results of
+// engines and hosts, and merges them into the next state. No other code writes to the space.
 #pragma once
 
 #include <array>
@@ -25,14 +25,14 @@ struct MoveRequest
 {
   std::uint32_t entity = 0;
   Pose pose;
-  bool present = true;  // false: it leaves the arena, and the pose is where it waits
+  bool present = true;  // false: the entity leaves the arena, and the pose is its waiting pose
 };
 
 class SpaceServer
 {
 public:
-  // The space at tick 0, its experiment functions initialised. Both references outlive the server. Throws
-  // ConfigurationError, or ActivityError naming the functions that failed; so does Advance.
+  // Makes the space at tick 0 and initialises the experiment functions. The references must outlive the server. Throws
+  // ConfigurationError, or ActivityError with the name of the functions that failed. Advance throws the same.
   SpaceServer(const Experiment& experiment, const Assignment& assignment, const std::string& output_folder);
   ~SpaceServer();
 
@@ -50,7 +50,7 @@ public:
   // Returns the changes of the state at the current tick, as the cluster publishes them. The reference is valid until
   // State is called for the tick after the next one.
   const SpaceState& State();
-  // The entities that were put elsewhere at the current tick, ascending.
+  // Returns the entities that were moved from outside physics at the current tick, ascending.
   std::span<const std::uint32_t> Moved();
   void WriteSnapshot(SpaceSnapshot& snapshot) const;
   // Saves the server's own state, which is not in the snapshot. Throws std::runtime_error if experiment functions
@@ -79,23 +79,23 @@ public:
   // Changes one attribute at the current tick, before its state is sent. Throws StateError for a value outside its
   // range. The attribute "gripped" accepts only 0, which ends the grip.
   void SetAttribute(std::uint32_t slot, double value);
-  // All roles read this space: they are in one process with the server.
+  // States that all roles read this space, since they are in one process with the server.
   void ShareSpace() { shares_space_ = true; }
   // Does what SpaceEditor::BeginAgain describes.
   void BeginAgain(std::uint64_t first_tick, std::uint32_t variation);
-  // The current tick is the last one.
+  // Makes the current tick the last one.
   void Finish() { last_ = true; }
   // Returns true if Finish was called, or the experiment functions ended the run.
   bool IsFinished() const { return last_; }
-  // Has experiment functions draw, if something changed since they did. Throws as Advance does.
+  // Calls Draw of the experiment functions, if something has changed since they last drew. Throws as Advance does.
   void Draw();
-  // The states that go out have what they drew.
+  // Puts the drawings of the experiment functions into the states that are sent.
   void SetDrawsIntoStates() { draws_into_states_ = true; }
   // Passes a key ("I"), pressed or released, to all experiment functions, or selects an entity by its id (empty: none).
   // Throws std::invalid_argument if there are no functions, no such key or no such entity.
   void PressKey(const std::string& key, bool pressed);
   void Select(const std::string& id);
-  // Ends the experiment functions, once; later calls do nothing.
+  // Ends the experiment functions once; later calls do nothing.
   void Destroy();
   // Returns true if the experiment functions say that the experiment failed: exit code 1.
   bool HasFailed() const { return failed_; }
@@ -116,19 +116,25 @@ private:
   void Merge(const AttributeChanges& changes);
   // Takes the poses of an engine. Entities beyond the limit are held at it or removed.
   void SetPosesWithinLimit(const EngineUpdate& update, std::span<const std::uint32_t> owned);
+  // Returns the update, with the present poses of entities that other engines move.
+  const EngineUpdate& OwnPart(const EngineUpdate& update);
+  // Gives entities that left the volumes of their engines to others.
+  void HandOverAll();
+  // An entity that was put elsewhere from outside gets the first engine whose volume has it, whichever it had.
+  void HandOver(std::size_t choice, bool was_put);
   void Put(std::span<const MoveRequest> requests);
   // Ends all grips of an entity except those with entities in `kept` (ascending).
   void EndHolds(std::uint32_t entity, std::span<const std::uint32_t> kept);
   void EndHold(std::uint32_t gripper, std::uint32_t gripped);
   void Change(std::uint32_t slot, double value);
-  // Calls a step of all functions in the order of the file; what fails is named.
+  // Calls a step of all functions in the order of the file. An exception is thrown again with the id of the functions.
   template <class Call>
   void CallFunctions(ActivityStep step, Call call);
   void AskWhetherFinished();
   void Tell(const UserInput& input);
   void RequireFunctions() const;
 
-  // When they drew last.
+  // The state at which the functions last drew.
   struct DrawnAt
   {
     std::uint64_t tick, poses, attributes, inputs;
@@ -138,10 +144,11 @@ private:
   const Experiment& experiment_;
   const Assignment& assignment_;
   CSwarmanoidSpace space_;
-  std::array<SpaceState, 2> states_;  // of even and odd ticks
+  std::array<SpaceState, 2> states_;  // for even and odd ticks
   std::vector<std::uint32_t> changed_slots_;
   std::vector<std::uint32_t> moved_;
-  std::vector<bool> told_;  // of each entity: whether its hold at the limit was reported
+  std::vector<bool> told_;  // by entity: whether its hold at the limit was reported
+  EngineUpdate own_part_;   // scratch
   bool shares_space_ = false;
   bool last_ = false;
   bool failed_ = false;

@@ -15,7 +15,7 @@ struct UserInput
     kKeyPressed,
     kKeyReleased,
     kSelected,   // an entity; the one selected before was deselected first
-    kDeselected  // the entity that was
+    kDeselected  // the entity that was selected
   };
 
   Kind kind = Kind::kKeyPressed;
@@ -23,10 +23,10 @@ struct UserInput
   // "Backspace", "Delete", "Insert", "Home", "End", "PageUp", "PageDown", "Up", "Down", "Left", "Right", "Shift",
   // "Control", "Alt", "F1" to "F12".
   std::string key;
-  const CSwarmanoidSpaceEntity* entity = nullptr;  // of the last two
+  const CSwarmanoidSpaceEntity* entity = nullptr;  // for the last two kinds
 };
 
-// Returns whether this is the name of a key.
+// Returns whether UserInput::key may have this name.
 bool IsKeyName(const std::string& name);
 
 }  // namespace swarmanoid

@@ -1,3 +1,5 @@
+// A worker is moved by replacing it at another machine, so only runs whose processes can be replaced have places. A
+// drained machine's workers go one by one to the machine that has the fewest then.
 #include "space_server/worker_placement.h"
 
 #include <fmt/format.h>
@@ -67,7 +69,7 @@ std::string WorkerPlacement::Text() const
   {
     const std::vector<std::string>& there = workers[machine];
     text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", machine,
-                        there.empty() ? "nobody" : fmt::format("{}", fmt::join(there, ", ")));
+                        there.empty() ? "no process" : fmt::format("{}", fmt::join(there, ", ")));
   }
   return text;
 }
@@ -76,7 +78,7 @@ void WorkerPlacement::RequireMoves() const
 {
   if (places_.empty())
     throw std::invalid_argument(
-        "no process of this run can be moved: it is one process, nobody is replaced in it, or its processes were "
+        "no process of this run can be moved: it is one process, its processes are not replaced, or its processes were "
         "started by hand");
 }
 

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "common/messages/control_request.h"
+#include "idl/control_request_message.h"
 
 namespace swarmanoid
 {
 
-// The machine that the launcher is on.
+// The launcher's machine has this name.
 inline constexpr const char* kHere = "here";
 
 class WorkerPlacement
@@ -33,7 +33,7 @@ public:
   std::vector<Move> ReadHostMove(const ControlOrder& order) const;
   std::vector<Move> ReadEngineMove(const ControlOrder& order) const;
   std::vector<Move> ReadDrain(const ControlOrder& order) const;
-  // "here: space server, engine 'ground'; beta: controller host 0".
+  // Returns a text such as "here: space server, engine 'ground'; beta: controller host 0".
   std::string Text() const;
   // Returns true if the space server can start again, on the machine of the launcher. Only then can robots be
   // distributed to other hosts.
@@ -53,7 +53,7 @@ private:
   void RequireMachine(const std::string& machine) const;
 
   std::vector<std::string> machines_;
-  std::map<std::string, std::string> places_;  // of workers
+  std::map<std::string, std::string> places_;  // machines by worker
 };
 
 }  // namespace swarmanoid

@@ -10,13 +10,13 @@
 #include <stdexcept>
 #include <vector>
 
-#include "common/activity/exit_codes.h"
+#include "common/errors/exit_codes.h"
 #include "common/program/options.h"
 #include "common/program/spawn.h"
 #include "common/program/usage_error.h"
 #include "launcher/command/sub_command.h"
-#include "launcher/installation.h"
-#include "studies/study_store.h"
+#include "launcher/system/installation.h"
+#include "studies/tables/study_store.h"
 
 namespace swarmanoid
 {
@@ -32,48 +32,31 @@ struct PlotOptions
   std::vector<std::string> comparisons;
   std::string reference;
   std::string format = "svg";
-  std::string ended = "leave-out";
+  std::string ended = "stop";
   std::string output;
 };
 
 std::vector<OptionSpec> PlotOptionTable(PlotOptions& o)
 {
-  OptionSpec study{
-      {.name = "STUDY", .type = kPath, .description = "The folder of a study"}, &o.study, "results/aggregation"};
+  OptionSpec study{Path("STUDY", "The folder of a study"), &o.study, "results/aggregation"};
   study.required = true;
   return {
       study,
-      {{.name = "metric",
-        .type = kText,
-        .description = "A column of the table, again for each other one; otherwise all"},
-       &o.metrics,
-       "dispersion"},
-      {{.name = "compare",
-        .type = kText,
-        .description = "Compare two values of a factor in pairs of runs, by Wilcoxon's test; again for each other one"},
-       &o.comparisons,
-       "controller=walk,search",
-       "FACTOR=A,B"},
-      {{.name = "reference",
-        .type = kPath,
-        .description = "A JSON file with curves of others, which are drawn beside those of the study"},
-       &o.reference,
+      {Text("metric", "A column of the table, again for each other one; otherwise all"), &o.metrics, "dispersion"},
+      {Text("compare", "Compare two values of a factor in pairs of runs, by Wilcoxon's test; again for each other one"),
+       &o.comparisons, "controller=walk,search", "FACTOR=A,B"},
+      {Path("reference", "A JSON file with curves of others, which are drawn beside those of the study"), &o.reference,
        "configs/studies/aggregation_reference.json"},
       {{.name = "format", .type = kChoice, .description = "Of the picture files", .choices = {"svg", "png"}},
        &o.format,
        "png"},
       {{.name = "ended",
         .type = kChoice,
-        .description = "Over time, runs that have ended are left out of the means, keep their last value, or stop the "
-                       "lines at the first end",
-        .choices = {"leave-out", "hold", "stop"}},
+        .description = "Over time, a run that ends stops the line of its mean, or keeps its last value",
+        .choices = {"stop", "hold"}},
        &o.ended,
        "hold"},
-      {{.name = "output",
-        .type = kPath,
-        .description = "Folder of the pictures; otherwise pictures/ in that of the study"},
-       &o.output,
-       "figures"},
+      {Path("output", "Folder of the pictures; otherwise pictures/ in that of the study"), &o.output, "figures"},
   };
 }
 
@@ -142,7 +125,7 @@ void AddPlotCommand(CLI::App& app, int& exit_code)
   verb->callback([options, &exit_code] { exit_code = Plot(*options); });
 }
 
-const RegisterSubCommand kPlot(18, AddPlotCommand);
+const RegisterSubCommand kPlot(20, AddPlotCommand);
 
 }  // namespace
 }  // namespace swarmanoid

@@ -17,77 +17,32 @@ using enum ParameterType;
 
 std::vector<OptionSpec> SweepOptionTable(SweepOptions& o)
 {
-  OptionSpec study{
-      {.name = "STUDY", .type = kPath, .description = "The study file; with --resume the folder of a study"},
-      &o.study,
-      "configs/studies/aggregation.xml"};
+  OptionSpec study{Path("STUDY", "The study file; with --resume the folder of a study"), &o.study,
+                   "configs/studies/aggregation.xml"};
   study.required = true;
   return {
       study,
-      {{.name = "output",
-        .type = kPath,
-        .description = "Folder of the study, new or empty; otherwise runs/<study>-<time>"},
-       &o.output,
+      {Path("output", "Folder of the study, new or empty; otherwise runs/<study>-<time>"), &o.output,
        "results/aggregation"},
-      {{.name = "resume",
-        .type = kBoolean,
-        .description = "Go on with a study that was interrupted: STUDY is its folder"},
-       &o.resume},
-      {{.name = "dry-run", .type = kBoolean, .description = "List the runs, and run none"}, &o.dry_run},
-      {{.name = "only",
-        .type = kText,
-        .description = "Run only what fulfils a condition over the factors and seed; the others wait for --resume"},
-       &o.only,
-       "'robots <= 20 and seed < 5'",
-       "CONDITION"},
-      {{.name = "until-ci",
-        .type = kText,
-        .description =
+      {Flag("resume", "Go on with a study that was interrupted: STUDY is its folder"), &o.resume},
+      {Flag("dry-run", "List the runs, estimate their time and disk space, and run none"), &o.dry_run},
+      {Text("only", "Run only what fulfils a condition over the factors and seed; the others wait for --resume"),
+       &o.only, "'robots <= 20 and seed < 5'", "CONDITION"},
+      {Text("until-ci",
             "Give each point more seeds until the confidence interval of 95 % of a column's mean at the end of the "
-            "runs is within so many percent of it"},
-       &o.until_ci,
-       "dispersion=5%",
-       "COLUMN=PERCENT"},
-      {{.name = "most-seeds",
-        .type = kInteger,
-        .description = "Of a point, for --until-ci",
-        .minimum = 2,
-        .maximum = 1'000'000},
-       &o.most_seeds,
-       "100"},
-      {{.name = "hosts",
-        .type = kPath,
-        .description = "Run on other machines, by ssh: the line `runs` of the file names them"},
-       &o.hosts,
-       "hosts.txt"},
-      {{.name = "slurm",
-        .type = kText,
-        .description = "Run as job arrays of Slurm, with these options of sbatch; '' for none"},
-       &o.slurm,
-       "'--partition=short --time=10'",
-       "OPTIONS"},
-      {{.name = "runs-per-task",
-        .type = kInteger,
-        .description = "Of a task of --slurm; 0: so many that there are 200 tasks at most",
-        .minimum = 0,
-        .maximum = 1'000'000},
-       &o.runs_per_task,
-       "20"},
-      {{.name = "jobs",
-        .type = kInteger,
-        .description = "Runs at a time, or tasks of --slurm; 0: as many as cores, one cluster, or as Slurm starts",
-        .minimum = 0,
-        .maximum = 10'000},
-       &o.jobs,
-       "2"},
-      {{.name = "retries",
-        .type = kInteger,
-        .description = "How often a run that fails is run again",
-        .minimum = 0,
-        .maximum = 1000},
-       &o.retries,
-       "1"},
-      {{.name = "quiet", .type = kBoolean, .description = "No progress"}, &o.quiet},
+            "runs is within so many percent of it"),
+       &o.until_ci, "dispersion=5%", "COLUMN=PERCENT"},
+      {Whole("most-seeds", "Of a point, for --until-ci", 2, 1'000'000), &o.most_seeds, "100"},
+      {Path("hosts", "Run on other machines, by ssh: the line `runs` of the file names them"), &o.hosts, "hosts.txt"},
+      {Text("slurm", "Run as job arrays of Slurm, with these options of sbatch; '' for none"), &o.slurm,
+       "'--partition=short --time=10'", "OPTIONS"},
+      {Whole("runs-per-task", "Of a task of --slurm; 0: so many that there are 200 tasks at most", 0, 1'000'000),
+       &o.runs_per_task, "20"},
+      {Whole("jobs", "Runs at a time, or tasks of --slurm; 0: as many as cores, one cluster, or as Slurm starts", 0,
+             10'000),
+       &o.jobs, "2"},
+      {Whole("retries", "How often a run that fails is run again", 0, 1000), &o.retries, "1"},
+      {Flag("quiet", "No progress"), &o.quiet},
   };
 }
 
@@ -103,7 +58,8 @@ void AddSweepCommand(CLI::App& app, int& exit_code)
       "  finished: <runs> runs, <failed> failed, <wall> s, table <folder>/table.csv\n"
       "Ctrl-C once ends the study after the runs that go on (jobs of Slurm are cancelled), twice kills them; --resume\n"
       "goes on.\n"
-      "Exit codes: 0 done, 2 usage, 3 the study or its experiment is invalid, 4 some runs failed, 130 interrupted.\n"
+      "Exit codes: 0 done, 2 usage, 3 the study or its experiment is invalid, 4 some runs failed, 9 --until-ci\n"
+      "was not reached with --most-seeds, 130 interrupted.\n"
       "Examples:\n"
       "  swarmanoid sweep configs/studies/aggregation.xml --dry-run\n"
       "  swarmanoid sweep configs/studies/aggregation.xml --output results/aggregation\n"
@@ -115,7 +71,7 @@ void AddSweepCommand(CLI::App& app, int& exit_code)
   verb->callback([options, &exit_code] { exit_code = Sweep(*options); });
 }
 
-const RegisterSubCommand kSweep(17, AddSweepCommand);
+const RegisterSubCommand kSweep(19, AddSweepCommand);
 
 }  // namespace
 }  // namespace swarmanoid

@@ -1,3 +1,7 @@
+// Runs a study from its first run to its table. Runs are queued seed by seed, so that early results cover all points. A
+// failed run is queued again up to the number of retries. With --until-ci, points get more seeds after all runs have
+// ended, while the confidence interval of their mean is too wide, so that the decision does not depend on the order of
+// results. Results are committed twice a second.
 #include "studies/sweep.h"
 
 #include <fmt/format.h>
@@ -15,24 +19,25 @@
 #include <optional>
 #include <set>
 
-#include "common/activity/exit_codes.h"
-#include "common/activity/print_error.h"
 #include "common/configuration/wording.h"
+#include "common/errors/exit_codes.h"
+#include "common/errors/print_error.h"
 #include "common/math/reproducible_math.h"
 #include "common/program/interrupts.h"
 #include "common/program/shell_word.h"
 #include "common/program/usage_error.h"
 #include "simulation/register_all.h"
-#include "studies/conflicts.h"
-#include "studies/host_pool.h"
-#include "studies/recorder.h"
-#include "studies/run_pool.h"
-#include "studies/search.h"
-#include "studies/slurm_pool.h"
-#include "studies/statistics.h"
-#include "studies/study_setup.h"
-#include "studies/study_store.h"
+#include "studies/design/conflicts.h"
+#include "studies/executors/machine_pool.h"
+#include "studies/executors/run_pool.h"
+#include "studies/executors/slurm_pool.h"
+#include "studies/metrics/recorder.h"
+#include "studies/runs/study_estimate.h"
+#include "studies/runs/study_setup.h"
+#include "studies/search/search.h"
 #include "studies/sweep_progress.h"
+#include "studies/tables/statistics.h"
+#include "studies/tables/study_store.h"
 
 namespace swarmanoid
 {
@@ -90,6 +95,13 @@ Machines MachinesOf(const SweepOptions& options)
     throw UsageError(fmt::format("--hosts: '{}' names no machine for runs; write a line such as `runs = alpha beta`",
                                  options.hosts));
   return machines;
+}
+
+// Returns how many runs this machine executes at a time.
+unsigned JobsOf(const SweepOptions& options, const Study& study)
+{
+  if (options.jobs != 0) return options.jobs;
+  return study.cluster ? 1 : static_cast<unsigned>(UsableCores().size());
 }
 
 class Sweeper
@@ -154,14 +166,15 @@ public:
     }
     fmt::print("finished: {} runs, {} failed, {:.3f} s, table {}/table.csv\n", done_ + failed_, failed_, seconds,
                store_.Folder());
-    return failed_ == 0 ? kExitDone : kExitProcessFailed;
+    if (failed_ > 0) return kExitProcessFailed;
+    return TellWideIntervals() ? kExitTooFewSeeds : kExitDone;
   }
 
 private:
   std::unique_ptr<Executor> MakePlace() const
   {
     if (!options_.hosts.empty())
-      return std::make_unique<HostPool>(MachinesOf(options_), SetupOf(study_, design_), store_.Folder());
+      return std::make_unique<MachinePool>(MachinesOf(options_), SetupOf(study_, design_), store_.Folder());
     if (!options_.slurm.empty())
     {
       // The jobs continue without this process.
@@ -170,8 +183,7 @@ private:
           SlurmChoice{SlurmOptions(options_.slurm.front()), options_.jobs, options_.runs_per_task},
           SetupOf(study_, design_), store_.Folder());
     }
-    const unsigned cores = static_cast<unsigned>(UsableCores().size());
-    const unsigned jobs = options_.jobs != 0 ? options_.jobs : study_.cluster ? 1 : cores;
+    const unsigned jobs = JobsOf(options_, study_);
     return std::make_unique<RunPool>(
         study_, store_.Folder(),
         column_.empty() ? static_cast<unsigned>(std::clamp<std::size_t>(queue_.size(), 1, jobs)) : jobs);
@@ -216,18 +228,54 @@ private:
                                    Listed(columns), DidYouMean(column_, columns)));
   }
 
+  // Returns the seeds of each point that this process runs.
+  std::map<std::uint32_t, std::vector<std::uint64_t>> SeedsOfPoints() const
+  {
+    std::map<std::uint32_t, std::vector<std::uint64_t>> seeds;
+    for (const auto& [name, attempts] : attempts_) seeds[name.point].push_back(name.seed);
+    return seeds;
+  }
+
+  // Returns the interval of a point's mean if it is wider than --until-ci allows.
+  std::optional<MeanInterval> WideInterval(std::uint32_t point)
+  {
+    const std::vector<double> values = store_.LastValues(point, column_);
+    const MeanInterval interval = MeanIntervalOf(values);
+    if (values.empty() || interval.half <= share_ * std::abs(interval.mean)) return std::nullopt;
+    return interval;
+  }
+
+  // Names the points whose interval stays too wide with --most-seeds; returns false if there are none.
+  bool TellWideIntervals()
+  {
+    if (column_.empty()) return false;
+    std::size_t wide = 0;
+    const auto seeds = SeedsOfPoints();
+    for (const auto& [point, of_point] : seeds)
+    {
+      const auto interval = WideInterval(point);
+      if (!interval || ++wide > kMostTold) continue;
+      const std::string values = design_.Text(point);
+      PrintError("point {}{}: {} is {} with {} seeds\n", point, values.empty() ? "" : " (" + values + ")", column_,
+                 IntervalText(*interval), of_point.size());
+    }
+    if (wide > 0)
+      PrintError(
+          "{} of {} points do not reach --until-ci {} with --most-seeds {}; for more: swarmanoid sweep {} --resume "
+          "--until-ci {} --most-seeds {}\n",
+          wide, seeds.size(), options_.until_ci, options_.most_seeds, ShellWord(store_.Folder()),
+          ShellWord(options_.until_ci), 10 * options_.most_seeds);
+    return wide > 0;
+  }
+
   // Adds runs for the points whose interval is too wide; returns false if there are none.
   bool Extend(SweepProgress& progress)
   {
     if (column_.empty() || IsEnding()) return false;
     store_.Commit();
-    std::map<std::uint32_t, std::vector<std::uint64_t>> seeds;
-    for (const auto& [name, attempts] : attempts_) seeds[name.point].push_back(name.seed);
-    for (const auto& [point, of_point] : seeds)
+    for (const auto& [point, of_point] : SeedsOfPoints())
     {
-      const std::vector<double> values = store_.LastValues(point, column_);
-      const MeanInterval interval = MeanIntervalOf(values);
-      if (values.empty() || interval.half <= share_ * std::abs(interval.mean)) continue;
+      if (!WideInterval(point)) continue;
       const std::uint64_t last = *std::max_element(of_point.begin(), of_point.end());
       for (unsigned more = 1; more <= kMoreSeeds && of_point.size() + more <= options_.most_seeds; ++more)
       {
@@ -347,6 +395,20 @@ private:
   bool is_study_wrong_ = false;
 };
 
+// Tells the time and the disk space of some runs.
+void TellEstimate(const SweepOptions& options, const Study& study, const Design& design, std::size_t runs)
+{
+  const StudyEstimate estimate = EstimateOf(study, design);
+  if (!estimate.failure.empty()) return PrintError("there is no estimate of time and disk: {}\n", estimate.failure);
+  const std::string size = RoughSize(estimate.bytes_of_run * static_cast<double>(runs));
+  const double seconds = estimate.seconds_of_run * static_cast<double>(runs);
+  const bool is_here = options.hosts.empty() && options.slurm.empty();
+  const unsigned jobs = JobsOf(options, study);
+  PrintError("estimate: {:.2g} s a run, {} {}, {} on disk\n", estimate.seconds_of_run,
+             RoughTime(is_here ? seconds / jobs : seconds),
+             is_here ? fmt::format("with {} at a time", jobs) : std::string("of processor time"), size);
+}
+
 void ListRuns(const SweepOptions& options, const Study& study, const Design& design)
 {
   std::optional<Expression> only;
@@ -366,14 +428,33 @@ void ListRuns(const SweepOptions& options, const Study& study, const Design& des
       fmt::print("{}{}{} seed={}\n", RunName{static_cast<std::uint32_t>(point), seed}.Text(), values.empty() ? "" : " ",
                  values, seed);
     }
+  std::fflush(stdout);  // the copies of this process would write it again
   PrintError("{} runs: {} points, {} seeds\n", runs, design.Points(), study.seeds.size());
+  if (runs > 0) TellEstimate(options, study, design, runs);
 }
 
-// Loads the study from its file, or from the folder that is continued.
+bool HasExperimentsOf(const Study& study, StudyStore& store)
+{
+  try
+  {
+    return Design(study).ExperimentsHash() == store.Fact("experiments");
+  }
+  catch (const ConfigurationError&)
+  {
+    return false;
+  }
+}
+
+// Loads the study from its file, or from the folder that is continued, with the experiments that it began with.
 LoadedStudy LoadFor(const SweepOptions& options, StudyStore* store)
 {
   if (store == nullptr) return LoadStudyFile(options.study);
-  return LoadStudyText(store->Fact("study"), store->Fact("name") + ".xml", store->Fact("folder"));
+  const std::vector<std::string> starts = store->StartsOfPaths();
+  const auto load = [&](const std::string& start)
+  { return LoadStudyText(store->Fact("study"), store->Fact("name") + ".xml", start); };
+  for (const std::string& start : starts)
+    if (LoadedStudy loaded = load(start); loaded.study && HasExperimentsOf(*loaded.study, *store)) return loaded;
+  return load(starts.front());
 }
 
 void RefuseOtherExperiments(const Design& design, StudyStore& store)
@@ -381,7 +462,7 @@ void RefuseOtherExperiments(const Design& design, StudyStore& store)
   if (store.Fact("experiments") == design.ExperimentsHash()) return;
   throw UsageError(fmt::format(
       "an experiment of the study has changed since '{}' was begun, so that its runs would not go together; begin "
-      "anew in another folder",
+      "again in another folder",
       store.Folder()));
 }
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "studies/design.h"
-#include "studies/study.h"
+#include "studies/design/design.h"
+#include "studies/design/study.h"
 
 namespace swarmanoid
 {
@@ -19,8 +19,8 @@ struct SweepOptions
   bool quiet = false;
   unsigned jobs = 0;     // runs or tasks of Slurm at a time; 0: one for each core, one cluster, or Slurm's limit
   unsigned retries = 0;  // for a run that fails
-  // "COLUMN=5%": points get more seeds until the confidence interval of the column's mean is that narrow. The second
-  // value limits the seeds.
+  // A text "COLUMN=5%" gives points more seeds until the confidence interval of the column's mean is that narrow. The
+  // second value limits the seeds.
   std::string until_ci;
   unsigned most_seeds = 1000;
   std::string hosts;               // file with the machines that run it; empty: this machine

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "common/activity/print_error.h"
+#include "common/errors/print_error.h"
 
 namespace swarmanoid
 {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/executor.h"
+#include "studies/executors/executor.h"
 
 namespace swarmanoid
 {
@@ -16,7 +16,7 @@ class SweepProgress
 public:
   using Clock = std::chrono::steady_clock;
 
-  // `all`: the runs of the study, `done` of which were executed before.
+  // `all` counts the runs of the study, and `done` those that were executed before.
   SweepProgress(const Design& design, std::size_t all, std::size_t done, bool quiet);
   ~SweepProgress();
 
@@ -26,7 +26,7 @@ public:
   void AddRuns(std::size_t count) { all_ += count; }
   // Prints a line even in quiet mode.
   void Say(const std::string& line);
-  // `waiting`: by point, the number of runs that have not begun.
+  // Shows the progress. `waiting` has, by point, the number of runs that have not begun.
   void Show(const Executor& place, const std::map<std::uint32_t, std::size_t>& waiting, Clock::time_point now);
 
 private:

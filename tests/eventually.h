@@ -1,4 +1,4 @@
-// Waiting for what other threads and processes do: for a condition, never for a time.
+// Waits for other threads and processes: for a condition, never for a time.
 #pragma once
 
 #include <chrono>
@@ -8,10 +8,10 @@
 namespace swarmanoid::test
 {
 
-// What a test waits for comes within milliseconds; this is for a machine with much other work.
+// The events of tests come within milliseconds. This limit is for a machine with much other work.
 inline constexpr std::chrono::seconds kGenerous{100};
 
-// Whether the condition was met before the time was over.
+// Returns whether the condition was met before the time was over.
 inline bool Eventually(const std::function<bool()>& met, std::chrono::milliseconds patience = kGenerous)
 {
   const auto end = std::chrono::steady_clock::now() + patience;

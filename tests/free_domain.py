@@ -6,7 +6,7 @@ claims = {}
 
 
 def is_quiet(domain):
-    """Nobody listens where participants of the domain look for others."""
+    """Returns true if no process listens at the ports at which participants of the domain look for others."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as test:
         try:
             test.bind(("", 7400 + 250 * domain))
@@ -16,7 +16,7 @@ def is_quiet(domain):
 
 
 def free_domain(domains):
-    """One of the domains that nobody uses, and no other test takes until it is released, or this process ends."""
+    """Returns an unused domain that no other test takes until it is released or this process ends."""
     for domain in random.sample(list(domains), len(domains)):
         claim = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
         try:

@@ -5,7 +5,7 @@
 #include <functional>
 #include <utility>
 
-#include "common/messages/control_request.h"
+#include "idl/control_request_message.h"
 #include "visualiser/render.h"
 
 namespace swarmanoid

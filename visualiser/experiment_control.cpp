@@ -1,5 +1,5 @@
 #include "common/math/elementary.h"
-#include "common/messages/control_request.h"
+#include "idl/control_request_message.h"
 #include "visualiser/render.h"
 
 namespace swarmanoid

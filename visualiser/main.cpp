@@ -29,8 +29,8 @@ namespace
 
 constexpr auto kIdlePeriod = std::chrono::milliseconds(15);
 
-// To the first tick that is to be drawn, which is returned. One that takes the place of another draws all that came
-// before, too, so that its files are those of a run that nobody disturbed; in a window or page, nobody looks back.
+// Returns the first tick to draw. A process that replaces another one draws all earlier ticks again, so that its files
+// equal those of an undisturbed run. A window or page skips them.
 std::uint64_t Begin(WorkerSession& session, WorkerWorld& replica, Visualiser& visualiser)
 {
   if (!session.TakesAPlace())
@@ -75,8 +75,8 @@ void RunSynchronous(WorkerSession& session, const std::string& id, const std::st
   }
 }
 
-// Until the run ends or the user has seen enough. True if the run began again with another seed instead: what is shown
-// then may stand elsewhere from the start.
+// Shows the run until it ends or the user closes the renderer. Returns true if the run began again with another seed,
+// in which case entities may have other start positions.
 bool Show(WorkerSession& session, const WorkerSettings& settings, const RenderConfiguration& configuration)
 {
   WorkerWorld replica(session.World(), false);
@@ -132,7 +132,8 @@ std::string AttachedKind(int argc, char** argv)
   return {};
 }
 
-// For holders of grants: they look on at that run, and some of them only that.
+// Uses the token of a grant if the environment has one. Its holder observes that run; only an operator may also control
+// it.
 void UseTokenOfEnvironment(WorkerSettings& settings, BusOptions& bus)
 {
   const auto token = TokenOfEnvironment();
@@ -156,7 +157,7 @@ int Run(WorkerSettings settings, const std::vector<std::string>& parameters, Bus
     session.ObserveOnly();
     return session.Work([&] { RunAttached(session, settings, configuration); });
   }
-  // What people do at a window is for the run's logs.
+  // Actions of users at a window go to the run's logs.
   OpenLog({.process = "visualiser", .stderr_level = LogLevel::kInfo});
   WorkerSession session(bus, settings.experiment, fmt::format("visualiser '{}'", settings.render), {},
                         settings.incarnation, settings.machine);

@@ -1,3 +1,6 @@
+// A thread waits for requests and for news of the journal. It takes all requests at once, follows the journal, and
+// answers them one after the other, in the order of clients. `mutex_` guards the requests and is free while the thread
+// reads.
 #include "visualiser/playback_reader.h"
 
 #include <fmt/format.h>
@@ -49,6 +52,13 @@ std::vector<TimelineEvent> EventsOf(const std::string& text)
 }
 
 }  // namespace
+
+std::vector<TimelineEvent> TimelineEventsOf(const std::string& run_folder)
+{
+  const std::string file = run_folder + "/events.csv";
+  if (run_folder.empty() || !std::filesystem::exists(file)) return {};
+  return EventsOf(ReadRegularFile(file, kMostEventBytes));
+}
 
 PlaybackReader::PlaybackReader(const Experiment& experiment, std::string run_folder, LookBackAnswers answers)
     : experiment_(experiment),
@@ -135,7 +145,7 @@ void PlaybackReader::Follow()
   if (!none && bytes != events_bytes_)
   {
     events_bytes_ = bytes;
-    now.events = EventsOf(ReadRegularFile(file, kMostEventBytes));
+    now.events = TimelineEventsOf(run_folder_);
   }
   if (now == timeline_) return;
   timeline_ = std::move(now);

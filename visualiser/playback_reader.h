@@ -38,6 +38,9 @@ struct TimelineEvent
   bool operator==(const TimelineEvent&) const = default;
 };
 
+// Returns the events of a run from its events.csv; none if there is no such file.
+std::vector<TimelineEvent> TimelineEventsOf(const std::string& run_folder);
+
 // The ticks that can be shown: from `first` up to the one before `end`.
 struct JournalTimeline
 {
@@ -48,7 +51,7 @@ struct JournalTimeline
   bool operator==(const JournalTimeline&) const = default;
 };
 
-// Called in the thread of PlaybackReader.
+// The functions are called in the thread of PlaybackReader.
 struct LookBackAnswers
 {
   // Called whenever the timeline has changed.
@@ -86,7 +89,7 @@ private:
   const std::string run_folder_;
   const LookBackAnswers answers_;
 
-  // Members of the reader's thread.
+  // These members belong to the reader's thread.
   JournalFollower journal_;
   std::unique_ptr<RecordedStates> states_;
   JournalTimeline timeline_;

@@ -27,6 +27,8 @@ void RegisterBuiltinRenderers()
     BindLibrary("opengl_render", "libepoxy-dev libstb-dev libglfw3-dev libimgui-dev");
     BindLibrary("ogre_render", "libogre-1.12-dev libimgui-dev libx11-dev");
     BindLibrary("web_render", kWebPackages);
+    PluginRegistry<CRender>::Instance().Bind(
+        "page_render", "", RendererFromLibrary("web_render", kWebPackages, "CreateSwarmanoidPageRender"));
     BindLibrary("ros2_render", "fastddsgen");
     BindLibrary("foxglove_render", "libboost-dev");
     PluginRegistry<CRender>::Instance().RequireCode();

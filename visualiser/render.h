@@ -10,9 +10,9 @@
 #include "common/configuration/parameter.h"
 #include "common/math/pose.h"
 #include "common/messages/assignment.h"
-#include "common/messages/robot_status.h"
 #include "common/messages/run_status.h"
 #include "common/plugins/registry.h"
+#include "idl/robot_status.h"
 
 #ifndef SWARMANOID_OWN_SOURCES
 #include <common/space/space.h>  // for plug-ins, which mostly need it
@@ -25,47 +25,56 @@ class CSwarmanoidSpace;
 
 struct ControlOrder;
 
-// What a user asks of the experiment through a renderer. The space server, or the runner of a single process, executes
-// it between two ticks. RunMonitor::Notes has the reply. For the thread of Draw and Idle. The functions are virtual so
-// that renderers in libraries of their own need no symbol for them.
+// The requests of a user to the experiment through a renderer. The space server, or the runner of a single process,
+// executes them between two ticks, and RunMonitor::Notes has the replies. They are for the thread of Draw and Idle, and
+// return at once. The functions are virtual so that renderers in libraries of their own need no symbol for them.
 class ExperimentControl
 {
 public:
   virtual ~ExperimentControl() = default;
-  // Any request of common/messages/control_verbs.h; the others are shorter ways to some of them.
+  // Sends any request of common/messages/control_verbs.h. The other functions are shorter ways to some of them.
   virtual void Ask(const ControlOrder& order) = 0;
+  // Pauses the run after its tick.
   virtual void Pause();
+  // Continues a paused run.
   virtual void Resume();
+  // Runs this many ticks of a paused run.
   virtual void Step(unsigned ticks);
-  virtual void SetSpeed(double real_time_factor);  // 0: as fast as possible
+  // Sets the pace as a multiple of real time; 0 is as fast as possible.
+  virtual void SetSpeed(double real_time_factor);
+  // Moves an entity to a pose in the space (m).
   virtual void MoveEntity(const std::string& id, const Pose& pose);
-  // Puts an entity that is not in the arena into it: the one of that id, or the next one of the <reserve> of that id.
+  // Puts an entity into the arena that is outside: the one of that id, or the next one of the <reserve> of that id.
   virtual void AddEntity(const std::string& id, const Pose& pose);
+  // Takes an entity out of the arena.
   virtual void RemoveEntity(const std::string& id);
-  // For the experiment functions: a key by its name (UserInput), pressed or released, and an entity that is selected
-  // (its id; empty: none is).
+  // Passes a key to the experiment functions, by its name (UserInput), pressed or released.
   virtual void PressKey(const std::string& key, bool pressed);
+  // Tells the experiment functions which entity is selected, by its id; an empty id selects none.
   virtual void SelectEntity(const std::string& id);
-  virtual void Stop();   // the run ends at its tick
-  virtual void Reset();  // and begins again at tick 0, with the same seed
+  // Ends the run at its tick.
+  virtual void Stop();
+  // Begins the run again at tick 0, with the same seed.
+  virtual void Reset();
 };
 
-// What a renderer can know of the run beyond its space. For the thread of Draw and Idle; nothing here waits, and what a
-// renderer never asks for costs nothing. References are valid until the next call of the same function.
+// The knowledge about the run that a renderer gets beyond its space. It is for the thread of Draw and Idle. No function
+// waits, and data that a renderer never requests costs nothing. References are valid until the next call of the same
+// function.
 class RunMonitor
 {
 public:
   virtual ~RunMonitor() = default;
-  // As it is known now; phase kUnknown before anything has been heard.
+  // Returns the last known status. Its phase is kUnknown before the first message of the run.
   virtual const RunStatus& Status() = 0;
-  // What users asked of the run since this renderer came, oldest first; the last hundred.
+  // Returns the last hundred requests of users since this renderer started, oldest first.
   virtual std::span<const RunNote> Notes() = 0;
-  // The robots (entity indices) whose inside is wanted from now on, instead of those named before. Entities without a
-  // controller are ignored.
+  // Requests the status of these robots (entity indices) instead of those named before. Entities without a controller
+  // are ignored.
   virtual void Watch(std::span<const std::uint32_t> robots) = 0;
-  // The latest of a watched robot; nullptr while nothing has come.
+  // Returns the latest status of a watched robot, or nullptr before the first one.
   virtual const RobotStatus* Robot(std::uint32_t robot) = 0;
-  // The folder of the run, if it is on this machine and the run keeps a journal there; otherwise empty.
+  // Returns the folder of the run if it is on this machine and the run keeps a journal there; otherwise an empty text.
   virtual std::string RunFolder() { return {}; }
 };
 
@@ -109,15 +118,15 @@ public:
   virtual void Init(const RenderSetup& setup) = 0;
   // Shows the space at its tick. Synchronous visualisations are waited for.
   virtual void Draw() = 0;
-  // True once the user wants the experiment (synchronous) or the watching (attached) to end.
+  // Returns true once the user wants the experiment (synchronous) or the watching (attached) to end.
   virtual bool Terminate() { return false; }
   // Called between ticks of a paused or slow experiment, so that windows stay alive; every 10 to 20 ms, also before the
   // first Draw. The space may have changed since: entities that were moved while the run is paused.
   virtual void Idle() {}
-  // After the last Draw: close files.
+  // Called after the last Draw, to close files. Throws std::runtime_error if a file cannot be written.
   virtual void Finish() {}
-  // A window or a page, through which a user may resume a paused run. Attached, it stays after the end of the run, with
-  // calls of Idle, until it terminates.
+  // Returns true for a window or a page, through which a user may resume a paused run. Attached, it stays after the end
+  // of the run, with calls of Idle, until it terminates.
   virtual bool IsInteractive() const { return false; }
 };
 
@@ -139,7 +148,7 @@ struct RenderRegistration
 
 using swarmanoid::CRender;
 
-// REGISTER_RENDER(CMyRender, description): for renderers in a user's library.
+// REGISTER_RENDER(CMyRender, description) registers a renderer of a user's library.
 #define REGISTER_RENDER(CLASS, ...)                                                                             \
   namespace                                                                                                     \
   {                                                                                                             \

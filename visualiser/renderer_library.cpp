@@ -25,8 +25,9 @@ void* FunctionOfRendererLibrary(const std::string& name, const std::string& pack
 {
   const std::string path = (OwnFolder() / "swarmanoid" / ("libswarmanoid_" + name + ".so")).string();
   if (!std::filesystem::exists(path))
-    throw ConfigurationError(name + " is not part of this build, there is no " + path + "; install the packages " +
-                             packages + " and build again");
+    throw ConfigurationError(name + " is not installed, there is no " + path +
+                             "; install the package swarmanoid, or for a build of your own " + packages +
+                             ", and build again");
   void* library = OpenLibrary(path);
   if (library == nullptr) throw ConfigurationError(name + " cannot be loaded: " + dlerror());
   void* const found = dlsym(library, function);
@@ -34,12 +35,13 @@ void* FunctionOfRendererLibrary(const std::string& name, const std::string& pack
   return found;
 }
 
-std::function<std::unique_ptr<CRender>()> RendererFromLibrary(const std::string& name, const std::string& packages)
+std::function<std::unique_ptr<CRender>()> RendererFromLibrary(const std::string& name, const std::string& packages,
+                                                              const char* create)
 {
-  return [name, packages]
+  return [name, packages, create]
   {
-    void* const create = FunctionOfRendererLibrary(name, packages, "CreateSwarmanoidRenderer");
-    return std::unique_ptr<CRender>(reinterpret_cast<CRender* (*)()>(create)());
+    void* const function = FunctionOfRendererLibrary(name, packages, create);
+    return std::unique_ptr<CRender>(reinterpret_cast<CRender* (*)()>(function)());
   };
 }
 

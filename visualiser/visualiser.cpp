@@ -1,5 +1,7 @@
 #include "visualiser/visualiser.h"
 
+#include <memory>
+#include <string>
 #include <utility>
 
 #include "common/experiment/actors.h"
@@ -20,23 +22,44 @@ Actor ActorOf(const RenderConfiguration& configuration, const Experiment& experi
   return VisualisationActor(configuration, number);
 }
 
+const PluginRegistry<CRender>::Entry& EntryOf(const RenderConfiguration& configuration)
+{
+  const auto* entry = PluginRegistry<CRender>::Instance().Find(configuration.tag);
+  if (entry == nullptr)
+    throw ConfigurationError(configuration.location, "no renderer is registered as '" + configuration.tag +
+                                                         "'; `swarmanoid list plugins` shows those of this build");
+  return *entry;
+}
+
 }  // namespace
+
+std::unique_ptr<CRender> MakeRenderer(const RenderConfiguration& configuration)
+{
+  const auto& entry = EntryOf(configuration);
+  try
+  {
+    return entry.create();
+  }
+  catch (const ConfigurationError& error)
+  {
+    const bool is_attached = configuration.location.line == 0;
+    throw ConfigurationError(configuration.location,
+                             error.Message() + (is_attached ? "" : "; --no-visualisers runs without it"));
+  }
+}
 
 Visualiser::Visualiser(const RenderConfiguration& configuration, const CSwarmanoidSpace& space,
                        const Assignment& assignment, const std::string& output_folder, ExperimentControl* control,
                        RunMonitor* monitor)
     : space_(space), configuration_(configuration), actor_(ActorOf(configuration_, space.GetExperiment()))
 {
-  const auto* entry = PluginRegistry<CRender>::Instance().Find(configuration.tag);
-  if (entry == nullptr)
-    throw ConfigurationError(configuration.location, "no renderer is registered as '" + configuration.tag +
-                                                         "'; `swarmanoid list plugins` shows those of this build");
+  const auto& entry = EntryOf(configuration);
   context_.Enter();
   RunCodeOf<ConfigurationError>(actor_, ActivityStep::kInit, space.GetTick(),
                                 [&]
                                 {
-                                  render_ = entry->create();
-                                  render_->Init({Parameters(configuration.tree, entry->description.parameters), space,
+                                  render_ = MakeRenderer(configuration);
+                                  render_->Init({Parameters(configuration.tree, entry.description.parameters), space,
                                                  assignment, output_folder, control, monitor});
                                 });
 }

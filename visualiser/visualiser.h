@@ -10,6 +10,10 @@
 namespace swarmanoid
 {
 
+// Makes the renderer of a visualisation, without Init. Throws ConfigurationError, with its place in the experiment
+// file, if no such renderer is registered or installed.
+std::unique_ptr<CRender> MakeRenderer(const RenderConfiguration& configuration);
+
 class Visualiser
 {
 public:

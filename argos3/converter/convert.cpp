@@ -1,14 +1,25 @@
+// An experiment of ARGoS3 has to run here without a change. Its tree is converted to a tree of ours, section by
+// section, and every difference that a user would notice becomes a note. A thing without a counterpart becomes a
+// mistake, with the place in the user's file.
+//
+// Loop functions may create bodies while they start, and our engines need all bodies beforehand. So the file is
+// converted twice if its library creates bodies: the first result is started once as a rehearsal, which reports the
+// bodies that were created, and the second result reserves them. Every node keeps the location of the node from which
+// it was made, so that later errors also point to the user's file.
 #include "argos3/converter/convert.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "argos3/converter/convert_arena.h"
 #include "argos3/converter/convert_code.h"
 #include "argos3/converter/node_reader.h"
-#include "common/activity/print_error.h"
+#include "argos3/converter/our_ids.h"
+#include "argos3/converter/tiny_xml.h"
+#include "common/errors/print_error.h"
 #include "common/experiment/foreign_experiments.h"
 
 namespace swarmanoid
@@ -26,15 +37,32 @@ public:
   {
   }
 
-  // `bodies`: the result of a rehearsal. nullptr: the file is for a rehearsal, if one is needed, which is reported.
+  // Converts the file. `bodies` is the result of a rehearsal. If it is nullptr, the file is for a rehearsal, if one is
+  // needed, which is reported.
   bool Convert(const MadeBodies* bodies)
   {
     auto ours = MakeNode("ahss-config", root_.location);
     const ConfigurationNode* theirs = Needed(root_, "arena");
     if (theirs == nullptr) return false;
-    ArenaConverter arena(*theirs, result_);
+    std::set<std::string> controllers;
+    if (const ConfigurationNode* all = FindChild(root_, "controllers"))
+      for (const auto& controller : all->children)
+        if (const auto* id = FindAttributeOf(*controller, "id")) controllers.insert(OurCharacters(id->value));
+    ArenaConverter arena(*theirs, std::move(controllers), result_);
     if (bodies != nullptr) arena.KeepMadeBodies(*bodies);
-    CodeConverter code(root_, folder_, arena, result_);
+    ReadGround(arena);
+    if (FindChild(root_, "loop_functions") == nullptr) arena.PaintFloorWhite();
+    if (const auto* engines = FindChild(root_, "physics_engines");
+        engines != nullptr && FindChild(*engines, "pointmass3d"))
+      arena.SetPointMasses();
+    std::set<std::pair<std::string, std::string>> kinds_of_media;
+    if (const ConfigurationNode* media = FindChild(root_, "media"))
+      for (const auto& medium : media->children)
+        if (const auto* id = FindAttributeOf(*medium, "id")) kinds_of_media.insert({medium->name, id->value});
+    arena.SetMedia(kinds_of_media);
+    CodeConverter code(root_, folder_, arena, result_, std::move(kinds_of_media));
+    for (const char* section : {"controllers", "physics_engines"})
+      if (const ConfigurationNode* node = FindChild(root_, section)) NoteOthers(*node, {});
     ConvertFramework(*ours);
     const Made kinds = AddNode(*ours, "entity_kinds", root_.location);
     code.ConvertControllers(*ours);
@@ -44,8 +72,10 @@ public:
         SetValue(*AddNode(*kinds, kind, root_.location), "library", kind, root_.location);
     if (kinds->children.empty()) std::erase(ours->children, kinds);
     ConvertEngines(*ours, arena);
+    ReadMedia();
     const bool is_for_rehearsal = bodies == nullptr && code.MakesBodies();
     code.ConvertLoopFunctions(*ours, is_for_rehearsal);
+    NoteOthers(root_, {});
     for (const auto& child : root_.children)
       if (child->name == "visualization")
       {
@@ -74,20 +104,12 @@ private:
     const Made made = AddNode(ours, "framework", at);
     NeededText(*experiment, "ticks_per_second");
     const long long ticks = Whole(*experiment, "ticks_per_second", 10);
-    // It is rounded down, so that the ticks of a second stay the same whole number.
-    const long long tick_ms = ticks < 1 || ticks > 1000 ? 0 : 1000 / ticks;
-    const double missing = 1 - static_cast<double>(tick_ms * ticks) / 1000;
-    constexpr double kMostMissing = 0.02;
-    if (tick_ms == 0 || missing > kMostMissing)
-      Mistake(at,
-              "'ticks_per_second' is " + std::to_string(ticks) +
-                  "; a tick has whole milliseconds here: 1, 2, 4, 5, 8, 10, 20, 25, 40, 50, 100, 125, 200, 250, 500 "
-                  "or 1000 are possible");
+    if (ticks < 1 || ticks > 1000)
+      Mistake(at, "'ticks_per_second' is " + std::to_string(ticks) + "; it must be from 1 to 1000");
+    else if (1000 % ticks == 0)
+      SetValue(*made, "clocktick", std::to_string(1000 / ticks), at);
     else
-      SetValue(*made, "clocktick", std::to_string(tick_ms), at);
-    if (tick_ms != 0 && missing > 0 && missing <= kMostMissing)
-      Note(at, fmt::format("a tick has whole milliseconds here: {} ms, {:.1f} % less than 1/{} s", tick_ms,
-                           100 * missing, ticks));
+      SetValue(*made, "ticks_per_second", std::to_string(ticks), at);
     const double length = Number(*experiment, "length", 0);
     constexpr double kMostTicks = 1e15;  // equal to the limit of <maxclock>
     // The negated condition also refuses NaN.
@@ -101,9 +123,64 @@ private:
     const long long seed = Whole(*experiment, "random_seed", 0);
     if (seed == 0) Note(at, "without a random_seed ARGoS3 takes the time; here it is 1, and --seed gives another one");
     SetValue(*made, "seed", std::to_string(seed == 0 ? 1 : seed), at);
+    if (Flag(*experiment, "real_time", false))
+      Note(FindAttributeOf(*experiment, "real_time")->location,
+           "'real_time' has no effect here; run with --real-time 1");
     NoteOthers(*experiment, {"length", "ticks_per_second", "random_seed", "real_time"});
-    if (const ConfigurationNode* profiling = FindChild(*framework, "profiling"))
-      Note(profiling->location, "<profiling> has no effect here");
+    NoteOthers(*framework, {});
+    NoteOtherChildren(*framework, {"system", "experiment"});
+    NoteOtherChildren(*experiment, {});
+    if (const ConfigurationNode* system = FindChild(*framework, "system"))
+    {
+      if (Whole(*system, "threads", 0) != 0)
+        Note(FindAttributeOf(*system, "threads")->location, "'threads' has no effect here; run with --threads N");
+      NoteOthers(*system, {"threads"});
+    }
+  }
+
+  void ReadGround(ArenaConverter& arena)
+  {
+    const ConfigurationNode* engines = FindChild(root_, "physics_engines");
+    const ConfigurationNode* flat = engines == nullptr ? nullptr : FindChild(*engines, "dynamics2d");
+    if (flat == nullptr) return;
+    GroundFriction ground;
+    if (const ConfigurationNode* friction = FindChild(*flat, "friction"))
+    {
+      const auto read = [&](const char* name, double& value)
+      {
+        value = Number(*friction, name, value);
+        if (!(value >= 0))
+          Mistake(friction->location, std::string("'") + name + "' of <friction> must not be negative");
+      };
+      read("box_linear_friction", ground.box_force);
+      read("box_angular_friction", ground.box_torque);
+      read("cylinder_linear_friction", ground.cylinder_force);
+      read("cylinder_angular_friction", ground.cylinder_torque);
+      NoteOthers(*friction, {"box_linear_friction", "box_angular_friction", "cylinder_linear_friction",
+                             "cylinder_angular_friction"});
+    }
+    arena.SetGround(ground);
+  }
+
+  // Media exist only in ARGoS3: each device here finds what it senses itself.
+  void ReadMedia()
+  {
+    const ConfigurationNode* media = FindChild(root_, "media");
+    if (media == nullptr) return;
+    NoteOthers(*media, {});
+    bool has_led = false;
+    for (const auto& medium : media->children)
+    {
+      const bool is_radio = medium->name == "range_and_bearing";
+      NoteOtherChildren(*medium, {});
+      NoteOthers(*medium, is_radio ? std::set<std::string>{"id", "check_occlusions"} : std::set<std::string>{"id"});
+      if (is_radio)
+        Flag(*medium, "check_occlusions", true);
+      else if (medium->name != "led")
+        Note(medium->location, "<" + medium->name + "> of <media> has no effect here");
+      else if (std::exchange(has_led, true))
+        Note(medium->location, "robots of several media <led> see each other here");
+    }
   }
 
   void ConvertEngines(ConfigurationNode& ours, const ArenaConverter& arena)
@@ -112,7 +189,9 @@ private:
     if (engines == nullptr) return;
     const Made list = AddNode(ours, "engines", engines->location);
     const Made physics = AddNode(ours, "arena_physics", engines->location);
-    std::map<std::string, std::string> made;  // by our engine: the id in ARGoS3
+    const bool have_volumes = std::ranges::any_of(
+        engines->children, [](const auto& engine) { return FindChild(*engine, "boundaries") != nullptr; });
+    std::vector<MadeEngine> made;
     for (const auto& theirs : engines->children)
     {
       const SourceLocation& at = theirs->location;
@@ -124,8 +203,9 @@ private:
         continue;
       }
       const std::string tag = flat ? "dynamics2d" : "dynamics3d";
-      const std::string id = NeededText(*theirs, "id");
-      if (!made.emplace(tag, id).second)
+      const std::string id = OurCharacters(NeededText(*theirs, "id"));
+      // Without boundaries the first engine of a kind has all entities.
+      if (!have_volumes && std::ranges::any_of(made, [&](const MadeEngine& engine) { return engine.is_flat == flat; }))
       {
         Note(at, "<" + theirs->name + "> of id '" + id + "' and the one before are one engine here");
         continue;
@@ -133,24 +213,78 @@ private:
       const Made engine = AddNode(*list, tag, at);
       SetValue(*engine, "id", id, at);
       if (flat) SetValue(*engine, "distance", TextOf(Number(*theirs, "elevation", 0) + arena.Origin().z()), at);
-      NoteOthers(*theirs, {"id", "elevation", "iterations"});
-      if (FindChild(*theirs, "boundaries") != nullptr)
-        Note(FindChild(*theirs, "boundaries")->location, "<boundaries> have no effect here: one engine has all");
+      NoteOthers(*theirs, flat ? std::set<std::string>{"id", "elevation"} : std::set<std::string>{"id"});
+      NoteOtherChildren(*theirs,
+                        flat ? std::set<std::string>{"boundaries", "friction"} : std::set<std::string>{"boundaries"});
       if (theirs->name == "pointmass3d") Note(at, "<pointmass3d> is dynamics3d here: bodies that meet collide");
+      made.push_back({flat, id, FindChild(*theirs, "boundaries")});
     }
-    for (const auto& [tag, id] : made)
+    const auto has = [&](bool flat)
+    { return std::ranges::any_of(made, [&](const MadeEngine& engine) { return engine.is_flat == flat; }); };
+    const bool has_both = has(true) && has(false);
+    for (const MadeEngine& engine : made)
     {
       const Made binding = AddNode(*physics, "engine", engines->location);
-      SetValue(*binding, "id", id, engines->location);
+      SetValue(*binding, "id", engine.id, engines->location);
+      if (engine.boundaries != nullptr) ConvertBoundaries(*engine.boundaries, *binding, arena.Origin());
       for (const std::string& kind : arena.Kinds())
       {
         if (kind == "light_bulb") continue;
-        // If both engines exist, eye-bots fly and foot-bots drive. Obstacles are in both.
-        if (made.size() > 1 && (tag == "dynamics2d" ? kind == "eyebot" : kind == "footbot" || kind == "argos3_epuck"))
-          continue;
+        // If both kinds of engines exist, eye-bots fly and foot-bots drive. Obstacles are in all.
+        if (has_both && (engine.is_flat ? kind == "eyebot" : kind == "footbot" || kind == "argos3_epuck")) continue;
         SetValue(*AddNode(*binding, "all", engines->location), "kind", kind, engines->location);
       }
     }
+  }
+
+  // An engine of ours: the id and the boundaries in ARGoS3, nullptr for none.
+  struct MadeEngine
+  {
+    bool is_flat;
+    std::string id;
+    const ConfigurationNode* boundaries;
+  };
+
+  static std::optional<Vector2> ParsePoint(std::string_view text)
+  {
+    const auto numbers = ParseNumbers(text);
+    if (!numbers || numbers->size() != 2) return std::nullopt;
+    return Vector2((*numbers)[0], (*numbers)[1]);
+  }
+
+  // ARGoS3's boundaries are a polygon of <sides>, counter-clockwise and convex, and heights.
+  void ConvertBoundaries(const ConfigurationNode& boundaries, ConfigurationNode& ours, const Vector3& origin)
+  {
+    const SourceLocation& at = boundaries.location;
+    NoteOthers(boundaries, {});
+    NoteOtherChildren(boundaries, {"sides", "bottom", "top"});
+    if (const ConfigurationNode* sides = FindChild(boundaries, "sides"))
+    {
+      std::string corners;
+      std::size_t count = 0;
+      for (const auto& vertex : sides->children)
+      {
+        if (vertex->name != "vertex") continue;
+        NoteOthers(*vertex, {"point"});
+        NeededText(*vertex, "point");
+        const Vector2 corner =
+            Parsed<Vector2>(*vertex, "point", Vector2::Zero(), ParsePoint, "two numbers with a comma between them") +
+            origin.head<2>();
+        corners += (corners.empty() ? "" : ", ") + TextOf(corner.x()) + ", " + TextOf(corner.y());
+        ++count;
+      }
+      if (count < 3) return Mistake(sides->location, "the <sides> of <boundaries> need at least three <vertex>");
+      SetValue(ours, "volume", corners, at);
+    }
+    const ConfigurationNode* bottom = FindChild(boundaries, "bottom");
+    const ConfigurationNode* top = FindChild(boundaries, "top");
+    for (const ConfigurationNode* height : {bottom, top})
+      if (height != nullptr) NoteOthers(*height, {"height"});
+    if (bottom == nullptr && top == nullptr) return;
+    constexpr double kFar = 1e6;  // m
+    const double low = bottom == nullptr ? -kFar : Number(*bottom, "height", 0) + origin.z();
+    const double high = top == nullptr ? kFar : Number(*top, "height", 0) + origin.z();
+    SetValue(ours, "heights", TextOf(low) + ", " + TextOf(high), at);
   }
 
   const ConfigurationNode& root_;
@@ -161,16 +295,52 @@ private:
 }  // namespace
 }  // namespace argos3
 
+namespace
+{
+
+// Returns each message once, in the order of the file, with all of its places.
+std::vector<Diagnostic> Merged(std::vector<Diagnostic> all)
+{
+  const auto place = [](const Diagnostic& one) { return std::pair(one.location.line, one.location.column); };
+  std::ranges::stable_sort(all, {}, place);
+  std::map<std::string, std::set<std::pair<int, int>>> places;
+  for (const Diagnostic& one : all) places[one.message].insert(place(one));
+  std::vector<Diagnostic> merged;
+  for (Diagnostic& one : all)
+  {
+    const auto found = places.find(one.message);
+    if (found == places.end()) continue;
+    found->second.erase(place(one));
+    std::string more;
+    constexpr std::size_t kMost = 5;
+    for (std::size_t i = 0; const auto& [line, column] : found->second)
+      if (i++ < kMost) more += fmt::format("{}{}:{}", more.empty() ? " (also at " : ", ", line, column);
+    if (found->second.size() > kMost) more += fmt::format(" and {} other places", found->second.size() - kMost);
+    places.erase(found);
+    if (!more.empty()) one.message += more + ")";
+    merged.push_back(std::move(one));
+  }
+  return merged;
+}
+
+}  // namespace
+
 ConvertedExperiment ConvertArgos3(const ConfigurationNode& root, const std::string& folder,
                                   const Argos3Rehearsal& rehearse, const ExperimentSettings& settings)
 {
   ConvertedExperiment first;
   const bool is_for_rehearsal = argos3::Converter(root, folder, first).Convert(nullptr);
+  first.mistakes = Merged(std::move(first.mistakes));
   if (!is_for_rehearsal || !first.mistakes.empty()) return first;
   const argos3::MadeBodies bodies = rehearse ? rehearse(*first.root, folder, settings) : argos3::MadeBodies();
   ConvertedExperiment result;
   argos3::Converter(root, folder, result).Convert(&bodies);
   return result;
+}
+
+void PrintNotes(const std::vector<Diagnostic>& notes)
+{
+  for (const Diagnostic& note : Merged(notes)) PrintError("{}: note: {}\n", note.location.Text(), note.message);
 }
 
 void ReadArgos3Experiments(Argos3Rehearsal rehearse)
@@ -181,9 +351,16 @@ void ReadArgos3Experiments(Argos3Rehearsal rehearse)
                                        const ExperimentSettings& settings, std::vector<Diagnostic>& mistakes)
       {
         ConvertedExperiment converted = ConvertArgos3(root, folder, rehearse, settings);
-        for (const Diagnostic& note : converted.notes) PrintError("{}: note: {}\n", note.location.Text(), note.message);
+        PrintNotes(converted.notes);
         mistakes = std::move(converted.mistakes);
         return std::shared_ptr<const ConfigurationNode>(std::move(converted.root));
+      },
+      [](const std::string& text, const std::string& file_name)
+      {
+        std::vector<Diagnostic> notes;
+        auto root = argos3::ReadTinyXml(text, file_name, notes);
+        PrintNotes(notes);
+        return root;
       });
 }
 

@@ -25,11 +25,17 @@ struct ConvertedExperiment
 using Argos3Rehearsal = std::function<argos3::MadeBodies(const ConfigurationNode& experiment, const std::string& folder,
                                                          const ExperimentSettings& settings)>;
 
-// `root`: <argos-configuration>. Libraries are searched as in ARGoS3, in the working folder and in those of
-// ARGOS_PLUGIN_PATH, and also in `folder`, the file's folder, and its parent. `rehearse` is called if the loop
-// functions make boxes or cylinders; without it they cannot make any.
+// Converts an experiment. `root` is <argos-configuration>. Libraries are searched as in ARGoS3, in the working folder
+// and in those of ARGOS_PLUGIN_PATH, and also in `folder`, the file's folder, and its parent. `rehearse` is called if
+// the loop functions make boxes or cylinders; without it they cannot make any.
 ConvertedExperiment ConvertArgos3(const ConfigurationNode& root, const std::string& folder,
                                   const Argos3Rehearsal& rehearse = {}, const ExperimentSettings& settings = {});
+
+// Prints notes to standard error: each text once, with its places.
+void PrintNotes(const std::vector<Diagnostic>& notes);
+
+// Without visualisers, Qt user functions whose library does not exist are left out, with a note.
+void LetUserFunctionsBeMissing();
 
 // Makes all readers of experiments accept files of ARGoS3; notes go to standard error.
 void ReadArgos3Experiments(Argos3Rehearsal rehearse);

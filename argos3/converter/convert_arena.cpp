@@ -1,9 +1,19 @@
+// ARGoS3's arena lies around a centre of any coordinates, ours begins at 0. The arena here is the smallest one that
+// holds ARGoS3's arena and the position of every entity, since some files place entities outside of theirs. Its lowest
+// corner becomes our origin: all positions are shifted by the same vector, and the plug-in shifts the positions that
+// controllers and loop functions see back again.
+//
+// Boxes are placed by the middle of their base there and by their middle here, so they are lifted by half their height.
+// Entities that loop functions may create while the run goes on wait as a reserve.
 #include "argos3/converter/convert_arena.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 
+#include "argos3/converter/our_ids.h"
 #include "common/configuration/wording.h"
+#include "common/configuration/xml_writer.h"
 #include "common/math/pose.h"
 
 namespace swarmanoid::argos3
@@ -11,8 +21,25 @@ namespace swarmanoid::argos3
 
 namespace fs = std::filesystem;
 
-ArenaConverter::ArenaConverter(const ConfigurationNode& arena, ConvertedExperiment& result)
-    : NodeReader(result), arena_(arena)
+namespace
+{
+
+// Returns our kind of a robot that other projects add to ARGoS3; empty: there is none.
+std::string OurKindLike(const std::string& tag)
+{
+  if (tag == "kilobot" || tag == "kheperaiv" || tag == "khepera_iv" || tag == "pipuck" || tag == "pi-puck")
+    return tag == "kilobot" ? "kilobot" : tag.starts_with("k") ? "khepera_iv" : "pipuck";
+  return {};
+}
+
+constexpr const char* kTiltLost =
+    "dynamics2d keeps the heading alone, and pointmass3d that of robots: the tilt has no effect, as in ARGoS3";
+
+}  // namespace
+
+ArenaConverter::ArenaConverter(const ConfigurationNode& arena, std::set<std::string> controllers,
+                               ConvertedExperiment& result)
+    : NodeReader(result), arena_(arena), controllers_(std::move(controllers))
 {
   ReadFloor(FindChild(arena, "floor"));
   FindArena();
@@ -24,15 +51,45 @@ void ArenaConverter::ReadFloor(const ConfigurationNode* floor)
   if (floor == nullptr) return;
   const std::string source = NeededText(*floor, "source");
   if (source == "loop_functions")
+  {
     floor_id_ = NeededText(*floor, "id");
+    NoteOthers(*floor, {"id", "source"});
+  }
   else if (source != "image")
     Mistake(floor->location,
             "a floor of source " + Quoted(source) + " has no counterpart; take an image, or loop_functions");
 }
 
+void ArenaConverter::PaintFloorWhite()
+{
+  if (floor_id_.empty()) return;
+  Note(FindChild(arena_, "floor")->location, "without <loop_functions> the floor is white");
+  floor_id_.clear();
+}
+
+// Returns a text with the values of environment variables, such as $HOME, in their places.
+std::string ArenaConverter::Expanded(std::string text, const ConfigurationNode::Attribute* attribute)
+{
+  constexpr const char* kOfNames = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
+  for (std::size_t at = text.find('$'); at != std::string::npos; at = text.find('$', at))
+  {
+    const std::size_t end = std::min(text.find_first_not_of(kOfNames, at + 1), text.size());
+    const std::string name = text.substr(at + 1, end - at - 1);
+    const char* value = name.empty() ? nullptr : std::getenv(name.c_str());
+    if (value == nullptr)
+    {
+      Mistake(attribute->location, "the environment has no variable " + Quoted(name) + "; set it, or write its value");
+      return text;
+    }
+    text.replace(at, end - at, value);
+    at += std::string_view(value).size();
+  }
+  return text;
+}
+
 std::string ArenaConverter::PictureOf(const ConfigurationNode& floor)
 {
-  const std::string path = NeededText(floor, "path");
+  const std::string path = Expanded(NeededText(floor, "path"), FindAttributeOf(floor, "path"));
   const fs::path here = fs::current_path() / path;
   std::error_code none;
   return fs::is_regular_file(here, none) ? here.lexically_normal().string() : path;
@@ -46,7 +103,7 @@ void ArenaConverter::ConvertFloor(const ConfigurationNode& theirs, Configuration
   Vector3 middle = Vector(arena_, "center") + origin_;
   middle.z() = 0;
   const Made made = AddNode(parent, "ground_patch", at);
-  SetValue(*made, "id", NeededText(theirs, "id"), at);
+  SetValue(*made, "id", OurIdOf(theirs), at);
   SetValue(*made, "picture", PictureOf(theirs), at);
   SetValue(*made, "size", fmt::format("{}, {}", size.x(), size.y()), at);
   SetValue(*made, "position", TextOf(middle), at);
@@ -99,20 +156,59 @@ void ArenaConverter::FindBearers(const ConfigurationNode& within)
     if (child->name == "distribute" || child->name == "entity") FindBearers(*child);
     const std::string kind = KindOf(child->name);
     const ConfigurationNode* controller = FindChild(*child, "controller");
+    if (kind.empty() && controller != nullptr)
+      unknown_controllers_.insert(OurCharacters(Text(*controller, "config").value_or("")));
     if (kind.empty() || controller == nullptr) continue;
-    Bearers& bearers = bearers_[NeededText(*controller, "config")];
-    bearers.kinds.insert(kind);
-    if (kind == "footbot") bearers.camera_aperture = Positive(*child, "omnidirectional_camera_aperture", 70);
-    const bool is_epuck = kind == "argos3_epuck";
-    bearers.perspective_aperture = Positive(*child, "perspective_camera_aperture", 30);
-    bearers.perspective_range = Positive(*child, "perspective_camera_range", 2);
-    bearers.battery = FindChild(*child, "battery");
-    bearers.radio_range = Positive(*child, "rab_range", is_epuck ? 0.8 : 3);
-    bearers.radio_bytes = Whole(*child, "rab_data_size", is_epuck ? 2 : 10);
-    if (bearers.radio_bytes < 1 || bearers.radio_bytes > 10'000)
-      Mistake(child->location, "'rab_data_size' is " + std::to_string(bearers.radio_bytes) +
-                                   "; range-and-bearing messages have 1 to 10000 bytes here");
+    const std::string id = OurCharacters(NeededText(*controller, "config"));
+    const Bearers bearers = BearersOf(*child, kind, *controller);
+    largest_radio_range_ = std::max(largest_radio_range_, bearers.radio_range);
+    const auto text = [](const ConfigurationNode* node) { return node == nullptr ? "" : WriteXml(*node); };
+    const std::string properties =
+        fmt::format("{} {} {} {} {} {} {} {}", kind, bearers.camera_aperture, bearers.perspective_aperture,
+                    bearers.perspective_range, bearers.radio_range, bearers.radio_bytes, text(bearers.battery),
+                    text(bearers.params));
+    std::string& ours = variant_ids_[{id, properties}];
+    if (ours.empty())
+    {
+      std::vector<Variant>& variants = variants_[id];
+      ours = id;
+      for (std::size_t number = variants.size() + 1; number > 1 && controllers_.contains(ours); ++number)
+        ours = fmt::format("{}.{}", id, number);
+      controllers_.insert(ours);
+      variants.push_back({ours, bearers});
+    }
+    controller_of_robot_[child.get()] = ours;
   }
+}
+
+Bearers ArenaConverter::BearersOf(const ConfigurationNode& robot, const std::string& kind,
+                                  const ConfigurationNode& controller)
+{
+  const bool is_epuck = kind == "argos3_epuck";
+  Bearers bearers;
+  bearers.kinds.insert(kind);
+  if (kind == "footbot") bearers.camera_aperture = Positive(robot, "omnidirectional_camera_aperture", 70);
+  if (!is_epuck)
+  {
+    const std::string camera = kind == "footbot" ? "perspective_camera_" : "camera_";
+    bearers.perspective_aperture = Positive(robot, camera + "aperture", 30);
+    bearers.perspective_range = Positive(robot, camera + "range", 2);
+  }
+  bearers.battery = FindChild(robot, "battery");
+  bearers.params = FindChild(controller, "params");
+  bearers.radio_range = Positive(robot, "rab_range", is_epuck ? 0.8 : 3);
+  bearers.radio_bytes = Whole(robot, "rab_data_size", is_epuck ? 2 : 10);
+  if (bearers.radio_bytes < 1 || bearers.radio_bytes > 10'000)
+    Mistake(robot.location, "'rab_data_size' is " + std::to_string(bearers.radio_bytes) +
+                                "; range-and-bearing messages have 1 to 10000 bytes here");
+  return bearers;
+}
+
+const std::vector<ArenaConverter::Variant>& ArenaConverter::VariantsOf(const std::string& controller)
+{
+  std::vector<Variant>& variants = variants_[controller];
+  if (variants.empty()) variants.push_back({controller, {}});
+  return variants;
 }
 
 std::string ArenaConverter::KindOf(const std::string& tag)
@@ -125,14 +221,18 @@ void ArenaConverter::Convert(ConfigurationNode& ours)
   const SourceLocation& at = arena_.location;
   const Made made = AddNode(ours, "arena", at);
   SetValue(*made, "size", TextOf(Vector3(high_ - low_)), at);
-  NoteOthers(arena_, {"size", "center", "positional_index", "positional_grid_size"});
+  NoteOthers(arena_, {"size", "center"});
+  for (const auto& child : arena_.children)
+    if (child->name != "distribute")
+      if (const auto id = Text(*child, "id")) single_ids_.insert(*id);
   for (const auto& child : arena_.children)
     if (child->name == "distribute")
       ConvertDistribute(*child, *made);
     else if (child->name == "floor")
       ConvertFloor(*child, *made);
     else
-      ConvertEntity(*child, NeededText(*child, "id"), *made, true);
+      ConvertEntity(*child, OurIdOf(*child), *made, true);
+  AddTranslations();
   AddSpares(*made);
   SetValue(*made, "optimization", kinds_.contains("eyebot") ? "3D" : "2D", at);
 }
@@ -147,14 +247,23 @@ void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, const std::s
   if (!robot.empty())
   {
     made = AddNode(parent, robot, at);
+    NoteOtherChildren(theirs, {"body", "controller", "battery"});
     if (const ConfigurationNode* controller = FindChild(theirs, "controller"))
-      SetValue(*made, "controller", NeededText(*controller, "config"), controller->location);
-    // The focal length determines none of the angles of the image.
-    NoteOthers(theirs,
-               {"id", "omnidirectional_camera_aperture", "perspective_camera_aperture", "perspective_camera_range",
-                "perspective_camera_focal_length", "perspective_camera_front", "rab_range", "rab_data_size"});
-    if (!Flag(theirs, "perspective_camera_front", true))
-      Mistake(at, "a perspective camera that looks up has no counterpart; leave 'perspective_camera_front' out");
+    {
+      NoteOthers(*controller, {"config"});
+      NoteOtherChildren(*controller, {"params"});
+      SetValue(*made, "controller", controller_of_robot_.at(&theirs), controller->location);
+    }
+    // In ARGoS3, too, the focal length determines none of the angles of the image, and eye-bots ignore camera_front.
+    std::set<std::string> known{"id", "rab_range", "rab_data_size"};
+    if (robot == "footbot")
+      known.insert({"omnidirectional_camera_aperture", "perspective_camera_aperture", "perspective_camera_range",
+                    "perspective_camera_front"});
+    if (robot == "eyebot") known.insert({"camera_aperture", "camera_range"});
+    NoteOthers(theirs, known);
+    if (robot == "footbot" && !Flag(theirs, "perspective_camera_front", true))
+      Mistake(FindAttributeOf(theirs, "perspective_camera_front")->location,
+              "a perspective camera that looks up has no counterpart; leave 'perspective_camera_front' out");
   }
   else if (theirs.name == "box")
   {
@@ -166,30 +275,37 @@ void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, const std::s
     SetValue(*made, "size", TextOf(size), at);
     SetMovable(theirs, *made);
     NoteOthers(theirs, {"id", "size", "movable", "mass"});
+    NoteOtherChildren(theirs, {"body", "leds"});
   }
   else if (theirs.name == "cylinder")
   {
     made = AddNode(parent, "cylindric_prey", at);
-    SetValue(*made, "radius", NeededText(theirs, "radius"), at);
-    SetValue(*made, "height", NeededText(theirs, "height"), at);
+    SetValue(*made, "radius", TextOf(NeededNumber(theirs, "radius")), at);
+    SetValue(*made, "height", TextOf(NeededNumber(theirs, "height")), at);
     // Cameras of ARGoS3 see LEDs and lights, not bodies.
     const ConfigurationNode* leds = FindChild(theirs, "leds");
     SetValue(*made, "colour", leds == nullptr ? "black" : ColourOfLeds(*leds), at);
     SetMovable(theirs, *made);
     NoteOthers(theirs, {"id", "radius", "height", "movable", "mass"});
+    NoteOtherChildren(theirs, {"body", "leds"});
   }
   else if (theirs.name == "light")
   {
     made = AddNode(parent, "light_bulb", at);
-    SetValue(*made, "intensity", Text(theirs, "intensity").value_or("1"), at);
-    SetValue(*made, "colour", Text(theirs, "color").value_or("yellow"), at);
-    NoteOthers(theirs, {"id", "position", "orientation", "color", "intensity", "medium"});
+    NoteMedium(theirs);
+    SetValue(*made, "intensity", TextOf(Number(theirs, "intensity", 1)), at);
+    SetValue(*made, "colour", Colour(theirs, "yellow"), at);
+    NoteOthers(theirs, {"id", "position", "color", "intensity", "medium"});
+    NoteOtherChildren(theirs, {});
   }
   else
   {
-    Mistake(at, "<" + theirs.name +
-                    "> has no counterpart; those that have: foot-bot, eye-bot, e-puck, box, cylinder, light, floor, "
-                    "distribute");
+    const auto ours = OurKindLike(theirs.name);
+    Mistake(at,
+            "<" + theirs.name + "> has no counterpart" +
+                (ours.empty() ? "; those that have: foot-bot, eye-bot, e-puck, box, cylinder, light, floor, distribute"
+                              : " in files of ARGoS3; files of ours have the kind " + Quoted(ours) +
+                                    ", with controllers of our interface"));
     return;
   }
   kinds_.insert(made->name);
@@ -199,29 +315,44 @@ void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, const std::s
   if (placed) SetPlace(theirs, *made, lift);
 }
 
+std::string ArenaConverter::Colour(const ConfigurationNode& node, const std::string& fallback)
+{
+  const std::string colour = Text(node, "color").value_or(fallback);
+  if (const auto ours = OurColour(colour)) return *ours;
+  Mistake(FindAttributeOf(node, "color")->location,
+          Quoted(colour) + " is no colour; write a name, or red,green,blue from 0 to 255");
+  return fallback;
+}
+
+void ArenaConverter::NoteMedium(const ConfigurationNode& node)
+{
+  const auto medium = Text(node, "medium");
+  if (medium && !media_.contains({"led", *medium}))
+    Note(FindAttributeOf(node, "medium")->location, MissingMedium(node.name, "led", *medium));
+}
+
 std::string ArenaConverter::ColourOfLeds(const ConfigurationNode& leds)
 {
+  NoteOthers(leds, {"medium"});
+  NoteMedium(leds);
+  NoteOtherChildren(leds, {"led"});
   std::string first;
   for (const auto& led : leds.children)
   {
-    const std::string colour = Text(*led, "color").value_or("black");
+    if (led->name != "led") continue;
+    NoteOthers(*led, {"color"});
+    const std::string colour = Colour(*led, "black");
     if (first.empty()) first = colour;
     if (colour != first) Note(led->location, "all LEDs of one object have the colour of the first one here");
   }
-  if (first.empty()) return "black";
-  const auto channels = ParseNumbers(first);
-  if (!channels) return first;
-  if (channels->size() < 3)
-    Mistake(leds.location, "'" + first + "' is no colour; write a name, or red,green,blue from 0 to 255");
-  std::string text = "#";
-  for (std::size_t i = 0; i < std::min<std::size_t>(channels->size(), 3); ++i)
-    text += fmt::format("{:02x}", static_cast<int>(std::clamp((*channels)[i], 0.0, 255.0)));
-  return text;
+  return first.empty() ? "black" : first;
 }
 
 void ArenaConverter::KeepSpare(const std::string& controller, const std::string& kind, int quantity)
 {
-  bearers_[controller].kinds.insert(kind);
+  std::vector<Variant>& variants = variants_[controller];
+  if (variants.empty()) variants.push_back({controller, {}});
+  variants.front().bearers.kinds.insert(kind);
   spares_[controller] = {kind, quantity};
 }
 
@@ -248,6 +379,7 @@ void ArenaConverter::AddMadeBodies(ConfigurationNode& parent)
     // A waiting body must be movable. One that should not move gets a mass that no robot can push.
     SetValue(*body, "movable", "true", at);
     SetValue(*body, "mass", TextOf(shape.movable ? shape.mass_kg : kUnmovableKg), at);
+    if (shape.movable) SetGroundFriction(shape.tag == kLitBox ? "box" : "cylinder", shape.mass_kg, at, *body);
     kinds_.insert(shape.tag);
   }
 }
@@ -282,6 +414,41 @@ void ArenaConverter::SetMovable(const ConfigurationNode& theirs, ConfigurationNo
   if (mass_kg > kHeaviestKg)
     Note(theirs.location, "a mass of " + TextOf(mass_kg) + " kg is " + TextOf(kHeaviestKg) + " kg here");
   SetValue(made, "mass", TextOf(std::min(mass_kg, kHeaviestKg)), theirs.location);
+  SetGroundFriction(theirs.name, mass_kg, theirs.location, made);
+}
+
+// Our engine takes a coefficient for sliding.
+void ArenaConverter::SetGroundFriction(const std::string& tag, double mass_kg, const SourceLocation& at,
+                                       ConfigurationNode& made)
+{
+  if (!ground_ || !(mass_kg > 0)) return;
+  constexpr double kGravity = 9.81;            // of our dynamics2d, m/s2
+  constexpr double kLargestCoefficient = 100;  // that an entity may have
+  const bool is_box = tag == "box";
+  const double force = is_box ? ground_->box_force : ground_->cylinder_force;
+  SetValue(made, "ground_friction", TextOf(std::min(force / (mass_kg * kGravity), kLargestCoefficient)), at);
+  SetValue(made, "ground_torque", TextOf(is_box ? ground_->box_torque : ground_->cylinder_torque), at);
+}
+
+// Returns rotations about the fixed axes x, y and z for ARGoS3's rotations about z, y and x, in degrees.
+Vector3 ArenaConverter::FixedAngles(const Vector3& zyx)
+{
+  // A plain heading stays as it is.
+  if (zyx.y() == 0 && zyx.z() == 0) return {0, 0, zyx.x()};
+  const EulerAngles fixed = EulerFromQuaternion(OrientationOf(zyx));
+  return Vector3(fixed.alpha, fixed.beta, fixed.gamma) / kRadians;
+}
+
+Quaternion ArenaConverter::OrientationOf(const Vector3& zyx)
+{
+  return Quaternion(Eigen::AngleAxisd(zyx.z() * kRadians, Vector3::UnitX())) *
+         Eigen::AngleAxisd(zyx.y() * kRadians, Vector3::UnitY()) *
+         Eigen::AngleAxisd(zyx.x() * kRadians, Vector3::UnitZ());
+}
+
+bool ArenaConverter::KeepsTilt(const std::string& tag) const
+{
+  return !ground_ && (!has_point_masses_ || KindOf(tag).empty());
 }
 
 void ArenaConverter::SetPlace(const ConfigurationNode& theirs, ConfigurationNode& made, double lift)
@@ -289,17 +456,20 @@ void ArenaConverter::SetPlace(const ConfigurationNode& theirs, ConfigurationNode
   const bool is_light = theirs.name == "light";
   const ConfigurationNode* body = is_light ? &theirs : Needed(theirs, "body");
   if (body == nullptr) return;
-  const Vector3 zyx = Vector(*body, "orientation");
-  const Quaternion orientation = Quaternion(Eigen::AngleAxisd(zyx.z() * kRadians, Vector3::UnitX())) *
-                                 Eigen::AngleAxisd(zyx.y() * kRadians, Vector3::UnitY()) *
-                                 Eigen::AngleAxisd(zyx.x() * kRadians, Vector3::UnitZ());
-  const Vector3 position = NeededVector(*body, "position") + origin_ + orientation * Vector3(0, 0, lift);
+  if (!is_light)
+  {
+    NoteOthers(*body, {"position", "orientation"});
+    NoteOtherChildren(*body, {});
+  }
+  Vector3 zyx = Vector(*body, "orientation");
+  if ((zyx.y() != 0 || zyx.z() != 0) && !is_light && !KeepsTilt(theirs.name))
+  {
+    Note(FindAttributeOf(*body, "orientation")->location, kTiltLost);
+    zyx = {zyx.x(), 0, 0};
+  }
+  const Vector3 position = NeededVector(*body, "position") + origin_ + OrientationOf(zyx) * Vector3(0, 0, lift);
   SetValue(made, "position", TextOf(position), body->location);
-  // The three angles are converted to fixed axes; a plain heading stays as it is.
-  const EulerAngles fixed = EulerFromQuaternion(orientation);
-  const Vector3 xyz = zyx.y() == 0 && zyx.z() == 0 ? Vector3(0, 0, zyx.x())
-                                                   : Vector3(Vector3(fixed.alpha, fixed.beta, fixed.gamma) / kRadians);
-  if (!is_light) SetValue(made, "orientation", TextOf(xyz), body->location);
+  if (!is_light) SetValue(made, "orientation", TextOf(FixedAngles(zyx)), body->location);
 }
 
 void ArenaConverter::ConvertDistribute(const ConfigurationNode& theirs, ConfigurationNode& parent)
@@ -309,30 +479,84 @@ void ArenaConverter::ConvertDistribute(const ConfigurationNode& theirs, Configur
   const ConfigurationNode* orientation = Needed(theirs, "orientation");
   const ConfigurationNode* entity = Needed(theirs, "entity");
   if (position == nullptr || orientation == nullptr || entity == nullptr) return;
+  NoteOthers(theirs, {});
+  NoteOtherChildren(theirs, {"position", "orientation", "entity"});
+  NoteOthers(*entity, {"quantity", "max_trials", "base_num"});
+  for (const ConfigurationNode* generator : {position, orientation})
+  {
+    const std::string method = Text(*generator, "method").value_or("");
+    NoteOthers(*generator, method == "uniform"    ? std::set<std::string>{"method", "min", "max"}
+                           : method == "gaussian" ? std::set<std::string>{"method", "mean", "std_dev"}
+                           : method == "constant" ? std::set<std::string>{"method", "values"}
+                                                  : std::set<std::string>{"method", "center", "distances", "layout"});
+  }
   if (Whole(*entity, "quantity", 1) == 0) return;
   const Made made = AddNode(parent, "distribute", at);
-  SetValue(*made, "quantity", NeededText(*entity, "quantity"), entity->location);
-  SetValue(*made, "max_trials", NeededText(*entity, "max_trials"), entity->location);
+  NeededText(*entity, "quantity");
+  NeededText(*entity, "max_trials");
+  SetValue(*made, "quantity", std::to_string(Whole(*entity, "quantity", 1)), entity->location);
+  SetValue(*made, "max_trials", std::to_string(Whole(*entity, "max_trials", 1)), entity->location);
   const Made positions = AddNode(*made, "position", position->location);
-  ConvertOrientations(*orientation, *AddNode(*made, "orientation", orientation->location));
   if (entity->children.size() != 1) return Mistake(entity->location, "<entity> holds one element: what is distributed");
   const ConfigurationNode& what = *entity->children.front();
+  ConvertOrientations(*orientation, what.name, *AddNode(*made, "orientation", orientation->location));
   // Our position is the middle of a box; in ARGoS3 it is the middle of the base.
   ConvertPositions(*position, *positions, what.name == "box" ? NeededVector(what, "size").z() / 2 : 0);
   const std::string id = NeededText(what, "id");
   const long long first = Whole(*entity, "base_num", 0);
   if (first < 0)
     Mistake(entity->location, "'base_num' is " + std::to_string(first) + "; entities are numbered from 0 on");
-  const std::string ours = OurIdOfDistributed(what, first);
-  distributed_ += (distributed_.empty() ? "" : " ") + id + ":" + std::to_string(first) + ":" + ours;
+  groups_.insert(id);
+  const std::string ours = OurIdOfDistributed(what, first, Whole(*entity, "quantity", 1));
+  distributed_ += fmt::format("{}{}:{}:{}", distributed_.empty() ? "" : " ", Encoded(id), first, ours);
   ConvertEntity(what, ours, *made, false);
 }
 
-std::string ArenaConverter::OurIdOfDistributed(const ConfigurationNode& what, long long first)
+std::string ArenaConverter::OurIdOf(const ConfigurationNode& theirs)
+{
+  const std::string id = NeededText(theirs, "id");
+  const auto known = our_ids_.find(id);
+  if (known != our_ids_.end()) return known->second;
+  const std::string wanted = OurCharacters(id);
+  std::string ours = wanted;
+  for (int number = 2; ours != id && (single_ids_.contains(ours) || used_ids_.contains(ours)); ++number)
+    ours = fmt::format("{}.{}", wanted.substr(0, 56), number);
+  used_ids_.insert(ours);
+  our_ids_[id] = ours;
+  if (ours != id) Note(theirs.location, Quoted(id) + " has the id '" + ours + "' in our tools");
+  return ours;
+}
+
+// The id of a single entity may look like that of a distributed one, such as fb7.
+void ArenaConverter::AddTranslations()
+{
+  const auto looks_distributed = [&](const std::string& id)
+  {
+    return std::ranges::any_of(groups_, [&](const std::string& group)
+                               { return id.starts_with(group) && ParseInteger(id.substr(group.size())).has_value(); });
+  };
+  for (const auto& [id, ours] : our_ids_)
+    if (ours != id || looks_distributed(id))
+      distributed_ += fmt::format("{}{}::{}", distributed_.empty() ? "" : " ", Encoded(id), ours);
+}
+
+std::string ArenaConverter::OurIdOfDistributed(const ConfigurationNode& what, long long first, long long quantity)
 {
   std::string id = Text(what, "id").value_or("");
   if (id.empty()) id = KindOf(what.name).empty() ? what.name : KindOf(what.name);
-  if (!distributed_ids_.insert(id).second && first != 0) id += "." + std::to_string(first);
+  id = OurCharacters(id).substr(0, 48);
+  const std::string wanted = id;
+  // Returns whether another entity has one of the ids `id`_0, `id`_1 …
+  const auto is_taken = [&]
+  {
+    if (distributed_ids_.contains(id)) return true;
+    for (const std::string& single : single_ids_)
+      if (single.starts_with(id + "_"))
+        if (const auto number = ParseInteger(single.substr(id.size() + 1))) return *number >= 0 && *number < quantity;
+    return false;
+  };
+  if (is_taken() && first != 0) id = fmt::format("{}.{}", wanted, first);
+  for (int number = 2; is_taken(); ++number) id = fmt::format("{}.{}", wanted, number);
   distributed_ids_.insert(id);
   return id;
 }
@@ -363,39 +587,67 @@ void ArenaConverter::ConvertPositions(const ConfigurationNode& theirs, Configura
   else if (method == "grid")
   {
     shifted("center", "centre");
-    same("distances", "spacing");
+    // ARGoS3 fills a grid from the largest coordinates on.
+    SetValue(made, "spacing", TextOf(Vector3(-NeededVector(theirs, "distances"))), theirs.location);
     same("layout", "layout");
   }
   else
     Mistake(theirs.location, Quoted(method) + " is no method; uniform, gaussian, constant and grid are");
 }
 
-void ArenaConverter::ConvertOrientations(const ConfigurationNode& theirs, ConfigurationNode& made)
+void ArenaConverter::ConvertOrientations(const ConfigurationNode& theirs, const std::string& tag,
+                                         ConfigurationNode& made)
 {
   const std::string method = NeededText(theirs, "method");
-  const auto turned = [&](const char* from, const char* to)
-  {
-    const Vector3 zyx = NeededVector(theirs, from);
-    if (zyx.y() != 0 || zyx.z() != 0)
-      Mistake(theirs.location, std::string("'") + from + "' tilts what it distributes, which has no counterpart; " +
-                                   "leave y and x at 0");
-    SetValue(made, to, TextOf(Vector3(0, 0, zyx.x())), theirs.location);
-  };
   SetValue(made, "method", method, theirs.location);
+  struct Value
+  {
+    const char* theirs;
+    const char* ours;
+    Vector3 angles;  // about z, y and x
+  };
+  std::vector<Value> values;
+  const auto read = [&](const char* from, const char* to) { values.push_back({from, to, NeededVector(theirs, from)}); };
   if (method == "uniform")
   {
-    turned("min", "min");
-    turned("max", "max");
+    read("min", "min");
+    read("max", "max");
   }
   else if (method == "gaussian")
   {
-    turned("mean", "mean");
-    turned("std_dev", "deviation");
+    read("mean", "mean");
+    read("std_dev", "deviation");
   }
   else if (method == "constant")
-    turned("values", "value");
+    read("values", "value");
+  else if (method == "grid")
+  {
+    read("center", "centre");
+    read("distances", "spacing");
+    read("layout", "layout");
+    const Vector3& layout = values[2].angles;
+    Vector3& spacing = values[1].angles;
+    for (const int axis : {0, 1, 2}) spacing[axis] = layout[axis] == 1 ? 0 : -spacing[axis];
+  }
   else
-    Mistake(theirs.location, Quoted(method) + " is no method; uniform, gaussian and constant are");
+    return Mistake(theirs.location, Quoted(method) + " is no method; uniform, gaussian, constant and grid are");
+  bool tilts = false;
+  for (const Value& value : values)
+  {
+    const bool is_layout = std::string_view(value.theirs) == "layout";
+    const auto* attribute = FindAttributeOf(theirs, value.theirs);
+    if (is_layout || attribute == nullptr || (value.angles.y() == 0 && value.angles.z() == 0)) continue;
+    tilts = KeepsTilt(tag);
+    if (!tilts) Note(attribute->location, kTiltLost);
+  }
+  if (tilts) SetValue(made, "axes", "zyx", theirs.location);
+  for (const Value& value : values)
+  {
+    const Vector3& zyx = value.angles;
+    const bool is_layout = std::string_view(value.theirs) == "layout";
+    const Vector3 heading = is_layout ? Vector3(1, 1, zyx.x()) : Vector3(0, 0, zyx.x());
+    SetValue(made, value.ours, TextOf(tilts ? zyx : heading), theirs.location);
+  }
 }
 
 }  // namespace swarmanoid::argos3

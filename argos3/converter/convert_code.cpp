@@ -1,9 +1,15 @@
+// The controllers and loop functions of an experiment lie in libraries that the user compiled for ARGoS3. Nothing may
+// be loaded while a file is only converted, so everything that depends on the code is judged from the file's bytes: a
+// class that is registered under a label has this label as a text constant in its library, and a library that creates
+// entities names their constructors among its undefined symbols. A hit that is wrong costs a reserve that is not used;
+// it changes no result.
 #include "argos3/converter/convert_code.h"
 
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 
+#include "argos3/converter/our_ids.h"
 #include "common/configuration/wording.h"
 #include "common/plugins/library.h"
 
@@ -53,6 +59,12 @@ std::string BytesOf(const std::string& file)
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+bool& UserFunctionsMayBeMissing()
+{
+  static bool may_be = false;
+  return may_be;
+}
+
 std::vector<std::string> LibraryNames(const std::string& library)
 {
   const fs::path path(library);
@@ -66,19 +78,75 @@ void CodeConverter::ConvertControllers(ConfigurationNode& ours)
   const ConfigurationNode* controllers = Needed(root_, "controllers");
   if (controllers == nullptr) return;
   const Made made = AddNode(ours, "controllers", controllers->location);
-  const bool somebody_hears = [&]
-  {
-    for (const auto& controller : controllers->children)
-      if (const ConfigurationNode* sensors = FindChild(*controller, "sensors"))
-        if (FindChild(*sensors, "range_and_bearing") != nullptr) return true;
-    return false;
-  }();
+  FindRadioChannels(*controllers);
   made_kinds_ = FindMadeKinds();
   if (made_kinds_.erase("light_bulb") != 0) arena_.KeepSpareLights(kSpareLights);
   asks_for_configuration_ = made_kinds_.erase("configuration") != 0;
   resets_runs_ = made_kinds_.erase("reset") != 0;
   makes_bodies_ = made_kinds_.erase("box") + made_kinds_.erase("cylinder") != 0;
-  for (const auto& controller : controllers->children) ConvertController(*controller, *made, somebody_hears);
+  for (const auto& controller : controllers->children)
+  {
+    const std::string id = OurCharacters(NeededText(*controller, "id"));
+    if (controller->name == "buzz_controller")
+    {
+      Mistake(controller->location,
+              "<buzz_controller> runs Buzz, which has no counterpart here; write the rule in Lua or C++");
+      continue;
+    }
+    if (arena_.IsOfUnknownRobots(id)) continue;
+    KeepSpare(id, *controller);
+    NoteOthers(*controller, controller->name == "lua_controller" ? std::set<std::string>{"id"}
+                                                                 : std::set<std::string>{"id", "library"});
+    NoteOtherChildren(*controller, {"actuators", "sensors", "params"});
+    for (const ArenaConverter::Variant& variant : arena_.VariantsOf(id))
+      ConvertController(*controller, id, variant, *made);
+  }
+}
+
+void CodeConverter::NoteListsOf(const ConfigurationNode& controller)
+{
+  for (const char* list : {"sensors", "actuators"})
+    if (const ConfigurationNode* devices = FindChild(controller, list)) NoteOthers(*devices, {});
+}
+
+std::optional<std::string> CodeConverter::RadioMediumOf(const ConfigurationNode& controller)
+{
+  const ConfigurationNode* sensors = FindChild(controller, "sensors");
+  const ConfigurationNode* radio = sensors == nullptr ? nullptr : FindChild(*sensors, "range_and_bearing");
+  if (radio == nullptr) return std::nullopt;
+  const auto* medium = FindAttributeOf(*radio, "medium");
+  return medium == nullptr ? "" : medium->value;
+}
+
+void CodeConverter::FindRadioChannels(const ConfigurationNode& controllers)
+{
+  for (const auto& controller : controllers.children)
+  {
+    const auto* id = FindAttributeOf(*controller, "id");
+    const auto medium = RadioMediumOf(*controller);
+    if (id == nullptr || !medium) continue;
+    for (const ArenaConverter::Variant& variant : arena_.VariantsOf(OurCharacters(id->value)))
+      radio_channels_.insert({*medium, variant.bearers.radio_bytes});
+  }
+  constexpr std::size_t kMost = 256;
+  if (radio_channels_.size() > kMost)
+    Mistake(controllers.location,
+            fmt::format("robots have {} different media and sizes of messages; {} are possible here",
+                        radio_channels_.size(), kMost));
+}
+
+bool CodeConverter::ChecksOcclusions(const std::string& medium) const
+{
+  const ConfigurationNode* media = FindChild(root_, "media");
+  if (media == nullptr) return true;
+  for (const auto& one : media->children)
+  {
+    const auto* id = FindAttributeOf(*one, "id");
+    if (one->name != "range_and_bearing" || id == nullptr || id->value != medium) continue;
+    const auto* checks = FindAttributeOf(*one, "check_occlusions");
+    return checks == nullptr || checks->value != "false";
+  }
+  return true;
 }
 
 std::set<std::string> CodeConverter::FindMadeKinds() const
@@ -104,35 +172,44 @@ void CodeConverter::KeepSpare(const std::string& controller, const Configuration
   if (made_kinds_.empty()) return;
   std::string kind = KindByDevices(theirs);
   if (kind.empty()) kind = *made_kinds_.begin();
-  const std::set<std::string>& kinds = arena_.BearersOf(controller).kinds;
+  const std::set<std::string>& kinds = arena_.VariantsOf(controller).front().bearers.kinds;
   if (!kinds.empty()) kind = *kinds.begin();
   if (made_kinds_.contains(kind)) arena_.KeepSpare(controller, kind, kSpareRobots);
 }
 
-void CodeConverter::ConvertController(const ConfigurationNode& theirs, ConfigurationNode& parent, bool somebody_hears)
+void CodeConverter::ConvertController(const ConfigurationNode& theirs, const std::string& id,
+                                      const ArenaConverter::Variant& variant, ConfigurationNode& parent)
 {
   const SourceLocation& at = theirs.location;
   const Made made = AddNode(parent, "argos3_controller", at);
-  const std::string id = NeededText(theirs, "id");
-  SetValue(*made, "id", id, at);
+  SetValue(*made, "id", variant.id, at);
   SetValue(*made, "library", kPlugin, at);
-  KeepSpare(id, theirs);
-  const Bearers& bearers = arena_.BearersOf(id);
+  const Bearers& bearers = variant.bearers;
   if (bearers.kinds.size() > 1 && bearers.kinds.contains("argos3_epuck"))
     Mistake(at, "robots of several kinds have the controller " + Quoted(id) +
                     ", and e-pucks have other devices; give each kind a controller of its own");
   const ConfigurationNode* framework = FindChild(root_, "framework");
   const ConfigurationNode* experiment = framework == nullptr ? nullptr : FindChild(*framework, "experiment");
   const double ticks = experiment == nullptr ? 10 : Number(*experiment, "ticks_per_second", 10);
-  const DeviceContext context{bearers, !arena_.FloorId().empty(), ticks,
+  const auto radio_medium = RadioMediumOf(theirs);
+  const DeviceContext context{bearers,
+                              !arena_.FloorId().empty(),
+                              ticks,
+                              arena_.LargestRadioRange(),
+                              radio_channels_.size() > 1,
+                              radio_medium.has_value(),
+                              media_,
+                              [this](const std::string& medium) { return ChecksOcclusions(medium); },
                               [this](const SourceLocation& place, const std::string& text) { Mistake(place, text); },
                               [this](const SourceLocation& place, const std::string& text) { Note(place, text); }};
+  NoteListsOf(theirs);
   DeviceLists lists;
   const std::string sensors = ConvertDevices(theirs, "sensors", ConvertSensor, context, lists);
   std::string actuators = ConvertDevices(theirs, "actuators", ConvertActuator, context, lists);
   const std::string own_sensors = TakeOwn(theirs, "sensors", lists.sensors);
   const std::string own_actuators = TakeOwn(theirs, "actuators", lists.actuators);
-  if (somebody_hears && !bearers.kinds.empty() && !lists.actuators.contains("range_and_bearing"))
+  // In ARGoS3 the sensor brings a robot into the medium, where others hear it.
+  if (radio_medium && !bearers.kinds.empty() && !lists.actuators.contains("range_and_bearing"))
   {
     AddSender(at, context, lists);
     actuators += " range_and_bearing";
@@ -142,11 +219,12 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, Configura
     const Made list = AddNode(*made, name, at);
     for (const auto& [type, device] : *devices) list->children.push_back(device);
   }
+  const ConfigurationNode* params = bearers.params != nullptr ? bearers.params : FindChild(theirs, "params");
   const Made parameters = AddNode(*made, "parameters", at);
   const Made options = AddNode(*parameters, "argos3", at);
   if (theirs.name == "lua_controller")
   {
-    SetScript(theirs, *options);
+    SetScript(theirs, params, *options);
   }
   else
   {
@@ -198,9 +276,16 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, Configura
     for (const char* charge : {"start_charge", "full_charge"})
       SetValue(*options, charge, TextOf(Number(*bearers.battery, charge, 1)), at);
   SetValue(*options, "rab_data_size", std::to_string(bearers.radio_bytes), at);
+  if (radio_medium && radio_channels_.size() > 1)
+  {
+    const auto channel = radio_channels_.find({*radio_medium, bearers.radio_bytes});
+    SetValue(*options, "radio_channel", std::to_string(std::distance(radio_channels_.begin(), channel)), at);
+  }
+  if (bearers.battery != nullptr && !lists.sensors.contains("battery"))
+    Note(bearers.battery->location,
+         "<battery> has no effect without the sensor <battery> in the controller " + Quoted(id));
   options_.push_back(options);
-  for (const auto& child : theirs.children)
-    if (child->name == "params") parameters->children.push_back(child);
+  if (params != nullptr) parameters->children.push_back(std::make_shared<ConfigurationNode>(*params));
 }
 
 std::string CodeConverter::NoiseOf(const ConfigurationNode& controller, std::initializer_list<const char*> names,
@@ -216,9 +301,9 @@ std::string CodeConverter::NoiseOf(const ConfigurationNode& controller, std::ini
   return "";
 }
 
-void CodeConverter::SetScript(const ConfigurationNode& theirs, ConfigurationNode& options)
+void CodeConverter::SetScript(const ConfigurationNode& theirs, const ConfigurationNode* params,
+                              ConfigurationNode& options)
 {
-  const ConfigurationNode* params = FindChild(theirs, "params");
   const auto* script = params == nullptr ? nullptr : FindAttributeOf(*params, "script");
   if (script == nullptr)
   {
@@ -337,12 +422,37 @@ const ConfigurationNode* CodeConverter::UserFunctions() const
   return window == nullptr ? nullptr : FindChild(*window, "user_functions");
 }
 
-void CodeConverter::SetUserFunctions(const ConfigurationNode& theirs, ConfigurationNode& functions)
+std::optional<std::string> CodeConverter::UserLibrary(const ConfigurationNode& theirs) const
+{
+  const std::string label = FindAttributeOf(theirs, "label") == nullptr ? "" : FindAttributeOf(theirs, "label")->value;
+  std::string searched;
+  if (const auto* library = FindAttributeOf(theirs, "library"))
+    return Found(Folders(), LibraryNames(library->value), searched);
+  // The library of the loop functions may have them, too.
+  const ConfigurationNode* functions = FindChild(root_, "loop_functions");
+  const auto* library = functions == nullptr ? nullptr : FindAttributeOf(*functions, "library");
+  if (library != nullptr)
+    if (auto file = Found(Folders(), LibraryNames(library->value), searched))
+      if (BytesOf(*file).find(label + '\0') != std::string::npos) return file;
+  return LibraryThatNames(label, searched);
+}
+
+bool CodeConverter::SetUserFunctions(const ConfigurationNode& theirs, ConfigurationNode& functions)
 {
   const std::string label = NeededText(theirs, "label");
-  SetLibrary(theirs, label, "user_file", functions);
+  const auto file = UserLibrary(theirs);
+  if (!file && UserFunctionsMayBeMissing())
+  {
+    Note(theirs.location, "the library of the user functions " + Quoted(label) + " is not found, and none is needed");
+    return false;
+  }
+  if (file)
+    SetValue(functions, "user_file", *file, theirs.location);
+  else
+    SetLibrary(theirs, label, "user_file", functions);
   SetValue(functions, "user_label", label, theirs.location);
   functions.children.push_back(std::make_shared<ConfigurationNode>(theirs));
+  return true;
 }
 
 void CodeConverter::ConvertLoopFunctions(ConfigurationNode& ours, bool for_rehearsal)
@@ -354,8 +464,6 @@ void CodeConverter::ConvertLoopFunctions(ConfigurationNode& ours, bool for_rehea
   }
   const ConfigurationNode* theirs = FindChild(root_, "loop_functions");
   const ConfigurationNode* user = UserFunctions();
-  if (theirs == nullptr && !arena_.FloorId().empty())
-    Mistake(arena_.Location(), "the source of the floor is loop_functions, and there are none; add them");
   if (theirs == nullptr && user == nullptr) return;
   const SourceLocation& at = theirs == nullptr ? user->location : theirs->location;
   const Made list = AddNode(ours, "experiment_functions", at);
@@ -375,10 +483,17 @@ void CodeConverter::ConvertLoopFunctions(ConfigurationNode& ours, bool for_rehea
   if (resets_runs_) MoveLength(ours, *made);
   if (for_rehearsal) SetValue(*made, "rehearsal", "true", at);
   if (theirs != nullptr) made->children.push_back(std::make_shared<ConfigurationNode>(*theirs));
-  if (user != nullptr) SetUserFunctions(*user, *made);
+  if (user != nullptr && !SetUserFunctions(*user, *made) && theirs == nullptr) std::erase(ours.children, list);
   if (!asks_for_configuration_) return;
   const Made configuration = AddNode(*made, "configuration", at);
   configuration->children = root_.children;
 }
 
 }  // namespace swarmanoid::argos3
+
+namespace swarmanoid
+{
+
+void LetUserFunctionsBeMissing() { argos3::UserFunctionsMayBeMissing() = true; }
+
+}  // namespace swarmanoid

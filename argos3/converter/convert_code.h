@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "argos3/converter/convert_arena.h"
@@ -18,10 +19,10 @@ namespace swarmanoid::argos3
 class CodeConverter : NodeReader
 {
 public:
-  // The arguments must outlive the object. `folder`: the file's folder.
+  // The references must outlive the object. `folder`: the file's folder. `media`: their types and ids.
   CodeConverter(const ConfigurationNode& root, const std::string& folder, ArenaConverter& arena,
-                ConvertedExperiment& result)
-      : NodeReader(result), root_(root), folder_(folder), arena_(arena)
+                ConvertedExperiment& result, std::set<std::pair<std::string, std::string>> media)
+      : NodeReader(result), root_(root), folder_(folder), arena_(arena), media_(std::move(media))
   {
   }
 
@@ -34,7 +35,16 @@ public:
   void ConvertLoopFunctions(ConfigurationNode& ours, bool for_rehearsal);
 
 private:
-  void ConvertController(const ConfigurationNode& theirs, ConfigurationNode& parent, bool somebody_hears);
+  // `id`: of the controller in ARGoS3.
+  void ConvertController(const ConfigurationNode& theirs, const std::string& id, const ArenaConverter::Variant& variant,
+                         ConfigurationNode& parent);
+  void NoteListsOf(const ConfigurationNode& controller);
+  // Returns the id of the medium that a controller's range and bearing names; nullopt without the sensor.
+  static std::optional<std::string> RadioMediumOf(const ConfigurationNode& controller);
+  // Robots hear messages of their medium and their size only.
+  void FindRadioChannels(const ConfigurationNode& controllers);
+  // Returns whether the medium of range and bearing lets bodies hide senders.
+  bool ChecksOcclusions(const std::string& medium) const;
   // Returns the attribute of the first of these sensors of the controller that has it; empty: none has.
   static std::string NoiseOf(const ConfigurationNode& controller, std::initializer_list<const char*> sensors,
                              const char* attribute);
@@ -65,12 +75,16 @@ private:
   static void MoveLength(ConfigurationNode& ours, ConfigurationNode& functions);
   // Returns the folders in which libraries are searched.
   std::vector<std::filesystem::path> Folders() const;
-  void SetScript(const ConfigurationNode& theirs, ConfigurationNode& options);
+  // `params`: those of the robots or the controller, or nullptr.
+  void SetScript(const ConfigurationNode& theirs, const ConfigurationNode* params, ConfigurationNode& options);
   // Sets the library. `label`: the registered label. ARGoS3 loads all libraries of ARGOS_PLUGIN_PATH, so files need not
   // name one.
   void SetLibrary(const ConfigurationNode& theirs, const std::string& label, const char* ours,
                   ConfigurationNode& options);
-  void SetUserFunctions(const ConfigurationNode& theirs, ConfigurationNode& functions);
+  // Returns the library of Qt user functions; nullopt: it is not found.
+  std::optional<std::string> UserLibrary(const ConfigurationNode& theirs) const;
+  // Returns false if they are left out.
+  bool SetUserFunctions(const ConfigurationNode& theirs, ConfigurationNode& functions);
   static std::optional<std::string> LibraryThatNames(const std::string& label, std::string& searched);
   // Returns the first file with one of the names in one of the folders. Otherwise the tried paths are added, a line
   // each.
@@ -80,7 +94,9 @@ private:
   const ConfigurationNode& root_;
   const std::string& folder_;
   ArenaConverter& arena_;
-  std::vector<Made> options_;  // by controller
+  std::vector<Made> options_;                                   // by controller
+  std::set<std::pair<std::string, long long>> radio_channels_;  // media and sizes of messages
+  std::set<std::pair<std::string, std::string>> media_;         // types and ids
   std::set<std::string> made_kinds_;
   bool makes_bodies_ = false;
   bool resets_runs_ = false;

@@ -1,7 +1,12 @@
+// The devices of ARGoS3 are matched to the ones of our robots by the names that users write in <sensors> and
+// <actuators>. One device there may need several here, and several there may share one; hence the lists are maps, and a
+// device that exists already is extended. A device that is unknown or whose numbers are malformed is a mistake. An
+// attribute that was not read has no effect, which is a note.
 #include "argos3/converter/device_names.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "argos3/converter/battery.h"
@@ -30,13 +35,17 @@ class Attributes
 public:
   Attributes(const ConfigurationNode& node, const DeviceContext& context) : node_(node), context_(context)
   {
-    used_ = {"implementation", "medium", "show_rays", "id", "calibrated"};
+    used_ = {"implementation"};
+    if (const auto* shows = FindAttributeOf(node, "show_rays"); shows != nullptr && shows->value == "false")
+      used_.insert("show_rays");
   }
   ~Attributes()
   {
     for (const ConfigurationNode::Attribute& attribute : node_.attributes)
       if (!used_.contains(attribute.name))
         context_.note(attribute.location, Quoted(attribute.name) + " of <" + node_.name + "> has no effect here");
+    for (const auto& child : node_.children)
+      context_.note(child->location, "<" + child->name + "> of <" + node_.name + "> has no effect here");
   }
   Attributes(const Attributes&) = delete;
   Attributes& operator=(const Attributes&) = delete;
@@ -47,8 +56,13 @@ public:
     used_.insert(name);
     const ConfigurationNode::Attribute* attribute = FindAttributeOf(node_, name);
     if (attribute == nullptr) return std::nullopt;
-    const std::optional<double> number = ParseNumber(attribute->value);
-    if (!number) context_.mistake(attribute->location, Quoted(name) + " is '" + attribute->value + "', no number");
+    if (const std::optional<double> number = ParseNumber(attribute->value)) return number;
+    const std::optional<double> number = Argos3Number(attribute->value);
+    if (number)
+      context_.note(attribute->location, Quoted(name) + " of <" + node_.name + "> is '" + attribute->value +
+                                             "', which is read as " + TextOf(*number) + ", as in ARGoS3");
+    else
+      context_.mistake(attribute->location, Quoted(name) + " is '" + attribute->value + "', no number");
     return number;
   }
   // Reads "min:max".
@@ -64,6 +78,14 @@ public:
     if (low && high && *low <= *high) return std::pair{*low, *high};
     context_.mistake(attribute->location, Quoted(name) + " is '" + attribute->value + "'; write min:max");
     return std::nullopt;
+  }
+  // Reads the medium of a device; empty if there is none.
+  std::string Medium(const std::string& type)
+  {
+    const std::string medium = Text("medium", "");
+    if (!medium.empty() && !context_.media.contains({type, medium}))
+      context_.note(FindAttributeOf(node_, "medium")->location, MissingMedium(node_.name, type, medium));
+    return medium;
   }
   std::string Text(const std::string& name, const std::string& fallback)
   {
@@ -140,6 +162,28 @@ constexpr std::array<const char*, 8> kActuators{kScanner,
                                                 "quadrotor_position",
                                                 "quadrotor_speed"};
 
+// Each device of ARGoS3 has one implementation.
+void CheckImplementation(const ConfigurationNode& node, const std::string& needed, const DeviceContext& context)
+{
+  const ConfigurationNode::Attribute* attribute = FindAttributeOf(node, "implementation");
+  if (attribute != nullptr && attribute->value != needed)
+    context.mistake(attribute->location, "<" + node.name + "> has no implementation " + Quoted(attribute->value) +
+                                             "; it has " + Quoted(needed));
+}
+
+std::string ImplementationOfSensor(const std::string& tag)
+{
+  constexpr std::array<std::string_view, 7> kRotZOnly{"colored_blob_omnidirectional_camera",
+                                                      "eyebot_light",
+                                                      "footbot_base_ground",
+                                                      kScanner,
+                                                      "footbot_light",
+                                                      "footbot_motor_ground",
+                                                      "ground"};
+  if (tag == "range_and_bearing") return "medium";
+  return std::ranges::find(kRotZOnly, tag) != kRotZOnly.end() ? "rot_z_only" : "default";
+}
+
 template <class Names>
 void RefuseUnknown(const ConfigurationNode& node, const char* what, const Names& names, const DeviceContext& context)
 {
@@ -165,12 +209,13 @@ void ConvertBattery(const DeviceContext& context, ConfigurationNode& device)
       context.mistake(node->location, Quoted(model) + " is no discharge_model; time, motion and time_motion are");
     const double scale = 1 / (full * kBatteries);
     if (model != "motion")
-      per_second = attributes.Number(model == "time" ? "factor" : "time_factor").value_or(1e-5) *
+      per_second = attributes.Number(model == "time" ? "delta" : "time_factor").value_or(1e-5) *
                    context.ticks_per_second * scale;
     if (model != "time")
     {
-      per_metre = attributes.Number("pos_factor").value_or(1e-3) * scale;
-      per_radian = attributes.Number("orient_factor").value_or(1e-3) * scale;
+      const bool is_motion = model == "motion";
+      per_metre = attributes.Number(is_motion ? "pos_delta" : "pos_factor").value_or(1e-3) * scale;
+      per_radian = attributes.Number(is_motion ? "orient_delta" : "orient_factor").value_or(1e-3) * scale;
     }
   }
   SetValue(device, "per_second", TextOf(per_second), device.location);
@@ -184,6 +229,7 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
 {
   const SourceLocation& at = node.location;
   const std::string& tag = node.name;
+  CheckImplementation(node, ImplementationOfSensor(tag), context);
   Attributes attributes(node, context);
   if (tag == "differential_steering")
   {
@@ -247,9 +293,12 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
   else if (tag == "colored_blob_omnidirectional_camera")
   {
     ConfigurationNode& device =
-        AddDevice(ours.sensors, "footbot_omnidirectional_camera", "generic_footbot_omnidirectional_camera", at);
+        AddDevice(ours.sensors, "footbot_omnidirectional_camera", "argos3_footbot_omnidirectional_camera", at);
     SetValue(device, "aperture", TextOf(context.bearers.camera_aperture), at);
+    // The height of the eye limits the view. This border is beyond, also on a floor that is 1 m higher.
+    SetValue(device, "range", TextOf(1.3 * std::tan(context.bearers.camera_aperture * kRadians)), at);
     attributes.Number("noise_std_dev");
+    attributes.Medium("led");
   }
   else if (tag == "colored_blob_perspective_camera" && IsForEPucks(context))
     context.mistake(at, "<colored_blob_perspective_camera> has no counterpart on e-pucks; leave it out");
@@ -260,6 +309,7 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
     ConfigurationNode& device = AddDevice(ours.sensors, type, "generic_" + type, at);
     SetValue(device, "aperture", TextOf(context.bearers.perspective_aperture), at);
     SetValue(device, "range", TextOf(context.bearers.perspective_range), at);
+    attributes.Medium("led");
   }
   else if (tag == kScanner)
   {
@@ -273,7 +323,10 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
   else if (tag == "range_and_bearing")
   {
     ConfigurationNode& device = AddDevice(ours.sensors, tag, "generic_range_and_bearing", at);
-    SetValue(device, "range", TextOf(context.bearers.radio_range), at);
+    // In ARGoS3 the range of a message is its sender's.
+    SetValue(device, "range", TextOf(context.largest_radio_range), at);
+    if (!context.checks_occlusions(attributes.Medium("range_and_bearing")))
+      SetValue(device, "line_of_sight", "false", at);
     attributes.Copy("packet_drop_prob", "loss_probability", device);
     attributes.Number("noise_std_dev");
   }
@@ -285,7 +338,15 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
 {
   const SourceLocation& at = node.location;
   const std::string& tag = node.name;
+  CheckImplementation(node, "default", context);
   Attributes attributes(node, context);
+  if (tag == "leds") attributes.Medium("led");
+  // Cameras of ARGoS3 see each LED, and bodies hide LEDs, also those of their own robot.
+  const auto add_leds = [&](const char* type)
+  {
+    ConfigurationNode& device = AddDevice(ours.actuators, type, std::string("generic_") + type, at);
+    if (FindAttributeOf(device, "separate") == nullptr) SetValue(device, "separate", "true", at);
+  };
   if (tag == "differential_steering" && IsForEPucks(context))
   {
     AddDevice(ours.actuators, "wheels", "generic_wheels", at);
@@ -296,12 +357,12 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
   else if (tag == "differential_steering")
     ConvertWheels(attributes, AddDevice(ours.actuators, "footbot_wheels", "argos3_footbot_wheels", at));
   else if (tag == "leds" && context.bearers.kinds.contains("eyebot"))
-    AddDevice(ours.actuators, "eyebot_leds", "generic_eyebot_leds", at);
+    add_leds("eyebot_leds");
   else if (tag == "leds" && IsForEPucks(context))
-    AddDevice(ours.actuators, "led_ring", "generic_led_ring", at);
+    add_leds("led_ring");
   else if (tag == "leds")
   {
-    AddDevice(ours.actuators, "footbot_leds", "generic_footbot_leds", at);
+    add_leds("footbot_leds");
     AddDevice(ours.actuators, "footbot_beacon", "generic_footbot_beacon", at);
   }
   else if (tag == "footbot_gripper")
@@ -313,6 +374,8 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
     AddDevice(ours.actuators, tag, "dummy_footbot_turret", at);
     AddDevice(ours.sensors, "footbot_turret_encoder", "generic_footbot_turret_encoder", at);
   }
+  else if (tag == "range_and_bearing" && !context.hears)
+    context.note(at, "without the sensor <range_and_bearing> the robots are in no medium, and nobody hears them");
   else if (tag == "range_and_bearing")
     AddSender(at, context, ours);
   else if (tag == "quadrotor_position" || tag == "quadrotor_speed")
@@ -328,8 +391,11 @@ void AddSender(const SourceLocation& location, const DeviceContext& context, Dev
 {
   ConfigurationNode& device = AddDevice(ours.actuators, "range_and_bearing", "generic_range_and_bearing", location);
   constexpr long long kUsual = 10;
-  if (context.bearers.radio_bytes > kUsual)
-    SetValue(device, "bytes", std::to_string(context.bearers.radio_bytes), location);
+  const long long bytes = context.bearers.radio_bytes + (context.has_radio_channels ? 1 : 0);
+  if (bytes > kUsual && FindAttributeOf(device, "bytes") == nullptr)
+    SetValue(device, "bytes", std::to_string(bytes), location);
+  if (context.bearers.radio_range < context.largest_radio_range && FindAttributeOf(device, "range") == nullptr)
+    SetValue(device, "range", TextOf(context.bearers.radio_range), location);
 }
 
 }  // namespace swarmanoid::argos3

@@ -6,25 +6,27 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "argos3/converter/nodes.h"
 
 namespace swarmanoid::argos3
 {
 
-// The properties of a controller's robots.
+// The properties of robots that share a controller of ours.
 struct Bearers
 {
-  std::set<std::string> kinds;       // "footbot", "eyebot", "argos3_epuck"
+  std::set<std::string> kinds;       // "footbot", "eyebot", "argos3_epuck"; empty: no robot of the file has it
   double camera_aperture = 70;       // degrees
   double perspective_aperture = 30;  // degrees
   double perspective_range = 2;      // m
   double radio_range = 3;            // m
   long long radio_bytes = 10;
   const ConfigurationNode* battery = nullptr;  // <battery>, or nullptr
+  const ConfigurationNode* params = nullptr;   // <params> at the robots, or nullptr: those of the controller
 };
 
-// Our devices, each once, by type.
+// The map has each of our devices once, by type.
 using Devices = std::map<std::string, Made>;
 
 struct DeviceLists
@@ -41,6 +43,13 @@ struct DeviceContext
   const Bearers& bearers;
   bool floor_is_painted = false;  // loop functions paint it
   double ticks_per_second = 10;
+  double largest_radio_range = 3;  // m, of all robots
+  // Messages end with a byte that tells the medium and the size. Otherwise there is one medium and one size.
+  bool has_radio_channels = false;
+  bool hears = false;                                   // the controller has the sensor range_and_bearing
+  std::set<std::pair<std::string, std::string>> media;  // types and ids
+  // Returns whether bodies hide senders of a medium from its receivers.
+  std::function<bool(const std::string& medium)> checks_occlusions;
   Report mistake;
   Report note;
 };

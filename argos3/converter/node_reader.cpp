@@ -2,8 +2,63 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <locale>
+#include <sstream>
+
 namespace swarmanoid::argos3
 {
+namespace
+{
+
+// Reads a number at the start of a text like a stream of C++; nullopt if there is none.
+std::optional<double> NumberOfStream(std::string_view text)
+{
+  std::istringstream stream{std::string(text)};
+  stream.imbue(std::locale::classic());
+  double number = 0;
+  return stream >> number ? std::optional(number) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<double> Argos3Number(std::string_view text) { return NumberOfStream(text); }
+
+// A field without a number is 0.
+std::optional<Vector3> Argos3Vector(std::string_view text)
+{
+  Vector3 vector = Vector3::Zero();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const std::size_t comma = text.find(',');
+    if (text.empty() || (comma == std::string_view::npos && axis < 2)) return std::nullopt;
+    vector[axis] = NumberOfStream(text.substr(0, comma)).value_or(0);
+    text.remove_prefix(comma == std::string_view::npos ? text.size() : comma + 1);
+  }
+  return vector;
+}
+
+std::optional<std::string> OurColour(const std::string& colour)
+{
+  constexpr std::array<std::string_view, 11> kNames{"black", "white",  "red",    "green", "blue",  "magenta",
+                                                    "cyan",  "yellow", "orange", "brown", "purple"};
+  constexpr std::array<int, 9> kGrays{26, 51, 77, 102, 127, 153, 179, 204, 229};
+  if (std::ranges::find(kNames, colour) != kNames.end()) return colour;
+  const auto hexadecimal = [](double red, double green, double blue)
+  {
+    const auto byte = [](double channel) { return static_cast<int>(std::clamp(channel, 0.0, 255.0)); };
+    return fmt::format("#{:02x}{:02x}{:02x}", byte(red), byte(green), byte(blue));
+  };
+  if (colour.size() == 6 && colour.starts_with("gray") && colour[4] >= '1' && colour[4] <= '9' && colour[5] == '0')
+  {
+    const int gray = kGrays[static_cast<std::size_t>(colour[4] - '1')];
+    return hexadecimal(gray, gray, gray);
+  }
+  const auto channels = ParseNumbers(colour);
+  if (!channels || channels->size() < 3) return std::nullopt;
+  return hexadecimal((*channels)[0], (*channels)[1], (*channels)[2]);
+}
 
 void NodeReader::Mistake(const SourceLocation& at, const std::string& message)
 {
@@ -35,6 +90,12 @@ std::string NodeReader::NeededText(const ConfigurationNode& node, const std::str
 double NodeReader::Number(const ConfigurationNode& node, const std::string& name, double fallback)
 {
   return Parsed<double>(node, name, fallback, ParseNumber, "a number");
+}
+
+double NodeReader::NeededNumber(const ConfigurationNode& node, const std::string& name)
+{
+  NeededText(node, name);
+  return Number(node, name, 0);
 }
 
 double NodeReader::Positive(const ConfigurationNode& node, const std::string& name, double fallback)
@@ -79,6 +140,13 @@ void NodeReader::NoteOthers(const ConfigurationNode& node, const std::set<std::s
   for (const ConfigurationNode::Attribute& attribute : node.attributes)
     if (!known.contains(attribute.name))
       Note(attribute.location, "'" + attribute.name + "' of <" + node.name + "> has no effect here");
+}
+
+void NodeReader::NoteOtherChildren(const ConfigurationNode& node, const std::set<std::string>& known)
+{
+  for (const auto& child : node.children)
+    if (!known.contains(child->name))
+      Note(child->location, "<" + child->name + "> of <" + node.name + "> has no effect here");
 }
 
 }  // namespace swarmanoid::argos3

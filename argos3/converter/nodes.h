@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "common/configuration/configuration_tree.h"
@@ -38,6 +39,21 @@ inline void SetValue(ConfigurationNode& node, const std::string& name, const std
 {
   node.attributes.push_back({name, value, location});
 }
+
+// Read numbers as ARGoS3 does, which ignores what follows a number: 10 for "10cm", -2.5, 0, 0 for "-2.5,,0,7". They
+// return nullopt for what ARGoS3 refuses.
+std::optional<double> Argos3Number(std::string_view text);
+std::optional<Vector3> Argos3Vector(std::string_view text);
+
+// Returns the note on a device that names a medium which the file does not have.
+inline std::string MissingMedium(const std::string& tag, const std::string& type, const std::string& medium)
+{
+  return "'medium' of <" + tag + "> is '" + medium + "', and <media> has no <" + type +
+         "> of this id; ARGoS3 refuses the file";
+}
+
+// Returns our text for a colour of ARGoS3, such as red, gray50 or 255,0,0,255; nullopt for one that is none.
+std::optional<std::string> OurColour(const std::string& colour);
 
 // Returns the shortest text that is read back as the same number.
 inline std::string TextOf(double number) { return fmt::format("{}", number); }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "argos3/converter/our_ids.h"
 #include "argos3/library/editing.h"
 #include "common/space/attributes.h"
 #include "space_server/space_changes.h"
@@ -73,7 +74,7 @@ const swarmanoid::CSwarmanoidSpaceEntity& OursFor(const CEntity& made)
   }
   const auto* robot = dynamic_cast<const CRobotWithController*>(&made);
   if (robot == nullptr) THROW_ARGOSEXCEPTION("the experiment file declares no light '" << id << "'");
-  const std::string reserve = "added_" + robot->ControllerOfMade();
+  const std::string reserve = "added_" + swarmanoid::argos3::OurCharacters(robot->ControllerOfMade());
   if (!HasReserve(space, reserve))
     THROW_ARGOSEXCEPTION("no " << made.GetTypeDescription() << " with the controller '" << robot->ControllerOfMade()
                                << "' can be added as '" << id
@@ -107,7 +108,7 @@ void AddAnywhere(const std::string& id, const Pose& pose)
   Pose free = pose;
   while (!Editor().IsFree(id, free)) free.position.z() += kStep;
   Editor().AddEntity(id, free);
-  if (free.position.z() != pose.position.z()) Editor().MoveEntity(id, pose);
+  if (free.position.z() != pose.position.z()) Editor().MoveEntity(id, pose, swarmanoid::EOccupied::kOverlap);
 }
 
 // Sets the LEDs of an added box or cylinder to its initial colours.

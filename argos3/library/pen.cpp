@@ -1,3 +1,8 @@
+// Loop functions of ARGoS3 draw with OpenGL calls of the old style, between glBegin and glEnd, and with DrawCircle and
+// its like. There is no window in the experiment's process, so the calls are recorded: vertices go through the current
+// matrix at once, and glEnd turns them into lines, polygons and points of a Drawing, which any visualiser shows. The
+// state has the meaning that OpenGL gives it, with two limits: stacks have at most 64 entries, and an error throws
+// where OpenGL sets a flag.
 #include "argos3/library/pen.h"
 
 #include <stdexcept>

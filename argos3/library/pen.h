@@ -30,7 +30,7 @@ public:
   Pose At(const argos::CVector3& place, const argos::CQuaternion& orientation) const;
   static Ink InkOf(const argos::CColor& colour, double width = 1);
 
-  // Implement the functions of OpenGL with these names.
+  // These functions implement the functions of OpenGL with the same names.
   void SetColour(const Ink& colour) { now_.ink.colour = colour.colour, now_.ink.opacity = colour.opacity; }
   void SetLineWidth(double pixels) { now_.ink.width = pixels; }
   void SetPointSize(double pixels) { now_.point = pixels; }

@@ -69,7 +69,11 @@ auto Told(Call call)
 
 }  // namespace
 
-void CSimulator::LoadExperiment()
+namespace
+{
+
+// Loads a file. If `text` is not nullptr, it is the content of the file.
+void LoadText(const std::string& file, const std::string* text)
 {
   Running& running = TheRunning();
   if (TheProgram() != nullptr) THROW_ARGOSEXCEPTION("an experiment is loaded; call Destroy() before the next one");
@@ -77,10 +81,22 @@ void CSimulator::LoadExperiment()
   const auto& library = swarmanoid::LoadPluginLibrary("argos3_program", swarmanoid::StandardPluginFolders());
   if (!library.error.empty()) throw CARGoSException(library.error);
   running.is_program = true;
-  Told([&] { TheProgram() = std::make_unique<Program>(running.load(experiment_file_)); });
+  Told([&] { TheProgram() = std::make_unique<Program>(running.load(file, text)); });
   if (running.stepped != nullptr) return Loaded().Speak();
   TheProgram().reset();
-  THROW_ARGOSEXCEPTION("the experiment file '" << experiment_file_ << "' has no <loop_functions>; add them");
+  THROW_ARGOSEXCEPTION("the experiment file '" << file << "' has no <loop_functions>; add them");
+}
+
+}  // namespace
+
+void CSimulator::LoadExperiment() { LoadText(experiment_file_, nullptr); }
+
+void CSimulator::Load(ticpp::Document& document)
+{
+  std::ostringstream text;
+  text << *document.FirstChildElement();
+  const std::string content = text.str();
+  LoadText(document.Value().empty() ? experiment_file_ : document.Value(), &content);
 }
 
 void CSimulator::Execute()

@@ -44,8 +44,19 @@ int NumbersOf(const CByteArray& data)
   return (static_cast<int>(data.Size()) + swarmanoid::kBytesInNumber - 1) / swarmanoid::kBytesInNumber;
 }
 
-void Send(const std::string& ours, const CByteArray& data)
+// Returns the number of the medium and the size of messages; -1 if there is one of them.
+SInt64 ChannelOf(const swarmanoid::ControllerConfiguration& controller)
 {
+  return controller.parameters.Child("argos3").GetInteger("radio_channel", -1);
+}
+
+void Send(const std::string& ours, CByteArray data)
+{
+  const swarmanoid::CSwarmanoidSpace& space = TheRunning().editor->GetSpace();
+  const auto* robot = space.FindEntity(ours);
+  const auto* controller =
+      robot == nullptr ? nullptr : space.GetExperiment().FindController(robot->GetConfiguration().controller);
+  if (controller != nullptr && ChannelOf(*controller) >= 0) data << static_cast<UInt8>(ChannelOf(*controller));
   std::vector<double> values(static_cast<std::size_t>(NumbersOf(data)));
   swarmanoid::PackBytes({data.ToCArray(), data.Size()}, values.data());
   TheRunning().editor->SetAttribute(ours, "message", 1, 0);
@@ -53,7 +64,7 @@ void Send(const std::string& ours, const CByteArray& data)
     TheRunning().editor->SetAttribute(ours, "message", values[static_cast<std::size_t>(i)], i + 1);
 }
 
-// Bytes to which loop functions have a reference, until their function ends.
+// The bytes of a message to which loop functions have a reference, until their function ends.
 struct LentMessage
 {
   std::shared_ptr<const CByteArray> bytes;
@@ -102,10 +113,13 @@ Real CRABEquippedEntity::GetRange() const
   const swarmanoid::ControllerConfiguration& controller = ControllerOf(*this);
   const auto receiver =
       std::ranges::find(controller.sensors, "range_and_bearing", &swarmanoid::DeviceConfiguration::type);
-  // The range is that of the receiving sensor.
   if (receiver == controller.sensors.end())
     THROW_ARGOSEXCEPTION("the range of '" << const_cast<CRABEquippedEntity*>(this)->GetRootEntity().GetId()
                                           << "' is that of its sensor range_and_bearing, which it does not have");
+  // The range of a message is its sender's. Without a range of its own, it is that of all receivers.
+  const auto sender =
+      std::ranges::find(controller.actuators, "range_and_bearing", &swarmanoid::DeviceConfiguration::type);
+  if (sender != controller.actuators.end() && sender->tree.Value("range")) return sender->tree.GetNumber("range");
   return receiver->tree.GetNumber("range", 3);
 }
 
@@ -135,15 +149,24 @@ const CRABEquippedEntity::TSet& CRABMedium::GetRABsCommunicatingWith(CRABEquippe
 {
   CRABEquippedEntity::TSet& heard = heard_[receiver.GetRootEntity().GetId()];
   heard.clear();
-  OursOf(receiver);
+  const swarmanoid::ControllerConfiguration& controller = ControllerOf(receiver);
+  const auto sensor =
+      std::ranges::find(controller.sensors, "range_and_bearing", &swarmanoid::DeviceConfiguration::type);
+  const bool needs_sight = sensor == controller.sensors.end() || sensor->tree.GetBoolean("line_of_sight", true);
   for (CEntity* entity : CSimulator::GetInstance().GetSpace().GetRootEntityVector())
   {
     auto* robot = dynamic_cast<CRobotWithController*>(entity);
     if (robot == nullptr || robot == &receiver.GetRootEntity()) continue;
     CRABEquippedEntity& sender = robot->GetRABEquippedEntity();
     const CRay3 line(receiver.GetPosition(), sender.GetPosition());
-    if (!Communicates(sender) || sender.GetMsgSize() != receiver.GetMsgSize() || line.GetLength() >= sender.GetRange())
+    if (!Communicates(sender) || sender.GetMsgSize() != receiver.GetMsgSize() ||
+        ChannelOf(ControllerOf(sender)) != ChannelOf(controller) || line.GetLength() >= sender.GetRange())
       continue;
+    if (!needs_sight)
+    {
+      heard.insert(&sender);
+      continue;
+    }
     SEmbodiedEntityIntersectionItem between;
     const bool is_met = GetClosestEmbodiedEntityIntersectedByRay(between, line, receiver.GetEntityBody());
     if (!is_met || between.IntersectedEntity == &sender.GetEntityBody()) heard.insert(&sender);

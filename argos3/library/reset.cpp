@@ -122,7 +122,7 @@ void CEmbodiedEntity::Reset()
   const auto* ours = PresentOf(*this);
   if (ours == nullptr || !ours->IsMovable()) return;
   const swarmanoid::Pose pose = ArrivalOf(*ours).pose;
-  Editor().MoveEntity(ours->GetId(), pose);
+  Editor().MoveEntity(ours->GetId(), pose, swarmanoid::EOccupied::kOverlap);
   const SAnchor anchor = swarmanoid::argos3::AnchorOf(*ours, pose);
   m_sOriginAnchor.Position = anchor.Position;
   m_sOriginAnchor.Orientation = anchor.Orientation;
@@ -170,7 +170,7 @@ void CLightEntity::Reset()
   const auto* ours = PresentOf(*this);
   if (ours == nullptr) return;
   const Arrival arrival = ArrivalOf(*ours);
-  if (ours->IsMovable()) Editor().MoveEntity(ours->GetId(), arrival.pose);
+  if (ours->IsMovable()) Editor().MoveEntity(ours->GetId(), arrival.pose, swarmanoid::EOccupied::kOverlap);
   SetPosition(TheRunning().translation.Argos3Position(arrival.pose.position));
   SetOrientation(swarmanoid::argos3::Argos3Orientation(arrival.pose.orientation));
   SetColor(CColor(0xff000000U | static_cast<std::uint32_t>(arrival.colour)));

@@ -1,3 +1,7 @@
+// ARGoS3's generators draw from the counter-based streams of the simulator. A generator gets its seed from the stream
+// of the robot or functions that create it, so its numbers depend on the experiment's seed, on that owner, and on the
+// order of the owner's calls only. Ranges are half open, as in ARGoS3: the upper limit is not drawn, and an empty range
+// of whole numbers yields its lower limit.
 #include <argos3/core/utility/math/rng.h>
 
 #include "argos3/library/running.h"
@@ -67,6 +71,18 @@ Real CRandom::CRNG::Exponential(Real mean) { return -mean * std::log(1 - stream_
 Real CRandom::CRNG::Gaussian(Real deviation, Real mean) { return stream_->random.Gaussian(mean, deviation); }
 Real CRandom::CRNG::Rayleigh(Real sigma) { return sigma * std::sqrt(-2 * std::log(1 - stream_->random.Uniform())); }
 Real CRandom::CRNG::Lognormal(Real sigma, Real mu) { return std::exp(Gaussian(sigma, mu)); }
+
+// The number is drawn by inversion (Devroye, Non-Uniform Random Variate Generation, chapter X.3.3).
+UInt32 CRandom::CRNG::Poisson(Real mean)
+{
+  constexpr Real kMost = 700;  // exp(-mean) is no number above 0 for larger means
+  if (!(mean >= 0 && mean <= kMost)) THROW_ARGOSEXCEPTION("the mean of Poisson is " << mean << ", not 0 to " << kMost);
+  UInt32 count = 0;
+  Real probability = std::exp(-mean);
+  const Real drawn = stream_->random.Uniform();
+  for (Real sum = probability; drawn > sum && probability > 0; sum += probability) probability *= mean / ++count;
+  return count;
+}
 
 void CRandom::CCategory::SetSeed(UInt32 seed)
 {

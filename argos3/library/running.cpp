@@ -1,9 +1,18 @@
+// Code that was written for ARGoS3 reaches its surroundings through globals: registries that static constructors fill,
+// one simulator, one log. They exist once in a process here. The robot or the functions on whose behalf code runs at
+// the moment is kept for each thread and stacked by Speaker; it determines whose random numbers are drawn and to which
+// log lines belong.
+//
+// Ids differ in distributed groups: the robot "fb7" of ARGoS3 is "fb_3" here if its group starts with number 4. The
+// characters of single ids may differ.
 #include "argos3/library/running.h"
 
 #include <argos3/core/utility/string_utilities.h>
 
 #include <algorithm>
 #include <iostream>
+
+#include "argos3/converter/our_ids.h"
 
 namespace swarmanoid::argos3
 {
@@ -56,15 +65,22 @@ Translation Translation::From(const TConfigurationTree& tree)
     const std::size_t first = second == 0 ? std::string::npos : entry.rfind(':', second - 1);
     if (second == std::string::npos || first == std::string::npos)
       throw ConfigurationError(tree.ValueLocation("distributed"), "'" + entry + "' is no prefix:number:id");
-    translation.distributed.push_back({entry.substr(0, first),
-                                       ParseInteger(entry.substr(first + 1, second - first - 1)).value_or(0),
-                                       entry.substr(second + 1)});
+    const std::string theirs = Decoded(std::string_view(entry).substr(0, first)), ours = entry.substr(second + 1);
+    if (second == first + 1)
+    {
+      translation.ours_of_single[theirs] = ours;
+      translation.single_of_ours[ours] = theirs;
+      continue;
+    }
+    translation.distributed.push_back(
+        {theirs, ParseInteger(entry.substr(first + 1, second - first - 1)).value_or(0), ours});
   }
   return translation;
 }
 
 std::string Translation::Argos3Id(const std::string& id) const
 {
+  if (const auto single = single_of_ours.find(id); single != single_of_ours.end()) return single->second;
   for (const Distributed& group : distributed)
     if (const auto number = NumberBehind(id, group.ours + "_"))
       return group.theirs + std::to_string(*number + group.first);
@@ -73,6 +89,7 @@ std::string Translation::Argos3Id(const std::string& id) const
 
 std::string Translation::OurId(const std::string& id) const
 {
+  if (const auto single = ours_of_single.find(id); single != ours_of_single.end()) return single->second;
   // Groups of one prefix have consecutive numbers.
   const Distributed* found = nullptr;
   long long number = 0;

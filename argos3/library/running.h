@@ -32,7 +32,7 @@ struct Translation
 {
   // The position of ARGoS3's origin in our space, m.
   Vector3 origin = Vector3::Zero();
-  // Entities of a <distribute>: "fb10", "fb11" … in ARGoS3 are "fb_0", "fb_1" … here.
+  // The entities of a <distribute>: "fb10", "fb11" … in ARGoS3 are "fb_0", "fb_1" … here.
   struct Distributed
   {
     std::string theirs;
@@ -40,8 +40,9 @@ struct Translation
     std::string ours;
   };
   std::vector<Distributed> distributed;
+  std::map<std::string, std::string> ours_of_single, single_of_ours;  // ids of the other entities
 
-  // Reads the attributes origin and distributed ("fb:10:fb eb:0:eb") of the converted file.
+  // Reads the attributes origin and distributed ("fb:10:fb eb:0:eb my%20wall::my_wall") of the converted file.
   static Translation From(const TConfigurationTree& tree);
   std::string Argos3Id(const std::string& id) const;
   std::string OurId(const std::string& id) const;
@@ -142,7 +143,7 @@ struct Running
   argos::CLoopFunctions* functions = nullptr;
   // Carries out the changes of functions; set while they run.
   SpaceEditor* editor = nullptr;
-  // Set while user functions draw.
+  // The pen is set while user functions draw.
   Pen* pen = nullptr;
   Translation translation;
   // The spare robots of this process, by our id.
@@ -162,14 +163,15 @@ struct Running
   // The tick of the current step, and the tick at which the clock of the functions was 0.
   std::uint64_t step = 0;
   std::uint64_t first_step = 0;
-  // Set in a rehearsal of Init: boxes and cylinders that the file does not declare.
+  // The list is set in a rehearsal of Init: boxes and cylinders that the file does not declare.
   std::optional<DryRun> rehearsal;
-  // True if an entity was added or removed since this was set to false.
+  // The flag is true if an entity was added or removed since it was set to false.
   bool presence_changed = false;
 
-  // For a user's program: the loader of its runs, the length of a run in the file (ticks), and the stepped functions.
+  // These members are for a user's program: the loader of its runs, the length of a run in the file (ticks), and the
+  // stepped functions.
   bool is_program = false;
-  std::unique_ptr<ProgramRun> (*load)(const std::string& file) = nullptr;
+  std::unique_ptr<ProgramRun> (*load)(const std::string& file, const std::string* text) = nullptr;
   std::uint64_t program_length = 0;
   SteppedFunctions* stepped = nullptr;
 

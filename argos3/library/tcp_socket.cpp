@@ -1,3 +1,7 @@
+// A blocking stream socket with the interface of ARGoS3. All addresses of a name are tried in the order of the system,
+// IPv6 included. Buffers are sent and received completely, whatever the pieces in which the system transfers them; a
+// byte array has its length in front, as 32 bits in network byte order. An error throws; the end of the stream makes
+// Receive… return false.
 #include <argos3/core/utility/networking/tcp_socket.h>
 
 #include <arpa/inet.h>
@@ -16,7 +20,7 @@ namespace
 
 using Addresses = std::unique_ptr<::addrinfo, void (*)(::addrinfo*)>;
 
-// `host`: nullptr for the addresses of this machine, for listening.
+// Finds addresses. A `host` of nullptr means the addresses of this machine, for listening.
 Addresses Find(const char* host, SInt32 port)
 {
   ::addrinfo wanted{};
@@ -67,11 +71,11 @@ void CTCPSocket::Accept(CTCPSocket& client, SInt32 port, SInt32 queue_length)
                         return ::bind(stream, address.ai_addr, address.ai_addrlen) == 0 &&
                                ::listen(stream, queue_length) == 0;
                       });
-  if (stream_ == -1) Refuse("nobody can listen at port " + std::to_string(port), std::strerror(errno));
+  if (stream_ == -1) Refuse("no program can listen at port " + std::to_string(port), std::strerror(errno));
   int accepted = -1;
   do accepted = ::accept4(stream_, nullptr, nullptr, SOCK_CLOEXEC);
   while (accepted == -1 && errno == EINTR);
-  if (accepted == -1) Refuse("nobody was accepted at port " + std::to_string(port), std::strerror(errno));
+  if (accepted == -1) Refuse("no connection was accepted at port " + std::to_string(port), std::strerror(errno));
   client.Disconnect();
   client.stream_ = accepted;
 }

@@ -107,7 +107,7 @@ private:
     Commit();
   }
 
-  // `id`: the id in ARGoS3.
+  // Starts the controller. `id` is the id in ARGoS3.
   void Start(const std::string& id)
   {
     const TConfigurationTree options = parameters_.Child("argos3");

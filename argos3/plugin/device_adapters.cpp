@@ -1,3 +1,8 @@
+// Each adapter is a device of ARGoS3's interface on top of one of ours. Sensors copy our readings before a control
+// step, with ARGoS3's units (cm, degrees or rad, bytes) and its response: its infrared sensors answer to a distance by
+// curves that were fitted to the robots, ours linearly, so our reading is turned back to a distance first. Noise that
+// our devices do not have is added to the copy and drawn from the robot's stream. Commands are passed on after the
+// step; a device whose command was not given keeps the last one, as in ARGoS3.
 #include "argos3/plugin/device_adapters.h"
 
 #include <argos3/plugins/robots/e-puck/control_interface/ci_epuck_proximity_sensor.h>
@@ -15,6 +20,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "argos3/converter/battery.h"
 #include "argos3/plugin/device_noise.h"
@@ -210,20 +216,38 @@ private:
   double spent_ = 0;
 };
 
+// If robots have several media or sizes of messages, the last byte of a message names both.
+std::optional<std::uint8_t> ChannelOf(const TConfigurationTree& options)
+{
+  const auto channel = options.GetInteger("radio_channel", -1);
+  return channel < 0 ? std::nullopt : std::optional(static_cast<std::uint8_t>(channel));
+}
+
 class RangeAndBearingSender : public ActuatorBridge, public argos::CCI_RangeAndBearingActuator
 {
 public:
   explicit RangeAndBearingSender(const DeviceSetup& setup)
-      : ours_(setup.robot.Actuator<swarmanoid::CCI_RangeAndBearingActuator>("range_and_bearing"))
+      : ours_(!setup.robot.HasActuator("range_and_bearing")
+                  ? nullptr
+                  : &setup.robot.Actuator<swarmanoid::CCI_RangeAndBearingActuator>("range_and_bearing")),
+        channel_(ChannelOf(setup.options))
   {
     m_cData.Resize(static_cast<size_t>(setup.options.GetInteger("rab_data_size", 10)));
   }
   argos::CCI_Actuator& Actuator() override { return *this; }
   void Reset() override { ClearData(); }
-  void Commit() override { ours_.SetBytes({m_cData.ToCArray(), m_cData.Size()}); }
+  void Commit() override
+  {
+    if (ours_ == nullptr) return;
+    bytes_.assign(m_cData.ToCArray(), m_cData.ToCArray() + m_cData.Size());
+    if (channel_) bytes_.push_back(*channel_);
+    ours_->SetBytes(bytes_);
+  }
 
 private:
-  swarmanoid::CCI_RangeAndBearingActuator& ours_;
+  swarmanoid::CCI_RangeAndBearingActuator* ours_;  // nullptr if the robot is in no medium
+  const std::optional<std::uint8_t> channel_;
+  std::vector<std::uint8_t> bytes_;
 };
 
 class RangeAndBearingReceiver : public SensorBridge, public argos::CCI_RangeAndBearingSensor
@@ -233,7 +257,9 @@ public:
       : robot_(setup.robot),
         noise_m_(setup.options.GetNumber("radio_noise", 0)),
         ours_(setup.robot.Sensor<swarmanoid::CCI_RangeAndBearingSensor>("range_and_bearing")),
-        size_(static_cast<size_t>(setup.options.GetInteger("rab_data_size", 10))),
+        channel_(ChannelOf(setup.options)),
+        data_size_(static_cast<size_t>(setup.options.GetInteger("rab_data_size", 10))),
+        size_(data_size_ + (channel_ ? 1 : 0)),
         further_(size_ - std::min<size_t>(size_, swarmanoid::CCI_RangeAndBearingActuator::NUM_BYTES))
   {
   }
@@ -248,6 +274,7 @@ public:
       // Messages of another length are ignored.
       const std::span<const std::uint8_t> further = ours_.GetFurtherBytes(packets[i]);
       if (further.size() != further_) continue;
+      if (channel_ && (further.empty() ? packets[i].message[size_ - 1] : further.back()) != *channel_) continue;
       SPacket& packet = m_tReadings[count++];
       packet.Range = kCentimetres * packets[i].range_m;
       packet.HorizontalBearing.SetValue(packets[i].bearing_rad);
@@ -256,6 +283,7 @@ public:
       packet.Data.Resize(size_);
       std::copy_n(packets[i].message.begin(), size_ - further_, packet.Data.ToCArray());
       std::copy(further.begin(), further.end(), packet.Data.ToCArray() + size_ - further_);
+      packet.Data.Resize(data_size_);
     }
     m_tReadings.resize(count);
   }
@@ -275,7 +303,9 @@ private:
   CCI_Robot& robot_;
   const double noise_m_;
   const swarmanoid::CCI_RangeAndBearingSensor& ours_;
-  const size_t size_;
+  const std::optional<std::uint8_t> channel_;
+  const size_t data_size_;
+  const size_t size_;     // with the byte of the channel
   const size_t further_;  // bytes behind the common ones
 };
 

@@ -9,13 +9,13 @@
 namespace swarmanoid::argos3
 {
 
-// noise_std_dev of range_and_bearing: adds a vector in any direction with a Gaussian length, m.
+// Adds the noise noise_std_dev of range_and_bearing: a vector in any direction with a Gaussian length (m).
 void DisturbDirection(RandomStream& random, double deviation_m, Vector3& to_sender);
 
-// noise_std_dev of cameras: adds the same in the plane, in proportion to the distance.
+// Adds the noise noise_std_dev of cameras: a vector in the plane, in proportion to the distance.
 void DisturbBlob(RandomStream& random, double deviation, double& distance, double& angle_rad);
 
-// vel_noise_range and dist_noise_range of differential_steering: uniform noise in cm/s and cm on each wheel.
+// The noise vel_noise_range and dist_noise_range of differential_steering, uniform in cm/s and cm on each wheel.
 class WheelNoise
 {
 public:

@@ -16,7 +16,7 @@ std::unique_ptr<SensorBridge> MakeFootBotSensor(const std::string& tag, const De
 std::unique_ptr<ActuatorBridge> MakeFootBotActuator(const std::string& tag, const DeviceSetup& setup);
 std::unique_ptr<SensorBridge> MakeEPuckSensor(const std::string& tag, const DeviceSetup& setup);
 std::unique_ptr<ActuatorBridge> MakeEPuckActuator(const std::string& tag, const DeviceSetup& setup);
-// For foot-bots and eye-bots.
+// Makes the camera of foot-bots and eye-bots.
 std::unique_ptr<SensorBridge> MakePerspectiveCamera(const DeviceSetup& setup);
 std::unique_ptr<ActuatorBridge> MakeEyeBotActuator(const std::string& tag, const DeviceSetup& setup);
 

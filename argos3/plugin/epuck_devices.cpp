@@ -1,3 +1,6 @@
+// The e-puck of ARGoS3 has no wheel encoders: its sensor repeats the commanded speeds, and noise is put on the commands
+// instead. The adapters here do the same, so that controllers that integrate the readings drift by the same amount.
+// Speeds are in cm/s, distances are in cm for the last tick.
 #include "argos3/plugin/device_parts.h"
 
 #include <argos3/plugins/robots/generic/control_interface/ci_differential_steering_actuator.h>
@@ -59,7 +62,7 @@ private:
       bias_ = kCentimetres * (deviation > 0 ? setup.robot.GetRandom().Gaussian(bias, deviation) : bias);
     }
     bool IsActive() const { return factor_ != 1 || factor_deviation_ > 0 || bias_ != 0; }
-    // cm/s
+    // Returns a speed with noise, in cm/s.
     double Disturbed(RandomStream& random, double speed) const
     {
       return (factor_deviation_ > 0 ? random.Gaussian(factor_, factor_deviation_) : factor_) * (speed + bias_);

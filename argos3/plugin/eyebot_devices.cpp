@@ -1,3 +1,7 @@
+// The flight devices of eye-bots, by a position and by a velocity. A command stays until the next one, so it is given
+// to the propellers again after each control step. A position without a yaw keeps the heading of the first command, and
+// a yaw without a position keeps the place; relative commands start from the place that the robot has when they are
+// given (m, rad).
 #include "argos3/plugin/device_parts.h"
 
 #include <argos3/plugins/robots/generic/control_interface/ci_quadrotor_position_actuator.h>

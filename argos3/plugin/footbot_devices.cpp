@@ -1,3 +1,7 @@
+// The devices that foot-bots alone have. ARGoS3's values are in cm where ours are in m. Wheel speeds are also recorded
+// where loop functions read them. The turret is turned by speed here, so a commanded angle becomes the speed
+// that the controller of ARGoS3's foot-bot model gives. A distance scanner reports -1 for an object that is too near,
+// and -2 for none.
 #include "argos3/plugin/device_parts.h"
 
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_base_ground_sensor.h>
@@ -16,6 +20,8 @@
 
 #include <algorithm>
 #include <map>
+#include <numbers>
+#include <optional>
 #include <utility>
 
 #include "argos3/plugin/device_noise.h"
@@ -232,19 +238,27 @@ public:
   }
   argos::CCI_Actuator& Actuator() override { return *this; }
   void SetRotation(const argos::CRadians& angle) override { angle_ = angle.GetValue(); }
-  void SetRotationSpeed(SInt32 speed) override { speed_ = speed; }
+  // A pulse is a revolution per minute.
+  void SetRotationSpeed(SInt32 pulses) override { speed_ = pulses * std::numbers::pi / 30; }
   void SetMode(ETurretModes mode) override { mode_ = mode; }
   void Reset() override
   {
     mode_ = MODE_OFF;
     angle_ = speed_ = 0;
+    error_.reset();
   }
-  // The rest of the angle is turned within a tick, as far as the motor can.
   void Commit() override
   {
     double speed = mode_ == MODE_SPEED_CONTROL ? speed_ : 0;
     if (mode_ == MODE_POSITION_CONTROL)
-      speed = std::remainder(angle_ - encoder_.GetTurretAngle(), 2 * std::numbers::pi) / robot_.GetTickSeconds();
+    {
+      // The gains are those of dynamics2d_footbot_model.cpp.
+      constexpr double kProportional = 0.4, kDerivative = 0.2;
+      const double error = std::remainder(angle_ - encoder_.GetTurretAngle(), 2 * std::numbers::pi);
+      const double change = (error - error_.value_or(error)) / robot_.GetTickSeconds();
+      speed = kProportional * error + kDerivative * change;
+      error_ = error;
+    }
     ours_.SetTurretAngularVelocity(speed);
   }
 
@@ -253,8 +267,9 @@ private:
   swarmanoid::CCI_FootBotTurretActuator& ours_;
   const swarmanoid::CCI_FootBotTurretEncoderSensor& encoder_;
   ETurretModes mode_ = MODE_OFF;
-  double angle_ = 0;
-  double speed_ = 0;
+  double angle_ = 0;             // rad
+  double speed_ = 0;             // rad/s
+  std::optional<double> error_;  // rad, in the last step of position control
 };
 
 class TurretEncoder : public SensorBridge, public argos::CCI_FootBotTurretEncoderSensor

@@ -25,6 +25,8 @@ namespace swarmanoid::argos3
 namespace
 {
 
+using enum ParameterType;
+
 class Argos3LoopFunctions : public CExperimentFunctions, private SteppedFunctions
 {
 public:
@@ -34,60 +36,24 @@ public:
         .label = "argos3_loop_functions",
         .brief = "runs loop functions that were written for ARGoS3",
         .parameters = {
-            {.name = "file",
-             .type = ParameterType::kText,
-             .default_value = "",
-             .description = "The library that holds them: a path; empty: there are none, only user functions."},
-            {.name = "label",
-             .type = ParameterType::kText,
-             .default_value = "",
-             .description = "The label under which the library registered them."},
-            {.name = "user_file",
-             .type = ParameterType::kText,
-             .default_value = "",
-             .description = "The library that holds Qt user functions: a path; empty for none."},
-            {.name = "user_label",
-             .type = ParameterType::kText,
-             .default_value = "",
-             .description = "The label under which that library registered them."},
-            {.name = "origin",
-             .type = ParameterType::kVector3,
-             .unit = "m",
-             .description = "Where the origin of the ARGoS3 arena is."},
-            {.name = "distributed",
-             .type = ParameterType::kText,
-             .default_value = "",
-             .description = "Of the distributed entities: prefix of the ids there, number of the first one, id here."},
-            {.name = "floor",
-             .type = ParameterType::kText,
-             .default_value = "",
-             .description = "The id of the floor; empty for none."},
-            {.name = "controllers",
-             .type = ParameterType::kText,
-             .default_value = "",
-             .description = "Libraries of the controllers, which those of loop functions may take for granted: paths "
-                            "with colons between them."},
-            {.name = "length",
-             .type = ParameterType::kInteger,
-             .unit = "ticks",
-             .default_value = "0",
-             .description = "How long a run is, and each that begins again; 0: until maxclock."},
-            {.name = "rehearsal",
-             .type = ParameterType::kBoolean,
-             .default_value = "false",
-             .description = "Only to find out what boxes and cylinders Init makes."},
-            {.name = "loop_functions",
-             .type = ParameterType::kTree,
-             .default_value = "",
-             .description = "The element of the ARGoS3 file, as it stands there."},
-            {.name = "user_functions",
-             .type = ParameterType::kTree,
-             .default_value = "",
-             .description = "Likewise, of the Qt user functions."},
-            {.name = "configuration",
-             .type = ParameterType::kTree,
-             .default_value = "",
-             .description = "The elements of the ARGoS3 file, for loop functions that ask for them."}}};
+            {"file", kText, "", "", "The library that holds them: a path; empty: there are none, only user functions."},
+            {"label", kText, "", "", "The label under which the library registered them."},
+            {"user_file", kText, "", "", "The library that holds Qt user functions: a path; empty for none."},
+            {"user_label", kText, "", "", "The label under which that library registered them."},
+            {"origin", kVector3, "m", std::nullopt, "Where the origin of the ARGoS3 arena is."},
+            {"distributed", kText, "", "",
+             "Of the distributed entities: prefix of the ids there, number of the first one, id here."},
+            {"floor", kText, "", "", "The id of the floor; empty for none."},
+            {"controllers", kText, "", "",
+             "Libraries of the controllers, which those of loop functions may take for granted: paths with colons "
+             "between them."},
+            {"length", kInteger, "ticks", "0", "How long a run is, and each that begins again; 0: until maxclock."},
+            {"rehearsal", kBoolean, "", "false", "Only to find out what boxes and cylinders Init makes."},
+            {"loop_functions", kTree, "", "", "The element of the ARGoS3 file, as it stands there."},
+            {"user_functions", kTree, "", "",
+             "The element of the Qt user functions in the ARGoS3 file, as it stands there."},
+            {"configuration", kTree, "", "",
+             "The elements of the ARGoS3 file, for loop functions that ask for them."}}};
   }
 
   ~Argos3LoopFunctions() override

@@ -24,7 +24,7 @@ void SetColumn(lua_State* lua, const CCI_Column& column, double value)
     lua_setfield(lua, -2, name.c_str());
 }
 
-// set(…): a number for each column.
+// Sets a number for each column: set(…).
 int SetColumns(lua_State* lua)
 {
   auto& actuator = Subject<CCI_Actuator>(lua);
@@ -37,7 +37,7 @@ int SetColumns(lua_State* lua)
   return 0;
 }
 
-// The list `rows`, one table for each.
+// Writes the list `rows`, one table for each.
 void ReadRows(lua_State* lua, const CCI_Sensor& sensor, const std::vector<CCI_Column>& row)
 {
   std::vector<double> values;

@@ -1,3 +1,10 @@
+// Each robot has an interpreter of its own, in which the script is run once; then step() is called in each control
+// step, with the readings written to the table `robot` before. Scripts must give the same run in every process,
+// although Lua orders tables by addresses, so a prelude replaces what depends on addresses or on the time of day.
+// Scripts of strangers may not harm the user's machine, so a second text takes away the functions that could.
+//
+// Errors of Lua are raised by longjmp, which must not cross C++ objects with destructors: every function that Lua calls
+// goes through Guarded, which turns exceptions into errors of Lua, and each entry from C++ is a protected call.
 #include "argos3/plugin/lua_controller.h"
 
 #include <argos3/core/utility/math/rng.h>
@@ -194,7 +201,7 @@ int Beside(lua_State* lua)
   return 1;
 }
 
-// robot.random: the functions of CRandom.
+// The next functions are those of robot.random, the functions of CRandom.
 
 int Uniform(lua_State* lua)
 {
@@ -228,6 +235,12 @@ int Bernoulli(lua_State* lua)
 int Exponential(lua_State* lua)
 {
   lua_pushnumber(lua, Subject<argos::CRandom::CRNG>(lua).Exponential(luaL_checknumber(lua, 1)));
+  return 1;
+}
+
+int Poisson(lua_State* lua)
+{
+  lua_pushinteger(lua, Subject<argos::CRandom::CRNG>(lua).Poisson(luaL_checknumber(lua, 1)));
   return 1;
 }
 
@@ -286,8 +299,9 @@ public:
     if (lua_ != nullptr) lua_close(lua_);
   }
 
-  void Init(argos::TConfigurationNode& /*params*/) override
+  void Init(argos::TConfigurationNode& params) override
   {
+    params_ = params.Attributes();
     random_ = argos::CRandom::CreateRNG("argos");
     lua_ = luaL_newstate();
     if (lua_ == nullptr) THROW_ARGOSEXCEPTION("no memory is left for Lua");
@@ -371,6 +385,7 @@ private:
     SetFunction<UniformInt>(lua_, "uniform_int", random_);
     SetFunction<Bernoulli>(lua_, "bernoulli", random_);
     SetFunction<Exponential>(lua_, "exponential", random_);
+    SetFunction<Poisson>(lua_, "poisson", random_);
     SetFunction<Gaussian>(lua_, "gaussian", random_);
     Leave(lua_);
     for (const auto& [tag, actuator] : GetAllActuators()) AddFunctions(lua_, tag, *actuator);
@@ -381,6 +396,13 @@ private:
     }
     for (const auto& [type, actuator] : script_.actuators) AddColumns(lua_, type, *actuator);
     for (const auto& [type, sensor] : script_.sensors) ReadColumns(lua_, type, *sensor);
+    Enter(lua_, "params");
+    for (const ticpp::Attribute& parameter : params_)
+    {
+      lua_pushlstring(lua_, parameter.Value().data(), parameter.Value().size());
+      lua_setfield(lua_, -2, parameter.Name().c_str());
+    }
+    Leave(lua_);
     lua_setglobal(lua_, "robot");
   }
 
@@ -406,6 +428,8 @@ private:
     std::ifstream file(script_.path, std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(file), {}};
     if (!file) THROW_ARGOSEXCEPTION("cannot read '" << script_.path << "': " << std::strerror(errno));
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
     // The first line may be for a shell.
     if (text.starts_with('#')) text.insert(0, "--");
     return text;
@@ -439,6 +463,7 @@ private:
   LuaScript script_;
   lua_State*& lua_ = m_ptLuaState;
   argos::CRandom::CRNG* random_ = nullptr;
+  std::vector<ticpp::Attribute> params_;
 };
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace swarmanoid::argos3
 {
 
-// Add the functions of a device. `robot` must be on top of the stack.
+// Adds the functions of a device. `robot` must be on top of the stack.
 void AddTurret(lua_State* lua, argos::CCI_FootBotTurretActuator& turret);
 void AddScanner(lua_State* lua, argos::CCI_FootBotDistanceScannerActuator& scanner);
 void AddGripper(lua_State* lua, argos::CCI_FootBotGripperActuator& gripper);

@@ -1,3 +1,7 @@
+// The table `robot` of a script has one sub-table for each device, with the names, units and lists (from 1) of ARGoS3.
+// Functions are added once, with a pointer to the device; readings are written again before every control step, into
+// the same tables, so that a script may keep a reference to them. The tag of a device decides which functions and
+// readings it has, and the cast by reference throws if a robot's device is another one.
 #include "argos3/plugin/lua_devices.h"
 
 #include <argos3/plugins/robots/e-puck/control_interface/ci_epuck_proximity_sensor.h>
@@ -32,7 +36,7 @@ namespace swarmanoid::argos3
 namespace
 {
 
-// robot.wheels, cm/s
+// The next functions are those of robot.wheels, in cm/s.
 
 int SetVelocity(lua_State* lua)
 {
@@ -61,7 +65,7 @@ void ReadWheels(lua_State* lua, argos::CCI_DifferentialSteeringSensor& encoders)
   Leave(lua);
 }
 
-// robot.leds: colours by name, or by red, green and blue of 0 to 255
+// The next functions are those of robot.leds, with colours by name, or by red, green and blue of 0 to 255.
 
 argos::CColor ColourAt(lua_State* lua, int index)
 {
@@ -108,7 +112,7 @@ void AddLeds(lua_State* lua, argos::CCI_LEDsActuator& leds)
   Leave(lua);
 }
 
-// robot.range_and_bearing: bytes; cm, rad
+// The next functions are those of robot.range_and_bearing, with bytes, cm and rad.
 
 // A number that is too large for a byte loses its higher bits, as in ARGoS3.
 UInt8 ByteAt(lua_State* lua, int index)
@@ -179,7 +183,7 @@ void ReadPackets(lua_State* lua, argos::CCI_RangeAndBearingSensor& receiver)
   Leave(lua);
 }
 
-// robot.colored_blob_omnidirectional_camera: cm, rad
+// The next functions are those of robot.colored_blob_omnidirectional_camera, in cm and rad.
 
 int EnableCamera(lua_State* lua)
 {
@@ -240,7 +244,7 @@ void ReadBlobs(lua_State* lua, argos::CCI_ColoredBlobOmnidirectionalCameraSensor
               });
 }
 
-// robot.colored_blob_perspective_camera: pixels
+// Writes robot.colored_blob_perspective_camera, in pixels.
 void ReadImage(lua_State* lua, argos::CCI_ColoredBlobPerspectiveCameraSensor& camera)
 {
   ReadBlobsOf(lua, kPerspectiveCamera, camera,
@@ -301,7 +305,7 @@ void ReadNumbers(lua_State* lua, const std::vector<Real>& readings, const char* 
   Leave(lua);
 }
 
-// robot.positioning: m; the quaternion is an angle about an axis, too
+// The next functions are those of robot.positioning, in m; the quaternion is also given as an angle about an axis.
 
 void ReadPosition(lua_State* lua, argos::CCI_PositioningSensor& sensor)
 {

@@ -12,8 +12,8 @@
 namespace swarmanoid::argos3
 {
 
-// Add the functions of a device. `robot` must be on top of the stack. They throw CARGoSException for a device that has
-// no place in it.
+// Adds the functions of a device. `robot` must be on top of the stack. Throws CARGoSException for a device that has no
+// place in it.
 void AddFunctions(lua_State* lua, const std::string& tag, argos::CCI_Actuator& actuator);
 void AddFunctions(lua_State* lua, const std::string& tag, argos::CCI_Sensor& sensor);
 // Writes the current readings of the sensor.

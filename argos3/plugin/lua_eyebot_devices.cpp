@@ -8,7 +8,7 @@ namespace swarmanoid::argos3
 namespace
 {
 
-// robot.quadrotor: m, degrees; m/s, rad/s
+// The next functions are those of robot.quadrotor, in m and degrees, and in m/s and rad/s.
 
 template <void (argos::CCI_QuadRotorPositionActuator::*Go)(const argos::CVector3&)>
 int FlyTo(lua_State* lua)

@@ -17,7 +17,7 @@ int Call(lua_State* lua)
   return 0;
 }
 
-// robot.turret: rad, rad/s
+// The next functions are those of robot.turret, in rad and rad/s.
 
 int SetRotation(lua_State* lua)
 {
@@ -42,7 +42,7 @@ int SetTurretMode(lua_State* lua)
   return 0;
 }
 
-// robot.distance_scanner: rad, turns a minute; cm, rad
+// The next functions are those of robot.distance_scanner, in rad and turns a minute; readings are in cm and rad.
 
 int SetScannerAngle(lua_State* lua)
 {

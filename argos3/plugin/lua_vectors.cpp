@@ -1,3 +1,7 @@
+// The three types are full userdata of Lua: the value itself lies in the memory that Lua manages, and it has no
+// destructor to be called. One set of templates serves all three; the traits of a type name its elements, and its
+// operators are those of the C++ class. Values are checked by their metatable, so a wrong argument is an error in the
+// script and not a wrong access.
 #include "argos3/plugin/lua_vectors.h"
 
 #include <cstring>
@@ -170,7 +174,7 @@ int Scale(lua_State* lua)
 
 int MultiplyQuaternions(lua_State* lua) { return Push(lua, At<CQuaternion>(lua, 1) * At<CQuaternion>(lua, 2)); }
 
-// For functions that change the first value and return it.
+// Returns the first value, for functions that change it.
 int Itself(lua_State* lua)
 {
   lua_settop(lua, 1);

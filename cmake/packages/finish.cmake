@@ -1,5 +1,6 @@
 # CPack runs this file between installing and packing. It adds the files that Debian requires in every package.
-set(names_runtime swarmanoid)
+set(names_core swarmanoid-core)
+set(names_pictures swarmanoid)
 set(names_dev swarmanoid-dev)
 set(names_doc swarmanoid-doc)
 set(names_python python3-swarmanoid)

@@ -79,7 +79,7 @@ private:
   std::uint64_t outer_tick_;
 };
 
-// Why a process ended, as far as it could report it.
+// A process reports by these values why it ended, as far as it can.
 enum class EndReason : std::uint32_t
 {
   kUnknown,      // the process runs, or could not report
@@ -88,7 +88,7 @@ enum class EndReason : std::uint32_t
   kDied,         // the code that ran crashed, ended the process, or did not return
   kInvalid,      // the experiment is wrong
   kOthers,       // the run ended without this process
-  kInterrupted,  // by a signal from outside
+  kInterrupted,  // a signal from outside ended the process
 };
 
 // The report of a process to the process that started it, in memory that both have mapped. Only the reporting process

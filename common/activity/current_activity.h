@@ -1,4 +1,4 @@
-// The internals of Activity, for the sources of this folder.
+// This header has the internals of Activity, for the sources of this folder.
 #pragma once
 
 #include "common/activity/activity.h"
@@ -7,7 +7,7 @@
 namespace swarmanoid::activity
 {
 
-// Safe in signal handlers. The actor may be destroyed at the same moment, but never before.
+// Signal handlers may use it. The actor may be destroyed at the same moment, but never before.
 struct Current
 {
   const Actor* actor = nullptr;  // nullptr: no plug-in's code runs

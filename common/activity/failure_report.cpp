@@ -20,10 +20,10 @@
 
 #include "common/activity/current_activity.h"
 #include "common/activity/exit_calls.h"
-#include "common/activity/exit_codes.h"
-#include "common/activity/memory_limit.h"
-#include "common/activity/shared_memory.h"
 #include "common/activity/signal_stack.h"
+#include "common/errors/exit_codes.h"
+#include "common/memory/memory_limit.h"
+#include "common/memory/shared_memory.h"
 
 namespace swarmanoid
 {
@@ -78,10 +78,10 @@ void CallLast(std::string_view line, int exit_code)
 void Report(std::string_view what, bool of_activity, int exit_code = kExitProcessFailed)
 {
   const pid_t thread = static_cast<pid_t>(syscall(SYS_gettid));
-  pid_t nobody = 0;
-  if (!dying.compare_exchange_strong(nobody, thread))
+  pid_t none = 0;
+  if (!dying.compare_exchange_strong(none, thread))
   {
-    if (nobody == thread) syscall(SYS_exit_group, kExitProcessFailed);
+    if (none == thread) syscall(SYS_exit_group, kExitProcessFailed);
     while (true) pause();
   }
   LineWriter line;
@@ -154,7 +154,7 @@ void OnDeadlySignal(int signal, siginfo_t* about, void*)
 void OnTerminate()
 {
   if (!std::current_exception()) DieOf("called std::terminate");
-  DieOf("ended by an exception that nobody caught: " + CurrentExceptionText());
+  DieOf("ended by an uncaught exception: " + CurrentExceptionText());
 }
 
 std::string TypeName(const std::type_info& type)

@@ -13,7 +13,7 @@
 namespace swarmanoid
 {
 
-// A plug-in's code failed. what() begins with its name, step and tick.
+// It is thrown if the code of a plug-in failed. what() begins with the name, the step and the tick of the code.
 class ActivityError : public std::runtime_error
 {
 public:

@@ -1,6 +1,6 @@
 // SharedActivity: a step in which several threads run the code of different actors at the same time. If a thread dies,
-// the report names the actor of that thread. A reader in another process is told one of the actors that still run. Used
-// by ControllerHost.
+// the report names the actor of that thread. A reader in another process is told one of the actors that still run.
+// ControllerHost uses it.
 #pragma once
 
 #include "common/activity/activity.h"

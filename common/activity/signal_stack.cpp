@@ -16,7 +16,7 @@ constexpr std::size_t kSize = 64 * 1024;
 // Functions with large local arrays can pass the end of the stack by more than a page.
 constexpr std::uintptr_t kBelow = 8U << 20;
 
-// The lowest address of this thread's stack; 0: the thread has no signal stack.
+// It is the lowest address of this thread's stack, or 0 if the thread has no signal stack.
 __attribute__((tls_model("initial-exec"))) thread_local std::uintptr_t lowest = 0;
 
 std::uintptr_t LowestOfStack()

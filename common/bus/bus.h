@@ -1,10 +1,11 @@
-// The bus: one DDS participant of this process, and typed publishers and subscriptions on it. Used by the four
-// programs, the launcher and tests. No header of Fast DDS is needed to use it.
+// The bus: one DDS participant of this process, and typed publishers and subscriptions on it. The four
+// programs, the launcher and tests use it. No header of Fast DDS is needed to use it.
 //
 // Callbacks run in threads of the bus, at most one at a time for each subscription. Destroy publishers and
 // subscriptions before their bus.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -13,11 +14,13 @@
 #include <string>
 #include <vector>
 
-#include "common/bus/security/run_key.h"
-#include "common/bus/topics/session_messages.h"
+#include "common/bus/run_key.h"
+#include "idl/messages.h"
 
 namespace swarmanoid
 {
+
+struct MessageHeader;
 
 class BusError : public std::runtime_error
 {
@@ -51,7 +54,8 @@ struct BadMessageReport
   std::string sender{};  // for people: the name that the sender gave, or an unknown process
 };
 
-// True once a process died while it held a lock in shared memory: threads of the bus wait for it and cannot be ended.
+// Returns true once a process died while it held a lock in shared memory: threads of the bus wait for it and cannot be
+// ended.
 bool BusIsBroken();
 // Ends the program without waiting for threads of the bus. A failed run ends so, because a process may have died with a
 // lock.
@@ -59,8 +63,8 @@ bool BusIsBroken();
 
 inline constexpr int kDefaultDomain = 77;
 
-// A separate channel with its own key. It connects the space server to programs that observe or steer a run without
-// being members (access_grant.h).
+// A grant has a channel of its own, with its own key. It connects the space server to programs that observe or steer a
+// run without being members (access_grant.h).
 struct GrantChannel
 {
   std::string id;
@@ -70,7 +74,8 @@ struct GrantChannel
 struct BusOptions
 {
   int domain = kDefaultDomain;  // 0 to 232; processes of different domains never hear each other
-  // "lo": this machine only. "all", or the name or IPv4 address of a network interface: other machines too.
+  // "lo" reaches this machine only. "all", or the name or IPv4 address of a network interface, reaches other machines
+  // too.
   std::string network_interface = "lo";
   // Machines (names or IPv4 addresses) that take part, if the network has no multicast. Every process names all.
   std::vector<std::string> peers;
@@ -82,8 +87,8 @@ struct BusOptions
   // Largest datagram, larger messages are cut. Otherwise as large as possible on this machine, and one packet on a
   // network: of a larger one that is cut into packets all are lost with one.
   std::optional<int> datagram_bytes;
-  // The source of the run's key: the key itself, a descriptor or a file. Without one, a space server makes a new key.
-  // Other processes use the keys of this user's runs on this machine.
+  // The key of the run comes from one of these: the key itself, a descriptor or a file. Without one, a space server
+  // makes a new key. Other processes use the keys of this user's runs on this machine.
   std::optional<RunKey> key{};
   int key_fd = -1;
   std::string key_file{};
@@ -104,20 +109,23 @@ public:
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
 
-  // Called with "host:pid" and the name when another process of the run has gone (without a Leave if `died`). Any
-  // process can forge a Leave. So the bus believes it only if the named process is silent afterwards.
+  // The bus calls `callback` with "host:pid" and the name when another process of the run has gone (without a Leave if
+  // `died`). Any process can forge a Leave. So the bus believes it only if the named process is silent afterwards.
   void OnProcessGone(std::function<void(const std::string& process, const std::string& name, bool died)> callback);
 
-  // Called with each bad message. True: its sender belongs to the run, which ends because of it. Otherwise the bus
-  // drops and counts the message. It reports the first one of a sender on a topic on standard error.
+  // The bus calls `callback` with each bad message. It must return true if the sender belongs to the run, which then
+  // ends because of it. Otherwise the bus drops and counts the message. It reports the first one of a sender on a topic
+  // on standard error.
   void OnBadMessage(std::function<bool(const BadMessageReport&)> callback);
   // Returns whether this process holds the key of the run of that experiment, or needs none.
   bool MaySpeakTo(const std::string& experiment);
-  // Called once for each process and topic when a message was refused because it is not sealed by the key of the run,
-  // or repeats one; with what is wrong with it.
+  // The bus calls `callback` once for each process and topic when it refuses a message that is not sealed by the key of
+  // the run, or repeats one. The report tells what is wrong.
   void OnRefused(std::function<void(const BadMessageReport&)> callback);
-  // Bad messages that were dropped.
+  // Returns the number of bad messages that were dropped.
   std::uint64_t Dropped() const;
+  // Returns the time since another process joined the domain, whether it belongs to the run or not.
+  std::chrono::duration<double> SinceLastJoin() const;
 
   struct Impl;
   Impl& Internals() { return *impl_; }
@@ -130,11 +138,7 @@ private:
 // BusError.
 std::optional<RunKey> GivenKey(const BusOptions& options);
 
-// The IPv4 address under which processes of other machines reach this one; "127.0.0.1" if the bus uses no network.
-// Throws BusError.
-std::string ReachableAddress(const BusOptions& options);
-
-// "host:pid" of this process.
+// Returns "host:pid" of this process.
 std::string ProcessId();
 std::string MachineName();
 // Returns whether a process of this machine exists.
@@ -146,11 +150,11 @@ std::string UserName();
 struct HotScope
 {
   std::string experiment;    // partition
-  std::string directory;     // of this machine's shared memory for the run (run_directory.h)
+  std::string directory;     // folder of this machine's shared memory for the run (run_directory.h)
   bool spread = false;       // WorldMessage::spread
   std::size_t capacity = 0;  // bytes of the largest message (TickLimits)
-  unsigned writers = 1;      // of the topic
-  std::string listener{};    // if it is for one process alone: its name
+  unsigned writers = 1;      // number of the topic's writers
+  std::string listener{};    // name of the receiver, if the topic has only one
 };
 
 // Messages of a tick: SpaceState, LocalState, ControlCommands, EngineUpdate, SensorFrame, DrawnMessage, those of
@@ -162,7 +166,7 @@ public:
   HotPublisher(Bus& bus, const HotScope& scope);
   ~HotPublisher();
 
-  // Copies the message to the readers. One thread at a time. Throws BusError.
+  // Copies the message to the readers. One thread at a time may use it. Throws BusError.
   void Write(const MessageHeader& header, const Message& message);
   unsigned Readers() const;
 
@@ -177,8 +181,8 @@ class HotSubscription
 public:
   struct Handler
   {
-    // The place for a message that has arrived, or nullptr to drop it. The place is filled after the call, wholly only
-    // if the message is received. May throw BadMessage.
+    // Returns the memory for a message that has arrived, or nullptr to drop it. The message is written after the call;
+    // it is complete only if it is received. May throw BadMessage.
     std::function<Message*(const MessageHeader&)> choose;
     // The message has been filled in.
     std::function<void(const MessageHeader&, Message&)> received;
@@ -196,8 +200,9 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
-// All other messages. `partition`: the experiment's name; for subscriptions a pattern such as "*" is allowed. What is
-// called with a message may throw BadMessage. `grant`: the channel that is used instead of that of the bus.
+// Sends and receives all other messages. `partition`: the experiment's name; for subscriptions a pattern such as "*" is
+// allowed. What is called with a message may throw BadMessage. `grant`: the channel that is used instead of that of the
+// bus.
 template <class Message>
 class Publisher
 {
@@ -205,11 +210,11 @@ public:
   Publisher(Bus& bus, const std::string& partition, const std::optional<GrantChannel>& grant = std::nullopt);
   ~Publisher();
 
-  // Throws BadMessage if a name in the message cannot be sent, BusError if the bus does not take it, or if this process
-  // has no key of the run.
+  // Throws BadMessage if a name in the message cannot be sent. Throws BusError if the bus does not take it, or if this
+  // process has no key of the run.
   void Write(const Message& message);
   unsigned Readers() const;
-  // False if not all readers confirmed in time.
+  // Returns false if not all readers confirmed in time.
   bool WaitUntilRead(double seconds);
 
 private:

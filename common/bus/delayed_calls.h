@@ -11,7 +11,7 @@
 #include <string>
 #include <thread>
 
-#include "common/bus/membership/listening_clock.h"
+#include "common/bus/listening_clock.h"
 
 namespace swarmanoid
 {
@@ -44,6 +44,7 @@ private:
 
   void Work();
 
+  // Guards the members below but thread_.
   std::mutex mutex_;
   std::condition_variable changed_;
   ListeningClock listening_;

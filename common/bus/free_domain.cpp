@@ -13,7 +13,7 @@
 #include <string>
 
 #include "common/bus/bus.h"
-#include "common/bus/membership/run_directory.h"
+#include "common/bus/run_directory.h"
 
 namespace swarmanoid
 {

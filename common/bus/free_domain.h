@@ -1,4 +1,4 @@
-// Chooses a DDS domain that no process on this machine uses. Used by the launcher and tests.
+// Chooses a DDS domain that no process on this machine uses. The launcher and tests use it.
 #pragma once
 
 namespace swarmanoid

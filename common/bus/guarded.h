@@ -1,5 +1,5 @@
-// Guarded: a value that several threads share, and its lock. There is no way to the value but through the lock, so that
-// none can be forgotten.
+// Guarded: a value that several threads share, with its lock. The value can be reached only through the lock, so that
+// no code can forget it.
 #pragma once
 
 #include <mutex>

@@ -76,13 +76,15 @@ std::span<const char> Checkpoint::StateOf(const std::string& name) const
 
 std::uint64_t FingerprintOf(const Experiment& experiment)
 {
-  // A restored run may be longer than the original run.
+  // A restored run may be longer than the original run, and its files may have been moved. CheckpointOrigin::libraries
+  // has their contents.
   std::string text = experiment.effective_xml;
-  const std::string_view open = "<maxclock>";
-  const std::size_t start = text.find(open);
-  const std::size_t end = text.find("</maxclock>", start);
-  if (start != std::string::npos && end != std::string::npos)
-    text.erase(start + open.size(), end - start - open.size());
+  for (const std::string name : {"maxclock>", "folder>"})
+  {
+    const std::size_t start = text.find("<" + name);
+    const std::size_t end = text.find("</" + name, start);
+    if (start != std::string::npos && end != std::string::npos) text.erase(start, end - start);
+  }
   return XXH3_64bits(text.data(), text.size());
 }
 
@@ -120,10 +122,11 @@ Checkpoint DecodeCheckpoint(std::span<const char> bytes)
   const std::size_t end = bytes.size() - kCheckpointChecksumBytes;
   if (NumberAt(bytes, end) != ChecksumOf(bytes))
     throw std::runtime_error("it is damaged: its checksum is not that of its content; go on from another one");
-  FieldReader fields(bytes.subspan(kCheckpointHeaderBytes, end - kCheckpointHeaderBytes));
+  ByteReader content(bytes.subspan(kCheckpointHeaderBytes, end - kCheckpointHeaderBytes));
+  FieldReader fields(content);
   Checkpoint checkpoint;
   ForEachCheckpointField(fields, checkpoint);
-  if (!fields.AtEnd()) throw std::runtime_error("it is longer than its content");
+  if (!content.AtEnd()) throw std::runtime_error("it is longer than its content");
   return checkpoint;
 }
 
@@ -158,7 +161,7 @@ Checkpoint ReadCheckpoint(const std::string& path, const Experiment& experiment,
       const std::string difference = DifferenceOfBuilds(checkpoint.origin.libraries, LibraryBuildsOf(experiment));
       if (!difference.empty())
         throw std::runtime_error("it was taken with " + difference +
-                                 "; go on with that one, start anew with this one, or let --any-build take it, which "
+                                 "; go on with that one, start again with this one, or let --any-build take it, which "
                                  "promises no equal bits");
     }
     checkpoint.parts = SharedOut(std::move(checkpoint.parts), experiment,

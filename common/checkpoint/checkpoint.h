@@ -16,7 +16,8 @@
 namespace swarmanoid
 {
 
-// The saved state of one role. Names are those of the processes of a cluster: "engine 'ground'", "controller host 0".
+// It has the saved state of one role. Names are those of the processes of a cluster: "engine 'ground'", "controller
+// host 0".
 struct SavedPart
 {
   std::string name;
@@ -59,7 +60,7 @@ struct Checkpoint
   std::span<const char> StateOf(const std::string& name) const;
 };
 
-// Returns equal numbers for experiments whose runs differ only in their length.
+// Returns equal numbers for experiments that differ only in the length of the run and in the folder of their files.
 std::uint64_t FingerprintOf(const Experiment& experiment);
 
 // Returns the bytes of the file.
@@ -80,13 +81,13 @@ struct RestoreOptions
   unsigned hosts = 1;
   bool any_build = false;  // accepts what other builds of the libraries saved
 };
-// Throws std::runtime_error, with the path and the cure, if the file cannot be read, is damaged, is of another
-// experiment or of other builds of its libraries.
+// Reads a checkpoint of the experiment. Throws std::runtime_error, with the path and the cure, if the file cannot be
+// read or is damaged. Throws the same if it is of another experiment, or of other builds of its libraries.
 Checkpoint ReadCheckpoint(const std::string& path, const Experiment& experiment, const RestoreOptions& options);
 
 // Returns a name such as "checkpoint-00000500".
 std::string CheckpointName(std::uint64_t tick);
-// Throws std::invalid_argument, with the cure, if checkpoints cannot be taken every so many ticks.
+// Checks that checkpoints can be taken every so many ticks. Throws std::invalid_argument with the cure otherwise.
 void CheckCheckpointPeriod(std::uint64_t every, const Experiment& experiment);
 
 }  // namespace swarmanoid

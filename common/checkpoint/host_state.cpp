@@ -1,3 +1,7 @@
+// A run may continue with another number of controller hosts than saved it. The states of all old hosts are joined in
+// one map by robot and dealt out by the new table. The states that sensors share between robots go to each new host.
+//
+// Invariant: the state of each robot goes to exactly one host; a robot without a state is an error.
 #include "common/checkpoint/host_state.h"
 
 #include <fmt/format.h>
@@ -7,40 +11,6 @@
 
 namespace swarmanoid
 {
-
-void Write(const HostState& state, ByteWriter& bytes)
-{
-  bytes.Put(static_cast<std::uint64_t>(state.sensors.size()));
-  for (const auto& [sensor, text] : state.sensors)
-  {
-    bytes.Put(sensor.first);
-    bytes.Put(sensor.second);
-    bytes.PutText(text);
-  }
-  bytes.Put(static_cast<std::uint64_t>(state.robots.size()));
-  for (const auto& [robot, text] : state.robots)
-  {
-    bytes.Put(robot);
-    bytes.PutText(text);
-  }
-}
-
-HostState ReadHostState(ByteReader& bytes)
-{
-  HostState state;
-  for (auto left = bytes.Get<std::uint64_t>(); left > 0; --left)
-  {
-    const auto controller = bytes.Get<std::uint32_t>();
-    const auto sensor = bytes.Get<std::uint32_t>();
-    state.sensors[{controller, sensor}] = bytes.GetText();
-  }
-  for (auto left = bytes.Get<std::uint64_t>(); left > 0; --left)
-  {
-    const auto robot = bytes.Get<std::uint32_t>();
-    state.robots[robot] = bytes.GetText();
-  }
-  return state;
-}
 
 std::vector<std::string> PartsOf(const Experiment& experiment, std::size_t hosts)
 {
@@ -61,7 +31,7 @@ std::vector<SavedPart> SharedOut(std::vector<SavedPart> parts, const Experiment&
         std::find_if(parts.begin(), parts.end(), [&](const SavedPart& other) { return other.name == HostName(h); });
     if (part == parts.end()) break;
     ByteReader bytes(part->state);
-    HostState state = ReadHostState(bytes);
+    auto state = ReadFields<HostState>(bytes);
     all.sensors.merge(state.sensors);
     all.robots.merge(state.robots);
     parts.erase(part);
@@ -82,7 +52,7 @@ std::vector<SavedPart> SharedOut(std::vector<SavedPart> parts, const Experiment&
       state.robots.insert(all.robots.extract(found));
     }
     ByteWriter bytes;
-    Write(state, bytes);
+    WriteFields(bytes, state);
     parts.push_back({HostName(h), bytes.Bytes()});
   }
   return parts;

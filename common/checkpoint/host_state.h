@@ -10,7 +10,7 @@
 #include "common/checkpoint/checkpoint.h"
 #include "common/experiment/experiment.h"
 #include "common/messages/assignment.h"
-#include "common/serialisation/bytes.h"
+#include "common/serialisation/fields.h"
 
 namespace swarmanoid
 {
@@ -21,11 +21,24 @@ struct HostState
   // at all hosts.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> sensors;
   std::map<std::uint32_t, std::string> robots;  // by entity: the state of its controller and its devices
-};
 
-void Write(const HostState& state, ByteWriter& bytes);
-// Throws std::runtime_error if the image ends too early.
-HostState ReadHostState(ByteReader& bytes);
+  static void Visit(auto& archive, auto& state)
+  {
+    archive.Map(state.sensors,
+                [&](auto& sensor, auto& text)
+                {
+                  archive.Number(sensor.first);
+                  archive.Number(sensor.second);
+                  archive.Text(text);
+                });
+    archive.Map(state.robots,
+                [&](auto& robot, auto& text)
+                {
+                  archive.Number(robot);
+                  archive.Text(text);
+                });
+  }
+};
 
 // Returns the names of the parts that the processes of a run with so many controller hosts save.
 std::vector<std::string> PartsOf(const Experiment& experiment, std::size_t hosts);

@@ -18,7 +18,7 @@ namespace swarmanoid
 class ConfigurationReads
 {
 public:
-  // For TConfigurationTree. `name`: an attribute or a child element.
+  // TConfigurationTree calls it. `name`: an attribute or a child element.
   void AskFor(const ConfigurationNode& node, std::string_view name);  // an attribute or a child element
   void ReadText(const ConfigurationNode& node);
   void ReadChildren(const ConfigurationNode& node);  // the list of the children; each child has still to be read

@@ -1,5 +1,5 @@
 // TConfigurationTree: a handle to one element of an experiment file. Controllers, devices, engines and renderers get
-// the subtree that concerns them. Immutable; copying shares the element. Knows nothing of the simulator.
+// their subtree. The tree is immutable, and copies share the element. It does not depend on the simulator.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 namespace swarmanoid
 {
 
-// Where an element or attribute stands in its file; line and column count from 1, 0 if unknown.
+// An element or attribute stands at this place of its file. Line and column count from 1, and are 0 if unknown.
 struct SourceLocation
 {
   std::shared_ptr<const std::string> file;
@@ -27,7 +27,8 @@ struct SourceLocation
   std::string Text() const;
 };
 
-// A user's mistake in an experiment file. what() is "file:line:col: what is wrong; the cure".
+// A user's mistake in an experiment file is thrown as this error. what() is "file:line:col: " and the mistake, with its
+// cure.
 class ConfigurationError : public std::runtime_error
 {
 public:
@@ -42,7 +43,7 @@ private:
   std::string message_;
 };
 
-// One element as parsed. The reader of the file builds it; the element that contains it owns it.
+// A node is one element as parsed. The reader of the file builds it; the element that contains it owns it.
 struct ConfigurationNode
 {
   struct Attribute

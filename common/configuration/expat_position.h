@@ -1,4 +1,5 @@
-// The position of an event of expat in the text. Expat 2.9 renamed the functions; this header works with all releases.
+// These functions give the position of an event of expat in the text. Expat 2.9 renamed them; this header works with
+// all releases.
 #pragma once
 
 #include <expat.h>

@@ -136,7 +136,7 @@ bool MayReplace(const Folder& root, const Folder& parent, const std::string& fil
   struct stat manifest
   {
   };
-  // The folder of a run was empty when the run began.
+  // The folder of a run was empty when the run began, so all files in it are the run's.
   const bool is_of_run = status.st_uid == geteuid() && status.st_nlink == 1 && root.Stat(kManifest, manifest) &&
                          S_ISREG(manifest.st_mode) && manifest.st_uid == geteuid();
   if (!is_of_run && !MadeFiles::Instance().Has(path))

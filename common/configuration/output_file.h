@@ -26,11 +26,12 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-// For a process that shows a run through a renderer whose files the user names, rather than an experiment.
+// Lifts the rules for a process that shows a run through a renderer, since the user names its files, not the
+// experiment.
 void LetUserNameFiles();
 
 // The files that an experiment names. They lie below a folder, and replace only files that this run made. Both rules
-// are lifted if the user names the files or trusts the experiment (trust.h). One thread at a time.
+// are lifted if the user names the files or trusts the experiment (trust.h). One thread at a time may use it.
 class OutputFiles
 {
 public:
@@ -38,7 +39,7 @@ public:
   // `folder`: the start of relative names; empty: the working folder.
   explicit OutputFiles(std::string folder) : folder_(std::move(folder)) {}
 
-  // Throws OutputFileError, with the cure, if a file of that name must not be written.
+  // Checks whether a file of that name may be written. Throws OutputFileError, with the cure, otherwise.
   void Check(const std::string& name) const;
   // Makes the folders of the file and, if it does not exist, the file. Returns its path for writing. Throws as Check
   // does.

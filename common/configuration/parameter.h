@@ -1,5 +1,5 @@
-// The declaration of one configuration parameter. Parsing, defaults, checks, error messages, the reference page and the
-// XSD follow from it. Plug-ins declare their parameters when they register.
+// A parameter of the configuration is declared once. Parsing, defaults, checks, error messages, the reference page and
+// the XSD follow from the declaration. Plug-ins declare their parameters when they register.
 #pragma once
 
 #include <cstdint>

@@ -12,8 +12,8 @@ namespace swarmanoid
 inline constexpr std::size_t kLongestName = 1024;       // bytes of ids and names of processes in a message
 inline constexpr std::size_t kLongestText = 64 * 1024;  // bytes of a text for people in a message
 
-// Returns whether the text is well-formed UTF-8 without control characters other than line feed and tab. Such a text
-// cannot move the cursor or change the title.
+// Returns whether the text is well-formed UTF-8 without control characters other than line feed and tab. Then it cannot
+// move the cursor or change the title.
 bool IsShowable(std::string_view text);
 // Returns whether the text is showable and has neither line feed nor tab.
 bool IsShowableLine(std::string_view text);

@@ -10,7 +10,7 @@ namespace swarmanoid
 inline constexpr const char* kTrustFlag = "--trust";
 inline constexpr const char* kTrustVariable = "SWARMANOID_TRUST";
 
-// Trusts all experiments of this process from now on, and of those that it starts on this machine.
+// Trusts all experiments of this process, and of the processes that it starts on this machine, from now on.
 void TrustExperiments();
 bool ExperimentsAreTrusted();
 

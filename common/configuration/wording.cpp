@@ -1,3 +1,7 @@
+// The hint "did you mean" is the known name with the smallest edit distance: insertions, deletions, changes and
+// exchanges of neighbours count one each (F. J. Damerau, "A technique for computer detection and correction of spelling
+// errors", Communications of the ACM 7(3), 1964). The more letters a name has, the more mistakes are forgiven. Long
+// names are skipped, since the time grows with the product of the lengths.
 #include "common/configuration/wording.h"
 
 #include <algorithm>
@@ -9,7 +13,7 @@ namespace
 {
 
 constexpr std::size_t kLongestQuote = 60;
-constexpr std::size_t kLongestName = 64;
+constexpr std::size_t kLongestGuess = 64;
 constexpr std::size_t kLeastBeginning = 4;  // letters that make the beginning of a name a hint
 
 // Returns the Levenshtein distance with exchanges of neighbours. Letters are compared without case.
@@ -55,13 +59,13 @@ std::string Listed(const std::vector<std::string>& names)
 
 std::string NearestName(std::string_view name, const std::vector<std::string>& candidates)
 {
-  if (name.size() > kLongestName) return {};
+  if (name.size() > kLongestGuess) return {};
   std::string nearest;
   // Distances count in halves, so that of two candidates at equal distance the one of equal length is nearer.
   std::size_t least = 2 * std::max<std::size_t>(1, name.size() / 3) + 2;
   for (const std::string& candidate : candidates)
   {
-    if (candidate.size() > kLongestName) continue;
+    if (candidate.size() > kLongestGuess) continue;
     std::size_t distance = 2 * EditDistance(name, candidate) + (name.size() == candidate.size() ? 0 : 1);
     const bool begun = std::min(name.size(), candidate.size()) >= kLeastBeginning &&
                        (candidate.starts_with(name) || name.starts_with(candidate));

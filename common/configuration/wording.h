@@ -1,4 +1,4 @@
-// The wording that all errors about experiment files share.
+// The wording of all errors about experiment files.
 #pragma once
 
 #include <string>

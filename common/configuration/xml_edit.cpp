@@ -1,3 +1,9 @@
+// A user's file keeps its comments, order and blanks when the editor changes a value, so the text is not written again
+// from a tree. Each change becomes a list of places in the text, with what replaces each. New elements take the
+// indentation and the line ends of their neighbours.
+//
+// Invariants: the edits of a list ascend and do not overlap; WithEdits followed by the edits of Inverse gives the same
+// bytes again, which is how EditedText takes back changes.
 #include "common/configuration/xml_edit.h"
 
 #include <algorithm>

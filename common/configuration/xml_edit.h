@@ -1,6 +1,6 @@
 // Changes XML text and leaves every other byte as it is: comments, order, blanks and quotes stay as the user wrote
-// them. Each function returns the pieces of text to replace. EditedText applies them and takes them back. Used by
-// `swarmanoid edit`.
+// them. Each function returns the pieces of text to replace. EditedText applies them and takes them back. `swarmanoid
+// edit` uses it.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ TextEdits SetValue(std::string_view text, const XmlElement& element, const std::
 // Removes a parameter in either form. Returns no edits if it does not exist.
 TextEdits DropValue(std::string_view text, const XmlElement& element, std::string_view name);
 
-// An element to be added: its values as attributes or as child elements.
+// A new element, with its values as attributes or as child elements.
 struct NewElement
 {
   std::string tag;
@@ -40,7 +40,7 @@ struct NewElement
 // Returns the text of the element. `indent` precedes its further lines.
 std::string TextOf(const NewElement& element, std::string_view indent, std::string_view line_end);
 
-// The layout of the children of an element, for new ones.
+// New children of an element are written with this layout.
 struct InsertionPlace
 {
   std::string indent;    // indent of the children
@@ -57,7 +57,7 @@ TextEdits RemoveElement(std::string_view text, const XmlElement& element);
 // Returns whether an element has a value as a child element, such as <position>1, 2, 0</position>.
 bool HasValuesAsElements(const XmlElement& element);
 
-// Text with its history. `name` of a change is for people: "move fb_1".
+// The text with its history of changes. The `name` of a change is for users: "move fb_1".
 class EditedText
 {
 public:

@@ -21,7 +21,7 @@ struct XmlMistake
   std::string message;
 };
 
-// Where and why the parser stopped; all offsets are in bytes of the text.
+// The parser stopped at this position, for this reason. All offsets are in bytes of the text.
 struct XmlRefusal
 {
   XML_Error error;

@@ -1,5 +1,5 @@
-// The byte positions of the parts of XML text, for edits that change one part and leave every other byte alone. Used by
-// xml_edit.
+// The byte positions of the parts of XML text, for edits that change one part and leave every other byte alone.
+// xml_edit uses it.
 #pragma once
 
 #include <cstddef>

@@ -9,9 +9,10 @@ namespace swarmanoid
 class CCI_BatterySensor : public CCI_SensorOf<CCI_BatterySensor>
 {
 public:
-  // 1 full, 0 empty.
+  // Returns the charge: 1 is full, 0 is empty.
   virtual double GetCharge() const = 0;
-  // How long the charge lasts if it goes on falling as in the last tick, s; infinite if it did not fall.
+  // Returns how long the charge lasts, in s, if it falls as in the last tick. It is infinite if the charge did not
+  // fall.
   virtual double GetTimeLeft() const = 0;
 
   static void Declare(Declaration& columns)

@@ -1,4 +1,4 @@
-// Colours as controllers write and see them: 0xRRGGBB. 0 is off.
+// Colours in the form in which controllers set and read them: 0xRRGGBB. 0 is off.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,8 @@ struct CCI_Colour
   static constexpr std::uint32_t MAGENTA = 0xff00ff;
   static constexpr std::uint32_t WHITE = 0xffffff;
 
-  // The one of the eight above that is nearest in hue: each channel above half of the strongest one is on.
+  // Returns the colour of the eight above that is nearest in hue: each channel above half of the strongest one is on.
+  // Colours whose channels are all below 32 are black.
   static constexpr std::uint32_t Nearest(std::uint32_t colour)
   {
     const std::uint32_t red = colour >> 16 & 0xff;

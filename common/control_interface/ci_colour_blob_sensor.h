@@ -1,5 +1,5 @@
-// Colour blob extraction: what remains of a camera's image when connected pixels of one colour become one blob. The
-// base of the cameras of all robots.
+// CCI_ColourBlobSensor: the base of the cameras of all robots. Connected pixels of one colour in a camera's image
+// become one blob.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ namespace swarmanoid
 struct CCI_ColourBlob
 {
   std::uint32_t colour = 0;  // 0xRRGGBB
-  double distance_m = 0;     // in the plane of the robot's base; cameras that look ahead: along the line of sight
+  double distance_m = 0;     // in the plane of the robot's base; for cameras that look ahead along the line of sight
   double angle_rad = 0;      // counter-clockwise from the robot's front, -pi..pi
-  double elevation_rad = 0;  // cameras that look ahead: above the horizontal; 0 for those that see the floor
+  double elevation_rad = 0;  // for cameras that look ahead, above the horizontal; 0 for cameras that see the floor
 };
 
 class CCI_ColourBlobSensor : public CCI_SensorOf<CCI_ColourBlobSensor>

@@ -38,7 +38,7 @@ struct CCI_Column
   enum class For
   {
     kEverybody,
-    kPrograms,  // people are shown something shorter
+    kPrograms,  // users are shown something shorter
     kPeople     // follows from columns for programs
   };
 
@@ -51,7 +51,7 @@ struct CCI_Column
   bool hides_zero = false;       // people are not shown zeros
   For audience = For::kEverybody;
 
-  // "left [rad/s]", "colour".
+  // Returns "left [rad/s]" or "colour": the name with its unit.
   std::string Title() const
   {
     const bool has_unit = !unit.empty() && unit != "colour" && unit != "yes/no";
@@ -60,10 +60,10 @@ struct CCI_Column
   bool IsFor(For reader) const { return audience == For::kEverybody || audience == reader; }
 };
 
-// Each byte of a message.
+// Returns the column for each byte of a message.
 inline CCI_Column ByteColumn() { return {.name = "byte #", .minimum = 0, .maximum = 255, .hides_zero = true}; }
 
-// Calls send(bytes) with the message that stands in numbers: how long it is, and its bytes.
+// Calls send(bytes) with a message in numbers: `numbers` has the count of bytes, followed by the bytes.
 template <std::size_t kMost, class Send>
 void SendNumbers(std::span<const double> numbers, Send send)
 {
@@ -76,9 +76,9 @@ void SendNumbers(std::span<const double> numbers, Send send)
 struct CCI_ColumnGroup
 {
   std::vector<CCI_Column> columns;
-  std::size_t count = 1;                                                // repetitions; 0: count_of says it
-  std::function<std::size_t(const CCI_Device&)> count_of{};             // where it differs from device to device
-  std::function<void(const CCI_Device&, std::vector<double>&)> read{};  // of readings: appends the numbers
+  std::size_t count = 1;                                                // repetitions; 0: count_of returns them
+  std::function<std::size_t(const CCI_Device&)> count_of{};             // set if the count differs between devices
+  std::function<void(const CCI_Device&, std::vector<double>&)> read{};  // for readings: appends the numbers
 
   std::size_t CountOf(const CCI_Device& device) const { return count == 0 ? count_of(device) : count; }
   bool IsFor(CCI_Column::For audience) const { return columns.front().IsFor(audience); }
@@ -87,10 +87,11 @@ struct CCI_ColumnGroup
 // The declaration of an interface, in the form for programs that show devices.
 struct CCI_Columns
 {
-  // The readings that every tick has.
+  // The readings that exist at every tick.
   std::vector<CCI_ColumnGroup> readings;
-  // The readings whose count differs between ticks, such as blobs or packets: the name of one of them, and its columns.
-  // `read_rows` appends row after row. `read_row_ids` appends the ids of the entities that the rows are about.
+  // The readings whose count differs between ticks, such as blobs or packets. `row_name` names one of them, and `row`
+  // has its columns. `read_rows` appends row after row. `read_row_ids` appends the ids of the entities that the rows
+  // are about.
   std::string row_name;
   std::vector<CCI_ColumnGroup> row;
   std::function<void(const CCI_Device&, CCI_Column::For, std::vector<double>&)> read_rows;
@@ -100,7 +101,7 @@ struct CCI_Columns
   std::function<void(CCI_Device&, std::span<const double>)> set;
 };
 
-// How many numbers a reading of a type has; 0: its size says it.
+// The count of numbers in a reading of a type; 0 means that its size gives the count.
 template <class Value>
 inline constexpr std::size_t kNumbersIn = std::is_arithmetic_v<Value> || std::is_enum_v<Value> ? 1 : 0;
 template <class Number, std::size_t kSize>
@@ -108,8 +109,8 @@ inline constexpr std::size_t kNumbersIn<std::array<Number, kSize>> = kSize;
 template <class Number, std::size_t kSize>
 inline constexpr std::size_t kNumbersIn<std::span<Number, kSize>> = kSize == std::dynamic_extent ? 0 : kSize;
 
-// A column of the items of a list, and what reads it: a member or a function of the item, or a function of the device
-// and the item. A range has the same size for all items.
+// It describes a column of the items of a list, and how it is read: by a member or a function of the item, or by a
+// function of the device and the item. A range has the same size for all items.
 template <class Get>
 struct CCI_Field
 {
@@ -139,7 +140,7 @@ public:
     readings.push_back({{std::move(column)}, count, SizeOf(get), read});
     return *this;
   }
-  // Returns a range with a number for each of these columns.
+  // Adds a reading that is a range with a number for each of these columns.
   template <class Get>
   CCI_ColumnsOf& AddAll(std::vector<CCI_Column> columns, Get get)
   {
@@ -160,7 +161,7 @@ public:
     return *this;
   }
 
-  // Returns the rows: the items of a range. `name`: of one of them, "blob".
+  // Declares the rows: one for each item of a range. `name` is that of one row, such as "blob".
   template <class Get, class... Gets>
   CCI_ColumnsOf& AddRows(std::string name, Get get, CCI_Field<Gets>... fields)
   {
@@ -170,7 +171,7 @@ public:
     read_rows = ReadItems(get, fields...);
     return *this;
   }
-  // `id`: of the entity that an item is about.
+  // Declares the ids of rows. `id` returns the id of the entity that an item is about.
   template <class Get, class Id>
   CCI_ColumnsOf& AddRowIds(Get get, Id id)
   {
@@ -226,7 +227,7 @@ private:
     else
       values.insert(values.end(), std::begin(value), std::end(value));
   }
-  // Returns the size of a range whose type does not have it.
+  // Returns a function that gives the size of a range, or an empty function if the type determines the size.
   template <class Get>
   static std::function<std::size_t(const CCI_Device&)> SizeOf(Get get)
   {

@@ -24,22 +24,25 @@ public:
 
   virtual ~CCI_Controller() = default;
 
-  // Gets the <parameters> of the controller; here the devices are looked up. If the controller declared its
-  // parameters, the tree was checked and holds all of them, with their defaults. Anything but RETURN_OK, and any
-  // exception, stops the experiment with the robot's name; a ConfigurationError is shown as a mistake of the file.
+  // Gets the <parameters> of the controller, and looks up its devices. If the controller declared its parameters, the
+  // tree was checked and has all of them with their defaults. A result other than RETURN_OK, and any exception, stops
+  // the experiment with the robot's name. A ConfigurationError is shown as a mistake of the file.
   virtual int Init(const TConfigurationTree t_tree) = 0;
-  // Reads the sensors and sets the actuators, once each tick.
+  // The host calls it once in each tick: it reads the sensors and sets the actuators.
   virtual void ControlStep() = 0;
+  // The host calls it once, at the end of the run.
   virtual void Destroy() {}
-  // Called once at the end of the run.
 
-  // Optional: all that the controller remembers between ticks, so that a run can go on from a checkpoint. A controller
-  // that remembers nothing overrides HasState alone; if it is left false, checkpoints of the run are refused.
+  // Returns false if the controller cannot be saved; checkpoints of the run are then refused. Runs that continue from a
+  // checkpoint need the state between ticks. A controller without state overrides only HasState.
   virtual bool HasState() const { return false; }
+  // Saves the state between ticks.
   virtual void SaveState(std::ostream&) const {}
+  // Loads what SaveState has saved.
   virtual void LoadState(std::istream&) {}
 
-  // Shown by visualisers beside the robot: the state of the controller in a few words. Optional.
+  // Returns the state of the controller in a few words, which visualisers show beside the robot. A controller need not
+  // have it.
   virtual std::string StatusText() const { return {}; }
   // Returns the current state of the controller's state machine, for visualisers. Controllers made of behaviours or
   // derived from FSM have it.
@@ -65,13 +68,13 @@ private:
 template <>
 PluginRegistry<CCI_Controller>& PluginRegistry<CCI_Controller>::Instance();
 
-// Used by REGISTER_CONTROLLER.
+// The macro REGISTER_CONTROLLER makes one of these for each class.
 struct ControllerRegistration
 {
   using Create = std::unique_ptr<CCI_Controller> (*)();
 
   ControllerRegistration(Create create, const char* class_name, PluginDescription description);
-  // `brief`: one line for `swarmanoid list plugins`; without one it shows the name of the class.
+  // `brief` is one line for `swarmanoid list plugins`; without it, the class name is shown.
   ControllerRegistration(Create create, const char* class_name, const char* label, const char* brief = nullptr);
 };
 

@@ -20,20 +20,22 @@ class CCI_DepthCameraSensor : public CCI_SensorOf<CCI_DepthCameraSensor>
 public:
   struct Pixel
   {
-    // The depth in m along the axis of the camera, not along the ray. It is infinity if nothing is in range (REP 118 of
-    // ROS).
+    // The depth is in m along the axis of the camera, not along the ray. It is infinity if nothing is in range (REP 118
+    // of ROS).
     double depth_m = std::numeric_limits<double>::infinity();
     std::uint32_t colour = 0;  // 0xRRGGBB; 0 if nothing is in range
-    // Return the size of the image in pixels.
   };
 
+  // Returns the width of the image in pixels.
   virtual unsigned GetWidth() const = 0;
+  // Returns the height of the image in pixels.
   virtual unsigned GetHeight() const = 0;
   // Returns the angle (rad) between the left and the right border of the image. Pixels are square.
   virtual double GetFieldOfView() const = 0;
-  // Row after row from the top, each from the left: GetWidth() · GetHeight() pixels, valid until the next control step.
+  // Returns the pixels row after row from the top, each row from the left: GetWidth() · GetHeight() pixels, valid until
+  // the next control step.
   virtual std::span<const Pixel> GetAllPixels() const = 0;
-  // Beyond the image: std::out_of_range.
+  // Throws std::out_of_range for a pixel beyond the image.
   const Pixel& GetPixel(unsigned column, unsigned row) const
   {
     if (column >= GetWidth() || row >= GetHeight())

@@ -89,7 +89,7 @@ void CCI_Device::Describe(std::vector<CCI_Reading>& readings) const
   if (all.read_rows) DescribeRows(readings);
 }
 
-// "blob 0 distance"; "tag prey_3" if rows have ids and one column alone.
+// The names of rows are such as "blob 0 distance", or "tag prey_3" if rows have ids and one column alone.
 void CCI_Device::DescribeRows(std::vector<CCI_Reading>& readings) const
 {
   std::vector<CCI_Column> columns = ColumnsFor(For::kPeople, Declared().row, *this);

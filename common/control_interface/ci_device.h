@@ -13,11 +13,11 @@
 namespace swarmanoid
 {
 
-// One value of a device as people are shown it.
+// One value of a device in the form for users.
 struct CCI_Reading
 {
   std::string name;  // "left", "7", "blob 0 distance"
-  std::string unit;  // as of CCI_Column
+  std::string unit;  // see CCI_Column
   double value = 0;
 };
 
@@ -31,7 +31,7 @@ public:
   // Returns the declaration of the interface, which may be empty.
   virtual const CCI_Columns& Declared() const;
 
-  // The readings that every tick has, and appends one number for each.
+  // Columns returns the columns of the readings that exist at every tick. ReadColumns appends one number for each.
   std::vector<CCI_Column> Columns() const;
   void ReadColumns(std::vector<double>& values) const;
   // Rows returns the columns of readings whose count differs between ticks. ReadRows appends them row after row.
@@ -52,12 +52,14 @@ private:
   void DescribeRows(std::vector<CCI_Reading>& readings) const;
 };
 
-// The base of all sensor interfaces. Readings in a control step are those of its start, at any time in the step.
+// All sensor interfaces derive from this class. Readings in a control step are those of its start, at any time in the
+// step.
 class CCI_Sensor : public CCI_Device
 {
 };
 
-// Base of all actuator interfaces. Values set in a control step take effect when it ends, and stay until set again.
+// All actuator interfaces derive from this class. Values set in a control step take effect when it ends, and stay until
+// set again.
 class CCI_Actuator : public CCI_Device
 {
 public:

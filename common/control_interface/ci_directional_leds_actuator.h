@@ -10,7 +10,7 @@ namespace swarmanoid
 class CCI_DirectionalLedsActuator : public CCI_LedRingActuator
 {
 public:
-  // Between the axis of each cone and its border, rad, 0 to pi.
+  // Returns the angle between the axis of each cone and its border, rad, 0 to pi.
   virtual double GetObservableAngle() const = 0;
 };
 

@@ -1,4 +1,4 @@
-// Beams that measure distances around a robot, fixed or on a head that turns.
+// CCI_DistanceScannerSensor: beams that measure distances around a robot. They are fixed, or on a head that turns.
 #pragma once
 
 #include <span>
@@ -15,13 +15,15 @@ public:
   enum class Echo
   {
     kMeasured,
-    kTooNear,  // something is nearer than the beam can measure
-    kNothing   // nothing within its range
+    kTooNear,  // a body is nearer than the beam can measure
+    kNothing   // no body is within the range of the beam
   };
   struct Reading
   {
-    double angle_rad = 0;   // where the beam looked, counter-clockwise from the front, -pi..pi
-    double distance_m = 0;  // from the surface of the robot; 0 if too near, the range of the beam if there is nothing
+    double angle_rad = 0;  // direction of the beam, counter-clockwise from the front, -pi..pi
+    // The distance is measured from the surface of the robot. It is 0 if a body is too near, and the range of the beam
+    // if no body is in it.
+    double distance_m = 0;
     Echo echo = Echo::kNothing;
   };
 

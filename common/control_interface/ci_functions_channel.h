@@ -17,14 +17,14 @@
 namespace swarmanoid
 {
 
-// The largest message, bytes.
+// The size of the largest message, bytes.
 inline constexpr unsigned kMaxMessageBytes = 30;
 
 class CCI_ReportActuator : public CCI_ActuatorOf<CCI_ReportActuator>
 {
 public:
-  // The report of this tick; the last one counts. The functions have it in their PostStep of the tick. Throws
-  // std::length_error for more than kMaxMessageBytes.
+  // Sets the report of this tick; the last call in a tick counts. The functions get it in their PostStep of the tick.
+  // Throws std::length_error for more than kMaxMessageBytes.
   virtual void ReportBytes(std::span<const std::uint8_t> bytes) = 0;
   // Reports a number, an enumeration, or a struct of these without pointers.
   template <class Message>

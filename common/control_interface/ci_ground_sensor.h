@@ -13,9 +13,10 @@ namespace swarmanoid
 class CCI_GroundSensor : public CCI_SensorOf<CCI_GroundSensor>
 {
 public:
-  // Brightness of the floor under each sensor, 0 (black, or a hole) to 1 (white).
+  // Returns the brightness of the floor under each sensor, 0 (black, or a hole) to 1 (white), valid until the next
+  // control step.
   virtual std::span<const double> GetAllSensorReadings() const = 0;
-  // Returns the colour of the floor (0xRRGGBB) under the centre of the robot; without noise.
+  // Returns the colour of the floor (0xRRGGBB) under the centre of the robot, without noise.
   virtual std::uint32_t GetFloorColour() const = 0;
 
   static void Declare(Declaration& columns)

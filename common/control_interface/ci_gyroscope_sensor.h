@@ -1,4 +1,4 @@
-// How fast a robot turns.
+// CCI_GyroscopeSensor: the angular velocities of a robot.
 #pragma once
 
 #include <span>
@@ -11,8 +11,8 @@ namespace swarmanoid
 class CCI_GyroscopeSensor : public CCI_SensorOf<CCI_GyroscopeSensor>
 {
 public:
-  // {roll, pitch, yaw}: angular velocities in rad/s about the axes of the robot ahead, to the left and up, mean over
-  // the last tick; positive counter-clockwise about each. Valid until the next control step.
+  // Returns {roll, pitch, yaw}: angular velocities in rad/s about the robot's axes to the front, to the left and up.
+  // They are means over the last tick, positive counter-clockwise. The span is valid until the next control step.
   virtual std::span<const double, 3> GetAllSensorReadings() const = 0;
   double GetYawRate() const { return GetAllSensorReadings()[2]; }
 

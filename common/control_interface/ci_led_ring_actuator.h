@@ -1,4 +1,4 @@
-// A ring of coloured LEDs. The base of the rings of all robots.
+// CCI_LedRingActuator: a ring of coloured LEDs. The base of the rings of all robots.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ public:
   virtual unsigned GetNumLeds() const = 0;
   // Sets all LEDs. Colours are 0xRRGGBB, 0 is off; higher bits are ignored.
   virtual void SetAllColours(std::uint32_t colour) = 0;
-  // A colour for each LED; another number of them than GetNumLeds() throws std::invalid_argument.
+  // Sets a colour for each LED. Throws std::invalid_argument unless there are GetNumLeds() colours.
   void SetAllActuatorOutputs(std::span<const std::uint32_t> colours)
   {
     if (colours.size() != GetNumLeds())

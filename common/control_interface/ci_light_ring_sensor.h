@@ -1,4 +1,5 @@
-// The 24 light sensors around the body of a robot: the base of the footbot's and the eyebot's light sensors.
+// CCI_LightRingSensor: the 24 light sensors around the body of a robot, the base of the footbot's and the eyebot's
+// light sensors.
 #pragma once
 
 #include <span>
@@ -18,9 +19,9 @@ public:
   static constexpr double FIRST_ANGLE = 0.1308996938995747;  // 7.5 degrees
   static constexpr double SPACING = 0.2617993877991494;      // 15 degrees
 
-  // 0 (dark) to 1, valid until the next control step.
+  // Returns all readings, 0 (dark) to 1, valid until the next control step.
   virtual std::span<const double, NUM_SENSORS> GetAllSensorReadings() const = 0;
-  // Throws std::out_of_range from NUM_SENSORS on.
+  // Returns one reading, 0 to 1. Throws std::out_of_range from NUM_SENSORS on.
   double GetLightSensorReading(unsigned sensor) const
   {
     if (sensor >= NUM_SENSORS) throw std::out_of_range("light sensor " + std::to_string(sensor) + " of 24");

@@ -14,9 +14,9 @@ class CCI_MicrophoneSensor : public CCI_SensorOf<CCI_MicrophoneSensor>
 public:
   struct Sound
   {
-    double loudness = 0;       // sound pressure: 1 is that of a source of intensity 1 at 1 m
-    double bearing_rad = 0;    // of the source, counter-clockwise from the front, -pi..pi
-    double elevation_rad = 0;  // above the horizontal plane of the robot
+    double loudness = 0;       // sound pressure; a source of intensity 1 at a distance of 1 m has 1
+    double bearing_rad = 0;    // direction of the source, counter-clockwise from the front, -pi..pi
+    double elevation_rad = 0;  // angle above the horizontal plane of the robot
   };
 
   // Returns the pressure of all sounds together, in the unit of Sound::loudness; 20 log10 of it are decibels. 0:

@@ -1,5 +1,5 @@
-// The pie camera: the view of the omnidirectional camera cut into equal sectors; for each sector and colour the nearest
-// blob and how many there are. Type label "pie_camera".
+// CCI_PieCameraSensor: the view of the omnidirectional camera cut into equal sectors. For each sector and colour it has
+// the nearest blob and the number of blobs. The type label is "pie_camera".
 #pragma once
 
 #include <cstdint>
@@ -21,16 +21,17 @@ public:
   static constexpr double NOTHING = std::numeric_limits<double>::infinity();
   struct Slice
   {
-    double distance_m = NOTHING;  // of the nearest blob
+    double distance_m = NOTHING;  // distance of the nearest blob
     unsigned blobs = 0;
   };
 
-  // Sector i spans the angles i .. i + 1 times 2 pi / GetNumSectors(), counter-clockwise from the front.
+  // Returns the number of sectors. Sector i spans the angles i .. i + 1 times 2 pi / GetNumSectors(), counter-clockwise
+  // from the front.
   virtual unsigned GetNumSectors() const = 0;
   // Returns all sectors for one of the colours of CCI_Colour other than black; blobs of other colours count for the
   // nearest one. Throws std::invalid_argument for another colour. Valid until the next control step.
   virtual std::span<const Slice> GetAllSlices(std::uint32_t colour) const = 0;
-  // Throws std::out_of_range for a sector from GetNumSectors() on.
+  // Returns one sector. Throws std::out_of_range for a sector from GetNumSectors() on.
   const Slice& GetSlice(std::uint32_t colour, unsigned sector) const
   {
     if (sector >= GetNumSectors())

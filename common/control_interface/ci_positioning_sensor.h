@@ -14,7 +14,7 @@ public:
   virtual Vector3 GetPosition() const = 0;
   // Returns the rotation from the frame of the robot to that of the space, as a unit quaternion.
   virtual Quaternion GetOrientation() const = 0;
-  // Radians, counter-clockwise from the x axis of the space, -pi..pi.
+  // Returns the heading in radians, counter-clockwise from the x axis of the space, -pi..pi.
   double GetHeading() const { return YawOf(GetOrientation()); }
 
   static void Declare(Declaration& columns)

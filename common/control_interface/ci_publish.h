@@ -1,6 +1,7 @@
-// Numbers of a controller for the table of a study (docs/studies.md): <published name="trips" by="controllers"> takes
-// them. They travel as the report of the tick (ci_functions_channel.h), so the controller lists the actuator "report"
-// and makes no other report in that step. Without that actuator nothing happens, as on a robot.
+// Publishes numbers of a controller for the table of a study (docs/studies.md), in which <published name="trips"
+// by="controllers"> takes them. They are sent as the report of the tick (ci_functions_channel.h). So the controller
+// must list the actuator "report", and must make no other report in that step. Without that actuator nothing happens,
+// as on a robot.
 //
 //   Publish(*GetRobot(), {{"trips", trips_}, {"load", load_kg_}});
 #pragma once
@@ -20,7 +21,7 @@
 namespace swarmanoid
 {
 
-// One of them, of any type of numbers.
+// It holds a published number of any arithmetic type, with its name.
 struct CCI_PublishedNumber
 {
   template <class Number>

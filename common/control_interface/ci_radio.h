@@ -1,5 +1,5 @@
-// A simple radio: packets of some bytes to all in range, through whatever stands between. Type label "radio", as an
-// actuator (sends) and as a sensor (receives). Footbots, eyebots and handbots carry it.
+// A simple radio that sends packets of some bytes to all robots in range; bodies do not block them. The type label
+// "radio" names an actuator (sends) and a sensor (receives). Footbots, eyebots and handbots can carry it.
 #pragma once
 
 #include <algorithm>
@@ -18,12 +18,12 @@ namespace swarmanoid
 class CCI_RadioActuator : public CCI_ActuatorOf<CCI_RadioActuator>
 {
 public:
-  static constexpr unsigned MAX_BYTES = 30;  // of a packet
+  static constexpr unsigned MAX_BYTES = 30;  // size limit of a packet
 
-  // Sends a packet once: now, or as soon as the packets before it are on the air. False, and nothing is sent, if too
-  // many wait. Throws std::length_error for more than MAX_BYTES.
+  // Sends a packet once: now, or as soon as the packets before it have been sent. Returns false and sends nothing if
+  // too many packets wait. Throws std::length_error for more than MAX_BYTES.
   virtual bool Send(std::span<const std::uint8_t> bytes) = 0;
-  // Packets that wait.
+  // Returns the number of waiting packets.
   virtual unsigned GetWaiting() const = 0;
 
   static void Declare(Declaration& columns)
@@ -46,8 +46,8 @@ class CCI_RadioSensor : public CCI_SensorOf<CCI_RadioSensor>
 public:
   struct Packet
   {
-    std::string_view sender;  // its id, valid as long as the sensor
-    double signal_db = 0;     // strength over that at 1 m, of a field that falls with the square of the distance
+    std::string_view sender;  // id of the sender, valid as long as the sensor
+    double signal_db = 0;  // strength relative to that at 1 m, for a field that falls with the square of the distance
     unsigned length = 0;
     std::array<std::uint8_t, CCI_RadioActuator::MAX_BYTES> bytes{};
 

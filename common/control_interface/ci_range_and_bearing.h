@@ -1,6 +1,6 @@
-// Range and bearing: robots broadcast a few bytes to all in line of sight and in range (3 m); receivers also learn from
-// where. Type label "range_and_bearing", as an actuator (sends) and as a sensor (receives). Footbots, eyebots and
-// handbots carry it.
+// Range and bearing: robots broadcast a few bytes to all robots in line of sight and in range (3 m). Receivers also get
+// the position of the sender. The type label "range_and_bearing" names an actuator (sends) and a sensor (receives).
+// Footbots, eyebots and handbots can carry it.
 #pragma once
 
 #include <algorithm>
@@ -23,12 +23,13 @@ public:
 
   // Sends these bytes in every tick from now on; others receive them one tick later.
   virtual void SetMessage(const Message& message) = 0;
-  // Sends nothing from this tick on.
+  // Stops sending from this tick on.
   virtual void StopSending() = 0;
   // Returns the number of bytes of a message: NUM_BYTES, or more if the experiment file gives the actuator more
   // ("bytes").
   virtual unsigned GetNumBytes() const { return NUM_BYTES; }
-  // SetMessage of any length up to GetNumBytes(); zeros follow. Throws std::length_error for more.
+  // Works as SetMessage for a message of any length up to GetNumBytes(); zeros follow. Throws std::length_error for
+  // more bytes.
   virtual void SetBytes(std::span<const std::uint8_t> bytes)
   {
     RequireLength(bytes.size());
@@ -68,18 +69,18 @@ public:
   struct Packet
   {
     double range_m = 0;
-    double bearing_rad = 0;           // of the sender, counter-clockwise from the receiver's front, -pi..pi
-    double vertical_bearing_rad = 0;  // above the receiver's horizontal plane
+    double bearing_rad = 0;           // direction of the sender, counter-clockwise from the receiver's front, -pi..pi
+    double vertical_bearing_rad = 0;  // angle of the sender above the receiver's horizontal plane
     CCI_RangeAndBearingActuator::Message message{};
-    std::uint32_t further = 0;  // for GetFurtherBytes
+    std::uint32_t further = 0;  // position of the further bytes, for GetFurtherBytes
   };
 
   // Returns all packets received in this tick, in no particular order, valid until the next control step.
   virtual std::span<const Packet> GetAllPackets() const = 0;
-  // Returns the bytes of a packet behind its first NUM_BYTES: none if its sender has no longer messages. Valid as the
-  // packets.
+  // Returns the bytes of a packet after its first NUM_BYTES, or none if its sender has no longer messages. The span is
+  // valid as long as the packets.
   virtual std::span<const std::uint8_t> GetFurtherBytes(const Packet&) const { return {}; }
-  // How many there are in the longest message that any robot of the experiment can send.
+  // Returns the number of further bytes in the longest message that any robot of the experiment can send.
   virtual unsigned GetMostFurtherBytes() const { return 0; }
 
   static void Declare(Declaration& columns)

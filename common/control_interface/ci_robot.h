@@ -32,7 +32,7 @@ public:
   CCI_Robot(std::string id, const std::string& kind) : id_(std::move(id)), kind_(Shared(kind)) {}
 
   const std::string& GetId() const { return id_; }
-  // "footbot", "eyebot" or "handbot".
+  // Returns the tag of the robot's kind, such as "footbot", "eyebot" or "handbot".
   const std::string& GetKind() const { return *kind_; }
 
   // Returns the device registered under a type label ("footbot_wheels"), valid as long as the controller. Throws
@@ -41,7 +41,7 @@ public:
   CCI_Sensor* GetSensor(const std::string& type) const;
   bool HasActuator(const std::string& type) const { return Find(actuators_, type) != nullptr; }
   bool HasSensor(const std::string& type) const { return Find(sensors_, type) != nullptr; }
-  // Returns the labels of all that the configuration lists, in ascending order.
+  // Return the labels of all devices that the configuration lists, in ascending order.
   std::vector<std::string> ActuatorTypes() const;
   std::vector<std::string> SensorTypes() const;
 
@@ -57,7 +57,7 @@ public:
     return Checked<Interface>(GetSensor(type), type);
   }
 
-  // Returns the clock: ticks since the start, and seconds of one tick and since the start.
+  // The clock: ticks since the start, the seconds of one tick, and the seconds since the start.
   std::uint64_t GetTick() const { return tick_; }
   double GetTickSeconds() const { return tick_seconds_; }
   double GetTime() const { return static_cast<double>(tick_) * tick_seconds_; }
@@ -71,9 +71,9 @@ public:
     return random_;
   }
 
-  // Writes a line into the log of the process that runs the controller, with the id of the robot and the tick: in a run
-  // the files of the run's folder, on a robot the log of its program. For people; results belong into reports and
-  // files.
+  // Writes a line into the log of the process that runs the controller, with the id of the robot and the tick. In a run
+  // the log is in the run's folder; on a robot it is that of the robot's program. The log is for people; results belong
+  // into reports and files.
   void Log(std::string_view text) const { log_(*this, text); }
 
   // The functions below are for the runtime that owns the robot.
@@ -99,7 +99,8 @@ public:
   }
 
 private:
-  // Few, in ascending order of their types: of a million robots each has them.
+  // The lists are short and in ascending order of their types. They are vectors of pointers, since each of a million
+  // robots has them.
   template <class Device>
   using Devices = std::vector<std::pair<const std::string*, Device*>>;
 
@@ -110,7 +111,8 @@ private:
   // Returns nullptr if the device is not listed.
   template <class Device>
   static Device* Find(const Devices<Device>& devices, const std::string& type);
-  // The device, or an error that says what to do: list it, ask for the other kind, or spell it as listed.
+  // Returns the device. If it is not listed, throws an error with the cure: to list it, to ask for the other kind of
+  // device, or to spell it as listed.
   template <class Device, class Other>
   Device* Listed(const Devices<Device>& devices, const Devices<Other>& others, const std::string& type,
                  const std::string& what, const std::string& other) const;

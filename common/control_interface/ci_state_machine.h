@@ -1,4 +1,4 @@
-// CCI_StateMachine: what visualisers can ask of a finite state machine, whatever its inputs (fsm.h).
+// CCI_StateMachine: the interface of a finite state machine (fsm.h) for visualisers, independent of its type of inputs.
 #pragma once
 
 #include <string>

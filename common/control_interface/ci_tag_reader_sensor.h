@@ -1,4 +1,4 @@
-// An antenna that reads the radio tags (RFID) near a robot.
+// CCI_TagReaderSensor: an antenna that reads the radio tags (RFID) near a robot.
 #pragma once
 
 #include <span>
@@ -15,8 +15,8 @@ class CCI_TagReaderSensor : public CCI_SensorOf<CCI_TagReaderSensor>
 public:
   struct Tag
   {
-    std::string_view id;    // of the entity that has the tag, valid as long as the sensor
-    double distance_m = 0;  // from the antenna to its position, as the strength of its answer tells it
+    std::string_view id;    // id of the entity that has the tag, valid as long as the sensor
+    double distance_m = 0;  // distance from the antenna to the tag, estimated from the strength of its answer
   };
 
   // Returns all tags that answered in this tick, in no particular order, valid until the next control step.

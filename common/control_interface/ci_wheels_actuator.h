@@ -9,13 +9,14 @@ namespace swarmanoid
 class CCI_WheelsActuator : public CCI_ActuatorOf<CCI_WheelsActuator>
 {
 public:
-  // Return the radius of the wheels and the distance between them, m.
+  // Returns the radius of the wheels in m.
   virtual double GetWheelRadius() const = 0;
+  // Returns the distance between the wheels in m.
   virtual double GetInterwheelDistance() const = 0;
   // Sets angular velocities in rad/s; positive drives forward. Values beyond the limit of the robot are clamped to it.
   // NaN ends a simulation with an error.
   virtual void SetAngularVelocity(double left, double right) = 0;
-  // Speeds of the wheels on the ground in m/s.
+  // Sets the speeds of the wheels on the ground in m/s.
   void SetLinearVelocity(double left, double right)
   {
     SetAngularVelocity(left / GetWheelRadius(), right / GetWheelRadius());

@@ -8,7 +8,8 @@ namespace swarmanoid
 namespace
 {
 
-// "the controller 'c' (walker) never reads the parameter 'velocty'; it reads: velocity; did you mean 'velocity'?"
+// Returns a message such as "the controller 'c' (walker) never reads the parameter 'velocty'; it reads: velocity; did
+// you mean 'velocity'?"
 ConfigurationError Mistake(const ConfigurationReads::Unread& unread, const ConfigurationNode& root,
                            const std::string& owner)
 {

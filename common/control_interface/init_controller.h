@@ -1,5 +1,5 @@
-// Init of a controller as every runtime calls it, in the simulator and on the robot. Controllers that declared their
-// parameters were checked before; of all others, what Init did not ask for is refused here.
+// Calls Init of a controller in the same way in every runtime, in the simulator and on the robot. Parameters that a
+// controller declared were checked before. For other controllers, parameters that Init did not read are refused here.
 #pragma once
 
 #include <string>

@@ -1,3 +1,10 @@
+// Boxes are tested by separating axes (S. Gottschalk, M. C. Lin and D. Manocha, "OBBTree: a hierarchical structure for
+// rapid interference detection", SIGGRAPH 1996). Cylinders with parallel axes are tested exactly. For tilted ones, the
+// box within the cylinder stands for it, so that a doubtful placement is accepted rather than refused. BodyGrid keeps a
+// list of bodies for each cell that a body's box touches. Bodies over many cells are in a list of their own, and are
+// tested each time.
+//
+// Invariant: two bodies that only touch do not overlap.
 #include "common/experiment/body.h"
 
 #include <algorithm>
@@ -53,7 +60,7 @@ Vector3 InnerHalf(const Body& body)
   return {side, side, body.half.z()};
 }
 
-// `cylinder` and `other` have parallel z axes.
+// Tests a cylinder and another body with parallel z axes.
 bool UprightOverlap(const Body& cylinder, const Body& other)
 {
   const Vector3 local = other.orientation.conjugate() * (cylinder.centre - other.centre);

@@ -16,10 +16,10 @@ struct Body
   bool cylinder = false;
   Vector3 centre = Vector3::Zero();
   Quaternion orientation = Quaternion::Identity();
-  // Half the extent along the body's axes. For a cylinder along z: radius, radius, half the height.
+  // It is half the extent along the body's axes. For a cylinder along z: radius, radius, half the height.
   Vector3 half = Vector3::Zero();
 
-  // Half the extent of the box along the axes of the space that holds the body.
+  // Returns half the extent, along the axes of the space, of the box around the body.
   Vector3 HalfExtent() const;
 };
 
@@ -30,11 +30,11 @@ std::optional<Body> BodyOf(const EntityConfiguration& entity);
 // parallel axes. A tilted cylinder counts as its inscribed box, so reported bodies do overlap.
 bool Overlap(const Body& a, const Body& b);
 
-// Finds overlaps among many bodies in constant time each: a uniform grid over the arena.
+// Finds overlaps among many bodies in constant time for each body, by a uniform grid over the arena.
 class BodyGrid
 {
 public:
-  // `cell`: about the size of the most frequent body (m).
+  // `cell` is about the size of the most frequent body (m).
   BodyGrid(const Vector3& arena_size, double cell);
 
   // Adds a body, whose `name` Find returns.

@@ -13,7 +13,7 @@ using enum ParameterType;
 
 ParameterSpec ContactParameter(const char* name, const char* description, double maximum)
 {
-  return InRange(Optional(kNumber, name, "", "", description), 0, maximum);
+  return {name, kNumber, "", "", description, 0, maximum};
 }
 
 constexpr AttributeSpec kMessage{"message", 3, 0,
@@ -24,7 +24,7 @@ constexpr AttributeSpec kRadio{"radio", 8, 0,
                                AttributeValue::kBytes};
 constexpr AttributeSpec kReport{"report", 8, 0, "reports to experiment functions, as those of the radio",
                                 AttributeValue::kBytes};
-constexpr AttributeSpec kInstruction{"instruction", 8, 0, "instructions of experiment functions, likewise",
+constexpr AttributeSpec kInstruction{"instruction", 8, 0, "also instructions of experiment functions",
                                      AttributeValue::kBytes};
 constexpr AttributeSpec kBeacon{"beacon", 1, 0, "colour of the beacon", AttributeValue::kColour};
 constexpr AttributeSpec kSurface{"colour", 1, 0xc0c0c0, "colour of the surface", AttributeValue::kColour};
@@ -146,10 +146,10 @@ EntityKindDescription Block()
   row.origin = BodyOrigin::kCentre;
   row.mobility = Mobility::kIfAsked;
   row.grippable = true;
-  row.parameters = {BoxSizeParameter(),        MovableParameter(),     MassParameter(),
-                    FrictionParameter(),       RestitutionParameter(), GroundFrictionParameter(),
-                    ColourParameter("silver"), MeshParameter(),        MeshOrientationParameter(),
-                    ConvexParameter(),         CornersParameter()};
+  row.parameters = {BoxSizeParameter(),         MovableParameter(),        MassParameter(),
+                    FrictionParameter(),        RestitutionParameter(),    GroundFrictionParameter(),
+                    GroundTorqueParameter(),    ColourParameter("silver"), MeshParameter(),
+                    MeshOrientationParameter(), ConvexParameter(),         CornersParameter()};
   row.attributes = {kSurface};
   return row;
 }
@@ -170,10 +170,10 @@ EntityKindDescription CylindricPrey()
   row.seen_by_cameras = true;
   ParameterSpec movable = MovableParameter();
   movable.default_value = "true";
-  row.parameters = {RadiusParameter(),         HeightParameter(),      movable,
-                    MassParameter(),           FrictionParameter(),    RestitutionParameter(),
-                    GroundFrictionParameter(), ColourParameter("red"), MeshParameter(),
-                    MeshOrientationParameter()};
+  row.parameters = {RadiusParameter(),         HeightParameter(),         movable,
+                    MassParameter(),           FrictionParameter(),       RestitutionParameter(),
+                    GroundFrictionParameter(), GroundTorqueParameter(),   ColourParameter("red"),
+                    MeshParameter(),           MeshOrientationParameter()};
   row.attributes = {kSurface};
   return row;
 }
@@ -269,13 +269,12 @@ EntityKindDescription TerrainRow()
 
 ParameterSpec ControllerParameter()
 {
-  return Optional(kText, "controller", "", "",
-                  "The id of its controller; empty: it has none and does nothing by itself.");
+  return {"controller", kText, "", "", "The id of its controller; empty: it has none and does nothing by itself."};
 }
 
 ParameterSpec MassParameter()
 {
-  return InRange(Optional(kNumber, "mass", "kg", "0", "Its mass; 0: what the engine takes for its kind."), 0, 1e9);
+  return {"mass", kNumber, "kg", "0", "Its mass; 0: what the engine takes for its kind.", 0, 1e9};
 }
 
 ParameterSpec FrictionParameter()
@@ -296,72 +295,80 @@ ParameterSpec GroundFrictionParameter()
                           "Coulomb coefficient of its base on the ground; by default that of the engine.", 100);
 }
 
-ParameterSpec MovableParameter() { return Optional(kBoolean, "movable", "", "false", "Whether physics can move it."); }
+ParameterSpec GroundTorqueParameter()
+{
+  return {"ground_torque",
+          kNumber,
+          "N m",
+          "",
+          "Largest torque with which the ground resists its turning; by default that of even pressure under its base.",
+          0,
+          1e9};
+}
+
+ParameterSpec MovableParameter() { return {"movable", kBoolean, "", "false", "Whether physics can move it."}; }
 
 ParameterSpec ColourParameter(std::string default_value)
 {
-  return Optional(kColour, "colour", "", std::move(default_value), "Its colour.");
+  return {"colour", kColour, "", std::move(default_value), "Its colour."};
 }
 
 ParameterSpec IntensityParameter()
 {
-  return InRange(Optional(kNumber, "intensity", "", "1", "Its strength; sensors scale their readings with it."), 0,
-                 1e9);
+  return {"intensity", kNumber, "", "1", "Its strength; sensors scale their readings with it.", 0, 1e9};
 }
 
 ParameterSpec BoxSizeParameter()
 {
-  return Size(Required(kVector3, "size", "m", "Its extent along its own axes; the position is its centre."));
+  return Size({"size", kVector3, "m", std::nullopt, "Its extent along its own axes; the position is its centre."});
 }
 
-ParameterSpec RadiusParameter() { return Size(Optional(kNumber, "radius", "m", "0.1", "The radius of the cylinder.")); }
+ParameterSpec RadiusParameter() { return Size({"radius", kNumber, "m", "0.1", "The radius of the cylinder."}); }
 
-ParameterSpec HeightParameter() { return Size(Optional(kNumber, "height", "m", "0.1", "The height of the cylinder.")); }
+ParameterSpec HeightParameter() { return Size({"height", kNumber, "m", "0.1", "The height of the cylinder."}); }
 
 ParameterSpec AreaSizeParameter()
 {
-  return Size(Optional(kVector2, "size", "m", "", "The sides of a rectangle around the position."));
+  return Size({"size", kVector2, "m", "", "The sides of a rectangle around the position."});
 }
 
 ParameterSpec AreaRadiusParameter()
 {
-  return Size(Optional(kNumber, "radius", "m", "", "The radius of a disc around the position, instead of a size."));
+  return Size({"radius", kNumber, "m", "", "The radius of a disc around the position, instead of a size."});
 }
 
 ParameterSpec PictureParameter()
 {
-  return Optional(kText, "picture", "", "",
-                  "A PNG or JPEG that is painted on its rectangle, seen through its colour (white if none is given). "
-                  "Relative to the experiment file.");
+  return {"picture", kText, "", "",
+          "A PNG or JPEG that is painted on its rectangle, seen through its colour (white if none is given). Relative "
+          "to the experiment file."};
 }
 
 ParameterSpec MeshParameter()
 {
-  return Optional(
-      kText, "mesh", "", "",
-      "A file that it is drawn as, stretched to fill its body: .glb, .gltf, .obj or .stl. It changes what is "
-      "seen, not what collides, unless it is convex. Relative to the experiment file.");
+  return {"mesh", kText, "", "",
+          "A file that it is drawn as, stretched to fill its body: .glb, .gltf, .obj or .stl. It changes what is seen, "
+          "not what collides, unless it is convex. Relative to the experiment file."};
 }
 
 ParameterSpec MeshOrientationParameter()
 {
-  return Angles(Optional(kVector3, "mesh_orientation", "degrees", "0, 0, 0",
-                         "Turns the mesh in its body, about the fixed axes x, y and z in this order: \"90, 0, 0\" puts "
-                         "up one whose y axis is up."));
+  return Angles({"mesh_orientation", kVector3, "degrees", "0, 0, 0",
+                 "Turns the mesh in its body, about the fixed axes x, y and z in this order: \"90, 0, 0\" puts up one "
+                 "whose y axis is up."});
 }
 
 ParameterSpec ConvexParameter()
 {
-  return Optional(kBoolean, "convex", "", "false",
-                  "It collides as the convex hull of its mesh, stretched as that is, instead of as the box about it.");
+  return {"convex", kBoolean, "", "false",
+          "It collides as the convex hull of its mesh, stretched as that is, instead of as the box about it."};
 }
 
 ParameterSpec CornersParameter()
 {
-  return Optional(
-      kText, "corners", "", "",
-      "\"x, y, z; x, y, z; …\": it collides as the convex hull of these points, which are stretched to fill "
-      "its size.");
+  return {
+      "corners", kText, "", "",
+      "\"x, y, z; x, y, z; …\": it collides as the convex hull of these points, which are stretched to fill its size."};
 }
 
 std::vector<EntityKindDescription> OwnKinds()

@@ -11,7 +11,7 @@ namespace swarmanoid
 // Returns the rows of the simulator's own kinds.
 std::vector<EntityKindDescription> OwnKinds();
 
-// Parameters that several kinds have.
+// Make the parameters that several kinds have.
 ParameterSpec ControllerParameter();
 ParameterSpec MassParameter();
 ParameterSpec ConvexParameter();
@@ -19,6 +19,7 @@ ParameterSpec CornersParameter();
 ParameterSpec FrictionParameter();
 ParameterSpec RestitutionParameter();
 ParameterSpec GroundFrictionParameter();
+ParameterSpec GroundTorqueParameter();
 ParameterSpec MovableParameter();
 ParameterSpec ColourParameter(std::string default_value);
 ParameterSpec IntensityParameter();

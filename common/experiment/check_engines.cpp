@@ -142,15 +142,14 @@ void CheckLean(const EntityConfiguration& entity, const EngineConfiguration& eng
 void CheckPlanes(Reading& reading)
 {
   const Experiment& experiment = reading.experiment;
-  std::vector<bool> owned(experiment.entities.size(), false);
+  const std::vector<int> engine_of = StartEngines(experiment);
   for (const EngineConfiguration& engine : experiment.engines)
   {
     const std::optional<Plane> plane = PlaneOf(engine);
     for (const std::uint32_t i : engine.entities)
     {
       const EntityConfiguration& entity = experiment.entities[i];
-      const bool ours = !owned[i];
-      owned[i] = true;
+      const bool ours = engine_of[i] == &engine - experiment.engines.data();
       if (!plane || !ours || !entity.movable || entity.waits || IsBodiless(entity.kind) || IsFreeBox(entity.kind))
         continue;
       CheckLean(entity, engine, *plane, reading);
@@ -170,6 +169,7 @@ void CheckPlanes(Reading& reading)
 void CheckDevicesOfEngines(Reading& reading)
 {
   const Experiment& experiment = reading.experiment;
+  const std::vector<int> engine_of = StartEngines(experiment);
   std::vector<bool> owned(experiment.entities.size(), false);
   for (const EngineConfiguration& engine : experiment.engines)
   {
@@ -178,7 +178,7 @@ void CheckDevicesOfEngines(Reading& reading)
     for (const std::uint32_t i : engine.entities)
     {
       const EntityConfiguration& entity = experiment.entities[i];
-      const bool ours = !owned[i];
+      const bool ours = engine_of[i] == &engine - experiment.engines.data();
       owned[i] = true;
       if (!ours || plugin == nullptr || entity.controller.empty() || !checked.emplace(entity.controller, true).second)
         continue;
@@ -188,6 +188,40 @@ void CheckDevicesOfEngines(Reading& reading)
   }
   // A mistake in the lists of engines would make the robots look wrong.
   if (reading.diagnostics.Empty()) CheckRobotsWithoutEngine(owned, reading);
+}
+
+// Entities of engines with volumes must start in a volume, and engines that share them must be able to hand over.
+void CheckVolumes(Reading& reading)
+{
+  const Experiment& experiment = reading.experiment;
+  const EngineChoices& choices = experiment.engine_choices;
+  std::vector<bool> reported(experiment.engines.size(), false);
+  for (std::size_t k = 0; k < choices.entities.size(); ++k)
+  {
+    const EntityConfiguration& entity = experiment.entities[choices.entities[k]];
+    const std::vector<std::uint32_t>& engines = choices.sets[choices.set_of[k]];
+    for (const std::uint32_t e : engines)
+    {
+      const EngineConfiguration& engine = experiment.engines[e];
+      const PluginDescription* plugin = PluginCatalogue::Instance().Find(PluginKind::kEngine, engine.tag);
+      if (plugin == nullptr || plugin->hands_over || reported[e]) continue;
+      reported[e] = true;
+      reading.diagnostics.Add(engine.location,
+                              fmt::format("the engine '{}' ({}) cannot take over or hand over the {} '{}', which it "
+                                          "shares with engines that have a volume; list it in the others alone",
+                                          engine.id, engine.tag, TagName(entity.kind), entity.id));
+    }
+    if (entity.waits || experiment.outside_volumes == OutsideVolumes::kKeep) continue;
+    const Vector3& at = entity.pose.position;
+    // A height on a terrain that cannot be read has been reported already.
+    if (!at.allFinite() || EngineAt(experiment, engines, at) != EngineChoices::kNoEngine) continue;
+    reading.diagnostics.Add(
+        entity.tree.ValueLocation("position"),
+        fmt::format("the {} '{}' starts at {:g}, {:g}, {:g}, outside the volumes of all engines "
+                    "that can move it: {}; put it into one, or write outside=\"keep\" at "
+                    "<arena_physics>",
+                    TagName(entity.kind), entity.id, at.x(), at.y(), at.z(), VolumesText(experiment, engines)));
+  }
 }
 
 void CheckOverlaps(Reading& reading)

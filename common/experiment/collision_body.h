@@ -12,11 +12,11 @@ namespace swarmanoid
 
 struct CollisionBody
 {
-  bool is_cylinder = false;             // an upright cylinder about its z axis; otherwise a box
+  bool is_cylinder = false;             // a cylinder about its z axis; otherwise a box
   Pose pose;                            // the pose of its centre, in the frame of the entity
   Vector3 half_size = Vector3::Zero();  // m; for a cylinder: radius, radius, half the height
-  // The convex hull that collides instead of the box around it, in the frame of the entity. The configuration of the
-  // entity owns it.
+  // This convex hull collides instead of the box around it, in the frame of the entity. The configuration of the entity
+  // owns it.
   const ConvexHull* hull = nullptr;
 };
 

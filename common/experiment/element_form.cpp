@@ -9,7 +9,7 @@ namespace swarmanoid
 namespace
 {
 
-// The state of the walk through the tables.
+// The walk through the tables keeps this state.
 struct SchemaPlace
 {
   const ElementSpec* element = nullptr;  // nullptr: only a table of parameters, or an unknown element

@@ -1,5 +1,5 @@
 // The allowed content of an element of an experiment file, by its path in the file, for editors in which users fill it
-// in. It comes from the tables that the reader of the file checks against. Used by `swarmanoid edit`.
+// in. It comes from the tables that the reader of the file checks against. `swarmanoid edit` uses it.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
-// Checks one element against its table and reads its values. A value that is missing or wrong is reported once and read
-// as its default, so that reading goes on and finds all other mistakes too.
+// Checks one element against its table and reads its values. A missing or wrong value is reported once and read as its
+// default, so that reading continues and finds all other mistakes too.
 #pragma once
 
 #include <string>

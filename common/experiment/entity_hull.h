@@ -1,4 +1,4 @@
-// The hulls of entities that collide as a convex hull instead of a box. For the reader of experiments.
+// Some entities collide as a convex hull instead of a box. The reader of experiments makes their hulls here.
 #pragma once
 
 #include <memory>

@@ -19,8 +19,8 @@
 namespace swarmanoid
 {
 
-// The number of a row of the table. The named kinds are the simulator's own. The rows of users follow in the order of
-// their registration.
+// A kind is the number of a row of the table. The named kinds are the simulator's own. The rows of users follow in the
+// order of their registration.
 enum class EntityKind : std::uint8_t
 {
   kFootbot,
@@ -77,15 +77,16 @@ enum class Mechanism : std::uint8_t
   kPropellers      // the eyebot: it flies, and hangs on the ceiling
 };
 
-// The meaning of the numbers of an attribute. It determines which numbers may enter the state.
+// It tells the meaning of the numbers of an attribute, and so which numbers may enter the state.
 enum class AttributeValue : std::uint8_t
 {
-  kNumber,   // finite, at most 1e9 from 0
-  kColour,   // 0xRRGGBB: a whole number from 0 to 0xffffff
-  kSwitch,   // 0 or 1
-  kEntity,   // 1 + index of an entity, or 0
-  kBytes,    // up to five bytes: a whole number from 0 to 2^40 - 1
-  kPresence  // 1 in the arena, 0 not: set by the space server alone
+  kNumber,    // finite, at most 1e9 from 0
+  kColour,    // 0xRRGGBB: a whole number from 0 to 0xffffff
+  kSwitch,    // 0 or 1
+  kEntity,    // 1 + index of an entity, or 0
+  kBytes,     // up to five bytes: a whole number from 0 to 2^40 - 1
+  kPresence,  // 1 in the arena, 0 not: set by the space server alone
+  kEngine     // the number of an engine of the experiment: set by the space server alone
 };
 
 // Numbers of an entity, beside its pose, that all processes see.
@@ -98,7 +99,7 @@ struct AttributeSpec
   AttributeValue value = AttributeValue::kNumber;
 };
 
-// Two wheels on one axis through the origin, y to the left.
+// A robot on wheels has two of them on one axis through the origin, y to the left.
 struct WheelDrive
 {
   double axle_m = 0;  // between the wheels
@@ -106,13 +107,14 @@ struct WheelDrive
   double max_speed_m_s = 0.3;  // the greatest speed of a wheel on the ground
 };
 
-// LEDs, all at one height. They set the attribute "led".
+// LEDs of a robot are all at one height. They set the attribute "led".
 struct LedLayout
 {
   std::vector<Vector2> places;  // m, in the frame of the robot, x forward
   double height_m = 0;
   bool on_turret = false;  // the LEDs turn by the attribute "turret_angle"
-  // The direction of each LED as one of directional_leds, of any length; empty: outwards from the middle.
+  // Each LED has a direction, as one of directional_leds, of any length. If there are none, the LEDs shine outwards
+  // from the middle.
   std::vector<Vector3> directions{};
 };
 // Returns `count` places on a circle, counter-clockwise from `first_angle` (radians, 0 is the front).
@@ -131,7 +133,7 @@ struct ProximityRing
   double range_m = 0;
 };
 
-// A simple shape of the drawn mesh, in the frame of the entity, in metres.
+// A drawn mesh consists of such simple shapes, in the frame of the entity, in metres.
 struct MeshPart
 {
   enum class Form : std::uint8_t

@@ -228,6 +228,7 @@ void AddParameters(Row& row)
       add(FrictionParameter());
       add(RestitutionParameter());
       if (movable) add(GroundFrictionParameter());
+      if (movable) add(GroundTorqueParameter());
       add(ColourParameter(colour));
       add(MeshParameter());
       add(MeshOrientationParameter());

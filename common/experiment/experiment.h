@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/configuration/configuration_tree.h"
+#include "common/experiment/engine_volumes.h"
 #include "common/experiment/entity_kind.h"
 
 namespace swarmanoid
@@ -15,7 +16,7 @@ namespace swarmanoid
 
 struct ConvexHull;  // common/mesh/convex_hull.h
 
-// One <footbot_proximity><implementation>…</implementation>…</footbot_proximity> entry of a controller.
+// It holds one entry of a controller: <footbot_proximity><implementation>…</implementation>…</footbot_proximity>.
 struct DeviceConfiguration
 {
   std::string type;
@@ -23,7 +24,7 @@ struct DeviceConfiguration
   TConfigurationTree tree;  // the element of the device: its parameters
 };
 
-// One entry of <entity_kinds>: a kind that a user's library adds to the table.
+// It holds one entry of <entity_kinds>: a kind that a user's library adds to the table.
 struct EntityKindConfiguration
 {
   std::string tag;
@@ -58,19 +59,18 @@ struct ControllerConfiguration
   bool IsGuarded() const { return MayFail() || time_budget_ms > 0; }
 };
 
-// One entity of the arena. Each entity of a <distribute> is one, too.
+// It holds one entity of the arena. Each entity of a <distribute> has its own.
 struct EntityConfiguration
 {
   EntityKind kind = EntityKind::kBlock;
   std::string id;
   Pose pose;
   std::string controller;  // the id of the controller of a robot; empty for none
-  // The size of the body in metres. Boxes (blocks, walls, handbots): x, y, z. Cylinders (preys, footbots, eyebots):
-  // radius, radius, height. Areas of the floor: x, y, 0 for a rectangle, or radius, 0, 0 for a disc. Zero for entities
-  // without a body.
+  // The size of the body is in metres. Boxes (blocks, walls, handbots) have x, y, z. Cylinders (preys, footbots,
+  // eyebots) have radius, radius, height. Areas of the floor have x, y, 0 for a rectangle, or radius, 0, 0 for a disc.
+  // It is zero for entities without a body.
   Vector3 size = Vector3::Zero();
-  // The convex hull that collides instead of the body, in the frame of the entity. The body of `size` is the box around
-  // it.
+  // This convex hull collides instead of the body, in the frame of the entity. The body of `size` is the box around it.
   std::shared_ptr<const ConvexHull> hull{};
   double mass_kg = 0;    // 0: the default of the kind
   bool movable = false;  // always true for robots and preys; for blocks only if requested
@@ -101,7 +101,8 @@ struct EngineConfiguration
   int subclock = 1;  // steps of the engine in each clock tick
   EngineSplit split{};
   TConfigurationTree tree;
-  std::vector<std::uint32_t> entities;  // indices into Experiment::entities, ascending
+  std::vector<std::uint32_t> entities;  // indices into Experiment::entities, in ascending order
+  EngineVolume volume{};                // an entity that leaves it is handed over to another engine
   SourceLocation location;
 };
 
@@ -123,9 +124,16 @@ enum class SpaceOptimization : std::uint8_t
 // The reaction to an entity that physics moves farther from the arena than the limit.
 enum class BeyondLimit : std::uint8_t
 {
-  kStop,   // the run ends with an error that names it
-  kHold,   // it is put back to where it was one tick before, at rest
-  kRemove  // it leaves the arena, as by SpaceEditor::RemoveEntity
+  kStop,   // the run ends with an error that names the entity
+  kHold,   // the entity is put back to its pose of the tick before, at rest
+  kRemove  // the entity leaves the arena, as by SpaceEditor::RemoveEntity
+};
+
+// The reaction to an entity that leaves the volumes of all engines that can move it.
+enum class OutsideVolumes : std::uint8_t
+{
+  kStop,  // the run ends with an error that names the entity
+  kKeep   // its engine keeps it
 };
 
 // One entry of <experiment_functions>.
@@ -137,12 +145,44 @@ struct FunctionsConfiguration
   SourceLocation location;
 };
 
+// How a fault changes the values of a device.
+enum class DeviceFaultKind : std::uint8_t
+{
+  kDead,   // readings and settings are 0, and lists are empty
+  kStuck,  // they stay as they were in the first tick of the fault
+  kScale,  // times `value`
+  kBias,   // plus `value`
+  kNoise,  // plus a normal number with the deviation `value`
+  kDelay,  // `value` ticks late
+  kDrop,   // lost with the probability `value`: the last ones stay, and entries of lists are missing
+  kOff     // the whole robot is switched off: its actuators are dead, and its controller is not called
+};
+
+// One entry of <faults>.
+struct FaultConfiguration
+{
+  std::string id;
+  DeviceFaultKind kind = DeviceFaultKind::kDead;
+  std::string kind_name;
+  double value = 0;
+  std::string device;  // a tag; empty: all devices of the robots
+  bool of_sensors = true;
+  bool of_actuators = true;
+  std::uint64_t from = 0;               // its first tick
+  std::uint64_t to = 0;                 // the first tick after it; 0: it never ends
+  std::vector<std::uint32_t> entities;  // its robots, which all have the device, ascending
+  SourceLocation location;
+
+  bool IsActive(std::uint64_t tick) const { return tick >= from && (to == 0 || tick < to); }
+};
+
 struct Experiment
 {
   std::string name;    // the file's name without folder and extension, unless <framework><name> says otherwise
   std::string folder;  // the experiment file's folder, where relative paths start
   std::uint32_t clock_tick_ms = 100;
-  std::uint64_t max_clock = 0;  // ticks; 0: until stopped
+  std::uint32_t ticks_per_second = 0;  // 0: a tick lasts clock_tick_ms; otherwise it lasts 1/ticks_per_second s
+  std::uint64_t max_clock = 0;         // ticks; 0: until stopped
   std::uint64_t seed = 1;
   std::uint32_t canonical_period = 100;  // ticks between two canonicalisations of every engine
   std::uint32_t ahead = 0;               // ticks from a control step to the one in which its commands act
@@ -150,17 +190,20 @@ struct Experiment
   std::vector<std::string> plugin_path;
   Vector3 arena_size = Vector3::Zero();
   SpaceOptimization optimization = SpaceOptimization::k2D;
-  double limit_m = 1e4;  // how far outside the arena an entity may be, along each axis
+  double limit_m = 1e4;  // the largest distance of an entity outside the arena, along each axis
   BeyondLimit beyond_limit = BeyondLimit::kStop;
   std::vector<EntityKindConfiguration> entity_kinds;
   std::vector<ControllerConfiguration> controllers;
   std::vector<EntityConfiguration> entities;
   std::vector<EngineConfiguration> engines;
+  EngineChoices engine_choices;  // from the volumes of the engines
+  OutsideVolumes outside_volumes = OutsideVolumes::kStop;
   std::vector<RenderConfiguration> visualisations;
   std::vector<FunctionsConfiguration> functions;
+  std::vector<FaultConfiguration> faults;
   std::string effective_xml;  // a text that gives this experiment again, with --set and --seed applied
 
-  double TickSeconds() const { return clock_tick_ms * 1e-3; }
+  double TickSeconds() const { return ticks_per_second == 0 ? clock_tick_ms * 1e-3 : 1.0 / ticks_per_second; }
   // Returns the controller with that id; nullptr if it does not exist.
   const ControllerConfiguration* FindController(const std::string& id) const;
   // Returns whether some controller has a guard (IsGuarded).

@@ -13,9 +13,10 @@
 #include "common/configuration/xml_writer.h"
 #include "common/experiment/element_reader.h"
 #include "common/experiment/foreign_experiments.h"
-#include "common/experiment/places.h"
 #include "common/experiment/sections.h"
 #include "common/experiment/settings.h"
+#include "common/experiment/source_places.h"
+#include "common/program/shell_word.h"
 
 namespace swarmanoid
 {
@@ -83,12 +84,15 @@ void ReadSections(const TConfigurationTree& root, Reading& reading)
   ReadArena(root.Child("arena"), reading);
   ReadEngines(root.Child("engines"), reading);
   ReadArenaPhysics(root.Child("arena_physics"), reading);
+  reading.experiment.engine_choices = FindEngineChoices(reading.experiment);
   PlaceDistributed(reading);
   ReadVisualisations(root.Child("visualisations"), reading);
   ReadExperimentFunctions(root.Child("experiment_functions"), reading);
+  ReadFaults(root.Child("faults"), reading);
   CheckControllersOfRobots(reading);
   CheckDevicesOfEngines(reading);
   CheckPlanes(reading);
+  CheckVolumes(reading);
   CheckOverlaps(reading);
 }
 
@@ -101,7 +105,7 @@ std::string FolderOfFile(const std::string& path)
 Node ReadRoot(const std::string& text, const std::string& file_name, const std::string& folder,
               const ExperimentSettings& settings, std::vector<Diagnostic>& mistakes)
 {
-  Node root = ReadXmlWithPlaces(text, file_name);
+  Node root = ReadExperimentXml(text, file_name);
   if (const ExperimentConverter* convert = FindExperimentConverter(root->name))
     return (*convert)(*root, folder, settings, mistakes);
   return root;
@@ -120,7 +124,8 @@ LoadedExperiment LoadExperimentText(const std::string& text, const std::string& 
     if (!mistakes.empty()) return Refused(std::move(mistakes));
     if (file_root->name != ExperimentSchema().Name())
     {
-      const std::string advice = file_root->name == "study" ? "; a study is run by: swarmanoid sweep " + file_name : "";
+      const std::string advice =
+          file_root->name == "study" ? "; a study is run by: swarmanoid sweep " + ShellWord(file_name) : "";
       return Refused(std::vector<Diagnostic>{
           {file_root->location, fmt::format("the root element is <{}>; it must be <{}>{}", file_root->name,
                                             ExperimentSchema().Name(), advice)}});

@@ -24,8 +24,8 @@ using ExperimentSettings = std::vector<std::pair<std::string, std::string>>;  //
 struct LoadOptions
 {
   ExperimentSettings settings;
-  // True if this machine runs the experiment. The libraries of the controllers are loaded and must register the tags,
-  // and the maps of terrains must exist.
+  // It is true if this machine runs the experiment. The libraries of the controllers are loaded and must register the
+  // tags, and the maps of terrains must exist.
   bool check_files = true;
   // For editors: returns a file with mistakes as well as possible, beside the mistakes. Wrong values have their
   // defaults. The result is only for display.
@@ -40,8 +40,8 @@ struct LoadedExperiment
 {
   std::unique_ptr<Experiment> experiment;
   std::vector<Diagnostic> errors;
-  // With the experiment: the positions of the elements of its effective text in the user's files. Appended to that
-  // text, it lets readers report the user's positions.
+  // With the experiment come the positions of the elements of its effective text in the user's files. Appended to that
+  // text, they let readers report the user's positions.
   std::string places;
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include "common/experiment/urdf_kind.h"
@@ -37,6 +38,28 @@ const EngineConfiguration* OnlyIgnoredBy(const Experiment& experiment, std::uint
   return found;
 }
 
+constexpr std::size_t kMostNamed = 3;
+
+// Returns the note about robots without a controller, at the first of them; nothing if all have one.
+std::optional<Diagnostic> NoteOnStillRobots(const Experiment& experiment)
+{
+  std::vector<std::string> ids;
+  const EntityConfiguration* first = nullptr;
+  std::size_t count = 0;
+  for (const EntityConfiguration& entity : experiment.entities)
+  {
+    if (!IsRobot(entity.kind) || !entity.controller.empty()) continue;
+    if (first == nullptr) first = &entity;
+    if (++count <= kMostNamed) ids.push_back(entity.id);
+  }
+  if (first == nullptr) return std::nullopt;
+  return Diagnostic{first->location,
+                    count == 1
+                        ? fmt::format("the robot '{}' has no controller, and does nothing by itself", ids.front())
+                        : fmt::format("{} robots have no controller, and do nothing by themselves: {}{}", count,
+                                      fmt::join(ids, ", "), count > kMostNamed ? " …" : "")};
+}
+
 }  // namespace
 
 std::vector<Diagnostic> NotesOn(const Experiment& experiment)
@@ -50,6 +73,11 @@ std::vector<Diagnostic> NotesOn(const Experiment& experiment)
   for (const EntityKindConfiguration& kind : experiment.entity_kinds)
     if (const UrdfKind* urdf = FindUrdfKind(kind.tag))
       for (const Diagnostic& found : urdf->notes) note(found.location, found.message);
+  if (const auto still = NoteOnStillRobots(experiment)) note(still->location, still->message);
+  for (const EngineConfiguration& engine : experiment.engines)
+    if (engine.entities.empty() && engine.volume.IsWhole())
+      note(engine.location,
+           fmt::format("the engine '{}' ({}) has no entities; list some in <arena_physics>", engine.id, engine.tag));
   for (std::uint32_t i = 0; i < experiment.entities.size(); ++i)
   {
     const EntityConfiguration& entity = experiment.entities[i];

@@ -1,5 +1,5 @@
 // Finds content of an experiment file that has no effect. It is no mistake, but perhaps not what the author intends.
-// Used by `swarmanoid check`.
+// `swarmanoid check` uses it.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 namespace swarmanoid
 {
 
-// Returns parameters of entities that none of their engines uses, and holes into which nothing can fall. They are in
-// the order of the file, each position once.
+// Returns robots without a controller, engines without entities, parameters of entities that none of their engines
+// uses, and holes into which nothing can fall. Each position occurs once.
 std::vector<Diagnostic> NotesOn(const Experiment& experiment);
 
 }  // namespace swarmanoid

@@ -122,7 +122,7 @@ ControllerConfiguration ReadController(const TConfigurationTree& tree, Reading& 
   return controller;
 }
 
-// The first robot of each kind that uses the controller, with the number of them.
+// Returns the first robot of each kind that uses the controller, with the number of these robots.
 struct Use
 {
   const EntityConfiguration* robot = nullptr;

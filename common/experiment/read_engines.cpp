@@ -11,15 +11,15 @@
 
 namespace swarmanoid
 {
-namespace
-{
 
-// Returns whether an id fits a pattern with * for any characters and ? for one. fnmatch also treats '[' specially, but
-// no id contains it.
+// fnmatch also treats '[' specially, but no id contains it.
 bool FitsPattern(const std::string& id, const std::string& pattern)
 {
   return pattern.find('[') == std::string::npos && fnmatch(pattern.c_str(), id.c_str(), FNM_NOESCAPE) == 0;
 }
+
+namespace
+{
 
 bool CanSimulate(const PluginDescription& engine, EntityKind kind)
 {
@@ -187,6 +187,36 @@ void ReadSplit(const ElementReader& reader, const PluginDescription* plugin, Eng
     engine.split = *split;
 }
 
+// Reads the volume of an engine, from its element in <arena_physics>.
+void ReadVolume(const ElementReader& reader, const PluginDescription* plugin, EngineConfiguration& engine,
+                Reading& reading)
+{
+  if (!reader.IsGiven("volume") && !reader.IsGiven("heights")) return;
+  EngineVolume& volume = engine.volume;
+  const std::string mistake = volume.ReadOutlines(reader.Text("volume"));
+  if (!mistake.empty())
+    reading.diagnostics.Add(reader.Place("volume"),
+                            fmt::format("the volume of the engine '{}' is {}: {}; for example \"0, 0, 4, 3\" is a "
+                                        "rectangle, and \"0, 0, 4, 0, 4, 3\" a triangle",
+                                        engine.id, Quoted(volume.text), mistake));
+  if (reader.IsGood("heights"))
+  {
+    const Vector3 heights = reader.Vector("heights");
+    volume.low = heights.x();
+    volume.high = heights.y();
+    if (!(volume.low < volume.high))
+      reading.diagnostics.Add(reader.Place("heights"),
+                              fmt::format("the volume of the engine '{}' reaches from {:g} to {:g} m; the first height "
+                                          "must be the lower one",
+                                          engine.id, volume.low, volume.high));
+  }
+  if (plugin != nullptr && !plugin->hands_over)
+    reading.diagnostics.Add(
+        reader.Place(reader.IsGiven("volume") ? "volume" : "heights"),
+        fmt::format("the engine '{}' ({}) cannot hand over entities, so it has no volume; leave volume and heights out",
+                    engine.id, engine.tag));
+}
+
 }  // namespace
 
 void ReadEngines(const TConfigurationTree& tree, Reading& reading)
@@ -224,6 +254,7 @@ void ReadArenaPhysics(const TConfigurationTree& tree, Reading& reading)
   const ElementSpec& spec = ExperimentSchema().Child("arena_physics");
   const ElementReader list(tree, spec, reading.diagnostics);
   Experiment& experiment = reading.experiment;
+  if (list.Text("outside") == "keep") experiment.outside_volumes = OutsideVolumes::kKeep;
 
   std::unordered_map<std::string_view, std::uint32_t> index_of_id;
   index_of_id.reserve(experiment.entities.size());
@@ -260,6 +291,7 @@ void ReadArenaPhysics(const TConfigurationTree& tree, Reading& reading)
     {
       const PluginDescription* plugin = PluginCatalogue::Instance().Find(PluginKind::kEngine, engine->tag);
       MembersReader(*engine, plugin, index_of_id, reading).Read(child, spec.Child("engine"));
+      ReadVolume(reader, plugin, *engine, reading);
     }
   }
 }

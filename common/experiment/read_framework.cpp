@@ -85,6 +85,10 @@ void ReadFramework(const TConfigurationTree& tree, Reading& reading)
   Experiment& experiment = reading.experiment;
   const ElementReader reader(tree, ExperimentSchema().Child("framework"), reading.diagnostics);
   experiment.clock_tick_ms = static_cast<std::uint32_t>(reader.Integer("clocktick"));
+  experiment.ticks_per_second = static_cast<std::uint32_t>(reader.Integer("ticks_per_second"));
+  if (experiment.ticks_per_second != 0 && tree.Value("clocktick"))
+    reading.diagnostics.Add(tree.ValueLocation("ticks_per_second"),
+                            "'clocktick' is given, too; leave 'clocktick' or 'ticks_per_second' out");
   experiment.max_clock = static_cast<std::uint64_t>(reader.Integer("maxclock"));
   experiment.seed = static_cast<std::uint64_t>(reader.Integer("seed"));
   experiment.canonical_period = static_cast<std::uint32_t>(reader.Integer("canonical_period"));

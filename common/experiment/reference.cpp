@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "common/configuration/wording.h"
 #include "common/experiment/schema.h"
 
@@ -9,6 +11,8 @@ namespace swarmanoid
 {
 namespace
 {
+
+constexpr std::ptrdiff_t kMostWords = 20;  // in the cell of a table
 
 std::string DefaultText(const ParameterSpec& parameter)
 {
@@ -29,13 +33,14 @@ void AppendParameters(std::string& page, const std::vector<ParameterSpec>& param
 {
   if (parameters.empty()) return;
   page += "| parameter | type | unit | range | default | meaning |\n|---|---|---|---|---|---|\n";
+  TableNotes notes;
   for (const ParameterSpec& parameter : parameters)
   {
     const std::string type = TypeText(parameter);
     page += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", parameter.name, Cell(type), Cell(parameter.unit),
-                        RangeText(parameter), Cell(DefaultText(parameter)), Cell(parameter.description));
+                        RangeText(parameter), Cell(DefaultText(parameter)), notes.Cell(parameter));
   }
-  page += "\n";
+  page += notes.List() + "\n";
 }
 
 void AppendElement(std::string& page, const ElementSpec& element, const std::string& path)
@@ -61,7 +66,7 @@ void AppendElement(std::string& page, const ElementSpec& element, const std::str
   }
   if (!children.empty()) page += fmt::format("Holds: {}.\n\n", children);
 
-  // The entities have a section of their own.
+  // The entities are described in another section.
   for (const ElementSpec& child : element.children)
   {
     if (!child.entity) AppendElement(page, child, path + "/" + child.Name());
@@ -94,6 +99,25 @@ void AppendPlugin(std::string& page, const PluginDescription& plugin)
 }
 
 }  // namespace
+
+std::string TableNotes::Cell(const ParameterSpec& parameter)
+{
+  const std::string& text = parameter.description;
+  const auto words = [](const std::string& part) { return std::ranges::count(part, ' ') + 1; };
+  if (words(text) <= kMostWords) return swarmanoid::Cell(text);
+  // The cell ends with a sentence, otherwise with a clause, as late as its words allow.
+  for (const std::string end : {". ", "; ", ": "})
+    for (std::size_t at = text.rfind(end); at != std::string::npos && at > 0; at = text.rfind(end, at - 1))
+      if (text[at - 1] != ' ' && words(text.substr(0, at)) <= kMostWords)
+      {
+        list_ += fmt::format("* `{}`: {}\n", parameter.name, text.substr(at + end.size()));
+        return swarmanoid::Cell(text.substr(0, at)) + (end == ". " ? "." : "");
+      }
+  list_ += fmt::format("* `{}`: {}\n", parameter.name, text);
+  return "see below";
+}
+
+std::string TableNotes::List() const { return list_.empty() ? "" : "\n" + list_; }
 
 std::string TypeText(const ParameterSpec& parameter)
 {

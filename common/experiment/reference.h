@@ -21,4 +21,17 @@ std::string PluginReference();
 // Returns the type as these pages show it: "number", "x, y", "calm, wild".
 std::string TypeText(const ParameterSpec& parameter);
 
+// Splits descriptions of parameters: at most 20 words stand in the cell of a table, the rest in a list under it.
+class TableNotes
+{
+public:
+  // Returns the part for the cell, with bars escaped, and keeps the rest.
+  std::string Cell(const ParameterSpec& parameter);
+  // Returns the list with an empty line before it; empty if all descriptions are short.
+  std::string List() const;
+
+private:
+  std::string list_;
+};
+
 }  // namespace swarmanoid

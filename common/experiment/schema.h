@@ -46,9 +46,9 @@ const ElementSpec& ExperimentSchema();
 const std::vector<ElementSpec>& EntityElements();
 const std::vector<ElementSpec>& DistributedEntityElements();
 
-// The most entities of one experiment.
+// One experiment has at most this many entities.
 inline constexpr std::size_t kMostEntities = 2'000'000;
-// The least size of a body or arena, in metres.
+// No body and no arena is smaller than this, in metres.
 inline constexpr double kLeastSize = 1e-6;
 
 }  // namespace swarmanoid

@@ -12,8 +12,8 @@ ElementSpec OctoMap()
   ElementSpec octomap;
   octomap.tags = {"octomap"};
   octomap.description = "An OctoMap: the occupied cells are solid.";
-  octomap.parameters = {Required(ParameterType::kText, "file", "",
-                                 "A .bt or .ot file; a relative path starts at the folder of the experiment file.")};
+  octomap.parameters = {{"file", ParameterType::kText, "", std::nullopt,
+                         "A .bt or .ot file; a relative path starts at the folder of the experiment file."}};
   return octomap;
 }
 
@@ -25,9 +25,9 @@ ElementSpec HeightMap()
   heightmap.description =
       "A picture of heights. It spans its size along x and y from the position; its upper edge is at the largest y.";
   heightmap.parameters = {
-      Required(kText, "file", "", "A PNG; a relative path starts at the folder of the experiment file."),
-      Size(Required(kVector2, "size", "m", "What the picture spans.")),
-      Size(Required(kNumber, "height", "m", "Of white; black is 0, greys are between in proportion.")),
+      {"file", kText, "", std::nullopt, "A PNG; a relative path starts at the folder of the experiment file."},
+      Size({"size", kVector2, "m", std::nullopt, "What the picture spans."}),
+      Size({"height", kNumber, "m", std::nullopt, "Of white; black is 0, greys are between in proportion."}),
   };
   return heightmap;
 }
@@ -44,11 +44,10 @@ ElementSpec Entity(EntityKind kind)
   element.repeatable = true;
   element.parameters = {
       Id("The name of the entity; unique in the arena."),
-      Place(Required(kVector3, "position", "m",
-                     "Where it is; within the arena, which reaches from 0, 0, 0 to its size.")),
-      Angles(Optional(
-          kVector3, "orientation", "degrees", "0, 0, 0",
-          "Rotations about the fixed axes x, y and z, in this order. The heading of a robot is the last one.")),
+      Place({"position", kVector3, "m", std::nullopt,
+             "Where it is; within the arena, which reaches from 0, 0, 0 to its size."}),
+      Angles({"orientation", kVector3, "degrees", "0, 0, 0",
+              "Rotations about the fixed axes x, y and z, in this order. The heading of a robot is the last one."}),
   };
   element.parameters.insert(element.parameters.end(), row.parameters.begin(), row.parameters.end());
   if (row.role != EntityRole::kTerrain) return element;
@@ -63,7 +62,7 @@ std::vector<ElementSpec> MakeEntities()
   std::vector<ElementSpec> entities;
   for (std::size_t kind = 0; kind < EntityKindCount(); ++kind)
     entities.push_back(Entity(static_cast<EntityKind>(kind)));
-  // Pages and messages name the robots in this order.
+  // The reference pages and messages name the robots in this order.
   const auto place = [&](const char* tag) { return std::ranges::find(entities, tag, &ElementSpec::Name); };
   std::iter_swap(place("eyebot"), place("handbot"));
   return entities;
@@ -89,41 +88,49 @@ ElementSpec Distribute()
   position.tags = {"position"};
   position.description = "How the positions are chosen. Absent: uniform over the floor of the arena.";
   position.parameters = {
-      OneOf(Optional(kChoice, "method", "", "uniform",
-                     "uniform in a box, gaussian about a point, or the points of a grid one after the other."),
+      OneOf({"method", kChoice, "", "uniform",
+             "uniform in a box, gaussian about a point, or the points of a grid one after the other."},
             {"uniform", "gaussian", "grid"}),
-      Place(Optional(kVector3, "min", "m", "",
-                     "uniform: the lower corner of the box; empty: that of the floor, less the body.")),
-      Place(Optional(kVector3, "max", "m", "",
-                     "uniform: the upper corner of the box; empty: that of the floor, less the body.")),
-      Place(Optional(kVector3, "mean", "m", "", "gaussian: the point; empty: the middle of the floor.")),
-      InRange(Optional(kVector3, "deviation", "m", "1, 1, 0", "gaussian: the standard deviation along each axis."), 0,
-              kMostMetres),
-      Place(Optional(kVector3, "centre", "m", "", "grid: its middle; empty: the middle of the floor.")),
-      InRange(Optional(kVector3, "spacing", "m", "",
-                       "grid: the distance of neighbours along each axis; empty: as the arena allows."),
-              0, kMostMetres),
-      InRange(Optional(
-                  kVector3, "layout", "", "",
-                  "grid: the number of points along x, y and z, filled in this order; empty: a square that holds all."),
-              1, 1e6),
-      Place(Optional(kNumber, "drop_from", "m", "",
-                     "Height from which each is let down onto the terrain of its engines, so that no part of its base "
-                     "is in it; empty: the height of the drawn position stays.")),
+      Place(
+          {"min", kVector3, "m", "", "uniform: the lower corner of the box; empty: that of the floor, less the body."}),
+      Place(
+          {"max", kVector3, "m", "", "uniform: the upper corner of the box; empty: that of the floor, less the body."}),
+      Place({"mean", kVector3, "m", "", "gaussian: the point; empty: the middle of the floor."}),
+      {"deviation", kVector3, "m", "1, 1, 0", "gaussian: the standard deviation along each axis.", 0, kMostMetres},
+      Place({"centre", kVector3, "m", "", "grid: its middle; empty: the middle of the floor."}),
+      {"spacing", kVector3, "m", "",
+       "grid: the distance of neighbours along each axis, negative: it is filled from the largest coordinate on; "
+       "empty: "
+       "as the arena allows.",
+       -kMostMetres, kMostMetres},
+      {"layout", kVector3, "", "",
+       "grid: the number of points along x, y and z, filled in this order; empty: a square that holds all.", 1, 1e6},
+      Place({"drop_from", kNumber, "m", "",
+             "Height from which each is let down onto the terrain of its engines, so that no part of its base is in "
+             "it; empty: the height of the drawn position stays."}),
   };
   ElementSpec orientation;
   orientation.tags = {"orientation"};
   orientation.description = "How the orientations are chosen. Absent: a uniform heading.";
   orientation.parameters = {
       OneOf(
-          Optional(kChoice, "method", "", "uniform", "uniform between two bounds, gaussian about a mean, or constant."),
-          {"uniform", "gaussian", "constant"}),
-      Angles(Optional(kVector3, "min", "degrees", "0, 0, 0", "uniform: the lower bounds.")),
-      Angles(Optional(kVector3, "max", "degrees", "0, 0, 360", "uniform: the upper bounds.")),
-      Angles(Optional(kVector3, "mean", "degrees", "0, 0, 0", "gaussian: the mean.")),
-      InRange(Optional(kVector3, "deviation", "degrees", "0, 0, 0", "gaussian: the standard deviation of each angle."),
-              0, kMostDegrees),
-      Angles(Optional(kVector3, "value", "degrees", "0, 0, 0", "constant: the orientation of all.")),
+          {"method", kChoice, "", "uniform",
+           "uniform between two bounds, gaussian about a mean, constant, or the points of a grid one after the other."},
+          {"uniform", "gaussian", "constant", "grid"}),
+      OneOf({"axes", kChoice, "", "xyz",
+             "xyz: angles about the fixed axes x, y and z, one after the other. zyx: angles about z, y and x, turned "
+             "about in this order."},
+            {"xyz", "zyx"}),
+      Angles({"min", kVector3, "degrees", "0, 0, 0", "uniform: the lower bounds."}),
+      Angles({"max", kVector3, "degrees", "0, 0, 360", "uniform: the upper bounds."}),
+      Angles({"mean", kVector3, "degrees", "0, 0, 0", "gaussian: the mean."}),
+      {"deviation", kVector3, "degrees", "0, 0, 0", "gaussian: the standard deviation of each angle.", 0, kMostDegrees},
+      Angles({"value", kVector3, "degrees", "0, 0, 0", "constant: the orientation of all."}),
+      Angles({"centre", kVector3, "degrees", "0, 0, 0", "grid: its middle."}),
+      Angles({"spacing", kVector3, "degrees", "0, 0, 0",
+              "grid: the difference of neighbours in each angle, negative: it begins at the largest angle."}),
+      {"layout", kVector3, "", "1, 1, 1",
+       "grid: the number of angles about each axis, filled in the order of axes and then again.", 1, 1e6},
   };
 
   ElementSpec element;
@@ -134,14 +141,12 @@ ElementSpec Distribute()
       "without position and orientation. The places follow from the seed alone.";
   element.repeatable = true;
   element.parameters = {
-      InRange(Required(kInteger, "quantity", "", "How many; 0 for none."), 0, static_cast<double>(kMostEntities)),
-      InRange(Optional(kInteger, "max_trials", "", "100",
-                       "How often a place is drawn for an entity before the experiment is refused as too crowded."),
-              1, 1e6),
-      OneOf(Optional(kChoice, "order", "", "number",
-                     "number: fb_0, fb_1, fb_2 ... one after the other in memory, tables and arrays. place: those that "
-                     "start near one another, which makes ticks of 10,000 entities and more faster. Ids and places "
-                     "are the same."),
+      {"quantity", kInteger, "", std::nullopt, "How many; 0 for none.", 0, static_cast<double>(kMostEntities)},
+      {"max_trials", kInteger, "", "100",
+       "How often a place is drawn for an entity before the experiment is refused as too crowded.", 1, 1e6},
+      OneOf({"order", kChoice, "", "number",
+             "number: fb_0, fb_1, fb_2 ... one after the other in memory, tables and arrays. place: those that start "
+             "near one another, which makes ticks of 10,000 entities and more faster. Ids and places are the same."},
             {"number", "place"}),
   };
   element.children = {position, orientation};
@@ -158,8 +163,8 @@ ElementSpec Reserve()
       "Entities that are not in the arena at the start: experiment functions add them while the experiment runs. Holds "
       "one entity element without position and orientation.";
   element.repeatable = true;
-  element.parameters = {InRange(Required(kInteger, "quantity", "", "How many; never more are in the arena at a time."),
-                                1, static_cast<double>(kMostEntities))};
+  element.parameters = {{"quantity", kInteger, "", std::nullopt, "How many; never more are in the arena at a time.", 1,
+                         static_cast<double>(kMostEntities)}};
   for (const ElementSpec& entity : DistributedEntityElements())
     if (CanWait(*entity.entity)) element.children.push_back(entity);
   return element;
@@ -175,20 +180,18 @@ ElementSpec Arena()
   element.description = "The space and the entities in it.";
   element.required = true;
   element.parameters = {
-      Size(Required(kVector3, "size", "m", "The extent of the arena along x, y and z; it starts at 0, 0, 0.")),
-      OneOf(Required(kChoice, "optimization", "",
-                     "How positions are indexed: 2D where most robots are in 2D engines, 3D otherwise; "
-                     "octree asks for the oct-tree by name. It changes speed, never results."),
+      Size({"size", kVector3, "m", std::nullopt, "The extent of the arena along x, y and z; it starts at 0, 0, 0."}),
+      OneOf({"optimization", kChoice, "", std::nullopt,
+             "How positions are indexed: 2D where most robots are in 2D engines, 3D otherwise; octree asks for the "
+             "oct-tree by name. It changes speed, never results."},
             {"2D", "3D", "octree"}),
-      InRange(
-          Optional(kNumber, "limit", "m", "0",
-                   "How far outside the arena an entity may get, along each axis, in all directions; 0: ten times the "
-                   "longest side of the arena, and at least 100 m."),
-          0, kMostMetres),
-      OneOf(Optional(kChoice, "beyond_limit", "", "stop",
-                     "What happens to an entity that physics takes farther than that: stop ends the run with an error "
-                     "that names it, hold puts it back to where it was one tick before, remove takes it out of the "
-                     "arena."),
+      {"limit", kNumber, "m", "0",
+       "How far outside the arena an entity may get, along each axis, in all directions; 0: ten times the longest side "
+       "of the arena, and at least 100 m.",
+       0, kMostMetres},
+      OneOf({"beyond_limit", kChoice, "", "stop",
+             "What happens to an entity that physics takes farther than that: stop ends the run with an error that "
+             "names it, hold puts it back to where it was one tick before, remove takes it out of the arena."},
             {"stop", "hold", "remove"}),
   };
   element.children = EntityElements();

@@ -15,31 +15,6 @@ namespace swarmanoid
 inline constexpr double kMostMetres = 1e6;
 inline constexpr double kMostDegrees = 1e5;
 
-inline ParameterSpec Required(ParameterType type, std::string name, std::string unit, std::string description)
-{
-  ParameterSpec spec;
-  spec.name = std::move(name);
-  spec.type = type;
-  spec.unit = std::move(unit);
-  spec.description = std::move(description);
-  return spec;
-}
-
-inline ParameterSpec Optional(ParameterType type, std::string name, std::string unit, std::string default_value,
-                              std::string description)
-{
-  ParameterSpec spec = Required(type, std::move(name), std::move(unit), std::move(description));
-  spec.default_value = std::move(default_value);
-  return spec;
-}
-
-inline ParameterSpec InRange(ParameterSpec spec, double minimum, double maximum)
-{
-  spec.minimum = minimum;
-  spec.maximum = maximum;
-  return spec;
-}
-
 inline ParameterSpec OneOf(ParameterSpec spec, std::vector<std::string> choices)
 {
   spec.choices = std::move(choices);
@@ -48,18 +23,22 @@ inline ParameterSpec OneOf(ParameterSpec spec, std::vector<std::string> choices)
 
 inline ParameterSpec Id(std::string description)
 {
-  return Required(ParameterType::kText, "id", "", std::move(description) + " Letters, digits and _ . : -");
+  return {"id", ParameterType::kText, "", std::nullopt, std::move(description) + " Letters, digits and _ . : -"};
 }
 
-inline ParameterSpec Place(ParameterSpec spec) { return InRange(std::move(spec), -kMostMetres, kMostMetres); }
-
+inline ParameterSpec Within(ParameterSpec spec, double minimum, double maximum)
+{
+  spec.minimum = minimum;
+  spec.maximum = maximum;
+  return spec;
+}
+inline ParameterSpec Place(ParameterSpec spec) { return Within(std::move(spec), -kMostMetres, kMostMetres); }
 // The trigonometric functions lose accuracy with large angles.
-inline ParameterSpec Angles(ParameterSpec spec) { return InRange(std::move(spec), -kMostDegrees, kMostDegrees); }
+inline ParameterSpec Angles(ParameterSpec spec) { return Within(std::move(spec), -kMostDegrees, kMostDegrees); }
+inline ParameterSpec Size(ParameterSpec spec) { return Within(std::move(spec), kLeastSize, kMostMetres); }
 
-inline ParameterSpec Size(ParameterSpec spec) { return InRange(std::move(spec), kLeastSize, kMostMetres); }
-
-// A value made from the table of entity kinds. It is made again after a library has added rows; earlier references stay
-// valid.
+// It keeps a value that is made from the table of entity kinds. The value is made again after a library has added rows;
+// earlier references stay valid.
 template <class Made>
 class PerTable
 {
@@ -78,7 +57,7 @@ private:
   std::map<std::size_t, Made> made_;
 };
 
-// <arena>: the space, its entities, and the entities of <distribute> and <reserve>.
+// Describes <arena>: the space, its entities, and the entities of <distribute> and <reserve>.
 ElementSpec Arena();
 
 }  // namespace swarmanoid

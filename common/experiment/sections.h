@@ -1,4 +1,5 @@
-// The readers of the sections of an experiment file, in the order in which they are called. Used by LoadExperimentText.
+// The readers of the sections of an experiment file, in the order in which they are called. LoadExperimentText uses
+// them.
 #pragma once
 
 #include <map>
@@ -42,11 +43,14 @@ void ReadEngines(const TConfigurationTree& tree, Reading& reading);
 void ReadArenaPhysics(const TConfigurationTree& tree, Reading& reading);
 void ReadVisualisations(const TConfigurationTree& tree, Reading& reading);
 void ReadExperimentFunctions(const TConfigurationTree& tree, Reading& reading);
+// Finds the robots of each fault, so it is called after PlaceDistributed, which may sort the entities.
+void ReadFaults(const TConfigurationTree& tree, Reading& reading);
 
 // Reports mistakes that only the whole experiment shows.
 void CheckControllersOfRobots(Reading& reading);
 void CheckDevicesOfEngines(Reading& reading);
 void CheckPlanes(Reading& reading);
+void CheckVolumes(Reading& reading);
 void CheckOverlaps(Reading& reading);
 
 // Reports an id longer than 64, or with other characters than letters, digits and _ . : -. `place`: the position of the
@@ -57,6 +61,9 @@ bool CheckId(const std::string& id, const SourceLocation& place, Diagnostics& di
 // Returns the description of a plug-in that an element stands for. If `library` names a library, it is loaded first.
 // Returns nullptr, after a report of the existing plug-ins, if the plug-in does not exist.
 const PluginDescription* FindPlugin(PluginKind kind, const TConfigurationTree& tree, Reading& reading);
+
+// Returns whether an id fits a pattern with * for any characters and ? for one.
+bool FitsPattern(const std::string& id, const std::string& pattern);
 
 // Returns whether an engine moves entities on one plane, that is, has the parameters of the plane.
 bool MovesOnPlane(const EngineConfiguration& engine);

@@ -1,3 +1,8 @@
+// A path has steps. Each step is the tag or the id of an element, or a tag with an id or number. The last one may be an
+// attribute. Find takes the only child that fits, and refuses a step that fits several. The old tree stays as it is: a
+// change copies the nodes on the path, and both trees share all others.
+//
+// Invariant: all spellings of a path have the same address, so that two settings of one value are recognised.
 #include "common/experiment/settings.h"
 
 #include <fmt/format.h>

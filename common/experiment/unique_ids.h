@@ -12,7 +12,7 @@ namespace swarmanoid
 class UniqueIds
 {
 public:
-  // `what`: "entities".
+  // `what` names the things with ids in messages: "entities".
   explicit UniqueIds(std::string what, std::size_t expected = 0) : what_(std::move(what)) { first_.reserve(expected); }
 
   // Adds an id that is in this line. Returns the mistake, or an empty text. Empty ids are ignored.

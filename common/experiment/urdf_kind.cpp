@@ -1,3 +1,10 @@
+// A URDF file describes links and joints, and a kind has one rigid body with two driven wheels. The builder finds the
+// wheels first: they are the two continuous joints about the lateral axis, and the middle of their axle on the ground
+// becomes the origin. All other shapes then become one body: a cylinder if one upright cylinder covers them, a box
+// around them if not, and their convex hull if a mesh is among them.
+//
+// Invariant: what a file has and the kind leaves out or changes is named in a note; a mistake is an error with its
+// line, and no kind is made.
 #include "common/experiment/urdf_kind.h"
 
 #include <fmt/format.h>
@@ -20,11 +27,11 @@ namespace
 {
 
 constexpr double kSamePlace = 1e-3;  // m
-constexpr double kSpeed = 0.3;       // m/s, of wheels without a limit: WheelDrive's
+constexpr double kSpeed = 0.3;       // m/s, for wheels without a limit: that of WheelDrive
 
 using Form = UrdfShape::Form;
 
-// The two wheels that drive, left and right.
+// A robot has two driven wheels, left and right.
 struct Wheels
 {
   const UrdfJoint* left = nullptr;
@@ -32,7 +39,7 @@ struct Wheels
   double radius = 0;
 };
 
-// Lower and upper corner of what a shape fills.
+// It is the box around all shapes that were added, by its lower and its upper corner.
 struct Extent
 {
   Vector3 low = Vector3::Constant(1e9);
@@ -161,9 +168,18 @@ private:
     {
       std::vector<std::string> names;
       for (const UrdfJoint* joint : rolling) names.push_back(joint->name);
+      std::vector<std::string> limited;
+      for (const UrdfJoint& joint : links_.joints)
+        if (joint.type == "revolute" &&
+            std::abs((links_.LinkOf(joint.child).pose.orientation * joint.axis).y()) >= 1 - kSamePlace)
+          limited.push_back("'" + joint.name + "'");
       Error(links_.location, fmt::format("a robot has two driven wheels, which are continuous joints about y; this one "
-                                         "has {}{}. Joints of casters are of type fixed",
-                                         rolling.size(), names.empty() ? "" : ": " + Listed(names)));
+                                         "has {}{}. {}",
+                                         rolling.size(), names.empty() ? "" : ": " + Listed(names),
+                                         limited.empty() ? "Joints of casters are of type fixed"
+                                                         : fmt::format("About y, but of type revolute: {}; make wheels "
+                                                                       "continuous",
+                                                                       Listed(limited))));
       return false;
     }
     wheels_ = {rolling[0], rolling[1], 0};

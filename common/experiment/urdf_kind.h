@@ -1,5 +1,5 @@
-// A kind of robot from a URDF file (http://wiki.ros.org/urdf/XML, the format's reference): body, mass, two driven
-// wheels and mesh become a row of the table of entity kinds. Used by the reader of experiments in every process.
+// Makes a kind of robot from a URDF file (http://wiki.ros.org/urdf/XML has the format). Body, mass, two driven wheels
+// and mesh become a row of the table of entity kinds. The reader of experiments uses it in every process.
 //
 //   <entity_kinds><rover urdf="rover.urdf"/></entity_kinds>
 #pragma once

@@ -1,3 +1,7 @@
+// Reads links and joints, and then computes the pose of each link by going up the joints to the root.
+//
+// Invariants: the links make one tree; a link with two parents, a second root or a ring is refused. In these poses all
+// joints stand at zero. Meshes that collide are replaced by their hulls; meshes that are drawn stay files.
 #include "common/experiment/urdf_links.h"
 
 #include <fmt/format.h>

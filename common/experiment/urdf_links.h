@@ -1,4 +1,5 @@
-// The links and joints of a URDF file in the frame of its root link, with all joints at zero. For urdf_kind.cpp.
+// Reads the links and joints of a URDF file into the frame of its root link, with all joints at zero. Only
+// urdf_kind.cpp uses it.
 #pragma once
 
 #include <cstdint>

@@ -89,8 +89,8 @@ void CollectPluginElements(const ElementSpec& element, std::map<PluginKind, cons
   for (const ElementSpec& child : element.plugin_element) CollectPluginElements(child, found);
 }
 
-// The element of a label. A sensor and an actuator may have the same label, and each may have several implementations.
-// The element allows the content of all of them.
+// Each label has one element. A sensor and an actuator may have the same label, and each may have several
+// implementations. The element allows the content of all of them.
 struct LabelElement
 {
   ElementSpec element;

@@ -1,3 +1,9 @@
+// The values of commands lie in one block for each channel and host, robot by robot. For a pair of host tables the
+// class computes once which ranges go where, and then copies ranges at each tick. Attributes and faults name their
+// robots, so they are dealt out one by one.
+//
+// Invariant: with equal tables the result is the input, bit for bit; otherwise it is what the other hosts would have
+// sent.
 #include "common/journal/commands_by_robot.h"
 
 #include <algorithm>

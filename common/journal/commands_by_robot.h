@@ -20,9 +20,11 @@ public:
   // Converts to the hosts of the assignment. The assignment and the space must outlive the object.
   CommandsByRobot(const CSwarmanoidSpace& space, const Assignment& to) : space_(space), to_(to) {}
 
-  // Returns the commands of `hosts`.
+  // Returns what the hosts of the assignment would have sent, from the commands that `hosts` sent at a tick. Converted
+  // ones have no texts of faults.
   std::vector<ControlCommands> Of(const HostTable& hosts, const std::vector<ControlCommands>& commands);
-  // Returns the first `ticks` ticks of a block.
+  // Returns the first `ticks` ticks of a block of the journal, with such commands. Throws std::runtime_error if the
+  // block is damaged.
   std::vector<char> Of(const HostTable& hosts, std::vector<char> block, std::uint32_t ticks);
 
 private:

@@ -22,7 +22,7 @@ public:
   virtual std::vector<char> Content(const JournalPlace& place) const = 0;
 };
 
-// The ticks from `first` up to the one before `end`.
+// The ticks from `first` to the one before `end`.
 struct TickRange
 {
   std::uint64_t first = 0;

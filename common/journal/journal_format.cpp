@@ -21,8 +21,8 @@ namespace
 
 constexpr std::size_t kChecksumAt = kJournalHeaderBytes - sizeof(std::uint64_t);
 constexpr std::uint64_t kMostBlockBytes = std::uint64_t{1} << 36U;  // 64 GiB
-// The level of zstd. Ticks are packed before: level 1 makes them 3 % shorter, for a third more time (1,000 robots of
-// diffusion_1000.xml).
+// zstd compresses at this level. Ticks are packed before: level 1 makes them 3 % shorter, for a third more time (1,000
+// robots of diffusion_1000.xml).
 constexpr int kLevel = -1;
 
 template <class Number>

@@ -1,3 +1,10 @@
+// A journal may have lost its end, whole segments, or blocks in the middle, and one run may have been continued several
+// times in it. Reading goes through all segments in order and makes a list of places of good blocks. Content is read
+// from the file when it is asked for. A mark of a continuation, or ticks that come again, drop what the earlier process
+// wrote of later ticks (AddPlace).
+//
+// Invariants: the places ascend in the order of writing, and their ticks do not overlap. A damaged block is in
+// damages_, and never in places_.
 #include "common/journal/journal_reader.h"
 
 #include <fmt/format.h>

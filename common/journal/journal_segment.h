@@ -1,4 +1,4 @@
-// Reads one file of a journal from any offset, also if it is damaged. Used by JournalReader and JournalFollower.
+// Reads one file of a journal from any offset, also if it is damaged. JournalReader and JournalFollower use it.
 #pragma once
 
 #include <cstdint>

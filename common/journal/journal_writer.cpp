@@ -94,6 +94,7 @@ JournalWriter::JournalWriter(const std::string& path, std::span<const char> star
   for (const std::uint32_t later : SegmentsOf(path_))
     if (later > 0) std::filesystem::remove(SegmentFile(path_, later));
   start_.assign(start.begin(), start.end());
+  open_start_ = start_;
   tables_.push_back(Start().hosts);
   Block first;
   first.place.kind = JournalBlockKind::kStart;
@@ -110,9 +111,9 @@ JournalWriter::JournalWriter(const JournalReader& journal, std::uint64_t tick, b
   tables_ = journal.Tables();
   start.hosts = tables_.back();
   start_ = ContentOf(start);
+  open_start_ = start_;
   size_ = journal.NewestSegmentBytes();
   all_bytes_ = journal.Bytes();
-  segment_from_ = all_bytes_ - size_;
   // Removes segments whose first block was incomplete when the run died, or that follow a damaged one.
   for (const std::uint32_t later : SegmentsOf(path_))
     if (later > segment_) std::filesystem::remove(SegmentFile(path_, later));
@@ -184,14 +185,9 @@ void JournalWriter::Queue(JournalBlockKind kind, std::uint64_t tick, const std::
 {
   if (!works_) return;
   // All parts of a saved state go into one segment; parts may arrive before the space.
-  const bool opens_segment =
-      budget_.bytes != 0 && tick > saved_ && all_bytes_ - segment_from_ >= budget_.bytes / kSegments;
+  const bool may_open_segment = budget_.bytes != 0 && tick > saved_;
   saved_ = std::max(saved_, tick);
-  if (opens_segment)
-  {
-    QueueRows();
-    segment_from_ = all_bytes_;
-  }
+  if (may_open_segment) QueueRows();
   Block& block = queue_.emplace_back();
   block.queued = content.size();
   queued_bytes_ += block.queued;
@@ -199,7 +195,7 @@ void JournalWriter::Queue(JournalBlockKind kind, std::uint64_t tick, const std::
   block.place.first_tick = tick;
   block.place.name = name;
   block.content = std::move(content);
-  if (opens_segment) block.start = start_;
+  block.may_open_segment = may_open_segment;
 }
 
 void JournalWriter::BeginHosts(const HostTable& hosts, std::uint64_t tick)
@@ -207,7 +203,6 @@ void JournalWriter::BeginHosts(const HostTable& hosts, std::uint64_t tick)
   const std::lock_guard lock(mutex_);
   if (!works_) return;
   QueueRows();
-  segment_from_ = all_bytes_;
   JournalStart start = ReadStart(start_);
   start.hosts = hosts;
   start_ = ContentOf(start);
@@ -280,13 +275,17 @@ void JournalWriter::Write()
 
 void JournalWriter::Write(Block& block)
 {
-  if (!block.start.empty()) OpenNextSegment(block);
+  // The writer's thread decides, since the bytes of blocks that still wait in the queue are not known before.
+  if (!block.start.empty())
+    OpenNextSegment(std::move(block.start), block.place.first_tick);
+  else if (block.may_open_segment && size_ >= budget_.bytes / kSegments)
+    OpenNextSegment(open_start_, block.place.first_tick);
   WriteBlock(block);
   if (budget_.bytes != 0 && block.place.kind == JournalBlockKind::kPart) DropOldSegments();
 }
 
 // The previous segment is complete. If the next one cannot be made, the journal ends there.
-void JournalWriter::OpenNextSegment(const Block& opening)
+void JournalWriter::OpenNextSegment(std::vector<char> start, std::uint64_t tick)
 {
   if (!Works()) return;
   const int next = OpenOutput(SegmentFile(path_, segment_ + 1), O_RDWR | O_CREAT | O_TRUNC);
@@ -304,11 +303,12 @@ void JournalWriter::OpenNextSegment(const Block& opening)
   size_ = 0;
   Block first;
   first.place.kind = JournalBlockKind::kStart;
-  first.place.first_tick = opening.place.first_tick;
-  first.content = opening.start;
+  first.place.first_tick = tick;
+  first.content = start;
+  open_start_ = std::move(start);
   {
     const std::lock_guard lock(mutex_);
-    if (HostTable hosts = ReadStart(opening.start).hosts; hosts != tables_.back()) tables_.push_back(std::move(hosts));
+    if (HostTable hosts = ReadStart(open_start_).hosts; hosts != tables_.back()) tables_.push_back(std::move(hosts));
   }
   WriteBlock(first);
 }
@@ -380,7 +380,6 @@ void JournalWriter::DropOldSegments()
     const std::uint64_t bytes = std::filesystem::file_size(SegmentFile(path_, oldest.number), none);
     if (none || !std::filesystem::remove(SegmentFile(path_, oldest.number), none)) return;
     all_bytes_ -= std::min(all_bytes_, bytes);
-    segment_from_ -= std::min(segment_from_, bytes);
     std::erase_if(places_, [&](const JournalPlace& place) { return place.segment == oldest.number; });
     segments_.erase(segments_.begin());
   }
@@ -455,8 +454,8 @@ std::optional<std::string> JournalWriter::TakeExcess()
   if (lacking.empty()) return std::nullopt;
   excess_told_ = true;
   return fmt::format(
-      "the journal '{}' has {} bytes, more than its budget, and keeps all: without its start nobody could replace {}, "
-      "which saves no state (controllers and experiment functions need HasState, SaveState and LoadState)",
+      "the journal '{}' has {} bytes, more than its budget, and keeps all: without its start {} could not be replaced, "
+      "since it saves no state (controllers and experiment functions need HasState, SaveState and LoadState)",
       path_, all_bytes_, lacking);
 }
 

@@ -22,7 +22,7 @@ namespace swarmanoid
 
 class JournalReader;
 
-// A block in a file.
+// It tells where a block is in the files, and what it holds.
 struct JournalPlace
 {
   JournalBlockKind kind{};
@@ -37,7 +37,7 @@ struct JournalPlace
 // The number of the table for blocks whose segment has a damaged first block, which holds the table.
 inline constexpr std::uint32_t kUnknownTable = UINT32_MAX;
 
-// How much of a journal is kept.
+// A journal may take this much room on the disk.
 struct JournalBudget
 {
   std::uint64_t bytes = 0;         // 0: everything
@@ -107,6 +107,8 @@ private:
     std::vector<char> content{};  // for other kinds
     std::size_t queued = 0;       // the bytes that it adds to queued_bytes_
     std::vector<char> start{};    // the start of the next segment, if this block opens it
+    // It is the first of a saved state: it opens a segment if the open one is long enough.
+    bool may_open_segment = false;
   };
 
   // A segment that is kept.
@@ -135,7 +137,7 @@ private:
   void Write();
   void Write(Block& block);
   void WriteBlock(Block& block);
-  void OpenNextSegment(const Block& opening);
+  void OpenNextSegment(std::vector<char> start, std::uint64_t tick);
   void DropOldSegments();
   // While the budget is exceeded, returns the first of the parts that no saved state has.
   std::string LackingPart() const;
@@ -143,8 +145,9 @@ private:
 
   std::string path_;
   JournalBudget budget_;
-  std::vector<char> start_;  // the content of the first block of the open segment
-  int file_ = -1;            // the newest segment
+  std::vector<char> start_;       // the content of the first block of the newest segment that is queued
+  std::vector<char> open_start_;  // the same of the open segment; only the writer's thread uses it
+  int file_ = -1;                 // the newest segment
   std::uint32_t segment_ = 0;
   ReusedMemory room_;         // the content of a block; only the writer's thread uses it
   mutable std::mutex mutex_;  // guards the members below
@@ -169,7 +172,6 @@ private:
   std::vector<HostTable> tables_;               // the last table is that of the newest segment
   std::uint64_t saved_ = 0;                     // the newest tick with an added state
   std::uint64_t all_bytes_ = 0;                 // bytes of whole blocks in all segments
-  std::uint64_t segment_from_ = 0;              // all_bytes_ at the start of the newest or next segment
   std::uint64_t size_ = 0;  // bytes of whole blocks of the newest segment; only the writer's thread uses it
   RunThread thread_;
 };

@@ -1,5 +1,5 @@
-// RecordedStates: the space as it was at each tick of a journal. Used by `swarmanoid replay`, `diff`, `export`, `run
-// --branch`, and the timeline of the page. One thread.
+// RecordedStates: the space as it was at each tick of a journal. `swarmanoid replay`, `diff`, `export`, `run --branch`,
+// and the timeline of the page use it. One thread may use an object.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,7 @@
+// A block has the numbers of its ticks as rows of equal length, packed by RowPacker. A second array behind them has
+// everything of varying length: attributes, moved entities, faults, flags. Rows of another length end a block.
+//
+// Invariant: a reader checks the lengths of the rows against the bytes that are there before it takes memory for them.
 #include "common/journal/tick_records.h"
 
 #include <algorithm>
@@ -29,6 +33,15 @@ void Get(ByteReader& bytes, AttributeChanges& changes)
   changes.values = bytes.GetArray<double>();
 }
 
+// Returns an element of a list that is kept from tick to tick. The list grows by one element at most, so that a stated
+// count takes no memory before its elements are there.
+template <class T>
+T& At(std::vector<T>& kept, std::uint32_t number)
+{
+  if (number == kept.size()) kept.emplace_back();
+  return kept[number];
+}
+
 constexpr auto kStartFields = [](auto& archive, auto& start)
 {
   ForEachOriginField(archive, start.origin);
@@ -51,7 +64,8 @@ std::vector<char> Written(const T& value, const Fields& fields)
 template <class T, class Fields>
 T Read(std::span<const char> content, const Fields& fields)
 {
-  FieldReader archive(content);
+  ByteReader bytes(content);
+  FieldReader archive(bytes);
   T value;
   fields(archive, value);
   return value;
@@ -167,25 +181,27 @@ bool TickRecordReader::Next(TickRecord& record)
   record.save = (flags & kSave) != 0;
   Get(rest_, record.state.attributes);
   record.state.moved = rest_.GetArray<std::uint32_t>();
-  record.frames.resize(rest_.Get<std::uint32_t>());
-  std::uint32_t number = 0;
-  for (SensorFrame& frame : record.frames)
+  const auto frames = rest_.Get<std::uint32_t>();
+  for (std::uint32_t number = 0; number < frames; ++number)
   {
+    SensorFrame& frame = At(record.frames, number);
     frame.tick = record.state.tick;
-    frame.engine = number++;
+    frame.engine = number;
     take(frame.values, rest_.Get<std::uint64_t>());
   }
-  record.commands.resize(rest_.Get<std::uint32_t>());
-  number = 0;
-  for (ControlCommands& commands : record.commands)
+  record.frames.resize(frames);
+  const auto hosts = rest_.Get<std::uint32_t>();
+  for (std::uint32_t number = 0; number < hosts; ++number)
   {
+    ControlCommands& commands = At(record.commands, number);
     commands.tick = record.state.tick;
-    commands.host = number++;
+    commands.host = number;
     take(commands.values, rest_.Get<std::uint64_t>());
     Get(rest_, commands.attributes);
     commands.faults.robots = rest_.GetArray<std::uint32_t>();
     commands.faults.kinds = rest_.GetArray<FaultKind>();
   }
+  record.commands.resize(hosts);
   if (at_ != end) throw std::runtime_error("journal: a row is too long");
   return true;
 }
@@ -194,7 +210,7 @@ std::vector<char> ContentOf(const JournalStart& start) { return Written(start, k
 JournalStart ReadStart(std::span<const char> content)
 {
   JournalStart start = Read<JournalStart>(content, kStartFields);
-  if (!start.hosts.IsSound())
+  if (!IsSound(start.hosts))
     throw std::runtime_error("the start of a journal has robots of controller hosts that it has not");
   return start;
 }

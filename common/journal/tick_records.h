@@ -16,7 +16,7 @@
 namespace swarmanoid
 {
 
-// All inputs of a run's processes at a tick.
+// It holds all inputs of a run's processes at a tick.
 struct TickRecord
 {
   SpaceState state;                       // as sent to the processes

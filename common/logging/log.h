@@ -27,8 +27,8 @@ struct LogSettings
   LogLevel stderr_level = LogLevel::kWarning;
 };
 
-// Opens the log, once, before other threads start. Until then records of level warning and above go to standard error.
-// Throws std::runtime_error, with the path and the cause, if the file cannot be written.
+// Opens the log, once, before other threads start. Until then, warnings and errors go to standard error. Throws
+// std::runtime_error, with the path and the cause, if the file cannot be written.
 void OpenLog(const LogSettings& settings);
 
 // Writes each record through at once, so that the file of a killed process is complete. A full disk loses records

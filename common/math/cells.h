@@ -38,7 +38,7 @@ double CellEdge(std::array<double, kAxes> extent, double smallest, double most)
   return edge;
 }
 
-// A line cut into cells.
+// A line that is cut into cells.
 template <class Number>
 struct CellAxis
 {
@@ -63,7 +63,7 @@ struct CellAxis
   }
 };
 
-// A rectangle cut into squares, which are numbered row by row.
+// A rectangle that is cut into squares, numbered row by row.
 template <class Number>
 struct PlaneCells
 {
@@ -114,7 +114,8 @@ struct PlaneCells
   }
 };
 
-// A box cut into cubes: layers of a plane, numbered from the lowest. A single layer is a plane whose cells are columns.
+// A box that is cut into cubes: layers of a plane, numbered from the lowest. A single layer is a plane whose cells are
+// columns.
 struct BoxCells
 {
   PlaneCells<double> plane;
@@ -142,8 +143,8 @@ struct BoxCells
   }
 };
 
-// A counting sort. It assigns each member an index so that the members of a cell are adjacent, in their original order.
-// Sorting again allocates nothing.
+// It sorts by counting. It assigns each member an index so that the members of a cell are adjacent, in their original
+// order. Sorting again allocates nothing.
 class CellSort
 {
 public:

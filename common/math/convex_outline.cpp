@@ -1,3 +1,8 @@
+// The hull is built by the monotone chain of A. M. Andrew, "Another efficient algorithm for convex hulls in two
+// dimensions", Information Processing Letters 9(5), 1979: the points are sorted, and the lower and the upper chain drop
+// each corner that does not turn left. It takes O(n log n) steps.
+//
+// Invariant: the corners go counter-clockwise, and none lies on the line between its neighbours.
 #include "common/math/convex_outline.h"
 
 #include <algorithm>

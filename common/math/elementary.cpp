@@ -1,3 +1,11 @@
+// The library functions of different processors differ in the last bit, and one bit is enough to part two runs. So each
+// function here first reduces its argument to a short interval (for angles as W. J. Cody and W. Waite, "Software Manual
+// for the Elementary Functions", 1980, do), and then sums a series by Horner's rule. docs/determinism.md states what
+// depends on it.
+//
+// Invariants: only IEEE additions, subtractions, multiplications, divisions and square roots are used, in the order
+// that is written here. The compiler may not contract or reorder them. A form for many numbers at once does the same
+// operations as the form for one, so that both give the same bits.
 #include "common/math/elementary.h"
 
 #include <bit>
@@ -147,7 +155,7 @@ double Exp(double x)
   if (x != x) return x;
   if (x > 709.782712893384) return __builtin_inf();
   if (x < -745.1332191019411) return 0;
-  // x = n ln 2 + r with |r| <= 0.35; exp(r) by its series.
+  // The reduction is x = n ln 2 + r with |r| <= 0.35; exp(r) follows from its series.
   const double n = (x * 1.4426950408889634 + kRounder) - kRounder;
   const double r = (x - n * 6.93147180369123816490e-01) - n * 1.90821492927058770002e-10;
   double p = 1.0;
@@ -175,7 +183,7 @@ double Log(double x)
     mantissa *= 0.5;
     ++exponent;
   }
-  // log(m) = 2 atanh(s), s = (m - 1) / (m + 1), |s| < 0.172.
+  // The series is log(m) = 2 atanh(s) with s = (m - 1) / (m + 1), |s| < 0.172.
   const double s = (mantissa - 1.0) / (mantissa + 1.0);
   const double z = s * s;
   double p = 1.0 / 21.0;

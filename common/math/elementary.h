@@ -1,6 +1,6 @@
-// Elementary functions with the same bits on every processor: polynomials over IEEE add, multiply and divide only.
-// glibc's sin, cos, atan2, exp and log choose other code if the processor has FMA, and differ in the last bit.
-// Used by engines, sensors and everything else that reaches the state hash. All angles in radians.
+// Elementary functions with the same bits on every processor: polynomials over IEEE add, multiply and divide only. The
+// functions of glibc (sin, cos, atan2, exp, log) use other code if the processor has FMA, and differ in the last bit.
+// Engines, sensors and all other code whose results reach the state hash use these. All angles are in radians.
 #pragma once
 
 #include <span>

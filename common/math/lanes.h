@@ -240,8 +240,8 @@ void ForEachBit(unsigned mask, const Act& act)
   for (; mask != 0; mask &= mask - 1) act(static_cast<unsigned>(__builtin_ctz(mask)));
 }
 
-// The lanes whose bits are set in a mask, one after another. Stores write all lanes: up to kLanes values beyond those
-// selected are overwritten.
+// Compacts lanes: stores the lanes whose bits are set in a mask, one after another. Stores write all lanes: up to
+// kLanes values beyond the selected ones are overwritten.
 class Selection
 {
 public:
@@ -308,7 +308,7 @@ private:
         if (mask >> lane & 1U) orders[mask] |= std::uint64_t{2 * lane | (2 * lane + 1) << 8} << (16 * place++);
     return orders;
   }
-  // For each mask, the numbers of its set bits, one byte each.
+  // The table has, for each mask, the numbers of its set bits, one byte each.
   static const std::array<std::uint64_t, 256> kOrders;
   static const std::array<std::uint64_t, 16> kPairOrders;
   __m256i order_;

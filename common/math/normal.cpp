@@ -1,3 +1,11 @@
+// Random numbers and the noise of devices need quantiles of the normal distribution: fast, for many numbers, and with
+// the same bits on every processor. NormalQuantile is the algorithm AS 241 (M. J. Wichura, "The percentage points of
+// the normal distribution", Applied Statistics 37(3), 1988), which has a rational approximation for each of three
+// ranges. NormalQuantiles first takes all numbers as if they were in the middle range, without branches, and then
+// computes the rare others again. NormalMass sums the series of G. Marsaglia, "Evaluating the normal distribution",
+// Journal of Statistical Software 11(4), 2004.
+//
+// Invariant: both forms do the same operations for a number, so the grouping into lanes changes no bit.
 #include "common/math/normal.h"
 
 #include <algorithm>
@@ -11,8 +19,8 @@ namespace swarmanoid
 namespace
 {
 
-// The coefficients of AS 241, PPND16: rational approximations of the middle, the flanks and the far tails, highest
-// power first.
+// These are the coefficients of AS 241, PPND16: rational approximations of the middle, the flanks and the far tails,
+// highest power first.
 constexpr std::array kMiddleNumerator{2.5090809287301226727e3, 3.3430575583588128105e4, 6.7265770927008700853e4,
                                       4.5921953931549871457e4, 1.3731693765509461125e4, 1.9715909503065514427e3,
                                       1.3314166789178437745e2, 3.3871328727963666080};

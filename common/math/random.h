@@ -42,9 +42,9 @@ constexpr std::uint64_t StreamPart(std::uint64_t name, std::uint64_t part)
 class StreamKey
 {
 public:
-  StreamKey(std::uint64_t seed, std::uint64_t who, std::uint64_t what)
-      : words_(Philox4x32({static_cast<std::uint32_t>(who), static_cast<std::uint32_t>(who >> 32),
-                           static_cast<std::uint32_t>(what), static_cast<std::uint32_t>(what >> 32)},
+  StreamKey(std::uint64_t seed, std::uint64_t entity, std::uint64_t purpose)
+      : words_(Philox4x32({static_cast<std::uint32_t>(entity), static_cast<std::uint32_t>(entity >> 32),
+                           static_cast<std::uint32_t>(purpose), static_cast<std::uint32_t>(purpose >> 32)},
                           {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}))
   {
   }
@@ -54,21 +54,22 @@ private:
   std::array<std::uint32_t, 4> words_;
 };
 
-// The random numbers of one name in one tick. Making it is cheap; it draws only on request. It cannot be copied, since
-// the copy would draw the same numbers again.
+// A stream gives the random numbers of one name in one tick. Making it is cheap; it draws only on request. It cannot be
+// copied, since the copy would draw the same numbers again.
 class RandomStream
 {
 public:
-  // Half of the key's words are Philox's key; the others are mixed into the words of `whom`. All 128 bits distinguish
+  // Half of the key's words are Philox's key; the others are mixed into the words of `other`. All 128 bits distinguish
   // streams.
-  RandomStream(const StreamKey& key, std::uint64_t tick, std::uint64_t whom = 0)
+  RandomStream(const StreamKey& key, std::uint64_t tick, std::uint64_t other = 0)
       : key_{key.words_[0], key.words_[1]},
-        counter_{0, static_cast<std::uint32_t>(tick), key.words_[2] ^ static_cast<std::uint32_t>(whom),
-                 key.words_[3] ^ static_cast<std::uint32_t>(whom >> 32) ^ static_cast<std::uint32_t>(tick >> 32)}
+        counter_{0, static_cast<std::uint32_t>(tick), key.words_[2] ^ static_cast<std::uint32_t>(other),
+                 key.words_[3] ^ static_cast<std::uint32_t>(other >> 32) ^ static_cast<std::uint32_t>(tick >> 32)}
   {
   }
-  RandomStream(std::uint64_t seed, std::uint64_t who, std::uint64_t what, std::uint64_t tick, std::uint64_t whom = 0)
-      : RandomStream(StreamKey(seed, who, what), tick, whom)
+  RandomStream(std::uint64_t seed, std::uint64_t entity, std::uint64_t purpose, std::uint64_t tick,
+               std::uint64_t other = 0)
+      : RandomStream(StreamKey(seed, entity, purpose), tick, other)
   {
   }
   RandomStream(const RandomStream&) = delete;

@@ -18,7 +18,7 @@
 namespace swarmanoid
 {
 
-// A vector of numbers.
+// ZeroedVector: a vector of numbers.
 template <class T>
 class ZeroedVector
 {

@@ -1,3 +1,11 @@
+// qhull (C. B. Barber, D. P. Dobkin and H. Huhdanpaa, "The Quickhull algorithm for convex hulls", ACM Transactions on
+// Mathematical Software 22(4), 1996) finds the faces. It orders them and their corners by addresses in memory, which
+// differ between processes. So each face is turned to begin with its lowest point, the faces are sorted, and the points
+// that remain are numbered in ascending order. A hull of too many corners is replaced by that of its farthest points in
+// evenly spread directions. Mass and inertia are sums over the tetrahedra between the faces and an inner point.
+//
+// Invariants: equal points give equal bits in every process; each edge lies between exactly two faces; no corner lies
+// in front of a face.
 #include "common/mesh/convex_hull.h"
 
 #include <fmt/format.h>
@@ -29,8 +37,8 @@ using Loop = std::vector<std::uint32_t>;
 constexpr double kEven = 1e-5;      // relative to the size: the tolerance for corners of one face
 constexpr double kFlattest = 1e-3;  // relative to the size: a thinner body counts as flat
 
-// Returns faces as lists of points, in an order that depends only on the points. qhull itself orders neighbours by the
-// addresses of its allocations, which may differ between processes.
+// Runs qhull. Faces returns the faces as lists of points, in an order that depends only on the points. qhull itself
+// orders neighbours by the addresses of its allocations, which may differ between processes.
 class Quickhull
 {
 public:
@@ -131,7 +139,7 @@ void AddFaces(std::vector<Loop> loops, ConvexHull& hull)
 // Adds the edges. Returns false if the faces do not close.
 bool AddEdges(ConvexHull& hull)
 {
-  // from an edge, in the direction of a face, to that face
+  // The key is an edge in the direction in which a face runs through it; the value is that face.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> face_beside;
   for (std::uint32_t f = 0; f < hull.faces.size(); ++f)
   {

@@ -1,5 +1,5 @@
-// The convex hull of points, with its mass properties: the body of an entity that collides as a mesh. Every process
-// makes it while the experiment is read, with the same bits.
+// Computes the convex hull of points, with its mass properties. An entity that collides as a mesh has such a body.
+// Every process makes it while the experiment is read, with the same bits.
 #pragma once
 
 #include <array>

@@ -90,7 +90,7 @@ void CheckGltf(std::string_view bytes)
   using Pointer = GltfJson::json_pointer;
   const GltfJson version = file.is_object() ? file.value(Pointer("/asset/version"), GltfJson()) : GltfJson();
   if (!version.is_string() || !version.get<std::string>().starts_with("2"))
-    throw FileError("it is not of version 2 of glTF; export it anew");
+    throw FileError("it is not of version 2 of glTF; export it again");
   if (file.contains("nodes") && file["nodes"].is_array()) CheckNodes(file["nodes"]);
 }
 

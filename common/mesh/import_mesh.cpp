@@ -51,7 +51,7 @@ public:
   }
   void Close(Assimp::IOStream* stream) override { delete stream; }
 
-  // Throws FileError.
+  // Returns the content of a file, and reads it at most once. Throws FileError.
   const std::string& BytesOf(const std::string& path)
   {
     if (const auto known = files_.find(path); known != files_.end()) return known->second;
@@ -128,7 +128,7 @@ ImportedMesh::ImportedMesh(const std::string& path) : importer_(std::make_unique
   {
     std::string reason = importer.GetErrorString();
     while (reason.ends_with('.') || reason.ends_with('\n')) reason.pop_back();
-    throw FileError(fmt::format("it cannot be read: {}; export it anew, for example as .glb with Blender", reason));
+    throw FileError(fmt::format("it cannot be read: {}; export it again, for example as .glb with Blender", reason));
   }
   if (scene_->mRootNode == nullptr) throw FileError("it has no triangles");
 }

@@ -32,7 +32,8 @@ public:
   const aiScene& Scene() const { return *scene_; }
   bool IsGltf() const { return is_gltf_; }
 
-  // Calls `use` with each mesh at each of its nodes. Throws FileError if they have more than kMostMeshTriangles in all.
+  // Calls `take` with each mesh at each of its nodes. Throws FileError if they have more than kMostMeshTriangles in
+  // all.
   void ForEachPart(const std::function<void(const aiMesh& part, const aiMatrix4x4& place)>& take) const;
   // Returns the vector in metres, z up, x to the front. In glTF, y is up and z is to the front (its specification,
   // 3.4). The other formats are taken as they are.

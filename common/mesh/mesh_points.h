@@ -1,4 +1,4 @@
-// The points of the surface of a mesh file, for bodies that collide as a mesh. Every process reads them while the
+// Reads the points of the surface of a mesh file, for bodies that collide as a mesh. Every process reads them while the
 // experiment is read.
 #pragma once
 

@@ -78,8 +78,10 @@ std::vector<ChannelBlock> MakeBlocks(const std::vector<std::uint32_t>& robots,
 }
 
 // Copies that bring the values of `source` blocks to their places in `target` blocks; neighbouring ones are merged.
+// The copies for robots in `changing` (ascending) go to `of_changing`, one for each robot.
 void AppendCopies(std::uint32_t source_index, const std::vector<ChannelBlock>& source,
-                  const std::vector<ChannelBlock>& target, std::vector<ValueCopy>& copies)
+                  const std::vector<ChannelBlock>& target, std::vector<ValueCopy>& copies,
+                  std::span<const std::uint32_t> changing = {}, std::vector<RobotCopy>* of_changing = nullptr)
 {
   for (const ChannelBlock& to : target)
   {
@@ -94,6 +96,11 @@ void AppendCopies(std::uint32_t source_index, const std::vector<ChannelBlock>& s
       if (k == from->entities.size()) break;
       if (from->entities[k] != to.entities[n]) continue;
       const ValueCopy copy{source_index, from->offset + k * width, to.offset + n * width, width};
+      if (std::ranges::binary_search(changing, to.entities[n]))
+      {
+        of_changing->push_back({to.entities[n], copy});
+        continue;
+      }
       ValueCopy* last = copies.empty() ? nullptr : &copies.back();
       if (last != nullptr && last->source == copy.source && last->from + last->count == copy.from &&
           last->to + last->count == copy.to)
@@ -104,24 +111,14 @@ void AppendCopies(std::uint32_t source_index, const std::vector<ChannelBlock>& s
   }
 }
 
-std::vector<std::uint32_t> SourcesOf(const std::vector<ValueCopy>& copies)
+std::vector<std::uint32_t> SourcesOf(const std::vector<ValueCopy>& copies, const std::vector<RobotCopy>& others = {})
 {
   std::vector<std::uint32_t> sources;
   for (const ValueCopy& copy : copies) sources.push_back(copy.source);
+  for (const RobotCopy& other : others) sources.push_back(other.copy.source);
   std::sort(sources.begin(), sources.end());
   sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
   return sources;
-}
-
-// Returns for each movable entity the first engine that lists it, and -1 for all others.
-std::vector<int> OwnersOf(const Experiment& experiment)
-{
-  std::vector<int> owners(experiment.entities.size(), -1);
-  for (std::size_t e = 0; e < experiment.engines.size(); ++e)
-    for (const std::uint32_t entity : experiment.engines[e].entities)
-      if (experiment.entities[entity].movable && !IsBodiless(experiment.entities[entity].kind) && owners[entity] < 0)
-        owners[entity] = static_cast<int>(e);
-  return owners;
 }
 
 // Returns the robots with a controller, ascending.
@@ -182,10 +179,10 @@ void OrderByPlace(const std::vector<Vector2>& places, const std::vector<int>& ow
 
 }  // namespace
 
-bool HostTable::IsSound() const
+bool IsSound(const HostTable& table)
 {
-  return hosts >= 1 && hosts <= std::max<std::size_t>(of_robots.size(), 1) &&
-         std::ranges::all_of(of_robots, [this](std::uint32_t host) { return host < hosts; });
+  return table.hosts >= 1 && table.hosts <= std::max<std::size_t>(table.of_robots.size(), 1) &&
+         std::ranges::all_of(table.of_robots, [&](std::uint32_t host) { return host < table.hosts; });
 }
 
 HostTable DealRobots(const Experiment& experiment, unsigned hosts, std::span<const double> poses)
@@ -197,7 +194,7 @@ HostTable DealRobots(const Experiment& experiment, unsigned hosts, std::span<con
   if (table.hosts == 1) return table;
 
   // Each host gets about as many robots, ordered by engine, then position.
-  const std::vector<int> owner = OwnersOf(experiment);
+  const std::vector<int> owner = StartEngines(experiment);
   std::vector<std::uint32_t> ordered = robots;
   std::ranges::stable_sort(ordered, {}, [&](std::uint32_t robot) { return owner[robot]; });
   std::vector<std::size_t> begins;
@@ -222,15 +219,25 @@ Assignment MakeAssignment(const Experiment& experiment, const HostTable& table)
   const std::size_t count = experiment.entities.size();
 
   // Engines.
-  assignment.owner = OwnersOf(experiment);
+  assignment.owner = StartEngines(experiment);
   assignment.engines.resize(experiment.engines.size());
   for (std::size_t e = 0; e < experiment.engines.size(); ++e)
   {
     EngineLayout& layout = assignment.engines[e];
     for (const std::uint32_t entity : experiment.engines[e].entities)
     {
+      const std::span<const std::uint32_t> choices = experiment.engine_choices.Of(entity);
       if (!experiment.entities[entity].movable || IsBodiless(experiment.entities[entity].kind))
         layout.fixed.push_back(entity);
+      else if (std::ranges::find(choices, static_cast<std::uint32_t>(e)) != choices.end())
+      {
+        layout.members.push_back({static_cast<std::uint32_t>(layout.owned.size()),
+                                  static_cast<std::uint32_t>(experiment.engine_choices.PlaceOf(entity))});
+        layout.owned.push_back(entity);
+        if (choices.size() == 1) continue;
+        layout.mirrored.push_back(entity);
+        layout.changing.push_back(entity);
+      }
       else if (assignment.owner[entity] == static_cast<int>(e))
         layout.owned.push_back(entity);
       else
@@ -248,7 +255,7 @@ Assignment MakeAssignment(const Experiment& experiment, const HostTable& table)
     channels_of[robot] = &channels_by_id.at(experiment.entities[robot].controller);
 
   // Hosts.
-  if (table.of_robots.size() != robots.size() || !table.IsSound())
+  if (table.of_robots.size() != robots.size() || !IsSound(table))
     throw std::runtime_error(
         fmt::format("a table of controller hosts is of {} robots and {} hosts, not of the {} robots "
                     "of the experiment",
@@ -279,11 +286,12 @@ Assignment MakeAssignment(const Experiment& experiment, const HostTable& table)
     {
       AppendCopies(h, assignment.hosts[h].commands, layout.commands, layout.command_copies);
       AppendCopies(static_cast<std::uint32_t>(e), layout.sensors, assignment.hosts[h].sensors,
-                   assignment.hosts[h].sensor_copies);
+                   assignment.hosts[h].sensor_copies, layout.changing, &assignment.hosts[h].sensor_choices);
     }
     layout.commands_from = SourcesOf(layout.command_copies);
   }
-  for (HostLayout& layout : assignment.hosts) layout.frames_from = SourcesOf(layout.sensor_copies);
+  for (HostLayout& layout : assignment.hosts)
+    layout.frames_from = SourcesOf(layout.sensor_copies, layout.sensor_choices);
   return assignment;
 }
 

@@ -8,20 +8,13 @@
 #include <vector>
 
 #include "common/experiment/experiment.h"
+#include "idl/host_table.h"
 
 namespace swarmanoid
 {
 
-// The controller host of each robot.
-struct HostTable
-{
-  std::uint32_t hosts = 1;
-  std::vector<std::uint32_t> of_robots;  // of each entity with a controller, in their order
-  bool operator==(const HostTable&) const = default;
-  // Returns whether all robots are of hosts that there are, and there are not more of these than of robots, but one at
-  // least.
-  bool IsSound() const;
-};
+// Returns whether all robots are of existing hosts, and there are at least one and at most as many hosts as robots.
+bool IsSound(const HostTable& table);
 
 // The values of one channel for some robots, contiguous: robot after robot, `width` doubles each.
 struct ChannelBlock
@@ -40,6 +33,13 @@ struct ValueCopy
   std::size_t count = 0;  // doubles
 };
 
+// The copy of one robot's values.
+struct RobotCopy
+{
+  std::uint32_t robot = 0;
+  ValueCopy copy;
+};
+
 struct HostLayout
 {
   std::vector<std::uint32_t> robots;  // ascending
@@ -47,16 +47,28 @@ struct HostLayout
   std::size_t command_size = 0;  // doubles in ControlCommands::values
   std::vector<ChannelBlock> sensors;
   std::size_t sensor_size = 0;
-  std::vector<ValueCopy> sensor_copies;    // from the engines' frames
+  std::vector<ValueCopy> sensor_copies;  // from the engines' frames
+  // From the frames of all engines that can move a robot that changes its engine. Those of the engine that moved the
+  // robot in the last tick count (CSwarmanoidSpace::EngineBefore).
+  std::vector<RobotCopy> sensor_choices;
   std::vector<std::uint32_t> frames_from;  // engines whose frames the host waits for
   bool reports_to_server =
       false;  // the server waits for its commands: generic actuators, robots in no engine, or that may fail
 };
 
+// An owned entity of engines with volumes: its places in EngineLayout::owned and Experiment::engine_choices.
+struct VolumeMember
+{
+  std::uint32_t place = 0;
+  std::uint32_t choice = 0;
+};
+
 struct EngineLayout
 {
-  std::vector<std::uint32_t> owned;     // movable entities that this engine moves, ascending
-  std::vector<std::uint32_t> mirrored;  // movable entities owned by another engine
+  std::vector<std::uint32_t> owned;     // movable entities that this engine moves or can move, ascending
+  std::vector<std::uint32_t> mirrored;  // movable entities that another engine moves or can move, ascending
+  std::vector<std::uint32_t> changing;  // those in both lists, which change their engine
+  std::vector<VolumeMember> members;    // owned ones that stay in volumes, ascending
   std::vector<std::uint32_t> fixed;     // static entities
   std::vector<ChannelBlock> commands;
   std::size_t command_size = 0;
@@ -92,8 +104,8 @@ std::string RegionName(const Experiment& experiment, std::size_t engine, unsigne
 unsigned RegionNumber(const Experiment& experiment, std::size_t engine, unsigned region);
 // How many processes an engine has beside its worker: 0 if it is not split.
 unsigned RegionsOf(const EngineConfiguration& engine);
-// Return the engine that moves an entity, and the host that runs its controller. The text is empty if there is no such
-// process.
+// Return the engine that moves an entity at the start, and the host that runs its controller. The text is empty if
+// there is no such process.
 std::string OwnerName(const Experiment& experiment, const Assignment& assignment, std::size_t entity);
 std::string HostNameOf(const Assignment& assignment, std::size_t entity);
 

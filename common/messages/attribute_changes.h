@@ -1,14 +1,28 @@
-// The order of AttributeChanges: slots ascend, and each is in the list once. Used by the roles before they send their
-// changes, and by devices.
+// Changes of attribute slots. Their slots ascend, and each is in the list once. The roles put their changes in order
+// before they send them.
 #pragma once
 
 #include <span>
 
 #include "common/math/zeroed_vector.h"
-#include "common/messages/tick_messages.h"
+#include "idl/changed_attributes.h"
 
 namespace swarmanoid
 {
+
+struct AttributeChanges : ChangedAttributes
+{
+  void Clear()
+  {
+    slots.clear();
+    values.clear();
+  }
+  void Add(std::uint32_t slot, double value)
+  {
+    slots.push_back(slot);
+    values.push_back(value);
+  }
+};
 
 // Puts changes in order; of values for one slot the last one counts. Keeps its scratch memory, so that steady running
 // allocates nothing.

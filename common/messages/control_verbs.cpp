@@ -46,9 +46,10 @@ std::vector<ControlVerb> MakeVerbs()
                               "m, degrees", -kFarthestPose, kFarthestPose};
   const ControlParameter key{"key", kName, "KEY", "name of a key"};
   const ControlParameter machine{"machine", kName, "MACHINE", "name of a machine"};
-  const ControlParameter grant{"grant", kName, "ID", "id of a share"};
+  const ControlParameter grant{"grant", kName, "ID", "id of an access grant"};
   const ControlParameter engine{"engine", kName, "ID", "id of an engine or region"};
   const ControlParameter topic{"topic", kName, "TOPIC", "topic"};
+  const ControlParameter fault{"fault", kName, "FAULT", "id of a fault"};
   const ControlParameter ticks{"ticks", kWhole, "N", "number of ticks", "ticks", 1, kMostTicks, true};
   const ControlParameter factor{"factor", kNumber, "F", "multiple of real time", "x", 0, kFastest};
   const ControlParameter seed{"seed", kWhole, "N", "seed of the run that begins", "", 0, kLargestSeed, true, true};
@@ -102,10 +103,11 @@ std::vector<ControlVerb> MakeVerbs()
        CheckHosts},
       {"machines", {}, "list the machines of the run and their processes", kQuery},
       {"share", {grant, role, ends}, "let others watch or steer the run", kAccess, kOwner},
-      {"shares", {}, "list the shares of the run", kQuery, kOwner},
-      {"revoke", {grant}, "end a share", kAccess, kOwner},
+      {"shares", {}, "list the access grants of the run", kQuery, kOwner},
+      {"revoke", {grant}, "end an access grant", kAccess, kOwner},
       {"refused", {topic}, "a message was refused", kNote, kNobody},
       {"failed", {entity}, "a controller failed, and the run goes on", kNote, kNobody},
+      {"fault", {fault}, "a fault of devices began or ended", kNote, kNobody},
   };
 }
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/messages/control_request.h"
+#include "idl/control_request_message.h"
 
 namespace swarmanoid
 {

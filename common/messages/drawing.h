@@ -7,9 +7,9 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "common/math/pose.h"
+#include "idl/drawing_lists.h"
 
 namespace swarmanoid
 {
@@ -22,33 +22,7 @@ struct Ink
   double width = 1;                 // pixels: of lines, and the diameter of points
 };
 
-// A shape in its serialised form. Its numbers and texts are in the lists of the drawing, one shape after the other.
-struct DrawnShape
-{
-  enum class Kind : std::uint32_t
-  {
-    kPoints = 1,  // x, y, z of each
-    kSegments,    // of each: from, to
-    kPolyline,    // of each corner: x, y, z
-    kArrows,      // of each: from, to
-    kPolygon,     // filled, convex; of each corner: x, y, z
-    kCircle,      // its line: middle, orientation (x, y, z, w), radius
-    kDisc,        // filled; as kCircle
-    kBox,         // middle, orientation, size
-    kCylinder,    // middle, orientation, radius, height
-    kText         // where its left end stands; and one text
-  };
-
-  Kind kind = Kind::kPoints;
-  std::uint32_t frame = 0;     // 0: of the space; otherwise that of the entity of this index + 1
-  std::uint32_t colour = 0;    // 0xRRGGBBAA
-  std::uint32_t width_16 = 0;  // sixteenths of a pixel
-  std::uint32_t count = 0;     // of numbers
-
-  bool operator==(const DrawnShape&) const = default;
-};
-
-class Drawing
+class Drawing : public DrawingLists
 {
 public:
   // The limits of a tick. More shapes are left out, and IsFull returns true.
@@ -94,10 +68,6 @@ public:
   {
     return shapes == other.shapes && numbers == other.numbers && texts == other.texts;
   }
-
-  std::vector<DrawnShape> shapes;
-  std::vector<float> numbers;
-  std::vector<std::string> texts;
 
 private:
   // Whether there is room, and then the shape; its numbers follow.

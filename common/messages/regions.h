@@ -44,17 +44,19 @@ public:
 class RegionTeam
 {
 public:
-  // Fills in the task of each region. If `anew` is true, the regions know nothing and need all data.
-  using WriteTasks = std::function<void(bool anew, std::span<ByteWriter> tasks)>;
+  // Fills in the task of each region. If `all_data` is true, the regions know nothing and need all data.
+  using WriteTasks = std::function<void(bool all_data, std::span<ByteWriter> tasks)>;
 
   virtual ~RegionTeam() = default;
   virtual unsigned RegionCount() const = 0;
   // Returns false while the engine must do all work by itself.
   virtual bool IsReady() const = 0;
-  // Passes a task to all regions and fills in the results. `write` is called once, and again with `anew` whenever a
-  // process has replaced a region. If `anew` is true, the first call has it too. Throws std::runtime_error with the
-  // error of a region.
-  virtual void Work(bool anew, const WriteTasks& write, std::span<std::vector<char>> results) = 0;
+  // Passes a task to all regions and fills in the results. `write` is called once, and again with `all_data` whenever a
+  // process has replaced a region. If `all_data` is true, the first call has it too. `meanwhile` is called once, while
+  // the regions work. Throws std::runtime_error with the error of a region.
+  virtual void Work(
+      bool all_data, const WriteTasks& write, std::span<std::vector<char>> results,
+      const std::function<void()>& meanwhile = [] {}) = 0;
 };
 
 }  // namespace swarmanoid

@@ -1,43 +1,13 @@
-// How a run goes, as visualisers show it: its pace, its processes, and what users asked of it. Made by the space server
-// or by the runner of a single process.
+// How a run goes, as visualisers show it: its pace, its processes, and the results of users' requests.
 #pragma once
 
 #include <cstdint>
 #include <string>
-#include <vector>
+
+#include "idl/run_status.h"
 
 namespace swarmanoid
 {
-
-struct ProcessStatus
-{
-  std::string name;        // "space server", "engine 'ground'", "controller host 0", "visualiser 'window'"
-  std::string process;     // "host:pid"
-  std::uint64_t tick = 0;  // the last one that it answered
-  // How long the run has been waiting for it by now; 0 if it is in time.
-  double late_s = 0;
-  std::string doing;  // what it says of that, such as "runs the controller of fb_3"; mostly empty
-};
-
-struct RunStatus
-{
-  enum class Phase
-  {
-    kUnknown,  // nothing has been heard yet
-    kWaiting,  // for processes, before the first tick
-    kRunning,
-    kPaused,
-    kFinished
-  };
-
-  Phase phase = Phase::kUnknown;
-  std::uint64_t tick = 0;                // of the run; a picture may show an earlier one
-  double speed_wanted = 0;               // simulated seconds in a second; 0: as fast as possible
-  double real_time_factor = 0;           // simulated seconds in a second, over the last second or so; 0 while paused
-  double ticks_per_second = 0;           // as above
-  std::string ended;                     // kFinished: why, if it is not for maxclock or the experiment's own decision
-  std::vector<ProcessStatus> processes;  // the space server first; in one process that alone
-};
 
 // A request to the run and its result.
 struct RunNote

@@ -4,6 +4,6 @@
 namespace swarmanoid
 {
 
-inline constexpr double kAntennaHeight_m = 0.1;  // above the base of any robot (ARGoS3, foot-bot)
+inline constexpr double kAntennaHeight_m = 0.1;  // height above the base of any robot (ARGoS3, foot-bot)
 
 }  // namespace swarmanoid

@@ -7,13 +7,22 @@
 namespace swarmanoid
 {
 
+using enum ParameterType;
+
 std::vector<ParameterSpec> GroundParameters()
 {
-  return Joined({{.name = "floor_colour",
-                  .type = ParameterType::kColour,
-                  .default_value = "#ffffff",
-                  .description = "Colour of the floor outside all patches."}},
+  return Joined({{"floor_colour", kColour, "", "#ffffff", "Colour of the floor outside all patches."}},
                 NoiseParameters("each brightness", ""));
+}
+
+std::vector<ParameterSpec> LedRingParameters()
+{
+  return Joined({{.name = "separate",
+                  .type = ParameterType::kBoolean,
+                  .default_value = "false",
+                  .description = "Whether cameras see each LED as a blob of its own, unless the robot's body hides it; "
+                                 "otherwise LEDs of one colour are one blob."}},
+                ColourNoiseParameters());
 }
 
 void DescribeAnyRobotDevices()
@@ -24,12 +33,8 @@ void DescribeAnyRobotDevices()
        .implementation = "generic_wheels",
        .brief = "the two driven wheels of any robot that has them, at the commanded speed at once",
        .parameters =
-           Joined({{.name = "max_speed",
-                    .unit = "m/s",
-                    .default_value = "0",
-                    .description = "Speed of a wheel on the ground to which commands are clamped; 0: that of the kind.",
-                    .minimum = 0,
-                    .maximum = 1e6}},
+           Joined({{"max_speed", kNumber, "m/s", "0",
+                    "Speed of a wheel on the ground to which commands are clamped; 0: that of the kind.", 0, 1e6}},
                   NoiseParameters("the speed of each wheel while it moves", "rad/s")),
        .robots = TagsOfKinds([](const Kind& kind) { return kind.wheels.has_value(); }),
        .channel = "wheels",
@@ -37,70 +42,40 @@ void DescribeAnyRobotDevices()
   DescribeActuator({.label = "led_ring",
                     .implementation = "generic_led_ring",
                     .brief = "the LEDs of any robot that has them",
-                    .parameters = ColourNoiseParameters(),
+                    .parameters = LedRingParameters(),
                     .robots = TagsOfKinds([](const Kind& kind) { return kind.leds.has_value(); })});
   DescribeActuator(
       {.label = "directional_leds",
        .implementation = "generic_directional_leds",
        .brief = "the LEDs of any robot that has them, each seen from within a cone only",
-       .parameters = Joined({{.name = "observable_angle",
-                              .unit = "deg",
-                              .default_value = "60",
-                              .description = "Between the axis of an LED and the border of the cone from within which "
-                                             "it is seen.",
-                              .minimum = 0,
-                              .maximum = 180},
-                             {.name = "elevation",
-                              .unit = "deg",
-                              .default_value = "0",
-                              .description = "Of the axes above the plane of the ring, unless the robot's kind says "
-                                             "where its LEDs look. They look outwards.",
-                              .minimum = -90,
-                              .maximum = 90}},
-                            ColourNoiseParameters()),
+       .parameters =
+           Joined({{"observable_angle", kNumber, "deg", "60",
+                    "Between the axis of an LED and the border of the cone from within which it is seen.", 0, 180},
+                   {"elevation", kNumber, "deg", "0",
+                    "Of the axes above the plane of the ring, unless the robot's kind says where its LEDs look. They "
+                    "look outwards.",
+                    -90, 90}},
+                  ColourNoiseParameters()),
        .robots = TagsOfKinds([](const Kind& kind) { return kind.leds.has_value(); })});
   DescribeSensor(
       {.label = "proximity",
        .implementation = "generic_proximity",
        .brief = "the proximity sensors of any robot that has them; 1 touching, falling evenly to 0 at the range",
-       .parameters =
-           Joined({{.name = "range",
-                    .unit = "m",
-                    .default_value = "0",
-                    .description = "Distance from the sensor beyond which nothing is seen; 0: that of the kind.",
-                    .minimum = 0,
-                    .maximum = 1e6}},
-                  NoiseParameters("each reading", "")),
+       .parameters = Joined({{"range", kNumber, "m", "0",
+                              "Distance from the sensor beyond which nothing is seen; 0: that of the kind.", 0, 1e6}},
+                            NoiseParameters("each reading", "")),
        .robots = TagsOfKinds([](const Kind& kind) { return kind.proximity.has_value(); })});
-  DescribeSensor({.label = "light",
-                  .implementation = "generic_light",
-                  .brief = "light sensors in a ring, each with the lights that it sees by the inverse square of their "
-                           "distance, whatever the angle",
-                  .parameters = Joined({{.name = "sensors",
-                                         .type = ParameterType::kInteger,
-                                         .default_value = "24",
-                                         .description = "How many there are, evenly around the body.",
-                                         .minimum = 1,
-                                         .maximum = 360},
-                                        {.name = "first_angle",
-                                         .unit = "deg",
-                                         .default_value = "7.5",
-                                         .description = "Of the first one from the front, counter-clockwise.",
-                                         .minimum = -360,
-                                         .maximum = 360},
-                                        {.name = "radius",
-                                         .unit = "m",
-                                         .default_value = "0.085",
-                                         .description = "Of the ring.",
-                                         .minimum = 0,
-                                         .maximum = 1e6},
-                                        {.name = "height",
-                                         .unit = "m",
-                                         .default_value = "0.06",
-                                         .description = "Of the ring above the position of the robot.",
-                                         .minimum = 0,
-                                         .maximum = 1e6}},
-                                       NoiseParameters("each reading", ""))});
+  DescribeSensor(
+      {.label = "light",
+       .implementation = "generic_light",
+       .brief = "light sensors in a ring, each with the lights that it sees by the inverse square of their "
+                "distance, whatever the angle",
+       .parameters = Joined(
+           {{"sensors", kInteger, "", "24", "How many there are, evenly around the body.", 1, 360},
+            {"first_angle", kNumber, "deg", "7.5", "Of the first one from the front, counter-clockwise.", -360, 360},
+            {"radius", kNumber, "m", "0.085", "Of the ring.", 0, 1e6},
+            {"height", kNumber, "m", "0.06", "Of the ring above the position of the robot.", 0, 1e6}},
+           NoiseParameters("each reading", ""))});
   DescribeSensor({.label = "ground",
                   .implementation = "generic_ground",
                   .brief = "brightness and colour of the floor under any robot that looks at it",

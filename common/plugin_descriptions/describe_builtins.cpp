@@ -56,7 +56,8 @@ void DescribeBuiltinRenderers()
   {
     for (const PluginDescription& renderer :
          {TextRenderDescription(), ImageRenderDescription(), FigureRenderDescription(), OpenGlRenderDescription(),
-          OgreRenderDescription(), WebRenderDescription(), Ros2RenderDescription(), FoxgloveRenderDescription()})
+          OgreRenderDescription(), WebRenderDescription(), PageRenderDescription(), Ros2RenderDescription(),
+          FoxgloveRenderDescription()})
       PluginCatalogue::Instance().Add(PluginKind::kRenderer, renderer);
     return true;
   }();

@@ -7,20 +7,13 @@ namespace swarmanoid
 namespace
 {
 
+using enum ParameterType;
+
 std::vector<ParameterSpec> ViewParameters(const char* aperture_degrees, const char* range_m)
 {
-  return {{.name = "aperture",
-           .unit = "degrees",
-           .default_value = aperture_degrees,
-           .description = "Angle between the axis of the camera and the border of its view.",
-           .minimum = 0.1,
-           .maximum = 89.9},
-          {.name = "range",
-           .unit = "m",
-           .default_value = range_m,
-           .description = "Distance beyond which blobs are too small to be extracted.",
-           .minimum = 0.001,
-           .maximum = 1e6}};
+  return {{"aperture", kNumber, "degrees", aperture_degrees,
+           "Angle between the axis of the camera and the border of its view.", 0.1, 89.9},
+          {"range", kNumber, "m", range_m, "Distance beyond which blobs are too small to be extracted.", 0.001, 1e6}};
 }
 
 enum class Elevation
@@ -29,7 +22,7 @@ enum class Elevation
   kReported
 };
 
-// The two implementations of a camera: ideal, and with noise in pixels.
+// Describes the two implementations of a camera: ideal, and with noise in pixels.
 void DescribeCamera(const std::string& label, const char* robot, const std::string& what,
                     const std::vector<ParameterSpec>& view, Elevation elevation)
 {
@@ -46,18 +39,10 @@ void DescribeCamera(const std::string& label, const char* robot, const std::stri
       {.label = label,
        .implementation = "pixel_noise_" + label,
        .brief = what + ": blobs in whole pixels with noise, some of them missed",
-       .parameters = Joined(Joined(view, {{.name = "image_radius",
-                                           .unit = "pixels",
-                                           .default_value = "240",
-                                           .description = "Pixels from the middle of the image to the border of the "
-                                                          "view.",
-                                           .minimum = 1,
-                                           .maximum = 1e6},
-                                          {.name = "miss_probability",
-                                           .default_value = "0",
-                                           .description = "Share of the blobs that are not extracted in a tick.",
-                                           .minimum = 0,
-                                           .maximum = 1}}),
+       .parameters = Joined(Joined(view, {{"image_radius", kNumber, "pixels", "240",
+                                           "Pixels from the middle of the image to the border of the view.", 1, 1e6},
+                                          {"miss_probability", kNumber, "", "0",
+                                           "Share of the blobs that are not extracted in a tick.", 0, 1}}),
                             NoiseParameters("each coordinate in the image, before rounding to whole pixels", "pixels")),
        .robots = {robot}});
 }
@@ -69,6 +54,14 @@ void DescribeCameras()
   // The apertures are those of ARGoS3 for the footbot, and of ARGoS 2 for the eyebot.
   DescribeCamera("footbot_omnidirectional_camera", "footbot", "omnidirectional camera", ViewParameters("70", "3"),
                  Elevation::kNone);
+  DescribeSensor(
+      {.label = "footbot_omnidirectional_camera",
+       .implementation = "argos3_footbot_omnidirectional_camera",
+       .brief = "omnidirectional camera of ARGoS3: sees in a square around the robot, whatever the height of "
+                "a blob",
+       .parameters = Joined(Joined(ViewParameters("70", "3"), NoiseParameters("each distance", "m", "distance_")),
+                            NoiseParameters("each angle", "rad", "angle_")),
+       .robots = {"footbot"}});
   DescribeCamera("eyebot_camera", "eyebot", "camera that looks down", ViewParameters("30", "3"), Elevation::kNone);
   // Aperture and range are those of the perspective camera of ARGoS3.
   DescribeCamera("eyebot_pan_tilt_camera", "eyebot", "camera that turns with the laser", ViewParameters("30", "2"),
@@ -80,14 +73,10 @@ void DescribeCameras()
   DescribeSensor({.label = "pie_camera",
                   .implementation = "generic_pie_camera",
                   .brief = "nearest blob and number of blobs for each colour in each sector around the robot",
-                  .parameters = Joined(Joined({{.name = "sectors",
-                                                .type = ParameterType::kInteger,
-                                                .default_value = "12",
-                                                .description = "Number of equal sectors around the robot.",
-                                                .minimum = 1,
-                                                .maximum = 360}},
-                                              ViewParameters("85", "3")),
-                                       NoiseParameters("each distance", "m")),
+                  .parameters = Joined(
+                      Joined({{"sectors", kInteger, "", "12", "Number of equal sectors around the robot.", 1, 360}},
+                             ViewParameters("85", "3")),
+                      NoiseParameters("each distance", "m")),
                   .robots = {"footbot"}});
 }
 

@@ -11,20 +11,18 @@ namespace swarmanoid
 namespace
 {
 
-ParameterSpec Share(const char* name, const char* description)
-{
-  return {.name = name, .default_value = "0", .description = description, .minimum = 0, .maximum = 1};
-}
+using enum ParameterType;
+
+ParameterSpec Share(const char* name, const char* description) { return {name, kNumber, "", "0", description, 0, 1}; }
 
 ParameterSpec Length(const char* name, const char* value, const char* description, double least = 0)
 {
-  return {
-      .name = name, .unit = "m", .default_value = value, .description = description, .minimum = least, .maximum = 1e6};
+  return {name, kNumber, "m", value, description, least, 1e6};
 }
 
 ParameterSpec Consumption(const char* name, const char* unit, const char* value, const char* description)
 {
-  return {.name = name, .unit = unit, .default_value = value, .description = description, .minimum = 0, .maximum = 1e6};
+  return {name, kNumber, unit, value, description, 0, 1e6};
 }
 
 void DescribeMotionSensors()
@@ -42,11 +40,7 @@ void DescribeMotionSensors()
       {.label = "battery",
        .implementation = "generic_battery",
        .brief = "a charge that falls with time, way and turning",
-       .parameters = Joined({{.name = "start_charge",
-                              .default_value = "1",
-                              .description = "Charge at the start; 1 is full.",
-                              .minimum = 0,
-                              .maximum = 1},
+       .parameters = Joined({{"start_charge", kNumber, "", "1", "Charge at the start; 1 is full.", 0, 1},
                              Consumption("per_second", "1/s", "1e-4", "Charge that a second takes."),
                              Consumption("per_metre", "1/m", "1e-3", "Charge that a metre of way takes."),
                              Consumption("per_radian", "1/rad", "1e-3", "Charge that a radian of turning takes.")},
@@ -57,11 +51,8 @@ void DescribeMicrophones()
 {
   const std::vector<ParameterSpec> common =
       Joined({Length("height", "0.1", "Of the microphone above the base."),
-              {.name = "threshold",
-               .default_value = "0.001",
-               .description = "Sound pressure below which nothing is heard; 1 is that of intensity 1 at 1 m.",
-               .minimum = 0,
-               .maximum = 1e6}},
+              {"threshold", kNumber, "", "0.001",
+               "Sound pressure below which nothing is heard; 1 is that of intensity 1 at 1 m.", 0, 1e6}},
              NoiseParameters("the pressure of each sound", "", "loudness_"));
   const std::vector<ParameterSpec> directional =
       Joined(common, NoiseParameters("bearing and elevation of each sound", "rad", "angle_"));
@@ -75,29 +66,23 @@ void DescribeMicrophones()
   describe("generic", "an array that hears each sound source with its direction; pressure is intensity / distance",
            directional);
   describe("shadowed", "the same; bodies between muffle the sound",
-           Joined({{.name = "shadow",
-                    .default_value = "0.25",
-                    .description = "Multiplies the pressure of a source that is hidden.",
-                    .minimum = 0,
-                    .maximum = 1}},
+           Joined({{"shadow", kNumber, "", "0.25", "Multiplies the pressure of a source that is hidden.", 0, 1}},
                   directional));
   describe("capsule", "a single capsule: the pressure of all sounds together, without direction", common);
 }
 
 void DescribeDistanceScanners()
 {
-  DescribeSensor({.label = "footbot_distance_scanner",
-                  .implementation = "generic_footbot_distance_scanner",
-                  .brief = "two beams of 0.26 m and two of 0.12 to 1.42 m on a head that turns",
-                  .parameters = Joined({{.name = "rotation_speed",
-                                         .unit = "rad/s",
-                                         .default_value = "0",
-                                         .description = "Of the head; while it turns each beam measures six times a "
-                                                        "tick. 0: the short beams look ahead and back.",
-                                         .minimum = -1e6,
-                                         .maximum = 1e6}},
-                                       NoiseParameters("each distance", "m")),
-                  .robots = {"footbot"}});
+  DescribeSensor(
+      {.label = "footbot_distance_scanner",
+       .implementation = "generic_footbot_distance_scanner",
+       .brief = "two beams of 0.26 m and two of 0.12 to 1.42 m on a head that turns",
+       .parameters = Joined(
+           {{"rotation_speed", kNumber, "rad/s", "0",
+             "Of the head; while it turns each beam measures six times a tick. 0: the short beams look ahead and back.",
+             -1e6, 1e6}},
+           NoiseParameters("each distance", "m")),
+       .robots = {"footbot"}});
   DescribeSensor({.label = "footbot_distance_scanner",
                   .implementation = "argos3_footbot_distance_scanner",
                   .brief = "two beams of 0.26 m and two of 0.12 to 1.42 m, off until the controller turns the head",
@@ -112,22 +97,12 @@ void DescribeDistanceScanners()
 
 ParameterSpec Count(const char* name, const char* value, const char* description, double most)
 {
-  return {.name = name,
-          .type = ParameterType::kInteger,
-          .default_value = value,
-          .description = description,
-          .minimum = 1,
-          .maximum = most};
+  return {name, kInteger, "", value, description, 1, most};
 }
 
 ParameterSpec Angle(const char* name, const char* value, const char* description, double least, double most)
 {
-  return {.name = name,
-          .unit = "deg",
-          .default_value = value,
-          .description = description,
-          .minimum = least,
-          .maximum = most};
+  return {name, kNumber, "deg", value, description, least, most};
 }
 
 std::vector<ConfigurationError> MistakesInDepths(const Parameters& parameters)
@@ -151,19 +126,11 @@ void DescribeDepthCamera()
                Angle("field_of_view", "60", "Between the left and the right border of the image.", 1, 150),
                Length("range", "5", "Greatest depth that is measured.", 0.001),
                Length("nearest", "0", "Least depth; what is nearer is not seen, and hides nothing."),
-               {.name = "position",
-                .type = ParameterType::kVector3,
-                .unit = "m",
-                .default_value = "0, 0, 0.1",
-                .description = "Of the camera, in the frame of the robot, which it does not see itself.",
-                .minimum = -1e6,
-                .maximum = 1e6},
+               {"position", kVector3, "m", "0, 0, 0.1",
+                "Of the camera, in the frame of the robot, which it does not see itself.", -1e6, 1e6},
                Angle("pan", "0", "Of its axis to the left of the robot's front.", -180, 180),
                Angle("tilt", "0", "Of its axis above the plane of the robot's base; -90 looks straight down.", -90, 90),
-               {.name = "floor_colour",
-                .type = ParameterType::kColour,
-                .default_value = "#ffffff",
-                .description = "Colour of the floor outside all patches."}},
+               {"floor_colour", kColour, "", "#ffffff", "Colour of the floor outside all patches."}},
               NoiseParameters("each depth", "m", "depth_")),
           NoiseParameters("red, green and blue of each pixel", "1/255", "colour_"))};
   ParameterChecks::Instance().Add(PluginKind::kSensor, camera, MistakesInDepths);
@@ -172,32 +139,26 @@ void DescribeDepthCamera()
 
 void DescribeRadio()
 {
-  DescribeActuator({.label = "radio",
-                    .implementation = "generic_radio",
-                    .brief = "sends packets of up to 30 bytes, one a tick, within a bandwidth",
-                    .parameters = Joined({{.name = "bandwidth",
-                                           .unit = "bytes/s",
-                                           .default_value = "0",
-                                           .description = "Packets wait until the ones before are through; 0: one "
-                                                          "packet a tick is the only limit.",
-                                           .minimum = 0,
-                                           .maximum = 1e6}},
-                                         NoiseParameters("each byte that is sent", "1/255")),
-                    .robots = {"footbot", "eyebot", "handbot"}});
-  DescribeSensor({.label = "radio",
-                  .implementation = "generic_radio",
-                  .brief = "receives the packets of all radios in range, whatever stands between",
-                  .parameters = Joined({Length("range", "10", "Distance from which packets are received.", 0.001),
-                                        Share("loss_probability", "Share of the packets that get lost."),
-                                        {.name = "latency",
-                                         .unit = "s",
-                                         .default_value = "0",
-                                         .description = "Time that packets take beyond the one tick that everything "
-                                                        "takes; whole ticks, rounded up.",
-                                         .minimum = 0,
-                                         .maximum = 3600}},
-                                       NoiseParameters("each signal strength", "dB")),
-                  .robots = {"footbot", "eyebot", "handbot"}});
+  DescribeActuator(
+      {.label = "radio",
+       .implementation = "generic_radio",
+       .brief = "sends packets of up to 30 bytes, one a tick, within a bandwidth",
+       .parameters =
+           Joined({{"bandwidth", kNumber, "bytes/s", "0",
+                    "Packets wait until the ones before are through; 0: one packet a tick is the only limit.", 0, 1e6}},
+                  NoiseParameters("each byte that is sent", "1/255")),
+       .robots = {"footbot", "eyebot", "handbot"}});
+  DescribeSensor(
+      {.label = "radio",
+       .implementation = "generic_radio",
+       .brief = "receives the packets of all radios in range, whatever stands between",
+       .parameters = Joined(
+           {Length("range", "10", "Distance from which packets are received.", 0.001),
+            Share("loss_probability", "Share of the packets that get lost."),
+            {"latency", kNumber, "s", "0",
+             "Time that packets take beyond the one tick that everything takes; whole ticks, rounded up.", 0, 3600}},
+           NoiseParameters("each signal strength", "dB")),
+       .robots = {"footbot", "eyebot", "handbot"}});
 }
 
 }  // namespace
@@ -222,18 +183,16 @@ void DescribeSurroundingsDevices()
                   .brief = "a bumper: the directions of all bodies that touch the robot",
                   .parameters = Joined({Length("reach", "0.002", "Gap up to which bodies count as touching.")},
                                        NoiseParameters("each direction", "rad"))});
-  DescribeSensor({.label = "tag_reader",
-                  .implementation = "generic_tag_reader",
-                  .brief = "reads the ids of tagged entities near its antenna (RFID)",
-                  .parameters = Joined({Length("range", "0.15", "Distance within which tags answer.", 0.001),
-                                        Length("height", "0", "Of the antenna above the base."),
-                                        {.name = "tagged",
-                                         .type = ParameterType::kText,
-                                         .default_value = "*",
-                                         .description = "Ids of the entities with tags, or patterns such as prey_*, "
-                                                        "with commas between."},
-                                        Share("miss_probability", "Share of the tags that do not answer in a tick.")},
-                                       NoiseParameters("each distance", "m"))});
+  DescribeSensor(
+      {.label = "tag_reader",
+       .implementation = "generic_tag_reader",
+       .brief = "reads the ids of tagged entities near its antenna (RFID)",
+       .parameters = Joined({Length("range", "0.15", "Distance within which tags answer.", 0.001),
+                             Length("height", "0", "Of the antenna above the base."),
+                             {"tagged", kText, "", "*",
+                              "Ids of the entities with tags, or patterns such as prey_*, with commas between."},
+                             Share("miss_probability", "Share of the tags that do not answer in a tick.")},
+                            NoiseParameters("each distance", "m"))});
 }
 
 }  // namespace swarmanoid

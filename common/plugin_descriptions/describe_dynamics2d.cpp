@@ -31,7 +31,11 @@ std::vector<ParameterSpec> Dynamics2dParameters()
       Integer("position_iterations", "3", 1000, "Passes against overlaps and gaps in joints, in each step."),
       Number("gravity", "m/s2", "9.81", 0, 1000,
              "Presses bodies onto the plane: their friction against the ground is proportional to it."),
-      Number("friction", "", "0.7", 0, 100, "Coulomb coefficient where two bodies touch."),
+      Number("friction", "", "0.49", 0, 100,
+             "Coulomb coefficient of bodies that move, where others touch them; two bodies use the geometric mean."),
+      Number(
+          "wall_friction", "", "0.01", 0, 100,
+          "Coulomb coefficient of what never moves: walls, blocks, terrain. With 0.49 of robots a contact has 0.07."),
       Number("restitution", "", "0", 0, 1,
              "The part of the approach speed with which two bodies part; approaches below 0.1 m/s never bounce."),
       Number("wheel_friction", "", "0.8", 0, 100, "Coulomb coefficient of the footbot's wheels on the ground."),
@@ -48,7 +52,8 @@ std::vector<ParameterSpec> Dynamics2dParameters()
           "turret_torque", "N m", "1.5", 1e-6, 1e6,
           "What the turret's motor exerts at most while gripping, and the torque that the torque sensor reads as 1."),
       Number("traction_range", "N", "25", 1e-6, 1e6, "The traction on the turret that the torque sensor reads as 1."),
-      Number("grip_distance", "m", "0.01", 0, 0.1, "How far from the gripper's face a surface may be to be gripped."),
+      Number("grip_distance", "m", "0.02", 0, 0.1, "How far from the gripper's face a surface may be to be gripped."),
+      ThreadsParameter(),
   };
 }
 
@@ -64,6 +69,8 @@ PluginDescription Dynamics2dDescription()
                                                  "footbot_accelerometer", "wheels"}),
           .entity_tags = TagsOfKinds([](const EntityKindDescription&) { return true; }),
           .any_kind = true,
+          .can_split = true,
+          .hands_over = true,
           .ignores = {"hole"},
           .collision_model = Dynamics2dBodies};
 }

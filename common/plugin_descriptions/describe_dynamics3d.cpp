@@ -31,8 +31,8 @@ std::vector<ParameterSpec> Dynamics3dParameters()
        .type = kInteger,
        .default_value = "50",
        .description =
-           "Iterations, if that is more, for blocks and preys and all that touches or holds them, directly or "
-           "through others.",
+           "Iterations, if that is more, for blocks, preys, handbots, robots with spinning wheels, and all that "
+           "touches or holds them, directly or through others.",
        .minimum = 1,
        .maximum = 1000},
       {.name = "gravity",
@@ -64,6 +64,7 @@ std::vector<ParameterSpec> Dynamics3dParameters()
       switched("solve_all", "false",
                "Whether robots on wheels that touch nothing but level ground are solved too: they then pitch when they "
                "speed up, and cost some twenty times as much."),
+      ThreadsParameter(),
       {.name = "friction",
        .default_value = "0.5",
        .description = "Coefficient of Coulomb friction between bodies, and with the ground.",
@@ -71,7 +72,8 @@ std::vector<ParameterSpec> Dynamics3dParameters()
        .maximum = 100},
       {.name = "wheel_friction",
        .default_value = "1",
-       .description = "Coefficient of Coulomb friction of wheels with what they roll on.",
+       .description =
+           "Coefficient of Coulomb friction of wheels with what they roll on. Below 0.95 motors can spin the wheels.",
        .minimum = 0,
        .maximum = 100},
       {.name = "restitution",
@@ -99,6 +101,8 @@ PluginDescription Dynamics3dDescription()
                        "handbot_hands", "handbot_rope", "wheels"},
           .entity_tags = TagsOfKinds([](const EntityKindDescription&) { return true; }),
           .any_kind = true,
+          .hands_over = true,
+          .ignores = {"ground_torque"},
           .collision_model = Dynamics3dBodies};
 }
 

@@ -6,21 +6,14 @@ namespace swarmanoid
 namespace
 {
 
+using enum ParameterType;
+
 void DescribePropellers()
 {
   const std::vector<ParameterSpec> limits = {
-      {.name = "max_speed",
-       .unit = "m/s",
-       .default_value = "1",
-       .description = "Horizontal and vertical speed to which commands are clamped, along each axis.",
-       .minimum = 0,
-       .maximum = 1e6},
-      {.name = "max_yaw_rate",
-       .unit = "rad/s",
-       .default_value = "1.57079633",
-       .description = "Yaw rate to which commands are clamped.",
-       .minimum = 0,
-       .maximum = 1e6}};
+      {"max_speed", kNumber, "m/s", "1",
+       "Horizontal and vertical speed to which commands are clamped, along each axis.", 0, 1e6},
+      {"max_yaw_rate", kNumber, "rad/s", "1.57079633", "Yaw rate to which commands are clamped.", 0, 1e6}};
   const std::vector<ParameterSpec> noise = NoiseParameters("each velocity that is not 0", "m/s, rad/s");
   const auto describe = [](const char* implementation, const char* brief, std::vector<ParameterSpec> parameters)
   {
@@ -34,13 +27,10 @@ void DescribePropellers()
   };
   describe("dummy_eyebot_propellers", "flies at given velocities", Joined(limits, noise));
   describe("position_eyebot_propellers", "flies at given velocities or to a given position and heading",
-           Joined(Joined(limits, {{.name = "gain",
-                                   .unit = "1/s",
-                                   .default_value = "1",
-                                   .description = "Speed for each metre (and yaw rate for each radian) that is left; "
-                                                  "larger values arrive sooner and overshoot more.",
-                                   .minimum = 0,
-                                   .maximum = 1e6}}),
+           Joined(Joined(limits, {{"gain", kNumber, "1/s", "1",
+                                   "Speed for each metre (and yaw rate for each radian) that is left; larger values "
+                                   "arrive sooner and overshoot more.",
+                                   0, 1e6}}),
                   noise));
 }
 
@@ -71,7 +61,7 @@ void DescribeEyebotDevices()
   DescribeActuator({.label = "eyebot_leds",
                     .implementation = "generic_eyebot_leds",
                     .brief = "the 16 LEDs around the robot",
-                    .parameters = ColourNoiseParameters(),
+                    .parameters = LedRingParameters(),
                     .robots = {"eyebot"}});
 }
 

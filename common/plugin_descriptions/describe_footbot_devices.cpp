@@ -10,23 +10,18 @@ namespace swarmanoid
 namespace
 {
 
+using enum ParameterType;
+
 std::vector<ParameterSpec> Argos3WheelParameters()
 {
   std::vector<ParameterSpec> parameters{
-      {.name = "max_speed",
-       .unit = "m/s",
-       .default_value = "0",
-       .description = "Speed of a wheel on the ground to which commands are clamped; 0: none, as in ARGoS3.",
-       .minimum = 0,
-       .maximum = 1e6}};
+      {"max_speed", kNumber, "m/s", "0",
+       "Speed of a wheel on the ground to which commands are clamped; 0: none, as in ARGoS3.", 0, 1e6}};
   for (const std::string side : {"left", "right"})
   {
     const auto add = [&](const char* name, const char* unit, const char* value, const std::string& description)
     {
-      parameters.push_back({.name = name + ("_" + side),
-                            .unit = unit,
-                            .default_value = value,
-                            .description = description + " of the " + side + " wheel."});
+      parameters.push_back({name + ("_" + side), kNumber, unit, value, description + " of the " + side + " wheel."});
       parameters.back().minimum = std::string_view(name).ends_with("stddev") ? 0 : -1e6;
       parameters.back().maximum = 1e6;
     };
@@ -41,12 +36,8 @@ std::vector<ParameterSpec> Argos3WheelParameters()
 void DescribeWheels()
 {
   const std::vector<ParameterSpec> common =
-      Joined({{.name = "max_speed",
-               .unit = "m/s",
-               .default_value = "0.3",
-               .description = "Speed of a wheel on the ground to which commands are clamped; 0.3 on the robot.",
-               .minimum = 0,
-               .maximum = 1e6}},
+      Joined({{"max_speed", kNumber, "m/s", "0.3",
+               "Speed of a wheel on the ground to which commands are clamped; 0.3 on the robot.", 0, 1e6}},
              NoiseParameters("the speed of each wheel while it moves", "m/s"));
   const auto describe = [](const char* implementation, const char* brief, std::vector<ParameterSpec> parameters)
   {
@@ -59,47 +50,23 @@ void DescribeWheels()
                       .channel_width = 2});
   };
   describe("dummy_footbot_wheels", "wheels that turn at the commanded speed at once, up to max_speed", common);
-  describe("noisy_footbot_wheels", "wheels with a bias and a factor on their speed while they move",
-           Joined(common, {{.name = "bias_left",
-                            .unit = "m/s",
-                            .default_value = "0",
-                            .description = "Added to the speed of the left wheel while it moves.",
-                            .minimum = -1e6,
-                            .maximum = 1e6},
-                           {.name = "bias_right",
-                            .unit = "m/s",
-                            .default_value = "0",
-                            .description = "Added to the speed of the right wheel while it moves.",
-                            .minimum = -1e6,
-                            .maximum = 1e6},
-                           {.name = "factor_left",
-                            .default_value = "1",
-                            .description = "Multiplies the speed of the left wheel.",
-                            .minimum = -1e6,
-                            .maximum = 1e6},
-                           {.name = "factor_right",
-                            .default_value = "1",
-                            .description = "Multiplies the speed of the right wheel.",
-                            .minimum = -1e6,
-                            .maximum = 1e6}}));
+  describe(
+      "noisy_footbot_wheels", "wheels with a bias and a factor on their speed while they move",
+      Joined(common,
+             {{"bias_left", kNumber, "m/s", "0", "Added to the speed of the left wheel while it moves.", -1e6, 1e6},
+              {"bias_right", kNumber, "m/s", "0", "Added to the speed of the right wheel while it moves.", -1e6, 1e6},
+              {"factor_left", kNumber, "", "1", "Multiplies the speed of the left wheel.", -1e6, 1e6},
+              {"factor_right", kNumber, "", "1", "Multiplies the speed of the right wheel.", -1e6, 1e6}}));
   describe("argos3_footbot_wheels",
            "ARGoS3's noise: while a wheel moves, each turns at factor * (speed + bias), a bias drawn once and a factor "
            "drawn in every tick",
            Joined(Argos3WheelParameters(), NoiseParameters("the speed of each wheel while it moves", "m/s")));
-  describe("pid_footbot_wheels", "wheels that approach the commanded speed with the lag of a speed controller",
-           Joined(common,
-                  {{.name = "time_constant",
-                    .unit = "s",
-                    .default_value = "0.1",
-                    .description = "Time in which 63 % of a step in the commanded speed is reached; 0 follows at once.",
-                    .minimum = 0,
-                    .maximum = 1e6},
-                   {.name = "max_acceleration",
-                    .unit = "m/s^2",
-                    .default_value = "0",
-                    .description = "Largest change of a wheel's speed on the ground; 0 sets no limit.",
-                    .minimum = 0,
-                    .maximum = 1e6}}));
+  describe(
+      "pid_footbot_wheels", "wheels that approach the commanded speed with the lag of a speed controller",
+      Joined(common, {{"time_constant", kNumber, "s", "0.1",
+                       "Time in which 63 % of a step in the commanded speed is reached; 0 follows at once.", 0, 1e6},
+                      {"max_acceleration", kNumber, "m/s^2", "0",
+                       "Largest change of a wheel's speed on the ground; 0 sets no limit.", 0, 1e6}}));
 }
 
 // The coefficients approximate the response of footbot_proximity.cpp: y = 1 below a contact distance, else a / (d + b).
@@ -111,12 +78,7 @@ constexpr double kFittedRange = 0.1;  // m
 void DescribeProximity()
 {
   const std::vector<ParameterSpec> common =
-      Joined({{.name = "range",
-               .unit = "m",
-               .default_value = "0.1",
-               .description = "Distance from the body beyond which nothing is seen.",
-               .minimum = 0,
-               .maximum = 1e6}},
+      Joined({{"range", kNumber, "m", "0.1", "Distance from the body beyond which nothing is seen.", 0, 1e6}},
              NoiseParameters("each reading", ""));
   DescribeSensor({.label = "footbot_proximity",
                   .implementation = "generic_footbot_proximity",
@@ -127,13 +89,10 @@ void DescribeProximity()
       .label = "footbot_proximity",
       .implementation = "generic_footbot_polynomial_proximity",
       .brief = "the same rays; the response is a polynomial of the distance with given coefficients",
-      .parameters = Joined(
-          {{.name = "coefficients",
-            .type = ParameterType::kText,
-            .default_value = kDefaultCoefficients,
-            .description = "c0, c1, c2 ... of the reading c0 + c1 d + c2 d^2 + ..., d the distance in m; cut to 0..1. "
-                           "The default is a fit up to 0.1 m."}},
-          common),
+      .parameters = Joined({{"coefficients", kText, "", kDefaultCoefficients,
+                             "c0, c1, c2 ... of the reading c0 + c1 d + c2 d^2 + ..., d the distance in m; cut to "
+                             "0..1. The default is a fit up to 0.1 m."}},
+                           common),
       .robots = {"footbot"}};
   ParameterChecks::Instance().Add(PluginKind::kSensor, polynomial, MistakesInPolynomial);
   DescribeSensor(polynomial);
@@ -160,13 +119,9 @@ void DescribeTurret()
   DescribeActuator({.label = "footbot_turret",
                     .implementation = "dummy_footbot_turret",
                     .brief = "turns the turret with gripper and LED ring at a given speed",
-                    .parameters = Joined({{.name = "max_speed",
-                                           .unit = "rad/s",
-                                           .default_value = "3.14159265",
-                                           .description = "Speed to which commands are clamped.",
-                                           .minimum = 0,
-                                           .maximum = 1e6}},
-                                         NoiseParameters("the speed while the turret is told to move", "rad/s")),
+                    .parameters = Joined(
+                        {{"max_speed", kNumber, "rad/s", "3.14159265", "Speed to which commands are clamped.", 0, 1e6}},
+                        NoiseParameters("the speed while the turret is told to move", "rad/s")),
                     .robots = {"footbot"},
                     .channel = "footbot_turret",
                     .channel_width = 1});
@@ -189,7 +144,7 @@ void DescribeLights()
   DescribeActuator({.label = "footbot_leds",
                     .implementation = "generic_footbot_leds",
                     .brief = "the 12 LEDs around the turret",
-                    .parameters = ColourNoiseParameters(),
+                    .parameters = LedRingParameters(),
                     .robots = {"footbot"}});
   DescribeActuator({.label = "footbot_beacon",
                     .implementation = "generic_footbot_beacon",
@@ -200,14 +155,10 @@ void DescribeLights()
       {.label = "footbot_preferential_direction",
        .implementation = "led_ring_preferential_direction",
        .brief = "shows a direction by lighting the LEDs that point to it",
-       .parameters = Joined(
-           {{.name = "width",
-             .unit = "degrees",
-             .default_value = "60",
-             .description = "LEDs within half of this angle of the direction are lit; the nearest one always is.",
-             .minimum = 0,
-             .maximum = 360}},
-           NoiseParameters("the direction", "rad")),
+       .parameters =
+           Joined({{"width", kNumber, "degrees", "60",
+                    "LEDs within half of this angle of the direction are lit; the nearest one always is.", 0, 360}},
+                  NoiseParameters("the direction", "rad")),
        .robots = {"footbot"}});
 }
 

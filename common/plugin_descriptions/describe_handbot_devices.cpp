@@ -4,6 +4,8 @@
 namespace swarmanoid
 {
 
+using enum ParameterType;
+
 void DescribeHandbotDevices()
 {
   // Head and arms share a channel of five values: head, left arm, right arm, left wrist, right wrist.
@@ -38,12 +40,8 @@ void DescribeHandbotDevices()
   DescribeSensor({.label = "handbot_proximity",
                   .implementation = "generic_handbot_proximity",
                   .brief = "12 proximity sensors in each hand; 1 touching, falling evenly to 0 at the range",
-                  .parameters = Joined({{.name = "range",
-                                         .unit = "m",
-                                         .default_value = "0.05",
-                                         .description = "Distance from the sensor beyond which nothing is seen.",
-                                         .minimum = 0.001,
-                                         .maximum = 1e6}},
+                  .parameters = Joined({{"range", kNumber, "m", "0.05",
+                                         "Distance from the sensor beyond which nothing is seen.", 0.001, 1e6}},
                                        NoiseParameters("each reading", "")),
                   .robots = {"handbot"}});
   DescribeActuator({.label = "handbot_rope",
@@ -61,7 +59,7 @@ void DescribeHandbotDevices()
   DescribeActuator({.label = "handbot_leds",
                     .implementation = "generic_handbot_leds",
                     .brief = "the 12 LEDs around the robot",
-                    .parameters = ColourNoiseParameters(),
+                    .parameters = LedRingParameters(),
                     .robots = {"handbot"}});
 }
 

@@ -26,7 +26,8 @@ PluginDescription ImageRenderDescription()
        "Folder for numbered pictures, taken from the run's folder; frames, where neither file nor video is given."},
       {"filename", ParameterType::kText, "", "frame", "Numbered pictures are called FILENAME_<tick>.png."},
       {"video", ParameterType::kText, "", "",
-       "A video file, taken from the run's folder: .mp4 (H.264), .webm (VP9) or another ending that FFmpeg knows."},
+       "A video file, taken from the run's folder: .mp4 (H.264), .webm (VP9), .gif or another ending that FFmpeg "
+       "knows."},
       {"speed", ParameterType::kNumber, "", "1", "Simulated seconds that pass in a second of the video.", 1e-3, 1e6},
       {"stop", ParameterType::kBoolean, "", "false",
        "Whether the run, or the watching where it is attached, ends after the last picture."},

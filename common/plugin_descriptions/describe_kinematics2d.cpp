@@ -19,19 +19,25 @@ PluginDescription Kinematics2dDescription(const std::string& label)
                 "Part of the approach that a collision gives back; 1 is purely elastic, 0 lets bodies stay in touch.",
             .minimum = 0,
             .maximum = 1},
-           {.name = "threads",
-            .type = ParameterType::kInteger,
-            .default_value = "0",
-            .description = "Threads that share the work; their number changes no bit of the results. 0: in one process "
-                           "as many as --threads has, while that is quicker; in a process of its own one.",
+           {.name = "friction",
+            .default_value = "0.49",
+            .description = "Coulomb coefficient of bodies that move, where walls have one; they use the geometric mean "
+                           "of both. Bodies that move slide along each other without friction.",
             .minimum = 0,
-            .maximum = 64}}),
+            .maximum = 100},
+           {.name = "wall_friction",
+            .default_value = "0",
+            .description = "Coulomb coefficient of what never moves: walls, blocks, terrain.",
+            .minimum = 0,
+            .maximum = 100},
+           ThreadsParameter()}),
       .channels = WithChannelsOfPlaneRobots({"eyebot_propellers", "footbot_encoders", "footbot_gripper",
                                              "footbot_turret", "footbot_turret_torque", "footbot_wheels", "wheels"}),
       .entity_tags = TagsOfKinds([](const EntityKindDescription&) { return true; }),
       .any_kind = true,
       .can_split = true,
-      .ignores = {"mass", "friction", "restitution", "ground_friction", "hole"},
+      .hands_over = true,
+      .ignores = {"mass", "restitution", "ground_friction", "ground_torque", "hole"},
       .collision_model = Kinematics2dBodies};
 }
 

@@ -26,6 +26,18 @@ std::vector<ParameterSpec> PlaneParameters()
            .maximum = 1e5}};
 }
 
+ParameterSpec ThreadsParameter()
+{
+  return {.name = "threads",
+          .type = ParameterType::kInteger,
+          .default_value = "0",
+          .description =
+              "Threads that share the work; their number changes no bit of the results. 0: in one process "
+              "as many as --threads has, while that is quicker; in a process of its own one.",
+          .minimum = 0,
+          .maximum = 64};
+}
+
 std::vector<std::string> WithChannelsOfPlaneRobots(std::vector<std::string> own)
 {
   for (const char* channel : {"eyebot_attach", "handbot_arms", "handbot_hands", "handbot_rope"}) own.push_back(channel);

@@ -4,17 +4,18 @@
 namespace swarmanoid
 {
 
+using enum ParameterType;
+
 void DescribeRangeAndBearing()
 {
   DescribeActuator({.label = "range_and_bearing",
                     .implementation = "generic_range_and_bearing",
                     .brief = "broadcasts 10 bytes to all in sight, or more",
-                    .parameters = Joined({{.name = "bytes",
-                                           .type = ParameterType::kInteger,
-                                           .default_value = "10",
-                                           .description = "Bytes of a message.",
-                                           .minimum = 10,
-                                           .maximum = 10'000}},
+                    .parameters = Joined({{"bytes", kInteger, "", "10", "Bytes of a message.", 10, 10'000},
+                                          {"range", kNumber, "m", "1e6",
+                                           "Distance to which packets are received at most; the receivers have a "
+                                           "range, too.",
+                                           0.001, 1e6}},
                                          NoiseParameters("each byte of the message", "1/255")),
                     .robots = {"footbot", "eyebot", "handbot"}});
   const std::vector<ParameterSpec> noise =
@@ -23,18 +24,11 @@ void DescribeRangeAndBearing()
   DescribeSensor({.label = "range_and_bearing",
                   .implementation = "generic_range_and_bearing",
                   .brief = "receives the bytes of all in sight within 3 m, with distance and direction",
-                  .parameters = Joined({{.name = "range",
-                                         .unit = "m",
-                                         .default_value = "3",
-                                         .description = "Distance from which packets are received.",
-                                         .minimum = 0.001,
-                                         .maximum = 1e6},
-                                        {.name = "loss_probability",
-                                         .default_value = "0",
-                                         .description = "Share of the packets that get lost.",
-                                         .minimum = 0,
-                                         .maximum = 1}},
-                                       noise),
+                  .parameters = Joined(
+                      {{"range", kNumber, "m", "3", "Distance from which packets are received.", 0.001, 1e6},
+                       {"loss_probability", kNumber, "", "0", "Share of the packets that get lost.", 0, 1},
+                       {"line_of_sight", kBoolean, "", "true", "Whether bodies between two robots keep packets off."}},
+                      noise),
                   .robots = {"footbot", "eyebot", "handbot"}});
 }
 

@@ -26,7 +26,7 @@ PluginDescription WebRenderDescription()
         "States that each page gets at most. Thousands of robots come less often then; the page draws what is between.",
         0.01, 1000},
        {"allow_control", ParameterType::kBoolean, "", "false",
-        "Lets whoever has the printed address, with its token, pause, step, change the speed and move entities."},
+        "Lets all who have the printed address, with its token, pause, step, change the speed and move entities."},
        {"clients", ParameterType::kInteger, "", "16",
         "Pages without the token that may look at the same time; as many others that have it.", 1, 256},
        {"linger", ParameterType::kNumber, "s", "-1",

@@ -22,6 +22,8 @@ void DescribeSurroundingsDevices();
 void DescribeLight(const std::string& robot);
 // Returns the parameters of the ground sensors of footbots and of other robots.
 std::vector<ParameterSpec> GroundParameters();
+// Returns the parameters of the rings of LEDs of all robots.
+std::vector<ParameterSpec> LedRingParameters();
 // Adds a device to the catalogue, with the checks of its noise.
 void DescribeSensor(const PluginDescription& sensor);
 void DescribeActuator(const PluginDescription& actuator);

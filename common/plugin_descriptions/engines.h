@@ -16,6 +16,8 @@ PluginDescription Dynamics3dDescription();
 
 // Returns the parameters that place the plane of a two-dimensional engine: perpendicular_axis, distance, tilt.
 std::vector<ParameterSpec> PlaneParameters();
+// Returns the parameter `threads` of engines that share their work between threads.
+ParameterSpec ThreadsParameter();
 // Returns `own` and the channels of engines on a plane that serve handbots and eyebots with PlaneRobots.
 std::vector<std::string> WithChannelsOfPlaneRobots(std::vector<std::string> own);
 

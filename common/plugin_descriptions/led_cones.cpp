@@ -14,6 +14,16 @@ namespace
 constexpr const char* kType = "directional_leds";
 constexpr const char* kImplementation = "generic_directional_leds";
 
+// Returns the angle from the axis of an LED at which the robot's own body begins to hide it: beside the tangent of its
+// round outline.
+double AngleBesideBody(const EntityKindDescription& kind)
+{
+  if (kind.form != BodyForm::kCylinder || kind.leds->places.empty()) return kPi;
+  const double led = __builtin_sqrt(kind.leds->places.front().squaredNorm());
+  const double part = led > 0 ? std::min(kind.size.x() / led, 1.0) : 1;
+  return kPi / 2 + Atan2(__builtin_sqrt(1 - part * part), part);
+}
+
 }  // namespace
 
 std::vector<Vector3> AxesOf(const LedLayout& leds, double elevation)
@@ -41,7 +51,14 @@ std::optional<LedCones> LedConesOf(const Experiment& experiment, const EntityCon
   const auto device =
       std::ranges::find_if(controller->actuators, [](const DeviceConfiguration& actuator)
                            { return actuator.type == kType && actuator.implementation == kImplementation; });
-  if (device == controller->actuators.end()) return std::nullopt;
+  if (device == controller->actuators.end())
+  {
+    const bool are_separate = std::ranges::any_of(controller->actuators, [](const DeviceConfiguration& actuator)
+                                                  { return actuator.tree.GetBoolean("separate", false); });
+    if (!are_separate) return std::nullopt;
+    const double angle = AngleBesideBody(DescriptionOf(robot.kind));
+    return LedCones{.axes = AxesOf(*leds, 0), .observable_angle = angle, .cosine = SinCosOf(angle).cos};
+  }
   const PluginDescription* description =
       PluginCatalogue::Instance().Find(PluginKind::kActuator, kType, kImplementation);
   const Parameters parameters(device->tree, description->parameters);

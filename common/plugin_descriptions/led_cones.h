@@ -1,4 +1,5 @@
-// The cones within which a robot's LEDs are seen, if its controller has the actuator directional_leds. Cameras and
+// The cones within which a robot's LEDs are seen, if its controller has the actuator directional_leds or LEDs that are
+// `separate`, which the robot's own body hides. Cameras and
 // renderers of all processes use them. They follow from the experiment alone.
 #pragma once
 

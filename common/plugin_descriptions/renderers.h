@@ -1,5 +1,5 @@
-// The renderers of the simulator, each described in the file of its name, those with a window in window_renderers.cpp.
-// Their code is in visualiser/.
+// The simulator's renderers are described each in the file of its name, and those with a window in
+// window_renderers.cpp. Their code is in visualiser/.
 #pragma once
 
 #include <vector>
@@ -15,6 +15,7 @@ PluginDescription FigureRenderDescription();
 PluginDescription OpenGlRenderDescription();
 PluginDescription OgreRenderDescription();
 PluginDescription WebRenderDescription();
+PluginDescription PageRenderDescription();
 PluginDescription Ros2RenderDescription();
 PluginDescription FoxgloveRenderDescription();
 

@@ -36,7 +36,7 @@ std::string_view PluginKindName(PluginKind kind);
 // implementation.
 std::string NameOfPlugin(PluginKind kind, const std::string& label, const std::string& implementation);
 
-// The content of `swarmanoid list plugins` and the reference pages.
+// `swarmanoid list plugins` and the reference pages show this about a plug-in.
 struct PluginDescription
 {
   std::string label{};           // the XML tag: type of device, engine, renderer or controller
@@ -44,14 +44,17 @@ struct PluginDescription
   std::string brief{};           // one line
   std::vector<ParameterSpec> parameters{};
   std::vector<std::string> robots{};  // devices only: the robot tags that can carry it; empty: all
-  // Specific devices only: the channel of values between host and engine, and its doubles per robot. Empty: generic.
+  // Only specific devices have a channel of values between host and engine, with its count of doubles for each robot.
+  // If it is empty, the device is generic.
   std::string channel{};
   int channel_width = 0;
-  // Engines only: the channels and the entity tags that it can serve.
+  // Only engines have these: the channels and the entity tags that they can serve.
   std::vector<std::string> channels{};
   std::vector<std::string> entity_tags{};
   bool any_kind = false;   // engines only: it also serves the kinds of users, by the rows of the kinds
   bool can_split = false;  // engines only: its world may be cut into regions (CPhysicsEngine::MakeRegion)
+  // Engines only: entities may change between it and other engines while the run goes on (CPhysicsEngine::TakeOver).
+  bool hands_over = false;
   // Engines only: parameters and tags of entities without effect in it; `swarmanoid check` reports them.
   std::vector<std::string> ignores{};
   // Engines only: adds the bodies that the engine collides for an entity with the current values of its attributes, in

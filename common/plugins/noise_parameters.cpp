@@ -10,6 +10,8 @@ namespace swarmanoid
 namespace
 {
 
+using enum ParameterType;
+
 constexpr std::string_view kKind = "noise_kind";
 
 // Checks one set of noise parameters: those with `prefix`.
@@ -59,31 +61,17 @@ std::vector<ParameterSpec> NoiseParameters(const std::string& of, const std::str
 {
   return {
       {.name = prefix + "noise_kind",
-       .type = ParameterType::kChoice,
+       .type = kChoice,
        .unit = "",
        .default_value = "none",
        .description = "Kind of the noise added to " + of + ".",
        .choices = {"none", "uniform", "gaussian", "truncated_gaussian"}},
-      {.name = prefix + "noise_mean",
-       .unit = unit,
-       .default_value = "0",
-       .description = "Mean of the noise on " + of + ": a systematic error.",
-       .minimum = -1e6,
-       .maximum = 1e6},
-      {.name = prefix + "noise_deviation",
-       .unit = unit,
-       .default_value = "0",
-       .description = "Standard deviation of Gaussian noise on " + of + ".",
-       .minimum = 0,
-       .maximum = 1e6},
-      {.name = prefix + "noise_range",
-       .unit = unit,
-       .default_value = "0",
-       .description =
-           "Uniform noise lies within the mean +- this. Gaussian noise beyond it is put onto its border where it is "
-           "not 0; truncated Gaussian noise is drawn from within it.",
-       .minimum = 0,
-       .maximum = 1e6}};
+      {prefix + "noise_mean", kNumber, unit, "0", "Mean of the noise on " + of + ": a systematic error.", -1e6, 1e6},
+      {prefix + "noise_deviation", kNumber, unit, "0", "Standard deviation of Gaussian noise on " + of + ".", 0, 1e6},
+      {prefix + "noise_range", kNumber, unit, "0",
+       "Uniform noise lies within the mean +- this. Gaussian noise beyond it is put onto its border where it is not 0; "
+       "truncated Gaussian noise is drawn from within it.",
+       0, 1e6}};
 }
 
 std::vector<ParameterSpec> ColourNoiseParameters()

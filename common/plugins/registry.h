@@ -16,7 +16,8 @@
 namespace swarmanoid
 {
 
-// All plug-ins of one interface, by (label, implementation). Their descriptions are in the PluginCatalogue too.
+// The registry has all plug-ins of one interface, by (label, implementation). Their descriptions are in the
+// PluginCatalogue too.
 template <class Interface>
 class PluginRegistry
 {

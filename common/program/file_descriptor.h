@@ -1,4 +1,4 @@
-// Owned file descriptors.
+// File descriptors with an owner that closes them.
 #pragma once
 
 #include <unistd.h>

@@ -7,7 +7,7 @@
 namespace swarmanoid
 {
 
-// The effect of a second signal of the same kind.
+// It chooses the effect of a second signal of the same kind.
 enum class SecondInterrupt
 {
   kSame,  // no further effect: the program ends when it can, for example after it has stopped its robot

@@ -19,7 +19,7 @@ namespace swarmanoid
 namespace
 {
 
-// Text of a line, with what troff would take for commands, hyphens and quotes made plain.
+// Returns the text of a line, in which troff's special characters (commands, hyphens, quotes) are escaped.
 std::string Plain(std::string_view text)
 {
   std::string plain;
@@ -95,7 +95,7 @@ std::string Options(const CLI::App& app)
   return text;
 }
 
-// A command of a command, or the whole page without its head.
+// Returns the text of a sub-command, or of the whole page without its head.
 std::string Body(const CLI::App& app, const std::string& name, bool whole)
 {
   const auto [notes, examples] = SplitFooter(app.get_footer());

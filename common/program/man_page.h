@@ -1,4 +1,4 @@
-// Manual pages, written from the options that a program declares: `PROGRAM --man-pages FOLDER`. Used when Swarmanoid is
+// Writes manual pages from the options that a program declares: `PROGRAM --man-pages FOLDER`. Used when Swarmanoid is
 // installed.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace swarmanoid
 
 inline constexpr const char* kManPagesFlag = "--man-pages";
 
-// PROGRAM.1, and PROGRAM-COMMAND.1 for each of its commands, in troff, into an existing folder. Throws
+// Writes PROGRAM.1, and PROGRAM-COMMAND.1 for each of its commands, in troff, into an existing folder. Throws
 // std::runtime_error.
 void WriteManPages(const CLI::App& program, const std::string& folder);
 

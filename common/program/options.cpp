@@ -48,7 +48,7 @@ std::vector<std::string> TextsOf(const OptionTarget& target)
                     target);
 }
 
-// The text has been found right.
+// Stores a text that has passed the checks.
 void Store(const OptionTarget& target, const std::string& text)
 {
   const auto whole = [&] { return ParseInteger(text).value(); };
@@ -122,7 +122,8 @@ CLI::Option* AddValue(CLI::App& app, const OptionSpec& option)
   return added;
 }
 
-// A value that begins with a dash stands in the word of its option, so that it is not read as another option.
+// Appends an option and its value. A value that begins with a dash is written in the same word as its option, so that
+// it is not read as another option.
 void Append(std::vector<std::string>& words, const OptionSpec& option, const std::string& value)
 {
   if (IsPositional(option))

@@ -11,10 +11,10 @@
 #include <system_error>
 
 #include "common/activity/failure_report.h"
-#include "common/activity/limits.h"
-#include "common/activity/print_error.h"
 #include "common/configuration/configuration_tree.h"
 #include "common/configuration/shown_text.h"
+#include "common/errors/print_error.h"
+#include "common/limits/limits.h"
 #include "common/program/colour.h"
 #include "common/program/command_line_complaint.h"
 #include "common/program/empty_words.h"
@@ -34,7 +34,7 @@ std::string terminating_program;
 
 void Complain(const std::string& program, std::string_view what)
 {
-  // The colour alone may have escape sequences.
+  // Only the colour may have escape sequences.
   std::fputs((Coloured(STDERR_FILENO, Colour::kRed, program) + Showable(fmt::format(": {}\n", what))).c_str(), stderr);
 }
 
@@ -53,7 +53,7 @@ int Report(const std::string& program)
   catch (const ConfigurationError& error)
   {
     NoteEnd(EndReason::kInvalid, 0, error.what(), true);
-    // If there is a file, its place comes first, as editors expect it.
+    // If the error has a file, its position comes first, as editors expect it.
     if (error.Location().file)
       PrintError("{}\n", error.what());
     else
@@ -87,7 +87,7 @@ std::string VersionText(const std::string& program)
   return fmt::format("{} {}{}", program, Version(), revision.empty() ? "" : " (" + revision + ")");
 }
 
-// An exception that left a thread, or a destructor: nothing can be tidied up any more.
+// Handles an exception that left a thread or a destructor. Nothing can be tidied up any more.
 [[noreturn]] void Terminate()
 {
   int code = kExitProcessFailed;
@@ -150,7 +150,7 @@ int RunProgram(const ProgramDescription& program, int count, char** arguments,
 {
   OpenStandardFiles();
   const int code = RunWithoutOutput(program, count, arguments, declare, run);
-  // Output of users' code is no result: a log that could not be written ends no run.
+  // The output of users' code is no result, so a log that could not be written does not fail the run.
   return program.runs_code_of_users ? code : ExitCodeWithOutput(code);
 }
 

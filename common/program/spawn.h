@@ -16,7 +16,7 @@ struct SpawnSettings
   std::vector<std::string> words;  // the program first, as a path or a name on the PATH
   std::string name{};              // for the user: "engine_worker ground"; empty: the program
   std::vector<std::pair<std::string, std::string>> environment{};  // added to this process's environment
-  // Descriptors that become its standard ones; -1: /dev/null.
+  // The descriptors that become its standard ones; -1: /dev/null.
   int input = -1;
   int output = -1;
   int errors = -1;
@@ -24,7 +24,7 @@ struct SpawnSettings
   std::vector<int> cores{};  // cores that it may run on; empty: all
   // It leads its own process group, so that Ctrl-C at a terminal does not reach it.
   bool leads_group = false;
-  // The kernel sends it this signal when the thread that started it ends; 0: none.
+  // The signal that the kernel sends it when the thread that started it ends; 0: none.
   int signal_at_our_end = 0;
 };
 

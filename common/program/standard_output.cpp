@@ -9,8 +9,8 @@
 #include <cstdio>
 #include <cstring>
 
-#include "common/activity/exit_codes.h"
-#include "common/activity/print_error.h"
+#include "common/errors/exit_codes.h"
+#include "common/errors/print_error.h"
 
 namespace swarmanoid
 {
@@ -33,7 +33,8 @@ void ReaderOfOutputHasGone() { reader_has_gone = true; }
 
 void OpenStandardFiles()
 {
-  // `open` takes the lowest number that is free. Writing to a file that is open for reading is an error.
+  // `open` takes the lowest free number. Writing to a file that is open for reading is an error, so printed text is not
+  // lost silently.
   for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(number, F_GETFD) < 0 && errno == EBADF && open("/dev/null", O_RDONLY) != number) return;
 }

@@ -1,4 +1,4 @@
-// Standard output, where programs print their results: a result that cannot be written is an error of the program.
+// Programs print their results to standard output. A result that cannot be written is an error of the program.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// The option --trust of every program that runs code or scripts of an experiment (common/configuration/trust.h).
+// All programs that run code or scripts of an experiment have the option --trust (common/configuration/trust.h).
 #pragma once
 
 namespace CLI

@@ -6,7 +6,8 @@
 namespace swarmanoid
 {
 
-// A mistake in the command line. what() gives the reason and the cure. It ends the program with kExitUsage.
+// A mistake in the command line is thrown as this error. what() gives the reason and the cure. It ends the program with
+// kExitUsage.
 class UsageError : public std::runtime_error
 {
 public:

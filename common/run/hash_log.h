@@ -6,9 +6,24 @@
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace swarmanoid
 {
+
+struct TickHash
+{
+  std::uint64_t tick = 0;
+  std::uint64_t hash = 0;
+
+  bool operator==(const TickHash&) const = default;
+};
+
+// Returns the line of the file for a tick, with its end.
+std::string HashLogLine(const TickHash& of);
+// Reads a whole file. Throws std::runtime_error with path and line if a line is not that of a later tick than the one
+// before it.
+std::vector<TickHash> ReadHashLog(const std::string& path);
 
 class HashLog
 {

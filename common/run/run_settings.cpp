@@ -31,33 +31,13 @@ enum class For
 {
   kLauncher,
   kServer,
-  kChoice  // whoever reads the experiment
+  kChoice  // every program that reads the experiment
 };
 
 struct RunOption : OptionSpec
 {
-  For whom = For::kLauncher;
+  For program = For::kLauncher;
 };
-
-ParameterSpec Text(const std::string& name, const std::string& description)
-{
-  return {.name = name, .type = kText, .description = description};
-}
-
-ParameterSpec Path(const std::string& name, const std::string& description)
-{
-  return {.name = name, .type = kPath, .description = description};
-}
-
-ParameterSpec Flag(const std::string& name, const std::string& description)
-{
-  return {.name = name, .type = kBoolean, .description = description};
-}
-
-ParameterSpec Whole(const std::string& name, const std::string& description, double minimum, double maximum)
-{
-  return {.name = name, .type = kInteger, .description = description, .minimum = minimum, .maximum = maximum};
-}
 
 std::string PairMistake(const std::string& text, const std::string& form, bool value_needed)
 {
@@ -76,7 +56,8 @@ std::string HashMistake(const std::string& text)
   return good ? "" : "it must be up to 16 hexadecimal digits";
 }
 
-// "2GiB", "500M", "1073741824": units of 1024. nullopt for anything else, and for what no memory has.
+// Reads "2GiB", "500M" or "1073741824"; units are powers of 1024. Returns nullopt for any other text, and for sizes
+// that no memory has.
 std::optional<std::uint64_t> SizeOf(const std::string& text)
 {
   constexpr double kMostBytes = 1e15;
@@ -104,7 +85,7 @@ std::string SizeMistake(const std::string& text)
 
 std::string MemoryLimitMistake(const std::string& text)
 {
-  constexpr std::uint64_t kLeastBytes = 64U << 20U;  // no process of a run starts with less
+  constexpr std::uint64_t kLeastBytes = 64U << 20U;  // no process of a run starts with less memory
   const auto bytes = SizeOf(text);
   if (bytes && *bytes < kLeastBytes) return "a process of a run does not start with less than 64MiB";
   return SizeMistake(text);
@@ -119,7 +100,7 @@ std::string LeaseMistake(const std::string& text)
              : fmt::format("it must be 0, or from {:g} to {:g} s", kShortestLease_s, kLongestLease_s);
 }
 
-// Steps are timed in milliseconds; a shorter limit would be none.
+// Steps are timed in milliseconds, so a shorter limit would mean none.
 std::string StepTimeoutMistake(const std::string& text)
 {
   const double step_s = ParseNumber(text).value_or(0);
@@ -150,20 +131,17 @@ std::vector<RunOption> Table(RunSettings& s)
       {{Text("set", "Change the experiment: another value for an element or attribute of the file"), &s.settings,
         "arena.fb.position=1,2,0", "PATH=VALUE", SettingMistake},
        For::kChoice},
-      {{Text("show", "Add a visualisation to those of the file, such as web or opengl, which may steer the run"),
-        &s.show, "web", "KIND"},
+      {{Text("show",
+             "Add a visualisation to those of the file, such as web or opengl, which may steer the run; its parameters "
+             "may follow in the same word"),
+        &s.show, "'image video=film.webm'", "KIND"},
        For::kLauncher},
       {{Path("output",
              "Folder of the run; `swarmanoid run` takes a new or empty one, otherwise runs/<experiment>-<time>"),
         &s.output_folder, "results/first"},
        For::kServer},
-      {{{.name = "real-time",
-         .type = kNumber,
-         .description = "Run at this multiple of real time; 0: as fast as possible",
-         .minimum = 0,
-         .maximum = kFastest},
-        &s.real_time_factor,
-        "2"},
+      {{Number("real-time", "", "Run at this multiple of real time; 0: as fast as possible", 0, kFastest),
+        &s.real_time_factor, "2"},
        For::kServer},
       {{Flag("paused",
              "Start paused, until somebody resumes: in a window or page, or a cluster by `swarmanoid control resume`"),
@@ -179,7 +157,7 @@ std::vector<RunOption> Table(RunSettings& s)
        For::kLauncher},
       {{Whole("controller-hosts", "Processes that share the robots' controllers", 1, 1000), &s.controller_hosts, "2"},
        For::kServer},
-      {{Flag("no-visualisers", "Leave out the <visualisations> of the file"), &s.visualisations}, For::kServer},
+      {{Flag("no-visualisers", "Leave out the <visualisations> of the file"), &s.visualisations}, For::kChoice},
       {{Flag("quiet", "Show no progress"), &s.quiet}, For::kLauncher},
   };
   const auto add = [&table](const char* group, const std::vector<RunOption>& options)
@@ -253,33 +231,18 @@ std::vector<RunOption> Table(RunSettings& s)
       });
   add("Limits",
       {
-          {{{.name = "step-timeout",
-             .type = kNumber,
-             .unit = "s",
-             .description =
-                 "Time that one step of a controller, engine, functions, device or renderer may take; 0: any",
-             .minimum = 0,
-             .maximum = kLongestStep_s},
-            &s.step_timeout_s,
-            "5",
-            "",
-            StepTimeoutMistake},
+          {{Number("step-timeout", "s",
+                   "Time that one step of a controller, engine, functions, device or renderer may take; 0: any", 0,
+                   kLongestStep_s),
+            &s.step_timeout_s, "5", "", StepTimeoutMistake},
            For::kLauncher},
           {{Text("memory-limit", "Memory that each process may take; otherwise nine tenths of what this machine has"),
             &s.memory_limit, "2GiB", "SIZE", MemoryLimitMistake},
            For::kLauncher},
-          {{{.name = "lease",
-             .type = kNumber,
-             .unit = "s",
-             .description =
-                 "Silence after which a process counts as dead, 0.2 or more; 0: one on this machine is waited "
-                 "for",
-             .minimum = 0,
-             .maximum = kLongestLease_s},
-            &s.lease_s,
-            "5",
-            "",
-            LeaseMistake},
+          {{Number("lease", "s",
+                   "Silence after which a process counts as dead, 0.2 or more; 0: one on this machine is waited for", 0,
+                   kLongestLease_s),
+            &s.lease_s, "5", "", LeaseMistake},
            For::kLauncher},
       });
   add("Machines and networks",
@@ -316,11 +279,11 @@ std::vector<RunOption> Table(RunSettings& s)
   return table;
 }
 
-std::vector<OptionSpec> OptionsFor(For whom, RunSettings& settings)
+std::vector<OptionSpec> OptionsFor(For program, RunSettings& settings)
 {
   std::vector<OptionSpec> options;
   for (const RunOption& option : Table(settings))
-    if (option.whom >= whom) options.push_back(option);
+    if (option.program >= program) options.push_back(option);
   return options;
 }
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "common/activity/limits.h"
 #include "common/experiment/load_experiment.h"
+#include "common/limits/limits.h"
 #include "common/program/options.h"
 
 namespace swarmanoid
@@ -39,7 +39,7 @@ struct SimulatorOptions
   // The run starts paused until a user resumes it. In one process this requires a visualisation: without one,
   // CSimulator throws UsageError.
   bool paused = false;
-  // Allows users to start the run again (RunSummary::reset). The caller of the run then does it.
+  // If it is true, users may start the run again (RunSummary::reset). The caller of the run then does it.
   bool may_reset = false;
   std::string event_log;  // file for users' requests; empty: none
   std::string events;     // event log of an earlier run, whose moves and stops are repeated

@@ -5,7 +5,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 namespace swarmanoid
@@ -13,227 +12,97 @@ namespace swarmanoid
 namespace
 {
 
-// A hash, in 16 hexadecimal digits.
-template <class Line>
-struct Hash
-{
-  std::uint64_t Line::*member;
-};
-
-// A text without blanks.
-template <class Line>
-struct Word
-{
-  std::string Line::*member;
-};
-
-// Each kind of line has a word and its fields in their order. At most one field is a text, which may hold blanks.
-template <class Line>
-struct Form;
-
-template <>
-struct Form<ServerState>
-{
-  static constexpr std::string_view word = "state";
-  static constexpr std::tuple fields{&ServerState::phase, &ServerState::waiting_for};
-};
-template <>
-struct Form<ServerTick>
-{
-  static constexpr std::string_view word = "tick";
-  static constexpr std::tuple fields{&ServerTick::tick, &ServerTick::max, &ServerTick::real_time_factor};
-};
-template <>
-struct Form<ServerStall>
-{
-  static constexpr std::string_view word = "stalled";
-  static constexpr std::tuple fields{&ServerStall::name, &ServerStall::seconds};
-};
-template <>
-struct Form<ServerWarning>
-{
-  static constexpr std::string_view word = "warning";
-  static constexpr std::tuple fields{&ServerWarning::text};
-};
-template <>
-struct Form<ServerAsked>
-{
-  static constexpr std::string_view word = "asked";
-  static constexpr std::tuple fields{&ServerAsked::text};
-};
-template <>
-struct Form<ServerError>
-{
-  static constexpr std::string_view word = "error";
-  static constexpr std::tuple fields{&ServerError::text};
-};
-template <>
-struct Form<ServerLeft>
-{
-  static constexpr std::string_view word = "left";
-  static constexpr std::tuple fields{&ServerLeft::name};
-};
-template <>
-struct Form<ServerLost>
-{
-  static constexpr std::string_view word = "lost";
-  static constexpr std::tuple fields{&ServerLost::name};
-};
-template <>
-struct Form<ServerMove>
-{
-  static constexpr std::string_view word = "move";
-  static constexpr std::tuple fields{Word<ServerMove>{&ServerMove::machine}, &ServerMove::name};
-};
-template <>
-struct Form<ServerReset>
-{
-  static constexpr std::string_view word = "reset";
-  static constexpr std::tuple fields{&ServerReset::seed, &ServerReset::paused, &ServerReset::real_time_factor};
-};
-template <>
-struct Form<ServerHosts>
-{
-  static constexpr std::string_view word = "hosts";
-  static constexpr std::tuple fields{&ServerHosts::machines};
-};
-template <>
-struct Form<ServerFinished>
-{
-  static constexpr std::string_view word = "finished";
-  static constexpr std::tuple fields{&ServerFinished::ticks, &ServerFinished::entities,
-                                     Hash<ServerFinished>{&ServerFinished::hash}, &ServerFinished::wall_s,
-                                     &ServerFinished::real_time_factor};
-};
-
 // The words are in the order of ServerState::Phase.
 constexpr std::array<std::string_view, 4> kPhases{"loading", "waiting", "running", "paused"};
 
-std::string Written(std::uint64_t value) { return fmt::format("{}", value); }
-std::string Written(double value) { return fmt::format("{}", value); }
-std::string Written(bool value) { return value ? "1" : "0"; }
-std::string Written(ServerState::Phase phase) { return std::string(kPhases[phase]); }
-std::string Written(const std::string& text)
+// Texts may be shown on a terminal.
+std::string OneLine(std::string_view text)
 {
-  std::string line = text;
+  std::string line(text);
   for (char& c : line)
     if (static_cast<unsigned char>(c) < ' ') c = ' ';
   return line;
 }
 
-template <class Line, class Value>
-std::string WrittenField(const Line& line, Value Line::*member)
+class LineWriter
 {
-  return Written(line.*member);
-}
-template <class Line>
-std::string WrittenField(const Line& line, Hash<Line> hash)
-{
-  return fmt::format("{:016x}", line.*hash.member);
-}
-
-template <class Line>
-std::string WrittenField(const Line& line, Word<Line> word)
-{
-  return Written(line.*word.member);
-}
-
-template <class Number, class... Base>
-bool ReadNumber(std::string_view word, Number& value, Base... base)
-{
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value, base...);
-  return error == std::errc() && end == word.data() + word.size();
-}
-bool ReadWord(std::string_view word, std::uint64_t& value) { return ReadNumber(word, value); }
-// All double fields are times and rates.
-bool ReadWord(std::string_view word, double& value)
-{
-  return ReadNumber(word, value) && std::isfinite(value) && value >= 0;
-}
-bool ReadWord(std::string_view word, bool& value)
-{
-  value = word == "1";
-  return value || word == "0";
-}
-bool ReadWord(std::string_view word, ServerState::Phase& phase)
-{
-  for (std::size_t k = 0; k < kPhases.size(); ++k)
-    if (word == kPhases[k])
-    {
-      phase = static_cast<ServerState::Phase>(k);
-      return true;
-    }
-  return false;
-}
-template <class Line, class Value>
-bool ReadField(std::string_view word, Line& line, Value Line::*member)
-{
-  return ReadWord(word, line.*member);
-}
-template <class Line>
-bool ReadField(std::string_view word, Line& line, Hash<Line> hash)
-{
-  return word.size() <= 16 && ReadNumber(word, line.*hash.member, 16);
-}
-
-template <class Line>
-bool ReadField(std::string_view word, Line& line, Word<Line> field)
-{
-  line.*field.member = Written(std::string(word));
-  return !word.empty();
-}
-
-// Removes the word at one end of the text and returns it.
-std::string_view TakeFirst(std::string_view& text)
-{
-  const std::size_t end = text.find(' ');
-  const std::string_view word = text.substr(0, end);
-  text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
-  return word;
-}
-std::string_view TakeLast(std::string_view& text)
-{
-  const std::size_t blank = text.rfind(' ');
-  const std::string_view word = blank == std::string_view::npos ? text : text.substr(blank + 1);
-  text = text.substr(0, blank == std::string_view::npos ? 0 : blank);
-  return word;
-}
-
-template <class Line>
-constexpr bool IsText(std::string Line::*)
-{
-  return true;
-}
-constexpr bool IsText(...) { return false; }
-
-// Reads the fields before the text from the front and those after it from the back. The rest is the text.
-template <class Line, std::size_t kField = 0>
-bool ReadFields(std::string_view text, Line& line)
-{
-  constexpr auto kCount = std::tuple_size_v<decltype(Form<Line>::fields)>;
-  if constexpr (kField == kCount)
+public:
+  explicit LineWriter(std::string_view word) : line_(word) {}
+  void Number(std::uint64_t value) { Text(fmt::format("{}", value)); }
+  void Number(double value) { Text(fmt::format("{}", value)); }
+  void Number(bool value) { Text(value ? "1" : "0"); }
+  void Hash(std::uint64_t value) { Text(fmt::format("{:016x}", value)); }
+  void Choice(ServerState::Phase phase) { Text(kPhases[phase]); }
+  void Word(const std::string& word) { Text(word); }
+  void Text(std::string_view text)
   {
-    return text.empty();
+    if (!text.empty()) line_ += " " + OneLine(text);
   }
-  else if constexpr (constexpr auto field = std::get<kField>(Form<Line>::fields); IsText(field))
+  const std::string& Line() const { return line_; }
+
+private:
+  std::string line_;
+};
+
+class LineReader
+{
+public:
+  explicit LineReader(std::string_view rest) : rest_(rest) {}
+  void Number(std::uint64_t& value) { Require(Read(Take(), value)); }
+  // All double fields are times and rates.
+  void Number(double& value) { Require(Read(Take(), value) && std::isfinite(value) && value >= 0); }
+  void Number(bool& value)
   {
-    static_assert(kField + 2 >= kCount, "at most one field follows the text");
-    if constexpr (kField + 1 < kCount)
-    {
-      if (!ReadField(TakeLast(text), line, std::get<kField + 1>(Form<Line>::fields)) || text.empty()) return false;
-    }
-    line.*field = Written(std::string(text));  // may be shown on a terminal
-    return true;
+    const std::string_view word = Take();
+    value = word == "1";
+    Require(value || word == "0");
   }
-  else
+  void Hash(std::uint64_t& value)
   {
-    return ReadField(TakeFirst(text), line, field) && ReadFields<Line, kField + 1>(text, line);
+    const std::string_view word = Take();
+    Require(word.size() <= 16 && Read(word, value, 16));
   }
-}
+  void Choice(ServerState::Phase& phase)
+  {
+    const auto found = std::ranges::find(kPhases, Take());
+    Require(found != kPhases.end());
+    phase = static_cast<ServerState::Phase>(found - kPhases.begin());
+  }
+  void Word(std::string& word)
+  {
+    word = OneLine(Take());
+    Require(!word.empty());
+  }
+  void Text(std::string& text) { text = OneLine(std::exchange(rest_, {})); }
+  // Returns whether all fields had good values, and nothing is left.
+  bool IsGood() const { return good_ && rest_.empty(); }
+
+  // Removes the first word of the rest and returns it.
+  std::string_view Take()
+  {
+    const std::size_t end = std::min(rest_.find(' '), rest_.size());
+    const std::string_view word = rest_.substr(0, end);
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    return word;
+  }
+
+private:
+  template <class Value, class... Base>
+  static bool Read(std::string_view word, Value& value, Base... base)
+  {
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value, base...);
+    return error == std::errc() && end == word.data() + word.size();
+  }
+  void Require(bool good) { good_ = good_ && good; }
+
+  std::string_view rest_;
+  bool good_ = true;
+};
 
 bool MakesSense(const ServerState& line) { return line.phase == ServerState::kWaiting || line.waiting_for.empty(); }
+bool MakesSense(const ServerStall& line) { return !line.name.empty(); }
 bool MakesSense(const ServerMove& line) { return !line.name.empty(); }
-bool MakesSense(const ServerHosts& line) { return !line.machines.empty(); }
+bool MakesSense(const ServerHosts& line) { return !line.text.empty(); }
 template <class Line>
 bool MakesSense(const Line&)
 {
@@ -243,11 +112,13 @@ bool MakesSense(const Line&)
 template <class... Lines>
 std::optional<ServerStatus> ReadLine(std::string_view text, std::variant<Lines...>*)
 {
-  const std::string_view word = TakeFirst(text);
   std::optional<ServerStatus> status;
   const auto read = [&]<class Line>(Line line)
   {
-    if (word == Form<Line>::word && ReadFields(text, line) && MakesSense(line)) status = std::move(line);
+    LineReader archive(text);
+    if (archive.Take() != Line::word) return;
+    Line::Visit(archive, line);
+    if (archive.IsGood() && MakesSense(line)) status = std::move(line);
   };
   (read(Lines{}), ...);
   return status;
@@ -260,10 +131,9 @@ std::string ServerStatusLine(const ServerStatus& status)
   return std::visit(
       []<class Line>(const Line& line)
       {
-        std::string text(Form<Line>::word);
-        const auto add = [&](const std::string& field) { text += field.empty() ? "" : " " + field; };
-        std::apply([&](const auto&... field) { (add(WrittenField(line, field)), ...); }, Form<Line>::fields);
-        return text;
+        LineWriter archive(Line::word);
+        Line::Visit(archive, line);
+        return archive.Line();
       },
       status);
 }

@@ -1,5 +1,5 @@
-// Flat byte images of saved states: little-endian, raw IEEE bits, in a fixed order. Used by checkpoints of engines,
-// controllers and the space.
+// Flat byte images of saved states: little-endian, with raw IEEE bits, in a fixed order. Checkpoints of engines,
+// controllers and the space use them.
 #pragma once
 
 #include <cstring>

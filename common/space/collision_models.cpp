@@ -29,7 +29,7 @@ double ReachOf(const CollisionBody& body)
 namespace
 {
 
-// The part of the segment that is within all faces.
+// Returns the fraction of the way at which the segment enters the hull: where the part begins that is inside all faces.
 std::optional<double> SegmentHit(const ConvexHull& hull, const Pose& pose, const Vector3& from, const Vector3& to)
 {
   const Quaternion inverse = pose.orientation.conjugate();
@@ -97,11 +97,11 @@ void CollisionModels::BodiesOf(std::uint32_t entity, std::vector<CollisionBody>&
 {
   bodies.clear();
   const EntityConfiguration& configuration = space_.GetEntity(entity).GetConfiguration();
+  const int number = space_.EngineOf(entity, engine_of_);
   const PluginDescription* engine =
-      engine_of_[entity] < 0
-          ? nullptr
-          : PluginCatalogue::Instance().Find(
-                PluginKind::kEngine, space_.GetExperiment().engines[static_cast<std::size_t>(engine_of_[entity])].tag);
+      number < 0 ? nullptr
+                 : PluginCatalogue::Instance().Find(
+                       PluginKind::kEngine, space_.GetExperiment().engines[static_cast<std::size_t>(number)].tag);
   if (engine == nullptr || engine->collision_model == nullptr) return AddPlainBody(configuration, bodies);
   const auto slots = static_cast<std::size_t>(AttributeCount(configuration.kind));
   engine->collision_model(configuration, space_.Attributes().Part(space_.GetEntity(entity).FirstSlot(), slots), bodies);

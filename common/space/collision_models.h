@@ -18,7 +18,7 @@ class CSwarmanoidSpace;
 class CollisionModels
 {
 public:
-  // The space outlives it.
+  // The space must outlive the object.
   explicit CollisionModels(const CSwarmanoidSpace& space);
 
   // Sets `bodies` to the bodies of an entity in its frame, as the engine that moves it collides them now. It is the

@@ -1,4 +1,4 @@
-// The entities of a kind. Used by experiment functions.
+// Finds the entities of a kind, for experiment functions.
 #pragma once
 
 #include <string_view>

@@ -1,6 +1,6 @@
-// The entities of the space: identity, pose, attributes. They hold what sensors and renderers need; masses, speeds and
-// forces live in the engines (CPhysicsEngineEntity). Thin views on the flat arrays of their space: what a const space
-// gives can be read alone.
+// The entities of the space: identity, pose, attributes. They hold the values that sensors and renderers need; masses,
+// speeds and forces are in the engines (CPhysicsEngineEntity). An entity is a thin view on the flat arrays of its
+// space. Entities of a const space are read-only.
 #pragma once
 
 #include <array>
@@ -56,7 +56,7 @@ private:
   std::uint32_t first_slot_;
 };
 
-// An entity with a controller.
+// A robot is an entity with a controller.
 class CRobotEntity : public CSwarmanoidSpaceEntity
 {
 public:
@@ -126,7 +126,7 @@ public:
   using CSwarmanoidSpaceEntity::CSwarmanoidSpaceEntity;
 };
 
-// A coloured area of the floor, such as the nest; hole: an area without floor.
+// A patch is a coloured area of the floor, such as the nest. A hole is an area without floor.
 class CGroundPatchEntity : public CSwarmanoidSpaceEntity
 {
 public:

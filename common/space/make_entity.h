@@ -1,4 +1,4 @@
-// The classes of entities that users hold, by kind. For the space alone.
+// Makes the classes of entities that users hold, by kind. Only the space uses it.
 #pragma once
 
 #include <memory>

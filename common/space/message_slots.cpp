@@ -8,15 +8,32 @@
 namespace swarmanoid
 {
 
+namespace
+{
+
+// Returns the parameters of the robot's sender of range and bearing, or a handle that does not exist.
+TConfigurationTree SenderOf(const Experiment& experiment, const EntityConfiguration& robot)
+{
+  const ControllerConfiguration* controller =
+      robot.controller.empty() ? nullptr : experiment.FindController(robot.controller);
+  if (controller == nullptr || AttributeOffset(robot.kind, "message") < 0) return {};
+  const auto sender = std::ranges::find(controller->actuators, "range_and_bearing", &DeviceConfiguration::type);
+  return sender == controller->actuators.end() ? TConfigurationTree() : sender->tree;
+}
+
+}  // namespace
+
 int MessageBytes(const Experiment& experiment, const EntityConfiguration& robot)
 {
   constexpr int kFewest = CCI_RangeAndBearingActuator::NUM_BYTES;
-  const ControllerConfiguration* controller =
-      robot.controller.empty() ? nullptr : experiment.FindController(robot.controller);
-  if (controller == nullptr || AttributeOffset(robot.kind, "message") < 0) return kFewest;
-  const auto sender = std::ranges::find(controller->actuators, "range_and_bearing", &DeviceConfiguration::type);
-  if (sender == controller->actuators.end()) return kFewest;
-  return static_cast<int>(sender->tree.GetInteger("bytes", kFewest));
+  return static_cast<int>(SenderOf(experiment, robot).GetInteger("bytes", kFewest));
+}
+
+std::optional<double> MessageRange(const Experiment& experiment, const EntityConfiguration& robot)
+{
+  const TConfigurationTree sender = SenderOf(experiment, robot);
+  if (!sender.Value("range")) return std::nullopt;
+  return sender.GetNumber("range");
 }
 
 int FurtherMessageSlots(const Experiment& experiment, const EntityConfiguration& entity)

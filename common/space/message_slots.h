@@ -2,6 +2,8 @@
 // actuator sends more bytes has further slots of that attribute after all slots of its kind, five bytes each.
 #pragma once
 
+#include <optional>
+
 #include "common/experiment/experiment.h"
 
 namespace swarmanoid
@@ -10,6 +12,8 @@ namespace swarmanoid
 // Returns the bytes of a message of this robot: CCI_RangeAndBearingActuator::NUM_BYTES, or the number given for its
 // actuator.
 int MessageBytes(const Experiment& experiment, const EntityConfiguration& robot);
+// Returns the range (m) that is given for its actuator.
+std::optional<double> MessageRange(const Experiment& experiment, const EntityConfiguration& robot);
 // Returns the number of further slots, 0 if the messages of the entity fit.
 int FurtherMessageSlots(const Experiment& experiment, const EntityConfiguration& entity);
 

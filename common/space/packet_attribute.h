@@ -1,5 +1,5 @@
-// Packets of bytes as an attribute of an entity: how many there were, how long the last one is, its bytes by fives.
-// Radios and the channel between controllers and experiment functions use it.
+// Packets of bytes as an attribute of an entity: the number of packets so far, the length of the last one, and its
+// bytes, five in each slot. Radios and the channel between controllers and experiment functions use it.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ struct AttributePacket
   std::span<const std::uint8_t> Bytes() const { return {bytes.data(), length}; }
 };
 
-// `values`: of the slots behind the count.
+// `values` are those of the slots after the count.
 inline void PackPacket(const AttributePacket& packet, double* values)
 {
   values[0] = packet.length;

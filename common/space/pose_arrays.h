@@ -5,7 +5,7 @@
 namespace swarmanoid
 {
 
-// Global poses of all entities, one array a component, in entity order.
+// The arrays have the global poses of all entities in entity order, one array for each component.
 struct PoseArrays
 {
   std::vector<double> x, y, z;

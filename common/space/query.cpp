@@ -1,3 +1,10 @@
+// The index knows only the origins of entities, and bodies extend beyond them. So a search for bodies between two
+// points takes the box around the segment, widened by the largest radius of a small body. It tests exactly each body
+// whose origin is in the box. Large bodies, such as walls, and articulated ones (CollisionModels) would make that box
+// too wide. They and the terrains are tested one by one.
+//
+// Invariant: the first hit has the smallest fraction and, among equal ones, the smallest entity number. So it does not
+// depend on the index.
 #include "common/space/query.h"
 
 #include <algorithm>
@@ -8,7 +15,7 @@ namespace swarmanoid
 namespace
 {
 
-// Bodies beyond this radius (walls) would make every search as wide as they are.
+// Bodies above this radius, such as walls, are tested one by one. Otherwise every search would be as wide as they are.
 constexpr double kLargeBody = 0.75;
 
 }  // namespace

@@ -31,7 +31,7 @@ public:
   explicit SpaceQuery(const CSwarmanoidSpace& space);
   ~SpaceQuery();
 
-  // Entities within a distance (m) of a point, ascending by index.
+  // Return the entities within a distance (m) of a point, ascending by index.
   const std::vector<std::uint32_t>& FindWithin(const Vector3& point, double distance);
   // Returns the same about an entity, without itself.
   const std::vector<std::uint32_t>& FindWithin(const CSwarmanoidSpaceEntity& entity, double distance);
@@ -43,7 +43,7 @@ public:
   struct Hit
   {
     std::uint32_t entity = 0;
-    double fraction = 0;  // of the way
+    double fraction = 0;  // fraction of the way to the hit
   };
   // Returns the first body that the straight line between two points meets in the worlds of an observer. Engines are
   // closed to each other, so only entities that share an engine with the observer count. Entities in `ignored` are
@@ -54,7 +54,7 @@ public:
   // engine with either, or never moves and is in no engine: as cameras see it.
   bool IsOccluded(const Vector3& from, const Vector3& to, std::uint32_t observer, std::uint32_t target);
 
-  // One bit for each engine that an entity is bound to.
+  // Returns one bit for each engine that an entity is bound to.
   std::uint64_t EnginesOf(std::size_t entity) const { return engines_[entity]; }
   const Shape& ShapeOfEntity(std::size_t entity) const { return shapes_[entity]; }
   const PositionalIndex& Index();
@@ -75,8 +75,9 @@ private:
   std::vector<std::uint64_t> engines_;
   CollisionModels models_;
   std::vector<CollisionBody> bodies_;
-  std::vector<std::uint32_t> large_;  // too large for the search about a line, or articulated; tested one by one
-  double search_radius_ = 0;          // of the largest of the others
+  // These entities are too large for the search near a line, or articulated; they are tested one by one.
+  std::vector<std::uint32_t> large_;
+  double search_radius_ = 0;  // the largest radius of the other entities
   std::vector<std::uint32_t> found_;
   std::vector<std::uint32_t> candidates_;
 };

@@ -1,3 +1,8 @@
+// A segment hits an upright cylinder or a box where the part inside all its bounds begins. Each bound shortens the
+// segment from both ends: pairs of parallel planes by the slab method (T. L. Kay and J. T. Kajiya, "Ray tracing complex
+// scenes", SIGGRAPH 1986), and a circle by the roots of its quadratic equation.
+//
+// Invariant: a segment that begins inside a body hits it at 0.
 #include "common/space/shape.h"
 
 #include <algorithm>
@@ -20,7 +25,7 @@ bool ClipSlab(double start, double step, double low, double high, double& enter,
   return enter <= leave;
 }
 
-// The part of a segment inside the circle about the z axis.
+// Shortens a segment to the part inside the circle about the z axis.
 bool ClipCircle(const Vector3& start, const Vector3& step, double radius, double& enter, double& leave)
 {
   const double a = step.x() * step.x() + step.y() * step.y();

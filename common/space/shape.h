@@ -1,5 +1,5 @@
-// The simple body of an entity for queries: an upright cylinder or a box, in the entity's frame. Sensors, occlusion and
-// renderers use it; the engines have collision models of their own.
+// The simple body of an entity for queries: an upright cylinder or a box in the entity's frame. Sensors, occlusion and
+// renderers use it; the engines have their own collision models.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ struct Shape
 {
   enum class Kind
   {
-    kNone,      // lights, patches: nothing to hit
+    kNone,      // for lights and patches: no body
     kCylinder,  // radius and half height about the z axis
     kBox
   };

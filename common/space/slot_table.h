@@ -11,11 +11,22 @@
 namespace swarmanoid
 {
 
+// The last slots of an entity that changes its engine.
+struct EngineSlots
+{
+  static constexpr std::uint32_t kEngine = 0;    // the engine that moves it in the next tick
+  static constexpr std::uint32_t kBefore = 1;    // the engine that moved it in the last tick
+  static constexpr std::uint32_t kVelocity = 2;  // m/s of its position, along x, y and z, when it last left its volume
+  static constexpr std::uint32_t kSpin = 5;      // rad/s about x, y and z, at the same time
+  static constexpr std::uint32_t kCount = 8;
+};
+
 class SlotTable
 {
 public:
-  // The next entity in order: the attributes of its kind, then `further` slots of a long message.
-  void Add(EntityKind kind, std::uint32_t further);
+  // Adds the next entity in order: the attributes of its kind, then `further` slots of a long message, then the slots
+  // of an entity that changes its engine (EngineSlots).
+  void Add(EntityKind kind, std::uint32_t further, bool changes_engine = false);
 
   // Returns the number of slots of all attributes, with the presence of each entity at the end.
   std::uint32_t size() const { return slots_; }
@@ -40,13 +51,14 @@ private:
     std::uint32_t first_entity;
     EntityKind kind;
     std::uint32_t further;
-    const Values* values;  // of the slots of each of its entities; never empty
+    bool changes_engine;
+    const Values* values;  // the slots of each of its entities; never empty
   };
 
   const Run& RunOf(std::uint32_t slot) const;
-  const Values* ValuesOf(EntityKind kind, std::uint32_t further);
+  const Values* ValuesOf(EntityKind kind, std::uint32_t further, bool changes_engine);
 
-  std::vector<Run> runs_;  // none of entities without attributes
+  std::vector<Run> runs_;  // has no entry for entities without attributes
   std::vector<std::unique_ptr<const Values>> layouts_;
   std::uint32_t slots_ = 0;
   std::uint32_t entities_ = 0;

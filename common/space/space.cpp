@@ -29,7 +29,9 @@ CSwarmanoidSpace::CSwarmanoidSpace(const Experiment& experiment) : experiment_(e
   for (auto* component : Components(poses_)) component->resize(count);
   entities_.reserve(count);
   place_of_id_.resize(std::bit_ceil(2 * count + 1));
-  std::size_t slots = count;  // of presence
+  const EngineChoices& choices = experiment.engine_choices;
+  const std::vector<int> engines = choices.entities.empty() ? std::vector<int>() : StartEngines(experiment);
+  std::size_t slots = count + EngineSlots::kCount * choices.entities.size();  // and those of presence
   for (const EntityConfiguration& configuration : experiment.entities)
     slots +=
         static_cast<std::size_t>(AttributeCount(configuration.kind) + FurtherMessageSlots(experiment, configuration));
@@ -48,7 +50,15 @@ CSwarmanoidSpace::CSwarmanoidSpace(const Experiment& experiment) : experiment_(e
     }
     const auto further = static_cast<std::size_t>(FurtherMessageSlots(experiment, configuration));
     attributes_.resize(attributes_.size() + further);
-    attribute_values_.Add(configuration.kind, static_cast<std::uint32_t>(further));
+    const bool changes_engine =
+        engine_slots_.size() < choices.entities.size() && choices.entities[engine_slots_.size()] == index;
+    attribute_values_.Add(configuration.kind, static_cast<std::uint32_t>(further), changes_engine);
+    if (changes_engine)
+    {
+      engine_slots_.push_back(static_cast<std::uint32_t>(attributes_.size()));
+      attributes_.resize(attributes_.size() + EngineSlots::kVelocity, engines[i]);
+      attributes_.resize(attributes_.size() + EngineSlots::kCount - EngineSlots::kVelocity);
+    }
     entities_.push_back(MakeEntity(memory_of_entities_, *this, index, configuration, first_slot));
     if (std::uint32_t& place = place_of_id_[PlaceOfId(configuration.id)]; place == 0) place = index + 1;
     if (configuration.movable) movable_.push_back(index);
@@ -99,6 +109,19 @@ std::span<const double> CSwarmanoidSpace::Hands(std::size_t i) const
   return attributes_.Part(FirstHandSlot(i), static_cast<std::size_t>(grippers));
 }
 
+std::uint32_t CSwarmanoidSpace::EngineBefore(std::uint32_t entity) const
+{
+  return static_cast<std::uint32_t>(
+      attributes_[engine_slots_[experiment_.engine_choices.PlaceOf(entity)] + EngineSlots::kBefore]);
+}
+
+int CSwarmanoidSpace::EngineOf(std::uint32_t entity, std::span<const int> engines) const
+{
+  const std::size_t k = experiment_.engine_choices.PlaceOf(entity);
+  return k == engine_slots_.size() ? engines[entity]
+                                   : static_cast<int>(attributes_[engine_slots_[k] + EngineSlots::kEngine]);
+}
+
 void CSwarmanoidSpace::SetPose(std::size_t i, const Pose& pose)
 {
   ++revision_;
@@ -116,7 +139,7 @@ void CSwarmanoidSpace::SetPoses(std::span<const std::uint32_t> entities, std::sp
   const std::size_t count = entities.size();
   if (count == 0) return;
   ++revision_;
-  // Robots of a large experiment are usually one contiguous run.
+  // The robots of a large experiment are usually one contiguous run, so their poses are copied as a block.
   const bool contiguous = entities.back() - entities.front() + 1 == count;
   const double* source = poses.data();
   for (auto* component : Components(poses_))

@@ -26,7 +26,7 @@ namespace swarmanoid
 class CSwarmanoidSpace
 {
 public:
-  // The initial state of the experiment, which must outlive the space.
+  // Makes the initial state of the experiment, which must outlive the space.
   explicit CSwarmanoidSpace(const Experiment& experiment);
   ~CSwarmanoidSpace();
   CSwarmanoidSpace(const CSwarmanoidSpace&) = delete;
@@ -36,7 +36,8 @@ public:
   std::uint64_t GetTick() const { return tick_; }
   double GetTickSeconds() const { return experiment_.TickSeconds(); }
   double GetTime() const { return static_cast<double>(tick_) * GetTickSeconds(); }
-  // The tick at which the run began: 0, or later if experiment functions began it again (SpaceEditor::BeginAgain).
+  // Returns the tick at which the run began: 0, or later if experiment functions began it again
+  // (SpaceEditor::BeginAgain).
   std::uint64_t FirstTick() const { return first_tick_; }
   // Returns the tick for random numbers: the count from the first tick, with the variation of BeginAgain in the upper
   // half.
@@ -65,15 +66,26 @@ public:
   // Returns the slots of the attribute "gripped" of an entity, one for each of its grippers.
   std::uint32_t FirstHandSlot(std::size_t index) const;
   std::span<const double> Hands(std::size_t index) const;
-  // Indices of the entities that can move, ascending.
+  // Returns the slots of an entity that changes its engine (EngineSlots): place k in Experiment::engine_choices.
+  std::uint32_t EngineSlot(std::size_t k) const { return engine_slots_[k]; }
+  // Returns whether an engine moves such an entity in the next tick.
+  bool IsMovedBy(std::size_t k, std::uint32_t engine) const
+  {
+    return attributes_[engine_slots_[k] + EngineSlots::kEngine] == engine;
+  }
+  // Returns the engine that moved an entity that changes its engine in the last tick.
+  std::uint32_t EngineBefore(std::uint32_t entity) const;
+  // Returns the engine that moves an entity in the next tick. `engines` are those of the start (Assignment::owner).
+  int EngineOf(std::uint32_t entity, std::span<const int> engines) const;
+  // Returns the indices of the movable entities, ascending.
   std::span<const std::uint32_t> Movable() const { return movable_; }
 
-  // Changes with every change of a pose, so that indexes know when to follow.
+  // Returns a number that changes with every change of a pose, so that indexes know when to update.
   std::uint64_t Revision() const { return revision_; }
-  // Changes with every change of an attribute.
+  // Returns a number that changes with every change of an attribute.
   std::uint64_t AttributeRevision() const { return attribute_revision_; }
 
-  // Changes of the state, for the role that owns this space.
+  // The functions below change the state, and are for the role that owns this space.
   void SetTick(std::uint64_t tick) { tick_ = tick; }
   void BeginAgain(std::uint64_t first_tick, std::uint32_t variation)
   {
@@ -89,9 +101,10 @@ public:
   // Returns the drawing of experiment functions at this tick. It is empty unless a visualiser needs it, and is no part
   // of the state.
   const Drawing& GetDrawing() const { return drawing_; }
-  // Changes when that does.
+  // Returns a number that changes with the drawing.
   std::uint64_t DrawingRevision() const { return drawing_revision_; }
-  // The former one is left in `drawing`.
+  // Takes the shapes of `drawing` and gives it the old ones, so that their memory is used again. If both are equal,
+  // nothing changes.
   void SwapDrawing(Drawing& drawing);
 
   // Brings a replica to the tick of the message.
@@ -100,7 +113,7 @@ public:
   // that of this message.
   void Apply(const LocalState& state, std::vector<std::uint32_t>& near);
   void Apply(const SpaceSnapshot& snapshot);
-  void WritePoses(std::vector<double>& poses) const;  // of the movable entities, as in SpaceState
+  void WritePoses(std::vector<double>& poses) const;  // writes the poses of the movable entities, as in SpaceState
 
   // Returns XXH3-64 over the tick, the bits of all poses and the attributes, in entity order, and the indices of the
   // entities outside the arena.
@@ -125,12 +138,13 @@ private:
   SparseVector<double> attributes_;  // most are 0: dark LEDs, no messages
   SlotTable attribute_values_;
   std::uint32_t first_presence_ = 0;  // slot
+  std::vector<std::uint32_t> engine_slots_;
   std::vector<std::uint32_t> absent_;
   std::vector<std::uint32_t> movable_;
   std::pmr::monotonic_buffer_resource memory_of_entities_;
   std::vector<EntityPointer> entities_;
-  // A table with open addresses (Knuth, The Art of Computer Programming, volume 3, 6.4): 1 + index at the hash of the
-  // id or behind it, 0: free.
+  // The table has open addresses (Knuth, The Art of Computer Programming, volume 3, 6.4): 1 + index is at the hash of
+  // the id or behind it, and 0 is a free place.
   std::vector<std::uint32_t> place_of_id_;
   StructuralTree structure_;
 };

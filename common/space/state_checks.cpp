@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include "common/space/message_slots.h"
 #include "common/space/space.h"
 
 namespace swarmanoid
@@ -23,14 +24,14 @@ std::string NameOf(const CSwarmanoidSpace& space, std::uint32_t entity)
   return fmt::format("the {} '{}'", TagName(it.GetKind()), it.GetId());
 }
 
-// 1 if a value is infinite or not a number: the exponent has all its bits.
+// Returns 1 if a value is infinite or NaN: then all bits of its exponent are set.
 std::uint64_t IsNotFinite(double value)
 {
   constexpr std::uint64_t kExponent = 0x7ff0000000000000;
   return static_cast<std::uint64_t>((std::bit_cast<std::uint64_t>(value) & kExponent) == kExponent);
 }
 
-// 1 if a value is outside, or not a number.
+// Returns 1 if a value is outside the range, or NaN.
 std::uint64_t IsOutside(double value, double low, double high)
 {
   return static_cast<std::uint64_t>(!(value >= low)) | static_cast<std::uint64_t>(!(value <= high));
@@ -103,6 +104,8 @@ const char* MistakeOf(AttributeValue kind, double value, std::size_t entities)
       return whole(0xffffffffff) ? nullptr : "it must be a whole number from 0 to 2^40 - 1";
     case AttributeValue::kPresence:
       return "entities are added and removed by AddEntity and RemoveEntity of the space's editor";
+    case AttributeValue::kEngine:
+      return "the space server alone hands over entities to engines";
   }
   return nullptr;
 }
@@ -146,6 +149,9 @@ std::string NameOfSlot(const CSwarmanoidSpace& space, std::uint32_t slot)
                          NameOf(space, entity));
     element -= count;
   }
+  if (static_cast<int>(element) >=
+      FurtherMessageSlots(space.GetExperiment(), space.GetEntity(entity).GetConfiguration()))
+    return "the engine and velocity of " + NameOf(space, entity);
   const int own = FindAttribute(space.GetEntity(entity).GetKind(), "message")->count;
   return fmt::format("the attribute 'message' {} of {}", element + static_cast<std::uint32_t>(own),
                      NameOf(space, entity));
@@ -172,7 +178,7 @@ void CheckPoses(const CSwarmanoidSpace& space, std::span<const std::uint32_t> en
     Refuse(fmt::format("there are {} numbers for the poses of {} entities; there must be 7 for each, {}", poses.size(),
                        count, 7 * count));
   const auto of = [&](std::size_t component) { return poses.data() + component * count; };
-  // A norm of one is finite in all parts.
+  // An orientation of norm 1 is finite in all parts, so only positions need the other test.
   if (AllFinite(poses.first(3 * count)) && AllOfNormOne(of(3), of(4), of(5), of(6), count)) return;
   for (std::size_t k = 0; k < count; ++k)
   {
@@ -211,6 +217,45 @@ void CheckWithinLimit(const CSwarmanoidSpace& space, std::span<const std::uint32
   RefuseBeyondLimit(space, entities[first], {poses[first], poses[count + first], poses[2 * count + first]});
 }
 
+namespace
+{
+
+[[noreturn]] void RefuseOutsideVolumes(const CSwarmanoidSpace& space, std::uint32_t entity, const Vector3& at,
+                                       std::span<const std::uint32_t> engines)
+{
+  Refuse(
+      fmt::format("{} left the volumes of all engines that can move it: it is at {:.6g}, {:.6g}, {:.6g}, and they "
+                  "are {}; give an engine a larger volume, or write outside=\"keep\" at <arena_physics>",
+                  NameOf(space, entity), at.x(), at.y(), at.z(), VolumesText(space.GetExperiment(), engines)));
+}
+
+}  // namespace
+
+void CheckInVolumes(const CSwarmanoidSpace& space, std::uint32_t engine, const EngineLayout& layout,
+                    std::span<const double> poses)
+{
+  const Experiment& experiment = space.GetExperiment();
+  const EngineChoices& choices = experiment.engine_choices;
+  const std::size_t count = layout.owned.size();
+  for (const VolumeMember& member : layout.members)
+  {
+    const std::uint32_t entity = layout.owned[member.place];
+    if (!space.IsMovedBy(member.choice, engine) || !space.IsPresent(entity)) continue;
+    const Vector3 at(poses[member.place], poses[count + member.place], poses[2 * count + member.place]);
+    if (experiment.engines[engine].volume.Holds(at)) continue;
+    const std::vector<std::uint32_t>& engines = choices.sets[choices.set_of[member.choice]];
+    if (EngineAt(experiment, engines, at) == EngineChoices::kNoEngine) RefuseOutsideVolumes(space, entity, at, engines);
+  }
+}
+
+void PutPose(const CSwarmanoidSpace& space, const EngineLayout& layout, std::size_t place, std::span<double> poses)
+{
+  const PoseArrays& all = space.Poses();
+  const std::array components{&all.x, &all.y, &all.z, &all.qx, &all.qy, &all.qz, &all.qw};
+  for (std::size_t c = 0; c < components.size(); ++c)
+    poses[c * layout.owned.size() + place] = (*components[c])[layout.owned[place]];
+}
+
 void CheckPose(const CSwarmanoidSpace& space, std::uint32_t entity, const Pose& pose)
 {
   const Vector3& p = pose.position;
@@ -225,6 +270,11 @@ void CheckPose(const CSwarmanoidSpace& space, std::uint32_t entity, const Pose& 
         "0 to {:g}, {:g}, {:g}",
         NameOf(space, entity), p.x(), p.y(), p.z(), space.GetExperiment().limit_m, size.x(), size.y(), size.z()));
   }
+  if (space.GetExperiment().outside_volumes == OutsideVolumes::kKeep) return;
+  const std::span<const std::uint32_t> engines = space.GetExperiment().engine_choices.Of(entity);
+  if (!engines.empty() && EngineAt(space.GetExperiment(), engines, p) == EngineChoices::kNoEngine)
+    Refuse(fmt::format("{} would be at {:.6g}, {:.6g}, {:.6g}, outside the volumes of all engines that can move it: {}",
+                       NameOf(space, entity), p.x(), p.y(), p.z(), VolumesText(space.GetExperiment(), engines)));
 }
 
 void CheckAttribute(const CSwarmanoidSpace& space, std::uint32_t slot, double value)
@@ -246,7 +296,7 @@ void CheckHolds(const CSwarmanoidSpace& space, std::span<const std::uint32_t> ow
 {
   const auto is_hold = [&](std::uint32_t slot) { return space.AttributeValues()[slot] == AttributeValue::kEntity; };
   if (std::none_of(changes.slots.begin(), changes.slots.end(), is_hold)) return;
-  // The entities that the changed hands hold afterwards.
+  // `hands` has, for each entity with a changed hand, the values of all its hands afterwards.
   std::map<std::uint32_t, std::vector<double>> hands;
   for (std::size_t k = 0; k < changes.slots.size(); ++k)
   {
@@ -279,7 +329,19 @@ void CheckSnapshot(const CSwarmanoidSpace& space, const SpaceSnapshot& snapshot)
     Refuse("it has other entities");
   CheckPoses(space, space.Movable(), snapshot.poses);
   const std::uint32_t first_presence = space.PresenceSlot(0);
-  for (std::uint32_t slot = 0; slot < first_presence; ++slot) CheckAttribute(space, slot, snapshot.attributes[slot]);
+  for (std::uint32_t slot = 0; slot < first_presence; ++slot)
+    if (space.AttributeValues()[slot] != AttributeValue::kEngine)
+      CheckAttribute(space, slot, snapshot.attributes[slot]);
+  const EngineChoices& choices = space.GetExperiment().engine_choices;
+  for (std::size_t k = 0; k < choices.entities.size(); ++k)
+    for (const std::uint32_t part : {EngineSlots::kEngine, EngineSlots::kBefore})
+    {
+      const double engine = snapshot.attributes[space.EngineSlot(k) + part];
+      const std::vector<std::uint32_t>& engines = choices.sets[choices.set_of[k]];
+      if (std::none_of(engines.begin(), engines.end(), [&](std::uint32_t one) { return one == engine; }))
+        Refuse(fmt::format("{} is {}: it is no engine that can move it", NameOfSlot(space, space.EngineSlot(k) + part),
+                           engine));
+    }
   std::map<std::uint32_t, std::vector<double>> hands;
   for (std::uint32_t i = 0; i < space.Size(); ++i)
     if (const std::size_t count = space.Hands(i).size(); count > 0)

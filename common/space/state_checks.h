@@ -25,7 +25,7 @@ public:
   using std::invalid_argument::invalid_argument;
 };
 
-// How far the squared norm of an orientation may be from 1.
+// The squared norm of an orientation may differ from 1 by this much.
 inline constexpr double kNormTolerance = 1e-6;
 
 bool AllFinite(std::span<const double> values);
@@ -40,10 +40,16 @@ std::vector<std::size_t> FindBeyondLimit(const CSwarmanoidSpace& space, std::spa
 // Throws unless all entities are within the limit.
 void CheckWithinLimit(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities,
                       std::span<const double> poses);
+// Throws if an entity that `engine` moves left the volumes of all engines that can move it. `poses` are of
+// layout.owned.
+void CheckInVolumes(const CSwarmanoidSpace& space, std::uint32_t engine, const EngineLayout& layout,
+                    std::span<const double> poses);
+// Puts the pose that the owned entity at `place` has in the space into `poses` of layout.owned.
+void PutPose(const CSwarmanoidSpace& space, const EngineLayout& layout, std::size_t place, std::span<double> poses);
 // Checks the new pose of an entity in the arena.
 void CheckPose(const CSwarmanoidSpace& space, std::uint32_t entity, const Pose& pose);
 
-// Slots of entities (none of the presence) with values of their kind.
+// Checks that the slots belong to entities (not to the presence), and that the values are of their kind.
 void CheckAttributes(const CSwarmanoidSpace& space, const AttributeChanges& changes);
 void CheckAttribute(const CSwarmanoidSpace& space, std::uint32_t slot, double value);
 
@@ -54,10 +60,10 @@ void CheckHolds(const CSwarmanoidSpace& space, std::span<const std::uint32_t> ow
 // Throws if the slot is one of "gripped", which only engines may set.
 void CheckIsNoHold(const CSwarmanoidSpace& space, std::uint32_t slot);
 
-// The entity that has a slot.
+// Returns the entity that has a slot.
 std::uint32_t EntityOfSlot(const CSwarmanoidSpace& space, std::uint32_t slot);
 
-// Checks a saved state: the count of numbers must be that of the space, and each must be valid. Throws StateError.
+// Checks a saved state: it must have as many numbers as the space, and each number must be valid. Throws StateError.
 void CheckSnapshot(const CSwarmanoidSpace& space, const SpaceSnapshot& snapshot);
 
 // Checks that all values of the channels are finite. `what` names them in messages: "commands" or "readings".

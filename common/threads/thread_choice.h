@@ -37,7 +37,7 @@ public:
   // microseconds.
   bool Measures() const { return shares_ || pieces_ < 2 * kTrials; }
 
-  // States how long the piece took; any value if it does not matter.
+  // States how long the piece took. Any value will do if it does not matter.
   void Took(Duration time)
   {
     ++pieces_;
@@ -75,8 +75,7 @@ private:
 };
 
 // Runs the ticks of a process whose roles have a pool, with or without the pool's threads. A tick shares all of its
-// work or nothing, since threads that have just worked take up the next part at once, while sleeping threads must be
-// woken.
+// work or nothing. Threads that have just worked take up the next part at once, while sleeping threads must be woken.
 class ThreadedTicks
 {
 public:

@@ -14,24 +14,27 @@ namespace swarmanoid
 
 using RunTime = std::chrono::steady_clock::time_point;
 
-// A door for tests.
+// Tests replace the time and the threads of a program by an object of this class.
 class SimulatedTime
 {
 public:
   virtual ~SimulatedTime() = default;
+  // Returns the present time.
   virtual RunTime Now() = 0;
   // Releases the lock and waits until the condition is notified or the time comes.
   virtual void Wait(const void* condition, std::unique_lock<std::mutex>& lock, RunTime until) = 0;
+  // Wakes all threads that wait for the condition.
   virtual void NotifyAll(const void* condition) = 0;
   // Returns the number of the new thread.
   virtual int StartThread(std::function<void()> call) = 0;
+  // Waits for the end of the thread.
   virtual void Join(int thread) = 0;
 };
 
 // Replaces the time source; nullptr restores the machine's. No other thread may run meanwhile.
 void SimulateTime(SimulatedTime* time);
 
-// A clock as the standard library wants it, with the time points of the steady clock.
+// It is a clock of the form that the standard library wants, with the time points of the steady clock.
 struct RunClock
 {
   using duration = std::chrono::steady_clock::duration;

@@ -1,18 +1,18 @@
-// Which Swarmanoid this is. CMake reads the version from here; users may ask for it before they compile against another
-// one.
+// This is the version of Swarmanoid. CMake reads it from here. Users may test it before they compile against another
+// version.
 #pragma once
 
-#define SWARMANOID_VERSION_MAJOR 0
-#define SWARMANOID_VERSION_MINOR 1
+#define SWARMANOID_VERSION_MAJOR 1
+#define SWARMANOID_VERSION_MINOR 0
 #define SWARMANOID_VERSION_PATCH 0
 
 namespace swarmanoid
 {
 
-// "0.1.0".
+// Returns the version, such as "1.0.0".
 const char* Version();
-// The commit that it was built from, "1a2b3c4d5e6f", with "-dirty" if files of it were changed; empty if it was built
-// outside a git checkout.
+// Returns the commit of the build, such as "1a2b3c4d5e6f", with "-dirty" if files of it were changed. It is empty for a
+// build outside a git checkout.
 const char* GitRevision();
 
 }  // namespace swarmanoid

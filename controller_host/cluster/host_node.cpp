@@ -1,3 +1,10 @@
+// The process of a controller host answers a state of the space and the sensor frames of its engines with commands.
+// Frames have a place for even and one for odd ticks, since an engine may be a tick ahead. With commands that act later
+// (`ahead`), the ones that are due are sent before the step, so that engines do not wait for the controllers.
+//
+// A process that takes the place of a lost one repeats the recorded ticks from the last saved state, with the recorded
+// faults of controllers instead of measured ones, and refuses to go on if its commands differ from the record in any
+// bit. The mutex of `inputs_` guards the role and all messages.
 #include "controller_host/cluster/host_node.h"
 
 #include <fmt/format.h>
@@ -24,7 +31,7 @@ namespace
 class HostNode
 {
 public:
-  // `faults`: --fault.
+  // `faults` has the values of --fault.
   HostNode(WorkerSession& session, WorkerWorld& replica, std::size_t host, unsigned threads,
            const std::vector<std::string>& faults)
       : session_(session),

@@ -30,9 +30,9 @@ public:
   double Reach() const override { return 0; }
 };
 
-// Sensors and actuators that common/plugin_descriptions describes. Of these all actuators ask for their own robots
-// alone, and so do sensors that hand on what engines or attributes say. What users derive from the same bases says
-// itself how far it reaches.
+// Bind the code of sensors and actuators that common/plugin_descriptions describes. All these actuators ask only for
+// their own robots, and so do sensors that pass on values of engines or attributes. Devices that users derive from the
+// same bases state their own reach.
 template <class Batch>
 void BindSensor(const std::string& label, const std::string& implementation)
 {

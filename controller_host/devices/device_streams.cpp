@@ -1,3 +1,11 @@
+// Problem: draw millions of normal numbers in a tick, each from a stream of its own.
+//
+// Method: Philox4x32 (J. K. Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011) turns a key and a
+// counter into four words without any state. Lanes compute several counters at once, and kGroupsAtOnce groups overlap,
+// since each round waits for the one before. Two words give a number in (-1/2, 1/2) with 53 bits, and the normal
+// quantile function turns it into a sample.
+//
+// Invariant: each number has the bits that RandomStream gives for the same key and counter.
 #include "controller_host/devices/device_streams.h"
 
 #include <algorithm>
@@ -28,7 +36,7 @@ void StorePairs(DoubleLanes a, DoubleLanes b, double* to)
   StoreLanes(__builtin_shufflevector(a, b, 1, 3), to + kDoubleLanes);
 #endif
 }
-// Products of the lower halves.
+// Returns the products of the lower halves.
 UnsignedLongLanes ProductOfLow(UnsignedLongLanes a, UnsignedLongLanes b)
 {
 #if defined(__AVX2__)
@@ -46,7 +54,7 @@ constexpr std::size_t kGroupsAtOnce = 3;  // as many as the registers hold
 constexpr std::uint32_t kMultipliers[2] = {0xD2511F53U, 0xCD9E8D57U};
 constexpr std::uint32_t kKeySteps[2] = {0x9E3779B9U, 0xBB67AE85U};
 
-// 32 bits in each lane; those above them may be anything.
+// Each lane has a word of 32 bits. The bits above may have any value.
 using Words = std::array<UnsignedLongLanes, 4>;
 
 // Computes Philox4x32 for as many counters as there are lanes, kTimes at once. Each round depends on the one before, so
@@ -102,7 +110,7 @@ UnsignedLongLanes Numbered(std::uint64_t first)
   return LoadAs<UnsignedLongLanes>(numbers.data());
 }
 
-// The words that RandomStream(key, tick, whom) is made of.
+// The words that RandomStream(key, tick, other) is made of.
 struct StreamWords
 {
   StreamWords(const StreamKey& stream, std::uint64_t tick)
@@ -146,7 +154,10 @@ DeviceStreams::DeviceStreams(const DeviceSetup& setup, std::string_view quantity
 
 RandomStream DeviceStreams::Of(std::size_t k) const { return {Key(k), space_->StreamTick()}; }
 
-RandomStream DeviceStreams::Of(std::size_t k, std::uint64_t whom) const { return {Key(k), space_->StreamTick(), whom}; }
+RandomStream DeviceStreams::Of(std::size_t k, std::uint64_t other) const
+{
+  return {Key(k), space_->StreamTick(), other};
+}
 
 void DeviceStreams::Draw(std::size_t k, std::span<double> numbers) const
 {
@@ -183,29 +194,29 @@ void DeviceStreams::Sample(const NoiseModel& noise, std::span<const std::uint32_
   MakeSamples(noise, samples);
 }
 
-void DeviceStreams::Sample(const NoiseModel& noise, std::size_t k, std::span<const std::uint64_t> whoms,
+void DeviceStreams::Sample(const NoiseModel& noise, std::size_t k, std::span<const std::uint64_t> others,
                            std::span<double> samples) const
 {
   const StreamWords stream(Key(k), space_->StreamTick());
   const auto draw = [&]<std::size_t kGroups>(std::size_t first)
   {
     std::array<std::uint64_t, kGroups * kDoubleLanes> some{};
-    const std::size_t count = std::min(some.size(), whoms.size() - first);
-    std::copy_n(&whoms[first], count, some.begin());
+    const std::size_t count = std::min(some.size(), others.size() - first);
+    std::copy_n(&others[first], count, some.begin());
     std::array<Words, kGroups> counters;
     for (std::size_t g = 0; g < kGroups; ++g)
     {
-      const auto whom = LoadAs<UnsignedLongLanes>(&some[g * kDoubleLanes]);
+      const auto other = LoadAs<UnsignedLongLanes>(&some[g * kDoubleLanes]);
       counters[g] = stream.counter;
-      counters[g][2] ^= whom;
-      counters[g][3] ^= whom >> 32;
+      counters[g][2] ^= other;
+      counters[g][3] ^= other >> 32;
     }
     const std::array<Words, kGroups> words = PhiloxEach(counters, stream.key);
     std::array<double, kGroups * kDoubleLanes> drawn;
     for (std::size_t g = 0; g < kGroups; ++g) StoreLanes(CentredOf(words[g][0], words[g][1]), &drawn[g * kDoubleLanes]);
     std::copy_n(drawn.begin(), count, &samples[first]);
   };
-  InGroups<kDoubleLanes>(whoms.size(), draw);
+  InGroups<kDoubleLanes>(others.size(), draw);
   MakeSamples(noise, samples);
 }
 

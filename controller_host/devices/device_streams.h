@@ -10,6 +10,7 @@
 
 #include "common/math/random.h"
 #include "controller_host/device.h"
+#include "controller_host/devices/noise.h"
 
 namespace swarmanoid
 {
@@ -24,15 +25,15 @@ public:
 
   // Returns the stream of robot k of the batch at the StreamTick() of the space.
   RandomStream Of(std::size_t k) const;
-  // Returns the stream of robot k for `whom`: StreamName(id) of another entity, or StreamPart(name, number) of a part.
-  RandomStream Of(std::size_t k, std::uint64_t whom) const;
+  // Returns the stream of robot k for `other`: StreamName(id) of another entity, or StreamPart(name, number) of a part.
+  RandomStream Of(std::size_t k, std::uint64_t other) const;
   // Fills `samples` with the results of successive calls of noise.Sample with Of(k), several at a time.
   void Sample(const NoiseModel& noise, std::size_t k, std::span<double> samples) const;
   // Does the same for several robots, with equal counts and one robot after the other in `samples`. It is faster than
   // calls for single robots.
   void Sample(const NoiseModel& noise, std::span<const std::uint32_t> ks, std::span<double> samples) const;
-  // Fills `samples` with one result of noise.Sample with Of(k, whom) for each of `whoms`.
-  void Sample(const NoiseModel& noise, std::size_t k, std::span<const std::uint64_t> whoms,
+  // Fills `samples` with one result of noise.Sample with Of(k, other) for each of `others`.
+  void Sample(const NoiseModel& noise, std::size_t k, std::span<const std::uint64_t> others,
               std::span<double> samples) const;
   // Returns the stream of robot k for part `part` of the device that is drawn once for the whole run.
   RandomStream Once(std::size_t k, std::uint64_t part) const { return {Key(k), 0, part}; }

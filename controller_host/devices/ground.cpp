@@ -10,8 +10,8 @@
 #include "common/control_interface/footbot/ci_footbot_motor_ground_sensor.h"
 #include "common/math/cells.h"
 #include "common/space/space.h"
-#include "controller_host/devices/any_robot/kind_of_batch.h"
 #include "controller_host/devices/device_plugins.h"
+#include "controller_host/devices/kind_of_batch.h"
 #include "controller_host/devices/sensing/engine_membership.h"
 #include "controller_host/devices/sensing/floor_patches.h"
 #include "controller_host/devices/sensing/sensor_world.h"
@@ -79,7 +79,7 @@ struct AsTheInterfaceSays
   static double Reading(double brightness) { return kBlackOrWhite ? (brightness < 0.5 ? 0.0 : 1.0) : brightness; }
 };
 
-// Rec. 601 luma.
+// Returns the luma of Rec. 601.
 double Brightness(std::uint32_t colour)
 {
   return (0.299 * (colour >> 16 & 0xff) + 0.587 * (colour >> 8 & 0xff) + 0.114 * (colour & 0xff)) / 255;

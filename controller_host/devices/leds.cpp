@@ -10,8 +10,8 @@
 #include "common/control_interface/handbot/ci_handbot_beacon_actuator.h"
 #include "common/control_interface/handbot/ci_handbot_leds_actuator.h"
 #include "common/math/elementary.h"
-#include "controller_host/devices/any_robot/kind_of_batch.h"
 #include "controller_host/devices/device_plugins.h"
+#include "controller_host/devices/kind_of_batch.h"
 #include "controller_host/devices/value_devices.h"
 
 namespace swarmanoid

@@ -20,11 +20,11 @@ namespace swarmanoid
 namespace
 {
 
-// Half a step of a converter of 12 bits: a bulb that is less bright than this where a robot stands is not seen there.
+// A bulb that is less bright than this at a robot is not seen there: half a step of a converter of 12 bits.
 constexpr double kNegligible = 1e-4;
 
 // The brightness of a bulb from its intensity I and the square of its distance d in m. The model also has the distance
-// up to which a bulb is seen, and the least height above the base.
+// up to which a bulb is seen, and the height of the sensors above the base.
 struct InverseSquare  // (I / d)^2
 {
   template <class Interface>
@@ -93,7 +93,7 @@ private:
   static constexpr unsigned kSensors = Interface::NUM_SENSORS;
   static_assert(kSensors % kDoubleLanes == 0);
 
-  // All together: the bodies around a bulb are sorted once.
+  // Makes all readings together, so that the bodies around a bulb are sorted once.
   void MakeDue() override
   {
     for (std::size_t k = 0; k < this->robots_.size(); ++k)

@@ -28,10 +28,11 @@ protected:
   std::vector<double> values_;  // robot after robot
 };
 
-// Numbers that controllers set. They stay until set again; saved and restored.
+// Numbers that controllers set. They stay until set again, and are saved and restored.
 class ValueActuator : public ActuatorBatch, protected DeviceValues
 {
 public:
+  void Expose(std::size_t k, ExposedValues& values) override { values.Add({ValuesOf(k), width_}); }
   void SaveState(std::size_t k, ByteWriter& state) const override;
   void LoadState(std::size_t k, ByteReader& state) override;
 
@@ -61,7 +62,8 @@ public:
   void Commit(const ChannelView& channel, AttributeChanges& changes) override;
 
 protected:
-  // The attributes in the order of their slots, each with all its elements; numbers start with the values of the space.
+  // Binds the attributes in the order of their slots, each with all its elements. The numbers start with the values of
+  // the space.
   void Bind(const DeviceSetup& setup, const std::vector<std::string>& attributes);
 
   NoiseModel colour_noise_;
@@ -76,6 +78,9 @@ private:
 // Numbers that controllers read.
 class ValueSensor : public SensorBatch, protected DeviceValues
 {
+public:
+  void Expose(std::size_t k, ExposedValues& values) override { values.Add({ValuesOf(k), width_}); }
+
 protected:
   void AddNoise();
   void AddNoise(std::size_t k);
@@ -95,7 +100,7 @@ public:
   void Update(const ChannelView& channel) override;
 };
 
-// Attributes of the robots as they stand in the space, with noise.
+// A sensor that reads attributes of its robots from the space and adds noise.
 class AttributeSensor : public ValueSensor
 {
 public:
@@ -159,7 +164,7 @@ protected:
   double* values_;
 };
 
-// Actuator batches and sensor batches of one kind of object, made from the numbers of a robot.
+// A batch of actuators or sensors that has one object of a class for each robot, made from the robot's numbers.
 template <class Base, class Device>
 class DevicesOf : public Base
 {

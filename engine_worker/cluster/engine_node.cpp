@@ -1,3 +1,10 @@
+// The process of an engine answers a state of the space and the commands of all its controller hosts with an update of
+// its bodies. Messages may be late, lost or repeated, and a host may be a tick ahead, so commands have a place for even
+// and one for odd ticks; the step runs when the last input has come (TickInputs).
+//
+// A process that takes the place of a lost one loads the last saved state and repeats the recorded ticks. It compares
+// each update with the recorded one bit by bit and refuses to go on if one differs: a run that continued with other
+// numbers would be a wrong run that nothing shows. The mutex of `inputs_` guards the role and all messages.
 #include "engine_worker/cluster/engine_node.h"
 
 #include <fmt/format.h>
@@ -6,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <utility>
 
 #include "common/activity/activity.h"
 #include "common/bus/membership/recovery.h"
@@ -47,7 +55,7 @@ public:
       inputs_.HearPart(PartNameOfEngine(engine), engine_, [this](const LocalState& state) { Apply(state); });
     Begin();
     inputs_.Open({[this](std::size_t k, std::uint64_t tick) { return &commands_[tick % 2][k]; }, [this] { Tick(); },
-                  [this] { Answer(true); }, team_ != nullptr},
+                  [this] { Answer(true); }, team_ != nullptr, replica.experiment->ahead > 0},
                  replica.limits->CommandBytes(), HostCount());
   }
   ~EngineNode() { inputs_.Close(); }
@@ -92,6 +100,9 @@ public:
   {
     saved_.Flush();
     if (team_ != nullptr) team_->End();
+    // A host whose commands act a tick later may still need a frame for its last step.
+    if (frames_ && replica_.experiment->ahead > 0)
+      session_.WaitUntil([this] { return HostsThere().empty(); }, [this] { return Joined(HostsThere()); });
   }
 
 private:
@@ -114,6 +125,19 @@ private:
 
   unsigned HostCount() const { return static_cast<unsigned>(replica_.assignment.hosts.size()); }
 
+  // Returns the hosts that read the frames and have not left.
+  std::vector<std::string> HostsThere() const
+  {
+    std::vector<std::string> names;
+    for (std::size_t host = 0; host < HostCount(); ++host)
+    {
+      const std::vector<std::uint32_t>& engines = replica_.assignment.hosts[host].frames_from;
+      if (std::ranges::find(engines, engine_) != engines.end() && !session_.HasLeft(HostName(host), 0))
+        names.push_back(HostName(host));
+    }
+    return names;
+  }
+
   void Begin()
   {
     const auto begin = [this]
@@ -131,7 +155,7 @@ private:
                             {begin, load, [this](const TickRecord& record, const TickRecord*) { Redo(record); }, {}}));
   }
 
-  // The step of a tick once more.
+  // Repeats the step of a tick from the record.
   void Redo(const TickRecord& record)
   {
     CheckAgainst(record);
@@ -165,6 +189,7 @@ private:
     for (std::size_t k = 0; k < owned.size(); ++k)
     {
       if (std::binary_search(moved.begin(), moved.end(), owned[k])) continue;
+      if (std::ranges::binary_search(role_.Elsewhere(), owned[k])) continue;
       const auto place =
           static_cast<std::size_t>(std::lower_bound(movable.begin(), movable.end(), owned[k]) - movable.begin());
       for (std::size_t c = 0; c < 7; ++c)
@@ -179,6 +204,7 @@ private:
   {
     if (team_ != nullptr) team_->SetTick(tick);
     for (std::size_t k = 0; k < commands_here_.size(); ++k) commands_here_[k] = &commands_[tick % 2][k];
+    if (frames_ && has_frame_ && replica_.experiment->ahead > 0) frame_before_ = role_.Sensors();
     role_.Tick(moved, commands_here_);
     TakeUpdate();
   }
@@ -193,7 +219,9 @@ private:
 
   void TakeUpdate()
   {
-    static_cast<EngineUpdate&>(update_) = role_.Update();
+    std::vector<double> recorded = std::move(update_.recorded);
+    update_ = role_.Update();
+    update_.recorded = std::move(recorded);
     has_update_ = has_frame_ = true;
     if (update_.recorded.empty()) return;
     const EngineLayout& layout = role_.Layout();
@@ -214,7 +242,15 @@ private:
     MessageHeader header = session_.Header(inputs_.Tick(), engine_);
     header.repeated = repeated;
     if (has_update_) updates_.Write(header, update_);
-    if (frames_ && has_frame_) frames_->Write(header, role_.Sensors());
+    if (!frames_ || !has_frame_) return;
+    if (repeated && frame_before_)
+    {
+      // Commands that act a tick later do not tell that their host has the frame of the tick before.
+      MessageHeader before = header;
+      --before.tick;
+      frames_->Write(before, *frame_before_);
+    }
+    frames_->Write(header, role_.Sensors());
   }
 
   WorkerSession& session_;
@@ -226,10 +262,11 @@ private:
   Inputs inputs_;                                         // its mutex guards the role and what follows
   std::array<std::vector<ControlCommands>, 2> commands_;  // of even and odd ticks
   std::vector<const ControlCommands*> commands_here_;     // of the tick
-  UpdateMessage update_;
+  EngineUpdate update_;
   bool has_update_ = false;  // of the tick that comes next
   bool has_frame_ = false;
-  HotPublisher<UpdateMessage> updates_;
+  std::optional<SensorFrame> frame_before_;  // of the tick before, if commands act a tick later
+  HotPublisher<EngineUpdate> updates_;
   std::optional<HotPublisher<SensorFrame>> frames_;
 };
 

@@ -16,7 +16,8 @@ namespace swarmanoid
 class NearObjects
 {
 public:
-  // `extent`: m from the object's origin to its farthest point. Objects are numbered in the order in which they come.
+  // Adds an object. `extent` (m) is the distance from its origin to its farthest point. Objects are numbered in the
+  // order of adding.
   void Add(double extent)
   {
     ++count_;

@@ -1,3 +1,11 @@
+// Problem: relate the poses of a plane at any place in the space to poses in the space, and find what the plane cuts.
+//
+// Method: the frame of the plane has u, v and the normal as its axes. The heading of a pose is its yaw in this frame,
+// and the rest of the orientation is the lean. A cut goes through the edges of a body: each edge with ends on both
+// sides gives a point, and the convex outline of all points is the cut.
+//
+// Invariant: a face that only touches the plane within kTouch_m (m) is cut too, a little inside the body, so that
+// rounding cannot lose it.
 #include "engine_worker/engines/plane_frame.h"
 
 #include <algorithm>
@@ -29,7 +37,7 @@ Pose AxisFrame(PlaneAxis axis, double distance)
   }
 }
 
-// Without the corners that stand out least.
+// Returns the outline with at most kMostCutCorners corners, without those that stand out least.
 std::vector<Vector2> Simplified(std::vector<Vector2> outline)
 {
   while (outline.size() > kMostCutCorners)

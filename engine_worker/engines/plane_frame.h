@@ -45,7 +45,7 @@ public:
   // Returns the plane perpendicular to an axis, at a signed distance (m) from the origin. Its axes (u, v, normal) are,
   // right-handed: z: (x, y, z), x: (y, z, x), y: (z, x, y).
   PlaneFrame(PlaneAxis axis, double distance);
-  // Any plane: the x, y of the frame are u, v, and its z is the normal.
+  // Makes any plane from a frame: the frame's x and y are u and v, and its z is the normal.
   explicit PlaneFrame(const Pose& frame) : frame_(frame), inverse_(frame.Inverse()) {}
 
   const Pose& Frame() const { return frame_; }
@@ -61,7 +61,8 @@ public:
   // Returns the cut of the plane with the box or the hull of an entity with its origin at `pose`. For a hull it is a
   // polygon within the cut, with at most kMostCutCorners corners.
   std::vector<Vector2> CutBody(const CSwarmanoidSpaceEntity& entity, const Pose& pose) const;
-  // True where the plane cuts the upright cylinder or robot that is `height` metres high and has its base at `pose`.
+  // Returns true if the plane cuts the upright cylinder or robot that is `height` metres high and has its base at
+  // `pose`.
   bool CutsUpright(const Pose& pose, double height) const;
 
 private:

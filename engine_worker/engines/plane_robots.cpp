@@ -29,7 +29,7 @@ double DistanceTo(const Shape& shape, const Pose& pose, const Vector3& point)
   return std::sqrt(outside.squaredNorm());
 }
 
-// In robots by ascending entity; the end if all come before.
+// Finds the robot of an entity, or the position for it, in `robots` by ascending entity.
 template <class Robots>
 auto PlaceOf(Robots& robots, std::uint32_t entity)
 {
@@ -114,7 +114,7 @@ void PlaneRobots::Advance(double seconds)
   for (const Eyebot& eyebot : eyebots_)
     if (eyebot.attach && ceiling_ > 0 && space_->GetEntity(eyebot.entity).GetSize().z() + kMagnetReach >= ceiling_)
       attached_.push_back(eyebot.entity);
-  // First all that let go, then all that take hold, in entity order.
+  // Hands that open come first, then hands that close, in entity order.
   for (Handbot& handbot : handbots_)
     for (std::size_t hand = 0; hand < 2; ++hand)
       if (!handbot.close[hand] || !grips_->Holds(handbot.entity)) Release(handbot, hand);
@@ -185,7 +185,8 @@ std::uint32_t PlaneRobots::ObjectAt(const Handbot& handbot, std::size_t hand) co
   const Vector3 place = space_->GetPose(handbot.entity).Apply(tip);
   const auto origin = [this](std::size_t k) -> Vector3
   {
-    if (!space_->IsPresent(objects_[k])) return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
+    if (!space_->IsPresent(objects_[k]) || std::ranges::binary_search(elsewhere_, objects_[k]))
+      return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
     return space_->GetPose(objects_[k]).position;
   };
   double nearest = PlaneHandbot::kReach;
@@ -260,6 +261,44 @@ void PlaneRobots::Moved(std::uint32_t entity)
   }
 }
 
+void PlaneRobots::TakeOver(std::uint32_t entity, double height, const EntityVelocity& velocity)
+{
+  std::erase(elsewhere_, entity);
+  Moved(entity);
+  if (const auto robot = PlaceOf(handbots_, entity); robot != handbots_.end() && robot->entity == entity)
+  {
+    const CSwarmanoidSpaceEntity& it = space_->GetEntity(entity);
+    robot->head = it.GetAttribute("head_angle");
+    for (int k = 0; k < 2; ++k)
+    {
+      robot->arm[k] = it.GetAttribute("arm", k);
+      robot->wrist[k] = it.GetAttribute("wrist", k);
+      robot->aperture[k] = it.GetAttribute("hand_aperture", k);
+    }
+  }
+  if (handbots_.empty()) return;  // nothing lifts or falls
+  if (const auto lifted = PlaceOf(lifted_, entity); lifted != lifted_.end() && lifted->entity == entity && height > 0)
+  {
+    lifted->height = height;
+    lifted->fall = -velocity.linear.dot(up_);
+  }
+}
+
+void PlaneRobots::HandOver(std::uint32_t entity)
+{
+  const auto is_object = std::ranges::binary_search(objects_, entity);
+  const auto at = std::ranges::lower_bound(elsewhere_, entity);
+  if (is_object && (at == elsewhere_.end() || *at != entity)) elsewhere_.insert(at, entity);
+  for (Handbot& handbot : handbots_)
+    for (std::uint32_t& held : handbot.held)
+      if (held == entity + 1 || handbot.entity == entity)
+      {
+        if (held != 0) LiftedOf(held - 1).bearer = 0;
+        held = 0;
+      }
+  Moved(entity);
+}
+
 void PlaneRobots::Raise(std::span<const std::uint32_t> owned, std::span<double> poses) const
 {
   for (const Lifted& lifted : lifted_)
@@ -319,7 +358,7 @@ void PlaneRobots::SaveState(ByteWriter& state) const
 
 void PlaneRobots::LoadState(ByteReader& state)
 {
-  // 1 + an entity of lifted_, or 0.
+  // Reads 1 + an entity of lifted_, or 0.
   const auto lifted_number = [&]
   {
     const auto number = state.Get<std::uint32_t>();

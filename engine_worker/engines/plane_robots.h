@@ -21,13 +21,14 @@
 #include "common/space/shape.h"
 #include "engine_worker/engines/near_objects.h"
 #include "engine_worker/engines/plane_frame.h"
+#include "engine_worker/physics_engine.h"
 
 namespace swarmanoid
 {
 
 class CSwarmanoidSpace;
 
-// Metres, radians and seconds; as HandbotShape of dynamics3d where both have it.
+// Values are in metres, radians and seconds, and equal those of HandbotShape in dynamics3d if both have them.
 struct PlaneHandbot : HandbotParts
 {
   static constexpr double kWidestArm = 1.0472;
@@ -45,29 +46,37 @@ class PlaneGrips
 {
 public:
   virtual ~PlaneGrips() = default;
-  // Makes robot and object one rigid whole. False if the object may not be held: it would close a loop.
+  // Makes robot and object one rigid whole. Returns false if the object may not be held, since that would close a loop.
   virtual bool Hold(std::uint32_t robot, std::uint32_t object) = 0;
+  // Ends the hold of a robot, if it has one.
   virtual void LetGo(std::uint32_t robot) = 0;
+  // Returns whether the robot holds an object.
   virtual bool Holds(std::uint32_t robot) const = 0;
 };
 
 class PlaneRobots
 {
 public:
-  // The references outlive it. Entities that the engine moves, in entity order.
+  // Prepares the model. The references outlive it. AddOwned then gets the entities that the engine moves, in entity
+  // order.
   void Init(const CSwarmanoidSpace& space, const PlaneFrame& frame, PlaneGrips& grips);
   void AddOwned(const CSwarmanoidSpaceEntity& entity);
 
   // Returns true for a channel of this model. Throws std::runtime_error for values that are not finite.
   bool Command(const ChannelBlock& block, std::span<const double> values);
-  // Before the plane's motion: hands and ropes take hold and let go; then all joints and heights at the end of the
-  // tick.
+  // Is called before the plane's motion. First hands and ropes grip and release; then all joints and heights become
+  // those at the end of the tick.
   void Advance(double seconds);
   // Eyebots that hang on the ceiling, and do not move.
   const std::vector<std::uint32_t>& Attached() const { return attached_; }
   // An entity was put elsewhere from outside. It stands on the plane there, and the space says what it holds and what
   // holds it.
   void Moved(std::uint32_t entity);
+
+  // The engine moves an entity from now on, or another engine does (CPhysicsEngine::TakeOver). `height` (m) is that
+  // above the plane.
+  void TakeOver(std::uint32_t entity, double height, const EntityVelocity& velocity);
+  void HandOver(std::uint32_t entity);
 
   // Raises poses (EngineUpdate::poses, of `owned`) by the heights of their entities above where they stand.
   void Raise(std::span<const std::uint32_t> owned, std::span<double> poses) const;
@@ -124,7 +133,8 @@ private:
   std::vector<std::uint32_t> attached_;
   std::vector<Lifted> lifted_;  // handbots, blocks and preys, by entity; none if there is no handbot
   std::vector<std::uint32_t> objects_;
-  mutable NearObjects near_objects_;  // by place in objects_
+  std::vector<std::uint32_t> elsewhere_;  // of these, those that other engines move, ascending
+  mutable NearObjects near_objects_;      // by place in objects_
 };
 
 }  // namespace swarmanoid

@@ -10,18 +10,18 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "common/activity/exit_codes.h"
-#include "common/activity/print_error.h"
 #include "common/bus/membership/cluster_options.h"
 #include "common/bus/membership/control_client.h"
 #include "common/bus/security/access_grant.h"
 #include "common/configuration/configuration_tree.h"
 #include "common/configuration/wording.h"
+#include "common/errors/exit_codes.h"
+#include "common/errors/print_error.h"
 #include "common/messages/control_verbs.h"
 #include "common/run/run_settings.h"
+#include "launcher/command/control_words.h"
+#include "launcher/command/run_choice.h"
 #include "launcher/command/sub_command.h"
-#include "launcher/control_words.h"
-#include "launcher/run_choice.h"
 
 namespace swarmanoid
 {
@@ -68,7 +68,7 @@ int Control(ControlOptions& options, bool domain_given)
   {
     PrintError(
         "swarmanoid: no run of experiment {} in domain {} on this machine is of user {}, and no key of it is "
-        "given; whoever started it can steer it, or give you its --key (docs/security.md)\n",
+        "given; its owner can steer it, or give you its --key (docs/security.md)\n",
         Quoted(run.experiment), run.domain, UserName());
     return kExitProcessFailed;
   }
@@ -145,7 +145,7 @@ void AddControlCommand(CLI::App& app, int& exit_code)
                  { exit_code = Control(*options, verb->get_option("--domain")->count() > 0); });
 }
 
-const RegisterSubCommand kControl(8, AddControlCommand);
+const RegisterSubCommand kControl(10, AddControlCommand);
 
 }  // namespace
 }  // namespace swarmanoid

@@ -10,10 +10,11 @@
 #include <memory>
 
 #include "argos3/converter/convert.h"
-#include "common/activity/exit_codes.h"
-#include "common/activity/print_error.h"
 #include "common/configuration/xml_reader.h"
 #include "common/configuration/xml_writer.h"
+#include "common/errors/exit_codes.h"
+#include "common/errors/print_error.h"
+#include "common/experiment/foreign_experiments.h"
 #include "launcher/argos3_dry_run.h"
 #include "launcher/command/sub_command.h"
 
@@ -28,13 +29,13 @@ int Convert(const std::string& file, const std::string& output)
 {
   try
   {
-    const auto root = ReadXml(ReadTextFile(file), file);
+    const auto root = ReadExperimentXml(ReadTextFile(file), file);
     if (root->name != "argos-configuration")
       throw ConfigurationError(root->location,
                                "the root element is <" + root->name + ">; that of ARGoS3 is <argos-configuration>");
     const ConvertedExperiment converted =
         ConvertArgos3(*root, fs::absolute(file).parent_path().string(), RehearseArgos3);
-    for (const Diagnostic& note : converted.notes) PrintError("{}: note: {}\n", note.location.Text(), note.message);
+    PrintNotes(converted.notes);
     for (const Diagnostic& mistake : converted.mistakes) PrintError("{}\n", mistake.Text());
     if (!converted.mistakes.empty()) return kExitInvalidFile;
     const std::string text = WriteXml(*converted.root);
@@ -71,7 +72,7 @@ void AddConvertCommand(CLI::App& app, int& exit_code)
   verb->callback([file, output, &exit_code] { exit_code = Convert(*file, *output); });
 }
 
-const RegisterSubCommand kConvert(12, AddConvertCommand);
+const RegisterSubCommand kConvert(14, AddConvertCommand);
 
 }  // namespace
 }  // namespace swarmanoid

@@ -1,4 +1,4 @@
-// `swarmanoid demo`: plays the experiments that come along.
+// `swarmanoid demo`: plays the sample experiments.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -8,12 +8,13 @@
 #include <iterator>
 #include <memory>
 
-#include "common/activity/exit_codes.h"
-#include "common/activity/print_error.h"
 #include "common/configuration/wording.h"
+#include "common/errors/exit_codes.h"
+#include "common/errors/print_error.h"
+#include "common/program/shell_word.h"
 #include "launcher/command/sub_command.h"
-#include "launcher/installation.h"
 #include "launcher/showing.h"
+#include "launcher/system/installation.h"
 #include "simulation/load.h"
 #include "simulation/run_folder.h"
 
@@ -47,7 +48,7 @@ std::string FirstSentence(const fs::path& file)
   for (const char c : text.substr(start + 4, end - start - 4))
     if (const bool blank = c == ' ' || c == '\n'; !blank || (!words.empty() && words.back() != ' '))
       words += blank ? ' ' : c;
-  // "et al. 2014" goes on.
+  // A dot before a small letter or a digit ends no sentence, as in "et al. 2014".
   std::size_t stop = words.find(". ");
   while (stop != std::string::npos && stop + 2 < words.size() && (words[stop + 2] < 'A' || words[stop + 2] > 'Z'))
     stop = words.find(". ", stop + 2);
@@ -95,7 +96,7 @@ int Play(const DemoOptions& options)
   {
     throw UsageError(error.what());
   }
-  PrintError("Next: swarmanoid run {}\n", ShortPath(file));
+  PrintError("Next: swarmanoid run {}\n", ShellWord(ShortPath(file)));
   return kExitDone;
 }
 
@@ -118,7 +119,7 @@ void AddDemoCommand(CLI::App& app, int& exit_code)
   verb->callback([options, &exit_code] { exit_code = options->list ? List() : Play(*options); });
 }
 
-const RegisterSubCommand kDemo(15, AddDemoCommand);
+const RegisterSubCommand kDemo(17, AddDemoCommand);
 
 }  // namespace
 }  // namespace swarmanoid

@@ -1,4 +1,4 @@
-// `swarmanoid diff`: where two runs of one experiment part.
+// `swarmanoid diff`: finds where two runs of one experiment begin to differ.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 
-#include "common/activity/exit_codes.h"
+#include "common/errors/exit_codes.h"
 #include "common/journal/commands_by_robot.h"
 #include "common/space/space.h"
 #include "common/space/state_checks.h"
@@ -46,14 +46,14 @@ std::optional<std::uint32_t> OtherCommands(const CSwarmanoidSpace& space, const 
 std::string CauseOf(const RecordedRun& a, const TickRecord& of_a, const RecordedRun& b, const TickRecord& of_b)
 {
   if (of_a.commands.empty() || of_b.commands.empty()) return {};
-  // A damaged journal may not say which controller hosts commanded.
+  // A damaged journal may not have the controller hosts of the commands.
   if (!a.Journal().KnowsHostsAt(of_a.state.tick) || !b.Journal().KnowsHostsAt(of_b.state.tick)) return {};
   const auto of_one_host = [](const RecordedRun& run, const TickRecord& record, const Assignment& one)
   { return CommandsByRobot(run.Space(), one).Of(run.Journal().HostsAt(record.state.tick), record.commands).front(); };
   const Assignment all_of_a = MakeAssignment(a.GetExperiment(), 1);
   const ControlCommands p = of_one_host(a, of_a, all_of_a);
   const ControlCommands q = of_one_host(b, of_b, MakeAssignment(b.GetExperiment(), 1));
-  // Other controllers, or other devices.
+  // The runs have other controllers or devices, so their commands cannot be compared.
   if (p.values.size() != q.values.size()) return {};
   const auto robot = OtherCommands(a.Space(), all_of_a.hosts.front(), p, q);
   return robot ? fmt::format("; the commands of '{}' at the tick before differ", a.Space().GetEntity(*robot).GetId())
@@ -67,21 +67,21 @@ int Diff(const std::string& first, const std::string& second)
   PrintLoss(b.Loss());
   if (a.Space().Size() != b.Space().Size() || a.Space().Attributes().size() != b.Space().Attributes().size())
     throw UsageError("the runs are of experiments with other entities");
-  // A branch begins later, and so does what a budget has left of a journal.
+  // A branch begins later, and so does a journal that has lost its oldest segments to a budget.
   const std::uint64_t from = std::max(a.FirstTick(), b.FirstTick());
   bool more_a = a.SeekFrom(from), more_b = b.SeekFrom(from);
   if (!more_a || !more_b)
     throw UsageError(fmt::format("the journals have no tick in common: '{}' ends at tick {}, '{}' begins at {}",
                                  more_a ? second : first, more_a ? b.LastTick() : a.LastTick(), more_a ? first : second,
                                  from));
-  std::optional<TickRecord> before_a, before_b;  // of the tick before, if both runs have it
+  std::optional<TickRecord> before_a, before_b;  // records of the tick before, if both runs have it
   std::uint64_t ticks = 0, last = from;
   while (more_a && more_b)
   {
     const std::uint64_t tick_a = a.Space().GetTick(), tick_b = b.Space().GetTick();
     if (tick_a != tick_b)
     {
-      // One of them is damaged there.
+      // One of the journals is damaged at this tick.
       before_a.reset();
       if (tick_a < tick_b)
         more_a = a.Next();

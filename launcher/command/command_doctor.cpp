@@ -6,11 +6,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "common/activity/exit_codes.h"
+#include "common/errors/exit_codes.h"
 #include "common/program/colour.h"
 #include "launcher/command/sub_command.h"
 #include "launcher/doctor.h"
-#include "launcher/scratch_folder.h"
+#include "launcher/system/scratch_folder.h"
 
 namespace swarmanoid
 {
@@ -72,7 +72,7 @@ void AddDoctorCommand(CLI::App& app, int& exit_code)
   verb->callback([json, &exit_code] { exit_code = Doctor(*json); });
 }
 
-const RegisterSubCommand kDoctor(16, AddDoctorCommand);
+const RegisterSubCommand kDoctor(18, AddDoctorCommand);
 
 }  // namespace
 }  // namespace swarmanoid

@@ -9,11 +9,12 @@
 #include <memory>
 #include <thread>
 
-#include "common/activity/exit_codes.h"
-#include "common/activity/print_error.h"
 #include "common/configuration/wording.h"
+#include "common/errors/exit_codes.h"
+#include "common/errors/print_error.h"
 #include "common/plugin_descriptions/renderers.h"
 #include "common/program/interrupts.h"
+#include "common/program/shell_word.h"
 #include "common/program/trust_flag.h"
 #include "common/program/usage_error.h"
 #include "launcher/command/sub_command.h"
@@ -35,11 +36,12 @@ constexpr auto kPause = 15ms;
 struct EditOptions
 {
   std::string file;
-  std::vector<std::string> parameters;  // of web_render, "name=value"
+  std::vector<std::string> parameters;  // parameters of web_render, "name=value"
   bool open = false;
 };
 
-// Until Ctrl-C; while there are changes that are not saved, until they are, or a second Ctrl-C.
+// Serves the page until Ctrl-C. If changes are not saved by then, serves until they are saved, or until a second
+// Ctrl-C.
 void Serve(EditSession& session, EditorPage& page)
 {
   bool warned = false;
@@ -62,7 +64,7 @@ bool OfferToMake(const std::string& file)
   const std::filesystem::path path(file);
   std::error_code none;
   if (std::filesystem::exists(path, none)) return true;
-  const std::string make = "swarmanoid new experiment " + path.stem().string();
+  const std::string make = "swarmanoid new experiment " + ShellWord(path.stem());
   const bool can_make = path.extension() == ".xml" && !path.has_parent_path();
   if (!can_make || isatty(STDIN_FILENO) != 1 || isatty(STDERR_FILENO) != 1)
   {
@@ -147,7 +149,7 @@ void AddEditCommand(CLI::App& app, int& exit_code)
   verb->callback([options, &exit_code] { exit_code = Edit(*options); });
 }
 
-const RegisterSubCommand kEdit(11, AddEditCommand);
+const RegisterSubCommand kEdit(13, AddEditCommand);
 
 }  // namespace
 }  // namespace swarmanoid

@@ -12,15 +12,17 @@
 #include <string>
 #include <vector>
 
-#include "common/activity/exit_codes.h"
-#include "common/activity/print_error.h"
 #include "common/configuration/wording.h"
+#include "common/errors/exit_codes.h"
+#include "common/errors/print_error.h"
 #include "common/math/elementary.h"
 #include "common/program/csv.h"
 #include "common/program/interrupts.h"
 #include "common/space/attributes.h"
 #include "common/space/space.h"
 #include "launcher/command/sub_command.h"
+#include "launcher/picture_export.h"
+#include "launcher/supervision/progress_display.h"
 #include "simulation/playback/export_file.h"
 #include "simulation/playback/mcap_export.h"
 #include "simulation/playback/recorded_run.h"
@@ -31,6 +33,8 @@ namespace swarmanoid
 namespace
 {
 
+namespace fs = std::filesystem;
+
 const std::vector<std::string> kPoseColumns{"x", "y", "z", "alpha", "beta", "gamma"};
 
 struct ExportOptions
@@ -38,14 +42,18 @@ struct ExportOptions
   std::string run;
   std::string csv;
   std::string mcap;
+  std::string html;
+  std::string gif;
+  std::string webm;
   std::vector<std::string> columns;  // none: kPoseColumns
   std::string entities = "*";
-  std::uint64_t every = 1;
+  std::uint64_t every = 0;              // 0: each tick, for films as few as make a short one
+  std::vector<std::string> parameters;  // of the renderer of films, "name=value"
   std::uint64_t from = 0;
   std::optional<std::uint64_t> until;
 };
 
-// The value of an entity; nothing if its kind has none.
+// A column of the table: a value of an entity, or nothing if its kind does not have it.
 struct ExportColumn
 {
   std::string name;
@@ -102,7 +110,7 @@ ExportColumn ElementColumn(const CSwarmanoidSpace& space, const std::string& att
           }};
 }
 
-// "led" is all of its elements, "led[3]" one of them.
+// Returns the columns of these names. "led" means all of its elements, "led[3]" one of them.
 std::vector<ExportColumn> ColumnsOf(const CSwarmanoidSpace& space, const std::vector<std::string>& names)
 {
   const std::vector<ExportColumn> poses = ColumnsOfPoses();
@@ -136,7 +144,7 @@ std::vector<ExportColumn> ColumnsOf(const CSwarmanoidSpace& space, const std::ve
   return columns;
 }
 
-// The shortest text that reads back as the same bits.
+// Appends the shortest text that reads back as the same bits.
 void AppendExact(double value, std::string& line)
 {
   char text[32];
@@ -146,16 +154,22 @@ void AppendExact(double value, std::string& line)
 
 bool IsWanted(const ExportOptions& options, std::uint64_t tick)
 {
-  return tick >= options.from && tick % options.every == 0 && (!options.until || tick <= *options.until);
+  const std::uint64_t every = std::max<std::uint64_t>(options.every, 1);
+  return tick >= options.from && tick % every == 0 && (!options.until || tick <= *options.until);
 }
 
-// Calls `use` at each state that is wanted.
+// Calls `use` at each requested state.
 void ForEachState(const ExportOptions& options, RecordedRun& run, const std::function<void()>& use)
 {
   std::uint64_t states = 0;
+  const std::uint64_t end = std::min(options.until.value_or(UINT64_MAX), run.LastTick()) + 1;
+  std::optional<WorkProgress> progress;
+  // Standard output may be the same terminal.
+  if (options.csv != "-" && options.mcap != "-") progress.emplace("exporting", end - std::min(run.FirstTick(), end));
   while (!Interrupted() && run.Next())
   {
     const std::uint64_t tick = run.Space().GetTick();
+    if (progress) progress->At(tick - run.FirstTick());
     if (options.until && tick > *options.until) break;
     if (!IsWanted(options, tick)) continue;
     ++states;
@@ -223,15 +237,72 @@ bool ExportMcap(const ExportOptions& options, RecordedRun& run, std::vector<std:
   return events.damaged.empty();
 }
 
+// Returns the option of the file and its name.
+std::pair<std::string, std::string> FileOf(const ExportOptions& options)
+{
+  std::vector<std::pair<std::string, std::string>> given;
+  for (const auto& [option, file] :
+       {std::pair("--html", &options.html), std::pair("--gif", &options.gif), std::pair("--webm", &options.webm),
+        std::pair("--csv", &options.csv), std::pair("--mcap", &options.mcap)})
+    if (!file->empty()) given.emplace_back(option, *file);
+  if (given.size() != 1)
+    throw UsageError(
+        "export: name one format and its file: --html run.html, --gif film.gif, --webm film.webm, --csv table.csv or "
+        "--mcap run.mcap");
+  return given.front();
+}
+
+void CheckOptions(const ExportOptions& options, const std::string& format)
+{
+  if (format != "--csv" && !options.columns.empty())
+    throw UsageError("--columns: is of tables, --csv; " + format + " has poses and all attributes");
+  const bool is_film = format == "--gif" || format == "--webm";
+  if (!is_film && !options.parameters.empty())
+    throw UsageError("--size, --camera and --speed are of films, --gif and --webm");
+  if (format == "--csv" || format == "--mcap") return;
+  if (options.entities != "*") throw UsageError("--entities: is of --csv and --mcap; " + format + " shows all");
+}
+
+// Writes a page or a film by a renderer.
+void ExportPicture(const ExportOptions& options, RecordedRun& run, const std::string& format, const std::string& file)
+{
+  CheckNewFile(format, file);
+  if (format != "--html" && fs::path(file).extension() != "." + format.substr(2))
+    throw UsageError(fmt::format("{}: the name of the file must end in .{}", format, format.substr(2)));
+  const std::uint64_t first = std::max(run.FirstTick(), options.from);
+  const std::uint64_t last = std::min(run.LastTick(), options.until.value_or(UINT64_MAX));
+  if (last < first || !run.SeekFrom(first))
+    throw UsageError("no tick of the journal is among those that were asked for: see --from, --until, --every");
+  std::vector<std::string> parameters =
+      format == "--html"
+          ? std::vector<std::string>{"file=" + file, fmt::format("every={}", std::max<std::uint64_t>(options.every, 1))}
+          : FilmParameters(file, last + 1 - first, options.every, run.GetExperiment().TickSeconds());
+  for (const std::string& given : options.parameters)
+  {
+    std::erase_if(parameters, [&](const std::string& own)
+                  { return own.substr(0, own.find('=')) == given.substr(0, given.find('=')); });
+    parameters.push_back(given);
+  }
+  parameters.push_back(fmt::format("from={}", first));
+  PictureExport picture(run, format == "--html" ? "page" : "image", parameters);
+  WorkProgress progress("exporting", last + 1 - first);
+  bool more = true;
+  for (; more && !Interrupted() && run.Space().GetTick() <= last; more = run.Next())
+  {
+    progress.At(run.Space().GetTick() - first);
+    picture.Draw();
+  }
+  progress.Clear();
+  picture.Finish();
+  PrintError("{}: {} bytes, ticks {} to {}\n", file, fs::file_size(file), first, last);
+}
+
 int Export(const ExportOptions& options)
 {
   RegisterBuiltins();
   CatchInterrupts();
-  if (options.csv.empty() == options.mcap.empty())
-    throw UsageError(
-        "export: name one format and its file, as --csv table.csv or --mcap run.mcap; - is standard output");
-  if (!options.mcap.empty() && !options.columns.empty())
-    throw UsageError("--columns: is of tables, --csv; --mcap has poses and all attributes");
+  const auto [format, file] = FileOf(options);
+  CheckOptions(options, format);
   RecordedRun run(std::filesystem::absolute(options.run).lexically_normal().string());
   PrintLoss(run.Loss());
   const CSwarmanoidSpace& space = run.Space();
@@ -241,8 +312,10 @@ int Export(const ExportOptions& options)
   if (entities.empty())
     throw UsageError(fmt::format("--entities: no entity of the run matches {}", Quoted(options.entities)));
   bool is_whole = true;
-  if (options.mcap.empty())
+  if (format == "--csv")
     ExportCsv(options, run, entities);
+  else if (format != "--mcap")
+    ExportPicture(options, run, format, file);
   else
     is_whole = ExportMcap(options, run, std::move(entities));
   if (Interrupted()) return kExitInterrupted;
@@ -254,6 +327,10 @@ void AddExportCommand(CLI::App& app, int& exit_code)
   auto options = std::make_shared<ExportOptions>();
   CLI::App* verb = app.add_subcommand("export", "Write what the journal of a run has for other tools");
   verb->add_option("RUN", options->run, "The folder of a run as a cluster")->required();
+  verb->add_option("--html", options->html,
+                   "One page that plays the run in any browser, without a server or a network, into a new file");
+  verb->add_option("--gif", options->gif, "A film that repeats, for texts and slides, into a new file");
+  verb->add_option("--webm", options->webm, "A film (VP9), into a new file");
   verb->add_option("--csv", options->csv, "A table of comma-separated values, into a new file; - is standard output");
   verb->add_option("--mcap", options->mcap, "Messages for Foxglove and rosbag2, into a new file; - is standard output");
   verb->add_option(
@@ -263,13 +340,30 @@ void AddExportCommand(CLI::App& app, int& exit_code)
       ->delimiter(',');
   verb->add_option("--entities", options->entities,
                    "Only entities whose ids match: * stands for any characters, ? for one");
-  verb->add_option("--every", options->every, "Only ticks that are multiples of this")->check(CLI::Range(1.0, 1e15));
+  verb->add_option("--every", options->every,
+                   "Only ticks that are multiples of this; for films, ticks between two pictures, otherwise as many as "
+                   "make a hundred pictures")
+      ->check(CLI::Range(1.0, 1e15));
   verb->add_option("--from", options->from, "The first tick");
   verb->add_option("--until", options->until, "The last tick");
+  const auto film = [&](const char* name, const char* text)
+  {
+    verb->add_option_function<std::string>(
+        fmt::format("--{}", name),
+        [options, name](const std::string& value) { options->parameters.push_back(fmt::format("{}={}", name, value)); },
+        text);
+  };
+  film("size", "Of films: width and height in pixels, as 1280,720; otherwise 640,480");
+  film("camera", "Of films: the number of a viewpoint, top, default, or x,y,z/heading,pitch,roll (m, degrees)");
+  film("speed", "Of films: simulated seconds in a second; otherwise ten pictures a second");
   verb->footer(
       "A table has a line for each tick and entity that is in the arena, MCAP a message for each tick and topic: /tf,\n"
-      "/scene, /attributes, /events. Numbers are exact: they read back as the same bits.\n"
+      "/scene, /attributes, /events. Their numbers are exact: they read back as the same bits. A page has positions "
+      "to\n"
+      "0.01 mm and directions to 0.006 degrees. `swarmanoid replay RUN image` has more options of films.\n"
       "Examples:\n"
+      "  swarmanoid export runs/latest --html run.html\n"
+      "  swarmanoid export runs/latest --gif film.gif --from 100 --until 300\n"
       "  swarmanoid export runs/diffusion_10-20310517-093000 --csv poses.csv\n"
       "  swarmanoid export runs/diffusion_10-20310517-093000 --csv leds.csv --columns x,y,led --entities 'fb_*' "
       "--every 10\n"

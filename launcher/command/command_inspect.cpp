@@ -1,4 +1,4 @@
-// `swarmanoid inspect`: what robots sensed, what their controllers thought and commanded at a tick of the past.
+// `swarmanoid inspect`: shows the readings, the state and the commands of robots at a past tick.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -6,15 +6,17 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "common/activity/exit_codes.h"
 #include "common/activity/failure_report.h"
-#include "common/activity/print_error.h"
 #include "common/checkpoint/library_builds.h"
 #include "common/configuration/shown_text.h"
 #include "common/configuration/wording.h"
+#include "common/errors/exit_codes.h"
+#include "common/errors/print_error.h"
 #include "common/program/trust_flag.h"
 #include "launcher/branch.h"
 #include "launcher/command/sub_command.h"
+#include "launcher/supervision/single_run.h"
+#include "launcher/system/scratch_folder.h"
 #include "simulation/load.h"
 #include "simulation/playback/recorded_robot_states.h"
 #include "simulation/playback/recorded_run.h"
@@ -59,7 +61,7 @@ Json DevicesJson(const std::vector<DeviceStatus>& devices)
   for (const DeviceStatus& device : devices)
   {
     Json readings = Json::array();
-    // JSON has no infinite numbers: null, as everywhere.
+    // JSON has no infinite numbers, so they become null.
     for (const CCI_Reading& reading : device.readings)
       readings.push_back({{"name", reading.name}, {"unit", reading.unit}, {"value", reading.value}});
     list.push_back({{"type", device.type}, {"readings", readings}});
@@ -134,7 +136,7 @@ int Inspect(const InspectOptions& options)
   if (!at)
     throw UsageError(
         fmt::format("inspect: {} is no run and tick; for example runs/first@500", Quoted(options.run_at_tick)));
-  const RecordedRun run(at->run);
+  RecordedRun run(at->run);
   PrintLoss(run.Loss());
   const auto experiment = LoadOrComplain(at->run + "/experiment.xml", {});
   if (!experiment) return kExitInvalidFile;
@@ -147,7 +149,9 @@ int Inspect(const InspectOptions& options)
   std::vector<RobotStatus> found;
   try
   {
-    found = RecordedRobotStates(*experiment, at->run, at->tick, robots).Robots();
+    const ScratchFolder scratch;
+    found = HasLoopFunctions(*experiment) ? StatesInWholeRun(*experiment, run, at->tick, robots, scratch.Path())
+                                          : RecordedRobotStates(*experiment, at->run, at->tick, robots).Robots();
   }
   catch (const ActivityError&)
   {
@@ -170,7 +174,7 @@ void AddInspectCommand(CLI::App& app, int& exit_code)
   auto options = std::make_shared<InspectOptions>();
   CLI::App* verb =
       app.add_subcommand("inspect", "Show what robots sensed, thought and commanded at a tick of a run's past");
-  verb->add_option("RUN@TICK", options->run_at_tick, "The folder of a run as a cluster, which may go on, and a tick")
+  verb->add_option("RUN@TICK", options->run_at_tick, "The folder of a run with a journal, which may go on, and a tick")
       ->required();
   verb->add_option("ROBOT", options->robots, "Ids of robots that have controllers")->required();
   verb->add_flag("--json", options->json, "For programs: one JSON object, with all digits");

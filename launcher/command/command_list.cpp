@@ -8,10 +8,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "common/activity/exit_codes.h"
-#include "common/activity/print_error.h"
-#include "common/bus/membership/run_directory.h"
+#include "common/bus/run_directory.h"
 #include "common/configuration/wording.h"
+#include "common/errors/exit_codes.h"
+#include "common/errors/print_error.h"
 #include "common/experiment/reference.h"
 #include "common/plugins/catalogue.h"
 #include "common/plugins/library.h"
@@ -87,15 +87,15 @@ std::vector<std::string> LoadNamed(const std::vector<std::string>& names)
   return labels;
 }
 
-// Loads every library of plug-ins of the simulator, and those that were built here. Names the libraries that cannot be
-// loaded.
+// Loads every library of plug-ins of the simulator, and the libraries that were built here. Names the libraries that
+// cannot be loaded.
 void LoadAll()
 {
   for (const std::string& folder : SearchedFolders())
   {
     const fs::path path(folder);
     std::error_code none;
-    // The simulator's own libraries lie in folders that hold others, too.
+    // The folders of the simulator's own libraries also have libraries that are no plug-ins.
     const bool holds_plugins = path.filename() == "swarmanoid" || path.parent_path().filename() == "simulation_build" ||
                                path.filename() == "controllers";
     if (!holds_plugins || !fs::is_directory(path, none)) continue;
@@ -247,7 +247,7 @@ void AddListCommand(CLI::App& app, int& exit_code)
   experiments->callback([options, &exit_code] { exit_code = ListExperiments(options->json); });
 }
 
-const RegisterSubCommand kList(13, AddListCommand);
+const RegisterSubCommand kList(15, AddListCommand);
 
 }  // namespace
 }  // namespace swarmanoid

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "common/activity/exit_codes.h"
+#include "common/errors/exit_codes.h"
 #include "launcher/command/sub_command.h"
 #include "launcher/new_files.h"
 
@@ -147,7 +147,7 @@ void AddNewCommand(CLI::App& app, int& exit_code)
   verb->require_subcommand(1);
 }
 
-const RegisterSubCommand kNew(14, AddNewCommand);
+const RegisterSubCommand kNew(16, AddNewCommand);
 
 }  // namespace
 }  // namespace swarmanoid

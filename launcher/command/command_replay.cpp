@@ -7,15 +7,17 @@
 #include <memory>
 #include <thread>
 
-#include "common/activity/exit_codes.h"
 #include "common/configuration/output_file.h"
+#include "common/errors/exit_codes.h"
 #include "common/messages/assignment.h"
 #include "common/program/interrupts.h"
 #include "common/program/trust_flag.h"
 #include "common/space/space.h"
+#include "launcher/command/renderer_words.h"
 #include "launcher/command/sub_command.h"
-#include "launcher/renderer_words.h"
-#include "launcher/scratch_folder.h"
+#include "launcher/replay_monitor.h"
+#include "launcher/supervision/progress_display.h"
+#include "launcher/system/scratch_folder.h"
 #include "simulation/load.h"
 #include "simulation/playback/recorded_run.h"
 #include "simulation/watched_simulator.h"
@@ -42,7 +44,8 @@ struct ReplayOptions
   bool verify = false;
 };
 
-// All roles in this process, with what users asked, beside the states of the journal.
+// Computes the run again in this process, with the requests of its users, and compares the states with those of the
+// journal.
 int Verify(RecordedRun& run)
 {
   // The users' libraries are loaded, since the run is computed again.
@@ -61,27 +64,29 @@ int Verify(RecordedRun& run)
     const auto checkpoint = journal.WholeCheckpointAt(first, *experiment, journal.Hosts());
     if (!checkpoint)
       throw UsageError(
-          fmt::format("--verify: the journal begins at tick {}, and nobody can go on from there: not all "
+          fmt::format("--verify: the journal begins at tick {}, and no run can go on from there: not all "
                       "processes saved their states",
                       first));
     options.restore_file = scratch.Path() + "/" + CheckpointName(first);
     WriteCheckpoint(options.restore_file, *checkpoint);
   }
   std::uint64_t ticks = 0;
+  WorkProgress progress("computing again", run.LastTick() + 1 - run.FirstTick());
   bool over = !run.Next();
   std::string difference;
   const auto compare = [&](const CSimulator& simulator)
   {
     const CSwarmanoidSpace& space = simulator.GetSpace();
     while (!over && run.Space().GetTick() < space.GetTick()) over = !run.Next();
-    // Ticks that are lost are computed all the same.
+    // Lost ticks are computed, but not compared.
     if (over || run.Space().GetTick() != space.GetTick()) return;
-    ++ticks;
+    progress.At(++ticks);
     if (space.Hash() != run.Space().Hash())
       difference = fmt::format("tick {}: {}", space.GetTick(), FirstDifference(run.Space(), space));
   };
   CSimulator simulator = WatchedSimulator::Running(*experiment, options, compare);
   while (!over && difference.empty() && !Interrupted() && simulator.Step()) continue;
+  progress.Clear();
   if (!difference.empty())
   {
     fmt::print("{} (in the journal, and computed again)\n", difference);
@@ -91,32 +96,6 @@ int Verify(RecordedRun& run)
   fmt::print("equal: {} states, computed again\n", ticks);
   return kExitDone;
 }
-
-// Shows the progress of the replay. The journal has nothing of the inside of robots.
-class ReplayMonitor : public RunMonitor
-{
-public:
-  explicit ReplayMonitor(const RecordedRun& run, double speed) : run_(run)
-  {
-    status_.phase = RunStatus::Phase::kRunning;
-    status_.speed_wanted = speed;
-  }
-
-  const RunStatus& Status() override
-  {
-    status_.tick = run_.Space().GetTick();
-    return status_;
-  }
-  std::span<const RunNote> Notes() override { return {}; }
-  void Watch(std::span<const std::uint32_t>) override {}
-  const RobotStatus* Robot(std::uint32_t) override { return nullptr; }
-  std::string RunFolder() override { return run_.Folder(); }
-  void Ended() { status_.phase = RunStatus::Phase::kFinished; }
-
-private:
-  const RecordedRun& run_;
-  RunStatus status_;
-};
 
 int Show(RecordedRun& run, const ReplayOptions& options)
 {

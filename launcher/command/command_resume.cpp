@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "common/activity/exit_codes.h"
-#include "common/activity/print_error.h"
+#include "common/errors/exit_codes.h"
+#include "common/errors/print_error.h"
 #include "common/journal/journal_reader.h"
 #include "common/program/trust_flag.h"
 #include "launcher/command/sub_command.h"

@@ -10,17 +10,18 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "common/activity/exit_codes.h"
-#include "common/activity/print_error.h"
+#include "common/bus/addresses.h"
 #include "common/bus/membership/cluster_options.h"
 #include "common/bus/membership/control_client.h"
-#include "common/bus/membership/run_directory.h"
+#include "common/bus/run_directory.h"
 #include "common/bus/security/access_grant.h"
 #include "common/configuration/wording.h"
+#include "common/errors/exit_codes.h"
+#include "common/errors/print_error.h"
 #include "common/program/shell_word.h"
+#include "launcher/command/run_choice.h"
 #include "launcher/command/sub_command.h"
-#include "launcher/network_namespace.h"
-#include "launcher/run_choice.h"
+#include "launcher/system/network_namespace.h"
 
 namespace swarmanoid
 {
@@ -45,7 +46,7 @@ struct ShareOptions
   BusOptions bus;
 };
 
-// "90s", "30m", "2h", "7d"; nullopt for anything else.
+// Reads "90s", "30m", "2h" or "7d". Returns nullopt for any other text.
 std::optional<double> SecondsOf(const std::string& text)
 {
   double number = 0;
@@ -84,7 +85,7 @@ void PrintToken(const AccessToken& token, bool json)
     return;
   }
   fmt::print("{}\n", line);
-  PrintError("{}: whoever has this line may {}{}, {}. `swarmanoid share {} --revoke {}` ends it.\n", grant.Name(),
+  PrintError("{}: all who have this line may {}{}, {}. `swarmanoid share {} --revoke {}` ends it.\n", grant.Name(),
              grant.role == GrantRole::kOperator ? "look at the run and steer it" : "look at the run",
              token.address.starts_with("127.") ? ", as any user of this machine (the run uses no network)" : "",
              grant.ends == 0 ? "as long as it runs" : "until " + UtcText(grant.ends), ShellWord(token.experiment),
@@ -105,12 +106,11 @@ void PrintOpenView(const AccessGrant& grant, const RunChoice& run, const std::st
     return;
   }
   fmt::print("DDS domain {}, partition {}, topics {}\n", run.domain, run.experiment, fmt::join(topics, " "));
-  fmt::print(
-      stderr,
-      "{}: whoever reaches {} may look at the run with any DDS, {}. Nothing of it is encrypted. `swarmanoid share "
-      "{} --revoke {}` ends it.\n",
-      grant.Name(), address, grant.ends == 0 ? "as long as it runs" : "until " + UtcText(grant.ends),
-      ShellWord(run.experiment), grant.id);
+  fmt::print(stderr,
+             "{}: all who reach {} may look at the run with any DDS, {}. Nothing of it is encrypted. `swarmanoid share "
+             "{} --revoke {}` ends it.\n",
+             grant.Name(), address, grant.ends == 0 ? "as long as it runs" : "until " + UtcText(grant.ends),
+             ShellWord(run.experiment), grant.id);
 }
 
 int ShareRun(ShareOptions& options, bool domain_given)
@@ -128,7 +128,7 @@ int ShareRun(ShareOptions& options, bool domain_given)
   const RunChoice run = ChooseRun(options.experiment, domain_given ? std::optional(options.bus.domain) : std::nullopt);
   options.bus.domain = run.domain;
   if (run.server && run.network == RunNetwork{} && IsInAnotherNetwork(*run.server) && options.MakesOne())
-    throw UsageError(fmt::format("{} runs in a network of its own (--isolated), which nobody but its user can reach",
+    throw UsageError(fmt::format("{} runs in a network of its own (--isolated), which only its user can reach",
                                  Quoted(run.experiment)));
   UseNetworkOf(run, options.bus);
   const RunKey key = KeyOfChosenRun(run, options.bus);
@@ -185,12 +185,12 @@ void AddShareCommand(CLI::App& app, int& exit_code)
   verb->add_flag("--watch", options->watch, "Print a line for somebody who may look at the run");
   verb->add_flag("--operate", options->operate, "Print a line for somebody who may look at it and steer it");
   verb->add_flag("--open", options->open,
-                 "Let whoever reaches the run look at it, not encrypted, with any program of DDS (docs/wire.md)");
+                 "Let all who reach the run look at it, not encrypted, with any program of DDS (docs/wire.md)");
   verb->add_option("--for", options->time,
                    "How long that is good, such as 90s, 30m, 2h or 7d; otherwise as long as the run")
       ->type_name("TIME");
-  verb->add_flag("--list", options->list, "List the shares of the run");
-  verb->add_option("--revoke", options->revoke, "End the share of that id at once")->type_name("ID");
+  verb->add_flag("--list", options->list, "List the access grants of the run");
+  verb->add_option("--revoke", options->revoke, "End the access grant of that id at once")->type_name("ID");
   verb->add_flag("--json", options->json,
                  "With --watch and --operate, for programs: id, role, ends, ticket and line; with --open also domain, "
                  "partition, topics and address");
@@ -213,7 +213,7 @@ void AddShareCommand(CLI::App& app, int& exit_code)
                  { exit_code = ShareRun(*options, verb->get_option("--domain")->count() > 0); });
 }
 
-const RegisterSubCommand kShare(9, AddShareCommand);
+const RegisterSubCommand kShare(11, AddShareCommand);
 
 }  // namespace
 }  // namespace swarmanoid

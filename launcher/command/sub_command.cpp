@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/configuration/wording.h"
+#include "common/program/shell_word.h"
 
 namespace swarmanoid
 {
@@ -26,10 +27,10 @@ const std::map<int, const char*>& Headings()
 {
   static const std::map<int, const char*> headings{{1, "Run experiments"},
                                                    {3, "Look at runs that are over"},
-                                                   {7, "Watch and steer runs"},
-                                                   {10, "Write experiments and plug-ins"},
-                                                   {15, "Try it"},
-                                                   {17, "Studies"}};
+                                                   {9, "Watch and steer runs"},
+                                                   {12, "Write experiments and plug-ins"},
+                                                   {17, "Try it"},
+                                                   {19, "Studies"}};
   return headings;
 }
 
@@ -49,8 +50,8 @@ void AddSubCommands(CLI::App& app, int& exit_code, const std::string& word)
   for (const CLI::App* known : app.get_subcommands({})) names.push_back(known->get_name());
   if (std::find(names.begin(), names.end(), word) != names.end()) return;
   if (word.ends_with(".xml") || word.ends_with(".argos"))
-    throw UsageError(
-        fmt::format("there is no command {}; an experiment is run by: swarmanoid run {}", Quoted(word), word));
+    throw UsageError(fmt::format("there is no command {}; an experiment is run by: swarmanoid run {}", Quoted(word),
+                                 ShellWord(word)));
   throw UsageError(fmt::format("there is no command {}; the commands are {}{}", Quoted(word), Listed(names),
                                DidYouMean(word, names)));
 }

@@ -1,4 +1,5 @@
-// A sub-command of `swarmanoid`: its file in launcher/command or studies/ adds it to the command line and registers it.
+// Each sub-command of `swarmanoid` has a file in launcher/command or studies/, which adds it to the command line and
+// registers it.
 #pragma once
 
 #include <string>

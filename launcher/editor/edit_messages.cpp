@@ -18,8 +18,8 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMostMistakes = 100;   // told of one text
-constexpr std::size_t kMostPlacings = 1000;  // of one request
+constexpr std::size_t kMostMistakes = 100;   // limit for the mistakes in one message
+constexpr std::size_t kMostPlacings = 1000;  // limit for one request
 constexpr std::size_t kMostXml = 32768;      // bytes of an element that is edited as text: it must fit into a message
 constexpr double kMostMetres = 1e6;
 
@@ -108,6 +108,9 @@ std::vector<std::string> SuggestionsFor(const EditedExperiment& experiment, cons
           if (const auto id = TConfigurationTree(each).Value("id")) ids.push_back(*id);
   };
   if (parameter == "controller") collect("controllers");
+  if (parameter == "library")
+    for (const KnownController& known : experiment.Controllers())
+      if (std::ranges::find(ids, known.library) == ids.end()) ids.push_back(known.library);
   if (parameter == "id" && tag == "engine") collect("engines");
   if (parameter == "id" && tag == "entity") collect("arena");
   if (parameter == "kind" && tag == "all")
@@ -116,7 +119,7 @@ std::vector<std::string> SuggestionsFor(const EditedExperiment& experiment, cons
   return ids;
 }
 
-// A member of a family stands for itself: camera_view_XYZ_1.
+// Adds each member of a family, such as camera_view_XYZ_1, as a parameter of its own.
 void AddMembers(const ConfigurationNode& node, const ParameterSpec& spec, const TConfigurationTree& tree, Json& list)
 {
   const auto add = [&](const std::string& name)
@@ -154,7 +157,7 @@ Json ParametersOf(const EditedExperiment& experiment, const ConfigurationNode& n
   return list;
 }
 
-// The child elements that are no values.
+// Returns the child elements that are no values.
 Json PartsOf(const EditedExperiment& experiment, const ConfigurationNode& node, const ElementForm& form,
              const ElementPath& path)
 {
@@ -252,7 +255,7 @@ ElementPath CarryOut(const EditRequest& request, EditedExperiment& experiment)
 std::string DocumentText(const EditedExperiment& experiment, const DocumentState& state)
 {
   const EditedText& history = experiment.History();
-  // Many entities of one element: each element once, and its number for each entity.
+  // Many entities share one element, so each element is listed once, and each entity has its number.
   Json paths = Json::array(), numbers = Json::array(), alike = Json::array();
   std::map<ElementPath, std::size_t> known;
   for (const ElementPath& path : experiment.EntityPaths())

@@ -1,4 +1,4 @@
-// The JSON between `swarmanoid edit` and its pages; docs/edit.md is its specification.
+// `swarmanoid edit` and its pages exchange these JSON messages. docs/edit.md specifies them.
 #pragma once
 
 #include <optional>
@@ -11,17 +11,17 @@
 namespace swarmanoid
 {
 
-// A request, as far as it is for all verbs; what an edit changes is read by CarryOut.
+// The part of a request that all verbs have. CarryOut reads the change of an edit.
 struct EditRequest
 {
   std::string verb;            // "document", "form", "edit", "undo", "redo", "save", "reload", "check"
-  ElementPath path;            // of a form
-  std::uint64_t revision = 0;  // of the text that an edit is meant for
-  bool anyway = false;         // of a save
-  std::string text;            // the whole
+  ElementPath path;            // for "form": the element
+  std::uint64_t revision = 0;  // the revision of the text that an edit was made on
+  bool anyway = false;         // for "save": even if the file has changed on disk
+  std::string text;            // the whole request
 };
 
-// Throws std::invalid_argument, with a text for the user, for anything else than a request.
+// Throws std::invalid_argument, with a text for the user, if the text is no request.
 EditRequest ParseEditRequest(std::string_view text);
 // Carries out the change of an "edit". Returns the path of an added element, or an empty path. Throws
 // std::invalid_argument.
@@ -33,11 +33,11 @@ struct DocumentState
   bool is_saved = true;
   bool changed_on_disk = false;
   std::string hidden;                  // why the picture is older than the text
-  const ElementPath* added = nullptr;  // by the change that led here
+  const ElementPath* added = nullptr;  // the element that the last change added
   bool is_checking = false;
-  const std::string* checked = nullptr;  // what a check of this text said; empty: all is well
+  const std::string* checked = nullptr;  // the output of a check of this text; empty: no mistakes
 };
-// "document": what there is to say of the text after each change.
+// Returns the message "document": the state of the text after each change.
 std::string DocumentText(const EditedExperiment& experiment, const DocumentState& state);
 // Returns the answer to "form": the values of an element, and its possible children.
 std::string FormText(const EditedExperiment& experiment, const ElementPath& path);

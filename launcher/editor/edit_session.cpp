@@ -7,12 +7,12 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "common/activity/exit_codes.h"
+#include "common/errors/exit_codes.h"
 #include "common/experiment/notes.h"
 #include "common/messages/assignment.h"
 #include "common/space/space.h"
 #include "launcher/editor/edit_messages.h"
-#include "launcher/installation.h"
+#include "launcher/system/installation.h"
 
 namespace swarmanoid
 {
@@ -147,7 +147,7 @@ void EditSession::FinishCheck()
 
 // ---- what pages are told ----
 
-// A file with mistakes may hold what no space can be made of: then the picture stays as it was.
+// Sends the picture of the experiment. No space can be made of some files with mistakes; then the old picture stays.
 void EditSession::Show()
 {
   hidden_.clear();

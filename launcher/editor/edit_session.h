@@ -1,5 +1,5 @@
 // EditSession: the requests of pages about an edited experiment, and the messages to them, as JSON (docs/edit.md).
-// Pages get the document after each change, the form of an element, and the start state. Used by `swarmanoid edit`.
+// Pages get the document after each change, the form of an element, and the start state. `swarmanoid edit` uses it.
 #pragma once
 
 #include <chrono>
@@ -8,8 +8,8 @@
 
 #include "launcher/editor/edited_experiment.h"
 #include "launcher/editor/edited_file.h"
-#include "launcher/scratch_folder.h"
-#include "launcher/supervision/command_process.h"
+#include "launcher/system/command_process.h"
+#include "launcher/system/scratch_folder.h"
 #include "visualiser/editor_page.h"
 
 namespace swarmanoid
@@ -18,13 +18,13 @@ namespace swarmanoid
 class EditSession : public EditorRequests
 {
 public:
-  // Throws ConfigurationError if the file cannot be edited. The page outlives the session.
+  // Throws ConfigurationError if the file cannot be edited. The page must outlive the session.
   EditSession(const std::string& file, EditorPage& page);
 
   // Sends the page everything, once it is open.
   void Begin();
   std::string Carry(std::string_view request) override;
-  // To be called now and then: looks at the file on disk and at the check that goes on.
+  // Checks the file on disk and the running check. Call it from time to time.
   void Idle();
   bool IsSaved() const { return experiment_.Text() == file_.Text(); }
   const EditedExperiment& GetExperiment() const { return experiment_; }
@@ -43,16 +43,16 @@ private:
   EditorPage& page_;
   EditedFile file_;
   EditedExperiment experiment_;
-  ElementPath added_;           // by the last change
+  ElementPath added_;           // the element that the last change added
   std::uint64_t added_in_ = 0;  // the revision that it was added in
   bool changed_on_disk_ = false;
   Clock::time_point disk_due_;
 
-  std::string hidden_;  // why the picture is an older one; empty if it is not
+  std::string hidden_;  // why the picture is an older one; empty if it is the newest
   ScratchFolder scratch_;
   std::unique_ptr<CommandProcess> check_;
-  std::string checked_;           // what the last check said
-  std::uint64_t checked_in_ = 0;  // of which revision
+  std::string checked_;           // the output of the last check
+  std::uint64_t checked_in_ = 0;  // the revision that was checked
 };
 
 }  // namespace swarmanoid

@@ -10,8 +10,8 @@
 #include "common/configuration/wording.h"
 #include "common/configuration/xml_reader.h"
 #include "common/experiment/foreign_experiments.h"
-#include "common/experiment/places.h"
 #include "common/experiment/schema.h"
+#include "common/experiment/source_places.h"
 #include "common/math/elementary.h"
 #include "launcher/editor/new_element.h"
 
@@ -28,7 +28,7 @@ std::string NameOfElement(const ConfigurationNode& node)
   return id && !id->empty() ? *id : "<" + node.name + ">";
 }
 
-// The vector that a value of an element holds, or another one.
+// Returns the vector in a value of an element, or `otherwise` if the value is none.
 Vector3 VectorIn(const ConfigurationNode& node, const char* name, const Vector3& otherwise)
 {
   const auto text = TreeOf(node).Value(name);
@@ -52,8 +52,8 @@ void RefuseEdit(const std::string& text) { throw std::invalid_argument(text); }
 
 TConfigurationTree TreeOf(const ConfigurationNode& node)
 {
-  const std::shared_ptr<const ConfigurationNode> nobody;
-  return TConfigurationTree({nobody, &node});
+  const std::shared_ptr<const ConfigurationNode> none;
+  return TConfigurationTree({none, &node});
 }
 
 std::string PathText(const ElementPath& path) { return fmt::format("{}", fmt::join(path, "/")); }
@@ -75,7 +75,10 @@ ElementPath ParsePath(const std::string& text)
 }
 
 EditedExperiment::EditedExperiment(const std::string& text, std::string file_name, std::string folder)
-    : file_name_(std::move(file_name)), folder_(std::move(folder)), text_(text)
+    : file_name_(std::move(file_name)),
+      folder_(std::move(folder)),
+      text_(text),
+      known_controllers_(KnownControllers(folder_))
 {
   Take(Read(text));
 }
@@ -90,7 +93,7 @@ EditedExperiment::Reading EditedExperiment::Read(const std::string& text) const
   reading.outline = OutlineOf(text, file_name_);
   LoadOptions options;
   options.even_if_wrong = true;
-  // Places of another file would name its lines.
+  // Places in the text would name the lines of another file.
   reading.loaded = LoadExperimentText(std::string(WithoutPlaces(text)), file_name_, folder_, options);
   return reading;
 }
@@ -140,7 +143,22 @@ ElementForm EditedExperiment::FormAt(const ElementPath& path) const
   At(path);
   std::vector<const ConfigurationNode*> nodes{tree_.get()};
   for (const std::size_t child : path) nodes.push_back(nodes.back()->children[child].get());
-  return FormOf(nodes);
+  ElementForm form = FormOf(nodes);
+  for (const KnownController& known : known_controllers_)
+  {
+    if (KnownFor(path, known.tag) == nullptr) continue;
+    const auto found = std::ranges::find(form.children, known.tag, &ElementForm::Child::tag);
+    if (found == form.children.end())
+      form.children.push_back({known.tag, "Library " + known.library + ", with devices as in " + known.file + ".", {}});
+  }
+  return form;
+}
+
+const KnownController* EditedExperiment::KnownFor(const ElementPath& parent, const std::string& tag) const
+{
+  if (parent.size() != 1 || At(parent).name != "controllers") return nullptr;
+  const auto found = std::ranges::find(known_controllers_, tag, &KnownController::tag);
+  return found == known_controllers_.end() ? nullptr : &*found;
 }
 
 std::string EditedExperiment::NameOf(const ElementPath& path) const { return NameOfElement(NodeAt(path)); }
@@ -163,7 +181,7 @@ ElementPath EditedExperiment::PathAt(const SourceLocation& place) const
   ElementPath path;
   for (const XmlElement* element = &outline_;;)
   {
-    // The first child that ends behind it; it is there if it begins before it, too.
+    // The first child that ends after the offset contains it if it also begins before it.
     const auto child =
         std::ranges::upper_bound(element->children, offset, {}, [](const XmlElement& each) { return each.whole.end; });
     if (child == element->children.end() || child->whole.begin > offset) return path;
@@ -248,13 +266,23 @@ void EditedExperiment::Place(const std::vector<Placing>& placings)
 ElementPath EditedExperiment::Add(const ElementPath& parent, const std::string& tag, const std::optional<Vector2>& at)
 {
   const ElementForm form = FormAt(parent);
-  // Kinds have further tags: <nest> is a patch of the ground.
+  // Kinds have aliases: <nest> is a patch of the ground.
   const auto kind = KindOfTag(tag);
   const auto child =
       std::ranges::find(form.children, kind ? std::string(TagName(*kind)) : tag, &ElementForm::Child::tag);
   if (child == form.children.end() || !child->may_be_added)
     RefuseEdit(fmt::format("{} takes no{} <{}>", NameOf(parent), child == form.children.end() ? "" : " further", tag));
   const XmlElement& above = At(parent);
+  if (const KnownController* known = KnownFor(parent, tag))
+  {
+    const std::string id = ValuesForNew(tag, {{.name = "id"}}, *this, parent, at).front().second;
+    Change(AppendChild(Text(), above,
+                       WithEdits(known->xml, swarmanoid::SetValue(known->xml, OutlineOf(known->xml), "id", id))),
+           "add " + id);
+    ElementPath path = parent;
+    path.push_back(At(parent).children.size() - 1);
+    return path;
+  }
   NewElement element{tag, ValuesForNew(tag, child->required, *this, parent, at), false};
   // The new element is written in the form of its siblings.
   for (const XmlElement& other : above.children) element.as_elements |= HasValuesAsElements(other);
@@ -289,7 +317,7 @@ void EditedExperiment::Rewrite(const ElementPath& path, const std::string& xml)
   const std::string wanted(TrimBlanks(xml));
   try
   {
-    // One element and nothing else: otherwise it would end another one.
+    // The text must be exactly one element. Otherwise it could close an element around it.
     const XmlElement element = OutlineOf(wanted, "the new text");
     if (element.whole.begin != 0 || element.whole.end != wanted.size() ||
         (path.empty() && element.name != outline_.name))

@@ -1,5 +1,5 @@
 // EditedExperiment: the text of an edited experiment with its elements, mistakes and start state. Each change is one
-// step of its history. Used by `swarmanoid edit`.
+// step of its history. `swarmanoid edit` uses it.
 #pragma once
 
 #include <memory>
@@ -11,6 +11,7 @@
 #include "common/configuration/xml_edit.h"
 #include "common/experiment/element_form.h"
 #include "common/experiment/load_experiment.h"
+#include "launcher/editor/known_controllers.h"
 
 namespace swarmanoid
 {
@@ -23,11 +24,11 @@ TConfigurationTree TreeOf(const ConfigurationNode& node);
 
 using ElementPath = std::vector<std::size_t>;  // child numbers, from the root on
 
-// "0/3" and back; throws std::invalid_argument.
+// Convert a path to a text such as "0/3", and back. ParsePath throws std::invalid_argument.
 std::string PathText(const ElementPath& path);
 ElementPath ParsePath(const std::string& text);
 
-// The position of an entity.
+// It tells where an entity stands.
 struct Placing
 {
   ElementPath path;
@@ -38,7 +39,8 @@ struct Placing
 class EditedExperiment
 {
 public:
-  // `folder`: where relative paths start. Throws ConfigurationError if the text is no XML, or of another simulator.
+  // `folder`: the start of relative paths. Throws ConfigurationError if the text is no XML, or is an experiment of
+  // another simulator.
   EditedExperiment(const std::string& text, std::string file_name, std::string folder);
 
   const std::string& Text() const { return text_.Text(); }
@@ -49,13 +51,15 @@ public:
   const std::string& Places() const { return loaded_.places; }
 
   const XmlElement& Root() const { return outline_; }
-  // These throw std::invalid_argument for a path that leads nowhere.
+  // The functions below throw std::invalid_argument if the path does not lead to an element.
   const XmlElement& At(const ElementPath& path) const;
   const ConfigurationNode& NodeAt(const ElementPath& path) const;
   ElementForm FormAt(const ElementPath& path) const;
-  // "fb_1", or "<arena>" of an element without an id.
+  // Returns the controllers that <controllers> may get with their libraries and devices.
+  const std::vector<KnownController>& Controllers() const { return known_controllers_; }
+  // Returns the id of an element, or its tag, such as "<arena>", if it has no id.
   std::string NameOf(const ElementPath& path) const;
-  // The element that a line and column are in.
+  // Returns the element that contains a line and column.
   ElementPath PathAt(const SourceLocation& place) const;
   // Returns the element of each entity of the experiment. Entities of one <distribute> or <reserve> share the element
   // within it.
@@ -66,20 +70,23 @@ public:
   // The changes. Each throws std::invalid_argument with a text for the user, and then changes nothing.
   void SetValue(const ElementPath& path, const std::string& name, const std::optional<std::string>& value);
   void Place(const std::vector<Placing>& placings);
-  // Gives the path of the new element. `at`: where an entity is put on the floor (m).
+  // Adds an element and returns its path. `at`: the position of an entity on the floor (m).
   ElementPath Add(const ElementPath& parent, const std::string& tag, const std::optional<Vector2>& at);
   void Remove(const std::vector<ElementPath>& paths);
   // Replaces the whole element.
   void Rewrite(const ElementPath& path, const std::string& xml);
-  // The entities of a <distribute> one by one, in its place.
+  // Replaces a <distribute> by its entities, one element each.
   void WriteOut(const ElementPath& path);
-  // Another text, from the file.
+  // Replaces the text, for example by that of the file.
   void Replace(const std::string& text);
   bool Undo();
   bool Redo();
 
 private:
-  // The parsed form of a text. Making it throws if the text cannot be read.
+  // Returns the known controller for an element of that tag; nullptr if none is known, or elsewhere than in
+  // <controllers>.
+  const KnownController* KnownFor(const ElementPath& parent, const std::string& tag) const;
+  // It holds the parsed form of a text. Making it throws if the text cannot be read.
   struct Reading
   {
     std::shared_ptr<const ConfigurationNode> tree;
@@ -96,7 +103,8 @@ private:
   std::shared_ptr<const ConfigurationNode> tree_;
   XmlElement outline_;
   LoadedExperiment loaded_;
-  std::vector<std::size_t> lines_;  // where each begins
+  std::vector<KnownController> known_controllers_;
+  std::vector<std::size_t> lines_;  // start of each line
   std::vector<ElementPath> entity_paths_;
 };
 

@@ -33,7 +33,7 @@ std::optional<struct stat> StateOf(const std::string& path)
   return stat(path.c_str(), &state) == 0 ? std::optional(state) : std::nullopt;
 }
 
-// A file beside another one, which goes unless it took the other's place.
+// It makes a temporary file beside the target. The file is removed unless it has replaced the target.
 class FileBeside
 {
 public:
@@ -126,7 +126,7 @@ std::string EditedFile::OnDisk() const { return ReadTextFile(target_); }
 void EditedFile::Accept(const std::string& text)
 {
   text_ = text;
-  seen_.reset();  // it may have changed since
+  seen_.reset();  // the file may have changed since then
   HasChanged();
 }
 
@@ -140,7 +140,7 @@ void EditedFile::Write(const std::string& text)
   like.st_mode = 0644;
   if (const auto now = StateOf(target_))
   {
-    // A file that may not be written could be replaced all the same.
+    // Renaming would replace even a file without write permission, so the permission is checked first.
     if (access(target_.c_str(), W_OK) != 0)
       throw std::runtime_error(
           fmt::format("'{}' is not saved: {}; your changes are still here", path_, std::strerror(errno)));

@@ -91,6 +91,18 @@ double HeightOf(EntityKind kind, const Node* like, const std::optional<std::vect
   return height / 2;
 }
 
+// Returns the first controller whose tag begins with the kind of a robot, such as footbot_diffusion; empty for none.
+std::string ControllerFor(const EditedExperiment& experiment, EntityKind kind)
+{
+  if (!IsRobot(kind)) return "";
+  for (const auto& section : experiment.NodeAt({}).children)
+    if (section->name == "controllers")
+      for (const auto& controller : section->children)
+        if (controller->name.starts_with(std::string(TagName(kind)) + "_"))
+          return TreeOf(*controller).Value("id").value_or("");
+  return "";
+}
+
 }  // namespace
 
 std::string NumberText(double number)
@@ -131,8 +143,9 @@ std::vector<std::pair<std::string, std::string>> ValuesForNew(const std::string&
   if (!kind) return values;
   const EntityKindDescription& row = DescriptionOf(*kind);
   if (row.role == EntityRole::kPatch || row.role == EntityRole::kHole) add("size", "1, 1");
-  const auto controller = like == nullptr ? std::nullopt : TreeOf(*like).Value("controller");
-  if (controller && !controller->empty()) add("controller", *controller);
+  const std::string controller =
+      like == nullptr ? ControllerFor(experiment, *kind) : TreeOf(*like).Value("controller").value_or("");
+  if (!controller.empty()) add("controller", controller);
   const bool is_placed = experiment.At(parent).name == "arena" && row.role != EntityRole::kTerrain;
   if (!is_placed) return values;
   const Experiment* known = experiment.GetExperiment();

@@ -1,5 +1,5 @@
 // The first values of an element that a user adds in the editor: the required values, a free id, a position on the
-// floor. Used by EditedExperiment.
+// floor. EditedExperiment uses it.
 #pragma once
 
 #include <optional>
@@ -18,14 +18,14 @@ class EditedExperiment;
 // Returns a number in the form that users write: at most four digits after the point.
 std::string NumberText(double number);
 
-// `at`: where an entity of <arena> is put (m); nothing: in the middle.
+// Returns names and values of a new element. `at`: the position of an entity of <arena> (m); nothing: the middle.
 std::vector<std::pair<std::string, std::string>> ValuesForNew(const std::string& tag,
                                                               const std::vector<ParameterSpec>& required,
                                                               const EditedExperiment& experiment,
                                                               const std::vector<std::size_t>& parent,
                                                               const std::optional<Vector2>& at);
 
-// The text for the entities of the <distribute> at a path, in lines as it stands.
+// Returns the text of the entities of the <distribute> at a path, one element in each line, with its indent.
 std::string EntitiesOneByOne(const EditedExperiment& experiment, const std::vector<std::size_t>& path);
 
 }  // namespace swarmanoid

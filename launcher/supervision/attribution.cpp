@@ -1,3 +1,8 @@
+// When one process fails, the others end soon after it, and the order in which the launcher hears of their ends is
+// random. So each end is weighed by what the process reported in shared memory and how it ended. The supervisor names
+// the process with the strongest evidence. An end because of others is the weakest.
+//
+// Invariant: the result depends only on the reports and the ends, so tests give them as data.
 #include "launcher/supervision/attribution.h"
 
 #include <fmt/format.h>
@@ -5,7 +10,7 @@
 
 #include <fstream>
 
-#include "common/activity/exit_codes.h"
+#include "common/errors/exit_codes.h"
 
 namespace swarmanoid
 {
@@ -53,7 +58,7 @@ Evidence EvidenceOf(const std::optional<ProcessEnd>& ended, const ActivityRecord
   if (ended->signal != 0) return Evidence::kDeath;
   if (ended->exit_code == kExitOthersFailed || ended->exit_code == kExitCutOff) return Evidence::kConsequence;
   if (ended->exit_code != 0) return Evidence::kFailure;
-  // A program of ours says that its work is done.
+  // Our programs report that their work is done before they end.
   return record.taken && record.end == EndReason::kUnknown ? Evidence::kDeath : Evidence::kEarlyEnd;
 }
 
@@ -61,7 +66,7 @@ bool IsStuck(const std::optional<ProcessEnd>& ended) { return ended && ended->ex
 
 bool MayBeReplaced(const ProcessEnd& ended, const ActivityRecord& record, bool elsewhere)
 {
-  constexpr int kKilledThere = 128;  // and more: by a signal, or the connection has failed
+  constexpr int kKilledThere = 128;  // from here on: a signal ended the process there, or the connection failed
   if (ended.exit_code == kExitCutOff) return true;
   switch (record.end)
   {
@@ -70,10 +75,11 @@ bool MayBeReplaced(const ProcessEnd& ended, const ActivityRecord& record, bool e
     case EndReason::kDone:
       return ended.signal != 0;
     case EndReason::kOthers:
-      // Given up by the others while it gave them up: a link that is cut is so for both sides.
+      // A cut link makes both sides give up each other. The process ended because of that, and may be replaced if it
+      // was killed.
       return WasKilled(ended, elsewhere);
     case EndReason::kUnknown:
-      // The programs' own words: the next one would say the same.
+      // The program has reported its mistake, and another process would report the same.
       if (ended.exit_code == kExitUsage || ended.exit_code == kExitInvalidFile) return false;
       return ended.signal != 0 || record.taken ||
              (elsewhere && ended.exit_code >= kKilledThere && ended.exit_code != kExitInterrupted);

@@ -1,6 +1,6 @@
 // Attribution: finds the process of a cluster that failed, as opposed to processes that ended because of it, and makes
-// the line about it. The functions are pure. Their input is the reports of processes and how they ended. Used by the
-// supervisor.
+// the line about it. The functions are pure. Their input is the reports of processes and how they ended. The supervisor
+// uses them.
 #pragma once
 
 #include <chrono>
@@ -16,10 +16,10 @@
 namespace swarmanoid
 {
 
-// The report of a process on its page (ActivityPage).
+// A process has reported this on its page (ActivityPage).
 struct ActivityRecord
 {
-  bool taken = false;  // it has the page
+  bool taken = false;  // the process has taken over the page
   std::uint64_t tick = 0;
   Actor::Kind kind = Actor::kNobody;
   std::uint32_t number = 0;
@@ -35,12 +35,12 @@ ActivityRecord ReadActivity(const ActivityPage* page);
 enum class Evidence
 {
   kDeath,        // it was killed, or reports the failure of users' code
-  kFailure,      // it failed by itself
-  kEarlyEnd,     // it ended without a failure before the run did; that may still come to its end
-  kConsequence,  // it ended since another one did
+  kFailure,      // the process itself failed
+  kEarlyEnd,     // the process ended without a failure before the run did; the run may still end well
+  kConsequence,  // the process ended because another one did
   kNone
 };
-// `ended`: nothing while the process runs; it may have said already that it failed.
+// Returns the evidence of a process. `ended` is empty while the process runs; it may have reported a failure already.
 Evidence EvidenceOf(const std::optional<ProcessEnd>& ended, const ActivityRecord& record);
 
 // Returns true if a process has ended because a dead one holds a lock of their shared memory. Other processes with this
@@ -55,9 +55,9 @@ bool WasKilled(const ProcessEnd& ended, bool elsewhere);
 // Returns true if both died in the same step of the same code. A process that replaces them will die there too.
 bool DiedAlike(const ActivityRecord& a, const ActivityRecord& b);
 
-// A failed process, described in one line: its name, the failure and the tick. `actor_of` names the code that ran in a
-// killed process. `server_tick` is the run's tick, for processes without their own. `killed_for_memory` is the result
-// of KernelKillsForMemory.
+// FailureText describes such a process in one line: its name, the failure and the tick. `actor_of` names the code that
+// ran in a killed process. `server_tick` is the run's tick, for processes without their own. `killed_for_memory` is the
+// result of KernelKillsForMemory.
 struct FailedProcess
 {
   std::string name;
@@ -69,7 +69,7 @@ using ActorNames = std::function<Actor(Actor::Kind kind, std::uint32_t number)>;
 std::string FailureText(const FailedProcess& failed, std::uint64_t server_tick, const ActorNames& actor_of,
                         bool killed_for_memory);
 
-// How many processes the kernel has killed so far for want of memory.
+// Returns the number of processes that the kernel has killed so far for lack of memory.
 std::uint64_t KernelKillsForMemory();
 
 }  // namespace swarmanoid

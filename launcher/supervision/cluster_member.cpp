@@ -5,14 +5,14 @@
 #include <cerrno>
 #include <utility>
 
-#include "common/bus/security/run_key.h"
+#include "common/bus/run_key.h"
 
 namespace swarmanoid
 {
 namespace
 {
 
-// Bytes read without waiting; closes the descriptor at its end.
+// Reads bytes without waiting. Closes the descriptor at its end.
 std::string_view ReadSome(FileDescriptor& descriptor, std::array<char, 4096>& buffer, std::size_t limit)
 {
   if (!descriptor.IsOpen()) return {};
@@ -37,7 +37,7 @@ ClusterMember::ClusterMember(PlannedProcess planned, const ProcessCommand& comma
 bool ClusterMember::Answers(std::string_view line)
 {
   if (!process_.input.IsOpen() || line.find(kKeyPrompt) == std::string_view::npos) return false;
-  // Far less than a pipe takes at once.
+  // The input is far smaller than the buffer of a pipe, so the write is never partial.
   [[maybe_unused]] const ssize_t written = write(process_.input.Get(), input_.data(), input_.size());
   process_.input.Reset();
   return true;

@@ -1,4 +1,4 @@
-// One process of a cluster as the supervisor sees it: its descriptors, its log, how it ended.
+// ClusterMember: one process of a cluster for the supervisor: its descriptors, its log and its end.
 #pragma once
 
 #include <functional>
@@ -40,7 +40,7 @@ public:
   const ProcessLog& Log() const { return log_; }
   bool Alive() const { return !end_; }
   const std::optional<ProcessEnd>& End() const { return end_; }
-  // Nothing more will be read from its standard output.
+  // Returns whether its standard output has ended.
   bool OutputClosed() const { return !process_.output.IsOpen(); }
   // The last line of its standard output has been passed on, too.
   bool OutputTaken() const { return output_taken_; }

@@ -20,8 +20,8 @@ namespace swarmanoid
 namespace
 {
 
-// Up to here the wake-ups across cores cost more than the work that they let run side by side (10 robots: 51 us a tick
-// on one core, 70 us on two).
+// Up to this number, wake-ups across cores cost more than the parallel work saves (10 robots: 51 us a tick on one core,
+// 70 us on two).
 constexpr std::size_t kRobotsForOneCore = 300;
 // The same if the processes work one after the other: their messages stay in the core's cache (300 robots: 1.37 times
 // as fast on one core as on two, 1,000: 1.2, 2,000: 1.15, 4,000: as fast).
@@ -44,7 +44,7 @@ const RoleRow& RowOf(ProcessRole role)
   return kRows[static_cast<std::size_t>(role)];
 }
 
-// Ids may hold anything.
+// Returns the path of a process's log. Ids may hold any characters, so some are replaced.
 std::string LogPath(const ClusterPlan& plan, const PlannedProcess& process)
 {
   std::string name = RowOf(process.role).program;
@@ -61,7 +61,7 @@ void Append(std::vector<std::string>& words, const std::vector<std::string>& mor
 
 BusOptions BusOf(const RunRequest& request)
 {
-  // Deaths on this machine are seen from here, and a stopped process (a debugger's) is not dead.
+  // The launcher sees deaths on this machine, and a process that a debugger has stopped is not dead.
   constexpr double kForEver_s = 3600;
   BusOptions bus;
   bus.domain = request->domain.value_or(bus.domain);
@@ -104,7 +104,7 @@ void RefuseIsolated(const RunSettings& settings, const Experiment& experiment)
 {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kReached{
       {{"web_render", "no browser could reach the page of"},
-       {"foxglove_render", "nobody could open a connection to"},
+       {"foxglove_render", "no program could connect to"},
        {"ros2_render", "no node of ROS 2 could hear"}}};
   for (const RenderConfiguration& render : experiment.visualisations)
     for (const auto& [tag, why] : kReached)
@@ -189,7 +189,7 @@ ClusterPlan MakePlan(const RunRequest& request, const Experiment& experiment)
 bool SharesOneCore(const ClusterPlan& plan)
 {
   if (plan.settings.placement != "auto") return plan.settings.placement == "one-core";
-  // Over a network there is always something to do beside the tick: a tenth more ticks with 10 robots on all cores.
+  // Over a network, work beside the tick always exists: all cores give a tenth more ticks with 10 robots.
   if (!plan.machines.AllHere()) return false;
   const bool in_turn = plan.is_serial && HostCount(plan) == 1;
   return plan.robots <= (in_turn ? kRobotsInTurnForOneCore : kRobotsForOneCore);
@@ -216,7 +216,7 @@ void SetControllerHosts(ClusterPlan& plan, const std::vector<std::string>& machi
 
 std::string NoteAboutControllerHosts(unsigned requested, std::size_t robots, std::size_t cores)
 {
-  constexpr std::size_t kHostsOfACore = 8;  // more only wait for each other, and take minutes to find each other
+  constexpr std::size_t kHostsOfACore = 8;  // more hosts only wait for each other, and take minutes to find each other
   const std::size_t made = std::min<std::size_t>(requested, std::max<std::size_t>(robots, 1));
   if (made < requested)
     return fmt::format("note: --controller-hosts is {}, and {} robot{} a controller: {} controller host{} started",

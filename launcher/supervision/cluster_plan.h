@@ -15,8 +15,8 @@
 #include "common/experiment/experiment.h"
 #include "common/program/process.h"
 #include "common/run/run_settings.h"
-#include "launcher/run_request.h"
 #include "launcher/supervision/machines.h"
+#include "launcher/supervision/run_request.h"
 #include "space_server/worker_placement.h"
 
 namespace swarmanoid
@@ -38,7 +38,7 @@ struct PlannedProcess
   std::string id{};  // in the file of --hosts: "ground", "ground/2", "0"
   std::string machine = kHere;
   std::string log_path{};
-  WorkerSettings worker{};  // of all but the space server
+  WorkerSettings worker{};  // for all but the space server
   bool replaceable = true;  // whether another process may take over after its death
 
   bool IsHere() const { return machine == kHere; }
@@ -69,7 +69,7 @@ bool SharesOneCore(const ClusterPlan& plan);
 // can run. Otherwise it is empty. 0 cores means that some hosts are on other machines.
 std::string NoteAboutControllerHosts(unsigned requested, std::size_t robots, std::size_t cores);
 
-// A controller that took its process with it.
+// The controller of this robot took its process with it at this tick.
 struct ControllerDeath
 {
   std::uint64_t tick = 0;
@@ -82,7 +82,7 @@ struct Incarnation
 {
   unsigned number = 0;
   double taken_s = 0;                   // by the run, if all processes start again
-  std::vector<ControllerDeath> deaths;  // of controllers in the earlier processes
+  std::vector<ControllerDeath> deaths;  // deaths of controllers in the earlier processes
 };
 
 // Values that are known only when the processes start.
@@ -90,7 +90,7 @@ struct ClusterStart
 {
   std::string program_folder;
   std::vector<std::pair<std::string, std::string>> environment;
-  std::vector<int> cores;  // of the processes, if they share one; empty: all
+  std::vector<int> cores;  // cores of the processes, if they share one; empty: all cores
   std::string key;         // a process reads it from its standard input; empty: the run has no key
 };
 

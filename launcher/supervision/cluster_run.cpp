@@ -13,19 +13,19 @@
 #include <map>
 #include <thread>
 
-#include "common/activity/exit_codes.h"
 #include "common/activity/failure_report.h"
-#include "common/activity/print_error.h"
-#include "common/bus/membership/run_directory.h"
+#include "common/bus/run_directory.h"
+#include "common/errors/exit_codes.h"
+#include "common/errors/print_error.h"
 #include "common/experiment/actors.h"
 #include "common/program/program.h"
 #include "common/threads/start_thread.h"
-#include "launcher/installation.h"
-#include "launcher/network_namespace.h"
-#include "launcher/single_run.h"
 #include "launcher/supervision/in_process_server.h"
 #include "launcher/supervision/manifest_at_death.h"
+#include "launcher/supervision/single_run.h"
 #include "launcher/supervision/supervisor.h"
+#include "launcher/system/installation.h"
+#include "launcher/system/network_namespace.h"
 #include "simulation/register_all.h"
 #include "space_server/cluster/server_main.h"
 
@@ -58,7 +58,7 @@ RunResult ResultOf(const ClusterOutcome& outcome)
   return result;
 }
 
-// The space server's program, with a function of the user that looks at each tick.
+// Runs the space server's program in this process, with the user's watch function.
 int ServeHere(std::vector<std::string> words, int status, const std::atomic<bool>& stop,
               const std::atomic<bool>& abandon, const std::optional<RunKey>& key, const WatchFunction& watch)
 {
@@ -83,7 +83,7 @@ int ServeHere(std::vector<std::string> words, int status, const std::atomic<bool
       });
 }
 
-// The thread of the run does not come back.
+// Ends the process while the user's watch function, which never returns, still holds the thread of the run.
 [[noreturn]] void LeaveStuck(const ClusterOutcome& outcome, const std::function<int(const RunResult&)>& conclude)
 {
   RemoveDeadRuns();

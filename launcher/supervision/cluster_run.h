@@ -4,9 +4,9 @@
 #include <functional>
 #include <optional>
 
-#include "common/bus/security/run_key.h"
-#include "launcher/prepared_run.h"
+#include "common/bus/run_key.h"
 #include "launcher/supervision/cluster_plan.h"
+#include "launcher/supervision/prepared_run.h"
 #include "launcher/supervision/signal_descriptor.h"
 
 namespace swarmanoid

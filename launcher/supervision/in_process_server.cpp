@@ -9,7 +9,8 @@ namespace swarmanoid
 namespace
 {
 
-// The supervisor repeats SIGKILL every 200 ms. A function of the user that never returns keeps the thread of the run.
+// The supervisor repeats SIGKILL every 200 ms. If the server still runs after these, a user's function holds the thread
+// of the run for ever.
 constexpr int kMostKills = 15;
 
 }  // namespace
@@ -73,7 +74,7 @@ void InProcessServer::Run(const Work& work)
   }
   const int code = work(command_->arguments, status_.Get(), stop_, abandon_);
   std::unique_lock lock(mutex_);
-  while (stuck_) changed_.wait(lock);  // the process ends
+  while (stuck_) changed_.wait(lock);  // the process ends meanwhile
   exit_code_ = code;
   status_.Reset();
   end_.Reset();

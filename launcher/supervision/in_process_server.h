@@ -13,7 +13,7 @@
 namespace swarmanoid
 {
 
-// The first process that is started is the server; all others are real.
+// The first process that is started is the server in this process. All others are real processes.
 class InProcessServer : public ProcessSpawner
 {
 public:
@@ -25,9 +25,9 @@ public:
   // end the run after its tick, and at once. It returns the exit code.
   using Work = std::function<int(const std::vector<std::string>& arguments, int status, const std::atomic<bool>& stop,
                                  const std::atomic<bool>& abandon)>;
-  // Waits until the server is started, does its work, and returns when it has ended, or will not be started.
+  // Waits until the server is started, does its work, and returns when it has ended. Returns at once after Cancel.
   void Run(const Work& work);
-  // No server will be started any more.
+  // States that no server will be started any more.
   void Cancel();
   // Returns true if the server was killed but goes on, because users' code does not return. The supervisor treats it as
   // dead.
@@ -42,7 +42,7 @@ private:
   std::optional<ProcessCommand> command_;
   bool cancelled_ = false;
   FileDescriptor status_;
-  FileDescriptor end_;  // the supervisor sees it close
+  FileDescriptor end_;  // closed at the end, which the supervisor notices
   int exit_code_ = 0;
   std::atomic<bool> stop_ = false;
   std::atomic<bool> abandon_ = false;

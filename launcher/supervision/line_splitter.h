@@ -1,4 +1,4 @@
-// Cuts the bytes that a process writes into lines.
+// LineSplitter: cuts the bytes that a process writes into lines.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ public:
     if (rest_.size() > kLongestLine) Give(take);
   }
 
-  // A last line without an end.
+  // Takes a last line without an end.
   template <class Take>
   void Finish(Take&& take)
   {

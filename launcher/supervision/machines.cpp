@@ -34,7 +34,7 @@ bool Holds(const std::vector<std::string>& words, const std::string& word)
 
 bool IsHere(const std::string& machine) { return machine.empty() || machine == "localhost" || machine == kHere; }
 
-// The name becomes a word of a command, which must not take it for an option. Throws UsageError.
+// Checks a name that becomes a word of a command. It must not look like an option. Throws UsageError.
 void RequireMachineName(const std::string& machine, const std::string& at)
 {
   constexpr std::string_view kSigns = "._-:@%[]/+";
@@ -161,7 +161,7 @@ std::vector<std::string> Machines::WorkerCommand(const std::string& machine, std
   if (IsHere(machine)) return words;
   if (!swarmanoid_.empty()) words[0] = swarmanoid_;
   std::vector<std::string> command = Reached(words, machine);
-  // Bytes do not pass a terminal as they are.
+  // A terminal would change the bytes, so ssh must use none.
   for (std::string& word : command)
     if (word == "-t" || word == "-tt") word = "-T";
   return command;
@@ -207,7 +207,7 @@ ProcessCommand Machines::CommandOn(const ProcessCommand& command, const std::str
   if (IsHere(machine)) return command;
   std::vector<std::string> words{"env"};
   for (const auto& [name, value] : command.environment) words.push_back(name + "=" + value);
-  // Processes of this machine inherit it.
+  // Processes on this machine inherit the trust by the environment.
   if (ExperimentsAreTrusted()) words.push_back(std::string(kTrustVariable) + "=1");
   const std::size_t first = words.size();
   words.insert(words.end(), command.arguments.begin(), command.arguments.end());

@@ -18,19 +18,19 @@ namespace swarmanoid
 
 struct ManifestAtDeath::Prepared
 {
-  std::string text;  // without its end
+  std::string text;  // the JSON text without its end
   std::string path;
   std::string draft;
-  std::chrono::seconds offset;  // of the local time
+  std::chrono::seconds offset;  // offset of the local time
 };
 
 namespace
 {
 
-// Everything from here to WriteAtDeath is called in signal handlers: no allocation, no locks.
+// All functions from here to WriteAtDeath run in signal handlers: no allocation, no locks.
 std::atomic<const ManifestAtDeath::Prepared*> current = nullptr;
 
-// A piece of JSON, of bounded length.
+// It holds a piece of JSON with bounded length.
 class JsonPiece
 {
 public:
@@ -74,7 +74,7 @@ public:
   std::string_view Text() const { return {text_.data(), length_}; }
 
 private:
-  std::array<char, 4096> text_;  // a line of a report, each of its characters escaped, and the rest
+  std::array<char, 4096> text_;  // holds a line of a report with each character escaped, and the rest
   std::size_t length_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // ManifestAtDeath: completes the manifest of a run if users' code or the user kills the process, so that the usual end
-// is not reached. Used by runs in this process, and by users' programs that are the space server of a cluster.
+// is not reached. Runs in this process use it, and so do users' programs that are the space server of a cluster.
 #pragma once
 
 #include <memory>
@@ -9,17 +9,17 @@
 namespace swarmanoid
 {
 
-// While an object lives; one at a time.
+// It is active while the object lives. Only one object may exist at a time.
 class ManifestAtDeath
 {
 public:
-  // The manifest as it is now; end, exit code and failure are added.
+  // Takes the manifest as it is now; end, exit code and failure are added at the death.
   ManifestAtDeath(const RunFolder& folder, const Manifest& manifest);
   ~ManifestAtDeath();
   ManifestAtDeath(const ManifestAtDeath&) = delete;
   ManifestAtDeath& operator=(const ManifestAtDeath&) = delete;
 
-  // The data of the signal handler, made in advance.
+  // The signal handler needs this data, which is made in advance.
   struct Prepared;
 
 private:

@@ -14,7 +14,7 @@ namespace swarmanoid
 namespace
 {
 
-// Escape sequences of terminals (ECMA-48, 5.4): the introducer, parameters, and a final byte.
+// Removes the escape sequences of terminals (ECMA-48, 5.4). Each has the introducer, parameters, and a final byte.
 std::string WithoutEscapes(std::string line)
 {
   for (std::size_t start = line.find('\x1b'); start != std::string::npos; start = line.find('\x1b', start))

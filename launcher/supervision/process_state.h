@@ -1,4 +1,4 @@
-// The state of a process, from proc(5).
+// Reads the state of a process from proc(5).
 #pragma once
 
 #include <sys/types.h>

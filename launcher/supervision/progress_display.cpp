@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cmath>
+#include <utility>
 
 #include "common/configuration/shown_text.h"
 #include "common/program/standard_output.h"
@@ -77,15 +78,19 @@ std::string ProgressDisplay::Text(const RunProgress& progress) const
   std::string text = progress.phase;
   if (!progress.waiting_for.empty())
     text = fmt::format("waiting for {} ({})", progress.waiting_for, DurationText(progress.waited_s));
+  const double percent =
+      progress.max > 0 ? std::floor(100 * static_cast<double>(progress.tick) / static_cast<double>(progress.max)) : 0;
+  const std::string left =
+      progress.max > progress.tick && ticks_per_s_ > 0
+          ? fmt::format(", {} left", DurationText(static_cast<double>(progress.max - progress.tick) / ticks_per_s_))
+          : "";
+  if (!progress.is_run) return fmt::format("{}: {:.0f} %{}", progress.phase, percent, left);
   if (progress.tick > 0 || progress.max > 0)
   {
     text += fmt::format(": tick {}", progress.tick);
-    if (progress.max > 0)
-      text += fmt::format(" of {} ({:.0f} %)", progress.max,
-                          std::floor(100 * static_cast<double>(progress.tick) / static_cast<double>(progress.max)));
+    if (progress.max > 0) text += fmt::format(" of {} ({:.0f} %)", progress.max, percent);
     text += fmt::format(", {:.1f}x real time", progress.real_time_factor);
-    if (progress.max > progress.tick && ticks_per_s_ > 0 && progress.phase == "running" && progress.waiting_for.empty())
-      text += fmt::format(", {} left", DurationText(static_cast<double>(progress.max - progress.tick) / ticks_per_s_));
+    if (progress.phase == "running" && progress.waiting_for.empty()) text += left;
   }
   if (progress.processes > 0) text += fmt::format(", {} processes", progress.processes);
   return text;
@@ -99,6 +104,25 @@ void ProgressDisplay::Write(std::string_view text) const
     if (written < 0 && errno != EINTR) return;
     if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
   }
+}
+
+WorkProgress::WorkProgress(std::string work, std::uint64_t all)
+    : display_(isatty(STDERR_FILENO) == 0 ? ProgressDisplay::Style::kQuiet : ProgressDisplay::Style::kTerminal,
+               STDERR_FILENO),
+      next_(ProgressDisplay::Clock::now())
+{
+  progress_.phase = std::move(work);
+  progress_.max = all;
+  progress_.is_run = false;
+}
+
+void WorkProgress::At(std::uint64_t step)
+{
+  const auto now = ProgressDisplay::Clock::now();
+  if (now < next_) return;
+  next_ = now + std::chrono::milliseconds(200);
+  progress_.tick = step;
+  display_.Show(progress_, now);
 }
 
 }  // namespace swarmanoid

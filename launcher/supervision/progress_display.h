@@ -1,5 +1,5 @@
-// Shows how a run goes on: one status line that is rewritten in place on a terminal, a plain line now and then
-// elsewhere. Used by the launcher's main thread.
+// ProgressDisplay: shows the progress of a run. On a terminal it rewrites one status line; elsewhere it prints a plain
+// line from time to time. The launcher's main thread uses it.
 #pragma once
 
 #include <chrono>
@@ -21,6 +21,7 @@ struct RunProgress
   int processes = 0;        // alive; 0: not shown
   std::string waiting_for;  // the process that the run waits for; may be empty
   double waited_s = 0;
+  bool is_run = true;  // false: work of another kind, whose steps are counted instead of ticks
 };
 
 class ProgressDisplay
@@ -44,9 +45,9 @@ public:
   static Style StyleFor(int descriptor, bool quiet);
 
   void Show(const RunProgress& progress, Clock::time_point now);
-  // Takes the status line away, so that other text can be written.
+  // Removes the status line, so that other text can be written.
   void Clear();
-  // One line of its own, shown whatever the style.
+  // Prints a line of its own in every style.
   void Note(std::string_view line);
 
   std::chrono::milliseconds plain_period{5000};
@@ -62,13 +63,30 @@ private:
   std::string last_phase_;
   std::optional<Clock::time_point> last_plain_;
 
-  // The pace of the run, for the time that is left.
+  // The pace of the run, for an estimate of the remaining time.
   std::optional<Clock::time_point> mark_;
   std::uint64_t mark_tick_ = 0;
   double ticks_per_s_ = 0;
 };
 
-// "850 ms", "12 s", "3 min 20 s", "2 h 5 min".
+// The progress of long work that is no run, such as reading a journal: its share and the time that is left. It is shown
+// on a terminal only, since a pipe gets the result.
+class WorkProgress
+{
+public:
+  // `work`: "reading the journal". `all`: its steps.
+  WorkProgress(std::string work, std::uint64_t all);
+  void At(std::uint64_t step);
+  // Takes the line away; so does the destructor.
+  void Clear() { display_.Clear(); }
+
+private:
+  RunProgress progress_;
+  ProgressDisplay display_;
+  ProgressDisplay::Clock::time_point next_;
+};
+
+// Returns a text such as "850 ms", "12 s", "3 min 20 s" or "2 h 5 min".
 std::string DurationText(double seconds);
 
 }  // namespace swarmanoid

@@ -12,7 +12,7 @@
 #include <utility>
 #include <variant>
 
-#include "common/activity/exit_codes.h"
+#include "common/errors/exit_codes.h"
 #include "launcher/supervision/process_state.h"
 
 namespace swarmanoid
@@ -211,8 +211,7 @@ void Supervisor::WriteScreen(const ClusterMember& member, std::string_view line)
     if (written > 0) rest.remove_prefix(static_cast<std::size_t>(written));
     if (written >= 0 || errno == EINTR) continue;
     screen_gone_ = true;
-    if (phase_ == Phase::kRunning)
-      StopAtTick("nobody reads standard output any more: stopping at the end of this tick");
+    if (phase_ == Phase::kRunning) StopAtTick("standard output is closed: stopping at the end of this tick");
     return;
   }
 }
@@ -220,7 +219,7 @@ void Supervisor::WriteScreen(const ClusterMember& member, std::string_view line)
 void Supervisor::ShowProgress()
 {
   const Clock::time_point now = now_();
-  // A paced run may be silent for long: then the space server sleeps.
+  // A paced run may be silent for long, because the space server sleeps.
   const bool silent =
       progress_.phase == "running" && now - heard_ >= times_.stall && !IsAsleep(members_.front()->Process().pid);
   RunProgress shown = progress_;
@@ -377,7 +376,9 @@ bool Supervisor::Replace(const ClusterMember& member)
   if (!goes_on || !server_works || !member.Planned().replaceable || left_.contains(name)) return false;
   const auto move = moves_.extract(name);
   const bool strayed = move.empty() && IsOnItsWay(member);
-  const bool may_be = MayBeReplaced(*member.End(), member.Record(), !member.Planned().IsHere());
+  // The server has not heard its good-bye and waits for it.
+  const bool was_unheard = lost_.erase(name) > 0 && member.End()->signal == 0 && member.End()->exit_code == kExitDone;
+  const bool may_be = was_unheard || MayBeReplaced(*member.End(), member.Record(), !member.Planned().IsHere());
   if (IsStuck(member.End()) || (move.empty() && !strayed && !may_be)) return false;
 
   Incarnation next{.number = member.GetIncarnation().number + 1, .deaths = member.GetIncarnation().deaths};
@@ -460,7 +461,14 @@ void Supervisor::Take(const ServerMove& move)
 void Supervisor::Take(const ServerLost& lost)
 {
   for (const auto& member : members_)
-    if (member->Name() == lost.name && member->Alive()) spawner_.Signal(member->Process(), SIGKILL);
+  {
+    if (member->Name() != lost.text) continue;
+    lost_.insert(lost.text);
+    if (member->Alive()) return spawner_.Signal(member->Process(), SIGKILL);
+    std::erase(ended_, member.get());
+    if (!Replace(*member)) TakeEnd(*member);
+    return;
+  }
 }
 
 // No lease runs for a process that was stopped before others met it.
@@ -500,7 +508,7 @@ bool Supervisor::Restart(const ClusterMember& first, Evidence evidence)
 // Ends all processes, to start them again with one controller host on each of the machines.
 void Supervisor::Take(const ServerHosts& hosts)
 {
-  std::istringstream words(hosts.machines);
+  std::istringstream words(hosts.text);
   const std::vector<std::string> machines{std::istream_iterator<std::string>(words), {}};
   if (phase_ != Phase::kRunning || !members_.front()->Planned().replaceable) return;
   const auto before = std::ranges::count(plan_.processes, ProcessRole::kControllerHost, &PlannedProcess::role);
@@ -510,7 +518,7 @@ void Supervisor::Take(const ServerHosts& hosts)
         std::ranges::find(outcome_.processes, entry) == outcome_.processes.end())
       outcome_.processes.push_back(entry);
   display_.Note(fmt::format("{}{} controller host{} from now on; all processes start again where the journal ends",
-                            std::cmp_equal(machines.size(), before) ? "the robots are shared out anew among " : "",
+                            std::cmp_equal(machines.size(), before) ? "the robots are assigned again to " : "",
                             machines.size(), machines.size() == 1 ? "" : "s"));
   KillToStartAgain();
 }
@@ -540,6 +548,7 @@ bool Supervisor::MustStartAgain()
 void Supervisor::StartAgain()
 {
   left_.clear();
+  lost_.clear();
   server_error_.clear();
   attribute_at_.reset();
   phase_ = Phase::kRunning;

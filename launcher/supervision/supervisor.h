@@ -1,7 +1,7 @@
 // Supervisor: starts the processes of a plan, watches them until the last one has ended, and says how it went. A
 // process that dies is replaced. If that does not help, as for the space server, all processes are replaced. If a
-// process fails, or dies again and again, all are stopped. The supervisor owns the processes and the plan. One thread,
-// which it blocks.
+// process fails, or dies again and again, all are stopped. The supervisor owns the processes and the plan. It runs in
+// one thread, which it blocks.
 //
 // Each turn of its loop waits for an event, reads all outputs, collects the processes that ended, and then looks at
 // signals and times. `Phase` says what the run is at; every change of the phase is one of these:
@@ -48,10 +48,10 @@ struct ClusterOutcome
     kInvalid        // a process found the experiment itself wrong
   };
   Kind kind = kFailed;
-  std::optional<ServerFinished> finished;  // if the space server came to its end
+  std::optional<ServerFinished> finished;  // set if the space server came to its end
   std::optional<ServerReset> reset;        // the run begins again on request
-  std::string reason;                      // of a failure: one line that names the process, the tick and the log
-  std::vector<std::string> log_lines;      // the last ones of that process
+  std::string reason;                      // for a failure: one line that names the process, the tick and the log
+  std::vector<std::string> log_lines;      // the last log lines of that process
   std::vector<std::pair<std::string, std::string>> processes;  // names and logs of all that were planned
 };
 
@@ -68,16 +68,18 @@ struct SupervisedRun
 // Times that users notice; tests shorten them.
 struct SupervisorTimes
 {
-  std::chrono::milliseconds refresh{200};      // between two looks at the progress
-  std::chrono::milliseconds stall{2000};       // silence of the space server that is worth a word
+  std::chrono::milliseconds refresh{200};      // between two updates of the progress
+  std::chrono::milliseconds stall{2000};       // silence of the space server that is reported
   std::chrono::milliseconds terminate{400};    // between SIGTERM and SIGKILL after a failure
-  std::chrono::milliseconds early_end{10000};  // between a process's good end and the server's word that it left
-  std::chrono::milliseconds settle{200};       // between a failure and its attribution: a cause may be told late
-  std::chrono::milliseconds others{3000};      // between the end of one that ended for another, and that one's
-  std::chrono::milliseconds finish{10000};     // for processes to end after the last tick
+  std::chrono::milliseconds early_end{10000};  // between a process's good end and the server's report of its Leave
+  std::chrono::milliseconds settle{200};  // between a failure and its attribution, since the cause may be reported late
+  // After a process ended because of another one, the end of that other one is awaited for this time.
+  std::chrono::milliseconds others{3000};
+  std::chrono::milliseconds finish{30000};  // for processes to end after the last tick; a busy disk delays the journal
   std::chrono::milliseconds finish_visualiser{60000};  // visualisers may have films to finish
   std::chrono::milliseconds forced_stop{5000};         // after SIGTERM or SIGHUP to the launcher
-  std::chrono::milliseconds stopped{0};  // that a worker may be stopped by a signal before it is replaced; 0: any
+  // How long a worker may be stopped by a signal before it is replaced; 0: no limit.
+  std::chrono::milliseconds stopped{0};
 };
 
 class Supervisor
@@ -119,7 +121,7 @@ private:
     std::uint64_t lines = 0;
   };
 
-  // Starting and reading.
+  // These functions start processes and read what they report.
   void Start();
   std::unique_ptr<ClusterMember> StartProcess(std::size_t process, Incarnation incarnation);
   void WaitForEvents();
@@ -135,7 +137,7 @@ private:
   void Take(const ServerAsked& asked) { display_.Note(asked.text); }
   void Take(const ServerWarning& warning);
   void Take(const ServerError& error) { server_error_ = error.text; }
-  void Take(const ServerLeft& left) { left_.insert(left.name); }
+  void Take(const ServerLeft& left) { left_.insert(left.text); }
   void Take(const ServerLost& lost);
   void Take(const ServerMove& move);
   void Take(const ServerHosts& hosts);
@@ -153,8 +155,8 @@ private:
   void Attribute();
   std::string TextOf(const ClusterMember& failed) const;
 
-  // Replacing one process.
-  bool Replace(const ClusterMember& member);  // false if that is no use
+  // These functions replace one process.
+  bool Replace(const ClusterMember& member);  // returns false if that does not help
   // Counts the death of a process. Returns false if the limit is exceeded, or the cause is the same as before.
   bool CountDeath(const ClusterMember& member);
   // A controller that died with the process, that may fail, and that has not died there before.
@@ -163,8 +165,8 @@ private:
   bool IsOnItsWay(const ClusterMember& member) const;
   void KillStopped();
 
-  // Replacing all processes.
-  bool Restart(const ClusterMember& first, Evidence evidence);  // false if that is no use
+  // These functions replace all processes.
+  bool Restart(const ClusterMember& first, Evidence evidence);  // returns false if that does not help
   void KillToStartAgain();
   bool MustStartAgain();
   void StartAgain();
@@ -178,7 +180,7 @@ private:
   void KillAll();
   void SignalAll(int signal);
 
-  // Constant after construction.
+  // These members stay as they are after construction.
   ProcessSpawner& spawner_;
   SignalDescriptor& interrupts_;
   ProgressDisplay& display_;
@@ -189,7 +191,7 @@ private:
 
   Phase phase_ = Phase::kRunning;
   ClusterOutcome outcome_;
-  std::optional<Clock::time_point> deadline_;  // of the phase
+  std::optional<Clock::time_point> deadline_;  // deadline of the phase
 
   ClusterPlan plan_;
   std::vector<std::unique_ptr<ClusterMember>> members_;  // in the order of the plan, but while all start again
@@ -200,21 +202,22 @@ private:
   Clock::time_point heard_{};               // when it last said anything
   std::string server_error_;
   std::set<std::string> left_;  // workers that may end
+  std::set<std::string> lost_;  // workers that the server does not hear any more
 
   std::map<std::string, Deaths> deaths_;
   std::map<std::string, std::string> moves_;  // machines of workers that were killed to move them there
   // The former machines of workers that were moved while the run was at the tick.
   std::map<std::string, std::pair<std::string, std::uint64_t>> came_from_;
-  std::map<pid_t, Clock::time_point> stopped_;  // since when
-  std::vector<const ClusterMember*> ended_;     // too early or badly, in the order in which that was noticed
+  std::map<pid_t, Clock::time_point> stopped_;  // by process: since when it is stopped
+  std::vector<const ClusterMember*> ended_;     // processes that ended too early or badly, in the order of discovery
   std::optional<Clock::time_point> attribute_at_;
-  std::uint64_t kills_for_memory_;  // by the kernel, before the run
+  std::uint64_t kills_for_memory_;  // number of kills by the kernel before the run
 
   RunProgress progress_;
   Clock::time_point shown_{};
   std::string shown_phase_;
   std::map<std::string, Screen> screens_;
-  bool screen_full_ = false;  // it takes no more for now: visualisers wait
+  bool screen_full_ = false;  // the screen takes no more bytes now, so visualisers wait
   bool screen_gone_ = false;
 };
 

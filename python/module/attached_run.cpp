@@ -1,3 +1,10 @@
+// A Python program looks on at a run that another process started. A thread follows the run over the bus and keeps the
+// latest state; calls of Python wait for a state with Python's lock released, and look for signals every 50 ms so that
+// Ctrl+C works.
+//
+// `mutex_` guards the state that the thread writes and Python reads. `asking_` guards the client of control orders,
+// which exists only while the thread follows; it is taken before `mutex_` if both are needed. A state is applied to the
+// replica of the space when it is read, not when it arrives, because most states are never looked at.
 #include "python/module/attached_run.h"
 
 #include <fmt/format.h>
@@ -13,8 +20,8 @@
 #include "common/program/usage_error.h"
 #include "common/space/space.h"
 #include "common/threads/start_thread.h"
-#include "launcher/control_words.h"
-#include "launcher/network_namespace.h"
+#include "launcher/command/control_words.h"
+#include "launcher/system/network_namespace.h"
 #include "simulation/register_all.h"
 
 namespace py = pybind11;
@@ -304,10 +311,10 @@ ControlReplyMessage AttachedRun::Control(const std::vector<std::string>& words,
       ThrowFailure();
     }
     if (!bus_->MaySpeakTo(choice_.experiment))
-      throw UsageError(fmt::format(
-          "no run of experiment {} in domain {} on this machine is of user {}, and no key of it is given; whoever "
-          "started it can steer it, or give you its key (docs/security.md)",
-          Quoted(choice_.experiment), choice_.domain, UserName()));
+      throw UsageError(
+          fmt::format("no run of experiment {} in domain {} on this machine is of user {}, and no key of it is given; "
+                      "the user who started it can steer it, or give you its key (docs/security.md)",
+                      Quoted(choice_.experiment), choice_.domain, UserName()));
     reply = client_->Ask(order, PatienceFor(order, kPatience_s), [this] { return stop_ || SignalCame(); });
     status = client_->LatestStatus();
     dropped = bus_->Dropped();

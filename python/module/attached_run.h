@@ -24,7 +24,7 @@
 #include "common/bus/membership/control_client.h"
 #include "common/bus/membership/worker_session.h"
 #include "common/bus/membership/worker_world.h"
-#include "launcher/run_choice.h"
+#include "launcher/command/run_choice.h"
 #include "visualiser/cluster/remote_monitor.h"
 
 namespace swarmanoid::python
@@ -37,7 +37,7 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-// Nothing came in time: TimeoutError of Python.
+// Nothing came in time; Python sees a TimeoutError.
 class TimeOver : public std::runtime_error
 {
 public:
@@ -85,7 +85,7 @@ public:
   // Returns the inside of a robot, which the run sends from the first call on. Throws TimeOver.
   RobotStatus Robot(std::uint32_t entity, double timeout_s);
 
-  // Whether there is nothing to come any more, and why if it is a failure.
+  // Returns whether no more states will come. Failure says why if the run has failed.
   bool IsOver();
   std::string Failure();
   // Leaves the run, which goes on. Idempotent.
@@ -95,7 +95,7 @@ private:
   using Clock = std::chrono::steady_clock;
 
   void FindRun(AttachedRunOptions& options);
-  // The life of the thread.
+  // This is the life of the thread.
   void Run(const AttachedRunOptions& options);
   void Follow(WorkerSession& session, double views);
   void Work(WorkerSession& session, RemoteMonitor& monitor);

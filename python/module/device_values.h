@@ -27,8 +27,8 @@ public:
   // Returns the names of its columns; empty: it has none.
   const std::vector<std::string>& Columns() const { return columns_; }
   const std::vector<std::string>& Rows() const { return rows_; }
-  // The readings in place of `values`: a number for each column, or row after row. Throws std::runtime_error if the
-  // sensor gives another number of them than it states.
+  // Replaces `values` by the readings: a number for each column, or row after row. Throws std::runtime_error if the
+  // sensor gives another number of values than it states.
   void ReadColumns(std::vector<double>& values) const;
   void ReadRows(std::vector<double>& values) const;
   // Returns the ids of the entities that the rows are about, or nothing if the sensor does not have them.

@@ -1,3 +1,8 @@
+// Programs in Python steer many robots faster by arrays than by a call for each robot. So the controllers of one
+// <external_controller> share an array for each device, with a row for each robot: Read() fills the arrays of sensors
+// before the program runs, and ControlStep() copies the robot's row to its actuators. A controller joins its group in
+// Init, in the order of the space, and its row never changes. A column that is not finite is refused before the
+// actuator sees it.
 #include "python/module/external_robots.h"
 
 #include <algorithm>

@@ -13,10 +13,10 @@
 #include "common/version/version.h"
 #include "python/module/attached_run.h"
 #include "python/module/python_controller.h"
-#include "python/module/simulation.h"
+#include "python/module/python_simulation.h"
 #include "python/module/space_rows.h"
 #include "space_server/experiment_functions.h"
-#include "studies/study_store.h"
+#include "studies/tables/study_store.h"
 
 namespace py = pybind11;
 using namespace py::literals;
@@ -190,9 +190,12 @@ void DefineSimulation(py::module_& module)
       .def("slot", [](const Simulation& self, std::size_t index, const std::string& name)
            { return SlotOf(self.Space(), index, name); })
       .def("presence_slot", [](const Simulation& self, std::size_t index) { return self.Space().PresenceSlot(index); })
-      .def("move", [](Simulation& self, const std::string& id, const std::array<double, 3>& position,
-                      const std::array<double, 3>& orientation)
-           { self.Editor().MoveEntity(id, PoseOf(position, orientation)); })
+      .def("move",
+           [](Simulation& self, const std::string& id, const std::array<double, 3>& position,
+              const std::array<double, 3>& orientation, bool overlap) {
+             self.Editor().MoveEntity(id, PoseOf(position, orientation),
+                                      overlap ? EOccupied::kOverlap : EOccupied::kRefuse);
+           })
       .def("add", [](Simulation& self, const std::string& id, const std::array<double, 3>& position,
                      const std::array<double, 3>& orientation)
            { return self.Editor().AddEntity(id, PoseOf(position, orientation)); })

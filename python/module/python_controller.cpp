@@ -1,3 +1,7 @@
+// A controller in Python is one object of the user's class for each robot. The thread that steps the simulation does
+// not hold Python's lock; every call here takes it for its duration, and the objects are destroyed under it as well.
+// The state of a controller is what get_state() returns, as a pickle; without it a run with this controller cannot be
+// saved.
 #include "python/module/python_controller.h"
 
 #include <pybind11/numpy.h>

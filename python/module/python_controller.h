@@ -19,8 +19,8 @@ public:
   explicit PythonRobot(CCI_Robot& robot);
 
   const CCI_Robot& Robot() const { return robot_; }
-  // One number a column (1-D), or one row a reading (2-D) for a sensor without columns. Throws KeyError with the types
-  // that there are.
+  // Returns one number for each column (1-D), or one row for each reading (2-D) for a sensor without columns. Throws
+  // KeyError with the types that exist.
   pybind11::object Read(const std::string& type) const;
   // The same of a sensor that has both. Throws KeyError for a sensor without rows.
   pybind11::object Rows(const std::string& type) const;

@@ -18,8 +18,8 @@ namespace swarmanoid::python
 // Return the ids and kinds of all entities, in the order of the space.
 std::vector<std::string> IdsOf(const CSwarmanoidSpace& space);
 std::vector<std::string> KindsOf(const CSwarmanoidSpace& space);
-// Slot of its first element and number of elements. Throws pybind11::index_error and, with the names that there are,
-// key_error.
+// Returns the slot of the attribute's first element, and the number of elements. Throws pybind11::index_error, or
+// key_error with the names that exist.
 pybind11::tuple SlotOf(const CSwarmanoidSpace& space, std::size_t index, const std::string& attribute);
 
 }  // namespace swarmanoid::python

@@ -14,6 +14,7 @@ Lengths are metres, angles radians, orientations that are given as three angles 
 """
 
 import os as _os
+import pathlib as _pathlib
 import sys as _sys
 
 # The libraries of the simulator find their mathematical functions among themselves, not in the libm of Python: results
@@ -33,13 +34,19 @@ from .simulation import Simulation, Summary, controller  # noqa: E402
 
 __version__ = _module.__version__
 __all__ = ["ActivityError", "AttachedRun", "ConfigurationError", "Environment", "Robot", "Robots", "Run", "RunError", "Simulation",
-           "State", "Study", "Summary", "attach", "controller", "ParallelEnvironment"]
+           "State", "Study", "Summary", "attach", "controller", "samples", "ParallelEnvironment"]
+
+
+def samples():
+    """The folder of the sample experiments: of the installation, or of the source tree."""
+    source = _pathlib.Path(__file__).resolve().parents[2] / "configs"
+    return source if source.is_dir() else _pathlib.Path(__file__).parents[4] / "share/swarmanoid/configs"
 
 
 def __getattr__(name):
     # Loads PettingZoo and Gymnasium where they are installed, which takes its time.
     if name == "ParallelEnvironment":
-        from .parallel import ParallelEnvironment
+        from .pettingzoo_environment import ParallelEnvironment
 
         return ParallelEnvironment
     raise AttributeError(f"module 'swarmanoid' has no attribute '{name}'")

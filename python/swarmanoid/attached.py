@@ -74,7 +74,7 @@ class AttachedRun(Entities):
 
     `state()` is the newest state that has come, `wait()` the next one, and a loop over the run all that differ. A state is a
     copy. Requests are those of `swarmanoid control`: they return an Answer once they took effect, raise ValueError for
-    what is refused, and RunError if nobody answers. When the run has ended, `wait` returns None, loops end, and requests
+    what is refused, and RunError without an answer. When the run has ended, `wait` returns None, loops end, and requests
     raise RunError; so does `wait` if the run failed.
     """
 
@@ -221,7 +221,7 @@ def attach(experiment="", *, domain=None, key="", interface="", peers=(), discov
     """Joins a run as a cluster that goes on, as `swarmanoid attach` does; returns an AttachedRun.
 
     experiment: its name; not needed if one runs on this machine. domain, key, interface, peers, discovery_server, insecure:
-    as the options of that command, for runs of other machines; a share is taken from SWARMANOID_SHARE. hz: states a second
+    as the options of that command, for runs of other machines; an access grant is taken from SWARMANOID_SHARE. hz: states a second
     at most, up to 30. wait: s for a run to begin. timeout: s for it to be heard.
 
     Raises ValueError if there is no such run or no way to it, TimeoutError if it is not heard, RunError if it just ended.

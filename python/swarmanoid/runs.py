@@ -62,16 +62,16 @@ class Run:
         self.manifest = json.loads((self.folder / "manifest.json").read_text())
 
     def events(self):
-        """Who asked what and when: a pandas.DataFrame, or without pandas a dict of arrays by column. None if nobody asked for anything."""
+        """The requests of users, with their origin and time: a pandas.DataFrame, or without pandas a dict of arrays by column. None without requests."""
         return self.table("events.csv") if (self.folder / "events.csv").exists() else None
 
     def table(self, name, delimiter=","):
-        """A table that a visualisation or experiment functions wrote, with a header line; likewise."""
+        """A table that a visualisation or experiment functions wrote, with a header line, as a data frame or dict."""
         with (self.folder / name).open(newline="") as file:
             return _table(file, delimiter)
 
     def journal(self, columns=("x", "y", "z"), entities="*", every=1, first=None, last=None):
-        """What the journal of a run as a cluster has; likewise. A row for each tick and entity in the arena.
+        """What the journal of a run as a cluster has, as a data frame or dict: a row for each tick and entity in the arena.
 
         columns: x, y, z in m, alpha, beta, gamma in degrees, qx … qw, attributes as "led", their elements as "led[3]".
         entities: ids, with * and ?. every, first, last: which ticks. Raises ValueError with what `swarmanoid export` says.
@@ -122,7 +122,7 @@ class Study:
         return self._frame("SELECT * FROM results ORDER BY point, seed, tick")
 
     def runs(self):
-        """All runs with state, attempts, exit code, hash, wall time (s), most memory (bytes), host and factors; likewise."""
+        """All runs with state, attempts, exit code, hash, wall time (s), most memory (bytes), host and factors, as a data frame or dict."""
         return self._frame("SELECT * FROM runs ORDER BY point, seed")
 
     def ways(self, point, seed):

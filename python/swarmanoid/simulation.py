@@ -38,7 +38,7 @@ def controller(label):
 
     The class has `control_step(self, robot)`, called every tick, and may have `init(self, robot, parameters)`
     (<parameters> as a dict of texts), `destroy(self, robot)`, `status(self)` (shown beside the robot), and
-    `get_state(self)` with `set_state(self, state)` for checkpoints. A class that is defined anew replaces the first one.
+    `get_state(self)` with `set_state(self, state)` for checkpoints. A class that is defined again replaces the first one.
     """
 
     def register(type_):
@@ -124,7 +124,7 @@ class Simulation(Entities):
 
     @property
     def x(self):
-        """Positions along x, m, (entities,): a view that follows the simulation. Likewise y, z, qx, qy, qz, qw."""
+        """Positions along x, m, (entities,): a view that follows the simulation. The same holds for y, z, qx, qy, qz, qw."""
         return self._simulation.x
 
     @property
@@ -158,9 +158,10 @@ class Simulation(Entities):
 
     # ---- changes between two steps: part of the experiment ----
 
-    def move(self, entity, position, orientation=(0, 0, 0)):
-        """Puts a movable entity elsewhere. position: m. orientation: degrees about x, y and z."""
-        self._simulation.move(entity, position, orientation)
+    def move(self, entity, position, orientation=(0, 0, 0), overlap=False):
+        """Puts a movable entity elsewhere. position: m. orientation: degrees about x, y and z. overlap: accept a position where
+        another body stands; the engine pushes the two apart."""
+        self._simulation.move(entity, position, orientation, overlap)
 
     def add(self, entity, position, orientation=(0, 0, 0)):
         """Puts an entity that waits, or the next one of a <reserve>, into the arena; returns its id."""

@@ -1,3 +1,7 @@
+// Each actuator of the simulated robot has a topic here that a node of ROS 2 writes, with the message that the driver
+// of the real actuator publishes. A message is taken first and applied later, because in lock step the commands of all
+// topics must have arrived before one of them acts. Numbers that are not finite and lists of a wrong length are refused
+// with the name of the topic, and the run ends: a node that sends them would not work on a real robot either.
 #include "real_robot/ros2_controller/device_commands.h"
 
 #include <fmt/format.h>
@@ -173,7 +177,7 @@ void Sender(const TopicSetup& setup, const std::string& type, Topics& topics)
       });
 }
 
-// Any other actuator: a number for each of its columns.
+// Adds the topic of any other actuator: a number for each of its columns.
 void AllColumns(const TopicSetup& setup, const std::string& type, Topics& topics)
 {
   CCI_Actuator* actuator = setup.robot.GetActuator(type);

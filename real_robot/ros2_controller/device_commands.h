@@ -1,6 +1,6 @@
-// What a node commands beside how the robot drives: LEDs, beacon, gripper, turret, laser, magnet, bytes to send; on the
-// topics and with the messages that the drivers of real robots publish (real_robot/drivers/ros2). Made and used by
-// ros2_controller, in the thread of the controllers.
+// The commands of a node beside the drive: LEDs, beacon, gripper, turret, laser, magnet, and bytes to send. They come
+// on the topics and with the messages that the drivers of real robots publish (real_robot/drivers/ros2).
+// ros2_controller makes and uses them, in the thread of the controllers.
 #pragma once
 
 #include <array>
@@ -19,9 +19,9 @@ class CommandTopic
 {
 public:
   virtual ~CommandTopic() = default;
-  // Takes over the next command, oldest first; false if there is none.
+  // Takes the next command, oldest first; returns false if none exists.
   virtual bool Take() = 0;
-  // Tells the actuator the command that was taken last. Throws DriverError, with the topic, if it is none.
+  // Passes the command that was taken last to the actuator. Throws DriverError, with the topic, for an invalid one.
   virtual void Apply() = 0;
   // Waits for a command, at most this time (s).
   virtual void Wait(double seconds) = 0;
@@ -34,7 +34,7 @@ public:
 // Actuators that `cmd_vel` drives.
 inline constexpr std::array<std::string_view, 3> kDrivingActuators{"eyebot_propellers", "footbot_wheels", "wheels"};
 
-// For all other actuators of a robot. `reliable`: no command is lost.
+// Makes the topics of all other actuators of a robot. With `reliable`, no command is lost.
 std::vector<std::unique_ptr<CommandTopic>> MakeCommandTopics(const CCI_Robot& robot, const DriverSetup& setup,
                                                              bool reliable);
 

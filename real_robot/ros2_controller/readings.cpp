@@ -1,3 +1,7 @@
+// Each sensor of the simulated robot is published on the topic, in the frame and with the units that the driver of the
+// real sensor reads (real_robot/drivers/ros2): these classes compute the inverse of those drivers. Messages are filled
+// in place and kept from tick to tick, so that hundreds of robots do not allocate memory in each tick. A sensor without
+// a driver has a topic with one number for each of its columns.
 #include "real_robot/ros2_controller/readings.h"
 
 #include <algorithm>
@@ -40,7 +44,7 @@ constexpr double kBodyRadius_m = 0.085036758;  // of a footbot
 constexpr double kFullScale_lx = 1000;         // what a light sensor of a footbot reads as 1
 constexpr std::uint8_t kInfrared = 1;          // sensor_msgs/msg/Range: INFRARED
 
-// One topic for one sensor.
+// Publishes one sensor on one topic.
 template <class Interface, class Message>
 class TopicReading : public ReadingPublisher
 {
@@ -128,7 +132,7 @@ private:
   std::vector<std::unique_ptr<ReadingTopic<Message>>> publishers_;
 };
 
-// Of any robot: 1 at the sensor, 0 where its range ends.
+// Publishes the ranges of any robot: a reading is 1 at the sensor and 0 at the end of its range.
 class Ranges : public RingReading<CCI_ProximitySensor, Range>
 {
 public:
@@ -158,7 +162,7 @@ private:
   void Fill(double reading) override { message_.illuminance(reading * kFullScale_lx); }
 };
 
-// Brightnesses of the floor, and its colour below the middle.
+// Publishes the brightness of the floor under each sensor, and its colour below the middle.
 template <class Interface>
 class Ground : public ReadingPublisher
 {
@@ -245,7 +249,7 @@ private:
   PointCloud2 message_;
 };
 
-// From distance in the plane, or along the line of sight, and angles.
+// Returns a point from its distance in the plane, or along the line of sight, and its angles.
 Vector3 PlaceAt(double flat_m, double angle, double up_m)
 {
   const SinCos direction = SinCosOf(angle);
@@ -353,7 +357,7 @@ private:
   ReadingTopic<JointState> publisher_;
 };
 
-// What a robot feels of its motion. By the definition of the message -1 says that a part is not measured.
+// Publishes the motion that a robot feels. By the definition of the message, -1 says that a part is not measured.
 class Inertia : public ReadingPublisher
 {
 public:

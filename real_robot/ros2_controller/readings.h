@@ -19,7 +19,7 @@ class ReadingPublisher
 {
 public:
   virtual ~ReadingPublisher() = default;
-  // What the sensor reads in this control step.
+  // Publishes the readings of the sensor in this control step.
   virtual void Publish(const Header& header) = 0;
   // Returns the number of known listeners.
   virtual unsigned Listeners() const = 0;
@@ -34,7 +34,7 @@ struct ReadingSetup
   bool awaited = false;                   // a node answers each reading, and the run waits for it
 };
 
-// A topic of readings. Whoever waits for each of them misses none.
+// A topic of readings. A listener that waits for each of them misses none.
 template <class Message>
 class ReadingTopic : public Publisher<Message>
 {
@@ -45,8 +45,8 @@ public:
   }
 };
 
-// For all sensors of a robot, and behind them its odometry, if it has wheels or `positioning`, which has no topic of
-// its own. Throws DriverError.
+// Makes the publishers for all sensors of a robot, and behind them its odometry, if it has wheels or `positioning`,
+// which has no topic of its own. Throws DriverError.
 std::vector<std::unique_ptr<ReadingPublisher>> MakeReadings(const ReadingSetup& setup);
 
 }  // namespace swarmanoid::ros2

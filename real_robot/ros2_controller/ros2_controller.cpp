@@ -1,5 +1,13 @@
 // ros2_controller: a node of ROS 2 controls a simulated robot. It publishes the robot's readings on the topics of a
 // real robot, and drives as the node commands. It runs in the processes of controllers; all calls come from one thread.
+//
+// In lock step a run is repeatable although nodes are slow and DDS is not: a control step publishes the readings of its
+// tick and waits until a command has come on each topic. Commands that were on the way before are dropped, so a command
+// is an answer to these readings. To make a step of a hundred robots as short as that of the slowest node, the first
+// robot of a host that is stepped publishes the readings of all (Group). In free running the newest commands count.
+//
+// Discovery is the delicate part. One end may know the other before it is known itself, and then loses the first
+// messages; so the readings are repeated until the node has answered once, and the surplus answers are dropped.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -273,8 +281,8 @@ private:
     const std::vector<std::string> unheard = ends_->Unheard();
     throw DriverError(
         fmt::format("{} after {:g} s: start the node before the run, with the same ROS_DOMAIN_ID, or give <wait> more",
-                    unheard.empty() ? "nobody hears the readings on topics rt/" + name_space_ + "/…"
-                                    : "nobody publishes " + Listed(unheard) + " with reliable quality of service",
+                    unheard.empty() ? "no node hears the readings on topics rt/" + name_space_ + "/…"
+                                    : "no node publishes " + Listed(unheard) + " with reliable quality of service",
                     parameters_.GetNumber("wait")));
   }
 
@@ -411,30 +419,13 @@ REGISTER_CONTROLLER(
           .description = "What follows if no command comes in time, in lock_step. hold: the command before it. stop: "
                          "the robot stands. abort: the run ends.",
           .choices = {"hold", "stop", "abort"}},
-         {.name = "timeout",
-          .unit = "s",
-          .default_value = "5",
-          .description = "Time that the node may take for a command, in lock_step.",
-          .minimum = 0.001,
-          .maximum = 3600},
-         {.name = "wait",
-          .unit = "s",
-          .default_value = "10",
-          .description = "Time that the first step waits for the node to appear, in lock_step.",
-          .minimum = 0,
-          .maximum = 3600},
-         {.name = "stamped",
-          .type = ParameterType::kBoolean,
-          .default_value = "false",
-          .description = "Commands are geometry_msgs/msg/TwistStamped; in lock_step the one with the time stamp of "
-                         "the readings answers them."},
-         {.name = "range",
-          .unit = "m",
-          .default_value = "0.1",
-          .description = "Distance that the proximity sensors see, as their messages state it.",
-          .minimum = 0.001,
-          .maximum = 100},
-         {.name = "namespace",
-          .type = ParameterType::kText,
-          .default_value = "",
-          .description = "Put in front of the topics, before the id of the robot."}}})
+         {"timeout", ParameterType::kNumber, "s", "5", "Time that the node may take for a command, in lock_step.",
+          0.001, 3600},
+         {"wait", ParameterType::kNumber, "s", "10",
+          "Time that the first step waits for the node to appear, in lock_step.", 0, 3600},
+         {"stamped", ParameterType::kBoolean, "", "false",
+          "Commands are geometry_msgs/msg/TwistStamped; in lock_step the one with the time stamp of the readings "
+          "answers them."},
+         {"range", ParameterType::kNumber, "m", "0.1",
+          "Distance that the proximity sensors see, as their messages state it.", 0.001, 100},
+         {"namespace", ParameterType::kText, "", "", "Put in front of the topics, before the id of the robot."}}})

@@ -1,4 +1,4 @@
-// ExportFile: a file that is not there yet, or standard output, for what `swarmanoid export` writes.
+// ExportFile: the output of `swarmanoid export`: a new file, or standard output.
 #pragma once
 
 #include <fmt/format.h>
@@ -18,7 +18,8 @@ namespace swarmanoid
 class ExportFile
 {
 public:
-  // `option`: the one that names the path; "-" is standard output. Throws UsageError.
+  // `option`: the name of the option that gives the path, for errors; "-" is standard output. Throws UsageError if the
+  // file exists or cannot be made.
   ExportFile(const std::string& option, const std::string& path)
       : path_(path), file_(path == "-" ? stdout : std::fopen(path.c_str(), "wxe"))
   {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "common/activity/print_error.h"
+#include "common/errors/print_error.h"
 #include "simulation/run_folder.h"
 
 namespace swarmanoid
@@ -14,7 +14,7 @@ namespace swarmanoid
 namespace
 {
 
-constexpr std::size_t kMostShown = 8;  // ranges of ticks, and places of damage
+constexpr std::size_t kMostShown = 8;  // limit for listed ranges of ticks, and for positions of damage
 
 std::string DamageText(const JournalDamage& damage)
 {
@@ -23,7 +23,7 @@ std::string DamageText(const JournalDamage& damage)
                      damage.bytes);
 }
 
-// The ticks from `first` up to the one before `end` that are in none of the ranges.
+// Returns the ticks from `first` up to the one before `end` that are in none of the ranges.
 std::vector<TickRange> Without(const std::vector<TickRange>& ranges, std::uint64_t first, std::uint64_t end)
 {
   std::vector<TickRange> rest;
@@ -55,7 +55,7 @@ RecordedEnd RecordedEndOf(const std::string& run_folder)
 {
   RecordedEnd end;
   const std::string path = run_folder + "/manifest.json";
-  // Processes that are started by hand keep no manifest.
+  // Processes that were started by hand keep no manifest.
   if (!std::filesystem::exists(path)) return end;
   try
   {

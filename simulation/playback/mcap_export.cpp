@@ -21,7 +21,7 @@ void McapExport::WriteTick()
   if (!begun_) Write(FoxgloveMessages::kFixed, messages_.Transforms(false));
   begun_ = true;
   Write(FoxgloveMessages::kMoving, messages_.Transforms(true));
-  // All of it whenever something changed: who looks at a moment finds it in one message.
+  // The whole scene is written whenever a part of it changed, so that a viewer finds it in one message at any time.
   if (const auto scene = messages_.ChangedScene()) Write(FoxgloveMessages::kScene, *scene);
   Write(FoxgloveMessages::kAttributes, messages_.Attributes());
 }

@@ -1,4 +1,5 @@
-// `swarmanoid export --mcap`: a run as Foxglove and tools of rosbag2 see it. docs/command.md has the topics.
+// McapExport: writes a run for Foxglove and the tools of rosbag2 (`swarmanoid export --mcap`). docs/command.md has the
+// topics.
 #pragma once
 
 #include <array>
@@ -18,12 +19,13 @@ class CSwarmanoidSpace;
 class McapExport
 {
 public:
-  // `entities`: those that are shown. Both outlive this; the space is at each tick that is written.
+  // `entities`: the shown ones. The file and the space must outlive the object. The space must be at the tick that is
+  // written.
   McapExport(ExportFile& file, const CSwarmanoidSpace& space, std::vector<std::size_t> entities);
 
-  // The tick of the space, after those before.
+  // Writes the tick of the space. Ticks must ascend.
   void WriteTick();
-  // A line of events.csv, at a tick that is not before the newest that was written.
+  // Writes a line of events.csv. Its tick must not be before the newest written one.
   void WriteEvent(std::string_view line);
   void Finish();
 
@@ -33,7 +35,7 @@ private:
   FoxgloveMessages messages_;
   McapWriter writer_;
   std::array<std::uint16_t, FoxgloveMessages::kTopicCount> channels_{};
-  std::uint64_t time_ = 0;  // of the newest message, ns
+  std::uint64_t time_ = 0;  // time of the newest message, ns
   bool begun_ = false;
 };
 

@@ -1,3 +1,8 @@
+// The file is written from front to back, so all that readers need to find messages is collected and follows at the
+// end: the indexes of each chunk after it, and those of the chunks in the summary. The numbers of records and their
+// fields are from the specification (https://mcap.dev/spec).
+//
+// Invariant: offset_ is the number of bytes written, and each stored offset points to the first byte of a record.
 #include "simulation/playback/mcap_writer.h"
 
 #include <zstd.h>
@@ -12,7 +17,7 @@ namespace
 {
 
 constexpr std::string_view kMagic("\x89MCAP0\r\n", 8);
-constexpr std::size_t kChunkBytes = 1U << 20U;  // of messages, after which the next chunk begins
+constexpr std::size_t kChunkBytes = 1U << 20U;  // bytes of messages after which a chunk ends
 constexpr const char* kCompression = "zstd";
 
 enum class Record : std::uint8_t
@@ -42,7 +47,7 @@ constexpr std::array<std::uint32_t, 256> CrcTable()
   return table;
 }
 
-// CRC-32 of IEEE 802.3, as zlib has it.
+// Computes the CRC-32 of IEEE 802.3, as zlib does.
 std::uint32_t Crc(std::string_view bytes)
 {
   static constexpr std::array<std::uint32_t, 256> kTable = CrcTable();
@@ -51,7 +56,7 @@ std::uint32_t Crc(std::string_view bytes)
   return ~crc;
 }
 
-// The fields of a record, little-endian.
+// It gathers the fields of a record, in little-endian order.
 class Fields
 {
 public:
@@ -62,7 +67,7 @@ public:
       bytes_ += static_cast<char>(static_cast<std::uint64_t>(number) >> 8 * byte & 0xff);
     return *this;
   }
-  // Behind its length.
+  // Appends the length of the text, and the text.
   Fields& Text(std::string_view text)
   {
     Add(static_cast<std::uint32_t>(text.size()));
@@ -117,7 +122,7 @@ void McapWriter::Put(const std::string& bytes)
 std::uint16_t McapWriter::AddChannel(const std::string& topic, const std::string& schema_name,
                                      const std::string& schema)
 {
-  const std::uint16_t number = ++channel_count_;  // a schema of number 0 is none
+  const std::uint16_t number = ++channel_count_;  // schema 0 means that a channel has no schema
   const std::string of_schema =
       Fields().Add(number).Text(schema_name).Text("jsonschema").Text(schema).RecordOf(Record::kSchema);
   const std::string of_channel = Fields()
@@ -180,7 +185,7 @@ void McapWriter::EndChunk()
 void McapWriter::Finish()
 {
   EndChunk();
-  Put(Fields().Add(std::uint32_t{0}).RecordOf(Record::kDataEnd));  // without a checksum: each chunk has its own
+  Put(Fields().Add(std::uint32_t{0}).RecordOf(Record::kDataEnd));  // no checksum, since each chunk has its own
 
   const std::uint64_t start = offset_;
   std::string summary;
@@ -226,7 +231,7 @@ void McapWriter::Finish()
   add(Record::kChunkIndex, indexes);
   const std::uint64_t offset_start = start + summary.size();
   summary += offsets;
-  // The checksum is of all from the summary on until itself.
+  // The checksum covers all bytes from the start of the summary up to the checksum itself.
   Fields footer;
   footer.Add(start).Add(offset_start);
   constexpr std::uint64_t kFooterBytes = 2 * sizeof(std::uint64_t) + sizeof(std::uint32_t);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <stdexcept>
 
@@ -11,6 +12,8 @@
 #include "common/journal/recorded_states.h"
 #include "common/space/space.h"
 #include "controller_host/controller_host.h"
+#include "simulation/playback/recorded_run.h"
+#include "simulation/watched_simulator.h"
 
 namespace swarmanoid
 {
@@ -23,14 +26,15 @@ struct PastHost
   std::unique_ptr<ControllerHost> role;
 };
 
-// As a process does that takes the place of a controller host. `commands`: what these hosts, all of them, commanded.
+// Repeats a tick, as a process that replaces a controller host does, and compares the commands. `commands`: those of
+// all hosts of the assignment, from the journal.
 void Redo(PastHost& host, const TickRecord& record, const std::vector<ControlCommands>& commands)
 {
   std::vector<const SensorFrame*> frames;
   for (const std::uint32_t engine : host.role->Layout().frames_from)
     if (!record.frames.empty()) frames.push_back(&record.frames.at(engine));
   host.role->Tick(frames);
-  // None at the last tick of a run.
+  // The record of the last tick of a run has no commands.
   if (commands.empty()) return;
   const ControlCommands& before = commands.at(host.number);
   const ControlCommands& now = host.role->Commands();
@@ -81,7 +85,7 @@ RecordedRobotStates::RecordedRobotStates(const Experiment& experiment, const std
     const std::vector<ControlCommands> commands = shared.Of(journal.HostsAt(past.state.tick), past.commands);
     for (PastHost& host : hosts) Redo(host, past, commands);
     if (states.Space().GetTick() == tick) break;
-    // The controllers need what they sensed at each tick.
+    // The controllers need their sensor readings of each tick, so no tick may be missing.
     const std::uint64_t next = states.Space().GetTick() + 1;
     if (!states.Next() || states.Space().GetTick() != next)
       throw std::runtime_error(fmt::format("the journal lacks tick {}", next));
@@ -89,6 +93,31 @@ RecordedRobotStates::RecordedRobotStates(const Experiment& experiment, const std
   for (const std::uint32_t robot : robots)
     hosts[place_of_host.at(static_cast<std::uint32_t>(assignment.host[robot]))].role->Describe(robot,
                                                                                                robots_.emplace_back());
+}
+
+std::vector<RobotStatus> StatesInWholeRun(const Experiment& experiment, RecordedRun& run, std::uint64_t tick,
+                                          std::span<const std::uint32_t> robots, const std::string& output_folder)
+{
+  SimulatorOptions options;
+  options.output_folder = output_folder;
+  options.visualisations = false;
+  const std::string events = run.Folder() + "/events.csv";
+  if (std::filesystem::exists(events)) options.events = events;
+  while (run.Next() && run.Space().GetTick() < tick) continue;
+  if (run.Space().GetTick() != tick)
+    throw std::runtime_error(
+        fmt::format("the journal has ticks {} to {}, and not {}", run.FirstTick(), run.LastTick(), tick));
+  CSimulator simulator = WatchedSimulator::Running(experiment, options, {});
+  while (simulator.GetSpace().GetTick() < tick && simulator.Step()) continue;
+  if (simulator.GetSpace().Hash() != run.Space().Hash())
+    throw std::runtime_error(
+        fmt::format("computed again, the state of tick {} is not that of the journal: what the run uses is not "
+                    "deterministic, or changed since",
+                    tick));
+  simulator.Step();
+  std::vector<RobotStatus> found;
+  for (const std::uint32_t robot : robots) WatchedSimulator::Describe(simulator, robot, found.emplace_back());
+  return found;
 }
 
 }  // namespace swarmanoid

@@ -5,7 +5,7 @@
 #include <bit>
 #include <filesystem>
 
-#include "common/activity/exit_codes.h"
+#include "common/errors/exit_codes.h"
 #include "common/messages/assignment.h"
 #include "common/program/usage_error.h"
 #include "common/space/attributes.h"
@@ -38,7 +38,9 @@ std::unique_ptr<JournalReader> JournalOf(const std::string& folder)
   }
   catch (const std::runtime_error& error)
   {
-    throw UsageError(fmt::format("{} (runs as a cluster keep a journal, unless they have --no-journal)", error.what()));
+    throw UsageError(fmt::format(
+        "{} (runs as a cluster, or with loop functions of ARGoS3, keep a journal, unless they have --no-journal)",
+        error.what()));
   }
 }
 

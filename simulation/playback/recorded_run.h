@@ -1,5 +1,5 @@
-// A run that is over, tick after tick as its journal has it; and where two runs of one experiment part. Used by
-// `replay`, `diff` and `export`.
+// RecordedRun: a run that has ended, tick by tick from its journal. FirstDifference compares two runs of one
+// experiment. `swarmanoid replay`, `diff` and `export` use it.
 #pragma once
 
 #include <memory>
@@ -16,13 +16,13 @@ namespace swarmanoid
 class RecordedRun
 {
 public:
-  // `folder`: of the run. Throws UsageError if it has no journal.
+  // `folder`: the folder of the run. Throws UsageError if it has no journal.
   explicit RecordedRun(const std::string& folder);
 
   const std::string& Folder() const { return folder_; }
   const Experiment& GetExperiment() const { return *experiment_; }
   const JournalReader& Journal() const { return *journal_; }
-  // As those of RecordedStates.
+  // These functions are those of RecordedStates.
   bool Next() { return states_->Next(); }
   bool Seek(std::uint64_t tick) { return states_->Seek(tick); }
   bool SeekFrom(std::uint64_t tick) { return states_->SeekFrom(tick); }
@@ -30,10 +30,10 @@ public:
   const TickRecord& Record() const { return states_->Record(); }
   std::uint64_t FirstTick() const { return journal_->FirstTick(); }
   std::uint64_t LastTick() const;
-  // The parts that cannot be read.
+  // Returns the parts that cannot be read.
   const JournalLoss& Loss() const { return loss_; }
-  // The exit code of a command that has printed the loss: that of a failure if the journal is damaged, unless it has
-  // another one already.
+  // Returns the exit code of a command that has printed the loss. It is `code`, or that of a failure if `code` is
+  // success and the journal is damaged.
   int ExitCode(int code) const;
 
 private:
@@ -44,8 +44,8 @@ private:
   std::optional<RecordedStates> states_;
 };
 
-// The first entity, and what of it, that has other bits in `b`, with both values, as "x of 'fb_3' is 1.25 and 1.5";
-// empty if there is none. Both spaces are of one experiment.
+// Returns the first difference between two spaces of one experiment, such as "x of 'fb_3' is 1.25 and 1.5"; empty if
+// all bits are equal.
 std::string FirstDifference(const CSwarmanoidSpace& a, const CSwarmanoidSpace& b);
 
 }  // namespace swarmanoid

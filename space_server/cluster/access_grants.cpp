@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/activity/print_error.h"
+#include "common/bus/addresses.h"
 #include "common/configuration/wording.h"
+#include "common/errors/print_error.h"
 #include "common/messages/control_verbs.h"
 
 namespace swarmanoid
@@ -16,11 +17,15 @@ namespace
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t kMostGrants = 16;   // at once
-constexpr std::size_t kMostEnded = 64;    // that are remembered
+constexpr std::size_t kMostGrants = 16;   // limit for grants at a time
+constexpr std::size_t kMostEnded = 64;    // limit for ended grants that are remembered
 constexpr std::size_t kMostWaiting = 64;  // messages of holders; a flood is dropped beyond this
 constexpr auto kRenewWatched = 1s;
-constexpr auto kWatchedTime = 3s;  // after which a request that is not repeated is void
+constexpr auto kWatchedTime = 3s;  // a request that is not repeated ends after this time
+// Endpoints are deleted when no process has joined for this time. Fast DDS 2.9 tells a process that joins about all
+// endpoints, in a thread of its own. If the process leaves meanwhile, and endpoints were deleted, that thread and the
+// one that removes the process wait for each other for ever (its pull request 5432).
+constexpr auto kQuietTime = 2s;
 
 // Returns a client name that includes the grant, so that the holder of a grant cannot use another client's name.
 std::string ClientBy(const std::string& client, const AccessGrant& grant)
@@ -60,12 +65,7 @@ void AccessGrants::Stop()
 
 void AccessGrants::Restore(const std::vector<ControlOrder>& grants)
 {
-  for (const ControlOrder& order : grants)
-  {
-    sides_.push_back(
-        std::make_unique<Side>(Side{.grant = GrantOf(order), .by = "an earlier space server of this run"}));
-    ++open_;
-  }
+  for (const ControlOrder& order : grants) Add(GrantOf(order), "an earlier space server of this run");
 }
 
 void AccessGrants::Ask(const ControlRequestMessage& request)
@@ -108,6 +108,14 @@ AccessGrants::Side* AccessGrants::Find(const std::string& id)
   return found == sides_.end() ? nullptr : found->get();
 }
 
+void AccessGrants::Add(const AccessGrant& grant, const std::string& by)
+{
+  Side& side = *sides_.emplace_back(std::make_unique<Side>());
+  side.grant = grant;
+  side.by = by;
+  ++open_;
+}
+
 void AccessGrants::Open(Side& side)
 {
   side.is_new = false;
@@ -135,7 +143,7 @@ void AccessGrants::Open(Side& side)
   side.leaves = std::make_unique<Subscription<LeaveMessage>>(
       bus, partition, [this, id = grant.id](const LeaveMessage& l) { Keep(inbox_.leaves, id, l); }, channel);
   side.view_requests = std::make_unique<Subscription<ViewRequestMessage>>(
-      bus, partition, [this, grant](const ViewRequestMessage& request) { ViewRequested(grant, request); }, channel);
+      bus, partition, [this, &side](const ViewRequestMessage& request) { ViewRequested(side, request); }, channel);
   side.worlds->Write(world);
 }
 
@@ -156,14 +164,27 @@ void AccessGrants::TryToOpen(Side& side, std::uint64_t tick)
 void AccessGrants::End(Side& side, std::uint64_t tick, const std::string& why)
 {
   side.ended = why;
+  side.is_over = true;
   --open_;
-  side.view_requests.reset();
-  side.views.reset();
-  side.statuses.reset();
-  side.robots.reset();
-  side.worlds.reset();
   if (side.leave != nullptr) side.leave->Write({session_.World().run, tick, "space server", "", why});
   PrintError("space server: {}\n", why);
+}
+
+void AccessGrants::Tidy()
+{
+  if (sides_.size() == open_ || session_.GetBus().SinceLastJoin() < kQuietTime) return;
+  const auto is_over = [](const auto& side) { return side->is_over.load(); };
+  while (static_cast<std::size_t>(std::ranges::count_if(sides_, is_over)) > kMostEnded)
+    sides_.erase(std::ranges::find_if(sides_, is_over));
+  for (const auto& side : sides_)
+  {
+    if (!side->is_over || side->worlds == nullptr) continue;
+    side->view_requests.reset();
+    side->views.reset();
+    side->statuses.reset();
+    side->robots.reset();
+    side->worlds.reset();
+  }
 }
 
 void AccessGrants::Work(std::uint64_t tick)
@@ -200,6 +221,7 @@ void AccessGrants::Work(std::uint64_t tick)
     for (const auto& [host, robots] : inbox.robots) side->robots->Write(robots);
   }
   RenewRobots(now);
+  Tidy();
 }
 
 AccessGrants::Action AccessGrants::ActionOf(const std::string& verb)
@@ -228,22 +250,21 @@ std::string AccessGrants::Make(const ControlRequestMessage& request, std::uint64
 {
   if (!session_.Key()) throw std::invalid_argument("the run lets anybody in (--insecure): there is nothing to share");
   if (open_ >= kMostGrants)
-    throw std::invalid_argument(fmt::format("{} shares of this run are open; revoke one of them first", kMostGrants));
+    throw std::invalid_argument(
+        fmt::format("{} access grants of this run are open; revoke one of them first", kMostGrants));
   const AccessGrant grant = GrantOf(request);
-  if (!IsGrantId(grant.id)) throw std::invalid_argument(fmt::format("{} is no id of a share", Quoted(grant.id)));
-  if (Find(grant.id) != nullptr) throw std::invalid_argument(fmt::format("there is a share {} already", grant.id));
-  if (grant.HasEnded()) throw std::invalid_argument("the share would have ended already");
+  if (!IsGrantId(grant.id))
+    throw std::invalid_argument(fmt::format("{} is no id of an access grant", Quoted(grant.id)));
+  if (Find(grant.id) != nullptr)
+    throw std::invalid_argument(fmt::format("there is an access grant {} already", grant.id));
+  if (grant.HasEnded()) throw std::invalid_argument("the access grant would have ended already");
   const std::string address =
       options_.discovery_server.empty() ? ReachableAddress(options_) : options_.discovery_server;
-  const auto is_ended = [](const auto& side) { return !side->ended.empty(); };
   if (grant.role == GrantRole::kOpenView)
     for (const auto& side : sides_)
-      if (side->grant.role == grant.role && !is_ended(side))
+      if (side->grant.role == grant.role && !side->is_over)
         throw std::invalid_argument(fmt::format("the run has an open view already: {}", side->grant.id));
-  while (static_cast<std::size_t>(std::ranges::count_if(sides_, is_ended)) > kMostEnded)
-    sides_.erase(std::ranges::find_if(sides_, is_ended));
-  sides_.push_back(std::make_unique<Side>(Side{.grant = grant, .by = AskerOf(request)}));
-  ++open_;
+  Add(grant, AskerOf(request));
   return fmt::format("{} for those who reach {}", grant.Name(), address);
 }
 
@@ -270,8 +291,9 @@ std::string AccessGrants::Revoke(const ControlRequestMessage& request, std::uint
   {
     std::vector<std::string> known;
     for (const auto& other : sides_) known.push_back(other->grant.id);
-    throw std::invalid_argument(fmt::format("there is no share {}{}; `swarmanoid share --list` tells those of the run",
-                                            Quoted(id), DidYouMean(id, known)));
+    throw std::invalid_argument(
+        fmt::format("there is no access grant {}{}; `swarmanoid share --list` tells those of the run", Quoted(id),
+                    DidYouMean(id, known)));
   }
   if (!side->ended.empty()) throw std::invalid_argument(side->ended);
   End(*side, tick, fmt::format("{} was revoked by {}", side->grant.Name(), AskerOf(request)));
@@ -303,11 +325,11 @@ void AccessGrants::Refuse(Side& side, const ControlRequestMessage& request, std:
   callbacks_.noted(refused);
 }
 
-void AccessGrants::ViewRequested(const AccessGrant& grant, const ViewRequestMessage& request)
+void AccessGrants::ViewRequested(const Side& side, const ViewRequestMessage& request)
 {
-  if (request.run != session_.World().run) return;
+  if (side.is_over || request.run != session_.World().run) return;
   ViewRequestMessage of_grant = request;
-  of_grant.client = ClientBy(request.client, grant);
+  of_grant.client = ClientBy(request.client, side.grant);
   of_grant.every_tick = false;
   of_grant.robots.clear();
   bool changed = false;
@@ -354,33 +376,33 @@ void AccessGrants::RenewRobots(Clock::time_point now)
                                                                       callbacks_.woken();
                                                                     });
   }
-  robots_wanted_->Write({ProcessId() + " for shares", session_.World().run, 0, false, std::move(robots)});
+  robots_wanted_->Write({ProcessId() + " for access grants", session_.World().run, 0, false, std::move(robots)});
 }
 
 unsigned AccessGrants::ViewReaders() const
 {
   unsigned readers = 0;
-  for (const auto& side : sides_) readers += side->views == nullptr ? 0 : side->views->Readers();
+  for (const auto& side : sides_) readers += side->is_over || side->views == nullptr ? 0 : side->views->Readers();
   return readers;
 }
 
 unsigned AccessGrants::StatusReaders() const
 {
   unsigned readers = 0;
-  for (const auto& side : sides_) readers += side->statuses == nullptr ? 0 : side->statuses->Readers();
+  for (const auto& side : sides_) readers += side->is_over || side->statuses == nullptr ? 0 : side->statuses->Readers();
   return readers;
 }
 
 void AccessGrants::Write(const ViewMessage& view)
 {
   for (const auto& side : sides_)
-    if (side->views != nullptr) side->views->Write(view);
+    if (!side->is_over && side->views != nullptr) side->views->Write(view);
 }
 
 void AccessGrants::Write(const RunStatusMessage& status)
 {
   for (const auto& side : sides_)
-    if (side->statuses != nullptr) side->statuses->Write(status);
+    if (!side->is_over && side->statuses != nullptr) side->statuses->Write(status);
 }
 
 void AccessGrants::Leave(std::uint64_t tick, const std::string& error, double patience_s)
@@ -392,7 +414,7 @@ void AccessGrants::Leave(std::uint64_t tick, const std::string& error, double pa
   const auto left = [&] { return std::max(0.0, std::chrono::duration<double>(end - Clock::now()).count()); };
   for (const auto& side : sides_)
   {
-    if (side->views != nullptr) side->views->WaitUntilRead(left());
+    if (!side->is_over && side->views != nullptr) side->views->WaitUntilRead(left());
     if (side->leave != nullptr) side->leave->WaitUntilRead(left());
   }
 }

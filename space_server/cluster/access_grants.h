@@ -29,17 +29,17 @@ class AccessGrants
 public:
   using Clock = RunClock;
 
-  // Called in any thread.
+  // Any thread may call these.
   struct Callbacks
   {
     std::function<void(const ViewRequestMessage&)> view_requested;
     std::function<void(const ControlRequestMessage&)> noted;  // for the log of events
-    std::function<void()> woken;                              // Work has something to do
+    std::function<void()> woken;                              // wakes the main thread, since Work has something to do
   };
 
   AccessGrants(ServerSession& session, const BusOptions& options, Callbacks callbacks);
   ~AccessGrants() { Stop(); }
-  // Nothing is called any more.
+  // Ends all callbacks.
   void Stop();
 
   // The orders that made the grants of an earlier server of this run. Before Work.
@@ -55,18 +55,19 @@ public:
   unsigned StatusReaders() const;
   void Write(const ViewMessage& view);
   void Write(const RunStatusMessage& status);
-  // The run is over.
+  // Tells the holders of all grants that the run is over.
   void Leave(std::uint64_t tick, const std::string& error, double patience_s);
 
 private:
-  // One grant. When it has ended only its requests are heard, to be refused.
+  // Each grant has one side. When it has ended only its requests are heard, to be refused.
   struct Side
   {
-    AccessGrant grant;
-    std::string by;       // the member that made it
-    std::string ended{};  // why, if it has
-    bool told = false;    // that something was refused
+    AccessGrant grant{};
+    std::string by{};     // the member that made it
+    std::string ended{};  // why the grant has ended; empty if it has not
+    bool told = false;    // whether its first refusal was reported
     bool is_new = true;
+    std::atomic<bool> is_over = false;  // it has ended: no view is requested for it any more
     std::optional<GrantChannel> channel{};
     std::unique_ptr<Publisher<WorldMessage>> worlds{};
     std::unique_ptr<Publisher<ViewMessage>> views{};
@@ -99,10 +100,14 @@ private:
     std::map<std::uint32_t, RobotStatusMessage> robots;  // by host
   };
 
+  void Add(const AccessGrant& grant, const std::string& by);
   void Open(Side& side);
   void TryToOpen(Side& side, std::uint64_t tick);
   void End(Side& side, std::uint64_t tick, const std::string& why);
-  // The action of a verb. Returns the reply; throws std::invalid_argument with the reason if the request is refused.
+  // Deletes the endpoints that ended grants do not need, and the oldest ended grants.
+  void Tidy();
+  // Each verb has an action. It returns the reply, and throws std::invalid_argument with the reason if the request is
+  // refused.
   using Action = std::string (AccessGrants::*)(const ControlRequestMessage& request, std::uint64_t tick);
   static Action ActionOf(const std::string& verb);
 
@@ -113,7 +118,7 @@ private:
   // Hands the request of a holder on to the run, if the grant allows it.
   void Forward(Side& side, ControlRequestMessage request, std::uint64_t tick);
   void Refuse(Side& side, const ControlRequestMessage& request, std::uint64_t tick, const std::string& why);
-  void ViewRequested(const AccessGrant& grant, const ViewRequestMessage& request);
+  void ViewRequested(const Side& side, const ViewRequestMessage& request);
   void RenewRobots(Clock::time_point now);
   Side* Find(const std::string& id);
   template <class Message>
@@ -123,7 +128,7 @@ private:
   const BusOptions& options_;
   Callbacks callbacks_;
   std::vector<std::unique_ptr<Side>> sides_;
-  std::atomic<unsigned> open_ = 0;  // sides
+  std::atomic<unsigned> open_ = 0;  // number of open sides
 
   std::mutex mutex_;  // guards the members down to stopped_
   Inbox inbox_;
@@ -132,7 +137,7 @@ private:
   bool watched_changed_ = false;
   bool stopped_ = false;
 
-  // The topics for the inside of robots. They are made when a holder of a grant first asks for one.
+  // Holders of grants get the inside of robots by these topics. They are made when one first asks for it.
   std::unique_ptr<Publisher<ViewRequestMessage>> robots_wanted_;
   std::unique_ptr<Subscription<RobotStatusMessage>> robots_in_;
   Clock::time_point robots_requested_;

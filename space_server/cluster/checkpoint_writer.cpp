@@ -1,3 +1,9 @@
+// Saving costs each process time, so the server asks for it: the state of a tick tells the workers to save theirs after
+// the step. The period in the journal is a time, and that of checkpoint files a number of ticks. Ticks are saved only
+// where engines are canonical, so that a restored run has the same bits (docs/determinism.md).
+//
+// Invariant: a checkpoint is written only if it has all parts; parts are in the order of a run in one process, so both
+// write the same bytes.
 #include "space_server/cluster/checkpoint_writer.h"
 #include "space_server/space_server.h"
 
@@ -13,7 +19,8 @@ namespace
 
 using namespace std::chrono_literals;
 
-// The time between two saved states in the journal. A process that replaces another one computes about this much again.
+// The journal gets saved states at intervals of this time. A process that replaces another one computes about this much
+// again.
 constexpr auto kSavePeriod = 500ms;
 constexpr std::size_t kWantedKept = 64;
 
@@ -58,7 +65,7 @@ void CheckpointWriter::Save(const SpaceServer& server)
   SpaceSnapshot snapshot;
   server.WriteSnapshot(snapshot);
   const bool of_file = IsOfFile(snapshot.tick);
-  // A run that goes on from a finished state would end at once. It goes on from the one before.
+  // A run that resumes from a finished state would end at once, so the last saved state before the end is used.
   const bool of_journal = journal_ != nullptr && !server.IsFinished();
   if (!of_file && !of_journal) return;
   if (of_journal) journal_->Add(snapshot);

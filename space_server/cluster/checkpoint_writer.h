@@ -26,14 +26,15 @@ class SpaceServer;
 class CheckpointWriter
 {
 public:
-  // `parts`: the processes that save one. `first_tick`: where the run starts or goes on. `saved`: ticks before of which
-  // processes may say again what they saved. `changed`: a checkpoint is complete; called from any thread.
+  // `parts`: the processes that save a part. `first_tick`: the tick at which the run starts or resumes. `saved`:
+  // earlier ticks, whose states processes may send again. `changed`: called in any thread when a checkpoint is
+  // complete.
   CheckpointWriter(ServerSession& session, const Experiment& experiment, std::vector<std::string> parts,
                    std::uint64_t first_tick, std::set<std::uint64_t> saved, const std::string& folder,
                    JournalWriter* journal, std::function<void()> changed);
 
-  // The state of the server's tick goes out now. Whether it asks for the states of all after its step. Throws
-  // std::runtime_error if the server cannot be saved.
+  // The state of the server's tick is about to be sent. Saves the server's part if it is due, and returns whether the
+  // state asks all processes to save theirs after its step. Throws std::runtime_error if the server cannot be saved.
   bool Sending(const SpaceServer& server);
   // Returns whether all save their states before they step at the tick.
   bool IsWanted(std::uint64_t tick) const;
@@ -52,7 +53,7 @@ private:
   bool IsComplete(const Checkpoint& checkpoint) const;
 
   std::uint64_t every_;
-  std::uint64_t period_;  // of the ticks at which states can be saved
+  std::uint64_t period_;  // period in ticks at which states can be saved
   std::uint64_t run_;
   std::uint64_t first_tick_;
   CheckpointOrigin origin_;
@@ -63,7 +64,7 @@ private:
   mutable std::mutex mutex_;                        // guards the members below
   std::map<std::uint64_t, Checkpoint> unfinished_;  // by tick
   std::set<std::uint64_t> wanted_;                  // the last ticks at which all processes save their states
-  Clock::time_point saved_;                         // when the server was last saved
+  Clock::time_point saved_;                         // time of the last saved state of the server
   std::unique_ptr<Subscription<SavedStateMessage>> states_in_;
 };
 

@@ -1,8 +1,11 @@
 #include "space_server/cluster/local_states.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "common/bus/membership/worker_world.h"
+#include "common/space/space.h"
 #include "space_server/near_entities.h"
 
 namespace swarmanoid
@@ -15,8 +18,14 @@ LocalStates::LocalStates(ServerSession& session, const CSwarmanoidSpace& space, 
   for (std::size_t h = 0; HostsAskForParts(session.World()) && h < assignment.hosts.size(); ++h)
     Add(HostName(h), h).is_host = true;
   for (std::size_t e = 0; EnginesHearParts(session.World()) && e < assignment.engines.size(); ++e)
-    Add(PartNameOfEngine(e), e).part = [news = std::make_shared<EngineNews>(space, assignment.engines[e].owned)](
+  {
+    // An engine hears of all entities that change their engine, since others may have moved them.
+    const EngineLayout& layout = assignment.engines[e];
+    std::vector<std::uint32_t> owned;
+    std::ranges::set_difference(layout.owned, layout.changing, std::back_inserter(owned));
+    Add(PartNameOfEngine(e), e).part = [news = std::make_shared<EngineNews>(space, std::move(owned))](
                                            const SpaceState& state) -> LocalState& { return news->Part(state); };
+  }
 }
 
 LocalStates::Listener& LocalStates::Add(const std::string& name, std::size_t number)
@@ -52,11 +61,21 @@ void LocalStates::Write(const MessageHeader& header, const SpaceState& state)
   for (const auto& listener : listeners_)
   {
     if (!listener->part) continue;
-    if (!header.repeated) listener->told = &listener->part(state);
+    if (!header.repeated)
+    {
+      if (listener->is_host && listener->told != nullptr && space_.GetExperiment().ahead > 0)
+      {
+        listener->before = *listener->told;
+        listener->before_header = listener->header;
+        listener->before_header.repeated = true;
+      }
+      listener->told = &listener->part(state);
+    }
     listener->told->last = state.last;
-    MessageHeader own = header;
-    own.source = listener->number;
-    listener->states.Write(own, *listener->told);
+    listener->header = header;
+    listener->header.source = listener->number;
+    if (header.repeated && listener->before) listener->states.Write(listener->before_header, *listener->before);
+    listener->states.Write(listener->header, *listener->told);
   }
 }
 

@@ -1,10 +1,11 @@
 // LocalStates: the parts of the state that the space server sends to single processes over a network, instead of the
-// whole state. Engines get parts, and so do controller hosts that have reported their reach. Used by Lockstep, with its
+// whole state. Engines get parts, and so do controller hosts that have reported their reach. Lockstep uses it, with its
 // mutex locked.
 #pragma once
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,13 +18,14 @@ namespace swarmanoid
 class LocalStates
 {
 public:
-  // All outlive it.
+  // All arguments must outlive the object.
   LocalStates(ServerSession& session, const CSwarmanoidSpace& space, const Assignment& assignment,
               const TickLimits& limits);
 
   bool IsEmpty() const { return listeners_.empty(); }
   unsigned Readers() const;
-  // Sends the state of the space's tick. If the header says that it is repeated, the last message is sent again.
+  // Sends the state of the space's tick. If the header says that it is repeated, the last message is sent again, and
+  // before it the one of the tick before to hosts whose commands act a tick later.
   void Write(const MessageHeader& header, const SpaceState& state);
 
 private:
@@ -32,10 +34,13 @@ private:
     Listener(Bus& bus, const HotScope& scope, std::uint32_t of) : states(bus, scope), number(of) {}
 
     HotPublisher<LocalState> states;
-    std::uint32_t number;  // of the host or engine
+    std::uint32_t number;  // number of the host or engine
     bool is_host = false;
-    std::function<LocalState&(const SpaceState&)> part{};  // none: a host that hears the state of all
-    LocalState* told = nullptr;                            // of the tick
+    std::function<LocalState&(const SpaceState&)> part{};  // none: the host gets the state of all entities
+    LocalState* told = nullptr;                            // the message of the tick
+    MessageHeader header{};                                // the header of `told`
+    std::optional<LocalState> before{};                    // the message of the tick before, if a host may lack it
+    MessageHeader before_header{};
   };
 
   Listener& Add(const std::string& name, std::size_t number);

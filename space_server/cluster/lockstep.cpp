@@ -1,3 +1,12 @@
+// A tick is complete when the messages of all parts are here (TickGate). The thread of the bus that brings the last one
+// computes the next state and sends it at once. Waking another thread would cost time at each tick. The journal is
+// written after the state is sent, while the workers compute.
+//
+// A worker that is replaced is withdrawn: the tick waits for its successor, which repeats the present tick. Hosts whose
+// commands go to engines alone are no part of the gate, so away_ has the replaced ones.
+//
+// Invariants: ticks change under mutex_ only; all messages are checked before the space changes; the state on the bus
+// is the one in the journal.
 #include "space_server/cluster/lockstep.h"
 
 #include <fmt/format.h>
@@ -40,7 +49,7 @@ std::vector<TickGate::Part> Parts(const Experiment& experiment, const std::vecto
 {
   std::vector<TickGate::Part> parts;
   for (std::size_t e = 0; e < experiment.engines.size(); ++e) parts.push_back({EngineName(experiment, e)});
-  // Commands that act a tick later come a tick early.
+  // Commands that act a tick later are sent a tick early.
   for (const std::uint32_t host : hosts) parts.push_back({HostName(host), experiment.ahead > 0});
   for (std::size_t v = 0; v < visualisers; ++v) parts.push_back({VisualiserName(experiment.visualisations[v])});
   return parts;
@@ -75,7 +84,7 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
       local_states_(session, server.Space(), assignment, limits_)
 {
   if (visualisers_ > 0) server_.SetDrawsIntoStates();
-  for (const UpdateMessage& update : updates_) updates_here_.push_back(&update);
+  for (const EngineUpdate& update : updates_) updates_here_.push_back(&update);
   for (auto& commands : commands_)
     for (const HostLayout& host : assignment.hosts) commands.emplace_back().values.resize(host.command_size);
   for (std::size_t e = 0; e < frames_.size(); ++e) frames_[e].values.resize(assignment.engines[e].sensor_size);
@@ -84,15 +93,15 @@ Lockstep::Lockstep(ServerSession& session, SpaceServer& server, const Assignment
   if (engines_ > 0)
     updates_in_.emplace(
         bus, session.Scope(limits_.UpdateBytes(), static_cast<unsigned>(engines_)),
-        HotSubscription<UpdateMessage>::Handler{
-            [this](const MessageHeader& header) -> UpdateMessage*
+        HotSubscription<EngineUpdate>::Handler{
+            [this](const MessageHeader& header) -> EngineUpdate*
             {
               TickLimits::CheckSource(header, engines_);
               if (header.tick == 0) throw BadMessage("an update cannot lead to tick 0");
               return PlaceOf(header, header.tick - 1, header.source, updates_[header.source]);
             },
-            [this](const MessageHeader& header, UpdateMessage&) { Arrived(header, header.source, header.tick - 1); },
-            [this](const MessageHeader& header, const UpdateMessage& update) { limits_.Check(header, update); }});
+            [this](const MessageHeader& header, EngineUpdate&) { Arrived(header, header.source, header.tick - 1); },
+            [this](const MessageHeader& header, const EngineUpdate& update) { limits_.Check(header, update); }});
   if (!hosts_.empty())
     commands_in_.emplace(
         bus, session.Scope(limits_.CommandBytes(), static_cast<unsigned>(assignment.hosts.size())),
@@ -178,14 +187,14 @@ void Lockstep::Complete()
   {
     const auto visualiser = static_cast<std::size_t>(terminating - drawn_.begin());
     terminator_ = VisualiserName(server_.Space().GetExperiment().visualisations[visualiser]);
-    // The tick that was drawn is the last one: its state goes out again, marked so.
+    // The tick that was drawn is the last one: its state is sent again, marked as the last.
     server_.Finish();
     Send(true);
     return;
   }
   for (std::size_t k = 0; k < hosts_.size(); ++k) commands_here_[k] = &commands_[gate_.Tick() % 2][hosts_[k]];
   for (const ControlCommands* commands : commands_here_) server_.Check(*commands);
-  for (const UpdateMessage& update : updates_) server_.Check(update);
+  for (const EngineUpdate& update : updates_) server_.Check(update);
   bool kept = journal_ == nullptr;
   const auto keep = [&, &state = *sent_, saves = saves_, frames = Frames()]
   {
@@ -224,6 +233,8 @@ void Lockstep::Send(bool repeated)
   {
     // The hash log on disk must have the lines of all ticks before the checkpoint.
     if (checkpoints_.IsWanted(tick)) hash_log_.Flush();
+    before_ = sent_;
+    before_saves_ = saves_;
     saves_ = checkpoints_.Sending(server_);
   }
   if (watch_ && !repeated) RunCodeOf({Actor::kWatcher}, ActivityStep::kWatch, tick, [&] { watch_(server_); });
@@ -234,7 +245,14 @@ void Lockstep::Send(bool repeated)
   held_ = false;
   const MessageHeader header{session_.World().run, state.tick, 0, repeated, 0, saves_};
   // If every process gets its local state, the whole state may have no readers.
-  if (local_states_.IsEmpty() || states_.Readers() > 0) states_.Write(header, state);
+  if (local_states_.IsEmpty() || states_.Readers() > 0)
+  {
+    // The run does not wait for commands that act a tick later, so a controller host may lack the state before this
+    // one.
+    if (repeated && before_ != nullptr && server_.Space().GetExperiment().ahead > 0)
+      states_.Write({session_.World().run, before_->tick, 0, true, 0, before_saves_}, *before_);
+    states_.Write(header, state);
+  }
   local_states_.Write(header, state);
   if (!state.last) return;
   // Readers of the journal need the last state. It has no commands, since no process computes a step from it.
@@ -272,11 +290,8 @@ Lockstep::Present Lockstep::Withdraw(const std::string& name, std::uint32_t inca
   const std::lock_guard lock(mutex_);
   gate_.Withdraw(name, incarnation);
   Present present;
-  if (IsUnheard(name))
-  {
-    away_[name] = incarnation;
-    present.is_done = !held_ && !finished_;
-  }
+  if (IsUnheard(name)) away_[name] = incarnation;
+  present.is_done = MayBeDone(name) && !held_ && !finished_;
   if (present.is_done) present.record.state = *sent_;
   present.record.state.tick = gate_.Tick();
   present.record.save = saves_;
@@ -292,6 +307,17 @@ void Lockstep::Return(const std::string& name, std::uint32_t incarnation)
   if (found == away_.end() || found->second > incarnation) return;
   away_.erase(found);
   if (gate_.Complete() && !held_) GoOn();
+}
+
+// Engines may have what a dead host answered to this tick, and go on with it although the server withdraws it: the
+// answer of a host that the server does not hear, and commands for the next tick. Frames that they make of it are too
+// early for a replacement that begins with this tick.
+bool Lockstep::MayBeDone(const std::string& name) const
+{
+  if (IsUnheard(name)) return true;
+  for (std::size_t h = 0; h < assignment_.hosts.size(); ++h)
+    if (name == HostName(h)) return server_.Space().GetExperiment().ahead > 0;
+  return false;
 }
 
 bool Lockstep::IsUnheard(const std::string& name) const

@@ -1,6 +1,6 @@
 // Lockstep: the space server's side of the ticks. It sends the state of a tick, collects what engines, hosts and
 // visualisers answer, and lets the role make the next state. It runs in the threads of the bus and stops before a tick
-// where the main thread asks for it (pause, pace, commands). Used by the space_server program alone.
+// where the main thread asks for it (pause, pace, commands). Only the space_server program uses it.
 #pragma once
 
 #include <array>
@@ -28,10 +28,9 @@ class SpaceServer;
 class Lockstep
 {
 public:
-  // `watch`, if there is one: called in the main thread before the state of a tick goes out.
-  // `journal`, if there is one: gets all that the processes of a tick took in.
-  // `restart_point`, if there is one: the run goes on there.
-  // `stopped`: called in a thread of the bus when the main thread has to act: the tick is held, or the run failed.
+  // `watch`, if given, is called in the main thread before the state of a tick is sent. `journal`, if given, gets all
+  // inputs of the processes at a tick. `restart_point`, if given, is the point at which the run resumes. `stopped` is
+  // called in a thread of the bus when the main thread must act: the tick is held, or the run failed.
   Lockstep(ServerSession& session, SpaceServer& server, const Assignment& assignment, bool visualisations,
            const std::string& hash_log, std::function<void(SpaceServer&)> watch, CheckpointWriter& checkpoints,
            JournalWriter* journal, const RestartPoint* restart_point, std::function<void()> stopped);
@@ -42,31 +41,31 @@ public:
 
   // The main thread calls the functions below.
 
-  // Between two ticks: the state of Tick() is made, but not sent.
+  // Returns whether the run is held between two ticks: the state of Tick() is made, but not sent.
   bool Held() const;
   std::uint64_t Tick() const;
   // Sends the state that is held and runs on until tick `until`, or without end if `until` is 0.
   void Go(std::uint64_t until);
   // Asks the run to hold before the next state is sent.
   void Hold();
-  // An answer is late: sends the last state again.
+  // Sends the last state again, because an answer is late, and the state before if a process may lack it.
   void Repeat();
-  // The last state has gone out.
+  // Returns whether the last state has been sent.
   bool Finished() const;
-  // The name of the visualiser that asked for the end, if one did.
+  // Returns the name of the visualiser that asked for the end, if one did.
   std::optional<std::string> Terminator() const;
   std::optional<std::string> Failure() const;
-  // After the last state. Throws if lines of it are lost.
+  // Closes the hash log after the last state. Throws if lines of it are lost.
   void CloseHashLog();
   // Returns the names of the processes whose answer to the current tick is missing.
   std::vector<std::string> Missing() const;
   struct Present
   {
-    TickRecord record;     // of the tick that the run waits at, as far as it is known: no commands
-    bool is_done = false;  // it has gone out to a process that the server does not hear, and may have been answered
+    TickRecord record;     // the tick that the run waits at, without its commands
+    bool is_done = false;  // engines may use the dead host's answer to it, so the new host computes it before it joins
   };
-  // Another process, of that incarnation, takes the place of `name`. The run does not go on to the next tick without
-  // its answer or, if the server does not hear it, before Return.
+  // Another process, of that incarnation, replaces `name`. The run does not continue to the next tick without its
+  // answer or, if the server does not hear it, before Return.
   Present Withdraw(const std::string& name, std::uint32_t incarnation);
   void Return(const std::string& name, std::uint32_t incarnation);
   // Calls `use` with the server between two steps.
@@ -87,8 +86,9 @@ private:
   template <class Message>
   Message* PlaceOf(const MessageHeader& header, std::uint64_t tick, std::optional<std::size_t> part, Message& place);
   void Arrived(const MessageHeader& header, std::size_t part, std::uint64_t tick);
+  bool MayBeDone(const std::string& name) const;
   bool IsUnheard(const std::string& name) const;
-  // If all is here.
+  // Continues if the answers to the tick are complete.
   void GoOn();
 
   ServerSession& session_;
@@ -102,20 +102,23 @@ private:
   std::function<void(SpaceServer&)> watch_;
   std::function<void()> stopped_;
   std::size_t engines_ = 0;
-  std::vector<std::uint32_t> hosts_;  // that the server hears
+  std::vector<std::uint32_t> hosts_;  // numbers of the hosts that the server hears
   std::size_t visualisers_ = 0;
   unsigned workers_ = 0;
   TickGate gate_;
-  std::map<std::string, std::uint32_t> away_;  // processes without contact, with the incarnations of their replacements
-  std::vector<UpdateMessage> updates_;
+  // Replaced hosts that the server does not hear, with the incarnations of their replacements.
+  std::map<std::string, std::uint32_t> away_;
+  std::vector<EngineUpdate> updates_;
   std::vector<const EngineUpdate*> updates_here_;
-  std::array<std::vector<ControlCommands>, 2> commands_;  // of all hosts, at even and odd ticks
+  std::array<std::vector<ControlCommands>, 2> commands_;  // commands of all hosts, for even and odd ticks
   std::vector<const ControlCommands*> commands_here_;
   std::vector<DrawnMessage> drawn_;
-  std::vector<SensorFrame> first_frames_;  // of the first tick: none, unless the run goes on
-  std::vector<SensorFrame> frames_;        // of all engines, for the tick
+  std::vector<SensorFrame> first_frames_;  // frames of the first tick; empty unless the run resumes
+  std::vector<SensorFrame> frames_;        // frames of all engines, for the current tick
   const SpaceState* sent_ = nullptr;
-  bool saves_ = false;  // the state asks for saved states
+  bool saves_ = false;                  // the sent state asks the processes to save their states
+  const SpaceState* before_ = nullptr;  // the state of the tick before
+  bool before_saves_ = false;
   bool held_ = true;
   bool hold_ = false;
   std::uint64_t until_ = 0;
@@ -125,7 +128,7 @@ private:
   HashLog hash_log_;
   HotPublisher<SpaceState> states_;
   LocalStates local_states_;
-  std::optional<HotSubscription<UpdateMessage>> updates_in_;
+  std::optional<HotSubscription<EngineUpdate>> updates_in_;
   std::optional<HotSubscription<ControlCommands>> commands_in_;
   std::optional<HotSubscription<DrawnMessage>> drawn_in_;
 };

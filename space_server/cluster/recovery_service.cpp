@@ -1,3 +1,9 @@
+// A replacement gets the newest state that the dead process saved together with the space, and all ticks since then. At
+// the end it gets either the present tick or the sensor frames for it. The plan names places in the journal, so the
+// blocks are read one by one when they are requested. If the robots have been dealt out otherwise since then, the
+// commands of old ticks are converted (CommandsByRobot).
+//
+// Invariant: the ticks of a plan have no gap. A replacement that needs ticks which the journal has dropped is refused.
 #include "space_server/cluster/recovery_service.h"
 
 #include <fmt/format.h>
@@ -7,22 +13,25 @@
 #include <stdexcept>
 
 #include "common/journal/journal_blocks.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {
 namespace
 {
 
-// The newest state of the process that was saved together with the space. `table`: by the hosts of that number, or
-// kUnknownTable: by any.
+// Returns the newest state of the process, before tick `end`, that was saved together with the space. `table`: the
+// number of the hosts that must have saved it, or kUnknownTable for any.
 std::optional<std::pair<JournalPlace, JournalPlace>> NewestState(const std::vector<JournalPlace>& places,
                                                                  const std::string& name, std::uint64_t after,
-                                                                 std::uint32_t table)
+                                                                 std::uint64_t end, std::uint32_t table)
 {
   for (auto part = places.rbegin(); part != places.rend(); ++part)
   {
-    // In the first one it is by itself.
-    if (part->kind != JournalBlockKind::kPart || part->name != name || part->first_tick == after) continue;
+    // At the first tick of the run the process needs no saved state.
+    if (part->kind != JournalBlockKind::kPart || part->name != name || part->first_tick == after ||
+        part->first_tick >= end)
+      continue;
     if (table != kUnknownTable && part->table != table) continue;
     const auto snapshot =
         std::find_if(places.begin(), places.end(),
@@ -41,6 +50,17 @@ bool HasTicksFrom(const std::vector<JournalPlace>& places, std::uint64_t tick)
 }
 
 }  // namespace
+
+RecoveryService::RecoveryService(ServerSession& session, Lockstep& lockstep, const CSwarmanoidSpace& space,
+                                 const Assignment& assignment, JournalWriter* journal)
+    : session_(session),
+      lockstep_(lockstep),
+      assignment_(assignment),
+      acts_later_(space.GetExperiment().ahead > 0),
+      shared_(space, assignment),
+      journal_(journal)
+{
+}
 
 void RecoveryService::Work()
 {
@@ -78,11 +98,13 @@ RecoveryService::Plan RecoveryService::MakePlan(const std::string& name)
   bool is_host = false;
   for (std::size_t h = 0; h < assignment_.hosts.size(); ++h) is_host = is_host || name == HostName(h);
   const std::uint32_t table = is_host && !all.empty() ? all.back().table : kUnknownTable;
-  auto state = NewestState(all, name, first, table);
+  // If commands act a tick later, others may lack what the process sent in the tick before. It computes that tick.
+  const std::uint64_t end = tick + (acts_later_ ? 0 : 1);
+  auto state = NewestState(all, name, first, end, table);
   if (!state || !HasTicksFrom(all, state->second.first_tick))
   {
     all = journal_->Places();
-    state = NewestState(all, name, first, table);
+    state = NewestState(all, name, first, end, table);
   }
   if (state)
   {
@@ -90,7 +112,7 @@ RecoveryService::Plan RecoveryService::MakePlan(const std::string& name)
     first = state->second.first_tick;
   }
   else if (const std::uint64_t kept = FirstTickOf(start, all); kept > first)
-    // No BusError: a start of all processes would be of no use either.
+    // The error is no BusError, since restarting all processes would not help either.
     throw std::runtime_error(
         fmt::format("{} cannot be replaced: it saves no state, so it would do all ticks again, and of those before {} "
                     "nothing is left (--journal-budget); `swarmanoid resume` goes on from a saved state",
@@ -99,7 +121,7 @@ RecoveryService::Plan RecoveryService::MakePlan(const std::string& name)
   {
     if (place.kind != JournalBlockKind::kTicks || place.first_tick + place.ticks <= first || place.first_tick >= tick)
       continue;
-    // The journal may have a record of the present tick, written by the space server before this one.
+    // The journal may have a record of the present tick, which an earlier space server wrote.
     place.ticks = static_cast<std::uint32_t>(std::min<std::uint64_t>(place.ticks, tick - place.first_tick));
     plan.places.push_back(std::move(place));
   }
@@ -107,7 +129,7 @@ RecoveryService::Plan RecoveryService::MakePlan(const std::string& name)
   ReusedMemory room;
   if (is_done)
   {
-    // The engines may have all that they need of it: then the run goes on as soon as the new process is there.
+    // The engines may have all that they need of this tick. Then the run continues as soon as the new process is ready.
     TickRows rows;
     rows.Add(record.state, record.save, record.frames, {});
     last = EncodeJournalBlock(JournalBlockKind::kTicks, tick, 1, rows.Content(room));

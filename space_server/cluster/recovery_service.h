@@ -1,5 +1,5 @@
-// RecoveryService: sends the journal to processes that replace others. Used by the main thread of the space_server
-// program.
+// RecoveryService: sends the journal to processes that replace others. The main thread of the space_server program uses
+// it.
 #pragma once
 
 #include <map>
@@ -18,10 +18,7 @@ class RecoveryService
 {
 public:
   RecoveryService(ServerSession& session, Lockstep& lockstep, const CSwarmanoidSpace& space,
-                  const Assignment& assignment, JournalWriter* journal)
-      : session_(session), lockstep_(lockstep), assignment_(assignment), shared_(space, assignment), journal_(journal)
-  {
-  }
+                  const Assignment& assignment, JournalWriter* journal);
 
   // Answers the pending requests for the journal. Throws BusError for a process that cannot be replaced because the
   // journal has ended.
@@ -41,6 +38,7 @@ private:
   ServerSession& session_;
   Lockstep& lockstep_;
   const Assignment& assignment_;
+  bool acts_later_;  // commands act a tick later
   CommandsByRobot shared_;
   JournalWriter* journal_;
   std::map<std::string, Plan> plans_;  // by process

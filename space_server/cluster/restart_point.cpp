@@ -1,3 +1,8 @@
+// The run resumes at the newest tick with a whole state of the space server. Workers resume from older states of their
+// own and catch up. The log of events may be ahead of the journal or behind it. Changes up to the tick are dropped, and
+// later ones are carried out again at their ticks.
+//
+// Invariant: a tick whose checkpoint file is due counts only if the file is there.
 #include "space_server/cluster/restart_point.h"
 
 #include <filesystem>
@@ -39,7 +44,7 @@ RestartPoint::RestartPoint(const RunSettings& settings, const Experiment& experi
   if (!saved) return;
   tick_ = *saved;
   record_ = journal_->RecordOf(tick_);
-  // They were done before the state was saved.
+  // Changes up to this tick were carried out before the state was saved.
   std::erase_if(requests_.changes, [this](const RecordedEvent& event) { return event.tick <= tick_; });
 }
 
@@ -67,7 +72,7 @@ void RestartPoint::ShareOut(JournalWriter& journal, const Experiment& experiment
 RecordedFaults RestartPoint::Faults() const
 {
   RecordedFaults known = journal_ ? journal_->FaultsFrom(tick_, ahead_) : RecordedFaults();
-  // The journal may end earlier.
+  // The journal may end before the log of events, so faults of the log are added.
   for (const RecordedFault& fault : requests_.failed)
     if (fault.tick >= tick_) known.faults.push_back(fault);
   return known;

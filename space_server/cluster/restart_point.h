@@ -20,18 +20,18 @@ class SpaceServer;
 class RestartPoint
 {
 public:
-  // Throws std::runtime_error if the journal is of something else.
+  // Throws std::runtime_error if the journal belongs to another run or experiment.
   RestartPoint(const RunSettings& settings, const Experiment& experiment);
 
   // Returns the newest tick at which the server was saved and whose record is in the journal. Otherwise it returns the
   // first tick of the run.
   std::uint64_t Tick() const { return tick_; }
-  // Brings the server there, which is where the run began.
+  // Brings the server, which is at the start of the run, to that tick.
   void Restore(SpaceServer& server) const;
-  // Nothing can be read of it if the server died before it had begun.
+  // Returns the journal, or nullptr if the server died before it had begun one.
   const JournalReader* Journal() const { return journal_ ? &*journal_ : nullptr; }
-  // If other controller hosts had the robots: has the journal say so, with the newest state that all processes saved,
-  // shared out among these.
+  // If other controller hosts had the robots, writes the new hosts into the journal, with the newest state that all
+  // processes saved, distributed to these hosts.
   void ShareOut(JournalWriter& journal, const Experiment& experiment, const HostTable& hosts) const;
   // Returns the record of the tick, or nothing if it is the first one.
   const std::optional<TickRecord>& Record() const { return record_; }

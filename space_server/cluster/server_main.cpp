@@ -9,9 +9,9 @@
 #include <memory>
 
 #include "common/activity/failure_report.h"
-#include "common/activity/print_error.h"
 #include "common/bus/membership/cluster_options.h"
 #include "common/configuration/output_file.h"
+#include "common/errors/print_error.h"
 #include "common/experiment/load_experiment.h"
 #include "common/program/trust_flag.h"
 
@@ -25,13 +25,8 @@ constexpr double kLongestRun_s = 1e9;
 OptionSpec StatusOption(int& descriptor)
 {
   constexpr double kLargestDescriptor = 1'048'575;
-  return {{.name = "status-fd",
-           .type = ParameterType::kInteger,
-           .description = "Descriptor for status lines, see docs/wire.md; -1: none",
-           .minimum = -1,
-           .maximum = kLargestDescriptor},
-          &descriptor,
-          "1"};
+  return {Whole("status-fd", "Descriptor for status lines, see docs/wire.md; -1: none", -1, kLargestDescriptor),
+          &descriptor, "1"};
 }
 
 }  // namespace
@@ -40,38 +35,24 @@ void AddServerOptions(CLI::App& app, ServerOptions& options)
 {
   AddOptions(app, ServerOptionTable(options));
   AddTrustFlag(app);
-  AddOptions(
-      app,
-      {StatusOption(options.status_fd),
-       {{.name = "await-replacements",
-         .type = ParameterType::kBoolean,
-         .description = "Wait when a process dies: another one is started in its place"},
-        &options.awaits_replacements},
-       {{.name = "go-on",
-         .type = ParameterType::kNumber,
-         .unit = "s",
-         .description = "Go on with the run whose journal is in the folder of --output, and which has taken "
-                        "so long already; -1: start a run",
-         .minimum = -1,
-         .maximum = kLongestRun_s},
-        &options.goes_on_after_s,
-        "12.5"},
-       {{.name = "machine",
-         .type = ParameterType::kText,
-         .description = "A machine that workers may be moved to by whoever started them"},
-        &options.machines,
-        "alpha",
-        "MACHINE"},
-       {{.name = "place", .type = ParameterType::kText, .description = "The machine that a process of the run is on"},
-        &options.worker_places,
-        "engine 'ground'=alpha",
-        "WORKER=MACHINE"}});
+  AddOptions(app, {StatusOption(options.status_fd),
+                   {Flag("await-replacements", "Wait when a process dies: another one is started in its place"),
+                    &options.awaits_replacements},
+                   {Number("go-on", "s",
+                           "Go on with the run whose journal is in the folder of --output, and which has taken so long "
+                           "already; -1: start a run",
+                           -1, kLongestRun_s),
+                    &options.goes_on_after_s, "12.5"},
+                   {Text("machine", "A machine to which the launcher may move workers"), &options.machines, "alpha",
+                    "MACHINE"},
+                   {Text("place", "The machine that a process of the run is on"), &options.worker_places,
+                    "engine 'ground'=alpha", "WORKER=MACHINE"}});
   AddOptions(app, BusOptionTable(options.bus));
 }
 
 int Serve(const ServerOptions& options)
 {
-  // All that the program refers to, which may have to outlive a run that failed.
+  // The program refers to all these objects. They may have to outlive a run that failed.
   struct Server
   {
     explicit Server(const ServerOptions& given) : options(given), status(given.status_fd) {}
@@ -103,7 +84,7 @@ int Serve(const ServerOptions& options)
       if (const std::string mistake = OutputFolderMistake(options.output_folder); !mistake.empty())
         throw BusError(fmt::format("'{}' cannot be the folder of the run: {}; name another one by --output",
                                    options.output_folder, mistake));
-      // Another process may read it: the launcher has written it, too.
+      // Another process may read the file, and the launcher has written it, too. So it is replaced by renaming.
       const std::string file = options.output_folder + "/experiment.xml";
       const std::string draft = file + ".new";
       const std::string& text = loaded.experiment->effective_xml;

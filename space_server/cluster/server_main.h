@@ -1,4 +1,4 @@
-// All that the program space_server does: its options, and the run. Users' simulations do the same in their own process
+// The program space_server: its options, and the run. Users' simulations do the same in their own process
 // (launcher/supervision/in_process_server.h).
 #pragma once
 

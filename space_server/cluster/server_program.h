@@ -26,6 +26,7 @@
 #include "space_server/pace_meter.h"
 #include "space_server/run_control.h"
 #include "space_server/space_server.h"
+#include "space_server/tick_wait.h"
 
 namespace swarmanoid
 {
@@ -43,10 +44,10 @@ struct ServerOptions : RunSettings
   // empty.
   std::vector<std::string> worker_places;
   std::vector<std::string> machines;
-  // Called before the state of each tick is sent, in the thread that runs the program. Its changes to the server are
-  // part of the state.
+  // It is called before the state of each tick is sent, in the thread that runs the program. Its changes to the server
+  // are part of the state.
   std::function<void(SpaceServer&)> watch;
-  // In a process that lives on after the run: set if the run is to be given up at once.
+  // For a process that continues after the run: set if the run must be given up at once.
   const std::atomic<bool>* abandon = nullptr;
   std::string places;  // LoadedExperiment::places
 };
@@ -54,7 +55,7 @@ struct ServerOptions : RunSettings
 class ServerProgram
 {
 public:
-  // All are used as long as the program runs. Throws ConfigurationError and BusError.
+  // The program uses the arguments as long as it runs. Throws ConfigurationError and BusError.
   ServerProgram(const ServerOptions& options, const Experiment& experiment, StatusChannel& status);
   ~ServerProgram()
   {
@@ -64,16 +65,26 @@ public:
   ServerProgram(const ServerProgram&) = delete;
   ServerProgram& operator=(const ServerProgram&) = delete;
 
-  // The whole run. Returns the exit code. If the run has failed, threads of the bus may be stuck for ever: then the
-  // program is not to be destroyed, and the process ends by EndAtOnce.
+  // Does the whole run and returns the exit code. If the run has failed, threads of the bus may be stuck for ever. Then
+  // the program must not be destroyed, and the process ends by EndAtOnce.
   int Run();
-  bool Failed() const { return failed_; }
+  bool Failed() const { return stage_ == Stage::kFailed; }
 
 private:
   using Clock = RunClock;
 
-  // Between repetitions of what others may not have heard: at first, and at most.
-  static constexpr std::chrono::milliseconds kFirstRepeat{100}, kLastRepeat{1000};
+  enum class Stage
+  {
+    kGathering,  // not all processes have joined
+    kRunning,
+    kFailed
+  };
+  // A dead process holds a lock of the run's shared memory, and the run is still at this tick.
+  struct Broken
+  {
+    std::uint64_t tick;
+    Clock::time_point since;
+  };
 
   static double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
   // Returns the assignment of robots to hosts by the positions at which the run starts or resumes.
@@ -82,8 +93,8 @@ private:
   WorldMessage World();
   std::span<const RenderConfiguration> Visualisers() const;
   std::vector<std::string> Expected(std::span<const RenderConfiguration> visualisers) const;
-  // All processes of the run: these with the visualisers of the file, and the regions of engines that are split, which
-  // answer their engine alone and remember nothing.
+  // Returns all processes of the run: the expected ones, the visualisers of the file, and the regions of split engines.
+  // Regions answer only their engine and save no state.
   std::vector<std::string> Members() const;
   bool IsInterrupted() const { return options_.stop != nullptr && *options_.stop; }
   void Wake();
@@ -107,11 +118,9 @@ private:
   void ReportState();
   // Reports the tick to the launcher, which uses it to decide whether to replace a process that dies.
   void TellTick();
-  // Progress, late answers, stalls.
+  // Reports progress, late answers and stalls.
   void ReportProgress();
-  // Returns true if the run has waited long since since_ and has not reported it lately.
-  bool StallIsDue() const;
-  void ReportStall(const std::string& who);
+  void ReportStall(const std::string& who, Clock::duration waited);
   // Returns the names of the processes that the run waits for: those of missing answers, or the processes that these
   // wait for.
   std::string LateNames(std::uint64_t tick) const;
@@ -119,12 +128,16 @@ private:
   // Returns true if the run begins again after a reset. Observers then wait for the next server and get no end of the
   // run.
   bool BeginsAgain() const { return run_control_.Reset().has_value() && KeepsJournal(); }
-  // Attached visualisers see the whole state now and then, and how the run goes.
+  // Sends attached visualisers the whole state and the status of the run, if they are due.
   void PublishViews();
+  // They get the last state, unless the run begins again.
+  void PublishEnd();
+  void SendView(Clock::time_point now);
   RunStatus Status(RunStatus::Phase phase, Clock::time_point now);
-  // The last state is out: all draw it, close their files and leave.
+  // Ends the run after the last state: waits until all processes have drawn it, closed their files and left, and
+  // reports the result.
   void Close();
-  // All parts have been sent; the last of them may still be on their way through the threads of the bus.
+  // Waits for the last parts of checkpoints, which may still be in the threads of the bus, and writes the checkpoints.
   void FinishCheckpoints();
 
   const ServerOptions& options_;
@@ -134,7 +147,7 @@ private:
   RunCondition wake_;
   bool awake_ = false;
   std::optional<RestartPoint> restart_point_;
-  std::optional<Checkpoint> restored_;  // until the journal has it
+  std::optional<Checkpoint> restored_;  // released when the journal has it
   Assignment assignment_;
   SpaceServer server_;
   ServerSession session_;
@@ -152,19 +165,11 @@ private:
   std::optional<ServerState::Phase> said_phase_;
   std::uint64_t last_tick_ = 0;
   std::optional<std::uint64_t> told_tick_;
-  Clock::time_point since_;  // the current tick is waited for
-  Clock::time_point repeated_;
+  TickWait wait_;
   Clock::time_point world_said_;
-  Clock::duration repeat_after_{};
-  Clock::duration stall_said_{};
   std::uint64_t first_tick_ = 0;
-  bool started_ = false;
-  bool told_end_ = false;
-  bool failed_ = false;
-  std::optional<Clock::time_point> broken_since_;
-  std::uint64_t broken_tick_ = 0;
-  bool stuck_ = false;
-  EndReason reason_ = EndReason::kFailed;  // why the run ends before its end
+  Stage stage_ = Stage::kGathering;
+  std::optional<Broken> broken_;
   SpaceSnapshot snapshot_;
 };
 

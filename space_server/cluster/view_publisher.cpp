@@ -10,13 +10,13 @@ namespace
 
 using namespace std::chrono_literals;
 
-constexpr double kMostViews = 30;  // a second
+constexpr double kMostViews = 30;  // each second
 // An unchanged state is sent again for a while. Fast DDS may lose messages while a new reader is matched. A client that
 // sent a request cannot tell which views are newer than the reply.
 constexpr auto kTimeOfRepeats = 10s;
 constexpr int kLeastViews = 4;
 constexpr auto kStatusPeriod = 100ms;
-constexpr auto kRequestTime = 3s;  // after which a request that is not repeated is void
+constexpr auto kRequestTime = 3s;  // a request that is not repeated ends after this time
 
 ViewPublisher::Clock::duration Period(double rate)
 {
@@ -106,7 +106,7 @@ void ViewPublisher::SendView(SpaceSnapshot& snapshot, Clock::time_point now)
   if (views_left_ > 0) --views_left_;
   viewed_tick_ = snapshot.tick;
   viewed_ = now;
-  // At most a tenth of the time goes into views.
+  // Views take at most a tenth of the time.
   shortest_period_ = 10 * (Clock::now() - now);
 }
 

@@ -42,11 +42,11 @@ public:
   // The latest view and status were read by all observers, or that time is over.
   void WaitUntilRead(double seconds);
 
-  // When one of them may be due.
+  // Returns the time at which a view or a status may be due.
   Clock::time_point Next() const;
   // Takes the rate that a client asks for. Any thread may call it.
   void Requested(const ViewRequestMessage& request);
-  // A process is lost or has left.
+  // A process is lost or has left, so its requests end.
   void Lost(const std::string& process);
 
 private:
@@ -72,8 +72,8 @@ private:
   unsigned viewers_ = 0;
   std::uint64_t viewed_tick_ = 0;
   Clock::time_point viewed_;
-  Clock::time_point repeats_until_;  // of a state that does not change
-  int views_left_ = 0;               // at least
+  Clock::time_point repeats_until_;  // until then an unchanged state is sent again
+  int views_left_ = 0;               // at least as many views are still to be sent
   Clock::duration shortest_period_{};
 
   Publisher<RunStatusMessage> statuses_;

@@ -1,5 +1,6 @@
 """Pictures of a search: its course, and what it tried of each factor. A part of plot_study.py."""
 import itertools
+from functools import partial
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -21,6 +22,7 @@ class Search:
     """The points of a study with a <search>: what the algorithm learned of each, in its order."""
 
     def __init__(self, study):
+        self.label = study.label
         self.metric, self.goal, self.aggregate = (study.facts[name] for name in ("search", "goal", "aggregate"))
         seeds = [int(seed) for seed in study.facts["seeds"].split()]
         values, fresh = {}, {}
@@ -47,7 +49,7 @@ def course(search):
         axes.axhline(mean, color=colour, linestyle="--", linewidth=1.2, label=f"the best with {len(search.fresh)} fresh seeds: mean")
         axes.axhspan(mean - half, mean + half, color=colour, alpha=0.2, linewidth=0)
     axes.set_xlabel("point, in the order of the search")
-    axes.set_ylabel(f"{search.metric} ({search.aggregate} of the seeds)")
+    axes.set_ylabel(f"{search.label(search.metric)}, {search.aggregate} of the seeds")
     axes.legend(fontsize=9)
     return figure, (f"The course of the search for the {'most' if search.goal == 'max' else 'least'} {search.metric}: each point, and the best one so far. The best "
                     "value of a search is flattered, since chance helped to choose it; the band is the confidence interval of 95 % of its mean with fresh seeds.")
@@ -60,8 +62,8 @@ def tried(search, factor):
     picture = axes.scatter(xs, search.values, c=range(len(xs)), cmap=style.HEAT, s=22)
     axes.plot(search.factors[search.best][factor], search.values[search.points.index(search.best)], marker="*", markersize=15, color=style.COLOURS[1],
               linestyle="", label="best")
-    axes.set_xlabel(factor)
-    axes.set_ylabel(search.metric)
+    axes.set_xlabel(search.label(factor))
+    axes.set_ylabel(search.label(search.metric))
     figure.colorbar(picture, label="order of the search")
     axes.legend()
     return figure, f"{search.metric} over what the search tried of {factor}; later points are lighter."
@@ -72,21 +74,21 @@ def tried_pair(search, x, y):
     picture = axes.scatter([search.factors[p][x] for p in search.points], [search.factors[p][y] for p in search.points], c=search.values, cmap=style.HEAT, s=30)
     best = search.factors[search.best]
     axes.plot(best[x], best[y], marker="*", markersize=15, color=style.COLOURS[1], linestyle="", label="best")
-    axes.set_xlabel(x)
-    axes.set_ylabel(y)
-    figure.colorbar(picture, label=search.metric)
+    axes.set_xlabel(search.label(x))
+    axes.set_ylabel(search.label(y))
+    figure.colorbar(picture, label=search.label(search.metric))
     axes.legend()
     return figure, f"{search.metric} of all that the search tried of {x} and {y}."
 
 
 def pictures(study):
-    """(name, figure, what it shows), as those of plot_study.py."""
+    """(name, function that draws it), as those of plot_study.py."""
     search = Search(study)
     if not search.points:
         return
-    yield f"{search.metric}_search", *course(search)
+    yield f"{search.metric}_search", partial(course, search)
     searched = [name for name, numeric in study.varied() if numeric]
     for factor in searched:
-        yield f"{search.metric}_tried_{factor}", *tried(search, factor)
+        yield f"{search.metric}_tried_{factor}", partial(tried, search, factor)
     for x, y in itertools.islice(itertools.combinations(searched, 2), 6):
-        yield f"{search.metric}_tried_{x}_and_{y}", *tried_pair(search, x, y)
+        yield f"{search.metric}_tried_{x}_and_{y}", partial(tried_pair, search, x, y)

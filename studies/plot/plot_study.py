@@ -5,10 +5,13 @@ import html
 import io
 import itertools
 import json
+import math
 import pathlib
 import sqlite3
 import sys
+import time
 import warnings
+from functools import partial
 
 import matplotlib
 
@@ -18,6 +21,7 @@ import numpy as np
 
 import plot_search
 from study_style import COLOURS, HEAT, MARKS, MOST_LINES, SIZE, mean_and_band
+from study_text import as_html, as_latex, as_markdown, number, probability, with_error
 
 
 class StudyError(Exception):
@@ -36,6 +40,7 @@ class Study:
         self.facts = dict(self.database.execute("SELECT name, value FROM study"))
         self.factors = [(name, kind == "REAL") for name, kind in self.results_between("point", "seed")]
         self.metrics = [name for name, _ in self.results_between("time_s", "exit")]
+        self.units = json.loads(self.facts.get("units", "{}"))  # studies of version 1.0 do not have them
         self.states = dict(self.database.execute("SELECT state, COUNT(*) FROM runs GROUP BY state"))
         self.levels = {name: [row[0] for row in self.database.execute(f'SELECT "{name}" FROM runs GROUP BY "{name}" ORDER BY MIN(point)')]
                        for name, _ in self.factors}
@@ -56,6 +61,10 @@ class Study:
         names = [column[0] for column in cursor.description]
         return [dict(zip(names, row)) for row in cursor]
 
+    def label(self, name):
+        """A factor or metric with its unit."""
+        return f"{name} ({self.units[name]})" if self.units.get(name) else name
+
     def varied(self):
         """Factors with more than one value, numbers first."""
         found = [(name, numeric) for name, numeric in self.factors if len(self.levels[name]) > 1]
@@ -63,7 +72,7 @@ class Study:
 
 
 def shown(value):
-    return f"{value:g}" if isinstance(value, float) else str(value)
+    return number(value, 6) if isinstance(value, float) else str(value)
 
 
 def grouped(rows, keys, value):
@@ -96,9 +105,9 @@ def over_factor(study, metric, factor, by=None):
         xs = [x for x in sorted(study.levels[factor]) if ((x, level) if by else (x,)) in groups]
         if xs:
             line(axes, number, xs, [groups[(x, level) if by else (x,)] for x in xs], f"{shown(level)}" if by else None)
-    axes.set_xlabel(factor)
-    axes.set_ylabel(metric)
-    legend(axes, by)
+    axes.set_xlabel(study.label(factor))
+    axes.set_ylabel(study.label(metric))
+    legend(axes, by and study.label(by))
     return figure, f"{metric} at the end of the runs over {factor}" + (f", by {by}" if by else "") + ": means, and confidence intervals of 95 %."
 
 
@@ -110,55 +119,62 @@ def courses(rows):
     return runs
 
 
+def sample_period(runs):
+    """The longest time between the first two rows of a run. The last row of a run may come earlier."""
+    return max((times[1] - times[0] for times in map(sorted, runs.values()) if len(times) > 1), default=0)
+
+
 def values_over_time(runs, ended):
-    """Times, and for each the values that its mean is of. runs: {name: {time: value or None}}. ended: what happens to runs that have ended,
-    as --ended says. The last row of a run may stand between the rows of others; a mean there would be of that run alone, so that only times
-    are taken at which each run that goes on has a row."""
-    last = {name: max(course) for name, course in runs.items()}
-    first_end = min(last.values(), default=0)
+    """Times, and for each the values that its mean is of. runs: {name: {time: value or None}}. Each time is the end of a bin of one sample
+    period, so that runs with other periods, and last rows between two others, fall into bins. ended: what happens to runs that have ended,
+    as --ended says."""
+    period = sample_period(runs) or 1.0
+    bins = {name: {math.ceil(time / period - 1e-6): course[time] for time in sorted(course)} for name, course in runs.items()}
+    ends = {name: max(course) for name, course in runs.items()}
+    first_end = math.floor(min(ends.values(), default=0) / period + 1e-6)
     times, values = [], []
-    for time in sorted({time for course in runs.values() for time in course}):
-        if ended == "stop" and time > first_end:
+    for number_of_bin in sorted({number_of_bin for course in bins.values() for number_of_bin in course}):
+        if ended == "stop" and number_of_bin > first_end:
             break
-        if any(time not in course for name, course in runs.items() if last[name] >= time):
-            continue
-        found = [course[time] if last[name] >= time else course[last[name]] for name, course in runs.items() if last[name] >= time or ended == "hold"]
+        found = [course[min(number_of_bin, max(course))] for course in bins.values() if min(number_of_bin, max(course)) in course]
         found = [value for value in found if value is not None]
         if found:
-            times.append(time)
+            times.append(number_of_bin * period)
             values.append(found)
     return times, values
 
 
 ENDED = {
-    "leave-out": "Each mean is of the runs that have not ended; the lower part says how many.",
-    "hold": "Runs that have ended keep their last value; the lower part says how many runs go on.",
-    "stop": "The lines stop where the first run ends.",
+    "stop": "A line stops where the first of its runs ends",
+    "hold": "Runs that have ended keep their last value",
 }
 
 
-def over_time(study, metric, by, ended="leave-out"):
+def over_time(study, metric, by, ended="stop"):
     """Means over time, a line for each value of a factor, and below them how many runs go on."""
     levels = study.levels[by] if by else [None]
     if len(levels) > MOST_LINES:
         levels = [levels[i] for i in np.unique(np.linspace(0, len(levels) - 1, MOST_LINES).round().astype(int))]
     figure, (axes, below) = plt.subplots(2, 1, sharex=True, figsize=(SIZE[0], SIZE[1] * 1.25), height_ratios=[4, 1])
-    for number, level in enumerate(levels):
+    for position, level in enumerate(levels):
         where = f'WHERE "{by}" = ?' if by else ""
         runs = courses(study.rows(f'SELECT point, seed, time_s, "{metric}" AS value FROM results {where}', (level,) if by else ()))
         times, values = values_over_time(runs, ended)
-        if times:
-            line(axes, number, times, values, shown(level) if by else None)
-            ends = sorted(max(course) for course in runs.values())
-            alive = [len(ends) - int(np.searchsorted(ends, time, side="left")) for time in times]
-            below.step(times, alive, where="post", color=COLOURS[number % len(COLOURS)], linestyle=("-", "--", "-.", ":")[number % 4])
-    axes.set_ylabel(metric)
+        if not times:
+            continue
+        line(axes, position, times, values, shown(level) if by else None)
+        ends = sorted(max(course) for course in runs.values())
+        # Also beyond the end of the line, so that one sees how many runs a stopped line leaves out.
+        steps = sorted({0.0, *times, *ends})
+        alive = [len(ends) - int(np.searchsorted(ends, time - 1e-9, side="left")) for time in steps]
+        below.step([*steps, steps[-1]], [*alive, 0], where="post", color=COLOURS[position % len(COLOURS)], linestyle=("-", "--", "-.", ":")[position % 4])
+    axes.set_ylabel(study.label(metric))
     below.set_ylabel("runs")
     below.set_ylim(bottom=0)
     below.yaxis.get_major_locator().set_params(integer=True, nbins=4)
     below.set_xlabel("time (s)")
-    legend(axes, by)
-    return figure, f"{metric} over time" + (f", by {by}" if by else "") + f": means, and confidence intervals of 95 %. {ENDED[ended]}"
+    legend(axes, by and study.label(by))
+    return figure, f"{metric} over time" + (f", by {by}" if by else "") + f": means, and confidence intervals of 95 %. {ENDED[ended]}; below: how many runs go on."
 
 
 def boxes(study, metric, factor):
@@ -169,8 +185,8 @@ def boxes(study, metric, factor):
                  boxprops={"facecolor": "#56b4e9", "alpha": 0.6}, medianprops={"color": "black", "linewidth": 1.5}, flierprops={"markersize": 3})
     if len(levels) > 8:
         axes.tick_params(axis="x", rotation=45)
-    axes.set_xlabel(factor)
-    axes.set_ylabel(metric)
+    axes.set_xlabel(study.label(factor))
+    axes.set_ylabel(study.label(metric))
     return figure, f"{metric} at the end of the runs, by {factor}: median, quartiles, whiskers to 1.5 times their distance, and what is beyond."
 
 
@@ -183,14 +199,14 @@ def heat(study, metric, x, y):
     axes.set_xticks(range(len(xs)), [shown(a) for a in xs], rotation=45 if len(xs) > 8 else 0)
     axes.set_yticks(range(len(ys)), [shown(b) for b in ys])
     axes.grid(False)
-    axes.set_xlabel(x)
-    axes.set_ylabel(y)
-    figure.colorbar(picture, label=metric)
+    axes.set_xlabel(study.label(x))
+    axes.set_ylabel(study.label(y))
+    figure.colorbar(picture, label=study.label(metric))
     if means.size <= 60:
         middle = (np.nanmin(means) + np.nanmax(means)) / 2
         for (row, column), value in np.ndenumerate(means):
             if not np.isnan(value):
-                axes.text(column, row, f"{value:.3g}", ha="center", va="center", fontsize=8, color="white" if value < middle else "black")
+                axes.text(column, row, number(value, 3), ha="center", va="center", fontsize=8, color="white" if value < middle else "black")
     return figure, f"{metric} at the end of the runs over {x} and {y}: means of all seeds."
 
 
@@ -227,7 +243,7 @@ def visits(study, metric, point):
 
 def values_of(study, point):
     row = study.rows("SELECT * FROM runs WHERE point = ? LIMIT 1", (point,))[0]
-    return ", ".join(f"{name} = {shown(row[name])}" for name, _ in study.factors) or "the only point"
+    return ", ".join(f"{name} = {shown(row[name])} {study.units.get(name, '')}".rstrip() for name, _ in study.factors) or "the only point"
 
 
 def ends(study, table):
@@ -249,7 +265,7 @@ def with_reference(study, metric, figure, references):
 
 
 def pictures(study, metrics, ended):
-    """(name, figure, what it shows), one after the other. ended: as --ended says."""
+    """(name, function that draws it and returns the figure and what it shows). ended: as --ended says."""
     if study.facts.get("search"):
         yield from plot_search.pictures(study)
         metrics = []
@@ -259,20 +275,20 @@ def pictures(study, metrics, ended):
     for metric in metrics:
         if numeric:
             by = next((name for name in others + numeric[1:] if len(study.levels[name]) <= MOST_LINES), None)
-            yield f"{metric}_over_{numeric[0]}", *over_factor(study, metric, numeric[0], by)
+            yield f"{metric}_over_{numeric[0]}", partial(over_factor, study, metric, numeric[0], by)
         for name, _ in varied[:2] if varied else []:
             if len(study.levels[name]) <= 40:
-                yield f"{metric}_boxes_{name}", *boxes(study, metric, name)
+                yield f"{metric}_boxes_{name}", partial(boxes, study, metric, name)
         for x, y in itertools.islice(itertools.combinations(numeric, 2), 3):
-            yield f"{metric}_over_{x}_and_{y}", *heat(study, metric, x, y)
+            yield f"{metric}_over_{x}_and_{y}", partial(heat, study, metric, x, y)
         if study.has_time:
-            yield f"{metric}_over_time", *over_time(study, metric, varied[0][0] if varied else None, ended)
+            yield f"{metric}_over_time", partial(over_time, study, metric, varied[0][0] if varied else None, ended)
     for point in ends(study, "ways"):
         seed = study.database.execute("SELECT MIN(seed) FROM ways WHERE point = ?", (point,)).fetchone()[0]
-        yield f"ways_{point}-{seed}", *ways(study, point, seed)
+        yield f"ways_{point}-{seed}", partial(ways, study, point, seed)
     for metric, in study.database.execute("SELECT DISTINCT metric FROM grids ORDER BY metric").fetchall():
         for point in ends(study, "grids"):
-            yield f"{metric}_visits_{point}", *visits(study, metric, point)
+            yield f"{metric}_visits_{point}", partial(visits, study, metric, point)
 
 
 def wilcoxon(differences):
@@ -299,8 +315,8 @@ def level_named(study, factor, text):
 
 
 def compared(study, request, metrics):
-    """Rows (metric, pairs, mean difference, half its confidence interval, p, effect) of FACTOR=A,B: B less A, in pairs that have the same
-    seed and the same values of all other factors."""
+    """[(metric, factor, first, second, pairs, mean difference, half its confidence interval, p, effect)] of FACTOR=A,B: B less A, in pairs
+    that have the same seed and the same values of all other factors."""
     factor, _, values = request.partition("=")
     if factor not in study.levels or values.count(",") != 1:
         raise StudyError(f"--compare: write FACTOR=A,B, with one of the factors {', '.join(study.levels) or '(there are none)'}")
@@ -312,46 +328,88 @@ def compared(study, request, metrics):
               for level in (first, second)}
         differences = [of[second][key] - of[first][key] for key in of[first] if key in of[second]]
         if differences:
-            found.append((metric, len(differences), *mean_and_band(differences), *wilcoxon(differences)))
+            found.append((metric, factor, shown(first), shown(second), len(differences), *mean_and_band(differences), *wilcoxon(differences)))
     return found
 
 
-def comparison(request, rows):
-    lines = "".join(f"<tr><td>{html.escape(metric)}</td><td>{pairs}</td><td>{mean:.4g} ± {half:.2g}</td><td>{p:.3g}</td><td>{effect:+.2f}</td></tr>"
-                    for metric, pairs, mean, half, p, effect in rows)
-    return (f"<h2>{html.escape(request)}, in pairs</h2><p>The second less the first, of runs with the same seed and otherwise the same values: mean with its "
-            "confidence interval of 95 %, Wilcoxon's signed-rank test, rank-biserial correlation.</p><table><thead><tr><th>metric</th><th>pairs</th>"
-            f"<th>difference</th><th>p</th><th>effect</th></tr></thead><tbody>{lines}</tbody></table>")
+def holm(probabilities):
+    """Probabilities corrected for their number: Holm, Scandinavian Journal of Statistics 6 (1979)."""
+    corrected, least = [0.0] * len(probabilities), 0.0
+    for rank, place in enumerate(sorted(range(len(probabilities)), key=probabilities.__getitem__)):
+        least = max(least, min(1.0, (len(probabilities) - rank) * probabilities[place]))
+        corrected[place] = least
+    return corrected
+
+
+SURE = 0.05
+
+
+def verdict(factor, first, second, mean, p, effect):
+    """Which of two values gives more, if p is below SURE, and mean and ranks agree."""
+    if p >= SURE:
+        return f"no difference shown: {factor}={second} less {first}"
+    if mean * effect <= 0:
+        return f"different, but mean and ranks disagree: {factor}={second} less {first}"
+    more, less = (second, first) if effect > 0 else (first, second)
+    return f"larger with {factor}={more} than with {less}"
+
+
+def comparison(study, requests, metrics):
+    """The comparisons that are asked for: lines of text, and heads and rows of a table. All tests together are corrected by Holm's method."""
+    rows = [row for request in requests for row in compared(study, request, metrics)]
+    corrected = holm([row[-2] for row in rows])
+    test = f"Wilcoxon, Holm's correction for {len(rows)} tests" if len(rows) > 1 else "Wilcoxon"
+    lines, table = [], []
+    for (metric, factor, first, second, pairs, mean, half, p, effect), p_holm in zip(rows, corrected):
+        told = verdict(factor, first, second, mean, p_holm, effect)
+        by = with_error(abs(mean) if told.startswith("larger") else mean, half)
+        unit = f" {study.units[metric]}" if study.units.get(metric) else ""
+        lines.append(f"{metric}: {told} by {by}{unit} in {pairs} pairs; {probability(p_holm)} ({test}), effect {effect:+.2f}"
+                     if told.startswith("larger") else
+                     f"{metric}: {told} is {by}{unit} in {pairs} pairs; {probability(p_holm)} ({test}), effect {effect:+.2f}")
+        table.append([study.label(metric), told, by, str(pairs), probability(p_holm), f"{effect:+.2f}"])
+    return lines, ["metric", "result", "difference", "pairs", "p", "effect"], table
+
+
+def compared_html(head, rows):
+    if not rows:
+        return ""
+    correction = f" p has Holm's correction for {len(rows)} tests." if len(rows) > 1 else ""
+    return ("<h2>Compared in pairs</h2><p>Differences of runs with the same seed and otherwise the same values: mean with its confidence interval of 95 %, "
+            f"Wilcoxon's signed-rank test, rank-biserial correlation.{correction}</p>{as_html(head, rows)}")
+
+
+def mean_and_deviation(values):
+    if not values:
+        return ""
+    return with_error(float(np.mean(values)), float(np.std(values, ddof=1))) if len(values) > 1 else number(values[0])
 
 
 def summary(study):
-    """The table of the report: for each point the mean and deviation of each metric at the end."""
+    """The table of all points: mean and deviation of each metric at the end of the runs. Returns its head and rows."""
     names = [name for name, _ in study.factors]
-    head = "".join(f"<th>{html.escape(text)}</th>" for text in [*names, "runs", *study.metrics])
-    lines = []
-    for point, rows in itertools.groupby(study.last, key=lambda row: row["point"]):
+    head = [*map(study.label, names), "runs", *map(study.label, study.metrics)]
+    table = []
+    for _, rows in itertools.groupby(study.last, key=lambda row: row["point"]):
         rows = list(rows)
-        cells = [shown(rows[0][name]) for name in names] + [str(len(rows))]
-        for metric in study.metrics:
-            values = [row[metric] for row in rows if row[metric] is not None]
-            cells.append(f"{np.mean(values):.4g} ± {np.std(values, ddof=1):.2g}" if len(values) > 1 else f"{values[0]:.4g}" if values else "")
-        lines.append("<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in cells) + "</tr>")
-        if len(lines) == 500:
-            lines.append(f'<tr><td colspan="{len(cells)}">The others stand in table.csv.</td></tr>')
-            break
-    return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(lines)}</tbody></table>"
+        values = [[row[metric] for row in rows if row[metric] is not None] for metric in study.metrics]
+        table.append([shown(rows[0][name]) for name in names] + [str(len(rows))] + list(map(mean_and_deviation, values)))
+    return head, table
+
+
+MOST_ROWS = 500  # of the report's table
 
 
 PAGE = """<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><title>{name}</title><style>
-body {{ font: 15px/1.5 system-ui, sans-serif; max-width: 70rem; margin: 2rem auto; padding: 0 1rem; color: #202020; background: #fff }}
-figure {{ display: inline-block; margin: 0 1rem 1.5rem 0; vertical-align: top; max-width: 32rem }}
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><title>{name}</title><style>
+body {{ font: 15px/1.5 system-ui, sans-serif; max-width: 70rem; margin: 2rem auto; padding: 0 1rem; color: #202020; background: #fff; overflow-wrap: anywhere }}
+figure {{ display: inline-block; margin: 0 1rem 1.5rem 0; vertical-align: top; max-width: min(32rem, 100%) }}
 figure svg {{ max-width: 100%; height: auto }}
 figcaption {{ color: #505050; font-size: 0.9em }}
-table {{ border-collapse: collapse; font-size: 0.9em }}
-th, td {{ padding: 0.15rem 0.7rem; text-align: right; border-bottom: 1px solid #d8d8d8 }}
+table {{ border-collapse: collapse; font-size: 0.9em; overflow-wrap: normal }}
+th, td {{ padding: 0.15rem 0.7rem; text-align: right; border-bottom: 1px solid #d8d8d8; white-space: nowrap }}
 .wide {{ overflow-x: auto }}
-pre {{ background: #f4f4f4; padding: 0.8rem; overflow-x: auto }}
+pre {{ background: #f4f4f4; padding: 0.8rem; white-space: pre-wrap }}
 </style></head><body>
 <h1>{name}</h1>
 <p>{runs}. Swarmanoid {version}{revision}.</p>
@@ -359,7 +417,7 @@ pre {{ background: #f4f4f4; padding: 0.8rem; overflow-x: auto }}
 {comparisons}
 <h2>At the end of the runs</h2>
 <p>Mean and standard deviation over the seeds.</p>
-<div class="wide">{table}</div>
+{table}
 <h2>The study</h2>
 <pre>{study}</pre>
 </body></html>
@@ -386,6 +444,25 @@ def read_references(path, metrics):
     return found
 
 
+class Progress:
+    """One line on a terminal with the share that is done and the time that is left, as the command shows it; nothing in a pipe."""
+
+    def __init__(self, work, steps):
+        self.work, self.steps, self.begin = work, steps, time.monotonic()
+        self.shown = sys.stderr.isatty()
+
+    def show(self, done):
+        if not self.shown:
+            return
+        seconds = (time.monotonic() - self.begin) * (self.steps - done) / done if done else 0
+        left = f", {seconds:.0f} s left" if seconds >= 1 else ""
+        print(f"\r{self.work}: {100 * done // self.steps} %{left}\033[K", end="", file=sys.stderr, flush=True)
+
+    def clear(self):
+        if self.shown:
+            print("\r\033[K", end="", file=sys.stderr, flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(prog="swarmanoid plot", description=__doc__)
     parser.add_argument("folder")
@@ -393,7 +470,7 @@ def main():
     parser.add_argument("--reference", default="")
     parser.add_argument("--compare", action="append", default=[])
     parser.add_argument("--format", choices=["svg", "png"], default="svg")
-    parser.add_argument("--ended", choices=list(ENDED), default="leave-out")
+    parser.add_argument("--ended", choices=list(ENDED), default="stop")
     parser.add_argument("--output", default="")
     options = parser.parse_args()
     study = Study(options.folder)
@@ -403,26 +480,34 @@ def main():
     if not study.last:
         raise StudyError(f"no run of '{options.folder}' has a result yet")
     references = read_references(options.reference, study.metrics) if options.reference else []
-    comparisons = ""
-    for request in options.compare:
-        rows = compared(study, request, options.metric or study.metrics)
-        comparisons += comparison(request, rows)
-        for metric, pairs, mean, half, p, effect in rows:
-            print(f"{metric}: {request}: difference {mean:.4g} ± {half:.2g} in {pairs} pairs, p = {p:.3g} (Wilcoxon), effect {effect:+.2f}")
+    lines, compared_head, compared_rows = comparison(study, options.compare, options.metric or study.metrics)
+    for text in lines:
+        print(text)
     output = pathlib.Path(options.output) if options.output else study.folder / "pictures"
     output.mkdir(parents=True, exist_ok=True)
     figures = []
-    for name, figure, caption in pictures(study, options.metric or study.metrics, options.ended):
+    planned = list(pictures(study, options.metric or study.metrics, options.ended))
+    progress = Progress("drawing", len(planned))
+    for number, (name, draw) in enumerate(planned):
+        progress.show(number)
+        figure, caption = draw()
         metric = next((m for m in study.metrics if name.startswith(m + "_over_") and "_and_" not in name and not name.endswith("_over_time")), None)
         with_reference(study, metric, figure, references)
         figure.savefig(output / f"{name}.{options.format}", dpi=150, metadata={"Date": None} if options.format == "svg" else None)
         figures.append(f"<figure>{inline(figure)}<figcaption>{html.escape(caption)}</figcaption></figure>")
         plt.close(figure)
+    progress.clear()
     revision = study.facts.get("revision", "")
     runs = ", ".join(f"{count} runs {state}" for state, count in sorted(study.states.items()))
+    head, table = summary(study)
+    tables = [(head, table)] + ([(compared_head, compared_rows)] if compared_rows else [])
+    for ending, written in (("md", as_markdown), ("tex", as_latex)):
+        (output / f"table.{ending}").write_text("\n".join(written(*each) for each in tables), encoding="utf-8")
+    shown_rows = table[:MOST_ROWS] + ([["The others stand in table.md."]] if len(table) > MOST_ROWS else [])
     report = output / "report.html"
     report.write_text(PAGE.format(name=html.escape(study.facts["name"]), runs=runs, version=study.facts["version"],
-                                  revision=f" ({revision})" if revision else "", figures="\n".join(figures), comparisons=comparisons, table=summary(study),
+                                  revision=f" ({revision})" if revision else "", figures="\n".join(figures),
+                                  comparisons=compared_html(compared_head, compared_rows), table=as_html(head, shown_rows),
                                   study=html.escape(study.facts["study"])), encoding="utf-8")
     print(f"{len(figures)} pictures in {output}, report {report}")
 

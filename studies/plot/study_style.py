@@ -11,7 +11,7 @@ MOST_LINES = len(COLOURS)
 SIZE = (6.4, 4.2)
 
 plt.rcParams.update({"axes.grid": True, "grid.alpha": 0.3, "axes.spines.top": False, "axes.spines.right": False, "figure.constrained_layout.use": True,
-                     "svg.hashsalt": "swarmanoid", "font.size": 10})
+                     "axes.formatter.use_mathtext": True, "axes.formatter.useoffset": False, "svg.hashsalt": "swarmanoid", "font.size": 10})
 
 
 def mean_and_band(values):

@@ -42,6 +42,15 @@ class Experiments(RunningTest):
         self.assertEqual([float(part) for part in patch.get("position").split(",")], [2, 2, 0])
         self.swarmanoid("run", file, "--single-process", "--output", "run")
 
+    def test_a_foot_bot_slides_along_a_wall_as_fast_as_in_argos3(self):
+        # ARGoS3 at 421bd763: y is 0.134, 0.267 and 0.530 m after 2, 4 and 8 s.
+        (self.folder / "scripts").symlink_to(HERE / "scripts")
+        said = self.swarmanoid("run", HERE / "slide.argos", "--output", "run").stderr + self.said_in("run")
+        y = [float(place) for place in re.findall(r"at [-\d.]+ ([-\d.]+)", said)]
+        for second, there in ((2, 0.134), (4, 0.267), (8, 0.530)):
+            self.assertAlmostEqual(y[10 * second - 1], there, delta=0.002)
+        self.assertAlmostEqual((y[79] - y[39]) / 4, (0.530 - 0.267) / 4, delta=0.0003)
+
     def test_the_order_of_a_step(self):
         """Ten centimetres a second: a controller moves nothing before its first step, PreStep comes before the
         controllers and PostStep behind them, and both see the places that the controllers saw."""
@@ -57,7 +66,7 @@ class Experiments(RunningTest):
         for row in first[1:]:
             steps = int(row[0]) - (row[1] == "pre")
             self.assertEqual(int(row[3]), steps, row)
-        # The controller at clock n saw what PostStep of n sees, whoever was moved in PreStep too.
+        # The controller at clock n saw what PostStep of n sees, entities moved in PreStep included.
         self.assertTrue(all(row[7] == "1" for row in first if row[1] == "post"))
         at = {int(row[0]): float(row[5]) for row in first if row[1] == "pre"}
         self.assertAlmostEqual(at[1], -0.5, places=9)
@@ -84,11 +93,11 @@ class Experiments(RunningTest):
         rows = [line.split("\t") for line in (self.folder / "kept.tsv").read_text().splitlines()]
         self.assertEqual([(int(row[0]), int(row[1])) for row in rows],
                          [(clock, 1 if 3 < clock < 7 else 2) for clock in range(1, 11)])
-        self.assertAlmostEqual(float(rows[0][2]), -0.5)
+        self.assertAlmostEqual(float(rows[0][2]), 0.5)
         self.assertAlmostEqual(float(rows[6][2]), 1.2)
 
     def test_ids_of_distributed_entities_are_those_of_argos3(self):
-        """Two groups of one prefix, one without any, and one of nobody."""
+        """Two groups of one prefix, one without a prefix, and an empty one."""
         group = """<distribute>
             <position method="constant" values="{}"/><orientation method="constant" values="0,0,0"/>
             <entity quantity="{}" max_trials="1" base_num="{}"><foot-bot id="{}"><controller config="r"/></foot-bot></entity>
@@ -101,14 +110,15 @@ class Experiments(RunningTest):
         at = {row[2]: float(row[5]) for row in rows if row[0] == "0"}
         self.assertEqual((at["fb7"], at["3"], at["fb5"]), (-1.5, -1.5, -0.5))
 
-    def test_ticks_that_are_no_whole_milliseconds_are_rounded_if_little_is_lost(self):
-        file = self.changed("wander.argos", ('ticks_per_second="10"', 'ticks_per_second="32"'))
-        result = self.swarmanoid("convert", file, "--output", "wander.xml")
-        self.assertRegex(result.stderr, r"wander\.argos:\d+:\d+: note: a tick has whole milliseconds here: 31 ms, 0\.8 % less")
+    def test_ticks_are_parts_of_a_second(self):
+        file = self.changed("wander.argos", ('ticks_per_second="10"', 'ticks_per_second="60"'))
+        self.swarmanoid("convert", file, "--output", "wander.xml")
         framework = xml.etree.ElementTree.parse(self.folder / "wander.xml").find("framework")
-        self.assertEqual((framework.get("clocktick"), framework.get("maxclock")), ("31", "641"))
-        file.write_text(file.read_text().replace('"32"', '"60"'))
-        self.assertIn("'ticks_per_second' is 60", self.swarmanoid("check", file, code=3).stderr)
+        self.assertEqual((framework.get("clocktick"), framework.get("ticks_per_second"), framework.get("maxclock")),
+                         (None, "60", "1201"))
+        self.assertIn("1/60 s a tick, 1201 ticks", self.swarmanoid("check", file).stdout)
+        file.write_text(file.read_text().replace('"60"', '"2000"'))
+        self.assertIn("'ticks_per_second' is 2000; it must be from 1 to 1000", self.swarmanoid("check", file, code=3).stderr)
 
     def test_files_need_not_name_libraries_in_the_search_path(self):
         expected = self.hash_of(HERE / "collect.argos", "--output", "named")
@@ -169,6 +179,11 @@ class Experiments(RunningTest):
         # The arena starts at -1: 5 cm/s for 1.9 s to the left, and 3 cm until the wall stops it.
         self.assertAlmostEqual(x["back"], 0.5 - 0.095, delta=0.006)
         self.assertAlmostEqual(x["front"], 1.03, delta=0.002)
+
+    def test_an_e_puck_need_not_command_its_wheels(self):
+        wheels = '<actuators>\n        <differential_steering implementation="default"/>'
+        self.swarmanoid("convert", self.changed("puck.argos", (wheels, "<actuators>"), ("<loop_functions library=\"argos3_puck\" label=\"puck_floor\"/>", ""),
+                                                ('<floor id="floor" source="loop_functions" pixels_per_meter="10"/>', "")))
 
     def test_encoders_of_an_e_puck_read_what_its_wheels_were_told(self):
         self.swarmanoid("run", self.changed("puck.argos", ('velocity="0"', 'velocity="5"')), "--output", "run")
@@ -340,11 +355,17 @@ class Experiments(RunningTest):
         self.assertTrue(-1 < x < -0.89, x)
         self.assertRegex(of["positioning"], r"orientation=\{0,0,0\}")
         self.assertRegex(of["battery"], r"^\{available_charge=\S+ time_left=\S+\}$")
-        # The motor of the turret needs some ticks.
-        self.assertRegex(of["turret"], r"rotation=0.5\}")
+        # In ten ticks, each with 0.4 of the rest of the angle as its speed and 0.2 of the change of the rest against it.
+        angle = before = 0
+        for _ in range(10):
+            error = 0.5 - angle
+            angle, before = angle + 0.1 * (0.4 * error + 0.2 * (error - (before or error)) / 0.1), error
+        self.assertAlmostEqual(float(re.search(r"rotation=(\S+)\}", of["turret"]).group(1)), angle, places=3)
         # 300 is 44 in a byte. The other one is ahead.
         self.assertRegex(of["range_and_bearing"], r"^\{1=\{data=\{1=1 2=2 3=3 4=4 5=5 6=6 7=7 8=8 9=9 10=44\} horizontal_bearing=0 range=50 vertical_bearing=0\}\}$")
-        self.assertRegex(of["colored_blob_omnidirectional_camera"], r"^\{1=\{angle=\S+ color=\{blue=0 green=255 red=0\} distance=\S+\}\}$")
+        # The beacon, and the LEDs of the ring on this side.
+        blobs = re.findall(r"angle=(\S+) color=\{blue=0 green=255 red=0\} distance=(\S+)\}", of["colored_blob_omnidirectional_camera"])
+        self.assertEqual((len(blobs), blobs[0]), (8, ("0", "50")))
         self.assertRegex(said, r": b range_and_bearing .*horizontal_bearing=-?3.14159 range=50 ")
         self.assertRegex(said, r": a ends after 200 steps true")
 

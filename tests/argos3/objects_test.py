@@ -15,7 +15,7 @@ class Objects(RunningTest):
         self.assertEqual(lines[0], "# 01 5 1 0.05")
         rows = [line.split("\t") for line in lines[1:]]
         self.assertEqual(len(rows), 100)
-        # The robot comes to the wall, which nobody moves, and stays there.
+        # The robot comes to the wall, which stands still, and stays there.
         self.assertAlmostEqual(float(rows[30][1]), 0.3, delta=0.01)
         self.assertTrue(0.42 < float(rows[-1][1]) < 0.5, rows[-1])
         self.assertEqual({(row[2], row[3]) for row in rows}, {("0.6,0,0", "10")})

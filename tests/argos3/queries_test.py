@@ -4,12 +4,13 @@ from running import HERE, RunningTest
 
 
 class Queries(RunningTest):
-    def test_parts_anchors_boxes_and_who_hears_whom(self):
+    def test_parts_anchors_boxes_and_robots_that_hear_each_other(self):
         self.swarmanoid("run", HERE / "look.argos", "--output", "run")
         lines = (self.folder / "looks.txt").read_text().splitlines()
         told = [line for line in lines if not line.startswith("heard")]
         self.assertEqual(told, [
             "anchor 0,0.1,0.2 0",
+            "enabled 1",
             "refused anchor: the body of 'a' has no anchor 'mist'; it has: origin, mast. AddAnchor makes others",
             "box a -0.085,-0.085,0 0.085,0.085,0.1469",
             "box turned -1.1,-1.2,0 -0.9,-0.8,0.3",
@@ -21,7 +22,7 @@ class Queries(RunningTest):
             # The robot looks along y.
             "sensor 24 0.0843,0.0111,0.06 -0.0241,0.1834,0.06",
             "ground 12 0.08,0 10",
-            "light 24",
+            "light 24 0.1",
             "refused sensor: sensor 24 of the 24 of 'a.proximity_0'; the first one is 0",
             "nowhere 0",
             "refused parent: entity 'a' is no part of another one",

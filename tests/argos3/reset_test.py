@@ -1,4 +1,5 @@
 """Runs that loop functions of ARGoS3 begin again."""
+import json
 import os
 import re
 import subprocess
@@ -65,7 +66,7 @@ class Reset(RunningTest):
         for files in ((file,), (file, file)):
             result = subprocess.run([f"{os.environ['ARGOS_PLUGIN_PATH']}/argos3_searcher", *map(str, files)], cwd=self.folder, text=True, capture_output=True)
             self.assertEqual(result.returncode, 0, result.stderr)
-            lines = result.stdout.splitlines()
+            lines = [line for line in result.stdout.splitlines() if not line.startswith("seed")]
             self.assertEqual([line.rsplit(" ", 1)[0] for line in lines[:8]],
                              ["loaded 0", "first 8", "reset 0", "again 8", "reset 0", "again 8", "one step 1", "0"][:7] + [lines[7].rsplit(" ", 1)[0]])
             self.assertEqual((lines[1].split()[2], lines[0].split()[1:], lines[2].split()[1:]), (lines[3].split()[2], ["0", "0"], ["0", "0"]))
@@ -73,6 +74,42 @@ class Reset(RunningTest):
         rows = [line.split("\t")[1:] for line in (self.folder / "trials.tsv").read_text().splitlines()]
         self.assertEqual([row[:4] for row in rows[:12]], [row[:4] for row in expected])
         self.assertIn("loaded 8", (self.folder / "said.txt").read_text())
+
+    def test_a_run_with_loop_functions_has_a_journal(self):
+        (self.folder / "scripts").symlink_to(HERE / "scripts")
+        file = self.changed("repeat.argos")
+        done = self.hash_of(file, "--output", "run", "--hash-log", "hashes")
+        self.assertEqual(self.hash_of(file, "--output", "none", "--no-journal"), done)
+        self.assertFalse((self.folder / "none" / "journal").exists())
+        # The journal has each move, addition, removal and reset of loop functions. Computed again, all states are the same.
+        self.assertEqual(self.swarmanoid("replay", "run", "--verify").stdout, "equal: 22 states, computed again\n")
+        rows = self.swarmanoid("export", "run", "--csv", "poses.csv") and (self.folder / "poses.csv").read_text().splitlines()
+        at = {tuple(row.split(",")[0:3:2]): row.split(",")[4:6] for row in rows[1:]}
+        self.assertIn(("1", "gone"), at)
+        self.assertNotIn(("20", "gone"), at)
+        self.swarmanoid("export", "run", "--html", "run.html")
+        seen = json.loads(self.swarmanoid("inspect", "run@5", "fb", "--json").stdout)["robots"][0]
+        self.assertEqual((seen["id"], seen["controller"]), ("fb", "t"))
+        self.assertIn("footbot_wheels", [device["type"] for device in seen["actuators"]])
+        self.assertIn("not 99", self.swarmanoid("inspect", "run@99", "fb", code=4).stderr)
+
+    def test_a_program_changes_an_experiment_in_memory(self):
+        (self.folder / "scripts").symlink_to(HERE / "scripts")
+        file = self.changed("repeat.argos", ('trials="3"', 'trials="1"'))
+        said = []
+        for words in (("--seed", "11", file, "--seed", "12", file, "--seed", "11", file), (self.seeded(file, 11),)):
+            result = subprocess.run([f"{os.environ['ARGOS_PLUGIN_PATH']}/argos3_searcher", *map(str, words)], cwd=self.folder, text=True, capture_output=True)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            said.append(result.stdout.split("seed ")[1:])
+        (eleven, twelve, again), (of_file,) = said
+        self.assertEqual((eleven.splitlines()[0], twelve.splitlines()[0]), ("11 robots 4", "12 robots 4"))
+        self.assertEqual((eleven, eleven), (again, of_file))
+        self.assertNotEqual(eleven.splitlines()[1:], twelve.splitlines()[1:])
+
+    def seeded(self, file, seed):
+        copy = self.folder / "seeded.argos"
+        copy.write_text(re.sub('random_seed="\\d+"', f'random_seed="{seed}"', file.read_text()))
+        return copy
 
     def test_what_a_program_cannot_load_is_told(self):
         program = f"{os.environ['ARGOS_PLUGIN_PATH']}/argos3_searcher"

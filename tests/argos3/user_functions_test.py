@@ -50,7 +50,7 @@ def spans_of(places):
     return [max(values) - min(values) for values in zip(*places)]
 
 
-MAGENTA, CYAN = (255, 0, 255), (0, 255, 255)
+MAGENTA, CYAN, YELLOW = (255, 0, 255), (0, 255, 255), (255, 255, 0)
 # In the light on what faces upwards.
 CYAN_TOP, GREEN_TOP = (0, 235, 235), (0, 235, 0)
 
@@ -85,7 +85,7 @@ class UserFunctions(RunningTest):
         along_x = [place for place in ways if abs(place[1]) < 0.02 and place[0] > 0.1]
         along_y = [place for place in ways if abs(place[0]) < 0.02 and place[1] < -0.1]
         self.assertTrue(along_x and along_y, ways)
-        self.assertEqual(places_of(self.picture(moving, at=2), MAGENTA), [], "nobody has moved yet")
+        self.assertEqual(places_of(self.picture(moving, at=2), MAGENTA), [], "no robot has moved yet")
 
     def test_what_is_in_the_frame_of_an_entity_stands_and_turns_with_it(self):
         rows = self.picture(self.labelled("ids"))
@@ -116,6 +116,11 @@ class UserFunctions(RunningTest):
         self.assertAlmostEqual(height / width, 5, delta=1)
         line = places_of(rows, CYAN)
         self.assertTrue(len(line) > 100 and all(x > 0 and y > 0 for x, y in line))
+        # Each corner behind the second one adds a triangle: they fill a square.
+        strip = places_of(rows, YELLOW)
+        self.assertTrue(len(strip) > 1000 and all(x > 0 and y < 0 for x, y in strip))
+        width, height = (150 * span + 1 for span in spans_of(strip))
+        self.assertAlmostEqual(len(strip) / (width * height), 1, delta=0.05)
 
     def test_keys_drive_the_robot_that_is_selected(self):
         file = self.labelled("driver", (LOOP, ""))
@@ -130,7 +135,7 @@ class UserFunctions(RunningTest):
         rows = [line.split("\t") for line in (self.folder / "run" / "table.tsv").read_text().splitlines()[1:]]
         place = {(int(row[0]), row[1]): (float(row[2]), float(row[3])) for row in rows}
         x = {tick: place[tick, "fb0"][0] - 2 for tick in (20, 40, 60, 100)}
-        self.assertAlmostEqual(x[20], 0, delta=0.001, msg="nobody is selected")
+        self.assertAlmostEqual(x[20], 0, delta=0.001, msg="no robot is selected")
         self.assertAlmostEqual(x[40], 0.2, delta=0.02, msg="10 cm/s for 2 s")
         self.assertAlmostEqual(x[60], x[100], delta=0.01, msg="the key was let go")
         self.assertAlmostEqual(place[70, "fb1"][1] - place[50, "fb1"][1], 0.4, delta=0.05, msg="20 cm/s: with Shift")
@@ -149,12 +154,19 @@ class UserFunctions(RunningTest):
                          self.hash_of(HERE / "show.argos", "--show", "text", "--output", "seen"))
 
     def test_mistakes_are_named(self):
-        unknown = self.swarmanoid("run", self.labelled("nobody"), "--output", "a", code=3)
-        self.assertRegex(unknown.stderr, r"registers no Qt user functions 'nobody'; registered: driver, ids")
+        unknown = self.swarmanoid("run", self.labelled("missing"), "--output", "a", code=3)
+        self.assertRegex(unknown.stderr, r"registers no Qt user functions 'missing'; registered: driver, ids")
         nowhere = self.changed("show.argos", ('<user_functions library="libargos3_shower.so"',
                                               '<user_functions library="libnowhere.so"'))
         missing = self.swarmanoid("check", nowhere, code=3)
         self.assertRegex(missing.stderr, r"show.argos:\d+:\d+: .*libnowhere.so")
+        # The library of the loop functions may have them.
+        self.swarmanoid("check", self.changed("show.argos", ('<user_functions library="libargos3_shower.so"', "<user_functions")))
+        nowhere = self.changed("show.argos", ('<user_functions library="libargos3_shower.so"', '<user_functions library="libnowhere.so"'))
+        # They are not needed without visualisers.
+        note = r"show.argos:\d+:\d+: note: the library of the user functions 'shown_ways' is not found, and none is needed"
+        self.assertRegex(self.swarmanoid("check", nowhere, "--no-visualisers").stderr, note)
+        self.assertRegex(self.swarmanoid("run", nowhere, "--no-visualisers", "--output", "none").stderr, note)
         early = self.swarmanoid("run", self.labelled("too_early"), "--output", "b", code=3)
         self.assertRegex(early.stdout + early.stderr, r"DrawPoint is called outside of what draws")
         meddler = self.swarmanoid("run", self.labelled("meddler"), "--show", "text", "--output", "c", code=4)

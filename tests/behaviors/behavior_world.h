@@ -1,4 +1,4 @@
-// A small world with robots that do one behaviour each, run tick by tick in one process.
+// BehaviorWorld: a small world in which each robot runs one behaviour, tick by tick in one process.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,15 +18,15 @@ namespace swarmanoid::test
 class BehaviorWorld
 {
 public:
-  // size: of the arena in m. In 2D footbots and things are on the ground and eyebots on a plane at 1.5 m; in 3D all are
-  // in one engine with a ceiling.
+  // `size`: the arena in m. In 2D, footbots and objects are on the ground, and eyebots on a plane at 1.5 m. In 3D all
+  // are in one engine with a ceiling.
   explicit BehaviorWorld(const char* size = "10,10,3", bool three_dimensional = false)
       : three_dimensional_(three_dimensional)
   {
     text_.size = size;
   }
 
-  // behavior: a name in probe_controllers.cpp; heading in degrees.
+  // `behavior`: a name in probe_controllers.cpp. `heading`: in degrees.
   BehaviorWorld& Footbot(const std::string& id, const std::string& behavior, double x, double y, double heading = 0);
   BehaviorWorld& Eyebot(const std::string& id, const std::string& behavior, double x, double y, double z = 1.5);
   BehaviorWorld& Handbot(const std::string& id, const std::string& behavior, double x, double y);
@@ -36,14 +36,14 @@ public:
   BehaviorWorld& Light(const std::string& id, const std::string& position, double intensity = 1);
   BehaviorWorld& Patch(const std::string& id, double x, double y, const std::string& colour);
   BehaviorWorld& Functions(const std::string& tag, const std::string& library);
-  // Walls along the edges of a square of that side whose corner is the origin.
+  // Adds walls along the edges of a square with this side; its corner is the origin.
   BehaviorWorld& Walls(double side);
   BehaviorWorld& Seed(int seed);
 
-  // Starts at the first call of these.
+  // The first call of these functions starts the run.
   const CSwarmanoidSpace& Space();
   void Run(int ticks);
-  // With something done at every tick.
+  // Runs, and calls `watch` at every tick.
   template <class Watch>
   void Run(int ticks, Watch watch)
   {
@@ -54,9 +54,9 @@ public:
     }
   }
   Vector3 Place(const std::string& id) { return Space().FindEntity(id)->GetPosition(); }
-  // On the ground, in m.
+  // Returns the distance on the ground, in m.
   double Distance(const std::string& a, const std::string& b) { return (Place(a) - Place(b)).head<2>().norm(); }
-  // Ends the run; returns the folder of its files, which goes with the world.
+  // Ends the run. Returns the folder of its files, which is removed with the world.
   std::string End();
   double Attribute(const std::string& id, const std::string& name, int element = 0);
 

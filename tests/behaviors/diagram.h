@@ -1,4 +1,4 @@
-// A behaviour by itself, with a robot of fake devices: what it decides at what is in view of the camera.
+// Diagram: a behaviour alone, with a robot of fake devices. It tests the decisions for given views of the camera.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ class Diagram : public testing::Test
 protected:
   explicit Diagram(const char* type) : robot_("robot", type) {}
 
-  // The state after so many ticks with this in view.
+  // Returns the state after so many ticks with these blobs in view.
   unsigned See(const std::vector<CCI_ColourBlob>& blobs, int ticks = 1)
   {
     camera_.blobs = blobs;

@@ -1,4 +1,4 @@
-// Every transition of the behaviour diagram of the eyebot in the sample experiment.
+// Tests every transition of the behaviour diagram of the eyebot in the sample experiment.
 #include "user/controllers/prey_retrieval/eyebot_guide.h"
 
 #include <gtest/gtest.h>
@@ -119,11 +119,11 @@ TEST_F(EyebotDiagram, TheFootbotWithItsPreyIsLed)
 // It flies about for 200 s; then back along the way that it has flown since it saw the nest.
 TEST_F(EyebotDiagram, ANestThatIsNotFoundIsGoneBackTo)
 {
-  // 2 m ahead and 1 m to the left.
+  // The target is 2 m ahead and 1 m to the left.
   CCI_ColourBlob nest = Blob(CCI_Colour::GREEN, std::sqrt(5.0));
   nest.angle_rad = std::atan2(1.0, 2.0);
   See({nest});
-  double x = 2, y = 1, yaw = 0;  // of the nest from where it was, and of the eyebot
+  double x = 2, y = 1, yaw = 0;  // relative to the nest from its earlier position, and to the eyebot
   const auto fly = [&](const std::vector<CCI_ColourBlob>& blobs)
   {
     const std::array<double, 4> velocity = propellers_.velocity;

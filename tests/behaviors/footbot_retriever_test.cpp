@@ -86,7 +86,7 @@ TEST_F(FootbotDiagram, TheSignalOfAnotherOneIsAvoidedFromEveryStateBeforeTheGrip
   EXPECT_EQ(See({signal_}), Retriever::AVOID_GRIPPING_FOOTBOT);
   // Straight ahead: it turns on the spot, away from the signaller.
   EXPECT_LT(wheels_.left * wheels_.right, 0);
-  EXPECT_EQ(See({far_laser_, prey_}, 30), Retriever::AVOID_GRIPPING_FOOTBOT);  // neither laser nor prey counts
+  EXPECT_EQ(See({far_laser_, prey_}, 30), Retriever::AVOID_GRIPPING_FOOTBOT);  // it reacts to neither laser nor prey
   EXPECT_EQ(See({}, 40), Retriever::SEARCH_FOR_LASER);
   See({far_laser_});
   EXPECT_EQ(See({far_laser_, signal_}), Retriever::AVOID_GRIPPING_FOOTBOT);
@@ -113,7 +113,7 @@ TEST_F(FootbotDiagram, APreyThatAWallHoldsIsPulledBack)
   EXPECT_TRUE(drives_back());
   See({aside}, 20);
   EXPECT_FALSE(drives_back()) << "it tries to turn again";
-  // A spot ahead, and one that is reached, at whatever angle, hold nobody back.
+  // A spot straight ahead, or one that is reached at any angle, stops no robot.
   CCI_ColourBlob below = aside;
   below.distance_m = 0.01;
   for (const CCI_ColourBlob& spot : {near_laser_, below})

@@ -1,4 +1,4 @@
-// What each footbot behaviour of the toolkit does, seen from outside.
+// Tests each footbot behaviour of the toolkit by its effects in a world.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -57,7 +57,7 @@ TEST(FootbotRandomWalk, GoesStraightForRandomTimesAndTurnsByRandomAngles)
                 turning = false;
               }
             });
-  // 3 s between two turns on average, up to 2 rad to either side, as the constructor says by default.
+  // The default of the constructor is 3 s between two turns on average, and up to 2 rad to either side.
   const auto count = static_cast<double>(turns.size());
   ASSERT_GT(count, 100);
   EXPECT_NEAR(straight_s / count, 3, 0.3);
@@ -103,7 +103,7 @@ TEST_P(FootbotObstacleAvoidance, KeepsOffTheWallsFromAnyHeadingAndGoesOn)
                 if (world.Space().GetTick() > 500) way += (here - last).norm();
                 last = here;
               });
-    // Half of the speed at the least: it does not stand before a wall for good.
+    // It makes at least half of the way at full speed, so it does not stop before a wall for good.
     EXPECT_GT(way, 0.5 * 500 * kTick * 0.1) << "from heading " << heading;
   }
 }
@@ -185,7 +185,7 @@ TEST(FootbotFlocking, KeepsTheWantedDistanceAndGoesToTheLightTogether)
   for (int i = 0; i < 7; ++i)
   {
     flock.push_back("fb_" + std::to_string(i));
-    // Too close to one another at first, headings all around.
+    // The robots start too close to each other, with headings in all directions.
     world.Footbot(flock.back(), "flock", 4 + 0.25 * (i % 3), 6 + 0.25 * (i / 3), 50 * i);
   }
   const auto centre = [&]
@@ -202,7 +202,7 @@ TEST(FootbotFlocking, KeepsTheWantedDistanceAndGoesToTheLightTogether)
     double nearest = 100;
     for (const std::string& other : flock)
       if (other != id) nearest = std::min(nearest, world.Distance(id, other));
-    // 0.4 m wanted; the light pulls them together a little.
+    // The wanted distance is 0.4 m; the light pulls them together a little.
     EXPECT_GT(nearest, 0.25) << id;
     EXPECT_LT(nearest, 0.6) << id;
   }

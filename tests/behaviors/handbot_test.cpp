@@ -1,4 +1,4 @@
-// What each handbot behaviour of the toolkit does, seen from outside.
+// Tests each handbot behaviour of the toolkit by its effects in a world.
 #include <gtest/gtest.h>
 
 #include <algorithm>

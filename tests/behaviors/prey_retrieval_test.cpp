@@ -1,4 +1,4 @@
-// The sample experiment is the one that the documentation tells, over several seeds, as seen from outside.
+// The sample experiment does what its documentation describes, over several seeds, measured from outside.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -19,11 +19,11 @@ namespace
 
 const std::array<std::string, 3> kFootbots{"fb_1", "fb_2", "fb_3"};
 
-// What happened in one run.
+// The events of one run.
 struct Story
 {
   bool done = false;
-  std::string prey;    // that stands in the nest
+  std::string prey;    // the prey in the nest
   std::string marked;  // the one nearest to the eyebot when a footbot first gripped
   bool laser_at_start = true;
   std::uint64_t laser_on = 0;  // tick
@@ -36,7 +36,7 @@ double GroundDistance(const CSwarmanoidSpaceEntity& a, const CSwarmanoidSpaceEnt
   return (a.GetPosition() - b.GetPosition()).head<2>().norm();
 }
 
-// LEDs and laser say what the text says that they say.
+// LEDs and laser show the states that the documentation describes.
 void LookAtSignals(const CSwarmanoidSpace& space, std::array<int, 3>& dark_for, Story& story)
 {
   const auto mistake = [&](const std::string& what)
@@ -47,7 +47,7 @@ void LookAtSignals(const CSwarmanoidSpace& space, std::array<int, 3>& dark_for, 
     const bool grips = robot.GetAttribute("gripped") > 0;
     const auto leds = static_cast<std::uint32_t>(robot.GetAttribute("led"));
     if (leds != CCI_Colour::BLUE && leds != CCI_Colour::BLACK) mistake("LEDs of a colour that means nothing");
-    // The sensor tells of a grip a tick later, and of its loss likewise.
+    // The sensor reports a grip and its loss one tick later.
     dark_for[i] = grips == (leds == CCI_Colour::BLUE) ? 0 : dark_for[i] + 1;
     if (dark_for[i] > 3) mistake(kFootbots[i] + (grips ? " grips without a signal" : " signals and grips nothing"));
   }

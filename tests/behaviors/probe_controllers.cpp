@@ -22,7 +22,7 @@
 namespace
 {
 
-// A behaviour given by a function.
+// It is a behaviour that is given by a function.
 template <class State>
 class Does : public CCI_Behavior<State>
 {
@@ -34,7 +34,7 @@ private:
   std::function<void(State&)> what_;
 };
 
-// One after the other.
+// The behaviours run one after the other.
 template <class State>
 class Sequence : public CCI_Behavior<State>
 {

@@ -1,4 +1,4 @@
-// A walled square arena with robots of one kind at random places, for the benchmarks of devices.
+// BenchWorld: a walled square arena with robots of one kind at random positions, for the benchmarks of devices.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ namespace swarmanoid
 class BenchWorld
 {
 public:
-  // `waiting`: robots more, which wait outside the arena.
+  // `waiting`: the number of further robots, which wait outside the arena.
   BenchWorld(int robots, double robots_per_square_metre, EntityKind kind = EntityKind::kFootbot, int waiting = 0)
   {
     RegisterBuiltinDevices();
@@ -31,7 +31,7 @@ public:
     AddWall({0.05, half, 0.25}, {0.1, side, 0.5});
     AddWall({side - 0.05, half, 0.25}, {0.1, side, 0.5});
 
-    // Robots on a square lattice, shaken as far as the lattice leaves room: no overlap at any density.
+    // The robots are on a square lattice, displaced as far as the lattice allows, so that none overlap at any density.
     const int per_side = static_cast<int>(std::ceil(std::sqrt(robots)));
     const double pitch = (side - 0.4) / per_side;
     const double shake = std::max(0.0, (pitch - 0.1701) / 2);
@@ -43,7 +43,7 @@ public:
       robots_.push_back(
           test::Add(experiment_, test::Entity(kind, "fb" + std::to_string(n), {x, y, 0}, random.Uniform(-kPi, kPi))));
     }
-    // Entity numbers do not follow places in a real run.
+    // The numbers are shuffled, since in a real run they do not follow the positions.
     for (std::size_t n = robots_.size() - 1; n > 0; --n)
       std::swap(experiment_.entities[robots_[n]].pose,
                 experiment_.entities[robots_[random.Below(static_cast<std::uint32_t>(n + 1))]].pose);
@@ -59,7 +59,7 @@ public:
   }
 
   CSwarmanoidSpace& Space() { return *space_; }
-  // Poses count as new in every tick, as in a run.
+  // All poses count as new at every tick, as in a run.
   void NextTick()
   {
     space_->SetTick(space_->GetTick() + 1);

@@ -24,7 +24,7 @@ public:
   bool Holds(std::uint32_t) const override { return false; }
 };
 
-// A handbot and a block every two metres, a metre apart.
+// Returns an experiment with a handbot and a block every two metres, a metre apart.
 Experiment Field(std::uint32_t handbots)
 {
   Experiment experiment;

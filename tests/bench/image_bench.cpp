@@ -35,7 +35,7 @@ void BM_Picture(benchmark::State& state)
   const Pose pose = world["fb_0"].GetPose();
   for (auto _ : state)
   {
-    world.Space().SetPose(0, pose);  // as if all had moved
+    world.Space().SetPose(0, pose);  // All poses count as changed.
     scene.Update({});
     renderer.Draw(scene, camera, buffer.Framebuffer(), kWidth, kHeight, options);
     benchmark::DoNotOptimize(buffer.Read());

@@ -39,8 +39,8 @@ inline KinematicWorld Crowd(std::uint32_t count, double density, unsigned thread
   return world;
 }
 
-// New speeds for a twentieth of the robots, forward as often as back: without avoidance, a crowd that only goes forward
-// would jam along the walls.
+// Sets new speeds for a twentieth of the robots, forward as often as back. A crowd that only drives forward would jam
+// along the walls, since it does not avoid them.
 template <class SetTwist>
 void SteerEach(std::uint32_t count, std::uint32_t tick, const SetTwist& set_twist)
 {

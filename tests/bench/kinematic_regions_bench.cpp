@@ -1,6 +1,6 @@
-// Cost of the kinematic engine's plane cut into regions: the crowd of kinematics2d_bench, each region in a thread of
-// its own, with messages by memory. Time is the processor time of all regions together. Arguments: robots, robots per
-// square metre, regions.
+// Cost of the kinematic engine's plane cut into regions: the crowd of kinematics2d_bench, with each region in a
+// separate thread, and messages by memory. Time is the processor time of all regions together. Arguments: robots,
+// robots per square metre, regions.
 #include <benchmark/benchmark.h>
 
 #include "engine_worker/engines/kinematics2d/region_cuts.h"
@@ -13,7 +13,7 @@ namespace
 {
 
 constexpr std::uint32_t kWarmUp = 30;  // ticks
-constexpr std::uint32_t kTicks = 20;   // of an iteration
+constexpr std::uint32_t kTicks = 20;   // ticks of an iteration
 
 void AdvanceRegions(benchmark::State& state)
 {
@@ -54,7 +54,7 @@ void AdvanceRegions(benchmark::State& state)
   const std::uint32_t start = tick;
   for (auto _ : state) state.SetIterationTime(advance(kTicks) / kTicks);
   const double ticks = tick - start;
-  // Of the cuts that halve a square again and again: metres that lie between two regions.
+  // The metres of border between regions, if cuts halve a square repeatedly.
   double border = 0;
   for (unsigned cuts = 1; cuts < regions; cuts *= 2)
     border += std::sqrt(count / density) * (cuts == 1 ? 1 : cuts == 2 ? 1 : 2);

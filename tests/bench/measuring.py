@@ -33,7 +33,7 @@ class Bench:
         self.scenes = {scene.name: scene for scene in load_scenes()}
 
     def file(self, name, text):
-        """Written anew for each run: builds load libraries of their own."""
+        """Writes the file again for each run, because builds load libraries of their own."""
         path = self.folder / (re.sub(r"[^a-z0-9]+", "_", f"bench_{os.getpid()}_{name.lower()}") + ".xml")
         path.write_text(text, encoding="utf-8")
         return path

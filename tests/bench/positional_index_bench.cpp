@@ -1,4 +1,5 @@
-// ns per moved entity and per range query of the positional indexes, at 1 entity per m2 (flat) and per 8 m3 (3D).
+// Measures ns per moved entity and per range query of the positional indexes, at 1 entity per m2 (flat) and per 8 m3
+// (3D).
 #include <benchmark/benchmark.h>
 
 #include <cmath>

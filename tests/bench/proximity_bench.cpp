@@ -1,5 +1,5 @@
-// Cost of the proximity sensors of a host: one batch over all footbots, the grid of neighbours included.
-// Robots stand at random without overlap in a walled square arena; argument: number of robots, robots per 10 m^2.
+// Cost of the proximity sensors of a host: one batch over all footbots, including the grid of neighbours. Robots are at
+// random positions without overlap in a walled square arena. Arguments: number of robots, robots per 10 m^2.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -43,7 +43,7 @@ BENCHMARK_CAPTURE(Proximity, rays_with_gaussian_noise, "generic_footbot_proximit
     ->Args({1000, 10})
     ->Unit(benchmark::kMicrosecond);
 
-// A hundred footbots, and as many as the argument says that wait outside the arena.
+// A hundred footbots are in the arena; the argument is the number of footbots that wait outside it.
 void Reserve(benchmark::State& state)
 {
   BenchWorld world(100, 1, EntityKind::kFootbot, static_cast<int>(state.range(0)));

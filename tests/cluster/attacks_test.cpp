@@ -1,6 +1,6 @@
-// What processes do that were not asked to take part in a run, on purpose: everything is refused and told, and the run
-// ends with the hash of one that nobody disturbed. The same is tried on a run that lets anybody in (--insecure), where
-// it succeeds: so the attacks are real ones.
+// Attacks by processes that are not members of a run. Everything that they send is refused and reported, and the run
+// ends with the hash of an undisturbed one. The same attacks succeed on a run with --insecure, which shows that they
+// are real.
 #include <arpa/inet.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -16,7 +16,7 @@
 #include <fmt/format.h>
 
 #include "common/bus/membership/control_client.h"
-#include "common/bus/membership/run_directory.h"
+#include "common/bus/run_directory.h"
 #include "common/bus/security/access_grant.h"
 #include "test_folders.h"
 #include "tests/cluster/cluster_fixture.h"
@@ -42,7 +42,7 @@ protected:
   AttacksTest() : trace_(folder_ + "/loaded") { setenv("SWARMANOID_TEST_TRACE", trace_.c_str(), 1); }
   ~AttacksTest() override { unsetenv("SWARMANOID_TEST_TRACE"); }
 
-  // What a stranger's space server would say of an experiment whose controller is in a library of his.
+  // Returns the World of a stranger's space server, for an experiment with a controller in the stranger's library.
   std::string ForgedWorld(const std::string& experiment, const std::string& library)
   {
     WorldMessage world;
@@ -88,7 +88,7 @@ protected:
     return options;
   }
 
-  // A stranger's program, by another DDS; it writes to all topics if none is named, and stays.
+  // Starts a stranger's program with another DDS. It writes to all topics if no topic is named, and stays.
   ChildProcess StartCyclone(const std::string& experiment, const ChildProcess& engine,
                             const std::vector<std::string>& topics)
   {
@@ -126,7 +126,7 @@ TEST_F(AttacksTest, AForgedWorldIsNotBelievedAndTheRightOneIs)
   EXPECT_FALSE(IsLoaded());
 }
 
-// A library that is not the one of the space server is not loaded, whoever put it where it is looked for.
+// A library that differs from the space server's is not loaded, in any folder of the search.
 TEST_F(AttacksTest, ALibraryThatTheWorldDoesNotNameByItsDigestIsNotLoaded)
 {
   const std::string library = folder_ + "/libfootbot_diffusion.so";
@@ -172,7 +172,7 @@ TEST_F(AttacksTest, WellFormedMessagesOfStrangersChangeNothing)
   send("ViewRequest", {PayloadOf(ViewRequestMessage{"host:1", run, 30, true, {5}})});
   send("World", {ForgedWorld("besieged", kTraceLibrary)});
 
-  // A process by the name and number of the engine, and its end.
+  // A process joins with the name and number of the engine, and ends.
   {
     BusOptions other = Options();
     other.key.emplace().fill(1);
@@ -185,7 +185,7 @@ TEST_F(AttacksTest, WellFormedMessagesOfStrangersChangeNothing)
   // The messages of a tick do not come by the network at all.
   SpaceState state;
   state.poses.assign(7 * 12, 0.5);
-  UpdateMessage update;
+  EngineUpdate update;
   update.poses.assign(7 * 12, 0.5);
   test::Stranger second(domain_.Id(), "besieged");
   EXPECT_TRUE(second.Send("SpaceState", {PayloadOf(MessageHeader{run, 0, 0, false}, state)}, 2));
@@ -206,8 +206,9 @@ TEST_F(AttacksTest, WellFormedMessagesOfStrangersChangeNothing)
   EXPECT_THAT(events, Not(HasSubstr(",stop,")));
 }
 
-// Holders of grants, with programs of their own: a watcher asks for what he may not, an operator for what members alone
-// may; both say on their grant, and on the topics of the members, what members or the server would say.
+// Holders of grants use programs of their own. A watcher asks for what only operators may, and an operator for what
+// only members may. Both send messages of members and of the server, on the topics of their grant and on those of
+// members.
 TEST_F(AttacksTest, HoldersOfSharesDoNoMoreThanTheyMay)
 {
   const std::string file = WriteExperiment("shared", 1, static_cast<int>(kTicks));
@@ -247,7 +248,7 @@ TEST_F(AttacksTest, HoldersOfSharesDoNoMoreThanTheyMay)
     leave.Write({world.run, 0, "space server", "", "forged"});
     leave.WaitUntilRead(1);
 
-    // On the topics of the members, by the key that he has.
+    // The holder writes to the topics of the members with the key of the grant.
     of_grant.grant.reset();
     Bus impostor(of_grant, "engine 'e0'");
     Publisher<LeaveMessage> members_leave(impostor, "shared");
@@ -265,12 +266,12 @@ TEST_F(AttacksTest, HoldersOfSharesDoNoMoreThanTheyMay)
   for (ChildProcess& worker : workers) EXPECT_EQ(worker.Wait(), 0) << worker.Output();
   EXPECT_EQ(Read("hashes.txt"), HashesOfSingleProcess(file));
   const std::string events = Read("run/events.csv");
-  EXPECT_THAT(events, AllOf(HasSubstr("by watcher share 00000001"), HasSubstr("by operator share 00000002"),
+  EXPECT_THAT(events, AllOf(HasSubstr("by watcher grant 00000001"), HasSubstr("by operator grant 00000002"),
                             Not(HasSubstr(",stop,")), Not(HasSubstr(",revoke,"))));
   EXPECT_THAT(server.Output(), HasSubstr("dropped a bad Leave message of 'engine 'e0''"));
 }
 
-// Fast DDS counts them one by one while nobody else is heard.
+// Fast DDS counts them one by one, and hears no other process meanwhile.
 TEST_F(AttacksTest, WhoSaysThatWhatHeSaidIsLostIsNotWaitedFor)
 {
   ChildProcess server = StartServer(WriteExperiment("counting", 1, 0), {"--paused"});
@@ -298,7 +299,7 @@ TEST_F(AttacksTest, WhoSaysThatWhatHeSaidIsLostIsNotWaitedFor)
   EXPECT_EQ(server.Wait(), 0) << server.Output();
 }
 
-// What was asked of one run is not done in another one of the same key.
+// A request to one run is not executed in another run with the same key.
 TEST_F(AttacksTest, ARequestToAnotherRunOfTheKeyIsRefused)
 {
   std::ofstream(folder_ + "/key") << std::string(64, '1') << "\n";
@@ -314,7 +315,7 @@ TEST_F(AttacksTest, ARequestToAnotherRunOfTheKeyIsRefused)
   EXPECT_TRUE(server.WaitForOutput("it was asked of another run")) << server.Output();
 }
 
-// The same requests are obeyed if anybody is let in.
+// The same requests are executed if every process is let in.
 TEST_F(AttacksTest, AStrangerStopsARunThatLetsAnybodyIn)
 {
   options_ = {"--insecure"};
@@ -327,14 +328,14 @@ TEST_F(AttacksTest, AStrangerStopsARunThatLetsAnybodyIn)
   EXPECT_THAT(server.Output(), HasSubstr("finished: 0 ticks"));
 }
 
-// The same by a program of another DDS: what its messages do to a run that lets anybody in.
+// Does the same with a program of another DDS: its messages affect a run that lets every process in.
 TEST_F(AttacksTest, AProgramOfAnotherDdsIsObeyedIfAnybodyIsLetIn)
 {
   options_ = {"--insecure", "--lease", "600"};  // the engine may sleep
   const std::string file = WriteExperiment("open", 1, static_cast<int>(kTicks));
   BusOptions options = Options();
   options.insecure = true;
-  // What becomes of a paused run to whose topic the stranger writes: `meanwhile`.
+  // Runs `meanwhile` on a paused run, to whose topic the stranger writes.
   const auto run = [&](const std::string& topic, const auto& meanwhile)
   {
     ChildProcess server = StartServer(file, {"--paused", "--hash-log", folder_ + "/hashes.txt"});
@@ -359,7 +360,7 @@ TEST_F(AttacksTest, AProgramOfAnotherDdsIsObeyedIfAnybodyIsLetIn)
   run("EngineUpdate",
       [&](const ChildProcess& server, const ChildProcess& engine)
       {
-        // Who sleeps has not answered tick 0.
+        // A sleeping engine has not answered tick 0.
         ASSERT_TRUE(engine.StopAsleep());
         Bus bus(options, "test");
         ControlClient client(bus, "open");
@@ -423,7 +424,8 @@ TEST_F(AttacksTest, OnlyTheUserOfARunCanOpenItsKeyAndItsMemory)
   }
 }
 
-// Somebody without the key asks by the simulator's own means, and is told why not; so is the run.
+// A user without the key sends a request with the simulator's own command. The reason of the refusal is printed to that
+// user and in the run.
 TEST_F(AttacksTest, WhoHasAnotherKeyIsToldAndTheRunGoesOn)
 {
   const std::string file = WriteExperiment("keyed", 1, static_cast<int>(kTicks));

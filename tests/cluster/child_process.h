@@ -1,4 +1,5 @@
-// A program started by a test, with its output in a file; killed at the latest when the object ends.
+// ChildProcess: a program that a test starts, with its output in a file. It is killed at the latest when the object
+// ends.
 #pragma once
 
 #include <sys/types.h>
@@ -9,7 +10,7 @@
 namespace swarmanoid
 {
 
-// For what comes within moments, on a machine that is busy with much else.
+// The limit for events that come within moments. It is long, since the machine may be busy with other work.
 inline constexpr double kGenerous_s = 100;
 
 class ChildProcess
@@ -21,14 +22,15 @@ public:
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  // The exit code; -1 if the process still runs after that time, 128 + signal if a signal ended it.
+  // Waits and returns the exit code; 128 + signal if a signal ended the process, -1 if it still runs after that time.
   int Wait(double seconds = kGenerous_s);
   void Signal(int signal) const;
-  // Stops it, by SIGSTOP, while all its threads sleep: of a paused run it then holds no lock. False if they never do.
+  // Stops the process by SIGSTOP while all its threads sleep. If the run is paused, the process then holds no lock.
+  // Returns false if the threads never all sleep.
   bool StopAsleep() const;
   bool Running() { return Wait(0) < 0; }
   pid_t Id() const { return id_; }
-  // What it wrote so far, standard output and error together.
+  // Returns the text written so far, standard output and error together.
   std::string Output() const;
   bool WaitForOutput(const std::string& text, double seconds = kGenerous_s) const;
 

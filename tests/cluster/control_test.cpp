@@ -1,4 +1,4 @@
-// What users ask of a running experiment.
+// The requests of users to a running experiment.
 #include <atomic>
 #include <chrono>
 #include <csignal>
@@ -88,7 +88,7 @@ TEST_F(ControlTest, KeepsTheAskedPace)
   Begin({"--paused", "--real-time", "2"});
   const auto start = std::chrono::steady_clock::now();
   EXPECT_EQ(Ask("step 20").tick, 20U);
-  // 19 or 20 intervals of 100 ms at twice real time.
+  // At twice real time, 19 or 20 intervals of 100 ms pass.
   EXPECT_GT(std::chrono::steady_clock::now() - start, 900ms);
   EXPECT_TRUE(Ask("speed 0").ok);
   EXPECT_EQ(Ask("step 20").tick, 40U);
@@ -100,7 +100,7 @@ TEST_F(ControlTest, MovesARobotAndRefusesImpossibleRequestsWithAReason)
 {
   Begin({"--paused"});
   EXPECT_TRUE(Ask("move robots0_3 1.5,1.25,0,0,0,90").ok);
-  EXPECT_THAT(Ask("move nobody 1,1,0").text, HasSubstr("no entity 'nobody'"));
+  EXPECT_THAT(Ask("move absent 1,1,0").text, HasSubstr("no entity 'absent'"));
   EXPECT_THAT(Ask("move wall_0 1,1,0").text, HasSubstr("'wall_0' cannot move"));
   EXPECT_THAT(Ask("move robots0_3 1,5,0").text, HasSubstr("outside the arena"));
   EXPECT_THAT(Ask({"move", {{"entity", "robots0_3"}, {"pose", std::vector<double>{1, 1}}}}).text, HasSubstr("X,Y,Z"));
@@ -142,7 +142,7 @@ TEST_F(ControlTest, APausedRunSendsWhatItsUserChanged)
                                            moved = moved || (poses[k] == 1.5 && poses[count + k] == 1.25);
                                          ++views;
                                        });
-  // Once everybody has met, nothing is sent: nothing changes.
+  // Once all processes have matched, nothing is sent: nothing changes.
   int before = -1;
   ASSERT_TRUE(Eventually(
       [&]
@@ -171,7 +171,7 @@ TEST_F(ControlTest, AStoppedOrKilledVisualiserDoesNotSlowTheRun)
   ASSERT_TRUE(Eventually(both_see));
   stopped.Signal(SIGSTOP);
   killed.Signal(SIGKILL);
-  // One that is stopped would hold it up for ever.
+  // A stopped process would hold it up for ever.
   EXPECT_EQ(Ask("step 3000").tick, 3005U);
   ExpectEnd();
 }

@@ -1,4 +1,4 @@
-/* Speaks to a run with Cyclone DDS, from the types that idlc makes of idl/swarmanoid.idl, as nobody asked it to.
+/* Speaks to a run with Cyclone DDS, from the types that idlc makes of idl/swarmanoid.idl, without being asked.
    cyclone_stranger DOMAIN EXPERIMENT ROBOTS PROCESS [TOPIC...]: waits until somebody reads the topics (all of the run
    if none is named), and writes a well-formed message to each, again and again until it is killed: stop the run, robots
    elsewhere, PROCESS ("host:pid"), the engine, has failed ... Prints the topics that were written. The number of the
@@ -23,7 +23,7 @@ static double poses[kMostRobots * kColumns];
 
 static swarmanoid_wire_SpaceState space_state;
 static swarmanoid_wire_ControlCommands control_commands;
-static swarmanoid_wire_EngineUpdate engine_update = {.tick = 1};
+static swarmanoid_wire_EngineUpdate engine_update = {.header.tick = 1};
 static swarmanoid_wire_SensorFrame sensor_frame;
 static swarmanoid_wire_Drawn drawn;
 static swarmanoid_wire_World world = {
@@ -31,20 +31,25 @@ static swarmanoid_wire_World world = {
 static swarmanoid_wire_Join join = {.name = engine, .ready = true, .incarnation = 7};
 static swarmanoid_wire_View view;
 static swarmanoid_wire_ControlRequest control_request = {
-    .number = 1, .verb = (char*)"stop", .user = forged};
+    .number = 1, .order.verb = (char*)"stop", .user = forged};
 static swarmanoid_wire_ControlReply control_reply = {.number = 1, .text = forged};
 static swarmanoid_wire_Status status = {.name = engine, .text = forged};
 static swarmanoid_wire_SavedState saved_state = {.name = engine};
 static swarmanoid_wire_RecoveryRequest recovery_request = {.name = engine};
 static swarmanoid_wire_RecoveryBlock recovery_block = {0};
 static swarmanoid_wire_ViewRequest view_request = {.views = 30, .every_tick = true};
-static swarmanoid_wire_RunStatus run_status = {.phase = swarmanoid_wire_PHASE_FINISHED, .ended = forged};
+static swarmanoid_wire_RunStatus run_status = {
+    .status = {.phase = swarmanoid_wire_RUN_PHASE_FINISHED, .ended = forged}};
 static swarmanoid_wire_RobotStatus robot_status;
 static swarmanoid_wire_Leave leave = {.name = engine, .error = forged};
 
 #define TOPIC(name, sample)                                         \
   {                                                                 \
 #name, &swarmanoid_wire_##name##_desc, &(sample), &(sample).run \
+  }
+#define TOPIC_OF_TICK(name, sample)                                        \
+  {                                                                        \
+#name, &swarmanoid_wire_##name##_desc, &(sample), &(sample).header.run \
   }
 static struct
 {
@@ -53,11 +58,11 @@ static struct
   void* sample;
   uint64_t* run;
 } topics[] = {
-    TOPIC(SpaceState, space_state),
-    TOPIC(ControlCommands, control_commands),
-    TOPIC(EngineUpdate, engine_update),
-    TOPIC(SensorFrame, sensor_frame),
-    TOPIC(Drawn, drawn),
+    TOPIC_OF_TICK(SpaceState, space_state),
+    TOPIC_OF_TICK(ControlCommands, control_commands),
+    TOPIC_OF_TICK(EngineUpdate, engine_update),
+    TOPIC_OF_TICK(SensorFrame, sensor_frame),
+    TOPIC_OF_TICK(Drawn, drawn),
     TOPIC(World, world),
     TOPIC(Join, join),
     TOPIC(View, view),
@@ -113,7 +118,7 @@ static uint64_t read_run(dds_entity_t participant, dds_entity_t subscriber)
   return run;
 }
 
-/* The writer of a topic, once somebody reads it; 0 if nobody does. */
+/* The writer of a topic, once it has a reader; 0 without a reader. */
 static dds_entity_t open_writer(dds_entity_t participant, dds_entity_t publisher, const char* name,
                                 const dds_topic_descriptor_t* type, int patience_ms)
 {

@@ -60,13 +60,13 @@ int main(int argc, char** argv)
     {
       if (open_view)
       {
-        const swarmanoid_wire_View* view = sample;
+        const swarmanoid_wire_SpaceSnapshot* view = &((const swarmanoid_wire_View*)sample)->snapshot;
         Print(view->tick, view->flags, view->poses._buffer, view->poses._length);
       }
       else
       {
         const swarmanoid_wire_SpaceState* state = sample;
-        Print(state->tick, state->flags, state->poses._buffer, state->poses._length);
+        Print(state->header.tick, state->flags, state->poses._buffer, state->poses._length);
       }
       --wanted;
     }

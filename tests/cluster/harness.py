@@ -17,8 +17,6 @@ CONFIGS = pathlib.Path(os.environ["SWARMANOID_CONFIGS"])
 DIFFUSION = CONFIGS / "diffusion_10.xml"
 TEST_CONTROLLERS = os.environ["TEST_CONTROLLERS"]
 FINISHED = re.compile(r"^finished: (\d+) ticks, (\d+) entities, hash ([0-9a-f]{16}), [0-9.]+ s, [0-9.]+x real time$")
-# From a kill to the end of everything: a second is promised, the rest is for a machine that stands still meanwhile. Beside a longer lease.
-AT_ONCE_S = 30
 # For what comes within moments, on a machine that is busy with much else.
 GENEROUS_S = 100
 

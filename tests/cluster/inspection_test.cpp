@@ -1,4 +1,4 @@
-// What visualisers can ask a running cluster beyond its state: how the run goes, and the inside of robots.
+// The answers of a running cluster to visualisers beyond its state: the status of the run, and the inside of robots.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -14,6 +14,7 @@
 #include "simulation/playback/recorded_robot_states.h"
 #include "simulation/register_all.h"
 #include "tests/cluster/cluster_fixture.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid
 {
@@ -23,7 +24,7 @@ namespace
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
-// The latest message of a topic.
+// It keeps the latest message of a topic.
 template <class Message>
 class Latest
 {
@@ -50,6 +51,7 @@ public:
   }
 
 private:
+  // Guards message_ and count_.
   mutable std::mutex mutex_;
   std::optional<Message> message_;
   int count_ = 0;
@@ -131,7 +133,7 @@ TEST_F(InspectionTest, TheRunTellsItsPhasePaceAndProcesses)
     EXPECT_THAT(process.process, testing::ContainsRegex(":[0-9]+$"));
 
   Ask("resume");
-  // Measured: a machine that stands still in between tells another pace for a while.
+  // The pace is measured: a machine that stands still meanwhile reports another pace for a while.
   const auto is_told = [&]
   {
     const RunStatus running = status.Get()->status;
@@ -183,7 +185,7 @@ TEST_F(InspectionTest, WatchedRobotsOfAllHostsTellTheirInside)
   Begin(0, 2, {"--paused"});
   Latest<RobotStatusMessage> status(*bus_, "inspected");
   Publisher<ViewRequestMessage> request(*bus_, "inspected");
-  // The robots of one host; while the run is paused the answer comes too.
+  // These are the robots of one host; while the run is paused the answer comes too.
   ASSERT_EQ(Ask("step 4").tick, 4U);
   request.Write(Request({"robots0_2"}));
   ASSERT_TRUE(Eventually([&] { return status.Get().has_value(); }));
@@ -222,7 +224,7 @@ TEST_F(InspectionTest, WatchedRobotsOfAllHostsTellTheirInside)
   ExpectEnd();
 }
 
-// The bits of all numbers, and all texts.
+// Returns the bits of all numbers, and all texts.
 std::string InsideOf(const RobotStatus& robot)
 {
   std::string text =
@@ -251,8 +253,11 @@ TEST_F(InspectionTest, ThePastOfRobotsIsWhatWasToldOfThemThen)
                                               [&](const RobotStatusMessage& heard)
                                               {
                                                 const std::lock_guard lock(mutex);
-                                                for (const RobotStatus& robot : heard.robots)
+                                                for (RobotStatus robot : heard.robots)
+                                                {
+                                                  robot.tick = heard.tick;
                                                   told[{robot.tick, robot.entity}] = InsideOf(robot);
+                                                }
                                               });
     Publisher<ViewRequestMessage> requests(*bus_, "inspected");
     for (std::uint64_t tick = 1; tick <= kTicks; ++tick)
@@ -283,7 +288,9 @@ TEST_F(InspectionTest, ThePastOfRobotsIsWhatWasToldOfThemThen)
       EXPECT_EQ(InsideOf(robot), (told[{tick, robot.entity}])) << "tick " << tick;
   }
   EXPECT_NE((told[{149, request.robots[0]}]), (told[{100, request.robots[0]}]));
-  EXPECT_THROW(RecordedRobotStates(*experiment, folder_ + "/run", kTicks + 1, request.robots), std::runtime_error);
+  const std::string lacks = test::MessageOf<std::runtime_error>(
+      [&] { RecordedRobotStates(*experiment, folder_ + "/run", kTicks + 1, request.robots); });
+  EXPECT_EQ(lacks.rfind("the journal has ticks 0 to ", 0), 0U) << lacks;
 }
 
 TEST_F(InspectionTest, WatchingIsForgottenWithoutRepetitionAndLeavesTheHashesAlone)
@@ -299,7 +306,7 @@ TEST_F(InspectionTest, WatchingIsForgottenWithoutRepetitionAndLeavesTheHashesAlo
     ASSERT_TRUE(Eventually([&] { return status.Count() > 0; }));
     ASSERT_EQ(Ask("step 200").tick, 200U);
     EXPECT_TRUE(Eventually([&] { return status.Get()->tick == 199; }));
-    // A second passes in which a step is not told about.
+    // A second passes without a report of a step.
     const auto forgotten = [&]
     {
       const int before = status.Count();
@@ -309,7 +316,8 @@ TEST_F(InspectionTest, WatchingIsForgottenWithoutRepetitionAndLeavesTheHashesAlo
     EXPECT_TRUE(Eventually(forgotten));
     const int before = status.Count();
     ticks = Ask("step 200").tick;
-    // What was told about these comes before what is asked for now. One may come before the host notices.
+    // Reports of the earlier request come before those of the present one. One of them may come before the host
+    // notices.
     request.Write(all);
     EXPECT_TRUE(Eventually([&] { return status.Get()->tick + 1 == ticks; }));
     EXPECT_LE(status.Count(), before + 2);
@@ -329,7 +337,7 @@ TEST_F(InspectionTest, ViewsComeAtThePaceThatIsWishedFor)
   slow.views = 2;
   request.Write(slow);
   Latest<ViewMessage> views(*bus_, "inspected");
-  // Until the server has heard the wish, they come more often.
+  // Until the server has received the request, views come more often.
   int seen = 0;
   auto start = std::chrono::steady_clock::now();
   ASSERT_TRUE(Eventually(
@@ -350,7 +358,7 @@ TEST_F(InspectionTest, ViewsComeAtThePaceThatIsWishedFor)
         request.Write(slow);
         return views.Count() >= before + 5;
       }));
-  // Two a second, and never more however busy the machine is.
+  // Two views each second come, and never more, however busy the machine is.
   EXPECT_GE(std::chrono::steady_clock::now() - start, 1500ms);
   Ask("stop");
   ExpectEnd();

@@ -13,7 +13,7 @@ namespace swarmanoid
 namespace
 {
 
-// What the table says of the first robot at each tick, beside what the subscriber saw of it.
+// Compares the table's values of the first robot at each tick with those that the subscriber received.
 void ExpectSeenAsDrawn(const std::string& table, const std::string& seen, int count)
 {
   std::map<std::uint64_t, std::pair<double, double>> drawn;
@@ -62,7 +62,7 @@ TEST_F(ClusterTest, CycloneSubscriberReadsThePosesThatWereDrawn)
   ExpectSeenAsDrawn(Read("table.txt"), subscriber.Output(), 10);
 }
 
-// In a run with a key, which an open view lets anybody look at, and nobody speak to.
+// The run has a key. An open view lets every program read it, and none write to it.
 TEST_F(ClusterTest, CycloneSubscriberReadsAnOpenView)
 {
   const std::string file = WriteExperiment("looked_at", 1, 100000, kTable);

@@ -48,6 +48,23 @@ class Attaching(LauncherTest):
         self.assertIn("the space server", watcher.stderr)
         self.assertTrue(self.has_table("table"))
 
+    def test_with_follow_it_goes_on_with_the_next_run_of_the_experiment(self):
+        first = self.start_paused("--ticks", 20)
+        watcher = self.watch("table", "--follow", "--csv", "--columns", "clock,Entity id,X")
+        self.wait_until("a table", lambda: self.has_table("table"))
+        self.control("resume")
+        self.assertEqual(first.wait(GENEROUS_S), 0, first.stderr)
+        watcher.read_until("waiting for its next start")
+        (self.folder / "table").unlink()
+        second = self.start_paused("--ticks", 20)
+        watcher.read_until("was started again")
+        self.wait_until("a table of the next run", lambda: self.has_table("table"))
+        self.control("resume")
+        self.assertEqual(second.wait(GENEROUS_S), 0, second.stderr)
+        watcher.read_until("waiting for its next start")
+        watcher.process.send_signal(signal.SIGINT)
+        self.assertEqual(watcher.wait(GENEROUS_S), 0, watcher.stderr)
+
     def test_one_that_is_attached_follows_the_run_to_its_next_server(self):
         run = self.start_paused("--ticks", 500)
         watcher = self.watch("table", "--columns", "clock,Entity id,X")

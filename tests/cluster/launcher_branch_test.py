@@ -161,7 +161,7 @@ class Changed(Branches):
         self.refused("--branch", "old@9", "--restore", CONFIGS / "diffusion_10.xml", says=["leave out --restore"])
         self.refused(says=["name an experiment file, or a run to branch off with --branch RUN@TICK"])
         self.go(CONFIGS / "diffusion_10.xml", "--ticks", 20, "--output", "without", "--no-journal")
-        self.refused("--branch", "without@3", says=["runs as a cluster keep a journal, unless they have --no-journal"])
+        self.refused("--branch", "without@3", says=["keep a journal, unless they have --no-journal"])
 
     def test_a_run_that_used_something_else_then_is_noticed(self):
         """Here its log of events says now what was not done."""

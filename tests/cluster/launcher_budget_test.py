@@ -5,10 +5,11 @@ import signal
 
 from harness import CONFIGS, LauncherTest
 
-# A state is saved at each hundredth tick, some 350 kB of the journal after the one before.
+# A state is saved at each hundredth tick. A hundred ticks take 560 kB, and 930 kB on a busy machine, which writes shorter
+# blocks. So the budget always has room for the last two states.
 SWARM = [CONFIGS / "diffusion_1000.xml", "--real-time", 20, "--journal-budget", "2MiB"]
 BUDGET = 2 << 20
-TICKS = 1300
+TICKS = 800
 
 
 class Budget(LauncherTest):
@@ -24,8 +25,7 @@ class Budget(LauncherTest):
         """A run that is paused where the start of its journal is gone; some of its processes are killed there."""
         run = self.start("run", *SWARM, "--ticks", TICKS, "--no-visualisers", "--paused", "--output", out)
         self.wait_for_experiment("diffusion_1000")
-        stepped = self.run_it("control", "step", TICKS - 150)
-        self.assertEqual(stepped.process.returncode, 0, stepped.stderr)
+        self.control("step", TICKS - 150)
         self.assertFalse((self.folder / out / "journal" / "0").exists())
         kill(run)
         return run
@@ -51,16 +51,17 @@ class Budget(LauncherTest):
         self.assertEqual(self.assert_finished(branch, TICKS), self.expected)
 
     def test_each_process_is_replaced(self):
-        for program in ("engine_worker", "controller_host", "space_server"):
-            with self.subTest(program):
-                run = self.go_on(program, lambda run, program=program: os.kill(run.find(program), signal.SIGKILL))
-                run.read_until("all processes start again where the journal ends" if program == "space_server" else "another process takes its place")
-                self.wait_for_experiment("diffusion_1000")
-                self.assertFalse((self.folder / program / "journal" / "0").exists(), "it goes on, and does not begin again")
-                self.assertEqual(self.run_it("control", "resume").process.returncode, 0)
-                run.wait()
-                self.assertEqual(self.assert_finished(run, TICKS), self.expected)
-                self.assert_nothing_left(run)
+        run = self.go_on("out", lambda run: os.kill(run.find("engine_worker"), signal.SIGKILL))
+        run.read_until("another process takes its place")
+        self.control("step", 20)
+        os.kill(run.find("space_server"), signal.SIGKILL)
+        run.read_until("all processes start again where the journal ends")
+        self.wait_for_experiment("diffusion_1000")
+        self.assertFalse((self.folder / "out" / "journal" / "0").exists(), "it goes on, and does not begin again")
+        self.assertEqual(self.run_it("control", "resume").process.returncode, 0)
+        run.wait()
+        self.assertEqual(self.assert_finished(run, TICKS), self.expected)
+        self.assert_nothing_left(run)
 
     def test_a_run_whose_machine_died_is_resumed(self):
         self.go_on("died", self.kill_all)
@@ -73,7 +74,7 @@ class Budget(LauncherTest):
         file.write_text(SWARM[0].read_text().replace("</ahss-config>", f"{table}</ahss-config>"))
         run = self.start("run", file, *SWARM[1:], "--ticks", TICKS, "--paused", "--output", "out")
         self.wait_for_experiment("shown")
-        self.assertEqual(self.run_it("control", "step", TICKS - 150).process.returncode, 0)
+        self.control("step", TICKS - 150)
         os.kill(run.find("visualiser"), signal.SIGKILL)
         run.wait()
         self.assertEqual(run.process.returncode, 4)
@@ -86,10 +87,10 @@ class Budget(LauncherTest):
 class Refused(LauncherTest):
     def test_all_is_kept_and_told_if_a_controller_saves_no_state(self):
         # Slow enough for several states to be saved, however quick the machine is.
-        run = self.run_it("run", self.write_faulty("none"), "--ticks", 40000, "--real-time", 800, "--journal-budget", "1KiB", "--output", "out")
-        self.assert_finished(run, 40000)
+        run = self.run_it("run", self.write_faulty("none"), "--ticks", 3000, "--real-time", 100, "--journal-budget", "1KiB", "--output", "out")
+        self.assert_finished(run, 3000)
         self.assertTrue((self.folder / "out" / "journal" / "0").exists())
-        self.assertIn("keeps all: without its start nobody could replace controller host 0, which saves no state", run.stderr)
+        self.assertRegex(run.stderr, "keeps all: without its start controller host 0 could not be replaced, since it saves no state")
 
     def test_what_cannot_be_meant(self):
         for words, says in [(["--journal-budget", "much"], "a number of bytes"), (["--journal-budget", "2GB", "--no-journal"], "keeps no journal"),

@@ -22,15 +22,12 @@ class Checkpoints(LauncherTest):
             self.assertEqual(self.go(experiment, output, "--checkpoint-every", 100, *options, **how), whole)
             files.append(self.folder / output / f"checkpoint-{at:08}")
             self.assertTrue((self.folder / output / f"checkpoint-{at + 100:08}").exists())
-        self.assertEqual(files[0].read_bytes(), files[1].read_bytes(), "the same file, whoever wrote it")
+        self.assertEqual(files[0].read_bytes(), files[1].read_bytes(), "one process and a cluster write the same file")
         for way, options in (("one", ["--single-process"]), ("cluster", [])):
             self.assertEqual(self.go(experiment, f"{name}_again_{way}", "--restore", files[1], *options, **how), whole)
 
     def test_kinematic_engine_with_an_own_visualiser(self):
         self.check("diffusion_10")
-
-    def test_kinematic_engine_with_a_pile_of_contacts(self):
-        self.check("pile", at=300, ticks=400)
 
     def test_kinematic_engine_with_a_gripped_prey_behaviours_and_experiment_functions(self):
         self.check("prey_retrieval", at=2100, ticks=2200, code=1)  # the prey is on its way, and not in the nest yet
@@ -42,7 +39,7 @@ class Checkpoints(LauncherTest):
         self.check("handbot_shelf", at=200, ticks=350)
 
     def test_three_engines_with_contacts(self):
-        self.check("three_engines", at=200, ticks=300)
+        self.check("three_engines")
 
     def test_other_content_of_a_file_is_refused(self):
         shutil.copy(CONFIGS / "rough_terrain.xml", self.folder)
@@ -74,7 +71,6 @@ class Checkpoints(LauncherTest):
             file.write_text(text)
             asked = ["--events", events]
             whole = self.go(file, f"{engine}_whole", "--single-process", "--checkpoint-every", 100, *asked)
-            self.assertEqual(self.go(file, f"{engine}_cluster", *asked), whole)
             self.assertNotEqual(self.go(file, f"{engine}_left_alone", "--single-process"), whole)
             saved = self.folder / f"{engine}_whole" / "checkpoint-00000100"
             for way, options in (("one", ["--single-process"]), ("cluster", [])):

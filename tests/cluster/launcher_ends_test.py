@@ -25,6 +25,7 @@ class Ends(LauncherTest):
             self.assert_nothing_left(run)
             manifest = json.loads((self.folder / out / "manifest.json").read_text())
             self.assertEqual(manifest["exit_code"], 0)
+            self.assertEqual(manifest["command"][1:], ["run", str(EXPERIMENT), "--ticks", "200", "--output", out, *map(str, options)])
             self.assertIn(manifest["state_hash"], hashes)
             table = (self.folder / out / "positions.txt").read_text().splitlines()
             self.assertEqual(table[-1].split()[0], "200")
@@ -80,6 +81,8 @@ class Ends(LauncherTest):
         self.assertIn("maxclok", run.stderr)
         self.assertIn("zero", run.stderr)
         self.assertIn("2 errors", run.stderr)
+        broken.write_text(EXPERIMENT.read_text().replace('<subclock>1</subclock>', '<subclock>zero</subclock>'))
+        self.assertRegex(self.run_it("run", broken).stderr, r"broken\.xml: 1 error\n")
 
 
 class Interrupts(LauncherTest):
@@ -130,7 +133,7 @@ class Interrupts(LauncherTest):
         self.assertEqual(run.wait(GENEROUS_S), 130, run.stderr)
         self.assert_nothing_left(run)
 
-    def test_errors_that_nobody_reads_are_kept_in_the_manifest(self):
+    def test_errors_without_a_reader_are_kept_in_the_manifest(self):
         # A terminal that is gone, or a log on a full disk: each write fails.
         experiment = self.write_faulty("step_throws", 5)
         for output, options in (("cluster", ["--quiet"]), ("one", ["--single-process"])):

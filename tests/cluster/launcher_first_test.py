@@ -127,7 +127,7 @@ class First(harness.LauncherTest):
     @unittest.skipUnless(DRAWS, "image_render is not part of this build")
     def test_the_first_run_on_a_terminal_is_shown(self):
         sample = harness.CONFIGS / "sample_footbot.xml"
-        said, exit_code = on_terminal(self.folder, "run", sample, "--ticks", "60", "--single-process")
+        said, exit_code = on_terminal(self.folder, "run", sample, "--ticks", "8", "--single-process")
         self.assertEqual(exit_code, 0, said)
         latest = self.folder / "runs" / "latest"
         self.assertTrue(latest.is_symlink())
@@ -139,7 +139,7 @@ class First(harness.LauncherTest):
         self.assertIn("swarmanoid demo --list", said)
         self.assertFalse((runs[0] / "shown").exists() or (runs[0] / "shown.xml").exists())
 
-        again, exit_code = on_terminal(self.folder, "run", sample, "--ticks", "60", "--single-process")
+        again, exit_code = on_terminal(self.folder, "run", sample, "--ticks", "8", "--single-process")
         self.assertEqual((exit_code, "Picture:" in again), (0, False))
 
     def test_scripts_are_not_shown_anything(self):
@@ -201,7 +201,7 @@ class First(harness.LauncherTest):
             pass
         answer, exit_code = self.json_of("control", "step", "3")
         self.assertEqual((exit_code, answer["experiment"], answer["ok"], answer["tick"]), (0, "diffusion_10", True, 3))
-        refused, exit_code = self.json_of("control", "remove", "nobody")
+        refused, exit_code = self.json_of("control", "remove", "missing")
         self.assertEqual((exit_code, refused["ok"]), (2, False))
         self.json_of("control", "stop")
         self.assertEqual(run.wait(), 0)

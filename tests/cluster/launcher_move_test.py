@@ -1,4 +1,4 @@
-"""Users have workers change places in mid-run: every tick has the hash of a run in one process that nobody disturbed."""
+"""Users move workers in mid-run: every tick has the hash of an undisturbed run in one process."""
 import csv
 import os
 import signal
@@ -7,7 +7,7 @@ from harness import CONFIGS, FINISHED, LauncherTest, children_of, words_of
 from world.case import controller, experiment
 
 EXPERIMENT = CONFIGS / "diffusion_10.xml"
-TICKS = 2000
+TICKS = 1500
 
 
 class Moves(LauncherTest):
@@ -68,22 +68,8 @@ class Moves(LauncherTest):
             self.assertIn("at tick", self.control(*words))
         self.control("stop")
         self.assert_undisturbed(run)
-        # Nobody held a lock: the run had been held before they were killed.
+        # They held no lock: the run had been held before they were killed.
         self.assertNotIn("start again", run.stderr)
-
-    def test_who_dies_later_is_replaced_as_ever(self):
-        run = self.begin()
-        self.control("step", 300)
-        self.control("move-host", "1")
-        os.kill(self.pid_of(run, "controller_host", "--host", "1"), signal.SIGKILL)
-        said = run.read_until("controller host 1 was killed by signal 9 (Killed)")
-        self.control("step", 300)
-        os.kill(self.pid_of(run, "space_server"), signal.SIGKILL)
-        said += run.read_until("all processes start again where the journal ends")
-        self.wait_for_experiment("diffusion_10")
-        self.control("move-engine", "ground")
-        self.run_it("control", "resume")
-        self.assert_undisturbed(run, said)
 
     def test_what_cannot_be(self):
         run = self.begin()
@@ -104,7 +90,7 @@ class Moves(LauncherTest):
         self.assertEqual(run.wait(), 0, run.stderr)
 
     def test_drain_knows_who_arrived(self):
-        """A worker whose new place nobody can reach goes back, and is not taken for being there; one that arrived is."""
+        """A worker whose new machine cannot be reached returns, and does not count there; a worker that arrived does."""
         reach = self.folder / "reach.sh"
         reach.write_text('#!/bin/sh\n[ "$1" = nowhere ] && exit 255\nshift\nexec sh -c "$*"\n')
         reach.chmod(0o755)
@@ -127,7 +113,7 @@ class Moves(LauncherTest):
     def test_more_controller_hosts_and_fewer(self):
         run = self.begin()
         self.control("step", 777)
-        for words, hosts in ((["+1"], "012"), (["+2"], "01234"), (["-3"], "01"), (["-1", "here"], "0"), (["+1", "here"], "01"), (["again"], "01")):
+        for words, hosts in ((["+2"], "0123"), (["-3", "here"], "0"), (["+1"], "01"), (["again"], "01")):
             answer = self.control("hosts", *words)
             self.assertIn("one controller host has all robots now" if len(hosts) == 1 else f"{len(hosts)} controller hosts share the robots now", answer)
             self.wait_until("so many hosts", lambda: self.hosts_of(run) == list(hosts), run)
@@ -137,10 +123,10 @@ class Moves(LauncherTest):
         self.assert_undisturbed(run)
         with (self.folder / "out/events.csv").open() as file:
             asked = [(row["tick"], row["numbers"], row["entity"]) for row in csv.DictReader(file) if row["request"] == "hosts"]
-        self.assertEqual(asked, [("777", "+1", ""), ("877", "+2", ""), ("977", "-3", ""), ("1077", "-1", "here"), ("1177", "+1", "here"), ("1277", "again", "")])
+        self.assertEqual(asked, [("777", "+2", ""), ("877", "-3", "here"), ("977", "+1", ""), ("1077", "again", "")])
         # Looking back, and going on, from a journal of several numbers of hosts.
         self.assertIn(f"equal: {TICKS + 1} states", self.run_it("replay", "out", "--verify").stdout)
-        for options in ([], ["--controller-hosts", 4], ["--single-process"]):
+        for options in (["--controller-hosts", 3], ["--single-process"]):
             branch = self.run_it("run", "--branch", "out@950", "--ticks", TICKS, *options, "--no-visualisers", "--output", f"branch{len(options)}{options[:1]}")
             self.assertEqual(self.assert_finished(branch, TICKS), self.assert_finished(run, TICKS))
 
@@ -150,7 +136,7 @@ class Moves(LauncherTest):
         self.control("step", 777)
         self.assertFalse((self.folder / "out/journal/1").exists())
         self.assertIn("2 controller hosts share the robots now", self.control("hosts", "again"))
-        run.read_until("the robots are shared out anew among 2 controller hosts")
+        run.read_until("assigned again to 2 controller hosts")
         # Other hosts begin a segment, and so do as many with other robots.
         self.wait_until("a segment", lambda: (self.folder / "out/journal/1").exists(), run)
         self.control("step", 100)
@@ -166,9 +152,8 @@ class Moves(LauncherTest):
         self.assert_undisturbed(run)
         self.assertIn(f"equal: {TICKS + 1} states", self.run_it("replay", "out", "--verify").stdout)
         # A branch begins with robots that are shared out by where they are, too.
-        for hosts in (2, 3):
-            branch = self.run_it("run", "--branch", "out@950", "--ticks", TICKS, "--controller-hosts", hosts, "--no-visualisers", "--output", f"branch{hosts}")
-            self.assertEqual(self.assert_finished(branch, TICKS), self.assert_finished(run, TICKS))
+        branch = self.run_it("run", "--branch", "out@950", "--ticks", TICKS, "--controller-hosts", 2, "--no-visualisers", "--output", "branch")
+        self.assertEqual(self.assert_finished(branch, TICKS), self.assert_finished(run, TICKS))
         self.assertIn("fb_3", self.run_it("inspect", "out@600", "fb_3").stdout)
 
     def test_hosts_that_share_mixed_robots_again_over_a_network(self):
@@ -198,9 +183,9 @@ class Moves(LauncherTest):
                           controller("sample_footbot_controller", ["noisy_footbot_wheels"], library="sample_footbot_controller"), robots, "3,2,1",
                           "kinematics2d", more='<visualisations><text_render id="positions" file="positions.txt" every="10"/></visualisations>')
         # So slow that the space server and the engine, which can be saved, are in between: all go on from there, the hosts from the start.
-        run = self.begin("--real-time", 20, experiment=file, ticks=1200)
+        run = self.begin("--real-time", 20, experiment=file, ticks=600)
         for words in (["+1"], ["-2"], ["+3"]):
-            self.control("step", 333)
+            self.control("step", 150)
             self.control("hosts", *words)
         self.control("move-host", "3")
         self.run_it("control", "resume")
@@ -209,10 +194,10 @@ class Moves(LauncherTest):
     def test_more_controller_hosts_while_it_runs(self):
         run = self.begin("--real-time", 20, ticks=0)
         self.control("resume")
-        for words in (["+1"], ["-2"], ["+3"]):
+        for words in (["+2"], ["-1"]):
             self.assertIn("now", self.control("hosts", *words))
-        os.kill(self.pid_of(run, "controller_host", "--host", "3"), signal.SIGKILL)
-        run.read_until("controller host 3 was killed by signal 9 (Killed)")
+        os.kill(self.pid_of(run, "controller_host", "--host", "2"), signal.SIGKILL)
+        run.read_until("controller host 2 was killed by signal 9 (Killed)")
         self.control("stop")
         self.assert_undisturbed(run)
 
@@ -228,7 +213,7 @@ class Moves(LauncherTest):
         self.assertEqual(self.assert_finished(resumed, TICKS), self.assert_finished(one, TICKS))
         self.assertTrue((self.folder / "out/resumed/controller_host-2.log").exists())
 
-    def test_not_if_nobody_is_replaced(self):
+    def test_not_without_replacements(self):
         run = self.begin("--no-recovery")
         self.refused("move-host", "0", says=["no process of this run can be moved"])
         self.control("stop")

@@ -1,4 +1,4 @@
-"""Names, folders and files on the command line: those that are empty, missing or of something else are refused before anything happens, with
+"""Names, folders and files on the command line: empty, missing or wrong ones are refused before anything happens, with
 their option and a cure; and numbers of ARGoS3's files that mean nothing."""
 import os
 import pathlib
@@ -26,12 +26,12 @@ class Names(harness.LauncherTest):
         return done
 
     def commands_of(self, *command):
-        """The command and those below it, with their options that take a value and their positionals, from their help."""
+        """The command and those below it, with the lines of their options that take a value and their positionals, from their help."""
         text = self.command(*command, "--help").stdout
         # Commands stand before the options. What stands after these is no command.
         below = re.findall(r"^  ([a-z][a-z-]+)  ", text.partition("\nOptions:\n")[0], re.MULTILINE)
         # An option with a value has its type behind it, in capitals or as alternatives.
-        options = re.findall(r"^  (--[a-z][a-z0-9-]*) [^ ]", text, re.MULTILINE)
+        options = re.findall(r"^  (--[a-z][a-z0-9-]*) ([^ ].*)", text, re.MULTILINE)
         places = re.findall(r"^  ([A-Z][A-Z_@]*) ", text.partition("Arguments:")[2].partition("\n\n")[0], re.MULTILINE)
         yield list(command), options, places
         for name in below:
@@ -39,10 +39,13 @@ class Names(harness.LauncherTest):
 
     def test_no_option_and_no_word_is_empty(self):
         checked = 0
+        known = set()
         before = sorted(os.listdir(self.folder))
         for command, options, places in self.commands_of():
-            for option in options:
-                if option != "--slurm":  # no options of sbatch
+            for option, line in options:
+                # Commands share options. --slurm takes options of sbatch, or none.
+                if option != "--slurm" and (option, line) not in known:
+                    known.add((option, line))
                     done = self.command(*command, option, "")
                     self.assertEqual(done.returncode, 2, f"{command} {option}: {done.stderr}")
                     self.assertIn(f"{option} is empty", done.stderr, command)

@@ -1,4 +1,4 @@
-"""Who may steer a run: those of the same user, from wherever they ask; nobody else. And runs in a network of their own."""
+"""Only processes of the same user may steer a run, from any folder. Also runs in a network of their own."""
 import os
 import pathlib
 import shutil
@@ -7,11 +7,11 @@ import unittest
 
 from harness import DIFFUSION, GENEROUS_S, SWARMANOID, LauncherTest, children_of
 
-NOBODY = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
+OTHER_USER = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
 
 
 def can_isolate():
-    """Whether this system lets a process have a network of its own, whoever it is."""
+    """Returns true if this system lets any user's process have a network of its own."""
     return subprocess.run(["unshare", "-n" if os.geteuid() == 0 else "-Un", "true"], check=False, capture_output=True).returncode == 0
 
 
@@ -58,23 +58,23 @@ class Security(LauncherTest):
             key = self.folder / "key"
             key.write_text("1" * 64 + "\n")
             key.chmod(0o600)
-            answer = self.run_it("control", "diffusion_10", "resume", "--domain", domain, *(of_others or ["--key", key]),
+            answer = self.run_it("control", "diffusion_10", "resume", "--patience", 1, "--domain", domain, *(of_others or ["--key", key]),
                                  environment={"SWARMANOID_SHARED_FOLDER": f"{self.shared}-elsewhere"})
             self.assertEqual(answer.process.returncode, 4, answer.stderr)
             self.assertIn("does not answer", answer.stderr)
             self.assertIn("--key", answer.stderr)
-            answer = self.run_it("control", "stop", *of_run)
+            answer = self.run_it("control", "stop", "--patience", 60, *of_run)
             self.assertEqual(answer.process.returncode, 0, answer.stderr)
             self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
             shutil.rmtree(self.folder / "out")
 
     @unittest.skipUnless(os.geteuid() == 0, "only root can be another user")
     def test_another_user_is_refused_and_told_why(self):
-        if subprocess.run([*NOBODY, "test", "-x", SWARMANOID], check=False).returncode != 0:
+        if subprocess.run([*OTHER_USER, "test", "-x", SWARMANOID], check=False).returncode != 0:
             self.skipTest("other users cannot start the command that is tested")
         run = self.start_paused()
         domain = self.run_it("list", "experiments").stdout.split("domain")[1].split()[0]
-        answer = subprocess.run([*NOBODY, SWARMANOID, "control", "diffusion_10", "stop", "--domain", domain], check=False,
+        answer = subprocess.run([*OTHER_USER, SWARMANOID, "control", "diffusion_10", "stop", "--domain", domain], check=False,
                                 capture_output=True, text=True, cwd="/", timeout=GENEROUS_S)
         self.assertEqual(answer.returncode, 4, answer.stderr)
         self.assertIn("no key of it is given", answer.stderr)
@@ -104,7 +104,7 @@ class Security(LauncherTest):
         self.assertEqual(watcher.wait(GENEROUS_S), 0, watcher.stderr)
         self.assertEqual(self.assert_finished(run, 50), self.plain())
 
-    def test_whoever_stops_a_run_is_named(self):
+    def test_the_user_who_stops_a_run_is_named(self):
         run = self.start_paused()
         self.assertEqual(self.run_it("control", "stop").process.returncode, 0)
         self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)

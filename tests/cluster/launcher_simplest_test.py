@@ -4,8 +4,8 @@ import re
 from harness import CONFIGS, LauncherTest
 
 TICKS = 12
-# One or two of each engine and of each kind of robot.
-IN_CLUSTERS = ("prey_supply", "epuck_mixed", "kilobots", "rough_holes", "sound_seekers", "three_engines", "urdf_rover")
+# Each kind of engine, and entities of each source.
+IN_CLUSTERS = ("prey_supply", "three_engines", "urdf_rover")
 QUANTITY = re.compile(r"(<distribute\b(?:(?!</distribute>).)*?(?:<quantity>|quantity=\"))\d+", re.DOTALL)
 
 
@@ -49,12 +49,12 @@ class Simplest(LauncherTest):
         """A visualiser of a cluster hears of the run by the bus."""
         for quantity in (0, 1):
             for file in self.files(quantity):
-                if file.name not in ("diffusion_10.xml", "prey_supply.xml", "epuck_mixed.xml"):
+                if file.name != "diffusion_10.xml":
                     continue
                 for renderer, output in (("image", "*.png"), ("figure", "*.svg")):
                     with self.subTest(file=file.name, quantity=quantity, renderer=renderer):
                         folder = self.folder / f"{file.stem}_{quantity}_{renderer}"
-                        run = self.run_it("run", file, "--ticks", TICKS, "--quiet", "--no-visualisers", "--show", renderer, "--output", folder)
+                        run = self.run_it("run", file, "--ticks", 2, "--quiet", "--no-visualisers", "--show", renderer, "--output", folder)
                         self.assertEqual(run.process.returncode, 0, run.stderr)
-                        self.assert_finished(run, TICKS)
+                        self.assert_finished(run, 2)
                         self.assertTrue(list(folder.rglob(output)), list(folder.rglob("*")))

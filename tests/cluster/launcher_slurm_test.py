@@ -56,7 +56,7 @@ class OneJob(LauncherTest):
         self.assert_same(run, 300, said)
 
     def test_a_step_that_dies_is_replaced(self):
-        run = self.job(600, "--real-time", "10")
+        run = self.job(300, "--real-time", "20")
         found = []
         self.wait_until("the first ticks", lambda: (self.folder / "cluster").exists() and (self.folder / "cluster").read_text().count("\n") > 20)
         self.wait_until("a region", lambda: found.extend(self.steps("--region 2")) or found)
@@ -64,7 +64,7 @@ class OneJob(LauncherTest):
         said, _ = run.communicate(timeout=2 * GENEROUS_S)
         self.assertIn("region 2 of engine 'ground'", said)
         self.assertIn("another process takes its place", said)
-        self.assert_same(run, 600, said)
+        self.assert_same(run, 300, said)
 
     def test_an_interrupt_ends_all_steps(self):
         run = self.job(0, "--real-time", "1")

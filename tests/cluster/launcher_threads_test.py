@@ -30,6 +30,13 @@ class Threads(LauncherTest):
                     for threads in (2, 3, 0):
                         self.assertEqual(self.hash_of(experiment, threads), one, f"{threads} threads")
 
+    def test_engines_solve_groups_in_threads(self):
+        for name in ("diffusion_100_dynamics2d", "diffusion_100_dynamics3d"):
+            with self.subTest(name):
+                one = self.hash_of(CONFIGS / f"{name}.xml", 1)
+                for threads in (2, 3):
+                    self.assertEqual(self.hash_of(CONFIGS / f"{name}.xml", threads), one, f"{threads} threads")
+
     def test_hosts_of_a_cluster_have_threads(self):
         [experiment] = self.write(self.folder / "cluster", "light, 4 bulbs, 500 walls", "--steer-by-all")
         one = self.hash_of(experiment, 1)

@@ -43,9 +43,9 @@ class Watching(LauncherTest):
 
     def test_refused_requests_say_why(self):
         run = self.start_paused()
-        answer = self.run_it("control", "move", "nobody", "1,1,0")
+        answer = self.run_it("control", "move", "missing", "1,1,0")
         self.assertNotEqual(answer.process.returncode, 0)
-        self.assertIn("nobody", answer.stderr)
+        self.assertIn("missing", answer.stderr)
         answer = self.run_it("control", "other", "pause")
         self.assertEqual(answer.process.returncode, 2)
         self.assertIn("no experiment 'other' runs", answer.stderr)

@@ -18,7 +18,7 @@ ATTACKER = pathlib.Path(__file__).resolve().parent / "rtps_attacker.py"
 PROGRAMS = pathlib.Path(os.environ["SWARMANOID_BUILD"]) / "bin"
 EXPERIMENT = CONFIGS / "diffusion_10.xml"
 SECRETS = "footbot_diffusion,<arena,fb_3"  # of the World
-TICKS = 150
+TICKS = 80
 FORGED = r"dropped a bad RTPS message of '(engine|space|controller).*somebody without the key of this run spoke in its name.*10\.78\.0\.1"
 
 
@@ -78,7 +78,7 @@ class WireAttacks(LauncherTest):
     def told(self):
         return "".join(log.read_text() for log in (self.folder / "out").glob("*.log"))
 
-    def test_whoever_listens_reads_nothing(self):
+    def test_a_listener_reads_nothing(self):
         self.run_under()
 
     def test_without_a_key_he_reads_all(self):
@@ -94,19 +94,14 @@ class WireAttacks(LauncherTest):
         self.run_under("change")
         self.assertRegex(self.told(), FORGED)
 
-    def test_nobody_leaves_by_the_word_of_another(self):
-        run = self.run_under("part")
+    def test_no_process_leaves_or_ends_by_the_word_of_another(self):
+        run = self.run_under("part", "dispose", "break")
         self.assertNotIn("another process takes its place", run.stderr)
 
-    def test_nobody_is_made_deaf(self):
+    def test_no_process_is_made_deaf(self):
         self.run_under("gap", "ahead", "read")
-        self.assertRegex(self.told(), FORGED)
-
-    def test_nobody_is_gone_by_the_word_of_another(self):
-        self.run_under("dispose")
-
-    def test_nobody_is_ended_by_a_datagram(self):
-        self.run_under("break")
+        # Each receiver tells the first bad message of a sender, whichever of them that is.
+        self.assertRegex(self.told(), FORGED + r"|10\.78\.0\.1: a GAP of more than")
 
     def start_program(self, machine, program, *words, shared=None):
         """In the network of that machine, by hand; what it says goes to the file that is returned with it."""

@@ -1,5 +1,5 @@
-// Stands in for an engine_worker of another version: joins the run by another protocol, is refused, and says so as
-// workers do.
+// Stands in for an engine_worker of another version. It joins the run with another protocol, is refused, and reports
+// that as workers do.
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -9,8 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "common/activity/exit_codes.h"
 #include "common/bus/bus.h"
+#include "common/errors/exit_codes.h"
+#include "idl/messages.h"
 
 int main(int count, char** arguments)
 {
@@ -39,7 +40,7 @@ int main(int count, char** arguments)
                                             refused = true;
                                           });
   const Subscription<WorldMessage> worlds(bus, experiment, [&](const WorldMessage& world) { run = world.run; });
-  // Whoever waits for it kills it.
+  // A test that waits in vain kills this process.
   while (run == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   joins.Write({ProcessId(), kProtocolVersion + 1, run, name, false});
   while (!refused) std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -1,7 +1,7 @@
 """Somebody on the network of a run, without its key: rtps_attacker.py INTERFACE SECONDS ATTACK...
 
-Until its standard input ends, SECONDS at most, it overhears all datagrams of an interface, and answers each a few times, as often and as long as the limits below allow, in the name of whoever
-sent it:
+Until its standard input ends, SECONDS at most, it overhears all datagrams of an interface, and answers each a few times, as often and as long as the limits below allow, in the name of its
+sender:
   repeat    the same bytes again
   change    other bytes in its message, under numbers of messages that are still to come
   part      the word that its process leaves the bus
@@ -159,7 +159,7 @@ class Attacker:
                 continue
             self.changed[payload[8:20] + writer] += 1
             next_one = struct.unpack("<I", payload[at + 20:at + 24])[0] + 1
-            # In its name as the sender, and as one whom a sender of our own speaks for.
+            # In its name as the sender, and as a process that a sender of our own speaks for.
             heads = payload[:20], payload[:8] + OWN_PREFIX + submessage(INFO_SRC, 0, bytes(4) + payload[4:20])
             for head in heads:
                 if "gap" in self.attacks:

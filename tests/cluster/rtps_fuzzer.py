@@ -26,7 +26,7 @@ PARTICIPANT = bytes.fromhex("000001c1")
 TOPIC_NAMES = ("ControlRequest", "Join", "ViewRequest", "Leave", "SpaceState", "View", "World")
 USER_WRITERS = [struct.pack(">I", 0x00000103 + 0x100 * k) for k in range(len(TOPIC_NAMES))]
 USER_READERS = [struct.pack(">I", 0x00000104 + 0x100 * k) for k in range(len(TOPIC_NAMES))]
-MOST_FIRST, MOST_SAMPLE = 200_000, 256 * 1024  # of strangers (common/bus/check_rtps.h)
+MOST_FIRST, MOST_SAMPLE = 200_000, 256 * 1024  # of strangers (common/bus/dds/check_rtps.h)
 END = struct.pack("<HH", 1, 0)
 LIST, PLAIN = b"\0\3\0\0", b"\0\1\0\0"
 

@@ -1,5 +1,5 @@
-// A program writes to all topics of a run that lets anybody in: what is malformed, or is not what the experiment makes
-// of a message, changes nothing. Runs as they are by default: attacks_test.cpp.
+// A program writes to all topics of a run that lets every process in. Malformed messages, and messages that do not fit
+// the experiment, change nothing. Runs with a key are in attacks_test.cpp.
 #include <algorithm>
 #include <chrono>
 #include <csignal>
@@ -40,7 +40,7 @@ protected:
       std::string payload(4 + random_() % 200, '\0');
       for (char& byte : payload) byte = static_cast<char>(random_());
       payload.replace(0, 4, std::string("\0\1\0\0", 4));
-      // As if it were of this run and tick.
+      // The payload gets the numbers of this run and tick.
       if (payload.size() > 20)
       {
         std::memcpy(payload.data() + 4, &run, 8);
@@ -80,8 +80,8 @@ protected:
     return count;
   }
 
-  // Hot topics are read at best effort: what arrives before a reader knows its writer is lost, so it is sent again
-  // until each reader has told of it.
+  // Hot topics are read at best effort. A message that arrives before a reader knows its writer is lost, so it is sent
+  // again until each reader has reported it.
   static bool SendUntilTold(test::Stranger& stranger, const std::string& topic,
                             const std::vector<std::string>& payloads, const std::vector<const ChildProcess*>& readers)
   {
@@ -95,7 +95,7 @@ protected:
         });
   }
 
-  // Each is told, and only once of a sender.
+  // Each message is reported, and only once for a sender.
   static void ExpectTold(const std::string& output, const std::vector<std::string>& topics)
   {
     for (const std::string& topic : topics)
@@ -125,7 +125,7 @@ TEST_F(StrangersTest, DoNotChangeARunByBadMessages)
   for (const char* topic : {"Join", "ControlRequest", "Status", "Leave", "ViewRequest", "World"})
     EXPECT_TRUE(stranger.Send(topic, Noise(run))) << topic;
 
-  // Well-formed, of this run and of the tick that is waited for, but not what the experiment makes of them.
+  // These messages are well-formed, of this run and of the present tick, but do not fit the experiment.
   const MessageHeader now{run, 0, 0, false};
   const MessageHeader later{run, 1000000, 0, false};
   SpaceState short_state;
@@ -150,15 +150,15 @@ TEST_F(StrangersTest, DoNotChangeARunByBadMessages)
   workers[0].Signal(SIGSTOP);
   client.Send({"resume"});
   const MessageHeader next{run, 1, 0, false};
-  const MessageHeader nobody{run, 1, 77, false};
-  UpdateMessage update;
+  const MessageHeader absent{run, 1, 77, false};
+  EngineUpdate update;
   update.poses = {1};
-  UpdateMessage slot;
+  EngineUpdate slot;
   slot.poses.assign(7 * 12, 0.5);
   slot.attributes.Add(0x7ffffff0U, 1e308);
   EXPECT_TRUE(SendUntilTold(
       stranger, "EngineUpdate",
-      Noise(run, {PayloadOf(next, update), PayloadOf(next, slot), PayloadOf(nobody, update), PayloadOf(later, update)}),
+      Noise(run, {PayloadOf(next, update), PayloadOf(next, slot), PayloadOf(absent, update), PayloadOf(later, update)}),
       {&server}));
   workers[0].Signal(SIGCONT);
 
@@ -173,7 +173,7 @@ TEST_F(StrangersTest, DoNotChangeARunByBadMessages)
   EXPECT_THAT(workers[1].Output(), HasSubstr("dropped a bad SpaceState message of an unknown process"));
 }
 
-// Checkpoints, pictures that each tick waits for, sensors of an engine, and all that those hear who look on.
+// Tests checkpoints, pictures that each tick waits for, sensors of an engine, and all topics of observers.
 TEST_F(StrangersTest, DoNotChangeARunThatIsWatchedByBadMessages)
 {
   constexpr std::uint64_t kCheckpoint = 100;
@@ -210,7 +210,7 @@ TEST_F(StrangersTest, DoNotChangeARunThatIsWatchedByBadMessages)
   send("SavedState", {PayloadOf(SavedStateMessage{run, 0, engine, state}),
                       PayloadOf(SavedStateMessage{run, kCheckpoint / 2, engine, state}),
                       PayloadOf(SavedStateMessage{run, 1000 * kCheckpoint, engine, state}),
-                      PayloadOf(SavedStateMessage{run, kCheckpoint, "nobody", state})});
+                      PayloadOf(SavedStateMessage{run, kCheckpoint, "absent", state})});
   EXPECT_TRUE(SendUntilTold(stranger, "Drawn",
                             Noise(run, {PayloadOf(MessageHeader{run, 0, 77, false}, DrawnMessage{true})}), {&server}));
   SensorFrame frame;
@@ -225,14 +225,14 @@ TEST_F(StrangersTest, DoNotChangeARunThatIsWatchedByBadMessages)
   RunStatusMessage fast{run, {}};
   fast.status.real_time_factor = std::numeric_limits<double>::infinity();
   send("RunStatus", {PayloadOf(status), PayloadOf(fast)});
-  RobotStatus nobody;
-  nobody.entity = 0x7fffffffU;
-  nobody.controller = "nobody";
-  send("RobotStatus", {PayloadOf(RobotStatusMessage{run, 1, 0, {nobody}})});
+  RobotStatus absent;
+  absent.entity = 0x7fffffffU;
+  absent.controller = "absent";
+  send("RobotStatus", {PayloadOf(RobotStatusMessage{run, 1, 0, {absent}})});
   // Ours, and those of the visualisers.
   send("ControlReply", {PayloadOf(ControlReplyMessage{"somebody", 7, true, 5, "paused"})}, 4);
 
-  // While the visualiser sleeps the server waits for its word.
+  // While the visualiser sleeps, the server waits for its answer.
   workers[2].Signal(SIGSTOP);
   const auto reply = client.Ask({"resume"}, kGenerous_s);
   ASSERT_TRUE(reply.has_value()) << server.Output();
@@ -252,7 +252,8 @@ TEST_F(StrangersTest, DoNotChangeARunThatIsWatchedByBadMessages)
   ExpectTold(workers[1].Output(), {"SensorFrame"});
   ExpectTold(workers[attached].Output(), {"View", "ControlReply"});
   ExpectTold(heard, {"RunStatus", "RobotStatus", "ControlReply"});
-  // What is noise, and what is out of place; two of us hear the replies.
+  // Noise is malformed; the others are valid messages in the wrong place. Two processes of the test receive the
+  // replies.
   constexpr std::uint64_t kNoise = 21;
   EXPECT_EQ(bus.Dropped(), 2 * kNoise + (kNoise + 1) + (kNoise + 2));
   EXPECT_NE(monitor.Status().phase, static_cast<RunStatus::Phase>(77));

@@ -56,7 +56,7 @@ class TwoMachines:
             ip("-n", name, "link", "set", "link0", "multicast", "off")
 
     def hosts(self, options="--lease 60"):
-        """A file for --hosts: space server and controller hosts on the first machine, engines on the second. Nobody is given up, however
+        """A file for --hosts: space server and controller hosts on the first machine, engines on the second. No process is given up, however
         long this machine is busy with something else."""
         return ("command = ip netns exec {host} {command}\n"
                 f"options = --interface link0 {options}\n"

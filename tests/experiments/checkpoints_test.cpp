@@ -1,5 +1,5 @@
-// Runs that go on from a checkpoint, at ticks at which something is held. tests/cluster/launcher_checkpoint_test.py
-// does the same with these files and ticks, as clusters too.
+// Runs that continue from a checkpoint, at ticks at which something is held. tests/cluster/launcher_checkpoint_test.py
+// does the same with these files and ticks, also as clusters.
 
 #include "common/checkpoint/checkpoint.h"
 #include "tests/experiments/running_experiment.h"

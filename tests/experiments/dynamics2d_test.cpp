@@ -17,7 +17,7 @@ TEST(GrippedChain, TenFootbotsPullThePreyAtTheSpeedOfTheirWheels)
   EXPECT_NEAR(run.Entity("prey").GetPosition().x() - start, -0.1 * 15, 0.1) << "but for the start";
 }
 
-// Ten robots pull with 10 mu m g = 125.6 N at most, a prey of M rubs with 0.5 M g.
+// Ten robots pull with 10 mu m g = 125.6 N at most; a prey of mass M rubs with 0.5 M g.
 TEST(GrippedChain, MovesWhatItsWheelsCanPullAndNothingHeavier)
 {
   for (const int mass : {24, 27})

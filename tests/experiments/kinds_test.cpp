@@ -22,7 +22,7 @@ constexpr double kRadius = 0.0355;
 constexpr double kAxle = 0.052;
 constexpr double kRange = 0.04;
 
-// What the robots of a test sensed in their last control step.
+// The readings of a test's robots in their last control step.
 struct Sensed
 {
   std::vector<double> proximity;
@@ -33,7 +33,7 @@ struct Sensed
 };
 Sensed sensed;
 
-// Drives as its parameters say.
+// Drives by its parameters.
 class Driver : public CCI_Controller
 {
 public:
@@ -120,7 +120,7 @@ protected:
   const CSwarmanoidSpaceEntity& Entity(const char* id) { return *simulator_->GetSpace().FindEntity(id); }
   Vector3 At(const char* id) { return Entity(id).GetPosition(); }
   bool IsKinematic() const { return std::string(GetParam()) == "kinematics2d"; }
-  // m: bodies of dynamics engines give way a little.
+  // Returns a distance in m: bodies of dynamics engines give way a little.
   double Softness() const { return std::string(GetParam()) == "dynamics3d" ? 0.004 : IsKinematic() ? 1e-6 : 0.002; }
 
 private:
@@ -180,12 +180,12 @@ TEST_P(Kinds, EPucksPushMovableObjectsOfUsers)
       "<epuck id='ep' position='1, 1, 0' controller='drive'/>",
       0.1, 0.1);
   Run(40);
-  // Without masses nothing gives way.
+  // Without masses no body gives way.
   EXPECT_GT(At("box").x(), IsKinematic() ? 1.1 : 1.25);
   EXPECT_GT((At("box") - At("ep")).norm(), 0.03 + kRadius - Softness());
 }
 
-// A wall 2 cm ahead of the body: the two front sensors see it at 2 cm and a little, each along its own ray.
+// A wall is 2 cm ahead of the body: the two front sensors see it at 2 cm and a little, each along its own ray.
 TEST_P(Kinds, EPucksSenseByTheirOwnRing)
 {
   const double wall = 1 + kRadius + 0.02;
@@ -206,7 +206,7 @@ TEST_P(Kinds, EPucksSenseByTheirOwnRing)
 
 TEST_P(Kinds, FootbotsSeeEPucksAndTheirLeds)
 {
-  // In front of the footbot; its sensors are 6 cm high, above an e-puck of 5 cm, which its camera sees.
+  // It stands in front of the footbot, whose sensors are 6 cm high, above an e-puck of 5 cm, which its camera sees.
   Start(
       "<footbot id='fb' position='1, 1, 0' controller='watch'/>"
       "<epuck id='ep' position='1.4, 1, 0' controller='drive'/>"

@@ -1,4 +1,4 @@
-// configs/pile.xml: 300 footbots push into a corner, and nobody ends up inside another one or a wall.
+// configs/pile.xml: 300 footbots push into a corner, and none ends up inside another one or a wall.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ double DeepestOverlap(const std::vector<Pose>& poses)
   return deepest;
 }
 
-// How many have three others around them.
+// Returns how many robots have three others around them.
 int InThePile(const std::vector<Pose>& poses)
 {
   int in_the_pile = 0;

@@ -1,4 +1,4 @@
-// An experiment of configs/ that runs in this process, tick by tick, without its visualisations.
+// RunningExperiment: an experiment of configs/ that runs in this process, tick by tick, without its visualisations.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ class RunningExperiment
 public:
   using Settings = std::vector<std::pair<std::string, std::string>>;
 
-  // `file` in configs/; settings as for --set.
+  // `file` is in configs/; `settings` are those of --set.
   explicit RunningExperiment(const std::string& file, const Settings& settings = {}, SimulatorOptions options = {})
       : experiment_(ReadExperiment(SWARMANOID_SOURCE_FOLDER "/configs/" + file, settings))
   {
@@ -41,7 +41,7 @@ public:
   const CSwarmanoidSpaceEntity& Entity(const std::string& id) { return *Space().FindEntity(id); }
   const Experiment& File() const { return *experiment_; }
 
-  // The entities whose ids begin so, in entity order.
+  // Returns the entities whose ids begin with the prefix, in entity order.
   std::vector<const CSwarmanoidSpaceEntity*> EntitiesOf(const std::string& prefix)
   {
     std::vector<const CSwarmanoidSpaceEntity*> found;
@@ -61,7 +61,7 @@ private:
   std::unique_ptr<CSimulator> simulator_;
 };
 
-// How far entities got from one moment to another, on average.
+// Returns the mean distance between two sets of positions.
 inline double MeanDistance(const std::vector<Vector3>& from, const std::vector<Vector3>& to)
 {
   double sum = 0;

@@ -1,6 +1,5 @@
-// Whether each byte counts of what the space server and the controller hosts save, for sample experiments whose
-// devices, controllers and experiment functions remember something. The engines' parts:
-// tests/unit/*/checkpoint_test.cpp.
+// Each saved byte of the space server and of the controller hosts counts, for sample experiments whose devices,
+// controllers and experiment functions have a state. The engines' parts are in tests/unit/*/checkpoint_test.cpp.
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -44,7 +43,7 @@ protected:
     return {state.begin(), state.end()};
   }
 
-  // Of a role that has read a part, as Checkpoint::LoadPart has it read.
+  // Saves a role again that has loaded a part, as Checkpoint::LoadPart loads it.
   template <class Role>
   static std::vector<char> WhatIsSaved(const Role& role, const ByteReader& read)
   {
@@ -54,8 +53,8 @@ protected:
     return writer.Bytes();
   }
 
-  // Whether the number of a text in which a byte stands is the same with the lowest bit of that byte changed: of 17
-  // digits the last may be one of several.
+  // Returns whether the number in a text keeps its value if the lowest bit of one of its bytes changes: the last of 17
+  // digits may be one of several.
   static bool IsSameNumber(const std::vector<char>& saved, std::size_t place)
   {
     const auto belongs = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.'; };
@@ -70,7 +69,7 @@ protected:
     return belongs(number[place - begin]) && std::stod(number) == value;
   }
 
-  // The lost bytes, without those that only part the numbers of a text.
+  // Returns the lost bytes, except those that only separate the numbers of a text.
   static std::vector<std::size_t> Lost(const std::vector<char>& saved,
                                        const std::function<std::vector<char>(const std::vector<char>&)>& saved_again)
   {

@@ -1,4 +1,4 @@
-// What holds together, as experiment functions see and move it while an engine runs.
+// Connected entities, as experiment functions read and move them while an engine runs.
 
 #include <functional>
 
@@ -64,7 +64,7 @@ TEST(Structure, ACompoundThatIsMovedKeepsItsShapeAndItsGrips)
       { return space.GetPose(index("fb_9")).Inverse().Compose(space.GetPose(index("prey"))).position; };
       const Vector3 before = seen_from_robot();
       editor.MoveCompound("fb_9", away);
-      // They have not let go for a moment.
+      // The grips have never ended meanwhile.
       EXPECT_EQ(structure.GetHolders(index("prey")), std::vector<std::uint32_t>{index("fb_9")});
       EXPECT_EQ(space.GetPose(index("fb_9")).position, away.position);
       EXPECT_LT((seen_from_robot() - before).norm(), 1e-14);

@@ -1,5 +1,5 @@
-// Any bytes are refused as a checkpoint with a reason, or are one whose bytes come out again; and so are the same bytes
-// with the length and checksum that they should have, so that what lies behind the checksum is reached.
+// Any bytes are refused as a checkpoint with a reason, or are one that is written again with the same bytes. The same
+// holds for the bytes with a correct length and checksum, so that the code behind the checksum is reached.
 #include <cstdlib>
 #include <cstring>
 #include <stdexcept>
@@ -64,7 +64,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* input, std::size_t cou
   std::vector<char> sealed = bytes;
   SealCheckpoint(sealed);
   Take(sealed);
-  // One bit of what was taken is enough for a refusal.
+  // One changed bit of an accepted checkpoint is enough for a refusal.
   if (taken)
     for (std::size_t at = 0; at < bytes.size(); at += 1 + bytes.size() / 64)
     {

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 using swarmanoid::fuzz::Input;
 
 constexpr std::size_t kLongestInput = std::size_t{1} << 18U;
-constexpr unsigned kMostSeconds = 60;  // of one input
+constexpr unsigned kMostSeconds = 60;  // limit for one input
 
 // SplitMix64: its numbers are the same everywhere.
 class Random
@@ -50,7 +50,7 @@ private:
   std::uint64_t state_;
 };
 
-// For the handler of signals.
+// The handler of signals needs it.
 Input current;
 std::array<char, 4096> kept_path{};
 

@@ -1,6 +1,6 @@
-// What a fuzzer (tests/fuzz/<topic>_fuzzer.cpp) and the driver of the normal build have in common. A fuzzer defines
-// LLVMFuzzerTestOneInput as libFuzzer wants it: any input is taken or refused in an orderly way; whatever breaks a
-// promise ends in std::abort().
+// The common part of the fuzzers (tests/fuzz/<topic>_fuzzer.cpp) and of the driver in the normal build. A fuzzer
+// defines LLVMFuzzerTestOneInput for libFuzzer: any input is accepted, or refused with an error. A broken promise ends
+// in std::abort().
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@ namespace swarmanoid::fuzz
 
 using Input = std::vector<std::uint8_t>;
 
-// The first inputs, from which the driver makes others, of a fuzzer whose formats would be unreadable as files of a
-// corpus. Optional. `PROGRAM --write-corpus FOLDER` makes files of them for libFuzzer.
+// Optional: the first inputs, from which the driver makes others, for formats that would be unreadable as files of a
+// corpus. `PROGRAM --write-corpus FOLDER` makes files of them for libFuzzer.
 [[gnu::weak]] std::vector<Input> FirstInputs();
 
-// Texts of the format that change much in few bytes: keys, words, separators. Optional.
+// Optional: texts of the format that change much with few bytes: keys, words, separators.
 [[gnu::weak]] std::vector<Input> Words();
 
 }  // namespace swarmanoid::fuzz

@@ -2,10 +2,9 @@
 // first byte of an input chooses the topic.
 #include <algorithm>
 #include <cstdlib>
-#include <tuple>
 
-#include "common/bus/topics/message_bytes.h"
 #include "tests/fuzz/fuzz_driver.h"
+#include "tests/world/random_message.h"
 
 namespace swarmanoid
 {
@@ -20,7 +19,7 @@ std::string BytesOf(const Parts&... parts)
   return bytes;
 }
 
-// Not byte for byte: padding may hold anything, and an empty text may come without its zero.
+// The bytes need not be equal: padding may hold any bytes, and an empty text may come without its zero.
 template <class Message>
 void TryOther(std::span<const char> payload)
 {
@@ -52,106 +51,47 @@ void TryOfTick(std::span<const char> payload)
   if (BytesOf(header_again, again) != bytes || bytes.size() > payload.size()) std::abort();
 }
 
-constexpr void (*kTries[])(std::span<const char>) = {TryOfTick<SpaceState>,
-                                                     TryOfTick<ControlCommands>,
-                                                     TryOfTick<UpdateMessage>,
-                                                     TryOfTick<SensorFrame>,
-                                                     TryOfTick<DrawnMessage>,
-                                                     TryOther<WorldMessage>,
-                                                     TryOther<JoinMessage>,
-                                                     TryOther<ViewMessage>,
-                                                     TryOther<ControlRequestMessage>,
-                                                     TryOther<ControlReplyMessage>,
-                                                     TryOther<StatusMessage>,
-                                                     TryOther<SavedStateMessage>,
-                                                     TryOther<ViewRequestMessage>,
-                                                     TryOther<RunStatusMessage>,
-                                                     TryOther<RobotStatusMessage>,
-                                                     TryOther<LeaveMessage>,
-                                                     TryOther<RecoveryRequestMessage>,
-                                                     TryOther<RecoveryBlockMessage>,
-                                                     TryOfTick<RegionTaskMessage>,
-                                                     TryOfTick<RegionHaloMessage>,
-                                                     TryOfTick<RegionResultMessage>,
-                                                     TryOfTick<LocalState>};
-
-fuzz::Input InputOf(std::uint8_t topic, const std::string& payload)
+template <class Message>
+std::string AnyOther(RandomMessage& random)
 {
-  fuzz::Input input(payload.size() + 1, topic);
-  std::copy(payload.begin(), payload.end(), input.begin() + 1);
-  return input;
+  Message message;
+  random.Fill(message);
+  return BytesOf(message);
 }
+
+template <class Message>
+std::string AnyOfTick(RandomMessage& random)
+{
+  MessageHeader header;
+  Message message;
+  random.Fill(header, message);
+  return BytesOf(header, message);
+}
+
+struct Topic
+{
+  void (*attempt)(std::span<const char>);
+  std::string (*any)(RandomMessage&);
+};
+
+#define TOPIC_OF_TICK(MESSAGE, TOPIC) {TryOfTick<MESSAGE>, AnyOfTick<MESSAGE>},
+#define OTHER_TOPIC(MESSAGE, TOPIC) {TryOther<MESSAGE>, AnyOther<MESSAGE>},
+constexpr Topic kFuzzed[] = {SWARMANOID_HOT_MESSAGES(TOPIC_OF_TICK) SWARMANOID_COLD_MESSAGES(OTHER_TOPIC)};
 
 }  // namespace
 
 std::vector<fuzz::Input> fuzz::FirstInputs()
 {
-  const MessageHeader header{0x1122334455667788ULL, 7, 0, true};
-  AttributeChanges changes;
-  changes.Add(3, 0.5);
-  changes.Add(77, 16711680);
-  SpaceState state;
-  state.poses = {1, 2, 3, 0, 0, 0, 1};
-  state.attributes = changes;
-  state.moved = {4, 9};
-  LocalState local;
-  local.poses = state.poses;
-  local.attributes = changes;
-  local.entities = {4};
-  local.near = {16};
-  ControlCommands commands;
-  commands.values = {0.1, -0.1};
-  commands.attributes = changes;
-  commands.faults = {{4, 9}, {FaultKind::kThrew, FaultKind::kDied}};
-  UpdateMessage update;
-  update.poses = state.poses;
-  update.attributes = changes;
-  update.recorded = {0.1, -0.1, 0.25};
-  SensorFrame frame;
-  frame.values = {0.25};
-  ViewMessage view{5, {7, true, 1.5, state.poses, {1, 2, 3}}};
-  RunStatusMessage status;
-  status.status.phase = RunStatus::Phase::kRunning;
-  status.status.processes = {{"space server", "host:1", 7, 0.5, "runs its engine"}};
-  RobotStatusMessage robots{5, 7, 0, {{3, 7, "c", "text", "state", {{"footbot_proximity", {{"0", "m", 0.5}}}}, {}}}};
-  const WorldMessage world{kProtocolVersion,
-                           5,
-                           "e",
-                           "host",
-                           2,
-                           "e.xml",
-                           "/x",
-                           "<x/>",
-                           3,
-                           HostTable{2, std::vector<std::uint32_t>(2)},
-                           false,
-                           0.1,
-                           100,
-                           {'a', 'b'},
-                           false,
-                           {{"fb", "footbot", true, 0}},
-                           {},
-                           {12, {{7, 0, FaultKind::kTooSlow}}}};
-  return {InputOf(0, BytesOf(header, state)),
-          InputOf(1, BytesOf(header, commands)),
-          InputOf(2, BytesOf(header, update)),
-          InputOf(3, BytesOf(header, frame)),
-          InputOf(4, BytesOf(header, DrawnMessage{true})),
-          InputOf(5, BytesOf(world)),
-          InputOf(6, BytesOf(JoinMessage{"host:1", kProtocolVersion, 5, "engine 'ground'", true})),
-          InputOf(7, BytesOf(view)),
-          InputOf(8, BytesOf(ControlRequestMessage{
-                         {"move", {{"entity", "fb"}, {"pose", std::vector<double>{1, 2, 0, 0, 0, 90}}}}, "host:1", 9})),
-          InputOf(9, BytesOf(ControlReplyMessage{"host:1", 9, true, 7, "moved 'fb' at tick 7"})),
-          InputOf(10, BytesOf(StatusMessage{5, 7, "engine 'ground'", "waits for controller host 0"})),
-          InputOf(11, BytesOf(SavedStateMessage{5, 7, "engine 'ground'", {'a', 'b', 'c'}})),
-          InputOf(12, BytesOf(ViewRequestMessage{"host:1", 5, 30, true, {1, 2}})),
-          InputOf(13, BytesOf(status)),
-          InputOf(14, BytesOf(robots)),
-          InputOf(15, BytesOf(LeaveMessage{5, 7, "engine 'ground'", "", "über"})),
-          InputOf(16, BytesOf(RecoveryRequestMessage{5, "host:1", "engine 'ground'", 2})),
-          InputOf(17, BytesOf(RecoveryBlockMessage{5, "host:1", 2, 7, {'a', 'b'}})),
-          InputOf(21, BytesOf(header, local))};
+  RandomMessage random(1);
+  std::vector<fuzz::Input> inputs;
+  for (std::size_t topic = 0; topic < std::size(kFuzzed); ++topic)
+    for (int k = 0; k < 3; ++k)
+    {
+      const std::string payload = kFuzzed[topic].any(random);
+      fuzz::Input& input = inputs.emplace_back(payload.size() + 1, static_cast<std::uint8_t>(topic));
+      std::copy(payload.begin(), payload.end(), input.begin() + 1);
+    }
+  return inputs;
 }
 
 }  // namespace swarmanoid
@@ -162,7 +102,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t cou
   if (count == 0) return 0;
   try
   {
-    kTries[bytes[0] % std::size(kTries)]({reinterpret_cast<const char*>(bytes) + 1, count - 1});
+    kFuzzed[bytes[0] % std::size(kFuzzed)].attempt({reinterpret_cast<const char*>(bytes) + 1, count - 1});
   }
   catch (const BadMessage& error)
   {

@@ -1,5 +1,5 @@
-// Any bytes with the ending of an OctoMap file (.bt, .ot) are refused with a reason that names the file, or are a
-// terrain that answers.
+// Any bytes in a file with the extension of OctoMap (.bt, .ot) are refused with a reason that names the file, or are a
+// terrain that answers queries.
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace swarmanoid
 namespace
 {
 
-// In the current folder.
+// The file is in the current folder.
 std::string PathOf(const char* extension) { return "octomap_fuzzer." + std::to_string(getpid()) + extension; }
 
 void Take(const fuzz::Input& bytes, const char* extension)

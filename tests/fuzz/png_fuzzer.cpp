@@ -1,5 +1,5 @@
-// Any bytes are refused as the picture of a height map with a reason that names the file, or are as many greys as its
-// size says, from 0 to 1; and so are the same bytes with the checksums that their chunks should have.
+// Any bytes are refused as the picture of a height map with a reason that names the file, or are the stated number of
+// greys from 0 to 1. The same holds for the bytes with correct checksums of their chunks.
 #include <png.h>
 #include <unistd.h>
 #include <zlib.h>

@@ -102,7 +102,7 @@ void ReadSet(Reader& from)
   from.Skip((bits + 31) / 32 * 4);
 }
 
-// The size of a payload as Fast DDS computes it, by subtraction in 32 bits.
+// Returns the size of a payload as Fast DDS computes it, by subtraction in 32 bits.
 std::uint32_t PayloadOf(std::size_t submessage, unsigned to_qos, std::uint32_t qos)
 {
   return static_cast<std::uint32_t>(submessage) - (4U + to_qos + qos);
@@ -137,7 +137,8 @@ void ReadData(unsigned kind, unsigned flags, std::span<const char> body, bool li
   if (kind == 0x16)
   {
     Promise(!is_builtin);
-    // The list of missing fragments, at the beginning of each, and the copy of this one.
+    // The sample must have room for the list of missing fragments, at the beginning of each, and for the copy of this
+    // one.
     const std::uint64_t fragments = (std::uint64_t{sample} + size - 1) / size;
     Promise(((fragments - 1) * size + 3) / 4 * 4 + 4 <= std::uint64_t{sample} + 3);
     const std::uint32_t offset = (start - 1) * size;

@@ -48,7 +48,7 @@ TEST(KindLibraries, AddTagsToTheArenaAndToDistribute)
   EXPECT_TRUE(entities[2].movable);
   EXPECT_EQ(entities[2].mass_kg, 2);
   EXPECT_FALSE(entities[3].movable);
-  // Whoever gets the effective text loads the library too.
+  // A process that gets the effective text loads the library too.
   EXPECT_NE(loaded.experiment->effective_xml.find("plain_kinds"), std::string::npos);
   ASSERT_EQ(loaded.experiment->entity_kinds.size(), 3U);
   EXPECT_EQ(loaded.experiment->entity_kinds[1].library, "plain_kinds");
@@ -107,7 +107,7 @@ public:
   void Canonicalise() override {}
 };
 
-// The engines of the simulator carry every kind by its row; an engine of a user those that it lists.
+// The engines of the simulator carry every kind by its row. A user's engine carries the kinds that it lists.
 TEST(KindLibraries, KindsThatAnEngineCannotCarryAreNamed)
 {
   PluginDescription description;
@@ -128,7 +128,7 @@ TEST(KindLibraries, KindsThatAnEngineCannotCarryAreNamed)
             "f.xml:7:9: the engine 'e' (footbots_only) cannot simulate the pillar 'p'; it can: footbot\n");
 }
 
-// The items of an entity.
+// Returns the items of an entity.
 std::vector<SceneItem> ItemsOf(const Scene& scene, const CSwarmanoidSpace& space, const char* id)
 {
   std::vector<SceneItem> items;
@@ -161,7 +161,7 @@ TEST(KindsOfUsers, AreDrawnByTheirBodiesOrTheirMeshes)
   EXPECT_EQ(pillar[0].scale, Eigen::Vector3f(0.1F, 0.1F, 0.3F));
   EXPECT_EQ(pillar[0].tint, Paint(0xff0000));
 
-  // A mesh of its own: a ball of 2 cm about a point 5 cm high, in the colour of LED 1.
+  // The kind has its own mesh: a ball of 2 cm about a point 5 cm high, in the colour of LED 1.
   const std::vector<SceneItem> lantern = ItemsOf(scene, space, "l");
   ASSERT_EQ(lantern.size(), 1U);
   const Model& model = scene.Models()[lantern[0].model];

@@ -1,4 +1,4 @@
-// Libraries of controllers: where they are looked for, and what is said when they are missing or wrong.
+// Libraries of controllers: the folders of the search, and the errors if they are missing or wrong.
 #include "common/plugins/library.h"
 
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@ namespace
 
 using namespace swarmanoid;
 
-// All defaults but what a robot must say.
+// Has all defaults except for what a robot must state.
 EntityKindDescription PlainRobot()
 {
   EntityKindDescription kind;

@@ -52,6 +52,18 @@ class CommandLine(OutsideTest):
         self.refused("swarmanoid", "sweep", file, "--runs-per-task", "1.5", says=["--runs-per-task is '1.5'", "a whole number"])
         self.refused("swarmanoid", "sweep", file, "--hosts", self.folder / "nothing.txt", says="--hosts: cannot read '")
 
+    def test_lines_to_paste_are_quoted(self):
+        run = self.folder / "my run"
+        run.mkdir()
+        (run / "manifest.json").write_text("{}")
+        (run / "experiment.xml").write_text(self.experiment().read_text())
+        self.refused("swarmanoid", "run", run, code=3,
+                     says=[f"swarmanoid replay '{run}'; ", f"swarmanoid resume '{run}'; ", f"swarmanoid run '{run}/experiment.xml'"])
+        self.refused("swarmanoid", run / "experiment.xml", says=f"swarmanoid run '{run}/experiment.xml'")
+        self.refused("swarmanoid", "sweep", run / "experiment.xml", says=f"swarmanoid run '{run}/experiment.xml'", code=3)
+        made = self.command("swarmanoid", "new", "user", self.folder / "my robots")
+        self.assertIn(f"\n  {str(self.folder / 'my robots' / 'build.sh').replace(' ', chr(92) + ' ')}\n", made.stderr)
+
     def test_shares(self):
         self.refused("swarmanoid", "share", says="give one of --watch, --operate, --open, --list and --revoke ID")
         self.refused("swarmanoid", "share", "--watch", "--for", "2 hours", says="such as 90s, 30m, 2h or 7d")
@@ -97,13 +109,13 @@ class CommandLine(OutsideTest):
     def test_attach_notices_that_its_run_has_ended(self):
         # A run whose space server has been stopped before it speaks, and dies while the visualiser looks for it.
         gone = subprocess.Popen(["/bin/sleep", "60"])
-        watcher = subprocess.Popen([PREFIX / "bin" / "visualiser", "--attach", "text", "--experiment", "nobody", "--domain",
+        watcher = subprocess.Popen([PREFIX / "bin" / "visualiser", "--attach", "text", "--experiment", "absent", "--domain",
                                     "76", "--server", str(gone.pid)], cwd=self.folder, env=self.environment(), text=True,
                                    stderr=subprocess.PIPE)
         self.addCleanup(watcher.stderr.close)
-        self.assertIn("waiting for the space server of 'nobody'", watcher.stderr.readline())
+        self.assertIn("waiting for the space server of 'absent'", watcher.stderr.readline())
         gone.send_signal(signal.SIGKILL)
         gone.wait()
         _, errors = watcher.communicate(timeout=100)
         self.assertEqual(watcher.returncode, 4)
-        self.assertIn("experiment 'nobody' has ended", errors)
+        self.assertIn("experiment 'absent' has ended", errors)

@@ -44,7 +44,7 @@ class Damage(OutsideTest):
                 self.assertIn(expected, words)
                 self.assertTrue(words.startswith(f"{file}:{self.line_of(file, source)}:"), words)
 
-    def test_a_library_that_is_cut_short_is_refused_and_kills_nobody(self):
+    def test_a_library_that_is_cut_short_is_refused_and_kills_no_process(self):
         whole = (BUILT / "controllers" / "liboutside_still.so").read_bytes()
         for size in (len(whole) // 2, len(whole) - 100, 60, 3, 0):
             with self.subTest(size):

@@ -9,7 +9,7 @@ import subprocess
 import tempfile
 import time
 
-from failures_test import FAULTS
+from failures_test import FAULTS, FAULTS_OF_CLUSTERS
 from outside import BUILT, WAYS, OutsideTest
 
 from signals import send_and_wait
@@ -60,11 +60,11 @@ class OwnSimulator(OutsideTest):
         return done, first
 
     def test_whatever_it_does_the_run_ends_by_its_name(self):
-        for way in WAYS:
-            for fault, words in FAULTS.items():
+        for way, options in WAYS.items():
+            for fault in FAULTS if options else FAULTS_OF_CLUSTERS:
                 with self.subTest(fault, way=way):
                     done, first = self.failing(fault, way, "--memory-limit", "640MiB")
-                    self.assertRegex(first, "^" + re.escape(WATCH) + " " + words)
+                    self.assertRegex(first, "^" + re.escape(WATCH) + " " + FAULTS[fault])
                     if fault.startswith("throw"):
                         self.assertIn("watched 8 ticks", done.stdout, "the program goes on")
 
@@ -102,7 +102,7 @@ class OwnSimulator(OutsideTest):
         output = self.folder / "run"
         run = subprocess.Popen([BUILT / "simulation", self.experiment(ticks=TICKS), "--output", output, "--quiet", "--no-recovery"],
                                cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                               env=self.environment({"OUTSIDE_FAULT": "watch loop 7", "OUTSIDE_FAULT_TIME": str(self.folder / "stuck")}))
+                               env=self.environment({"OUTSIDE_FAULT": "watch loop 7", "OUTSIDE_FAULT_MARK": str(self.folder / "stuck")}))
         while not (self.folder / "stuck").exists():
             self.assertIsNone(run.poll())
             time.sleep(0.01)

@@ -127,7 +127,7 @@ class Parameters(OutsideTest):
 
 
 class Robot(OutsideTest):
-    def test_the_program_of_the_robot_reads_them_likewise(self):
+    def test_the_program_of_the_robot_reads_them_too(self):
         robot = PREFIX / "bin" / "swarmanoid_robot"
         file = self.experiment(controller="outside_walker", parameters="<velocty>0.2</velocty>")
         done = self.command(robot, file, "--robot", "robot_one", "--check")

@@ -1,5 +1,5 @@
-"""What functions, engines and controllers of strangers hand over is checked before it enters the state: the run ends with the
-one who gave it, the entity, the tick and the value, in one process and as a cluster alike."""
+"""What functions, engines and controllers of strangers hand over is checked before it enters the state: the run ends with its
+source, the entity, the tick and the value, in one process and as a cluster alike."""
 from outside import WAYS, OutsideTest
 
 

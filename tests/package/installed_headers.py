@@ -1,7 +1,8 @@
-"""installed_headers.py SOURCE PREFIX COMPILER [OPTION...]: exactly the headers that users need are installed.
+"""installed_headers.py SOURCE GENERATED PREFIX COMPILER [OPTION...]: exactly the headers that users need are installed.
 
 Users need the Common Interface, the behaviours, the headers that listings, samples, templates and tests of plug-ins include, the
-headers that pages for users or public headers name, and all headers that these include. The compiler then reads all installed headers.
+headers that pages for users or public headers name, and all headers that these include. GENERATED is the folder of headers that the
+build makes. The compiler then reads all installed headers.
 """
 import os
 import re
@@ -18,7 +19,7 @@ INCLUDE_FOLDERS = ["", *INTERFACE, "launcher"]
 USERS = ["user", "tests/outside/plugins", "tests/package", "tests/seed/behaviors", "tests/seed/chapter4", "tests/seed/listings",
          "tests/cluster/distance_render"]
 # These pages describe the simulator's own code. Other pages are for users.
-PAGES_OF_DEVELOPERS = {"architecture", "code_tour", "command", "constants", "design_decisions", "determinism", "recovery", "scaling",
+PAGES_OF_DEVELOPERS = {"architecture", "code_tour", "command", "constants", "design_decisions", "determinism", "performance", "recovery", "scaling",
                        "wire"}
 # Folders of headers that are installed by other rules.
 ARGOS3 = "argos3/api/"
@@ -37,20 +38,25 @@ def text_of(path):
 
 
 class Sources:
-    def __init__(self, root):
+    def __init__(self, root, generated):
         self.root = root
-        self.names = {}
+        self.generated = generated
+
+    def file(self, path):
+        """The file of a header that `path` names below the root or the generated headers. None if it does not exist."""
+        found = (os.path.join(folder, path) for folder in (self.root, self.generated))
+        return next(filter(os.path.isfile, found), None)
 
     def path(self, name, folder):
         """The path below the root of a header that a file in `folder` includes. None if it is not ours."""
         for place in [folder, *INCLUDE_FOLDERS]:
             path = os.path.normpath(os.path.join(place, name))
-            if os.path.isfile(os.path.join(self.root, path)):
+            if self.file(path):
                 return path
         return None
 
     def included(self, path):
-        names = INCLUDE.findall(text_of(os.path.join(self.root, path)))
+        names = INCLUDE.findall(text_of(self.file(path)))
         paths = (self.path(name, os.path.dirname(path)) for name in names)
         return [header for header in paths if header]
 
@@ -87,13 +93,13 @@ def needs(sources):
 
 def named_by(sources, headers):
     """Existing headers that the text of these headers names."""
-    named = {name for header in headers for name in NAMED.findall(text_of(os.path.join(sources.root, header)))}
+    named = {name for header in headers for name in NAMED.findall(text_of(sources.file(header)))}
     return {name for name in named if os.path.isfile(os.path.join(sources.root, name))}
 
 
 def main():
-    root, prefix, *compiler = sys.argv[1:]
-    sources = Sources(root)
+    root, generated, prefix, *compiler = sys.argv[1:]
+    sources = Sources(root, generated)
     folder = os.path.join(prefix, "include/swarmanoid")
     installed = {os.path.relpath(path, folder) for path in files(folder, ".h")}
     installed = {path for path in installed if not path.startswith(ARGOS3)}

@@ -16,6 +16,15 @@ cd "$folder"
 "$prefix/$bin/swarmanoid" run user/experiments/sample_footbot.xml --single-process --output run | tee output.txt
 tail -n 1 output.txt | grep -qE '^finished: 962 ticks, 1 entities, hash [0-9a-f]{16}, '
 
+echo "== its controller also builds by pkg-config, as docs/installing.md says for paths with spaces"
+library=$folder/user/simulation_build/controllers/libsample_footbot_controller.so
+rm "$library"
+PKG_CONFIG_PATH=$(find "$prefix"/lib* -name pkgconfig)
+export PKG_CONFIG_PATH
+eval "${CXX:-c++} -shared -fPIC -O2 -Iuser user/controllers/sample_footbot_controller/*.cpp -o '$library' $(pkg-config --cflags --libs swarmanoid)"
+"$prefix/$bin/swarmanoid" run user/experiments/sample_footbot.xml --single-process --output again | tail -n 1 >again.txt
+[ "$(grep -oE 'hash [0-9a-f]{16}' again.txt)" = "$(grep -oE 'hash [0-9a-f]{16}' output.txt)" ]
+
 echo "== so does an installed sample, as a cluster of the installed programs"
 "$prefix/$bin/swarmanoid" run "$prefix/share/swarmanoid/configs/sample_footbot.xml" --output cluster | tee cluster.txt
 [ "$(grep -oE 'hash [0-9a-f]{16}' cluster.txt)" = "$(grep -oE 'hash [0-9a-f]{16}' output.txt)" ]

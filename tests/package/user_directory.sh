@@ -63,7 +63,7 @@ TryUserDirectory()
   answer=$("$scripts/create_behavior_controller.sh" </dev/null 2>&1) && exit 1
   Expect "$answer" "(or give --name)"
   # On a terminal a wrong answer is asked for again, before the next question; elsewhere it ends the script.
-  answer=$(printf 'Late-Riser\nlate_riser\nhndbot\nhandbot\n\n\n\nno\n' | script -qec "$scripts/create_behavior_controller.sh" /dev/null)
+  answer=$(printf 'Late-Riser\nlate_riser\nhndbot\nhandbot\n\n\n\nno\n' | script -qec "$(printf %q "$scripts/create_behavior_controller.sh")" /dev/null)
   Expect "$answer" "'Late-Riser' cannot be taken: it must be small letters"
   Expect "$answer" "'hndbot' cannot be taken"
   Expect "$answer" "late_riser/bt_handbot_late_riser.h"

@@ -26,7 +26,7 @@ class Attached(unittest.TestCase):
         folder = tempfile.TemporaryDirectory(prefix="swarmanoid_attached_")
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
-        # Runs of others on this machine are not among those that are looked for.
+        # Other users' runs on this machine must not be found.
         shared = tempfile.TemporaryDirectory(prefix="swarmanoid-attached-", dir="/dev/shm")
         self.addCleanup(shared.cleanup)
         os.environ["SWARMANOID_SHARED_FOLDER"] = shared.name

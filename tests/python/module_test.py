@@ -2,6 +2,7 @@
 import contextlib
 import csv
 import gc
+import importlib.util
 import io
 import os
 import pathlib
@@ -134,6 +135,16 @@ class Arrays(InFolderCase):
             beams.append(other.robots["driver"].rows("footbot_distance_scanner")[0])  # of a head that turns
         self.assertEqual(*hashes)
         np.testing.assert_array_equal(*beams)
+
+    def test_a_robot_is_moved_into_another_one_only_if_it_is_allowed(self):
+        simulation = swarmanoid.Simulation(scene.write(self.folder))
+        place = simulation.positions()[simulation.index("b")]
+        with self.assertRaisesRegex(ValueError, "'a' does not fit at .*: the footbot 'b' stands there"):
+            simulation.move("a", place)
+        simulation.move("a", place, overlap=True)
+        simulation.step(60)
+        apart = np.subtract(*(simulation.positions()[simulation.index(robot)] for robot in "ab"))
+        self.assertGreater(np.linalg.norm(apart), 2 * BODY_M - 1e-3)
 
     def test_readings_that_differ_in_number_are_rows(self):
         simulation = swarmanoid.Simulation(scene.write(self.folder))
@@ -272,10 +283,10 @@ class Mistakes(InFolderCase):
 
     def test_what_cannot_be_done_is_refused(self):
         simulation = swarmanoid.Simulation(scene.write(self.folder))
-        with self.assertRaisesRegex(ValueError, "nobody"):
-            simulation.move("nobody", (1, 1, 0))
-        with self.assertRaisesRegex(KeyError, "no entity 'nobody'"):
-            simulation.index("nobody")
+        with self.assertRaisesRegex(ValueError, "missing"):
+            simulation.move("missing", (1, 1, 0))
+        with self.assertRaisesRegex(KeyError, "no entity 'missing'"):
+            simulation.index("missing")
         with self.assertRaises(ValueError):
             simulation.move("a", (float("nan"), 1, 0))
         simulation.robots["driver"].actuators["footbot_wheels"][1, 0] = np.nan
@@ -385,6 +396,30 @@ class Learning(InFolderCase):
         _, info = environment.reset()
         self.assertEqual(info["seed"], 5)
         self.assertEqual(environment.simulation.tick, 0)
+
+    def test_spaces_hold_observations_and_actions(self):
+        environment = self.environment(action_low=[-3, -5], action_high=10)
+        self.assertEqual(environment.single_observation_space.shape, (24,))
+        self.assertEqual(environment.single_action_space.shape, (2,))
+        self.assertEqual((environment.observation_space.shape, environment.action_space.shape), ((2, 24), (2, 2)))
+        np.testing.assert_array_equal(environment.action_space.low, [[-3, -5], [-3, -5]])
+        np.testing.assert_array_equal(environment.single_action_space.high, [10, 10])
+        self.assertIs(environment.action_space, environment.action_space)
+        self.assertEqual(environment.action_columns[0].split(".")[0], "footbot_wheels")
+        self.assertEqual(len(environment.observation_columns), 24)
+        observations, _ = environment.reset()
+        environment.action_space.seed(4)
+        for _ in range(10):
+            self.assertIn(observations, environment.observation_space)
+            self.assertIn(observations[0], environment.single_observation_space)
+            actions = environment.action_space.sample()
+            self.assertIn(actions, environment.action_space)
+            observations = environment.step(actions)[0]
+        self.assertNotIn(np.full((2, 2), 11.0), environment.action_space)
+        # Whatever Gymnasium is here, its spaces are used.
+        if importlib.util.find_spec("gymnasium"):
+            from gymnasium.spaces import Box
+            self.assertIsInstance(environment.observation_space, Box)
 
     def test_an_episode_is_cut_at_its_tick_and_not_before(self):
         for more, cut in (({"max_ticks": 20}, 20), ({"max_ticks": 19, "frame_skip": 5}, 20), ({"max_ticks": 300}, 50), ({}, 50)):

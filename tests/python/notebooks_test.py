@@ -1,4 +1,4 @@
-"""The notebooks of docs/notebooks: each cell runs, in order, and comes to something."""
+"""The notebooks of docs/notebooks, or of the folder NOTEBOOKS: each cell runs, in order, and comes to something."""
 import json
 import os
 import pathlib
@@ -7,7 +7,7 @@ import unittest
 
 import numpy as np
 
-NOTEBOOKS = pathlib.Path(__file__).resolve().parents[2] / "docs/notebooks"
+NOTEBOOKS = pathlib.Path(os.environ.get("NOTEBOOKS") or pathlib.Path(__file__).resolve().parents[2] / "docs/notebooks")
 
 
 class Notebooks(unittest.TestCase):

@@ -1,5 +1,5 @@
-// Uses every device of its robot: tells each actuator something else at each of its first steps, and in its last step
-// prints what each sensor reads.
+// Uses every device of its robot: sends each actuator another command at each of its first steps, and prints the
+// readings of each sensor in its last step.
 #include <cstdio>
 
 #include "ci_controller.h"

@@ -289,7 +289,7 @@ static int Others(dds_entity_t participants)
   return count - 1;
 }
 
-/* Plays the robot until whoever joined the domain has left it, or for that many seconds. */
+/* Plays the robot until all that joined the domain have left it, or for that many seconds. */
 int main(int argc, char** argv)
 {
   if (argc != 3) return 2;

@@ -3,13 +3,13 @@
 
 #include <dds/dds.h>
 
-/* On the loopback interface alone; negative where it cannot be made. */
+/* Makes a participant on the loopback interface alone. Returns a negative number if that fails. */
 dds_entity_t Participant(int domain);
 dds_entity_t MakeWriter(dds_entity_t participant, const dds_topic_descriptor_t* type, const char* name);
 dds_entity_t MakeReader(dds_entity_t participant, const dds_topic_descriptor_t* type, const char* name);
-/* Likewise; it gets what was published before it was there, too. */
+/* Makes a reader that also gets messages that were published before it existed. */
 dds_entity_t MakeLateReader(dds_entity_t participant, const dds_topic_descriptor_t* type, const char* name);
-/* The next message of a reader, to be given back by dds_return_loan; NULL where there is none. */
+/* Returns the next message of a reader, or NULL. The caller returns it by dds_return_loan. */
 void* Next(dds_entity_t reader);
-/* Of a clock that only goes forward. */
+/* Returns the time of a monotonic clock. */
 double Seconds(void);

@@ -1,4 +1,4 @@
-// Drivers of a user: wheels that print what they are told, and a proximity sensor that was never connected.
+// Drivers of a user: wheels that print their commands, and a proximity sensor that was never connected.
 #include <cstdio>
 
 #include "footbot/ci_footbot_proximity_sensor.h"

@@ -1,5 +1,7 @@
-"""Who may include whom (docs/architecture.md): folders include downwards only, roles never see each other, and only
-common/bus/dds sees Fast DDS."""
+"""Which folders may include which (docs/architecture.md): folders include downwards only and never in a circle, roles
+never include each other, and only common/bus/dds includes Fast DDS."""
+import collections
+import graphlib
 import os
 import re
 
@@ -12,19 +14,24 @@ COMMON = [
     ["common/threads"],
     ["common/configuration"],
     ["common/plugins"],
+    ["common/errors", "common/memory"],
     ["common/logging", "common/serialisation", "common/activity"],
+    ["common/limits"],
     ["common/program"],
     ["common/control_interface"],
     ["common/mesh"],
     ["common/experiment"],
+    ["common/space/terrain"],
+    ["common/experiment/placement"],
     ["common/plugin_descriptions"],
     ["common/run"],
+    ["idl"],  # headers that the build makes
     ["common/messages"],
     ["common/space"],
     ["common/checkpoint"],
     ["common/journal"],
-    ["common/bus"],
 ]
+BUS = ["common/bus", "common/bus/security", "common/bus/topics", "common/bus/membership"]
 ROLES = ["space_server", "engine_worker", "controller_host", "visualiser"]
 # The Common Interface and what it stands on: all that builds without the simulator.
 INTERFACE = ["common/math", "common/configuration", "common/plugins", "common/control_interface"]
@@ -42,28 +49,30 @@ def allowed():
         for folder in level:
             rules[folder] = below + [folder]
         below = below + level
-    without_bus = [folder for folder in below if folder != "common/bus"]
+    for k, room in enumerate(BUS):
+        rules[room] = below + BUS[: k + 1] + [DDS_FOLDER]
+    # One folder knows which release of Fast DDS there is; the bus and the ROS 2 drivers see Fast DDS by it.
+    rules[DDS_FOLDER] = [DDS_FOLDER]
     for role in ROLES:
-        rules[role] = without_bus + [role]
-    # The terrains are of the library of the experiment: <distribute> places on them.
-    experiment = rules["common/experiment"]
-    rules["common/space/terrain"] = experiment + ["common/space/terrain"]
-    rules["common/experiment"] = experiment + ["common/space/terrain"]
+        rules[role] = below + [role]
+        # The process around a role joins the bus.
+        rules[role + "/cluster"] = rules[role] + BUS + [role + "/cluster"]
+        rules[role + "/main.cpp"] = rules[role + "/cluster"]
     # The API of ARGoS3 over ours; its files are read by the launcher.
     rules["argos3"] = rules["space_server"] + ["argos3", "argos3/converter"]
     rules["argos3/converter"] = below[: below.index("common/experiment") + 1] + ["argos3/converter"]
     rules["argos3/program"] = rules["argos3"] + ["simulation", "launcher", "argos3/program"]
     # The simulator of one process registers all roles.
-    rules["simulation"] = without_bus + ROLES + ["simulation"]
-    rules["launcher"] = below + ROLES + ["simulation", "argos3/converter", "launcher"]
+    rules["simulation"] = below + ROLES + ["simulation"]
+    rules["launcher"] = below + BUS + ROLES + ["space_server/cluster", "simulation", "argos3/converter", "launcher"]
+    # The program has the sub-commands of studies too.
+    rules["launcher/main.cpp"] = rules["launcher"] + ["studies"]
     # The module wraps the runner for one process, as a program of a user does, and looks on at runs as a visualiser does.
-    rules["python"] = below + ["controller_host", "space_server", "visualiser", "simulation", "launcher", "studies", "python"]
+    rules["python"] = (below + BUS + ["controller_host", "space_server", "visualiser", "visualiser/cluster", "simulation", "launcher"]
+                       + ["studies", "python"])
     # A layer on what programs of users have: no role.
-    rules["studies"] = below + ["simulation", "launcher", "studies"]
+    rules["studies"] = below + BUS + ["simulation", "launcher", "studies"]
     rules["real_robot"] = INTERFACE + ["common/logging", "common/program", "real_robot"]
-    # One folder knows which release of Fast DDS there is; the bus and the ROS 2 drivers see Fast DDS by it.
-    rules["common/bus/dds"] = ["common/bus/dds"]
-    rules["common/bus"] = rules["common/bus"] + ["common/bus/dds"]
     # A folder of drivers sees what drivers are made from, and no other drivers.
     rules["real_robot/drivers/ros2"] = rules["real_robot"] + ["common/bus/dds", "real_robot/drivers/ros2"]
     # A controller of simulated robots, which sees what controllers see and speaks to ROS 2 as the drivers do.
@@ -75,15 +84,29 @@ def allowed():
     rules["user/functions"] = rules["space_server"] + ["user/functions"]
     # Kinds of robots and objects are rows of a table of the experiment.
     rules["user/entities"] = below[: below.index("common/experiment") + 1] + ["user/entities"]
-    for folder in rules:
-        if "common/space" in rules[folder]:
-            rules[folder] = rules[folder] + ["common/space/terrain"]
     return rules
 
 
 def folder_of(path, rules):
-    matching = [folder for folder in rules if path.startswith(folder + "/")]
+    matching = [folder for folder in rules if path == folder or path.startswith(folder + "/")]
     return max(matching, key=len, default=None)
+
+
+def room_of(path):
+    """The folder of a file. A file that puts the parts of a program or of a role together stands above its folder."""
+    name = os.path.basename(path)
+    return path if name == "main.cpp" or name.startswith("register_") else os.path.dirname(path)
+
+
+def circle(edges):
+    """The includes of a circle of folders, if there is one."""
+    try:
+        graphlib.TopologicalSorter({room: set(targets) for room, targets in edges.items()}).prepare()
+    except graphlib.CycleError as error:
+        rooms = error.args[1][::-1]
+        return ["folders include each other in a circle; move what both need to one below them:\n  "
+                + "\n  ".join(edges[room][target] for room, target in zip(rooms, rooms[1:]))]
+    return []
 
 
 def includes(path):
@@ -97,15 +120,12 @@ def includes(path):
 def main():
     rules = allowed()
     mistakes = []
+    edges = collections.defaultdict(dict)  # folder to the folders that it includes, with an example
     for path in tracked("*.h", "*.hpp", "*.cpp"):
         folder = folder_of(path, rules)
         if folder is None:
             continue
         may_include = rules[folder]
-        if folder in ROLES and (os.path.basename(path) == "main.cpp" or "/cluster/" in path):
-            may_include = may_include + ["common/bus"]  # the program around the role
-        if path == "launcher/main.cpp":
-            may_include = may_include + ["studies"]  # whose verbs it has, too
         for number, quoted, included in includes(path):
             if DDS_HEADER.search(included) and folder != DDS_FOLDER:
                 mistakes.append(f"{path}:{number}: only {DDS_FOLDER} may include headers of Fast DDS, not {folder} ({included})")
@@ -113,10 +133,12 @@ def main():
             if owner is not None and (folder != owner or path.endswith(".h")):
                 mistakes.append(f"{path}:{number}: only a .cpp of {owner} may include {included}")
             target = folder_of(included, rules) if quoted else None
+            if target is not None and room_of(included) != room_of(path):
+                edges[room_of(path)].setdefault(room_of(included), f"{path}:{number} includes {included}")
             if target is not None and target not in may_include:
                 mistakes.append(f"{path}:{number}: {folder} must not include {included}; it may include: "
                                 + ", ".join(may_include))
-    report(mistakes)
+    report(mistakes + circle(edges))
 
 
 main()

@@ -10,7 +10,7 @@ import sys
 from tracked import report, tracked
 
 # A type at the left margin is one of namespace swarmanoid, or of one inside it that the same header names.
-TYPE = re.compile(r"^(?:struct|class|enum class|enum)\s+(?:alignas\(\w+\)\s+)?(\w+)(?:\s+final)?\s*(?::[^:].*)?(?:\{.*)?$")
+TYPE = re.compile(r"^(?:struct|class|enum class|enum)\s+(?:alignas\(\w+\)\s+)?(\w+)(?:\s+final)?\s*(?::[^:][^;]*)?(?:\{.*)?$")
 NAMESPACE = re.compile(r"^namespace(?:\s+([\w:]+))?")
 
 

@@ -25,7 +25,8 @@ def main():
     for page in [*tracked("*.md"), *pages]:
         if page.startswith("tests/"):
             continue
-        for link in LINK.findall(CODE.sub("", text_of(page))):
+        text = text_of(page)
+        for link in LINK.findall(CODE.sub("", text)):
             if "://" not in link and not link.startswith("mailto:") and not os.path.isfile(os.path.join(os.path.dirname(page), link)):
                 mistakes.append(f"{page}: there is no file {link}")
     report(sorted(set(mistakes)))

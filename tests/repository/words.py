@@ -21,11 +21,6 @@ METAPHORS = {
         "StepTimeout, Send, Publish, Tick",
     r"\w+_kit\.h\b": "a name for what is in it",
 }
-# Words of an idiom that is hard to read, in code and docs. The limit is for each 1,000 words, and goes down as the rest is rewritten.
-IDIOM = re.compile(r"\b(nobody|whoever|whom|likewise|anew|one who|those that are)\b", re.IGNORECASE)
-READ = re.compile(r"^(?!tests/repository/words).*\.(h|cpp|py|js|mjs|md)$")
-MOST_IDIOM = 0.3
-
 CODE = re.compile(r"^(?!tests/(seed|repository)/|user/).*\.(h|cpp|idl|py)$")
 
 
@@ -38,7 +33,6 @@ def metaphors(path, lines):
 
 def main():
     mistakes = []
-    idiom = words = 0
     for path in tracked():
         try:
             with open(path, encoding="utf-8") as source:
@@ -46,16 +40,10 @@ def main():
         except UnicodeDecodeError:
             continue
         mistakes += metaphors(path, lines)
-        if READ.match(path):
-            words += sum(len(line.split()) for line in lines)
-            idiom += sum(len(IDIOM.findall(line)) for line in lines)
         for number, line in enumerate(lines, 1):
             for pattern, meaning in FORBIDDEN:
                 if pattern.search(line):
                     mistakes.append(f"{path}:{number}: {meaning}: {line.strip()[:100]}")
-    if idiom > MOST_IDIOM * words / 1000:
-        mistakes.append(f"{1000 * idiom / words:.2f} of 1,000 words are nobody, whoever, whom, likewise, anew, one who or those that are; at most "
-                        f"{MOST_IDIOM} may be")
     report(mistakes)
 
 

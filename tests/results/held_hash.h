@@ -1,4 +1,4 @@
-// The hash of a name in tests/results/hashes.toml: the result that an experiment had, and has to have.
+// Returns the hash of a name in tests/results/hashes.toml, which an experiment must have.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 namespace swarmanoid::test
 {
 
-// 0 if the table has no such row.
+// Returns 0 if the table has no such row.
 inline std::uint64_t HeldHash(const std::string& name)
 {
   std::ifstream table(SWARMANOID_SOURCE_FOLDER "/tests/results/hashes.toml");

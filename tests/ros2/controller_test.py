@@ -32,7 +32,7 @@ class Node(Peer):
                           str(silent[1]), str(int(others)), *robots], {**os.environ, **environment})
 
     def hear(self, words):
-        # Until the first answer a robot says the same again, in case that nobody heard it.
+        # Until the first answer a robot says the same again, since the first words may be lost.
         if words not in self.latest[words[1]]:
             self.lines.append(words)
         self.latest[words[1]].append(words)
@@ -61,7 +61,7 @@ class Case(unittest.TestCase):
             f"<{name}><implementation>{IMPLEMENTATIONS.get(name, 'generic_' + name)}</implementation></{name}>" for name in sensors) + "</sensors>", text, flags=re.S)
         text = text.replace("</actuators>", "".join(
             f"<{name}><implementation>generic_{name}</implementation></{name}>" for name in actuators) + "</actuators>")
-        # On a busy machine a node may find nobody, and be silent, for a while.
+        # On a busy machine a node may find no robot, and be silent, for a while.
         text = re.sub(r"<parameters>.*</parameters>", "<parameters>" + "".join(
             f"<{name}>{value}</{name}>" for name, value in {"wait": 60, "timeout": 60, **parameters}.items()) + "</parameters>", text, flags=re.S)
         file = self.folder / "experiment.xml"
@@ -112,6 +112,7 @@ class LockStep(Case):
         self.hash_of(run)
         rows = [[float(word) for word in words[2:]] for words in heard if words[:2] == ["odom", "fb_0"]]
         self.assertEqual(len(rows), TICKS)
+        self.assertEqual({tuple(words[1:]) for words in heard if words[0] == "frame"}, {("fb_0", "fb_0/odom", "fb_0"), ("fb_1", "fb_1/odom", "fb_1")})
         x = y = heading = 0
         for k, (sec, nanosec, at_x, at_y, forward, turn) in enumerate(rows):
             before = (k - 1) * 0.1
@@ -169,14 +170,14 @@ class LockStep(Case):
             self.assertIn("robot 'fb_0', controller 'diffusion': ControlStep at tick 11 failed: topic rt/fb_0/cmd_vel "
                           f"(geometry_msgs/msg/Twist): no command within {TIMEOUT_S} s for the readings of 1.1 s; ", run.stderr)
 
-    def test_nobody_there(self):
+    def test_without_a_node(self):
         run = self.run_it(self.experiment(robots=1, wait=0.2), "--single-process")
         self.assertEqual(run.returncode, 4)
-        self.assertIn("nobody publishes topic rt/fb_0/cmd_vel (geometry_msgs/msg/Twist) with reliable quality of service after "
+        self.assertIn("publishes topic rt/fb_0/cmd_vel (geometry_msgs/msg/Twist) with reliable quality of service after "
                       "0.2 s: start the node before the run", run.stderr)
 
     def test_robots_of_a_host_wait_together(self):
-        # Of a node that answers nobody before it has the readings of all, and of one that answers each: the same.
+        # A node that answers only when it has the readings of all gives the same as one that answers each.
         robots = tuple(f"fb_{k}" for k in range(6))
         file = self.experiment(robots=6)
         each, _ = self.with_node(file, "--single-process", robots=robots)
@@ -186,7 +187,7 @@ class LockStep(Case):
             self.assertEqual(sum(words[:2] == ["scan", robot] for words in heard), TICKS)
 
     def test_what_a_node_that_waits_for_all_has_missed_is_said_again(self):
-        # It misses the first odometry of the robot that is asked last, and answers nobody before it has that.
+        # It misses the first odometry of the robot that is asked last, and gives no answer before it has that.
         robots = ("fb_0", "fb_1", "fb_2")
         file = self.experiment(robots=3, timeout=20)
         quick, _ = self.with_node(file, "--single-process", robots=robots)
@@ -213,7 +214,7 @@ class LockStep(Case):
         file = self.experiment(robots=1, actuators=("footbot_leds",), wait=1)
         run, _ = self.with_node(file, "--single-process", robots=("fb_0",))
         self.assertEqual(run.returncode, 4, run.stderr)
-        self.assertRegex(run.stderr, r"nobody publishes .*topic rt/fb_0/leds \(std_msgs/msg/Float32MultiArray\) with reliable quality of "
+        self.assertRegex(run.stderr, r"publishes .*topic rt/fb_0/leds \(std_msgs/msg/Float32MultiArray\) with reliable quality of "
                          "service after 1 s")
 
     def test_a_node_that_begins_slowly_answers_each_tick_once(self):
@@ -398,6 +399,12 @@ class Devices(Case):
         for tick, leds in enumerate(self.table("fb_0", "led[0],led[1],led[2]")):
             self.assertEqual(leds, [tick, 0xff8040, 0])
 
+    def test_the_brightness_of_the_floor(self):
+        control, robots = footbots([2], {}, ["footbot_ground"])
+        file = self.world((control, [*robots, '<ground_patch id="white" position="2, 2, 0" size="2, 2" colour="#ffffff"/>']))
+        for heard in self.commanded(file, "floor", ("fb_0",)):
+            self.assertEqual({tuple(words[2:]) for words in heard if words[0] == "floor"}, {("1",) * 8})
+
     def test_wrong_commands(self):
         # For tick 12 the node says nine bytes, and numbers that are none.
         for ground, sky, words, robot, text in (
@@ -451,7 +458,7 @@ class Refused(Case):
         run = self.run_it(self.experiment(), "--isolated")
         self.assertEqual(run.returncode, 2, run.stderr)
         self.assertIn("--isolated: no node of ROS 2 could reach the robots of the controller 'diffusion'", run.stderr)
-        for tag, text in (("ros2_render", "no node of ROS 2 could hear"), ("foxglove_render", "nobody could open a connection to")):
+        for tag, text in (("ros2_render", "no node of ROS 2 could hear"), ("foxglove_render", "no program could connect to")):
             file = self.experiment()
             file.write_text((CONFIGS / "diffusion_10.xml").read_text().replace("<visualisations>", f'<visualisations><{tag} id="shown"/>'))
             run = self.run_it(file, "--isolated")

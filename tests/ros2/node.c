@@ -3,15 +3,17 @@
    Once the scan and the odometry of a time stamp are here they are answered by a command that follows from the scan and
    the stamp alone: REPEATS times; with none in [SILENT_FROM, SILENT_UNTIL), seconds of simulated time. Prints, until
    its input ends, "ready", a line scan ROBOT SEC NANOSEC NEAR for each scan, NEAR the number of rays that see
-   something, and a line odom ROBOT SEC NANOSEC X Y FORWARD TURN for each odometry. With LATEST a stamped command is
-   preceded by one of another time, that must not count. Environment: NODE_TOGETHER=1 answers nobody before it has the
-   readings of all robots. NODE_LEDS=1 commands LEDs and beacon, too: all LEDs but the first are dark green, that and
-   the beacon red by a tenth more each tick. NODE_LATE_ODOMETRY=MS hears the odometry of the last robot only so long
-   after the first scan. NODE_COMMANDS has words with spaces between, of the devices that it commands by the tick of the
-   readings alone, see Command: gripper, turret (footbots), laser, attach (eyebots), bytes (all); with the word wrong
-   what it says for tick 12 is to be refused. Footbots then stand or back off instead of driving, and it prints, too,
+   something, a line odom ROBOT SEC NANOSEC X Y FORWARD TURN for each odometry, and a line frame ROBOT FRAME CHILD with
+   the frames of that. With LATEST a stamped command is preceded by one of another time, that must not count.
+   Environment: NODE_TOGETHER=1 answers only when it has the readings of all robots. NODE_LEDS=1 commands LEDs and
+   beacon, too: all LEDs but the first are dark green, that and the beacon red by a tenth more each tick.
+   NODE_LATE_ODOMETRY=MS hears the odometry of the last robot only so long after the first scan. NODE_COMMANDS has words
+   with spaces between, of the devices that it commands by the tick of the readings alone, see Command: gripper, turret
+   (footbots), laser, attach (eyebots), bytes (all); with the word wrong what it says for tick 12 is to be refused.
+   Footbots then stand or back off instead of driving, and it prints, too,
      packet ROBOT SEC NANOSEC BYTE... for what a robot receives by range and bearing, with the word bytes
      turret ROBOT SEC NANOSEC ANGLE   with the word turret
+     floor ROBOT BRIGHTNESS...        with the word floor
      holding ROBOT 0|1                whenever it changes, with the word gripper
    A robot whose id begins with eb is an eyebot: it is answered once its altitude is here. */
 #include <dds/dds.h>
@@ -72,7 +74,7 @@ struct Robot
   dds_entity_t scans, odometries, commands, leds, beacon;
   /* 0 where the device is not commanded. */
   dds_entity_t gripper, turret, bytes, laser_colour, laser_pan, laser_tilt, attach, columns;
-  dds_entity_t altitudes, packets, joints, holdings, tables;
+  dds_entity_t altitudes, packets, joints, holdings, tables, floors;
   int holding;                              /* as printed last; negative: not yet */
   std_msgs_msg_dds__Header_ scan, odometry; /* of what came last, until it is answered */
   bool has_scan, has_odometry;
@@ -160,6 +162,8 @@ static void CommandDevices(dds_entity_t participant, struct Robot* robot)
     robot->columns = WriterOf(participant, robot, &std_msgs_msg_dds__Float32MultiArray__desc, "directional_leds/set");
     robot->tables = ReaderOf(participant, robot, &std_msgs_msg_dds__Float32MultiArray__desc, "battery");
   }
+  if (IsCommanded("floor"))
+    robot->floors = ReaderOf(participant, robot, &std_msgs_msg_dds__Float32MultiArray__desc, "ground");
   if (robot->is_eyebot)
   {
     if (IsCommanded("laser"))
@@ -272,6 +276,15 @@ static bool Hear(struct Robot* robot)
     const std_msgs_msg_dds__Float32MultiArray_* table = sample;
     printf("table %s %.9g %s\n", robot->name, table->data._buffer[0], table->layout.dim._buffer[1].label);
     dds_return_loan(robot->tables, &sample, 1);
+  }
+  while (robot->floors != 0 && (sample = Next(robot->floors)) != NULL)
+  {
+    heard = true;
+    const std_msgs_msg_dds__Float32MultiArray_* floor = sample;
+    printf("floor %s", robot->name);
+    for (uint32_t i = 0; i < floor->data._length; ++i) printf(" %.9g", floor->data._buffer[i]);
+    puts("");
+    dds_return_loan(robot->floors, &sample, 1);
   }
   while (robot->joints != 0 && (sample = Next(robot->joints)) != NULL)
   {
@@ -391,6 +404,7 @@ int main(int count, char** arguments)
         printf("odom %s %d %u %.9g %.9g %.9g %.9g\n", robot->name, odometry->header.stamp.sec,
                odometry->header.stamp.nanosec, odometry->pose.pose.position.x, odometry->pose.pose.position.y,
                odometry->twist.twist.linear.x, odometry->twist.twist.angular.z);
+        printf("frame %s %s %s\n", robot->name, odometry->header.frame_id, odometry->child_frame_id);
         robot->odometry = odometry->header;
         robot->has_odometry = true;
         dds_return_loan(robot->odometries, &sample, 1);

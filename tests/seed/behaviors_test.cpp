@@ -1,4 +1,4 @@
-// The listings of behaviours and of state machines do what their text says.
+// The listings of behaviours and of state machines do what their text describes.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ Vector3 PlaceOf(const CSwarmanoidSpace& space) { return space.FindEntity("fb")->
 
 TEST(SeedBehaviors, ABehaviorReadsTheSensorsAndSetsTheWheels)
 {
-  // As printed it sets both wheels to nothing.
+  // The printed listing sets both wheels to nothing.
   RunSeedExperiment({.controller = "behavior"},
                     [](const CSwarmanoidSpace& space) { EXPECT_EQ(PlaceOf(space), Vector3(1, 1, 0)); });
   // With its logic it goes up to the wall, whose face is at x = 1.9, and stays off.
@@ -35,7 +35,7 @@ TEST(SeedBehaviors, TheSecondOfTwoInSequenceHasPriority)
 {
   const SeedExperiment closed{.controller = "sequential", .arena_m = 1.2, .start = "0.6, 0.6, 0"};
   const std::uint64_t hash = RunSeedExperiment(closed);
-  // The same as the ready-made combination in the listing of the controller.
+  // It is the same as the ready-made combination in the listing of the controller.
   SeedExperiment other = closed;
   other.controller = "new_controller";
   EXPECT_EQ(RunSeedExperiment(other), hash);
@@ -104,7 +104,7 @@ TEST(SeedFsm, StaysInItsStartStateWithoutInputs) { EXPECT_EQ(StatesOf("machine")
 
 TEST(SeedFsm, InputsTakeTheTransitions)
 {
-  // One to two at tick 3, to three at 6, and back to two at 9.
+  // State one goes to two at tick 3, two to three at 6, and three back to two at 9.
   EXPECT_EQ(StatesOf("machine_filled"), (std::vector<int>{1, 1, 1, 2, 2, 2, 3, 3, 3, 2, 2, 2, 2, 2}));
 }
 

@@ -36,7 +36,7 @@ protected:
   const test::TemporaryFolder folder_;
 };
 
-// The window of the listing is left out where nobody could look at it.
+// Returns the listing without its window, which needs a display.
 std::string WithoutWindow(std::string text)
 {
   const std::string end = "</opengl_render>";

@@ -81,7 +81,7 @@ TEST(SampleController, DrivesItsRobotOnACircle)
   const std::vector<Place> track = ReadTrack(folder / "track.txt");
   ASSERT_EQ(track.size(), 963u);
 
-  // Differential drive with the wheel speeds of the listing.
+  // The robot has a differential drive with the wheel speeds of the listing.
   constexpr double kLeft = 0.314 * CCI_FootBotWheelsActuator::WHEEL_RADIUS_M;
   constexpr double kRight = 0.628 * CCI_FootBotWheelsActuator::WHEEL_RADIUS_M;
   constexpr double kBase = CCI_FootBotWheelsActuator::INTERWHEEL_DISTANCE_M;

@@ -14,13 +14,13 @@ namespace swarmanoid::test
 struct SeedExperiment
 {
   std::string controller;
-  double arena_m = 2;  // side of a square
-  bool walled = true;  // closed by walls
+  double arena_m = 2;  // side of the square arena
+  bool walled = true;  // whether walls close the arena
   std::string start = "1, 1, 0";
   int ticks = 300;
 };
 
-// Runs it, `watch` at every tick from 0 on; returns the hash of the final state.
+// Runs the experiment, and calls `watch` at every tick from 0 on. Returns the hash of the final state.
 std::uint64_t RunSeedExperiment(const SeedExperiment& experiment,
                                 const std::function<void(const CSwarmanoidSpace&)>& watch = {});
 

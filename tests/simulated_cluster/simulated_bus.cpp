@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/bus/bus.h"
-#include "common/bus/membership/run_directory.h"
+#include "common/bus/run_directory.h"
 #include "common/bus/topics/message_fields.h"
 #include "tests/simulated_cluster/simulated_network.h"
 
@@ -34,8 +34,6 @@ bool IsAlive(long pid)
 }
 
 std::string UserName() { return "user"; }
-
-std::string ReachableAddress(const BusOptions&) { return "127.0.0.1"; }
 
 std::optional<RunKey> GivenKey(const BusOptions& options) { return options.key; }
 
@@ -69,6 +67,9 @@ void Bus::OnRefused(std::function<void(const BadMessageReport&)> callback)
 }
 
 std::uint64_t Bus::Dropped() const { return impl_->bus->dropped; }
+
+// There are no threads of Fast DDS that endpoints must wait for.
+std::chrono::duration<double> Bus::SinceLastJoin() const { return std::chrono::duration<double>::max(); }
 
 namespace
 {
@@ -262,36 +263,16 @@ unsigned Subscription<Message>::Writers() const
   return SimulatedNetwork::Current().Writers(*impl_->reader);
 }
 
-#define SWARMANOID_INSTANTIATE(MESSAGE) \
-  template class HotPublisher<MESSAGE>; \
+#define SWARMANOID_INSTANTIATE(MESSAGE, TOPIC) \
+  template class HotPublisher<MESSAGE>;        \
   template class HotSubscription<MESSAGE>;
-SWARMANOID_INSTANTIATE(SpaceState)
-SWARMANOID_INSTANTIATE(LocalState)
-SWARMANOID_INSTANTIATE(ControlCommands)
-SWARMANOID_INSTANTIATE(UpdateMessage)
-SWARMANOID_INSTANTIATE(SensorFrame)
-SWARMANOID_INSTANTIATE(DrawnMessage)
-SWARMANOID_INSTANTIATE(RegionTaskMessage)
-SWARMANOID_INSTANTIATE(RegionHaloMessage)
-SWARMANOID_INSTANTIATE(RegionResultMessage)
+SWARMANOID_HOT_MESSAGES(SWARMANOID_INSTANTIATE)
 #undef SWARMANOID_INSTANTIATE
 
-#define SWARMANOID_INSTANTIATE(MESSAGE) \
-  template class Publisher<MESSAGE>;    \
+#define SWARMANOID_INSTANTIATE(MESSAGE, TOPIC) \
+  template class Publisher<MESSAGE>;           \
   template class Subscription<MESSAGE>;
-SWARMANOID_INSTANTIATE(WorldMessage)
-SWARMANOID_INSTANTIATE(JoinMessage)
-SWARMANOID_INSTANTIATE(ViewMessage)
-SWARMANOID_INSTANTIATE(ControlRequestMessage)
-SWARMANOID_INSTANTIATE(ControlReplyMessage)
-SWARMANOID_INSTANTIATE(StatusMessage)
-SWARMANOID_INSTANTIATE(SavedStateMessage)
-SWARMANOID_INSTANTIATE(RecoveryRequestMessage)
-SWARMANOID_INSTANTIATE(RecoveryBlockMessage)
-SWARMANOID_INSTANTIATE(ViewRequestMessage)
-SWARMANOID_INSTANTIATE(RunStatusMessage)
-SWARMANOID_INSTANTIATE(RobotStatusMessage)
-SWARMANOID_INSTANTIATE(LeaveMessage)
+SWARMANOID_COLD_MESSAGES(SWARMANOID_INSTANTIATE)
 #undef SWARMANOID_INSTANTIATE
 
 RunDirectory::RunDirectory(const std::string&, std::uint64_t) {}

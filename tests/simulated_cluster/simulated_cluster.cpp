@@ -11,7 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "common/activity/exit_codes.h"
+#include "common/errors/exit_codes.h"
 #include "common/experiment/load_experiment.h"
 #include "common/messages/assignment.h"
 #include "common/run/server_status.h"
@@ -28,7 +28,7 @@ namespace
 
 using namespace std::chrono_literals;
 
-constexpr auto kBound = 600s;  // of virtual time
+constexpr auto kBound = 600s;  // limit of virtual time
 constexpr auto kFinish = 10s;  // for processes to end after the last tick
 constexpr auto kOthers = 3s;   // until the cause of an end is known, if another process caused it
 constexpr std::uint64_t kMostSteps = 400'000;
@@ -68,21 +68,22 @@ public:
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
     simulation_.on_end = [this](SimulatedProcess& process) { Ended(process); };
-    if (!trace_.messages.empty())
-      network_.on_send = [this](const SimulatedWriter& writer, const SimulatedReader& reader, const Sample& sample)
+    network_.on_send = [this](const SimulatedWriter& writer, const SimulatedReader& reader, const Sample& sample)
+    {
+      if (faults_.has_network && scene_.hosts > 1 && writer.topic == "SpaceState")
+        Trouble(reader.process->name + " hears the whole state over a network, instead of its part");
+      if (trace_.messages.empty() || !writer.topic.starts_with(trace_.messages)) return;
+      std::string text = fmt::format("{} of {} to {}", writer.topic, writer.process->name, reader.process->name);
+      if (writer.qos.hot)
+        text += fmt::format(", tick {}{}", sample.header.tick, sample.header.repeated ? ", repeated" : "");
+      if (writer.topic.starts_with("Region"))
       {
-        if (!writer.topic.starts_with(trace_.messages)) return;
-        std::string text = fmt::format("{} of {} to {}", writer.topic, writer.process->name, reader.process->name);
-        if (writer.qos.hot)
-          text += fmt::format(", tick {}{}", sample.header.tick, sample.header.repeated ? ", repeated" : "");
-        if (writer.topic.starts_with("Region"))
-        {
-          // All three kinds are RegionMessages.
-          const auto& message = *static_cast<const RegionMessage*>(sample.message.get());
-          text += fmt::format(", epoch {}, number {}", message.epoch, message.number);
-        }
-        Say(text);
-      };
+        // All three kinds are RegionMessages.
+        const auto& message = *static_cast<const RegionMessage*>(sample.message.get());
+        text += fmt::format(", epoch {}, number {}", message.epoch, message.number);
+      }
+      Say(text);
+    };
     MakeMembers();
     DrawEvents();
   }
@@ -305,8 +306,8 @@ private:
 
   void Take(const ServerStatus& status)
   {
-    if (const auto* lost = std::get_if<ServerLost>(&status)) KillLost(lost->name);
-    if (const auto* left = std::get_if<ServerLeft>(&status)) left_.insert(left->name);
+    if (const auto* lost = std::get_if<ServerLost>(&status)) KillLost(lost->text);
+    if (const auto* left = std::get_if<ServerLeft>(&status)) left_.insert(left->text);
     if (const auto* error = std::get_if<ServerError>(&status)) errors_.push_back("space server: " + error->text);
     if (std::get_if<ServerFinished>(&status) == nullptr || server_is_done_) return;
     server_is_done_ = true;
@@ -325,8 +326,15 @@ private:
   void KillLost(const std::string& name)
   {
     for (Member& member : members_)
-      if (member.name == name && member.process != nullptr && member.process->is_alive)
+    {
+      if (member.name != name || member.process == nullptr || member.settings.incarnation != member.incarnation)
+        continue;
+      lost_.insert(name);
+      if (member.process->is_alive)
         simulation_.After(1ms, [this, process = member.process] { simulation_.Kill(*process); });
+      else
+        Ended(*member.process);
+    }
   }
 
   // The launcher reads the status lines all the time.
@@ -345,7 +353,9 @@ private:
                     process.exit_code ? fmt::format("with {}", *process.exit_code) : std::string("by a signal")));
     if (&process == members_.front().process) status_ = nullptr;
     if (member == members_.end() || restarts_) return;
-    if (process.exit_code == kExitDone || (server_is_done_ && member != members_.begin())) return;
+    // The server waits for the good-bye of a process that it lost.
+    const bool was_unheard = lost_.erase(member->name) > 0 && process.exit_code == kExitDone;
+    if ((process.exit_code == kExitDone && !was_unheard) || (server_is_done_ && member != members_.begin())) return;
     if (member == members_.begin())
     {
       if (!process.exit_code || process.exit_code == kExitStuck) return Restart();
@@ -363,7 +373,7 @@ private:
                                {
                                  if (!left_.contains(name) && !server_is_done_) Trouble(text);
                                });
-    if (process.exit_code && process.exit_code != kExitCutOff) return Trouble(text);
+    if (process.exit_code && process.exit_code != kExitCutOff && !was_unheard) return Trouble(text);
     ++result_.replaced;
     ++member->incarnation;
     StartMember(static_cast<std::size_t>(member - members_.begin()));
@@ -377,6 +387,7 @@ private:
     ++starts_;
     restarts_ = true;
     left_.clear();
+    lost_.clear();
     simulation_.After(0ms,
                       [this]
                       {
@@ -445,12 +456,12 @@ private:
   const std::string folder_;
   const test::Trace trace_;
   ScheduleResult result_;
-  std::vector<Member> members_;  // the space server is the first
+  std::vector<Member> members_;  // the space server is the first one
   std::deque<std::pair<std::uint64_t, std::function<void()>>> pending_;
-  std::set<std::string> left_;
+  std::set<std::string> left_, lost_;
   std::vector<std::string> errors_;
   StatusFile* status_ = nullptr;
-  unsigned starts_ = 0;  // of all processes together
+  unsigned starts_ = 0;  // counts the starts of all processes together
   bool restarts_ = false;
   bool server_is_done_ = false;
   Simulation simulation_;

@@ -13,7 +13,7 @@
 namespace swarmanoid::test
 {
 
-// An experiment, and its result in one process.
+// It holds an experiment, and its result in one process.
 struct Scene
 {
   std::string name;
@@ -38,7 +38,7 @@ struct ScheduleResult
 struct Trace
 {
   bool events = false;
-  std::string messages{};  // of topics with this prefix; empty: none
+  std::string messages{};  // prefix of the topics; empty: none
 };
 
 // `folder`: for the journal; its content is removed.

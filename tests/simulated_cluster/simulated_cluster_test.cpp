@@ -9,6 +9,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cstring>
@@ -30,33 +31,51 @@ std::uint64_t first = 0;
 std::optional<std::uint64_t> only;
 std::string messages;
 
-std::string Experiment(const std::string& name, const std::string& engines, const std::string& places)
+std::string Controller(const std::string& id, const std::string& leds)
+{
+  return "<footbot_diffusion id=\"" + id + R"(" library="footbot_diffusion">
+      <actuators><footbot_wheels><implementation>dummy_footbot_wheels</implementation></footbot_wheels>)" +
+         leds + R"(</actuators>
+      <sensors>
+        <footbot_proximity><implementation>generic_footbot_proximity</implementation></footbot_proximity>
+        <footbot_encoders><implementation>engine_footbot_encoders</implementation></footbot_encoders>
+      </sensors>
+      <parameters><velocity>0.2</velocity><alpha>7.5</alpha><delta>0.1</delta></parameters>
+    </footbot_diffusion>
+)";
+}
+
+// The footbots have a sensor that the engine computes, so that engines also send sensor frames. Those on the right also
+// have LEDs, so the space server hears their controller host.
+std::string Experiment(const std::string& engines, const std::string& places, unsigned ahead,
+                       const std::string& more_entities = "")
 {
   return R"(<?xml version="1.0"?>
 <ahss-config>
-  <framework><clocktick>100</clocktick><maxclock>25</maxclock><seed>3</seed><canonical_period>5</canonical_period></framework>
+  <framework>
+    <clocktick>100</clocktick><maxclock>25</maxclock><seed>3</seed><canonical_period>5</canonical_period>
+    <ahead>)" +
+         std::to_string(ahead) + R"(</ahead>
+  </framework>
   <controllers>
-    <footbot_diffusion id="diffusion" library="footbot_diffusion">
-      <actuators><footbot_wheels><implementation>dummy_footbot_wheels</implementation></footbot_wheels></actuators>
-      <sensors><footbot_proximity><implementation>generic_footbot_proximity</implementation></footbot_proximity></sensors>
-      <parameters><velocity>0.2</velocity><alpha>7.5</alpha><delta>0.1</delta></parameters>
-    </footbot_diffusion>
-  </controllers>
+)" + Controller("dark", "") +
+         Controller("lit", "<footbot_leds><implementation>generic_footbot_leds</implementation></footbot_leds>") +
+         R"(  </controllers>
   <arena size="4, 2, 1" optimization="2D">
     <distribute quantity="4">
       <position method="uniform" min="0.3, 0.3, 0" max="1.6, 1.7, 0"/>
       <orientation method="uniform"/>
-      <footbot id="left"><controller>diffusion</controller></footbot>
+      <footbot id="left"><controller>dark</controller></footbot>
     </distribute>
     <distribute quantity="2">
       <position method="uniform" min="2.4, 0.3, 0" max="3.7, 1.7, 0"/>
       <orientation method="uniform"/>
-      <footbot id="right"><controller>diffusion</controller></footbot>
+      <footbot id="right"><controller>lit</controller></footbot>
     </distribute>
-  </arena>
+)" + more_entities +
+         R"(  </arena>
   <engines>)" +
-         engines + "</engines>\n  <arena_physics>" + places + "</arena_physics>\n</ahss-config>\n<!-- " + name +
-         " -->\n";
+         engines + "</engines>\n  <arena_physics>" + places + "</arena_physics>\n</ahss-config>\n";
 }
 
 const std::string kPlane = "<perpendicular_axis>z</perpendicular_axis><distance>0</distance>";
@@ -67,27 +86,41 @@ const std::vector<Scene>& Scenes()
 {
   static const std::vector<Scene> scenes = []
   {
+    const std::string two_engines =
+        "<dummy_engine id=\"ground\">" + kPlane + "</dummy_engine><dynamics2d id=\"other\">" + kPlane + "</dynamics2d>";
+    const std::string two_places =
+        "<engine id=\"ground\"><entity id=\"left_*\"/></engine><engine id=\"other\"><entity id=\"right_*\"/></engine>";
+    const std::string regions = "<dummy_engine id=\"ground\" split=\"2x1\">" + kPlane + "</dummy_engine>";
+    const std::string one_place = "<engine id=\"ground\"><all/></engine>";
     std::vector<Scene> all;
-    all.push_back(MakeScene("two_engines",
-                            Experiment("two engines",
-                                       "<dummy_engine id=\"ground\">" + kPlane +
-                                           "</dummy_engine><dynamics2d id=\"other\">" + kPlane + "</dynamics2d>",
-                                       "<engine id=\"ground\"><entity id=\"left_*\"/></engine>"
-                                       "<engine id=\"other\"><entity id=\"right_*\"/></engine>"),
-                            2, Folder()));
-    all.push_back(
-        MakeScene("regions",
-                  Experiment("two regions", "<dummy_engine id=\"ground\" split=\"2x1\">" + kPlane + "</dummy_engine>",
-                             "<engine id=\"ground\"><all/></engine>"),
-                  1, Folder()));
+    all.push_back(MakeScene("two_engines", Experiment(two_engines, two_places, 0), 2, Folder()));
+    all.push_back(MakeScene("regions", Experiment(regions, one_place, 0), 1, Folder()));
+    all.push_back(MakeScene("two_engines_ahead", Experiment(two_engines, two_places, 1), 2, Folder()));
+    // Pairs of boxes that stand side by side are groups, whatever the robots do.
+    std::string boxes;
+    for (int k = 0; k < 6; ++k)
+      boxes += fmt::format(
+          "<block id=\"box_{}\"><position>{}, {}, 0.1</position><orientation>0, 0, 0</orientation>"
+          "<size>0.2, 0.2, 0.2</size><movable>true</movable></block>\n",
+          k, 1.9 + 0.203 * (k % 2), 0.3 + 0.6 * (k / 2));
+    const std::string groups = "<dynamics2d id=\"ground\" split=\"2\">" + kPlane + "</dynamics2d>";
+    all.push_back(MakeScene("regions_ahead", Experiment(regions, one_place, 1), 2, Folder()));
+    all.push_back(MakeScene("groups", Experiment(groups, one_place, 0, boxes), 2, Folder()));
     return all;
   }();
   return scenes;
 }
 
+// One schedule in eight has regions of dynamics2d.
+const Scene& SceneOf(std::uint64_t seed)
+{
+  const std::vector<Scene>& scenes = Scenes();
+  return seed % 8 == 5 ? scenes.back() : scenes[seed % (scenes.size() - 1)];
+}
+
 ScheduleResult RunSeed(std::uint64_t seed, const Trace& trace = {})
 {
-  return RunSchedule(Scenes()[seed % Scenes().size()], seed, Folder(), trace);
+  return RunSchedule(SceneOf(seed), seed, Folder(), trace);
 }
 
 // Discards the output of the processes, since there are thousands of them.
@@ -145,6 +178,22 @@ TEST(SimulatedCluster, EndsWithTheHashesOfOneProcessWhateverHappens)
       "replaced, {} runs started again\n",
       schedules, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), sum.steps,
       sum.virtual_s, sum.kills, sum.stops, sum.cuts, sum.replaced, sum.restarts);
+}
+
+// Rare schedules that once failed, in their scenes, whichever scenes are added.
+TEST(SimulatedCluster, KeptSeeds)
+{
+  constexpr std::pair<const char*, std::uint64_t> kKept[] = {
+      {"regions_ahead", 26175},  // a replaced host has frames of two ticks, and lacks the state of the first
+      {"regions_ahead", 48387},  // a region hears of the server and loses it before it joins
+  };
+  const Silence silence;
+  for (const auto& [name, seed] : kKept)
+  {
+    const auto scene = std::ranges::find(Scenes(), name, &Scene::name);
+    ASSERT_NE(scene, Scenes().end()) << name;
+    EXPECT_EQ(RunSchedule(*scene, seed, Folder()).trouble, "") << name << ", seed " << seed;
+  }
 }
 
 // A failing seed is useful only if it repeats its run exactly.

@@ -15,6 +15,7 @@
 
 #include "common/bus/bus.h"
 #include "common/bus/topics/qos.h"
+#include "idl/messages.h"
 #include "tests/simulated_cluster/simulated_processes.h"
 
 namespace swarmanoid::test
@@ -24,17 +25,17 @@ struct NetworkFaults
 {
   bool has_network = false;  // several machines; otherwise all processes share the memory of one
   double latency_factor = 1;
-  double loss = 0;           // of a message of a tick
-  double duplicates = 0;     // the same, once more and later
-  double lost_at_match = 0;  // of messages kept for processes that join later
+  double loss = 0;           // probability for a message of a tick
+  double duplicates = 0;     // probability for a repeated message, which comes later
+  double lost_at_match = 0;  // probability for messages kept for processes that join later
 };
 
-// A message as a reader gets it.
+// It holds a message for one reader.
 struct Sample
 {
   std::shared_ptr<const void> message;
-  MessageHeader header{};  // of a message of a tick
-  std::string process;     // of the writer
+  MessageHeader header{};  // header, for a message of a tick
+  std::string process;     // process of the writer
   std::string name;
 };
 
@@ -43,7 +44,7 @@ struct SimulatedReader
   SimulatedProcess* process = nullptr;
   std::string topic;
   std::string partition;
-  std::size_t depth = 0;  // 0: all are kept
+  std::size_t depth = 0;  // limit for unread messages; 0: none
   bool is_open = true;
   std::deque<Sample> samples;
   std::function<void(const Sample&)> take;
@@ -55,14 +56,14 @@ struct SimulatedWriter
   {
     std::shared_ptr<SimulatedReader> reader;
     RunTime met_by_writer, met_by_reader;
-    RunTime newest{};  // arrival
+    RunTime newest{};  // arrival of the newest message
     bool is_cut = false;
   };
 
   SimulatedProcess* process = nullptr;
   std::string topic;
   std::string partition;
-  std::string name;  // of its process on the bus
+  std::string name;  // name of its process on the bus
   TopicQos qos;
   bool is_open = true;
   std::vector<Link> links;
@@ -105,7 +106,7 @@ public:
   void Cut(const std::string& machine, Duration time);
   bool IsCut(const std::string& machine) const;
 
-  std::function<void(const SimulatedWriter&, const SimulatedReader&, const Sample&)> on_send;  // for traces
+  std::function<void(const SimulatedWriter&, const SimulatedReader&, const Sample&)> on_send;
 
 private:
   void Meet(const std::shared_ptr<SimulatedWriter>& writer, const std::shared_ptr<SimulatedReader>& reader,

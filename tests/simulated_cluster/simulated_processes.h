@@ -25,7 +25,7 @@ namespace swarmanoid::test
 
 using Duration = RunClock::duration;
 
-// SplitMix64.
+// It makes random numbers by SplitMix64.
 class SeededRandom
 {
 public:
@@ -38,7 +38,7 @@ public:
     z = (z ^ (z >> 27U)) * 0x94d049bb133111eb;
     return z ^ (z >> 31U);
   }
-  // From 0 to count - 1.
+  // Returns a number from 0 to count - 1.
   std::uint64_t Below(std::uint64_t count) { return Next() % count; }
   bool Happens(double probability) { return static_cast<double>(Next() >> 11U) < probability * 0x1p53; }
   Duration Between(Duration least, Duration most)
@@ -59,11 +59,11 @@ struct SimulatedProcess
   std::string machine;
   long pid = 0;
   bool is_alive = true;
-  bool ends_at_once = false;                // the process asked for it: none of its fibers runs again
-  bool has_left_bus = false;                // by a Leave
-  std::optional<int> exit_code;             // none: it runs, or was killed
-  RunTime stopped_until{};                  // as by SIGSTOP
-  std::deque<std::function<void()>> calls;  // for the thread of its bus
+  bool ends_at_once = false;                // the process asked for its end: none of its fibers runs again
+  bool has_left_bus = false;                // whether it said Leave
+  std::optional<int> exit_code;             // nothing: it runs, or was killed
+  RunTime stopped_until{};                  // until then it is stopped, as by SIGSTOP
+  std::deque<std::function<void()>> calls;  // calls for the thread of its bus
   std::vector<std::unique_ptr<Fiber>> fibers;
 };
 
@@ -103,7 +103,7 @@ public:
   int StartThread(std::function<void()> call) override;
   void Join(int thread) override;
 
-  std::function<void(SimulatedProcess&)> on_end;  // a process has ended or was killed
+  std::function<void(SimulatedProcess&)> on_end;  // called when a process has ended or was killed
 
 private:
   struct Event

@@ -16,6 +16,8 @@ const kQuestions = [
   ["write a controller", "docs/own_controller.html"],
   ["compare two controllers", "docs/compare_controllers.html"],
   ["film", "docs/film.html"],
+  ["cite a run", "docs/cite_a_run.html"],
+  ["compatibility", "docs/compatibility.html"],
   ["several machines", "docs/running_a_cluster.html"],
   ["install on a cluster node", "docs/installing.html"],
   ["why do two runs differ", "docs/determinism.html"],

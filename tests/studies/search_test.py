@@ -90,6 +90,7 @@ class Search(StudyCase):
         for goal, sign in (("max", 1), ("min", -1)):
             self.command("sweep", self.study(f'metric="way.mean" goal="{goal}" runs="90" algorithm="bobyqa" fresh_seeds="0"', inside, ticks=20),
                          "--output", goal, "--quiet")
+            self.assertEqual(self.query(goal, "SELECT value FROM study WHERE name = 'goal'"), [(goal,)])
             speeds = {float(row["speed"]) for row in self.table(goal)}
             self.assertEqual(max(speeds, key=lambda speed: sign * speed), 0.1 if goal == "max" else 0.01)
 
@@ -124,7 +125,7 @@ class Search(StudyCase):
         dry = self.command("sweep", good, "--dry-run")
         self.assertIn("robots: 1 to 6 in steps of 1", dry.stdout)
         self.assertIn("at most 10 points, 30 runs", dry.stderr)
-        # Where nobody arrives there is no value.
+        # If no robot arrives there is no value.
         nowhere = FACTORS.replace("<metrics>", '<metrics><time_to_region id="late" centre="0.2,0.2" radius="0.001" aggregate="min"/>')
         self.assertRegex(self.command("sweep", self.study('metric="late.min" runs="30"', nowhere), "--output", "none", code=3).stderr,
                          r"study\.xml:3:1: where the search begins, .* not all runs have a value")

@@ -46,7 +46,7 @@ class SweepSlurm(StartedStudyCase):
         self.assertIn("TimeLimit=00:10:00", shown)
 
     def test_jobs_go_on_without_the_command(self):
-        study = self.study("1-60", ticks=3000)
+        study = self.study("1-24", ticks=3000)
         table = self.here(study)
         for number, end_by in enumerate((signal.SIGKILL, signal.SIGHUP, signal.SIGTERM)):
             name = f"out{number}"
@@ -70,7 +70,7 @@ class SweepSlurm(StartedStudyCase):
             self.assertEqual(self.query(name, "SELECT DISTINCT attempts FROM runs"), [(1,)], "each was run once")
 
     def test_ctrl_c_cancels(self):
-        study = self.study("1-60", ticks=3000)
+        study = self.study("1-20", ticks=3000)
         process = self.start(study, "--output", "out", "--slurm", "--comment=mine", "--runs-per-task", "2")
         self.wait_for_runs("out", 2, process)
         self.slurm.hold()
@@ -78,7 +78,7 @@ class SweepSlurm(StartedStudyCase):
         _, errors = self.end_of(process, 130)
         self.slurm.release()
         self.assertRegex(errors, r"(?m)^job \d+ of Slurm is cancelled$")
-        told = re.search(r"^(\d+) of 60 runs are done; to go on: swarmanoid sweep out --resume --slurm --comment=mine$", errors, re.MULTILINE)
+        told = re.search(r"^(\d+) of 20 runs are done; to go on: swarmanoid sweep out --resume --slurm --comment=mine$", errors, re.MULTILINE)
         self.assertTrue(told, errors)
         self.assertEqual(self.done_in("out"), int(told[1]))
         self.assertEqual(self.slurm.live(), [])

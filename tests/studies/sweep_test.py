@@ -44,11 +44,30 @@ class Sweep(StudyCase):
         self.assertEqual([row["tick"] for row in rows[:4]], ["0", "20", "40", "60"])
         self.assertEqual({(row["robots"], row["speed"]) for row in rows}, {("4", "0.05"), ("4", "0.1"), ("8", "0.05"), ("8", "0.1")})
         for row in rows:
-            # Nobody is much faster than its wheels: others may push.
+            # No robot is much faster than its wheels; others may push it.
             self.assertLessEqual(float(row["way.max"]), 1.2 * float(row["speed"]) * float(row["time_s"]) + 1e-9)
             self.assertGreaterEqual(float(row["seen"]), 1 / 49)
         # What a run leaves is an empty folder, which goes.
         self.assertEqual(list((self.folder / "one" / "runs").iterdir()), [])
+
+    def test_a_study_is_moved_with_its_experiment_and_alone(self):
+        old, new = self.folder / "old", self.folder / "new"
+        old.mkdir()
+        shutil.copy(CONFIGS / "diffusion_10.xml", old)
+        study = self.study('<metrics every="20"><distance id="way"/></metrics>', 'seeds="1-3"', "old/study", "diffusion_10.xml")
+        self.sweep(study, "--output", "old/runs/out", "--only", "seed == 1")
+        old.rename(new)
+        self.sweep("new/runs/out", "--resume", "--only", "seed == 2")
+        # Another experiment lies where the first one was.
+        old.mkdir()
+        (old / "diffusion_10.xml").write_text((new / "diffusion_10.xml").read_text() + "<!-- other -->")
+        self.sweep("new/runs/out", "--resume", "--only", "seed == 2")
+        (new / "diffusion_10.xml").rename(old / "diffusion_10.xml")
+        (new / "runs/out").rename(self.folder / "out")
+        self.sweep("out", "--resume")
+        self.assertEqual([row["seed"] for row in self.table("out") if row["tick"] == "60"], ["1", "2", "3"])
+        (old / "diffusion_10.xml").unlink()
+        self.assertIn("diffusion_10.xml", self.sweep("out", "--resume", code=3).stderr)
 
     def test_hashes_are_those_of_run(self):
         self.sweep(self.study(self.TWO, 'seeds="5"'), "--output", "out")
@@ -120,10 +139,27 @@ class Sweep(StudyCase):
             self.assertEqual(len(values) % 5, 3)
             self.assertLess(1.95 * statistics.stdev(values) / len(values) ** 0.5, 0.08 * statistics.mean(values))
         self.assertGreater(max(map(len, seen.values())), 3)
-        self.sweep(study, "--output", "few", "--until-ci", "order=0.1%", "--most-seeds", "9")
+        few = self.sweep(study, "--output", "few", "--until-ci", "order=0.1%", "--most-seeds", "9", code=9)
         self.assertEqual(len({row["seed"] for row in self.table("few")}), 9)
+        self.assertRegex(few.stderr, r"point 0 \(robots=2\): order is 0\.\d+ ± \S+ with 9 seeds\n")
+        self.assertIn("2 of 2 points do not reach --until-ci order=0.1% with --most-seeds 9; for more: swarmanoid sweep few --resume", few.stderr)
+        self.assertEqual(self.sweep("few", "--resume", "--until-ci", "order=900%").stderr, "")
         self.assertIn("did you mean 'order'?", self.sweep(study, "--output", "bad", "--until-ci", "ordre=5%", code=2).stderr)
         self.assertIn("write COLUMN=PERCENT%", self.sweep(study, "--output", "worse", "--until-ci", "order=5", code=2).stderr)
+
+    def test_a_dry_run_estimates_time_and_disk(self):
+        study = self.study('<factor id="robots" path="arena.distribute.quantity" values="2 10"/>'
+                           '<metrics every="5"><polarisation id="order"/><distance id="way" aggregate="mean max sum"/></metrics>', 'seeds="1-40"')
+        dry = self.sweep(study, "--dry-run", "--jobs", "2")
+        self.assertEqual(len(dry.stdout.splitlines()), 80)
+        size, unit = re.search(r"estimate: \S+ s a run, \d+ s with 2 at a time, (\S+) (kB|MB) on disk\n", dry.stderr).groups()
+        self.assertEqual(os.listdir(self.folder), ["study.xml"])
+        self.sweep(study, "--output", "out")
+        real = sum(path.stat().st_size for path in (self.folder / "out").rglob("*") if path.is_file())
+        self.assertLess(abs(float(size) * {"kB": 1e3, "MB": 1e6}[unit] / real - 1), 0.5)
+        endless = self.study('<set path="framework.maxclock" value="0"/>', name="endless", experiment=CONFIGS / "prey_retrieval.xml")
+        endless.write_text(endless.read_text().replace('ticks="60" ', ""))
+        self.assertIn("there is no estimate of time and disk: its runs end by themselves", self.sweep(endless, "--dry-run").stderr)
 
     def test_killed_at_any_point_it_goes_on(self):
         study = self.study('<factor id="robots" path="arena.distribute.quantity" from="2" to="11" step="1"/>'
@@ -171,7 +207,7 @@ class Sweep(StudyCase):
             self.assertIn("is damaged", told.stderr)
             self.assertIn(says, told.stderr)
 
-    def test_one_that_was_killed_before_it_began_begins_anew(self):
+    def test_one_that_was_killed_before_it_began_begins_again(self):
         study = self.study("", 'seeds="1-2"')
         (self.folder / "out").mkdir()
         for name in ("lock", "study.sqlite.new", "study.sqlite.new-journal"):

@@ -80,20 +80,31 @@ class Lab:
         self.numbers = itertools.count()
 
     def run(self, arena, controllers="", engine="dynamics3d", ticks=100, tick_ms=100, size="10,10,4", seed=1, every=1,
-            entities="", **parameters):
+            entities="", engines=None, volumes=(), moves=(), faults=(), processes=False, **parameters):
+        """Runs a scene in one engine with these parameters, or in `engines`: tag, parameters and entities (none: all) by id.
+        `volumes`: engines instead, as pairs of a tag and the volume in which it moves entities. `moves`: tick, entity, x, y
+        and heading of what is put elsewhere, into others too. `faults`: attributes of each. `processes`: as a cluster."""
+        engines = engines or {f"engine_{k}": (tag, {}, None) for k, (tag, _) in enumerate(volumes)} or {"engine": (engine, parameters, None)}
+        places = {f"engine_{k}": {"volume": volume} for k, (_, volume) in enumerate(volumes)}
         folder = self.folder / f"run_{next(self.numbers)}"
         folder.mkdir(parents=True)
         shown = {"id": "poses", "file": "poses.csv", "format": "csv", "precision": 15, "every": every}
         if entities:
             shown["entities"] = entities
         text = element("framework", {}, "".join(element(tag, {}, value) for tag, value in (
-            ("clocktick", tick_ms), ("maxclock", ticks), ("seed", seed), ("controller_path", self.libraries))))
+            ("clocktick", tick_ms), ("maxclock", ticks), ("seed", seed), ("controller_path", self.libraries), ("plugin_path", self.libraries))))
         text += element("controllers", {}, controllers) + element("arena", {"size": size, "optimization": "2D"}, arena)
-        text += element("engines", {}, element(engine, {"id": "engine", **parameters}))
-        text += element("arena_physics", {}, element("engine", {"id": "engine"}, "<all/>"))
+        text += element("engines", {}, "".join(element(tag, {"id": name, **more}) for name, (tag, more, _) in engines.items()))
+        text += element("arena_physics", {}, "".join(
+            element("engine", {"id": name, **places.get(name, {})}, "<all/>" if listed is None else "".join(f'<entity id="{one}"/>' for one in listed))
+            for name, (_, _, listed) in engines.items()))
+        if moves:
+            text += element("experiment_functions", {}, element("validation_placement", {"id": "placement", "library": "validation_placement"}, element(
+                "moves", {}, "; ".join(" ".join(str(word) for word in move) for move in moves))))
         text += element("visualisations", {}, element("text_render", shown))
+        text += element("faults", {}, "".join(element("fault", {"id": f"fault_{k}", **fault}) for k, fault in enumerate(faults)))
         (folder / "experiment.xml").write_text(element("ahss-config", {}, text), encoding="utf-8")
-        done = subprocess.run([self.program, "run", "experiment.xml", "--single-process", "--quiet", "--output", "run"], cwd=folder,
+        done = subprocess.run([self.program, "run", "experiment.xml", "--quiet", "--output", "run", *([] if processes else ["--single-process"])], cwd=folder,
                               capture_output=True, text=True, env={**os.environ, "SWARMANOID_SHARED_FOLDER": str(self.folder / "shared")})
         if done.returncode != 0:
             raise RuntimeError(f"{folder}/experiment.xml: {done.stderr or done.stdout}")

@@ -4,11 +4,12 @@ import re
 
 SCENES = []
 HEAD = "| quantity | "
-PUBLISHED = re.compile(r"ARGoS|ITU-R")  # sources of published numbers
+PUBLISHED = re.compile(r"ARGoS|ITU-R|Byers|Gauci")  # sources of published numbers
 PROMISED, LINK = re.compile(r"docs/(\w+)(\.md[\w#-]*)"), r"[\1](\1\2)"  # sources that are pages of this documentation
 VERIFICATION, PROMISES, VALIDATION = "Verification", "Against this documentation", "Validation"
 PREFIX = {"Kinematic engine": "kinematic: ", "2D rigid-body engine": "dynamics2d: ", "3D rigid-body engine": "dynamics3d: "}  # of names, not shown in groups
-UNSAID = ("geometry", "rounding", "counts")  # the page says once what an empty source, 1e-09 and 0 mean
+UNSAID = ("geometry", "rounding", "counts")  # the page says once what an empty source, 1e-13 and 0 mean
+ROUNDING = 1e-13  # some hundred roundings of numbers about 1; scenes of larger numbers state more
 
 
 def scene(group, quick=True):

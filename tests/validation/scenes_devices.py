@@ -2,7 +2,7 @@
 import math
 
 from experiment import block, deviation, element, footbot, mean, prey, probe
-from report import VALIDATION, Row, scene
+from report import VALIDATION, ROUNDING, Row, scene
 from scenes_kinematics2d import RADIUS, SOURCE, unwrapped
 
 GROUP = "Devices"
@@ -41,7 +41,7 @@ def proximity(lab):
             worst = max(worst, abs(reading - expected))
             if reading > 0:
                 drawn.append((distance, reading))
-    yield Row("proximity beside a wall: 7 · 24 readings", "0.0100527 / (d + 0.000163144)", f"{A3} footbot_proximity_default_sensor.cpp@dfa7d4b0", 0, worst, 1e-9, "rounding")
+    yield Row("proximity beside a wall: 7 · 24 readings", "0.0100527 / (d + 0.000163144)", f"{A3} footbot_proximity_default_sensor.cpp@dfa7d4b0", 0, worst, ROUNDING, "rounding")
     grid = [0.001 * i for i in range(1, 100)]
     yield {"name": "proximity", "caption": "Readings of footbot_proximity beside a wall", "part": VALIDATION, "x": "distance (m)", "y": "reading",
            "series": [("readings", *zip(*sorted(drawn)))], "curves": [("ARGoS3's formula", grid, [proximity_of(d) for d in grid])]}
@@ -49,7 +49,7 @@ def proximity(lab):
     readings = ring(lab.run(arena, who, ENGINE, 2).readings("a", "footbot_proximity")[0])
     b = (RADIUS + 0.13) * math.cos(math.radians(7.5))
     distance = b - math.sqrt(b * b - (RADIUS + 0.13) ** 2 + 0.08 ** 2) - RADIUS
-    yield Row("proximity before a cylinder, the ray at 7.5°", "ray and circle", GEOMETRY, proximity_of(distance), readings[0], 1e-9, "rounding")
+    yield Row("proximity before a cylinder, the ray at 7.5°", "ray and circle", GEOMETRY, proximity_of(distance), readings[0], ROUNDING, "rounding")
 
 
 @scene(GROUP)
@@ -70,9 +70,9 @@ def light(lab):
             for angle, reading in zip(angles(), readings):
                 off = abs(math.remainder(angle - towards, math.tau))
                 worst[implementation] = max(worst[implementation], abs(reading - min(1, strength * max(0, 1 - off / (math.pi / 2)))))
-    yield Row("light: 3 · 24 readings", "(I / d)² max(0, 1 - |off| / 90°)", "inverse square", 0, worst["generic_footbot_light"], 1e-9, "rounding")
+    yield Row("light: 3 · 24 readings", "(I / d)² max(0, 1 - |off| / 90°)", "inverse square", 0, worst["generic_footbot_light"], ROUNDING, "rounding")
     yield Row("light as in ARGoS3: 3 · 24 readings", "exp(-2 d / I) max(0, 1 - |off| / 90°)", f"{A3} footbot_light_rotzonly_sensor.cpp@de40bf19", 0,
-              worst["argos3_footbot_light"], 1e-9, "rounding")
+              worst["argos3_footbot_light"], ROUNDING, "rounding")
 
 
 @scene(GROUP)
@@ -85,7 +85,7 @@ def ground(lab):
     turn = math.radians(10)
     now = result.readings("fb", "footbot_ground")[0]
     worst = max(abs(now[str(i)] - (grey if x * math.cos(turn) - y * math.sin(turn) > 0 else 1)) for i, (x, y) in enumerate(places))
-    yield Row("ground: 8 sensors at the edge of a patch", "0.299 R + 0.587 G + 0.114 B; places", f"ITU-R BT.601; {A3} footbot_entity.cpp@c6aa94d6", 0, worst, 1e-9, "rounding")
+    yield Row("ground: 8 sensors at the edge of a patch", "0.299 R + 0.587 G + 0.114 B; places", f"ITU-R BT.601; {A3} footbot_entity.cpp@c6aa94d6", 0, worst, ROUNDING, "rounding")
 
 
 def lit(name, x, y, colour, heading=0, z=0):
@@ -107,8 +107,8 @@ def cameras(lab):
         distance, angle = found.get(0x100000 * (k + 1) + 0xff, (math.inf, math.inf))
         worst_distance = max(worst_distance, abs(distance - math.hypot(x - 5, y - 5)))
         worst_angle = max(worst_angle, abs(math.remainder(angle - math.atan2(y - 5, x - 5) + math.radians(25), math.tau)))
-    yield Row("omnidirectional camera: distances of 6 beacons", "√(Δx² + Δy²)", GEOMETRY, 0, worst_distance, 1e-9, "rounding", "m")
-    yield Row("omnidirectional camera: bearings of 6 beacons", "atan2(Δy, Δx) - heading", GEOMETRY, 0, worst_angle, 1e-9, "rounding", "rad")
+    yield Row("omnidirectional camera: distances of 6 beacons", "√(Δx² + Δy²)", GEOMETRY, 0, worst_distance, ROUNDING, "rounding", "m")
+    yield Row("omnidirectional camera: bearings of 6 beacons", "atan2(Δy, Δx) - heading", GEOMETRY, 0, worst_angle, ROUNDING, "rounding", "rad")
 
 
 @scene(GROUP)
@@ -151,8 +151,8 @@ def range_and_bearing(lab):
     arena += footbot("far", 5.0, 1.999, 0, "s")
     result = lab.run(arena, sender + hearer, ENGINE, 5)
     now = result.readings("h", "range_and_bearing")[-1]
-    yield Row("range and bearing: range", "distance of antennas", GEOMETRY, 1.5, now["packet 0 range"], 1e-9, "rounding", "m")
-    yield Row("range and bearing: bearing", "atan2(Δy, Δx) - heading", GEOMETRY, math.atan2(-0.9, 1.2) - math.radians(40), now["packet 0 bearing"], 1e-9, "rounding", "rad")
+    yield Row("range and bearing: range", "distance of antennas", GEOMETRY, 1.5, now["packet 0 range"], ROUNDING, "rounding", "m")
+    yield Row("range and bearing: bearing", "atan2(Δy, Δx) - heading", GEOMETRY, math.atan2(-0.9, 1.2) - math.radians(40), now["packet 0 bearing"], ROUNDING, "rounding", "rad")
     yield Row("range and bearing: packets, one sender hidden, one at 3.001 m", "line of sight, 3 m", f"{A3} footbot_entity.cpp@c6aa94d6", 1, sum("range" in name for name in now), 0, "counts")
     eye = element("eyebot", {"id": "h", "position": "5,5,2", "controller": "h"})
     now = lab.run(eye + footbot("s", 6.0, 5.0, 0, "s"), sender + hearer, "dynamics3d", 3, size="10,10,5").readings("h", "range_and_bearing")[-1]
@@ -173,9 +173,9 @@ def microphone(lab):
     now = lab.run(arena, who, ENGINE, 2).readings("fb", "microphone")[0]
     loud = 2 / math.sqrt(5)
     first = 0 if abs(now["sound 0 loudness"] - loud) < 0.1 else 1
-    yield Row("microphone: pressure at 2.24 m, I = 2", "I / d", "spherical wave", loud, now[f"sound {first} loudness"], 1e-9, "rounding")
-    yield Row("microphone: bearing", "atan2(Δy, Δx) - heading", GEOMETRY, -math.radians(30), now[f"sound {first} bearing"], 1e-9, "rounding", "rad")
-    yield Row("microphone: loudness of both sources", "√(p₁² + p₂²)", "incoherent", math.hypot(loud, 1 / 3), now["loudness"], 1e-9, "rounding")
+    yield Row("microphone: pressure at 2.24 m, I = 2", "I / d", "spherical wave", loud, now[f"sound {first} loudness"], ROUNDING, "rounding")
+    yield Row("microphone: bearing", "atan2(Δy, Δx) - heading", GEOMETRY, -math.radians(30), now[f"sound {first} bearing"], ROUNDING, "rounding", "rad")
+    yield Row("microphone: loudness of both sources", "√(p₁² + p₂²)", "incoherent", math.hypot(loud, 1 / 3), now["loudness"], ROUNDING, "rounding")
 
 
 @scene(GROUP)
@@ -183,7 +183,7 @@ def motion_sensors(lab):
     who = probe("c", [(0, 200, "footbot_wheels", 0.05, 0.1)], sensors={"gyroscope": {}, "battery": {}, "footbot_encoders": {}, "positioning": {}})
     result = lab.run(footbot("fb", 5.0, 5.0, 0, "c"), who, ENGINE, 101)
     rate = 0.05 / 0.14
-    yield Row("gyroscope: yaw rate on an arc", "(r - l) / b", SOURCE, rate, result.readings("fb", "gyroscope")[50]["yaw"], 1e-9, "rounding", "rad/s")
+    yield Row("gyroscope: yaw rate on an arc", "(r - l) / b", SOURCE, rate, result.readings("fb", "gyroscope")[50]["yaw"], ROUNDING, "rounding", "rad/s")
     yield Row("battery: charge after 10 s on an arc", "1 - 10⁻⁴ t - 10⁻³ d - 10⁻³ α", f"{A3} battery_equipped_entity.cpp@c6aa94d6", 1 - 1e-3 - 0.75e-3 - rate * 10e-3,
               result.readings("fb", "battery")[100]["charge"], 1e-6, "chords")
     x = y = heading = 0
@@ -193,7 +193,7 @@ def motion_sensors(lab):
         step = (left + right) / 2 * 0.1 * (math.sin(turn / 2) / (turn / 2))
         x, y, heading = x + step * math.cos(heading + turn / 2), y + step * math.sin(heading + turn / 2), heading + turn
     pose = result.readings("fb", "positioning")[100]
-    yield Row("odometry of encoders against positioning, 10 s of an arc", "Σ of arcs", SOURCE, 0, math.hypot(pose["x"] - 5 - x, pose["y"] - 5 - y), 1e-9, "rounding", "m")
+    yield Row("odometry of encoders against positioning, 10 s of an arc", "Σ of arcs", SOURCE, 0, math.hypot(pose["x"] - 5 - x, pose["y"] - 5 - y), ROUNDING, "rounding", "m")
 
 
 @scene(GROUP)
@@ -242,12 +242,12 @@ def radio(lab):
 def gripper(lab):
     gaps = [0.001 * i for i in range(0, 40)]
     who = probe("c", [(0, 10, "footbot_gripper", 1)], sensors={"footbot_gripper": {}})
-    for engine, reach in ((ENGINE, 0.02), ("dynamics2d", 0.01), ("dynamics3d", 0.02)):
-        front = 0.085 if engine == "dynamics3d" else 0.1
+    for engine in (ENGINE, "dynamics2d", "dynamics3d"):
+        front = 0.1  # of the gripper
         arena = "".join(footbot(f"fb_{i}", 1.0, 1.0 + i, 0, "c") + prey(f"p{i}", 1.0 + front + gap + 0.1 + 0.0005, 1.0 + i, radius=0.1, height=0.15) for i, gap in enumerate(gaps))
         result = lab.run(arena, who, engine, 4, size="10,50,2")
         held = [gap + 0.0005 for i, gap in enumerate(gaps) if result.readings(f"fb_{i}", "footbot_gripper")[-1]["gripping"]]
-        yield Row(f"gripper: reach in {engine}", "assumption", "docs/engines.md", reach, max(held, default=0), 0.001, "steps of 1 mm", "m")
+        yield Row(f"gripper: reach in {engine}", "assumption", "docs/engines.md", 0.02, max(held, default=0), 0.001, "steps of 1 mm", "m")
 
 
 @scene(GROUP)
@@ -263,7 +263,7 @@ def scanner(lab):
             hits = [side / f for side, f in ((0.2, math.cos(angle)), (0.8, math.sin(angle)), (0.8, -math.sin(angle))) if f > 1e-9]
             if hits and distance not in (0, 0.26, 1.42):
                 worst, count = max(worst, abs(distance - (min(hits) - RADIUS))), count + 1
-    yield Row(f"distance scanner between three walls: {count} readings", "ray and plane", GEOMETRY, 0, worst, 1e-9, "rounding", "m")
+    yield Row(f"distance scanner between three walls: {count} readings", "ray and plane", GEOMETRY, 0, worst, ROUNDING, "rounding", "m")
 
 
 @scene(GROUP)
@@ -274,8 +274,8 @@ def eyes(lab):
     result = lab.run(arena, pilot + watcher, "dynamics3d", 5, size="10,10,5")
     x, y = 5 + 2 * math.tan(0.3) * math.cos(0.5), 5 + 2 * math.tan(0.3) * math.sin(0.5)
     now = result.readings("w", "footbot_omnidirectional_camera")[-1]
-    yield Row("laser: distance of its spot from a footbot", "P = o + h tan(tilt) (cos pan, sin pan)", GEOMETRY, math.hypot(x - 6, y - 5), now["blob 0 distance"], 1e-3, "hovering", "m")
-    yield Row("altitude of an eyebot", "h", GEOMETRY, 2, result.readings("e", "eyebot_altitude")[-1]["altitude"], 1e-3, "hovering", "m")
+    yield Row("laser: distance of its spot from a footbot", "P = o + h tan(tilt) (cos pan, sin pan)", GEOMETRY, math.hypot(x - 6, y - 5), now["blob 0 distance"], 1e-4, "hovering", "m")
+    yield Row("altitude of an eyebot", "h", GEOMETRY, 2, result.readings("e", "eyebot_altitude")[-1]["altitude"], 1e-4, "hovering", "m")
 
 
 @scene(GROUP)
@@ -285,7 +285,7 @@ def near(lab):
     arena += prey("q", 5.149, 5.0, radius=0.03, height=0.1) + prey("r", 4.849, 5.0, radius=0.03, height=0.1)
     result = lab.run(arena, who, ENGINE, 1)
     now = result.readings("fb", "contact")[0]
-    yield Row("contact: direction of a prey 1.1 mm away", "angle of the centre - heading", GEOMETRY, 1 - math.radians(20), now.get("contact 0", math.nan), 1e-9, "rounding", "rad")
+    yield Row("contact: direction of a prey 1.1 mm away", "angle of the centre - heading", GEOMETRY, 1 - math.radians(20), now.get("contact 0", math.nan), ROUNDING, "rounding", "rad")
     tags = result.readings("fb", "tag_reader")[0]
     yield Row("tag reader: tags at 0.149, 0.151 and 0.136 m", "range 0.15 m", "docs/devices.md", 2, len(set(tags) - {"tag fb"}), 0, "counts")
 
@@ -319,10 +319,10 @@ def depth_camera(lab):
         ahead = math.cos(math.radians(tilt)) * math.cos(math.radians(pan))
         wall, floor = 1.9 / ahead, 0.4 / math.sin(math.radians(-tilt)) if tilt < 0 else math.inf
         worst = max(worst, abs(result.readings("fb", "depth_camera")[0]["depth in the middle"] - min(wall, floor)))
-    yield Row("depth camera: 4 depths of wall and floor along the axis", "ray and plane", GEOMETRY, 0, worst, 1e-9, "rounding", "m")
+    yield Row("depth camera: 4 depths of wall and floor along the axis", "ray and plane", GEOMETRY, 0, worst, ROUNDING, "rounding", "m")
     who = probe("c", sensors={"depth_camera": {"width": 101, "height": 1, "position": "0.1,0,0.2"}})
     result = lab.run(footbot("fb", 5.0, 5.0, 0, "c") + prey("p", 7.0, 5.0, radius=0.3, height=0.5), who, ENGINE, 1)
-    yield Row("depth camera: nearest of a cylinder", "d - r", GEOMETRY, 1.6, result.readings("fb", "depth_camera")[0]["nearest"], 1e-9, "rounding", "m")
+    yield Row("depth camera: nearest of a cylinder", "d - r", GEOMETRY, 1.6, result.readings("fb", "depth_camera")[0]["nearest"], ROUNDING, "rounding", "m")
     who = probe("c", sensors={"depth_camera": {"width": 1, "height": 1, "position": "0.1,0,0.2", "depth_noise_kind": "gaussian", "depth_noise_deviation": 0.02}})
     ticks = 2000 if lab.quick else 20000
     depths = [now["depth in the middle"] for now in lab.run(footbot("fb", 5.0, 5.0, 0, "c") + block("w", "7.1,5,1", "0.2,9,2"), who, ENGINE, ticks, every=ticks).readings("fb", "depth_camera")]
@@ -340,7 +340,7 @@ def hands(lab):
     now = result.readings("h", "handbot_proximity")[0]
     expected = 1 - (0.058 + plate) / 0.1
     worst = max(abs(now[f"{side} {i}"] - expected) for side in ("left", "right") for i in range(3, 9))
-    yield Row("handbot proximity: a wall before the palms, 12 readings", "1 - d / range", GEOMETRY, 0, worst, 1e-9, "rounding")
+    yield Row("handbot proximity: a wall before the palms, 12 readings", "1 - d / range", GEOMETRY, 0, worst, ROUNDING, "rounding")
 
 
 @scene(GROUP)
@@ -367,21 +367,21 @@ def more_eyes(lab):
         distance = (2 - 0.255 * math.cos(angle)) / math.cos(angle) if math.cos(angle) > 1e-9 else math.inf
         beside = abs(math.sin(angle)) * (0.255 + distance) if distance < 9 else math.inf
         worst = max(worst, abs(now[str(i)] - (1 - distance / 3 if distance < 3 and beside < 4.5 else 0)))
-    yield Row("proximity of an eyebot beside a wall: 24 readings", "1 - d / 3 m", GEOMETRY, 0, worst, 1e-3, "hovering")
+    yield Row("proximity of an eyebot beside a wall: 24 readings", "1 - d / 3 m", GEOMETRY, 0, worst, 1e-4, "hovering")
     now = result.readings("e", "eyebot_distance_scanner")[0]
     worst = 0
     for i in range(32):
         angle, distance = now[f"reading {i} angle"], now[f"reading {i} distance"]
         hit = 2 / math.cos(angle) if math.cos(angle) > 1e-9 else math.inf
         worst = max(worst, abs(distance - (hit if abs(hit * math.sin(angle)) < 4.5 else 15)))
-    yield Row("eyebot distance scanner beside a wall: 32 readings", "ray and plane, 15 m", GEOMETRY, 0, worst, 1e-3, "hovering", "m")
+    yield Row("eyebot distance scanner beside a wall: 32 readings", "ray and plane, 15 m", GEOMETRY, 0, worst, 1e-4, "hovering", "m")
 
 
 @scene(GROUP)
 def turret(lab):
     who = probe("c", [(0, 20, "footbot_turret", 0.7)], sensors={"footbot_turret_encoder": {}, "footbot_gripper": {}})
     now = lab.run(footbot("fb", 5.0, 5.0, 0, "c"), who, ENGINE, 21).readings("fb", "footbot_turret_encoder")
-    yield Row("turret encoder: angle after 2 s at 0.7 rad/s", "ω t", GEOMETRY, 1.4, now[20]["angle"], 1e-9, "rounding", "rad")
+    yield Row("turret encoder: angle after 2 s at 0.7 rad/s", "ω t", GEOMETRY, 1.4, now[20]["angle"], ROUNDING, "rounding", "rad")
 
 
 @scene(GROUP)
@@ -398,4 +398,4 @@ def floor(lab):
               sum(now[str(i)] != (float(grey >= 0.5) if ahead(place) else 1) for i, place in enumerate(base)), 0, "counts")
     now = result.readings("fb", "footbot_motor_ground")[0]
     yield Row("motor ground: 4 sensors at the edge of a patch", "0.299 R + 0.587 G + 0.114 B; places", f"ITU-R BT.601; {A3} footbot_entity.cpp@c6aa94d6", 0,
-              max(abs(now[str(i)] - (grey if ahead(place) else 1)) for i, place in enumerate(motor)), 1e-9, "rounding")
+              max(abs(now[str(i)] - (grey if ahead(place) else 1)) for i, place in enumerate(motor)), ROUNDING, "rounding")

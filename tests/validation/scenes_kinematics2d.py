@@ -2,7 +2,7 @@
 import math
 
 from experiment import block, deviation, footbot, mean, probe
-from report import PROMISES, Row, scene
+from report import PROMISES, ROUNDING, Row, scene
 
 BASE = 0.14  # m between the wheels
 SOURCE = "unicycle"
@@ -29,12 +29,12 @@ def arc(left, right, seconds):
 @scene("Kinematic engine")
 def kinematic_drive(lab):
     x = drive(lab, 0.1, 0.1, "dummy_engine")[-1][0] - 3
-    yield Row("kinematic: straight, 10 s at 0.1 m/s", "v t", SOURCE, 1, x, 1e-9, "rounding", "m")
+    yield Row("kinematic: straight, 10 s at 0.1 m/s", "v t", SOURCE, 1, x, ROUNDING, "rounding", "m")
     poses = drive(lab, 0.05, 0.1, "dummy_engine")
     x, y, angle = arc(0.05, 0.1, 10)
     yield Row("kinematic: end of an arc, 10 s", "(v/ω) (sin ωt, 1 - cos ωt), ω = (r - l) / 0.14 m", SOURCE, 0,
-              math.hypot(poses[-1][0] - 3 - x, poses[-1][1] - 5 - y), 1e-9, "rounding", "m")
-    yield Row("kinematic: angle of the arc", "ω t", SOURCE, angle, unwrapped([p[5] for p in poses])[-1], 1e-9, "rounding", "rad")
+              math.hypot(poses[-1][0] - 3 - x, poses[-1][1] - 5 - y), ROUNDING, "rounding", "m")
+    yield Row("kinematic: angle of the arc", "ω t", SOURCE, angle, unwrapped([p[5] for p in poses])[-1], ROUNDING, "rounding", "rad")
 
 
 @scene("Kinematic engine")
@@ -68,7 +68,7 @@ def kinematic_symmetry(lab):
     result = lab.run(footbot("a", 4.0, 5.0, 0, "c") + footbot("b", 6.0, 5.0, 180, "c"), who, "dummy_engine", 400)
     a, b = result.track("a"), result.track("b")
     worst = max(abs(p[0] + q[0] - 10) for p, q in zip(a, b))
-    yield Row("kinematic: head-on, asymmetry in 40 s", "x₁ + x₂ stays", "symmetry", 0, worst, 1e-9, "rounding", "m")
+    yield Row("kinematic: head-on, asymmetry in 40 s", "x₁ + x₂ stays", "symmetry", 0, worst, ROUNDING, "rounding", "m")
     gap = min(q[0] - p[0] for p, q in zip(a, b))
     yield Row("kinematic: head-on, nearest approach", "two grippers of 0.1 m in front", "docs/engines.md", 0.2, gap,
               0.004 * RADIUS, "promised", "m")

@@ -2,7 +2,7 @@
 import math
 
 from experiment import block, element, footbot, probe
-from report import Row, scene
+from report import ROUNDING, Row, scene
 from scenes_devices import ENGINE, GEOMETRY, GREEN, GROUP, RED, angles, lit, ring
 from scenes_kinematics2d import RADIUS
 
@@ -30,7 +30,7 @@ def pie_camera(lab):
         expected[name] = min(expected.get(name, math.inf), distance)
     now = lab.run(arena, who, ENGINE, 3).readings("w", "pie_camera")[-1]
     worst = max((abs(now.get(name, math.inf) - distance) for name, distance in expected.items()), default=math.inf)
-    yield Row("pie camera: nearest beacon of each sector and colour", "√(Δx² + Δy²)", GEOMETRY, 0, worst, 1e-9, "rounding", "m")
+    yield Row("pie camera: nearest beacon of each sector and colour", "√(Δx² + Δy²)", GEOMETRY, 0, worst, ROUNDING, "rounding", "m")
     yield Row("pie camera: sectors and colours that see something", "sectors of 30°, the first from the front on", "docs/devices.md", len(expected), sum(name.endswith(" distance") for name in now), 0, "counts")
 
 
@@ -47,9 +47,26 @@ def cameras_of_others(lab):
     handbot = element("handbot", {"id": "h", "position": "5,5,0", "controller": "h"})
     now = lab.run(handbot + robot, probe("h", sensors={"handbot_camera": {}}) + lamp, ENGINE, 3).readings("h", "handbot_camera")[-1]
     way = (6.0 - 5.09, 0.2, BEACON - 0.1)
-    yield Row("handbot camera: distance of a beacon", "√(Δx² + Δy² + Δz²)", GEOMETRY, math.hypot(*way), now["blob 0 distance"], 1e-9, "rounding", "m")
-    yield Row("handbot camera: bearing", "atan2(Δy, Δx)", GEOMETRY, math.atan2(way[1], way[0]), now["blob 0 angle"], 1e-9, "rounding", "rad")
-    yield Row("handbot camera: elevation", "atan2(Δz, √(Δx² + Δy²))", GEOMETRY, math.atan2(way[2], math.hypot(*way[:2])), now["blob 0 elevation"], 1e-9, "rounding", "rad")
+    yield Row("handbot camera: distance of a beacon", "√(Δx² + Δy² + Δz²)", GEOMETRY, math.hypot(*way), now["blob 0 distance"], ROUNDING, "rounding", "m")
+    yield Row("handbot camera: bearing", "atan2(Δy, Δx)", GEOMETRY, math.atan2(way[1], way[0]), now["blob 0 angle"], ROUNDING, "rounding", "rad")
+    yield Row("handbot camera: elevation", "atan2(Δz, √(Δx² + Δy²))", GEOMETRY, math.atan2(way[2], math.hypot(*way[:2])), now["blob 0 elevation"], ROUNDING, "rounding", "rad")
+
+
+@scene(GROUP)
+def device_faults(lab):
+    ticks, chance, factor, late = 400 if lab.quick else 4000, 0.3, 0.6, 5
+    drives = probe("w", [(0, ticks, "footbot_wheels", 0.1, 0.1)], sensors={"positioning": {}})
+    result = lab.run(footbot("w", 1.0, 5.0, 0, "w"), drives, ENGINE, ticks, size="40,10,4", faults=[
+        {"device": "positioning", "kind": "drop", "value": chance, "from": 1}, {"device": "footbot_wheels", "kind": "scale", "value": factor}])
+    way = result.track("w")[-1][0] - 1.0
+    yield Row("faults: way of wheels with 0.6 of their speed", "0.6 v t", "docs/faults.md", factor * 0.1 * ticks * 0.1, way, 1e-11, "rounding of a sum", "m")
+    read = [now["x"] for now in result.readings("w", "positioning")]
+    lost = sum(now == before for before, now in zip(read, read[1:])) / (len(read) - 1)
+    yield Row("faults: share of dropped readings", "p", "docs/faults.md", chance, lost, 4 * math.sqrt(chance * (1 - chance) / (len(read) - 1)), "4 standard deviations")
+    result = lab.run(footbot("w", 1.0, 5.0, 0, "w"), drives, ENGINE, 100, size="20,10,4", faults=[{"device": "positioning", "kind": "delay", "value": late, "from": 20}])
+    read, track = [now["x"] for now in result.readings("w", "positioning")], [place[0] for place in result.track("w")]
+    worst = max(abs(read[tick] - track[tick - late]) for tick in range(20 + late, len(read)))
+    yield Row("faults: readings that come 5 ticks late", "x(t - 5)", "docs/faults.md", 0, worst, ROUNDING, "rounding", "m")
 
 
 @scene(GROUP)
@@ -72,9 +89,9 @@ def other_microphones(lab):
         heard[kind] = lab.run(arena, probe("c", sensors={"microphone": {"implementation": kind}}), ENGINE, 2).readings("fb", "microphone")[0]
     shadowed = heard["shadowed_microphone"]
     louder = sorted((shadowed[f"sound {i} loudness"] for i in range(2)), reverse=True)
-    yield Row("microphone with shadows: source in the open, 3 m", "I / d", "spherical wave", 1 / 3, louder[0], 1e-9, "rounding")
-    yield Row("microphone with shadows: source behind a wall, 2 m", "0.25 I / d", "docs/devices.md", 0.25, louder[1], 1e-9, "rounding")
-    yield Row("microphone of one capsule: loudness of both", "√(p₁² + p₂²)", "incoherent", math.hypot(1, 1 / 3), heard["capsule_microphone"]["loudness"], 1e-9, "rounding")
+    yield Row("microphone with shadows: source in the open, 3 m", "I / d", "spherical wave", 1 / 3, louder[0], ROUNDING, "rounding")
+    yield Row("microphone with shadows: source behind a wall, 2 m", "0.25 I / d", "docs/devices.md", 0.25, louder[1], ROUNDING, "rounding")
+    yield Row("microphone of one capsule: loudness of both", "√(p₁² + p₂²)", "incoherent", math.hypot(1, 1 / 3), heard["capsule_microphone"]["loudness"], ROUNDING, "rounding")
     yield Row("microphone of one capsule: directions", "none", "docs/devices.md", 0, sum("bearing" in name for name in heard["capsule_microphone"]), 0, "counts")
 
 
@@ -85,7 +102,7 @@ def joints(lab):
     handbot = element("handbot", {"id": "h", "position": "5,5,0", "controller": "c"})
     now = lab.run(handbot, who, ENGINE, 12).readings("h", "handbot_joints")[10]
     errors = [now["head"] - 0.2] + [now[name] - speed for name, speed in zip(("left arm", "right arm", "left wrist", "right wrist"), speeds)]
-    yield Row("handbot joints: 5 angles after 1 s", "ω t", GEOMETRY, 0, max(map(abs, errors)), 1e-9, "rounding", "rad")
+    yield Row("handbot joints: 5 angles after 1 s", "ω t", GEOMETRY, 0, max(map(abs, errors)), ROUNDING, "rounding", "rad")
     who = probe("c", [(0, 100, "handbot_arms", 3, 3, 3, 3)], sensors={"handbot_joints": {}})
     now = lab.run(handbot, who, ENGINE, 30).readings("h", "handbot_joints")[-1]
     limits = (math.pi / 3, math.pi / 3, math.pi / 2, math.pi / 2)
@@ -101,5 +118,5 @@ def shown_direction(lab):
     now = lab.run(footbot("w", 5.0, 5.0, 0, "w") + footbot("s", 6.0, 5.5, 90, "s"), watcher + shower, ENGINE, 3).readings("w", "footbot_omnidirectional_camera")[-1]
     shown, out = math.radians(60 + 90), (RADIUS + 0.005) * math.cos(math.radians(15))
     place = (1 + out * math.cos(shown), 0.5 + out * math.sin(shown))
-    yield Row("preferential direction: distance of its blob", "middle of the LEDs within 30° of it", GEOMETRY, math.hypot(*place), now["blob 0 distance"], 1e-9, "rounding", "m")
-    yield Row("preferential direction: bearing of its blob", "atan2(Δy, Δx)", GEOMETRY, math.atan2(place[1], place[0]), now["blob 0 angle"], 1e-9, "rounding", "rad")
+    yield Row("preferential direction: distance of its blob", "middle of the LEDs within 30° of it", GEOMETRY, math.hypot(*place), now["blob 0 distance"], ROUNDING, "rounding", "m")
+    yield Row("preferential direction: bearing of its blob", "atan2(Δy, Δx)", GEOMETRY, math.atan2(place[1], place[0]), now["blob 0 angle"], ROUNDING, "rounding", "rad")

@@ -33,7 +33,7 @@ TEST(WebAccess, OnlyPagesOfTheServerItselfHaveItsOrigin)
   EXPECT_FALSE(IsOwnOrigin("null", "localhost:8080"));
 }
 
-// Test case 2 of RFC 4231.
+// It is test case 2 of RFC 4231.
 TEST(WebAccess, AProofIsTheHmacOfTheChallengeUnderTheToken)
 {
   EXPECT_EQ(ProofOf("Jefe", "what do ya want for nothing?"),
@@ -55,7 +55,7 @@ TEST(WebAccess, OnlyWhoHasTheWholeTokenProvesIt)
   EXPECT_EQ(visitors.Prove(1, proof), Authority::kControl);
   EXPECT_TRUE(visitors.MayControl(1));
 
-  // What one client answered is no answer for another, nor for itself when it comes again.
+  // The answer of one client is no answer for another one, nor for the same client when it comes again.
   EXPECT_NE(visitors.Join(2), challenge);
   EXPECT_EQ(visitors.Prove(2, proof), Authority::kWrongToken);
   EXPECT_FALSE(visitors.MayControl(2));

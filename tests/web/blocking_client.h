@@ -1,4 +1,4 @@
-// A blocking client of WebServer for its tests.
+// BlockingClient: a blocking client of WebServer for its tests.
 #pragma once
 
 #include <boost/asio/ip/tcp.hpp>
@@ -25,9 +25,9 @@ public:
 
   std::string Host() const { return "127.0.0.1:" + std::to_string(port_); }
 
-  // Sends bytes as they are.
+  // Sends bytes unchanged.
   void Write(const std::string& bytes) { boost::asio::write(stream_.next_layer(), boost::asio::buffer(bytes)); }
-  // The answer to bytes as they are.
+  // Sends bytes unchanged, and returns the answer.
   boost::beast::http::response<boost::beast::http::string_body> Ask(const std::string& bytes)
   {
     Write(bytes);
@@ -41,7 +41,7 @@ public:
     return Ask("GET " + target + " HTTP/1.1\r\nHost: " + (host.empty() ? Host() : host) + "\r\n\r\n");
   }
 
-  // The status of the answer: 101 if the server takes the client.
+  // Returns the status of the answer: 101 if the server accepts the client.
   unsigned Open(const std::string& target = "/stream", const std::string& origin = "", const std::string& host = "")
   {
     stream_.set_option(boost::beast::websocket::stream_base::decorator(
@@ -52,7 +52,7 @@ public:
     ErrorCode refused;
     stream_.handshake(host.empty() ? Host() : host, target, refused);
     if (!refused) return 101;
-    // Beast keeps the answer to itself: the same request, by hand.
+    // Beast does not return the answer, so the same request is made by hand.
     return BlockingClient(port_)
         .Ask("GET " + target + " HTTP/1.1\r\nHost: " + (host.empty() ? Host() : host) +
              "\r\nConnection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
@@ -67,7 +67,7 @@ public:
     stream_.write(boost::asio::buffer(text));
   }
 
-  // The next message; `error` if the connection ends.
+  // Returns the next message. Sets `error` if the connection ends.
   std::string Read(ErrorCode& error)
   {
     boost::beast::flat_buffer buffer;
@@ -81,7 +81,7 @@ public:
     if (error) throw std::runtime_error(error.message());
     return text;
   }
-  // The next text of a type.
+  // Returns the next text of a type.
   nlohmann::json ReadUntil(const std::string& type)
   {
     while (true)
@@ -96,7 +96,7 @@ public:
 
 private:
   std::uint16_t port_;
-  // One for all: each takes several open files.
+  // shared, since each context takes several open files
   inline static boost::asio::io_context context_;
   boost::beast::websocket::stream<Tcp::socket> stream_;
   boost::beast::flat_buffer buffer_;

@@ -44,7 +44,7 @@ protected:
     context_.add_certificate_authority(asio::buffer(certificate.chain));
   }
 
-  // Connected, with the certificate checked against the name. Throws if somebody else answers.
+  // Returns a connection whose certificate was checked against the name. Throws if another server answers.
   template <class Stream>
   void ShakeHands(Stream& stream, const std::string& name = "127.0.0.1")
   {
@@ -80,7 +80,7 @@ TEST_F(CertificateTest, IsKeptForTheNextRunAndOnlyForItsUser)
   ASSERT_EQ(stat(file_.c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0600U);
   EXPECT_EQ(OwnCertificate(file_, {"127.0.0.1"}).fingerprint, first.fingerprint);
-  // Not for names that it does not have, nor one that others may have read.
+  // The certificate is not used for other names, and not if other users may have read its key.
   const Certificate other = OwnCertificate(file_, {"127.0.0.1", "10.1.2.3"});
   EXPECT_NE(other.fingerprint, first.fingerprint);
   std::filesystem::permissions(file_, std::filesystem::perms::others_read, std::filesystem::perm_options::add);
@@ -184,7 +184,7 @@ TEST_F(CertificateTest, PlainHttpIsSentToTheOtherAddressAndOldTlsIsRefused)
   EXPECT_THROW(ShakeHands(old), std::exception);
 }
 
-// Neither those who say nothing nor those who stop in the midst of a handshake keep others out.
+// Clients that say nothing, and clients that stop in the middle of a handshake, keep no others out.
 TEST_F(CertificateTest, WhoDoesNotShakeHandsMakesRoom)
 {
   Start(OwnCertificate({}, {"127.0.0.1"}));

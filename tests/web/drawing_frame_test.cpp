@@ -47,7 +47,7 @@ TEST(DrawingFrame, HasLinesTrianglesDotsAndTextsInTheSpace)
   EXPECT_EQ(triangle.corners[7], 1);
   DrawingDot dot;
   std::memcpy(&dot, place + sizeof line + sizeof triangle, sizeof dot);
-  // The footbot stands at 1, 1.
+  // The footbot is at 1, 1.
   EXPECT_EQ(dot.place[0], 1);
   EXPECT_EQ(dot.place[2], 0.5F);
   EXPECT_EQ(dot.diameter, 8);

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { FunctionKeys, nameOfKey } from "../../visualiser/web/page/src/function_keys.js";
-import { isDrawing, readDrawing } from "../../visualiser/web/page/src/view/drawing.js";
+import { isDrawing, readDrawing } from "../../visualiser/web/page/src/view/drawing_reader.js";
 
 // As drawing_frame.h has it. Each line: six numbers, colour, width; triangle: nine, colour; dot: three, colour, diameter.
 function bytesOf({ lines = [], triangles = [], dots = [], texts = [], tick = 7n }) {

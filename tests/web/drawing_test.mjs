@@ -43,7 +43,7 @@ const tests = {
       let colours = await coloursOf(page);
       for (let tries = 0; colours.green <= 300 && tries < 50; ++tries) colours = await coloursOf(page);
       assert.ok(colours.green > 300 && colours.blue > 100, `${quality}: ${JSON.stringify(colours)}`);
-      assert.ok(colours.magenta < 10, "nobody is selected");
+      assert.ok(colours.magenta < 10, "no robot is selected");
       if (PICTURES) await page.screenshot({ path: join(PICTURES, `drawing_${quality}.png`) });
 
       // The ring about who is selected is drawn by the functions.

@@ -61,6 +61,52 @@ function differences(a, b) {
 // ---- tests ----
 
 const tests = {
+  async "from an empty arena to a running swarm without a typed word of XML"() {
+    const text = `<?xml version="1.0"?>
+<ahss-config>
+  <framework maxclock="50"/>
+  <arena size="4, 4, 1" optimization="2D"/>
+  <engines><dummy_engine id="ground"/></engines>
+  <arena_physics><engine id="ground"><all/></engine></arena_physics>
+</ahss-config>
+`;
+    const editor = await edit("diffusion_10", { change: () => text });
+    const { page } = editor;
+    const mistakes = () => page.textContent(".mistakes");
+    await until(page, () => document.querySelector(".mistakes").textContent.includes("has no entities"));
+    await page.selectOption(".palette select", "footbot");
+    await settled(page);
+    const click = async (x, y) => {
+      const at = await page.evaluate(([a, b]) => swarmanoid.projectPoint(a, b, 0), [x, y]);
+      await page.mouse.click(at.x, at.y);
+    };
+    await changed(page, () => click(1, 1));
+    await until(page, () => document.querySelector(".mistakes").textContent.includes("the robot 'footbot_1' has no controller"));
+    await page.keyboard.press("Escape");
+    // The root, its controllers, and one of the known ones, which comes with library and devices.
+    await page.click(".above button >> nth=0");
+    await until(page, () => swarmanoid.editor.form?.path === "");
+    const add = async (tag) => {
+      await page.selectOption(".adder select", tag);
+      await changed(page, () => page.click(".adder button"));
+    };
+    await add("controllers");
+    await until(page, () => swarmanoid.editor.form?.name === "<controllers>");
+    assert.match(await page.getAttribute('.adder option[value="footbot_diffusion"]', "title"), /Library footbot_diffusion, with devices as in \S+\.xml/);
+    await add("footbot_diffusion");
+    assert.equal(await page.inputValue('.edit-form [name="library"]'), "footbot_diffusion");
+    await select(page, "footbot_1");
+    await changed(page, () => fill(page, "controller", "footbot_diffusion_1"));
+    await page.selectOption(".palette select", "footbot");
+    await changed(page, () => click(3, 3));
+    await until(page, () => document.querySelector(".mistakes").textContent === "No mistakes").catch(async () => assert.fail(await mistakes()));
+    const saved = await save(editor);
+    assert.equal(saved.match(/footbot_diffusion_1/g).length, 3);
+    const run = new Process("run", editor.file, "--single-process", "--quiet");
+    assert.equal(await run.ended, 0, run.output);
+    assert.match(run.output, /finished: 50 ticks, 2 entities/);
+  },
+
   async "a hand moves, turns, places and removes; what it did not touch stays, byte for byte"() {
     const editor = await edit("prey_retrieval");
     const { page } = editor;

@@ -1,4 +1,4 @@
-// A footbot, an eyebot above it, a prey and a nest, in one engine.
+// The experiment has a footbot, an eyebot above it, a prey and a nest, in one engine.
 #pragma once
 
 #include "common/messages/assignment.h"

@@ -30,7 +30,7 @@ std::size_t QuaternionsOf(std::size_t n) { return sizeof(FrameHeader) + 12 * n; 
 std::size_t ColoursOf(std::size_t n) { return sizeof(FrameHeader) + 20 * n; }
 std::size_t EndOf(std::size_t n) { return sizeof(FrameHeader) + 24 * n; }
 
-// In a row, 0.1 m apart.
+// They stand in a row, 0.1 m apart.
 Experiment AThousandFootbots()
 {
   Experiment experiment;
@@ -220,7 +220,7 @@ TEST(WebFrame, LedsOfSeveralColoursFollowOneByOne)
   world.space.GetEntity(0).SetAttribute("led", 0x0000ff, 4);
   const std::string bytes = FrameWriter(world.space).WriteKey();
   EXPECT_EQ(ByteAt(bytes, ColoursOf(3) + 3), kLit | kUnevenRing);
-  EXPECT_EQ(ByteAt(bytes, ColoursOf(3)), 0x7f);  // the mean of those that shine
+  EXPECT_EQ(ByteAt(bytes, ColoursOf(3)), 0x7f);  // the mean of the lit LEDs
   ASSERT_EQ(At<FrameHeader>(bytes, 0).rings, 1u);
   const auto ring = At<FrameRing>(bytes, EndOf(3));
   EXPECT_EQ(ring.entity, 0u);
@@ -256,7 +256,7 @@ TEST(WebFrame, ABeamEndsOnTheFloorOrOnTheFirstBody)
   EXPECT_NEAR(beam.x, 2, 1e-6);
   EXPECT_NEAR(beam.z, 0, 1e-6);
 
-  // Tilted towards the prey, 1 m to the side and 0.2 m high: the beam meets its top.
+  // The beam is tilted towards the prey, 1 m to the side and 0.2 m high, and meets its top.
   eyebot.SetAttribute("laser_tilt", std::atan2(1.0, 1.3));
   bytes = writer.WriteKey();
   beam = At<FrameBeam>(bytes, EndOf(3));

@@ -4,8 +4,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
+#include <string>
 
 #include "tests/world/temporary_folder.h"
 #include "visualiser/web/access.h"
@@ -94,6 +97,26 @@ TEST_F(KeptAddressTest, LinksAreNotFollowed)
   KeptAddress kept(folder_, "foraging");
   EXPECT_EQ(kept.Port(), 0);
   EXPECT_NE(kept.Trouble(), "");
+}
+
+TEST(StateFolder, IsInTheFolderForStatesOrInTheHomeIfTheirPathsAreAbsolute)
+{
+  const std::array<std::string, 2> names{"XDG_STATE_HOME", "HOME"};
+  std::array<std::optional<std::string>, 2> before;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (const char* value = std::getenv(names[k].c_str())) before[k] = value;
+  const auto folder = [&](const char* state, const char* home)
+  {
+    setenv("XDG_STATE_HOME", state, 1);
+    setenv("HOME", home, 1);
+    return StateFolder().string();
+  };
+  EXPECT_EQ(folder("/states", "/houses/one"), "/states/swarmanoid/web");
+  EXPECT_EQ(folder("", "/houses/one"), "/houses/one/.local/state/swarmanoid/web");
+  EXPECT_EQ(folder("states", "/houses/one"), "/houses/one/.local/state/swarmanoid/web");
+  EXPECT_EQ(folder("", "one"), "");
+  for (std::size_t k = 0; k < names.size(); ++k)
+    before[k] ? setenv(names[k].c_str(), before[k]->c_str(), 1) : unsetenv(names[k].c_str());
 }
 
 }  // namespace

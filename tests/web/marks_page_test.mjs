@@ -49,7 +49,7 @@ test("rays turn with their robot and end at what they meet", () => {
   near(hit.points, [0.9, 2, 0.05, 0.8, 2, 0.05]);
 });
 
-test("a link is whole if both hear each other, and else half a line from the one who is heard", () => {
+test("a link is whole if both hear each other, and else half a line from the robot that is heard", () => {
   const { marks } = pictureOf([[0, 0, 0], [2, 0, 0], [0, 4, 0]], { links: true });
   marks.receive({ ...nothing, links: { both: [0, 1], one: [2, 0] } });
   near(marks.lines({}).at(-1).points, [0, 0, 0.1, 2, 0, 0.1, 0, 4, 0.1, 0, 2, 0.1]);
@@ -80,7 +80,7 @@ test("a body is drawn where it is in its entity", () => {
   near([...extent(0), ...extent(1), ...extent(2)], [0.9, 1.1, 1.3, 1.7, -0.3, 0.3]);
 });
 
-test("only who is in the picture is asked for, once, and nobody if nothing is shown", () => {
+test("only robots in the picture are asked for, once, and none if nothing is shown", () => {
   const places = [[50, 50, 0], [60, 50, 0], [500, 50, 0], null];
   const { marks, sent, picture } = pictureOf(places, { rays: true });
   marks.ask(1000);

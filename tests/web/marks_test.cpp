@@ -86,7 +86,7 @@ TEST_F(MarksTest, RaysEndWhereTheyMeetACylinder)
   int hits = 0;
   for (std::size_t i = 0; i < ring.sensors.size(); ++i)
   {
-    // In the frame of the robot, by the formula of a line and a circle.
+    // The expected numbers are in the frame of the robot, by the formula of a line and a circle.
     const auto& [place, direction] = ring.sensors[i];
     const Vector2 way(std::cos(direction), std::sin(direction));
     const Vector2 to = Vector2(kAway, 0) - place;

@@ -222,6 +222,10 @@ TEST(WebMessages, WhoeverLooksMayLookBack)
   EXPECT_FALSE(std::holds_alternative<ControlOrder>(request));
   EXPECT_EQ(std::get<LookBackRequest>(request).tick, 500u);
   EXPECT_EQ(std::get<LookBackRequest>(request).entities, std::vector<std::uint32_t>{3});
+  const PageRequest earlier = ParseRequest(R"({"do": "look_back", "tick": 7, "entities": [], "earlier": true})");
+  EXPECT_EQ(std::get<EarlierRequest>(earlier).look_back.tick, 7u);
+  EXPECT_TRUE(std::holds_alternative<LookBackRequest>(
+      ParseRequest(R"({"do": "look_back", "tick": 7, "entities": [], "earlier": "yes"})")));
   EXPECT_THROW(ParseRequest(R"({"do": "look_back", "tick": -1})"), std::invalid_argument);
   EXPECT_THROW(ParseRequest(R"({"do": "look_back", "entities": []})"), std::invalid_argument);
 }

@@ -28,7 +28,7 @@ globalThis.ResizeObserver = class {
 };
 const { EntityList, matcher } = await import("../../visualiser/web/page/src/ui/list.js");
 const { Timeline } = await import("../../visualiser/web/page/src/ui/timeline.js");
-const { Past } = await import("../../visualiser/web/page/src/past.js");
+const { PlaybackRequests } = await import("../../visualiser/web/page/src/playback_requests.js");
 
 const EVENTS = [
   { tick: 5, what: "move", entity: "fb_1", from: "anna@lab" },
@@ -99,10 +99,10 @@ test("tick 0 is a tick of the past like others", () => {
   assert.equal(timeline.text.textContent, "0:00.0 · tick 0");
 });
 
-function pastOf() {
+function pastOf(...earlier) {
   const asked = [];
   let ended = 0;
-  return { asked, past: new Past({ ask: (tick) => asked.push(tick), ended: () => ++ended }), ends: () => ended };
+  return { asked, past: new PlaybackRequests({ ask: (tick) => asked.push(tick), ended: () => ++ended, earlier: () => earlier.shift() ?? null }), ends: () => ended };
 }
 
 test("one tick is asked for at a time, and then the newest that is wanted", () => {
@@ -153,6 +153,32 @@ test("playing follows the clock and ends at the present", () => {
   assert.equal(ends(), 0);
   past.advance(300, 13, 10);
   assert.equal(ends(), 1);
+});
+
+test("earlier ticks are asked for one by one once the wanted one is shown, and wait for another wanted one", () => {
+  const { past, asked } = pastOf(3, 4, 5);
+  past.askEarlier(0);
+  past.look(7, 0);
+  past.askEarlier(0);
+  assert.deepEqual(asked, [7], "its answer is awaited");
+  past.answered(10);
+  past.askEarlier(10);
+  past.askEarlier(11);
+  assert.deepEqual(asked, [7, 3]);
+  assert.equal(past.isEarlier, true);
+  past.look(9, 12);
+  past.answered(13);
+  assert.deepEqual(asked, [7, 3, 9]);
+  assert.equal(past.isEarlier, false);
+  past.answered(14);
+  past.askEarlier(14);
+  past.answered(15);
+  past.askEarlier(15);
+  past.answered(16);
+  past.askEarlier(16);
+  assert.deepEqual(asked, [7, 3, 9, 4, 5]);
+  past.live();
+  past.askEarlier(17);
   assert.equal(past.isOn, false);
 });
 

@@ -119,7 +119,7 @@ test("a trail keeps the last samples in their order", () => {
   assert.equal(record.added, 1000);
   assert.equal(record.first, 1000 - record.capacity);
   for (let number = record.first; number < record.added; number++) assert.equal(record.sample(number)[0], number);
-  record.add({ time: 0.05, positions: [7, 0, 0] }); // the run has begun anew
+  record.add({ time: 0.05, positions: [7, 0, 0] }); // the run has begun again
   assert.equal(record.added, 1);
   assert.equal(record.sample(0)[0], 7);
 });

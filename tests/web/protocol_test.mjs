@@ -107,6 +107,7 @@ function pageOf() {
     past: { isOn: false, ...told("past", "show") },
     picture: { chosen: [], marks: told("marks", "forget"), addFrame: (frame) => frames.push(frame.tick), setDrawing: () => calls.push("picture.setDrawing") },
     inspector: { addFrame() {} },
+    actions: { countSwarm() {} },
     toolbar: { setFrame() {} },
     processes: { update() {} },
     log: { add: ({ text }) => calls.push(text) },
@@ -183,6 +184,7 @@ test("a page tries to connect again at growing intervals, and soon again after a
   const { setTimeout, location, WebSocket } = globalThis;
   context.after(() => Object.assign(globalThis, { setTimeout, location, WebSocket }));
   const sockets = [], delays = [], told = [];
+  let over = false;
   globalThis.location = { protocol: "https:", host: "there:1" };
   globalThis.WebSocket = class {
     constructor(address) {
@@ -194,7 +196,7 @@ test("a page tries to connect again at growing intervals, and soon again after a
     delays.push(delay);
     connect();
   };
-  new Connection({ onOpen: () => told.push("open"), onClose: () => told.push("close"), onText: (message) => told.push(message), onFrame: (buffer) => told.push(buffer) });
+  new Connection({ onOpen: () => told.push("open"), onClose: () => told.push("close"), onText: (message) => told.push(message), onFrame: (buffer) => told.push(buffer), isOver: () => over });
   const fail = () => sockets.at(-1).onclose();
   for (let k = 0; k < 7; k++) fail();
   assert.deepEqual(delays.map(Math.round), [300, 480, 768, 1229, 1966, 3000, 3000]);
@@ -208,4 +210,7 @@ test("a page tries to connect again at growing intervals, and soon again after a
   fail();
   assert.deepEqual(told, ["open", { type: "welcome" }, buffer, "close"]);
   assert.equal(delays.at(-1), 300);
+  over = true;
+  fail();
+  assert.equal(sockets.length, 9, "a page that has ended its run does not connect again");
 });

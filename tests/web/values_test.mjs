@@ -31,7 +31,7 @@ function frameOf(time, places, flags = places.map(() => 0)) {
   };
 }
 
-test("a series keeps the whole run, thinned out where it is old, and begins anew with another run", () => {
+test("a series keeps the whole run, thinned out where it is old, and begins again with another run", () => {
   const series = new Series("x");
   const count = 3 * MOST_POINTS;
   for (let i = 0; i < count; i++) series.add(0.1 * i, i);
@@ -109,7 +109,7 @@ test("the heat map holds the seconds that robots spent in each cell", () => {
   assert.ok(Math.abs(map.seconds.at(-1) - 1) < 1e-9);
   assert.ok(Math.abs(map.seconds.reduce((a, b) => a + b) - 2) < 1e-9);
   map.add(frameOf(1.1, [[-5, 0], [9, 9]]));
-  assert.ok(Math.abs(map.seconds.reduce((a, b) => a + b) - 2) < 1e-9, "nobody is outside");
+  assert.ok(Math.abs(map.seconds.reduce((a, b) => a + b) - 2) < 1e-9, "no robot is outside");
 });
 
 test("a link says what it was made from, and nothing else is believed", () => {

@@ -115,7 +115,7 @@ TEST_F(WebServerTest, PagesOfOtherSitesMayNotLook)
   EXPECT_EQ(own.Open("/stream", "http://" + own.Host()), 101u);
   EXPECT_EQ(Connect().Open("/stream", "http://evil.example"), 403u);
   EXPECT_EQ(Connect().Open("/stream", "null"), 403u);
-  // The name of another site that points here (DNS rebinding).
+  // It is the name of another site that points here (DNS rebinding).
   EXPECT_EQ(Connect().Open("/stream", "http://evil.example", "evil.example"), 403u);
   EXPECT_EQ(Connect().Open("/other"), 404u);
 }
@@ -184,7 +184,7 @@ TEST_F(WebServerTest, ClientsAboveTheLimitAreRefusedUntilOneLeaves)
   EXPECT_EQ(Connect().Open(), 101u);
 }
 
-// Somebody opens connections without end and asks nothing; others still get the page.
+// A client opens connections without end and requests nothing. Other clients still get the page.
 TEST_F(WebServerTest, ConnectionsThatAskNothingMakeRoomForOthers)
 {
   Start();
@@ -215,14 +215,14 @@ TEST_F(WebServerTest, AClientThatShowsTheTokenHasAPlaceWhenStrangersHoldAllOther
   BlockingClient owner = Connect();
   ASSERT_EQ(owner.Open(), 101U);
   const std::uint64_t id = owner.ReadUntil("welcome")["client"];
-  EXPECT_EQ(server_->Clients(), 3U);
+  EXPECT_TRUE(Eventually([&] { return server_->Clients() == 3; }));
   // Nothing of the run is sent before the token is shown: the echo comes first.
   owner.Send("proof");
   EXPECT_EQ(nlohmann::json::parse(owner.Read())["type"], "echo");
   server_->Admit(id);
   owner.ReadUntil("world");
-  EXPECT_EQ(server_->Clients(), 4U);
-  // With the places of holders taken too, nobody else is let in.
+  EXPECT_TRUE(Eventually([&] { return server_->Clients() == 4; }));
+  // If the places of holders are taken too, no further client is let in.
   EXPECT_EQ(Connect().Open(), 503U);
 }
 
@@ -297,7 +297,7 @@ TEST_F(WebServerTest, ConnectionsThatDoNotReadMakeRoomForOthers)
   }
 }
 
-// Of two machines one takes all that it may; the other one still gets in.
+// One of two machines takes all connections that it may. The other machine still gets in.
 TEST_F(WebServerTest, OneAddressLeavesConnectionsForOthers)
 {
   settings_.max_clients = 20;
@@ -330,7 +330,7 @@ TEST_F(WebServerTest, OneAddressLeavesConnectionsForOthers)
   EXPECT_TRUE(Eventually([&] { return comes_from("127.0.0.1"); }));
 }
 
-// As many as a second's share at once, and then at a pace.
+// The client's messages of one second are read at once, and later ones at a limited pace.
 TEST_F(WebServerTest, WhoSendsWithoutEndIsReadAtAPace)
 {
   settings_.max_messages_per_second = 50;

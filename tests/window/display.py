@@ -1,4 +1,4 @@
-"""An X server that nobody sees, and hands for it: what tests of windows share."""
+"""An invisible X server, and keys and mouse for it, which tests of windows share."""
 import ctypes
 import os
 import pathlib
@@ -62,7 +62,7 @@ class Display:
         raise AssertionError(f"no window '{title}' after {timeout} s")
 
     def focus(self, window):
-        """False if it has gone: some are made, and made anew, before they stay."""
+        """False if it has gone: some windows are made twice before they stay."""
         try:
             self.tool("xdotool", "windowfocus", "--sync", window)
         except AssertionError as error:

@@ -1,10 +1,12 @@
 """What Python tests share: folders that go with a test, free ports, the hash of a run, and the text of experiments in which a test
 writes only what matters to it."""
+import contextlib
 import os
 import pathlib
 import re
 import shutil
 import socket
+import subprocess
 import tempfile
 import time
 import unittest
@@ -47,6 +49,19 @@ class InFolderCase(FolderCase):
         super().setUp()
         self.addCleanup(os.chdir, os.getcwd())
         os.chdir(self.folder)
+
+
+def run_on_a_terminal(words, folder, environment=None):
+    """Exit code and standard error of a program whose standard error is a terminal."""
+    ours, theirs = os.openpty()
+    process = subprocess.Popen([str(word) for word in words], cwd=folder, env=environment, stdout=subprocess.DEVNULL, stderr=theirs)
+    os.close(theirs)
+    seen = b""
+    with contextlib.suppress(OSError):  # the end of a terminal
+        while part := os.read(ours, 1 << 14):
+            seen += part
+    os.close(ours)
+    return process.wait(), seen.decode()
 
 
 def free_ports(count):

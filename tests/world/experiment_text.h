@@ -14,7 +14,7 @@
 namespace swarmanoid::test
 {
 
-// The elements of devices. A device is named by its implementation, and perhaps attributes behind it:
+// Returns the elements of devices. A device is named by its implementation, and perhaps attributes after it:
 // "generic_footbot_light noise_kind='none'". The tag is the implementation without its first word.
 inline std::string Devices(const std::vector<std::string>& devices)
 {
@@ -34,8 +34,8 @@ struct ControllerText
   std::string tag;
   std::string id = "c";
   std::vector<std::string> actuators{}, sensors{};
-  std::string parameters{};  // in <parameters>
-  std::string attributes{};  // beside the id
+  std::string parameters{};  // content of <parameters>
+  std::string attributes{};  // further attributes beside the id
 };
 
 inline std::string Controller(const ControllerText& controller)
@@ -60,6 +60,7 @@ struct ExperimentText
   std::string physics = "<engine id='e'><all/></engine>";
   std::string functions{};
   std::string visualisations{};
+  std::string faults{};
 
   // Each section but the framework begins a line, and so does the content of the arena.
   std::string Text() const
@@ -70,7 +71,8 @@ struct ExperimentText
            section("entity_kinds", kinds) + section("controllers", controllers) + "<arena size='" + size +
            "' optimization='" + optimization + "'>\n" + arena + "\n</arena>\n" +
            (engines.empty() ? "" : section("engines", engines) + section("arena_physics", physics)) +
-           section("experiment_functions", functions) + section("visualisations", visualisations) + "</ahss-config>\n";
+           section("experiment_functions", functions) + section("visualisations", visualisations) +
+           section("faults", faults) + "</ahss-config>\n";
   }
 
   // Returns the experiment. If the text has mistakes, the test fails with them, and the result is null.

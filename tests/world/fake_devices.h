@@ -59,7 +59,7 @@ public:
     right = r;
     ++writes;
   }
-  // m/s
+  // Returns the commanded speeds, m/s.
   std::array<double, 2> Speeds() const { return {left * WHEEL_RADIUS_M, right * WHEEL_RADIUS_M}; }
   double left = 0, right = 0;  // rad/s
   int writes = 0;

@@ -1,4 +1,4 @@
-// A run that renderers and viewers of tests are shown: what it tells, and what it was asked for.
+// A run for renderers and viewers in tests: its messages, and the requests to it.
 #pragma once
 
 #include <span>
@@ -22,7 +22,7 @@ public:
   }
 
   std::vector<std::string> asked;
-  std::vector<double> place;  // of the last request that has a pose: m and degrees
+  std::vector<double> place;  // pose of the last request that has one: m and degrees
 };
 
 class FakeMonitor : public RunMonitor
@@ -37,7 +37,7 @@ public:
   RunStatus status;
   std::vector<RunNote> notes;
   std::vector<std::uint32_t> watched;
-  RobotStatus inside;  // of one robot
+  RobotStatus inside;  // status of one robot
   std::string run_folder;
 };
 

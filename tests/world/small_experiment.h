@@ -15,7 +15,7 @@ namespace swarmanoid::test
 
 using TestParameters = std::vector<std::pair<std::string, std::string>>;
 
-// The element of a plug-in with these parameters.
+// Returns the element of a plug-in with these parameters.
 inline TConfigurationTree TreeOf(const TestParameters& parameters)
 {
   auto element = std::make_shared<ConfigurationNode>();
@@ -23,7 +23,7 @@ inline TConfigurationTree TreeOf(const TestParameters& parameters)
   return TConfigurationTree(element);
 }
 
-// <terrain><MAP …/></terrain>
+// Returns <terrain><MAP …/></terrain>.
 inline TConfigurationTree TerrainTree(const std::string& map, const TestParameters& attributes)
 {
   auto source = std::make_shared<ConfigurationNode>();
@@ -34,7 +34,7 @@ inline TConfigurationTree TerrainTree(const std::string& map, const TestParamete
   return TConfigurationTree(terrain);
 }
 
-// Robots have the size of their kind. Robots and preys can move. Yaw in radians.
+// Returns an entity. Robots have the size of their kind. Robots and preys can move. `yaw` is in radians.
 inline EntityConfiguration Entity(EntityKind kind, const std::string& id, const Vector3& position = Vector3::Zero(),
                                   double yaw = 0)
 {
@@ -67,7 +67,7 @@ inline std::uint32_t Add(Experiment& experiment, EntityConfiguration entity, int
   return number;
 }
 
-// A device is named by its implementation. The type is the implementation without its first word.
+// Returns a device, which is named by its implementation. The type is the implementation without its first word.
 inline DeviceConfiguration Device(const std::string& implementation)
 {
   DeviceConfiguration device;
@@ -88,7 +88,7 @@ inline ControllerConfiguration& AddController(Experiment& experiment, const std:
   return controller;
 }
 
-// Robots with a controller "c", a metre apart, in an arena of 10 m.
+// Returns an experiment with robots a metre apart, with a controller "c", in an arena of 10 m.
 inline Experiment RobotsOf(const std::string& controller_tag, const std::vector<std::string>& ids,
                            const std::vector<std::string>& actuators = {}, const std::vector<std::string>& sensors = {},
                            EntityKind kind = EntityKind::kFootbot)

@@ -1,4 +1,4 @@
-// A folder for one test, which is removed with all that is in it.
+// TemporaryFolder: a folder for one test, which is removed with its content.
 #pragma once
 
 #include <cstdlib>
@@ -22,7 +22,7 @@ inline std::string TextOf(const std::filesystem::path& file)
 class TemporaryFolder
 {
 public:
-  // `name`: a part of its name. `parent`: the folder that it lies in.
+  // `name`: a part of its name. `parent`: the folder that contains it.
   explicit TemporaryFolder(const std::string& name = "test",
                            const std::filesystem::path& parent = std::filesystem::temp_directory_path())
   {
@@ -45,7 +45,7 @@ public:
   }
   operator std::filesystem::path() const { return path_; }
 
-  // Writes a file, and the folders that it lies in. Returns its path.
+  // Writes a file, and the folders above it. Returns its path.
   std::string Write(const std::filesystem::path& name, const std::string& text) const
   {
     const std::filesystem::path file = *this / name;

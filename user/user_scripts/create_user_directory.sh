@@ -27,8 +27,9 @@ if [ ! -x "$place/bin/swarmanoid" ]; then place=$user/../build; fi
 realpath -m "$place" >"$1/.swarmanoid"
 program=swarmanoid
 command -v swarmanoid >/dev/null || program=$(realpath -m "$place/bin/swarmanoid")
-cat >&2 <<EOM
-Made $1. Next:
-  $1/build.sh
-  $program run $1/experiments/sample_footbot.xml
-EOM
+# The lines can be pasted, also if a path has spaces.
+{
+  printf 'Made %s. Next:\n' "$1"
+  printf '  %q\n' "$1/build.sh"
+  printf '  %q run %q\n' "$program" "$1/experiments/sample_footbot.xml"
+} >&2

@@ -17,7 +17,7 @@ namespace swarmanoid
 class AttachedNode
 {
 public:
-  // `rate`: the most pictures a second.
+  // `rate` limits the pictures drawn in a second.
   AttachedNode(WorkerSession& session, WorkerWorld& replica, Visualiser& visualiser, RemoteMonitor& monitor,
                double rate);
 

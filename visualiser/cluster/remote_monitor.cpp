@@ -1,10 +1,14 @@
+// Messages arrive in threads of the bus and are stored in the heard_… members, which `mutex_` guards. Each reader
+// copies them to members of the main thread, so a reference that it returns stays valid while further messages arrive.
+// Requests are repeated once a second, since the space server forgets observers that are silent. An answer that the
+// server repeats is one note only.
 #include "visualiser/cluster/remote_monitor.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "common/bus/membership/run_directory.h"
+#include "common/bus/run_directory.h"
 
 namespace swarmanoid
 {
@@ -100,7 +104,11 @@ void RemoteMonitor::Heard(const RobotStatusMessage& message)
     if (robot.entity >= entities_)
       throw BadMessage(fmt::format("robots.entity: there is no entity {} of {}", robot.entity, entities_));
   const std::lock_guard lock(mutex_);
-  for (const RobotStatus& robot : message.robots) heard_robots_[robot.entity] = robot;
+  for (const RobotStatus& robot : message.robots)
+  {
+    RobotStatus& heard = heard_robots_[robot.entity] = robot;
+    heard.tick = message.tick;
+  }
 }
 
 const RobotStatus* RemoteMonitor::Robot(std::uint32_t robot)

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/bus/bus.h"
+#include "idl/messages.h"
 #include "visualiser/render.h"
 
 namespace swarmanoid
@@ -19,7 +20,7 @@ namespace swarmanoid
 class RemoteMonitor : public RunMonitor
 {
 public:
-  // `every_tick`: requests the status of robots at every tick rather than 30 times a second.
+  // If `every_tick` is true, the status of robots is requested at every tick rather than 30 times a second.
   RemoteMonitor(Bus& bus, const WorldMessage& world, bool every_tick);
 
   const RunStatus& Status() override;

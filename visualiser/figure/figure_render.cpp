@@ -9,7 +9,7 @@
 #include <functional>
 #include <optional>
 
-#include "common/activity/print_error.h"
+#include "common/errors/print_error.h"
 #include "common/space/space.h"
 #include "visualiser/figure/plan_page.h"
 #include "visualiser/figure/plan_scene.h"

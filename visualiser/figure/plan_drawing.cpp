@@ -1,3 +1,7 @@
+// A plan is a vertical projection: each shape loses its height. Lines and polygons are projected point by point. A
+// turned cylinder or box is the convex hull of its projected rims or corners, which is exact for a box; a rim is a
+// polygon of 36 corners. Widths in pixels become millimetres of the page, so that a figure does not change with its
+// scale.
 #include "visualiser/figure/plan_drawing.h"
 
 #include <algorithm>

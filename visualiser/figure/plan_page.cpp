@@ -1,3 +1,10 @@
+// Problem: lay out one or several plans with legend, scale, axes, captions and an inset on a page of a given width.
+//
+// Method: all sizes are in millimetres of the page. First everything beside the panels is measured with the fonts of
+// the page; the panels get the rest, and one scale. Labels are placed greedily: each tries four corners of its point
+// and takes the first that is within the frame and free.
+//
+// Invariant: the picture depends on the plans and the options alone, so the same run gives the same file.
 #include "visualiser/figure/plan_page.h"
 
 #include <cairo-pdf.h>
@@ -30,7 +37,8 @@ constexpr double kPointsPerMm = 72 / 25.4;
 constexpr double kMargin = 1.5;  // mm, around the page
 constexpr double kGap = 3;       // mm, between panels
 constexpr double kInsetShare = 0.4;
-// In heights of the font: the space for the numbers and the name of an axis, and behind the last number.
+// These lengths are in heights of the font: the space for the numbers and the name of an axis, and behind the last
+// number.
 constexpr double kAxisRoom = 2.2;
 constexpr double kAxisEnd = 0.8;
 constexpr std::uint32_t kRim = 0x5a6068;
@@ -66,7 +74,7 @@ double TextWidth(cairo_t* on, const std::string& text)
   return extents.x_advance;
 }
 
-// `y`: the base line of the letters.
+// Draws a text. `y` is the base line of the letters.
 void DrawText(cairo_t* on, double x, double y, const std::string& text)
 {
   cairo_move_to(on, x, y);

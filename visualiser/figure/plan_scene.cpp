@@ -1,3 +1,7 @@
+// Draws the space from above as areas, lines and words. Bodies have their convex outline, turned and tipped as they
+// are; meshes that of their points. Things are drawn from the ground up: floor, trails, objects, robots on the ground,
+// flying robots. Small parts state the length from which they can be seen, and PlanPage leaves them out on a page where
+// they would be too small.
 #include "visualiser/figure/plan_scene.h"
 
 #include <fmt/format.h>

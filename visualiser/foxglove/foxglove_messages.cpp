@@ -1,3 +1,7 @@
+// Foxglove shows a scene of entities that stay until they are replaced or deleted. Each body lies in a frame of its own
+// that is locked to the entity, so while robots only move, transforms alone are sent. After a change of presence,
+// colour or LEDs the whole scene is sent, with the deletion of all before it, so that one message describes the scene
+// at any time. The names of the schemas' fields are fixed by Foxglove.
 #include "visualiser/foxglove/foxglove_messages.h"
 
 #include <fmt/format.h>

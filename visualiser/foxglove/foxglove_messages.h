@@ -34,7 +34,7 @@ public:
     kTopicCount
   };
 
-  // `entities`: the shown ones. The space must outlive the object.
+  // `entities` are the shown ones. The space must outlive the object.
   FoxgloveMessages(const CSwarmanoidSpace& space, std::vector<std::size_t> entities);
   ~FoxgloveMessages();
 

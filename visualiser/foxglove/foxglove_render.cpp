@@ -42,7 +42,8 @@ public:
     settings.name = "Swarmanoid: " + space_->GetExperiment().name;
     server_ = std::make_unique<FoxgloveServer>(settings, std::move(channels));
     if (settings.address != "127.0.0.1" && settings.address != "::1")
-      LogWarning("whoever reaches {}:{} may look: this protocol has no passwords", settings.address, server_->Port());
+      LogWarning("every user who reaches {}:{} may look: this protocol has no passwords", settings.address,
+                 server_->Port());
     LogInfo("in Foxglove or Lichtblick: open the connection ws://{}:{}", settings.address, server_->Port());
   }
 
@@ -66,9 +67,9 @@ private:
     const auto publish = [&](std::size_t topic, std::string json) { server_->Publish(topic, time, std::move(json)); };
     if (IsNew(kFixed)) publish(kFixed, messages_->Transforms(false));
     if (IsNew(kMoving) || (due && server_->Subscribers(kMoving) > 0)) publish(kMoving, messages_->Transforms(true));
-    const bool anew = IsNew(kScene);
-    if (anew) messages_->ForgetScene();
-    if (anew || (due && server_->Subscribers(kScene) > 0))
+    const bool again = IsNew(kScene);
+    if (again) messages_->ForgetScene();
+    if (again || (due && server_->Subscribers(kScene) > 0))
       if (auto scene = messages_->ChangedScene()) publish(kScene, std::move(*scene));
     if (IsNew(kAttributes) || (due && server_->Subscribers(kAttributes) > 0))
       publish(kAttributes, messages_->Attributes());

@@ -1,3 +1,6 @@
+// All sockets are used by one thread (Boost.Asio). Other threads pass messages to it by posting; they share only atomic
+// counters. A client has one waiting message for each subscription, which a newer one replaces, and one write at a
+// time.
 #include "visualiser/foxglove/foxglove_server.h"
 #include "common/threads/start_thread.h"
 
@@ -33,7 +36,7 @@ using Request = http::request<http::empty_body>;
 using Bytes = std::shared_ptr<const std::string>;
 
 constexpr const char* kProtocol = "foxglove.websocket.v1";
-// Constants of the protocol.
+// These are constants of the protocol.
 constexpr char kMessageData = 1;
 constexpr char kTime = 2;
 constexpr int kWarning = 1, kError = 2;
@@ -183,8 +186,9 @@ private:
       const std::string_view origin = of(http::field::origin);
       if (!origin.empty() && !IsOfThisMachine(origin) &&
           std::ranges::find(server_.settings_.origins, origin) == server_.settings_.origins.end())
-        return Refuse(http::status::forbidden,
-                      fmt::format("pages of {} are not let in; the parameter origins names those that are\n", origin));
+        return Refuse(
+            http::status::forbidden,
+            fmt::format("pages of {} are not let in; the parameter origins names the allowed ones\n", origin));
       if (!Speaks(of(http::field::sec_websocket_protocol)))
         return Refuse(http::status::bad_request, fmt::format("the subprotocol is {}\n", kProtocol));
       if (server_.clients_.size() > server_.settings_.max_clients)

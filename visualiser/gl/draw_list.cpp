@@ -1,3 +1,11 @@
+// Problem: choose what to draw of a scene with thousands of bodies, and how finely.
+//
+// Method: each item is tested as a sphere against the frustum. The radius of the sphere in pixels chooses one of three
+// meshes. Items are sorted into buckets by model and level, so that each bucket is one instanced call. Bodies cast
+// shadows by a mesh of at most the middle level, if their sphere reaches the volume of the sun. A tall wall at the edge
+// becomes glass over a solid kerb.
+//
+// Invariant: the order of items is that of the scene, so a picture does not depend on earlier frames.
 #include "visualiser/gl/draw_list.h"
 
 #include <algorithm>
@@ -13,7 +21,7 @@ namespace
 
 using Eigen::Vector3f;
 
-// Levels of detail: bodies of a smaller radius (pixels) get the next one.
+// These limits choose the level of detail: a body with a smaller radius (pixels) gets the next one.
 constexpr float kNearPixels = 38;
 constexpr float kMiddlePixels = 11;
 

@@ -1,3 +1,5 @@
+// The letters of ASCII are drawn once into a texture. A text is a quadrangle for each letter, at whole pixels so that
+// letters stay sharp, in front of one for the plate, which uses a white place of the same texture.
 #include "visualiser/gl/label_atlas.h"
 
 #include <stb_truetype.h>

@@ -1,3 +1,5 @@
+// All models are in one vertex and one index buffer, with a range for each level of each model. A frame uploads all
+// instances at once, bucket by bucket, and makes one instanced call for each bucket that is not empty.
 #include "visualiser/gl/mesh_store.h"
 
 #include <algorithm>

@@ -13,7 +13,7 @@ template <class Instance>
 class Quads
 {
 public:
-  // `attributes`: the floats of each instanced attribute, at locations 1, 2 … in this order.
+  // `attributes` has the floats of each instanced attribute, at locations 1, 2 … in this order.
   explicit Quads(std::initializer_list<int> attributes)
   {
     glBindVertexArray(array_.Name());

@@ -1,3 +1,6 @@
+// The shader programs of GlScene, as texts of GLSL 3.30. Bodies have one light, the sun, with shadows from a depth map,
+// and light from the sky and the ground by the direction of the normal. Lines, glows and texts are quadrangles that the
+// vertex shader spreads in the plane of the picture, since widths are in pixels.
 #include "visualiser/gl/shaders.h"
 
 namespace swarmanoid

@@ -11,7 +11,7 @@ namespace swarmanoid
 
 struct ViewVolume
 {
-  // `low`, `high`: the bounds of all content.
+  // `low` and `high` are the bounds of all content.
   ViewVolume(const Camera& camera, int width, int height, const Vector3& low, const Vector3& high);
 
   // Returns whether a sphere may be visible; it may return true for a sphere near an edge.

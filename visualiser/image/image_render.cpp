@@ -1,3 +1,7 @@
+// Pictures are drawn at ticks on a grid of `every` ticks from the first one on; ticks in between cost nothing, unless
+// trails are drawn, which need every tick. A visualiser that is attached may miss a tick of the grid, and then the next
+// tick is drawn and the grid goes on. Names of files and size are checked before the run, so that a long run does not
+// end without its pictures.
 #include "visualiser/image/image_render.h"
 
 #include <fmt/format.h>

@@ -8,8 +8,8 @@
 
 #include "visualiser/gl/gl_scene.h"
 #include "visualiser/image/offscreen_context.h"
+#include "visualiser/image/video_writer.h"
 #include "visualiser/render.h"
-#include "visualiser/scene/video_writer.h"
 
 namespace swarmanoid
 {

@@ -1,3 +1,6 @@
+// Machines of a cluster have no display, and some have no graphics card. All EGL devices are tried in their order, then
+// Mesa's surfaceless platform, which draws in software; the first one that gives an OpenGL 3.3 core context is kept.
+// What was tried and why it failed is part of the error, because users can seldom see the machine.
 #include "visualiser/image/offscreen_context.h"
 
 #include <dlfcn.h>

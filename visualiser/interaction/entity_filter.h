@@ -23,7 +23,7 @@ public:
   const std::vector<std::uint32_t>& Matching(std::string_view filter);
 
 private:
-  // For each entity, in lower case: a line "column:text" for each column.
+  // Each text is that of an entity, in lower case: a line "column:text" for each column.
   std::vector<std::string> texts_;
   std::string filter_;
   std::vector<std::uint32_t> matching_;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/messages/robot_status.h"
+#include "idl/robot_status.h"
 
 namespace swarmanoid
 {
@@ -42,7 +42,8 @@ struct EntityMotion
   double turn = 0;   // degrees/s, change of the heading
 };
 
-// `motion`: nothing if it is unknown. `status`: of a watched robot, otherwise nullptr.
+// Returns the values in groups. `motion` is nothing if it is unknown. `status` is that of a watched robot, otherwise
+// nullptr.
 std::vector<ValueGroup> ValuesOf(const CSwarmanoidSpace& space, std::uint32_t entity,
                                  const std::optional<EntityMotion>& motion, const RobotStatus* status);
 

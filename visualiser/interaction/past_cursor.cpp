@@ -1,3 +1,7 @@
+// The past is read by a PlaybackReader in its own thread, which may take long for one tick. So at most one tick is
+// asked for at a time, and only the latest wish counts: if the wish has changed when an answer comes, the answer is
+// shown and the new wish is asked for. Playing follows the clock and leaves out ticks that come too late. `mutex_`
+// guards the answers that have arrived; all other members belong to the thread of the window.
 #include "visualiser/interaction/past_cursor.h"
 
 #include <algorithm>
@@ -53,12 +57,12 @@ void PastCursor::Follow(const std::string& run_folder)
     run_folder_ = run_folder;
     if (run_folder.empty()) return;
     look_back_ = std::make_unique<PlaybackReader>(experiment_, run_folder, Answers());
-    inside_ = std::make_unique<PastInside>(experiment_, run_folder,
-                                           [this](std::uint64_t, const PastInsideAnswer& answer)
-                                           {
-                                             const std::lock_guard lock(mutex_);
-                                             arrived_.inside = answer;
-                                           });
+    inside_ = std::make_unique<RobotPlayback>(experiment_, run_folder,
+                                              [this](std::uint64_t, const RobotPlaybackAnswer& answer)
+                                              {
+                                                const std::lock_guard lock(mutex_);
+                                                arrived_.inside = answer;
+                                              });
   }
   else if (look_back_)
     look_back_->Refresh();

@@ -11,8 +11,8 @@
 #include <span>
 #include <string>
 
-#include "visualiser/past_inside.h"
 #include "visualiser/playback_reader.h"
+#include "visualiser/robot_playback.h"
 
 namespace swarmanoid
 {
@@ -76,7 +76,7 @@ private:
     std::optional<JournalTimeline> timeline;
     std::optional<SpaceSnapshot> state;
     std::optional<std::string> refusal;
-    std::optional<PastInsideAnswer> inside;
+    std::optional<RobotPlaybackAnswer> inside;
   };
 
   void Want(std::uint64_t tick);
@@ -92,13 +92,13 @@ private:
   std::unique_ptr<CSwarmanoidSpace> space_;
   bool has_state_ = false;                    // a state has come since the cursor left the present
   std::optional<LookBackRequest> inspected_;  // the last request to `inside_`
-  PastInsideAnswer of_inside_;
+  RobotPlaybackAnswer of_inside_;
 
   std::mutex mutex_;  // guards arrived_
   Arrived arrived_;
   // These members are last, since their threads use the ones above.
   std::unique_ptr<PlaybackReader> look_back_;
-  std::unique_ptr<PastInside> inside_;
+  std::unique_ptr<RobotPlayback> inside_;
 };
 
 }  // namespace swarmanoid

@@ -1,3 +1,5 @@
+// Keys, buttons and the mouse end in the same functions. The camera turns about the selected or visible point that
+// Pivot finds. In the past, the picture shows a space of its own, made from the journal, and entities cannot be moved.
 #include "visualiser/interaction/viewer.h"
 
 #include <fmt/format.h>
@@ -27,7 +29,7 @@ std::string NoteName(const RunNote& note) { return fmt::format("{} {}", note.tic
 
 constexpr double kOrbitStep = 5;  // degrees of an arrow key
 constexpr double kZoomStep = 0.85;
-// 0, as fast as possible, comes after the last.
+// The speed 0, as fast as possible, comes after the last one.
 constexpr std::array kSpeeds{0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0};
 
 constexpr double kClickReach = 4;  // pixels that a click may move
@@ -598,7 +600,7 @@ void Viewer::CopyBranchCommand()
   Say(fmt::format("a new run from tick {}: {}", tick, copy_));
 }
 
-// What the journal does not have: the inside of the selected robot.
+// Copies the command that computes the status of the selected robot, which the journal does not have.
 void Viewer::CopyInspectCommand()
 {
   const auto& selected = shown.scene.selected;
@@ -649,6 +651,12 @@ void Viewer::SetPlotted(const ValueName& value, const std::string& unit, bool pl
        unit,
        {}});
   shown.plots = true;
+}
+
+std::string Viewer::Owner(std::uint32_t entity) const
+{
+  const int engine = Space().EngineOf(entity, setup_.assignment.owner);
+  return engine < 0 ? std::string() : EngineName(GetExperiment(), static_cast<std::size_t>(engine));
 }
 
 std::optional<EntityMotion> Viewer::Motion(std::uint32_t entity) const

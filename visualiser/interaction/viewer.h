@@ -72,7 +72,7 @@ public:
     Pose pose;
   };
 
-  // Size in pixels. The renderer's parameters hold viewpoints and quality (view_parameters.h).
+  // The size is in pixels. The renderer's parameters hold viewpoints and quality (view_parameters.h).
   Viewer(const RenderSetup& setup, int width, int height);
 
   // Sets the size of the window. `left`: pixels that a panel hides, so that views of the whole arena avoid them.
@@ -124,7 +124,7 @@ public:
   bool CanControl() const { return setup_.control != nullptr; }
   // Returns whether entities can be moved; the past cannot be changed.
   bool CanMove() const { return CanControl() && !past_.IsOn(); }
-  std::string Owner(std::uint32_t entity) const { return OwnerName(GetExperiment(), setup_.assignment, entity); }
+  std::string Owner(std::uint32_t entity) const;
   std::string Host(std::uint32_t entity) const { return HostNameOf(setup_.assignment, entity); }
   // Returns nothing in the past.
   std::optional<EntityMotion> Motion(std::uint32_t entity) const;

@@ -1,3 +1,7 @@
+// A swarm has thousands of bodies of a few kinds. Each kind is uploaded once in three levels of detail, and a body is a
+// node with the level that its size on the screen asks for (38 and 11 pixels). OGRE has one material for each part of
+// an object, so a mesh is split into sections by material and paint. LEDs change their colour in every frame, so their
+// triangles are left out of the meshes and written again for each frame, with lines, glows and drawings.
 #include "visualiser/ogre/ogre_scene.h"
 
 #include <fmt/format.h>

@@ -46,13 +46,13 @@ public:
   int Height() const { return static_cast<int>(getRenderWindow()->getHeight()); }
 
 private:
-  // Overrides of ApplicationContext.
+  // These functions override ApplicationContext.
   void createRoot() override;
   bool oneTimeConfig() override;
   void setup() override;
   bool frameStarted(const Ogre::FrameEvent& event) override;
 
-  // Overrides of InputListener.
+  // These functions override InputListener.
   bool keyPressed(const OgreBites::KeyboardEvent& event) override;
   bool keyReleased(const OgreBites::KeyboardEvent& event) override;
   bool mouseMoved(const OgreBites::MouseMotionEvent& event) override;

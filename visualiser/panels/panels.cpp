@@ -251,7 +251,7 @@ void Panels::ShowRun()
 {
   ImGui::SetNextWindowPos(ImVec2(Scaled(theme::kGap), Scaled(theme::kGap)), place_);
   const float width = Scaled(theme::kLeftWidth);
-  // As high as what it holds, and never more than three fifths of the picture.
+  // The panel is as high as its content, but at most three fifths of the picture.
   ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, 0.62F * height_));
   const std::string title = viewer_.GetExperiment().name + "###run";
   if (ImGui::Begin(title.c_str(), &viewer_.shown.run,
@@ -543,7 +543,7 @@ void Panels::ShowGroup(std::uint32_t entity, const ValueGroup& group)
       ShowBars(entity, group);
     else
     {
-      // Rows of colours together, the rest line by line.
+      // Consecutive colours share a row, and other values have a line each.
       const std::span values(group.values);
       for (std::size_t i = 0; i < values.size();)
       {
@@ -614,7 +614,7 @@ void Panels::ShowPoseEdit(std::uint32_t entity)
   if (done) edits_.erase(entity);
 }
 
-// One line; a click plots the value or stops that.
+// Shows a value in one line. A click plots the value or ends its plot.
 void Panels::ShowValue(std::uint32_t entity, const ValueGroup& group, const EntityValue& value)
 {
   const ValueName name{entity, group.source, group.name, value.name};
@@ -664,7 +664,8 @@ void Panels::ShowColours(std::uint32_t entity, std::span<const EntityValue> valu
   ImGui::Dummy(ImVec2(width, line));
 }
 
-// Many readings of one kind: a bar each, over the range of them all and zero. A click plots the one under the mouse.
+// Shows many readings of one kind as bars over the range of all of them and zero. A click plots the one under the
+// mouse.
 void Panels::ShowBars(std::uint32_t entity, const ValueGroup& group)
 {
   double low = 0;
@@ -726,7 +727,7 @@ void Panels::ShowPlots()
   const float width = InspectorEdge() - left - Scaled(theme::kGap);
   const float chart = Scaled(130);
   const float height = std::min((chart + Scaled(34)) * static_cast<float>(units.size()) + Scaled(34), 0.5F * height_);
-  // As high as its charts, until the person makes it otherwise.
+  // The panel is as high as its charts, until the user changes its size.
   if (units.size() != charts_) place_ = ImGuiCond_Always;
   charts_ = units.size();
   if (const float below = TimelineHeight(); below != above_timeline_)
@@ -818,7 +819,7 @@ void Panels::ShowTimeline()
   ImGui::End();
 }
 
-// Drag anywhere to look at that tick; a click at a mark goes to its event.
+// Shows the track. A drag anywhere goes to that tick, and a click at a mark goes to its event.
 void Panels::ShowTrack(const PastCursor& past)
 {
   const ImVec2 corner = ImGui::GetCursorScreenPos();

@@ -21,7 +21,7 @@ bool PanelAt(double x, double y);
 class Panels
 {
 public:
-  // `scale`: of the screen, as in ApplyTheme.
+  // `scale` is that of the screen, as in ApplyTheme.
   Panels(Viewer& viewer, float scale) : viewer_(viewer), scale_(scale) {}
 
   // Call it between ImGui's NewFrame and Render. The size of the window is in pixels.

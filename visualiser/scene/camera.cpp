@@ -1,3 +1,6 @@
+// The camera keeps angles as in experiment files, and computes its axes from them. Orbit turns the camera about a point
+// and keeps its distance, Pan moves it in the plane of the picture, Zoom changes the distance from a point by a factor,
+// but not below kNearest. FrameBox finds the nearest position from which a box is in the picture.
 #include "visualiser/scene/camera.h"
 
 #include <algorithm>

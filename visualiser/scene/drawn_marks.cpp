@@ -1,3 +1,6 @@
+// Cuts each shape into lines, triangles, dots and texts. Curved shapes have kSides edges. The light on faces is
+// computed here, so that renderers draw triangles in plain colours. A polygon becomes a fan from its first corner, so
+// it must be convex.
 #include "visualiser/scene/drawn_marks.h"
 
 #include <algorithm>

@@ -75,7 +75,7 @@ Mesh FootbotBaseMesh(int level)
                 {0.079F, 0.0725F, Material::kDark},
                 {0.060F, 0.0725F, Material::kDark}});
   if (level > 0) return builder.Take();
-  // The 24 infrared sensors, the first one 7.5 degrees left of the front.
+  // There are 24 infrared sensors, the first one 7.5 degrees left of the front.
   for (int i = 0; i < 24; ++i)
   {
     const float angle = (7.5F + 15 * static_cast<float>(i)) * kPiF / 180;
@@ -121,7 +121,7 @@ Mesh FootbotTurretMesh(int level)
   // A mark shows the direction of the turret.
   if (level == 0)
     builder.Face({{0.034F, 0.012F, 0.1476F}, {0.034F, -0.012F, 0.1476F}, {0.056F, 0, 0.1476F}}, Material::kShell);
-  // The gripper's housing in front.
+  // The gripper's housing is in front.
   builder.SetShade(0.9F);
   builder.Box({0.074F, -0.019F, 0.0755F}, {0.092F, 0.019F, 0.0945F}, Material::kDark);
   builder.SetShade(1);

@@ -75,7 +75,7 @@ Mesh HandbotHeadMesh(int level)
                 {0.030F, 0.020F, Material::kShell},
                 {0, 0.022F, Material::kShell}});
   if (level == 2) return builder.Take();
-  // The crossbar of the shoulders.
+  // This is the crossbar of the shoulders.
   builder.SetPlace(0, 0, 0);
   builder.Rod({0.004F, -RobotJoints::kHandbotShoulder, 0}, {0.004F, RobotJoints::kHandbotShoulder, 0}, 0.016F,
               Material::kMetal);

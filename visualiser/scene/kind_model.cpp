@@ -1,3 +1,6 @@
+// The model of a kind is built from its description. If the description has parts, they are used. Otherwise the body is
+// a box or a cylinder of the kind's size; a robot has a dark part on top that shows its front, and its LEDs. Each part
+// is built in three levels of detail. A kind without a size gets a model of size 1, which is scaled for each entity.
 #include "visualiser/scene/kind_model.h"
 
 #include <algorithm>

@@ -15,7 +15,7 @@ struct LedRing
   float lit;        // the fraction of the circle that shines
 };
 
-// `pieces`: flat pieces of each window.
+// Adds a ring of LEDs. `pieces` is the number of flat pieces of each window.
 void AddLedRing(MeshBuilder& builder, const LedRing& ring, int pieces);
 
 }  // namespace swarmanoid

@@ -1,3 +1,7 @@
+// Every surface is made of triangles with one normal for each corner: plane faces have a corner of their own for each
+// face, so their edges stay sharp, and round ones share the normal of the true surface, so they look round with few
+// triangles. Triangles are counterclockwise when seen from outside. A mirrored part reverses their order, or it would
+// be seen from inside.
 #include "visualiser/scene/mesh_builder.h"
 
 #include <algorithm>

@@ -21,7 +21,7 @@ struct ProfilePoint
 class MeshBuilder
 {
 public:
-  // `segments`: of a full circle.
+  // `segments` is the number of segments of a full circle.
   explicit MeshBuilder(int segments) : segments_(segments) {}
 
   // Sets the transform of the following shapes to the frame of the mesh.

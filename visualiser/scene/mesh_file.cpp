@@ -1,3 +1,10 @@
+// Problem: draw mesh files of users, of any size and with any materials, like our own models.
+//
+// Method: Assimp reads the file. All parts are joined in one mesh, with the transforms of their nodes. Colours of
+// materials and vertices become the colour of each triangle. Parts that are seen from both sides get each triangle
+// twice. The mesh is then simplified to three levels of detail (simplify_mesh.h).
+//
+// Invariant: mirrored nodes reverse the order of corners, so that outsides stay outside.
 #include "visualiser/scene/mesh_file.h"
 
 #include <fmt/format.h>

@@ -17,8 +17,8 @@ inline constexpr std::size_t kMostDrawnTriangles = 20'000;  // larger meshes are
 
 struct MeshFile
 {
-  // In metres, z up, x to the front. In glTF, y is up and z is to the front (its specification, 3.4); the other formats
-  // are taken as they are. The material is kPainted, or kTint for a file without colours.
+  // The meshes are in metres, z up, x to the front. In glTF, y is up and z is to the front (its specification, 3.4);
+  // the other formats are taken as they are. The material is kPainted, or kTint for a file without colours.
   std::array<Mesh, kLevels> levels;
   Eigen::AlignedBox3f box;
 };

@@ -1,5 +1,5 @@
 // The models of scenes: parts of the robots and simple bodies. Every renderer uses them; the web page gets them as a
-// file (meshes_file.h).
+// file (meshes_json.h).
 #pragma once
 
 #include <span>

@@ -1,3 +1,10 @@
+// Problem: draw a picture on the floor with renderers that have no textures.
+//
+// Method: the picture is thinned out to a limited number of pixels and at most kMostColours colours. Each colour
+// becomes one flat model. Runs of a colour in a row are joined with equal runs of the row above to one rectangle, which
+// keeps the number of faces small for drawn pictures.
+//
+// Invariant: the rectangles of all colours cover each pixel once.
 #include "visualiser/scene/painted_floor.h"
 
 #include <algorithm>

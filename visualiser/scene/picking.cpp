@@ -1,3 +1,7 @@
+// A click is a ray from the eye, and the nearest body that it hits is chosen. Robots are a little larger for this than
+// they are, since they are small on the screen. A wall between the eye and the middle of the arena is drawn low or cut
+// off, so that it hides nothing; such a wall must not catch clicks either. The same rules decide both, so all windows
+// agree on what is behind a wall.
 #include "visualiser/scene/picking.h"
 
 #include <algorithm>
@@ -28,7 +32,7 @@ bool IsBoundaryWall(const EntityConfiguration& entity, const Vector3& arena_size
   const double thickness = std::min(entity.size.x(), entity.size.y());
   const double length = std::max(entity.size.x(), entity.size.y());
   if (length < 4 * thickness) return false;
-  // The wall must be near a side of the arena: within half a thickness and a tenth of the arena's size.
+  // The wall must be near a side of the arena: within half a thickness and 2 % of the arena's size.
   const Vector3& at = entity.pose.position;
   const auto near_side = [&](double place, double size)
   { return std::min(std::abs(place), std::abs(size - place)) <= thickness / 2 + 0.02 * size; };

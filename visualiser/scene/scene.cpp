@@ -1,3 +1,7 @@
+// The items are made once, from the kinds of the entities: parts of robots, bodies, walls, areas, terrains. Update then
+// changes only poses, colours and presence, and only if the space's revisions have changed. Marks are made again in
+// each update. Areas of the floor are lifted by a layer each, in their order, so that later ones cover earlier ones
+// without flicker.
 #include "visualiser/scene/scene.h"
 
 #include <numbers>

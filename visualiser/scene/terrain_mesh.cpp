@@ -1,3 +1,10 @@
+// Problem: show a terrain of up to millions of cells at three levels of detail.
+//
+// Method: a height map becomes a grid of quadrangles with smooth normals and a skirt at its rim, thinned out by 1, 2 or
+// 4. Cells of a map become the faces between occupied and free cubes of 1, 2 or 4 cells; equal faces in a row are
+// merged to one.
+//
+// Invariant: a cube is occupied if any of its cells is, so thin walls stay visible from afar.
 #include <algorithm>
 
 #include "visualiser/scene/mesh_builder.h"

@@ -1,3 +1,7 @@
+// A camera is given in one of three ways: by the number of a viewpoint of the experiment file, by a word (default,
+// top), or by its place and angles in metres and degrees. The default view is the nearest one that shows the whole
+// arena up to the highest movable body; walls and ceilings that are higher do not count, since the robots would be
+// small.
 #include "visualiser/scene/viewpoints.h"
 
 #include <algorithm>

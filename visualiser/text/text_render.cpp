@@ -1,3 +1,5 @@
+// A table is collected as one text and written at once, so that readers never see half of it. Each cell is appended in
+// place, and then mended for the format only if it has a character that needs quotes or escapes.
 #include "visualiser/text/text_render.h"
 
 #include <fmt/format.h>
@@ -160,7 +162,7 @@ std::vector<CTextRender::Column> CTextRender::Columns() const
           {"Engine", false,
            [this](const CSwarmanoidSpaceEntity& e, std::string& line)
            {
-             const int engine = assignment_->owner[e.GetIndex()];
+             const int engine = space_->EngineOf(e.GetIndex(), assignment_->owner);
              if (engine >= 0) line += space_->GetExperiment().engines[static_cast<std::size_t>(engine)].id;
            },
            false},

@@ -21,7 +21,7 @@ public:
   void Init(const RenderSetup& setup) override;
   void Draw() override;
   bool Terminate() override { return reader_has_gone_; }
-  // What is drawn can be read while the run is paused or slow.
+  // Writes the text out while the run is paused or slow, so that it can be read.
   void Idle() override;
   void Finish() override;
 
@@ -37,14 +37,15 @@ protected:
     bool by_default = true;  // false: written only if the parameter `columns` names it
   };
 
-  // Extension points: the columns there are (asked once, by Init), and which entities get a line.
+  // Returns the columns that exist. Init calls it once; a derived renderer may add columns.
   virtual std::vector<Column> Columns() const;
+  // Returns whether an entity gets a line.
   virtual bool IsShown(const CSwarmanoidSpaceEntity& entity) const;
 
-  // A number rounded to `precision` decimals, without trailing zeros.
+  // Appends a number rounded to `precision` decimals, without trailing zeros.
   void AppendNumber(double value, std::string& line) const;
   const CSwarmanoidSpace& Space() const { return *space_; }
-  // nullptr if the renderer is used outside a run.
+  // Returns the monitor, or nullptr if the renderer is used outside a run.
   RunMonitor* Monitor() const { return monitor_; }
 
 private:

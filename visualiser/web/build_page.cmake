@@ -57,6 +57,12 @@ execute_process(
 if(failed)
   message(FATAL_ERROR "the web page cannot be bundled")
 endif()
+# Pages that have their run contain all scripts, since they have no server.
+execute_process(
+  COMMAND ${CMAKE_COMMAND} -E env NODE_PATH=${modules} ${ESBUILD} ${PAGE}/src/main.js
+    --bundle --minify --format=esm --target=es2022 --legal-comments=none --log-level=warning --outfile=${BUILD}/standalone.js
+  WORKING_DIRECTORY ${BUILD} COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${GZIP} --best --no-name --stdout ${BUILD}/standalone.js OUTPUT_FILE ${OUTPUT}/standalone.js.gz COMMAND_ERROR_IS_FATAL ANY)
 file(GLOB bundled ${OUTPUT}/*.js ${OUTPUT}/*.css)
 execute_process(COMMAND ${GZIP} --best --no-name --keep --force ${bundled} COMMAND_ERROR_IS_FATAL ANY)
 file(READ ${modules}/three/LICENSE licence)

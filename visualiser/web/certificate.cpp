@@ -1,3 +1,5 @@
+// Uses OpenSSL. A generated certificate is kept with its key in one private file. It is used again only if its names
+// cover all present ones and it stays valid for a month; otherwise a new key and certificate replace it.
 #include "visualiser/web/certificate.h"
 
 #include <arpa/inet.h>

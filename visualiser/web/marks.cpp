@@ -1,3 +1,5 @@
+// Marks cost time for each robot, so they are made only for requested entities and only when poses or attributes have
+// changed. Links follow the rules of the receivers of range and bearing, with the same lines of sight.
 #include "visualiser/web/marks.h"
 
 #include <algorithm>

@@ -29,7 +29,7 @@ public:
   explicit PageFiles(const std::filesystem::path& folder);
 
   void Add(const std::string& path, const std::string& type, std::string bytes, PageFile::Bytes gzipped = {});
-  // "/" means "/index.html". Returns nullptr if the file does not exist.
+  // Returns a file, or nullptr if it does not exist. "/" means "/index.html".
   const PageFile* Find(std::string_view path) const;
 
 private:

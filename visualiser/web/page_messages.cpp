@@ -15,7 +15,7 @@
 #include "common/space/space.h"
 #include "common/space/terrain/terrain.h"
 #include "visualiser/scene/kind_model.h"
-#include "visualiser/scene/meshes_file.h"
+#include "visualiser/scene/meshes_json.h"
 #include "visualiser/scene/object_model.h"
 #include "visualiser/scene/painted_floor.h"
 #include "visualiser/status_line.h"
@@ -195,7 +195,7 @@ Json ViewpointList(const Viewpoints& viewpoints)
   return list;
 }
 
-// ---- requests ----
+// The next functions read the requests of pages.
 
 [[noreturn]] void Refuse(const std::string& text) { throw std::invalid_argument(text); }
 
@@ -221,6 +221,14 @@ std::vector<std::uint32_t> EntitiesIn(const Json& json, const char* name, std::s
     entities.push_back(entity.get<std::uint32_t>());
   }
   return entities;
+}
+
+PageRequest LookBackIn(const Json& json)
+{
+  LookBackRequest request{static_cast<std::uint64_t>(NumberIn(json, "tick", 0, kLastTick)),
+                          EntitiesIn(json, "entities", kMostWatched)};
+  if (json.contains("earlier") && json.at("earlier") == true) return EarlierRequest{std::move(request)};
+  return request;
 }
 
 ProveRequest ProofIn(const Json& json)
@@ -439,7 +447,7 @@ std::string PastText(const CSwarmanoidSpace& space, std::span<const std::uint32_
   return Text(past);
 }
 
-std::string PastInsideText(const PastInsideAnswer& answer)
+std::string RobotPlaybackText(const RobotPlaybackAnswer& answer)
 {
   Json list = Json::array();
   for (const RobotStatus& robot : answer.robots)
@@ -452,6 +460,11 @@ std::string PastInsideText(const PastInsideAnswer& answer)
   return Text({{"type", "past_inside"}, {"tick", answer.tick}, {"entities", list}, {"error", answer.error}});
 }
 
+std::string BranchedText(const RunBranches::Answer& answer)
+{
+  return Text({{"type", "branched"}, {"tick", answer.tick}, {"url", answer.url}, {"error", answer.error}});
+}
+
 std::string RefusalText(const std::string& text) { return Text({{"type", "reply"}, {"ok", false}, {"text", text}}); }
 
 PageRequest ParseRequest(std::string_view text)
@@ -462,9 +475,8 @@ PageRequest ParseRequest(std::string_view text)
   if (verb == json.end() || !verb->is_string()) Refuse("a request needs a text 'do'");
   const std::string name = verb->get<std::string>();
   if (name == "watch") return WatchRequest{EntitiesIn(json, "entities", kMostWatched)};
-  if (name == "look_back")
-    return LookBackRequest{static_cast<std::uint64_t>(NumberIn(json, "tick", 0, kLastTick)),
-                           EntitiesIn(json, "entities", kMostWatched)};
+  if (name == "look_back") return LookBackIn(json);
+  if (name == "branch") return StartBranchRequest{static_cast<std::uint64_t>(NumberIn(json, "tick", 0, kLastTick))};
   if (name == "prove") return ProofIn(json);
   if (name == "marks")
     return MarksRequest{EntitiesIn(json, "rays", kMostMarked), EntitiesIn(json, "bodies", kMostMarked),

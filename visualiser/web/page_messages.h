@@ -1,5 +1,5 @@
-// The text messages between web_render and its pages, as JSON: what is said rarely, beside the frames.
-// docs/web_render.md is their specification. Used by web_render alone.
+// The text messages between web_render and its pages, as JSON, for everything beside the frames. docs/web_render.md
+// specifies them. Only web_render uses them.
 #pragma once
 
 #include <cstdint>
@@ -9,69 +9,84 @@
 #include <variant>
 #include <vector>
 
-#include "common/messages/control_request.h"
-#include "visualiser/past_inside.h"
+#include "idl/control_request_message.h"
 #include "visualiser/playback_reader.h"
 #include "visualiser/render.h"
+#include "visualiser/robot_playback.h"
 #include "visualiser/scene/viewpoints.h"
 #include "visualiser/web/access.h"
+#include "visualiser/web/run_branches.h"
 
 namespace swarmanoid
 {
 
-// "welcome": whether clients may control the run at all, and the challenge that one who has the token answers then.
-// `edits`: there is no run, but an experiment file that is edited.
+// Returns the message "welcome": whether clients may control the run at all, and the challenge, which a holder of the
+// token answers. If `edits` is true, an experiment file is edited, without a run.
 std::string WelcomeText(bool control_possible, const std::string& challenge, bool edits = false);
-// "authority": what the client may do, after its answer.
+// Returns the message "authority": what the client may do, after its answer.
 std::string AuthorityText(Authority authority);
-// "world": all that stays: the table of entities, the bodies that are no robots, engines, hosts, controllers,
-// viewpoints; whether pages begin at the first of these.
+// Returns the message "world" with everything that never changes: the table of entities, all bodies except robots,
+// engines, hosts, controllers and viewpoints. `begins_there` says whether pages begin at the first viewpoint.
 std::string WorldText(const CSwarmanoidSpace& space, const Assignment& assignment, const Viewpoints& viewpoints = {},
                       bool begins_there = false);
-// "colours": colours and intensities of lights, patches and all that cannot move, which a frame does not hold.
+// Returns the message "colours": colours and intensities of lights, patches and entities that cannot move, which a
+// frame does not have.
 std::string ColoursText(const CSwarmanoidSpace& space);
-// "log": a line for the page's log. level: "info", "warning".
+// Returns the message "log": a line for the page's log. `level` is "info" or "warning".
 std::string LogText(std::uint64_t tick, const std::string& source, const std::string& level, const std::string& text);
-// "status": how the run goes. `clients`: pages that look.
+// Returns the message "status" of the run. `clients` is the number of connected pages.
 std::string StatusText(const CSwarmanoidSpace& space, const RunStatus& status, std::size_t clients);
-// "watched": attributes of entities, and the inside of those that are robots.
+// Returns the message "watched": the attributes of entities, and the readings and states of robots among them.
 std::string WatchedText(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities, RunMonitor* monitor);
-// "timeline": the ticks that can be looked at, up to the one before `end`, and what happened. Of many events those that
-// are left are told by how many there were.
+// Returns the message "timeline": the ticks that can be shown, up to the one before `end`, and the events. If there are
+// too many events, some are left out, and the message has their number.
 std::string TimelineText(const std::string& run_folder, std::uint64_t first, std::uint64_t end,
                          std::span<const TimelineEvent> events);
-// "past": of the tick that is looked back at: attributes of entities, and colours as "colours" has them.
+// Returns the message "past" for the shown tick of the past: attributes of entities, and colours as in "colours".
 std::string PastText(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities);
-// "past_inside": the inside of robots at a tick of the past, or in "error" why it cannot be computed.
-std::string PastInsideText(const PastInsideAnswer& answer);
-// "reply": what became of a request that was refused.
+// Returns the message "past_inside": the status of robots at a tick of the past, or in "error" why it cannot be
+// computed.
+std::string RobotPlaybackText(const RobotPlaybackAnswer& answer);
+// Returns the message "branched": the address of the page of a run that a page has started, or why there is none.
+std::string BranchedText(const RunBranches::Answer& answer);
+// Returns the message "reply" for a request that was refused.
 std::string RefusalText(const std::string& text);
 
-// What a page asks for.
+// The entities whose details a page requests.
 struct WatchRequest
 {
   std::vector<std::uint32_t> entities;  // whose details it wants
 };
-// Its answer to the challenge.
+// A page's answer to the challenge.
 struct ProveRequest
 {
   std::string proof;
 };
-// The entities of which it shows more than their bodies (MarksWriter).
+// The entities of which a page shows marks (MarksWriter).
 struct MarksRequest
 {
   std::vector<std::uint32_t> rays, bodies, links;
+};
+// Starts a new run from a tick of the journal. Only pages with control may do so.
+struct StartBranchRequest
+{
+  std::uint64_t tick = 0;
 };
 struct FrameRateRequest
 {
   unsigned period_ms = 0;  // between two frames; 0: as they come
 };
+// A tick before the shown one, for trails and plots. The inside of robots is not computed there.
+struct EarlierRequest
+{
+  LookBackRequest look_back;
+};
 // A ControlOrder is a request about the run, which only pages with control may make.
-using PageRequest =
-    std::variant<WatchRequest, LookBackRequest, FrameRateRequest, ProveRequest, MarksRequest, ControlOrder>;
+using PageRequest = std::variant<WatchRequest, LookBackRequest, EarlierRequest, StartBranchRequest, FrameRateRequest,
+                                 ProveRequest, MarksRequest, ControlOrder>;
 
 inline constexpr std::size_t kMostWatched = 16;   // entities, of one page
-inline constexpr std::size_t kMostMarked = 1000;  // likewise, of each kind of mark
+inline constexpr std::size_t kMostMarked = 1000;  // entities, of each kind of mark
 
 // Throws std::invalid_argument, with a text for the user, for anything else than a request.
 PageRequest ParseRequest(std::string_view text);

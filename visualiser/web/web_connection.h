@@ -152,7 +152,7 @@ private:
     Respond(status, text, text.bytes);
   }
 
-  // `bytes`: those of the file, compressed or not, or none.
+  // Sends a response. `bytes` are those of the file, compressed or not, or none.
   void Respond(http::status status, const PageFile& file, PageFile::Bytes bytes)
   {
     const auto& request = parser_->get();

@@ -8,8 +8,8 @@
 
 #include "common/space/space.h"
 #include "visualiser/editor_page.h"
-#include "visualiser/web/page_host.h"
 #include "visualiser/web/page_messages.h"
+#include "visualiser/web/page_server.h"
 #include "visualiser/web/state_frame.h"
 
 namespace swarmanoid
@@ -35,7 +35,7 @@ public:
   void Open(const Parameters& parameters, const std::string& key, EditorRequests& requests) override
   {
     requests_ = &requests;
-    host_ = std::make_unique<PageHost>(parameters, key);
+    host_ = std::make_unique<PageServer>(parameters, key);
     host_->Open(*this);
   }
 
@@ -90,7 +90,7 @@ private:
     }
   }
 
-  // ---- in the server's thread ----
+  // The next functions are called in the server's thread.
 
   std::string Welcome(std::uint64_t client) override
   {
@@ -138,7 +138,7 @@ private:
   WebServer::Bytes document_;
   std::mutex mutex_;                                                           // guards waiting_
   std::vector<std::pair<std::uint64_t, std::optional<std::string>>> waiting_;  // nothing: the client has left
-  std::unique_ptr<PageHost> host_;  // last, since its server's thread uses the members above
+  std::unique_ptr<PageServer> host_;  // last, since its server's thread uses the members above
 };
 
 }  // namespace

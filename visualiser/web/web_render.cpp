@@ -1,3 +1,12 @@
+// The thread of the run calls Work() in each tick, so it must cost nothing if nothing is due: every kind of message has
+// a time at which it is due next, and a fast run only reads the clock. Frames, marks and drawings wait longer if their
+// bytes would take more than the bandwidth, marks and drawings also if their making takes more than a twentieth of the
+// time. A frame is a change since the last key, or a key after 19 changes, so a page that comes late can begin at once,
+// and a slow page may miss changes.
+//
+// Requests of pages arrive in the server's thread. They wait in `requests_` (guarded by `mutex_`, 1,024 at most) until
+// the run takes them, because the space and the run's control belong to its thread. Commands are refused in the
+// server's thread already, unless the page has proved that it holds the token.
 #include "visualiser/web/web_render.h"
 
 #include <fcntl.h>
@@ -10,7 +19,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "common/activity/print_error.h"
+#include "common/errors/print_error.h"
 #include "common/space/space.h"
 #include "visualiser/renderer_library.h"
 #include "visualiser/web/drawing_frame.h"
@@ -69,7 +78,7 @@ void CWebRender::Init(const RenderSetup& setup)
   output_folder_ = setup.output_folder;
 
   const Experiment& experiment = space_->GetExperiment();
-  host_ = std::make_unique<PageHost>(parameters, experiment.folder + "/" + experiment.name);
+  host_ = std::make_unique<PageServer>(parameters, experiment.folder + "/" + experiment.name);
   host_->Open(*this);
   if (!host_->Trouble().empty())
     Log(space_->GetTick(), "web_render", "info", "the next start will have another address: " + host_->Trouble());
@@ -134,6 +143,7 @@ void CWebRender::Work()
     followed_due_ = now + kFollowPeriod;
     FollowStatus();
     FollowJournal();
+    if (branches_) branches_->Look();
   }
   if (host_->Server().Clients() == 0) return;
   const bool changed = shown_tick_ != space_->GetTick() || shown_revision_ != space_->Revision() ||
@@ -265,7 +275,7 @@ void CWebRender::FollowJournal()
   const std::string folder = RunFolderOf(output_folder_, monitor_);
   if (!folder.empty() && (!look_back_ || look_back_->RunFolder() != folder))
   {
-    past_inside_.reset();
+    robot_playback_.reset();
     look_back_.reset();
     past_frames_.reset();
     look_back_ = std::make_unique<PlaybackReader>(
@@ -280,15 +290,15 @@ void CWebRender::FollowJournal()
                         { SendPast(client, request, space); },
                         [this](std::uint64_t client, const std::string& text)
                         { host_->Server().Send(client, Shared(RefusalText(text))); }});
-    past_inside_ = std::make_unique<PastInside>(
+    robot_playback_ = std::make_unique<RobotPlayback>(
         space_->GetExperiment(), folder,
-        [this](std::uint64_t client, const PastInsideAnswer& answer)
-        { host_->Server().SendState(client, WebServer::Slot::kPastInside, Shared(PastInsideText(answer))); });
+        [this](std::uint64_t client, const RobotPlaybackAnswer& answer)
+        { host_->Server().SendState(client, WebServer::Slot::kRobotPlayback, Shared(RobotPlaybackText(answer))); });
   }
   if (look_back_ && host_->Server().Clients() > 0) look_back_->Refresh();
 }
 
-// Called in the thread of PlaybackReader.
+// This function is called in the thread of PlaybackReader.
 void CWebRender::SendPast(std::uint64_t client, const LookBackRequest& request, const CSwarmanoidSpace& space)
 {
   if (!past_frames_) past_frames_ = std::make_unique<FrameWriter>(space);
@@ -315,7 +325,7 @@ void CWebRender::SendNotes()
   if (!notes.empty()) last_note_ = NoteKey(notes.back());
 }
 
-// ---- what pages ask for ----
+// The next functions handle the requests of pages.
 
 std::string CWebRender::Welcome(std::uint64_t client)
 {
@@ -329,7 +339,9 @@ void CWebRender::Received(std::uint64_t client, std::string_view text)
     PageRequest request = ParseRequest(text);
     if (const auto* answer = std::get_if<ProveRequest>(&request))
       return host_->Server().Send(client, Shared(AuthorityText(host_->Prove(client, answer->proof))));
-    if (std::holds_alternative<ControlOrder>(request) && !host_->GetVisitors().MayControl(client))
+    const bool steers =
+        std::holds_alternative<ControlOrder>(request) || std::holds_alternative<StartBranchRequest>(request);
+    if (steers && !host_->GetVisitors().MayControl(client))
       throw std::invalid_argument(allow_control_ ? "only the address with the token may control the run"
                                                  : "this page may only look: start it with --allow-control");
     if (const auto* rate = std::get_if<FrameRateRequest>(&request))
@@ -369,7 +381,7 @@ void CWebRender::TakeRequests()
       watched_.erase(request.client);
       marked_.erase(request.client);
       if (look_back_) look_back_->Forget(request.client);
-      if (past_inside_) past_inside_->Forget(request.client);
+      if (robot_playback_) robot_playback_->Forget(request.client);
       WatchRobots();
     }
 }
@@ -405,18 +417,21 @@ void CWebRender::Carry(std::uint64_t client, const PageRequest& request)
     marked_revision_ = ~0ULL;
     return;
   }
-  if (const auto* past = std::get_if<LookBackRequest>(&request))
+  const auto* past = std::get_if<LookBackRequest>(&request);
+  const auto* earlier = std::get_if<EarlierRequest>(&request);
+  if (past != nullptr || earlier != nullptr)
   {
     if (look_back_)
     {
-      look_back_->Ask(client, *past);
-      past_inside_->Ask(client, *past);
+      look_back_->Ask(client, past != nullptr ? *past : earlier->look_back);
+      if (past != nullptr) robot_playback_->Ask(client, *past);
     }
     else
       host_->Server().Send(client,
                            Shared(RefusalText("there is nothing to look back at: the run keeps no journal here")));
     return;
   }
+  if (const auto* branch = std::get_if<StartBranchRequest>(&request)) return Branch(client, branch->tick);
   const auto* order = std::get_if<ControlOrder>(&request);
   if (order == nullptr) return;
   if (control_ == nullptr)
@@ -426,6 +441,19 @@ void CWebRender::Carry(std::uint64_t client, const PageRequest& request)
   }
   control_->Ask(*order);
   followed_due_ = status_due_ = {};
+}
+
+void CWebRender::Branch(std::uint64_t client, std::uint64_t tick)
+{
+  if (!look_back_)
+    return host_->Server().Send(client,
+                                Shared(RefusalText("no run can start from here: this one keeps no journal here")));
+  const std::string& folder = look_back_->RunFolder();
+  if (!branches_ || branches_->RunFolder() != folder)
+    branches_ = std::make_unique<RunBranches>(CommandFor(folder), folder,
+                                              [this](std::uint64_t asker, const RunBranches::Answer& answer)
+                                              { host_->Server().Send(asker, Shared(BranchedText(answer))); });
+  branches_->Start(client, tick);
 }
 
 void CWebRender::Log(std::uint64_t tick, const std::string& source, const std::string& level, const std::string& text)

@@ -15,8 +15,8 @@
 #include "visualiser/render.h"
 #include "visualiser/web/log_follower.h"
 #include "visualiser/web/marks.h"
-#include "visualiser/web/page_host.h"
 #include "visualiser/web/page_messages.h"
+#include "visualiser/web/page_server.h"
 #include "visualiser/web/state_frame.h"
 
 namespace swarmanoid
@@ -44,7 +44,7 @@ private:
     std::optional<PageRequest> request;  // nullopt: the client has left
   };
 
-  // Called in the server's thread.
+  // These functions are called in the server's thread.
   std::string Welcome(std::uint64_t client) override;
   void Received(std::uint64_t client, std::string_view text) override;
   void Left(std::uint64_t client) override;
@@ -63,6 +63,7 @@ private:
   void FollowJournal();
   void SendPast(std::uint64_t client, const LookBackRequest& request, const CSwarmanoidSpace& space);
   void WatchRobots();
+  void Branch(std::uint64_t client, std::uint64_t tick);
   void Log(std::uint64_t tick, const std::string& source, const std::string& level, const std::string& text);
 
   const CSwarmanoidSpace* space_ = nullptr;
@@ -97,11 +98,12 @@ private:
   std::vector<Request> requests_;
   std::atomic<bool> has_requests_{false};  // read without the mutex
 
-  std::unique_ptr<PageHost> host_;             // its server's thread uses the members above
+  std::unique_ptr<PageServer> host_;           // its server's thread uses the members above
   std::unique_ptr<FrameWriter> past_frames_;   // only for the thread of look_back_
   std::unique_ptr<PlaybackReader> look_back_;  // these two are last, since their threads call the server
-  std::unique_ptr<PastInside> past_inside_;
+  std::unique_ptr<RobotPlayback> robot_playback_;
   std::string output_folder_;
+  std::unique_ptr<RunBranches> branches_;  // once a page has started a run
 };
 
 }  // namespace swarmanoid

@@ -1,3 +1,9 @@
+// One thread runs all connections by asynchronous operations of Boost.Asio; other threads only post work to it. Hence
+// no member needs a lock, except the counts that other threads read, which are atomic.
+//
+// Connections are a limited good that strangers could use up. Each address has a limit, and a connection without a
+// place, that is, one that has not yet become a page, is dropped for a new one. Pages that prove the token have places
+// of their own, so other pages cannot keep the user out.
 #include "visualiser/web/web_server.h"
 
 #include <pthread.h>

@@ -31,12 +31,12 @@ struct WebServerSettings
   // The time in which another client must prove the token, if max_clients are connected.
   std::chrono::milliseconds proof_time{5000};
   std::size_t max_message_bytes = 65536;  // limit for a client's message; longer ones end its connection
-  // Limit for each client. After a burst of that many, the other messages wait unread.
+  // The limit is for each client. After a burst of that many, the other messages wait unread.
   std::size_t max_messages_per_second = 200;
   std::optional<Certificate> certificate;  // if it is set, only TLS is accepted
 };
 
-// Events of the server, called in its own thread.
+// The events of the server. It calls these functions in its own thread.
 class WebServerEvents
 {
 public:
@@ -60,7 +60,7 @@ public:
     kChange,  // binary: the changes since the key; replaced by the next key
     kPast,    // binary: the whole state of a requested tick of the past
     kPastDetails,
-    kPastInside,
+    kRobotPlayback,
     kTimeline,
     kStatus,
     kColours,
@@ -94,7 +94,7 @@ public:
   void SetGreeting(Bytes text);
   // Publishes the state for all present and later clients.
   void Publish(Slot slot, Bytes bytes);
-  // A state for one client alone.
+  // Sets a state for one client alone.
   void SendState(std::uint64_t client, Slot slot, Bytes bytes);
   // Queues a message. The last 256 messages for all clients are repeated to later ones.
   void Send(std::uint64_t client, Bytes text);

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "visualiser/scene/meshes_file.h"
+#include "visualiser/scene/meshes_json.h"
 
 int main(int argc, char** argv)
 {

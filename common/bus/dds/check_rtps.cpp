@@ -12,7 +12,7 @@ namespace rtps_structure
 namespace
 {
 
-// A reason, or nullptr if there is no defect.
+// The reason for a refusal, or nullptr if there is no defect.
 using Reason = const char*;
 
 constexpr std::size_t kHeaderBytes = 20;
@@ -40,12 +40,12 @@ enum Kind : std::uint8_t
 };
 
 constexpr unsigned kLittleEndianFlag = 0x01;
-constexpr unsigned kInlineQosFlag = 0x02;      // of DATA and DATA_FRAG
-constexpr unsigned kDataFlag = 0x04;           // of DATA
-constexpr unsigned kKeyFlag = 0x08;            // of DATA
-constexpr unsigned kKeyOfFragmentFlag = 0x04;  // of DATA_FRAG
-constexpr unsigned kInvalidateFlag = 0x02;     // of INFO_TS
-constexpr unsigned kMulticastFlag = 0x02;      // of INFO_REPLY
+constexpr unsigned kInlineQosFlag = 0x02;      // in DATA and DATA_FRAG
+constexpr unsigned kDataFlag = 0x04;           // in DATA
+constexpr unsigned kKeyFlag = 0x08;            // in DATA
+constexpr unsigned kKeyOfFragmentFlag = 0x04;  // in DATA_FRAG
+constexpr unsigned kInvalidateFlag = 0x02;     // in INFO_TS
+constexpr unsigned kMulticastFlag = 0x02;      // in INFO_REPLY
 
 constexpr std::size_t kStatisticsBytes = 56;     // behind the header of the submessage
 constexpr std::size_t kDataFixedBytes = 20;      // in front of the inline quality of service
@@ -53,7 +53,7 @@ constexpr std::size_t kFragmentFixedBytes = 32;  // the same for DATA_FRAG
 constexpr std::size_t kEncapsulationBytes = 4;   // in front of a payload
 constexpr std::size_t kLivelinessBytes = 24;     // the smallest payload of the writer of liveliness
 constexpr std::size_t kLocatorBytes = 24;
-constexpr std::uint32_t kMostBits = 256;  // of a set of numbers (DDSI-RTPS 2.2, 9.4.2.6)
+constexpr std::uint32_t kMostBits = 256;  // size limit of a number set (DDSI-RTPS 2.2, 9.4.2.6)
 constexpr std::int64_t kLastNumber = std::int64_t{1}
                                      << 60;  // Fast DDS adds 256 to numbers, and asserts a sum below 2^63
 // A reader of Fast DDS marks the messages of a GAP one by one: 10,000 take a millisecond. Members send GAPs for what a
@@ -66,7 +66,7 @@ constexpr std::uint32_t kLeastFragment = 256;
 // Fast DDS reads descriptions of types by recursion. One of this size cannot use up the stack. Types here have none.
 constexpr std::size_t kMostTypeBytes = 4096;
 
-// Bytes with the order of bytes of their submessage. Reading needs a check of size() first.
+// Access to bytes in the byte order of their submessage. The caller must check size() before it reads.
 struct Bytes
 {
   std::span<const char> bytes;
@@ -101,7 +101,8 @@ bool IsAmong(std::int64_t number, std::int64_t first, std::int64_t last) { retur
 
 // --- sets of numbers ---------------------------------------------------------------------------------------------
 
-// `bits_at`: the number of bits, behind the base. The words of the bitmap and `count`, four bytes, follow.
+// Checks a bitmap. `bits_at` is the position of the number of bits, after the base. The words of the bitmap and
+// `count`, four bytes, follow.
 Reason CheckBitmap(const Bytes& body, std::size_t bits_at, std::size_t count)
 {
   if (body.size() < bits_at + 4) return "a set of numbers that ends before its count";
@@ -167,7 +168,8 @@ Reason CheckHeartbeatFragment(const Bytes& body)
 
 // --- lists of parameters -------------------------------------------------------------------------------------------
 
-// Takes a string of CDR off the front: four bytes of length, text and its zero, rounded up. False if it is not there.
+// Removes a string of CDR from the front: four bytes of length, then text with its zero, rounded up. Returns false if
+// the bytes hold no whole string.
 bool TakeString(Bytes& from)
 {
   if (from.size() < 4) return false;
@@ -177,7 +179,7 @@ bool TakeString(Bytes& from)
   return true;
 }
 
-// A count, and as many items of `each` strings.
+// Removes a count, and as many items of `each` strings.
 bool HasStrings(const Bytes& parameter, unsigned each)
 {
   if (parameter.size() < 4) return false;
@@ -188,7 +190,7 @@ bool HasStrings(const Bytes& parameter, unsigned each)
   return true;
 }
 
-// A count, and as many items of that size.
+// Returns whether a count is followed by as many items of that size.
 bool HasItems(const Bytes& parameter, std::size_t bytes)
 {
   return parameter.size() >= 4 && parameter.Word(0) <= (parameter.size() - 4) / bytes;
@@ -300,7 +302,7 @@ Reason CheckParameter(std::uint16_t id, const Bytes& value)
 
 struct ListEnd
 {
-  std::size_t at = 0;        // behind the sentinel
+  std::size_t at = 0;        // the position after the sentinel
   bool says_status = false;  // the instance is disposed of or unregistered
   bool only_disposes = false;
 };
@@ -341,7 +343,7 @@ EntityId EntityAt(const Bytes& body, std::size_t at)
 
 bool IsBuiltIn(const EntityId& writer) { return (writer[3] & 0xc0U) == 0xc0U; }
 
-// The writers of participants, topics, writers and readers of DDS itself.
+// Returns whether the writer is one of DDS itself: for participants, topics, writers and readers.
 bool IsDiscovery(const EntityId& writer)
 {
   if (writer[0] != 0 || writer[3] != 0xc2U) return false;
@@ -350,7 +352,7 @@ bool IsDiscovery(const EntityId& writer)
 
 bool IsLiveliness(const EntityId& writer) { return writer == EntityId{0, 2, 0, 0xc2}; }
 
-// Writers of DDS Security: those of secured discovery, and those that exchange tokens.
+// Returns whether the writer is one of DDS Security: for secured discovery or for the exchange of tokens.
 bool IsSecurity(const EntityId& writer)
 {
   return IsBuiltIn(writer) && (writer[0] == 0xffU || (writer[0] == 0 && writer[1] == 2 && writer[2] == 1));
@@ -370,10 +372,10 @@ Reason CheckBuiltInPayload(const EntityId& writer, const Bytes& payload)
   return CheckParameters({payload.bytes.subspan(kEncapsulationBytes), payload.Byte(1) == kListLittleEndian}, end);
 }
 
-// The inline quality of service, if there is one, with where the payload begins.
+// Checks the inline quality of service, if it exists, and finds the begin of the payload.
 Reason CheckInlineQos(const Bytes& body, std::size_t fixed_bytes, bool has_qos, ListEnd& end)
 {
-  // The number of bytes behind its field up to the list. It is the same in all versions of RTPS until now.
+  // The field holds the number of bytes from its end to the list, which is the same in all versions of RTPS so far.
   if (body.Short(2) != fixed_bytes - 4) return "an inline quality of service at another place than RTPS says";
   end.at = 0;
   if (has_qos)
@@ -420,7 +422,8 @@ Reason CheckDataFragment(const Bytes& body, unsigned flags, const RtpsLimits& li
   const std::uint64_t sample = body.Word(28);
   if (sample < 1 || sample > limits.sample_bytes) return "a DATA_FRAG of a message that its sender cannot have";
   if (size < kLeastFragment || size % 4 != 0) return "a DATA_FRAG of fragments of no usual size";
-  // Fast DDS and Cyclone DDS send one at a time. The room behind a datagram (DiscardingTransport) is for one.
+  // Fast DDS and Cyclone DDS send one fragment at a time. The space after a datagram (DiscardingTransport) is enough
+  // for one.
   if (count != 1) return "a DATA_FRAG of several fragments";
   if (start < 1 || (start - 1) * size >= sample) return "a DATA_FRAG of a fragment that does not exist";
   const std::uint64_t needed = std::min(size, sample - (start - 1) * size);
@@ -500,11 +503,11 @@ RtpsVerdict CheckRtps(std::span<const char> datagram, const RtpsLimits& limits)
     const std::uint8_t kind = here.Byte(0);
     const unsigned flags = here.Byte(1);
     std::size_t length = here.Short(2);
-    // A length of 0 stands for all that is left, except where nothing may follow the header.
+    // A length of 0 means the rest of the datagram, except for kinds whose header may be their end.
     if (length == 0 && kind != kPad && kind != kInfoTimestamp) length = left - 4;
     if (length > left - 4) return {"a submessage that is longer than its datagram", at};
     const bool is_last = length == left - 4;
-    // Receivers do not agree on where the next one begins.
+    // Receivers disagree about the begin of the next submessage.
     if (!is_last && length % 4 != 0) return {"a submessage whose length is no multiple of 4", at};
     if (kind == kStatistics && IsOfFastDds(datagram))
     {

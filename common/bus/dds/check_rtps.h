@@ -14,16 +14,16 @@
 namespace swarmanoid
 {
 
-// The largest numbers that a sender may use. Structure cannot tell a number of a long run from one that a stranger
-// made up, so members of a run get limits that a run never reaches, and others get limits that cost nothing.
+// The largest numbers that a sender may use. Structure cannot tell a number of a long run from an invented one. So
+// members of a run get limits that a run never reaches, and others get limits that cost nothing.
 struct RtpsLimits
 {
-  // The first number of a HEARTBEAT. A reader of Fast DDS counts from the last number that it knows to this one, about
-  // 4,000 in a millisecond with 2.9.1, and holds the thread that hears all others.
+  // It is the first number of a HEARTBEAT. A reader of Fast DDS counts from the last number that it knows to this one,
+  // about 4,000 in a millisecond with 2.9.1. Meanwhile it holds the thread that hears all others.
   std::int64_t heartbeat_first = 0;
   // The end of a GAP. A reader of Fast DDS keeps 48 bytes for each number of a GAP that is ahead of what it has.
   std::int64_t gap_end = 0;
-  // Bytes of a message in fragments. A reader of Fast DDS makes room for all of it when the first fragment comes.
+  // Bytes of a message in fragments. A reader of Fast DDS allocates all of it when the first fragment arrives.
   std::uint32_t sample_bytes = 0;
 };
 
@@ -34,19 +34,19 @@ struct RtpsLimits
 inline constexpr RtpsLimits kMemberLimits{
     .heartbeat_first = std::int64_t{1} << 32, .gap_end = std::int64_t{1} << 60, .sample_bytes = 1U << 28};
 
-// Processes without the key of the run say which endpoints they have, and holders of shares send requests. These are
-// few and small.
+// Processes without the key of the run announce their endpoints, and holders of grants send requests. These messages
+// are few and small.
 inline constexpr RtpsLimits kStrangerLimits{.heartbeat_first = 200'000, .gap_end = 4'096, .sample_bytes = 256U * 1024U};
 
 struct RtpsVerdict
 {
   const char* defect = nullptr;  // for people; nullptr if Fast DDS may read the datagram
-  // If there is a defect: the place of its submessage. Otherwise: the number of bytes that Fast DDS may read, which are
-  // all but the statistics at the end. Fast DDS compares the numbers in them by assertions.
+  // With a defect: the offset of its submessage. Otherwise: the number of bytes that Fast DDS may read, which are all
+  // but the statistics at the end. Fast DDS compares the numbers in the statistics by assertions.
   std::size_t bytes = 0;
 };
 
-// Does not throw and does not allocate. Takes time in proportion to the number of submessages and parameters, not to
+// Does not throw and does not allocate. The time is proportional to the number of submessages and parameters, not to
 // that of bytes.
 RtpsVerdict CheckRtps(std::span<const char> datagram, const RtpsLimits& limits = kMemberLimits);
 

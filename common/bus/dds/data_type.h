@@ -26,7 +26,8 @@ using Md5 = MD5;
 class DataType : public dds::TopicDataType
 {
 public:
-  // `most_bytes`: the room for a payload that is made before the first message. `keyed`: whether KeyOf finds keys.
+  // `most_bytes`: the size of the payload that is allocated before the first message. `keyed`: whether KeyOf finds
+  // keys.
   DataType(const std::string& name, std::size_t most_bytes, bool keyed)
   {
 #if SWARMANOID_FAST_DDS_MAJOR >= 3
@@ -42,18 +43,19 @@ public:
 #endif
   }
 
-  // The bytes of the payload that Write makes of `data`.
+  // Returns the bytes of the payload that Write makes of `data`.
   virtual std::size_t SizeOf(const void* data) const = 0;
   // Writes `data` into the payload, which has room for its `max_size`. Returns false if that is not enough.
   virtual bool Write(const void* data, Payload& payload) const = 0;
   // Reads the payload into `data`. Must not throw; returns false for a message that cannot be read.
   virtual bool Read(const Payload& payload, void* data) const = 0;
-  // A new object that a message is read into, and its end.
+  // Returns a new object that a message is read into.
   virtual void* Make() const = 0;
+  // Destroys an object that Make returned.
   virtual void Delete(void* data) const = 0;
   // Fills in the instance that `data` belongs to. Returns false if the type has no keys.
   virtual bool KeyOf(const void*, InstanceHandle&) const { return false; }
-  // True for types whose messages never have more bytes than the constructor was told.
+  // Returns true for types whose messages never have more bytes than the constructor was told.
   virtual bool IsBounded() const { return false; }
 
   bool is_bounded() const final { return IsBounded(); }

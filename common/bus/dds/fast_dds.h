@@ -81,9 +81,8 @@ inline bool WriteMessage(dds::DataWriter& writer, void* message)
 #endif
 }
 
-// The times of the reliable protocol: of a writer from the last message to its next heartbeat, and how long it waits
-// before it answers a request for a lost message and before it answers the next one; and of a reader, how long it waits
-// before it answers a heartbeat.
+// The times of the reliable protocol. Writer: from the last message to its next heartbeat, and the delays before it
+// answers a request for a lost message, and the next one. Reader: the delay before it answers a heartbeat.
 inline void SetHeartbeatPeriod(dds::DataWriterQos& qos, DdsDuration period)
 {
 #if SWARMANOID_FAST_DDS_MAJOR >= 3
@@ -120,7 +119,7 @@ inline void SetHeartbeatResponseDelay(dds::DataReaderQos& qos, DdsDuration delay
 #endif
 }
 
-// Adds a discovery server to those that a client asks. Releases before 3 know a server by its prefix, too
+// Adds a discovery server to the servers that a client asks. Releases before 3 know a server by its prefix, too
 // ("53.57.….01"); from 3 on its address is enough.
 inline void AddDiscoveryServer(rtps::BuiltinAttributes& builtin, [[maybe_unused]] const std::string& prefix,
                                const rtps::Locator_t& address)
@@ -149,9 +148,9 @@ struct DiscoveredParticipant
 {
   enum class Change
   {
-    kPresent,  // it is new, or has changed
-    kLeft,     // it said that it leaves
-    kDropped   // nothing was heard of it for its lease
+    kPresent,  // the participant is new, or has changed
+    kLeft,     // it said Leave
+    kDropped   // it was silent for its lease
   };
   Change change;
   rtps::GuidPrefix_t prefix;
@@ -163,6 +162,7 @@ struct DiscoveredParticipant
 class ParticipantListener : public dds::DomainParticipantListener
 {
 public:
+  // A thread of Fast DDS calls it when a participant has come, changed, left or been silent for its lease.
   virtual void OnParticipant(const DiscoveredParticipant& participant) = 0;
 
 #if SWARMANOID_FAST_DDS_MAJOR >= 3

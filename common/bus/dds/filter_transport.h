@@ -31,7 +31,7 @@ namespace swarmanoid
 using Deadline = std::chrono::steady_clock::time_point;
 using Datagram = std::span<const char>;
 
-// The socket that a datagram goes out by.
+// The socket that sends a datagram.
 using Socket = rtps::SenderResource;
 
 // Sends one datagram. Advances `first` to `last`. Returns false if it could not be sent before the deadline.
@@ -52,17 +52,18 @@ class FilterTransport : public transport::ChainingTransport
 public:
   using ChainingTransport::ChainingTransport;
 
-  // Called for each datagram that Fast DDS wants to send, in the thread that writes. The bytes are gone after the call.
+  // Fast DDS calls it for each datagram that it wants to send, in the thread that writes. The bytes are gone after the
+  // call.
   virtual bool Send(Socket& socket, Datagram datagram, rtps::LocatorsIterator& first, rtps::LocatorsIterator& last,
                     const Deadline& deadline) = 0;
-  // Called for each datagram that comes and has the structure that RTPS says, in a thread of the transport. Pass hands
-  // it to Fast DDS.
+  // The transport calls it in its thread for each received datagram with a valid RTPS structure. Pass hands the
+  // datagram to Fast DDS.
   virtual void Receive(transport::TransportReceiverInterface& next, Datagram datagram, const rtps::Locator_t& local,
                        const rtps::Locator_t& remote)
   {
     Pass(next, datagram, local, remote);
   }
-  // Called for each datagram that is dropped because of its structure, in a thread of the transport.
+  // The transport calls it in its thread for each datagram that it drops because of its structure.
   virtual void Refuse(const std::string& what, const rtps::Locator_t& remote) = 0;
 
   bool OpenInputChannel(const rtps::Locator_t& locator, transport::TransportReceiverInterface* receiver,
@@ -123,9 +124,10 @@ protected:
   }
 
 private:
-  // A reader of Fast DDS that has begun to put a message together copies as many bytes as the last fragment of that
-  // message has, even if the datagram that ends it has fewer. Fragments have less than 64 KiB, and so has the datagram
-  // before them. The room behind it is never filled, and a message with bytes from there is dropped as damaged.
+  // A reader of Fast DDS may have begun to put a message together. Then it copies as many bytes as the last fragment of
+  // that message has, even if the datagram that ends it has fewer. Fragments have less than 64 KiB, and so has the
+  // datagram before them. The room behind it is never filled, and a message with bytes from there is dropped as
+  // damaged.
   static constexpr std::uint32_t kRoomForDatagrams = 128U * 1024U;
 };
 

@@ -47,7 +47,17 @@ private:
 #endif
 };
 
-// Calls of the types that fastddsgen wrote: the payload of a message, its key, and whether it has one.
+// Calls of the types that fastddsgen wrote: a message from its payload and back, its key, and whether it has one.
+template <class Type>
+bool GeneratedRead(Type& type, Payload& payload, void* data)
+{
+#if SWARMANOID_FAST_DDS_MAJOR >= 3
+  return type.deserialize(payload, data);
+#else
+  return type.deserialize(&payload, data);
+#endif
+}
+
 template <class Type>
 bool GeneratedWrite(Type& type, void* data, Payload& payload)
 {

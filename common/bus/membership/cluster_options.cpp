@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/bus/addresses.h"
 #include "common/configuration/configuration_tree.h"
 
 namespace swarmanoid
@@ -26,46 +27,24 @@ std::string FaultMistake(const std::string& text) { return ParseFault(text) ? ""
 
 OptionSpec ExperimentOption(WorkerSettings& s)
 {
-  return {{.name = "experiment",
-           .type = kText,
-           .description = "Name of the experiment; otherwise the first one that is heard"},
-          &s.experiment,
+  return {Text("experiment", "Name of the experiment; otherwise the first one that is heard"), &s.experiment,
           "diffusion_10"};
 }
 
 OptionSpec IncarnationOption(WorkerSettings& s)
 {
   return {
-      {.name = "incarnation",
-       .type = kInteger,
-       .description = "From 1 on: takes the place of a process of the run that has died, of which there were as many",
-       .minimum = 0,
-       .maximum = 65535},
-      &s.incarnation,
-      "1"};
+      Whole("incarnation",
+            "From 1 on: takes the place of a process of the run that has died, of which there were as many", 0, 65535),
+      &s.incarnation, "1"};
 }
 
 OptionSpec MachineOption(WorkerSettings& s)
 {
-  return {{.name = "machine",
-           .type = kText,
-           .description = "What whoever starts this process calls the machine that it is on"},
-          &s.machine,
-          "beta"};
+  return {Text("machine", "The name that the launcher gives to the machine of this process"), &s.machine, "beta"};
 }
 
 }  // namespace
-
-std::optional<std::pair<std::string, unsigned>> ParseServerAddress(const std::string& text)
-{
-  const std::size_t colon = text.rfind(':');
-  if (colon == std::string::npos || colon == 0) return std::nullopt;
-  const std::string digits = text.substr(colon + 1);
-  if (digits.empty() || digits.find_first_not_of("0123456789") != std::string::npos) return std::nullopt;
-  const auto port = ParseInteger(digits);
-  if (!port || *port < 1 || *port > 65535) return std::nullopt;
-  return std::pair(text.substr(0, colon), static_cast<unsigned>(*port));
-}
 
 std::optional<std::pair<std::uint64_t, std::uint32_t>> ParseFault(const std::string& text)
 {
@@ -80,43 +59,25 @@ std::optional<std::pair<std::uint64_t, std::uint32_t>> ParseFault(const std::str
 std::vector<OptionSpec> BusOptionTable(BusOptions& options)
 {
   return {
-      {{.name = "domain",
-        .type = kInteger,
-        .description = "DDS domain of the experiment; programs of different domains never meet",
-        .minimum = 0,
-        .maximum = 232},
-       &options.domain,
-       "7"},
-      {{.name = "interface",
-        .type = kText,
-        .description = "Network to use: lo (this machine only), all, or the name or IPv4 address of an interface. With "
-                       "--peers or --discovery-server: all"},
-       &options.network_interface,
-       "eth0"},
-      {{.name = "peers", .type = kText, .description = "Machines that take part, where the network has no multicast"},
+      {Whole("domain", "DDS domain of the experiment; programs of different domains never meet", 0, 232),
+       &options.domain, "7"},
+      {Text("interface",
+            "Network to use: lo (this machine only), all, or the name or IPv4 address of an interface. With --peers or "
+            "--discovery-server: all"),
+       &options.network_interface, "eth0"},
+      {Text("peers", "Machines that take part, where the network has no multicast"),
        &options.peers,
        "alpha,beta",
        "A,B,...",
        {},
        false,
        true},
-      {{.name = "discovery-server",
-        .type = kText,
-        .description = "Where the space server listens for the others, where the network has no multicast; the same "
-                       "for all. Variables of other programs, such as ROS_DISCOVERY_SERVER, are ignored "
-                       "(SWARMANOID_DDS_ENVIRONMENT=1 keeps them)"},
-       &options.discovery_server,
-       "10.77.0.1:21900",
-       "ADDRESS:PORT",
-       ServerAddressMistake},
-      {{.name = "lease",
-        .type = kNumber,
-        .unit = "s",
-        .description = "Silence after which a process counts as dead",
-        .minimum = 0.2,
-        .maximum = 3600},
-       &options.lease_s,
-       "10"},
+      {Text("discovery-server",
+            "Where the space server listens for the others, where the network has no multicast; the same for all. "
+            "Variables of other programs, such as ROS_DISCOVERY_SERVER, are ignored (SWARMANOID_DDS_ENVIRONMENT=1 "
+            "keeps them)"),
+       &options.discovery_server, "10.77.0.1:21900", "ADDRESS:PORT", ServerAddressMistake},
+      {Number("lease", "s", "Silence after which a process counts as dead", 0.2, 3600), &options.lease_s, "10"},
       {{.name = "datagram",
         .type = kInteger,
         .unit = "bytes",
@@ -125,22 +86,13 @@ std::vector<OptionSpec> BusOptionTable(BusOptions& options)
         .maximum = 65500},
        &options.datagram_bytes,
        "1440"},
-      {{.name = "key",
-        .type = kPath,
-        .description = "File with the key of the run, the same on all machines (docs/security.md). Otherwise that of "
-                       "a run of this user on this machine"},
-       &options.key_file,
-       "run.key"},
-      {{.name = "key-fd",
-        .type = kInteger,
-        .description = "Descriptor from which the key of the run is read; -1: none",
-        .minimum = -1,
-        .maximum = kLargestDescriptor},
-       &options.key_fd,
-       "0"},
-      {{.name = "insecure",
-        .type = kBoolean,
-        .description = "Without a key: every program in the domain may take part, watch and steer"},
+      {Path("key",
+            "File with the key of the run, the same on all machines (docs/security.md). Otherwise that of a run of "
+            "this user on this machine"),
+       &options.key_file, "run.key"},
+      {Whole("key-fd", "Descriptor from which the key of the run is read; -1: none", -1, kLargestDescriptor),
+       &options.key_fd, "0"},
+      {Flag("insecure", "Without a key: every program in the domain may take part, watch and steer"),
        &options.insecure},
   };
 }
@@ -148,14 +100,9 @@ std::vector<OptionSpec> BusOptionTable(BusOptions& options)
 std::vector<OptionSpec> EngineOptionTable(WorkerSettings& s)
 {
   return {
-      {{.name = "engine", .type = kText, .description = "The engine's id in the experiment file"}, &s.engine, "ground"},
-      {{.name = "region",
-        .type = kInteger,
-        .description = "Number of a region of that engine, from 0, if it is split; otherwise the engine itself",
-        .minimum = 0,
-        .maximum = 31},
-       &s.region,
-       "1"},
+      {Text("engine", "The engine's id in the experiment file"), &s.engine, "ground"},
+      {Whole("region", "Number of a region of that engine, from 0, if it is split; otherwise the engine itself", 0, 31),
+       &s.region, "1"},
       ExperimentOption(s),
       IncarnationOption(s),
       MachineOption(s)};
@@ -163,69 +110,34 @@ std::vector<OptionSpec> EngineOptionTable(WorkerSettings& s)
 
 std::vector<OptionSpec> HostOptionTable(WorkerSettings& s)
 {
-  return {{{.name = "host",
-            .type = kInteger,
-            .description = "Number of this host; the space server's --controller-hosts says how many there are",
-            .minimum = 0,
-            .maximum = 999},
-           &s.host,
-           "1"},
-          {{.name = "threads",
-            .type = kInteger,
-            .description = "Threads that share the sensors, and the controllers that may step in parallel",
-            .minimum = 1,
-            .maximum = 64},
-           &s.threads,
-           "2"},
+  return {{Whole("host", "Number of this host; the space server's --controller-hosts says how many there are", 0, 999),
+           &s.host, "1"},
+          {Whole("threads", "Threads that share the sensors, and the controllers that may step in parallel", 1, 64),
+           &s.threads, "2"},
           ExperimentOption(s),
           IncarnationOption(s),
           MachineOption(s),
-          {{.name = "fault",
-            .type = kText,
-            .description = "A controller that killed this host before, by tick and number of its robot among the "
-                           "entities: there it has failed, and is not called"},
-           &s.faults,
-           "170:3",
-           "TICK:ROBOT",
-           FaultMistake}};
+          {Text("fault",
+                "A controller that killed this host before, by tick and number of its robot among the entities: there "
+                "it has failed, and is not called"),
+           &s.faults, "170:3", "TICK:ROBOT", FaultMistake}};
 }
 
 std::vector<OptionSpec> VisualiserOptionTable(WorkerSettings& s)
 {
-  return {{{.name = "render",
-            .type = kText,
-            .description = "Id of a visualisation of the experiment file; every tick waits for it"},
-           &s.render,
-           "positions"},
-          IncarnationOption(s),
-          MachineOption(s),
-          {{.name = "attach",
-            .type = kText,
-            .description = "Kind of renderer to attach to a running experiment, which it never slows"},
-           &s.attach,
-           "text"},
-          ExperimentOption(s),
-          {{.name = "output", .type = kPath, .description = "Folder for relative output files"}, &s.output, "watched"},
-          {{.name = "hz",
-            .type = kNumber,
-            .unit = "1/s",
-            .description = "With --attach: states a second at most",
-            .minimum = 0.01,
-            .maximum = 30},
-           &s.rate,
-           "1"},
-          {{.name = "read-only",
-            .type = kBoolean,
-            .description = "With --attach: nothing can be asked of the run through it"},
-           &s.read_only},
-          {{.name = "server",
-            .type = kInteger,
-            .description = "With --attach: process id of the space server on this machine; the visualiser ends when it "
-                           "has gone",
-            .minimum = 1,
-            .maximum = kLargestPid},
-           &s.server,
-           "17811"}};
+  return {
+      {Text("render", "Id of a visualisation of the experiment file; every tick waits for it"), &s.render, "positions"},
+      IncarnationOption(s),
+      MachineOption(s),
+      {Text("attach", "Kind of renderer to attach to a running experiment, which it never slows"), &s.attach, "text"},
+      ExperimentOption(s),
+      {Path("output", "Folder for relative output files"), &s.output, "watched"},
+      {Number("hz", "1/s", "With --attach: states a second at most", 0.01, 30), &s.rate, "1"},
+      {Flag("read-only", "With --attach: nothing can be asked of the run through it"), &s.read_only},
+      {Whole("server",
+             "With --attach: process id of the space server on this machine; the visualiser ends when it has gone", 1,
+             kLargestPid),
+       &s.server, "17811"}};
 }
 
 std::vector<std::string> WorkerWords(WorkerTable table, WorkerSettings settings)

@@ -13,19 +13,18 @@
 namespace swarmanoid
 {
 
-// --domain, --interface, --peers, --discovery-server, --lease, --datagram, --key, --key-fd and --insecure.
+// Returns the options --domain, --interface, --peers, --discovery-server, --lease, --datagram, --key, --key-fd and
+// --insecure.
 std::vector<OptionSpec> BusOptionTable(BusOptions& options);
-// Splits "10.77.0.1:21900" into address and port. Returns nullopt for anything else.
-std::optional<std::pair<std::string, unsigned>> ParseServerAddress(const std::string& text);
 
-// The task of a worker of any kind.
+// These options tell a worker of any kind its task.
 struct WorkerSettings
 {
   std::string experiment{};  // its name; empty: the first one that is heard
   std::string engine{};
-  std::optional<int> region{};  // of that engine; none: the engine itself
+  std::optional<int> region{};  // a region of that engine; none: the engine itself
   unsigned host = 0;
-  // For visualisers: the id of one in the experiment, or the kind of an attached one.
+  // A visualiser has the id of one in the experiment, or the kind of an attached one.
   std::string render{};
   std::string attach{};
   std::string output = ".";
@@ -34,7 +33,7 @@ struct WorkerSettings
   std::optional<int> server{};
   unsigned incarnation = 0;
   std::string machine{};
-  unsigned threads = 1;  // of a controller host
+  unsigned threads = 1;  // for a controller host
   // The controllers that killed earlier hosts, as "TICK:ROBOT" with the number of the entity.
   std::vector<std::string> faults{};
 };

@@ -4,7 +4,7 @@
 #include <random>
 #include <string>
 
-#include "common/bus/participant.h"
+#include "common/bus/topics/participant.h"
 #include "common/messages/control_verbs.h"
 
 namespace swarmanoid

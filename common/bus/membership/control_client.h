@@ -1,5 +1,5 @@
-// ControlClient: sends orders (common/messages/control_verbs.h) to the space server of a running experiment. Used by
-// `swarmanoid control` and `share`, Python, and interactive visualisers.
+// ControlClient: sends orders (common/messages/control_verbs.h) to the space server of a running experiment.
+// `swarmanoid control` and `share`, Python, and interactive visualisers use it.
 #pragma once
 
 #include <chrono>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/bus/bus.h"
+#include "idl/messages.h"
 
 namespace swarmanoid
 {
@@ -45,11 +46,12 @@ private:
   Bus& bus_;
   std::string experiment_;
   std::uint64_t run_;
+  // Guards the five members below and run_.
   std::mutex mutex_;
   std::condition_variable answered_;
   std::optional<RunStatus> status_;
-  Clock::time_point got_on_;  // when the run was last seen to get on
-  std::uint32_t number_;      // of the last request
+  Clock::time_point got_on_;  // when the run last made progress
+  std::uint32_t number_;      // number of the last request
   std::optional<ControlReplyMessage> reply_;
   Publisher<ControlRequestMessage> requests_;
   Subscription<ControlReplyMessage> replies_;

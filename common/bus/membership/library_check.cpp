@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "common/bus/security/run_key.h"
+#include "common/bus/security/digest.h"
 #include "common/plugins/library.h"
 
 namespace swarmanoid
@@ -40,7 +40,7 @@ void AllowOnly(const std::vector<WorldLibrary>& libraries, bool own_folders_only
         const auto is_meant = [&](const WorldLibrary& library)
         { return is_named(library) && library.digest == digest; };
         if (std::none_of(libraries.begin(), libraries.end(), is_named))
-          return "the space server has no such library, so nobody can know that it is the one meant; put it on the "
+          return "the space server has no such library, so it cannot be known to be the right one; put it on the "
                  "space server's machine, too";
         if (digest.empty() || std::none_of(libraries.begin(), libraries.end(), is_meant))
           return "it is another file than that of the space server (SHA-256); copy that one";

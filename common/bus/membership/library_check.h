@@ -1,10 +1,10 @@
 // Restricts the libraries that a worker loads. The World of its run names the allowed ones by their digests. If the key
-// came from another user, only the folders that the worker was started with are allowed. Used by WorkerSession.
+// came from another user, only the folders that the worker was started with are allowed. WorkerSession uses it.
 #pragma once
 
 #include <vector>
 
-#include "common/bus/topics/session_messages.h"
+#include "idl/messages.h"
 
 namespace swarmanoid
 {

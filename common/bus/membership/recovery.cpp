@@ -1,3 +1,9 @@
+// The new process repeats the steps of the dead one from the newest saved state, with the inputs that the journal has.
+// Its own results are not sent, since the others have them. Blocks are requested one by one, so a lost message is asked
+// for again. docs/recovery.md describes the method and its costs.
+//
+// Invariants: ticks follow each other without a gap, otherwise the recovery fails. A step begins only when the record
+// after it is known or the blocks have ended, since some steps are compared with it.
 #include "common/bus/membership/recovery.h"
 
 #include <fmt/format.h>
@@ -20,7 +26,7 @@ using Clock = RunClock;
 
 constexpr auto kAskAgain = 200ms;
 
-// Asks the server for blocks, one after the other.
+// Requests the blocks from the server, one after the other.
 class BlockReader
 {
 public:
@@ -45,7 +51,7 @@ public:
   }
   ~BlockReader() { blocks_.reset(); }
 
-  // Empty after the last one.
+  // Returns the next block; empty after the last one.
   std::vector<char> Next()
   {
     {
@@ -93,7 +99,7 @@ std::uint64_t Recover(WorkerSession& session, WorkerWorld& replica, const Recove
   {
     if (!std::exchange(begun, true)) steps.begin();
   };
-  std::array<TickRecord, 2> records;  // one is held until the next one is here
+  std::array<TickRecord, 2> records;  // one block is kept until the next one has arrived
   TickRecord* held = nullptr;
   const auto step = [&](const TickRecord* next)
   {

@@ -22,7 +22,7 @@ struct RecoverySteps
   // run waits at, and has no commands. `next`: the record after it, or null.
   std::function<void(const TickRecord& record, const TickRecord* next)> step{};
   std::function<void(const std::vector<SensorFrame>&)>
-      frames{};  // of the tick that comes next; empty if it is the first
+      frames{};  // takes the frames of the next tick; empty if no tick comes before it
 };
 
 // Recovers up to the tick that the process waits for, and returns that tick. Throws BusError.

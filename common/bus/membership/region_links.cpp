@@ -1,3 +1,10 @@
+// Messages between the processes may be lost at any time, and each process may be replaced. Each task has an epoch and
+// a number. A sender repeats its message, at growing intervals, until the answer has come. A process that has lost its
+// state asks for a new epoch, which starts all regions with their whole state. docs/wire.md shows the messages.
+//
+// Invariants: a region takes a task of number n only after n - 1 of the same epoch, and a first task at any time. In
+// one epoch, no region is more than one exchange ahead of another, so two slots for messages, by even and odd number,
+// are enough. An answer belongs to the newest task, or it is dropped.
 #include "common/bus/membership/region_links.h"
 
 #include <fmt/format.h>
@@ -18,9 +25,10 @@ using namespace std::chrono_literals;
 
 constexpr std::uint32_t kFirstTask = 0;
 constexpr std::uint32_t kEndOfRun = ~0U;
-constexpr std::chrono::milliseconds kFirstWait = 100ms;  // of what may have been lost
+constexpr std::chrono::milliseconds kFirstWait = 100ms;  // until a message that may be lost is repeated
 constexpr std::chrono::milliseconds kLastWait = 1s;
-constexpr std::chrono::milliseconds kLook = 2ms;          // whether the engine has left, after the end of the run
+// Period of the check whether the engine has left, after the end of the run.
+constexpr std::chrono::milliseconds kLook = 2ms;
 constexpr std::chrono::milliseconds kLookBefore = 500ms;  // the same, before the end of the run
 // How long a region stays after the end of the run if the engine, which asks every 0.1 s, is silent. The engine's Leave
 // may be lost, and the bus takes a killed engine for living for a while.
@@ -66,7 +74,7 @@ void Pack(std::span<const ByteWriter> parts, RegionMessage& message)
   }
 }
 
-// The interval between repetitions. It grows while no answer comes.
+// The interval between repetitions grows while no answer comes.
 struct Patience
 {
   std::chrono::milliseconds time = kFirstWait;
@@ -117,7 +125,7 @@ std::string RegionTeamLink::Awaited() const
   const std::lock_guard lock(mutex_);
   std::vector<std::string> names;
   for (const Place& place : places_)
-    if (!place.is_here) names.push_back(place.name);
+    if (is_at_work_ && !place.is_here) names.push_back(place.name);
   return Joined(names);
 }
 
@@ -143,6 +151,7 @@ void RegionTeamLink::MakeTask(std::uint32_t epoch, std::uint32_t number, std::sp
   const std::lock_guard lock(mutex_);
   epoch_ = epoch;
   number_ = number;
+  is_at_work_ = true;
   for (std::size_t k = 0; k < places_.size(); ++k)
   {
     Place& place = places_[k];
@@ -165,9 +174,8 @@ void RegionTeamLink::Send()
   }
 }
 
-bool RegionTeamLink::SendAndWait(std::chrono::milliseconds most)
+bool RegionTeamLink::Wait(std::chrono::milliseconds most)
 {
-  Send();
   const auto until = RunClock::now() + most;
   Patience patience;
   std::unique_lock lock(mutex_);
@@ -183,31 +191,36 @@ bool RegionTeamLink::SendAndWait(std::chrono::milliseconds most)
   return all_here();
 }
 
-void RegionTeamLink::Work(bool anew, const WriteTasks& write, std::span<std::vector<char>> results)
+void RegionTeamLink::Work(bool all_data, const WriteTasks& write, std::span<std::vector<char>> results,
+                          const std::function<void()>& meanwhile)
 {
+  struct Unlocked
+  {
+    explicit Unlocked(std::mutex& of) : mutex(of) { mutex.unlock(); }
+    ~Unlocked() { mutex.lock(); }
+    std::mutex& mutex;
+  };
+  bool is_first = true;
   parts_.resize(places_.size());
-  for (bool done = false; !done; anew = true)
+  for (bool done = false; !done; all_data = true)
   {
     {
       const std::lock_guard lock(mutex_);
-      anew |= std::exchange(begins_again_, false);
+      all_data |= std::exchange(begins_again_, false);
     }
     for (ByteWriter& part : parts_) part.Clear();
-    write(anew, parts_);
-    anew ? MakeTask(epoch_ + 1, kFirstTask, parts_) : MakeTask(epoch_, number_ + 1, parts_);
-    role_->unlock();
-    try
+    write(all_data, parts_);
+    all_data ? MakeTask(epoch_ + 1, kFirstTask, parts_) : MakeTask(epoch_, number_ + 1, parts_);
     {
-      done = SendAndWait(kForEver);
+      const Unlocked unlocked(*role_);
+      Send();
     }
-    catch (...)
-    {
-      role_->lock();
-      throw;
-    }
-    role_->lock();
+    if (std::exchange(is_first, false)) meanwhile();
+    const Unlocked unlocked(*role_);
+    done = Wait(kForEver);
   }
   const std::lock_guard lock(mutex_);
+  is_at_work_ = false;
   for (std::size_t k = 0; k < places_.size(); ++k)
   {
     const std::span<const char> error = PartOf(places_[k].result, 1);
@@ -229,7 +242,8 @@ void RegionTeamLink::End()
           const std::lock_guard lock(mutex_);
           begins_again_ = false;
         }
-        if (SendAndWait(0ms)) return true;
+        Send();
+        if (Wait(0ms)) return true;
         const std::lock_guard lock(mutex_);
         return std::ranges::all_of(
             places_, [this](const Place& place) { return place.is_here || session_.HasLeft(place.name, 0); });
@@ -288,16 +302,15 @@ void RegionLink::TaskReceived(const MessageHeader& header, RegionTaskMessage& ta
   if (task.epoch == missed_epoch_)
     is_lost_ = true;
   else if (is_known)
-    is_asked_again_ = is_done_;
+    is_asked_again_ = state_ == TaskState::kAnswered;
   else if (builds_upon && (task.epoch != epoch_ || task.number != number_ + 1))
     is_lost_ = true;
   else
   {
     epoch_ = task.epoch;
     number_ = task.number;
-    is_done_ = false;
     next_tick_ = header.tick;
-    has_next_ = true;
+    state_ = TaskState::kArrived;
     std::swap(next_, task);
   }
   changed_.notify_all();
@@ -346,7 +359,8 @@ void RegionLink::Swap(std::span<const ByteWriter> out, std::span<std::vector<cha
   Patience patience;
   std::unique_lock lock(mutex_);
   while (!changed_.wait_for(lock, patience.time,
-                            [&] { return all_here() || has_next_ || is_closed_ || is_left_behind(); }))
+                            [&]
+                            { return all_here() || state_ == TaskState::kArrived || is_closed_ || is_left_behind(); }))
   {
     lock.unlock();
     WriteHalosAgain(true);
@@ -414,7 +428,8 @@ bool RegionLink::EngineHasLeft() const
 RegionLink::Next RegionLink::WaitForNext()
 {
   std::unique_lock lock(mutex_);
-  const auto is_due = [this] { return has_next_ || is_asked_again_ || is_halo_missed_ || is_lost_ || is_closed_; };
+  const auto is_due = [this]
+  { return state_ == TaskState::kArrived || is_asked_again_ || is_halo_missed_ || is_lost_ || is_closed_; };
   while (!changed_.wait_for(lock, is_over_ ? kLook : kLookBefore, is_due))
   {
     // The bus calls back while it holds its own locks, and EngineHasLeft needs those locks.
@@ -429,8 +444,9 @@ RegionLink::Next RegionLink::WaitForNext()
     if (epoch_ == 0) return Next::kAskForAll;
   }
   if (is_closed_) return Next::kEnd;
-  if (std::exchange(has_next_, false))
+  if (state_ == TaskState::kArrived)
   {
+    state_ = TaskState::kInWork;
     std::swap(task_, next_);
     tick_ = next_tick_;
     is_asked_again_ = is_halo_missed_ = is_lost_ = false;
@@ -475,7 +491,7 @@ void RegionLink::Serve(EngineRegion& region)
     Answer(task_.epoch, task_.number, result.Bytes(), error);
     {
       const std::lock_guard lock(mutex_);
-      is_done_ = !has_next_;
+      if (state_ == TaskState::kInWork) state_ = TaskState::kAnswered;
     }
     is_over_ = task_.number == kEndOfRun;
   }

@@ -44,7 +44,8 @@ public:
 
   unsigned RegionCount() const override { return static_cast<unsigned>(places_.size()); }
   bool IsReady() const override { return role_ != nullptr; }
-  void Work(bool anew, const WriteTasks& write, std::span<std::vector<char>> results) override;
+  void Work(bool all_data, const WriteTasks& write, std::span<std::vector<char>> results,
+            const std::function<void()>& meanwhile) override;
 
 private:
   struct Place
@@ -60,9 +61,9 @@ private:
   void MakeTask(std::uint32_t epoch, std::uint32_t number, std::span<const ByteWriter> parts);
   // Sends the task to the regions whose results are missing.
   void Send();
-  // Sends the task until all results have arrived, and returns true. Returns false if a region needs a new epoch, or if
-  // it takes longer than `most`.
-  bool SendAndWait(std::chrono::milliseconds most);
+  // Waits until all results have arrived, and returns true. Sends the task again at times. Returns false if a region
+  // needs a new epoch, or if it takes longer than `most`.
+  bool Wait(std::chrono::milliseconds most);
   void Received(const MessageHeader& header, RegionResultMessage& result);
 
   WorkerSession& session_;
@@ -70,11 +71,13 @@ private:
   const std::uint32_t first_;  // number of region 0
   std::mutex* role_ = nullptr;
   std::atomic<std::uint64_t> tick_ = 0;
-  std::uint32_t epoch_, number_ = 0;  // of the current task
+  std::uint32_t epoch_, number_ = 0;  // numbers of the current task
   std::vector<ByteWriter> parts_;
+  // Guards the epoch and the number, places_ but for their publishers, is_at_work_ and begins_again_.
   mutable std::mutex mutex_;
   RunCondition changed_;
   std::vector<Place> places_;
+  bool is_at_work_ = false;  // there is a task
   bool begins_again_ = false;
   RegionResultMessage arriving_;  // used by the subscription's thread
   HotSubscription<RegionResultMessage> results_;
@@ -107,6 +110,14 @@ private:
   void WriteAnswer();
   void TaskReceived(const MessageHeader& header, RegionTaskMessage& task);
   void HaloReceived(const MessageHeader& header, RegionHaloMessage& halo);
+  // The state of the newest task that has come.
+  enum class TaskState
+  {
+    kNone,
+    kArrived,
+    kInWork,  // or given up, because a region was replaced
+    kAnswered
+  };
   // The next action of a region between two tasks.
   enum class Next
   {
@@ -126,28 +137,28 @@ private:
   const std::uint32_t engine_;
   const std::string engine_name_;
   const std::uint32_t first_;  // number of region 0 of the engine
-  const std::uint32_t own_;    // of this one, from 0
-  const unsigned regions_;     // of the engine
+  const std::uint32_t own_;    // number of this region, from 0
+  const unsigned regions_;     // number of regions of the engine
   std::uint64_t tick_ = 0;
   std::atomic<bool> is_over_ = false;
   RegionTaskMessage task_;  // the current task, or the last one
   RegionResultMessage answer_;
   RunTime answered_;
-  std::uint32_t exchanges_ = 0;  // in the epoch
+  std::uint32_t exchanges_ = 0;  // number of exchanges in the epoch
   Halos said_;
+  // Guards the members down to heard_. The members above belong to the thread that calls Serve.
   std::mutex mutex_;
   RunCondition changed_;
   RegionTaskMessage next_;
-  bool has_next_ = false;
+  TaskState state_ = TaskState::kNone;
   std::uint64_t next_tick_ = 0;
-  std::uint32_t epoch_ = 0, number_ = 0;  // of the newest task that has come
+  std::uint32_t epoch_ = 0, number_ = 0;  // numbers of the newest task that has come
   std::uint32_t missed_epoch_ = 0;        // the epoch that the others began with the predecessor of this process
-  bool is_done_ = false;                  // the newest task is done and answered
   bool is_asked_again_ = false;           // the engine asks for the last answer again
   bool is_lost_ = false;                  // a task came that needs earlier tasks
   bool is_halo_missed_ = false;           // another region repeats a message that all have received
   bool is_closed_ = false;
-  std::vector<Halos> heard_;  // the messages of each region
+  std::vector<Halos> heard_;  // by region
   RegionTaskMessage arriving_task_;
   RegionHaloMessage arriving_halo_;
   HotPublisher<RegionHaloMessage> halos_out_;

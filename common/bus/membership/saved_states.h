@@ -1,5 +1,5 @@
-// The workers' side of checkpoints: sends the server the state of a role at the ticks of a checkpoint. Used by
-// engine_worker and controller_host, in the threads of the bus that step the role.
+// The workers' side of checkpoints: sends the server the state of a role at the ticks of a checkpoint. engine_worker
+// and controller_host use it, in the threads of the bus that step the role.
 #pragma once
 
 #include <optional>

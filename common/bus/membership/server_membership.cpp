@@ -1,3 +1,9 @@
+// Transition is the table of all phases and events, as a pure function; docs/recovery.md prints it, and tests go
+// through it. Messages may come late, again, or from a process that was replaced, so each is compared with the process
+// and the incarnation of the member.
+//
+// Invariants: at any time at most one process is the member of a name; a member that has left never comes back; only
+// the first failure of a run is kept.
 #include "common/bus/membership/server_membership.h"
 
 #include <fmt/format.h>
@@ -89,9 +95,14 @@ ServerMembership::Verdict ServerMembership::Heard(const JoinMessage& join)
   Member& member = found->second;
   if (!MayJoinAs(member, join)) return Verdict::kNameTaken;
   const bool is_another = member.process != join.process;
-  // A process repeats its Join until the run begins.
-  if (!is_another && member.incarnation == join.incarnation && (!join.ready || member.phase != Phase::kJoined))
-    return Verdict::kNothingNew;
+  // A process repeats its Join until the run begins, and again after the last tick while it waits for others.
+  const bool is_known =
+      !is_another && member.incarnation == join.incarnation && (!join.ready || member.phase != Phase::kJoined);
+  // It may wait for a process that has left, because it missed the Leave.
+  if (is_known || (is_another && join.incarnation > 0))
+    for (const auto& [name, other] : members_)
+      if (other.done_at && name != join.name) news_.answers.push_back({run_, *other.done_at, name, other.process, ""});
+  if (is_known) return Verdict::kNothingNew;
   if (is_another)
   {
     On(join.name, member.process.empty() ? Event::kCame : Event::kReplaced);
@@ -99,10 +110,6 @@ ServerMembership::Verdict ServerMembership::Heard(const JoinMessage& join)
     member.process = join.process;
     member.status = {};
     member.done_at.reset();
-    // The new process has missed earlier Leaves, and may wait for a process that has left.
-    if (join.incarnation > 0)
-      for (const auto& [name, other] : members_)
-        if (other.done_at) news_.answers.push_back({run_, *other.done_at, name, other.process, ""});
   }
   member.incarnation = join.incarnation;
   member.machine = join.machine;

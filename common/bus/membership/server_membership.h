@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/bus/topics/session_messages.h"
+#include "idl/messages.h"
 
 namespace swarmanoid
 {
@@ -24,11 +24,11 @@ public:
   enum class Phase : std::uint8_t
   {
     kAwaited,  // no process has come
-    kJoined,   // builds its part of the world, and meets the others
+    kJoined,   // the process builds its part of the world, and matches the others
     kReady,
     kReleased,  // another process is about to replace it; how it ends does not matter
-    kDone,      // said that its work is done
-    kGone       // ended otherwise, for good
+    kDone,      // the process reported the end of its work
+    kGone       // the process ended otherwise, for good
   };
   enum class Event : std::uint8_t
   {
@@ -66,9 +66,9 @@ public:
   {
     Phase phase = Phase::kAwaited;
     std::string process{};                   // the newest one; empty if none has come
-    std::optional<std::uint64_t> done_at{};  // the tick at which it said that its work is done
+    std::optional<std::uint64_t> done_at{};  // the tick at which it reported the end of its work
     std::uint32_t incarnation = 0;
-    std::string machine{};  // as in JoinMessage
+    std::string machine{};  // see JoinMessage
     double reach = kReachesAll;
     StatusMessage status{};
     std::set<std::string> replaced{};  // the earlier processes
@@ -81,7 +81,8 @@ public:
   {
     std::vector<std::string> left;
     std::vector<std::string> lost;
-    std::vector<std::pair<std::string, std::uint32_t>> replaced;  // those that can step, with their incarnations
+    // The replacements that can step, with their incarnations.
+    std::vector<std::pair<std::string, std::uint32_t>> replaced;
     std::vector<LeaveMessage> answers;
   };
 

@@ -1,10 +1,16 @@
+// Threads of the bus report each message to the membership under the lock of state_, and the callbacks run without it.
+// The membership collects what the main thread has to do, until that takes it (TakeLeft, TakeLost, TakeReplaced,
+// AnswerLeaves).
+//
+// Invariant: a request of a client is carried out once. Clients repeat requests that are not answered, so the last
+// kRequestsKept requests are kept with their replies.
 #include "common/bus/membership/server_session.h"
 
 #include <fmt/format.h>
 #include <cstdio>
 #include <utility>
 
-#include "common/activity/print_error.h"
+#include "common/errors/print_error.h"
 
 namespace swarmanoid
 {

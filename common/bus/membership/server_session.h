@@ -12,8 +12,8 @@
 
 #include "common/bus/bus.h"
 #include "common/bus/guarded.h"
-#include "common/bus/membership/run_directory.h"
 #include "common/bus/membership/server_membership.h"
+#include "common/bus/run_directory.h"
 
 namespace swarmanoid
 {
@@ -21,7 +21,7 @@ namespace swarmanoid
 class ServerSession
 {
 public:
-  // Called in threads of the bus.
+  // Threads of the bus call these functions.
   struct Callbacks
   {
     std::function<void(const ControlRequestMessage&)> asked;

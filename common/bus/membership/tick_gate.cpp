@@ -1,3 +1,8 @@
+// One flag for each part says whether its message of this tick is here. Another one says whether its message of the
+// next tick has come early; only parts with `may_lead` may send it.
+//
+// Invariants: missing_ is the number of parts that are not here; a part never skips a tick; a message of an earlier
+// incarnation than the newest one of its part is dropped.
 #include "common/bus/membership/tick_gate.h"
 
 #include <fmt/format.h>

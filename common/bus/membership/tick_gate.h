@@ -1,5 +1,6 @@
 // TickGate knows what a process still waits for before the next tick. The parts are the messages of one tick, each
-// expected once. It recognises late repetitions. A message that skips a tick is an error. Not thread-safe.
+// expected once. It recognises late repetitions. A message that skips a tick is an error. One thread at a time may use
+// it.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@ public:
   enum class Verdict
   {
     kExpected,  // take it
-    kBefore,    // of the previous tick: the sender lacks our answer
+    kBefore,    // the message of the previous tick: the sender lacks our answer
     kDrop       // old, or here already
   };
 
@@ -50,13 +51,13 @@ public:
 private:
   std::vector<Part> parts_;
   std::vector<char> here_;
-  std::vector<char> ahead_;  // of the tick after
+  std::vector<char> ahead_;  // whether the message of the next tick is here
   std::vector<std::uint32_t> incarnations_;
   std::size_t missing_ = 0;
   std::uint64_t tick_ = 0;
 };
 
-// "a, b, c"
+// Returns the names with commas: "a, b, c".
 std::string Joined(const std::vector<std::string>& names);
 
 }  // namespace swarmanoid

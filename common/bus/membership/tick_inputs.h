@@ -1,7 +1,7 @@
 // TickInputs collects what a worker needs before each of its steps: the state of the space, and one message from each
 // of some other processes. Messages may be early, late or repeated. Once a tick is complete, the worker steps in the
-// bus thread that brought the last message. If the step waits for others, it has its own thread. Used by engine_worker
-// and controller_host.
+// bus thread that brought the last message. If the step waits for others, it has its own thread. engine_worker and
+// controller_host use it.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ template <class Message>
 class TickInputs
 {
 public:
-  // One of the other processes. `source`: the number in its messages.
+  // It describes one of the other processes. `source`: the number in its messages.
   struct Other
   {
     std::uint32_t source;
@@ -36,11 +36,13 @@ public:
   // All are called with Mutex() locked. An exception of `step` ends the run.
   struct Calls
   {
-    std::function<Message*(std::size_t other, std::uint64_t tick)> place;  // where a message is to be put
+    std::function<Message*(std::size_t other, std::uint64_t tick)> place;  // returns the memory for a message
     std::function<void()> step;                                            // the inputs of tick Tick() are complete
     std::function<void()> answer_again;  // a process lacks the answer to the tick before Tick()
     // The step waits for messages of others and unlocks Mutex() meanwhile, so it has its own thread.
     bool step_waits = false;
+    // Other processes may lack the last answer when this process has no more steps.
+    bool answers_after_end = false;
   };
 
   // `late`: the worker's messages of a tick are used at the next tick. So the server does not wait for the step, and
@@ -189,7 +191,10 @@ private:
       if (header.tick > gate_.Tick())
         states_[header.tick % 2].last = true;  // after the step that is still lacking
       else if (header.tick + 1 >= gate_.Tick())
+      {
         Finish(header.tick);
+        if (calls_.answers_after_end) calls_.answer_again();
+      }
     }
     else if (header.tick + 1 == gate_.Tick() || header.tick == gate_.Tick())
       // The server, or another process that this one waits for, lacks the answer to the previous tick.
@@ -285,7 +290,7 @@ private:
   Calls calls_;
   std::mutex mutex_;  // protects the gate, the states and all that the calls touch
   TickGate gate_;
-  std::array<LocalState, 2> states_;  // of even and odd ticks; of all entities, unless it hears a part
+  std::array<LocalState, 2> states_;  // for even and odd ticks; all entities, unless this process gets a part
   std::array<bool, 2> saves_{};
   LocalState repeated_;
   struct Part
@@ -294,15 +299,15 @@ private:
     std::uint32_t number;
     std::function<void(const LocalState&)> apply;
   };
-  std::optional<Part> part_;  // if the states are for this process alone
+  std::optional<Part> part_;  // set if the states are for this process alone
   std::atomic<std::uint64_t> stepping_ = 0;
   std::atomic<bool> over_ = false;
   bool is_stepping_ = false;
-  bool is_here_ = false;    // all of the tick, for the stepper
-  bool is_closed_ = false;  // for the stepper
+  bool is_here_ = false;    // the tick is complete; read by the stepper
+  bool is_closed_ = false;  // read by the stepper
   RunCondition wake_;
   RunThread stepper_;
-  StallDetector stall_;  // main thread
+  StallDetector stall_;  // used by the main thread
   std::optional<HotSubscription<Message>> others_in_;
   std::optional<HotSubscription<SpaceState>> states_in_;
   std::optional<HotSubscription<LocalState>> part_in_;

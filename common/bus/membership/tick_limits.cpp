@@ -57,8 +57,8 @@ constexpr std::size_t kRegionAtLeast = 1 << 20;
 std::size_t RegionLimits::TaskBytes() const { return kRegionAtLeast + 144 * bodies + 4096 * mirrors; }
 // The size is twice that of all bodies changing their regions at once.
 std::size_t RegionLimits::HaloBytes() const { return kRegionAtLeast + 256 * bodies; }
-// A body needs its pose, turret and way.
-std::size_t RegionLimits::ResultBytes() const { return kRegionAtLeast + 72 * bodies; }
+// A body needs its motion, turret, way and load.
+std::size_t RegionLimits::ResultBytes() const { return kRegionAtLeast + 112 * bodies; }
 
 TickLimits::TickLimits(const CSwarmanoidSpace& space, const Assignment& assignment, bool recorded)
     : entities_(space.Size()),
@@ -116,14 +116,13 @@ std::size_t TickLimits::CommandBytes() const
   FillSlots(commands.attributes, slots_);
   commands.faults.robots.resize(static_cast<std::size_t>(std::count(may_fail_.begin(), may_fail_.end(), true)));
   commands.faults.kinds.resize(commands.faults.robots.size());
-  if (!commands.faults.robots.empty())
-    commands.faults.texts.resize(commands.faults.robots.size() + ControllerFaults::kMostText);
+  if (!commands.faults.robots.empty()) commands.faults.texts.resize(commands.faults.robots.size() + kMostFaultText);
   return PayloadSize(MessageHeader(), commands);
 }
 
 std::size_t TickLimits::UpdateBytes() const
 {
-  UpdateMessage update;
+  EngineUpdate update;
   FillPoses(update.poses, Largest(owned_));
   FillSlots(update.attributes, slots_);
   update.recorded.resize(Largest(recorded_));
@@ -145,7 +144,7 @@ void TickLimits::Check(const MessageHeader& header, const SpaceState& state) con
   CheckLength("poses", state.poses.size(), kPoseColumns * movable_);
   CheckSlots(state.attributes);
   CheckMoved(state.moved);
-  if (!draws_ && !state.drawing.IsEmpty()) RefuseField("shapes", "nobody draws in this run");
+  if (!draws_ && !state.drawing.IsEmpty()) RefuseField("shapes", "nothing draws in this run");
   CheckDrawing(state.drawing);
 }
 
@@ -183,7 +182,7 @@ void TickLimits::Check(const MessageHeader& header, const ControlCommands& comma
   CheckFaults(commands.faults);
 }
 
-void TickLimits::Check(const MessageHeader& header, const UpdateMessage& update) const
+void TickLimits::Check(const MessageHeader& header, const EngineUpdate& update) const
 {
   CheckLength("poses", update.poses.size(), kPoseColumns * OfSource(owned_, header));
   CheckSlots(update.attributes);
@@ -221,16 +220,16 @@ void TickLimits::CheckSource<SensorFrame>(const MessageHeader& header) const
 
 void TickLimits::CheckFaults(const ControllerFaults& faults) const
 {
-  CheckLength("fault_kinds", faults.kinds.size(), faults.robots.size());
+  CheckLength("faults.kinds", faults.kinds.size(), faults.robots.size());
   if (!IsShowable({faults.texts.data(), faults.texts.size()}))
-    RefuseField("fault_texts", "they have characters that must not be shown");
+    RefuseField("faults.texts", "they have characters that must not be shown");
   for (std::size_t k = 0; k < faults.robots.size(); ++k)
   {
     const std::uint32_t robot = faults.robots[k];
     if (robot >= entities_ || !may_fail_[robot] || (k > 0 && robot <= faults.robots[k - 1]))
-      RefuseField("fault_robots", fmt::format("entity {} does not ascend, or may not fail", robot));
+      RefuseField("faults.robots", fmt::format("entity {} does not ascend, or may not fail", robot));
     if (faults.kinds[k] < FaultKind::kThrew || faults.kinds[k] > FaultKind::kTooSlow)
-      RefuseField("fault_kinds", fmt::format("there is no kind {}", static_cast<std::uint32_t>(faults.kinds[k])));
+      RefuseField("faults.kinds", fmt::format("there is no kind {}", static_cast<std::uint32_t>(faults.kinds[k])));
   }
 }
 
@@ -239,7 +238,7 @@ void TickLimits::CheckSlots(const AttributeChanges& changes) const
 {
   const std::vector<std::uint32_t>& slots = changes.slots;
   if (!slots.empty() && slots.back() >= slots_)
-    RefuseField("attribute_slots", fmt::format("there is no slot {}; there are {}", slots.back(), slots_));
+    RefuseField("attributes.slots", fmt::format("there is no slot {}; there are {}", slots.back(), slots_));
 }
 
 }  // namespace swarmanoid

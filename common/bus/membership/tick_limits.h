@@ -1,14 +1,14 @@
 // TickLimits derives the limits of tick messages from an experiment: the lengths of arrays, and the valid slots and
 // entities. They give the memory that messages need, and the checks of arriving messages. All processes of a run have
-// the same limits. Read-only, so any thread may ask.
+// the same limits. The limits never change, so any thread may ask for them.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "common/bus/topics/session_messages.h"
 #include "common/messages/assignment.h"
 #include "common/messages/tick_messages.h"
+#include "idl/messages.h"
 
 namespace swarmanoid
 {
@@ -46,7 +46,7 @@ public:
   void Check(const MessageHeader& header, const SpaceState& state) const;
   void Check(const MessageHeader& header, const LocalState& state) const;
   void Check(const MessageHeader& header, const ControlCommands& commands) const;
-  void Check(const MessageHeader& header, const UpdateMessage& update) const;
+  void Check(const MessageHeader& header, const EngineUpdate& update) const;
   void Check(const MessageHeader& header, const SensorFrame& frame) const;
   void Check(const SpaceSnapshot& snapshot) const;
   // Checks the sender of a message of that kind, before the message is read.
@@ -64,13 +64,13 @@ private:
   std::size_t entities_;
   std::size_t movable_;
   std::size_t slots_;
-  bool draws_;                               // states have what experiment functions draw
-  std::vector<bool> is_movable_;             // of each entity
-  std::vector<bool> may_fail_;               // of each entity
-  std::vector<std::size_t> command_values_;  // of each host
-  std::vector<std::size_t> owned_;           // of each engine
-  std::vector<std::size_t> recorded_;        // of each engine: numbers in UpdateMessage::recorded
-  std::vector<std::size_t> sensor_values_;   // of each engine
+  bool draws_;                               // states have the drawings of experiment functions
+  std::vector<bool> is_movable_;             // by entity
+  std::vector<bool> may_fail_;               // by entity
+  std::vector<std::size_t> command_values_;  // by host
+  std::vector<std::size_t> owned_;           // by engine
+  std::vector<std::size_t> recorded_;        // by engine: numbers in EngineUpdate::recorded
+  std::vector<std::size_t> sensor_values_;   // by engine
   std::size_t most_in_regions_ = 0;          // bodies of one engine that is split
   std::size_t most_mirrors_ = 0;             // bodies of other engines in one split engine
 };

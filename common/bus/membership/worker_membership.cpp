@@ -1,9 +1,14 @@
+// Transition is the table of all phases and events, as a pure function; docs/recovery.md prints it, and tests go
+// through it. Messages may be lost, so each message of a phase is repeated until an event shows that it was heard.
+//
+// Invariants: a worker whose work has ended repeats its Leave until the server answers, or leaves silently if the
+// server expects no message of it. A stronger end replaces a weaker one, never the other way round.
 #include "common/bus/membership/worker_membership.h"
 
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "common/activity/exit_codes.h"
+#include "common/errors/exit_codes.h"
 
 namespace swarmanoid
 {
@@ -77,7 +82,7 @@ WorkerMembership::Next WorkerMembership::Transition(Phase phase, Event event)
       break;
     case Event::kUnheard:
       if (phase == Phase::kJoining) return {phase, Action::kSayJoin};
-      if (phase == Phase::kReady) return {phase, Action::kSayReady};
+      if (phase == Phase::kReady || phase == Phase::kFinishing) return {phase, Action::kSayReady};
       if (phase == Phase::kLeaving) return {phase, Action::kSayLeave};
       break;
     case Event::kNextServer:

@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "common/activity/activity.h"
-#include "common/bus/topics/session_messages.h"
+#include "idl/messages.h"
 
 namespace swarmanoid
 {
@@ -24,24 +24,24 @@ public:
   enum class Phase : std::uint8_t
   {
     kSearching,    // no space server was heard
-    kJoining,      // builds its part of the world, and meets the others
-    kReady,        // said that it can step
+    kJoining,      // the process builds its part of the world, and matches the others
+    kReady,        // the process said that it can step
     kStepping,     // ticks pass
-    kFinishing,    // the last tick is here
+    kFinishing,    // the last tick has come
     kStuck,        // a dead process holds a lock of the shared memory
     kCutOff,       // the space server has gone
-    kRunOver,      // the space server said that the run is over
-    kRunFailed,    // the space server said that the run failed, or refused this process
+    kRunOver,      // the space server reported the end of the run
+    kRunFailed,    // the space server reported a failure of the run, or refused this process
     kInterrupted,  // a signal asked for the end
     kFailed,       // this process failed
-    kLeaving,      // says Leave until the server answers
+    kLeaving,      // the process repeats its Leave until the server answers
     kLeft
   };
   enum class Event : std::uint8_t
   {
     kWorldHeard,
     kPrepared,    // the process can step
-    kTickPassed,  // since it was ready
+    kTickPassed,  // a tick has passed since the process was ready
     kLastTick,
     kUnheard,  // the last message is old and may be lost
     kBusStuck,

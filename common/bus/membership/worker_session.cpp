@@ -1,15 +1,20 @@
+// The main thread waits in WaitUntil or WaitUntilDone, and looks at the time, the signals and the server between short
+// sleeps. Threads of the bus report messages to the membership under mutex_ and wake the main thread.
+//
+// Invariant: while mutex_ is locked, no message is written and no function of the caller runs. The bus holds locks of
+// its own when it calls this class.
 #include "common/bus/membership/worker_session.h"
 
 #include <fmt/format.h>
 #include <new>
 #include <utility>
 
-#include "common/activity/exit_codes.h"
-#include "common/activity/memory_limit.h"
-#include "common/activity/print_error.h"
 #include "common/bus/membership/library_check.h"
 #include "common/configuration/configuration_tree.h"
-#include "common/experiment/places.h"
+#include "common/errors/exit_codes.h"
+#include "common/errors/print_error.h"
+#include "common/experiment/source_places.h"
+#include "common/memory/memory_limit.h"
 #include "common/program/interrupts.h"
 
 namespace swarmanoid
@@ -25,8 +30,8 @@ using Event = WorkerMembership::Event;
 using Action = WorkerMembership::Action;
 
 constexpr auto kPatience = 1s;          // until the process says what it waits for
-constexpr auto kPatienceForNext = 15s;  // of observers, for another space server
-constexpr auto kLook = 100ms;           // at whether the server is there, while this process leaves
+constexpr auto kPatienceForNext = 15s;  // how long observers wait for another space server
+constexpr auto kLook = 100ms;           // period of the check whether the server exists, while this process leaves
 
 // Returns the text of an experiment without its seed. Its elements may come from several files.
 std::string WithoutSeed(std::string_view xml)
@@ -68,7 +73,8 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
       [&]
       {
         const std::lock_guard lock(mutex_);
-        const bool is_found = membership_.Now() != Phase::kSearching && !membership_.HasEnded();
+        // If the run ends from here on, Work says how.
+        const bool is_found = !membership_.Server().empty();
         if (!is_found && server && !IsAlive(*server))
           throw BusError(
               fmt::format("experiment '{}' has ended: its space server, process {}, has gone", experiment, *server));

@@ -1,6 +1,6 @@
 // WorkerSession connects a worker to a run, apart from its step. It sends, receives and measures time for its
 // WorkerMembership, which decides. It reports what the worker waits for. The step itself runs in a thread of the bus.
-// Used by engine_worker, controller_host and visualiser.
+// engine_worker, controller_host and visualiser use it.
 #pragma once
 
 #include <atomic>
@@ -14,8 +14,8 @@
 
 #include "common/activity/failure_report.h"
 #include "common/bus/bus.h"
-#include "common/bus/membership/run_directory.h"
 #include "common/bus/membership/worker_membership.h"
+#include "common/bus/run_directory.h"
 #include "common/threads/waiting.h"
 
 namespace swarmanoid
@@ -119,9 +119,9 @@ private:
   WorkerMembership membership_;
   bool notified_ = false;  // wakes the main thread once
   WorldMessage world_;
-  std::optional<WorldMessage> next_world_;  // of the server that resumes the run
+  std::optional<WorldMessage> next_world_;  // the world of the server that resumes the run
   std::set<std::string> trusted_;
-  bool server_seen_ = false;  // among the processes of this machine; main thread
+  bool server_seen_ = false;  // the server was seen among the processes of this machine; main thread
   std::string last_status_;   // main thread
   std::unique_ptr<RunDirectory> directory_;
   std::unique_ptr<Subscription<WorldMessage>> worlds_;

@@ -1,16 +1,16 @@
-// A worker's world, built from the space server's description: experiment, assignment and its own space. Used by engine
-// workers, controller hosts and visualisers.
+// A worker builds its world from the space server's description: experiment, assignment and its own space. Engine
+// workers, controller hosts and visualisers use it.
 #pragma once
 
 #include <memory>
 #include <optional>
 
 #include "common/bus/membership/tick_limits.h"
-#include "common/bus/topics/session_messages.h"
 #include "common/checkpoint/checkpoint.h"
 #include "common/experiment/load_experiment.h"
 #include "common/messages/assignment.h"
 #include "common/space/space.h"
+#include "idl/messages.h"
 
 namespace swarmanoid
 {

@@ -14,7 +14,7 @@
 
 #include <fmt/format.h>
 
-#include "common/bus/membership/cluster_options.h"
+#include "common/bus/addresses.h"
 #include "common/configuration/shown_text.h"
 
 namespace swarmanoid
@@ -50,7 +50,8 @@ std::string OwnAddressTowards(const std::string& address)
   if (file >= 0) close(file);
   char text[INET_ADDRSTRLEN] = {};
   if (!good || inet_ntop(AF_INET, &here.sin_addr, text, sizeof text) == nullptr)
-    throw BusError(fmt::format("there is no way from this machine to {}, where the run of the share is", address));
+    throw BusError(
+        fmt::format("there is no way from this machine to {}, where the run of the access grant is", address));
   return text;
 }
 
@@ -77,14 +78,14 @@ const char* RoleName(GrantRole role)
 
 std::string AccessGrant::Name() const
 {
-  return fmt::format("{}{} {}", RoleName(role), role == GrantRole::kOpenView ? "" : " share", id);
+  return fmt::format("{}{} {}", RoleName(role), role == GrantRole::kOpenView ? "" : " grant", id);
 }
 
 std::string NewGrantId()
 {
   std::uint32_t number = 0;
   if (getrandom(&number, sizeof number, 0) != sizeof number)
-    throw BusError("the system gives no random numbers for the share");
+    throw BusError("the system gives no random numbers for the access grant");
   return fmt::format("{:08x}", number);
 }
 
@@ -141,10 +142,10 @@ std::optional<AccessToken> TokenOfEnvironment()
   const auto token = TokenOfText(text);
   if (!token)
     throw BusError(
-        fmt::format("{} holds no share; paste the whole line that `swarmanoid share` printed", kTokenVariable));
+        fmt::format("{} holds no access grant; paste the whole line that `swarmanoid share` printed", kTokenVariable));
   if (token->grant.HasEnded())
     throw BusError(
-        fmt::format("{} ended at {}; whoever started the run of '{}' can give another one, by `swarmanoid "
+        fmt::format("{} ended at {}; the owner of the run of '{}' can give another one, by `swarmanoid "
                     "share`",
                     token->grant.Name(), UtcText(token->grant.ends), token->experiment));
   return token;

@@ -1,7 +1,7 @@
 // An access grant lets a program observe or steer a run without being a member of it. The grant's key is derived from
 // the run's key and does not reveal it. The space server uses separate topics for grants (GrantChannel), so holders
 // cannot send messages that members accept. An open view is a grant without a key. Programs of any DDS can read it, and
-// their messages are ignored. Used by the launcher, the visualiser and the space server. docs/security.md lists what a
+// their messages are ignored. The launcher, the visualiser and the space server use it. docs/security.md lists what a
 // holder can do.
 #pragma once
 
@@ -33,11 +33,11 @@ struct AccessGrant
   std::int64_t ends = 0;  // seconds since 1970; 0: with the run
 
   bool HasEnded() const;
-  // "operator share 1a2b3c4d"
+  // "operator grant 1a2b3c4d"
   std::string Name() const;
 };
 
-// The partition suffix of an open view's topics, behind the slash.
+// The partition of an open view's topics ends with this word, behind a slash.
 inline constexpr const char* kOpenChannel = "open";
 
 std::string NewGrantId();
@@ -49,7 +49,7 @@ struct AccessToken
 {
   AccessGrant grant;
   int domain = 0;
-  std::string address;           // of the space server
+  std::string address;           // address of the space server
   std::string discovery_server;  // BusOptions
   RunKey key{};
   std::string experiment;
@@ -63,7 +63,7 @@ std::optional<AccessToken> TokenOfText(const std::string& text);
 // BusError if the token is invalid or has ended.
 inline constexpr const char* kTokenVariable = "SWARMANOID_SHARE";
 std::optional<AccessToken> TokenOfEnvironment();
-// Returns the bus options that use the token. The interface is the one that reaches the space server. Throws BusError.
+// Sets `options` to use the token. The interface is the one that reaches the space server. Throws BusError.
 void UseToken(const AccessToken& token, BusOptions& options);
 
 // Returns a time such as 2026-11-23T05:15:00Z.

@@ -1,3 +1,9 @@
+// The header has the layout, the method and its sources. Unsigned datagrams are searched for the names of members,
+// submessage by submessage, since a stranger must not speak in their name. Submessages that only address a member are
+// allowed.
+//
+// Invariants: a salt is remembered only after a good signature with it, and strangers at most kMostStrangers at a time,
+// so invented ones take no memory. signs_ is locked before checks_, if both are.
 #include "common/bus/security/datagram_signatures.h"
 
 #include <openssl/evp.h>
@@ -12,7 +18,7 @@ namespace swarmanoid
 namespace
 {
 
-constexpr char kKind = static_cast<char>(0x9d);  // one of those that RTPS leaves to vendors (DDSI-RTPS 2.2, 8.3.3.2.3)
+constexpr char kKind = static_cast<char>(0x9d);  // a kind that RTPS leaves to vendors (DDSI-RTPS 2.2, 8.3.3.2.3)
 constexpr char kLittleEndian = 1;
 constexpr char kPad = 0x01;
 constexpr char kInfoTimestamp = 0x09;

@@ -28,7 +28,7 @@
 namespace swarmanoid
 {
 
-// The prefix of a process's identifiers in RTPS.
+// All identifiers of one process in RTPS begin with its prefix.
 using GuidPrefix = std::array<char, 12>;
 
 class DatagramSignatures
@@ -84,7 +84,7 @@ private:
   Cipher signer_;
   std::uint64_t number_ = 0;
   std::mutex checks_;                                  // protects the following members
-  std::map<Salt, Cipher> checkers_;                    // of the processes that have signed
+  std::map<Salt, Cipher> checkers_;                    // by salt of a process that has signed
   std::map<GuidPrefix, Clock::time_point> members_;    // the processes that have signed, and this one: since when
   std::map<GuidPrefix, Clock::time_point> strangers_;  // announced without the key: when last
 };

@@ -1,9 +1,9 @@
 // The transport of the bus: it reports datagrams that CheckRtps refuses, and discards messages to readers without an
 // address.
 //
-// A reader that shares memory has no address. If its memory cannot be opened, since its process has just ended, Fast
-// DDS (2.9) writes to it over the network, and tries for ever to send the fragments of a message that has no
-// destination (StatefulWriter::deliver_sample_to_network goes on only after a fragment was sent).
+// A reader that shares memory has no address. Its memory cannot be opened if its process has just ended. Then Fast DDS
+// (2.9) writes to it over the network, and tries for ever to send the fragments of a message that has no destination.
+// (StatefulWriter::deliver_sample_to_network goes on only after a fragment was sent.)
 #pragma once
 
 #include <functional>
@@ -20,10 +20,11 @@ namespace swarmanoid
 // The address of endpoints that receive nothing over the network. No transport here uses its kind.
 rtps::Locator_t NowhereLocator();
 
-// Called in threads of the transport. The functions are empty once the bus is destroyed, because a participant may live
-// until the program ends.
+// Threads of the transport call these functions. The functions are empty once the bus is destroyed, because a
+// participant may live until the program ends.
 struct DatagramListener
 {
+  // Guards both functions.
   std::mutex mutex;
   // Reports a dropped datagram: its defect and the address that it came from.
   std::function<void(const std::string& what, const std::string& address)> malformed;

@@ -1,5 +1,5 @@
-// The keys that identify messages of a process's run: the given key, or those of its user's runs in its domain. Used by
-// the bus; any thread may call it.
+// The keys that identify messages of a process's run: the given key, or those of its user's runs in its domain. The bus
+// uses it; any thread may call it.
 #pragma once
 
 #include <chrono>
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "common/bus/security/run_key.h"
+#include "common/bus/run_key.h"
 
 namespace swarmanoid
 {
@@ -24,7 +24,7 @@ public:
   // Returns the key that seals messages to the run of that experiment.
   std::optional<RunKey> Of(const std::string& experiment);
   // Returns the key that signs datagrams. It is the key that sealed the last message or, before that, the first key
-  // that opened one. It is empty if there is none.
+  // that opened one. It is empty before the first message.
   std::optional<RunKey> Own() const;
   // Returns all keys that have opened or sealed a message.
   std::vector<RunKey> Known() const;

@@ -1,3 +1,8 @@
+// The header has the layout, the method and its sources.
+//
+// Invariants: a pair of key and number seals one message at most; a message whose sealing fails is overwritten with
+// zeros, never sent in the clear. Open returns a message only if its code fits. The caller takes it only if its number
+// is above the last one of its salt and instance (IsNew).
 #include "common/bus/security/seal.h"
 
 #include <openssl/crypto.h>

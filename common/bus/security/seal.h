@@ -1,9 +1,9 @@
-// Sealed messages. Without the key of the run, no process can read, make or change one. It cannot send one as another
-// writer or on another topic, or repeat one. Used by the bus; does not depend on DDS.
+// Messages are sealed. Without the key of the run, no process can read, make or change one. It cannot send one as
+// another writer or on another topic, or repeat one. The bus uses this, which does not depend on DDS.
 //
-// AES-256-GCM (NIST SP 800-38D). Each writer draws a salt. Its key is derived from the run's key, the salt and the
-// topic (HKDF-SHA256, RFC 5869). The nonce is the ascending number of the message. So no nonce is used twice under one
-// key, even if one process replaces another.
+// The method is AES-256-GCM (NIST SP 800-38D). Each writer draws a salt. Its key is derived from the run's key, the
+// salt and the topic (HKDF-SHA256, RFC 5869). The nonce is the ascending number of the message. So no nonce is used
+// twice under one key, even if one process replaces another.
 //
 //   encapsulation 4 | salt 12 | number 8 | encrypted: writer 16, fields of the message | code 16
 #pragma once
@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "common/bus/security/run_key.h"
+#include "common/bus/run_key.h"
 
 namespace swarmanoid
 {
@@ -43,7 +43,7 @@ constexpr std::size_t SealedBytes(std::size_t payload_bytes)
 // The largest growth of a payload when it is sealed.
 inline constexpr std::size_t kMostSealBytes = SealedBytes(1) - 1;
 
-// The GUID of a DDS writer.
+// A writer is identified by its GUID in DDS.
 using WriterId = std::array<char, kWriterBytes>;
 using Salt = std::array<char, kSaltBytes>;
 
@@ -60,7 +60,7 @@ Cipher MakeCipher(const RunKey& key, const Salt& salt, const std::string& purpos
 // Starts the message of that number. `clear` is authenticated and not encrypted. Returns false if libcrypto fails.
 bool StartMessage(EVP_CIPHER_CTX& cipher, std::uint64_t number, std::span<const char> clear);
 
-// Seals the messages of one writer. One thread at a time.
+// Seals the messages of one writer. One thread at a time may use it.
 class Sealer
 {
 public:
@@ -75,10 +75,10 @@ private:
   RunKey key_;
   Salt salt_;
   Cipher cipher_;
-  std::uint64_t number_ = 0;  // of the last message
+  std::uint64_t number_ = 0;  // number of the last message
 };
 
-// Opens the messages of one reader. One thread at a time.
+// Opens the messages of one reader. One thread at a time may use it.
 class Opener
 {
 public:
@@ -89,7 +89,7 @@ public:
     WriterId writer;  // the sealing writer
     Salt salt;
     std::uint64_t number = 0;
-    std::span<const char> payload;  // as if it had not been sealed
+    std::span<const char> payload;  // the message without its seal
   };
 
   // Decrypts the payload into `room`. Returns nullopt if the writer is not known yet or the seal is not good. A writer
@@ -111,7 +111,7 @@ private:
 
   const std::string topic_;
   std::map<Salt, Cipher> known_;
-  std::map<std::pair<Salt, std::string>, std::uint64_t> numbers_;  // of the last message
+  std::map<std::pair<Salt, std::string>, std::uint64_t> numbers_;  // number of the last message
 };
 
 }  // namespace swarmanoid

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "common/activity/print_error.h"
+#include "common/errors/print_error.h"
 
 namespace swarmanoid
 {

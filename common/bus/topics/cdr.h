@@ -1,7 +1,7 @@
 // The bytes of messages: XCDR1, little-endian, as idl/swarmanoid.idl defines them. Three archives visit the fields of a
-// message (message_fields.h): one counts its bytes, one writes and one reads them. Every value is checked before it is
-// used or memory is allocated for it. An invalid value throws BadMessage with the name of the field. Used only by the
-// bus; does not depend on DDS.
+// message (idl/message_fields.h): one counts its bytes, one writes and one reads them. Every value is checked before it
+// is used or memory is allocated for it. An invalid value throws BadMessage with the name of the field. Used only by
+// the bus; does not depend on DDS.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +14,14 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "common/bus/bus.h"
 #include "common/bus/security/seal.h"
 #include "common/bus/topics/pose_columns.h"
-#include "common/bus/topics/session_messages.h"
 #include "common/configuration/shown_text.h"
+#include "idl/constants.h"
 
 namespace swarmanoid
 {
@@ -30,6 +31,20 @@ static_assert(std::endian::native == std::endian::little, "arrays are copied to 
 [[noreturn]] void RefuseField(const char* field, const std::string& why);
 [[noreturn]] void RefuseName(const char* field, const std::string& name);
 [[noreturn]] void RefuseLength(const char* field, std::size_t count, std::size_t bytes, std::size_t left);
+
+// Visits what a field contains. Errors name the field before the inner one: "robots.sensors.type".
+template <class Visit>
+void Inside(const char* field, const Visit& visit)
+{
+  try
+  {
+    visit();
+  }
+  catch (const BadMessage& error)
+  {
+    throw BadMessage(std::string(field) + "." + error.what());
+  }
+}
 
 // One bit of a message's flags.
 struct FlagBit
@@ -99,7 +114,7 @@ public:
   void Short(const char*, const std::uint32_t& value) { Put(static_cast<std::uint16_t>(value)); }
   void Constant(const char*, std::uint32_t value) { Put(value); }
   template <class Enum>
-  void Choice(const char*, const Enum& value, Enum, Enum)
+  void Choice(const char*, const Enum& value, Enum)
   {
     Put(static_cast<std::uint32_t>(value));
   }
@@ -111,15 +126,15 @@ public:
   }
   void Bool(const char*, const bool& value) { Put(static_cast<std::uint8_t>(value ? 1 : 0)); }
   void Number(const char*, const double& value) { Put(value); }
-  void AnyNumber(const char*, const double& value) { Put(value); }
+  void Measured(const char*, const double& value) { Put(value); }
 
   void Exact(const char*, const std::string& text) { String(text); }
-  void Name(const char* field, const std::string& text)
+  void Line(const char* field, const std::string& text)
   {
     if (text.size() > kLongestName || !IsShowableLine(text)) RefuseName(field, text);
     String(text);
   }
-  void Text(const char*, const std::string& text)
+  void Lines(const char*, const std::string& text)
   {
     if (text.size() > kLongestText || !IsShowable(text)) return String(Showable(text, kLongestText));
     String(text);
@@ -144,11 +159,31 @@ public:
     for (std::size_t k = 0; k < kPoseColumns; ++k)
       bytes_.Put(poses.data() + k * entities, (uniform >> k & 1U ? 1 : entities) * sizeof(double));
   }
-  template <class T, class Visit>
-  void List(const char*, std::vector<T>& list, const Visit& visit)
+  void LinesList(const char* field, const std::vector<std::string>& texts)
+  {
+    Put(static_cast<std::uint32_t>(texts.size()));
+    for (const std::string& text : texts) Lines(field, text);
+  }
+  template <class T>
+  void List(const char* field, std::vector<T>& list)
   {
     Put(static_cast<std::uint32_t>(list.size()));
-    for (T& item : list) visit(*this, item);
+    Inside(field,
+           [&]
+           {
+             for (T& item : list) Fields(*this, item);
+           });
+  }
+  template <class T>
+  void Struct(const char* field, T& value)
+  {
+    Inside(field, [&] { Fields(*this, value); });
+  }
+  // The kind of a union.
+  template <class Variant>
+  void Alternative(const char*, const Variant& value)
+  {
+    Put(static_cast<std::uint32_t>(value.index()));
   }
 
 private:
@@ -211,12 +246,13 @@ public:
     Get(field, value);
     if (value != wanted) RefuseField(field, "it is " + std::to_string(value) + ", not " + std::to_string(wanted));
   }
+  // The value is from 1 to `last`.
   template <class Enum>
-  void Choice(const char* field, Enum& value, Enum first, Enum last)
+  void Choice(const char* field, Enum& value, Enum last)
   {
     std::uint32_t number = 0;
     Get(field, number);
-    if (number < static_cast<std::uint32_t>(first) || number > static_cast<std::uint32_t>(last))
+    if (number < 1 || number > static_cast<std::uint32_t>(last))
       RefuseField(field, "there is no such value as " + std::to_string(number));
     value = static_cast<Enum>(number);
   }
@@ -245,15 +281,15 @@ public:
     Get(field, value);
     if (!std::isfinite(value)) RefuseField(field, "it is not finite");
   }
-  void AnyNumber(const char* field, double& value) { Get(field, value); }
+  void Measured(const char* field, double& value) { Get(field, value); }
 
   void Exact(const char* field, std::string& text) { text = String(field); }
-  void Name(const char* field, std::string& text)
+  void Line(const char* field, std::string& text)
   {
     Bounded(field, text, kLongestName);
     if (!IsShowableLine(text)) RefuseField(field, "it is no UTF-8 text, or has control characters");
   }
-  void Text(const char* field, std::string& text)
+  void Lines(const char* field, std::string& text)
   {
     Bounded(field, text, kLongestText);
     if (!IsShowable(text)) RefuseField(field, "it is no UTF-8 text, or has control characters");
@@ -275,14 +311,34 @@ public:
     else
       std::memcpy(values.data(), from, count * sizeof(T));
   }
-  template <class T, class Visit>
-  void List(const char* field, std::vector<T>& list, const Visit& visit)
+  void LinesList(const char* field, std::vector<std::string>& texts)
   {
-    constexpr std::size_t kLeast = 4;  // bytes of an item: each starts with a number or a text
-    const std::uint32_t count = Count(field);
-    if (count > (bytes_.size() - at_) / kLeast) RefuseLength(field, count, kLeast, bytes_.size() - at_);
-    list.resize(count);
-    for (T& item : list) visit(*this, item);
+    Resize(field, texts);
+    for (std::string& text : texts) Lines(field, text);
+  }
+  template <class T>
+  void List(const char* field, std::vector<T>& list)
+  {
+    Resize(field, list);
+    Inside(field,
+           [&]
+           {
+             for (T& item : list) Fields(*this, item);
+           });
+  }
+  template <class T>
+  void Struct(const char* field, T& value)
+  {
+    Inside(field, [&] { Fields(*this, value); });
+  }
+  template <class... T>
+  void Alternative(const char* field, std::variant<T...>& value)
+  {
+    std::uint32_t kind = 0;
+    Get(field, kind);
+    if (kind >= sizeof...(T)) RefuseField(field, "there is no such kind of value");
+    const std::variant<T...> kinds[] = {T()...};
+    value = kinds[kind];
   }
 
 private:
@@ -299,6 +355,14 @@ private:
     if (sizeof(T) > bytes_.size() - at_) RefuseField(field, "the message ends before it");
     std::memcpy(&value, bytes_.data() + at_, sizeof(T));
     at_ += sizeof(T);
+  }
+  template <class T>
+  void Resize(const char* field, std::vector<T>& list)
+  {
+    constexpr std::size_t kLeast = 4;  // bytes of an item: each starts with a number or a text
+    const std::uint32_t count = Count(field);
+    if (count > (bytes_.size() - at_) / kLeast) RefuseLength(field, count, kLeast, bytes_.size() - at_);
+    list.resize(count);
   }
   std::uint32_t Count(const char* field)
   {

@@ -1,5 +1,5 @@
 // Writers and readers with the quality of service that the table asks for.
-#include "common/bus/participant.h"
+#include "common/bus/topics/participant.h"
 
 namespace swarmanoid
 {

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "common/bus/participant.h"
 #include "common/bus/topics/message_type.h"
+#include "common/bus/topics/participant.h"
 
 namespace swarmanoid
 {
@@ -239,22 +239,10 @@ unsigned Subscription<Message>::Writers() const
   return impl_->reader.Matched();
 }
 
-#define SWARMANOID_INSTANTIATE(MESSAGE) \
-  template class Publisher<MESSAGE>;    \
+#define SWARMANOID_INSTANTIATE(MESSAGE, TOPIC) \
+  template class Publisher<MESSAGE>;           \
   template class Subscription<MESSAGE>;
-SWARMANOID_INSTANTIATE(WorldMessage)
-SWARMANOID_INSTANTIATE(JoinMessage)
-SWARMANOID_INSTANTIATE(ViewMessage)
-SWARMANOID_INSTANTIATE(ControlRequestMessage)
-SWARMANOID_INSTANTIATE(ControlReplyMessage)
-SWARMANOID_INSTANTIATE(StatusMessage)
-SWARMANOID_INSTANTIATE(SavedStateMessage)
-SWARMANOID_INSTANTIATE(RecoveryRequestMessage)
-SWARMANOID_INSTANTIATE(RecoveryBlockMessage)
-SWARMANOID_INSTANTIATE(ViewRequestMessage)
-SWARMANOID_INSTANTIATE(RunStatusMessage)
-SWARMANOID_INSTANTIATE(RobotStatusMessage)
-SWARMANOID_INSTANTIATE(LeaveMessage)
+SWARMANOID_COLD_MESSAGES(SWARMANOID_INSTANTIATE)
 #undef SWARMANOID_INSTANTIATE
 
 }  // namespace swarmanoid

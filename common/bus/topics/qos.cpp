@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "idl/topics.h"
+
 namespace swarmanoid
 {
 

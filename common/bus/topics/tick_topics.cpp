@@ -1,8 +1,8 @@
-#include "common/activity/shared_memory.h"
-#include "common/bus/membership/run_directory.h"
-#include "common/bus/participant.h"
+#include "common/bus/run_directory.h"
 #include "common/bus/topics/message_type.h"
+#include "common/bus/topics/participant.h"
 #include "common/math/random.h"
+#include "common/memory/shared_memory.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -217,23 +217,10 @@ unsigned HotSubscription<Message>::Writers() const
   return impl_->reader.Matched();
 }
 
-template class HotPublisher<SpaceState>;
-template class HotPublisher<LocalState>;
-template class HotPublisher<ControlCommands>;
-template class HotPublisher<UpdateMessage>;
-template class HotPublisher<SensorFrame>;
-template class HotPublisher<DrawnMessage>;
-template class HotPublisher<RegionTaskMessage>;
-template class HotPublisher<RegionHaloMessage>;
-template class HotPublisher<RegionResultMessage>;
-template class HotSubscription<SpaceState>;
-template class HotSubscription<LocalState>;
-template class HotSubscription<ControlCommands>;
-template class HotSubscription<UpdateMessage>;
-template class HotSubscription<SensorFrame>;
-template class HotSubscription<DrawnMessage>;
-template class HotSubscription<RegionTaskMessage>;
-template class HotSubscription<RegionHaloMessage>;
-template class HotSubscription<RegionResultMessage>;
+#define SWARMANOID_INSTANTIATE(MESSAGE, TOPIC) \
+  template class HotPublisher<MESSAGE>;        \
+  template class HotSubscription<MESSAGE>;
+SWARMANOID_HOT_MESSAGES(SWARMANOID_INSTANTIATE)
+#undef SWARMANOID_INSTANTIATE
 
 }  // namespace swarmanoid

@@ -1,6 +1,6 @@
 // CCI_Behavior: a building block of controllers. It reads sensors from a robot state and writes actuator values into
-// it; the robot itself it never touches, so behaviours can be combined at will: one after the other (later ones
-// override) or each on a copy of the state.
+// it. It never touches the robot itself, so behaviours can be combined: one after the other (later ones override), or
+// each on a copy of the state.
 #pragma once
 
 #include <iosfwd>
@@ -21,15 +21,16 @@ public:
   CCI_Behavior(const CCI_Behavior&) = delete;
   CCI_Behavior& operator=(const CCI_Behavior&) = delete;
 
-  // Called once before the first step.
+  // The controller calls it once, before the first step.
   virtual void Init() {}
   // Decides for one tick: reads `cRobotState` and writes actuator values into it.
   virtual void Step(RobotState& cRobotState) = 0;
-  // Called once after the last step.
+  // The controller calls it once, after the last step.
   virtual void Destroy() {}
 
-  // Save and load the state between ticks, with that of sub-behaviours. Only runs with checkpoints need them.
+  // Saves the state between ticks, with that of sub-behaviours. Only runs with checkpoints need it.
   virtual void SaveState(std::ostream&) const {}
+  // Loads what SaveState has saved.
   virtual void LoadState(std::istream&) {}
   // Returns a few words for visualisers, such as the current state.
   virtual std::string StatusText() const { return name_; }

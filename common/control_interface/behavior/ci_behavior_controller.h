@@ -1,5 +1,5 @@
-// CCI_BehaviorController: a controller that is nothing but a container of a robot state and a root behaviour. A
-// subclass makes both in Init and deletes them in Destroy; `swarmanoid new behavior-controller` writes it.
+// CCI_BehaviorController: a controller that only holds a robot state and a root behaviour. A subclass makes both in
+// Init and deletes them in Destroy; `swarmanoid new behavior-controller` writes it.
 #pragma once
 
 #include "common/control_interface/behavior/ci_behavior.h"
@@ -8,7 +8,7 @@
 namespace swarmanoid
 {
 
-// RobotState: CCI_FootBotState, CCI_HandBotState or CCI_EyeBotState.
+// `RobotState` is CCI_FootBotState, CCI_HandBotState or CCI_EyeBotState.
 template <class RobotState>
 class CCI_BehaviorController : public CCI_Controller
 {

@@ -33,11 +33,7 @@ void CCI_EyeBotState::WriteActuators()
   attached_.Flush([this](bool attached) { attached ? devices_.attachment->Attach() : devices_.attachment->Detach(); });
 }
 
-double CCI_EyeBotState::GetAltitude() const
-{
-  RequireSensor(devices_.altitude, "eyebot_altitude");
-  return altitude_;
-}
+double CCI_EyeBotState::GetAltitude() const { return ReadingOf(devices_.altitude, "eyebot_altitude", altitude_); }
 
 void CCI_EyeBotState::SetVelocity(double forward, double left, double up, double yaw_rate)
 {
@@ -79,16 +75,8 @@ void CCI_EyeBotState::SetLaserDirection(double pan, double tilt)
   laser_.Set(laser);
 }
 
-void CCI_EyeBotState::Attach()
-{
-  RequireActuator(devices_.attachment, "eyebot_attachment");
-  attached_.Set(true);
-}
+void CCI_EyeBotState::Attach() { Command(devices_.attachment, "eyebot_attachment", attached_, true); }
 
-void CCI_EyeBotState::Detach()
-{
-  RequireActuator(devices_.attachment, "eyebot_attachment");
-  attached_.Set(false);
-}
+void CCI_EyeBotState::Detach() { Command(devices_.attachment, "eyebot_attachment", attached_, false); }
 
 }  // namespace swarmanoid

@@ -21,24 +21,25 @@ class CCI_EyeBotState : public CCI_SeeingRobotState<CCI_EyeBotLedsActuator>
 public:
   explicit CCI_EyeBotState(CCI_Robot* robot) : CCI_SeeingRobotState(robot, "eyebot_camera", "eyebot_leds") {}
 
-  // Looks up the devices that the controller lists. Once, before the first tick.
+  // Looks up the devices that the controller lists. Call it once, before the first tick.
   void Init();
   // ReadSensors is called at the start of a control step, and WriteActuators at its end.
   void ReadSensors();
   void WriteActuators();
 
-  // Sensors. Angles in radians counter-clockwise from the front, distances in metres.
+  // Sensors. Angles are in radians counter-clockwise from the front, distances in metres.
   double GetAltitude() const;
 
   // Actuators. Settings of earlier steps are not part of a saved state, so a behaviour that needs them must store them.
   void SetVelocity(double forward, double left, double up, double yaw_rate);  // m/s in the robot's frame, rad/s
   const std::array<double, 4>& GetVelocity() const { return velocity_.Get(); }
-  // Flies there and hovers, as CCI_EyeBotPropellersActuator; of velocity and position the one set later counts.
+  // Flies to the position and hovers, see CCI_EyeBotPropellersActuator. If both velocity and position are set, the
+  // later call counts.
   void SetPosition(const Vector3& position, double yaw);
   void SwitchLaserOn(std::uint32_t colour);
   void SwitchLaserOff();
   bool IsLaserOn() const { return laser_.Get().on; }
-  void SetLaserDirection(double pan, double tilt);  // radians, as CCI_EyeBotLaserActuator
+  void SetLaserDirection(double pan, double tilt);  // radians, see CCI_EyeBotLaserActuator
   void Attach();
   void Detach();
 

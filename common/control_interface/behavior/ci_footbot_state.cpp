@@ -105,8 +105,7 @@ void CCI_FootBotState::GetAllGroundSensorReadings(double* readings) const
 
 std::uint32_t CCI_FootBotState::GetFloorColour() const
 {
-  RequireSensor(devices_.ground, "footbot_ground");
-  return floor_colour_;
+  return ReadingOf(devices_.ground, "footbot_ground", floor_colour_);
 }
 
 unsigned CCI_FootBotState::GetNumPieCameraSectors() const
@@ -129,50 +128,39 @@ const CCI_PieCameraSensor::Slice& CCI_FootBotState::GetPieCameraSlice(std::uint3
 
 const std::array<double, 3>& CCI_FootBotState::GetAcceleration() const
 {
-  RequireSensor(devices_.accelerometer, "footbot_accelerometer");
-  return acceleration_;
+  return ReadingOf(devices_.accelerometer, "footbot_accelerometer", acceleration_);
 }
 
-bool CCI_FootBotState::IsGripping() const
-{
-  RequireSensor(devices_.gripper_sensor, "footbot_gripper");
-  return gripping_;
-}
+bool CCI_FootBotState::IsGripping() const { return ReadingOf(devices_.gripper_sensor, "footbot_gripper", gripping_); }
 
 double CCI_FootBotState::GetGripperAperture() const
 {
-  RequireSensor(devices_.gripper_sensor, "footbot_gripper");
-  return aperture_;
+  return ReadingOf(devices_.gripper_sensor, "footbot_gripper", aperture_);
 }
 
 const std::string& CCI_FootBotState::GetHeldId() const
 {
-  RequireSensor(devices_.gripper_sensor, "footbot_gripper");
-  return held_id_;
+  return ReadingOf(devices_.gripper_sensor, "footbot_gripper", held_id_);
 }
 
 double CCI_FootBotState::GetTurretAngle() const
 {
-  RequireSensor(devices_.turret_encoder, "footbot_turret_encoder");
-  return turret_angle_;
+  return ReadingOf(devices_.turret_encoder, "footbot_turret_encoder", turret_angle_);
 }
 
 const std::array<double, 3>& CCI_FootBotState::GetTurretTorque() const
 {
-  RequireSensor(devices_.turret_torque, "footbot_turret_torque");
-  return turret_torque_;
+  return ReadingOf(devices_.turret_torque, "footbot_turret_torque", turret_torque_);
 }
 
 const std::array<double, 2>& CCI_FootBotState::GetWheelVelocities() const
 {
-  RequireSensor(devices_.encoders, "footbot_encoders");
-  return wheel_velocities_;
+  return ReadingOf(devices_.encoders, "footbot_encoders", wheel_velocities_);
 }
 
 void CCI_FootBotState::SetFootBotWheelsAngularVelocity(double left, double right)
 {
-  RequireActuator(devices_.wheels, "footbot_wheels");
-  wheels_.Set({left, right});
+  Command(devices_.wheels, "footbot_wheels", wheels_, {left, right});
 }
 
 void CCI_FootBotState::SetFootBotWheelsLinearVelocity(double left, double right)
@@ -187,34 +175,26 @@ void CCI_FootBotState::GetFootBotWheelsAngularVelocity(double& left, double& rig
   right = wheels_.Get()[1];
 }
 
-void CCI_FootBotState::SetGripper(double closed)
-{
-  RequireActuator(devices_.gripper, "footbot_gripper");
-  gripper_.Set(closed);
-}
+void CCI_FootBotState::SetGripper(double closed) { Command(devices_.gripper, "footbot_gripper", gripper_, closed); }
 
 void CCI_FootBotState::SetTurretAngularVelocity(double velocity)
 {
-  RequireActuator(devices_.turret, "footbot_turret");
-  turret_.Set(velocity);
+  Command(devices_.turret, "footbot_turret", turret_, velocity);
 }
 
 void CCI_FootBotState::SetBeaconColour(std::uint32_t colour)
 {
-  RequireActuator(devices_.beacon, "footbot_beacon");
-  beacon_.Set(colour);
+  Command(devices_.beacon, "footbot_beacon", beacon_, colour);
 }
 
 void CCI_FootBotState::ShowDirection(double angle, std::uint32_t colour)
 {
-  RequireActuator(devices_.direction, "footbot_preferential_direction");
-  direction_.Set({true, angle, colour});
+  Command(devices_.direction, "footbot_preferential_direction", direction_, {true, angle, colour});
 }
 
 void CCI_FootBotState::HideDirection()
 {
-  RequireActuator(devices_.direction, "footbot_preferential_direction");
-  direction_.Set({});
+  Command(devices_.direction, "footbot_preferential_direction", direction_, {});
 }
 
 }  // namespace swarmanoid

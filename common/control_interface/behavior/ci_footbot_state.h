@@ -39,13 +39,13 @@ public:
   {
   }
 
-  // Looks up the devices that the controller lists. Once, before the first tick.
+  // Looks up the devices that the controller lists. Call it once, before the first tick.
   void Init();
   // ReadSensors is called at the start of a control step, and WriteActuators at its end.
   void ReadSensors();
   void WriteActuators();
 
-  // Sensors. Angles in radians counter-clockwise from the front, distances in metres.
+  // Sensors. Angles are in radians counter-clockwise from the front, distances in metres.
   void GetAllProximitySensorReadings(double* readings) const;  // NUM_PROXIMITY_SENSORS values, 0..1
   double GetProximitySensorReading(unsigned sensor) const;
   static double GetProximitySensorAngle(unsigned sensor) { return CCI_FootBotProximitySensor::AngleOf(sensor); }
@@ -58,13 +58,13 @@ public:
   const CCI_PieCameraSensor::Slice& GetPieCameraSlice(std::uint32_t colour, unsigned sector) const;
   bool IsGripping() const;
   double GetGripperAperture() const;     // radians, 0 is closed
-  const std::string& GetHeldId() const;  // of what the gripper holds, as CCI_FootBotGripperSensor
+  const std::string& GetHeldId() const;  // id of the gripped entity, see CCI_FootBotGripperSensor
   double GetTurretAngle() const;
-  const std::array<double, 3>& GetTurretTorque() const;     // as CCI_FootBotTurretTorqueSensor
-  const std::array<double, 2>& GetWheelVelocities() const;  // {left, right} as they turned, rad/s
-  const std::array<double, 3>& GetAcceleration() const;     // as CCI_FootBotAccelerometerSensor
+  const std::array<double, 3>& GetTurretTorque() const;     // see CCI_FootBotTurretTorqueSensor
+  const std::array<double, 2>& GetWheelVelocities() const;  // measured {left, right}, rad/s
+  const std::array<double, 3>& GetAcceleration() const;     // see CCI_FootBotAccelerometerSensor
 
-  // Actuators; the getters give the latest value set on this state.
+  // Actuators. The getters return the value that was last set on this state.
   void SetFootBotWheelsAngularVelocity(double left, double right);  // rad/s
   void SetFootBotWheelsLinearVelocity(double left, double right);   // m/s
   void GetFootBotWheelsAngularVelocity(double& left, double& right) const;
@@ -114,7 +114,7 @@ private:
   std::array<double, 3> turret_torque_{};
   std::array<double, 2> wheel_velocities_{};
   std::array<double, 3> acceleration_{};
-  // The sectors of one colour after the other, in the order of kPieColours.
+  // It has the sectors of each colour, one colour after the other, in the order of kPieColours.
   std::vector<CCI_PieCameraSensor::Slice> pie_;
 
   PendingValue<std::array<double, 2>> wheels_;

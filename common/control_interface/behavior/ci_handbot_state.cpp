@@ -61,20 +61,17 @@ const std::string& CCI_HandBotState::GetHeldId(CCI_HandBotHandsActuator::Hand ha
 
 void CCI_HandBotState::SetArmVelocities(double left, double right)
 {
-  RequireActuator(devices_.arms, "handbot_arms");
-  arms_.Set({left, right});
+  Command(devices_.arms, "handbot_arms", arms_, {left, right});
 }
 
 void CCI_HandBotState::SetWristVelocities(double left, double right)
 {
-  RequireActuator(devices_.arms, "handbot_arms");
-  wrists_.Set({left, right});
+  Command(devices_.arms, "handbot_arms", wrists_, {left, right});
 }
 
 void CCI_HandBotState::SetHeadAngularVelocity(double velocity)
 {
-  RequireActuator(devices_.head, "handbot_head");
-  head_.Set(velocity);
+  Command(devices_.head, "handbot_head", head_, velocity);
 }
 
 void CCI_HandBotState::CloseHand(CCI_HandBotHandsActuator::Hand hand)
@@ -89,28 +86,15 @@ void CCI_HandBotState::OpenHand(CCI_HandBotHandsActuator::Hand hand)
   hands_closed_.at(hand).Set(false);
 }
 
-void CCI_HandBotState::LaunchRope()
-{
-  RequireActuator(devices_.rope, "handbot_rope");
-  rope_launched_.Set(true);
-}
+void CCI_HandBotState::LaunchRope() { Command(devices_.rope, "handbot_rope", rope_launched_, true); }
 
-void CCI_HandBotState::ReleaseRope()
-{
-  RequireActuator(devices_.rope, "handbot_rope");
-  rope_launched_.Set(false);
-}
+void CCI_HandBotState::ReleaseRope() { Command(devices_.rope, "handbot_rope", rope_launched_, false); }
 
-void CCI_HandBotState::SetWinchVelocity(double velocity)
-{
-  RequireActuator(devices_.rope, "handbot_rope");
-  winch_.Set(velocity);
-}
+void CCI_HandBotState::SetWinchVelocity(double velocity) { Command(devices_.rope, "handbot_rope", winch_, velocity); }
 
 void CCI_HandBotState::SetBeaconColour(std::uint32_t colour)
 {
-  RequireActuator(devices_.beacon, "handbot_beacon");
-  beacon_.Set(colour);
+  Command(devices_.beacon, "handbot_beacon", beacon_, colour);
 }
 
 }  // namespace swarmanoid

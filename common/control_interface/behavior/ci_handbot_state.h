@@ -23,18 +23,18 @@ class CCI_HandBotState : public CCI_SeeingRobotState<CCI_HandBotLedsActuator>
 public:
   explicit CCI_HandBotState(CCI_Robot* robot) : CCI_SeeingRobotState(robot, "handbot_camera", "handbot_leds") {}
 
-  // Looks up the devices that the controller lists. Once, before the first tick.
+  // Looks up the devices that the controller lists. Call it once, before the first tick.
   void Init();
   // ReadSensors is called at the start of a control step, and WriteActuators at its end.
   void ReadSensors();
   void WriteActuators();
 
-  // Sensors: joints as in CCI_HandBotJointsSensor (radians, metres).
+  // Sensors. GetJoint returns radians or metres, see CCI_HandBotJointsSensor.
   double GetJoint(CCI_HandBotJointsSensor::Reading joint) const;
   bool IsHolding(CCI_HandBotHandsActuator::Hand hand) const;
   const std::string& GetHeldId(CCI_HandBotHandsActuator::Hand hand) const;
 
-  // Actuators. Velocities in rad/s and m/s.
+  // Actuators. Velocities are in rad/s and m/s.
   void SetArmVelocities(double left, double right);
   void SetWristVelocities(double left, double right);
   void SetHeadAngularVelocity(double velocity);
@@ -42,7 +42,7 @@ public:
   void OpenHand(CCI_HandBotHandsActuator::Hand hand);
   void LaunchRope();
   void ReleaseRope();
-  void SetWinchVelocity(double velocity);  // of rope let out; negative pulls the robot up
+  void SetWinchVelocity(double velocity);  // speed of rope let out; negative values pull the robot up
   void SetBeaconColour(std::uint32_t colour);
 
 private:

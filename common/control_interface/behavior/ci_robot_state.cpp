@@ -24,20 +24,14 @@ void CCI_RobotState::WriteCommonActuators()
 
 const std::vector<CCI_RangeAndBearingSensor::Packet>& CCI_RobotState::GetRangeAndBearingPackets() const
 {
-  RequireSensor(receiver_, "range_and_bearing");
-  return packets_;
+  return ReadingOf(receiver_, "range_and_bearing", packets_);
 }
 
 void CCI_RobotState::SetRangeAndBearingMessage(const CCI_RangeAndBearingActuator::Message& message)
 {
-  RequireActuator(sender_, "range_and_bearing");
-  message_.Set({true, message});
+  Command(sender_, "range_and_bearing", message_, {true, message});
 }
 
-void CCI_RobotState::StopRangeAndBearing()
-{
-  RequireActuator(sender_, "range_and_bearing");
-  message_.Set({});
-}
+void CCI_RobotState::StopRangeAndBearing() { Command(sender_, "range_and_bearing", message_, {}); }
 
 }  // namespace swarmanoid

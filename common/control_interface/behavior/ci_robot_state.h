@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -13,7 +14,7 @@
 namespace swarmanoid
 {
 
-// An actuator value: the latest one set, and whether it must still be written to the robot.
+// An actuator value: the last one set, and whether it must still be written to the robot.
 template <class T>
 class PendingValue
 {
@@ -24,7 +25,7 @@ public:
     pending_ = true;
   }
   const T& Get() const { return value_; }
-  // Returns true if it was set since the last write; for combiners that ask which of two copies wanted something.
+  // Returns true if the value was set since the last write. Combiners use it to see which of two copies set the value.
   bool IsPending() const { return pending_; }
   // Hands the value to `write` if it is pending.
   template <class Write>
@@ -34,7 +35,7 @@ public:
     pending_ = false;
   }
 
-  // Nothing is to be written any more.
+  // Drops the pending write.
   void Forget() { pending_ = false; }
 
 private:
@@ -54,7 +55,8 @@ public:
   // Returns the random numbers of the robot in this tick; shared by all copies, drawn in the order of the calls.
   RandomStream& GetRandom() { return robot_->GetRandom(); }
 
-  // Range and bearing, of all robots. Throws CCI_DeviceError if the controller does not list it.
+  // All robots can have range and bearing. The functions throw CCI_DeviceError if the controller does not list the
+  // device.
   const std::vector<CCI_RangeAndBearingSensor::Packet>& GetRangeAndBearingPackets() const;
   void SetRangeAndBearingMessage(const CCI_RangeAndBearingActuator::Message& message);
   void StopRangeAndBearing();
@@ -65,7 +67,7 @@ protected:
   void ReadCommonSensors();
   void WriteCommonActuators();
 
-  // The device that a type label names, nullptr if the controller does not list it.
+  // Returns the device that a type label names, or nullptr if the controller does not list it.
   template <class Interface>
   Interface* FindSensor(const std::string& type) const
   {
@@ -84,6 +86,20 @@ protected:
   void RequireActuator(const void* device, const char* type) const
   {
     if (device == nullptr) robot_->GetActuator(type);
+  }
+  // Returns a value of a sensor that the controller lists.
+  template <class T>
+  const T& ReadingOf(const void* sensor, const char* type, const T& value) const
+  {
+    RequireSensor(sensor, type);
+    return value;
+  }
+  // Sets a value of an actuator that the controller lists.
+  template <class T>
+  void Command(const void* actuator, const char* type, PendingValue<T>& pending, const std::type_identity_t<T>& value)
+  {
+    RequireActuator(actuator, type);
+    pending.Set(value);
   }
 
 private:

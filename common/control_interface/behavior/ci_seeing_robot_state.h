@@ -1,4 +1,4 @@
-// CCI_SeeingRobotState: the half that the robot states of all three robots share: the blobs of a camera, and a ring of
+// CCI_SeeingRobotState: the part that the robot states of all three robots share: the blobs of a camera, and a ring of
 // LEDs. Getters and setters of devices that the controller does not list throw CCI_DeviceError.
 #pragma once
 
@@ -18,19 +18,20 @@ class CCI_SeeingRobotState : public CCI_RobotState
 public:
   static constexpr unsigned NUM_LEDS = LedsActuator::NUM_LEDS;
 
-  // Angles in radians counter-clockwise from the front, distances in metres.
+  // Angles are in radians counter-clockwise from the front, distances in metres.
   const std::vector<CCI_ColourBlob>& GetColourBlobs() const
   {
     RequireSensor(camera_, camera_type_);
     return blobs_;
   }
-  // The nearest blob of that hue, nullptr if none is in view.
+  // Returns the nearest blob of that hue, or nullptr if none is in view.
   const CCI_ColourBlob* GetNearestColourBlob(std::uint32_t colour) const
   {
     return CCI_ColourBlobSensor::FindNearest(GetColourBlobs(), colour);
   }
 
-  // Colours 0xRRGGBB; the getter gives the latest one set on this state.
+  // Colours are 0xRRGGBB. The getter returns the colour that was last set on this state. An index beyond the ring
+  // throws std::out_of_range.
   void SetAllLedColours(std::uint32_t colour)
   {
     RequireActuator(leds_, leds_type_);
@@ -48,7 +49,7 @@ public:
   std::uint32_t GetLedColour(unsigned led) const { return colours_.Get().at(led); }
 
 protected:
-  // Returns the types of the two devices; both texts outlive the state.
+  // The arguments are the types of the two devices; both texts must outlive the state.
   CCI_SeeingRobotState(CCI_Robot* robot, const char* camera_type, const char* leds_type)
       : CCI_RobotState(robot), camera_type_(camera_type), leds_type_(leds_type)
   {

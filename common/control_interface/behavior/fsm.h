@@ -32,8 +32,8 @@ public:
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
-  // On this input, the machine goes from here to `target`. Throws std::logic_error if the input leads elsewhere
-  // already or the target is of another machine.
+  // Adds a transition to `target` on this input. Throws std::logic_error if the input already leads to another state,
+  // or if the target belongs to another machine.
   void addTransition(const T& on, State* target)
   {
     if (target == nullptr || target->fsm_ != fsm_)
@@ -72,8 +72,8 @@ public:
   unsigned int GetStateID() const { return Current().GetID(); }
   const std::string& GetStateName() const override { return Current().GetName(); }
   bool HasStarted() const override { return current_ != nullptr; }
-  // Puts the machine into a state by its id, as when a saved run goes on. Throws std::out_of_range for an id that it
-  // does not have.
+  // Puts the machine into a state by its id, for example when a saved run continues. Throws std::out_of_range if the
+  // machine has no such state.
   void RestoreState(unsigned int id)
   {
     for (const auto& state : states_)
@@ -86,7 +86,7 @@ public:
   }
 
 protected:
-  // A new state of the machine `fsm` (that is: this). Throws std::logic_error for an id that is taken.
+  // Makes a new state of `fsm`, which must be this machine. Throws std::logic_error if the id is taken.
   State<T>* initializeState(FSM* fsm, unsigned int id, const std::string& name)
   {
     for (const auto& state : fsm->states_)
@@ -98,8 +98,8 @@ protected:
 
   void setStartState(State<T>* state) { current_ = state; }
 
-  // Takes the transition of the current state for this input; inputs without one, such as the empty string, leave it as
-  // it is. Returns whether the state changed.
+  // Takes the transition of the current state for this input. Inputs without a transition, such as the empty string,
+  // change nothing. Returns whether the state changed.
   bool input(const T& value)
   {
     Current();

@@ -1,4 +1,4 @@
-// The altitude sensor of an eyebot.
+// The altitude sensor of an eyebot measures how far the robot is above the floor or a body.
 #pragma once
 
 #include "common/control_interface/ci_device.h"
@@ -9,8 +9,8 @@ namespace swarmanoid
 class CCI_EyeBotAltitudeSensor : public CCI_SensorOf<CCI_EyeBotAltitudeSensor>
 {
 public:
-  // Metres from the base of the robot down to the first thing of its engines below it: floor, block, robot; never below
-  // 0.
+  // Returns the distance in metres from the base of the robot down to the first floor, block or robot of its engines.
+  // It is never below 0.
   virtual double GetAltitude() const = 0;
 
   static void Declare(Declaration& columns)

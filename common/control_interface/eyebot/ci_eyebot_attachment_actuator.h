@@ -1,4 +1,4 @@
-// The magnet of an eyebot, by which it hangs on the ceiling.
+// An eyebot has a magnet at its top, by which it hangs on the ceiling.
 #pragma once
 
 #include "common/control_interface/ci_device.h"
@@ -9,7 +9,7 @@ namespace swarmanoid
 class CCI_EyeBotAttachmentActuator : public CCI_ActuatorOf<CCI_EyeBotAttachmentActuator>
 {
 public:
-  // Attaches as soon as the top of the robot reaches the ceiling, and stays so until Detach.
+  // Attaches the robot as soon as its top reaches the ceiling. It stays attached until Detach.
   virtual void Attach() = 0;
   // Releases the ceiling.
   virtual void Detach() = 0;

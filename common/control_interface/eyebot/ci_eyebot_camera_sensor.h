@@ -1,5 +1,5 @@
-// The camera under an eyebot, looking straight down, as extracted blobs. The distance of a blob is measured along the
-// floor from the point below the camera.
+// The camera under an eyebot looks straight down and extracts blobs. The distance of a blob is measured along the floor
+// from the point below the camera.
 #pragma once
 
 #include "common/control_interface/ci_colour_blob_sensor.h"

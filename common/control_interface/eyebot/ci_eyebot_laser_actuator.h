@@ -1,4 +1,4 @@
-// The laser of an eyebot: projects a coloured spot on the floor, or on what stands there, which cameras see.
+// The laser of an eyebot: projects a coloured spot on the floor, or on a body that stands there. Cameras see the spot.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,17 @@ namespace swarmanoid
 class CCI_EyeBotLaserActuator : public CCI_ActuatorOf<CCI_EyeBotLaserActuator>
 {
 public:
-  // Switch the laser on or off. It is off at first.
+  // Switches the laser on. It is off at first.
   virtual void SwitchOn() = 0;
+  // Switches the laser off.
   virtual void SwitchOff() = 0;
-  virtual void SetColour(std::uint32_t colour) = 0;  // 0xRRGGBB; red at first; 0 shows no spot
+  // Sets the colour of the spot, 0xRRGGBB. It is red at first; 0 shows no spot.
+  virtual void SetColour(std::uint32_t colour) = 0;
+  // The tilt is at most 70 degrees.
+  static constexpr double MAX_TILT = 1.2217304763960306;  // rad
   // Sets the direction of the laser. The tilt is in radians from straight down, clamped to 0..MAX_TILT. The pan is the
   // direction of the tilt, radians counter-clockwise from the front. A value that is not finite ends a simulation with
   // an error.
-  static constexpr double MAX_TILT = 1.2217304763960306;  // 70 degrees
   virtual void SetDirection(double pan, double tilt) = 0;
 
   static void Declare(Declaration& columns)

@@ -1,4 +1,4 @@
-// The 16 LEDs around an eyebot.
+// An eyebot has 16 LEDs around it.
 #pragma once
 
 #include "common/control_interface/ci_led_ring_actuator.h"

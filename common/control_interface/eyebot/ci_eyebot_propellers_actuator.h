@@ -1,4 +1,4 @@
-// The propulsion of an eyebot, by velocity or by position.
+// An eyebot flies by its propellers, at a velocity or to a position.
 #pragma once
 
 #include <optional>
@@ -21,11 +21,12 @@ public:
   // is not finite ends a simulation with an error. Implementations without position control throw CCI_DeviceError.
   virtual void SetPosition(const Vector3& position, double yaw) = 0;
   void Hover() { SetVelocity(0, 0, 0, 0); }
-  // The target of position control; empty if the robot flies by velocity.
+  // Position control flies to this target.
   struct Target
   {
     double x_m, y_m, z_m, yaw_rad;
   };
+  // Returns the target of position control; empty if the robot flies by velocity.
   virtual std::optional<Target> GetTarget() const { return std::nullopt; }
 
   static void Declare(Declaration& columns)

@@ -1,4 +1,4 @@
-// The accelerometer of a footbot. Only engines that know forces provide it.
+// A footbot has an accelerometer in its body. Only engines that know forces provide it.
 #pragma once
 
 #include <span>
@@ -11,8 +11,8 @@ namespace swarmanoid
 class CCI_FootBotAccelerometerSensor : public CCI_SensorOf<CCI_FootBotAccelerometerSensor>
 {
 public:
-  // {forward, left, up} in m/s^2 in the frame of the body, mean over the last tick; at rest {0, 0, 9.81}: what holds
-  // the robot against gravity is felt.
+  // Returns {forward, left, up} in m/s^2 in the frame of the body, as means over the last tick. At rest the readings
+  // are {0, 0, 9.81}, since the sensor measures the force that holds the robot against gravity.
   virtual std::span<const double, 3> GetAllSensorReadings() const = 0;
 
   static void Declare(Declaration& columns)

@@ -18,7 +18,8 @@ public:
   {
     double x, y;
   };
-  // Ahead and to the left of the middle of the robot, m: footbot_entity.cpp of ARGoS3.
+  // The positions of the sensors ahead of and to the left of the middle of the robot, m, from footbot_entity.cpp of
+  // ARGoS3.
   static constexpr std::array<Place, NUM_SENSORS> PLACES_M{{
       {0.08, 0},
       {0.042, 0.065},
@@ -30,7 +31,7 @@ public:
       {0.042, -0.065},
   }};
 
-  // 1 where the floor has at least half of the brightness of white, else 0.
+  // Returns 1 for each sensor whose floor has at least half of the brightness of white, and 0 for the others.
   virtual std::span<const double, NUM_SENSORS> GetAllSensorReadings() const = 0;
 
   static void Declare(Declaration& columns)

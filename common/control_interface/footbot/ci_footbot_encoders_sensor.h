@@ -13,11 +13,12 @@ namespace swarmanoid
 class CCI_FootBotEncodersSensor : public CCI_SensorOf<CCI_FootBotEncodersSensor>
 {
 public:
-  // {left, right}: mean angular velocity over the last tick in rad/s.
+  // Returns {left, right}: the mean angular velocities over the last tick, rad/s. The span is valid until the next
+  // control step.
   virtual std::span<const double, 2> GetAllSensorReadings() const = 0;
   double GetLeftVelocity() const { return GetAllSensorReadings()[0]; }
   double GetRightVelocity() const { return GetAllSensorReadings()[1]; }
-  // Metres that the wheels rolled in a tick of that length.
+  // Return the metres that a wheel rolled in a tick of that length.
   double GetLeftDistance(double tick_s) const
   {
     return GetLeftVelocity() * tick_s * CCI_FootBotWheelsActuator::WHEEL_RADIUS_M;

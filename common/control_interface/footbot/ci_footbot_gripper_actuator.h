@@ -1,4 +1,4 @@
-// The gripper of a footbot, at the front of its turret.
+// A footbot has its gripper at the front of its turret.
 #pragma once
 
 #include "common/control_interface/ci_device.h"

@@ -1,4 +1,4 @@
-// The 12 LEDs around the turret of a footbot. They turn with it.
+// A footbot has 12 LEDs around its turret. They turn with it.
 #pragma once
 
 #include "common/control_interface/ci_led_ring_actuator.h"

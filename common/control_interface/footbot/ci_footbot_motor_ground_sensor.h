@@ -18,7 +18,8 @@ public:
   {
     double x, y;
   };
-  // Ahead and to the left of the middle of the robot, m: footbot_entity.cpp of ARGoS3.
+  // The positions of the sensors ahead of and to the left of the middle of the robot, m, from footbot_entity.cpp of
+  // ARGoS3.
   static constexpr std::array<Place, NUM_SENSORS> PLACES_M{{
       {0.063, 0.0116},
       {-0.063, 0.0116},
@@ -26,7 +27,7 @@ public:
       {0.063, -0.0116},
   }};
 
-  // Brightness of the floor, 0 (black, or a hole) to 1 (white).
+  // Returns the brightness of the floor under each sensor, 0 (black, or a hole) to 1 (white).
   virtual std::span<const double, NUM_SENSORS> GetAllSensorReadings() const = 0;
 
   static void Declare(Declaration& columns)

@@ -1,4 +1,4 @@
-// A camera in the rim of a footbot, looking ahead, as extracted blobs.
+// A camera in the rim of a footbot looks ahead and extracts blobs.
 #pragma once
 
 #include "common/control_interface/ci_colour_blob_sensor.h"

@@ -1,4 +1,4 @@
-// The angle of the turret of a footbot against its body.
+// The encoder measures the angle of the turret of a footbot against its body.
 #pragma once
 
 #include "common/control_interface/ci_device.h"
@@ -9,7 +9,7 @@ namespace swarmanoid
 class CCI_FootBotTurretEncoderSensor : public CCI_SensorOf<CCI_FootBotTurretEncoderSensor>
 {
 public:
-  // Radians, -pi..pi, counter-clockwise from the front.
+  // Returns the angle in radians, -pi..pi, counter-clockwise from the front.
   virtual double GetTurretAngle() const = 0;
 
   static void Declare(Declaration& columns)

@@ -1,4 +1,4 @@
-// The two wheels (treels) of a footbot.
+// A footbot drives on two wheels (treels).
 #pragma once
 
 #include "common/control_interface/ci_device.h"
@@ -17,7 +17,7 @@ public:
   // Sets angular velocities of the wheels in rad/s; positive drives forward. Values beyond the implementation's limit
   // are clamped to it. NaN ends a simulation with an error.
   virtual void SetFootBotWheelsAngularVelocity(double left, double right) = 0;
-  // Speeds of the wheels on the ground in m/s: angular velocity times radius.
+  // Sets the speeds of the wheels on the ground in m/s: angular velocity times radius.
   void SetFootBotWheelsLinearVelocity(double left, double right)
   {
     SetFootBotWheelsAngularVelocity(left / WHEEL_RADIUS_M, right / WHEEL_RADIUS_M);

@@ -21,8 +21,9 @@ public:
     SetArmVelocities(velocities[0], velocities[1]);
     SetWristVelocities(velocities[2], velocities[3]);
   }
-  // Set the angular velocities of both arms or both wrists, rad/s. Positive values open an arm.
+  // Sets the angular velocities of both arms, rad/s. Positive values open an arm.
   virtual void SetArmVelocities(double left, double right) = 0;
+  // Sets the angular velocities of both wrists, rad/s.
   virtual void SetWristVelocities(double left, double right) = 0;
 
   static void Declare(Declaration& columns)

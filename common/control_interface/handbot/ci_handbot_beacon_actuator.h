@@ -12,7 +12,8 @@ namespace swarmanoid
 class CCI_HandBotBeaconActuator : public CCI_ActuatorOf<CCI_HandBotBeaconActuator>
 {
 public:
-  virtual void SetColour(std::uint32_t colour) = 0;  // 0xRRGGBB, 0 is off; higher bits are ignored
+  // Sets the colour of the beacon, 0xRRGGBB. 0 is off, and higher bits are ignored.
+  virtual void SetColour(std::uint32_t colour) = 0;
 
   static void Declare(Declaration& columns)
   {

@@ -1,4 +1,4 @@
-// The camera in the head of a handbot, looking ahead, as extracted blobs.
+// The camera in the head of a handbot looks ahead and extracts blobs.
 #pragma once
 
 #include "common/control_interface/ci_colour_blob_sensor.h"

@@ -19,8 +19,9 @@ public:
   {
     for (const Hand hand : {LEFT, RIGHT}) closed[hand] ? Close(hand) : Open(hand);
   }
-  // Close or open one hand.
+  // Closes one hand. A closing hand grips the body that it touches.
   virtual void Close(Hand hand) = 0;
+  // Opens one hand, which releases the body that it holds.
   virtual void Open(Hand hand) = 0;
 
   static void Declare(Declaration& columns)

@@ -1,4 +1,4 @@
-// The 12 LEDs around a handbot.
+// A handbot has 12 LEDs around it.
 #pragma once
 
 #include "common/control_interface/ci_led_ring_actuator.h"

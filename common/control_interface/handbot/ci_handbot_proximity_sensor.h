@@ -16,8 +16,8 @@ public:
   static constexpr unsigned NUM_SENSORS = 2 * SENSORS_OF_HAND;
 
   // Returns all readings, 0 (nothing in range) to 1 (touching), valid until the next control step: the left hand's,
-  // then the right hand's. Of each, while its wrist is at 0: 0 to 2 on the left claw, the outermost first; 3 to 5 above
-  // the claws and 6 to 8 below, from left to right; 9 to 11 on the right claw, the outermost last.
+  // then the right hand's. For each hand, while its wrist is at 0: 0 to 2 are on the left claw, the outermost first. 3
+  // to 5 are above the claws and 6 to 8 below, from left to right. 9 to 11 are on the right claw, the outermost last.
   virtual std::span<const double, NUM_SENSORS> GetAllSensorReadings() const = 0;
 
   static void Declare(Declaration& columns)

@@ -1,4 +1,4 @@
-// The rope of a handbot: shot to the ceiling, it lets the robot climb by its winch.
+// The rope of a handbot: the robot shoots it to the ceiling, and climbs on it by its winch.
 #pragma once
 
 #include "common/control_interface/ci_device.h"
@@ -10,7 +10,8 @@ class CCI_HandBotRopeActuator : public CCI_ActuatorOf<CCI_HandBotRopeActuator>
 {
 public:
   static constexpr double MAX_WINCH_SPEED = 0.15;  // m/s
-  virtual void Launch() = 0;                       // attaches to what is above; stays so until Release
+  // Shoots the rope, which attaches to the ceiling or body above until Release.
+  virtual void Launch() = 0;
   // Detaches the rope from the ceiling.
   virtual void Release() = 0;
   // Sets the speed of rope let out, in m/s, clamped to MAX_WINCH_SPEED. Negative values pull the robot up. NaN ends a

@@ -1,3 +1,9 @@
+// The grid has cells that hold about one point each. Each update sorts all points into the cells by counting, in O(n).
+// It copies their positions in that order, so that a search reads consecutive memory. A search visits the rows of cells
+// that its box touches and tests each point.
+//
+// Invariant: a result depends only on the points, since it is sorted by entity; the size of the cells changes the time
+// alone.
 #include "common/space/index/grid_index.h"
 
 #include <algorithm>
@@ -14,8 +20,8 @@ constexpr double kMostCells = 4e6;
 
 double ShareOf(double content, std::size_t points) { return content / std::max(1.0, static_cast<double>(points)); }
 
-// About one point in each cell; layered ones stay within the reach of sensors, since 3D arenas are seldom evenly
-// filled.
+// Cells hold about one point each. Layered cells are at most as wide as the reach of sensors, since 3D arenas are
+// seldom filled evenly.
 double LayeredEdge(const Vector3& size, std::size_t points)
 {
   return std::clamp(std::cbrt(ShareOf(size.prod(), points)), kSmallestCell, kLargestLayeredCell);
@@ -66,7 +72,8 @@ template <class Accept>
 void GridIndex::Collect(const Vector3& low, const Vector3& high, Accept accept, std::vector<std::uint32_t>& found) const
 {
   found.clear();
-  // Local copies: the compiler cannot know that found.push_back() leaves the members alone.
+  // The arrays are copied to local variables, since the compiler cannot know that found.push_back() leaves the members
+  // alone.
   const std::uint32_t* const start = sort_.Starts();
   const double* const x = x_.data();
   const double* const y = y_.data();

@@ -1,5 +1,5 @@
-// The grid arrangements of PositionalIndex: points counting-sorted by cell. Points outside the arena stand in border
-// cells.
+// GridIndex: the grid forms of PositionalIndex, with points counting-sorted by cell. Points outside the arena are in
+// border cells.
 #pragma once
 
 #include "common/math/cells.h"
@@ -19,7 +19,7 @@ public:
   void FindInBox(const Vector3& low, const Vector3& high, std::vector<std::uint32_t>& found) const override;
   const char* Name() const override { return layered_ ? "layered grid" : "flat grid"; }
 
-  // Cells that a layered grid for these sizes would have.
+  // Returns the number of cells of a layered grid for these sizes.
   static double LayeredCells(const Vector3& arena_size, std::size_t expected_points);
 
 protected:

@@ -10,9 +10,9 @@ namespace swarmanoid
 namespace
 {
 
-// Cells of a layered grid for each point, above which the oct-tree is quicker (docs/architecture.md, "Cost of the
+// The number of layered cells for each point above which the oct-tree is faster (docs/architecture.md, "Cost of the
 // space"). Each cell costs half a nanosecond in each update; a search in the oct-tree takes at least 400 ns more. With
-// one search for every five moved points both cost the same at about 170 cells.
+// one search for every five moved points, both cost the same at about 170 cells.
 constexpr double kMostLayeredCells = 128;
 
 }  // namespace
@@ -22,7 +22,7 @@ std::optional<std::uint32_t> PositionalIndex::FindNearest(const Vector3& centre,
 {
   const PointArrays& points = Points();
   std::vector<std::uint32_t> found;
-  // Ever wider searches: the first that finds anything holds the nearest.
+  // The search widens until it finds a point; then that search also contains the nearest point.
   for (double reach = std::min(Spacing(), radius);; reach = std::min(2 * reach, radius))
   {
     FindWithin(centre, reach, found);
@@ -36,7 +36,7 @@ std::optional<std::uint32_t> PositionalIndex::FindNearest(const Vector3& centre,
       nearest_distance = distance;
     }
     if (nearest || reach >= radius) return nearest;
-    // All points were in reach, so the excluded one is the only one.
+    // All points were in reach, so only the excluded one exists.
     if (found.size() == points.Size()) return std::nullopt;
   }
 }

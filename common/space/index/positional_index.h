@@ -32,18 +32,19 @@ public:
 
   virtual ~PositionalIndex() = default;
 
-  // Takes over the positions; the arrays must stay until the next call. Points may lie anywhere; one with a coordinate
-  // that is not a number is never found. Costs O(n), and only the points that changed their cell in an oct-tree.
+  // Uses these positions; the arrays must stay valid until the next call. Points may be anywhere; a point with a NaN
+  // coordinate is never found. The cost is O(n), in an oct-tree only for points that changed their leaf.
   virtual void Update(const PointArrays& points) = 0;
 
   // Finds the points whose distance to the centre is at most `radius` metres, ascending. `found` is cleared first.
   virtual void FindWithin(const Vector3& centre, double radius, std::vector<std::uint32_t>& found) const = 0;
-  // The points in a closed box, ascending. `found` is cleared first.
+  // Finds the points in a closed box, ascending. `found` is cleared first.
   virtual void FindInBox(const Vector3& low, const Vector3& high, std::vector<std::uint32_t>& found) const = 0;
   // Returns the nearest point within `radius` other than `excluded`, or nullopt if there is no such point. If several
   // are equally near, it is the one with the lowest number.
   std::optional<std::uint32_t> FindNearest(const Vector3& centre, double radius, std::uint32_t excluded = kNone) const;
 
+  // Returns the kind of index, for benchmarks and tests.
   virtual const char* Name() const = 0;
 
 protected:

@@ -18,7 +18,7 @@ namespace swarmanoid
 
 class CSwarmanoidSpace;
 
-// A set of connected entities that move as a whole: the root, which no other member holds, and the entities that hold
+// A set of connected entities that move as a whole: the root, which holds no other member, and the entities that hold
 // it or each other. It is valid until the tree changes.
 class CCompoundEntity
 {
@@ -26,7 +26,7 @@ public:
   CCompoundEntity(const CSwarmanoidSpace& space, std::uint32_t root, std::vector<std::uint32_t> members);
 
   std::uint32_t GetRoot() const { return root_; }
-  // The root and all that are connected to it, ascending.
+  // Returns the root and all entities that are connected to it, ascending.
   const std::vector<std::uint32_t>& GetMembers() const { return members_; }
   // Returns the pose of each member, in their order, when one member is at a pose and carries the others as one rigid
   // body. That member has the pose to the last bit; the others have theirs to the rounding of doubles.
@@ -44,15 +44,15 @@ class StructuralTree
 public:
   static constexpr int kNothing = -1;
 
-  // No connections yet. The space outlives the tree.
+  // Makes a tree without connections. The space must outlive the tree.
   explicit StructuralTree(const CSwarmanoidSpace& space);
 
-  // The entity that one holds, or kNothing.
+  // Returns the entity that one holds, or kNothing.
   int GetHeld(std::uint32_t gripper) const { return held_[gripper]; }
   bool Holds(std::uint32_t gripper, std::uint32_t gripped) const { return held_[gripper] == static_cast<int>(gripped); }
   // Returns the entities that hold an entity, ascending.
   std::vector<std::uint32_t> GetHolders(std::uint32_t gripped) const;
-  // Itself if it holds nothing.
+  // Returns the root of an entity's tree; the entity itself if it holds nothing.
   std::uint32_t GetRoot(std::uint32_t entity) const;
   CCompoundEntity GetCompound(std::uint32_t member) const;
 
@@ -79,7 +79,8 @@ private:
 
   const CSwarmanoidSpace& space_;
   std::vector<int> held_;
-  // The holders of each entity, ascending, as a list: the first one, and of each holder the one after it.
+  // The holders of each entity are a linked list, ascending: these are the first holder, and for each holder the next
+  // one.
   std::vector<int> first_holder_, next_holder_;
 };
 

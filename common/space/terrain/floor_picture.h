@@ -13,7 +13,7 @@
 namespace swarmanoid
 {
 
-// One colour seen through another: each of red, green and blue is the product, with 255 as 1, rounded.
+// Returns one colour tinted by another: each of red, green and blue is the product, with 255 as 1, rounded.
 std::uint32_t Tinted(std::uint32_t colour, std::uint32_t tint);
 
 class FloorPicture
@@ -23,7 +23,7 @@ public:
 
   int Columns() const { return picture_.columns; }
   int Rows() const { return picture_.rows; }
-  // 0xRRGGBB; rows from the top, which is the edge at the largest y.
+  // Returns 0xRRGGBB. Rows count from the top, which is the edge at the largest y.
   std::uint32_t Pixel(int column, int row) const
   {
     return picture_.pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(picture_.columns) +

@@ -1,3 +1,9 @@
+// The ground is a surface through the heights of a picture. Each cell between four pixels is split into two triangles,
+// so that the surface has no gaps and its height is linear in each triangle. The height above the ground along a
+// segment is then linear between the crossings of grid lines and diagonals. The first hit is where it falls to zero,
+// without a search by small steps.
+//
+// Invariant: HeightAt and SegmentHit use the same diagonals.
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -72,8 +78,8 @@ std::optional<double> HeightTerrain::GroundBelow(const Vector3& point) const
 
 std::optional<double> HeightTerrain::SegmentHit(const Vector3& from, const Vector3& to) const
 {
-  // The part of the segment above or below the field. The height over it is piecewise linear: its kinks are where the
-  // segment crosses a line of the grid or a diagonal.
+  // The segment is first cut to its part above or below the field. The height over the field is piecewise linear: its
+  // kinks are where the segment crosses a line of the grid or a diagonal.
   const double u0 = from.x() / size_x_ * (columns_ - 1);
   const double v0 = from.y() / size_y_ * (rows_ - 1);
   const double du = (to.x() - from.x()) / size_x_ * (columns_ - 1);
@@ -105,7 +111,7 @@ std::optional<double> HeightTerrain::SegmentHit(const Vector3& from, const Vecto
   add_crossings(u0 + v0, du + dv);
   std::sort(kinks.begin(), kinks.end());
 
-  // The clearance is linear between kinks: the segment enters where it falls to zero.
+  // The clearance is linear between kinks, so the segment enters where it falls to zero.
   double before_at = enter;
   double before = 0;
   bool first = true;
@@ -125,7 +131,7 @@ std::optional<double> HeightTerrain::SegmentHit(const Vector3& from, const Vecto
 
 std::vector<TerrainRectangle> HeightTerrain::Section(double height) const
 {
-  // A cell counts if any of its corners reaches the height.
+  // A cell is solid if any of its corners reaches the height.
   const auto reaches = [&](int x, int y) {
     return std::max({Height(x, y), Height(x + 1, y), Height(x, y + 1), Height(x + 1, y + 1)}) > height;
   };

@@ -12,10 +12,10 @@ namespace swarmanoid
 namespace
 {
 
-// The same limit as for PNGs. A picture of this size takes a gigabyte.
+// The limit is the same as for PNGs. A picture of this size takes a gigabyte.
 constexpr std::uint64_t kMostJpegPixels = std::uint64_t{1} << 26U;
 
-// Errors of libjpeg come back by longjmp, so no function that may meet one has objects of its own.
+// Errors of libjpeg return by longjmp, so functions that may meet one must not have objects with destructors.
 struct JpegReader
 {
   explicit JpegReader(std::string_view bytes) : bytes_(bytes)
@@ -44,7 +44,7 @@ struct JpegReader
     if (level < 0 && jpeg->err->msg_code == JWRN_JPEG_EOF) OnError(jpeg);
   }
 
-  // False after an error, here and below.
+  // This function and those below return false after an error.
   bool ReadHeader()
   {
     if (setjmp(back_) != 0) return false;

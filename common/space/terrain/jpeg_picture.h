@@ -1,4 +1,4 @@
-// The pixels of a JPEG, for pictures on the floor (FloorPicture). In any process.
+// Reads the pixels of a JPEG, for pictures on the floor (FloorPicture), in any process.
 #pragma once
 
 #include <string_view>

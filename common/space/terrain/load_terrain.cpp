@@ -32,7 +32,7 @@ std::shared_ptr<const Terrain> LoadTerrain(const EntityConfiguration& configurat
   const std::string path =
       (std::filesystem::path(experiment_folder) / source.GetText("file")).lexically_normal().string();
 
-  // Maps are large and read-only: one copy in a process, however many entities and roles use it.
+  // Maps are large and read-only, so a process keeps one copy for all entities and roles.
   static std::mutex mutex;
   static std::map<std::string, std::weak_ptr<const Terrain>> loaded;
   const std::string key =

@@ -13,6 +13,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "common/configuration/regular_file.h"
 
@@ -24,10 +25,12 @@ namespace
 constexpr const char* kBinaryStart = "# Octomap OcTree binary file";
 constexpr const char* kFullStart = "# Octomap OcTree file";
 
+constexpr const char* kColoured = "ColorOcTree";
+
 constexpr std::uint64_t kMostTreeBytes = std::uint64_t{1} << 30U;
 // A tree of this size takes some gigabytes.
 constexpr std::size_t kMostNodes = std::size_t{1} << 26U;
-constexpr int kDepth = 16;  // of OctoMap's trees
+constexpr int kDepth = 16;  // the depth of OctoMap's trees
 constexpr double kFinest = 1e-6;
 constexpr double kCoarsest = 1e6;
 
@@ -38,7 +41,7 @@ struct Header
   double resolution = 0;
 };
 
-// The lines from after the first one to the data. False if they are none of OctoMap's.
+// Returns the lines from the second one to the data, or false if they are not those of OctoMap.
 bool ReadHeader(std::istream& file, Header& header)
 {
   std::string word;
@@ -49,10 +52,25 @@ bool ReadHeader(std::istream& file, Header& header)
     if (word == "res") file >> header.resolution;
     if (word.front() == '#') std::getline(file, word);
   }
-  return file && file.get() == '\n' && header.type == "OcTree";
+  return file && file.get() == '\n' &&
+         (header.type == "OcTree" || header.type == kColoured || header.type == "OcTreeStamped");
 }
 
-// Very old .bt files have a header of bytes instead.
+// Returns the nodes of a ColorOcTree without their colours: a probability, three bytes of colour, the children.
+std::string WithoutColours(std::string_view nodes)
+{
+  constexpr std::size_t kColour = 3, kNode = sizeof(float) + kColour + 1;
+  std::string plain;
+  plain.reserve(nodes.size() / kNode * (kNode - kColour));
+  for (; nodes.size() >= kNode; nodes.remove_prefix(kNode))
+  {
+    plain += nodes.substr(0, sizeof(float));
+    plain += nodes[kNode - 1];
+  }
+  return plain;
+}
+
+// Very old .bt files have a binary header instead.
 bool ReadOldHeader(std::istream& file, Header& header)
 {
   constexpr std::int32_t kOccupancyTree = 3;
@@ -72,7 +90,7 @@ struct Children
   int described = 0;  // children described later in the data, one after the other, each with its own children
 };
 
-// Two bytes, two bits a child: unknown, a free leaf, an occupied leaf, described.
+// Reads two bytes with two bits for each child: unknown, a free leaf, an occupied leaf, described.
 Children ChildrenInBinary(const char* node)
 {
   Children children;
@@ -85,7 +103,7 @@ Children ChildrenInBinary(const char* node)
   return children;
 }
 
-// A probability (float), then one bit a child.
+// Reads a probability (float), then one bit for each child.
 Children ChildrenInFull(const char* node)
 {
   const int count = std::popcount(static_cast<unsigned char>(node[sizeof(float)]));
@@ -97,7 +115,7 @@ Children ChildrenInFull(const char* node)
 const char* MistakeInData(std::string_view data, bool is_binary, std::size_t nodes)
 {
   const std::size_t bytes = is_binary ? 2 : sizeof(float) + 1;
-  std::array<int, kDepth + 1> left{1};  // described nodes that are still to come, by depth
+  std::array<int, kDepth + 1> left{1};  // the number of described nodes that are still to come, by depth
   int depth = 0;
   std::size_t count = 1;
   std::size_t at = 0;
@@ -152,9 +170,10 @@ std::unique_ptr<octomap::OcTree> ReadOctoMap(const std::string& path)
 
   auto map = std::make_unique<octomap::OcTree>(header.resolution);
   if (header.nodes == 0) return map;
-  const auto start = static_cast<std::size_t>(file.tellg());
-  if (const char* mistake = MistakeInData(std::string_view(bytes).substr(start), is_binary, header.nodes))
-    fail(mistake);
+  std::string data = bytes.substr(static_cast<std::size_t>(file.tellg()));
+  if (header.type == kColoured && !is_binary) data = WithoutColours(data);
+  if (const char* mistake = MistakeInData(data, is_binary, header.nodes)) fail(mistake);
+  file = std::istringstream(std::move(data));
   if (is_binary)
     map->readBinaryData(file);
   else

@@ -20,7 +20,8 @@ constexpr png_uint_32 kMostPixelsOfRow = 1U << 16U;
 // A picture of this size takes a gigabyte.
 constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 26U;
 
-// A file that libpng reads. Its errors come back by longjmp, so no function that may meet one has objects of its own.
+// A file that libpng reads. Errors of libpng return by longjmp, so functions that may meet one must not have objects
+// with destructors.
 struct Reader
 {
   explicit Reader(std::string_view bytes) : rest(bytes)
@@ -46,7 +47,7 @@ struct Reader
     rest.remove_prefix(count);
   }
 
-  // Palettes and few bits become 8 bits a sample; 16 bits stay. False after an error.
+  // Converts palettes and small samples to 8 bits a sample; 16 bits stay. Returns false after an error.
   bool ReadHeader()
   {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
@@ -68,7 +69,7 @@ struct Reader
     return true;
   }
 
-  std::string_view rest;  // of the bytes
+  std::string_view rest;  // the bytes of the file that are not read yet
   png_structp png = nullptr;
   png_infop info = nullptr;
   std::string error;
@@ -81,7 +82,7 @@ struct Samples
   int rows = 0;
   std::size_t channels = 0;
   bool are_wide = false;
-  std::size_t stride = 0;  // bytes a row
+  std::size_t stride = 0;  // bytes in each row
   std::vector<std::uint8_t> bytes;
 
   bool IsGrey() const { return channels < 3; }
@@ -170,7 +171,7 @@ ColourPicture ReadColourPicture(const std::string& path)
       Fail("JPEG", path, error.what());
     }
   }
-  // The rest of the signature is libpng's, which knows what damages it.
+  // libpng checks the rest of the signature, and recognises typical damage.
   if (!file.starts_with("\x89PNG")) Fail("picture", path, "it is neither a PNG nor a JPEG");
   const Samples samples = SamplesOf(file, path);
   ColourPicture picture;

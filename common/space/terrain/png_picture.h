@@ -1,5 +1,5 @@
-// The pixels of a file: greys of a PNG for height maps (HeightTerrain), colours of a PNG or JPEG for pictures on the
-// floor (FloorPicture). In any process.
+// Reads the pixels of a file: greys of a PNG for height maps (HeightTerrain), colours of a PNG or JPEG for pictures on
+// the floor (FloorPicture). In any process.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +23,9 @@ struct ColourPicture
   int rows = 0;
 };
 
-// The samples as they stand in the file, of 1 to 16 bits: a grey of half the range is 0.5, whatever gamma the file
-// claims. Colours count as 0.299 R + 0.587 G + 0.114 B, transparency does not. Throws std::runtime_error naming a file
-// that cannot be read.
+// Returns the samples unchanged, of 1 to 16 bits: a grey of half the range is 0.5, for any gamma that the file states.
+// Colours count as 0.299 R + 0.587 G + 0.114 B; transparency is ignored. Throws std::runtime_error, which names the
+// file, if it cannot be read.
 GreyPicture ReadGreyPicture(const std::string& path);
 // Reads a PNG or a JPEG; 16-bit samples keep their upper 8 bits. Throws as the function above.
 ColourPicture ReadColourPicture(const std::string& path);

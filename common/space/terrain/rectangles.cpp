@@ -1,3 +1,8 @@
+// Two-dimensional engines need the solid cells of a terrain as few large obstacles. The fewest rectangles are hard to
+// find. One pass over the rows joins a run of cells with the run above it if both begin and end at the same columns.
+//
+// Invariants: each set cell is in exactly one rectangle, and no other cell is in any. The order depends only on the
+// cells.
 #include "common/space/terrain/rectangles.h"
 
 namespace swarmanoid

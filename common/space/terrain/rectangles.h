@@ -1,4 +1,4 @@
-// Covering a bitmap with few rectangles: runs along x, then equal runs of neighbouring rows joined.
+// Covers a bitmap with few rectangles: runs along x, with equal runs of neighbouring rows joined.
 #pragma once
 
 #include <functional>
@@ -7,7 +7,7 @@
 namespace swarmanoid
 {
 
-// Cells first_x..last_x, first_y..last_y inclusive.
+// The cells first_x..last_x, first_y..last_y inclusive.
 struct CellRectangle
 {
   int first_x, first_y, last_x, last_y;

@@ -1,3 +1,9 @@
+// The ground is the sum of three waves of value noise: random heights at the points of a lattice, with smooth
+// interpolation between them. Each wave has half the length and half the height of the one before. Round holes are cut
+// into it, and the columns of cells are filled up to the surface.
+//
+// Invariants: all random numbers come from streams of the seed (common/math/random.h), one for each wave and one for
+// the holes. So the number of holes does not change the bumps. A hole never goes through the ground.
 #include "common/space/terrain/rough_terrain.h"
 
 #include <algorithm>
@@ -18,7 +24,7 @@ constexpr double kMostColumns = 1e6;
 constexpr double kMostLayers = 200;
 constexpr std::uint64_t kHoles = StreamName("holes of a terrain");
 constexpr std::uint64_t kBumps = StreamName("bumps of a terrain");
-// Wave lengths of the bumps (m), each half as high as the one before.
+// The bumps have these wave lengths (m); each wave is half as high as the one before.
 constexpr std::array kWaves{0.5, 0.25, 0.125};
 constexpr double kNarrowestHole_m = 0.12;
 constexpr double kWidestHole_m = 0.2;
@@ -44,7 +50,7 @@ void Check(const RoughTerrain& terrain)
         "larger --resolution or a smaller --size");
 }
 
-// A smooth surface between 0 and 1 through random heights at the points of a lattice.
+// Returns a smooth surface between 0 and 1 through random heights at the points of a lattice.
 class Bumps
 {
 public:
@@ -111,7 +117,7 @@ void WriteRoughTerrain(const std::string& path, const RoughTerrain& terrain)
   const double low = *lowest;
   const double scale = *highest > low ? terrain.roughness / (*highest - low) : 0;
 
-  // The lowest ground is at 0; under it one layer more than the holes are deep.
+  // The lowest ground is at 0. Below it the map has one layer more than the holes are deep.
   const int bottom = -static_cast<int>(std::ceil(terrain.depth / cell - 1e-9)) - 1;
   const std::vector<Hole> holes = HolesOf(terrain);
   octomap::OcTree map(cell);

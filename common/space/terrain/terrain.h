@@ -1,10 +1,10 @@
-// Terrain: ground and obstacles from a file. One read-only object for each terrain entity; engines, occlusion and
-// renderers ask it in the frame of the entity.
+// Terrain: ground and obstacles from a file. Each terrain entity has one read-only object. Engines, occlusion and
+// renderers use it in the frame of the entity.
 //
-//   <terrain id="rocks"><position>0,0,0</position><orientation>0,0,0</orientation><octomap
-//   file="terrain/rocks.bt"/></terrain> <terrain
-//   id="hills"><position>0,0,0</position><orientation>0,0,0</orientation><heightmap file="hills.png" size="20,20"
-//   height="0.3"/></terrain>
+//   <terrain id="rocks"><position>0,0,0</position><orientation>0,0,0</orientation>
+//     <octomap file="terrain/rocks.bt"/></terrain>
+//   <terrain id="hills"><position>0,0,0</position><orientation>0,0,0</orientation>
+//     <heightmap file="hills.png" size="20,20" height="0.3"/></terrain>
 #pragma once
 
 #include <memory>
@@ -19,7 +19,7 @@
 namespace swarmanoid
 {
 
-// An axis-aligned rectangle in the x, y plane of the terrain, in metres.
+// It is parallel to the axes of the x, y plane of the terrain, and in metres.
 struct TerrainRectangle
 {
   Vector2 low;
@@ -31,9 +31,11 @@ class Terrain
 public:
   virtual ~Terrain() = default;
 
-  // The box that holds all that is solid, in metres.
+  // Returns the lower corner of the box around all solid parts, in metres.
   virtual Vector3 Low() const = 0;
+  // Returns the upper corner of that box, in metres.
   virtual Vector3 High() const = 0;
+  // Returns whether a point is inside something solid.
   virtual bool IsSolid(const Vector3& point) const = 0;
   // Returns the height (m) of the highest solid surface at or below a point, or nullopt if no surface is there.
   virtual std::optional<double> GroundBelow(const Vector3& point) const = 0;
@@ -44,11 +46,11 @@ public:
   virtual std::vector<TerrainRectangle> Section(double height) const = 0;
 };
 
-// Occupied cubes of an OctoMap file (.bt or .ot), as a bitmap.
+// VoxelTerrain: the occupied cubes of an OctoMap file (.bt or .ot), as a bitmap.
 class VoxelTerrain : public Terrain
 {
 public:
-  // Throws std::runtime_error, naming the file, if it cannot be read or holds nothing occupied.
+  // Reads the file. Throws std::runtime_error, which names the file, if it cannot be read or has no occupied cube.
   explicit VoxelTerrain(const std::string& path);
 
   Vector3 Low() const override { return low_; }
@@ -62,7 +64,7 @@ public:
   int CellsX() const { return nx_; }
   int CellsY() const { return ny_; }
   int CellsZ() const { return nz_; }
-  // False outside the map.
+  // Returns false outside the map.
   bool IsOccupied(int x, int y, int z) const;
 
 private:
@@ -79,13 +81,13 @@ private:
   std::vector<bool> occupied_;
 };
 
-// A surface over a regular grid, two triangles a cell, solid below; from the greys of a PNG.
+// HeightTerrain: a surface over a regular grid, with two triangles for each cell, solid below; from the greys of a PNG.
 class HeightTerrain : public Terrain
 {
 public:
-  // The picture spans size_x by size_y metres, its upper left pixel at x = 0 and the largest y; black is 0, white
-  // `height` metres, grey in proportion (png_picture.h). Throws std::runtime_error, naming the file, if it cannot
-  // be read or is smaller than 2 by 2 pixels.
+  // The picture spans size_x by size_y metres. Its upper left pixel is at x = 0 and the largest y. Black is 0, white is
+  // `height` metres, and grey is in proportion (png_picture.h). Throws std::runtime_error, which names the file, if it
+  // cannot be read or is smaller than 2 by 2 pixels.
   HeightTerrain(const std::string& path, double size_x, double size_y, double height);
   // Makes a terrain from columns * rows heights in metres, along x first, with the first row at y = 0.
   HeightTerrain(std::vector<double> heights, int columns, int rows, double size_x, double size_y);

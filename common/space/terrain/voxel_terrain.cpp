@@ -1,3 +1,7 @@
+// The map is an octree of occupied cubes of several sizes. Searching it at each step would be slow, so the constructor
+// paints all cubes into a bitmap of the smallest cells. A search for a hit then walks from cell to cell.
+//
+// Invariant: a cell outside the box of the map is free.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +28,7 @@ VoxelTerrain::VoxelTerrain(const std::string& path)
   const auto tree = ReadOctoMap(path);
   cell_ = tree->getResolution();
 
-  // An occupied leaf in units of the smallest cell. A large leaf covers many cells.
+  // It is an occupied leaf, in units of the smallest cell. A large leaf covers many cells.
   struct Cube
   {
     long x, y, z, width;
@@ -93,14 +97,15 @@ std::optional<double> VoxelTerrain::GroundBelow(const Vector3& point) const
   return std::nullopt;
 }
 
-// Amanatides and Woo, "A fast voxel traversal algorithm for ray tracing", 1987.
+// Walks through the cells along the segment: J. Amanatides and A. Woo, "A fast voxel traversal algorithm for ray
+// tracing", Eurographics 1987.
 std::optional<double> VoxelTerrain::SegmentHit(const Vector3& from, const Vector3& to) const
 {
   const Vector3 start = (from - low_) / cell_;
   const Vector3 step = (to - from) / cell_;
   const std::array<int, 3> cells{nx_, ny_, nz_};
 
-  // The part of the segment within the map.
+  // The segment is first shortened to the part inside the map.
   double enter = 0;
   double leave = 1;
   for (int axis = 0; axis < 3; ++axis)
@@ -119,8 +124,8 @@ std::optional<double> VoxelTerrain::SegmentHit(const Vector3& from, const Vector
 
   std::array<int, 3> cell{};
   std::array<int, 3> direction{};
-  std::array<double, 3> next{};   // the fraction at which the next cell begins
-  std::array<double, 3> width{};  // of one cell
+  std::array<double, 3> next{};   // the fraction at which the next cell begins, by axis
+  std::array<double, 3> width{};  // the width of one cell as a fraction, by axis
   for (int axis = 0; axis < 3; ++axis)
   {
     const double at = start[axis] + enter * step[axis];

@@ -119,6 +119,7 @@ public:
     contacts_.resize(robots_.size());
   }
   Contacts* Sensor(std::size_t k) override { return &contacts_[k]; }
+  void Expose(std::size_t k, ExposedValues& values) override { values.SetList(contacts_[k].angles); }
   double Reach() const override { return widest_ + reach_; }
 
   void Update(const ChannelView&) override

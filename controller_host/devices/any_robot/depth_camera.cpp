@@ -110,6 +110,15 @@ public:
     for (FloorPatch& patch : patches_) patch.pose = space_->GetPose(patch.entity);
   }
   void Update(const ChannelView&) override { MakeAhead(); }
+  void Expose(std::size_t k, ExposedValues& values) override
+  {
+    values.SetList(cameras_[k].pixels.size(), &cameras_[k].pixels,
+                   [](void* of, std::span<const std::uint8_t> kept)
+                   {
+                     for (std::size_t i = 0; i < kept.size(); ++i)
+                       if (kept[i] == 0) (*static_cast<std::vector<Pixel>*>(of))[i] = {};
+                   });
+  }
 
 private:
   void MakeDue() override

@@ -10,8 +10,8 @@
 #include "common/control_interface/footbot/ci_footbot_turning_scanner_sensor.h"
 #include "common/math/elementary.h"
 #include "common/space/space.h"
-#include "controller_host/devices/any_robot/kind_of_batch.h"
 #include "controller_host/devices/device_plugins.h"
+#include "controller_host/devices/kind_of_batch.h"
 #include "controller_host/devices/sensing/sensor_world.h"
 #include "controller_host/split_sensor.h"
 
@@ -109,6 +109,7 @@ public:
     scanners_.resize(robots_.size());
   }
   Scanner* Sensor(std::size_t k) override { return &scanners_[k]; }
+  void Expose(std::size_t k, ExposedValues& values) override { values.SetList(scanners_[k].readings); }
   double Reach() const override
   {
     double reach = 0;
@@ -153,8 +154,7 @@ public:
   {
     ScannerBatch<Head, DistanceScanner>::Init(setup);
     step_ = Head::Speed(setup.parameters) * setup.space.GetTickSeconds();
-    const std::size_t count = this->beams_.size() * (step_ == 0 ? 1 : Head::kReadingsOfTick);
-    for (DistanceScanner& scanner : this->scanners_) scanner.readings.resize(count);
+    count_ = this->beams_.size() * (step_ == 0 ? 1 : Head::kReadingsOfTick);
   }
   void RefreshShared(WorkerPool* pool) override { this->world_->Refresh(pool); }
 
@@ -163,7 +163,8 @@ private:
   void Scan(std::size_t k, DistanceScanner& scanner, const Pose& pose) override
   {
     std::vector<Reading>& readings = scanner.readings;
-    const std::size_t of_beam = readings.size() / this->beams_.size();
+    readings.resize(count_);
+    const std::size_t of_beam = count_ / this->beams_.size();
     const double head = step_ == 0 ? 0 : step_ * (static_cast<double>(this->space_->GetTick()) - 1);
     for (std::size_t i = 0; i < readings.size(); ++i)
     {
@@ -172,7 +173,8 @@ private:
     }
   }
 
-  double step_ = 0;  // rad in a tick
+  double step_ = 0;        // rad in a tick
+  std::size_t count_ = 0;  // readings of a tick
 };
 
 // The footbot's scanner with a head that the controller turns, as in ARGoS3.

@@ -93,7 +93,7 @@ private:
     }
   }
 
-  // The sensors on this side of their bodies.
+  // Collects the sensors on the side of their bodies that faces the source.
   void CollectFacing(const Vector3& source)
   {
     points_.count = 0;

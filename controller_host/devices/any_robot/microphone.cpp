@@ -60,6 +60,11 @@ public:
     for (Microphone& microphone : microphones_) microphone.sounds.reserve(sources_.size());
   }
   Microphone* Sensor(std::size_t k) override { return &microphones_[k]; }
+  void Expose(std::size_t k, ExposedValues& values) override
+  {
+    values.Add(microphones_[k].loudness);
+    if constexpr (kModel != MicrophoneModel::kCapsule) values.SetList(microphones_[k].sounds);
+  }
 
   void Update(const ChannelView&) override
   {

@@ -43,6 +43,11 @@ public:
     for (std::size_t k = 0; k < robots_.size(); ++k) ValuesOf(k)[3] = 1;
     MakeDevices();
   }
+  // A dead one reads the origin, not turned.
+  void Expose(std::size_t k, ExposedValues& values) override
+  {
+    for (std::size_t i = 0; i < width_; ++i) values.Add(ValuesOf(k)[i], i == 3 ? 1 : 0);
+  }
   void Update(const ChannelView&) override
   {
     for (std::size_t k = 0; k < robots_.size(); ++k)
@@ -96,7 +101,7 @@ private:
   std::vector<Last> poses_;
 };
 
-// Axis and angle of a rotation as one vector, rad.
+// Returns axis and angle of a rotation as one vector, rad.
 Vector3 RotationVector(const Quaternion& rotation)
 {
   const Vector3 axis(rotation.x(), rotation.y(), rotation.z());

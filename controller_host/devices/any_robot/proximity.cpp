@@ -4,17 +4,17 @@
 
 #include "common/control_interface/ci_proximity_sensor.h"
 #include "common/math/elementary.h"
-#include "controller_host/devices/any_robot/kind_of_batch.h"
-#include "controller_host/devices/any_robot/proximity_rays.h"
+#include "controller_host/devices/any_robot/proximity_by_rays.h"
 #include "controller_host/devices/any_robot/ring_readings.h"
 #include "controller_host/devices/device_plugins.h"
+#include "controller_host/devices/kind_of_batch.h"
 
 namespace swarmanoid
 {
 namespace
 {
 
-class ProximitySensor : public ProximityRays
+class ProximitySensor : public ProximityByRays
 {
 public:
   void Init(const DeviceSetup& setup) override

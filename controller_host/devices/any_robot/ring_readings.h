@@ -16,7 +16,7 @@ template <class Interface>
 class RingReadings : public Interface
 {
 public:
-  // `angles` (radians) of all sensors, and as many `readings`, which outlive this.
+  // `angles` are those (rad) of all sensors. There are as many `readings`, which outlive this object.
   RingReadings(const double* readings, const std::vector<double>& angles, OnDemandSensor& batch, std::size_t k)
       : readings_(readings), angles_(angles), batch_(batch), k_(k)
   {

@@ -41,6 +41,7 @@ public:
     FindTagged(setup.parameters);
   }
   TagReader* Sensor(std::size_t k) override { return &readers_[k]; }
+  void Expose(std::size_t k, ExposedValues& values) override { values.SetList(readers_[k].tags); }
   double Reach() const override { return std::abs(height_) + range_; }
 
   void Update(const ChannelView&) override

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "common/control_interface/ci_wheels_actuator.h"
-#include "controller_host/devices/any_robot/kind_of_batch.h"
 #include "controller_host/devices/device_plugins.h"
+#include "controller_host/devices/kind_of_batch.h"
 #include "controller_host/devices/value_devices.h"
 
 namespace swarmanoid

@@ -1,3 +1,10 @@
+// Problem: state what cameras can see: LEDs, beacons, lights, coloured bodies and patches, laser spots.
+//
+// Method: once a tick, the sources of all movable bodies are made in the order of the grid, then the free ones. LEDs of
+// one ring that have the same colour are one source in their middle, as a camera would merge them; a ring of one colour
+// is one source in the robot's axis. Directional LEDs are single sources with a cone.
+//
+// Invariant: sources of one body are consecutive, so that a place in the grid names all of them.
 #include "controller_host/devices/cameras/blob_sources.h"
 
 #include <algorithm>
@@ -20,7 +27,7 @@ namespace
 constexpr std::uint32_t kNoSlot = 0xffffffff;
 // A beam that meets nothing ends here, m.
 constexpr double kLongestBeam = 30;
-// Widths of the fields of a source.
+// These are masks of the bits of a source's fields.
 constexpr std::uint32_t kRgb = 0xffffff;
 constexpr std::uint32_t kParts = 0xff;
 
@@ -125,7 +132,7 @@ std::size_t BlobSources::Collect(std::span<const std::int32_t> places, std::vect
   std::size_t count = 0;
   for (const std::int32_t place : places)
   {
-    // Most bodies have one: written without asking.
+    // Most bodies have one source, so the first is written without a test.
     const std::uint32_t first = start[place];
     const std::uint32_t end = start[place + 1];
     to[count] = static_cast<std::int32_t>(first);

@@ -1,3 +1,11 @@
+// Problem: for each robot, find the coloured sources in the field of view that no body hides.
+//
+// Method: sources are collected from the bodies around the eye and from those on no movable body. A test of the cone of
+// view comes before the lines of sight, since it is cheaper. For an upright robot that looks straight down, everything
+// is computed along the axes of the space, and only what is visible is turned into the robot's axes. Angles and
+// distances are computed for the blobs of many robots at once.
+//
+// Invariant: blobs come in the order of the sources, whatever is hidden, so that controllers see a fixed order.
 #include "controller_host/devices/cameras/colour_camera.h"
 
 #include <algorithm>
@@ -18,6 +26,14 @@ inline bool IsBelow(double x, double y, double z, double tangent, double square_
   return (z < 0) & (square <= border * border) & (square <= square_range);
 }
 
+// Returns whether a place is in a square view.
+inline bool IsInSquare(double x, double y, double z, double half_side, double eye_height)
+{
+  return (__builtin_fabs(x) < half_side) & (__builtin_fabs(y) < half_side) & (z < eye_height);
+}
+
+constexpr double kDiagonal = 1.4142135623730951;  // of a square, times its half side
+
 }  // namespace
 
 void ColourCamera::InitCamera(const DeviceSetup& setup, CameraModel model)
@@ -31,7 +47,8 @@ void ColourCamera::InitCamera(const DeviceSetup& setup, CameraModel model)
   tangent_ = aperture.sin / aperture.cos;
   world_ = SensorWorld::Of(setup.space);
   sources_ = BlobSources::Of(world_);
-  lines_ = std::make_unique<SightLines>(*world_, model.range + BlobSources::kStandOut);
+  const double farthest = model.is_square ? kDiagonal * model.range : model.range;
+  lines_ = std::make_unique<SightLines>(*world_, farthest + BlobSources::kStandOut);
   place_of_entity_.assign(setup.space.Size(), -1);
   for (std::size_t k = 0; k < robots_.size(); ++k) place_of_entity_[robots_[k]] = static_cast<std::int32_t>(k);
   InitDemand(robots_.size());
@@ -48,7 +65,7 @@ double ColourCamera::Reach() const
   if (sources_->HasLasers()) return kReachesEverywhere;
   if (model_.view == CameraModel::View::kDown && !std::ranges::all_of(robots_, stays_upright))
     return kReachesEverywhere;
-  return model_.eye.norm() + model_.range + BlobSources::kStandOut;
+  return model_.eye.norm() + (model_.is_square ? kDiagonal * model_.range : model_.range) + BlobSources::kStandOut;
 }
 
 void ColourCamera::RefreshShared(WorkerPool* pool)
@@ -59,7 +76,7 @@ void ColourCamera::RefreshShared(WorkerPool* pool)
 
 void ColourCamera::MakeDue()
 {
-  // In the order of the grid's cells: neighbours stay in the cache. Every robot has a body.
+  // The order is that of the grid's cells, so that neighbours stay in the cache. Every robot has a body.
   for (const std::uint32_t entity : world_->Grid().Sorted())
     if (const std::int32_t k = place_of_entity_[entity]; k >= 0 && IsDue(static_cast<std::size_t>(k)))
       Look(static_cast<std::size_t>(k));
@@ -100,7 +117,7 @@ ColourCamera::View ColourCamera::ViewOf(std::uint32_t robot) const
 void ColourCamera::Look(std::size_t k)
 {
   const std::uint32_t robot = robots_[k];
-  const View view = ViewOf(robot);
+  View view = ViewOf(robot);
   const bool is_down = model_.view == CameraModel::View::kDown;
   if (model_.view == CameraModel::View::kTurned) axis_ = AxisOf(k);
 
@@ -112,6 +129,12 @@ void ColourCamera::Look(std::size_t k)
   {
     const double cosine = std::min(__builtin_fabs(view.to_body(2, 2)), 1.0);
     reach += std::max(view.eye.z(), 0.0) * __builtin_sqrt(1 - cosine * cosine) / std::max(cosine, 0.1);
+  }
+
+  if (model_.is_square)
+  {
+    view.half_side = std::min(std::max(view.eye.z(), 0.0) * tangent_, model_.range);
+    reach = kDiagonal * view.half_side;
   }
 
   const std::size_t first = seen_.count;
@@ -129,7 +152,7 @@ void ColourCamera::Look(std::size_t k)
 // Computes the angles of many blobs at a time, since the steps for one blob depend on each other.
 void ColourCamera::ExtractAll()
 {
-  // Whole lanes: what stands behind the last one is as harmless.
+  // The loops run over whole lanes, since the values after the last blob do no harm.
   const std::size_t count = (seen_.count + kLanes - 1) / kLanes * kLanes;
   seen_.Reserve(kLanes);
   const double* const x = seen_.x.data();
@@ -182,7 +205,39 @@ inline void ColourCamera::Add(std::size_t source, const View& view)
   seen_.y[i] = place.y();
   seen_.z[i] = place.z();
   seen_.source[i] = static_cast<std::uint32_t>(source);
-  seen_.count += IsInView(place);
+  seen_.count +=
+      model_.is_square ? IsInSquare(offset.x(), offset.y(), offset.z(), view.half_side, view.eye.z()) : IsInView(place);
+}
+
+// Writes the sources that are in view behind `first`, and their points for the lines of sight. Returns their number.
+template <class IsIn>
+std::size_t ColourCamera::KeepInView(std::span<const std::int32_t> found, const View& view, std::size_t first,
+                                     const IsIn& is_in)
+{
+  SightPoints& points = lines_->Points();
+  double* const xs = seen_.x.data() + first;
+  double* const ys = seen_.y.data() + first;
+  double* const zs = seen_.z.data() + first;
+  std::uint32_t* const numbers = seen_.source.data() + first;
+  std::int32_t* const owners = points.owner.data();
+  const BlobSource* const sources = sources_->All().data();
+  const double eye_x = view.eye.x(), eye_y = view.eye.y(), eye_z = view.eye.z();
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    const auto number = static_cast<std::uint32_t>(found[i]);
+    const BlobSource& source = sources[number];
+    const double x = source.position.x() - eye_x;
+    const double y = source.position.y() - eye_y;
+    const double z = source.position.z() - eye_z;
+    xs[count] = x;
+    ys[count] = y;
+    zs[count] = z;
+    numbers[count] = number;
+    owners[count] = static_cast<std::int32_t>(source.owner);
+    count += static_cast<std::size_t>(is_in(x, y, z, i));
+  }
+  return count;
 }
 
 // The camera looks straight down from an upright robot. Only the visible blobs are turned into the robot's axes.
@@ -197,28 +252,18 @@ void ColourCamera::LookDown(const View& view)
   double* const xs = seen_.x.data() + first;
   double* const ys = seen_.y.data() + first;
   double* const zs = seen_.z.data() + first;
-  std::uint32_t* const numbers = seen_.source.data() + first;
-  std::int32_t* const owners = points.owner.data();
-  const std::int32_t* const found = found_.data();
-  const BlobSource* const sources = sources_->All().data();
-  const double eye_x = view.eye.x(), eye_y = view.eye.y(), eye_z = view.eye.z();
+  const std::int32_t* const owners = points.owner.data();
   const double tangent = tangent_, square_range = model_.range * model_.range;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < near; ++i)
-  {
-    const auto number = static_cast<std::uint32_t>(found[i]);
-    const BlobSource& source = sources[number];
-    const double x = source.position.x() - eye_x;
-    const double y = source.position.y() - eye_y;
-    const double z = source.position.z() - eye_z;
-    xs[count] = x;
-    ys[count] = y;
-    zs[count] = z;
-    numbers[count] = number;
-    owners[count] = static_cast<std::int32_t>(source.owner);
-    // The free ones are few: the lines of sight are for all.
-    count += static_cast<std::size_t>(IsBelow(x, y, z, tangent, square_range) | (i >= first_free));
-  }
+  const double half_side = view.half_side, eye_height = view.eye.z();
+  const std::span<const std::int32_t> found(found_.data(), near);
+  // The free ones are few: the lines of sight are for all.
+  const std::size_t count = model_.is_square
+                                ? KeepInView(found, view, first,
+                                             [&](double x, double y, double z, std::size_t)
+                                             { return IsInSquare(x, y, z, half_side, eye_height); })
+                                : KeepInView(found, view, first,
+                                             [&](double x, double y, double z, std::size_t i)
+                                             { return IsBelow(x, y, z, tangent, square_range) | (i >= first_free); });
   float* const point_x = points.x.data();
   float* const point_y = points.y.data();
   float* const point_z = points.z.data();
@@ -230,9 +275,17 @@ void ColourCamera::LookDown(const View& view)
     point_y[i] = static_cast<float>(ys[i]);
     point_z[i] = static_cast<float>(zs[i]);
   }
+  // The spots of lasers come last.
+  for (std::size_t i = count; i-- > 0 && owners[i] == static_cast<std::int32_t>(SightLines::kNobody);)
+  {
+    const Vector3 end = SightLines::InFrontOf({xs[i], ys[i], zs[i]});
+    point_x[i] = static_cast<float>(end.x());
+    point_y[i] = static_cast<float>(end.y());
+    point_z[i] = static_cast<float>(end.z());
+  }
   points.count = count;
   KeepSeen(first);
-  KeepFreeInView(first);
+  if (!model_.is_square) KeepFreeInView(first);
 
   const double cosine = view.heading.cos, sine = view.heading.sin;
 #pragma GCC ivdep
@@ -253,7 +306,8 @@ void ColourCamera::LookAnywhere(const View& view)
   for (std::size_t i = first; i < seen_.count; ++i)
   {
     const BlobSource& source = sources_->Source(seen_.source[i]);
-    lines_->AddPoint(source.position - view.eye, source.owner);
+    const Vector3 offset = source.position - view.eye;
+    lines_->AddPoint(source.owner == SightLines::kNobody ? SightLines::InFrontOf(offset) : offset, source.owner);
   }
   KeepSeen(first);
 }

@@ -28,6 +28,9 @@ struct CameraModel
   Vector3 eye = Vector3::Zero();  // m
   double aperture = 0;            // rad, from the axis to the border of the view
   double range = 0;               // m: along the floor (kDown), along the line of sight (otherwise)
+  // The view is not a cone but, as in ARGoS3, what is in a square along the axes of the space: its half side is the
+  // height of the eye times the tangent of the aperture, at most `range`, whatever the height of a blob. For kDown.
+  bool is_square = false;
 };
 
 class ColourCamera : public SensorBatch, public OnDemandSensor
@@ -69,7 +72,8 @@ protected:
 private:
   struct View
   {
-    Vector3 eye;  // m, in the space
+    Vector3 eye;           // m, in the space
+    double half_side = 0;  // m, of a square view
     bool is_upright;
     Heading heading;          // where it is upright
     Eigen::Matrix3d to_body;  // if it is not
@@ -91,6 +95,8 @@ private:
   void KeepFreeInView(std::size_t first);
   void KeepWithinCones(std::size_t first, const Vector3& eye);
   bool IsInView(const Vector3& place) const;
+  template <class IsIn>
+  std::size_t KeepInView(std::span<const std::int32_t> found, const View& view, std::size_t first, const IsIn& is_in);
 
   std::shared_ptr<SensorWorld> world_;
   std::shared_ptr<BlobSources> sources_;

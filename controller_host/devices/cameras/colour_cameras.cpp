@@ -25,6 +25,11 @@ struct FootbotCamera
   static constexpr const char* kLabel = "footbot_omnidirectional_camera";
   static CameraModel Model() { return {CameraModel::View::kDown, {0, 0, 0.2887}, 0, 0}; }
 };
+// It sees as in ARGoS3 (colored_blob_omnidirectional_camera, rot_z_only).
+struct Argos3FootbotCamera : FootbotCamera
+{
+  static CameraModel Model() { return {CameraModel::View::kDown, {0, 0, 0.2887}, 0, 0, true}; }
+};
 struct FootbotPerspectiveCamera
 {
   using Interface = CCI_FootBotPerspectiveCameraSensor;
@@ -68,7 +73,7 @@ private:
   std::size_t k_;
 };
 
-// `distance` in the plane of the robot's base.
+// Makes the blob of a source. `distance` is measured in the plane of the robot's base.
 CCI_ColourBlob BlobAt(CameraModel::View view, const Vector3& place, std::uint32_t colour, double angle, double distance)
 {
   CCI_ColourBlob blob;
@@ -86,6 +91,7 @@ class CameraBatch : public ColourCamera
 {
 public:
   Camera<typename Traits::Interface>* Sensor(std::size_t k) override { return &cameras_[k]; }
+  void Expose(std::size_t k, ExposedValues& values) override { values.SetList(cameras_[k].blobs); }
 
 protected:
   void InitBatch(const DeviceSetup& setup)
@@ -98,7 +104,7 @@ protected:
       directions_.push_back(
           {setup.space.GetEntity(robot).SlotOf("laser_pan"), setup.space.GetEntity(robot).SlotOf("laser_tilt")});
   }
-  // The unit it shares with the laser: tilt from straight down, and the direction of the tilt.
+  // The camera shares its unit with the laser: the tilt is from straight down, and pan is the direction of the tilt.
   Vector3 AxisOf(std::size_t k) const override
   {
     const SinCos pan = SinCosOf(space_->Attributes()[directions_[k].pan]);
@@ -125,7 +131,7 @@ private:
   std::vector<Slots> directions_;  // of each robot, if they turn
 };
 
-// Exact places, with noise on the readings.
+// A camera with exact positions and noise on the readings.
 template <class Traits>
 class IdealCamera : public CameraBatch<Traits>
 {
@@ -280,6 +286,7 @@ const DeviceCode kColourCamerasCode(
     []
     {
       BindCameras<FootbotCamera>();
+      BindSensor<IdealCamera<Argos3FootbotCamera>>(FootbotCamera::kLabel, "argos3_footbot_omnidirectional_camera");
       BindCameras<FootbotPerspectiveCamera>();
       BindCameras<EyebotCamera>();
       BindCameras<EyebotPanTiltCamera>();

@@ -13,7 +13,7 @@ namespace swarmanoid
 namespace
 {
 
-// At place b - 1 the colour with the bits b of red (4), green (2) and blue (1).
+// Entry b - 1 is the colour with the bits b of red (4), green (2) and blue (1).
 constexpr std::array<std::uint32_t, 7> kColours{CCI_Colour::BLUE, CCI_Colour::GREEN,   CCI_Colour::CYAN,
                                                 CCI_Colour::RED,  CCI_Colour::MAGENTA, CCI_Colour::YELLOW,
                                                 CCI_Colour::WHITE};
@@ -70,6 +70,15 @@ public:
     for (std::size_t k = 0; k < setup.robots.size(); ++k) pies_.emplace_back(*this, k, sectors_);
   }
   Pie* Sensor(std::size_t k) override { return &pies_[k]; }
+  void Expose(std::size_t k, ExposedValues& values) override
+  {
+    values.SetList(sectors_ * kColours.size(), &pies_[k],
+                   [](void* of, std::span<const std::uint8_t> kept)
+                   {
+                     for (std::size_t i = 0; i < kept.size(); ++i)
+                       if (kept[i] == 0) static_cast<Pie*>(of)->Slices()[i] = {};
+                   });
+  }
 
 protected:
   void Measure(const Seen& seen) override

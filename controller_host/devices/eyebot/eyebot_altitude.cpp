@@ -35,7 +35,7 @@ public:
     MakeDevices();
   }
 
-  // Straight down.
+  // The sensor looks straight down, so it asks for no body beside the robot.
   double Reach() const override { return 0; }
 
   void Update(const ChannelView&) override

@@ -105,7 +105,8 @@ protected:
   }
 };
 
-// v = gain * (target - position), turned into the frame of the robot and clamped. The yaw rate has the same law.
+// The law is v = gain * (target - position), turned into the frame of the robot and clamped. The yaw rate has the same
+// law.
 class PositionActuator : public ActuatorsOf<ValueActuator, PositionPropellers>
 {
 public:

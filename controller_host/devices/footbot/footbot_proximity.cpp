@@ -1,3 +1,12 @@
+// Problem: 24 rays for each of many robots against all bodies near it. It is the most frequent sensor, so that its cost
+// decides the speed of large swarms.
+//
+// Method: robots are taken in the order of the grid's cells, and bodies near several robots are searched for at once.
+// In a swarm of upright bodies without moving parts, neighbours are remembered while MovedSince holds. Without noise,
+// readings are stored only for robots whose rays met something; all others share one array of zeros.
+//
+// Invariants: readings follow from the poses of the tick, and noise from streams named by robot and tick. So neither
+// the order of robots nor the set of robots that are due changes a bit. Prefetches are hints only.
 #include "controller_host/devices/footbot/footbot_proximity.h"
 
 #include <algorithm>
@@ -15,7 +24,7 @@ namespace
 
 constexpr unsigned kRays = FootbotProximityRays::kRays;
 
-// ARGoS3, foot-bot proximity sensor: distance of full response, and the hyperbola beyond it.
+// The response of ARGoS3's foot-bot proximity sensor: the distance of full response, and the hyperbola beyond it.
 constexpr double kContactDistance = 0.009889556;
 constexpr double kHyperbolaScale = 0.0100527;
 constexpr double kHyperbolaOffset = 0.000163144;
@@ -109,6 +118,17 @@ double* FootbotProximity::NewReadings(std::size_t k)
   double* const readings = ReadingsAt(place);
   sensors_[k].Show(readings);
   return readings;
+}
+
+void FootbotProximity::Expose(std::size_t k, ExposedValues& values)
+{
+  if (sensors_[k].Shown() == kNoReadings.values)
+  {
+    std::fill_n(NewReadings(k), kRays, 0.0);
+    disturbed_ = seeing_.size();  // the others have their noise, since Update ends with it
+  }
+  // All other readings are in blocks_, which may be changed.
+  values.Add({const_cast<double*>(sensors_[k].Shown()), kRays});
 }
 
 void FootbotProximity::FindNear()
@@ -333,14 +353,14 @@ void FootbotProximity::AddParts(std::uint32_t robot, std::uint32_t body)
              pose.Compose(part.pose));
 }
 
-// Any body, any orientation: each ray as a segment in the space.
+// Adds any body in any orientation: each ray is a segment in the space.
 void FootbotProximity::AddAny(std::uint32_t robot, const Shape& shape, const Pose& other)
 {
   AddRays(robot, other.Apply(shape.centre), BoundingRadius(shape),
           [&](const Vector3& from, const Vector3& to) { return SegmentHit(shape, other, from, to); });
 }
 
-// `hit_of`: the part of the way between two points where something is that is within `radius` of `centre`.
+// hit_of(from, to) returns the part of the way between two points at which a body within `radius` of `centre` is met.
 template <class HitOf>
 void FootbotProximity::AddRays(std::uint32_t robot, const Vector3& centre, double radius, const HitOf& hit_of)
 {

@@ -30,6 +30,7 @@ public:
   }
   void RefreshShared(WorkerPool* pool) override;
   double Reach() const override { return rays_.Reach() + kHeight; }
+  void Expose(std::size_t k, ExposedValues& values) override;
 
 protected:
   // Computes readings from distances in m (beyond the range if the ray meets nothing), before noise and the limits
@@ -48,12 +49,13 @@ private:
   public:
     Readings(OnDemandSensor& batch, std::size_t k) : ReadingsOnDemand(kNoReadings.values, batch, k) {}
     void Show(const double* values) { values_ = values; }
+    const double* Shown() const { return values_; }
   };
 
   void MakeDue() override;
-  // All see nothing: the readings before are over.
+  // Ends all readings: no robot senses anything.
   void Forget();
-  // ReusedMemory for the readings of a robot until Forget. What others have stays where it is.
+  // Returns ReusedMemory for the readings of a robot until Forget. The readings of other robots stay where they are.
   double* NewReadings(std::size_t k);
   // These functions need upright bodies without moving parts. FindNear finds the neighbours of each robot, valid while
   // MovedSince holds. SenseNear computes the readings from them.
@@ -98,7 +100,7 @@ private:
   };
   bool remembers_ = false;
   std::uint64_t near_since_ = 0;  // MovedSince::Number
-  // ascending; robots without neighbours are left out if nothing else can be sensed
+  // The entries ascend by robot. Robots without neighbours are left out if nothing else can be sensed.
   std::vector<Surroundings> surroundings_;
   std::vector<std::uint32_t> near_;              // entities
   std::unique_ptr<FixedBodies> fixed_for_long_;  // bodies that may come near while MovedSince holds
@@ -116,14 +118,14 @@ private:
   std::vector<Readings> sensors_;
 };
 
-// y = 1 below a contact distance, else a / (d + b). ARGoS3 fitted this curve to the robot.
+// The reading is y = 1 below a contact distance, else a / (d + b). ARGoS3 fitted this curve to the robot.
 class RayCastProximity : public FootbotProximity
 {
 protected:
   void Respond(const double* distances, double* readings) const override;
 };
 
-// y = c0 + c1 d + c2 d^2 + ..., with coefficients from the experiment file.
+// The reading is y = c0 + c1 d + c2 d^2 + ..., with coefficients from the experiment file.
 class PolynomialProximity : public FootbotProximity
 {
 public:

@@ -28,13 +28,13 @@ public:
     double values[kRays];
   };
 
-  // In metres: the rays start on a ring of this radius around the robot's centre and end after this range.
+  // Sets the rays, in metres: they start on a ring of this radius around the robot's centre and end after `range`.
   void Configure(double ring_radius, double range);
   double Range() const { return range_; }
   // Returns the distance (m) from the robot's centre to the end of a ray.
   double Reach() const { return ring_radius_ + range_; }
 
-  // Another robot: nothing was met.
+  // Begins with another robot, whose rays have met nothing.
   void Reset() { touched_ = false; }
   bool Touched() const { return touched_; }
   // Returns the distances (m) to the nearest body along each ray, infinity for rays that met nothing. Valid only if a

@@ -1,3 +1,8 @@
+// Wheel commands are in m/s in the interface and in rad/s on the engines' channel. The limit is applied before noise
+// and bias, since the error of a motor does not know the limit. A wheel that stands gets no noise, so robots that are
+// told to stand do not creep; in `argos3_footbot_wheels` factor and bias disturb both wheels while at least one of them
+// turns, as in ARGoS3. Biases that are drawn once come from a stream without a tick, so they are the same after a
+// checkpoint.
 #include "controller_host/devices/footbot/footbot_wheels.h"
 
 #include <algorithm>

@@ -37,6 +37,7 @@ public:
   void Init(const DeviceSetup& setup) override;
   SimulatedFootbotWheels* Actuator(std::size_t k) override { return &wheels_[k]; }
   void Commit(const ChannelView& channel, AttributeChanges& changes) override;
+  void Expose(std::size_t k, ExposedValues& values) override { values.Add(wheels_[k].wanted); }
   void SaveState(std::size_t k, ByteWriter& state) const override;
   void LoadState(std::size_t k, ByteReader& state) override;
 
@@ -84,7 +85,7 @@ private:
   DeviceStreams factor_streams_;
 };
 
-// First-order response: the speed approaches the one asked for with a time constant, within a largest acceleration.
+// A first-order response: the speed approaches the wanted one with a time constant, within a largest acceleration.
 class PidFootbotWheels : public DummyFootbotWheels
 {
 public:

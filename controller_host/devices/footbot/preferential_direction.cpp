@@ -30,12 +30,12 @@ public:
   void HideDirection() override { colour_ = 0; }
 
   double angle_ = 0;
-  std::uint32_t colour_ = 0;
+  double colour_ = 0;  // 0: no direction
 
 protected:
   void ReadSettings(std::vector<double>& values) const override
   {
-    values.insert(values.end(), {colour_ != 0 ? 1.0 : 0.0, angle_, static_cast<double>(colour_)});
+    values.insert(values.end(), {colour_ != 0 ? 1.0 : 0.0, angle_, colour_});
   }
 };
 
@@ -60,10 +60,15 @@ public:
     AttributeActuator::Commit(channel, changes);
   }
 
+  void Expose(std::size_t k, ExposedValues& values) override
+  {
+    values.Add(directions_[k].colour_);
+    values.Add(directions_[k].angle_);
+  }
   void SaveState(std::size_t k, ByteWriter& state) const override
   {
     state.Put(directions_[k].angle_);
-    state.Put(directions_[k].colour_);
+    state.Put(static_cast<std::uint32_t>(directions_[k].colour_));
   }
   void LoadState(std::size_t k, ByteReader& state) override
   {

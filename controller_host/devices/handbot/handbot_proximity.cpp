@@ -8,7 +8,7 @@
 #include "common/plugin_descriptions/engine_bodies.h"
 #include "common/plugin_descriptions/robot_parts.h"
 #include "common/space/space.h"
-#include "controller_host/devices/any_robot/proximity_rays.h"
+#include "controller_host/devices/any_robot/proximity_by_rays.h"
 #include "controller_host/devices/device_plugins.h"
 
 namespace swarmanoid
@@ -23,9 +23,9 @@ constexpr double kHandReach_m = 0.4;
 
 using HandRays = std::span<ProximitySensorRay, CCI_HandBotProximitySensor::SENSORS_OF_HAND>;
 
-// The rays in the frame of a hand, from the middle of its palm, with x along the arm. Rays 0 to 2 on the left claw and
-// 9 to 11 on the right one look at the other claw. If the hand is wide open, the other claw is ahead. Rays 3 to 5 above
-// and 6 to 8 below look ahead.
+// Sets the rays in the frame of a hand, from the middle of its palm, with x along the arm. Rays 0 to 2 on the left claw
+// and 9 to 11 on the right one look at the other claw. If the hand is wide open, the other claw is ahead. Rays 3 to 5
+// above and 6 to 8 below look ahead.
 void SetRays(double aperture, HandRays rays)
 {
   constexpr double kWidth = HandbotParts::kClawWidth;
@@ -44,7 +44,7 @@ void SetRays(double aperture, HandRays rays)
 
 using HandProximity = ReadingsOnDemand<CCI_HandBotProximitySensor, CCI_HandBotProximitySensor::NUM_SENSORS>;
 
-class HandbotProximitySensor : public ProximityRays
+class HandbotProximitySensor : public ProximityByRays
 {
 public:
   void Init(const DeviceSetup& setup) override

@@ -49,6 +49,7 @@ public:
     flying_.resize(robots_.size());
   }
   RobotReceiver* Sensor(std::size_t k) override { return &receivers_[k]; }
+  void Expose(std::size_t k, ExposedValues& values) override { values.SetList(receivers_[k].packets); }
 
   void Update(const ChannelView&) override
   {

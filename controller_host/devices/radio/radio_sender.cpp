@@ -59,6 +59,20 @@ public:
       if (space_->IsPresent(robots_[k])) Transmit(k);
     AttributeActuator::Commit(channel, changes);
   }
+  // The packets that wait. The numbers of the attribute are no settings: one counts the packets sent.
+  void Expose(std::size_t k, ExposedValues& values) override
+  {
+    values.SetList(devices_[k].queue.count, &devices_[k].queue,
+                   [](void* of, std::span<const std::uint8_t> kept)
+                   {
+                     auto& queue = *static_cast<Radio::Queue*>(of);
+                     queue.count = 0;
+                     for (std::uint32_t i = 0; i < kept.size(); ++i)
+                       if (kept[i] != 0)
+                         queue.packets[(queue.first + queue.count++) % kMostWaiting] =
+                             queue.packets[(queue.first + i) % kMostWaiting];
+                   });
+  }
   void SaveState(std::size_t k, ByteWriter& state) const override
   {
     AttributeActuator::SaveState(k, state);

@@ -1,3 +1,6 @@
+// Keeps one array for each quantity, in one block of memory, with room for some lanes behind the last sender. Ways are
+// turned into the frame of the receiver by its heading if it is upright, otherwise by its full rotation; range and
+// angles are then computed for all senders of many receivers at once.
 #include "controller_host/devices/range_and_bearing/heard_senders.h"
 
 #include <algorithm>

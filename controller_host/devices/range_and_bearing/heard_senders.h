@@ -36,7 +36,8 @@ public:
   // Turns the ways from `first` on into the axes of a body.
   void Turn(std::size_t first, const Heading& heading);
   void Turn(std::size_t first, const Eigen::Matrix3d& to_body);
-  // Range and angles of all. `are_level`: none is higher than its receiver, whatever the heights here.
+  // Computes range and angles of all senders. If `are_level` is true, no sender is higher than its receiver, and the
+  // heights are ignored.
   void Measure(bool are_level);
 
   std::size_t count = 0;

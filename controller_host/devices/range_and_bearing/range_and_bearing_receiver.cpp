@@ -1,6 +1,7 @@
 // The receivers of range and bearing, for all robots. A robot within range and line of sight of a sender gets its
 // message one tick later, with the position of the sender.
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -74,6 +75,7 @@ public:
     vertical_bearing_streams_ = DeviceStreams(setup, "vertical_bearing");
     range_ = setup.parameters.Number("range");
     loss_ = setup.parameters.Number("loss_probability");
+    needs_sight_ = setup.parameters.Boolean("line_of_sight");
     range_noise_ = NoiseFrom(setup.parameters, "range_");
     bearing_noise_ = NoiseFrom(setup.parameters, "bearing_");
     vertical_bearing_noise_ = NoiseFrom(setup.parameters, "vertical_bearing_");
@@ -93,6 +95,11 @@ public:
       {
         message_slots_[e] = entity.SlotOf("message");
         const Experiment& experiment = setup.space.GetExperiment();
+        if (const auto range = MessageRange(experiment, entity.GetConfiguration()))
+        {
+          square_ranges_.resize(setup.space.Size(), std::numeric_limits<double>::infinity());
+          square_ranges_[e] = *range * *range;
+        }
         if (FurtherMessageSlots(experiment, entity.GetConfiguration()) == 0) continue;
         const int further = MessageBytes(experiment, entity.GetConfiguration()) - static_cast<int>(kFirstBytes);
         further_bytes_.emplace_back(static_cast<std::size_t>(further));
@@ -111,6 +118,17 @@ public:
   void Update(const ChannelView&) override { MakeAhead(); }
   // The antenna of a tilted robot is beside its origin, for receiver and sender.
   double Reach() const override { return range_ + 2 * kAntennaHeight_m; }
+  void Expose(std::size_t k, ExposedValues& values) override
+  {
+    values.SetList(receivers_[k].count, &receivers_[k],
+                   [](void* of, std::span<const std::uint8_t> kept)
+                   {
+                     auto& receiver = *static_cast<Receiver*>(of);
+                     receiver.count = 0;
+                     for (std::size_t i = 0; i < kept.size(); ++i)
+                       if (kept[i] != 0) receiver.packets[receiver.count++] = receiver.packets[i];
+                   });
+  }
 
 private:
   struct alignas(16) Sent
@@ -127,7 +145,7 @@ private:
   void MakeDue() override
   {
     ReadMessages();
-    // In the order of the grid's cells: neighbours stay in the cache. Every robot has a body.
+    // The order is that of the grid's cells, so that neighbours stay in the cache. Every robot has a body.
     for (const std::uint32_t entity : world_->Grid().Sorted())
       if (const std::int32_t k = place_of_entity_[entity]; k >= 0 && IsDue(static_cast<std::size_t>(k)))
         Receive(static_cast<std::size_t>(k));
@@ -159,7 +177,7 @@ private:
         UnpackBytes(&attributes.Values()[further_slots_[further - 1]], further_bytes_[further - 1]);
     }
     all_send_ = sent == senders.size();
-    look_at_all_ = 2 * sent > senders.size() && world_->Grid().AllUpright();
+    look_at_all_ = 2 * sent > senders.size() && world_->Grid().AllUpright() && needs_sight_ && square_ranges_.empty();
   }
 
   Vector3 AntennaOf(std::uint32_t robot) const
@@ -235,6 +253,7 @@ private:
     const std::size_t first = heard_.count;
     Listen(lines_->PlacesAround(), robot);
     KeepSenders(first);
+    if (!needs_sight_) return;
     const HeardSenders::Lanes& at = heard_.At();
     for (std::size_t i = first; i < heard_.count; ++i)
       lines_->AddPoint({at.x[i], at.y[i], at.z[i]}, world_->Grid().Sorted()[static_cast<std::size_t>(at.place[i])]);
@@ -288,7 +307,7 @@ private:
       if (keep(i)) heard_.Move(i, kept++);
     heard_.count = kept;
   }
-  // Keeps the robots that send and are near enough.
+  // Keeps the robots that send and are near enough, by the ranges of the receiver and the sender.
   void KeepSenders(std::size_t first)
   {
     const HeardSenders::Lanes& at = heard_.At();
@@ -296,7 +315,9 @@ private:
              [&](std::size_t i)
              {
                const double square = at.x[i] * at.x[i] + at.y[i] * at.y[i] + at.z[i] * at.z[i];
-               return messages_[static_cast<std::size_t>(at.place[i])].is_sent && square <= range_ * range_;
+               const auto place = static_cast<std::size_t>(at.place[i]);
+               return messages_[place].is_sent && square <= range_ * range_ &&
+                      (square_ranges_.empty() || square <= square_ranges_[world_->Grid().Sorted()[place]]);
              });
   }
 
@@ -341,7 +362,7 @@ private:
     receiver.count = count;
   }
 
-  // 1 + the number of its further bytes; 0: it has none.
+  // Returns 1 + the number of the sender's further bytes in the list, or 0 if it has none.
   std::uint32_t FurtherOf(std::uint32_t entity) const
   {
     return further_of_entity_.empty() ? 0 : further_of_entity_[entity];
@@ -401,6 +422,8 @@ private:
   bool has_noise_ = false;
   DeviceStreams loss_streams_, range_streams_, bearing_streams_, vertical_bearing_streams_;
   double range_ = 0, loss_ = 0;
+  bool needs_sight_ = true;
+  std::vector<double> square_ranges_;  // of senders, m², by entity; empty if no sender has a range
   NoiseModel range_noise_, bearing_noise_, vertical_bearing_noise_;
   std::vector<std::uint32_t> message_slots_;  // by entity
   Receiver::Further further_bytes_;

@@ -50,7 +50,7 @@ private:
   std::vector<std::uint32_t> shape_of_;  // of each entity
 };
 
-// Rotation about z alone: the plane through the body's axes stays horizontal.
+// Returns true if the rotation is about z alone, so that the plane through the body's axes stays horizontal.
 inline bool IsUpright(const PoseArrays& poses, std::size_t entity)
 {
   return poses.qx[entity] == 0 && poses.qy[entity] == 0;

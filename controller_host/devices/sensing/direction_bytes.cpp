@@ -1,3 +1,8 @@
+// Method: the tangents from the eye to a cylinder turn its middle by a slope of radius / tangent length to either side.
+// Their directions, rounded outwards, and the distance of the nearest point, rounded down, are the bytes. The radius is
+// first enlarged by more than the exact test rounds.
+//
+// Invariant: a line that meets the cylinder has a direction and a reach within the bytes.
 #include "controller_host/devices/sensing/direction_bytes.h"
 
 namespace swarmanoid
@@ -15,7 +20,7 @@ void DirectionBytes::Read(const NearBodies& discs, float steps_per_m, bool with_
     const FloatLanes y = LoadLanes(&discs.y[i]);
     const FloatLanes square = x * x + y * y;
     const FloatLanes length = SquareRoot(square);
-    // More than the exact test rounds.
+    // The radius is enlarged by more than the rounding of the exact test.
     const FloatLanes exact = LoadLanes(&discs.radius[i]);
     const FloatLanes more = exact * 1e-4F + (1e-4F + 2e-6F * length);
     const FloatLanes radius = exact + more;

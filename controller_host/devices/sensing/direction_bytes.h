@@ -15,7 +15,7 @@ namespace swarmanoid
 
 inline constexpr float kFarthestByte = 254;  // whatever is farther
 
-// 0 ... 256 is a turn; not wrapped. Nowhere near 0, 0.
+// Returns a direction, where 256 is a turn; the result is not wrapped. The point must not be near (0, 0).
 inline FloatLanes TurnInBytes(FloatLanes x, FloatLanes y)
 {
   const auto size = [](FloatLanes lanes)

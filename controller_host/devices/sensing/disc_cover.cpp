@@ -1,3 +1,9 @@
+// Method: a cylinder surely hides everything behind it in the directions between its tangents, without the outermost
+// two on each side. Lay takes the least such distance for each direction, over two turns, so that no range needs to
+// wrap. `farthest_` has the largest of kWindow directions, so that a range of directions is tested with few reads.
+//
+// Invariant: distances and directions are rounded so that "surely hidden" is never wrong; doubt costs only an exact
+// test.
 #include "controller_host/devices/sensing/disc_cover.h"
 
 #include <algorithm>

@@ -17,9 +17,9 @@ class DiscCover
 public:
   // Makes the cover from bytes that have middles.
   void Lay(const DirectionBytes& bytes, std::size_t count);
-  // Whether the cover surely hides the middles of cylinders, by their bytes.
+  // Returns whether the cover surely hides the middles of cylinders, by their bytes.
   IntLanes HidesMiddles(IntLanes middles) const;
-  // Whether it surely hides the whole cylinders: these hide nothing that the cover does not hide.
+  // Returns whether the cover surely hides the whole cylinders, which then hide nothing that it does not hide.
   IntLanes HidesAll(IntLanes meets) const;
 
 private:

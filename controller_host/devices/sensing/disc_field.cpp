@@ -1,3 +1,13 @@
+// Problem: find the points that upright cylinders hide from an eye. In a swarm there may be thousands of lines and
+// cylinders, and most pairs do not meet.
+//
+// Method: up to kFew cylinders are tested with all lines, if few enough directly, otherwise where direction bytes say
+// that they may meet. A crowd that looks at itself, with cylinders higher and lower than all points, uses the bytes and
+// the cover (disc_cover.h). Any other crowd is sorted into sectors, and each point is tested with the cell of its
+// direction, kLanes cylinders at a time.
+//
+// Invariants: each way gives the same points. Cells are filled up with cylinders that hide nothing, so that loops need
+// no test for the end.
 #include "controller_host/devices/sensing/disc_field.h"
 
 #include <algorithm>

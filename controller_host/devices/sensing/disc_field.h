@@ -140,7 +140,7 @@ private:
   float low_ = 0, high_ = 0;  // kEqual: of all, from the eye
   bool all_count_ = true;     // none of them is too low or too high to hide anything
 
-  // By bytes.
+  // The cylinders in the form of direction bytes.
   const NearBodies* discs_ = nullptr;
   bool by_bytes_ = false;
   bool are_handful_ = false;
@@ -159,7 +159,7 @@ private:
   } before_;          // cylinders that the cover does not hide
   SightPoints left_;  // points that it does not hide, with their places as owners
 
-  // Many.
+  // The arrays for many cylinders.
   std::array<std::size_t, kQuadrants * kSectors> depth_{};  // places of each cell to test
   Cells quadrants_, cells_;
 };

@@ -22,7 +22,7 @@ inline DiscField::Lines DiscField::LinesTo(const SightPoints& points, std::size_
 {
   FloatLanes x = LoadLanes(&points.x[group]);
   const FloatLanes y = LoadLanes(&points.y[group]);
-  // Straight above or below: moved aside by a micrometre, so that it has a direction.
+  // A point straight above or below is moved aside by a micrometre, so that it has a direction.
   x = x * x + y * y < 1e-12F ? Everywhere(1e-6F) : x;
   Lines lines;
   lines.length = SquareRoot(x * x + y * y);

@@ -94,7 +94,7 @@ void DiscField::LookThrough(const SightPoints& points, Found&& found)
     {
       const std::size_t behind = std::min(from + kBlock, discs);
       std::int32_t* pairs = chunk.pairs.data();
-      // Two at a time; what stands behind the last one meets nothing.
+      // Two cylinders are tested at a time. The entry after the last one meets nothing.
       for (std::size_t disc = from; disc < behind; disc += 2)
       {
         const std::uint8_t* const one = bytes + disc * sizeof(std::int32_t);

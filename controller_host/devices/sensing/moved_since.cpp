@@ -1,3 +1,10 @@
+// Problem: decide for how long neighbours found once stay valid.
+//
+// Method: positions at the reference tick are kept. While no body went farther than half the margin, and the same
+// bodies are in the arena, the neighbours hold. When they cease to hold, the margin is set so that the bodies, at the
+// speed that they had, need about kAim ticks to use it up.
+//
+// Invariant: the decision depends on positions and ticks alone, so all threads and processes take the same one.
 #include "controller_host/devices/sensing/moved_since.h"
 
 #include <algorithm>
@@ -13,7 +20,7 @@ namespace
 {
 
 constexpr double kAim = 8;  // ticks that a margin is made for
-// Metres. At first as if bodies went 5 cm/s in ticks of 0.1 s.
+// The first margin (m) assumes bodies of 5 cm/s in ticks of 0.1 s.
 constexpr double kFirstMargin = 0.08;
 constexpr double kLeastMargin = 0.01;
 

@@ -19,7 +19,7 @@ class MovedSince
 public:
   static constexpr double kMostMargin = 0.12;  // m
 
-  // `bodies`: entities, ascending; they outlive it.
+  // `bodies` are entities, ascending; they outlive this object.
   MovedSince(const CSwarmanoidSpace& space, std::span<const std::uint32_t> bodies) : space_(space), bodies_(bodies) {}
 
   // Looks at the poses of the space, once for each of its revisions; in the threads of `pool`, if there is one.

@@ -1,3 +1,11 @@
+// Problem: give each sensor the bodies within a distance, for all robots in each tick.
+//
+// Method: a counting sort puts the movable bodies into the order of their cells, with float copies of positions and
+// outlines beside them, so that a search reads rows of consecutive memory, kLanes bodies at a time. A cell holds about
+// one body. Bodies that never move are listed once, in every cell from which a search of the usual reach may find them.
+//
+// Invariants: positions in single precision are compared with `margin_` added, so that no body in reach is missed;
+// callers test exactly. Within a cell bodies are in entity order, so results do not depend on threads.
 #include "controller_host/devices/sensing/neighbour_grid.h"
 
 #include <cmath>
@@ -41,7 +49,7 @@ Extent ExtentOf(const CSwarmanoidSpace& space)
   return {*left, *bottom, *right - *left, *top - *bottom};
 }
 
-// Twice the rounding of a coordinate to single precision, anywhere in the extent or not far outside it.
+// Returns twice the rounding of a coordinate to single precision, anywhere in the extent or slightly outside it.
 float MarginOf(const Extent& extent)
 {
   const double largest = std::max({std::abs(extent.left), std::abs(extent.bottom), std::abs(extent.left + extent.width),
@@ -80,7 +88,7 @@ NeighbourGrid::NeighbourGrid(const CSwarmanoidSpace& space, const BodyShapes& sh
       std::ranges::all_of(bodies_, [&](std::uint32_t e) { return &shapes[e] == &shapes[bodies_[0]]; }))
     shape_of_all_ = bodies_.empty() ? nullptr : &shapes[bodies_[0]];
 
-  // About one body a cell, and no cell smaller than a body (facts: the optimum is flat).
+  // A cell holds about one body, and no cell is smaller than a body. The time hardly depends on the exact size.
   const Extent extent = ExtentOf(space);
   frame_ = FrameOver(extent, 2 * largest + 0.02, count_ + 4);
   margin_ = MarginOf(extent);
@@ -276,7 +284,7 @@ std::size_t NeighbourGrid::Collect(double x, double y, double reach, std::uint32
   const auto fy = static_cast<float>(y);
   const float own = static_cast<float>(reach) + margin_;
   const IntLanes left_out_lanes = Everywhere(static_cast<int>(left_out));
-  // Local copies: stores of lanes may change anything, for all that the compiler knows.
+  // These local copies are needed because the compiler must assume that stores of lanes change any member.
   const float* const body_x = x_.data();
   const float* const body_y = y_.data();
   const float* const body_radius = radius_.data();
@@ -334,7 +342,7 @@ FixedBodies::FixedBodies(const CSwarmanoidSpace& space, const BodyShapes& shapes
   frame_ = FrameOver(extent, smallest_cell, fixed.empty() ? 1 : kCells);
   margin_ = MarginOf(extent);
 
-  // For each body, the cells in the rectangle around its bounding circle or box whose centre is near enough.
+  // Each body is listed in the cells in the rectangle around its bounding circle or box whose centre is near enough.
   const double edge = 1 / static_cast<double>(frame_.rows.inverse_edge);
   const double around = reach + static_cast<double>(margin_) + edge * 0.70711;
   const std::uint32_t last_column = frame_.columns.Count() - 1;

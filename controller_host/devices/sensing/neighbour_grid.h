@@ -176,7 +176,7 @@ class FixedBodies
 public:
   FixedBodies(const CSwarmanoidSpace& space, const BodyShapes& shapes, double reach);
 
-  // Entity indices, ascending: all that come within the reach of (x, y), and others.
+  // Returns the entities, ascending, that come within the reach of (x, y), and possibly others.
   std::span<const std::uint32_t> Near(double x, double y) const
   {
     return lists_.In(frame_.CellOf(static_cast<float>(x), static_cast<float>(y)));
@@ -184,7 +184,7 @@ public:
 
   // Returns the bodies listed in the cell of a point.
   std::span<const std::uint32_t> InCell(std::int32_t cell) const { return lists_.In(static_cast<std::uint32_t>(cell)); }
-  // The cells of kLanes points.
+  // Finds the cells of kLanes points.
   void FindCells(const NeighbourGrid& grid, const std::int32_t* places, std::int32_t* cells) const;
 
   // Calls visit(entity), perhaps more than once, for every body that the segment may touch if the reach is at least 0.
@@ -260,7 +260,7 @@ void CellFrame::ForEachSpanAlong(float x0, float y0, float x1, float y1, float w
     const float high = rows.start + static_cast<float>(row + 1) * size + width;
     const float from = row == 0 || low <= y0 ? x0 : x0 + (low - y0) * slope;
     const float to = row == border || high >= y1 ? x1 : x0 + (high - y0) * slope;
-    // One cell more at either end covers the rounding of the slope.
+    // One more cell at either end covers the rounding of the slope.
     const std::uint32_t first_column = columns.CellOf(std::min(from, to) - width);
     const std::uint32_t last_column = columns.CellOf(std::max(from, to) + width);
     visit(Cell(first_column - (first_column > 0 ? 1 : 0), row),
@@ -286,7 +286,7 @@ void NeighbourGrid::ForEachAlong(const Vector3& from, const Vector3& to, Visit&&
                               const FloatLanes dx = LoadLanes(&x_[i]) - x0;
                               const FloatLanes dy = LoadLanes(&y_[i]) - y0;
                               const FloatLanes cut = LoadLanes(&radius_[i]) + margin_;
-                              // Within the cut of the line, and not beyond either end.
+                              // The body must be within the cut of the line, and not beyond either end.
                               const FloatLanes across = dx * step_y - dy * step_x;
                               const FloatLanes along = dx * step_x + dy * step_y;
                               const FloatLanes beyond = cut * length;
@@ -308,7 +308,7 @@ template <class Visit>
   const std::uint32_t first_row = frame_.rows.CellOf(fy - widest);
   const std::uint32_t last_row = frame_.rows.CellOf(fy + widest);
   const std::uint32_t* const start = sort_.Starts();
-  // In few rows there are no corners worth cutting off.
+  // In few rows there are no corners to cut off.
   if (last_row - first_row < 3)
     return frame_.ForEachRow(fx - widest, fy - widest, fx + widest, fy + widest,
                              [&](std::uint32_t first, std::uint32_t last) { visit(start[first], start[last + 1]); });
@@ -326,7 +326,7 @@ void NeighbourGrid::ForEachPlaceNear(double x, double y, double reach, Visit&& v
   const auto fx = static_cast<float>(x);
   const auto fy = static_cast<float>(y);
   const float own = static_cast<float>(reach) + margin_;
-  // Local copies: the compiler cannot know that visit() leaves the members alone.
+  // These local copies are needed because the compiler cannot know that visit() leaves the members alone.
   const float* const body_x = x_.data();
   const float* const body_y = y_.data();
   const float* const body_radius = radius_.data();

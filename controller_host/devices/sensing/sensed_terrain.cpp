@@ -25,7 +25,7 @@ double SensedTerrain::HitOf(const Placed& placed, const Vector3& from, const Vec
   constexpr double kMiss = 2;
   const Vector3 start = placed.to_terrain.Apply(from);
   const Vector3 end = placed.to_terrain.Apply(to);
-  // Most lines pass above all of it.
+  // Most lines pass above the whole terrain.
   if (std::min(start.z(), end.z()) > placed.high.z()) return kMiss;
   for (int axis = 0; axis < 2; ++axis)
     if (std::max(start[axis], end[axis]) < placed.low[axis] || std::min(start[axis], end[axis]) > placed.high[axis])

@@ -77,7 +77,7 @@ public:
   const NeighbourGrid& Grid() const { return grid_; }
   // Returns the movement of the bodies, for sensors that keep their neighbours. Refresh does not update it.
   MovedSince& Moved() { return moved_; }
-  // StreamName of the id of each entity; made when first asked for. Valid as long as the world.
+  // Returns the StreamName of each entity's id. The names are made on the first call and valid as long as the world.
   std::span<const std::uint64_t> Names();
   const SensedTerrain& Terrain() const { return terrain_; }
 

@@ -1,3 +1,14 @@
+// Problem: for each source of light, find the robots that see it among many bodies, with the answers of an exact test
+// of every body.
+//
+// Method: bodies around the source are sorted into sectors of direction, and into rings of distance in each sector. A
+// body that touches several sectors is listed in all. A robot looks only at the cells of its own sector between the
+// distances at which its line is as high as any body. A test in single precision, widened by MarginAt, leaves few
+// candidates, which get the exact test. If all bodies are equal upright cylinders, a narrowed test already decides most
+// hits. Bodies that never move have one list for each sector, sorted by their nearest point, with the distances of the
+// part of the body that is in the sector.
+//
+// Invariant: every rounding widens the set of candidates, so no body that hides the source is missed.
 #include "controller_host/devices/sensing/shadows.h"
 
 #include <algorithm>
@@ -77,7 +88,7 @@ std::array<double, 2> Distances(const std::vector<Vector2>& corners)
   return {near, far};
 }
 
-// How far a body reaches from its origin along the xy plane, and how low and how high, in any tilt.
+// The extent of a body from its origin, along the xy plane and in height, at any tilt.
 struct Reach
 {
   double radius, low, high;
@@ -261,7 +272,7 @@ void MovingShadows::Sort(const Vector3& source, double reach)
   reach_ = static_cast<float>(reach);
   reach_ += MarginAt(reach_);
 
-  // Sectors of some eight bodies each.
+  // A sector holds about eight bodies.
   constexpr std::size_t kBodies = 8, kFewest = 8, kMost = 4096;
   sectors_ = Sectors(std::clamp(std::bit_ceil(count / kBodies + 1), kFewest, kMost));
   rings_per_m_ = kRings / std::max(1e-3F, std::min(__builtin_sqrtf(Highest(farthest)), reach_));

@@ -1,3 +1,12 @@
+// Problem: find which of many points an observer sees past all bodies, exactly, several at a time.
+//
+// Method: bodies are split by form. Upright cylinders go to the DiscField. Upright boxes hide the points behind them: a
+// point is a candidate if it is beyond the face that is nearest to the eye, and slabs along the axes of the box then
+// decide. Tilted or articulated bodies, and bodies that hide only from the owners of points, are tested point by point.
+// Terrain comes last, since it costs most.
+//
+// Invariant: a body that lies to one side of the eye and all points is left out, by bounds that are wider than the
+// rounding.
 #include "controller_host/devices/sensing/sight_lines.h"
 
 #include <algorithm>
@@ -37,6 +46,13 @@ void SightLines::LookFrom(std::uint32_t observer, const Vector3& eye, double rea
   points_.count = 0;
   are_origins_ = false;
   world_.Grid().CollectNear(eye.x(), eye.y(), reach, observer, near_);
+}
+
+Vector3 SightLines::InFrontOf(const Vector3& spot)
+{
+  constexpr double kBeforeSurface = 1e-3;  // m
+  const double length = spot.norm();
+  return length > kBeforeSurface ? Vector3(spot * (1 - kBeforeSurface / length)) : spot;
 }
 
 void SightLines::LookAtBodiesAround()
@@ -244,9 +260,8 @@ bool SightLines::HiddenByOthers(std::size_t point) const
   const auto hides = [&](std::uint32_t body) { return body != owner && world_.HitOn(body, eye_, target).has_value(); };
   for (const std::uint32_t body : tilted_)
     if (hides(body)) return true;
-  if (owner == kNobody) return false;
   for (const std::uint32_t body : foreign_)
-    if (world_.Membership().ShareEngine(owner, body) && hides(body)) return true;
+    if ((owner == kNobody || world_.Membership().ShareEngine(owner, body)) && hides(body)) return true;
   return false;
 }
 

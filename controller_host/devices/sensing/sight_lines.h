@@ -1,6 +1,7 @@
 // SightLines: the points that an observer sees, by exact lines of sight against the bodies around and the terrain, many
 // at a time. A body hides points if it shares an engine with the observer or with the owner of the point. No body hides
-// its own points.
+// its own points. The spot of a laser belongs to no entity (kNobody): bodies of any
+// engine hide it, since they stop the beam, too. The surface that it lies on does not hide it.
 #pragma once
 
 #include <span>
@@ -17,7 +18,7 @@ class SightLines
 public:
   static constexpr std::uint32_t kNobody = 0xffffffff;
 
-  // `reach`: how far points usually lie from the eye in the xy plane, m.
+  // `reach` (m) is the usual distance of points from the eye in the xy plane.
   SightLines(const SensorWorld& world, double reach);
 
   // Starts a new search: an eye of `observer`, for points within `reach` m in the xy plane. The world must be
@@ -27,7 +28,8 @@ public:
   // grid.
   std::span<const std::int32_t> AroundForTest() const { return {near_.entity.data(), near_.count}; }
   std::span<const std::int32_t> PlacesAround() const { return {near_.place.data(), near_.count}; }
-  // A point by its offset from the eye; `owner`: the entity that it is part of, or kNobody.
+  // Adds a point by its offset from the eye. `owner` is the entity that has the point, or kNobody. The
+  // offset of a point with kNobody is the one that InFrontOf returns.
   void AddPoint(const Vector3& offset, std::uint32_t owner)
   {
     const std::size_t i = points_.count++;
@@ -37,11 +39,13 @@ public:
     points_.z[i] = static_cast<float>(offset.z());
     points_.owner[i] = static_cast<std::int32_t>(owner);
   }
+  // Returns the end of a line of sight to a spot at this offset from the eye, a little in front of its surface.
+  static Vector3 InFrontOf(const Vector3& spot);
   // Adds one point on each movable body around the eye, in the order of PlacesAround(), instead of AddPoint. The points
   // are at the origins, moved by the height of the eye above the observer's origin. The world must have no tilted
   // bodies.
   void LookAtBodiesAround();
-  // If callers put many points at once.
+  // Gives access for callers that put many points at once.
   SightPoints& Points() { return points_; }
   // Returns for each point, in the order of AddPoint, whether it is visible. The result is valid until the next
   // LookFrom.

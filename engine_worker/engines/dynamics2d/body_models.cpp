@@ -1,3 +1,9 @@
+// Problem: find the body that a three-dimensional entity has on the plane of the engine: its outline, mass and inertia.
+//
+// Method: a cylinder has a circle. A free box has the convex polygon in which the plane cuts it, and any other box its
+// rectangle. The inertia of a polygon is that of even density: a sum over its triangles about the origin.
+//
+// Invariant: an outline is at least kSmallest_m (m) thick, since Box2D's tolerance would swallow thinner ones.
 #include "engine_worker/engines/dynamics2d/body_models.h"
 
 #include <fmt/format.h>
@@ -91,7 +97,8 @@ double WidthOf(const std::vector<Vector2>& polygon)
 void SetContact(BodyModel& model, const CSwarmanoidSpaceEntity& entity, const Dynamics2dParameters& parameters)
 {
   const TConfigurationTree& tree = entity.GetConfiguration().tree;
-  model.friction = tree.GetNumber("friction", parameters.friction);
+  const bool is_wall = model.motion == EMotion::kStatic;
+  model.friction = tree.GetNumber("friction", is_wall ? parameters.wall_friction : parameters.friction);
   model.restitution = tree.GetNumber("restitution", parameters.restitution);
 }
 
@@ -124,8 +131,8 @@ BodyModel MovableModel(const CSwarmanoidSpaceEntity& entity, EMotion motion, con
   const Vector3& size = entity.GetSize();
   const EntityKindDescription& kind = DescriptionOf(entity.GetKind());
   const bool is_free_box = IsFreeBox(entity.GetKind());
-  const double given = entity.GetConfiguration().mass_kg;
-  model.mass = given > 0 ? given : DefaultMass(entity, parameters);
+  const double mass = entity.GetConfiguration().mass_kg;
+  model.mass = mass > 0 ? mass : DefaultMass(entity, parameters);
   if (kind.form == BodyForm::kCylinder)
   {
     if (size.x() < kSmallest_m) TooSmall(entity);
@@ -148,8 +155,7 @@ BodyModel MovableModel(const CSwarmanoidSpaceEntity& entity, EMotion motion, con
   model.has_gripper = kind.mechanism == Mechanism::kTurretGripper;
   if (motion != EMotion::kDynamic) return model;
 
-  // Grippers find no hold on a block here.
-  model.grippable = kind.grippable && !is_free_box;
+  model.grippable = kind.grippable;
   if (kind.wheels)
   {
     model.ground_force = std::min(parameters.wheel_friction * model.mass * parameters.gravity, parameters.drive_force);
@@ -161,8 +167,11 @@ BodyModel MovableModel(const CSwarmanoidSpaceEntity& entity, EMotion motion, con
     model.ground_torque = parameters.eyebot_torque;
   }
   else
-    SetGroundFriction(model, entity.GetConfiguration().tree.GetNumber("ground_friction", parameters.ground_friction),
-                      parameters.gravity);
+  {
+    const TConfigurationTree& given = entity.GetConfiguration().tree;
+    SetGroundFriction(model, given.GetNumber("ground_friction", parameters.ground_friction), parameters.gravity);
+    model.ground_torque = given.GetNumber("ground_torque", model.ground_torque);
+  }
   return model;
 }
 
@@ -179,7 +188,7 @@ BodyModel StaticModel(std::vector<Vector2> polygon, const Dynamics2dParameters& 
   BodyModel model;
   model.motion = EMotion::kStatic;
   model.polygon = std::move(polygon);
-  model.friction = parameters.friction;
+  model.friction = parameters.wall_friction;
   model.restitution = parameters.restitution;
   return model;
 }

@@ -68,17 +68,18 @@ void CDynamics2dEngine::WritePoses(EngineUpdate& update) const
 {
   const std::size_t count = owned_.size();
   double* x = update.poses.data();
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const Pose pose = plane_.ToSpace(world_->PoseOf(owned_[i].body), owned_[i].stance);
-    x[i] = pose.position.x();
-    x[count + i] = pose.position.y();
-    x[2 * count + i] = pose.position.z();
-    x[3 * count + i] = pose.orientation.x();
-    x[4 * count + i] = pose.orientation.y();
-    x[5 * count + i] = pose.orientation.z();
-    x[6 * count + i] = pose.orientation.w();
-  }
+  world_->ForEach(count,
+                  [&](std::size_t i)
+                  {
+                    const Pose pose = plane_.ToSpace(world_->PoseOf(owned_[i].body), owned_[i].stance);
+                    x[i] = pose.position.x();
+                    x[count + i] = pose.position.y();
+                    x[2 * count + i] = pose.position.z();
+                    x[3 * count + i] = pose.orientation.x();
+                    x[4 * count + i] = pose.orientation.y();
+                    x[5 * count + i] = pose.orientation.z();
+                    x[6 * count + i] = pose.orientation.w();
+                  });
 }
 
 void CDynamics2dEngine::ReportAttributes(EngineUpdate& update) const
@@ -105,16 +106,17 @@ void CDynamics2dEngine::WriteSensors(std::span<double> sensors) const
     for (const std::uint32_t entity : block.entities)
     {
       const Footbot& footbot = footbots_[footbot_of_entity_[entity]];
+      const TickMeasures& measures = world_->MeasuresOf(footbot.body);
       if (block.name == "footbot_encoders")
       {
-        value[0] = footbot.left_arc;
-        value[1] = footbot.right_arc;
+        value[0] = measures.left_arc;
+        value[1] = measures.right_arc;
       }
       else if (block.name == "footbot_turret_torque")
       {
-        value[0] = std::clamp(footbot.load.force_x / parameters_.traction_range, -1.0, 1.0);
-        value[1] = std::clamp(footbot.load.force_y / parameters_.traction_range, -1.0, 1.0);
-        value[2] = std::clamp(footbot.load.torque / parameters_.turret_torque, -1.0, 1.0);
+        value[0] = std::clamp(measures.load.force_x / parameters_.traction_range, -1.0, 1.0);
+        value[1] = std::clamp(measures.load.force_y / parameters_.traction_range, -1.0, 1.0);
+        value[2] = std::clamp(measures.load.torque / parameters_.turret_torque, -1.0, 1.0);
       }
       else if (block.name == "footbot_accelerometer")
       {

@@ -8,8 +8,10 @@
 
 #include "common/math/elementary.h"
 #include "common/space/space.h"
+#include "engine_worker/engines/dynamics2d/group_region.h"
 #include "engine_worker/engines/plane_frame.h"
 #include "engine_worker/engines/terrain_walls.h"
+#include "engine_worker/volume_members.h"
 
 namespace swarmanoid
 {
@@ -22,7 +24,7 @@ namespace
 // A mirror that jumps farther than this in a tick was put elsewhere; it pushes nothing on its way.
 constexpr double kMirrorJump_m = 0.5;
 constexpr double kSameOutline_m = 1e-6;
-constexpr std::uint32_t kDynamics2dVersion = 4;  // of saved states
+constexpr std::uint32_t kDynamics2dVersion = 5;  // of saved states
 constexpr std::size_t kMostCorners = 6;          // of the cut of a box
 
 }  // namespace
@@ -31,14 +33,20 @@ void CDynamics2dEngine::Init(const EngineSetup& setup)
 {
   space_ = &setup.space;
   layout_ = &setup.layout;
+  configuration_ = &setup.configuration;
   parameters_ = ReadDynamics2dParameters(setup.parameters);
   plane_ = PlaneFrom(setup.parameters);
   world_ =
       std::make_unique<Dynamics2dWorld>(WorldSettings{parameters_.velocity_iterations, parameters_.position_iterations,
                                                       parameters_.turret_torque, parameters_.grip_distance});
+  const auto threads = static_cast<unsigned>(setup.parameters.Integer("threads"));
+  if (threads == 0)
+    world_->UseThreads(setup.threads, setup.pool);
+  else
+    world_->UseThreads(threads, nullptr);
+  if (setup.team != nullptr) world_->UseRegions(*setup.team, std::max(threads, 1U));
   robots_.Init(setup.space, plane_, *this);
   steps_ = setup.configuration.subclock * parameters_.substeps;
-  seconds_ = space_->GetTickSeconds() / steps_;
   body_of_entity_.assign(space_->Size(), kNoBody);
   footbot_of_entity_.assign(space_->Size(), 0);
   for (const ChannelBlock& block : layout_->commands)
@@ -112,7 +120,6 @@ void CDynamics2dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding
       footbot.body = body;
       footbot.aperture_slot = entity.SlotOf("gripper_aperture");
       footbot.gripped_slot = entity.SlotOf("gripped");
-      footbot.half_axle = DescriptionOf(entity.GetKind()).wheels->axle_m / 2;
       footbot.turret_slot = entity.SlotOf("turret_angle");
       break;
     }
@@ -128,8 +135,10 @@ void CDynamics2dEngine::Start()
       for (const std::uint32_t entity : block.entities) FootbotOf(entity).has_gripper = true;
   for (const ChannelBlock& block : layout_->sensors)
   {
-    measures_wheels_ = measures_wheels_ || block.name == "footbot_encoders";
-    measures_turrets_ = measures_turrets_ || block.name == "footbot_turret_torque";
+    if (block.name == "footbot_encoders")
+      for (const Footbot& footbot : footbots_)
+        world_->MeasureWheels(footbot.body, DescriptionOf(footbot.entity->GetKind()).wheels->axle_m / 2);
+    if (block.name == "footbot_turret_torque") world_->MeasureLoads();
   }
   world_->Build();
 }
@@ -153,13 +162,8 @@ void CDynamics2dEngine::Update(const EngineCommands& commands, EngineUpdate& upd
     world_->SetDrive(BodyOf(eyebot), {});
     world_->SetVelocity(BodyOf(eyebot), {});
   }
-  for (Footbot& footbot : footbots_)
-  {
-    footbot.left_arc = footbot.right_arc = 0;
-    footbot.load = {};
-    footbot.velocity = world_->VelocityOf(footbot.body);
-  }
-  for (int step = 0; step < steps_; ++step) Step();
+  for (Footbot& footbot : footbots_) footbot.velocity = world_->VelocityOf(footbot.body);
+  world_->Advance(steps_);
   WritePoses(update);
   robots_.Raise(layout_->owned, update.poses);
   ReportAttributes(update);
@@ -174,7 +178,14 @@ void CDynamics2dEngine::FollowMirrors()
   for (Mirror& mirror : mirrors_)
   {
     const PlanePose now = plane_.ToPlane(mirror.entity->GetPose());
-    world_->SetSolid(mirror.body, ReachesPlane(*mirror.entity, plane_));
+    // An entity that changes its engine has another body, which this engine moves, or moves along as a ghost.
+    const std::uint32_t entity = mirror.entity->GetIndex();
+    const int own = BodyOf(entity);
+    const bool reaches = ReachesPlane(*mirror.entity, plane_);
+    const bool is_elsewhere = own != mirror.body && IsElsewhere(entity);
+    const bool is_ghost = is_elsewhere && reaches && IsGhost(*space_, configuration_->volume, entity);
+    world_->SetSolid(mirror.body, reaches && !is_ghost && (own == mirror.body || is_elsewhere));
+    if (is_elsewhere) world_->SetSolid(own, is_ghost);
     const std::vector<Vector2> outline = MirrorOutline(*mirror.entity, plane_);
     if (!outline.empty()) world_->SetOutline(mirror.body, outline, kSameOutline_m);
     world_->Place(mirror.body, now);
@@ -186,12 +197,19 @@ void CDynamics2dEngine::FollowMirrors()
     if (mirror.seen && du * du + dv * dv < kMirrorJump_m * kMirrorJump_m)
       velocity = {du / tick, dv / tick, WrapAngle(now.heading - mirror.previous.heading) / tick};
     world_->SetVelocity(mirror.body, velocity);
+    if (is_ghost)
+    {
+      world_->Place(own, now);
+      world_->SetVelocity(own, velocity);
+      if (DescriptionOf(mirror.entity->GetKind()).mechanism == Mechanism::kTurretGripper)
+        world_->SetTurretAngle(own, mirror.entity->GetAttribute("turret_angle"));
+    }
     mirror.previous = now;
     mirror.seen = true;
   }
 }
 
-// First all that let go, then all that take hold, in entity order.
+// Grippers that open come first, then grippers that close, in entity order.
 void CDynamics2dEngine::ApplyGrippers()
 {
   for (const Footbot& footbot : footbots_)
@@ -211,37 +229,6 @@ bool CDynamics2dEngine::Hold(std::uint32_t robot, std::uint32_t object)
   return true;
 }
 
-void CDynamics2dEngine::Step()
-{
-  if (!measures_wheels_)
-  {
-    world_->Step(seconds_);
-  }
-  else
-  {
-    before_step_.clear();
-    for (const Footbot& footbot : footbots_) before_step_.push_back(world_->PoseOf(footbot.body));
-    world_->Step(seconds_);
-    for (std::size_t i = 0; i < footbots_.size(); ++i)
-    {
-      const PlanePose after = world_->PoseOf(footbots_[i].body);
-      const double turn = after.heading - before_step_[i].heading;
-      const SinCos middle = SinCosOf(before_step_[i].heading + turn / 2);
-      const double forward = middle.cos * (after.u - before_step_[i].u) + middle.sin * (after.v - before_step_[i].v);
-      footbots_[i].left_arc += forward - turn * footbots_[i].half_axle;
-      footbots_[i].right_arc += forward + turn * footbots_[i].half_axle;
-    }
-  }
-  if (!measures_turrets_) return;
-  for (Footbot& footbot : footbots_)
-  {
-    const TurretLoad load = world_->LoadOf(footbot.body);
-    footbot.load.force_x += load.force_x / steps_;
-    footbot.load.force_y += load.force_y / steps_;
-    footbot.load.torque += load.torque / steps_;
-  }
-}
-
 void CDynamics2dEngine::EntityMoved(std::uint32_t entity)
 {
   for (Owned& owned : owned_)
@@ -259,6 +246,55 @@ void CDynamics2dEngine::EntityMoved(std::uint32_t entity)
   }
 }
 
+void CDynamics2dEngine::TakeOver(std::uint32_t entity, const EntityVelocity& velocity)
+{
+  const int body = BodyOf(entity);
+  const CSwarmanoidSpaceEntity& it = space_->GetEntity(entity);
+  const Quaternion to_plane = plane_.Frame().orientation.conjugate();
+  const Vector3 linear = to_plane * velocity.linear;
+  const Pose pose = space_->GetPose(entity);
+  std::erase(elsewhere_, entity);
+  world_->SetGrippable(body, DescriptionOf(it.GetKind()).grippable);
+  world_->SetSolid(body, true);
+  world_->Place(body, plane_.ToPlane(pose));
+  world_->SetVelocity(body, {linear.x(), linear.y(), (to_plane * velocity.angular).z()});
+  if (DescriptionOf(it.GetKind()).mechanism == Mechanism::kTurretGripper)
+    world_->SetTurretAngle(body, it.GetAttribute("turret_angle"));
+  robots_.TakeOver(entity, plane_.StanceOf(pose).height, velocity);
+}
+
+// The body stays where it is, and touches nothing until it is a ghost.
+void CDynamics2dEngine::HandOver(std::uint32_t entity)
+{
+  const int body = BodyOf(entity);
+  world_->ReleaseIf(body, [](int, int) { return true; });
+  world_->SetDrive(body, {});
+  world_->SetTurretSpeed(body, 0);
+  world_->SetVelocity(body, {});
+  world_->SetSolid(body, false);
+  world_->SetGrippable(body, false);
+  if (!IsElsewhere(entity)) elsewhere_.insert(std::ranges::upper_bound(elsewhere_, entity), entity);
+  robots_.HandOver(entity);
+}
+
+bool CDynamics2dEngine::IsElsewhere(std::uint32_t entity) const
+{
+  return std::ranges::binary_search(elsewhere_, entity);
+}
+
+std::optional<EntityVelocity> CDynamics2dEngine::VelocityOf(std::uint32_t entity) const
+{
+  const PlaneVelocity velocity = world_->VelocityOf(BodyOf(entity));
+  const Quaternion& to_space = plane_.Frame().orientation;
+  return EntityVelocity{to_space * Vector3(velocity.u, velocity.v, 0), to_space * Vector3(0, 0, velocity.turn)};
+}
+
+void CDynamics2dEngine::MirrorMoved(std::uint32_t entity)
+{
+  for (Mirror& mirror : mirrors_)
+    if (mirror.entity->GetIndex() == entity) mirror.seen = false;
+}
+
 void CDynamics2dEngine::SetVelocity(std::uint32_t entity, const PlaneVelocity& velocity)
 {
   world_->SetVelocity(BodyOf(entity), velocity);
@@ -267,7 +303,7 @@ void CDynamics2dEngine::SetVelocity(std::uint32_t entity, const PlaneVelocity& v
 void CDynamics2dEngine::SaveState(ByteWriter& state) const
 {
   state.Put(kDynamics2dVersion);
-  // First: the world is built from them.
+  // Mirrors come first, since the world is built from them.
   for (const Mirror& mirror : mirrors_)
   {
     const std::vector<Vector2>& outline = world_->OutlineOf(mirror.body);
@@ -329,6 +365,11 @@ void CDynamics2dEngine::LoadState(ByteReader& state)
   robots_.LoadState(state);
 }
 
+std::unique_ptr<EngineRegion> CDynamics2dEngine::MakeRegion(unsigned /*region*/, RegionExchange& /*exchange*/)
+{
+  return std::make_unique<GroupRegion>();
+}
+
 void CDynamics2dEngine::Canonicalise() { world_->Rebuild(); }
 
 void CDynamics2dEngine::BeginAgain()
@@ -347,8 +388,8 @@ void CDynamics2dEngine::BeginAgain()
 
 std::string CDynamics2dEngine::StatusText() const
 {
-  return fmt::format("{} contacts, {} grips, {} of {} bodies isolated", world_->ContactCount(), world_->GripCount(),
-                     world_->IsolatedCount(), owned_.size());
+  return fmt::format("{} contacts, {} grips, {} groups, {} of {} bodies isolated", world_->ContactCount(),
+                     world_->GripCount(), world_->GroupCount(), world_->IsolatedCount(), owned_.size());
 }
 
 }  // namespace swarmanoid

@@ -23,11 +23,16 @@ public:
 
   void Update(const EngineCommands& commands, EngineUpdate& update, std::span<double> sensors) override;
   void EntityMoved(std::uint32_t entity) override;
+  void TakeOver(std::uint32_t entity, const EntityVelocity& velocity) override;
+  void HandOver(std::uint32_t entity) override;
+  std::optional<EntityVelocity> VelocityOf(std::uint32_t entity) const override;
+  void MirrorMoved(std::uint32_t entity) override;
 
   void SaveState(ByteWriter& state) const override;
   void LoadState(ByteReader& state) override;
   void Canonicalise() override;
   void BeginAgain() override;
+  std::unique_ptr<EngineRegion> MakeRegion(unsigned region, RegionExchange& exchange) override;
   std::string StatusText() const override;
 
   // Gives an owned entity a velocity in the plane, for tests.
@@ -55,11 +60,7 @@ private:
     int body;
     bool has_gripper = false;  // there are commands for it
     double gripper = 0;        // command: 0 open … 1 closed
-    double half_axle = 0;      // m
     std::uint32_t aperture_slot, gripped_slot, turret_slot;
-    // The values that the sensors add up over the substeps of a tick.
-    double left_arc = 0, right_arc = 0;  // m
-    dynamics2d::TurretLoad load;
     dynamics2d::PlaneVelocity velocity;  // at the start of the tick
   };
 
@@ -72,30 +73,28 @@ private:
   PlanePose StandingPose(const CSwarmanoidSpaceEntity& entity, PlaneStance& stance) const;
   void ReadCommands(const EngineCommands& commands);
   void FollowMirrors();
+  bool IsElsewhere(std::uint32_t entity) const;
   void ApplyGrippers();
-  void Step();
   void WritePoses(EngineUpdate& update) const;
   void ReportAttributes(EngineUpdate& update) const;
   void WriteSensors(std::span<double> sensors) const;
 
   const CSwarmanoidSpace* space_ = nullptr;
   const EngineLayout* layout_ = nullptr;
+  const EngineConfiguration* configuration_ = nullptr;
   dynamics2d::Dynamics2dParameters parameters_;
   PlaneFrame plane_{PlaneAxis::kZ, 0};
   std::unique_ptr<dynamics2d::Dynamics2dWorld> world_;
   PlaneRobots robots_;
-  int steps_ = 4;       // in each tick
-  double seconds_ = 0;  // of each step
+  int steps_ = 4;  // in each tick
   std::vector<Owned> owned_;
   std::vector<Mirror> mirrors_;
+  std::vector<std::uint32_t> elsewhere_;  // owned entities that other engines move, ascending
   std::vector<Footbot> footbots_;
   std::vector<std::uint32_t> turret_robots_;  // with a motor for their turret
   std::vector<int> body_of_entity_;           // kNoBody if it has none
   std::vector<std::uint32_t> entity_of_body_;
   std::vector<std::uint32_t> footbot_of_entity_;
-  std::vector<PlanePose> before_step_;  // of the footbots
-  bool measures_wheels_ = false;
-  bool measures_turrets_ = false;
 };
 
 }  // namespace swarmanoid

@@ -11,6 +11,7 @@
 
 #include "common/math/elementary.h"
 #include "engine_worker/engines/dynamics2d/dynamics2d_world.h"
+#include "engine_worker/engines/dynamics2d/remote_groups.h"
 
 namespace swarmanoid::dynamics2d
 {
@@ -21,7 +22,7 @@ constexpr double kHoldGain = 0.2;    // part of the error of a held turret that 
 constexpr double kHoldSpeed = 1.0;   // rad/s, at most
 constexpr double kOverload = 0.999;  // of the motor's torque: the turret slips
 
-// Distance of a point from the outline of a model, in the model's frame; negative inside.
+// Returns the distance of a point from the outline of a model, in the model's frame; negative inside.
 double OutlineDistance(const BodyModel& model, const Vector2& point)
 {
   if (model.radius > 0) return std::sqrt(point.squaredNorm()) - model.radius;
@@ -43,8 +44,11 @@ public:
 
 }  // namespace
 
+// Makes the joint of a grip.
 void Dynamics2dWorld::BuildGrip(Body& body)
 {
+  body.is_joined = true;
+  if (OrderChange(body, EGroupOrder::kGrip)) return;
   b2Body* target = bodies_[Index(body.gripped)].b2;
   if (body.model.has_turret_motor)
   {
@@ -55,7 +59,7 @@ void Dynamics2dWorld::BuildGrip(Body& body)
     joint.referenceAngle = body.grip.reference_angle;
     joint.enableMotor = true;
     joint.maxMotorTorque = static_cast<float>(settings_.turret_torque * kTorqueUnits);
-    body.joint = world_->CreateJoint(&joint);
+    body.joint = worlds_[body.world]->box2d->CreateJoint(&joint);
     return;
   }
   b2WeldJointDef joint;
@@ -63,10 +67,17 @@ void Dynamics2dWorld::BuildGrip(Body& body)
   joint.bodyB = target;
   joint.localAnchorB = body.grip.anchor;
   joint.referenceAngle = body.grip.reference_angle;
-  body.joint = world_->CreateJoint(&joint);
+  body.joint = worlds_[body.world]->box2d->CreateJoint(&joint);
 }
 
-void Dynamics2dWorld::ApplyTurret(Body& body, double seconds)
+void Dynamics2dWorld::EndGrip(Body& body)
+{
+  body.is_joined = false;
+  if (!OrderChange(body, EGroupOrder::kEndGrip)) worlds_[body.world]->box2d->DestroyJoint(body.joint);
+  body.joint = nullptr;
+}
+
+void Dynamics2dWorld::ApplyTurret(Body& body, double seconds, double last_step)
 {
   if (body.gripped == kNoBody)
   {
@@ -85,8 +96,8 @@ void Dynamics2dWorld::ApplyTurret(Body& body, double seconds)
   }
   else
   {
-    const bool slips = last_step_ > 0 && std::abs(joint->GetMotorTorque(static_cast<float>(1 / last_step_))) >=
-                                             kOverload * settings_.turret_torque * kTorqueUnits;
+    const bool slips = last_step > 0 && std::abs(joint->GetMotorTorque(static_cast<float>(1 / last_step))) >=
+                                            kOverload * settings_.turret_torque * kTorqueUnits;
     if (!body.held_angle || slips) body.held_angle = angle;
     const double speed = kHoldGain * WrapAngle(*body.held_angle - angle) / seconds;
     joint->SetMotorSpeed(static_cast<float>(std::clamp(speed, -kHoldSpeed, kHoldSpeed)));
@@ -96,7 +107,7 @@ void Dynamics2dWorld::ApplyTurret(Body& body, double seconds)
 
 void Dynamics2dWorld::TurnGripper(Body& body)
 {
-  if (body.gripper == nullptr) return;  // a handbot has none
+  if (OrderChange(body, EGroupOrder::kTurnGripper) || body.gripper == nullptr) return;  // a handbot has none
   const SinCos turret = SinCosOf(TurretAngleOf(static_cast<int>(&body - bodies_.data())));
   const auto point = [&](double forward, double left)
   { return ToUnits(turret.cos * forward - turret.sin * left, turret.sin * forward + turret.cos * left); };
@@ -118,18 +129,19 @@ void Dynamics2dWorld::SetTurretAngle(int number, double radians)
 double Dynamics2dWorld::TurretAngleOf(int number) const
 {
   const Body& body = bodies_[Index(number)];
-  if (!body.model.has_turret_motor || body.joint == nullptr) return body.turret_angle;
-  return WrapAngle(static_cast<b2RevoluteJoint*>(body.joint)->GetJointAngle());
+  if (!body.model.has_turret_motor || body.gripped == kNoBody) return body.turret_angle;
+  return WrapAngle(StateOf(bodies_[Index(body.gripped)]).angle - StateOf(body).angle - body.grip.reference_angle);
 }
 
 // Headings come without whole turns: the turns that the bodies had made are taken from the angle of the grip.
 void Dynamics2dWorld::CountTurns(Body& body)
 {
-  const double angle = static_cast<double>(bodies_[Index(body.gripped)].b2->GetAngle()) - body.b2->GetAngle() -
+  const double angle = static_cast<double>(StateOf(bodies_[Index(body.gripped)]).angle) - StateOf(body).angle -
                        body.grip.reference_angle;
   if (std::abs(angle) <= kPi) return;
   body.grip.reference_angle = static_cast<float>(body.grip.reference_angle + angle - WrapAngle(angle));
-  world_->DestroyJoint(body.joint);
+  if (!body.is_joined) return;
+  EndGrip(body);
   BuildGrip(body);
 }
 
@@ -143,28 +155,38 @@ bool Dynamics2dWorld::LeadsTo(int from, int to) const
 int Dynamics2dWorld::FindGrippable(int number) const
 {
   const Body& body = bodies_[Index(number)];
-  if (body.b2 == nullptr) return kNoBody;  // no body is near
-  const SinCos turret = SinCosOf(body.b2->GetAngle() + body.turret_angle);
-  const b2Vec2 centre = body.b2->GetPosition();
-  const double x = centre.x / kUnitsPerMetre + kGripperReach * turret.cos;
-  const double y = centre.y / kUnitsPerMetre + kGripperReach * turret.sin;
+  if (body.world == ContactGroups::kAlone) return kNoBody;  // no body is near
+  const BodyState state = StateOf(body);
+  const SinCos turret = SinCosOf(state.angle + body.turret_angle);
+  const double x = state.x / kUnitsPerMetre + kGripperReach * turret.cos;
+  const double y = state.y / kUnitsPerMetre + kGripperReach * turret.sin;
 
   NearbyBodies nearby;
-  b2AABB box;
-  box.lowerBound = ToUnits(x - 2 * settings_.grip_distance, y - 2 * settings_.grip_distance);
-  box.upperBound = ToUnits(x + 2 * settings_.grip_distance, y + 2 * settings_.grip_distance);
-  world_->QueryAABB(&nearby, box);
+  if (IsRemote(body))
+  {
+    // Only bodies that Box2D would find can be near enough.
+    for (const std::uint32_t k : groups_.Bodies(groups_.GroupOf(in_moving_[Index(number)])))
+      if (bodies_[moving_[k]].solid) nearby.bodies.push_back(static_cast<int>(moving_[k]));
+  }
+  else
+  {
+    b2AABB box;
+    box.lowerBound = ToUnits(x - 2 * settings_.grip_distance, y - 2 * settings_.grip_distance);
+    box.upperBound = ToUnits(x + 2 * settings_.grip_distance, y + 2 * settings_.grip_distance);
+    worlds_[body.world]->box2d->QueryAABB(&nearby, box);
+    std::sort(nearby.bodies.begin(), nearby.bodies.end());
+  }
 
   int best = kNoBody;
   double best_distance = settings_.grip_distance;
-  std::sort(nearby.bodies.begin(), nearby.bodies.end());
   for (const int candidate : nearby.bodies)
   {
     const Body& other = bodies_[Index(candidate)];
     if (!other.model.grippable || LeadsTo(candidate, number)) continue;
-    const SinCos heading = SinCosOf(other.b2->GetAngle());
-    const double dx = x - other.b2->GetPosition().x / kUnitsPerMetre;
-    const double dy = y - other.b2->GetPosition().y / kUnitsPerMetre;
+    const BodyState at = StateOf(other);
+    const SinCos heading = SinCosOf(at.angle);
+    const double dx = x - at.x / kUnitsPerMetre;
+    const double dy = y - at.y / kUnitsPerMetre;
     const Vector2 point(heading.cos * dx + heading.sin * dy, heading.cos * dy - heading.sin * dx);
     const double distance = OutlineDistance(other.model, point);
     if (distance > best_distance || (distance == best_distance && best != kNoBody)) continue;
@@ -177,16 +199,19 @@ int Dynamics2dWorld::FindGrippable(int number) const
 void Dynamics2dWorld::Grip(int number, int target)
 {
   Body& body = bodies_[Index(number)];
-  EndIsolation(number);
-  EndIsolation(target);
-  const b2Body* other = bodies_[Index(target)].b2;
-  body.grip.anchor = other->GetLocalPoint(body.b2->GetPosition());
-  const double difference = static_cast<double>(other->GetAngle()) - body.b2->GetAngle();
+  const Body& other = bodies_[Index(target)];
+  const BodyState own_state = StateOf(body);
+  const BodyState state = StateOf(other);
+  body.grip.anchor = b2MulT(b2Transform({state.x, state.y}, b2Rot(state.angle)), {own_state.x, own_state.y});
+  const double difference = static_cast<double>(state.angle) - own_state.angle;
   body.grip.reference_angle =
       static_cast<float>(body.model.has_turret_motor ? difference - body.turret_angle : difference);
   body.gripped = target;
   body.held_angle.reset();
-  BuildGrip(body);
+  if (body.world != ContactGroups::kAlone && body.world == other.world)
+    BuildGrip(body);
+  else
+    must_find_groups_ = true;
 }
 
 void Dynamics2dWorld::Release(int number)
@@ -194,20 +219,17 @@ void Dynamics2dWorld::Release(int number)
   Body& body = bodies_[Index(number)];
   if (body.gripped == kNoBody) return;
   body.turret_angle = TurretAngleOf(number);
-  world_->DestroyJoint(body.joint);
-  body.joint = nullptr;
+  if (body.is_joined) EndGrip(body);
   body.gripped = kNoBody;
   body.held_angle.reset();
   TurnGripper(body);
 }
 
-TurretLoad Dynamics2dWorld::LoadOf(int number) const
+TurretLoad Dynamics2dWorld::LoadOf(const Body& body, double last_step) const
 {
-  const Body& body = bodies_[Index(number)];
-  if (body.joint == nullptr || last_step_ <= 0) return {};
-  const auto rate = static_cast<float>(1 / last_step_);
+  const auto rate = static_cast<float>(1 / last_step);
   const b2Vec2 force = body.joint->GetReactionForce(rate);  // on the gripped body
-  const SinCos turret = SinCosOf(body.b2->GetAngle() + TurretAngleOf(number));
+  const SinCos turret = SinCosOf(body.b2->GetAngle() + TurretAngleOf(static_cast<int>(&body - bodies_.data())));
   return {-(turret.cos * force.x + turret.sin * force.y) / kForceUnits,
           -(turret.cos * force.y - turret.sin * force.x) / kForceUnits,
           -body.joint->GetReactionTorque(rate) / kTorqueUnits};

@@ -11,6 +11,7 @@ Dynamics2dParameters ReadDynamics2dParameters(const Parameters& parameters)
   values.position_iterations = static_cast<int>(parameters.Integer("position_iterations"));
   values.gravity = parameters.Number("gravity");
   values.friction = parameters.Number("friction");
+  values.wall_friction = parameters.Number("wall_friction");
   values.restitution = parameters.Number("restitution");
   values.wheel_friction = parameters.Number("wheel_friction");
   values.ground_friction = parameters.Number("ground_friction");

@@ -15,7 +15,8 @@ struct Dynamics2dParameters
   int velocity_iterations = 8;
   int position_iterations = 3;
   double gravity = 9.81;  // m/s2
-  double friction = 0.7;
+  double friction = 0.49;
+  double wall_friction = 0.01;
   double restitution = 0;
   double wheel_friction = 0.8;
   double ground_friction = 0.5;

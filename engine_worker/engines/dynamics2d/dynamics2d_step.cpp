@@ -1,6 +1,7 @@
 // Problem: bodies strive for a velocity against the ground with limited force, while contacts and grips hold them.
 //
-// Method: each body has a motor joint to the ground. Its error is set so that it asks for the wanted velocity: Box2D
+// Method: groups and isolated bodies move independently of each other, so any thread may step any of them. In a group,
+// each body has a motor joint to the ground. Its error is set so that it asks for the wanted velocity: Box2D
 // solves it together with contacts and grips, so a body that cannot move stands still. An isolated body has nothing
 // else to solve: its velocity comes as near to the wanted one as force and torque allow, in closed form, and then moves
 // it as Box2D would.
@@ -11,44 +12,147 @@
 //
 // Invariant: what single precision takes from a step, or adds to it, is carried on to the next one.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "common/math/elementary.h"
 #include "engine_worker/engines/dynamics2d/dynamics2d_world.h"
+#include "engine_worker/engines/dynamics2d/remote_groups.h"
 
 namespace swarmanoid::dynamics2d
 {
 namespace
 {
 
-// The part of a ground joint's position error that becomes velocity. Drives are expressed through it; a small value
-// puts the target far ahead, where the rounding of large coordinates does not matter.
-constexpr float kDriveGain = 0.001F;
 // A remainder beyond this goes to Box2D's position.
 constexpr double kLargestRemainder = 1e-4;  // decimetres
 constexpr double kSlip = 1e-3;              // m/s: slower than this a body on the ground is taken to stand
+constexpr std::size_t kChunk = 64;          // isolated bodies that a thread takes at once
+constexpr std::size_t kLeastShared = 32;    // bodies; with fewer, waking threads takes longer
 
 double SpeedOf(double x, double y) { return std::sqrt(x * x + y * y); }
 
 }  // namespace
 
-void Dynamics2dWorld::Step(double seconds)
+void Dynamics2dWorld::Advance(int steps)
 {
-  if (!isolated_.empty() && IsAnyTooFar(seconds))
-    for (const std::uint32_t number : std::vector(isolated_)) EndIsolation(static_cast<int>(number));
-  positions_.clear();
-  for (const std::uint32_t number : solved_)
+  if (must_find_groups_) FindGroups();
+  KeepStarts();
+  const double seconds = tick_ / steps;
+  RunGroups(seconds, steps, isolated_);
+  while (MergeGroups(seconds, steps)) RunGroups(seconds, steps, {});
+}
+
+void Dynamics2dWorld::KeepStarts()
+{
+  starts_.clear();
+  for (const std::uint32_t number : moving_)
+  {
+    Body& body = bodies_[number];
+    body.measures = {};
+    starts_.push_back({StateOf(body), body.remainder_x, body.remainder_y, body.turret_angle, body.held_angle});
+  }
+}
+
+// Gives a body that is in no world the state in which it began the tick.
+void Dynamics2dWorld::ReturnToStart(std::size_t moving)
+{
+  Body& body = bodies_[moving_[moving]];
+  const TickStart& start = starts_[moving];
+  body.start = start.state;
+  body.remainder_x = start.remainder_x;
+  body.remainder_y = start.remainder_y;
+  body.turret_angle = start.turret_angle;
+  body.held_angle = start.held_angle;
+  body.measures = {};
+}
+
+// Makes the steps that are left of all groups, and all steps of the bodies `isolated`.
+void Dynamics2dWorld::RunGroups(double seconds, int steps, std::span<const std::uint32_t> isolated)
+{
+  if (remote_ == nullptr) return RunHere(seconds, steps, isolated);
+  RunWithRegions(seconds, steps, [&] { RunHere(seconds, steps, isolated); });
+}
+
+void Dynamics2dWorld::RunHere(double seconds, int steps, std::span<const std::uint32_t> isolated)
+{
+  // The largest groups come first, and isolated bodies last, so that the threads end at about the same time.
+  const std::size_t tasks = order_.size() + (isolated.size() + kChunk - 1) / kChunk;
+  const auto work = [&](std::size_t task)
+  {
+    if (task < order_.size()) return RunGroup(WorldOf(order_[task]), seconds, steps);
+    const std::size_t begin = (task - order_.size()) * kChunk;
+    for (const std::uint32_t number : isolated.subspan(begin, std::min(kChunk, isolated.size() - begin)))
+    {
+      Body& body = bodies_[number];
+      for (int step = 0; step < steps; ++step)
+      {
+        const PlanePose before = body.half_axle > 0 ? PoseOf(static_cast<int>(number)) : PlanePose();
+        AdvanceIsolated(body, seconds);
+        AddWheelWays(body, before);
+      }
+    }
+  };
+  WorkerPool* const pool = IfItShares(pool_);
+  if (pool == nullptr || tasks < 2 || moving_.size() < kLeastShared)
+  {
+    for (std::size_t task = 0; task < tasks; ++task) work(task);
+    return;
+  }
+  std::atomic<std::size_t> next = 0;
+  pool->Run(
+      [&](unsigned)
+      {
+        for (std::size_t task = next.fetch_add(1); task < tasks; task = next.fetch_add(1)) work(task);
+      });
+}
+
+void Dynamics2dWorld::RunGroup(GroupWorld& world, double seconds, int steps)
+{
+  if (world.remote) return;
+  for (; world.steps_done < steps; ++world.steps_done)
+  {
+    if (world.goes_too_far && !are_all_in_one_) return;
+    StepGroup(world, seconds, steps);
+  }
+}
+
+void Dynamics2dWorld::StepGroup(GroupWorld& world, double seconds, int steps)
+{
+  world.before.clear();
+  for (const std::uint32_t number : world.dynamic)
   {
     Body& body = bodies_[number];
     ApplyDrive(body, seconds);
-    if (body.gripper != nullptr) ApplyTurret(body, seconds);
-    positions_.push_back(body.b2->GetPosition());
+    if (body.gripper != nullptr) ApplyTurret(body, seconds, world.last_step);
+    world.before.push_back(
+        {body.b2->GetPosition(), body.half_axle > 0 ? PoseOf(static_cast<int>(number)) : PlanePose()});
   }
-  world_->Step(static_cast<float>(seconds), settings_.velocity_iterations, settings_.position_iterations);
-  for (std::size_t i = 0; i < solved_.size(); ++i)
-    if (bodies_[solved_[i]].solid) KeepRemainder(bodies_[solved_[i]], positions_[i], seconds);
-  for (const std::uint32_t number : isolated_) AdvanceIsolated(bodies_[number], seconds);
-  last_step_ = seconds;
+  world.box2d->Step(static_cast<float>(seconds), settings_.velocity_iterations, settings_.position_iterations);
+  world.last_step = seconds;
+  for (std::size_t i = 0; i < world.dynamic.size(); ++i)
+  {
+    Body& body = bodies_[world.dynamic[i]];
+    if (body.solid) KeepRemainder(body, world.before[i].position, seconds);
+    AddWheelWays(body, world.before[i].pose);
+    world.goes_too_far = world.goes_too_far || IsTooFar(body, world.ways[i], seconds);
+    if (!measures_loads_ || body.joint == nullptr) continue;
+    const TurretLoad load = LoadOf(body, seconds);
+    body.measures.load.force_x += load.force_x / steps;
+    body.measures.load.force_y += load.force_y / steps;
+    body.measures.load.torque += load.torque / steps;
+  }
+}
+
+void Dynamics2dWorld::AddWheelWays(Body& body, const PlanePose& before)
+{
+  if (body.half_axle <= 0) return;
+  const PlanePose after = PoseOf(static_cast<int>(&body - bodies_.data()));
+  const double turn = after.heading - before.heading;
+  const SinCos middle = SinCosOf(before.heading + turn / 2);
+  const double forward = middle.cos * (after.u - before.u) + middle.sin * (after.v - before.v);
+  body.measures.left_arc += forward - turn * body.half_axle;
+  body.measures.right_arc += forward + turn * body.half_axle;
 }
 
 // Box2D moves by x += h v in single precision.
@@ -104,7 +208,7 @@ Dynamics2dWorld::FrictionShares Dynamics2dWorld::SharesOf(const BodyModel& model
   return {std::sqrt(x * x + y * y) / slip, std::abs(turn) / slip};
 }
 
-// Box2D's order: first the velocities, then x += h v, within its limits for a step.
+// Follows Box2D's order: first the velocities, then x += h v, within its limits for a step.
 void Dynamics2dWorld::AdvanceIsolated(Body& body, double seconds) const
 {
   const BodyModel& model = body.model;

@@ -5,8 +5,8 @@
 // whether it was just loaded or goes on (Rebuild). Box2D has single precision; what its positions lack is kept beside
 // them (remainder_x, remainder_y).
 //
-// Invariants: Build depends on the bodies alone. Bodies that are isolated when a tick begins (isolated_bodies.cpp) are
-// not in Box2D, so Build leaves out each body that may be.
+// Invariants: after Build no body is in Box2D. The next tick finds the groups and makes their worlds (body_groups.cpp)
+// from the bodies alone.
 #include "engine_worker/engines/dynamics2d/dynamics2d_world.h"
 
 #include <algorithm>
@@ -15,6 +15,7 @@
 #include <stdexcept>
 
 #include "common/math/elementary.h"
+#include "engine_worker/engines/dynamics2d/remote_groups.h"
 
 namespace swarmanoid::dynamics2d
 {
@@ -38,34 +39,35 @@ int Dynamics2dWorld::AddBody(BodyModel model, const PlanePose& pose)
 
 void Dynamics2dWorld::Build()
 {
-  world_ = std::make_unique<b2World>(b2Vec2(0, 0));
-  world_->SetAllowSleeping(false);
-  // Kinematic, so that it joins all bodies to one island: Box2D takes the wall clock several times for each island.
-  b2BodyDef ground;
-  ground.type = b2_kinematicBody;
-  ground_ = world_->CreateBody(&ground);
-  last_step_ = 0;
   isolated_.clear();
-  solved_.clear();
-  ways_.clear();
-  isolation_is_configured_ = false;
-  MarkGripped();
-  // A body that may be isolated is built when a tick begins in which it is not.
-  for (Body& body : bodies_)
-  {
-    LeaveOut(body);
-    if (!CanBeIsolated(body)) BuildBody(body);
-  }
-  for (Body& body : bodies_)
-  {
-    if (body.gripped == kNoBody) continue;
-    BuildGrip(body);
-    TurnGripper(body);
-  }
+  groups_ = ContactGroups();
+  world_of_group_.clear();
+  order_.clear();
+  separation_is_configured_ = false;
+  CloseWorlds();
+  for (Body& body : bodies_) LeaveOut(body);
 }
 
-void Dynamics2dWorld::BuildBody(Body& body)
+void Dynamics2dWorld::UseRegions(RegionTeam& team, unsigned threads)
 {
+  remote_ = std::make_unique<RemoteGroups>(team, threads);
+}
+
+void Dynamics2dWorld::UseThreads(unsigned threads, WorkerPool* pool)
+{
+  if (pool == nullptr && threads > 1) own_pool_ = std::make_unique<WorkerPool>(threads);
+  pool_ = pool != nullptr ? pool : own_pool_.get();
+}
+
+// Makes the body of Box2D for a body that has none in this world. Returns nullptr if a region has the world.
+b2Body* Dynamics2dWorld::BuildIn(GroupWorld& world, std::uint32_t number)
+{
+  Body& body = bodies_[number];
+  if (world.remote)
+  {
+    OrderBuild(world, body);
+    return nullptr;
+  }
   const BodyModel& model = body.model;
   b2BodyDef definition;
   definition.type = model.motion == EMotion::kDynamic     ? b2_dynamicBody
@@ -76,12 +78,9 @@ void Dynamics2dWorld::BuildBody(Body& body)
   definition.linearVelocity.Set(body.start.vx, body.start.vy);
   definition.angularVelocity = body.start.turn;
   definition.enabled = body.solid;
-  body.b2 = world_->CreateBody(&definition);
-  body.ground = nullptr;
-  body.gripper = nullptr;
-  body.joint = nullptr;
+  b2Body* const b2 = world.box2d->CreateBody(&definition);
 
-  b2FixtureDef fixture = FixtureOf(body);
+  b2FixtureDef fixture = FixtureOf(number);
   b2CircleShape circle;
   b2PolygonShape polygon;
   if (model.radius > 0)
@@ -94,40 +93,42 @@ void Dynamics2dWorld::BuildBody(Body& body)
     polygon = ShapeOf(model.polygon);
     fixture.shape = &polygon;
   }
-  body.b2->CreateFixture(&fixture);
+  b2->CreateFixture(&fixture);
   if (model.has_gripper)
   {
     b2PolygonShape square;
     square.SetAsBox(1, 1);
     fixture.shape = &square;
-    body.gripper = body.b2->CreateFixture(&fixture);
+    body.gripper = b2->CreateFixture(&fixture);
     TurnGripper(body);
   }
 
-  if (model.motion != EMotion::kDynamic) return;
+  if (model.motion != EMotion::kDynamic) return b2;
   b2MassData mass;
   mass.mass = static_cast<float>(model.mass);
   mass.center.SetZero();
   mass.I = static_cast<float>(model.inertia * kTorqueUnits);
-  body.b2->SetMassData(&mass);
+  b2->SetMassData(&mass);
 
   b2MotorJointDef joint;
-  joint.bodyA = ground_;
-  joint.bodyB = body.b2;
+  joint.bodyA = world.ground;
+  joint.bodyB = b2;
   joint.collideConnected = true;
   joint.maxForce = static_cast<float>(model.ground_force * kForceUnits);
   joint.maxTorque = static_cast<float>(model.ground_torque * kTorqueUnits);
   joint.correctionFactor = kDriveGain;
-  body.ground = static_cast<b2MotorJoint*>(world_->CreateJoint(&joint));
+  body.ground = static_cast<b2MotorJoint*>(world.box2d->CreateJoint(&joint));
+  return b2;
 }
 
-b2FixtureDef Dynamics2dWorld::FixtureOf(const Body& body) const
+b2FixtureDef Dynamics2dWorld::FixtureOf(std::uint32_t number) const
 {
+  const BodyModel& model = bodies_[number].model;
   b2FixtureDef fixture;
   fixture.density = 0;  // the mass of a body is set as a whole
-  fixture.friction = static_cast<float>(body.model.friction);
-  fixture.restitution = static_cast<float>(body.model.restitution);
-  fixture.userData.pointer = static_cast<uintptr_t>(&body - bodies_.data());
+  fixture.friction = static_cast<float>(model.friction);
+  fixture.restitution = static_cast<float>(model.restitution);
+  fixture.userData.pointer = number;
   return fixture;
 }
 
@@ -176,6 +177,7 @@ void Dynamics2dWorld::Place(int number, const PlanePose& pose)
   const bool is_half_turn = std::abs(static_cast<double>(kHalfTurn) - std::abs(other)) < 1e-12;
   SetPosition(bodies_[Index(number)], pose.u * kUnitsPerMetre, pose.v * kUnitsPerMetre,
               static_cast<float>(is_half_turn ? other : pose.heading));
+  OrderChange(bodies_[Index(number)], EGroupOrder::kPlace);
   for (Body& body : bodies_)
     if (body.gripped == number || (body.gripped != kNoBody && &body == &bodies_[Index(number)])) CountTurns(body);
 }
@@ -194,20 +196,26 @@ void Dynamics2dWorld::SetVelocity(int number, const PlaneVelocity& velocity)
   body.start.vx = linear.x;
   body.start.vy = linear.y;
   body.start.turn = turn;
+  OrderChange(body, EGroupOrder::kSetVelocity);
 }
 
 void Dynamics2dWorld::SetOutline(int number, const std::vector<Vector2>& polygon, double tolerance)
 {
   Body& body = bodies_[Index(number)];
-  std::vector<Vector2>& outline = body.model.polygon;
+  const std::vector<Vector2>& outline = body.model.polygon;
   const auto same = [=](const Vector2& a, const Vector2& b) { return (a - b).squaredNorm() <= tolerance * tolerance; };
   if (std::equal(outline.begin(), outline.end(), polygon.begin(), polygon.end(), same)) return;
-  outline = polygon;
-  isolation_is_configured_ = false;
-  if (body.b2 == nullptr) return;
+  SetPolygon(body, polygon);
+  separation_is_configured_ = false;
+}
+
+void Dynamics2dWorld::SetPolygon(Body& body, const std::vector<Vector2>& polygon)
+{
+  body.model.polygon = polygon;
+  if (OrderChange(body, EGroupOrder::kSetOutline) || body.b2 == nullptr) return;
   body.b2->DestroyFixture(body.b2->GetFixtureList());
-  const b2PolygonShape shape = ShapeOf(outline);
-  b2FixtureDef fixture = FixtureOf(body);
+  const b2PolygonShape shape = ShapeOf(polygon);
+  b2FixtureDef fixture = FixtureOf(static_cast<std::uint32_t>(&body - bodies_.data()));
   fixture.shape = &shape;
   body.b2->CreateFixture(&fixture);
 }
@@ -218,13 +226,23 @@ void Dynamics2dWorld::SetSolid(int number, bool solid)
   if (body.solid == solid) return;
   body.solid = solid;
   if (body.b2 != nullptr) body.b2->SetEnabled(solid);
+  OrderChange(body, EGroupOrder::kSetSolid);
 }
 
 int Dynamics2dWorld::ContactCount() const
 {
   int count = 0;
-  for (const b2Contact* contact = world_->GetContactList(); contact != nullptr; contact = contact->GetNext())
-    count += contact->IsTouching() ? 1 : 0;
+  for (const std::uint32_t number : world_of_group_)
+  {
+    const GroupWorld& world = *worlds_[number];
+    if (world.remote)
+    {
+      count += world.remote->contacts;
+      continue;
+    }
+    for (const b2Contact* contact = world.box2d->GetContactList(); contact != nullptr; contact = contact->GetNext())
+      count += contact->IsTouching() ? 1 : 0;
+  }
   return count;
 }
 
@@ -265,24 +283,57 @@ void Dynamics2dWorld::WrapAngles()
   for (Body& body : bodies_) body.start.angle = wrap(body.start.angle);
 }
 
+void Dynamics2dWorld::PutMotion(const Body& body, ByteWriter& state)
+{
+  state.Put(StateOf(body));
+  state.Put(body.remainder_x);
+  state.Put(body.remainder_y);
+  state.Put(static_cast<std::uint8_t>(body.solid ? 1 : 0));
+  if (!body.model.has_gripper) return;
+  state.Put(body.turret_angle);
+  state.Put(static_cast<std::uint8_t>(body.held_angle ? 1 : 0));
+  if (body.held_angle) state.Put(*body.held_angle);
+}
+
+void Dynamics2dWorld::GetMotion(Body& body, ByteReader& state)
+{
+  body.start = state.Get<BodyState>();
+  body.remainder_x = state.Get<double>();
+  body.remainder_y = state.Get<double>();
+  body.solid = state.Get<std::uint8_t>() != 0;
+  if (!body.model.has_gripper) return;
+  body.turret_angle = state.Get<double>();
+  const bool held = state.Get<std::uint8_t>() != 0;
+  body.held_angle = held ? std::optional(state.Get<double>()) : std::nullopt;
+}
+
+void Dynamics2dWorld::PutGrip(const Body& body, ByteWriter& state)
+{
+  state.Put(static_cast<std::int32_t>(body.gripped));
+  if (body.gripped == kNoBody) return;
+  state.Put(body.grip.anchor.x);
+  state.Put(body.grip.anchor.y);
+  state.Put(body.grip.reference_angle);
+}
+
+void Dynamics2dWorld::GetGrip(Body& body, ByteReader& state)
+{
+  body.gripped = state.Get<std::int32_t>();
+  body.grip = {};
+  if (body.gripped == kNoBody) return;
+  body.grip.anchor.x = state.Get<float>();
+  body.grip.anchor.y = state.Get<float>();
+  body.grip.reference_angle = state.Get<float>();
+}
+
 void Dynamics2dWorld::SaveState(ByteWriter& state) const
 {
   state.Put(static_cast<std::uint64_t>(bodies_.size()));
   for (const Body& body : bodies_)
   {
     if (body.model.motion == EMotion::kStatic) continue;
-    state.Put(StateOf(body));
-    state.Put(body.remainder_x);
-    state.Put(body.remainder_y);
-    state.Put(static_cast<std::uint8_t>(body.solid ? 1 : 0));
-    if (!body.model.has_gripper) continue;
-    state.Put(body.turret_angle);
-    state.Put(static_cast<std::uint8_t>(body.held_angle ? 1 : 0));
-    if (body.held_angle) state.Put(*body.held_angle);
-    state.Put(static_cast<std::int32_t>(body.gripped));
-    state.Put(body.grip.anchor.x);
-    state.Put(body.grip.anchor.y);
-    state.Put(body.grip.reference_angle);
+    PutMotion(body, state);
+    PutGrip(body, state);
   }
 }
 
@@ -293,20 +344,11 @@ void Dynamics2dWorld::LoadState(ByteReader& state)
   for (Body& body : bodies_)
   {
     if (body.model.motion == EMotion::kStatic) continue;
-    body.start = state.Get<BodyState>();
-    body.remainder_x = state.Get<double>();
-    body.remainder_y = state.Get<double>();
-    body.solid = state.Get<std::uint8_t>() != 0;
-    if (!body.model.has_gripper) continue;
-    body.turret_angle = state.Get<double>();
-    const bool held = state.Get<std::uint8_t>() != 0;
-    body.held_angle = held ? std::optional(state.Get<double>()) : std::nullopt;
-    body.gripped = state.Get<std::int32_t>();
-    if (body.gripped < kNoBody || body.gripped >= static_cast<int>(bodies_.size()))
-      throw std::runtime_error("saved state of dynamics2d: a gripper holds a body that does not exist");
-    body.grip.anchor.x = state.Get<float>();
-    body.grip.anchor.y = state.Get<float>();
-    body.grip.reference_angle = state.Get<float>();
+    GetMotion(body, state);
+    GetGrip(body, state);
+    if (body.gripped != kNoBody && (body.gripped < 0 || body.gripped >= static_cast<int>(bodies_.size()) ||
+                                    bodies_[Index(body.gripped)].model.motion != EMotion::kDynamic))
+      throw std::runtime_error("saved state of dynamics2d: a robot holds a body that it cannot hold");
   }
   Build();
 }

@@ -4,6 +4,8 @@
 
 #include "engine_worker/engines/dynamics3d/cylinder_contacts.h"
 #include "engine_worker/engines/dynamics3d/hull_contacts.h"
+#include "engine_worker/engines/dynamics3d/plane_contacts.h"
+#include "engine_worker/engines/dynamics3d/upright_contacts.h"
 
 namespace swarmanoid::dynamics3d
 {
@@ -21,17 +23,19 @@ int Flipped(std::span<dContactGeom> contacts, int count)
   return count;
 }
 
-// -1: a pair that ODE does.
-int CollideByUs(dGeomID a, dGeomID b, std::span<dContactGeom> contacts)
+// Returns the number of contacts, or -1 for a pair that ODE handles.
+int CollideByUs(dGeomID a, dGeomID b, const Vector3& way, std::span<dContactGeom> contacts)
 {
+  if (const int count = CollideUprightPrisms(a, b, way, contacts); count >= 0) return count;
   const int class_a = dGeomGetClass(a);
   const int class_b = dGeomGetClass(b);
-  if (class_a == dCylinderClass && class_b == dCylinderClass) return CollideParallelCylinders(a, b, contacts);
-  if (class_a == dPlaneClass && class_b == dCylinderClass)
-    return Flipped(contacts, CollideCylinderWithPlane(b, a, contacts));
-  if (class_a == dCylinderClass && class_b == dPlaneClass) return CollideCylinderWithPlane(a, b, contacts);
-  if (class_a == dConvexClass && HullMeets(class_b)) return CollideHull(a, b, contacts);
-  if (class_b == dConvexClass && HullMeets(class_a)) return Flipped(contacts, CollideHull(b, a, contacts));
+  if (class_a == dCylinderClass && class_b == dCylinderClass) return CollideParallelCylinders(a, b, way, contacts);
+  if (class_b == dPlaneClass && class_a == dBoxClass) return CollideBoxWithPlane(a, b, way, contacts);
+  if (class_b == dPlaneClass && class_a == dCylinderClass) return CollideCylinderWithPlane(a, b, way, contacts);
+  if (class_a == dPlaneClass && (class_b == dBoxClass || class_b == dCylinderClass))
+    return Flipped(contacts, CollideByUs(b, a, -way, contacts));
+  if (class_a == dConvexClass && HullMeets(class_b)) return CollideHull(a, b, way, contacts);
+  if (class_b == dConvexClass && HullMeets(class_a)) return Flipped(contacts, CollideHull(b, a, -way, contacts));
   return -1;
 }
 
@@ -57,9 +61,9 @@ dGeomID HullShape::MakeGeom() const
                        static_cast<unsigned>(hull_.corners.size()), faces_.data());
 }
 
-int Collide(dGeomID first, dGeomID second, std::span<dContactGeom> contacts)
+int Collide(dGeomID first, dGeomID second, std::span<dContactGeom> contacts, const Vector3& way)
 {
-  const int count = CollideByUs(first, second, contacts);
+  const int count = CollideByUs(first, second, way, contacts);
   if (count >= 0) return count;
   return dCollide(first, second, static_cast<int>(contacts.size()), contacts.data(), sizeof(dContactGeom));
 }

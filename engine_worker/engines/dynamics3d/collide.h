@@ -1,5 +1,6 @@
 // Collide: the contacts of two geoms. ODE's dCollide finds most of them. Our own code handles the pairs that must rest
-// on several points at once: convex hulls with all but terrain, parallel cylinders, cylinders on planes.
+// on several points at once: convex hulls with all but terrain, boxes and cylinders side by side or on planes,
+// parallel cylinders.
 #pragma once
 
 #include <ode/ode.h>
@@ -33,7 +34,25 @@ private:
   std::vector<unsigned> faces_;
 };
 
+// Returns a contact of two geoms. `normal` points into the first one. `depth` in m.
+inline dContactGeom ContactAt(const Vector3& point, const Vector3& normal, double depth, dGeomID first, dGeomID second)
+{
+  dContactGeom contact{};
+  for (int k = 0; k < 3; ++k)
+  {
+    contact.pos[k] = point[k];
+    contact.normal[k] = normal[k];
+  }
+  contact.depth = depth;
+  contact.g1 = first;
+  contact.g2 = second;
+  contact.side1 = contact.side2 = -1;
+  return contact;
+}
+
 // Works as dCollide: returns the number of contacts, at most the size of `contacts`. Normals point into the first geom.
-int Collide(dGeomID first, dGeomID second, std::span<dContactGeom> contacts);
+// `way` is how far (m) the first geom moves against the second one within the step. Bodies that touch also get those
+// points of their contact that do not touch yet, with a depth of 0 or less, if the gap there is narrower (PatchGap).
+int Collide(dGeomID first, dGeomID second, std::span<dContactGeom> contacts, const Vector3& way = Vector3::Zero());
 
 }  // namespace swarmanoid::dynamics3d

@@ -4,8 +4,9 @@
 // The closed form of their drive (differential_drive.h) moves them. A body that may meet others is compared with these
 // in each step, and becomes solved when a gap gets small.
 //
-// Invariant: the set follows from the bodies at the start of the tick alone. If a solved body goes farther than the
-// search allowed for, the search is repeated.
+// Invariants: the set follows from the bodies at the start of the tick alone. If a solved body goes farther than the
+// search allowed for, the search is repeated; then a body never ceases to be near others, so that no bit of its motion
+// depends on a search that bodies elsewhere made necessary.
 #include "engine_worker/engines/dynamics3d/contact_free_set.h"
 
 #include <algorithm>
@@ -151,17 +152,8 @@ std::vector<StaticOutline> ContactFreeSet::StaticOutlines() const
 void ContactFreeSet::Configure()
 {
   solids_ = scene_.world.Solids().size();
-  has_level_ground_ = HasLevelGround();
-  if (!has_level_ground_)
-  {
-    solved_.clear();
-    for (const Body& body : bodies_)
-    {
-      if (body.owned) solved_.push_back(body.model);
-      if (body.robot != nullptr) body.robot->BecomeSolved();
-    }
-    return;
-  }
+  has_level_ground_ = !solve_all_ && HasLevelGround();
+  if (!has_level_ground_) return;
   outlines_.assign(bodies_.size(), {});
   for (std::size_t k = 0; k < bodies_.size(); ++k)
   {
@@ -176,45 +168,61 @@ void ContactFreeSet::Configure()
 void ContactFreeSet::BeginTick()
 {
   if (solids_ != scene_.world.Solids().size()) Configure();
-  if (!has_level_ground_) return;
-  step_ = 0;
   is_searched_ = false;
+  pairs_.clear();
+  if (!has_level_ground_) return;
   has_links_.assign(scene_.models.size(), 0);
   scene_.links.Mark(has_links_);
   for (Body& body : bodies_)
   {
     body.advanced = 0;
-    body.may_be_free = body.robot != nullptr && body.owned && has_links_[body.model->Entity()] == 0;
+    body.is_near = false;
+    body.may_be_free =
+        body.robot != nullptr && body.owned && !body.IsLeftOut() && has_links_[body.model->Entity()] == 0;
   }
-  Search();
+  Search(0);
 }
 
-void ContactFreeSet::Search()
+void ContactFreeSet::SearchAgain(int step)
 {
-  const double seconds = (steps_ - step_) * step_seconds_;
+  if (!is_searched_) return;
+  Search(step);
+  for (Body& body : bodies_)
+    if (body.IsFree() && (body.is_near || !is_searched_)) AdvanceTo(body, step);
+}
+
+void ContactFreeSet::Search(int step)
+{
   bool are_within = true;
   for (std::size_t k = 0; k < bodies_.size(); ++k)
   {
-    Outline(bodies_[k], seconds, outlines_[k]);
-    if (bodies_[k].robot == nullptr)
+    const int done = bodies_[k].IsFree() ? bodies_[k].advanced : step;
+    Outline(bodies_[k], (steps_ - done) * step_seconds_, outlines_[k]);
+    if (bodies_[k].robot == nullptr && !bodies_[k].IsLeftOut())
     {
       const MovingCircle& whole = outlines_[k].whole;
       are_within = are_within && FarthestCorner(BoxOf(bodies_[k]), whole.x, whole.y) <= whole.radius;
     }
   }
   is_searched_ = are_within && isolation_.Find(outlines_, kPushed + kTouch, nearness_, &pairs_);
-  if (!is_searched_) return;
+  if (!is_searched_) return pairs_.clear();
   const auto may_be_free = [&](std::uint32_t number) { return number < bodies_.size() && bodies_[number].may_be_free; };
   std::erase_if(pairs_,
                 [&](const kinematics2d::Pair& pair) { return !may_be_free(pair.first) && !may_be_free(pair.second); });
-  for (std::size_t k = 0; k < bodies_.size(); ++k) bodies_[k].is_near = nearness_[k] == Nearness::kNear;
+  for (std::size_t k = 0; k < bodies_.size(); ++k)
+    bodies_[k].is_near = bodies_[k].is_near || nearness_[k] == Nearness::kNear;
 }
 
 // Sets the outline of a body at its position, and how far the body can move by itself within `seconds`.
 void ContactFreeSet::Outline(const Body& body, double seconds, MovingOutline& outline)
 {
-  outline.present = true;
+  outline.present = !body.IsLeftOut();
   outline.part_count = 0;
+  if (!outline.present)
+  {
+    outline.whole = {0, 0, body.radius, 0};
+    return;
+  }
   if (body.robot != nullptr && body.robot->IsUpright())
   {
     const Vector2 place = body.robot->GroundPoint();
@@ -232,12 +240,15 @@ void ContactFreeSet::Outline(const Body& body, double seconds, MovingOutline& ou
   outline.present = box[4] - falls < top_ + kPushed;
 }
 
-// Returns true if a solved body has left, or leaves in the next step, the area that the search assumed for it.
-bool ContactFreeSet::IsSomebodyTooFar() const
+bool ContactFreeSet::IsAnyTooFar(std::span<const std::uint32_t> bodies) const
 {
-  for (std::size_t k = 0; k < bodies_.size(); ++k)
-    if (!bodies_[k].IsFree() && IsTooFar(bodies_[k], outlines_[k])) return true;
-  return false;
+  return is_searched_ && std::ranges::any_of(bodies,
+                                             [&](std::uint32_t k)
+                                             {
+                                               const Body& body = bodies_[k];
+                                               return !body.IsFree() && !body.IsLeftOut() &&
+                                                      IsTooFar(body, outlines_[k]);
+                                             });
 }
 
 bool ContactFreeSet::IsTooFar(const Body& body, const MovingOutline& outline) const
@@ -272,10 +283,10 @@ double ContactFreeSet::GapBetween(const Body& robot, std::uint32_t other) const
   return gap + DistanceTo(BoxOf(body), place);
 }
 
-void ContactFreeSet::FindTouching()
+void ContactFreeSet::FindTouching(std::span<const std::uint32_t> bodies, std::span<const kinematics2d::Pair> pairs)
 {
-  for (Body& body : bodies_) body.touches = false;
-  for (const kinematics2d::Pair& pair : pairs_)
+  for (const std::uint32_t body : bodies) bodies_[body].touches = false;
+  for (const kinematics2d::Pair& pair : pairs)
   {
     Body* first = &bodies_[pair.first];
     std::uint32_t other = pair.second;
@@ -292,41 +303,38 @@ void ContactFreeSet::FindTouching()
   }
 }
 
-std::span<Model* const> ContactFreeSet::BeforeStep()
+bool ContactFreeSet::BeforeStep(std::span<const std::uint32_t> bodies, std::span<const kinematics2d::Pair> pairs,
+                                int step, std::vector<Model*>& solved)
 {
-  if (!has_level_ground_) return solved_;
-  if (is_searched_ && step_ > 0 && IsSomebodyTooFar())
+  solved.clear();
+  if (is_searched_) FindTouching(bodies, pairs);
+  bool is_any_left = false;
+  for (const std::uint32_t k : bodies)
   {
-    for (Body& body : bodies_)
-      if (body.IsFree()) AdvanceTo(body, step_);
-    Search();
+    Body& body = bodies_[k];
+    if (!body.owned || body.IsLeftOut()) continue;
+    if (body.robot != nullptr) Decide(body, step);
+    if (!body.IsFree()) solved.push_back(body.model);
+    is_any_left = is_any_left || !body.IsFree() || body.is_near;
   }
-  if (is_searched_) FindTouching();
-  solved_.clear();
-  for (Body& body : bodies_)
-  {
-    if (!body.owned) continue;
-    if (body.robot != nullptr) Decide(body);
-    if (!body.IsFree()) solved_.push_back(body.model);
-  }
-  return solved_;
+  return is_any_left;
 }
 
-void ContactFreeSet::Decide(Body& body)
+void ContactFreeSet::Decide(Body& body, int step)
 {
   WheeledModel& robot = *body.robot;
   const bool may_be_free = is_searched_ && body.may_be_free && !(body.is_near && body.touches);
   if (robot.IsFree())
   {
     if (may_be_free) return;
-    AdvanceTo(body, step_);
+    AdvanceTo(body, step);
     robot.MoveBodies();
     robot.BecomeSolved();
   }
   else if (may_be_free && robot.RollsFreely())
   {
     robot.BecomeFree();
-    body.advanced = step_;
+    body.advanced = step;
   }
   else
     robot.BecomeSolved();
@@ -339,22 +347,18 @@ void ContactFreeSet::AdvanceTo(Body& body, int step) const
 }
 
 // Robots near others advance step by step. All other free robots do their steps at once, in EndTick.
-void ContactFreeSet::AfterStep()
+void ContactFreeSet::AfterStep(std::span<const std::uint32_t> bodies, int step)
 {
-  ++step_;
-  if (!has_level_ground_) return;
-  for (Body& body : bodies_)
-    if (body.is_near && body.IsFree()) AdvanceTo(body, step_);
+  for (const std::uint32_t k : bodies)
+    if (Body& body = bodies_[k]; body.is_near && body.IsFree()) AdvanceTo(body, step + 1);
 }
 
-void ContactFreeSet::EndTick()
+void ContactFreeSet::EndTick(std::uint32_t number)
 {
-  for (Body& body : bodies_)
-  {
-    if (!body.IsFree()) continue;
-    AdvanceTo(body, steps_);
-    body.robot->MoveBodies();
-  }
+  Body& body = bodies_[number];
+  if (!body.IsFree()) return;
+  AdvanceTo(body, steps_);
+  body.robot->MoveBodies();
 }
 
 std::size_t ContactFreeSet::Count() const

@@ -1,7 +1,8 @@
 // ContactFreeSet: the robots on wheels that touch only level ground, so that a closed form moves them instead of the
 // solver. Once a tick it finds the robots that cannot meet another body before the tick ends. The other robots are
 // compared with bodies near them in each step. The result follows from the bodies at the start of the tick. Owned by
-// the engine.
+// SolverGroups. Bodies are numbered as assemblies (ode_world.h). Several threads may call BeforeStep, AfterStep and
+// IsAnyTooFar for different bodies.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 #include <vector>
 
 #include "engine_worker/engines/dynamics3d/wheeled.h"
-#include "engine_worker/engines/separation_test.h"
+#include "engine_worker/engines/rigid_bodies/separation_test.h"
 
 namespace swarmanoid::dynamics3d
 {
@@ -17,22 +18,38 @@ namespace swarmanoid::dynamics3d
 class ContactFreeSet
 {
 public:
-  ContactFreeSet(Scene& scene, int steps, double step_seconds)
-      : scene_(scene), steps_(steps), step_seconds_(step_seconds)
+  // `solve_all`: no robot is free.
+  ContactFreeSet(Scene& scene, int steps, double step_seconds, bool solve_all)
+      : scene_(scene), steps_(steps), step_seconds_(step_seconds), solve_all_(solve_all)
   {
   }
 
   // Adds an area without ground.
   void AddHole(StaticOutline outline) { holes_.push_back(std::move(outline)); }
-  // Adds a model before it is placed, since nothing may depend on its position.
-  void AddOwned(Model& model) { Add(model, true); }
-  void AddMirror(Model& model) { Add(model, false); }
+
+  // Adds the next model before it is placed, since nothing may depend on its position.
+  void Add(Model& model, bool owned);
+
+  // Some models are left out now, or no longer.
+  void ConfigureAgain() { solids_ = 0; }
 
   void BeginTick();
-  // The models that the next step of the solver moves.
-  std::span<Model* const> BeforeStep();
-  void AfterStep();
-  void EndTick();
+  // Searches again before a step.
+  void SearchAgain(int step);
+  // Returns whether a body can meet nothing but level ground in the rest of the tick.
+  bool IsFar(std::uint32_t body) const { return is_searched_ && bodies_[body].may_be_free && !bodies_[body].is_near; }
+  // Bodies, of which one may be free, that are compared with each other in each step; or a body and a static outline.
+  std::span<const kinematics2d::Pair> NearPairs() const { return pairs_; }
+
+  // Decides which of the bodies the solver moves in a step, and adds their models to `solved`. `pairs` are the near
+  // pairs of these bodies. Returns false if the answer is "none" in all steps that are left.
+  bool BeforeStep(std::span<const std::uint32_t> bodies, std::span<const kinematics2d::Pair> pairs, int step,
+                  std::vector<Model*>& solved);
+  void AfterStep(std::span<const std::uint32_t> bodies, int step);
+  // Returns true if a solved body has left, or leaves in the next step, the area that the search assumed for it.
+  bool IsAnyTooFar(std::span<const std::uint32_t> bodies) const;
+  // Ends the tick of one body.
+  void EndTick(std::uint32_t body);
 
   // Returns the number of free robots in the last step.
   std::size_t Count() const;
@@ -49,31 +66,30 @@ private:
     bool touches = false;      // or nearly
     int advanced = 0;          // steps of this tick that the closed form has done
 
+    bool IsLeftOut() const { return model->IsLeftOut(); }
     bool IsFree() const { return robot != nullptr && robot->IsFree(); }
   };
 
-  void Add(Model& model, bool owned);
   void Configure();
   bool HasLevelGround() const;
   std::vector<StaticOutline> StaticOutlines() const;
   std::array<double, 6> BoxOf(const Body& body) const { return scene_.world.BoxOf(body.model->MainBody()); }
   dBodyID MainBodyOf(const Body& body) const { return scene_.world.Body(body.model->MainBody()); }
-  void Search();
+  void Search(int step);
   void Outline(const Body& body, double seconds, MovingOutline& outline);
-  bool IsSomebodyTooFar() const;
   bool IsTooFar(const Body& body, const MovingOutline& outline) const;
-  void FindTouching();
+  void FindTouching(std::span<const std::uint32_t> bodies, std::span<const kinematics2d::Pair> pairs);
   double GapBetween(const Body& robot, std::uint32_t other) const;
   double LargestStep(const Body& body) const;
-  void Decide(Body& body);
+  void Decide(Body& body, int step);
   void AdvanceTo(Body& body, int step) const;
 
   Scene& scene_;
   int steps_;
   double step_seconds_;
+  bool solve_all_;
   std::vector<StaticOutline> holes_;
   std::vector<Body> bodies_;
-  std::vector<Model*> solved_;
   double top_ = 0;  // m, of the highest robot on wheels that stands on the ground
 
   std::size_t solids_ = 0;  // that Configure saw
@@ -84,7 +100,6 @@ private:
   std::vector<kinematics2d::Pair> pairs_;  // of which one is a robot on wheels
   std::vector<std::uint8_t> has_links_;    // by entity
   bool is_searched_ = false;               // false: all are solved until the tick ends
-  int step_ = 0;                           // of the tick
 };
 
 }  // namespace swarmanoid::dynamics3d

@@ -1,3 +1,13 @@
+// Problem: move a robot on two wheels on level ground as the solver would, without a solver.
+//
+// Method: with wheel rates r, the robot's speed is R (r_left + r_right) / 2 and its turn R (r_right - r_left) / (2 h),
+// for wheels of radius R at h left and right. The kinetic energy in these rates gives the torque on a wheel for its own
+// acceleration (own_) and for the other's (other_). If both motors can bring their wheels to the commands within the
+// step, they do. Otherwise both torques are found by clamping them in turn, a projected Gauss-Seidel of two unknowns.
+// The robot then follows the arc of a circle exactly.
+//
+// Invariant: steady wheels do all their steps in one, since the arc is exact for any time. Source: docs/engines.md,
+// "Robots that touch nothing".
 #include "engine_worker/engines/dynamics3d/differential_drive.h"
 
 #include <algorithm>

@@ -8,7 +8,7 @@
 namespace swarmanoid::dynamics3d
 {
 
-// Metres, kilograms, radians; left, right.
+// Properties of the robot in metres, kilograms and radians. Arrays have the left wheel first.
 struct DriveDescription
 {
   double mass = 0;           // of the robot with its wheels

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "common/space/space.h"
 #include "engine_worker/engines/dynamics3d/eyebot.h"
 #include "engine_worker/engines/dynamics3d/footbot.h"
 #include "engine_worker/engines/dynamics3d/handbot.h"
 #include "engine_worker/engines/dynamics3d/wheeled.h"
+#include "engine_worker/volume_members.h"
 
 namespace swarmanoid
 {
@@ -43,7 +45,12 @@ void CDynamics3dEngine::Init(const EngineSetup& setup)
                                          .models = {}});
   scene_->models.assign(space_->Size(), nullptr);
 
-  if (!settings_.solve_all) free_robots_ = std::make_unique<ContactFreeSet>(*scene_, steps_, step_seconds_);
+  groups_ = std::make_unique<SolverGroups>(*scene_, steps_, step_seconds_, settings_.solve_all);
+  const auto threads = static_cast<unsigned>(setup.parameters.Integer("threads"));
+  if (threads == 0)
+    groups_->UseThreads(setup.threads, setup.pool);
+  else
+    groups_->UseThreads(threads, nullptr);
 
   AddGround();
   if (settings_.arena_walls) AddArenaWalls();
@@ -117,14 +124,14 @@ void CDynamics3dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding
   {
     auto mirror = std::make_unique<MirrorModel>(*scene_, entity);
     mirrors_.push_back(mirror.get());
-    if (free_robots_) free_robots_->AddMirror(*mirror);
+    groups_->Add(*mirror, false);
     models_.push_back(std::move(mirror));
   }
   else
   {
     models_.push_back(MakeModel(entity));
     owned_.push_back(models_.back().get());
-    if (free_robots_) free_robots_->AddOwned(*owned_.back());
+    groups_->Add(*owned_.back(), true);
     owned_.back()->Place(scene_->frame.ToLocal(entity.GetPose()));
   }
   scene_->models[entity.GetIndex()] = models_.back().get();
@@ -141,31 +148,95 @@ void CDynamics3dEngine::AddTerrain(const CSwarmanoidSpaceEntity& entity)
     terrains_.push_back(AddHeightfield(*world_, index, heights, pose));
 }
 
-void CDynamics3dEngine::Start() { AddHoles(); }
+void CDynamics3dEngine::Start()
+{
+  AddHoles();
+  for (const std::uint32_t entity : layout_->changing) MirrorOf(entity).SetLeftOut(true);
+  FindActive();
+}
+
+MirrorModel& CDynamics3dEngine::MirrorOf(std::uint32_t entity)
+{
+  return **std::ranges::lower_bound(mirrors_, entity, {}, &Model::Entity);
+}
+
+void CDynamics3dEngine::FindActive()
+{
+  active_.clear();
+  std::ranges::copy_if(owned_, std::back_inserter(active_), [](const Model* model) { return !model->IsLeftOut(); });
+  groups_->FreeRobots().ConfigureAgain();
+}
+
+void CDynamics3dEngine::TakeOver(std::uint32_t entity, const EntityVelocity& velocity)
+{
+  std::erase(elsewhere_, entity);
+  MirrorOf(entity).SetLeftOut(true);
+  Model& model = *scene_->models[entity];
+  model.SetElsewhere(false);
+  model.TakeOver(scene_->frame.ToLocal(space_->GetPose(entity)),
+                 {scene_->frame.VectorToLocal(velocity.linear), scene_->frame.VectorToLocal(velocity.angular)});
+  FindActive();
+}
+
+void CDynamics3dEngine::HandOver(std::uint32_t entity)
+{
+  links_->RemoveIf(entity, [](const LinkSpec&) { return true; });
+  if (!std::ranges::binary_search(elsewhere_, entity))
+    elsewhere_.insert(std::ranges::upper_bound(elsewhere_, entity), entity);
+  Model& model = *scene_->models[entity];
+  model.SetElsewhere(true);
+  Park(model);
+  MirrorOf(entity).SetLeftOut(false);
+  FindActive();
+}
+
+// The model waits far away, where no gripper finds it.
+void CDynamics3dEngine::Park(Model& model)
+{
+  const std::uint32_t entity = model.Entity();
+  model.Place(scene_->frame.ToLocal(WaitingPose(space_->GetExperiment().entities[entity], entity)));
+  model.SetLeftOut(true);
+}
+
+// Entities of other engines are ghosts near the volume, and mirrors elsewhere. The mirrors know their velocities.
+void CDynamics3dEngine::FollowElsewhere()
+{
+  bool changed = false;
+  for (const std::uint32_t entity : elsewhere_)
+  {
+    Model& model = *scene_->models[entity];
+    MirrorModel& mirror = MirrorOf(entity);
+    const bool is_ghost = IsGhost(*space_, configuration_->volume, entity);
+    if (is_ghost == model.IsLeftOut())
+    {
+      changed = true;
+      mirror.SetLeftOut(is_ghost);
+      if (!is_ghost) Park(model);
+    }
+    if (is_ghost) model.Haunt(scene_->frame.ToLocal(space_->GetPose(entity)), mirror.Velocity());
+  }
+  if (changed) FindActive();
+}
+
+std::optional<EntityVelocity> CDynamics3dEngine::VelocityOf(std::uint32_t entity) const
+{
+  const EntityVelocity velocity = scene_->models[entity]->Velocity();
+  return EntityVelocity{scene_->frame.VectorToSpace(velocity.linear), scene_->frame.VectorToSpace(velocity.angular)};
+}
 
 void CDynamics3dEngine::Update(const EngineCommands& commands, EngineUpdate& update, std::span<double> sensors)
 {
   for (MirrorModel* mirror : mirrors_) mirror->Follow();
+  FollowElsewhere();
   // Entities outside the arena may have no floor below them, so they are placed again and cannot fall.
-  for (Model* model : owned_)
+  for (Model* model : active_)
     if (const std::uint32_t entity = model->GetSpaceEntity().GetIndex(); !space_->IsPresent(entity))
       model->Place(scene_->frame.ToLocal(space_->GetPose(entity)));
   ApplyCommands(commands);
-  for (Model* model : owned_) model->BeginTick();
-  const std::uint64_t first_step = space_->GetTick() * static_cast<std::uint64_t>(steps_);
-  std::span<Model* const> solved = owned_;
-  if (free_robots_) free_robots_->BeginTick();
-  for (int step = 0; step < steps_; ++step)
-  {
-    if (free_robots_) solved = free_robots_->BeforeStep();
-    for (Model* model : solved) model->BeforeStep(step_seconds_);
-    world_->Step(step_seconds_, first_step + static_cast<std::uint64_t>(step));
-    for (Model* model : solved) model->AfterStep(step_seconds_);
-    if (free_robots_) free_robots_->AfterStep();
-  }
-  if (free_robots_) free_robots_->EndTick();
+  for (Model* model : active_) model->BeginTick();
+  groups_->Advance(space_->GetTick() * static_cast<std::uint64_t>(steps_));
   WritePoses(update.poses);
-  for (const Model* model : owned_)
+  for (const Model* model : active_)
   {
     AttributeReport report(model->GetSpaceEntity(), update.attributes);
     model->Report(report);
@@ -236,8 +307,8 @@ void CDynamics3dEngine::EntityMoved(std::uint32_t entity)
 
 std::string CDynamics3dEngine::StatusText() const
 {
-  return fmt::format("{} contacts, {} grips and ropes, {} objects at rest, {} free robots", world_->ContactCount(),
-                     links_->Size(), world_->SleeperCount(), FreeRobotCount());
+  return fmt::format("{} contacts, {} groups, {} grips and ropes, {} objects at rest, {} free robots",
+                     groups_->ContactCount(), GroupCount(), links_->Size(), world_->SleeperCount(), FreeRobotCount());
 }
 
 }  // namespace swarmanoid

@@ -40,7 +40,6 @@ void CDynamics3dEngine::LoadState(ByteReader& state)
 {
   if (state.Get<std::uint32_t>() != kDynamics3dVersion)
     throw std::runtime_error("saved state: it is of another version of dynamics3d");
-  // Links first: making their joints puts bodies where they were then.
   links_->Load(state);
   if (state.Get<std::uint64_t>() != world_->BodyCount())
     throw std::runtime_error("saved state: it is of another experiment");

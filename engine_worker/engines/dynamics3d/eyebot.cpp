@@ -1,3 +1,12 @@
+// Problem: hold a flying robot, which can push only along its own axis, at the place that its velocity commands ask
+// for.
+//
+// Method: a cascade of two loops. A reference goes ahead by the commanded velocities. The place loop asks for the
+// acceleration of a spring and a damper towards it. The attitude loop tilts the robot's axis towards that force by
+// torques, and turns it to the reference yaw. Thrust is the part of the force along the axis, never below 0.
+//
+// Invariants: the reference is at most kFurthestReference (m) ahead of the robot on each axis, so that a robot that was
+// held back does not jump. While the magnet holds the robot, neither thrust nor torque acts.
 #include "engine_worker/engines/dynamics3d/eyebot.h"
 
 #include <algorithm>

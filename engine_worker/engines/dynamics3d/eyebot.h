@@ -7,7 +7,8 @@
 namespace swarmanoid::dynamics3d
 {
 
-// Metres and kilograms. Ring, rod and legs: the ODE model of ARGoS 2, total mass 0.5 kg. Gains and limits are ours.
+// Lengths are in metres, masses in kilograms. Ring, rod, legs and the total mass of 0.5 kg are those of the ODE model
+// of ARGoS 2. Gains and limits are ours.
 struct EyebotShape
 {
   static constexpr double kRingRadius = 0.25;

@@ -1,6 +1,7 @@
 #include "engine_worker/engines/dynamics3d/footbot.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/math/elementary.h"
 
@@ -10,8 +11,11 @@ namespace
 {
 
 constexpr double kOpenAperture = kPi / 2;
-constexpr double kTurretGain = 40;   // 1/s: at few iterations a motor that is told to stand creeps under a load
-constexpr double kTurretLead = 0.1;  // rad: how far the target runs ahead of a turret that is held back
+constexpr double kTurretGain = 40;       // 1/s: at few iterations a motor that is told to stand creeps under a load
+constexpr double kTurretLead = 0.1;      // rad: how far the target runs ahead of a turret that is held back
+constexpr double kFastestTurret = 1000;  // rad/s, as in dynamics2d
+// A turret that catches up with its target goes at least this fast.
+constexpr double kCatchUp = kPi;  // rad/s
 constexpr GraspGeometry kGripper{0.02, FootbotShape::kTurretTorque, false};
 
 WheeledShape ShapeOf(const CSwarmanoidSpaceEntity& entity)
@@ -45,6 +49,12 @@ void FootbotModel::Place(const Pose& pose)
   velocity_at_start_.setZero();
 }
 
+void FootbotModel::FollowAttributes()
+{
+  turret_angle_ = turret_target_ = GetSpaceEntity().GetAttribute("turret_angle");
+  aperture_ = GetSpaceEntity().GetAttribute("gripper_aperture");
+}
+
 void FootbotModel::Command(std::string_view channel, std::span<const double> values)
 {
   if (channel == "footbot_gripper")
@@ -53,7 +63,7 @@ void FootbotModel::Command(std::string_view channel, std::span<const double> val
     aperture_ = (1 - std::clamp(values[0], 0.0, 1.0)) * kOpenAperture;
   }
   else if (channel == "footbot_turret")
-    turret_command_ = std::clamp(values[0], -FootbotShape::kMaximumTurretSpeed, FootbotShape::kMaximumTurretSpeed);
+    turret_command_ = std::clamp(values[0], -kFastestTurret, kFastestTurret);
   else
     WheeledModel::Command(channel, values);
 }
@@ -79,7 +89,7 @@ void FootbotModel::UpdateGripper()
   const SinCos turret = SinCosOf(turret_angle_);
   const double height = FootbotShape::kGripperHeight - FootbotShape::kCentreOfMass;
   gripper_.TryToHold(Entity(), bodies_[0].number,
-                     chassis.Apply({turret.cos * FootbotShape::kRadius, turret.sin * FootbotShape::kRadius, height}),
+                     chassis.Apply({turret.cos * GripperSquare::kReach, turret.sin * GripperSquare::kReach, height}),
                      chassis.Apply({0, 0, height}), chassis.orientation * Vector3::UnitZ(), nullptr);
   turret_target_ = turret_angle_;
 }
@@ -92,7 +102,8 @@ void FootbotModel::BeforeStep(double seconds)
   turret_target_ =
       std::clamp(turret_target_ + turret_command_ * seconds, turret_angle_ - kTurretLead, turret_angle_ + kTurretLead);
   const double speed = turret_command_ + kTurretGain * (turret_target_ - turret_angle_);
-  link->SetMotorSpeed(std::clamp(speed, -FootbotShape::kMaximumTurretSpeed, FootbotShape::kMaximumTurretSpeed));
+  const double fastest = std::max(kCatchUp, std::abs(turret_command_));
+  link->SetMotorSpeed(std::clamp(speed, -fastest, fastest));
 }
 
 void FootbotModel::AfterStep(double seconds)

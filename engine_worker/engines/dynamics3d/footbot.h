@@ -2,15 +2,16 @@
 // gripper, and its motor drives the joint of a gripped body.
 #pragma once
 
+#include "common/plugin_descriptions/robot_parts.h"
 #include "engine_worker/engines/dynamics3d/grasp.h"
 #include "engine_worker/engines/dynamics3d/wheeled.h"
 
 namespace swarmanoid::dynamics3d
 {
 
-// Metres and kilograms. Radius, height, wheels and the total mass of 1.6 kg are those of the ARGoS 3 model. The height
-// of the centre of mass (batteries low in the base), the share and inertia of the wheels, and the torques are our
-// assumptions.
+// Lengths are in metres, masses in kilograms. Radius, height, wheels and the total mass of 1.6 kg are those of the
+// ARGoS 3 model. The height of the centre of mass (batteries low in the base), the share and inertia of the wheels, and
+// the torques are our assumptions.
 struct FootbotShape
 {
   static constexpr double kRadius = 0.085036758;
@@ -28,7 +29,6 @@ struct FootbotShape
   static constexpr double kFreeSpeed = 0.6;     // m/s: twice the speed of the robot
   static constexpr double kTurretTorque = 1.5;  // N m
   static constexpr double kTractionRange = 25;  // N: the torque sensor reads 1 there, and at the turret's torque
-  static constexpr double kMaximumTurretSpeed = 3.14159265358979323846;  // rad/s
 };
 
 class FootbotModel : public WheeledModel
@@ -48,6 +48,7 @@ public:
 
 protected:
   void AfterFreeMotion(double seconds) override;
+  void FollowAttributes() override;
 
 private:
   void UpdateGripper();

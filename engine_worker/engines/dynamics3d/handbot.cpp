@@ -1,8 +1,20 @@
+// Problem: drive the handbot's head, arms, wrists, hands, rope and fans by commands of speed.
+//
+// Method: head and arms are hinges of ODE with a motor. Each has a target angle that goes ahead by the commanded rate;
+// the motor's speed is that rate and a gain times the distance to the target. Hands grip by a Grasp, whose joint the
+// wrist's motor turns. The rope is a distance between two anchors, enabled only while it is taut. Fans turn the hanging
+// robot back to its heading.
+//
+// Invariants: a target is at most kServoLead (rad) ahead of its arm, and the rope's length at most kWinchLead (m)
+// shorter than the distance of its ends. So parts that were held back do not jump.
 #include "engine_worker/engines/dynamics3d/handbot.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "common/math/elementary.h"
+#include "common/plugin_descriptions/engine_bodies.h"
 
 namespace swarmanoid::dynamics3d
 {
@@ -37,14 +49,14 @@ HandbotModel::HandbotModel(Scene& scene, const CSwarmanoidSpaceEntity& entity)
 
   AddBody(BoxMass(scale * HandbotShape::kTrunkMass,
                   {HandbotShape::kTrunkLength, HandbotShape::kTrunkWidth, HandbotShape::kHeight}),
-          At(0, 0, HandbotShape::kTrunkCentre));
+          At(0, 0, HandbotShape::kTrunkCentre), EBody::kMechanism);
   AddBody(Geared(BoxMass(scale * HandbotShape::kHeadMass, {0.06, 0.1, 0.06}), HandbotShape::kHeadInertia),
-          At(HandbotShape::kHeadForward, 0, HandbotShape::kHeadHeight));
+          At(HandbotShape::kHeadForward, 0, HandbotShape::kHeadHeight), EBody::kMechanism);
   const double arm_middle = HandbotShape::kHeadForward + HandbotShape::kArmLength / 2;
   for (const double side : {HandbotShape::kShoulder, -HandbotShape::kShoulder})
     AddBody(Geared(BoxMass(scale * HandbotShape::kArmMass, {HandbotShape::kArmLength, 0.03, 0.03}),
                    HandbotShape::kArmInertia),
-            At(arm_middle, side, HandbotShape::kHeadHeight));
+            At(arm_middle, side, HandbotShape::kHeadHeight), EBody::kMechanism);
 
   MakeServo(0, 0, 1, {HandbotShape::kHeadForward, 0, HandbotShape::kHeadHeight}, Vector3::UnitX(), 1, -kPi, kPi,
             scale * HandbotShape::kHeadTorque);
@@ -79,17 +91,59 @@ void HandbotModel::MakeServo(std::size_t k, int inner, int outer, const Vector3&
   servo.sign = sign;
   servo.lowest = lowest;
   servo.highest = highest;
-  servo.joint = dJointCreateHinge(scene_.world.World(), nullptr);
-  dJointAttach(servo.joint, BodyAt(outer), BodyAt(inner));
-  dJointSetHingeAnchor(servo.joint, anchor.x(), anchor.y(), anchor.z());
-  dJointSetHingeAxis(servo.joint, axis.x(), axis.y(), axis.z());
-  dJointSetHingeParam(servo.joint, dParamFMax, torque);
+  const auto number = [&](int body) { return bodies_[static_cast<std::size_t>(body)].number; };
+  servo.hinge = scene_.world.AddHinge(number(outer), number(inner), anchor, axis, torque);
 }
 
+// Head and arms keep their angles, as in the engines of planes.
 void HandbotModel::Place(const Pose& pose)
 {
+  std::array<double, 3> angles;
+  for (std::size_t k = 0; k < angles.size(); ++k)
+  {
+    const double angle = AngleOf(servos_[k]);
+    angles[k] = std::abs(angle) < kReported ? 0 : angle;
+    servos_[k].target = angles[k];
+  }
   Model::Place(pose);
-  for (Servo& servo : servos_) servo.target = 0;
+  if (angles == std::array<double, 3>{}) return;
+  const auto put = [&](int body, const Pose& in_entity) { SetRawPose(BodyAt(body), RawOf(pose.Compose(in_entity))); };
+  put(1, {bodies_[1].in_entity.position, QuaternionFromEuler({angles[0], 0, 0})});
+  for (std::size_t arm = 0; arm < 2; ++arm)
+    put(static_cast<int>(arm) + 2,
+        HandbotShoulder(arm, angles[0], angles[1 + arm]).Compose(At(HandbotShape::kArmLength / 2, 0, 0)));
+}
+
+// The head turns about its axis and carries the arms, which turn at their shoulders.
+void HandbotModel::FollowAttributes()
+{
+  const CSwarmanoidSpaceEntity& entity = GetSpaceEntity();
+  const Pose pose = CurrentPose();
+  const auto turn = [](const Vector3& anchor, const Vector3& half_axis, double half_cosine) -> Pose
+  {
+    const Quaternion rotation(half_cosine, half_axis.x(), half_axis.y(), half_axis.z());
+    return {anchor - rotation * anchor, rotation};
+  };
+  const auto set = [&](int body, const Pose& moved)
+  {
+    const PlacedBody& placed = bodies_[static_cast<std::size_t>(body)];
+    SetRawPose(BodyAt(body), RawOf(pose.Compose(moved).Compose(placed.in_entity)));
+  };
+  const double head = entity.GetAttribute("head_angle");
+  const SinCos half_head = SinCosOf(head / 2);
+  const Pose head_turn =
+      turn({HandbotShape::kHeadForward, 0, HandbotShape::kHeadHeight}, Vector3(half_head.sin, 0, 0), half_head.cos);
+  servos_[0].target = head;
+  set(1, head_turn);
+  for (int arm = 0; arm < 2; ++arm)
+  {
+    Servo& servo = servos_[1 + arm];
+    servo.target = entity.GetAttribute("arm", arm);
+    const SinCos half = SinCosOf(servo.sign * servo.target / 2);
+    set(2 + arm, head_turn.Compose(turn(Shoulder(arm), Vector3(0, 0, half.sin), half.cos)));
+    hands_[arm].wrist = entity.GetAttribute("wrist", arm);
+    hands_[arm].aperture = entity.GetAttribute("hand_aperture", arm);
+  }
 }
 
 void HandbotModel::Command(std::string_view channel, std::span<const double> values)
@@ -175,7 +229,7 @@ void HandbotModel::RunFans()
 
 double HandbotModel::AngleOf(const Servo& servo) const
 {
-  // Twist of the outer body against the inner one about the axis.
+  // The twist of the outer body against the inner one is taken about the axis.
   const Quaternion relative =
       PoseOf(BodyAt(servo.inner)).orientation.conjugate() * PoseOf(BodyAt(servo.outer)).orientation;
   return servo.sign * WrapAngle(2 * Atan2(relative.vec().dot(servo.axis), relative.w()));
@@ -192,7 +246,7 @@ void HandbotModel::DriveServo(Servo& servo, double seconds)
     target = std::clamp(std::clamp(target, angle - kServoLead, angle + kServoLead), servo.lowest, servo.highest);
   servo.target = full_turn ? WrapAngle(target) : target;
   const double speed = std::clamp(servo.rate + kServoGain * (target - angle), -kServoSpeed, kServoSpeed);
-  dJointSetHingeParam(servo.joint, dParamVel, servo.sign * speed);
+  dJointSetHingeParam(scene_.world.Hinge(servo.hinge), dParamVel, servo.sign * speed);
 }
 
 void HandbotModel::BeforeStep(double seconds)

@@ -8,7 +8,8 @@
 namespace swarmanoid::dynamics3d
 {
 
-// Metres and kilograms. Angles: the ARGoS 2 model; masses are assumptions of ours.
+// Lengths are in metres, masses in kilograms. The angles are those of the ARGoS 2 model; the masses are our
+// assumptions.
 struct HandbotShape : HandbotParts
 {
   static constexpr double kTrunkMass = 2.2;
@@ -48,11 +49,14 @@ public:
   void Save(ByteWriter& state) const override;
   void Load(ByteReader& state) override;
 
+protected:
+  void FollowAttributes() override;
+
 private:
   // A hinge whose motor follows a target angle.
   struct Servo
   {
-    dJointID joint = nullptr;
+    int hinge = 0;
     int inner = 0;  // indices into bodies_: the one that has, the one that turns
     int outer = 0;
     Vector3 axis = Vector3::UnitX();

@@ -63,7 +63,7 @@ void CDynamics3dEngine::AddHoles()
     const Outline outline = OutlineOf(*hole, scene_->frame);
     const Pose pose = outline.inverse.Inverse();
     outlines.push_back(outline);
-    if (free_robots_) free_robots_->AddHole(OutlineInPlane(outline));
+    groups_->FreeRobots().AddHole(OutlineInPlane(outline));
     world_->BeginEntity(kNoEntity);
     for (const int axis : {0, 1})
     {

@@ -7,8 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "engine_worker/engines/dynamics3d/collide.h"
 #include "engine_worker/engines/dynamics3d/ode_world.h"
 #include "engine_worker/engines/dynamics3d/polytope.h"
+#include "engine_worker/engines/dynamics3d/upright_contacts.h"
 
 namespace swarmanoid::dynamics3d
 {
@@ -24,14 +26,17 @@ constexpr double kSameFace = 1e-6;    // m: the first body's face, if both overl
 struct Touching
 {
   Vector3 point;
-  double depth;
+  double depth;  // m; negative: a gap
 };
+
+bool IsTouching(const Touching& point) { return point.depth > 0; }
 
 // The buffers of a thread.
 struct Workspace
 {
   Polytope a;
   Polytope b;
+  Vector3 way;  // of a against b, within the step
   std::vector<Vector3> polygon;
   std::vector<Vector3> clipped;
   std::vector<Touching> found;
@@ -133,7 +138,7 @@ Vector3 BetweenEdges(const Polytope& a, const Polytope& b, const Parting& partin
   return (from_a + s * u + from_b + t * v) / 2;
 }
 
-// The part of a polygon on the inner side of a plane.
+// Keeps the part of a polygon on the inner side of a plane, in `inside`.
 void Clip(const std::vector<Vector3>& polygon, const Vector3& normal, double distance, std::vector<Vector3>& inner)
 {
   inner.clear();
@@ -149,9 +154,9 @@ void Clip(const std::vector<Vector3>& polygon, const Vector3& normal, double dis
   }
 }
 
-// Finds the points at which the other body's opposite face reaches below a face: the face is clipped, and points above
-// it are dropped.
-void TouchFace(const Polytope& of, const Polytope& other, const Parting& parting, Workspace& work)
+// Finds the points at which the other body's opposite face reaches below a face, or nearly: the face is clipped, and
+// points above it by more than `gap` (m) are dropped.
+void TouchFace(const Polytope& of, const Polytope& other, const Parting& parting, double gap, Workspace& work)
 {
   const ConvexHull& shape = of.Topology();
   const ConvexHull& other_shape = other.Topology();
@@ -168,9 +173,10 @@ void TouchFace(const Polytope& of, const Polytope& other, const Parting& parting
     std::swap(work.polygon, work.clipped);
   }
   for (const Vector3& point : work.polygon)
-    if (const double depth = of.Distance(parting.face) - parting.normal.dot(point); depth > 0)
+    if (const double depth = of.Distance(parting.face) - parting.normal.dot(point); depth > -gap)
       work.found.push_back({point, depth});
-  if (!work.found.empty()) return;
+  if (std::ranges::any_of(work.found, IsTouching)) return;
+  work.found.clear();
   std::size_t deepest = 0;
   other.Reach(-parting.normal, deepest);
   work.found.push_back({other.Corners()[deepest], -parting.separation});
@@ -205,19 +211,7 @@ int Put(std::vector<Touching>& found, const Vector3& normal, dGeomID first, dGeo
 {
   KeepFew(found, contacts.size());
   for (std::size_t k = 0; k < found.size(); ++k)
-  {
-    dContactGeom contact{};
-    for (int i = 0; i < 3; ++i)
-    {
-      contact.pos[i] = found[k].point[i];
-      contact.normal[i] = normal[i];
-    }
-    contact.depth = found[k].depth;
-    contact.g1 = first;
-    contact.g2 = second;
-    contact.side1 = contact.side2 = -1;
-    contacts[k] = contact;
-  }
+    contacts[k] = ContactAt(found[k].point, normal, found[k].depth, first, second);
   return static_cast<int>(found.size());
 }
 
@@ -249,11 +243,11 @@ Meeting TouchPolytopes(Workspace& work, Vector3& normal)
   if (by_b.separation > by_a.separation + kSameFace)
   {
     normal = -by_b.normal;
-    TouchFace(work.b, work.a, by_b, work);
+    TouchFace(work.b, work.a, by_b, PatchGap(by_b.normal, work.way), work);
     return Meeting::kFaceOfB;
   }
   normal = by_a.normal;
-  TouchFace(work.a, work.b, by_a, work);
+  TouchFace(work.a, work.b, by_a, PatchGap(-by_a.normal, work.way), work);
   return Meeting::kFaceOfA;
 }
 
@@ -325,8 +319,8 @@ int CollideWithBall(const Polytope& body, const Vector3& centre, double radius, 
   return Put(found, -normal, hull, other, contacts);
 }
 
-// Treats the capsule as a row of balls, half a radius apart. The deepest ball in each half of the capsule gives a
-// contact.
+// Treats the capsule as a row of balls, at most half a radius apart. The deepest ball in each half of the capsule gives
+// a contact.
 int CollideCapsule(const Polytope& body, dGeomID hull, dGeomID capsule, std::span<dContactGeom> contacts)
 {
   dReal radius = 0;
@@ -355,8 +349,12 @@ int CollidePlane(const Polytope& body, dGeomID hull, dGeomID plane_geom, std::sp
   dGeomPlaneGetParams(plane_geom, plane);
   const Vector3 normal(plane[0], plane[1], plane[2]);
   std::vector<Touching>& found = OwnWorkspace().found;
+  bool is_flat = false;
+  for (const Vector3& face : body.Normals()) is_flat = is_flat || -face.dot(normal) > kFlatCosine;
+  const double gap = is_flat ? PatchGap(normal, OwnWorkspace().way) : 0;
   for (const Vector3& corner : body.Corners())
-    if (const double depth = plane[3] - normal.dot(corner); depth >= 0) found.push_back({corner, depth});
+    if (const double depth = plane[3] - normal.dot(corner); depth >= -gap) found.push_back({corner, depth});
+  if (std::ranges::none_of(found, [](const Touching& point) { return point.depth >= 0; })) found.clear();
   return Put(found, normal, hull, plane_geom, contacts);
 }
 
@@ -391,7 +389,8 @@ int CollideRay(const Polytope& body, dGeomID hull, dGeomID ray, std::span<dConta
 
 // Contacts with a side of the prism, led back to the round side of the cylinder: a face touches it along a line, a
 // corner less deep the farther it is from the middle of the prism's side.
-void MakeRound(std::vector<Touching>& found, const Vector3& centre, const Vector3& sideways, double radius, bool flat)
+void MakeRound(std::vector<Touching>& found, const Vector3& centre, const Vector3& sideways, double radius, bool flat,
+               double gap)
 {
   for (Touching& touching : found)
   {
@@ -401,7 +400,8 @@ void MakeRound(std::vector<Touching>& found, const Vector3& centre, const Vector
     else
       touching.depth -= radius - std::sqrt(std::max(0.0, radius * radius - off * off));
   }
-  std::erase_if(found, [](const Touching& touching) { return touching.depth <= 0; });
+  std::erase_if(found, [&](const Touching& touching) { return touching.depth <= -gap; });
+  if (std::ranges::none_of(found, IsTouching)) found.clear();
   // The corners of a side come together in pairs.
   constexpr double kTwins = 1e-5;  // m
   for (std::size_t k = 0; k < found.size(); ++k)
@@ -433,7 +433,7 @@ int CollideCylinder(Workspace& work, dGeomID hull, dGeomID cylinder, std::span<d
     dGeomCylinderGetParams(cylinder, &radius, &length);
     const Vector3& face = work.a.Normals()[work.a.FaceAgainst(-normal)];
     const bool flat = meeting == Meeting::kFaceOfA || (face - normal).squaredNorm() < kParallelFaces * kParallelFaces;
-    MakeRound(work.found, centre, axis.cross(across / slope), radius, flat);
+    MakeRound(work.found, centre, axis.cross(across / slope), radius, flat, PatchGap(-normal, work.way));
   }
   return Put(work.found, -normal, hull, cylinder, contacts);
 }
@@ -447,9 +447,10 @@ bool HullMeets(int geom_class)
          geom_class == dRayClass;
 }
 
-int CollideHull(dGeomID hull, dGeomID other, std::span<dContactGeom> contacts)
+int CollideHull(dGeomID hull, dGeomID other, const Vector3& way, std::span<dContactGeom> contacts)
 {
   Workspace& work = OwnWorkspace();
+  work.way = way;
   work.found.clear();
   work.a.SetHull(HullOfGeom(hull), hull);
   switch (dGeomGetClass(other))

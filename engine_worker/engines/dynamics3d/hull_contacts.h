@@ -11,11 +11,13 @@
 
 #include <span>
 
+#include "common/math/pose.h"
+
 namespace swarmanoid::dynamics3d
 {
 
 bool HullMeets(int geom_class);
 // Works as Collide (collide.h) for a geom of a class that HullMeets. `contacts` must not be empty.
-int CollideHull(dGeomID hull, dGeomID other, std::span<dContactGeom> contacts);
+int CollideHull(dGeomID hull, dGeomID other, const Vector3& way, std::span<dContactGeom> contacts);
 
 }  // namespace swarmanoid::dynamics3d

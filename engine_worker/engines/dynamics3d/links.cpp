@@ -15,23 +15,30 @@ Link::Link(OdeWorld& world, const LinkSpec& spec, std::uint32_t serial) : world_
 {
   pose_a_ = RawPoseOf(world_.Body(spec_.body_a));
   if (spec_.body_b >= 0) pose_b_ = RawPoseOf(world_.Body(spec_.body_b));
-  CreateJoint();
 }
 
-Link::~Link()
+Link::~Link() { DestroyJoint(); }
+
+void Link::DestroyJoint()
 {
   if (joint_ != nullptr) dJointDestroy(joint_);
+  joint_ = nullptr;
 }
 
 void Link::CreateJoint()
 {
   const dBodyID a = world_.Body(spec_.body_a);
   const dBodyID b = spec_.body_b >= 0 ? world_.Body(spec_.body_b) : nullptr;
+  const RawPose now_a = RawPoseOf(a);
+  const RawPose now_b = b != nullptr ? RawPoseOf(b) : RawPose();
+  SetRawPose(a, pose_a_);
+  if (b != nullptr) SetRawPose(b, pose_b_);
+  const dWorldID world = dBodyGetWorld(a);
   const double* p = spec_.anchor;
   switch (spec_.kind)
   {
     case ELink::kHinge:
-      joint_ = dJointCreateHinge(world_.World(), nullptr);
+      joint_ = dJointCreateHinge(world, nullptr);
       dJointAttach(joint_, a, b);
       dJointSetHingeAnchor(joint_, p[0], p[1], p[2]);
       dJointSetHingeAxis(joint_, spec_.axis[0], spec_.axis[1], spec_.axis[2]);
@@ -39,18 +46,21 @@ void Link::CreateJoint()
       dJointSetHingeParam(joint_, dParamVel, 0);
       break;
     case ELink::kFixed:
-      joint_ = dJointCreateFixed(world_.World(), nullptr);
+      joint_ = dJointCreateFixed(world, nullptr);
       dJointAttach(joint_, a, b);
       dJointSetFixed(joint_);
       break;
     case ELink::kRope:
-      joint_ = dJointCreateDBall(world_.World(), nullptr);
+      joint_ = dJointCreateDBall(world, nullptr);
       dJointAttach(joint_, a, b);
       dJointSetDBallAnchor1(joint_, p[0], p[1], p[2]);
       dJointSetDBallAnchor2(joint_, spec_.other[0], spec_.other[1], spec_.other[2]);
-      length_ = dJointGetDBallDistance(joint_);
+      if (length_ < 0) length_ = dJointGetDBallDistance(joint_);
+      dJointSetDBallDistance(joint_, length_);
       break;
   }
+  SetRawPose(a, now_a);
+  if (b != nullptr) SetRawPose(b, now_b);
   dJointSetFeedback(joint_, &feedback_);
 }
 
@@ -87,6 +97,12 @@ Link& LinkTable::Add(const LinkSpec& spec)
   links_.push_back(std::make_unique<Link>(world_, spec, next_serial_++));
   IgnorePair(spec);
   return *links_.back();
+}
+
+void LinkTable::CreateJoints()
+{
+  for (const auto& link : links_)
+    if (link->joint_ == nullptr) link->CreateJoint();
 }
 
 void LinkTable::IgnorePair(const LinkSpec& spec)
@@ -197,10 +213,10 @@ void LinkTable::Load(ByteReader& state)
     if (spec.kind > ELink::kRope || spec.body_a < 0 || spec.body_a >= bodies || spec.body_b < -1 ||
         spec.body_b >= bodies)
       throw std::runtime_error("saved state: a grip names a body that the engine does not have");
-    SetRawPose(world_.Body(spec.body_a), pose_a);
-    if (spec.body_b >= 0) SetRawPose(world_.Body(spec.body_b), pose_b);
-    links_.push_back(std::make_unique<Link>(world_, spec, serial));
-    if (spec.kind == ELink::kRope) links_.back()->SetLength(length);
+    Link& link = *links_.emplace_back(std::make_unique<Link>(world_, spec, serial));
+    link.pose_a_ = pose_a;
+    link.pose_b_ = pose_b;
+    if (spec.kind == ELink::kRope) link.length_ = length;
     IgnorePair(spec);
   }
 }

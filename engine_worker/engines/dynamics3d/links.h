@@ -57,13 +57,15 @@ public:
   double AnchorDistance() const;
   void TightenOrSlacken();
 
-  // Force (N) and torque (N m) of the joint on body a in the last step, in the frame of the engine.
+  // Returns the force (N) and torque (N m) of the joint on body a in the last step, in the frame of the engine.
   Vector3 ForceOnA() const { return VectorOf(feedback_.f1); }
   Vector3 TorqueOnA() const { return VectorOf(feedback_.t1); }
 
 private:
   friend class LinkTable;
+  // The joint exists while its bodies are in one world.
   void CreateJoint();
+  void DestroyJoint();
 
   OdeWorld& world_;
   LinkSpec spec_;
@@ -71,7 +73,7 @@ private:
   RawPose pose_a_, pose_b_;  // at creation
   dJointID joint_ = nullptr;
   dJointFeedback feedback_{};
-  double length_ = 0;
+  double length_ = -1;  // -1: of the new joint
   bool taut_ = true;
 };
 
@@ -107,9 +109,26 @@ public:
   // Marks the entities that have links.
   void Mark(std::vector<std::uint8_t>& has_links) const;
   std::size_t Size() const { return links_.size(); }
+  // Calls act(assembly, assembly) for each link between two.
+  template <class Act>
+  void ForEachPair(const Act& act) const
+  {
+    for (const auto& link : links_)
+      if (const LinkSpec& spec = link->Spec(); spec.body_b >= 0)
+        act(world_.RecordOf(spec.body_a).assembly, world_.RecordOf(spec.body_b).assembly);
+  }
+
+  // Destroys the joints of assemblies that move to another world: is_moving(assembly).
+  template <class IsMoving>
+  void DestroyJoints(const IsMoving& is_moving)
+  {
+    for (const auto& link : links_)
+      if (is_moving(world_.RecordOf(link->Spec().body_a).assembly)) link->DestroyJoint();
+  }
+  // Makes the joints of links that have none. Both bodies of a link must be in one world.
+  void CreateJoints();
 
   void Save(ByteWriter& state) const;
-  // Leaves the bodies at poses of creation: load theirs afterwards.
   void Load(ByteReader& state);
 
 private:

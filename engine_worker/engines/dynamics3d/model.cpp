@@ -1,5 +1,6 @@
 #include "engine_worker/engines/dynamics3d/model.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace swarmanoid::dynamics3d
@@ -7,7 +8,7 @@ namespace swarmanoid::dynamics3d
 
 bool Scene::CanBeHeld(std::uint32_t entity) const
 {
-  if (entity >= models.size() || models[entity] == nullptr) return false;
+  if (entity >= models.size() || models[entity] == nullptr || models[entity]->IsElsewhere()) return false;
   return DescriptionOf(models[entity]->GetSpaceEntity().GetKind()).grippable;
 }
 
@@ -19,9 +20,7 @@ void AttributeReport::Set(std::string_view name, double value, int element, doub
 
 void Model::AddBody(const dMass& mass, const Pose& in_entity, EBody kind)
 {
-  const BodyOwner owner{Entity(), kind};
-  bodies_.push_back({scene_.world.AddBody(owner, mass), in_entity});
-  SetRawPose(scene_.world.Body(bodies_.back().number), RawOf(in_entity));
+  bodies_.push_back({scene_.world.AddBody(kind, mass, in_entity), in_entity});
 }
 
 void Model::Place(const Pose& pose)
@@ -30,7 +29,7 @@ void Model::Place(const Pose& pose)
   {
     const dBodyID body = scene_.world.Body(placed.number);
     const RawPose here = RawOf(pose.Compose(placed.in_entity));
-    if (here != RawPoseOf(body)) scene_.world.WakeAll();
+    if (wakes_ && here != RawPoseOf(body)) scene_.world.WakeAll();
     SetRawPose(body, here);
     Stop(body);
   }
@@ -51,6 +50,56 @@ Pose Model::CurrentPose() const
 {
   const PlacedBody& main = bodies_.front();
   return PoseOf(scene_.world.Body(main.number)).Compose(main.in_entity.Inverse());
+}
+
+void Model::SetLeftOut(bool left_out)
+{
+  is_left_out_ = left_out;
+  for (const PlacedBody& placed : bodies_) scene_.world.SetLeftOut(placed.number, left_out);
+}
+
+void Model::TakeOver(const Pose& pose, const EntityVelocity& velocity)
+{
+  SetLeftOut(false);
+  Place(pose);
+  FollowAttributes();
+  SetVelocity(velocity);
+}
+
+void Model::Haunt(const Pose& pose, const EntityVelocity& velocity)
+{
+  wakes_ = false;
+  TakeOver(pose, velocity);
+  wakes_ = true;
+}
+
+void Model::SetVelocity(const EntityVelocity& velocity)
+{
+  const Vector3 origin = CurrentPose().position;
+  for (const PlacedBody& placed : bodies_)
+  {
+    const dBodyID body = scene_.world.Body(placed.number);
+    const Vector3 linear = velocity.linear + velocity.angular.cross(Vector3(VectorOf(dBodyGetPosition(body)) - origin));
+    dBodySetLinearVel(body, linear.x(), linear.y(), linear.z());
+    dBodySetAngularVel(body, velocity.angular.x(), velocity.angular.y(), velocity.angular.z());
+  }
+}
+
+EntityVelocity Model::Velocity() const
+{
+  const dBodyID body = scene_.world.Body(MainBody());
+  return {PointVelocity(body, CurrentPose().position), VectorOf(dBodyGetAngularVel(body))};
+}
+
+double Model::LargestSpeed() const
+{
+  const Box box = scene_.world.BoxOf(MainBody());
+  const double radius = Vector3(box[1] - box[0], box[3] - box[2], box[5] - box[4]).norm() / 2;
+  double largest = 0;
+  for (const PlacedBody& placed : bodies_)
+    largest = std::max(largest, std::sqrt(VectorOf(dBodyGetLinearVel(scene_.world.Body(placed.number))).squaredNorm()));
+  const Vector3 spin = VectorOf(dBodyGetAngularVel(scene_.world.Body(MainBody())));
+  return largest + radius * std::sqrt(spin.squaredNorm());
 }
 
 void Model::Command(std::string_view, std::span<const double>) {}

@@ -65,29 +65,60 @@ private:
 class Model : public CPhysicsEngineEntity
 {
 public:
-  Model(Scene& scene, const CSwarmanoidSpaceEntity& entity) : CPhysicsEngineEntity(entity), scene_(scene) {}
+  Model(Scene& scene, const CSwarmanoidSpaceEntity& entity)
+      : CPhysicsEngineEntity(entity), scene_(scene), assembly_(scene.world.BeginAssembly(Entity()))
+  {
+  }
 
   std::uint32_t Entity() const { return GetSpaceEntity().GetIndex(); }
+  std::uint32_t AssemblyNumber() const { return assembly_; }
 
   // Puts all bodies at rest where the entity's own position and orientation say.
   virtual void Place(const Pose& pose);
   // Moves all bodies rigidly so that the entity has this pose, at rest.
   void Carry(const Pose& pose);
   Pose CurrentPose() const;
+
+  // A model is left out while it touches nothing and does not move: an owned one whose entity another engine moves, and
+  // the mirror of an entity that this engine moves.
+  bool IsLeftOut() const { return is_left_out_; }
+  // Leaves all bodies out of the world, or puts them back.
+  virtual void SetLeftOut(bool left_out);
+  // Puts the model where another engine had the entity, with the joints of its attributes.
+  void TakeOver(const Pose& pose, const EntityVelocity& velocity);
+  // Does the same for a ghost, in each tick: objects that sleep go on to do so.
+  void Haunt(const Pose& pose, const EntityVelocity& velocity);
+  // Another engine moves the entity.
+  bool IsElsewhere() const { return is_elsewhere_; }
+  void SetElsewhere(bool is_elsewhere) { is_elsewhere_ = is_elsewhere; }
+  // Returns the velocity of the entity's position.
+  EntityVelocity Velocity() const;
+
+  // Returns the largest speed (m/s) that any part of the outline has or can reach by itself.
+  virtual double LargestSpeed() const;
+  // Returns the box around the outline.
+  virtual Box CurrentBox() const { return scene_.world.BoxOf(MainBody()); }
+
   int MainBody() const { return bodies_.front().number; }
   const Pose& MainOffset() const { return bodies_.front().in_entity; }
 
-  // Commands and readings of a channel, `values` of its width.
+  // Takes the commands of a channel, `values` of its width, finite and in SI units.
   virtual void Command(std::string_view channel, std::span<const double> values);
+  // Fills in the readings of a channel, `values` of its width, in SI units.
   virtual void Sense(std::string_view channel, std::span<double> values) const;
 
+  // Called before the first step of a tick: joints are made or removed here.
   virtual void BeginTick() {}
+  // Called before each step of `seconds`: controllers apply forces and motor speeds here.
   virtual void BeforeStep(double /*seconds*/) {}
+  // Called after each step of `seconds`: integrates angles and sums for the sensors.
   virtual void AfterStep(double /*seconds*/) {}
+  // Writes the attributes of the entity after a tick.
   virtual void Report(AttributeReport& /*report*/) const {}
 
   // Saves the state of the model that is not in its bodies and links.
   virtual void Save(ByteWriter& /*state*/) const {}
+  // Restores the state from Save. Throws std::runtime_error if the state is too short.
   virtual void Load(ByteReader& /*state*/) {}
 
 protected:
@@ -98,9 +129,19 @@ protected:
   };
 
   void AddBody(const dMass& mass, const Pose& in_entity, EBody kind = EBody::kRobot);
+  // Brings the joints of a model at rest to the attributes of the entity.
+  virtual void FollowAttributes() {}
+  // Gives all bodies the velocity of the entity as one rigid body.
+  virtual void SetVelocity(const EntityVelocity& velocity);
 
   Scene& scene_;
   std::vector<PlacedBody> bodies_;  // the first one gives the entity's pose
+
+private:
+  std::uint32_t assembly_;
+  bool is_left_out_ = false;
+  bool is_elsewhere_ = false;
+  bool wakes_ = true;  // placing it wakes objects
 };
 
 // Mass distributions about their centres.

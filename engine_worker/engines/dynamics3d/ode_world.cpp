@@ -1,105 +1,148 @@
+// The bodies, solids and settings of an engine. solver_world.h has the worlds that solve them. Everything that ODE
+// keeps from step to step and that decides about bits is read and written here as raw numbers: poses without
+// normalising, the state of rest, pairs that do not collide. ODE cannot move a body from one world to another, so a
+// body is made again in the other world. Hinges are made at the first poses of their bodies, as at the start, since
+// other poses would change their last bits.
 #include "engine_worker/engines/dynamics3d/ode_world.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <mutex>
+#include <stdexcept>
+
+#include "engine_worker/engines/dynamics3d/shuffle.h"
+#include "engine_worker/engines/dynamics3d/solver_world.h"
 
 namespace swarmanoid::dynamics3d
 {
-namespace
-{
 
-struct LayerBits
-{
-  unsigned long category;
-  unsigned long collide;
-};
-
-constexpr unsigned long Bit(ELayer layer) { return 1UL << static_cast<unsigned>(layer); }
-
-constexpr LayerBits BitsOf(ELayer layer)
-{
-  switch (layer)
-  {
-    case ELayer::kStatic:
-      return {Bit(layer), Bit(ELayer::kRobot) | Bit(ELayer::kObject) | Bit(ELayer::kWheel)};
-    case ELayer::kRobot:
-      return {Bit(layer), Bit(ELayer::kStatic) | Bit(ELayer::kRobot) | Bit(ELayer::kObject) | Bit(ELayer::kVoxels)};
-    case ELayer::kObject:
-      return {Bit(layer), Bit(ELayer::kStatic) | Bit(ELayer::kRobot) | Bit(ELayer::kObject) | Bit(ELayer::kWheel) |
-                              Bit(ELayer::kVoxels)};
-    case ELayer::kWheel:
-      return {Bit(layer), Bit(ELayer::kStatic) | Bit(ELayer::kObject) | Bit(ELayer::kVoxels)};
-    case ELayer::kVoxels:
-      return {Bit(layer), Bit(ELayer::kWheel) | Bit(ELayer::kRobot) | Bit(ELayer::kObject)};
-  }
-  return {0, 0};
-}
-
-}  // namespace
-
-// ODE's process-wide tables, never taken down: worlds of other engines may be in use until the process ends.
+// ODE's process-wide tables are never released, since worlds of other engines may be in use until the process ends.
 void InitialiseOde()
 {
   static std::once_flag once;
   std::call_once(once, [] { dInitODE2(0); });
   thread_local const bool allocated = dAllocateODEDataForThread(dAllocateMaskAll) != 0;
   (void)allocated;
+  static const bool is_shuffle_ours = IsShuffleOurs();
+  if (!is_shuffle_ours)
+    throw std::runtime_error("another library loaded ODE before the simulator, so that threads would change results");
 }
 
 OdeWorld::OdeWorld(const WorldSettings& settings) : settings_(settings)
 {
   InitialiseOde();
-  world_ = dWorldCreate();
-  dWorldSetGravity(world_, settings.gravity.x(), settings.gravity.y(), settings.gravity.z());
-  // No over-relaxation: at few iterations it favours the rows that are solved last, and a resting robot creeps 16 mm/s
-  // sideways instead of 4 um/s.
-  dWorldSetQuickStepW(world_, 1.0);
-  dWorldSetERP(world_, 0.2);
-  dWorldSetCFM(world_, 1e-7);
-  dWorldSetContactMaxCorrectingVel(world_, 1.0);
-  dWorldSetContactSurfaceLayer(world_, 1e-4);
-  dWorldSetAutoDisableFlag(world_, 0);  // its averages would be state that a checkpoint does not hold
-  dWorldSetStepIslandsProcessingMaxThreadCount(world_, 1);
-  // The default threading is shared by all worlds of the process and fails when two of them step at the same time.
-  threading_ = dThreadingAllocateSelfThreadedImplementation();
-  dWorldSetStepThreadingImplementation(world_, dThreadingImplementationGetFunctions(threading_), threading_);
-
-  space_ = dHashSpaceCreate(nullptr);
-  dHashSpaceSetLevels(space_, -5, 4);
-  contact_joints_ = dJointGroupCreate(0);
   probe_ = dCreateSphere(nullptr, 1);
 }
 
 OdeWorld::~OdeWorld()
 {
   dGeomDestroy(probe_);
-  dJointGroupDestroy(contact_joints_);
-  dSpaceDestroy(space_);
-  dWorldDestroy(world_);
-  dThreadingFreeImplementation(threading_);
+  for (const auto& solid : solids_)
+    if (solid->body < 0) dGeomDestroy(solid->geom);
+  for (const Assembly& assembly : assemblies_)
+    if (assembly.geoms != nullptr) dSpaceDestroy(assembly.geoms);
 }
 
-int OdeWorld::AddBody(const BodyOwner& owner, const dMass& mass)
+std::uint32_t OdeWorld::BeginAssembly(std::uint32_t entity)
 {
-  const dBodyID body = dBodyCreate(world_);
-  if (owner.kind == EBody::kMirror)
+  const auto number = static_cast<std::uint32_t>(assemblies_.size());
+  const auto bodies = static_cast<int>(bodies_.size());
+  const auto hinges = static_cast<int>(hinges_.size());
+  const auto solids = static_cast<std::uint32_t>(solids_.size());
+  if (number % kHomeSize == 0) homes_.push_back(std::make_unique<SolverWorld>(*this));
+  Assembly& assembly = assemblies_.emplace_back();
+  assembly.entity = entity;
+  assembly.first_body = assembly.end_body = bodies;
+  assembly.first_hinge = assembly.end_hinge = hinges;
+  assembly.first_solid = assembly.end_solid = solids;
+  assembly.world = homes_.back().get();
+  return number;
+}
+
+int OdeWorld::AddBody(EBody kind, const dMass& mass, const Pose& first)
+{
+  const auto number = static_cast<int>(bodies_.size());
+  const auto assembly = static_cast<std::uint32_t>(assemblies_.size() - 1);
+  const std::uint32_t entity = assemblies_.back().entity;
+  bodies_.push_back({nullptr, assembly, {entity, kind}, mass, RawOf(first), {}, false});
+  CreateBody(number, assemblies_.back().world->World());
+  ++assemblies_.back().end_body;
+  if (entity >= assembly_of_.size()) assembly_of_.resize(entity + 1, kNoEntity);
+  if (kind != EBody::kMirror) assembly_of_[entity] = assembly;
+  if (kind == EBody::kObject) objects_.push_back(number);
+  return number;
+}
+
+void OdeWorld::CreateBody(int number, dWorldID world)
+{
+  BodyRecord& record = RecordOf(number);
+  const dBodyID body = dBodyCreate(world);
+  if (record.owner.kind == EBody::kMirror)
     dBodySetKinematic(body);
   else
-    dBodySetMass(body, &mass);
-  const std::size_t number = bodies_.size();
+    dBodySetMass(body, &record.mass);
   dBodySetFiniteRotationMode(body, 0);  // the other mode calls sin(), which differs between processors
   dBodySetAutoDisableFlag(body, 0);
-  dBodySetData(body, reinterpret_cast<void*>(number));
-  bodies_.push_back({body, owner, {}, false});
-  if (owner.entity >= object_of_.size()) object_of_.resize(owner.entity + 1, -1);
-  if (owner.kind == EBody::kObject)
+  dBodySetData(body, reinterpret_cast<void*>(static_cast<std::intptr_t>(number)));
+  if (record.is_left_out || record.rest.asleep) dBodyDisable(body);
+  SetRawPose(body, record.first);
+  record.body = body;
+}
+
+int OdeWorld::AddHinge(int outer, int inner, const Vector3& anchor, const Vector3& axis, double torque)
+{
+  hinges_.push_back({outer, inner, anchor, axis, torque, nullptr});
+  CreateHinge(hinges_.back());
+  ++assemblies_.back().end_hinge;
+  return static_cast<int>(hinges_.size()) - 1;
+}
+
+void OdeWorld::CreateHinge(HingeRecord& hinge) const
+{
+  hinge.joint = dJointCreateHinge(dBodyGetWorld(Body(hinge.outer)), nullptr);
+  dJointAttach(hinge.joint, Body(hinge.outer), Body(hinge.inner));
+  dJointSetHingeAnchor(hinge.joint, hinge.anchor.x(), hinge.anchor.y(), hinge.anchor.z());
+  dJointSetHingeAxis(hinge.joint, hinge.axis.x(), hinge.axis.y(), hinge.axis.z());
+  dJointSetHingeParam(hinge.joint, dParamFMax, hinge.torque);
+}
+
+void OdeWorld::Move(std::uint32_t number, SolverWorld& to)
+{
+  Assembly& assembly = assemblies_[number];
+  for (int hinge = assembly.first_hinge; hinge < assembly.end_hinge; ++hinge) dJointDestroy(Hinge(hinge));
+  for (int body = assembly.first_body; body < assembly.end_body; ++body)
   {
-    objects_.push_back(static_cast<int>(number));
-    object_of_[owner.entity] = objects_.back();
+    RecordOf(body).before_move = Body(body);
+    CreateBody(body, to.World());
   }
-  return static_cast<int>(number);
+  for (int hinge = assembly.first_hinge; hinge < assembly.end_hinge; ++hinge)
+    CreateHinge(hinges_[static_cast<std::size_t>(hinge)]);
+  for (std::uint32_t solid = assembly.first_solid; solid < assembly.end_solid; ++solid) Attach(*solids_[solid]);
+  for (int body = assembly.first_body; body < assembly.end_body; ++body)
+  {
+    const dBodyID before = RecordOf(body).before_move;
+    SetRawPose(Body(body), RawPoseOf(before));
+    const dReal* linear = dBodyGetLinearVel(before);
+    const dReal* angular = dBodyGetAngularVel(before);
+    dBodySetLinearVel(Body(body), linear[0], linear[1], linear[2]);
+    dBodySetAngularVel(Body(body), angular[0], angular[1], angular[2]);
+    dBodyDestroy(before);
+  }
+  assembly.world = &to;
+}
+
+void OdeWorld::SetMembersOfHomes()
+{
+  std::vector<std::uint32_t> members;
+  for (std::size_t home = 0; home < homes_.size(); ++home)
+  {
+    members.clear();
+    const std::size_t end = std::min(assemblies_.size(), (home + 1) * kHomeSize);
+    for (std::size_t assembly = home * kHomeSize; assembly < end; ++assembly)
+      if (assemblies_[assembly].world == homes_[home].get()) members.push_back(static_cast<std::uint32_t>(assembly));
+    if (!std::ranges::equal(members, homes_[home]->Members())) homes_[home]->SetMembers(members);
+  }
 }
 
 void OdeWorld::SetLeftOut(int body, bool left_out)
@@ -107,60 +150,107 @@ void OdeWorld::SetLeftOut(int body, bool left_out)
   BodyRecord& record = RecordOf(body);
   if (record.is_left_out == left_out) return;
   record.is_left_out = left_out;
-  left_out_count_ += left_out ? 1 : static_cast<std::size_t>(-1);
-  const auto set = reinterpret_cast<dGeomID>(dGeomGetSpace(dBodyGetFirstGeom(record.body)));
-  if (left_out)
-  {
+  if (left_out || record.rest.asleep)
     dBodyDisable(record.body);
-    dGeomDisable(set);
-    return;
-  }
-  dBodyEnable(record.body);
-  dGeomEnable(set);
-}
-
-std::array<double, 6> OdeWorld::BoxOf(int body) const
-{
-  std::array<double, 6> box;
-  dGeomGetAABB(reinterpret_cast<dGeomID>(dGeomGetSpace(dBodyGetFirstGeom(Body(body)))), box.data());
-  return box;
+  else
+    dBodyEnable(record.body);
 }
 
 void OdeWorld::BeginEntity(std::uint32_t entity, const Touch& touch)
 {
   current_entity_ = entity;
   current_touch_ = touch;
-  current_set_ = nullptr;
 }
 
 void OdeWorld::AddSolid(dGeomID geom, int body, ELayer layer, ESurface surface, const Pose& offset_in_body)
 {
   auto solid = std::make_unique<Solid>();
   solid->geom = geom;
+  solid->body = body;
+  solid->offset_in_body = offset_in_body;
   solid->number = static_cast<std::uint32_t>(solids_.size());
   solid->entity = current_entity_;
   solid->surface = surface;
   solid->layer = layer;
   solid->touch = current_touch_;
   dGeomSetData(geom, solid.get());
-  const LayerBits bits = BitsOf(layer);
-  dGeomSetCategoryBits(geom, bits.category);
-  dGeomSetCollideBits(geom, bits.collide);
-  if (body >= 0 && current_set_ == nullptr) current_set_ = dSimpleSpaceCreate(space_);
-  dSpaceAdd(body < 0 ? space_ : current_set_, geom);
   if (body >= 0)
   {
-    dGeomSetBody(geom, Body(body));
-    const Vector3& p = offset_in_body.position;
-    const Quaternion& q = offset_in_body.orientation;
-    if (!p.isZero(0)) dGeomSetOffsetPosition(geom, p.x(), p.y(), p.z());
-    if (!q.vec().isZero(0))
+    Assembly& assembly = assemblies_.back();
+    if (assembly.geoms == nullptr)
     {
-      const dQuaternion raw = {q.w(), q.x(), q.y(), q.z()};
-      dGeomSetOffsetQuaternion(geom, raw);
+      assembly.geoms = dSimpleSpaceCreate(nullptr);
+      assembly.first_solid = solid->number;
     }
+    assembly.end_solid = solid->number + 1;
+    dSpaceAdd(assembly.geoms, geom);
+    Attach(*solid);
   }
+  else
+  {
+    solid->box = BoxAround(geom);
+    const bool is_ground = dGeomGetClass(geom) == dPlaneClass || surface == ESurface::kTerrain;
+    (is_ground ? grounds_ : statics_).push_back(solid.get());
+  }
+  // The width of a hull follows with its shape.
   solids_.push_back(std::move(solid));
+  if (dGeomGetClass(geom) != dConvexClass) SetWidth(*solids_.back());
+}
+
+void OdeWorld::SetWidth(Solid& solid)
+{
+  solid.least_width = LeastWidth(solid);
+  if (solid.body < 0 || solid.layer == ELayer::kWheel) return;
+  Assembly& assembly = assemblies_[RecordOf(solid.body).assembly];
+  assembly.least_width = std::min(assembly.least_width, solid.least_width);
+}
+
+void OdeWorld::Attach(const Solid& solid) const
+{
+  dGeomSetBody(solid.geom, Body(solid.body));
+  const Vector3& p = solid.offset_in_body.position;
+  const Quaternion& q = solid.offset_in_body.orientation;
+  if (!p.isZero(0)) dGeomSetOffsetPosition(solid.geom, p.x(), p.y(), p.z());
+  if (q.vec().isZero(0)) return;
+  const dQuaternion raw = {q.w(), q.x(), q.y(), q.z()};
+  dGeomSetOffsetQuaternion(solid.geom, raw);
+}
+
+void OdeWorld::KeepShape(std::shared_ptr<const HullShape> shape)
+{
+  if (shape == nullptr) return;
+  Solid& solid = *solids_.back();
+  solid.shape = std::move(shape);
+  SetWidth(solid);
+}
+
+void OdeWorld::SetRest(int body, const Rest& rest)
+{
+  BodyRecord& record = RecordOf(body);
+  record.rest = rest;
+  if (rest.asleep || record.is_left_out)
+    dBodyDisable(record.body);
+  else
+    dBodyEnable(record.body);
+}
+
+bool OdeWorld::Wake(int body)
+{
+  BodyRecord& record = RecordOf(body);
+  if (!record.rest.asleep) return false;
+  SetRest(body, {RawPoseOf(record.body), 0, false});
+  return true;
+}
+
+void OdeWorld::WakeAll()
+{
+  for (const int object : objects_) Wake(object);
+}
+
+std::size_t OdeWorld::SleeperCount() const
+{
+  return static_cast<std::size_t>(
+      std::ranges::count_if(bodies_, [](const BodyRecord& body) { return body.rest.asleep; }));
 }
 
 void OdeWorld::Ignore(std::uint32_t a, std::uint32_t b)
@@ -184,13 +274,6 @@ void OdeWorld::Respect(std::uint32_t a, std::uint32_t b)
     if (--ignored_[k].count == 0) ignored_.erase(ignored_.begin() + static_cast<std::ptrdiff_t>(k));
     return;
   }
-}
-
-bool OdeWorld::IsIgnored(std::uint32_t a, std::uint32_t b) const
-{
-  const std::uint32_t low = std::min(a, b), high = std::max(a, b);
-  return std::any_of(ignored_.begin(), ignored_.end(),
-                     [&](const IgnoredPair& pair) { return pair.low == low && pair.high == high; });
 }
 
 const Solid* OdeWorld::FindTouching(const Vector3& centre, double radius, std::uint32_t but_not,
@@ -234,7 +317,7 @@ double OdeWorld::DistanceToStatic(const Vector3& origin, const Vector3& directio
   double nearest = std::numeric_limits<double>::infinity();
   for (const auto& solid : solids_)
   {
-    if (dGeomGetBody(solid->geom) != nullptr) continue;
+    if (solid->body >= 0) continue;
     dContactGeom contact;
     if (Collide(ray, solid->geom, {&contact, 1}) > 0) nearest = std::min(nearest, contact.depth);
   }

@@ -1,12 +1,11 @@
-// OdeWorld: one ODE world and its collision space, stepped so that equal states give equal next states whatever came
-// before: contacts are made in the order of the solids' numbers and poses are restored bit by bit. What hangs together
-// with an object is solved with more iterations, each such island by itself; objects at rest sleep until something that
-// is awake touches them. Owned by the engine, used by one thread at a time; several worlds may be stepped by several
-// threads.
+// OdeWorld: all bodies and solids of an engine. The bodies are in several worlds of ODE (solver_world.h) and can move
+// from one to another, which changes no bit of their motion. Owned by the engine. Several threads may use bodies of
+// different worlds at the same time.
 #pragma once
 
 #include <ode/ode.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -19,7 +18,6 @@
 
 #include "common/math/pose.h"
 #include "engine_worker/engines/dynamics3d/collide.h"
-#include "engine_worker/engines/dynamics3d/islands.h"
 
 namespace swarmanoid::dynamics3d
 {
@@ -40,6 +38,33 @@ enum class ESurface : std::uint8_t
   kTerrain  // ground too
 };
 
+// Least and largest x, y and z.
+using Box = std::array<double, 6>;
+
+inline Box BoxAround(dGeomID geom)
+{
+  Box box;
+  dGeomGetAABB(geom, box.data());
+  return box;
+}
+
+inline Box Grown(Box box, double margin)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    box[2 * axis] -= margin;
+    box[2 * axis + 1] += margin;
+  }
+  return box;
+}
+
+inline bool Overlap(const Box& a, const Box& b)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (a[2 * axis + 1] < b[2 * axis] || b[2 * axis + 1] < a[2 * axis]) return false;
+  return true;
+}
+
 // Friction and restitution of an entity. Values that are not set are those of the world.
 struct Touch
 {
@@ -54,23 +79,38 @@ struct Touch
 enum class ELayer : std::uint8_t
 {
   kStatic,
+  kVoxels,
   kRobot,
   kObject,
-  kWheel,
-  kVoxels
+  kWheel
 };
+
+constexpr bool CanMeet(ELayer a, ELayer b)
+{
+  const ELayer low = std::min(a, b), high = std::max(a, b);
+  if (high <= ELayer::kVoxels) return false;
+  return high != ELayer::kWheel || (low != ELayer::kRobot && low != ELayer::kWheel);
+}
 
 // The properties of a geom that contacts need. Solids are numbered in the order of creation.
 struct Solid
 {
   dGeomID geom = nullptr;
+  int body = -1;  // -1: it never moves
+  Pose offset_in_body;
   std::uint32_t number = 0;
   std::uint32_t entity = kNoEntity;
   ESurface surface = ESurface::kPlain;
   ELayer layer = ELayer::kStatic;
   Touch touch;
   std::shared_ptr<const HullShape> shape;  // of a hull
+  std::function<dGeomID()> make_copy;      // for a world, if threads cannot share the geom
+  Box box = {};                            // if it never moves
+  double least_width = 0;                  // m; of a cell for cells of a map, infinite for planes
 };
+
+// Returns the least width (m) of a solid in any direction.
+double LeastWidth(const Solid& solid);
 
 // The bits of a body's position and quaternion (w x y z), as ODE holds them.
 struct RawPose
@@ -84,8 +124,9 @@ struct RawPose
 enum class EBody : std::uint8_t
 {
   kRobot,
-  kObject,  // has no drive: sleeps when at rest. One body an entity
-  kMirror   // follows only what it is told
+  kMechanism,  // of a robot whose joints bear its own limbs: few iterations would leave them soft
+  kObject,     // has no drive: sleeps when at rest. One body an entity
+  kMirror      // follows only what it is told
 };
 
 struct BodyOwner
@@ -94,7 +135,7 @@ struct BodyOwner
   EBody kind = EBody::kRobot;
 };
 
-// Whether an object rests. Part of the state.
+// Whether an object rests; a part of the state. An object sleeps after it stayed near `reference` for long enough.
 struct Rest
 {
   RawPose reference;        // where it was when it last moved
@@ -106,10 +147,37 @@ struct WorldSettings
 {
   Vector3 gravity = Vector3(0, 0, -9.81);  // m/s², in the frame of the engine
   int iterations = 8;
-  int object_iterations = 50;  // of islands with objects, if that is more
+  int object_iterations = 50;  // of delicate islands, if that is more
   double friction = 0.5;
   double wheel_friction = 1.0;
   double restitution = 0;
+};
+
+class SolverWorld;
+
+struct BodyRecord
+{
+  dBodyID body = nullptr;
+  std::uint32_t assembly = 0;
+  BodyOwner owner;
+  dMass mass;
+  RawPose first;  // where it was when hinges were attached
+  Rest rest;
+  bool is_left_out = false;
+  dBodyID before_move = nullptr;
+};
+
+// The bodies of one model, the hinges between them, and its solids. Each are numbered in a row.
+struct Assembly
+{
+  std::uint32_t entity = kNoEntity;
+  int first_body = 0, end_body = 0;
+  int first_hinge = 0, end_hinge = 0;
+  std::uint32_t first_solid = 0, end_solid = 0;
+  double least_width = std::numeric_limits<double>::infinity();  // m, of the solids but wheels
+  dSpaceID geoms = nullptr;
+  SolverWorld* world = nullptr;  // of its bodies
+  std::uint32_t position = 0;    // among the members of this world
 };
 
 class OdeWorld
@@ -120,20 +188,43 @@ public:
   OdeWorld(const OdeWorld&) = delete;
   OdeWorld& operator=(const OdeWorld&) = delete;
 
-  dWorldID World() const { return world_; }
   const WorldSettings& Settings() const { return settings_; }
+
+  // Begins the bodies of one model and returns their assembly, numbered from 0 on.
+  std::uint32_t BeginAssembly(std::uint32_t entity);
+  std::span<const Assembly> Assemblies() const { return assemblies_; }
+  Assembly& AssemblyAt(std::uint32_t assembly) { return assemblies_[assembly]; }
+  const Assembly& AssemblyOf(int body) const { return assemblies_[RecordOf(body).assembly]; }
 
   // Adds a body of that mass distribution, with its centre of mass at the origin, and returns its number, from 0 on.
   // Mirrors need no mass.
-  int AddBody(const BodyOwner& owner, const dMass& mass);
+  int AddBody(EBody kind, const dMass& mass, const Pose& first);
   std::size_t BodyCount() const { return bodies_.size(); }
+  // ODE's body is another one after each move to another world.
   dBodyID Body(int number) const { return bodies_[static_cast<std::size_t>(number)].body; }
   static int NumberOf(dBodyID body) { return static_cast<int>(reinterpret_cast<std::intptr_t>(dBodyGetData(body))); }
+  BodyRecord& RecordOf(int body) { return bodies_[static_cast<std::size_t>(body)]; }
+  const BodyRecord& RecordOf(int body) const { return bodies_[static_cast<std::size_t>(body)]; }
 
-  // A body that is left out is neither moved nor met, but found by FindTouching. For all bodies of an entity alike.
+  // Adds a hinge between two bodies of the assembly, at their first poses, with a motor of that torque (N m). Returns
+  // its number.
+  int AddHinge(int outer, int inner, const Vector3& anchor, const Vector3& axis, double torque = 0);
+  dJointID Hinge(int number) const { return hinges_[static_cast<std::size_t>(number)].joint; }
+
+  // Moves the bodies of an assembly, hinges and geoms included, to another world, or again into the same one. Joints of
+  // links are lost. The bodies of a world are solved in the order in which they came.
+  void Move(std::uint32_t assembly, SolverWorld& to);
+  // The worlds of assemblies that can meet no other one.
+  static std::size_t HomeNumberOf(std::uint32_t assembly) { return assembly / kHomeSize; }
+  SolverWorld& HomeOf(std::uint32_t assembly) { return *homes_[HomeNumberOf(assembly)]; }
+  void SetMembersOfHomes();
+  std::span<const std::unique_ptr<SolverWorld>> Homes() const { return homes_; }
+
+  // A body that is left out is neither moved nor met, but found by FindTouching. For all bodies of an assembly alike.
   void SetLeftOut(int body, bool left_out);
-  // The box around all solids of an entity that has bodies: least and largest x, y and z.
-  std::array<double, 6> BoxOf(int body) const;
+  bool IsLeftOut(const Assembly& assembly) const { return RecordOf(assembly.first_body).is_left_out; }
+  // The box around all solids of the assembly of a body.
+  Box BoxOf(int body) const { return BoxAround(reinterpret_cast<dGeomID>(AssemblyOf(body).geoms)); }
 
   // Begins the solids of one entity. Solids of one entity never collide with each other.
   void BeginEntity(std::uint32_t entity, const Touch& touch = {});
@@ -141,24 +232,40 @@ public:
   void AddSolid(dGeomID geom, int body, ELayer layer, ESurface surface = ESurface::kPlain,
                 const Pose& offset_in_body = {});
   // Keeps the shape from which the geom of the last solid was made.
-  void KeepShape(std::shared_ptr<const HullShape> shape) { solids_.back()->shape = std::move(shape); }
+  void KeepShape(std::shared_ptr<const HullShape> shape);
+  // Threads cannot share the geom of the last solid: each world makes a copy.
+  void CopyForWorlds(std::function<dGeomID()> make_copy) { solids_.back()->make_copy = std::move(make_copy); }
   std::span<const std::unique_ptr<Solid>> Solids() const { return solids_; }
+  // The solids that never move: those with bounds, and planes and terrain.
+  std::span<const Solid* const> Statics() const { return statics_; }
+  std::span<const Solid* const> Grounds() const { return grounds_; }
 
   // Two entities that are not to collide (one holds the other); counted, so that both calls nest.
+  struct IgnoredPair
+  {
+    std::uint32_t low;
+    std::uint32_t high;
+    int count;
+  };
   void Ignore(std::uint32_t a, std::uint32_t b);
   void Respect(std::uint32_t a, std::uint32_t b);
+  std::span<const IgnoredPair> IgnoredPairs() const { return ignored_; }
+  // Returns whether this engine can move the entity, and its assembly if so.
+  bool IsMovable(std::uint32_t entity) const
+  {
+    return entity < assembly_of_.size() && assembly_of_[entity] != kNoEntity;
+  }
+  std::uint32_t AssemblyOfEntity(std::uint32_t entity) const { return assembly_of_[entity]; }
 
   // Says where the ground plane is open (frame of the engine).
   void SetOpenings(std::function<bool(const Vector3&)> is_open) { is_open_ = std::move(is_open); }
-
-  // One step of `seconds`. `number`: of the step since the start of the experiment; it decides the order of
-  // constraints.
-  void Step(double seconds, std::uint64_t number);
-  int ContactCount() const { return static_cast<int>(contacts_.size()); }
+  bool IsOpen(const Vector3& point) const { return is_open_ && is_open_(point); }
 
   std::span<const int> Objects() const { return objects_; }  // numbers of bodies
-  const Rest& RestOf(int body) const { return bodies_[static_cast<std::size_t>(body)].rest; }
+  const Rest& RestOf(int body) const { return RecordOf(body).rest; }
   void SetRest(int body, const Rest& rest);
+  // Wakes the body if it is an object that sleeps. Returns false if it does not.
+  bool Wake(int body);
   // Wakes all objects, since the support of a sleeping one may be gone.
   void WakeAll();
   std::size_t SleeperCount() const;
@@ -166,94 +273,45 @@ public:
   // Returns the solid (of another entity, accepted by the filter) that reaches deepest into a sphere; nullptr for none.
   const Solid* FindTouching(const Vector3& centre, double radius, std::uint32_t but_not,
                             const std::function<bool(const Solid&)>& accept) const;
-  // Distance to the first static solid along a unit vector; infinity for none within `range`.
+  // Returns the distance (m) to the first static solid along a unit vector, or infinity if none is within `range`.
   double DistanceToStatic(const Vector3& origin, const Vector3& direction, double range) const;
 
 private:
-  struct Pair
+  static constexpr std::size_t kHomeSize = 16;  // assemblies
+
+  struct HingeRecord
   {
-    std::uint32_t a;
-    std::uint32_t b;
-    bool done;
-  };
-  struct Contact
-  {
-    dContact joint;
-    int body_a;  // -1: none
-    int body_b;
-    std::uint32_t pair;
-  };
-  struct Member  // of an island
-  {
-    std::uint32_t island;
-    std::uint32_t number;
-  };
-  struct BodyRecord
-  {
-    dBodyID body;
-    BodyOwner owner;
-    Rest rest;
-    bool is_left_out = false;
-  };
-  struct IgnoredPair
-  {
-    std::uint32_t low;
-    std::uint32_t high;
-    int count;
+    int outer, inner;  // bodies
+    Vector3 anchor, axis;
+    double torque;
+    dJointID joint;
   };
 
-  BodyRecord& RecordOf(int body) { return bodies_[static_cast<std::size_t>(body)]; }
-  std::uint32_t EntityOf(int body) const { return bodies_[static_cast<std::size_t>(body)].owner.entity; }
-  bool IsObject(int body) const { return bodies_[static_cast<std::size_t>(body)].owner.kind == EBody::kObject; }
-  static void NearCallback(void* world, dGeomID first, dGeomID second);
-  void CollectPair(const Solid& first, const Solid& second);
-  bool IsIgnored(std::uint32_t a, std::uint32_t b) const;
-  void MakeContacts(const Solid& a, const Solid& b, std::uint32_t pair);
-  bool Accept(const dContactGeom& contact, const Solid& a, const Solid& b) const;
-  void AddContact(const dContactGeom& geometry, const Solid& a, const Solid& b, std::uint32_t pair);
-  void FindContacts();
-  void FindObjectIslands();
-  void Attach(const Contact& contact);
-  int ObjectIterations(int objects) const;
-  void Solve(double seconds, int iterations, std::uint64_t number);
-  void SolveOthers(double seconds, std::uint64_t number);
-  void SolveObjectIslands(double seconds, std::uint64_t number);
-  void RestObjects(double seconds);
-  bool IsAwake(const Solid& solid) const;
-  void PutToSleep(int body);
-  bool Wake(std::uint32_t entity);
+  void CreateBody(int body, dWorldID world);
+  void CreateHinge(HingeRecord& hinge) const;
+  void Attach(const Solid& solid) const;
+  void SetWidth(Solid& solid);
 
   WorldSettings settings_;
-  dWorldID world_ = nullptr;
-  dSpaceID space_ = nullptr;
-  dSpaceID current_set_ = nullptr;
   Touch current_touch_;
   std::uint32_t current_entity_ = kNoEntity;
-  dJointGroupID contact_joints_ = nullptr;
-  dThreadingImplementationID threading_ = nullptr;
   dGeomID probe_ = nullptr;
+  std::vector<Assembly> assemblies_;
   std::vector<BodyRecord> bodies_;
-  std::vector<int> objects_;    // bodies
-  std::vector<int> object_of_;  // by entity with a body; -1: not an object
-  std::size_t left_out_count_ = 0;
+  std::vector<HingeRecord> hinges_;
+  std::vector<int> objects_;                // bodies
+  std::vector<std::uint32_t> assembly_of_;  // by entity; kNoEntity: only a mirror
   std::vector<std::unique_ptr<Solid>> solids_;
-  std::vector<Pair> pairs_;
+  std::vector<const Solid*> statics_, grounds_;
   std::vector<IgnoredPair> ignored_;
   std::function<bool(const Vector3&)> is_open_;
-  double step_seconds_ = 0;
-  // Values of the last step.
-  std::vector<Contact> contacts_;
-  Islands islands_;
-  std::vector<bool> has_object_;         // by island
-  std::vector<Member> island_bodies_;    // of islands with objects
-  std::vector<Member> island_contacts_;  // of islands with objects
-  std::vector<bool> is_in_island_;       // by contact
+  std::vector<std::unique_ptr<SolverWorld>> homes_;
 };
 
-// ODE's tables of the process and the thread.
+// Makes ODE's tables of the process and of the calling thread, if they do not exist.
 void InitialiseOde();
 
-// Poses, bit by bit; setting also recomputes the rotation matrix as a step of ODE does.
+// Poses are read and written bit by bit. Setting one also recomputes the rotation matrix as a step of ODE does.
 RawPose RawPoseOf(dBodyID body);
 void SetRawPose(dBodyID body, const RawPose& pose);
 Pose PoseOf(const RawPose& raw);

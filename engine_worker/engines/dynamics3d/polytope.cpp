@@ -22,7 +22,7 @@ const ConvexHull& UnitBox()
   return box;
 }
 
-// About the cylinder of radius 1 from z = -1 to 1, a side towards x.
+// Returns the prism around the cylinder of radius 1 from z = -1 to 1, with a side towards x.
 const ConvexHull& UnitPrism()
 {
   static const ConvexHull prism = []

@@ -14,7 +14,7 @@ class Polytope
 public:
   void SetHull(const ConvexHull& hull, dGeomID geom);
   void SetBox(dGeomID box);
-  // A prism about a cylinder: it touches it in the middle of each of its sides, one of which faces `towards`.
+  // Becomes a prism around a cylinder. The middle of each side touches the cylinder, and one side faces `towards`.
   void SetCylinder(dGeomID cylinder, const Vector3& towards);
 
   const std::vector<Vector3>& Corners() const { return corners_; }

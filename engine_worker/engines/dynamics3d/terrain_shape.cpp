@@ -1,3 +1,10 @@
+// Problem: ODE knows no map of solid cells, and its heightfield lies on its side.
+//
+// Method: a height terrain becomes an ODE heightfield that is turned upright. A map of cells becomes a class of geoms
+// of our own. Spheres and capsules meet its cells one by one (voxel_contacts.h). Bodies with flat faces meet boxes that
+// cells around them were merged to, and contacts on covered faces are dropped. Rays walk through the cells.
+//
+// Invariant: contacts beyond ODE's room for them are the shallowest.
 #include "engine_worker/engines/dynamics3d/terrain_shape.h"
 
 #include <algorithm>
@@ -17,47 +24,95 @@ namespace swarmanoid::dynamics3d
 namespace
 {
 
+// ODE works in memory of the geom and of its heights, so that each copy has both.
 class HeightfieldShape : public TerrainShape
 {
 public:
-  HeightfieldShape() : heights_(dGeomHeightfieldDataCreate()) {}
-  ~HeightfieldShape() override { dGeomHeightfieldDataDestroy(heights_); }
+  HeightfieldShape(const HeightTerrain& terrain, const Pose& pose);
+  ~HeightfieldShape() override;
   HeightfieldShape(const HeightfieldShape&) = delete;
   HeightfieldShape& operator=(const HeightfieldShape&) = delete;
-  dHeightfieldDataID Heights() const { return heights_; }
+  dGeomID MakeGeom();
 
 private:
-  dHeightfieldDataID heights_;
+  Vector3 low_, high_;
+  int columns_, rows_;
+  std::vector<double> heights_;
+  RawPose pose_;
+  std::mutex mutex_;  // of copies_
+  std::vector<dHeightfieldDataID> copies_;
 };
 
 struct VoxelShape : public TerrainShape
 {
   VoxelShape(std::shared_ptr<const VoxelTerrain> solid, const Pose& in_engine)
-      : terrain(std::move(solid)), pose(in_engine), inverse(in_engine.Inverse()), box(dCreateBox(nullptr, 1, 1, 1))
+      : terrain(std::move(solid)), pose(in_engine), inverse(in_engine.Inverse())
   {
-    const RawPose raw = RawOf(pose);
-    dGeomSetQuaternion(box, raw.quaternion);
   }
-  ~VoxelShape() override { dGeomDestroy(box); }
-  VoxelShape(const VoxelShape&) = delete;
-  VoxelShape& operator=(const VoxelShape&) = delete;
 
   std::shared_ptr<const VoxelTerrain> terrain;  // shared with the other roles of the process
   Pose pose;
   Pose inverse;
+};
+
+// The memory that a thread works in.
+struct VoxelWork
+{
+  VoxelWork() : box(dCreateBox(nullptr, 1, 1, 1)) {}
+  ~VoxelWork() { dGeomDestroy(box); }
+  VoxelWork(const VoxelWork&) = delete;
+  VoxelWork& operator=(const VoxelWork&) = delete;
+
   dGeomID box;  // stands for one box of cells after the other
-  // Memory to work in.
   std::vector<VoxelContact> found;
   std::vector<CellBox> boxes;
   std::vector<bool> taken;
 };
 
+VoxelWork& WorkOfThread()
+{
+  thread_local VoxelWork work;
+  return work;
+}
+
+// ODE's heightfield lies in its x-z plane with y up and its middle at the origin: turned upright, its rows run towards
+// -y.
+HeightfieldShape::HeightfieldShape(const HeightTerrain& terrain, const Pose& pose)
+    : low_(terrain.Low()), high_(terrain.High()), columns_(terrain.Columns()), rows_(terrain.Rows())
+{
+  heights_.reserve(terrain.Heights().size());
+  for (int row = rows_ - 1; row >= 0; --row)
+    for (int column = 0; column < columns_; ++column) heights_.push_back(terrain.Height(column, row));
+  const Vector3 size = high_ - low_;
+  pose_ = RawOf(pose.Compose({Vector3(size.x() / 2, size.y() / 2, 0), QuaternionFromEuler({kPi / 2, 0, 0})}));
+}
+
+HeightfieldShape::~HeightfieldShape()
+{
+  for (const dHeightfieldDataID copy : copies_) dGeomHeightfieldDataDestroy(copy);
+}
+
+dGeomID HeightfieldShape::MakeGeom()
+{
+  const dHeightfieldDataID heights = dGeomHeightfieldDataCreate();
+  const Vector3 size = high_ - low_;
+  const double thickness = 1;  // m below the lowest point that still pushes up
+  dGeomHeightfieldDataBuildDouble(heights, heights_.data(), 0, size.x(), size.y(), columns_, rows_, 1, 0, thickness, 0);
+  dGeomHeightfieldDataSetBounds(heights, low_.z(), high_.z());
+  const dGeomID geom = dCreateHeightfield(nullptr, heights, 1);
+  dGeomSetPosition(geom, pose_.position[0], pose_.position[1], pose_.position[2]);
+  dGeomSetQuaternion(geom, pose_.quaternion);
+  const std::lock_guard lock(mutex_);
+  copies_.push_back(heights);
+  return geom;
+}
+
 VoxelShape& ShapeOf(dGeomID geom) { return **static_cast<VoxelShape* const*>(dGeomGetClassData(geom)); }
 
-// Contacts with the frame of the engine, the deepest ones if there are too many.
-int Hand(VoxelShape& shape, dGeomID voxels, dGeomID other, int flags, dContactGeom* contacts, int skip)
+// Writes the contacts in the frame of the engine. If there are more than ODE has room for, the deepest ones are kept.
+int Hand(const VoxelShape& shape, std::vector<VoxelContact>& found, dGeomID voxels, dGeomID other, int flags,
+         dContactGeom* contacts, int skip)
 {
-  std::vector<VoxelContact>& found = shape.found;
   const std::size_t room = static_cast<std::size_t>(flags & 0xffff);
   if (found.size() > room)
   {
@@ -68,37 +123,52 @@ int Hand(VoxelShape& shape, dGeomID voxels, dGeomID other, int flags, dContactGe
   char* slot = reinterpret_cast<char*>(contacts);
   for (const VoxelContact& contact : found)
   {
-    auto& out = *reinterpret_cast<dContactGeom*>(slot);
-    const Vector3 point = shape.pose.Apply(contact.point);
-    const Vector3 normal = shape.pose.orientation * contact.normal;
-    for (int k = 0; k < 3; ++k)
-    {
-      out.pos[k] = point[k];
-      out.normal[k] = -normal[k];  // into the first geom, the voxels
-    }
-    out.depth = contact.depth;
-    out.g1 = voxels;
-    out.g2 = other;
-    out.side1 = out.side2 = -1;
+    // The first geom, into which the normal points, is the voxels.
+    *reinterpret_cast<dContactGeom*>(slot) = ContactAt(
+        shape.pose.Apply(contact.point), -(shape.pose.orientation * contact.normal), contact.depth, voxels, other);
     slot += skip;
   }
   return static_cast<int>(found.size());
 }
 
-int CollideSphere(dGeomID voxels, dGeomID sphere, int flags, dContactGeom* contacts, int skip)
+// The corners of a box of the engine, in the frame of the map, lie between `low` and `high`.
+void BoundsInMap(const VoxelShape& shape, const std::array<double, 6>& box, Vector3& low, Vector3& high)
 {
-  VoxelShape& shape = ShapeOf(voxels);
-  shape.found.clear();
-  FindVoxelContacts(*shape.terrain, shape.inverse.Apply(VectorOf(dGeomGetPosition(sphere))),
-                    dGeomSphereGetRadius(sphere), shape.found);
-  return Hand(shape, voxels, sphere, flags, contacts, skip);
+  low = Vector3::Constant(dInfinity);
+  high = Vector3::Constant(-dInfinity);
+  for (int k = 0; k < 8; ++k)
+  {
+    const Vector3 corner =
+        shape.inverse.Apply({box[(k & 1) != 0 ? 1 : 0], box[(k & 2) != 0 ? 3 : 2], box[(k & 4) != 0 ? 5 : 4]});
+    low = low.cwiseMin(corner);
+    high = high.cwiseMax(corner);
+  }
 }
 
-// A capsule is met as a row of spheres, half a radius apart at most a cell.
+CellBox CellsOf(const VoxelShape& shape, const std::array<double, 6>& box)
+{
+  Vector3 low;
+  Vector3 high;
+  BoundsInMap(shape, box, low, high);
+  return CellsAround(*shape.terrain, low, high);
+}
+
+int CollideSphere(dGeomID voxels, dGeomID sphere, int flags, dContactGeom* contacts, int skip)
+{
+  const VoxelShape& shape = ShapeOf(voxels);
+  std::vector<VoxelContact>& found = WorkOfThread().found;
+  found.clear();
+  FindVoxelContacts(*shape.terrain, shape.inverse.Apply(VectorOf(dGeomGetPosition(sphere))),
+                    dGeomSphereGetRadius(sphere), found);
+  return Hand(shape, found, voxels, sphere, flags, contacts, skip);
+}
+
+// Treats the capsule as a row of spheres. Neighbours are at most a radius apart, or half a cell if that is more.
 int CollideCapsule(dGeomID voxels, dGeomID capsule, int flags, dContactGeom* contacts, int skip)
 {
-  VoxelShape& shape = ShapeOf(voxels);
-  shape.found.clear();
+  const VoxelShape& shape = ShapeOf(voxels);
+  std::vector<VoxelContact>& found = WorkOfThread().found;
+  found.clear();
   dReal radius = 0;
   dReal length = 0;
   dGeomCapsuleGetParams(capsule, &radius, &length);
@@ -109,30 +179,29 @@ int CollideCapsule(dGeomID voxels, dGeomID capsule, int flags, dContactGeom* con
   for (int k = 0; k < spheres; ++k)
   {
     const double along = spheres > 1 ? length * (static_cast<double>(k) / (spheres - 1) - 0.5) : 0;
-    FindVoxelContacts(*shape.terrain, shape.inverse.Apply(centre + axis * along), radius, shape.found);
+    FindVoxelContacts(*shape.terrain, shape.inverse.Apply(centre + axis * along), radius, found);
   }
-  return Hand(shape, voxels, capsule, flags, contacts, skip);
+  return Hand(shape, found, voxels, capsule, flags, contacts, skip);
 }
 
-// A box, a cylinder or a hull meets the cells around it merged to boxes, so that a floor under it is one.
+// Finds the contacts of a box, a cylinder or a hull. The cells around it are merged to boxes, so that a floor under it
+// is one box.
 int CollideConvex(dGeomID voxels, dGeomID body, int flags, dContactGeom* contacts, int skip)
 {
-  VoxelShape& shape = ShapeOf(voxels);
-  shape.found.clear();
+  const VoxelShape& shape = ShapeOf(voxels);
+  std::vector<VoxelContact>& found = WorkOfThread().found;
+  found.clear();
   const VoxelTerrain& terrain = *shape.terrain;
-  dReal around[6];
-  dGeomGetAABB(body, around);
-  Vector3 low = Vector3::Constant(dInfinity);
-  Vector3 high = Vector3::Constant(-dInfinity);
-  for (int k = 0; k < 8; ++k)
-  {
-    const Vector3 corner =
-        shape.inverse.Apply({around[(k & 1) != 0 ? 1 : 0], around[(k & 2) != 0 ? 3 : 2], around[(k & 4) != 0 ? 5 : 4]});
-    low = low.cwiseMin(corner);
-    high = high.cwiseMax(corner);
-  }
-  MergeCells(terrain, CellsAround(terrain, low, high), shape.taken, shape.boxes);
-  for (const CellBox& cells : shape.boxes)
+  std::array<double, 6> around;
+  dGeomGetAABB(body, around.data());
+  Vector3 low;
+  Vector3 high;
+  BoundsInMap(shape, around, low, high);
+  VoxelWork& work = WorkOfThread();
+  const RawPose raw = RawOf(shape.pose);
+  dGeomSetQuaternion(work.box, raw.quaternion);
+  MergeCells(terrain, CellsAround(terrain, low, high), work.taken, work.boxes);
+  for (const CellBox& cells : work.boxes)
   {
     const auto corner = [&](const std::array<int, 3>& cell, int more) -> Vector3
     { return terrain.Low() + terrain.CellSize() * Vector3(cell[0] + more, cell[1] + more, cell[2] + more); };
@@ -141,18 +210,18 @@ int CollideConvex(dGeomID voxels, dGeomID body, int flags, dContactGeom* contact
     if ((from.array() > high.array()).any() || (to.array() < low.array()).any()) continue;
     const Vector3 size = to - from;
     const Vector3 centre = shape.pose.Apply((from + to) / 2);
-    dGeomBoxSetLengths(shape.box, size.x(), size.y(), size.z());
-    dGeomSetPosition(shape.box, centre.x(), centre.y(), centre.z());
+    dGeomBoxSetLengths(work.box, size.x(), size.y(), size.z());
+    dGeomSetPosition(work.box, centre.x(), centre.y(), centre.z());
     std::array<dContactGeom, kMaximumContacts> touching;
-    const int count = Collide(shape.box, body, touching);
+    const int count = Collide(work.box, body, touching);
     for (const dContactGeom& contact : std::span(touching).first(static_cast<std::size_t>(count)))
     {
       const Vector3 point = shape.inverse.Apply(VectorOf(contact.pos));
       const Vector3 normal = shape.inverse.orientation * -VectorOf(contact.normal);
-      if (!IsCovered(terrain, cells, point, normal)) shape.found.push_back({point, normal, contact.depth});
+      if (!IsCovered(terrain, cells, point, normal)) found.push_back({point, normal, contact.depth});
     }
   }
-  return Hand(shape, voxels, body, flags, contacts, skip);
+  return Hand(shape, found, voxels, body, flags, contacts, skip);
 }
 
 int CollideRay(dGeomID voxels, dGeomID ray, int, dContactGeom* contacts, int)
@@ -167,16 +236,7 @@ int CollideRay(dGeomID voxels, dGeomID ray, int, dContactGeom* contacts, int)
   const auto hit = shape.terrain->SegmentHit(shape.inverse.Apply(from), shape.inverse.Apply(from + along * length));
   if (!hit) return 0;
   const double distance = *hit * length;
-  const Vector3 point = from + along * distance;
-  for (int k = 0; k < 3; ++k)
-  {
-    contacts->pos[k] = point[k];
-    contacts->normal[k] = along[k];
-  }
-  contacts->depth = distance;
-  contacts->g1 = voxels;
-  contacts->g2 = ray;
-  contacts->side1 = contacts->side2 = -1;
+  *contacts = ContactAt(from + along * distance, along, distance, voxels, ray);
   return 1;
 }
 
@@ -231,28 +291,10 @@ int VoxelClass()
 std::unique_ptr<TerrainShape> AddHeightfield(OdeWorld& world, std::uint32_t entity,
                                              std::shared_ptr<const HeightTerrain> terrain, const Pose& pose)
 {
-  auto shape = std::make_unique<HeightfieldShape>();
-  // ODE's heightfield lies in its x-z plane with y up and its middle at the origin: turned upright, its rows run
-  // towards -y.
-  const int columns = terrain->Columns();
-  const int rows = terrain->Rows();
-  std::vector<double> turned;
-  turned.reserve(terrain->Heights().size());
-  for (int row = rows - 1; row >= 0; --row)
-    for (int column = 0; column < columns; ++column) turned.push_back(terrain->Height(column, row));
-  const Vector3 size = terrain->High() - terrain->Low();
-  const double thickness = 1;  // m below the lowest point that still pushes up
-  dGeomHeightfieldDataBuildDouble(shape->Heights(), turned.data(), 1, size.x(), size.y(), columns, rows, 1, 0,
-                                  thickness, 0);
-  dGeomHeightfieldDataSetBounds(shape->Heights(), terrain->Low().z(), terrain->High().z());
-
-  const dGeomID geom = dCreateHeightfield(nullptr, shape->Heights(), 1);
-  const RawPose raw =
-      RawOf(pose.Compose({Vector3(size.x() / 2, size.y() / 2, 0), QuaternionFromEuler({kPi / 2, 0, 0})}));
-  dGeomSetPosition(geom, raw.position[0], raw.position[1], raw.position[2]);
-  dGeomSetQuaternion(geom, raw.quaternion);
+  auto shape = std::make_unique<HeightfieldShape>(*terrain, pose);
   world.BeginEntity(entity);
-  world.AddSolid(geom, -1, ELayer::kStatic, ESurface::kTerrain);
+  world.AddSolid(shape->MakeGeom(), -1, ELayer::kStatic, ESurface::kTerrain);
+  world.CopyForWorlds([heights = shape.get()] { return heights->MakeGeom(); });
   return shape;
 }
 
@@ -265,6 +307,19 @@ std::unique_ptr<TerrainShape> AddVoxels(OdeWorld& world, std::uint32_t entity,
   world.BeginEntity(entity);
   world.AddSolid(geom, -1, ELayer::kVoxels, ESurface::kTerrain);
   return shape;
+}
+
+double CellSizeOf(dGeomID voxels) { return ShapeOf(voxels).terrain->CellSize(); }
+
+bool ReachesCells(dGeomID voxels, const std::array<double, 6>& box)
+{
+  const VoxelShape& shape = ShapeOf(voxels);
+  const CellBox cells = CellsOf(shape, box);
+  for (int z = cells.low[2]; z <= cells.high[2]; ++z)
+    for (int y = cells.low[1]; y <= cells.high[1]; ++y)
+      for (int x = cells.low[0]; x <= cells.high[0]; ++x)
+        if (shape.terrain->IsOccupied(x, y, z)) return true;
+  return false;
 }
 
 }  // namespace swarmanoid::dynamics3d

@@ -17,10 +17,15 @@ public:
   virtual ~TerrainShape() = default;
 };
 
-// `pose`: of the terrain's frame in the frame of the engine.
+// Adds the terrain to the world. `pose` is that of the terrain's frame in the frame of the engine.
 std::unique_ptr<TerrainShape> AddHeightfield(OdeWorld& world, std::uint32_t entity,
                                              std::shared_ptr<const HeightTerrain> terrain, const Pose& pose);
 std::unique_ptr<TerrainShape> AddVoxels(OdeWorld& world, std::uint32_t entity,
                                         std::shared_ptr<const VoxelTerrain> terrain, const Pose& pose);
+
+// These functions take the geom of a solid that AddVoxels made.
+double CellSizeOf(dGeomID voxels);
+// Returns whether any solid cell may reach into a box (least and largest x, y and z in the frame of the engine).
+bool ReachesCells(dGeomID voxels, const std::array<double, 6>& box);
 
 }  // namespace swarmanoid::dynamics3d

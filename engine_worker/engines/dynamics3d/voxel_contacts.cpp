@@ -1,3 +1,12 @@
+// Problem: a floor of cells must act as one plane. Contacts with each cell alone would have normals at the edges inside
+// the floor, and robots would stumble.
+//
+// Method: the point of a cell nearest to the sphere's centre gives its contact. If that point is on a face, edge or
+// corner towards an occupied neighbour, it is inside the solid, and the contact is dropped. A centre within a cell
+// leaves through its nearest free face, upwards among equal ways. MergeCells grows a box from each free cell along x,
+// then y, then z.
+//
+// Invariant: contacts and boxes are in the order of the cells: z, then y, then x.
 #include "engine_worker/engines/dynamics3d/voxel_contacts.h"
 
 #include <algorithm>

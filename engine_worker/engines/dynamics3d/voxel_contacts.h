@@ -31,7 +31,7 @@ struct CellBox
 // Returns the cells that a box (m) reaches, and one more to each side, within the map; empty if it does not reach the
 // map.
 CellBox CellsAround(const VoxelTerrain& terrain, const Vector3& low, const Vector3& high);
-// The occupied cells of a range as few boxes, none in two. `taken` is memory to work in.
+// Covers the occupied cells of a range by few boxes that do not overlap. `taken` is memory to work in.
 void MergeCells(const VoxelTerrain& terrain, const CellBox& range, std::vector<bool>& taken,
                 std::vector<CellBox>& boxes);
 // Returns whether a contact at a point of a box of cells presses against a face that a neighbouring cell covers.

@@ -1,3 +1,12 @@
+// Problem: a kind of robot states only its size, mass and wheels. Find bodies, motors and casters with which it drives
+// stably in ODE, and decide when a closed form may replace them.
+//
+// Method: proportions of the footbot fill in what the row of the kind lacks. Motors are a little weaker than what
+// rubber wheels hold on level ground, with a torque that falls linearly to 0 at kFreeSpeed times the largest speed. The
+// robot may be free if its wheels stay on the ground without slip on the tightest arc at that speed
+// (KeepsItsWheelsDown): forward force and centripetal force stay within the friction circle, and no wheel is unloaded.
+//
+// Source: docs/engines.md, "Robots that touch nothing".
 #include "engine_worker/engines/dynamics3d/wheeled.h"
 
 #include <algorithm>
@@ -14,9 +23,8 @@ namespace
 
 constexpr double kGearedInertia = 10;  // of a wheel, times that of a sphere
 constexpr double kGravity = 9.81;      // m/s2
-// The part of a robot's weight that its wheels can rely on. They carry 77 %, and must not slip when the motors stall.
-// If they slipped, Coulomb's friction would be equal at any speed, and the outcome of two robots pushing each other
-// would be open.
+// Stalled motors push with this part of the robot's weight. On level ground its wheels carry 77 %, so they do not slip
+// at a friction of 1, and spin at less than 0.95.
 constexpr double kUsableWeight = 0.73;
 // The speed at which motors have no torque left, as a multiple of the kind's largest speed. Motors have most power at
 // half of it.
@@ -25,15 +33,10 @@ constexpr double kFreeSpeed = 2;
 // Casters are soft enough to leave the weight to the wheels, and so stiff that stalled motors tilt the robot by that.
 constexpr double kStallTilt = 0.02;  // rad
 
-// Returns the force (N) that both motors together can exert on the ground. `grip` is that of the wheels, m/s2.
-double StallForce(const WheeledShape& shape, double grip)
+// Returns the force (N) that both motors together can exert on the ground, if it holds.
+double StallForce(const WheeledShape& shape)
 {
-  return kUsableWeight * (shape.chassis_mass + 2 * shape.wheel_mass) * std::min(grip, kGravity);
-}
-
-double Grip(const WorldSettings& settings)
-{
-  return settings.wheel_friction * std::sqrt(settings.gravity.squaredNorm());
+  return kUsableWeight * (shape.chassis_mass + 2 * shape.wheel_mass) * kGravity;
 }
 
 }  // namespace
@@ -76,7 +79,7 @@ dMass WheelMass(const WheeledShape& shape)
   return Geared(SphereMass(shape.wheel_mass, shape.wheel_radius), kGearedInertia);
 }
 
-DriveDescription DriveOf(const WheeledShape& shape, const WorldSettings& settings)
+DriveDescription DriveOf(const WheeledShape& shape)
 {
   const double wheel_inertia = WheelMass(shape).I[0];  // about any axis
   const double track_inertia = shape.wheel_mass * shape.half_track * shape.half_track;
@@ -85,25 +88,25 @@ DriveDescription DriveOf(const WheeledShape& shape, const WorldSettings& setting
           .wheel_inertia = wheel_inertia,
           .wheel_radius = shape.wheel_radius,
           .half_track = shape.half_track,
-          .stall_torque = StallForce(shape, Grip(settings)) * shape.wheel_radius / 2,
+          .stall_torque = StallForce(shape) * shape.wheel_radius / 2,
           .free_rate = shape.free_speed / shape.wheel_radius};
 }
 
-// Faster robots, which brake harder, are solved. Wheels swing beyond their commands by less than the twentieth.
+// Returns the largest speed (m/s) of a free robot. Faster robots, which brake harder, are solved. Wheels swing beyond
+// their commands by less than a twentieth.
 double LargestFreeSpeed(const WheeledShape& shape) { return 1.05 * shape.free_speed / kFreeSpeed; }
 
 // Returns whether the wheels neither slip nor are lifted on the tightest arc at that speed; if it `brakes`, as hard as
 // it can.
 bool KeepsItsWheelsDown(const WheeledShape& shape, const WorldSettings& settings, bool brakes)
 {
-  const DriveDescription drive = DriveOf(shape, settings);
+  const DriveDescription drive = DriveOf(shape);
   const double weight = drive.mass * std::sqrt(settings.gravity.squaredNorm());
   const double speed = LargestFreeSpeed(shape);
   // Part of the motors' force turns the wheels themselves.
   const double rolling = 2 * drive.wheel_inertia / (shape.wheel_radius * shape.wheel_radius);
   const double braking =
-      brakes ? (1 + speed / shape.free_speed) * StallForce(shape, Grip(settings)) * drive.mass / (drive.mass + rolling)
-             : 0;
+      brakes ? (1 + speed / shape.free_speed) * StallForce(shape) * drive.mass / (drive.mass + rolling) : 0;
   const double across = drive.mass * speed * speed / (4 * shape.half_track);
   const double height =
       (shape.chassis_mass * shape.centre_of_mass + 2 * shape.wheel_mass * shape.wheel_radius) / drive.mass;
@@ -136,7 +139,7 @@ double HighestOf(const ConvexHull& hull)
   return highest;
 }
 
-// Returns the part of a hull above a height.
+// Returns the hull with all corners below a height lifted to it.
 std::shared_ptr<const HullShape> Raised(const ConvexHull& hull, double height)
 {
   std::vector<Vector3> corners = hull.corners;
@@ -154,7 +157,7 @@ WheeledModel::WheeledModel(Scene& scene, const CSwarmanoidSpaceEntity& entity, c
       largest_free_rate_(
           KeepsItsWheelsDown(shape, scene.world.Settings(), false) ? LargestFreeSpeed(shape) / wheel_radius_ : 0),
       brakes_freely_(KeepsItsWheelsDown(shape, scene.world.Settings(), true)),
-      drive_(DriveOf(shape, scene.world.Settings()))
+      drive_(DriveOf(shape))
 {
   OdeWorld& world = scene.world;
   const auto wheel_centre = [&](int wheel)
@@ -165,15 +168,11 @@ WheeledModel::WheeledModel(Scene& scene, const CSwarmanoidSpaceEntity& entity, c
   for (int wheel = 0; wheel < 2; ++wheel) AddBody(WheelMass(shape), {wheel_centre(wheel), Quaternion::Identity()});
   for (int wheel = 0; wheel < 2; ++wheel)
   {
-    const dJointID axle = dJointCreateHinge(world.World(), nullptr);
-    const Vector3 centre = wheel_centre(wheel);
-    dJointAttach(axle, world.Body(bodies_[static_cast<std::size_t>(1 + wheel)].number), Chassis());
-    dJointSetHingeAnchor(axle, centre.x(), centre.y(), centre.z());
-    dJointSetHingeAxis(axle, 0, 1, 0);
-    axles_[wheel] = axle;
+    axles_[wheel] = world.AddHinge(bodies_[static_cast<std::size_t>(1 + wheel)].number, MainBody(), wheel_centre(wheel),
+                                   Vector3::UnitY());
   }
 
-  const double stall_torque = StallForce(shape, kGravity) * shape.wheel_radius;
+  const double stall_torque = StallForce(shape) * shape.wheel_radius;
   const double lever = shape.caster_reach * shape.caster_reach;
   Touch touch;
   touch.caster_stiffness = stall_torque / (lever * kStallTilt);
@@ -211,21 +210,40 @@ void WheeledModel::BeginTick()
   is_free_ = false;  // to be found out from the bodies
 }
 
+void WheeledModel::SetLeftOut(bool left_out)
+{
+  is_free_ = false;
+  Model::SetLeftOut(left_out);
+}
+
+void WheeledModel::SetVelocity(const EntityVelocity& velocity)
+{
+  Model::SetVelocity(velocity);
+  const Vector3 forward = VectorToWorld(Chassis(), Vector3::UnitX());
+  const Vector3 axle = VectorToWorld(Chassis(), Vector3::UnitY());
+  for (std::size_t wheel = 1; wheel <= 2; ++wheel)
+  {
+    const dBodyID body = scene_.world.Body(bodies_[wheel].number);
+    const double rate = forward.dot(VectorOf(dBodyGetLinearVel(body))) / wheel_radius_;
+    const Vector3 spin = velocity.angular + axle * (rate - axle.dot(velocity.angular));
+    dBodySetAngularVel(body, spin.x(), spin.y(), spin.z());
+  }
+}
+
 void WheeledModel::BeforeStep(double /*seconds*/)
 {
   for (std::size_t wheel = 0; wheel < 2; ++wheel)
   {
-    const double speed = dJointGetHingeAngleRate(axles_[wheel]);
-    dJointSetHingeParam(axles_[wheel], dParamVel, wheel_command_[wheel]);
-    dJointSetHingeParam(axles_[wheel], dParamFMax, drive_.LargestTorque(wheel_command_[wheel], speed));
+    const double speed = dJointGetHingeAngleRate(Axle(wheel));
+    dJointSetHingeParam(Axle(wheel), dParamVel, wheel_command_[wheel]);
+    dJointSetHingeParam(Axle(wheel), dParamFMax, drive_.LargestTorque(wheel_command_[wheel], speed));
   }
 }
 
 void WheeledModel::AfterStep(double seconds)
 {
   elapsed_ += seconds;
-  for (std::size_t wheel = 0; wheel < 2; ++wheel)
-    wheel_turn_[wheel] += dJointGetHingeAngleRate(axles_[wheel]) * seconds;
+  for (std::size_t wheel = 0; wheel < 2; ++wheel) wheel_turn_[wheel] += dJointGetHingeAngleRate(Axle(wheel)) * seconds;
 }
 
 void WheeledModel::Sense(std::string_view channel, std::span<double> values) const

@@ -11,7 +11,7 @@
 namespace swarmanoid::dynamics3d
 {
 
-// Metres and kilograms.
+// Lengths are in metres, masses in kilograms.
 struct WheeledShape
 {
   Vector3 size = Vector3::Zero();  // of the whole robot: a box, or radius, radius, height
@@ -42,14 +42,15 @@ public:
   void Command(std::string_view channel, std::span<const double> values) override;
   void Sense(std::string_view channel, std::span<double> values) const override;
   void BeginTick() override;
+  void SetLeftOut(bool left_out) override;
   void BeforeStep(double seconds) override;
   void AfterStep(double seconds) override;
 
   double Radius() const { return radius_; }  // m, of the upright robot about its vertical axis
   double Height() const { return height_; }  // m, of its highest point
   bool IsUpright() const;
-  // Returns the largest speed (m/s) that any part of the outline can reach by itself.
-  double LargestSpeed() const;
+  double LargestSpeed() const override;
+  Box CurrentBox() const override;
   Vector2 GroundPoint() const;  // below its middle
 
   // Returns whether the robot rolls on level ground as its wheels turn, so that the closed form goes on where the
@@ -64,11 +65,15 @@ public:
   void BecomeSolved();
 
 protected:
+  // The wheels roll.
+  void SetVelocity(const EntityVelocity& velocity) override;
+  // Called after the closed form moved the robot by `seconds`.
   virtual void AfterFreeMotion(double seconds) { elapsed_ += seconds; }
   dBodyID Chassis() const { return scene_.world.Body(bodies_[0].number); }
   double Elapsed() const { return elapsed_; }  // s, of this tick
 
 private:
+  dJointID Axle(std::size_t wheel) const { return scene_.world.Hinge(axles_[wheel]); }
   std::array<double, 2> WheelRates() const;
 
   double wheel_radius_;
@@ -77,7 +82,7 @@ private:
   double largest_free_rate_;  // rad/s, of the wheels of a free robot
   bool brakes_freely_;        // its wheels stay down at full braking; if false, only a steady robot is free
   DifferentialDrive drive_;
-  dJointID axles_[2] = {nullptr, nullptr};        // left, right
+  int axles_[2] = {0, 0};                         // hinges: left, right
   std::array<double, 2> wheel_command_ = {0, 0};  // rad/s
   std::array<double, 2> wheel_turn_ = {0, 0};     // rad, of the last tick
   bool is_free_ = false;

@@ -1,4 +1,11 @@
-// How a WheeledModel leaves the solver and comes back to it.
+// Problem: a robot changes between the solver and the closed form of its drive, without a jump.
+//
+// Method: it may become free if its bodies already move as the closed form would: upright, at ground level, with no
+// other speed than that of its wheels. Then motion_ takes over pose and wheel rates, and the solver leaves its bodies
+// out. MoveBodies puts all bodies where the closed form is at the end of a tick: it turns them rigidly about the
+// vertical, and gives them the speeds of the arc.
+//
+// Invariant: height and lean of the bodies do not change while the robot is free.
 #include <algorithm>
 #include <cmath>
 
@@ -32,8 +39,22 @@ Vector2 WheeledModel::GroundPoint() const
   return {position[0], position[1]};
 }
 
+Box WheeledModel::CurrentBox() const
+{
+  Box box = Model::CurrentBox();
+  if (!is_free_) return box;
+  for (std::size_t axis = 0; axis < 2; ++axis)
+  {
+    const double middle = axis == 0 ? motion_.x : motion_.y;
+    box[2 * axis] = middle - radius_;
+    box[2 * axis + 1] = middle + radius_;
+  }
+  return box;
+}
+
 double WheeledModel::LargestSpeed() const
 {
+  if (!IsUpright()) return Model::LargestSpeed();
   const std::array<double, 2> rates = WheelRates();
   double rate = 0;
   for (std::size_t wheel = 0; wheel < 2; ++wheel)
@@ -46,7 +67,7 @@ double WheeledModel::LargestSpeed() const
 std::array<double, 2> WheeledModel::WheelRates() const
 {
   if (is_free_) return motion_.rates;
-  return {dJointGetHingeAngleRate(axles_[0]), dJointGetHingeAngleRate(axles_[1])};
+  return {dJointGetHingeAngleRate(Axle(0)), dJointGetHingeAngleRate(Axle(1))};
 }
 
 bool WheeledModel::RollsFreely() const
@@ -71,7 +92,7 @@ bool WheeledModel::RollsFreely() const
 
 void WheeledModel::BecomeFree()
 {
-  const std::array<double, 2> rates = {dJointGetHingeAngleRate(axles_[0]), dJointGetHingeAngleRate(axles_[1])};
+  const std::array<double, 2> rates = {dJointGetHingeAngleRate(Axle(0)), dJointGetHingeAngleRate(Axle(1))};
   const dReal* position = dBodyGetPosition(Chassis());
   const dReal* rotation = dBodyGetRotation(Chassis());
   const double length = std::sqrt(rotation[0] * rotation[0] + rotation[4] * rotation[4]);
@@ -120,7 +141,7 @@ void WheeledModel::MoveBodies()
     if (k > 0)
     {
       dVector3 axle;
-      dJointGetHingeAxis(axles_[k - 1], axle);
+      dJointGetHingeAxis(Axle(k - 1), axle);
       rotation += motion_.rates[k - 1] * VectorOf(axle);
     }
     dBodySetAngularVel(body, rotation.x(), rotation.y(), rotation.z());

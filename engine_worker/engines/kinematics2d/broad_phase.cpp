@@ -1,3 +1,13 @@
+// Problem: find all pairs of bodies that are near each other, in time proportional to the bodies.
+//
+// Method: the plane is cut into cells at least as wide as the largest reach of a pair, so that partners are in the same
+// or in neighbouring cells. A counting sort puts bodies in the order of their cells, and each body searches half of its
+// neighbours: the rest of its own cell, the next cell, and three cells of the next row, kLanes bodies at a time. A few
+// bodies much wider than the others would widen all cells; they are compared with all others instead.
+//
+// Invariants: float positions may miss by at most `slack_`, which widens every search, so that no pair is lost. Cells
+// and blocks start at multiples of their edges from the origin of the plane, so a block has the same cells in every
+// region.
 #include "engine_worker/engines/kinematics2d/broad_phase.h"
 
 #include <algorithm>
@@ -40,7 +50,7 @@ PlaneGrid PlaneGrid::For(const Bounds& area, std::span<const double> radii, doub
       if (!(radius > grid.largest_radius)) grid.largest_small_radius = std::max(grid.largest_small_radius, radius);
   }
 
-  // One body a cell if the margin allows, and never more cells than memory is good for.
+  // A cell holds one body if the margin allows that, but the number of cells is limited for the sake of memory.
   const double width = std::max(area.max_x - area.min_x, 1e-3);
   const double height = std::max(area.max_y - area.min_y, 1e-3);
   const double per_body = width * height / static_cast<double>(std::max<std::size_t>(count, 1));
@@ -111,7 +121,7 @@ void BroadPhase::SetStatics(std::span<const Bounds> boxes)
     static_boxes_.push_back({static_cast<float>(box.min_x) - slack_, static_cast<float>(box.min_y) - slack_,
                              static_cast<float>(box.max_x) + slack_, static_cast<float>(box.max_y) + slack_});
 
-  // Large bodies ask all shapes instead.
+  // Large bodies are left out here, since they are compared with all shapes.
   const double reach = grid_.largest_small_radius + grid_.largest_margin + slack_;
   for (std::size_t s = 0; s < boxes.size(); ++s)
   {
@@ -226,7 +236,7 @@ void BroadPhase::SweepBlock(float reach, std::uint32_t block, std::vector<Pair>&
           from += kLanes;
         } while (from < to);
       };
-      // The rest of this cell and the next one; then three cells of the next row.
+      // The search covers the rest of this cell and the next one, then three cells of the next row.
       search(k + 1, start[cell + 2]);
       search(start[cell + cells_.stride - 1], start[cell + cells_.stride + 2]);
     }

@@ -1,6 +1,7 @@
 // Finds bodies that are near each other: a uniform grid, filled in each step by a counting sort, with float copies of
 // the positions in the order of the cells. It remembers nothing from step to step, so that the pairs and their order
-// follow from the positions alone. Threads may share the search.
+// follow from the positions alone. Threads may share the search. IsNear tells for a pair what a search would find,
+// without a search (VerletList).
 #pragma once
 
 #include <algorithm>
@@ -61,10 +62,10 @@ class BroadPhase
 public:
   static constexpr std::uint32_t kColours = 4;
 
-  // `radii`: of the circles around the bodies.
+  // Sets the cells and the bodies. `radii` are those of the circles around the bodies.
   void Configure(const PlaneGrid& grid, std::span<const double> radii);
   const PlaneGrid& Grid() const { return grid_; }
-  // The static shapes by their boxes. After Configure.
+  // Sets the static shapes by their boxes. Call it after Configure.
   void SetStatics(std::span<const Bounds> boxes);
   // Replaces the bodies; the cells stay.
   void SetBodies(std::span<const double> radii);
@@ -97,12 +98,12 @@ public:
     const std::uint32_t row = block / block_columns_ + first_block_row_;
     return (row & 1U) * 2 + (column & 1U);
   }
-  // After Sort: part.blocks of the first `sharing` parts become pieces of these blocks, one after the other, with about
-  // as many bodies each; those of the other parts become empty.
+  // Shares blocks out after Sort: part.blocks of the first `sharing` parts become pieces of `blocks`, one after the
+  // other, with about as many bodies each. Those of the other parts become empty.
   template <class Part>
   void ShareOut(std::span<const std::uint32_t> blocks, std::size_t sharing, std::vector<Part>& parts) const;
-  // After Sort: bodies whose circles are less than `margin` apart, and bodies with the static shapes near them, block
-  // by block in the order of their cells. Large bodies are left out.
+  // Finds, after Sort, bodies whose circles are less than `margin` (m) apart, and bodies with the static shapes near
+  // them. They come block by block in the order of their cells. Large bodies are left out.
   void FindPairs(double margin, std::span<const std::uint32_t> blocks, PairList& found) const;
   // Returns whether FindPairs finds this pair when bodies are there: `reach` is that of its margin.
   bool IsNear(const Pair& pair, float reach, const PoseStore& poses) const
@@ -131,7 +132,7 @@ public:
     return {cells_.Cell(column, row),
             (row + missing_rows_) / kBlock * block_columns_ + (column + missing_columns_) / kBlock};
   }
-  // The pairs of large bodies with all others.
+  // Finds the pairs of large bodies with all others.
   void FindPairsOfLarge(double margin, const PoseStore& poses, std::span<const std::uint8_t> present,
                         std::vector<Pair>& pairs) const;
 
@@ -179,7 +180,7 @@ private:
   std::vector<std::uint32_t> large_;  // bodies that are too big for the cells, ascending
 
   CellSort sort_;
-  // By place in the order of the cells.
+  // These arrays are in the order of the cells.
   std::vector<std::uint32_t> body_, sorted_cell_;
   std::vector<float> x_, y_, r_;
 

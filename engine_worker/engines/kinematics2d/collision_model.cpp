@@ -1,3 +1,7 @@
+// Builds outlines of circles and convex polygons. For each part it computes what the tests need: faces with outward
+// normals and offsets, and the circle around the part. For the whole it computes the circle that contains all parts at
+// every angle of the turret, and the core, a circle about the origin that the outline fills. A step never leads further
+// than half of the core's radius (step_constants.h).
 #include "engine_worker/engines/kinematics2d/collision_model.h"
 
 #include <algorithm>
@@ -36,6 +40,26 @@ Polygon MakePolygon(std::span<const Vector2> points)
   for (const Vector2& point : points)
     polygon.radius = std::max(polygon.radius, Distance(point.x() - polygon.centre_x, point.y() - polygon.centre_y));
   return polygon;
+}
+
+double DistanceTo(const Polygon& polygon, double x, double y)
+{
+  double beyond = -1e30;  // the faces
+  for (std::size_t k = 0; k < static_cast<std::size_t>(polygon.count); ++k)
+    beyond = std::max(beyond, polygon.nx[k] * x + polygon.ny[k] * y - polygon.offset[k]);
+  if (beyond <= 0) return beyond;
+  double nearest = 1e30;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(polygon.count); ++k)
+  {
+    const std::size_t next = (k + 1) % static_cast<std::size_t>(polygon.count);
+    const double length_x = polygon.x[next] - polygon.x[k];
+    const double length_y = polygon.y[next] - polygon.y[k];
+    const double along =
+        ((x - polygon.x[k]) * length_x + (y - polygon.y[k]) * length_y) / (length_x * length_x + length_y * length_y);
+    const double part = std::clamp(along, 0.0, 1.0);
+    nearest = std::min(nearest, Distance(x - polygon.x[k] - part * length_x, y - polygon.y[k] - part * length_y));
+  }
+  return nearest;
 }
 
 CollisionModel MakeModel(std::span<const Circle> circles, std::vector<Polygon> polygons)

@@ -20,7 +20,8 @@ struct Circle
   double radius = 0;
 };
 
-// Convex, vertices counter-clockwise. Edge k runs from vertex k to the next one; its outward normal is (nx, ny).
+// A convex polygon with counter-clockwise vertices. Edge k runs from vertex k to the next one; its outward normal is
+// (nx, ny).
 struct Polygon
 {
   static constexpr int kMaximumVertices = 8;
@@ -46,6 +47,7 @@ struct ModelParts
   int circles = 0;
   double bounding_radius = 0;  // about the origin of the body, at every angle of the turret
   double core_radius = 0;      // of a circle about the origin that the model fills
+  double friction = 0;         // of contacts between a body and a static shape, which use the geometric mean of both
 };
 
 struct CollisionModel : ModelParts
@@ -53,17 +55,21 @@ struct CollisionModel : ModelParts
   std::vector<Polygon> polygons;
 };
 
-// 3 to kMaximumVertices points of a convex outline, counter-clockwise. Throws std::invalid_argument for others.
+// Makes a polygon from 3 to kMaximumVertices points of a convex outline, counter-clockwise. Throws
+// std::invalid_argument for other numbers, and for equal neighbours.
 Polygon MakePolygon(std::span<const Vector2> points);
-// Up to kMaximumParts circles and polygons together. Throws std::invalid_argument for more.
+// Returns the distance from a point in the frame of the polygon, negative inside.
+double DistanceTo(const Polygon& polygon, double x, double y);
+// Makes a model from up to kMaximumParts circles and polygons together. Throws std::invalid_argument for more.
 CollisionModel MakeModel(std::span<const Circle> circles, std::vector<Polygon> polygons);
 
 CollisionModel CircleModel(double radius);
 CollisionModel RectangleModel(double length_x, double length_y);
-// Figure 3.9 of the documentation: the body, the two wheels, the gripper's square at the front of the turret.
+// Returns the footbot of figure 3.9 of the documentation: the body, the two wheels, and the gripper's square at the
+// front of the turret.
 CollisionModel FootbotModel();
 
-// Geometry of the foot-bot, metres. Radius, wheel distance and wheel radius are those of the ARGoS3 model.
+// The geometry of the footbot in metres. Radius, wheel distance and wheel radius are those of the ARGoS3 model.
 inline constexpr double kFootbotRadius = 0.085036758;
 inline constexpr double kFootbotInterWheel = 0.14;
 inline constexpr double kFootbotWheelRadius = 0.029112741;

@@ -5,6 +5,10 @@
 // blocks have four colours. The colours take turns; a visit sweeps up to kMostSweeps times over the contacts of a
 // block whose leaders moved. A stamp on each leader says when it was pushed last, so that resting contacts cost little.
 //
+// Friction: a static shape that pushes a leader away by w takes up to friction * w from the way that the leader made
+// along the shape, and never more than all of it. The pushes of a body that drives against a wall at an angle a add up
+// to the way v sin(a) into it, so it slides at v (cos a - friction * sin a), as a body whose drive has a limited force.
+//
 // Invariants: blocks of one colour share no leader, so threads may take them in any order. Inside a block contacts have
 // the order in which they were added. Equal and opposite pushes keep the weighted sum of all ways.
 // Source: M. F. Adams, A distributed memory unstructured Gauss-Seidel algorithm for multigrid smoothers, SC 2001;
@@ -22,8 +26,8 @@ namespace swarmanoid::kinematics2d
 namespace
 {
 
-// Each round visits every block once, colour after colour: what one block does to its border the next ones see. In
-// crowds two rounds leave much of the work undone, more than four help little.
+// Each round visits every block once, colour after colour, so that a block sees what others did to its border. In
+// crowds two rounds leave much of the work undone, and more than four help little.
 constexpr unsigned kRounds = 4;
 constexpr unsigned kMostSweeps = 16;  // of a visit
 // A push can wake contacts that were at rest; they are looked for once in so many sweeps.
@@ -74,7 +78,7 @@ inline bool ContactSolver::IsDeep(const ContactList::Outline& outline, bool face
   const double near = outline.reach - limit;
   if (!(squared < near * near)) return false;
   const double length = std::sqrt(squared);
-  // Two centres at one place: any direction will do.
+  // Two centres at one place are pushed apart along x; any direction will do.
   push = {length > 0 ? nx / length : 1, length > 0 ? ny / length : 0, outline.reach - length};
   return true;
 }
@@ -97,6 +101,7 @@ inline bool ContactSolver::IsDeep(const ContactList::Outline& outline, bool face
     leaders.last_push[i] = now;
     x[i] += push.x * (way * mobility_i);
     y[i] += push.y * (way * mobility_i);
+    if (outline.friction > 0) Rub(i, push, outline.friction * way * mobility_i, leaders);
   }
   if (mobility_j > 0)
   {
@@ -107,6 +112,17 @@ inline bool ContactSolver::IsDeep(const ContactList::Outline& outline, bool face
   return true;
 }
 
+// Takes up to `most` (m) from the way that a leader made across a push.
+void ContactSolver::Rub(std::uint32_t leader, const Push& push, double most, const Leaders& leaders)
+{
+  double& x = leaders.x[leader];
+  double& y = leaders.y[leader];
+  const double across = push.x * (y - leaders.before_y[leader]) - push.y * (x - leaders.before_x[leader]);
+  const double lost = std::clamp(across, -most, most);
+  x += push.y * lost;
+  y -= push.x * lost;
+}
+
 inline void ContactSolver::Prefetch(ContactList::Ends ends, const Leaders& leaders)
 {
   __builtin_prefetch(&leaders.x[ends.first]);
@@ -115,8 +131,8 @@ inline void ContactSolver::Prefetch(ContactList::Ends ends, const Leaders& leade
   __builtin_prefetch(&leaders.y[ends.second]);
 }
 
-// `since`: pushes from then on are news to the block; 0 in its first visit, in which overlaps bounce. Returns whether
-// a leader moved.
+// Pushes from the stamp `since` on are news to the block. It is 0 in the first visit, in which overlaps bounce. Returns
+// whether a leader moved.
 bool ContactSolver::Visit(const ContactBlock& block, Stamp begin, Stamp since, double tolerance, const Leaders& leaders,
                           std::vector<std::uint32_t>& active)
 {
@@ -168,10 +184,11 @@ bool ContactSolver::Visit(const ContactBlock& block, Stamp begin, Stamp since, d
 }
 
 void ContactSolver::Solve(std::span<const std::vector<ContactBlock>> colours, std::span<const double> mobility,
-                          double tolerance, double most, std::vector<double>& x, std::vector<double>& y,
-                          WorkerPool* pool, Border* border)
+                          double tolerance, double most, PoseStore& now, const PoseStore& before, WorkerPool* pool,
+                          Border* border)
 {
-  const Leaders own{mobility.data(), x.data(), y.data(), last_push_.data(), statics_, most};
+  const Leaders own{mobility.data(), now.x.data(),      now.y.data(), before.x.data(),
+                    before.y.data(), last_push_.data(), statics_,     most};
   std::fill(last_push_.begin(), last_push_.end(), Stamp{0});
   const auto stride = static_cast<unsigned>(colours.size()) * kMostSweeps;
   for (unsigned round = 0; round < kRounds; ++round)

@@ -1,6 +1,6 @@
-// Pushes overlapping bodies apart: an elastic, frictionless exchange of the ways that they made within a step. Contacts
-// act on leaders: a body on its own, or the prey of a gripped group, which moves as one. The derivation is in
-// contact_solver.cpp.
+// Pushes overlapping bodies apart: an elastic exchange of the ways that they made within a step, without friction
+// between bodies and with Coulomb's friction along static shapes. Contacts act on leaders: a body on its own, or the
+// prey of a gripped group, which moves as one. The derivation is in contact_solver.cpp.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/threads/worker_pool.h"
+#include "engine_worker/engines/kinematics2d/motion.h"
 #include "engine_worker/engines/kinematics2d/narrow_phase.h"
 
 namespace swarmanoid::kinematics2d
@@ -23,7 +24,8 @@ public:
   struct Outline
   {
     double x, y, reach;
-    double bounce;  // metres of overlap that came from approaching in this step and are given back
+    double bounce;    // metres of overlap that came from approaching in this step and are given back
+    double friction;  // Coulomb coefficient; 0 between two bodies
   };
   struct Ends
   {
@@ -34,11 +36,11 @@ public:
   // Makes room for at least this many contacts.
   void Grow(std::size_t contacts);
   void Clear() { count_ = overlaps_ = 0; }
-  void Add(std::uint32_t first, std::uint32_t second, const Touch& touch, double bounce)
+  void Add(std::uint32_t first, std::uint32_t second, const Touch& touch, double bounce, double friction)
   {
     if (count_ == ends_.size()) Grow(count_ + 1);
     ends_[count_] = {first, second & 0x7fffffffU, touch.face};
-    outlines_[count_] = {touch.x, touch.y, touch.reach, bounce};
+    outlines_[count_] = {touch.x, touch.y, touch.reach, bounce, friction};
     overlapping_[overlaps_] = count_;
     overlaps_ += touch.depth > 0 ? 1 : 0;
     ++count_;
@@ -80,6 +82,8 @@ public:
     const double* mobility;  // nullptr if those of all bodies are 1
     double* x;
     double* y;
+    const double* before_x;  // where the substep began
+    const double* before_y;
     Stamp* last_push;       // 0 for never
     std::uint32_t statics;  // the leader of all static shapes
     double most;            // metres that a push parts by
@@ -99,11 +103,12 @@ public:
   {
   public:
     virtual ~Border() = default;
-    // After each colour but the last one: sends the leaders with pushes from `begin` on to all regions that hold them.
-    // Returns whether `moved` is true in any region.
+    // Is called after each colour but the last one. Sends the leaders with pushes from `begin` on to all regions that
+    // hold them. Returns whether `moved` is true in any region.
     virtual bool AfterColour(Stamp begin, bool moved) = 0;
-    // Returns the leaders of the last colour as they are now; PutShared puts back those with pushes from `begin` on.
+    // Returns the leaders of the last colour as they are now. A push parts them by up to `most` (m).
     virtual Leaders TakeShared(double most) = 0;
+    // Puts the leaders back that were pushed from `begin` on.
     virtual void PutShared(Stamp begin) = 0;
   };
 
@@ -113,7 +118,7 @@ public:
   // `mobility`, the inverse of a weight; it is empty if all weigh the same. A push parts by up to `most` (m), so that
   // bodies that were put deep into each other do not jump past others.
   void Solve(std::span<const std::vector<ContactBlock>> colours, std::span<const double> mobility, double tolerance,
-             double most, std::vector<double>& x, std::vector<double>& y, WorkerPool* pool, Border* border = nullptr);
+             double most, PoseStore& now, const PoseStore& before, WorkerPool* pool, Border* border = nullptr);
 
   // Returns whether the last Solve moved it.
   bool IsPushed(std::uint32_t leader) const { return last_push_[leader] != 0; }
@@ -154,6 +159,7 @@ private:
                         bool bounces, const Leaders& leaders);
   static bool Visit(const ContactBlock& block, Stamp begin, Stamp since, double tolerance, const Leaders& leaders,
                     std::vector<std::uint32_t>& active);
+  static void Rub(std::uint32_t leader, const Push& push, double most, const Leaders& leaders);
   static void Prefetch(ContactList::Ends ends, const Leaders& leaders);
 
   std::uint32_t statics_ = 0;                       // the leader of all static shapes

@@ -5,14 +5,21 @@
 // (verlet_list.h). A pair whose circles are near where the free motion ended goes to the exact test (narrow_phase.h).
 // A contact is stated in terms of its leaders' positions, so that pushes of leaders change its depth as they go.
 //
+// Two bodies that were put into each other are parted as wholes, by one contact along the line of their first parts.
+// With several parts inside each other, each part has another shortest way out, and the ways can block each other for
+// ever. In each substep both get at least kSlowestSeparation farther along that line than they were.
+//
 // A collision is elastic: of the overlap, what came from approaching in this substep is given back once more.
 //
 // Invariants: contacts stand in the order of blocks, and within a block in that of its pairs. Two blocks of one colour
 // share no body. Contacts of groups and of large bodies may reach anywhere and come last, as one more colour. Source:
 // docs/engines.md, "Crowds".
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "engine_worker/engines/kinematics2d/plane_step.h"
+#include "engine_worker/engines/kinematics2d/step_constants.h"
 
 namespace swarmanoid::kinematics2d
 {
@@ -34,43 +41,122 @@ double BounceOf(const Touch& touch, double dx, double dy, const PoseStore& befor
   return std::min(touch.depth, std::max(0.0, -(way_x * nx + way_y * ny)));
 }
 
+// Returns how much nearer (m) a pair of the batch came along a unit vector from the second body to the first one since
+// the substep began.
+double ApproachAlong(const PlaneState& plane, const PairBatch& batch, std::size_t lane, double x, double y)
+{
+  const Bodies& bodies = plane.bodies;
+  const Placed& a = batch.First(lane);
+  const Placed& b = batch.Second(lane);
+  const std::uint32_t first = bodies.NumberOf(a);
+  const std::uint32_t second = bodies.NumberOf(b);
+  const bool is_static = bodies.IsStatic(second);
+  const double way_x = a.x - bodies.before.x[first] - (is_static ? 0 : b.x - bodies.before.x[second]);
+  const double way_y = a.y - bodies.before.y[first] - (is_static ? 0 : b.y - bodies.before.y[second]);
+  return -(way_x * x + way_y * y);
+}
+
+// Returns the part (m) of the overlap at a touch that the way since the substep began does not explain.
+double DepthBefore(const PlaneState& plane, const PairBatch& batch, std::size_t lane, const Touch& touch)
+{
+  const Placed& a = batch.First(lane);
+  const Placed& b = batch.Second(lane);
+  const double length = touch.reach - touch.depth;
+  const double nx = touch.face ? touch.x : length > 0 ? (a.x - b.x + touch.x) / length : 1;
+  const double ny = touch.face ? touch.y : length > 0 ? (a.y - b.y + touch.y) / length : 0;
+  return touch.depth - std::max(0.0, ApproachAlong(plane, batch, lane, nx, ny));
+}
+
+// Returns for each pair of the batch whether it was put into each other: whether it overlapped when the substep began.
+// The exact test is for the few pairs whose overlap does not come from their ways.
+std::array<bool, kDoubleLanes> FindPutIntoEachOther(const PlaneState& plane, const PairBatch& batch)
+{
+  const double least = kPutIntoEachOther * plane.lengths.allowed;
+  std::array<bool, kDoubleLanes> found{};
+  bool any_deep = false;
+  for (std::size_t lane = 0; lane < batch.Count(); ++lane) any_deep |= batch.Deepest(lane) > least;
+  if (!any_deep) return found;
+  batch.ForEachTouch(
+      [&](std::size_t lane, const Touch& touch)
+      {
+        if (found[lane] || touch.depth <= least || DepthBefore(plane, batch, lane, touch) <= least) return;
+        const Bodies& bodies = plane.bodies;
+        const std::uint32_t first = bodies.NumberOf(batch.First(lane));
+        const std::uint32_t second = bodies.NumberOf(batch.Second(lane));
+        const Placed other = bodies.IsStatic(second) ? batch.Second(lane) : bodies.PlacedBefore(second);
+        found[lane] = Overlap(bodies.PlacedBefore(first), other) > least;
+      });
+  return found;
+}
+
+// Returns the contact that parts a pair of the batch as a whole.
+Touch WholeTouch(const PlaneState& plane, const PairBatch& batch, std::size_t lane)
+{
+  const Placed& a = batch.First(lane);
+  const Placed& b = batch.Second(lane);
+  const Vector2 apart = PartingDirection(a, b);
+  const double x = apart.x();
+  const double y = apart.y();
+  const double back = ApproachAlong(plane, batch, lane, x, y) + 2 * kSlowestSeparation;
+  const double depth = std::max(batch.Deepest(lane), back);
+  return {x, y, (a.x - b.x) * x + (a.y - b.y) * y + depth, true, 0, 0, depth};
+}
+
+// Returns the Coulomb coefficient of a contact: friction acts along static shapes alone.
+double FrictionOf(const CollisionModel& body, const CollisionModel& other, bool is_static)
+{
+  return is_static && other.friction > 0 ? std::sqrt(body.friction * other.friction) : 0;
+}
+
 // Adds the contacts of all pairs of the batch, and empties it.
 void AddContacts(const PlaneState& plane, PairBatch& batch, ContactList& contacts, ContactList& of_groups)
 {
   if (batch.Count() == 0) return;
   const Bodies& bodies = plane.bodies;
   batch.FindTouches(plane.lengths.contact_margin);
-  batch.ForEachTouch(
-      [&](std::size_t lane, Touch touch)
+  const auto add = [&](std::size_t lane, Touch touch, double elasticity)
+  {
+    const Placed& a = batch.First(lane);
+    const Placed& b = batch.Second(lane);
+    const std::uint32_t first = bodies.NumberOf(a);
+    // One number stands for all static shapes.
+    const auto second = std::min(bodies.NumberOf(b), static_cast<std::uint32_t>(bodies.count));
+    const std::uint32_t i = plane.groups.leader[first];
+    const std::uint32_t j = plane.groups.leader[second];
+    double dx = a.x - b.x;
+    double dy = a.y - b.y;
+    if (i != first || j != second)
+    {
+      // The shift turns the difference of the leaders into the difference of the bodies.
+      const PoseStore& now = bodies.now;
+      const double shift_x = dx - (now.x[i] - now.x[j]);
+      const double shift_y = dy - (now.y[i] - now.y[j]);
+      dx = now.x[i] - now.x[j];
+      dy = now.y[i] - now.y[j];
+      if (touch.face)
+        touch.reach -= shift_x * touch.x + shift_y * touch.y;
+      else
       {
-        const Placed& a = batch.First(lane);
-        const Placed& b = batch.Second(lane);
-        const std::uint32_t first = bodies.NumberOf(a);
-        // One number stands for all static shapes.
-        const auto second = std::min(bodies.NumberOf(b), static_cast<std::uint32_t>(bodies.count));
-        const std::uint32_t i = plane.groups.leader[first];
-        const std::uint32_t j = plane.groups.leader[second];
-        double dx = a.x - b.x;
-        double dy = a.y - b.y;
-        if (i != first || j != second)
-        {
-          // The shift turns the difference of the leaders into the difference of the bodies.
-          const PoseStore& now = bodies.now;
-          const double shift_x = dx - (now.x[i] - now.x[j]);
-          const double shift_y = dy - (now.y[i] - now.y[j]);
-          dx = now.x[i] - now.x[j];
-          dy = now.y[i] - now.y[j];
-          if (touch.face)
-            touch.reach -= shift_x * touch.x + shift_y * touch.y;
-          else
-          {
-            touch.x += shift_x;
-            touch.y += shift_y;
-          }
-        }
-        const double bounce =
-            touch.depth > 0 ? plane.contacts.elasticity * BounceOf(touch, dx, dy, bodies.before, i, j) : 0;
-        (i != first || j != second ? of_groups : contacts).Add(i, j, touch, bounce);
+        touch.x += shift_x;
+        touch.y += shift_y;
+      }
+    }
+    const double bounce = touch.depth > 0 ? elasticity * BounceOf(touch, dx, dy, bodies.before, i, j) : 0;
+    const double friction = FrictionOf(*a.model, *b.model, bodies.IsStatic(second));
+    (i != first || j != second ? of_groups : contacts).Add(i, j, touch, bounce, friction);
+  };
+  // The contacts come in the order of the pairs, whatever pairs share a batch.
+  const std::array<bool, kDoubleLanes> put_into_each_other = FindPutIntoEachOther(plane, batch);
+  std::size_t next_lane = 0;
+  batch.ForEachTouch(
+      [&](std::size_t lane, const Touch& touch)
+      {
+        const bool is_first = lane >= next_lane;
+        next_lane = lane + 1;
+        if (!put_into_each_other[lane])
+          add(lane, touch, plane.contacts.elasticity);
+        else if (is_first)
+          add(lane, WholeTouch(plane, batch, lane), 0);
       });
   batch.Clear();
 }

@@ -19,7 +19,7 @@ namespace swarmanoid::kinematics2d
 namespace
 {
 
-// In the frame of the prey, where the members do not move.
+// Returns the twist in the frame of the prey, in which the members do not move.
 Twist TwistOfMember(const Bodies& bodies, const Grip& grip)
 {
   const Twist own = bodies.twists.Get(grip.body);

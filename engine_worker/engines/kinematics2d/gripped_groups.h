@@ -26,7 +26,7 @@ struct Groups
 {
   std::vector<Grip> grips;            // by prey, then body
   std::vector<std::uint32_t> starts;  // of each group in `grips`, and the end
-  // One more entry than bodies: the static world.
+  // There is one more entry than bodies, for the static world.
   std::vector<std::uint32_t> leader;  // of each body
   std::vector<double> mobility;       // of each leader, the inverse of a weight; 0 for those that nothing pushes
   TwistStore with_groups;             // twists of the bodies with those of groups filled in; used while there are any
@@ -52,7 +52,7 @@ struct Groups
   const TwistStore& Twists(const Bodies& bodies) const { return grips.empty() ? bodies.twists : with_groups; }
 };
 
-// The order of grips.
+// Returns whether grip a comes before grip b.
 bool IsBefore(const Grip& a, const Grip& b);
 
 // Fills in Groups::with_groups: a stage at the start of a tick.

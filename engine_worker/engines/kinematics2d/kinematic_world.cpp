@@ -1,3 +1,7 @@
+// Two sizes follow from all bodies once, at the start: the median of the core radii limits how far a body may go in a
+// substep, and the cells are wide enough for two such ways. A follower (a mirror of another engine) moves from a pose
+// to another one during the tick; if that is farther than all substeps allow, it is put there at once. Grips are kept
+// sorted, so that the order of commands cannot change a result.
 #include "engine_worker/engines/kinematics2d/kinematic_world.h"
 
 #include <algorithm>
@@ -71,18 +75,17 @@ void KinematicWorld::Place(std::uint32_t body, const Pose2& pose)
   if (regions_) regions_->BodyChanged(body);
 }
 
-void KinematicWorld::Follow(std::uint32_t body, const Pose2& pose, bool present)
+void KinematicWorld::Follow(std::uint32_t body, const Pose2& from, const Pose2& goal, bool present)
 {
   Bodies& bodies = plane_.bodies;
   const auto at = std::lower_bound(bodies.followers.begin(), bodies.followers.end(), body,
                                    [](const Follower& follower, std::uint32_t b) { return follower.body < b; });
-  const Pose2 from = bodies.now.Get(body);
-  const double dx = pose.x - from.x;
-  const double dy = pose.y - from.y;
+  const double dx = goal.x - from.x;
+  const double dy = goal.y - from.y;
   const double leap = kMostSubsteps * bodies.LimitOf(bodies.ModelOf(body));
-  const bool appears = present && bodies.is_present[body] == 0;
-  at->from = appears || dx * dx + dy * dy > leap * leap ? pose : from;
-  at->goal = pose;
+  at->from = dx * dx + dy * dy > leap * leap ? goal : from;
+  at->goal = goal;
+  bodies.now.Set(body, at->from);
   bodies.is_present[body] = present ? 1 : 0;
 }
 

@@ -22,13 +22,13 @@ class RegionTasks;
 class KinematicWorld
 {
 public:
-  // 1 gives a collision's whole approach back, 0 none of it.
+  // With an elasticity of 1 a collision gives the whole approach back, with 0 none of it.
   explicit KinematicWorld(double elasticity = 1);
   ~KinematicWorld();
   KinematicWorld(KinematicWorld&&) noexcept;
   KinematicWorld& operator=(KinematicWorld&&) noexcept;
 
-  // Building: models, then bodies (numbered from 0) and static shapes, then Start.
+  // A world is built in this order: models, bodies (numbered from 0) and static shapes, Start.
   std::uint32_t AddModel(CollisionModel model);
   // Only followers may have this model. It must stay within the circle that the first outline filled.
   void ReplaceModel(std::uint32_t model, CollisionModel outline);
@@ -46,8 +46,8 @@ public:
   void SetTurretAngle(std::uint32_t body, double angle) { plane_.bodies.SetTurretAngle(body, angle); }
   // Bodies that are not present touch nothing. All are at first.
   void SetPresent(std::uint32_t body, bool present);
-  // Says where a follower will be at the end of the next Advance, and whether it is in the plane at all.
-  void Follow(std::uint32_t body, const Pose2& pose, bool present);
+  // Says where a follower is, where it will be at the end of the next Advance, and whether it is in the plane at all.
+  void Follow(std::uint32_t body, const Pose2& from, const Pose2& goal, bool present);
   // Puts a body elsewhere at once. Its grips stay: the caller also puts those bodies there that it grips or that grip
   // it.
   void Place(std::uint32_t body, const Pose2& pose);
@@ -87,11 +87,11 @@ public:
   const WorldStatistics& Statistics() const { return plane_.statistics; }
   double AllowedOverlapForTest() const { return plane_.lengths.allowed; }
 
-  // After Start: from now on the regions of the team do the work of Advance. Each computes some blocks of the plane
-  // (MoveCuts; at first region 0 has all), and all bodies go bit by bit as before, wherever the cuts are. `team`
-  // outlives the world.
+  // Splits the world after Start: the regions of the team do the work of Advance from now on. Each computes some blocks
+  // of the plane (MoveCuts; at first region 0 has all). All bodies go bit by bit as before, wherever the cuts are.
+  // `team` outlives the world.
   void Split(RegionTeam& team);
-  // Blocks of cells, row by row: a plane can be cut along their borders.
+  // The blocks of cells are numbered row by row; a plane can be cut along their borders.
   std::uint32_t BlockColumns() const { return plane_.contacts.broad.BlockColumns(); }
   std::uint32_t BlockCount() const { return plane_.contacts.broad.BlockCount(); }
   std::vector<std::uint32_t> BodiesInBlocks() const;

@@ -60,7 +60,7 @@ bool Kinematics2dEngine::Hold(std::uint32_t robot, std::uint32_t object)
 
 double Kinematics2dEngine::TickSeconds() const { return space_->GetTickSeconds(); }
 
-// `sum` of a robot's values: it is not finite if one of them is not.
+// Throws if `sum`, the sum of a robot's values, is not finite: then one of them is not.
 void Kinematics2dEngine::CheckCommand(double sum, std::uint32_t entity, const ChannelBlock& block) const
 {
   if (!std::isfinite(sum))
@@ -97,7 +97,7 @@ void Kinematics2dEngine::DriveWheels(const ChannelBlock& block, std::span<const 
   }
 }
 
-// Forward, left, up (which the plane does not allow), yaw rate.
+// The values are the speeds forward, left and up (m/s; the plane ignores the last one), and the yaw rate (rad/s).
 void Kinematics2dEngine::DrivePropellers(const ChannelBlock& block, std::span<const double> values)
 {
   for (std::size_t k = 0; k < block.entities.size(); ++k)
@@ -132,6 +132,17 @@ void Kinematics2dEngine::UseGrippers(const ChannelBlock& block, std::span<const 
   }
 }
 
+// Returns the distance (m) from a point of the plane to a body of one circle or one polygon, negative inside.
+double Kinematics2dEngine::GapTo(std::uint32_t body, double x, double y) const
+{
+  const CollisionModel& model = world_.ModelOf(body);
+  const double dx = world_.Poses().x[body] - x;
+  const double dy = world_.Poses().y[body] - y;
+  if (model.polygons.empty()) return std::sqrt(dx * dx + dy * dy) - model.bounding_radius;
+  const Placed placed = world_.PlacedAt(body);
+  return DistanceTo(model.polygons.front(), -(placed.cos * dx + placed.sin * dy), placed.sin * dx - placed.cos * dy);
+}
+
 void Kinematics2dEngine::GripNearest(std::uint32_t body)
 {
   const Placed robot = world_.PlacedAt(body);
@@ -142,15 +153,14 @@ void Kinematics2dEngine::GripNearest(std::uint32_t body)
   const auto origin = [this](std::size_t k) -> Vector3
   {
     const std::uint32_t prey = preys_[k];
-    if (!space_->IsPresent(layout_->owned[prey])) return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
+    if (is_elsewhere_[prey] != 0 || !space_->IsPresent(layout_->owned[prey]))
+      return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
     return {world_.Poses().x[prey], world_.Poses().y[prey], 0};
   };
   for (const std::uint32_t k : near_preys_.Near(space_->GetExperiment(), {front_x, front_y, 0}, nearest, origin))
   {
     const std::uint32_t prey = preys_[k];
-    const double dx = world_.Poses().x[prey] - front_x;
-    const double dy = world_.Poses().y[prey] - front_y;
-    const double gap = std::sqrt(dx * dx + dy * dy) - world_.ModelOf(prey).bounding_radius;
+    const double gap = GapTo(prey, front_x, front_y);
     if (gap >= nearest) continue;
     nearest = gap;
     found = prey;
@@ -171,6 +181,7 @@ void Kinematics2dEngine::ReportFootbots(AttributeChanges& changes)
   };
   for (const Footbot& footbot : footbots_)
   {
+    if (is_elsewhere_[footbot.body] != 0) continue;
     if (footbot.aperture) report(footbot.aperture_slot, *footbot.aperture);
     const Grip* grip = world_.FindGrip(footbot.body);
     report(footbot.gripped_slot, grip == nullptr ? 0 : 1.0 + layout_->owned[grip->prey]);
@@ -179,7 +190,7 @@ void Kinematics2dEngine::ReportFootbots(AttributeChanges& changes)
   if (changes.slots.size() == before) reported_ = space_->AttributeRevision();
 }
 
-// The arcs (m) that the wheels rolled in the tick, collisions included.
+// Gives the arcs (m) that the wheels rolled in the tick, collisions included.
 void Kinematics2dEngine::ReadEncoders(const ChannelBlock& block, std::span<double> values) const
 {
   for (std::size_t k = 0; k < block.entities.size(); ++k)
@@ -192,8 +203,8 @@ void Kinematics2dEngine::ReadEncoders(const ChannelBlock& block, std::span<doubl
   }
 }
 
-// The force of the load on the robot, in the frame of the turret: the way that the grip made the robot go beyond the
-// command of its wheels, as a part of full drive.
+// Gives the force of the load on the robot, in the frame of the turret: the way that the grip made the robot go beyond
+// the command of its wheels, as a part of full drive.
 void Kinematics2dEngine::ReadTurretTorques(const ChannelBlock& block, std::span<double> values) const
 {
   std::fill(values.begin(), values.end(), 0.0);
@@ -214,6 +225,11 @@ void Kinematics2dEngine::ReadTurretTorques(const ChannelBlock& block, std::span<
     const double turn = AngleOf(world_.PoseOf(body).heading * Conjugate(wanted.heading));
     values[3 * k + 2] = std::clamp(turn * kFullTorque / (kFullTurn * TickSeconds()), -1.0, 1.0);
   }
+}
+
+bool Kinematics2dEngine::IsFootbot(std::uint32_t body) const
+{
+  return std::ranges::binary_search(footbots_, body, {}, &Footbot::body);
 }
 
 Kinematics2dEngine::Footbot& Kinematics2dEngine::FootbotOf(std::uint32_t body)

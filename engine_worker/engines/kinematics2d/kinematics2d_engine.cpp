@@ -1,3 +1,10 @@
+// This file maps the space to the plane of a KinematicWorld and back. Bodies are numbered as the engine's entities, in
+// their order; mirrors of other engines follow their owners. Robots and preys stand on the plane, whereas a block keeps
+// its height and lean, so its outline is the cut of the plane, and each block has an outline of its own. A mirror that
+// another engine turns gets a new cut in each tick.
+//
+// The grid of cells follows from the initial poses alone. So an engine that is made in the middle of a run and restored
+// has the same cells, and computes the same numbers, as one that ran from the start.
 #include "engine_worker/engines/kinematics2d/kinematics2d_engine.h"
 
 #include <algorithm>
@@ -12,6 +19,7 @@
 #include "engine_worker/engines/kinematics2d/region_cuts.h"
 #include "engine_worker/engines/plane_frame.h"
 #include "engine_worker/engines/terrain_walls.h"
+#include "engine_worker/volume_members.h"
 
 namespace swarmanoid
 {
@@ -21,6 +29,8 @@ namespace
 using namespace kinematics2d;
 
 constexpr std::uint64_t kBalancePeriod = 64;  // ticks
+// A mirror that jumps farther than this in a tick was put elsewhere; it pushes nothing on its way.
+constexpr double kMirrorJump_m = 0.5;
 
 bool HasTurret(const CSwarmanoidSpaceEntity& entity)
 {
@@ -35,7 +45,7 @@ bool IsTerrain(const CSwarmanoidSpaceEntity& entity)
 bool IsPrey(const CSwarmanoidSpaceEntity& entity)
 {
   const EntityKindDescription& kind = DescriptionOf(entity.GetKind());
-  return kind.role == EntityRole::kObject && kind.form == BodyForm::kCylinder && kind.grippable;
+  return kind.role == EntityRole::kObject && kind.grippable;
 }
 
 // Returns the area of the plane that the arena covers.
@@ -66,6 +76,8 @@ void Kinematics2dEngine::Init(const EngineSetup& setup)
     threads_ = setup.threads;
     pool_ = setup.pool;
   }
+  friction_ = setup.parameters.Number("friction");
+  wall_friction_ = setup.parameters.Number("wall_friction");
   world_ = KinematicWorld(setup.parameters.Number("elasticity"));
   robots_.Init(setup.space, frame_, *this);
   team_ = setup.team;
@@ -76,7 +88,7 @@ void Kinematics2dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBindin
   if (binding == EBinding::kOwned)
     owned_.push_back(&entity);
   else if (binding == EBinding::kMirror)
-    mirrors_.push_back({&entity, 0, 0});
+    mirrors_.push_back({&entity});
   else if (HasBody(entity.GetKind()) || IsTerrain(entity))
     fixed_.push_back(&entity);
 }
@@ -84,15 +96,18 @@ void Kinematics2dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBindin
 // From the initial poses alone, so that an engine made in mid-run to be restored has the same grid as one of the start.
 void Kinematics2dEngine::Start()
 {
-  const std::uint32_t footbot_model = world_.AddModel(FootbotModel());
-  std::map<std::tuple<bool, double, double>, std::uint32_t> models;  // by form and size
+  CollisionModel outline = FootbotModel();
+  outline.friction = friction_;
+  const std::uint32_t footbot_model = world_.AddModel(std::move(outline));
+  std::map<std::tuple<bool, double, double, double>, std::uint32_t> models;  // by form, size and friction
   const auto model_for = [&](const CSwarmanoidSpaceEntity& entity)
   {
     if (HasTurret(entity)) return footbot_model;
-    // The plane cuts each free box elsewhere.
+    // The plane cuts each free box at another height, so each has a model of its own.
     if (IsFreeBox(entity.GetKind())) return world_.AddModel(ModelOf(entity));
     const bool is_box = DescriptionOf(entity.GetKind()).form == BodyForm::kBox;
-    const auto [known, is_new] = models.try_emplace({is_box, entity.GetSize().x(), entity.GetSize().y()}, 0);
+    const auto [known, is_new] =
+        models.try_emplace({is_box, entity.GetSize().x(), entity.GetSize().y(), FrictionOf(entity)}, 0);
     if (is_new) known->second = world_.AddModel(ModelOf(entity));
     return known->second;
   };
@@ -131,6 +146,8 @@ void Kinematics2dEngine::Start()
     if (IsFreeBox(mirror.entity->GetKind())) model.bounding_radius = mirror.entity->GetSize().norm() / 2;
     mirror.model = world_.AddModel(std::move(model));
     mirror.body = world_.AddBody(mirror.model, PlanePoseOf(mirror.entity->GetConfiguration().pose), true);
+    const std::uint32_t entity = mirror.entity->GetIndex();
+    if (std::ranges::binary_search(layout_->changing, entity)) mirror.own = BodyOf(entity);
   }
   for (const CSwarmanoidSpaceEntity* entity : fixed_)
   {
@@ -138,7 +155,7 @@ void Kinematics2dEngine::Start()
     {
       for (const std::vector<Vector2>& wall :
            TerrainWalls(entity->GetConfiguration(), space_->GetExperiment().folder, frame_))
-        world_.AddStatic(MakeModel({}, {MakePolygon(wall)}));
+        AddStatic(MakeModel({}, {MakePolygon(wall)}), wall_friction_);
       continue;
     }
     AddFixed(*entity);
@@ -154,6 +171,7 @@ void Kinematics2dEngine::Start()
   for (const Footbot& footbot : footbots_)
     world_.SetTurretAngle(footbot.body, space_->Attributes()[footbot.turret_slot]);
   writer_ = PlaneWriter(frame_, owned_.size(), std::move(stances));
+  is_elsewhere_.assign(owned_.size(), 0);
   std::vector<const CSwarmanoidSpaceEntity*>().swap(owned_);
   if (team_ != nullptr) world_.Split(*team_);
 }
@@ -178,11 +196,22 @@ void Kinematics2dEngine::AddFixed(const CSwarmanoidSpaceEntity& entity)
     if (!frame_.CutsUpright(pose, entity.GetSize().z())) return;
     const PlanePose flat = frame_.ToPlane(pose);
     const Circle circle{flat.u, flat.v, shape.half_size.x()};
-    world_.AddStatic(MakeModel({&circle, 1}, {}));
+    AddStatic(MakeModel({&circle, 1}, {}), FrictionOf(entity));
     return;
   }
   const std::vector<Vector2> outline = frame_.CutBody(entity, pose);
-  if (!outline.empty()) world_.AddStatic(MakeModel({}, {MakePolygon(outline)}));
+  if (!outline.empty()) AddStatic(MakeModel({}, {MakePolygon(outline)}), FrictionOf(entity));
+}
+
+void Kinematics2dEngine::AddStatic(CollisionModel shape, double friction)
+{
+  shape.friction = friction;
+  world_.AddStatic(std::move(shape));
+}
+
+double Kinematics2dEngine::FrictionOf(const CSwarmanoidSpaceEntity& entity) const
+{
+  return entity.GetConfiguration().tree.GetNumber("friction", entity.IsMovable() ? friction_ : wall_friction_);
 }
 
 Pose2 Kinematics2dEngine::PlanePoseOf(const Pose& pose) const
@@ -200,7 +229,9 @@ CollisionModel Kinematics2dEngine::ModelOf(const CSwarmanoidSpaceEntity& entity)
   if (HasTurret(entity)) return FootbotModel();
   if (IsFreeBox(entity.GetKind())) return Outline(entity, entity.GetConfiguration().pose);
   const bool is_box = DescriptionOf(entity.GetKind()).form == BodyForm::kBox;
-  return is_box ? RectangleModel(size.x(), size.y()) : CircleModel(size.x());
+  CollisionModel model = is_box ? RectangleModel(size.x(), size.y()) : CircleModel(size.x());
+  model.friction = FrictionOf(entity);
+  return model;
 }
 
 CollisionModel Kinematics2dEngine::Outline(const CSwarmanoidSpaceEntity& block, const Pose& at) const
@@ -216,7 +247,9 @@ CollisionModel Kinematics2dEngine::Outline(const CSwarmanoidSpaceEntity& block, 
   }
   std::vector<Polygon> polygons;
   if (!points.empty()) polygons.push_back(MakePolygon(points));
-  return MakeModel({}, std::move(polygons));
+  CollisionModel model = MakeModel({}, std::move(polygons));
+  model.friction = FrictionOf(block);
+  return model;
 }
 
 void Kinematics2dEngine::Update(const EngineCommands& commands, EngineUpdate& update, std::span<double> sensors)
@@ -240,9 +273,11 @@ void Kinematics2dEngine::Update(const EngineCommands& commands, EngineUpdate& up
   }
 }
 
+// A mirror begins a tick where the space has it. Its engine moves it in this tick, too, so it is taken to go on as in
+// the last one: along the same arc.
 void Kinematics2dEngine::FollowMirrors()
 {
-  for (const Mirror& mirror : mirrors_)
+  for (Mirror& mirror : mirrors_)
   {
     const Pose pose = mirror.entity->GetPose();
     bool present;
@@ -254,8 +289,36 @@ void Kinematics2dEngine::FollowMirrors()
     }
     else
       present = frame_.CutsUpright(pose, mirror.entity->GetSize().z());
-    world_.Follow(mirror.body, PlanePoseOf(pose), present);
+    if (mirror.own != kNobody && is_elsewhere_[mirror.own] == 0)
+      present = false;
+    else if (mirror.own != kNobody)
+    {
+      const bool is_ghost = IsGhost(*space_, configuration_->volume, mirror.entity->GetIndex());
+      FollowGhost(mirror.own, pose, is_ghost && present);
+      present = present && !is_ghost;
+    }
+    const Pose2 now = PlanePoseOf(pose);
+    const double dx = now.x - mirror.previous.x;
+    const double dy = now.y - mirror.previous.y;
+    const bool goes_on = mirror.is_known != 0 && dx * dx + dy * dy < kMirrorJump_m * kMirrorJump_m;
+    world_.Follow(mirror.body, now, goes_on ? Compose(now, Relative(mirror.previous, now)) : now, present);
+    mirror.previous = now;
+    mirror.is_known = 1;
   }
+}
+
+void Kinematics2dEngine::MirrorMoved(std::uint32_t entity)
+{
+  for (Mirror& mirror : mirrors_)
+    if (mirror.entity->GetIndex() == entity) mirror.is_known = 0;
+}
+
+void Kinematics2dEngine::FollowGhost(std::uint32_t body, const Pose& pose, bool present)
+{
+  world_.SetPresent(body, present);
+  if (!present) return;
+  if (IsFootbot(body)) world_.SetTurretAngle(body, space_->Attributes()[FootbotOf(body).turret_slot]);
+  world_.Place(body, PlanePoseOf(pose));
 }
 
 void Kinematics2dEngine::EntityMoved(std::uint32_t entity)
@@ -272,6 +335,34 @@ void Kinematics2dEngine::EntityMoved(std::uint32_t entity)
   world_.SetPresent(body, space_->IsPresent(entity));
 }
 
+void Kinematics2dEngine::TakeOver(std::uint32_t entity, const EntityVelocity& velocity)
+{
+  const std::uint32_t body = BodyOf(entity);
+  is_elsewhere_[body] = 0;
+  if (IsFootbot(body))
+  {
+    Footbot& footbot = FootbotOf(body);
+    footbot.aperture.reset();
+    world_.SetTurretAngle(body, space_->Attributes()[footbot.turret_slot]);
+  }
+  reported_ = 0;
+  const Pose pose = space_->GetPose(entity);
+  world_.Place(body, PlanePoseOf(pose));
+  robots_.TakeOver(entity, frame_.StanceOf(pose).height, velocity);
+  world_.SetPresent(body, space_->IsPresent(entity));
+}
+
+void Kinematics2dEngine::HandOver(std::uint32_t entity)
+{
+  const std::uint32_t body = BodyOf(entity);
+  is_elsewhere_[body] = 1;
+  world_.RemoveGripsIf([body](const Grip& grip) { return grip.body == body || grip.prey == body; });
+  world_.SetTwist(body, {});
+  if (IsFootbot(body)) world_.SetTurretRate(body, 0);
+  robots_.HandOver(entity);
+  world_.SetPresent(body, false);
+}
+
 std::uint32_t Kinematics2dEngine::BodyOf(std::uint32_t entity) const
 {
   return static_cast<std::uint32_t>(std::lower_bound(layout_->owned.begin(), layout_->owned.end(), entity) -
@@ -282,13 +373,28 @@ void Kinematics2dEngine::SaveState(ByteWriter& state) const
 {
   world_.SaveState(state);
   robots_.SaveState(state);
+  for (const Mirror& mirror : mirrors_)
+  {
+    state.Put(mirror.previous);
+    state.Put(mirror.is_known);
+  }
 }
 
 void Kinematics2dEngine::LoadState(ByteReader& state)
 {
   world_.LoadState(state);
   robots_.LoadState(state);
+  for (Mirror& mirror : mirrors_)
+  {
+    mirror.previous = state.Get<Pose2>();
+    mirror.is_known = state.Get<std::uint8_t>();
+  }
   reported_ = 0;
+}
+
+void Kinematics2dEngine::BeginAgain()
+{
+  for (Mirror& mirror : mirrors_) mirror.is_known = 0;
 }
 
 std::string Kinematics2dEngine::StatusText() const

@@ -8,15 +8,18 @@
 //
 // Invariants: no push leads further than `reach` from the start, so that the near pairs of the substep are all that can
 // meet. Two bodies that were not pushed do not overlap, else the solver would have pushed them. The set of involved
-// bodies grows until nothing is added, so that threads, regions and order change no bit.
+// bodies grows until nothing is added, so that threads, regions and order change no bit. Two bodies that were put into
+// each other have one plane, with the direction in which the solver parts them: they do not approach along it.
 // Source: docs/engines.md, "Crowds: how".
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 
 #include "common/math/lanes.h"
 #include "engine_worker/engines/kinematics2d/plane_step.h"
 #include "engine_worker/engines/kinematics2d/separating_planes.h"
+#include "engine_worker/engines/kinematics2d/step_constants.h"
 
 namespace swarmanoid::kinematics2d
 {
@@ -173,16 +176,39 @@ void AddPlanes(PlaneState& plane, PlacedPairs& near, double seconds, LimitList& 
 {
   if (near.batch.Count() == 0) return;
   near.batch.FindAllTouches(near.margins);
+  const auto limit = [&](double gap, const SeparatingPlane& between)
+  {
+    if (!limits.Add(gap, between.approaches)) return;
+    for (const Approach& approach : between.approaches)
+      if (approach.rate > 0) Involve(plane, LeaderOfMotion(approach.motion), more);
+  };
+  const auto add = [&](std::size_t lane, const Touch& touch)
+  {
+    const Pair& pair = near.pairs[lane];
+    const MovingPart first = MovingPartOf(plane, pair.first, near.first[lane], touch.first_part, seconds);
+    const MovingPart second = MovingPartOf(plane, pair.second, near.second[lane], touch.second_part, seconds);
+    const SeparatingPlane between = PlaneBetween(first, second, touch, plane.lengths.allowed);
+    limit(std::max(between.gap, 0.0), between);
+  };
+  // Two bodies that were put into each other do not approach against the direction in which they are parted.
+  const auto add_whole = [&](std::size_t lane)
+  {
+    const Pair& pair = near.pairs[lane];
+    const Vector2 apart = PartingDirection(plane.bodies.placed[pair.first], plane.bodies.placed[pair.second]);
+    const MovingPart first = MovingPartOf(plane, pair.first, near.first[lane], 0, seconds);
+    const MovingPart second = MovingPartOf(plane, pair.second, near.second[lane], 0, seconds);
+    limit(0, PlaneAlong(first, second, apart.x(), apart.y(), plane.lengths.allowed));
+  };
+  std::array<bool, kDoubleLanes> are_parted_as_wholes{};
+  for (std::size_t lane = 0; lane < near.batch.Count(); ++lane)
+  {
+    are_parted_as_wholes[lane] = near.batch.Deepest(lane) > kPutIntoEachOther * plane.lengths.allowed;
+    if (are_parted_as_wholes[lane]) add_whole(lane);
+  }
   near.batch.ForEachTouch(
       [&](std::size_t lane, const Touch& touch)
       {
-        const Pair& pair = near.pairs[lane];
-        const MovingPart first = MovingPartOf(plane, pair.first, near.first[lane], touch.first_part, seconds);
-        const MovingPart second = MovingPartOf(plane, pair.second, near.second[lane], touch.second_part, seconds);
-        const SeparatingPlane between = PlaneBetween(first, second, touch, plane.lengths.allowed);
-        if (!limits.Add(std::max(between.gap, 0.0), between.approaches)) return;
-        for (const Approach& approach : between.approaches)
-          if (approach.rate > 0) Involve(plane, LeaderOfMotion(approach.motion), more);
+        if (!are_parted_as_wholes[lane]) add(lane, touch);
       });
   near.batch.Clear();
 }

@@ -1,3 +1,12 @@
+// Problem: move bodies by constant twists, exactly, and with the same bits for one body as for kDoubleLanes at once.
+//
+// Method: a body that turns by 2u within the step goes along the arc of a circle. The chord has the direction of the
+// heading after half the turn, and the length of the arc times sin(u) / u. Small turns use series for sine and cosine,
+// in lanes; larger ones the functions of common/math, body by body. Headings are half-angle pairs (z, w) as in
+// quaternions, so that turns are products.
+//
+// Invariant: a Newton step keeps the pair at unit length to rounding, for any number of steps. Source: docs/engines.md,
+// "Model".
 #include "engine_worker/engines/kinematics2d/motion.h"
 
 #include "common/math/elementary.h"
@@ -11,7 +20,7 @@ namespace
 // Up to this half turn a step, the series below are exact to rounding: their first missing terms are under 1e-16.
 constexpr double kSeriesLimit = 0.5;
 
-// sin(u) / u and cos(u) for z = u * u.
+// These series give sin(u) / u and cos(u) for z = u * u.
 template <class Number>
 Number SincSeries(Number z)
 {
@@ -52,7 +61,7 @@ Motion<Number> Advance(Number x, Number y, Number z, Number w, Number forward, N
   const Number middle_sin = (heading_sin * cosine + heading_cos * sine) * sinc;
   const Number new_z = z * cosine + w * sine;
   const Number new_w = w * cosine - z * sine;
-  // One Newton step towards unit length.
+  // One Newton step brings the quaternion back to unit length.
   const Number scale = 1.5 - 0.5 * (new_z * new_z + new_w * new_w);
   return {x + (forward * middle_cos - left * middle_sin), y + (forward * middle_sin + left * middle_cos), new_z * scale,
           new_w * scale};

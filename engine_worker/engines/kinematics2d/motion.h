@@ -21,7 +21,7 @@ struct Pose2
   Rotor heading;
 };
 
-// Velocity of a body in its own frame: forward and left in m/s, turn in rad/s counter-clockwise.
+// The velocity of a body in its own frame: forward and left in m/s, turn in rad/s counter-clockwise.
 struct Twist
 {
   double forward = 0;
@@ -38,14 +38,14 @@ inline double SinOf(Rotor r) { return 2 * r.z * r.w; }
 Pose2 Compose(const Pose2& frame, const Pose2& local);
 // Returns the pose of `inner` in the frame of `outer`.
 Pose2 Relative(const Pose2& outer, const Pose2& inner);
-// Where a body at this twist is after `seconds`.
+// Returns the pose of a body with this twist after `seconds`.
 Pose2 Advanced(const Pose2& pose, const Twist& twist, double seconds);
 
 // Arrays that the vector loops read are padded to a multiple of this many elements.
 inline constexpr std::size_t kPadding = 16;
 constexpr std::size_t PaddedCount(std::size_t count) { return (count + 2 * kPadding - 1) / kPadding * kPadding; }
 
-// Poses of all bodies, one array a component, padded for the vector loops.
+// The poses of all bodies, one array a component, padded for the vector loops.
 struct PoseStore
 {
   std::vector<double> x, y, z, w;

@@ -21,7 +21,7 @@
 namespace swarmanoid::kinematics2d
 {
 
-// Numbers of a leader's motions.
+// A leader has two motions with these numbers.
 constexpr std::uint32_t WayMotion(std::uint32_t leader) { return 2 * leader; }
 constexpr std::uint32_t TurnMotion(std::uint32_t leader) { return 2 * leader + 1; }
 constexpr std::uint32_t LeaderOfMotion(std::uint32_t motion) { return motion / 2; }

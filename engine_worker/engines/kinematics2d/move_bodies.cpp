@@ -67,7 +67,7 @@ void MoveBodies(PlaneState& plane, double seconds, double fraction)
             }
           });
 
-  // A few go otherwise.
+  // Members of groups, followers and turrets move differently.
   for (const Grip& grip : groups.grips) bodies.now.Set(grip.body, Compose(bodies.now.Get(grip.prey), grip.relative));
   MoveFollowers(bodies, fraction);
   TurnTurrets(bodies, groups, seconds);

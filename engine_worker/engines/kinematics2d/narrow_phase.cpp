@@ -169,7 +169,7 @@ void PairBatch::CircleWithPolygon(const Side& circles, const Side& polygons, std
        sign > 0 ? other : circle});
 }
 
-// `between`: from the body of `faces` to that of `other`.
+// `between` is the vector from the body of `faces` to that of `other`.
 PairBatch::Faces PairBatch::SeparationAlong(const Polygon& faces, const Polygon& other, const Axes& faces_axes,
                                             const Axes& other_axes, Points between)
 {
@@ -211,13 +211,32 @@ void PairBatch::PolygonWithPolygon(std::size_t p, std::size_t q)
   const Points n_b = axes_b.ToWorld(along_b.normal);
   const Points n_a = axes_a.ToWorld({-along_a.normal.x, -along_a.normal.y});
   const Points n{from_b ? n_b.x : n_a.x, from_b ? n_b.y : n_a.y};
-  // depth = -separation at this place; reach makes it so.
+  // The reach is chosen so that the depth is -separation at this position.
   const DoubleLanes separation = from_b ? along_b.separation : along_a.separation;
   const DoubleLanes reach = n.x * between_.x + n.y * between_.y - separation;
   const DoubleLanes depth = reach - (between_.x * n.x + between_.y * n.y);
   const auto part = [](const Side& side, std::size_t polygon)
   { return static_cast<std::uint8_t>(static_cast<std::size_t>(side.Model().circles) + polygon); };
   Add({n.x, n.y, reach, depth, ~LongLanes{}, part(first_, p), part(second_, q)});
+}
+
+Vector2 PartingDirection(const Placed& a, const Placed& b)
+{
+  std::array<double, kDoubleLanes> everywhere;
+  everywhere.fill(kNone);
+  PairBatch batch;
+  batch.Add(a, b);
+  batch.FindAllTouches(everywhere);
+  Vector2 direction = Vector2::UnitX();
+  batch.ForEachTouch(
+      [&](std::size_t, const Touch& touch)
+      {
+        if (touch.first_part != 0 || touch.second_part != 0) return;
+        const Vector2 way = touch.face ? Vector2(touch.x, touch.y) : Vector2(a.x - b.x + touch.x, a.y - b.y + touch.y);
+        const double length = std::sqrt(way.squaredNorm());
+        if (length > 0) direction = way / length;
+      });
+  return direction;
 }
 
 double Overlap(const Placed& a, const Placed& b)

@@ -53,17 +53,17 @@ public:
   const Placed& First(std::size_t lane) const { return *first_.placed[lane]; }
   const Placed& Second(std::size_t lane) const { return *second_.placed[lane]; }
 
-  // For every pair, all places where the outlines overlap or are less than `margin` apart. Those that are
+  // Finds, for every pair, all places where the outlines overlap or are less than `margin` (m) apart. Places that are
   // kTouchesApart less deep than the deepest one of their pair are left out.
   void FindTouches(double margin) { Find(Everywhere(margin), true); }
-  // The same, each pair with a margin of its own and nothing left out.
+  // Works as FindTouches, with a margin for each pair, and leaves nothing out.
   void FindAllTouches(const std::array<double, kDoubleLanes>& margins)
   {
     Find(InLanes([&](std::size_t lane) { return margins[lane < count_ ? lane : 0]; }), false);
   }
-  // After FindTouches: the depth of the deepest touch of a pair; far below 0 if there is none.
+  // Returns, after FindTouches, the depth (m) of the deepest touch of a pair. It is far below 0 if the pair has none.
   double Deepest(std::size_t lane) const { return deepest_[lane]; }
-  // After FindTouches: calls act(lane, touch) with the touches of each pair, one pair after the other.
+  // Calls act(lane, touch), after FindTouches, with the touches of each pair, one pair after the other.
   template <class Act>
   void ForEachTouch(const Act& act) const
   {
@@ -144,5 +144,8 @@ private:
 
 // Returns the deepest overlap in metres, or 0 if the bodies do not overlap.
 double Overlap(const Placed& a, const Placed& b);
+// Returns the direction in which two near bodies are parted as wholes: the unit vector from the second to the first one
+// along which their first parts are nearest to each other.
+Vector2 PartingDirection(const Placed& a, const Placed& b);
 
 }  // namespace swarmanoid::kinematics2d

@@ -109,7 +109,7 @@ void WriteResult(const PlaneState& plane, RegionBodies& region, ByteWriter& resu
   put(bodies.travel_turn);
 }
 
-void DoTask(PlaneState& plane, Region& region, bool anew, ByteReader& task, ByteWriter& result)
+void DoTask(PlaneState& plane, Region& region, bool all_data, ByteReader& task, ByteWriter& result)
 {
   Bodies& bodies = plane.bodies;
   const auto seconds = task.Get<double>();
@@ -133,7 +133,7 @@ void DoTask(PlaneState& plane, Region& region, bool anew, ByteReader& task, Byte
     bodies.is_present[follower.body] = followers[k].is_present != 0 ? 1 : 0;
   }
   region.bodies.SetGrips(task.GetArray<Grip>());
-  if (anew)
+  if (all_data)
     region.bodies.TakeBodies(task);
   else
     ReadChanges(bodies, region.bodies, task);

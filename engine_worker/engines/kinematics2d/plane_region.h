@@ -17,7 +17,8 @@ class PlaneRegion final : public EngineRegion
 {
 public:
   static constexpr unsigned kHalo = 2;
-  // It speaks to the others by `exchange`, which outlives it. Throws std::runtime_error if there is no such region.
+  // The region exchanges messages with the others by `exchange`, which outlives it. Throws std::runtime_error if there
+  // is no such region.
   PlaneRegion(unsigned region, RegionExchange& exchange, unsigned halo = kHalo);
   ~PlaneRegion() override;
   // Executes a task and writes its result. Throws std::runtime_error for a malformed task.

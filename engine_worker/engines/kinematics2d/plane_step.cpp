@@ -21,7 +21,7 @@ void SolveContacts(PlaneState& plane, ContactSolver::Border* border)
   const std::span<const double> mobility =
       plane.EachIsFree() ? std::span<const double>() : std::span<const double>(plane.groups.mobility);
   plane.contacts.solver.Solve(plane.contacts.colours, mobility, kSolverTolerance * plane.lengths.allowed,
-                              2 * plane.lengths.reach, plane.bodies.now.x, plane.bodies.now.y, plane.Pool(), border);
+                              2 * plane.lengths.reach, plane.bodies.now, plane.bodies.before, plane.Pool(), border);
 }
 
 void Substep(PlaneState& plane, double seconds, double fraction, Region* region)

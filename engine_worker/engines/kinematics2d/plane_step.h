@@ -50,7 +50,7 @@ struct Contacts
   std::vector<Part> parts;              // one for each thread, then one for bodies too large for the cells
   std::vector<ContactBlock> of_large;   // one for each part of the pairs of large bodies
   ContactList shared;                   // contacts of large bodies and of groups: they may reach into many blocks
-  // By colour of their blocks; the shared contacts are the last colour.
+  // The blocks are sorted by colour; the shared contacts are the last colour.
   std::array<std::vector<ContactBlock>, BroadPhase::kColours + 1> colours;
   ContactSolver solver;
 
@@ -93,9 +93,9 @@ struct PlaneState
   std::unique_ptr<WorkerPool> own_pool;
   WorkerPool* pool = nullptr;  // nullptr for one thread
 
-  // After all bodies and shapes were added. The threads of `shared_pool` work, or those of a pool of its own.
+  // Is called after all bodies and shapes were added. The threads of `shared_pool` work, or those of a pool of its own.
   void Start(const PlaneGrid& grid, unsigned thread_count, WorkerPool* shared_pool);
-  // After the bodies came, went or got other numbers: ends all grips.
+  // Ends all grips. Is called after bodies came, went or got other numbers.
   void BodiesChanged();
 
   WorkerPool* Pool() const { return IfItShares(pool); }

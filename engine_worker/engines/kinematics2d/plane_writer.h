@@ -25,8 +25,8 @@ public:
   // Writes the first `bodies` bodies. `stances`, by body, are those of bodies that may not stand upright on the plane.
   PlaneWriter(const PlaneFrame& frame, std::size_t bodies, std::vector<Stance> stances);
 
-  // poses: 7 doubles a body, structure of arrays x y z qx qy qz qw.
-  // The threads of `pool`, if there is one, share the work.
+  // Writes the poses: 7 doubles a body, structure of arrays x y z qx qy qz qw. The threads of `pool`, if there is one,
+  // share the work.
   void Write(const kinematics2d::PoseStore& bodies, std::span<double> poses, WorkerPool* pool = nullptr) const;
 
 private:

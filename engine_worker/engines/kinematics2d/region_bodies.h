@@ -57,13 +57,13 @@ public:
                unsigned halo);
 
   void SetCuts(std::span<const std::uint8_t> region_of_block);
-  // All grips of the whole plane, by its numbers and in its order.
+  // Sets all grips of the whole plane, by its numbers and in its order.
   void SetGrips(std::vector<Grip> grips);
   // The sets of held bodies are found again before the next substep. To be called in all regions at once.
   void ShareOutAnew() { is_shared_out_ = false; }
   // Owns the bodies of the message, as PutBody wrote them.
   void TakeBodies(ByteReader& message);
-  // Before each substep: brings the bodies and their owners up to date.
+  // Brings the bodies and their owners up to date. Is called before each substep.
   void Share();
 
   // Blocks in which held bodies may be, ascending.
@@ -86,7 +86,7 @@ private:
   Regions Bit(unsigned region) const { return Regions{1} << region; }
   // Requires FindCells and MarkEverywhere.
   Regions HoldersOf(std::uint32_t body) const;
-  // Whether it is owned where no other region holds it.
+  // Returns whether this region owns the body and no other region holds it.
   bool IsInner(std::uint32_t body) const { return (is_own_[body] & inner_[cells_[body]]) > is_everywhere_[body]; }
   void FindCells();
   void MarkEverywhere();

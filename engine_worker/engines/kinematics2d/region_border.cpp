@@ -94,8 +94,11 @@ void RegionBorder::ChoosePairsOfLarge()
 RegionBorder::SharedLeader RegionBorder::LeaderAt(std::uint32_t leader) const
 {
   const Bodies& bodies = plane_.bodies;
-  if (bodies.IsStatic(leader)) return {kNobody, 0, 0, 0, 0};
-  return {bodies_.NumberInWhole(leader), 0, bodies.now.x[leader], bodies.now.y[leader], plane_.groups.mobility[leader]};
+  if (bodies.IsStatic(leader)) return {kNobody, 0, 0, 0, 0, 0, 0};
+  return {bodies_.NumberInWhole(leader), 0,
+          bodies.now.x[leader],          bodies.now.y[leader],
+          bodies.before.x[leader],       bodies.before.y[leader],
+          plane_.groups.mobility[leader]};
 }
 
 // Adds the shared contacts that this region found, each with its place in the order of all.
@@ -164,7 +167,8 @@ void RegionBorder::NumberLeaders()
   shared_numbers_.erase(std::unique(shared_numbers_.begin(), shared_numbers_.end()), shared_numbers_.end());
 
   const std::size_t leaders = shared_numbers_.size();
-  for (std::vector<double>* values : {&shared_x_, &shared_y_, &shared_mobility_}) values->assign(leaders + 1, 0);
+  for (std::vector<double>* values : {&shared_x_, &shared_y_, &shared_before_x_, &shared_before_y_, &shared_mobility_})
+    values->assign(leaders + 1, 0);
   shared_pushes_.assign(leaders + 1, 0);
   shared_bodies_.resize(leaders);
   for (std::size_t k = 0; k < leaders; ++k) shared_bodies_[k] = bodies_.Find(shared_numbers_[k]);
@@ -176,6 +180,8 @@ void RegionBorder::NumberLeaders()
     const std::uint32_t k = IndexOfShared(leader.number);
     shared_x_[k] = leader.x;
     shared_y_[k] = leader.y;
+    shared_before_x_[k] = leader.before_x;
+    shared_before_y_[k] = leader.before_y;
     shared_mobility_[k] = leader.mobility;
     return k;
   };
@@ -185,7 +191,8 @@ void RegionBorder::NumberLeaders()
     const std::uint32_t second = index_of(contact.second);
     const ContactList::Outline& outline = contact.outline;
     const double depth = contact.overlaps != 0 ? 1.0 : -1.0;
-    shared.Add(first, second, {outline.x, outline.y, outline.reach, contact.face != 0, 0, 0, depth}, outline.bounce);
+    shared.Add(first, second, {outline.x, outline.y, outline.reach, contact.face != 0, 0, 0, depth}, outline.bounce,
+               outline.friction);
   }
 }
 
@@ -266,6 +273,8 @@ ContactSolver::Leaders RegionBorder::TakeShared(double most)
   return {shared_mobility_.data(),
           shared_x_.data(),
           shared_y_.data(),
+          shared_before_x_.data(),
+          shared_before_y_.data(),
           shared_pushes_.data(),
           static_cast<std::uint32_t>(shared_bodies_.size()),
           most};

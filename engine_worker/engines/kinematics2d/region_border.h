@@ -43,12 +43,12 @@ private:
     std::uint32_t stamp;
     double x, y;
   };
-  // A leader in a shared contact, where its motion ended.
+  // A leader in a shared contact, where its motion ended and where the substep began.
   struct SharedLeader
   {
     std::uint32_t number;
     std::uint32_t padding;
-    double x, y, mobility;
+    double x, y, before_x, before_y, mobility;
   };
   // The order of shared contacts: those of groups by blocks; then those of large bodies, by large body, then by the
   // cell of the other one, then by the other one.
@@ -85,7 +85,7 @@ private:
   // Values of each leader in a shared contact, by number in the whole plane. Static shapes have one more entry.
   std::vector<std::uint32_t> shared_numbers_;
   std::vector<std::uint32_t> shared_bodies_;  // kNobody if the region does not hold it
-  std::vector<double> shared_x_, shared_y_, shared_mobility_;
+  std::vector<double> shared_x_, shared_y_, shared_before_x_, shared_before_y_, shared_mobility_;
   std::vector<Stamp> shared_pushes_;
   std::vector<Pushed> pushed_, shared_pushed_;
 

@@ -1,3 +1,10 @@
+// Problem: cut a plane of blocks into rectangles with about equal work.
+//
+// Method: recursive bisection. A rectangle for n regions is cut across its longer side, where the work of the first
+// part is nearest to that of n / 2 regions, until each rectangle has one region. A grid is cut in the same way, first
+// into columns, then each column into rows.
+//
+// Invariant: the cuts follow from the numbers of bodies alone, in integers, so all processes agree.
 #include "engine_worker/engines/kinematics2d/region_cuts.h"
 
 #include <algorithm>
@@ -8,7 +15,7 @@ namespace
 {
 
 // The cost of a body grows with the number around it: 212 instructions in a tick at 1 per square metre, where some 21
-// are in a block, and 782 at 10 (docs/scaling.md). Cells that are empty cost a little, too.
+// are in a block, and 782 at 10, as measured. Cells that are empty cost a little, too.
 std::uint64_t LoadOf(std::uint64_t bodies) { return 1 + bodies * (150 + 3 * bodies); }
 
 // A rectangle of blocks, from the first to the one behind the last.
@@ -27,7 +34,7 @@ public:
 
   Part Whole() const { return {0, 0, columns_, static_cast<std::uint32_t>(bodies_.size()) / columns_}; }
 
-  // Across the longer side, again and again.
+  // Cuts a part across its longer side, again and again.
   void Cut(const Part& part, unsigned first, unsigned count)
   {
     if (count == 1) return Fill(part, first);
@@ -37,7 +44,7 @@ public:
     Cut(b, first + count / 2, count - count / 2);
   }
 
-  // All in one direction; act(part, number) with each.
+  // Cuts a part into slices in one direction, and calls act(part, number) with each.
   template <class Act>
   void CutSlices(const Part& part, bool upright, unsigned first, unsigned count, const Act& act)
   {
@@ -66,7 +73,7 @@ private:
     return load;
   }
 
-  // The first for count / 2 regions, the second for the others. One of them may be empty.
+  // Returns the part for the first count / 2 regions, and the part for the others. One of them may be empty.
   std::pair<Part, Part> Halves(const Part& part, bool upright, unsigned count) const
   {
     const std::uint64_t wanted = LoadIn(part) * (count / 2);

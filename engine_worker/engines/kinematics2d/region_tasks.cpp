@@ -5,7 +5,7 @@
 // twists in the order of the region's last result, turret rates, bodies that were put elsewhere, mirrors, grips.
 //
 // Invariants: each body that is no follower is in exactly one result. A region that died makes the team call the
-// writer again with `anew`, and all regions start from the plan. region_messages.h has the forms.
+// writer again with `all_data`, and all regions start from the plan. region_messages.h has the forms.
 #include "engine_worker/engines/kinematics2d/region_tasks.h"
 
 #include <algorithm>
@@ -78,9 +78,9 @@ bool RegionTasks::Advance(PlaneState& plane, double seconds, int steps)
   for (std::uint32_t piece = 0; !is_done; ++piece)
     team_.Work(
         tells_all && piece == 0,
-        [&](bool anew, std::span<ByteWriter> tasks)
+        [&](bool all_data, std::span<ByteWriter> tasks)
         {
-          if (anew)
+          if (all_data)
           {
             tells_all = true;
             piece = 0;
@@ -118,12 +118,12 @@ bool RegionTasks::Advance(PlaneState& plane, double seconds, int steps)
   return true;
 }
 
-void RegionTasks::WriteForAll(const PlaneState& plane, bool anew, double seconds, int steps, ByteWriter& task) const
+void RegionTasks::WriteForAll(const PlaneState& plane, bool all_data, double seconds, int steps, ByteWriter& task) const
 {
   const Bodies& bodies = plane.bodies;
   task.Put(seconds);
   task.Put(steps);
-  task.PutArray(knows_cuts_ && !anew ? std::vector<std::uint8_t>() : region_of_block_);
+  task.PutArray(knows_cuts_ && !all_data ? std::vector<std::uint8_t>() : region_of_block_);
   task.Put(static_cast<std::uint64_t>(changed_models_.size()));
   for (const std::uint32_t model : changed_models_)
   {

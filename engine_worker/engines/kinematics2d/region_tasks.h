@@ -16,7 +16,7 @@ public:
   // `team` outlives it.
   RegionTasks(const PlaneState& plane, RegionTeam& team);
 
-  // region_of_block[k] computes block k. Throws std::runtime_error for what is no cut.
+  // Sets the cuts: region region_of_block[k] computes block k. Throws std::runtime_error for invalid cuts.
   void SetCuts(const PlaneState& plane, std::span<const std::uint8_t> region_of_block);
   // The caller reports each change that is no command: a body was put elsewhere, or came or went; a model was replaced;
   // all is other than the regions know.
@@ -28,7 +28,7 @@ public:
   bool Advance(PlaneState& plane, double seconds, int steps);
 
 private:
-  void WriteForAll(const PlaneState& plane, bool anew, double seconds, int steps, ByteWriter& task) const;
+  void WriteForAll(const PlaneState& plane, bool all_data, double seconds, int steps, ByteWriter& task) const;
   void WriteBodies(const Bodies& bodies, const BroadPhase& broad, std::span<ByteWriter> tasks);
   void WriteChanges(const Bodies& bodies, std::span<ByteWriter> tasks) const;
   void ReadResult(PlaneState& plane, unsigned region);

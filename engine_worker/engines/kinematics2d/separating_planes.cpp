@@ -56,30 +56,6 @@ Extent ExtentAlong(const MovingPart& side, double x, double y)
   return {at_start + model.part_radius[side.part], at_end - at_start};
 }
 
-// The plane with a normal along (x, y), which may have any length and points from the second part to the first one.
-SeparatingPlane PlaneAlong(const MovingPart& first, const MovingPart& second, double x, double y, double allowed)
-{
-  const double length = std::sqrt(x * x + y * y);
-  x = length > 0 ? x / length : 1;
-  y = length > 0 ? y / length : 0;
-  const Extent a = ExtentAlong(first, -x, -y);
-  const Extent b = ExtentAlong(second, x, y);
-  SeparatingPlane plane{(first.x - second.x) * x + (first.y - second.y) * y - a.at_start - b.at_start + allowed, 0, {}};
-  if (first.can_move)
-  {
-    plane.approaches[0] = {WayMotion(first.leader), -first.way_x * x - first.way_y * y};
-    plane.approaches[1] = {TurnMotion(first.leader), a.turn_rate};
-  }
-  if (second.can_move)
-  {
-    plane.approaches[2] = {WayMotion(second.leader), second.way_x * x + second.way_y * y};
-    plane.approaches[3] = {TurnMotion(second.leader), b.turn_rate};
-  }
-  plane.left = plane.gap;
-  for (const Approach& approach : plane.approaches) plane.left -= approach.rate;
-  return plane;
-}
-
 // Returns the plane that leaves most room, among `shortest`, along (x, y), and planes with other normals.
 SeparatingPlane BestPlane(const MovingPart& first, const MovingPart& second, double x, double y,
                           const SeparatingPlane& shortest, double allowed)
@@ -109,7 +85,7 @@ SeparatingPlane BestPlane(const MovingPart& first, const MovingPart& second, dou
       consider(sign * (side.cos * polygon->nx[n] - side.sin * polygon->ny[n]),
                sign * (side.sin * polygon->nx[n] + side.cos * polygon->ny[n]));
       if (other.OwnPolygon() != nullptr) continue;
-      // From the corner to the middle of the circle, or back.
+      // The axis points from the corner to the middle of the circle, or back.
       const double corner_x = side.x + side.cos * polygon->x[n] - side.sin * polygon->y[n];
       const double corner_y = side.y + side.sin * polygon->x[n] + side.cos * polygon->y[n];
       consider_nearest(sign * (other.centre_x - corner_x), sign * (other.centre_y - corner_y));
@@ -121,6 +97,29 @@ SeparatingPlane BestPlane(const MovingPart& first, const MovingPart& second, dou
 }
 
 }  // namespace
+
+SeparatingPlane PlaneAlong(const MovingPart& first, const MovingPart& second, double x, double y, double allowed)
+{
+  const double length = std::sqrt(x * x + y * y);
+  x = length > 0 ? x / length : 1;
+  y = length > 0 ? y / length : 0;
+  const Extent a = ExtentAlong(first, -x, -y);
+  const Extent b = ExtentAlong(second, x, y);
+  SeparatingPlane plane{(first.x - second.x) * x + (first.y - second.y) * y - a.at_start - b.at_start + allowed, 0, {}};
+  if (first.can_move)
+  {
+    plane.approaches[0] = {WayMotion(first.leader), -first.way_x * x - first.way_y * y};
+    plane.approaches[1] = {TurnMotion(first.leader), a.turn_rate};
+  }
+  if (second.can_move)
+  {
+    plane.approaches[2] = {WayMotion(second.leader), second.way_x * x + second.way_y * y};
+    plane.approaches[3] = {TurnMotion(second.leader), b.turn_rate};
+  }
+  plane.left = plane.gap;
+  for (const Approach& approach : plane.approaches) plane.left -= approach.rate;
+  return plane;
+}
 
 MovingPart PartAt(const Placed& body, std::size_t part)
 {

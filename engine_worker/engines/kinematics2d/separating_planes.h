@@ -46,6 +46,8 @@ struct SeparatingPlane
   std::array<Approach, 4> approaches;
 };
 
+// Returns the plane with a normal along (x, y), which may have any length and points from the second part to the first.
+SeparatingPlane PlaneAlong(const MovingPart& first, const MovingPart& second, double x, double y, double allowed);
 // Returns the plane that suits two near parts best. `touch`: where they are nearest; `allowed`: the overlap (m) left
 // alone.
 SeparatingPlane PlaneBetween(const MovingPart& first, const MovingPart& second, const Touch& touch, double allowed);

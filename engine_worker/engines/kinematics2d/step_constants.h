@@ -5,8 +5,8 @@
 namespace swarmanoid::kinematics2d
 {
 
-// In one substep a body goes at most this part of its core's radius: two that meet head-on cannot pass through each
-// other.
+// In one substep a body goes at most this part of its core's radius, so that two bodies that meet head-on cannot pass
+// through each other.
 inline constexpr double kWayInCore = 0.5;
 // The radius of a core relative to the median one (widest), and relative to the body's own bounding radius (thinnest).
 inline constexpr double kWidestCore = 3;
@@ -21,8 +21,10 @@ inline constexpr double kTouchesApart = 0.01;
 // Overlap that is left alone, as a part of the smallest core's radius; the solver aims at a quarter of it.
 inline constexpr double kAllowedOverlap = 0.004;
 inline constexpr double kSolverTolerance = 0.25;
-// Wheel contacts of a gripping robot, metres left and right of its centre: what its turning weighs against its driving
-// when several robots move one prey.
+// Bodies that overlap by more than this many times the allowed overlap when a substep begins were put into each other.
+inline constexpr double kPutIntoEachOther = 2;
+// The wheel contacts of a gripping robot, in metres left and right of its centre. They decide how much its turning
+// weighs against its driving when several robots move one prey.
 inline constexpr double kGripArm = 0.07;
 
 }  // namespace swarmanoid::kinematics2d

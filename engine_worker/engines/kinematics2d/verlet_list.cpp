@@ -1,3 +1,10 @@
+// Problem: in a crowd that moves little, the same pairs are searched for in each step.
+//
+// Method: a search with the largest margin finds candidates. Each step keeps the candidates that are within the margin
+// of the step. The list lasts until a body has moved by half of the difference of the margins. A counting sort puts the
+// pairs into blocks, and an insertion sort into the order of a search within a block.
+//
+// Invariant: counts of steps alone decide whether a list pays (VerletLifetime), not a clock.
 #include "engine_worker/engines/kinematics2d/verlet_list.h"
 
 #include <algorithm>
@@ -12,7 +19,7 @@ namespace
 
 constexpr std::uint64_t kStatic = std::uint64_t{1} << 63;
 
-// Nearly all stand in order already.
+// Sorts in place. Nearly all values are in order already, which makes insertion quick.
 template <class Value>
 void InsertionSort(std::span<Value> values)
 {
@@ -105,7 +112,7 @@ void VerletList::Choose(const BroadPhase& broad, const PoseStore& poses, double 
                 }
               });
 
-  // By block. Counted two places up, as CellSort does.
+  // Sorts by block. The counts are two places up, as in CellSort.
   ends_.assign(broad.BlockCount() + 2, 0);
   std::size_t count = 0;
   for (const Part& part : parts_)

@@ -18,7 +18,7 @@ namespace swarmanoid::kinematics2d
 class VerletList
 {
 public:
-  // `threads`: of the pools that it will get.
+  // Sets the number of threads of the pools that Update will get.
   void Configure(unsigned threads) { parts_.resize(threads); }
   // Brings the list up to date, by a search of its own in these blocks if one is needed. Returns false if a list does
   // not pay, or if some bodies are large: then the caller must search for the pairs.
@@ -26,8 +26,8 @@ public:
               std::span<const std::uint8_t> present, double margin, WorkerPool* pool);
   // The bodies have other numbers now.
   void Forget() { x_.clear(); }
-  // After an update that was true: gives the pairs that BroadPhase::FindPairs finds in these blocks. Several threads
-  // may ask for different blocks.
+  // Gives, after an Update that returned true, the pairs that BroadPhase::FindPairs finds in these blocks. Several
+  // threads may ask for different blocks.
   void TakePairs(std::span<const std::uint32_t> blocks, PairList& found);
 
 private:

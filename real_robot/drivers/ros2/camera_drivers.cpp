@@ -56,7 +56,7 @@ private:
 
 double Length(double x, double y) { return __builtin_sqrt(x * x + y * y); }
 
-// `AHEAD`: the camera looks ahead, so that distances are along the line of sight.
+// A camera. If AHEAD is true, it looks ahead, so that distances are along the line of sight.
 template <class Interface, bool AHEAD>
 class Camera : public CSensorDriver, public Interface
 {

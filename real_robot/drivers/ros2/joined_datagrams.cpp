@@ -1,3 +1,11 @@
+// The transport of this file stands between DDS and its UDP transport. While a JoinedDatagrams exists in a thread, its
+// datagrams wait, and each new one is appended to the latest waiting one for the same destination and socket. Appending
+// is allowed if both have the same header (one participant), each submessage states its length, and the result still
+// fits.
+//
+// Two things must hold for a datagram behind another one: a receiver must not apply the time stamp or the destination
+// of the submessages in front to it, so neutral ones are put between them; and the submessage with which Fast DDS ends
+// a datagram must stay the last one. Anything that does not match is sent alone.
 #include "real_robot/drivers/ros2/joined_datagrams.h"
 
 #include <algorithm>

@@ -1,3 +1,11 @@
+// Fast DDS is set up here so that every node of ROS 2 understands the robot: names and types are written as the
+// middlewares of ROS 2 write them, with the hash of each type, and the qualities of service are the ones that all
+// listeners accept. One participant is shared by the whole process, since each one costs threads, sockets and a slot
+// among the ports of a domain.
+//
+// Writers never let a control step wait: a message that does not fit into a full queue is replaced by the next one. The
+// counts of listeners are written in threads of Fast DDS and are therefore atomic; all other members belong to the
+// thread of the caller.
 #include "real_robot/drivers/ros2/ros2_endpoints.h"
 
 #include <atomic>

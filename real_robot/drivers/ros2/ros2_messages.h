@@ -26,7 +26,7 @@ ParameterSpec TopicParameter(const std::string& name, const std::string& value, 
 ParameterSpec NumberParameter(const std::string& name, const std::string& unit, const std::string& value,
                               const std::string& what);
 
-// Convert 0xRRGGBB to channels of 0 to 1, with alpha 0 for black, else 1, and back.
+// These functions convert 0xRRGGBB to channels of 0 to 1, with alpha 0 for black, else 1, and back.
 ColorRGBA ToMessage(std::uint32_t colour);
 std::uint32_t ToColour(const ColorRGBA& message);
 

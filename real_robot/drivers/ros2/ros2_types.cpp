@@ -10,7 +10,8 @@
 #include "tf2_msgsPubSubTypes.h"
 #include "visualization_msgsPubSubTypes.h"
 
-// One line for each message: package, name, and the hash of ROS 2 (tests/repository/type_hashes.py computes it).
+// The list has one line for each message: package, name, and the hash of ROS 2 (tests/repository/type_hashes.py
+// computes it).
 #define ROS2_MESSAGE(PACKAGE, NAME, HASH)                                                     \
   template <>                                                                                 \
   MessageType TypeOf<::PACKAGE::msg::dds_::NAME##_>()                                         \

@@ -22,7 +22,7 @@ public:
       AddEntity(*new CBoxEntity("more" + std::to_string(i), CVector3(-1, -1 + 0.02 * i, 0), CQuaternion(), true,
                                 CVector3(size, size, size)));
     CLEDMedium& leds = GetSimulator().GetMedium<CLEDMedium>("leds");
-    // Not turned, as those who write zeros have it.
+    // The wall is not turned: user code often writes zeros for that.
     AddEntity(*new CBoxEntity("wall", CVector3(0.6, 0, 0), CQuaternion(0, 0, 0, 0), false, CVector3(0.1, 2, 0.5)));
     crate_ = new CBoxEntity("crate", CVector3(0, 0.3, 0), CQuaternion(), true, CVector3(0.1, 0.1, 0.1), 1e12);
     AddEntity(*crate_);

@@ -1,5 +1,5 @@
-// Loop functions, and a controller that they look into: robots drive straight on; half of the floor is grey, and who is
-// there long enough is moved back. The file of the output has one line a tick.
+// Loop functions, and a controller that they look into. Robots drive straight on. Half of the floor is grey, and a
+// robot that is there long enough is moved back. The output file has one line for each tick.
 #include <argos3/core/simulator/loop_functions.h>
 #include <argos3/core/utility/configuration/argos_configuration.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_motor_ground_sensor.h>
@@ -25,7 +25,7 @@ public:
     wheels_->SetLinearVelocity(10, 10);
     on_grey_ = 0;
     for (const auto& reading : ground_->GetReadings())
-      if (reading.Value > 0.25 && reading.Value < 0.75) ++on_grey_;
+      if (std::abs(reading.Value - CColor::GRAY50.GetRed() / 255.0) < 1e-6) ++on_grey_;
     seen_ = place_->GetReading().Position;
   }
   int Steps() const { return steps_; }

@@ -1,4 +1,4 @@
-// Loop functions that ask about entities: their parts, anchors, bounding boxes, who hears whom.
+// Loop functions that read entities: their parts, anchors, bounding boxes, and which robots hear each other.
 #include <argos3/core/control_interface/ci_controller.h>
 #include <argos3/core/simulator/loop_functions.h>
 #include <argos3/plugins/robots/foot-bot/simulator/footbot_entity.h>
@@ -9,7 +9,7 @@
 
 using namespace argos;
 
-// Tells the first bytes that it hears, in the order of the distances.
+// Reports the first bytes of the messages that it receives, in the order of the distances.
 class CHearer : public CCI_Controller
 {
 public:
@@ -34,6 +34,7 @@ public:
     SAnchor& mast = robot.GetEmbodiedEntity().AddAnchor("mast", CVector3(0.1, 0, 0.2));
     file_ << "anchor " << Rounded(mast.Position) << " " << robot.GetEmbodiedEntity().IsAnchorEnabled("mast") << "\n";
     robot.GetEmbodiedEntity().EnableAnchor("mast");
+    file_ << "enabled " << robot.GetEmbodiedEntity().IsAnchorEnabled("mast") << "\n";
     Refused("anchor", [&] { robot.GetEmbodiedEntity().GetAnchor("mist"); });
     Box("a", robot.GetEmbodiedEntity());
     Box("turned", dynamic_cast<CBoxEntity&>(GetSpace().GetEntity("turned")).GetEmbodiedEntity());
@@ -57,7 +58,8 @@ public:
     auto& ground = robot.GetComponent<CGroundSensorEquippedEntity>("ground_sensors");
     file_ << "ground " << ground.GetSensors().size() << " " << ground.GetSensor(4).Offset << " "
           << ground.GetSensor(3).Type << ground.GetSensor(4).Type << "\n";
-    file_ << "light " << robot.GetLightSensorEquippedEntity().GetNumSensors() << "\n";
+    auto& light = robot.GetLightSensorEquippedEntity();
+    file_ << "light " << light.GetNumSensors() << " " << light.GetSensor(0).Direction.Length() << "\n";
     Refused("sensor", [&] { proximity.GetSensor(24); });
     const CLightEntity nowhere;
     file_ << "nowhere " << nowhere.GetIntensity() << "\n";
@@ -91,7 +93,7 @@ public:
       const auto& place = Robot("a").GetRABEquippedEntity();
       file_ << "antenna " << place.GetPosition() << " " << (&place.GetEntityBody() == &Robot("a").GetEmbodiedEntity())
             << "\n";
-      // Written through the reference.
+      // The value is written through the reference.
       CByteArray& data = Robot("b").GetRABEquippedEntity().GetData();
       data[0] = 76;
       file_ << "written " << Robot("b").GetRABEquippedEntity().GetData() << "\n";

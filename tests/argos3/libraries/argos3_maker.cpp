@@ -83,7 +83,7 @@ public:
           << first.GetEmbodiedEntity().GetOriginAnchor().Position.GetX() << '\t' << controller.Steps() << '\t'
           << controller.Red() << '\t' << controller.Blue() << '\t' << can.GetLEDEquippedEntity().GetLED(0).GetColor();
     if (clock == 3) RemoveEntity("made1");
-    // Far from the camera, but for one step.
+    // It is far from the camera, but for one step.
     if (clock == 2)
     {
       light_ = new CLightEntity("lamp", CVector3(1.5, 1.5, 0.1), CColor::BLUE, 1.0);

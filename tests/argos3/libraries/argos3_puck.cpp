@@ -1,4 +1,5 @@
-// An e-puck that drives straight on and says in its third step what its sensors read, and a floor that is black ahead.
+// An e-puck that drives straight on and prints the readings of its sensors in its third step, and a floor that is black
+// ahead.
 #include <argos3/core/control_interface/ci_controller.h>
 #include <argos3/core/simulator/loop_functions.h>
 #include <argos3/plugins/robots/e-puck/control_interface/ci_epuck_proximity_sensor.h>
@@ -75,7 +76,7 @@ public:
   CColor GetFloorColor(const CVector2& place) override { return place.GetY() > 0 ? CColor::BLACK : CColor::WHITE; }
 
 private:
-  // Of what it sends, and that others cannot change it for what it does not have.
+  // Logs the message, the range and the sensors of the e-puck, and that data of another size is refused.
   void Say(CEPuckEntity& puck)
   {
     CRABEquippedEntity& radio = puck.GetRABEquippedEntity();

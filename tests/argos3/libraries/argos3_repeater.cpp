@@ -10,7 +10,7 @@
 
 using namespace argos;
 
-// Drives as a random number says, and counts its steps.
+// Drives by a random number, and counts its steps.
 class CTried : public CCI_Controller
 {
 public:
@@ -86,7 +86,7 @@ private:
   void Again()
   {
     ++trial_;
-    // The third trial is another one.
+    // The third trial differs from the others.
     if (trial_ == 2)
       GetSimulator().Reset(99);
     else
@@ -117,7 +117,7 @@ private:
   CFootBotEntity* added_ = nullptr;
 };
 
-// Resets without looking at anybody.
+// Resets without reading any robot.
 class CBlind : public CLoopFunctions
 {
 public:

@@ -14,7 +14,7 @@
 
 using namespace argos;
 
-// Drives as it is told.
+// Drives as the user functions command it.
 class CDriven : public CCI_Controller
 {
 public:
@@ -52,7 +52,7 @@ public:
 
 REGISTER_LOOP_FUNCTIONS(CWays, "ways")
 
-// A text and a triangle in the frame of each foot-bot, a lid on each box.
+// Draws a text and a triangle in the frame of each foot-bot, and a lid on each box.
 class CIds : public CQTOpenGLUserFunctions
 {
 public:
@@ -77,7 +77,7 @@ private:
 
 REGISTER_QTOPENGL_USER_FUNCTIONS(CIds, "ids")
 
-// What the loop functions remember.
+// Draws the ways that the loop functions remember.
 class CShownWays : public CQTOpenGLUserFunctions
 {
 public:
@@ -99,7 +99,7 @@ private:
 
 REGISTER_QTOPENGL_USER_FUNCTIONS(CShownWays, "shown_ways")
 
-// As old code draws: by OpenGL.
+// Draws by OpenGL, as old code does.
 class CRaw : public CQTOpenGLUserFunctions
 {
 public:
@@ -117,6 +117,13 @@ public:
     glVertex3f(0, 0.1F, 0);
     glEnd();
     glPopMatrix();
+    glColor3f(1, 1, 0);
+    glBegin(GL_TRIANGLE_STRIP);
+    glVertex3f(0.5F, -1.5F, 0.01F);
+    glVertex3f(0.5F, -0.5F, 0.01F);
+    glVertex3f(1.5F, -1.5F, 0.01F);
+    glVertex3f(1.5F, -0.5F, 0.01F);
+    glEnd();
     glLineWidth(5);
     glColor3f(0, 1, 1);
     glBegin(GL_LINE_LOOP);
@@ -175,7 +182,7 @@ private:
 
 REGISTER_QTOPENGL_USER_FUNCTIONS(CDriver, "driver")
 
-// Draws where nothing is drawn.
+// Draws in a function in which nothing may be drawn.
 class CTooEarly : public CQTOpenGLUserFunctions
 {
 public:
@@ -184,7 +191,7 @@ public:
 
 REGISTER_QTOPENGL_USER_FUNCTIONS(CTooEarly, "too_early")
 
-// Moves robots where it may not.
+// Moves robots in a function in which it must not.
 class CMeddler : public CQTOpenGLUserFunctions
 {
 public:

@@ -1,4 +1,4 @@
-// Trials of robots that meet, with noise in all that they do and read.
+// Trials of robots that meet, with noise in all their commands and readings.
 #include <argos3/core/control_interface/ci_controller.h>
 #include <argos3/core/simulator/loop_functions.h>
 #include <argos3/plugins/robots/foot-bot/control_interface/ci_footbot_proximity_sensor.h>
@@ -17,7 +17,7 @@
 
 using namespace argos;
 
-// Drives ahead, a little as a generator says, and sums up what it reads.
+// Drives ahead with a small random part, and sums up its readings.
 class CNoisy : public CCI_Controller
 {
 public:
@@ -33,7 +33,7 @@ public:
     GetActuator<CCI_RangeAndBearingActuator>("range_and_bearing")->SetData(0, 1);
     auto& turret = *GetActuator<CCI_FootBotTurretActuator>("footbot_turret");
     turret.SetSpeedControlMode();
-    turret.SetRotationSpeed(1);
+    turret.SetRotationSpeed(10);
   }
   void ControlStep() override
   {

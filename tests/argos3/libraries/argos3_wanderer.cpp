@@ -1,5 +1,5 @@
-// A foot-bot that wanders by the API of ARGoS3: it turns away from what it senses, now and then at random, shows by its
-// beacon how many others it hears, and tells them its mood.
+// A foot-bot that wanders by the API of ARGoS3. It turns away from sensed bodies, and now and then at random. Its
+// beacon shows how many other robots it hears, and it sends them its mood.
 #include <argos3/core/control_interface/ci_controller.h>
 #include <argos3/core/utility/configuration/argos_configuration.h>
 #include <argos3/core/utility/logging/argos_log.h>

@@ -19,14 +19,29 @@ void Tell(const char* when)
             << robot.GetEmbodiedEntity().GetOriginAnchor().Position.GetX() << std::endl;
 }
 
-void Search(const char* file)
+// `seed`: the random seed that is written into the document; nullptr for that of the file.
+void Search(const char* file, const char* seed)
 {
   std::ofstream log("said.txt");
   LOG.DisableColoredOutput();
   LOG.GetStream().rdbuf(log.rdbuf());
   CSimulator& simulator = CSimulator::GetInstance();
-  simulator.SetExperimentFileName(file);
-  simulator.LoadExperiment();
+  if (seed == nullptr)
+  {
+    simulator.SetExperimentFileName(file);
+    simulator.LoadExperiment();
+  }
+  else
+  {
+    ticpp::Document document(file);
+    document.LoadFile();
+    TConfigurationNode root = *document.FirstChildElement();
+    SetNodeAttribute(GetNode(GetNode(root, "framework"), "experiment"), "random_seed", seed);
+    simulator.Load(document);
+  }
+  int robots = 0;
+  simulator.GetLoopFunctions().IterateOverControllableEntities([&](CControllableEntity*) { ++robots; });
+  std::cout << "seed " << simulator.GetRandomSeed() << " robots " << robots << std::endl;
   LOG << "loaded " << simulator.GetMaxSimulationClock() << std::endl;
   Tell("loaded");
   simulator.Execute();
@@ -55,7 +70,12 @@ int main(int count, char** words)
 {
   try
   {
-    for (int i = 1; i < count; ++i) Search(words[i]);
+    for (int i = 1; i < count; ++i)
+    {
+      const bool has_seed = std::string(words[i]) == "--seed" && i + 2 < count;
+      Search(words[has_seed ? i + 2 : i], has_seed ? words[i + 1] : nullptr);
+      if (has_seed) i += 2;
+    }
   }
   catch (CARGoSException& error)
   {

@@ -1,5 +1,5 @@
-// Robots of the benchmark's scenes. Footbots drive on and turn away from what is in front, or to where most of those
-// that their cameras see are; eyebots fly circles. All send and light what they have.
+// Controllers for the benchmark's scenes. Footbots drive on and turn away from bodies in front, or towards the side on
+// which their cameras see most robots; eyebots fly circles. All send messages and light their LEDs.
 #include <cmath>
 
 #include "ci_colour_blob_sensor.h"
@@ -84,8 +84,8 @@ private:
   }
 
   int rounds_ = 0;
-  volatile double thought_ = 0;  // of no use
-  volatile double read_ = 0;     // likewise
+  volatile double thought_ = 0;  // keeps the compiler from removing the computation
+  volatile double read_ = 0;     // keeps the compiler from removing the reading
   bool looks_always_ = false;
   CCI_FootBotLightSensor* light_ = nullptr;
   CCI_FootBotGroundSensor* ground_ = nullptr;

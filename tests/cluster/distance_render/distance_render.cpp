@@ -1,4 +1,4 @@
-// A user's renderer: a table of how far entities are from the origin of the arena.
+// A user's renderer prints a table of how far entities are from the origin of the arena.
 #include "visualiser/text/text_render.h"
 
 using swarmanoid::CTextRender;

@@ -1,4 +1,4 @@
-// A controller that fails in the way and at the tick that its parameters say, for tests of how failures are reported.
+// A controller that fails in the way and at the tick of its parameters, for tests of failure reports.
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -30,7 +30,7 @@ public:
 
   void ControlStep() override
   {
-    // Of a life: the first one begins with the run.
+    // Steps of this process; the first one begins with the run.
     ++steps_;
     if (wheels_ != nullptr)
     {
@@ -59,14 +59,14 @@ public:
   }
 
 private:
-  // For 300 ms of processor time.
+  // Works for 300 ms of processor time.
   static void Spin()
   {
     const std::clock_t end = std::clock() + 3 * CLOCKS_PER_SEC / 10;
     while (std::clock() < end) continue;
   }
 
-  // True the first time that one of the run asks.
+  // Returns true for the first caller in the run.
   bool MarkOnce() const
   {
     if (std::ifstream(mark_)) return false;
@@ -79,7 +79,7 @@ private:
   }
 
   std::string fault_;
-  std::string mark_;  // a file: it is there once the controller did what is done once
+  std::string mark_;  // a file: it exists once the controller has done the action that is done once
   std::uint64_t tick_ = 0;
   std::uint64_t steps_ = 0;
   CCI_WheelsActuator* wheels_ = nullptr;

@@ -2,8 +2,8 @@
 //
 //     relay LEFT RIGHT LOSS DELAY_MS
 //
-// LEFT, RIGHT: open descriptors of the taps; LOSS: the part of the frames that is lost. SIGTERM ends it: it says how
-// many frames it was given, how many of them it lost, and the bytes of the largest.
+// LEFT, RIGHT: open descriptors of the taps; LOSS: the fraction of the frames that is lost. SIGTERM ends it. Then it
+// prints how many frames it was given, how many of them it lost, and the bytes of the largest.
 #include <fcntl.h>
 #include <poll.h>
 #include <unistd.h>

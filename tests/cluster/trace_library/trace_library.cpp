@@ -1,4 +1,4 @@
-// A library of a stranger: whoever loads it makes the file that SWARMANOID_TEST_TRACE names.
+// A stranger's library: a process that loads it makes the file that SWARMANOID_TEST_TRACE names.
 #include <cstdio>
 #include <cstdlib>
 

@@ -1,5 +1,5 @@
-// A stranger's own simulator: it looks at every tick, collects what it saw in variables of main, and, if
-// OUTSIDE_CHANGES says so, changes the experiment through the editor. It fails as OUTSIDE_FAULT says.
+// A user's own simulator. It looks at every tick and collects its observations in variables of main. With
+// OUTSIDE_CHANGES it changes the experiment through the editor. It fails by OUTSIDE_FAULT.
 #include <cstdio>
 #include <cstdlib>
 #include <thread>

@@ -1,5 +1,6 @@
-// The listings of behaviours and of state machines, each compiled as printed in a namespace of its own. What a listing
-// leaves out, such as the declaration of its class, stands before it; the controllers at the end run them.
+// The listings of behaviours and of state machines, each compiled as printed, in a separate namespace. Parts that a
+// listing leaves out, such as the declaration of its class, come before it. The controllers at the end run the
+// listings.
 #include <string>
 
 #include "behavior/ci_behavior_controller.h"
@@ -57,7 +58,7 @@ namespace parallel_filled
 {
 DECLARE_COMBINER
 
-// The mean of what those want who want anything.
+// Sets the mean of the wheel velocities that the two states have set. A state that has set none does not count.
 void Merge(const CCI_FootBotState& first, const CCI_FootBotState& second, CCI_FootBotState& into)
 {
   double left = 0;

@@ -1,4 +1,4 @@
-// The API of ARGoS3: its mathematics beside Eigen's, its texts and elements, its random numbers.
+// Tests the API of ARGoS3: its mathematics beside Eigen's, its texts and elements, its random numbers.
 #include <argos3/core/utility/configuration/argos_configuration.h>
 #include <argos3/core/utility/datatypes/byte_array.h>
 #include <argos3/core/utility/datatypes/color.h>
@@ -7,16 +7,23 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <fstream>
+#include <memory>
 #include <numbers>
+#include <sstream>
 
 #include "argos3/library/running.h"
 #include "tests/world/message_of.h"
+#include "tests/world/temporary_folder.h"
 
 namespace
 {
 
 using namespace argos;
+namespace test = swarmanoid::test;
 using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
@@ -92,6 +99,11 @@ TEST(Argos3Api, VectorsHaveElements)
   box.Set(CVector3(-1, -1, 0), CVector3(1, 1, 0));
   EXPECT_TRUE(box.WithinMinBoundIncludedMaxBoundIncluded(CVector3(0, 1, 0)));
   EXPECT_FALSE(box.WithinMinBoundIncludedMaxBoundIncluded(CVector3(0, 2, 0)));
+  // Vectors are equal if all of their elements are.
+  EXPECT_TRUE(CVector2(1, 2) == CVector2(1, 2));
+  for (const CVector2& other : {CVector2(1, 3), CVector2(3, 2)}) EXPECT_TRUE(CVector2(1, 2) != other) << other;
+  for (const CVector3& other : {CVector3(1, 2, 4), CVector3(1, 4, 3), CVector3(4, 2, 3)})
+    EXPECT_TRUE(CVector3(1, 2, 3) != other) << other;
 }
 
 TEST(Argos3Api, AnglesWrapIntoTheirRanges)
@@ -127,7 +139,7 @@ TEST(Argos3Api, RandomNumbersHaveTheirMomentsAndRepeat)
     lengths += random.Rayleigh(2);
     ++counts[random.Uniform(CRange<SInt32>(-1, 2)) + 1];
   }
-  // Four standard errors.
+  // The limit is four standard errors.
   EXPECT_NEAR(sum / kDraws, 1, 4 * 2 / std::sqrt(kDraws));
   EXPECT_NEAR(squares / kDraws, 4, 4 * 4 * std::sqrt(2.0 / kDraws));
   EXPECT_NEAR(waits / kDraws, 3, 4 * 3 / std::sqrt(kDraws));
@@ -139,7 +151,7 @@ TEST(Argos3Api, RandomNumbersHaveTheirMomentsAndRepeat)
   CRandom::CRNG twin(5);
   EXPECT_EQ(random.Gaussian(2, 1), twin.Gaussian(2, 1));
   EXPECT_NE(random.Uniform(CRange<Real>(0, 1)), next);
-  EXPECT_THROW(CRandom::CreateRNG("argos"), CARGoSException) << "nobody speaks whose numbers they would be";
+  EXPECT_THROW(CRandom::CreateRNG("argos"), CARGoSException) << "no controller runs whose numbers they would be";
   EXPECT_THROW(CRandom::CreateRNG("mine"), CARGoSException);
   // Draws numbers as a program with this seed does.
   const auto drawn = [](UInt32 seed)
@@ -153,6 +165,92 @@ TEST(Argos3Api, RandomNumbersHaveTheirMomentsAndRepeat)
   EXPECT_EQ(drawn(7), drawn(7));
   EXPECT_NE(drawn(7), drawn(8));
   EXPECT_NE(drawn(7).first, drawn(7).second);
+}
+
+TEST(Argos3Api, PoissonNumbersHaveTheirMomentsAndShufflesKeepAllValues)
+{
+  CRandom::CRNG random(6);
+  constexpr int kDraws = 20000;
+  for (const double mean : {0.5, 4.0, 200.0})
+  {
+    double sum = 0, squares = 0;
+    for (int i = 0; i < kDraws; ++i)
+    {
+      const double count = random.Poisson(mean);
+      sum += count;
+      squares += (count - mean) * (count - mean);
+    }
+    EXPECT_NEAR(sum / kDraws, mean, 4 * std::sqrt(mean / kDraws));
+    EXPECT_NEAR(squares / kDraws, mean, 4 * std::sqrt((2 * mean * mean + mean) / kDraws));
+  }
+  EXPECT_EQ(random.Poisson(0), 0U);
+  EXPECT_THROW(random.Poisson(-1), CARGoSException);
+
+  std::array<int, 3> first{};
+  for (int i = 0; i < kDraws; ++i)
+  {
+    std::vector<int> order{0, 1, 2};
+    random.Shuffle(order);
+    ++first[static_cast<std::size_t>(order.front())];
+    std::sort(order.begin(), order.end());
+    ASSERT_EQ(order, (std::vector<int>{0, 1, 2}));
+  }
+  for (const int count : first) EXPECT_NEAR(count, kDraws / 3.0, 4 * std::sqrt(kDraws * 2 / 9.0));
+  std::vector<int> none;
+  random.Shuffle(none);
+  EXPECT_TRUE(none.empty());
+}
+
+TEST(Argos3Api, PartsOfByteArraysAreCopies)
+{
+  const UInt8 bytes[]{1, 2, 3, 4};
+  CByteArray whole(bytes, 4);
+  const auto part = [&](size_t from, ssize_t to) { return *std::unique_ptr<CByteArray>(whole(from, to)); };
+  EXPECT_EQ(part(0, 4), whole);
+  EXPECT_EQ(part(1, 3), CByteArray(bytes + 1, 2));
+  EXPECT_EQ(part(2, -1), CByteArray(bytes + 2, 2));
+  EXPECT_EQ(part(2, 99), CByteArray(bytes + 2, 2));
+  EXPECT_TRUE(part(2, 2).Empty());
+  EXPECT_THROW(part(4, -1), CARGoSException);
+}
+
+TEST(Argos3Api, DocumentsAreReadChangedAndWritten)
+{
+  const test::TemporaryFolder folder;
+  const std::string file = folder.Path() + "/a.argos";
+  std::ofstream(file) << "<argos-configuration><framework><experiment length=5 name='a &amp; &lt;b&gt;'/></framework>"
+                         "</argos-configuration>";
+  ticpp::Document document(file);
+  document.LoadFile();
+  // Copies of an element share it, as in ARGoS3.
+  TConfigurationNode root = *document.FirstChildElement();
+  TConfigurationNode& framework = GetNode(root, "framework");
+  SetNodeAttribute(GetNode(framework, "experiment"), "length", 7);
+  TConfigurationNode added("system");
+  framework.InsertEndChild(added);
+  added.SetAttribute("threads", 2);
+  EXPECT_FALSE(NodeAttributeExists(GetNode(framework, "system"), "threads")) << "what is inserted is a copy";
+  document.SaveFile(folder.Path() + "/b.argos");
+  ticpp::Document again;
+  again.LoadFile(folder.Path() + "/b.argos");
+  TConfigurationNode& experiment = GetNode(GetNode(*again.FirstChildElement(), "framework"), "experiment");
+  EXPECT_EQ(experiment.GetAttribute("length"), "7");
+  EXPECT_EQ(experiment.GetAttribute("name"), "a & <b>");
+  EXPECT_EQ(experiment.NextSiblingElement()->Value(), "system");
+  EXPECT_EQ(experiment.NextSiblingElement("none", false), nullptr);
+  framework.RemoveChild(framework.FirstChildElement("experiment"));
+  EXPECT_EQ(GetNode(*document.FirstChildElement(), "framework").FirstChildElement()->Value(), "system");
+  EXPECT_THROW(again.LoadFile(folder.Path() + "/none.argos"), ticpp::Exception);
+  EXPECT_THROW(again.Parse("<a>"), ticpp::Exception);
+  // An element outlives its document.
+  TConfigurationNode kept;
+  {
+    ticpp::Document brief;
+    brief.Parse("<a><b x='1'/><c/></a>");
+    kept = *brief.FirstChildElement()->FirstChildElement("b");
+  }
+  EXPECT_EQ(kept.GetAttribute("x"), "1");
+  EXPECT_EQ(kept.NextSiblingElement(false), nullptr);
 }
 
 TEST(Argos3Api, ByteArraysUnpackWhatWasPackedInNetworkOrder)
@@ -232,6 +330,12 @@ TEST(Argos3Api, TextsAreCutReplacedAndExpanded)
   setenv("ARGOS3_TEST_FOLDER", "/tmp/x", 1);
   text = "$ARGOS3_TEST_FOLDER/lib$NOBODY_SET_THIS.so";
   EXPECT_EQ(ExpandEnvVariables(text), "/tmp/x/lib$NOBODY_SET_THIS.so");
+  // A stream that was read to its end can be written and read again.
+  std::stringstream stream("1,2");
+  Real values[2];
+  ParseValues<Real>(stream, 2, values, ',');
+  EXPECT_EQ(values[0] * 10 + values[1], 12);
+  EXPECT_TRUE(stream.good());
 }
 
 TEST(Argos3Api, IdsOfDistributedEntitiesTranslateBothWays)

@@ -1,4 +1,4 @@
-// ARGoS3's utilities other than mathematics: colours, bytes, options, statistics, sockets.
+// Tests ARGoS3's utilities other than mathematics: colours, bytes, options, statistics, sockets.
 #include <argos3/core/utility/configuration/command_line_arg_parser.h>
 #include <argos3/core/utility/configuration/memento.h>
 #include <argos3/core/utility/datatypes/any.h>
@@ -32,6 +32,7 @@ TEST(Argos3Tools, ColoursAreToldByNameIfTheyHaveOne)
   EXPECT_EQ(static_cast<UInt32>(colour), 0x281e140aU);
   EXPECT_THROW(colour.Set("mauve"), CARGoSException);
   EXPECT_THROW(colour.Set("1,2,300"), CARGoSException);
+  EXPECT_EQ(CColor(200, 100, 0, 51).Blend(CColor(0, 100, 50)), CColor(40, 100, 40)) << "a fifth of the colour";
   EXPECT_NEAR(CColor(255, 0, 0).ToGrayScale(), 76.245, 1e-9) << "not a whole number";
 }
 
@@ -53,6 +54,8 @@ TEST(Argos3Tools, SetsAndAnysGiveWhatIsInThem)
   CSet<int> set;
   for (const int i : {3, 1, 2}) set.insert(i);
   EXPECT_EQ(set.first() * 10 + set.last(), 13);
+  EXPECT_TRUE(set.exists(2));
+  EXPECT_FALSE(set.exists(4));
   CAny any(5), none;
   any.swap(none);
   EXPECT_TRUE(any.IsEmpty());

@@ -20,7 +20,7 @@ constexpr double kSpeed = 0.1;   // m/s
 // A red neighbour: m, radians from the front.
 CCI_ColourBlob Neighbour(double distance, double angle) { return {CCI_Colour::RED, distance, angle, 0}; }
 
-// The generalised Lennard-Jones force of Spears et al. (2004), cut off at 10; positive away from the neighbour.
+// Returns the generalised Lennard-Jones force of Spears et al. (2004), cut off at 10; positive away from the neighbour.
 double Force(double distance)
 {
   const double ratio = kWanted / distance;
@@ -36,7 +36,7 @@ protected:
     robot_.AddSensor("footbot_light", &light_);
     robot_.AddActuator("footbot_wheels", &wheels_);
   }
-  // Left and right wheel, m/s.
+  // Returns the speeds of the left and the right wheel, m/s.
   std::array<double, 2> Drive(std::vector<CCI_ColourBlob> blobs)
   {
     camera_.blobs = std::move(blobs);
@@ -87,7 +87,7 @@ TEST_F(Flocking, ATooNearOneBehindPushesItOn)
   }
 }
 
-// Ahead one that pulls, behind one that pushes, and so on: the mean of the forces counts, not their sum.
+// One ahead pulls, one behind pushes, and so on: the mean of the forces counts, not their sum.
 TEST_F(Flocking, TheMeanOfTheForcesCounts)
 {
   const double mean = (-Force(0.41) + Force(0.395)) / 2;

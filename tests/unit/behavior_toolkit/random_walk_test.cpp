@@ -1,4 +1,4 @@
-// A random walk that is saved and loaded goes on with the way that it was on.
+// A random walk that is saved and loaded continues on the same way.
 #include <gtest/gtest.h>
 
 #include <sstream>

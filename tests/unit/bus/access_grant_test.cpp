@@ -88,7 +88,7 @@ TEST(AccessGrants, ATicketThatHasEndedIsRefusedWithItsEnd)
   };
   EXPECT_EQ(complaint(0), "");
   EXPECT_EQ(complaint(kFarFuture), "");
-  EXPECT_THAT(complaint(1), HasSubstr("watcher share 1a2b3c4d ended at 1970-01-01T00:00:01Z"));
+  EXPECT_THAT(complaint(1), HasSubstr("watcher grant 1a2b3c4d ended at 1970-01-01T00:00:01Z"));
   unsetenv(kTokenVariable);
 }
 

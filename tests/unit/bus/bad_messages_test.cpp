@@ -1,5 +1,5 @@
-// What comes over the wire is refused by the name of its field before it is used, and never by an exception that leaves
-// the type support.
+// A bad message is refused by the name of its field before it is used, and never by an exception that leaves the type
+// support.
 #include <gmock/gmock.h>
 
 #include "common/bus/topics/message_type.h"
@@ -21,7 +21,7 @@ std::string BytesOf(const Parts&... parts)
   return bytes;
 }
 
-// Empty if it is taken.
+// Returns the reason of the refusal; empty if the message is accepted.
 template <class Message>
 std::string Refusal(const std::string& bytes)
 {
@@ -130,11 +130,11 @@ TEST(BadMessages, NumbersThatAreNotFiniteAreRefused)
     EXPECT_THAT(TickRefusal<SpaceState>(bytes), HasSubstr("poses: a number is not finite"));
     bytes = SampleBytes();
     Put(bytes, kValues + 4 + 8, number);
-    EXPECT_THAT(TickRefusal<SpaceState>(bytes), HasSubstr("attribute_values"));
+    EXPECT_THAT(TickRefusal<SpaceState>(bytes), HasSubstr("attributes.values"));
     EXPECT_THAT(Refusal<ViewRequestMessage>(BytesOf(ViewRequestMessage{"x:1", 7, number, false, {}})),
                 HasSubstr("views"));
   }
-  // Wherever it stands in a long array, and the largest numbers are none.
+  // The mistake is found at any position in a long array, and for the largest numbers.
   SensorFrame frame;
   frame.values.assign(2000, std::numeric_limits<double>::max());
   EXPECT_EQ(TickRefusal<SensorFrame>(BytesOf(MessageHeader{}, frame)), "");
@@ -167,7 +167,7 @@ TEST(BadMessages, SlotsThatDoNotAscendAreRefused)
   {
     std::string bytes = SampleBytes();
     Put(bytes, kSlots + 8, second);
-    EXPECT_THAT(TickRefusal<SpaceState>(bytes), HasSubstr("attribute_slots"));
+    EXPECT_THAT(TickRefusal<SpaceState>(bytes), HasSubstr("attributes.slots"));
   }
 }
 
@@ -219,7 +219,7 @@ TEST(BadMessages, TextsThatTerminalsObeyAreRefused)
   EXPECT_THAT(Refusal<StatusMessage>(bytes), HasSubstr("text"));
 }
 
-// What a controller or an exception says is never the reason why a message is not sent.
+// A text of a controller or an exception never prevents a message from being sent.
 TEST(Messages, TextsAreMadeShowableAndShortWhenSent)
 {
   LeaveMessage read;

@@ -20,8 +20,9 @@
 
 #include "common/bus/dds/fast_dds.h"
 #include "common/bus/free_domain.h"
-#include "common/bus/membership/run_directory.h"
+#include "common/bus/run_directory.h"
 #include "common/logging/log.h"
+#include "idl/messages.h"
 #include "tests/eventually.h"
 #include "tests/world/message_of.h"
 #include "tests/world/temporary_folder.h"
@@ -51,10 +52,10 @@ int Echo(const BusOptions& options, bool share)
   std::optional<RunDirectory> directory;
   if (share) directory.emplace("echo_test", 5);
   const HotScope scope{"echo_test", share ? directory->Path() : "", options.Spread(), 100000, 1};
-  HotPublisher<UpdateMessage> updates(bus, scope);
+  HotPublisher<EngineUpdate> updates(bus, scope);
   std::atomic<bool> last = false;
   SpaceState state;
-  UpdateMessage update;
+  EngineUpdate update;
   HotSubscription<SpaceState> states(bus, scope,
                                      {[&](const MessageHeader&) { return &state; },
                                       [&](const MessageHeader& header, SpaceState& message)
@@ -64,12 +65,12 @@ int Echo(const BusOptions& options, bool share)
                                         updates.Write({header.run, header.tick + 1, 3, false}, update);
                                         if (message.last) last = true;
                                       }});
-  // The one who asks leaves when it has read the last answer.
+  // The asking process leaves when it has read the last answer.
   const bool done = Eventually([&] { return last.load() && updates.Readers() == 0; });
   return done ? 0 : 1;
 }
 
-// Threads of DDS do not survive a fork: the other process is this program again, told by a variable what to do.
+// Threads of DDS do not survive a fork. So the other process is this program again, and a variable tells it what to do.
 constexpr const char* kChildVariable = "SWARMANOID_BUS_TEST_CHILD";
 
 int Victim(const BusOptions& options)
@@ -142,24 +143,24 @@ void PingPong(BusOptions options, bool share)
     const HotScope scope{"echo_test", share ? directory->Path() : "", options.Spread(), 100000, 1};
     HotPublisher<SpaceState> states(bus, scope);
     std::atomic<std::uint64_t> answered = 0;
-    UpdateMessage update;
-    HotSubscription<UpdateMessage> updates(bus, scope,
-                                           {[&](const MessageHeader&) { return &update; },
-                                            [&](const MessageHeader& header, UpdateMessage& message)
-                                            {
-                                              EXPECT_EQ(header.source, 3U);
-                                              EXPECT_EQ(message.engine, 3U);
-                                              ASSERT_EQ(message.poses.size(), 700U);
-                                              EXPECT_EQ(message.poses[699], static_cast<double>(header.tick));
-                                              answered = header.tick;
-                                            }});
+    EngineUpdate update;
+    HotSubscription<EngineUpdate> updates(bus, scope,
+                                          {[&](const MessageHeader&) { return &update; },
+                                           [&](const MessageHeader& header, EngineUpdate& message)
+                                           {
+                                             EXPECT_EQ(header.source, 3U);
+                                             EXPECT_EQ(message.engine, 3U);
+                                             ASSERT_EQ(message.poses.size(), 700U);
+                                             EXPECT_EQ(message.poses[699], static_cast<double>(header.tick));
+                                             answered = header.tick;
+                                           }});
     ASSERT_TRUE(Eventually([&] { return states.Readers() == 1 && updates.Writers() == 1; }));
     SpaceState state;
     for (std::uint64_t tick = 0; tick < kRounds; ++tick)
     {
       state.poses.assign(700, static_cast<double>(tick));
       state.last = tick + 1 == kRounds;
-      // Best-effort readers may miss the first ones: late answers are asked for again, as in a run.
+      // Best-effort readers may miss the first messages, so late answers are requested again, as in a run.
       bool repeated = false;
       const auto answered_now = [&]
       {
@@ -197,7 +198,7 @@ TEST(Bus, FindsPeersWithoutMulticast)
   PingPong(options, false);
 }
 
-// A port that nobody listens at now.
+// Returns a port that no program listens at.
 std::uint16_t FreeUdpPort()
 {
   const int test = socket(AF_INET, SOCK_DGRAM, 0);

@@ -1,4 +1,4 @@
-// The structure of datagrams of RTPS: those that processes send are read, and those with a defect are not.
+// CheckRtps accepts the datagrams that processes send, and refuses datagrams with a defect.
 #include "common/bus/dds/check_rtps.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Datagrams of RTPS that are signed, and what is heard of those that are not.
+// Signed datagrams of RTPS, and the treatment of unsigned ones.
 #include "common/bus/security/datagram_signatures.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ std::string Submessage(char kind, const std::string& body)
   return std::string{kind, 1, static_cast<char>(body.size()), 0} + body;
 }
 
-// Of a writer, with its inline qualities.
+// Returns a submessage of a writer with its inline qualities.
 std::string Data(char kind, const std::string& writer, const std::string& qualities)
 {
   return Submessage(kind,
@@ -67,7 +67,7 @@ struct Datagrams : testing::Test
     EXPECT_EQ(checked.forged.has_value(), checked.datagram.empty());
     return {checked.datagram.begin(), checked.datagram.end()};
   }
-  // Who reads knows the member from then on.
+  // The reader knows the member from then on.
   void Meet() { ASSERT_FALSE(Heard(reader, Signed(member, Header(kMember) + Submessage(kLost, "12345678"))).empty()); }
 };
 
@@ -103,7 +103,7 @@ TEST_F(Datagrams, OfAMemberAreNotHeardWithoutASignature)
     changed[at] = static_cast<char>(changed[at] ^ 1);
     const std::string heard = Heard(reader, changed);
     EXPECT_NE(heard, text) << at;
-    // Under another name it is the datagram of a stranger.
+    // Under another prefix the datagram is that of a stranger.
     const bool has_its_name = at < 8 || at >= 20;
     EXPECT_TRUE(!has_its_name || heard.empty()) << at;
   }
@@ -130,13 +130,13 @@ TEST_F(Datagrams, OfOthersSayNothingForOrAboutAMember)
   for (const std::string& body :
        {Submessage(kInfoSource, std::string(8, '\0') + kMember), Data(kDataOf, kAnnouncer, "pG\20\0" + kMember),
         Data(kDataOf, kTellsWriters, std::string("\x0f\x80\x18\0", 4) + kMember),
-        // Cut in two, who knows what it says.
+        // The content of a split announcement cannot be checked.
         Data(kDataFragmentOf, kTellsWriters, "text")})
     for (const std::string& before : {std::string(), own, Submessage(0x09, ""), Submessage(kInfoDestination, kMember)})
       EXPECT_EQ(Heard(reader, Header(kStranger) + before + body + own), "");
 }
 
-// Limits of what strangers may say are for processes that can tell them from members.
+// The limits for strangers apply only in processes that can tell strangers from members.
 TEST_F(Datagrams, OfStrangersAreKnownToProcessesThatHaveAKey)
 {
   const std::string text = Header(kStranger) + Submessage(kLost, "12345678");
@@ -173,7 +173,7 @@ TEST_F(Datagrams, OfStrangersThatAnnounceThemselvesAreHeardUpToALimit)
   }
 }
 
-// What a process sent before it signed may come late: nobody forged it.
+// Datagrams from before the first signature may come late, so they are not reported as forged.
 TEST_F(Datagrams, FromBeforeTheFirstSignatureAreNotTold)
 {
   DatagramSignatures settling(Ring(KeyOf(1)));

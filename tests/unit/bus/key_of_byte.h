@@ -1,12 +1,12 @@
 // Keys of runs for tests.
 #pragma once
 
-#include "common/bus/security/run_key.h"
+#include "common/bus/run_key.h"
 
 namespace swarmanoid::test
 {
 
-// A key whose bytes all have this value.
+// Returns a key whose bytes all have this value.
 inline RunKey KeyOfByte(unsigned char byte)
 {
   RunKey key;

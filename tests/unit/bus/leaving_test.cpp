@@ -1,17 +1,16 @@
-// How a worker leaves the run: it stays until the server has answered its Leave, however long that takes, and the
-// server never reports a process that has left as dead.
+// How a worker leaves the run over a real bus: the server never reports a process that has left as dead.
+// WorkerMembership and the simulated cluster have what a worker says until it is answered.
 #include <fcntl.h>
 
 #include <atomic>
-#include <mutex>
 #include <thread>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "common/activity/exit_codes.h"
 #include "common/bus/dds/for_tests.h"
 #include "common/bus/membership/worker_session.h"
+#include "common/errors/exit_codes.h"
 #include "tests/eventually.h"
 #include "tests/unit/bus/server_fixture.h"
 
@@ -28,7 +27,7 @@ class Leaving : public test::ServerFixture
 protected:
   Leaving() : ServerFixture("leaving") {}
 
-  // A worker that has nothing to do, in a thread of its own.
+  // A worker without work, in a thread of its own.
   std::jthread Worker(
       std::atomic<int>& exit_code, const std::function<void()>& work = [] {})
   {
@@ -44,65 +43,9 @@ protected:
   const test::SeparateProcesses separate_;
 };
 
-TEST_F(Leaving, TakesAsLongAsTheServerDoesToAnswer)
-{
-  Bus server(options_, "space server");
-  std::mutex mutex;
-  int heard = 0;
-  std::string leaver;
-  std::atomic<bool> gone = false;
-  server.OnProcessGone([&](const std::string&, const std::string& name, bool) { gone = name == "engine 'ground'"; });
-  Publisher<LeaveMessage> answers(server, "leaving");
-  const Subscription<LeaveMessage> leaves(server, "leaving",
-                                          [&](const LeaveMessage& leave)
-                                          {
-                                            const std::lock_guard lock(mutex);
-                                            if (leave.name != "engine 'ground'") return;
-                                            ++heard;
-                                            leaver = leave.process;
-                                            EXPECT_EQ(leave.run, world_.run);
-                                            EXPECT_EQ(leave.error, "");
-                                          });
-  Publisher<WorldMessage> worlds(server, "leaving");
-  worlds.Write(world_);
-  std::atomic<int> exit_code = -1;
-  const std::jthread worker = Worker(exit_code);
-  // It says it again while nobody answers, and does not go. Neither do answers to others let it go.
-  ASSERT_TRUE(Eventually(
-      [&]
-      {
-        answers.Write({world_.run, 0, "space server", "another:1", ""});
-        answers.Write({world_.run + 1, 0, "space server", ProcessId(), ""});
-        const std::lock_guard lock(mutex);
-        return heard >= 5 || gone;
-      }));
-  EXPECT_FALSE(gone);
-  EXPECT_EQ(exit_code, -1);
-  EXPECT_EQ(leaver, ProcessId());
-  answers.Write({world_.run, 0, "space server", ProcessId(), ""});
-  EXPECT_TRUE(Eventually([&] { return exit_code == kExitDone && gone; }));
-}
-
-TEST_F(Leaving, EndsWithTheServer)
-{
-  std::atomic<int> exit_code = -1;
-  std::jthread worker;
-  {
-    Bus server(options_, "space server");
-    std::atomic<bool> heard = false;
-    const Subscription<LeaveMessage> leaves(server, "leaving", [&](const LeaveMessage&) { heard = true; });
-    Publisher<WorldMessage> worlds(server, "leaving");
-    worlds.Write(world_);
-    worker = Worker(exit_code);
-    ASSERT_TRUE(Eventually([&] { return heard.load(); }));
-    EXPECT_EQ(exit_code, -1);
-  }
-  EXPECT_TRUE(Eventually([&] { return exit_code == kExitDone; }));
-}
-
 TEST_F(Leaving, IsReadBeforeTheProcessIsMissed)
 {
-  // The thread that reads messages is held up, longer than it ever was waited for; the one that hears of departures is
+  // The thread that reads messages is blocked for longer than any wait lasts. The thread that hears of departures is
   // not.
   options_.lease_s = 100;
   std::atomic<int> exit_code = -1;
@@ -134,7 +77,7 @@ TEST_F(Leaving, IsReadBeforeTheProcessIsMissed)
   EXPECT_EQ(session.FirstLeft(), "engine 'ground'");
 }
 
-// As a region that takes the place of one that was killed when its engine had done its work.
+// A region may replace one that was killed after its engine had done its work.
 TEST_F(Leaving, IsToldToThoseWhoComeLater)
 {
   const std::string late = "region 0 of engine 'ground'";
@@ -191,7 +134,7 @@ TEST_F(Leaving, GivesUpInOrderIfNobodyReadsItsErrors)
   EXPECT_EXIT(give_up(), testing::ExitedWithCode(kExitProcessFailed), "");
 }
 
-// It waits for a lock of a dead process, and nobody else is there who could tell of it.
+// It waits for a lock of a dead process, and no other process could report that.
 TEST_F(Leaving, EndsIfTheMainThreadIsStuck)
 {
   GTEST_FLAG_SET(death_test_style, "threadsafe");

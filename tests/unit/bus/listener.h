@@ -1,5 +1,5 @@
-// A participant that is no process of Swarmanoid: it reads what is written on a topic, as bytes, whatever they are, on
-// the loopback interface alone.
+// Listener: a participant that is no process of Swarmanoid. It reads all messages on a topic as bytes, on the loopback
+// interface only.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ namespace swarmanoid::test
 class Listener : dds::DataReaderListener
 {
 public:
-  // `topic`: with the id of a share behind a slash, if it is of one.
+  // `topic`: ends with the id of a grant behind a slash, if it belongs to one.
   Listener(int domain, const std::string& partition, const std::string& topic, const std::string& address = "127.0.0.1")
   {
     dds::DomainParticipantQos qos;
@@ -59,7 +59,7 @@ public:
     const std::lock_guard lock(mutex_);
     return samples_;
   }
-  // All payloads in one.
+  // Returns all payloads, joined.
   std::string Heard()
   {
     std::string all;
@@ -85,6 +85,7 @@ private:
   }
 
   dds::DomainParticipant* participant_ = nullptr;
+  // Guards samples_.
   std::mutex mutex_;
   std::vector<Sample> samples_;
 };

@@ -1,7 +1,7 @@
 // The silence of others counts only while this process could hear them.
 #include <gtest/gtest.h>
 
-#include "common/bus/membership/listening_clock.h"
+#include "common/bus/listening_clock.h"
 
 namespace swarmanoid
 {
@@ -19,7 +19,7 @@ TEST(ListeningClock, CountsAllTimeOfAProcessThatRuns)
     EXPECT_EQ(clock.At(Time{} + k * ListeningClock::kPeriod) - start, k * ListeningClock::kPeriod);
 }
 
-// Load 60 on two cores: the thread runs once in a while, for a moment.
+// At a load of 60 on two cores, the thread runs once in a while, for a moment.
 TEST(ListeningClock, CountsNoTimeInWhichTheProcessDidNotRun)
 {
   ListeningClock clock;

@@ -1,152 +1,162 @@
-// The messages of processes that join, leave and are replaced, constants and keys, are those of the IDL.
+// Messages have the bytes of the types that fastddsgen makes from the IDL.
 #include <gtest/gtest.h>
 
-#include "tests/unit/bus/random_messages.h"
+#include "common/bus/dds/for_tests.h"
+#include "common/bus/topics/message_type.h"
+#include "swarmanoid.h"
+#include "swarmanoidPubSubTypes.h"
+#include "tests/world/random_message.h"
 
 namespace swarmanoid
 {
 namespace
 {
 
-TEST(MessageConstants, AreThoseOfTheIdl)
+constexpr int kRounds = 100;
+
+template <class... Parts>
+std::string OurBytes(const Parts&... parts)
 {
-  EXPECT_EQ(kProtocolVersion, wire::PROTOCOL_VERSION);
-  EXPECT_EQ(kFlagLast, wire::FLAG_LAST);
-  EXPECT_EQ(kFlagTerminate, wire::FLAG_TERMINATE);
-  EXPECT_EQ(kFlagRepeated, wire::FLAG_REPEATED);
-  EXPECT_EQ(kFlagSave, wire::FLAG_SAVE);
-  const std::uint32_t uniform[] = {wire::FLAG_UNIFORM_X,  wire::FLAG_UNIFORM_Y,  wire::FLAG_UNIFORM_Z,
-                                   wire::FLAG_UNIFORM_QX, wire::FLAG_UNIFORM_QY, wire::FLAG_UNIFORM_QZ,
-                                   wire::FLAG_UNIFORM_QW};
-  for (std::size_t k = 0; k < std::size(uniform); ++k) EXPECT_EQ(kFlagUniformX << k, uniform[k]);
-  EXPECT_EQ(static_cast<std::uint32_t>(RunStatus::Phase::kWaiting), wire::PHASE_WAITING);
-  EXPECT_EQ(static_cast<std::uint32_t>(RunStatus::Phase::kRunning), wire::PHASE_RUNNING);
-  EXPECT_EQ(static_cast<std::uint32_t>(RunStatus::Phase::kPaused), wire::PHASE_PAUSED);
-  EXPECT_EQ(static_cast<std::uint32_t>(RunStatus::Phase::kFinished), wire::PHASE_FINISHED);
+  std::string bytes(PayloadSize(parts...), '?');
+  WritePayload(bytes.data(), parts...);
+  return bytes;
 }
 
-TEST(MessageBytes, OfJoiningAndLeavingAreThoseOfTheIdl)
+// Returns what the type of fastddsgen reads from the bytes.
+template <class Support, class Wire>
+Wire GeneratedRead(const std::string& bytes)
 {
-  Random random(2);
+  static Support support;  // the largest size of a type takes long to count
+  Payload payload(static_cast<std::uint32_t>(bytes.size()));
+  std::memcpy(payload.data, bytes.data(), bytes.size());
+  payload.length = static_cast<std::uint32_t>(bytes.size());
+  Wire wire;
+  EXPECT_TRUE(test::GeneratedRead(support, payload, &wire));
+  return wire;
+}
+
+template <class Support, class Wire>
+std::string GeneratedBytes(Wire& wire)
+{
+  static Support support;
+  Payload payload(100000);
+  EXPECT_TRUE(test::GeneratedWrite(support, &wire, payload));
+  return {reinterpret_cast<const char*>(payload.data), payload.length};
+}
+
+template <class Message, class Support, class Wire>
+void ExpectSameOfTick()
+{
+  RandomMessage random(1);
   for (int round = 0; round < kRounds; ++round)
   {
-    const WorldMessage world{
-        kProtocolVersion,
-        random.Number(),
-        random.Text(),
-        random.Text(),
-        random.Number32(),
-        random.Text(),
-        random.Text(),
-        random.Text(),
-        random.Number(),
-        {random.Number32(), std::vector<std::uint32_t>(random.Length(), random.Number32())},
-        random.Flag(),
-        random.Real(),
-        random.Number(),
-        random.Bytes(),
-        random.Flag(),
-        std::vector<WorldEntity>(random.Length(), {random.Text(), random.Text(), random.Flag(), random.Number32()}),
-        std::vector<WorldLibrary>(random.Length(), {random.Text(), random.Text()}),
-        {random.Number(),
-         std::vector<RecordedFault>(random.Length(), {random.Number(), random.Number32(), FaultKind::kTooSlow})}};
-    wire::World wire_world;
-    wire_world.protocol(world.protocol);
-    wire_world.run(world.run);
-    wire_world.experiment(world.experiment);
-    wire_world.host(world.host);
-    wire_world.pid(world.pid);
-    wire_world.file(world.file);
-    wire_world.folder(world.folder);
-    wire_world.xml(world.xml);
-    wire_world.seed(world.seed);
-    wire_world.hosts(world.hosts.hosts);
-    wire_world.host_of_robots(world.hosts.of_robots);
-    wire_world.spread(world.spread);
-    wire_world.tick_seconds(world.tick_seconds);
-    wire_world.checkpoint_every(world.checkpoint_every);
-    wire_world.checkpoint().assign(world.checkpoint.begin(), world.checkpoint.end());
-    wire_world.recorded(world.recorded);
-    for (const WorldEntity& entity : world.entities)
-    {
-      wire_world.entities().emplace_back();
-      wire_world.entities().back().id(entity.id);
-      wire_world.entities().back().kind(entity.kind);
-      wire_world.entities().back().movable(entity.movable);
-      wire_world.entities().back().first_slot(entity.first_slot);
-    }
-    for (const WorldLibrary& library : world.libraries)
-    {
-      wire_world.libraries().emplace_back();
-      wire_world.libraries().back().name(library.name);
-      wire_world.libraries().back().digest(library.digest);
-    }
-    wire_world.known_until(world.known.until);
-    for (const RecordedFault& fault : world.known.faults)
-    {
-      wire_world.faults().emplace_back();
-      wire_world.faults().back().tick(fault.tick);
-      wire_world.faults().back().robot(fault.robot);
-      wire_world.faults().back().kind(static_cast<std::uint32_t>(fault.kind));
-    }
-    ExpectSame<wire::WorldPubSubType>(world, wire_world);
-
-    const JoinMessage join{random.Text(), kProtocolVersion,  random.Number(), random.Text(),
-                           random.Flag(), random.Number32(), random.Text(),   0.25 * random.Number32()};
-    wire::Join wire_join;
-    wire_join.reach(join.reach);
-    wire_join.process(join.process);
-    wire_join.protocol(join.protocol);
-    wire_join.run(join.run);
-    wire_join.name(join.name);
-    wire_join.ready(join.ready);
-    wire_join.incarnation(join.incarnation);
-    wire_join.machine(join.machine);
-    ExpectSame<wire::JoinPubSubType>(join, wire_join);
-
-    const LeaveMessage leave{random.Number(), random.Number(), random.Text(), random.Text(), random.Text()};
-    wire::Leave wire_leave;
-    wire_leave.run(leave.run);
-    wire_leave.tick(leave.tick);
-    wire_leave.name(leave.name);
-    wire_leave.process(leave.process);
-    wire_leave.error(leave.error);
-    ExpectSame<wire::LeavePubSubType>(leave, wire_leave);
-
-    const StatusMessage status{random.Number(), random.Number(), random.Text(), random.Text()};
-    wire::Status wire_status;
-    wire_status.run(status.run);
-    wire_status.tick(status.tick);
-    wire_status.name(status.name);
-    wire_status.text(status.text);
-    ExpectSame<wire::StatusPubSubType>(status, wire_status);
-
-    const SavedStateMessage saved{random.Number(), random.Number(), random.Text(), random.Bytes()};
-    wire::SavedState wire_saved;
-    wire_saved.run(saved.run);
-    wire_saved.tick(saved.tick);
-    wire_saved.name(saved.name);
-    wire_saved.state().assign(saved.state.begin(), saved.state.end());
-    ExpectSame<wire::SavedStatePubSubType>(saved, wire_saved);
-
-    const RecoveryRequestMessage request{random.Number(), random.Text(), random.Text(), random.Number32()};
-    wire::RecoveryRequest wire_request;
-    wire_request.run(request.run);
-    wire_request.process(request.process);
-    wire_request.name(request.name);
-    wire_request.number(request.number);
-    ExpectSame<wire::RecoveryRequestPubSubType>(request, wire_request);
-
-    const RecoveryBlockMessage block{random.Number(), random.Text(), random.Number32(), random.Number32(),
-                                     random.Bytes()};
-    wire::RecoveryBlock wire_block;
-    wire_block.run(block.run);
-    wire_block.process(block.process);
-    wire_block.number(block.number);
-    wire_block.count(block.count);
-    wire_block.block().assign(block.block.begin(), block.block.end());
-    ExpectSame<wire::RecoveryBlockPubSubType>(block, wire_block);
+    MessageHeader header;
+    Message message;
+    random.Fill(header, message);
+    const std::string bytes = OurBytes(header, message);
+    Wire wire = GeneratedRead<Support, Wire>(bytes);
+    EXPECT_EQ(wire.header().run(), header.run);
+    EXPECT_EQ(wire.header().incarnation(), header.incarnation);
+    EXPECT_EQ(GeneratedBytes<Support>(wire), bytes);
+    MessageHeader seen;
+    Message read;
+    const auto choose = [&](const MessageHeader&) { return &read; };
+    EXPECT_EQ(ReadTickPayload<Message>(bytes, seen, choose, [](const MessageHeader&, const Message&) {}), &read);
+    EXPECT_EQ(OurBytes(seen, read), bytes);
   }
+}
+
+template <class Message, class Support, class Wire>
+void ExpectSame()
+{
+  RandomMessage random(2);
+  for (int round = 0; round < kRounds; ++round)
+  {
+    Message message;
+    random.Fill(message);
+    const std::string bytes = OurBytes(message);
+    Wire wire = GeneratedRead<Support, Wire>(bytes);
+    if constexpr (requires { message.run; })
+    {
+      EXPECT_EQ(wire.run(), message.run);
+    }
+    EXPECT_EQ(GeneratedBytes<Support>(wire), bytes);
+    Message read;
+    ReadPayload(bytes, read);
+    EXPECT_EQ(OurBytes(read), bytes);
+  }
+}
+
+#define TEST_OF_TICK(MESSAGE, TOPIC) \
+  TEST(BytesOfTheIdl, TOPIC) { ExpectSameOfTick<MESSAGE, wire::TOPIC##PubSubType, wire::TOPIC>(); }
+#define TEST_OF_OTHER(MESSAGE, TOPIC) \
+  TEST(BytesOfTheIdl, TOPIC) { ExpectSame<MESSAGE, wire::TOPIC##PubSubType, wire::TOPIC>(); }
+SWARMANOID_HOT_MESSAGES(TEST_OF_TICK)
+SWARMANOID_COLD_MESSAGES(TEST_OF_OTHER)
+
+TEST(MessageFields, AreThoseOfTheIdl)
+{
+  SpaceState state;
+  MessageHeader header{1, 2, 3, true, 4, false};
+  state.last = true;
+  state.poses = {1, 2, 3, 0, 0, 0, 1};
+  state.attributes.Add(7, 0.5);
+  state.moved = {5};
+  state.drawing.texts = {"here"};
+  const auto wire = GeneratedRead<wire::SpaceStatePubSubType, wire::SpaceState>(OurBytes(header, state));
+  EXPECT_EQ(wire.header().tick(), 2U);
+  EXPECT_EQ(wire.header().source(), 3U);
+  EXPECT_EQ(wire.flags(), wire::FLAG_LAST | wire::FLAG_REPEATED);
+  EXPECT_EQ(wire.poses(), state.poses);
+  EXPECT_EQ(wire.attributes().slots(), state.attributes.slots);
+  EXPECT_EQ(wire.attributes().values(), state.attributes.values);
+  EXPECT_EQ(wire.moved(), state.moved);
+  EXPECT_EQ(wire.drawing().texts(), state.drawing.texts);
+
+  const JoinMessage join{"host:1", kProtocolVersion, 7, "engine 'ground'", true, 3, "there", 0.5};
+  const auto wire_join = GeneratedRead<wire::JoinPubSubType, wire::Join>(OurBytes(join));
+  EXPECT_EQ(wire_join.process(), join.process);
+  EXPECT_EQ(wire_join.protocol(), wire::PROTOCOL_VERSION);
+  EXPECT_EQ(wire_join.name(), join.name);
+  EXPECT_EQ(wire_join.machine(), join.machine);
+}
+
+// Every set of columns that are the same for all entities; with all seven one goes whole, and with one entity none is
+// shorter.
+TEST(MessagePoses, HaveUniformColumnsAsOneNumber)
+{
+  RandomMessage random(4);
+  for (std::uint32_t uniform = 0; uniform < 128; ++uniform)
+    for (const std::size_t entities : {0U, 1U, 2U, 5U})
+    {
+      EngineUpdate update;
+      update.poses = random.Poses(entities, uniform);
+      const std::uint32_t shortened = entities < 2 ? 0 : uniform == 127 ? 63 : uniform;
+      std::vector<double> sent;
+      for (std::size_t k = 0; k < update.poses.size(); ++k)
+        if (k % entities == 0 || (shortened >> k / entities & 1U) == 0) sent.push_back(update.poses[k]);
+      const std::string bytes = OurBytes(MessageHeader(), update);
+      const auto wire = GeneratedRead<wire::EngineUpdatePubSubType, wire::EngineUpdate>(bytes);
+      EXPECT_EQ(wire.poses(), sent);
+      EXPECT_EQ(wire.flags(), shortened * wire::FLAG_UNIFORM_X);
+    }
+}
+
+// Zero and minus zero are two values.
+TEST(MessagePoses, TellTheSignOfZero)
+{
+  EXPECT_EQ(UniformColumns({0.0, -0.0, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 2}), 0b0111110U);
+}
+
+TEST(MessagePoses, MustFitTheFlags)
+{
+  std::vector<double> numbers(9, 1.0);
+  EXPECT_FALSE(SpreadColumns(numbers, 127));  // how many entities?
+  EXPECT_FALSE(SpreadColumns(numbers, 0b1111000));
+  EXPECT_TRUE(SpreadColumns(numbers, 0b0011111));
+  EXPECT_EQ(numbers.size(), 14U);
+  std::vector<double> few(3, 1.0);
+  EXPECT_FALSE(SpreadColumns(few, 0b0000111));
 }
 
 // Fast DDS of an earlier release and other vendors tell instances by the same hash.

@@ -1,4 +1,4 @@
-// Messages as bytes: what a participant that is no process of Swarmanoid reads and writes.
+// RawType: messages as bytes, for a participant that is no process of Swarmanoid.
 #pragma once
 
 #include <cstring>
@@ -10,7 +10,7 @@
 namespace swarmanoid::test
 {
 
-// A payload is the bytes of a std::string. `topic` may end with the id of a share behind a slash: "View/1a2b3c4d".
+// A payload is the bytes of a std::string. `topic` may end with the id of a grant behind a slash: "View/1a2b3c4d".
 class RawType : public DataType
 {
 public:

@@ -1,4 +1,4 @@
-// The links between an engine that is split and the processes of its regions: who hears what, and who leaves when.
+// The links between a split engine and the processes of its regions: which messages they get, and when they leave.
 #include <array>
 #include <atomic>
 #include <mutex>
@@ -72,7 +72,7 @@ public:
             ++left_;
           });
     team_.emplace(*sessions_[2], experiment_, 0, limits_);
-    EXPECT_TRUE(Eventually([&] { return team_->Missing() == 0; }));
+    EXPECT_TRUE(Eventually([&] { return team_->Missing() == 0 && listened_->Writers() == 1; }));
     team_->Begin(role_);
     team_->SetTick(7);
     const std::lock_guard lock(role_);
@@ -83,11 +83,13 @@ public:
         {
           for (std::uint32_t k = 0; k < tasks.size(); ++k) tasks[k].Put(k);
         },
-        results);
+        results, [this] { ++meanwhile_; });
   }
 
   RegionTeamLink& Team() { return *team_; }
   int Left() const { return left_; }
+  // How often the engine did its own work while the regions had the task.
+  int Meanwhile() const { return meanwhile_; }
   // After all regions have left: the last one but that of the end.
   std::uint32_t TaskOf(unsigned region) const { return ByteReader(tasks_[region]).Get<std::uint32_t>(); }
   std::string Name(unsigned region) const { return RegionName(experiment_, 0, region); }
@@ -96,7 +98,7 @@ public:
     leaves_.Write({run_, tick, name, process, ""});
   }
 
-  // What goes to region 1.
+  // Returns the messages to region 1.
   std::vector<std::vector<char>> Heard() const
   {
     const std::lock_guard lock(mutex_);
@@ -127,41 +129,46 @@ private:
   Publisher<LeaveMessage> leaves_;
   const Experiment experiment_;
   const RegionLimits limits_;
+  // Guards heard_.
   mutable std::mutex mutex_;
   std::vector<std::vector<char>> heard_;
   RegionTaskMessage arriving_;
   std::optional<HotSubscription<RegionTaskMessage>> listened_;
   std::vector<std::unique_ptr<WorkerSession>> sessions_;
   std::atomic<int> left_ = 0;
+  int meanwhile_ = 0;
+  // RegionTeamLink unlocks it while it waits, as it does with the mutex of an engine worker.
   std::mutex role_;
   std::optional<RegionTeamLink> team_;
   std::array<std::vector<char>, 2> tasks_;
   std::vector<std::jthread> regions_;
 };
 
-// Not those of the others: over a network each would take as much as the whole swarm does.
+// A region does not get the tasks of others: over a network each task would take as much as the whole swarm.
 TEST_F(RegionLinks, RegionsHearTheirOwnTasksAlone)
 {
   TwoRegions two(options_, of_worker_, world_);
   ASSERT_TRUE(Eventually([&] { return !two.Heard().empty(); }));
   for (const std::vector<char>& task : two.Heard()) EXPECT_EQ(task, (std::vector<char>{1, 0, 0, 0}));
+  EXPECT_EQ(two.Meanwhile(), 1);
+  EXPECT_EQ(two.Team().Awaited(), "");
   two.Team().End();
   two.SayLeft(8, "engine 'ground'");
   ASSERT_TRUE(Eventually([&] { return two.Left() == 2; }));
   for (const unsigned k : {0U, 1U}) EXPECT_EQ(two.TaskOf(k), k);
 }
 
-// What a region answered last may be lost, and its process would take it along.
+// The last answer of a region may be lost, and would be lost for good if its process ended.
 TEST_F(RegionLinks, RegionsStayUntilTheirEngineHasLeft)
 {
   TwoRegions two(options_, of_worker_, world_);
-  // However often it asks.
+  // The regions stay, however often the engine asks.
   for (int k = 0; k < 3; ++k)
   {
     two.Team().End();
     EXPECT_EQ(two.Team().Awaited(), "") << k;
   }
-  // One that was moved to another machine, where its place was taken.
+  // The Leave comes from an earlier process of the engine, which was moved to another machine and replaced.
   two.SayLeft(6, "engine 'ground'", "another:1");
   std::this_thread::sleep_for(200ms);
   EXPECT_EQ(two.Left(), 0);
@@ -169,7 +176,7 @@ TEST_F(RegionLinks, RegionsStayUntilTheirEngineHasLeft)
   EXPECT_TRUE(Eventually([&] { return two.Left() == 2; }));
 }
 
-// Its last word may not reach a region that it has just met, and one that was killed before it seems to be there.
+// The engine's Leave may not reach a region that has just matched, and a killed engine seems to be there.
 TEST_F(RegionLinks, RegionsDoNotStayForEverForAnEngineThatIsSilent)
 {
   TwoRegions two(options_, of_worker_, world_);
@@ -177,7 +184,6 @@ TEST_F(RegionLinks, RegionsDoNotStayForEverForAnEngineThatIsSilent)
   EXPECT_TRUE(Eventually([&] { return two.Left() == 2; }));
 }
 
-// Nor an engine for one that has left.
 TEST_F(RegionLinks, AnEngineDoesNotWaitForRegionsThatHaveLeft)
 {
   TwoRegions two(options_, of_worker_, world_);

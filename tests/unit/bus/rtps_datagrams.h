@@ -1,5 +1,5 @@
-// Datagrams of RTPS for the tests and the fuzzer of CheckRtps: one that Fast DDS may read of each kind, and those that
-// end processes with Fast DDS or make them fill their memory.
+// Datagrams of RTPS for the tests and the fuzzer of CheckRtps: one valid datagram of each kind, and datagrams that end
+// processes with Fast DDS or make them fill their memory.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct RtpsDatagram
 {
   std::string name;
   std::string bytes;
-  std::string defect{};  // a part of what is said about it; empty if Fast DDS may read it
+  std::string defect{};  // a part of the reason for the refusal; empty if Fast DDS may read it
 };
 
 inline void PrintTo(const RtpsDatagram& datagram, std::ostream* to) { *to << datagram.name; }
@@ -54,7 +54,7 @@ inline const std::string kTellsLiveliness = Id(0x000200c2);
 inline const std::string kUserWriter = Id(0x00000103);
 inline const std::string kVendorFastDds{0x01, 0x0f};
 
-// `vendor`: two bytes.
+// `vendor` has two bytes.
 inline std::string RtpsHeader(const std::string& vendor = kVendorFastDds)
 {
   return std::string("RTPS\2\3", 6) + vendor + "the stranger";
@@ -100,7 +100,7 @@ inline std::string Heartbeat(std::int64_t first, std::int64_t last)
 {
   return RtpsSubmessage(0x07, 0, kUnknown + kUserWriter + SequenceNumber(first) + SequenceNumber(last) + Word(1));
 }
-// `bits`: how many are said to follow; one word does.
+// `bits`: the stated number of bits; one word follows.
 inline std::string Gap(std::int64_t start, std::int64_t end, std::uint32_t bits = 0)
 {
   return RtpsSubmessage(
@@ -120,7 +120,7 @@ inline std::string NackFragment(std::uint32_t base, std::uint32_t bits, std::int
 }
 inline std::string Statistics(std::size_t bytes = 56) { return RtpsSubmessage(0x80, 0, std::string(bytes, '\0')); }
 
-// The announcement of a process.
+// Returns the parameters with which a process announces itself.
 inline std::string OwnParameters()
 {
   const std::string locator = Word(1) + Word(7411) + std::string(12, '\0') + "\x7f" + std::string("\0\0\1", 3);
@@ -182,9 +182,9 @@ inline std::vector<RtpsDatagram> LegalDatagrams()
   };
 }
 
-// Datagrams of the published vulnerabilities of Fast DDS, as far as a single datagram shows them, and of those that
-// were found here. CVE-2023-50257 has a datagram that is right in itself: a good-bye in the name of another process,
-// which is refused by its signature.
+// Datagrams of the published vulnerabilities of Fast DDS, as far as a single datagram can show them, and of
+// vulnerabilities that were found here. The datagram of CVE-2023-50257 has no defect in itself: it is a forged Leave of
+// another process, which is refused by its signature.
 inline std::vector<RtpsDatagram> AttackDatagrams()
 {
   const std::string header = RtpsHeader();

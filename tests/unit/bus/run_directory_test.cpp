@@ -1,4 +1,4 @@
-#include "common/bus/membership/run_directory.h"
+#include "common/bus/run_directory.h"
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -21,7 +21,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-// A folder of runs of its own, so that others' are not touched.
+// Has its own folder of runs, so that other runs are not touched.
 class RunDirectoryTest : public testing::Test
 {
 protected:
@@ -112,7 +112,7 @@ TEST_F(RunDirectoryTest, WhatAKilledProcessLeftIsRemovedWhenAsked)
   EXPECT_FALSE(fs::exists(folder_));
 }
 
-// On a machine where only workers run, by ssh, no launcher and no server ever looks.
+// On a machine where only workers run, by ssh, no launcher and no server ever removes dead runs.
 TEST_F(RunDirectoryTest, WhatAKilledProcessLeftIsRemovedByTheNextOfAnyRun)
 {
   const std::string left = KilledRun();
@@ -163,7 +163,7 @@ TEST_F(RunDirectoryTest, LinksAreNotFollowed)
   const std::string victim = folder_ + ".victim";
   fs::create_directories(victim);
   {
-    // A run that died, by all that its folder says.
+    // The content of the folder looks like a run that died.
     setenv("SWARMANOID_SHARED_FOLDER", victim.c_str(), 1);
     RunDirectory directory("dead", 1);
     fs::create_directories(victim + "/kept-1");
@@ -179,7 +179,7 @@ TEST_F(RunDirectoryTest, LinksAreNotFollowed)
     EXPECT_THROW(RunDirectory("other", 2), BusError);
     EXPECT_TRUE(fs::exists(victim + "/kept-1/letter"));
 
-    // A link within the folder.
+    // It is a link within the folder.
     fs::remove(folder_);
     fs::create_directory(folder_);
     fs::create_symlink(victim + "/kept-1", folder_ + "/dead-2");

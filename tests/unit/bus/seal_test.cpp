@@ -1,4 +1,4 @@
-// Seals: what only those can say who hold the key of the run, once, on one topic and as one writer.
+// Seals: only holders of the run's key can send a message, once, on one topic and as one writer.
 #include "common/bus/security/seal.h"
 
 #include <fcntl.h>
@@ -12,6 +12,7 @@
 
 #include <gmock/gmock.h>
 
+#include "common/bus/security/digest.h"
 #include "tests/eventually.h"
 #include "tests/unit/bus/key_of_byte.h"
 #include "tests/unit/bus/listener.h"
@@ -30,7 +31,7 @@ using testing::HasSubstr;
 
 const WriterId kWriter{1, 2, 3};
 
-// A payload with that text in the place of its fields.
+// Returns a payload with that text in the place of its fields.
 std::string Sealed(Sealer& sealer, const std::string& text, const WriterId& writer = kWriter)
 {
   std::string payload = std::string("\0\1\0\0", 4) + std::string(kSealedFieldsAt - 4, '\0') + text;
@@ -58,7 +59,7 @@ TEST(Seals, OpenForTheKeyAndTheTopicAlone)
   EXPECT_FALSE(TextIn(wrong_key, KeyOfByte(8), payload).has_value());
   Opener wrong_topic("Join");
   EXPECT_FALSE(TextIn(wrong_topic, KeyOfByte(7), payload).has_value());
-  // By somebody who has opened a message of this writer, and by somebody who has not.
+  // The receiver is one that has opened a message of this writer, and one that has not.
   for (std::size_t k = 0; k < payload.size(); ++k)
   {
     std::string changed = payload;
@@ -94,8 +95,8 @@ TEST(Seals, TellTheWriterAndWhetherAMessageIsNew)
   EXPECT_FALSE(opener.IsNew(*opener.Open(first, room)));
 }
 
-// Two messages under one key and nonce would tell each other: processes that take the place of another one, with its
-// identity, begin with number 1 again.
+// Two messages under one key and nonce would reveal each other. A process that replaces another one has its identity,
+// and begins with number 1 again.
 TEST(Seals, OfEqualMessagesOfTwoProcessesHaveNothingInCommon)
 {
   Sealer one(KeyOfByte(7), "Leave");
@@ -112,13 +113,13 @@ TEST(Seals, OfEqualMessagesOfTwoProcessesHaveNothingInCommon)
     for (std::size_t k = kSealedFieldsAt; k < a.size(); ++k) equal += a[k] == b[k] ? 1 : 0;
     return equal;
   };
-  // By chance one in 256.
+  // One in 256 does so by chance.
   EXPECT_LT(equal_bytes(first, second), 30U);
   EXPECT_LT(equal_bytes(first, again), 30U);
 }
 
-// Whoever writes a member of the run in another language goes by docs/wire.md: HKDF by its two steps of HMAC, and
-// AES-256-GCM with the nonce put together by hand.
+// A program in another language that joins a run uses docs/wire.md. So this test makes HKDF by its two steps of HMAC,
+// and AES-256-GCM with a nonce that is put together by hand.
 TEST(Seals, AreWhatTheWireSaysTheyAre)
 {
   const auto hmac = [](const std::string& key, const std::string& text)
@@ -196,7 +197,7 @@ protected:
   SealedBus() : ServerFixture("sealed") {}
 };
 
-// A writer that says sealed messages as they are, as whoever overheard them could.
+// A writer that sends sealed messages unchanged, as an eavesdropper could.
 TEST_F(SealedBus, AMessageIsHeardOnceAndOfItsWriterAlone)
 {
   Bus bus(options_, "reader");
@@ -237,11 +238,11 @@ TEST_F(SealedBus, AMessageIsHeardOnceAndOfItsWriterAlone)
   ASSERT_TRUE(Eventually([&] { return heard == 2; }));
   EXPECT_EQ(bus.Dropped(), 5U);
   const std::lock_guard lock(mutex);
-  // Of one sender on one topic the first is told.
+  // Only the first refusal for a sender and a topic is reported.
   EXPECT_THAT(refused, testing::ElementsAre("Status: it is a repetition of a message that has come before"));
 }
 
-// What is read off the wire tells nothing.
+// The bytes on the wire reveal nothing.
 TEST_F(SealedBus, NobodyWithoutTheKeyReadsAMessage)
 {
   Bus bus(options_, "writer");
@@ -260,7 +261,7 @@ TEST_F(SealedBus, NobodyWithoutTheKeyReadsAMessage)
   EXPECT_THAT(listener.Heard(), testing::Not(HasSubstr("ground")));
 }
 
-// Another process says that it is one of the run's, and goes.
+// Another process announces itself as one of the run's, and leaves.
 TEST_F(SealedBus, WhoHasNotSpokenUnderTheKeyIsNotMissed)
 {
   ServerSession session(options_, world_, {"engine 'ground'"}, {[](const auto&) {}, [] {}, [](const auto&) {}});
@@ -272,7 +273,7 @@ TEST_F(SealedBus, WhoHasNotSpokenUnderTheKeyIsNotMissed)
   BusOptions of_others = options_;
   of_others.key = KeyOfByte(8);
   {
-    // Of the same process, by its own word.
+    // The stranger announces the name of the same process.
     Bus stranger(of_others, "engine 'ground'");
     Publisher<LeaveMessage> leave(stranger, "sealed");
     ASSERT_TRUE(Eventually([&] { return leave.Readers() == 1; }));
@@ -283,7 +284,7 @@ TEST_F(SealedBus, WhoHasNotSpokenUnderTheKeyIsNotMissed)
   EXPECT_FALSE(session.FirstLeft().has_value());
 }
 
-// What is told is told in the order in which processes go, so the end of one that is known ends the waiting.
+// Departures are reported in their order, so the departure of a known process ends the wait.
 TEST_F(SealedBus, OnlyWhoHasSpokenUnderTheKeyIsToldToBeGone)
 {
   Bus bus(options_, "space server");

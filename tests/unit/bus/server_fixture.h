@@ -1,4 +1,4 @@
-// What a space server needs for its session, in a domain and a folder of shared memory that no other test uses.
+// The needs of a space server's session, in a domain and a folder of shared memory that no other test uses.
 #pragma once
 
 #include <unistd.h>
@@ -36,7 +36,8 @@ protected:
   }
 
   const std::string folder_;
-  const std::string of_worker_ = folder_ + "-worker";  // a process has one folder of a run; for tests that need two
+  // A second folder, since a process may have only one folder of a run.
+  const std::string of_worker_ = folder_ + "-worker";
   FreeDomain domain_;
   BusOptions options_;
   WorldMessage world_;

@@ -1,5 +1,4 @@
-// ServerSession: what the threads of the bus write is read by the server's own at the same time (with data races looked
-// for: the preset tsan).
+// ServerSession: the server's own thread reads while threads of the bus write. The preset tsan looks for data races.
 #include <atomic>
 #include <thread>
 
@@ -77,7 +76,7 @@ TEST_F(ServerSessionTest, IsReadWhileProcessesComeAndTellWhatTheyDo)
   EXPECT_EQ(torn, 0);
 }
 
-// Another process takes the place of one that was lost; the old one is told to end when it comes back.
+// Another process replaces a lost one. When the old process comes back, it is told to end.
 TEST_F(ServerSessionTest, AReplacementIsTakenAndItsPredecessorRefused)
 {
   ServerSession session(options_, world_, {"engine 'ground'"}, {[](const auto&) {}, [] {}, [](const auto&) {}});

@@ -1,4 +1,4 @@
-// StallDetector, with a clock of the test.
+// Tests StallDetector, with a clock of the test.
 #include "common/bus/membership/stall_detector.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// A participant that is no process of Swarmanoid: it says no name, and writes any bytes to any topic, on the loopback
-// interface alone.
+// A participant that is no process of Swarmanoid. It announces no name, and writes any bytes to any topic, on the
+// loopback interface only.
 #pragma once
 
 #include <memory>
@@ -38,7 +38,8 @@ public:
   Stranger(const Stranger&) = delete;
   Stranger& operator=(const Stranger&) = delete;
 
-  // Writes each of the payloads, once `readers` are there, and waits until they have got them. False if none comes.
+  // Writes the payloads once `readers` have matched, and waits until they have received them. Returns false if no
+  // reader comes.
   bool Send(const std::string& topic_name, const std::vector<std::string>& payloads, int readers = 1)
   {
     dds::DataWriter* const writer = WriterOf(topic_name);
@@ -47,11 +48,11 @@ public:
     for (std::string payload : payloads) WriteMessage(*writer, &payload);
     const bool got = Succeeded(writer->wait_for_acknowledgments({static_cast<std::int32_t>(kGenerous.count()), 0}));
     std::size_t cleared = 0;
-    writer->clear_history(&cleared);  // nobody who comes later gets them
+    writer->clear_history(&cleared);  // processes that join later do not get them
     return got;
   }
 
-  // Once `readers` know its writer on that topic.
+  // Returns whether `readers` have matched its writer on that topic.
   bool Met(const std::string& topic_name, int readers)
   {
     dds::DataWriter* const writer = WriterOf(topic_name);
@@ -64,7 +65,7 @@ public:
                                     });
   }
 
-  // The GUID of that writer.
+  // Returns the GUID of that writer.
   WriterId Writer(const std::string& topic_name)
   {
     const auto& guid = WriterOf(topic_name)->guid();
@@ -75,7 +76,8 @@ public:
   }
 
 private:
-  // It stays as long as the stranger: what a reader has acknowledged, but not looked at, goes with its writer.
+  // Returns the writer of a topic. It lives as long as the stranger: messages that a reader has acknowledged but not
+  // taken would be lost with their writer.
   dds::DataWriter* WriterOf(const std::string& topic_name)
   {
     if (dds::DataWriter* const known = publisher_->lookup_datawriter(topic_name)) return known;
@@ -98,7 +100,7 @@ private:
   dds::Publisher* publisher_ = nullptr;
 };
 
-// The payload of a message, well-formed.
+// Returns the payload of a message, well-formed.
 template <class... Parts>
 std::string PayloadOf(const Parts&... parts)
 {

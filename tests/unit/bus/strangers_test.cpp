@@ -1,4 +1,5 @@
-// Bad messages on the wire: those of strangers are dropped and counted, one of a member ends the run by his name.
+// Bad messages on the wire: those of strangers are dropped and counted, and one of a member ends the run with the
+// member's name.
 #include <functional>
 #include <random>
 
@@ -23,7 +24,7 @@ protected:
   Strangers() : ServerFixture("strangers") {}
 };
 
-// The space server's reader of updates, to which each is as if its array were too short.
+// A reader of updates as that of the space server, which refuses each update as if its array were too short.
 struct BadUpdates
 {
   explicit BadUpdates(ServerSession& session)
@@ -31,16 +32,16 @@ struct BadUpdates
         updates(
             session.GetBus(), scope,
             {[this](const MessageHeader&) { return &place; },
-             [](const MessageHeader&, UpdateMessage&) { FAIL() << "a bad message was received"; },
-             [](const MessageHeader&, const UpdateMessage&) { throw BadMessage("poses: it has 3 numbers, not 70"); }})
+             [](const MessageHeader&, EngineUpdate&) { FAIL() << "a bad message was received"; },
+             [](const MessageHeader&, const EngineUpdate&) { throw BadMessage("poses: it has 3 numbers, not 70"); }})
   {
   }
-  // Whether the condition was met while `sender` wrote them.
+  // Returns whether the condition was met while `sender` wrote them.
   bool ComeUntil(const std::function<bool()>& met, Bus& sender, std::uint64_t run)
   {
-    HotPublisher<UpdateMessage> publisher(sender, scope);
+    HotPublisher<EngineUpdate> publisher(sender, scope);
     if (!Eventually([&] { return publisher.Readers() == 1 && updates.Writers() == 1; })) return false;
-    const UpdateMessage update;
+    const EngineUpdate update;
     return Eventually(
         [&]
         {
@@ -50,8 +51,8 @@ struct BadUpdates
   }
 
   HotScope scope;
-  UpdateMessage place;
-  const HotSubscription<UpdateMessage> updates;
+  EngineUpdate place;
+  const HotSubscription<EngineUpdate> updates;
 };
 
 TEST_F(Strangers, AreDroppedAndCountedWhateverTheySend)
@@ -97,7 +98,7 @@ TEST_F(Strangers, AMemberOfTheRunEndsItByName)
   EXPECT_EQ(session.GetBus().Dropped(), 0U);
 }
 
-// Who looks on has the key, too.
+// Observers have the key, too.
 TEST_F(Strangers, WhoHoldsTheKeyAndIsNoMemberIsDropped)
 {
   ServerSession session(options_, world_, {"engine 'ground'"}, {[](const auto&) {}, [] {}, [](const auto&) {}});

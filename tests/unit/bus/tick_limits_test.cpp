@@ -1,4 +1,4 @@
-// What arrives in a tick is measured against the experiment: lengths, slots, entities and senders.
+// The messages of a tick are checked against the experiment: lengths, slots, entities and senders.
 #include "common/bus/membership/tick_limits.h"
 #include "common/space/space.h"
 
@@ -29,7 +29,7 @@ Experiment ThreeRobots()
 class LimitsOfATick : public testing::Test
 {
 protected:
-  // Empty where it is taken.
+  // Returns the reason of the refusal; empty if the message is accepted.
   template <class Message>
   std::string Refusal(const Message& message, std::uint32_t source = 0) const
   {
@@ -53,11 +53,11 @@ TEST_F(LimitsOfATick, PosesAreAsManyAsTheirEngineOwns)
   for (const std::uint32_t engine : {0U, 1U})
     for (const std::size_t robots : {0U, 1U, 2U, 3U})
     {
-      UpdateMessage update;
+      EngineUpdate update;
       update.poses.resize(7 * robots);
       EXPECT_EQ(Refusal(update, engine).empty(), robots == 2 - engine) << engine << " " << robots;
     }
-  EXPECT_THAT(Refusal(UpdateMessage(), 2), HasSubstr("source: there is no number 2"));
+  EXPECT_THAT(Refusal(EngineUpdate(), 2), HasSubstr("source: there is no number 2"));
   SpaceState state = State();
   EXPECT_EQ(Refusal(state), "");
   EXPECT_THAT(Refusal(state, 1), HasSubstr("source: the space server is number 0"));
@@ -88,14 +88,14 @@ TEST_F(LimitsOfATick, TheEntitiesOfAPartAscendAndHaveOnePoseEach)
   EXPECT_THAT(Refusal(part), HasSubstr("moved: entity 99"));
   part.moved.clear();
   part.attributes.Add(Slots(), 0);
-  EXPECT_THAT(Refusal(part), HasSubstr("attribute_slots: there is no slot"));
+  EXPECT_THAT(Refusal(part), HasSubstr("attributes.slots: there is no slot"));
 }
 
 TEST_F(LimitsOfATick, SlotsEndWithTheLastOne)
 {
   SpaceState state = State();
   ControlCommands commands;
-  UpdateMessage update;
+  EngineUpdate update;
   update.poses.resize(7 * 2);
   for (AttributeChanges* changes : {&state.attributes, &commands.attributes, &update.attributes})
     changes->Add(Slots() - 1, 0);
@@ -104,16 +104,16 @@ TEST_F(LimitsOfATick, SlotsEndWithTheLastOne)
   EXPECT_EQ(Refusal(update), "");
   for (AttributeChanges* changes : {&state.attributes, &commands.attributes, &update.attributes})
     changes->Add(Slots(), 0);
-  const auto refused = HasSubstr("attribute_slots: there is no slot");
+  const auto refused = HasSubstr("attributes.slots: there is no slot");
   EXPECT_THAT(Refusal(state), refused);
   EXPECT_THAT(Refusal(commands), refused);
   EXPECT_THAT(Refusal(update), refused);
 }
 
-// Nobody commands these robots.
+// No host commands these robots.
 TEST_F(LimitsOfATick, WhatEnginesRecordHasTheLengthOfTheRun)
 {
-  UpdateMessage update;
+  EngineUpdate update;
   update.poses.resize(7 * 2);
   EXPECT_EQ(Refusal(update), "");
   update.recorded = {0.5};
@@ -137,12 +137,12 @@ TEST_F(LimitsOfATick, WhatEnginesRecordHasTheLengthOfTheRun)
   }
 }
 
-// Who sends no states with drawings makes no room for them.
+// A run without drawings in its states needs no memory for them.
 TEST_F(LimitsOfATick, DrawingsAreOfRunsWithFunctionsAndVisualisers)
 {
   SpaceState state = State();
   state.drawing.Segment({0, 0, 0}, {1, 0, 0});
-  EXPECT_THAT(Refusal(state), HasSubstr("shapes: nobody draws in this run"));
+  EXPECT_THAT(Refusal(state), HasSubstr("shapes: nothing draws in this run"));
   Experiment experiment = ThreeRobots();
   experiment.functions.emplace_back();
   experiment.visualisations.emplace_back();
@@ -240,34 +240,33 @@ TEST(LimitsOfFaults, TheyAreOfControllersThatMayFailAndAscend)
     EXPECT_EQ(refusal(good), "");
   for (const ControllerFaults& bad :
        {ControllerFaults{{1}, {died}}, {{3}, {died}}, {{2, 0}, {died, died}}, {{0, 0}, {died, died}}})
-    EXPECT_THAT(refusal(bad), HasSubstr("fault_robots: "));
+    EXPECT_THAT(refusal(bad), HasSubstr("faults.robots: "));
   for (const ControllerFaults& bad :
        {ControllerFaults{{0}, {}}, {{}, {died}}, {{0}, {FaultKind(0)}}, {{0}, {FaultKind(4)}}})
-    EXPECT_THAT(refusal(bad), HasSubstr("fault_kinds: "));
+    EXPECT_THAT(refusal(bad), HasSubstr("faults.kinds: "));
   ControllerFaults with_text;
-  with_text.Add(0, FaultKind::kThrew, "no map at 3 m, says «plan»");
+  Add(with_text, 0, FaultKind::kThrew, "no map at 3 m, says «plan»");
   EXPECT_EQ(refusal(with_text), "");
   with_text.texts[3] = '\x1b';
-  EXPECT_THAT(refusal(with_text), HasSubstr("fault_texts: "));
+  EXPECT_THAT(refusal(with_text), HasSubstr("faults.texts: "));
   const Experiment without = ThreeRobots();
   const CSwarmanoidSpace others(without);
-  const std::size_t bytes_of_two = 2 * (sizeof(std::uint32_t) + sizeof(FaultKind) + 1) + ControllerFaults::kMostText;
+  const std::size_t bytes_of_two = 2 * (sizeof(std::uint32_t) + sizeof(FaultKind) + 1) + kMostFaultText;
   EXPECT_EQ(limits.CommandBytes(), TickLimits(others, MakeAssignment(without, 1), false).CommandBytes() + bytes_of_two);
 }
 
 TEST(TextsOfFaults, AreOneLineForEachRobotAndAreCutTogether)
 {
   ControllerFaults faults;
-  faults.Add(3, FaultKind::kThrew, "first");
-  faults.Add(5, FaultKind::kDied, "");
-  faults.Add(8, FaultKind::kThrew, std::string(ControllerFaults::kMostText - 5, 'x'));
-  faults.Add(9, FaultKind::kThrew, "y");
-  EXPECT_EQ(faults.Texts(),
-            (std::vector<std::string>{"first", "", std::string(ControllerFaults::kMostText - 5, 'x'), ""}));
-  EXPECT_EQ(faults.texts.size(), ControllerFaults::kMostText + 4);
+  Add(faults, 3, FaultKind::kThrew, "first");
+  Add(faults, 5, FaultKind::kDied, "");
+  Add(faults, 8, FaultKind::kThrew, std::string(kMostFaultText - 5, 'x'));
+  Add(faults, 9, FaultKind::kThrew, "y");
+  EXPECT_EQ(TextsOf(faults), (std::vector<std::string>{"first", "", std::string(kMostFaultText - 5, 'x'), ""}));
+  EXPECT_EQ(faults.texts.size(), kMostFaultText + 4);
   ControllerFaults without = faults;
   without.texts.clear();
-  EXPECT_EQ(without.Texts(), std::vector<std::string>(4));
+  EXPECT_EQ(TextsOf(without), std::vector<std::string>(4));
   EXPECT_EQ(without, faults);
 }
 

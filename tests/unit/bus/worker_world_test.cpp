@@ -1,4 +1,4 @@
-// A worker makes its world of what the space server says, and believes no part of that unseen.
+// A worker builds its world from the space server's description, and checks all parts of it.
 #include "common/bus/membership/worker_world.h"
 
 #include <gmock/gmock.h>
@@ -61,7 +61,7 @@ TEST(WorkerWorld, RefusesATableOfOtherRobots)
   }
 }
 
-// Its robots may be others, too: what is wrong is said first.
+// Its robots may differ, too, so the mistake is reported first.
 TEST(WorkerWorld, RefusesAWorldOfOtherEntities)
 {
   WorldMessage world = World();

@@ -1,4 +1,4 @@
-// Where a writer of Fast DDS 2.9 would go on for ever: while it ends, and for a reader without an address.
+// Situations in which a writer of Fast DDS 2.9 would loop for ever: at its end, and for a reader without an address.
 #include <unistd.h>
 
 #include <atomic>
@@ -7,8 +7,8 @@
 
 #include "common/bus/dds/data_type.h"
 #include "common/bus/dds/for_tests.h"
-#include "common/bus/membership/run_directory.h"
-#include "common/bus/participant.h"
+#include "common/bus/run_directory.h"
+#include "common/bus/topics/participant.h"
 #include "tests/eventually.h"
 #include "tests/unit/bus/server_fixture.h"
 
@@ -44,7 +44,7 @@ class WriterEndTest : public test::ServerFixture
 protected:
   WriterEndTest() : ServerFixture("writer_end") {}
 
-  // Writers one after the other, whose messages nobody confirms.
+  // Makes writers one after the other, whose messages are never confirmed.
   void EndWriters(int count)
   {
     const test::SeparateProcesses separate;
@@ -83,14 +83,14 @@ TEST_F(WriterEndTest, EndsWhileItsHeartbeatGoesOut)
       testing::ExitedWithCode(0), "");
 }
 
-// As a process that has just ended, and is still known.
+// Removes the memory, as of a process that has just ended and is still known.
 void RemoveMemory(const std::string& folder)
 {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
     if (entry.path().filename().string().starts_with("fast_datasharing")) std::filesystem::remove(entry.path());
 }
 
-// Messages in fragments to one whose shared memory cannot be opened, and to one who is there.
+// Sends messages in fragments to a reader whose shared memory cannot be opened, and to a reader that exists.
 void WriteToOneWithoutMemory(BusOptions options, const std::string& folder, bool insecure)
 {
   options.insecure = insecure;

@@ -15,7 +15,7 @@ namespace swarmanoid
 namespace
 {
 
-// "line:column name" of each.
+// Returns "line:column name" of each.
 std::vector<std::string> Unread(const std::string& text, const std::function<void(const TConfigurationTree&)>& read)
 {
   const TConfigurationTree tree(ReadXml(text, "f.xml"));
@@ -81,7 +81,7 @@ TEST(ConfigurationReads, AListIsReadByReadingItsElements)
       if (child.Name() == "point") child.Text();
   };
   EXPECT_EQ(Unread("<p><point>1</point><point>2</point><pont>3</pont></p>", read), Names{"1:36 pont"});
-  // An empty element says all by its name.
+  // The name of an empty element is its whole content.
   EXPECT_EQ(Unread("<p><loop/><point>2</point></p>", read), Names());
 }
 

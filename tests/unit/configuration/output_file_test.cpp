@@ -103,7 +103,7 @@ TEST_F(OutputFileTest, TheFilesInTheFolderOfARunAreOfThatRun)
   std::ofstream(folder_ / "run/manifest.json") << "{}";
   std::ofstream(folder_ / "run/table.txt") << "of a process that died";
   OfExperiment().Claim("table.txt");
-  // Another name of a file elsewhere.
+  // The link is another name of a file elsewhere.
   fs::create_hard_link(folder_ / "precious", folder_ / "run/second.txt");
   ExpectRefused("second.txt", "was not made by this run");
 }
@@ -140,7 +140,7 @@ TEST(OutputFiles, TheUserMayNameAnyFile)
   const test::TemporaryFolder folder;
   fs::create_directory(folder / "run");
   folder.Write("precious", "replaced");
-  // In a process of its own: the rest of this one stays as it is.
+  // The test runs in a child process, so that this process does not change.
   EXPECT_EXIT(
       {
         LetUserNameFiles();

@@ -95,7 +95,7 @@ TEST(ParameterTable, DefaultsAreFilledIn)
   EXPECT_EQ(tree.GetInteger("steps"), 3);
   EXPECT_EQ(tree.GetText("mode"), "wild");
   EXPECT_EQ(tree.GetText("weights"), "");
-  // "" is no number: it stands for none.
+  // "" is no number, so there is no default.
   EXPECT_FALSE(tree.Value("limit"));
 }
 

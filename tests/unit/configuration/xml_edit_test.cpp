@@ -175,7 +175,7 @@ private:
   std::mt19937 random_;
 };
 
-// All paths, the root's first.
+// Collects all paths, the root's first.
 void Collect(const XmlElement& element, const Path& path, std::vector<Path>& paths)
 {
   paths.push_back(path);
@@ -194,7 +194,7 @@ const ConfigurationNode& NodeAt(const ConfigurationNode& root, const Path& path)
   return *node;
 }
 
-// Everything in the order of the file, but for what stands in the element at `but`.
+// Returns the whole text in the order of the file, without the content of the element at `but`.
 std::string Rest(const ConfigurationNode& node, const ConfigurationNode* but)
 {
   if (&node == but) return "|but|";
@@ -277,7 +277,7 @@ TEST(XmlEdit, ChangesNothingElseInRandomDocuments)
       if (document.Text() != before) states.push_back(document.Text());
       ++edits_made;
 
-      // The bytes outside of the edits are the same by their making; what they say is, too.
+      // The bytes outside the edits are equal by construction. Their meaning must be equal, too.
       const auto after = ReadXml(document.Text(), "f.xml");
       if (what == 3 && !path.empty())
       {

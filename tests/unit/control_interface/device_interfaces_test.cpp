@@ -15,6 +15,7 @@
 #include "common/control_interface/footbot/ci_footbot_proximity_sensor.h"
 #include "common/control_interface/handbot/ci_handbot_arms_actuator.h"
 #include "common/control_interface/handbot/ci_handbot_hands_actuator.h"
+#include "common/math/elementary.h"
 #include "tests/world/message_of.h"
 
 namespace swarmanoid
@@ -120,6 +121,13 @@ TEST(DeviceInterfaces, ADeviceThatIsNotListedIsNamedWithThoseListedAndTheCure)
             "robot 'fb' has no sensor 'footbot_leds'; its controller lists footbot_proximity. It lists the actuator of "
             "that name");
   EXPECT_THROW(robot.Sensor<CCI_FootBotLightSensor>("footbot_proximity"), CCI_DeviceError);
+}
+
+// The limits are those of the hand-bot in the manual of ARGoS 2.
+TEST(DeviceInterfaces, JointsOfAHandbotHaveTheLimitsOfItsManual)
+{
+  EXPECT_DOUBLE_EQ(CCI_HandBotArmsActuator::MAX_ARM, kPi / 3);
+  EXPECT_DOUBLE_EQ(CCI_HandBotArmsActuator::MAX_WRIST, kPi / 2);
 }
 
 }  // namespace

@@ -122,6 +122,15 @@ TEST(RobotState, ADeviceOfAllRobotsThatIsNotListedIsNamed)
   EXPECT_THROW(state.StopRangeAndBearing(), CCI_DeviceError);
 }
 
+TEST(RobotState, LedsThatAreNotListedAreNamed)
+{
+  CCI_Robot robot("fb", "footbot");
+  CCI_FootBotState state(&robot);
+  state.Init();
+  EXPECT_THROW(state.SetLedColour(0, CCI_Colour::RED), CCI_DeviceError);
+  EXPECT_THROW(state.SetAllLedColours(CCI_Colour::RED), CCI_DeviceError);
+}
+
 TEST(FootBotState, HoldsThePieCameraByColourAndSector)
 {
   CCI_Robot robot("fb", "footbot");

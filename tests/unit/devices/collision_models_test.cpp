@@ -1,4 +1,4 @@
-// Sensors and queries go by the bodies that the engines tell.
+// Sensors and queries use the bodies that the engines describe.
 #include "common/space/collision_models.h"
 
 #include "common/control_interface/ci_colour_blob_sensor.h"
@@ -83,7 +83,8 @@ TEST(CollisionModels, AFootbotFeelsTheArmThatItWouldRunInto)
     constexpr double kRing = 0.085036758;
     const double tip = 5 + Parts::kHeadForward + Parts::kArmLength;
     world.AddFootbot(tip + kGap + kRing, 5 + Parts::kShoulder, kPi);
-    // The head turned by 90 degrees: the left arm above, the right one below, at 0.05 m; the ring is at 0.06 m.
+    // The head is turned by 90 degrees: the left arm is above and the right one below, at 0.05 m; the ring is at 0.06
+    // m.
     world.Space().GetEntity(handbot).SetAttribute("head_angle", kPi / 2);
     const bool has_arms = std::string(engine) == "dynamics3d";
     TestSensor sensor(world, "footbot_proximity", "generic_footbot_proximity", {1});
@@ -98,7 +99,7 @@ TEST(CollisionModels, AFootbotFeelsTheArmThatItWouldRunInto)
   }
 }
 
-// A prism of half a square, before whose long side a footbot stands within the box about it.
+// A footbot is before the long side of a prism of half a square, inside the box around it.
 TEST(CollisionModels, AFootbotFeelsAHullWhereItsSideIs)
 {
   DescribeBuiltins();

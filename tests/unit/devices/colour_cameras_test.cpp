@@ -33,7 +33,7 @@ TEST(ColourCameras, OmnidirectionalCameraSeesLitRobotsAroundAtTheirDistanceAndAn
 
 TEST(ColourCameras, ViewEndsWhereTheApertureSays)
 {
-  // Eye at 0.2887 m, LEDs at 0.085 m, 70 degrees: 0.5597 m.
+  // The eye is at 0.2887 m, LEDs are at 0.085 m, and 70 degrees give 0.5597 m.
   for (const double distance : {0.559, 0.561})
   {
     TestWorld world;
@@ -67,7 +67,7 @@ TEST(ColourCameras, LedsOfOneColourAreOneBlobAtTheirMiddleAndTurnWithTheTurret)
   const double ring = kBody + 0.005;
   EXPECT_EQ(on_other[0].colour, CCI_Colour::WHITE);
   EXPECT_NEAR((on_other[0].position - Vector3(5.4, 5, 0.174)).norm(), 0, 1e-12);
-  // 90 - 45 + 45 degrees in the space.
+  // The angle in the space is 90 - 45 + 45 degrees.
   const double middle = ring * (1 + 2 * std::cos(kPi / 6)) / 3;
   EXPECT_NEAR((on_other[1].position - Vector3(5.4, 5 + middle, 0.085)).norm(), 0, 1e-12);
   const double green = (90 - 45 + 15 + 7 * 30) * kPi / 180;
@@ -75,7 +75,7 @@ TEST(ColourCameras, LedsOfOneColourAreOneBlobAtTheirMiddleAndTurnWithTheTurret)
               0, 1e-12);
 }
 
-// Rolled by 30 degrees to its right, about its x axis.
+// The robot is rolled by 30 degrees to its right, about its x axis.
 TEST(ColourCameras, LedsAndBeaconLeanWithTheirRobot)
 {
   TestWorld world;
@@ -144,7 +144,7 @@ TEST(ColourCameras, RobotsSeeTheLedsOfAnotherWorldButItsBodiesHideNothing)
   world.AddEngine("other");
   world.AddFootbot(5, 5);
   world.AddFootbot(5.5, 5);
-  // A tall pillar of the other world between them, and a target of that world behind another pillar of it.
+  // A tall pillar of the other world is between them, and a target of that world is behind another pillar of it.
   world.Add(EntityKind::kBlock, {5.25, 5, 0.25}, 0, {0.05, 0.2, 0.5}, false, 1);
   world.AddFootbot(5, 5.5, 0, 0, 1);
   world.Add(EntityKind::kBlock, {5, 5.25, 0.25}, 0, {0.2, 0.05, 0.5}, false, 1);
@@ -200,7 +200,7 @@ TEST(ColourCameras, LaserSpotLiesWhereTheBeamMeetsFloorOrRobotAndFootbotsSeeIt)
   };
   EXPECT_TRUE(spots().empty());
 
-  // Heading north, pan 180 degrees: the beam leans south.
+  // The robot heads north and the pan is 180 degrees, so the beam leans south.
   laser.SetAttribute("laser", 1);
   laser.SetAttribute("laser_pan", kPi);
   laser.SetAttribute("laser_tilt", std::atan(0.5));
@@ -212,11 +212,83 @@ TEST(ColourCameras, LaserSpotLiesWhereTheBeamMeetsFloorOrRobotAndFootbotsSeeIt)
   EXPECT_NEAR(BlobsOf(camera, 0)[0].distance_m, 0.5, 1e-9);
   EXPECT_NEAR(BlobsOf(camera, 0)[0].angle_rad, kPi / 2, 1e-9);
 
-  // Onto the top of a robot.
+  // The beam falls onto the top of a robot.
   space.SetPose(lit, {{5, 6, 0}, Quaternion::Identity()});
   laser.SetAttribute("laser_tilt", 0);
   ASSERT_EQ(spots().size(), 1U);
   EXPECT_NEAR((spots()[0].position - Vector3(5, 6, 0.146899733)).norm(), 0, 1e-12);
+}
+
+// A laser of an eyebot in the sky, above the middle of the arena.
+struct LaserScene
+{
+  LaserScene()
+  {
+    world.AddEngine("sky");
+    world.AddEngine("third");
+    eyebot = world.AddEyebot(5, 5, 2, 0, 1);
+  }
+  void PointAt(const Vector3& place)
+  {
+    auto& laser = world.Space().GetEntity(eyebot);
+    const Vector3 way = place - laser.GetPosition();
+    laser.SetAttribute("laser", 1);
+    laser.SetAttribute("laser_pan", std::atan2(way.y(), way.x()));
+    laser.SetAttribute("laser_tilt", std::acos(-way.z() / way.norm()));
+  }
+  // Whether a camera of the robot sees a red blob.
+  bool IsSeenBy(std::uint32_t robot, const std::string& camera)
+  {
+    TestSensor sensor(world, camera, "generic_" + camera, {robot}, {{"aperture", "85"}, {"range", "20"}});
+    sensor.Update();
+    return sensor.Of<CCI_ColourBlobSensor>(0).GetNearestBlob(CCI_Colour::RED) != nullptr;
+  }
+
+  TestWorld world;
+  std::uint32_t eyebot = 0;
+};
+
+TEST(ColourCameras, BodiesOfAnyEngineHideALaserSpotAsTheyStopTheBeam)
+{
+  for (const int engine : {0, 1, 2})
+  {
+    LaserScene scene;
+    const auto observer = scene.world.AddFootbot(5, 5.4);
+    const auto high = scene.world.AddEyebot(5, 7, 1, 0, 1);
+    const auto between = scene.world.AddFootbot(5, 8, 0, 0, engine);
+    scene.PointAt({5, 4.6, 0});
+    EXPECT_TRUE(scene.IsSeenBy(observer, "footbot_omnidirectional_camera")) << engine;
+    EXPECT_TRUE(scene.IsSeenBy(high, "eyebot_camera")) << engine;
+    // It stands beside the beam, which falls onto the floor, and between the cameras and the spot.
+    scene.world.Space().SetPose(between, {{5, 4.73, 0}, Quaternion::Identity()});
+    EXPECT_FALSE(scene.IsSeenBy(observer, "footbot_omnidirectional_camera")) << engine;
+    EXPECT_FALSE(scene.IsSeenBy(high, "eyebot_camera")) << engine;
+  }
+}
+
+TEST(ColourCameras, ALaserSpotOnARobotIsSeenFromAboveAndNotThroughTheRobot)
+{
+  for (const int engine : {0, 1, 2})
+  {
+    LaserScene scene;
+    const auto lit = scene.world.AddFootbot(5, 5, 0, 0, engine);
+    const auto near = scene.world.AddFootbot(5.3, 5);
+    const auto far = scene.world.AddFootbot(5, 5.9);
+    const auto before = scene.world.AddFootbot(6.6, 5);
+    const auto behind = scene.world.AddFootbot(7.2, 5);
+    for (double place = -0.08; place < 0.081; place += 0.0101)
+    {
+      scene.PointAt({5 + place, 5, DescriptionOf(EntityKind::kFootbot).size.z()});
+      EXPECT_TRUE(scene.IsSeenBy(near, "footbot_omnidirectional_camera")) << engine << " top at " << place;
+      EXPECT_TRUE(scene.IsSeenBy(far, "footbot_omnidirectional_camera")) << engine << " top at " << place;
+      EXPECT_TRUE(scene.IsSeenBy(scene.eyebot, "eyebot_camera")) << engine << " top at " << place;
+    }
+    // On its side.
+    scene.world.Space().SetPose(lit, {{7, 5, 0}, Quaternion::Identity()});
+    scene.PointAt({7 - 0.085, 5, 0.05});
+    EXPECT_TRUE(scene.IsSeenBy(before, "footbot_omnidirectional_camera")) << engine;
+    EXPECT_FALSE(scene.IsSeenBy(behind, "footbot_omnidirectional_camera")) << engine;
+  }
 }
 
 TEST(ColourCameras, NoiseOfReadingsHasTheGivenDeviation)

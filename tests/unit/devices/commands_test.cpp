@@ -28,7 +28,7 @@ using testing::HasSubstr;
 
 const double kNan = __builtin_nan("");
 
-// Does what the test says, with each robot of its kind.
+// Does what the test sets, with each robot of its kind.
 class Commander : public CCI_Controller
 {
 public:
@@ -57,7 +57,7 @@ private:
 
 REGISTER_ACTUATOR(Painter, {.label = "commands_test_paint", .implementation = "painter"})
 
-// Two robots of a kind with these actuators, type and implementation.
+// Returns an experiment with two robots of a kind that have these actuators, by type and implementation.
 Experiment TwoRobots(EntityKind kind, const std::vector<std::pair<std::string, std::string>>& actuators)
 {
   RegisterBuiltinDevices();

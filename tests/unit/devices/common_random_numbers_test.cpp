@@ -13,7 +13,8 @@ namespace swarmanoid
 namespace
 {
 
-// Two robots a metre apart, and a third one at a place, or none; entities by id, in either order.
+// Two robots are a metre apart; the third one is at a place, or there is none; the entities are listed by id, in either
+// order.
 class PairWorld : public TestWorld
 {
 public:
@@ -167,7 +168,7 @@ TEST(CommonRandomNumbers, BlobsOfOneRobotDifferInTheirNoise)
   for (int led = 0; led < 12; ++led) sender.SetAttribute("led", CCI_Colour::RED, led);
   const auto noisy = BlobsOfSender(world, "generic_footbot_omnidirectional_camera", kCameraNoise);
   const auto exact = BlobsOfSender(world, "generic_footbot_omnidirectional_camera", {});
-  // Ring and beacon stand on one axis.
+  // Ring and beacon are on one axis.
   const double on_ring = noisy.at(CCI_Colour::RED)[1] - exact.at(CCI_Colour::RED)[1];
   const double on_beacon = noisy.at(CCI_Colour::YELLOW)[1] - exact.at(CCI_Colour::YELLOW)[1];
   EXPECT_GT(std::abs(on_ring - on_beacon), 1e-9);

@@ -130,8 +130,8 @@ TEST(DirectionalLeds, OfOneColourAreBlobsOfTheirOwnAndABeaconIsSeenFromAllSides)
   world.Space().GetEntity(robot).SetAttribute("beacon", CCI_Colour::BLUE);
   camera.Update();
   pie.Update();
-  // Those at 165 and 195 degrees are 15 degrees off the way to the watcher and some more upwards, those at 135 and 225
-  // degrees 45 degrees; those at 105 are 75 degrees off.
+  // The LEDs at 165 and 195 degrees are 15 degrees off the way to the watcher, and a little more upwards. Those at 135
+  // and 225 degrees are 45 degrees off, and those at 105 degrees 75 degrees.
   const std::vector<std::uint32_t> expected{CCI_Colour::BLUE, CCI_Colour::RED, CCI_Colour::RED,
                                             CCI_Colour::RED,  CCI_Colour::RED, CCI_Colour::RED};
   EXPECT_EQ(ColoursOf(camera, 0), expected);

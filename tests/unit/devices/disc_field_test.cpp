@@ -108,7 +108,7 @@ bool IsSeen(const Scene& scene, std::size_t point)
   return true;
 }
 
-// Which pairs are tested at all is told by bytes, and of crowds most are left out: not one bit may differ by it.
+// Bytes decide which pairs are tested, and most pairs of a crowd are left out. No bit of the result may change by it.
 TEST(DiscField, HidesWhatTestingAllPairsHides)
 {
   DiscField field;

@@ -1,4 +1,4 @@
-// Light, ground and altitude against geometry worked out by hand.
+// Tests light, ground and altitude against geometry worked out by hand.
 #include "common/control_interface/eyebot/ci_eyebot_altitude_sensor.h"
 #include "common/control_interface/eyebot/ci_eyebot_light_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_base_ground_sensor.h"
@@ -56,7 +56,7 @@ TEST(FootbotLight, ShadowsAddUpAndCutOff)
   TestWorld world;
   world.AddFootbot(5, 5);
   world.AddFootbot(5, 4);
-  world.AddFootbot(5.5, 5.03);  // stands in the light of the first bulb
+  world.AddFootbot(5.5, 5.03);  // blocks the light of the first bulb
   world.Add(EntityKind::kLightBulb, {8, 5, 0.06}, 0, {0, 0, 0}, false, -1);
   world.Add(EntityKind::kLightBulb, {5, 7, 0.06}, 0, {0, 0, 0}, false, -1);
   TestSensor sensor(world, "footbot_light", "generic_footbot_light", {0, 1});
@@ -66,7 +66,7 @@ TEST(FootbotLight, ShadowsAddUpAndCutOff)
   EXPECT_NEAR(readings[0], 0.25 * (1 - 82.5 / 90), 1e-12);
   EXPECT_NEAR(readings[5], 0.25 * (1 - 7.5 / 90), 1e-12);
   EXPECT_EQ(readings[23], 0);
-  // The second robot sees the first bulb; the first robot stands before the second bulb.
+  // The second robot sees the first bulb; the first robot blocks the second bulb.
   const auto other = sensor.Of<CCI_FootBotLightSensor>(1).GetAllSensorReadings();
   const double angle = std::atan2(1, 3) * 180 / kPi;
   EXPECT_NEAR(other[1], 0.1 * (1 - std::abs(22.5 - angle) / 90), 1e-12);
@@ -77,7 +77,7 @@ TEST(FootbotLight, ShadowsAddUpAndCutOff)
   EXPECT_EQ(sensor.Of<CCI_FootBotLightSensor>(0).GetLightSensorReading(5), 1);
 }
 
-// exp(-2 d / I) to d / I = 2.5, d from the middle of the base: the figures of ARGoS3.
+// The reading is exp(-2 d / I) up to d / I = 2.5, with d from the middle of the base: these are the figures of ARGoS3.
 TEST(Argos3Light, FallsExponentiallyAndEndsAtTwoAndAHalfIntensities)
 {
   for (const double distance : {0.3, 1.0, 4.9, 5.1})
@@ -243,7 +243,7 @@ TEST(EyebotAltitude, MeasuresDownToFloorOrBlock)
   TestWorld world;
   world.AddEngine("sky");
   const auto eyebot = world.AddEyebot(5, 5, 2);
-  world.AddFootbot(5, 5, 0, 0, 1);  // of another world
+  world.AddFootbot(5, 5, 0, 0, 1);  // in another engine
   world.AddBlock({7, 3, 0.3}, {1, 1, 0.6});
   TestSensor sensor(world, "eyebot_altitude", "generic_eyebot_altitude", {eyebot});
   sensor.Update();

@@ -80,7 +80,7 @@ TEST(FloorPicture, TheUpperLeftPixelIsAtTheLeastXAndTheLargestY)
 TEST(FloorPicture, EachSensorReadsItsOwnPixel)
 {
   using Places = CCI_FootBotBaseGroundSensor;
-  constexpr int kSide = 200;  // of 1 cm each, 2 m
+  constexpr int kSide = 200;  // pixels of 1 cm: 2 m
   std::vector<std::uint32_t> pixels;
   RandomStream random(5, 1, 1, 1);
   for (int k = 0; k < kSide * kSide; ++k)

@@ -63,7 +63,7 @@ TEST(FootbotWheels, NoiseHasTheGivenMomentsAndLeavesStandingWheelsAlone)
         squares[side] += v * v;
       }
   }
-  // Standard errors of 19,000 samples: mean 1.5e-4, deviation 1e-4.
+  // The standard errors of 19,000 samples are 1.5e-4 for the mean and 1e-4 for the deviation.
   for (const int side : {0, 1})
   {
     const double mean = sums[side] / count;
@@ -127,7 +127,7 @@ TEST(FootbotWheels, SpeedControllerKeepsWithinTheAcceleration)
   }
 }
 
-// a = f (w + b) of ARGoS3: b of each wheel drawn once, f in every tick, both wheels while one of them moves.
+// ARGoS3 has a = f (w + b): b of each wheel is drawn once, f in every tick, for both wheels while one of them moves.
 TEST(Argos3Wheels, HaveABiasForGoodAndAFactorOfTheTick)
 {
   TestWorld world;
@@ -155,7 +155,7 @@ TEST(Argos3Wheels, HaveABiasForGoodAndAFactorOfTheTick)
     const double count = static_cast<double>(all.size() / 2);
     return std::pair(sum / count, std::sqrt(squares / count - sum / count * (sum / count)));
   };
-  // Without its noise: what was told, faster than 0.3 m/s too.
+  // Without its noise the speed is that of the command, above 0.3 m/s too.
   for (const double speed : speeds({}, 3, 0.4, 0.4)) ASSERT_NEAR(speed, 0.4, 1e-12);
 
   const TestParameters bias{{"bias_avg_left", "0.01"}, {"bias_stddev_left", "0.02"}, {"bias_stddev_right", "0.005"}};

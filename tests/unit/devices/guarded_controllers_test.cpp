@@ -1,5 +1,5 @@
-// Controllers with on_failure or a time budget: what their host makes of a failure, now, when the tick is done again,
-// and after its state was saved.
+// Controllers with on_failure or a time budget: the reaction of their host to a failure, at once, when the tick is
+// repeated, and after its state was saved.
 #include <gmock/gmock.h>
 
 #include <ctime>
@@ -24,7 +24,7 @@ using testing::ElementsAre;
 using testing::Gt;
 using testing::HasSubstr;
 
-// Drives with its LEDs on, counts its steps, and then does what the test says.
+// Drives with its LEDs on, counts its steps, and then calls the function of the test.
 class Guarded : public CCI_Controller
 {
 public:
@@ -184,13 +184,13 @@ TEST_F(GuardedControllers, OneThatIsStartedAgainHasTheStateOfTheLastCanonicalTic
   EXPECT_EQ(commands.faults, (ControllerFaults{{0}, {FaultKind::kThrew}}));
   EXPECT_EQ(run.Status(0).text, "10");
   EXPECT_EQ(run.Status(1).text, "15");
-  // Till its next step its actuators keep what they were told.
+  // Until its next step its actuators keep their commands.
   EXPECT_THAT(commands.values, ElementsAre(Gt(0), Gt(0), Gt(0), Gt(0)));
   run.Tick(15);
   EXPECT_EQ(run.Status(0).text, "11");
 }
 
-// A process that dies in a step has told the actuators nothing; its replacement does the tick without the step.
+// A process that dies in a step has set no actuators; its replacement does the tick without the step.
 TEST_F(GuardedControllers, AStepThatThrowsAndOneThatCrashesLeaveWhatTheTickBeforeSaid)
 {
   const auto commands_of_fault = [](FaultKind kind)
@@ -327,6 +327,12 @@ TEST_F(GuardedControllers, WhoeverIsRestoredGoesOnAlike)
     }
     EXPECT_THAT(restored.Leds(0), Each(0));
   }
+  // A host whose robot was stopped begins again before that.
+  whole.space.SetTick(20);
+  ByteReader state(saved[20]);
+  whole.host.LoadState(state);
+  EXPECT_THAT(whole.Tick(20).values, ElementsAre(Gt(0), Gt(0), Gt(0), Gt(0)));
+  EXPECT_THAT(whole.Leds(0), Each(0xff0000));
 }
 
 }  // namespace

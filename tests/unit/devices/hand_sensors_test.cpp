@@ -35,14 +35,14 @@ TEST(HandbotProximity, ClawsFeelWhatIsBetweenThem)
 {
   TestWorld world;
   const auto robot = world.Add(EntityKind::kHandbot, {5, 5, 0}, 0, kHandbot);
-  // Before the left hand, as high as its claws: a pole on the axis of the arm, 0.041 m from the palm.
+  // A pole is before the left hand, as high as its claws, on the axis of the arm, 0.041 m from the palm.
   world.AddBlock({5.198 + 0.041, 5.05, 0.1}, {0.012, 0.012, 0.03});
   for (int hand = 0; hand < 2; ++hand) world.Space().GetEntity(robot).SetAttribute("hand_aperture", kPi / 2, hand);
   TestSensor sensor(world, "handbot_proximity", "generic_handbot_proximity", {robot});
   sensor.Update();
   const auto readings = sensor.Of<CCI_HandBotProximitySensor>(0).GetAllSensorReadings();
   for (const std::size_t same : {0U, 1U, 2U}) EXPECT_NEAR(readings[same], readings[11 - same], 1e-9);
-  // A claw at 45 degrees: from 0.029 m along it, its ray falls by as much as it goes ahead.
+  // A claw is at 45 degrees: from 0.029 m along it, its ray falls by as much as it goes ahead.
   EXPECT_NEAR(readings[1], 1 - (0.029 * std::sqrt(0.5) - 0.006) * std::sqrt(2) / 0.05, 1e-9);
   EXPECT_EQ(readings[0], 0);
   EXPECT_EQ(readings[2], 0);

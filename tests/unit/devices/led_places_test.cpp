@@ -1,4 +1,5 @@
-// Where the LEDs and beacons of the three robots are: as the documentation says, found with the camera of a handbot.
+// The positions of the LEDs and beacons of the three robots, measured with the camera of a handbot, are those of the
+// documentation.
 #include "common/control_interface/ci_colour_blob_sensor.h"
 #include "tests/unit/devices/test_world.h"
 

@@ -23,7 +23,7 @@ TEST(Positioning, IsThePoseOfTheRobot)
   EXPECT_NEAR(positioning.GetHeading(), 2.5, 1e-12);
 }
 
-// The rates of a body that turns steadily about any axis of its own are that axis times its speed.
+// If a body turns steadily about an axis fixed in it, its rates are that axis times its speed.
 TEST(Gyroscope, ReadsTheAngularVelocityInTheFrameOfTheRobot)
 {
   RandomStream random(5, 0, 0, 0);

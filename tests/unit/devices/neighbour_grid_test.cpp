@@ -9,9 +9,9 @@ namespace
 {
 
 // All that sensors may ask of a grid.
-struct Seen
+struct SeenRobots
 {
-  explicit Seen(const NeighbourGrid& grid)
+  explicit SeenRobots(const NeighbourGrid& grid)
   {
     const std::span<const std::uint32_t> sorted = grid.Sorted();
     bodies.assign(sorted.begin(), sorted.end());
@@ -23,7 +23,7 @@ struct Seen
       for (double y = 0.5; y < 50; y += 3)
         grid.ForEachNear(x, y, 0.7, [&](std::uint32_t body) { near.push_back(body); });
   }
-  bool operator==(const Seen&) const = default;
+  bool operator==(const SeenRobots&) const = default;
 
   std::vector<std::uint32_t> bodies, near;
   std::vector<double> origins;
@@ -61,7 +61,7 @@ void Compare(Odd odd, std::uint32_t which)
   const BodyShapes shapes(space);
   NeighbourGrid alone(space, shapes);
   alone.Rebuild();
-  const Seen expected(alone);
+  const SeenRobots expected(alone);
   EXPECT_EQ(expected.bodies.size(), odd == Odd::kAbsent ? 2599U : 2600U);
   EXPECT_EQ(expected.facts,
             (std::vector<bool>{odd != Odd::kTilted, odd != Odd::kLifted, odd == Odd::kNone || odd == Odd::kAbsent}));
@@ -71,7 +71,7 @@ void Compare(Odd odd, std::uint32_t which)
     NeighbourGrid shared(space, shapes);
     // A second time: nothing of the first one is left.
     for (int time = 0; time < 2; ++time) shared.Rebuild(&pool);
-    EXPECT_TRUE(Seen(shared) == expected) << threads << " threads";
+    EXPECT_TRUE(SeenRobots(shared) == expected) << threads << " threads";
   }
 }
 
@@ -81,13 +81,13 @@ TEST(NeighbourGrid, ThreadsChangeNothing)
     for (const std::uint32_t which : {0U, 1300U, 2599U}) Compare(odd, which);
 }
 
-// Eight at a time, as one by one: the same bodies in the same order, but oneself.
+// Eight at a time find the same as one by one: the same bodies in the same order, but oneself.
 TEST(NeighbourGrid, FindsOthersAroundSeveralBodiesAsAroundEach)
 {
   TestWorld world;
   world.Configuration().arena_size = {8, 5, 2};
   RandomStream random(6, 4, 0, 0);
-  // Some of them outside the arena.
+  // Some of them are outside the arena.
   for (int n = 0; n < 200; ++n) world.AddFootbot(random.Uniform(-1, 9), random.Uniform(-1, 6));
   world.AddPrey(4, 3, 0.4, 0.2);
   const BodyShapes shapes(world.Space());

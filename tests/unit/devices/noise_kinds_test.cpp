@@ -155,10 +155,10 @@ TEST(NoiseKinds, ManySamplesAreThoseOfOneByOne)
         RandomStream random = streams.Of(k);
         for (const double sample : samples) ASSERT_EQ(sample, noise.Sample(random));
 
-        std::vector<std::uint64_t> whoms;
-        for (std::size_t i = 0; i < count; ++i) whoms.push_back(StreamPart(k, i));
-        streams.Sample(noise, k, whoms, samples);
-        for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(samples[i], noise.Sample(streams.Of(k, whoms[i])));
+        std::vector<std::uint64_t> others;
+        for (std::size_t i = 0; i < count; ++i) others.push_back(StreamPart(k, i));
+        streams.Sample(noise, k, others, samples);
+        for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(samples[i], noise.Sample(streams.Of(k, others[i])));
       }
     }
 }

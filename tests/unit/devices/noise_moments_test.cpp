@@ -57,9 +57,9 @@ struct Case
 {
   const char* type;
   const char* implementation;
-  const char* prefix;  // of the noise parameters
+  const char* prefix;  // prefix of the noise parameters
   std::uint32_t robot;
-  double scale;  // of the noise, in its unit
+  double scale;  // scale of the noise, in its unit
 };
 
 template <class Interface, class Value>
@@ -76,7 +76,7 @@ struct SensorCase : Case
 struct ActuatorCase : Case
 {
   std::function<void(CCI_Actuator&)> use;
-  std::size_t place;  // of the channel value that is looked at
+  std::size_t place;  // index of the tested channel value
 };
 
 struct Moments

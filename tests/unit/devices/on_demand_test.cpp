@@ -220,7 +220,7 @@ INSTANTIATE_TEST_SUITE_P(Devices, OnDemand, testing::ValuesIn(kDevices),
                                   std::to_string(device.index);
                          });
 
-// Says whose readings were made when.
+// Records which readings were made, and when.
 class Counting : public OnDemandSensor
 {
 public:

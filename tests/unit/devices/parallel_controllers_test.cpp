@@ -1,5 +1,5 @@
-// Controllers that say so step in several threads of their host, all others one after the other; what fails is the same
-// however many threads there are.
+// Controllers that allow it step in several threads of their host, and all others one after the other. Failures are the
+// same for any number of threads.
 #include <gmock/gmock.h>
 
 #include <atomic>
@@ -28,7 +28,7 @@ struct Seen
 {
   std::mutex mutex;
   std::set<std::thread::id> threads;
-  std::vector<std::string> order;  // of the robots that step in turn
+  std::vector<std::string> order;  // the robots that step in turn
   std::vector<std::string> wrong;  // robots whose running code the process could not name
   std::atomic<int> within = 0;
   std::atomic<int> most_within = 0;
@@ -48,7 +48,7 @@ public:
     {
     }
     std::this_thread::sleep_for(100us);
-    // The threads meet there, whatever else the machine does; only those that never do reach the limit.
+    // The threads meet there, whatever else the machine does. Only threads that never meet reach the limit.
     const auto limit = std::chrono::steady_clock::now() + 10s;
     while (seen->meet && StepsInParallel() && GetRobot()->GetTick() == kShared && seen->most_within < 2 &&
            std::chrono::steady_clock::now() < limit)

@@ -58,7 +58,7 @@ TEST(PixelCameras, NoiseOfCamerasThatLookDownIsThatOfTheirImage)
   {
     const char* type;
     bool is_eyebot;
-    double height, aperture_degrees;  // of the eye above the LEDs, of the view
+    double height, aperture_degrees;  // height of the eye above the LEDs, and aperture of the view
   };
   for (const Camera& c : {Camera{"footbot_omnidirectional_camera", false, 0.2887 - 0.085, 70},
                           Camera{"eyebot_camera", true, 2 - 0.085, 30}})

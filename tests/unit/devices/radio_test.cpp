@@ -9,7 +9,7 @@ namespace swarmanoid
 namespace
 {
 
-// Robots in a row, 1 m apart, all with a radio.
+// The robots are in a row, 1 m apart, all with a radio.
 class Row : public TestWorld
 {
 public:
@@ -60,7 +60,7 @@ TEST(Radio, APacketArrivesOnceAtAllInRange)
           EXPECT_TRUE(std::equal(packet.Bytes().begin(), packet.Bytes().end(), bytes.begin(), bytes.end()));
           EXPECT_NEAR(packet.signal_db, k == 3 ? -20 * std::log10(2.0) : 0, 1e-9);
         }
-        EXPECT_EQ(row.Heard(1).size(), 0U) << "nobody hears himself";
+        EXPECT_EQ(row.Heard(1).size(), 0U) << "no robot hears itself";
         EXPECT_EQ(row.Heard(4).size(), 0U) << "3 m away";
       });
   row.Tick([&] { EXPECT_EQ(row.Heard(0).size(), 0U) << "sent once, heard once"; });

@@ -11,7 +11,7 @@ namespace swarmanoid
 namespace
 {
 
-// Sends a packet in each step, and counts those that it hears.
+// Sends a packet in each step, and counts the packets that it receives.
 class Talker : public CCI_Controller
 {
 public:

@@ -15,6 +15,14 @@ bool IsHiddenByBruteForce(const SensorWorld& world, std::uint32_t robot, const V
   return false;
 }
 
+TEST(Sectors, WrapAtBothEnds)
+{
+  const Sectors sectors(64);
+  EXPECT_EQ(sectors.Wrapped(64), 0U);
+  EXPECT_EQ(sectors.Wrapped(-1), 63U);
+  for (int sector = 0; sector < 64; ++sector) EXPECT_EQ(sectors.Wrapped(sector), static_cast<std::size_t>(sector));
+}
+
 void AddWalls(TestWorld& world, RandomStream& random, double side, int count)
 {
   for (int n = 0; n < count; ++n)

@@ -7,7 +7,8 @@ namespace swarmanoid
 namespace
 {
 
-// Whether a body hides the point, and by how much: the answer with the body a little smaller and a little larger.
+// It tells whether a body hides the point, and by how much: the answer with the body a little smaller and a little
+// larger.
 struct Verdict
 {
   bool surely_hidden = false;
@@ -24,7 +25,7 @@ Verdict ByBruteForce(const SensorWorld& world, std::uint32_t observer, const Vec
   {
     if (e == observer || e == owner) continue;
     const bool counts =
-        world.CanHideFrom(observer, e) || (owner != SightLines::kNobody && world.Membership().ShareEngine(owner, e));
+        owner == SightLines::kNobody || world.CanHideFrom(observer, e) || world.Membership().ShareEngine(owner, e);
     if (!counts) continue;
     Shape smaller = world.Body(e);
     Shape larger = smaller;
@@ -125,7 +126,7 @@ TEST(SightLines, AgreeWithBruteForceInRandomWorlds)
   EXPECT_GT(seen, 3000);
 }
 
-// Robots of one kind, few and many, on one level and not: these worlds take shorter ways.
+// The worlds have robots of one kind, few and many, on one level and not: these worlds take shorter ways.
 TEST(SightLines, BodiesAroundAgreeWithBruteForce)
 {
   int hidden = 0, seen = 0;

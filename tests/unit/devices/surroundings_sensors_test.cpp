@@ -89,7 +89,7 @@ TEST(Contact, TellsWhereBodiesTouch)
   EXPECT_EQ(longer.Of<CCI_ContactSensor>(0).GetAllContacts().size(), 3U);
 }
 
-// Whether two turned rectangles or discs touch, against points spread densely over the outline of one of them.
+// Tests whether two turned rectangles or discs touch, against points spread densely over the outline of one of them.
 TEST(Contact, AgreesWithPointsOfTheOutlines)
 {
   RandomStream random(11, 0, 0, 0);
@@ -170,7 +170,7 @@ TEST(DistanceScanner, TurnsWithItsSpeed)
         0, 1e-12);
 }
 
-// Off until it is told; then the readings go on from where the head is.
+// The scanner is off until the first command. Then the readings continue from the direction of the head.
 TEST(DistanceScanner, ObeysItsController)
 {
   TestWorld world;

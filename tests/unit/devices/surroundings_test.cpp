@@ -1,4 +1,4 @@
-// Hosts that are told only what is near their robots sense and command what those do that are told all.
+// Hosts that get only the entities near their robots sense and command the same as hosts that get all.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,10 +9,10 @@
 #include "common/control_interface/ci_led_ring_actuator.h"
 #include "common/control_interface/ci_range_and_bearing.h"
 #include "common/math/random.h"
-#include "common/messages/robot_status.h"
 #include "common/plugin_descriptions/describe_builtins.h"
 #include "common/space/space.h"
 #include "controller_host/controller_host.h"
+#include "idl/robot_status.h"
 #include "space_server/near_entities.h"
 #include "tests/world/small_experiment.h"
 
@@ -72,7 +72,7 @@ Experiment Swarm(const Sensor& sensor, std::mt19937& random)
   return experiment;
 }
 
-// A host, told all or a part.
+// A host that gets all entities or a part.
 struct Host
 {
   Host(const Experiment& experiment, const Assignment& assignment, std::size_t number)
@@ -149,7 +149,7 @@ TEST_P(Swarms, AreSensedFromThePartAsFromAll)
     state.moved = moved;
     changed.clear();
     moved.clear();
-    // Another process has taken a place: it knows all that there was a tick before.
+    // Another process has replaced the host: it knows the whole state of the tick before.
     if (tick == 30) local[1] = Successor(experiment, assignment, 1, *whole[1]);
     for (unsigned h = 0; h < kHosts; ++h)
     {

@@ -55,7 +55,7 @@ TEST(TerrainSensing, ProximityRaysEndAtAVoxelWall)
   TestSensor sensor(world, "footbot_proximity", "generic_footbot_proximity", {1, 2});
   sensor.Update();
   const auto near = sensor.Of<CCI_FootBotProximitySensor>(0).GetAllSensorReadings();
-  // A ray 7.5 degrees beside the front, turned by 7.5 degrees: 15 degrees off the normal of the wall.
+  // A ray 7.5 degrees beside the front, turned by 7.5 degrees, is 15 degrees off the normal of the wall.
   const double distance = 0.1 / std::cos(kPi / 12) - 0.085036758;
   EXPECT_NEAR(near[0], 0.0100527 / (distance + 0.000163144), 1e-3);
   EXPECT_EQ(near[12], 0);

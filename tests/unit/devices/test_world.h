@@ -1,4 +1,4 @@
-// A small experiment put together in memory, and one batch of a device over some of its robots.
+// TestWorld: a small experiment made in memory. TestSensor and others are a batch of a device for some of its robots.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ public:
     return experiment_.engines.size() - 1;
   }
 
-  // Yaw in radians; `engine` -1: none.
+  // `yaw` is in radians; `engine` -1 means none.
   std::uint32_t Add(EntityKind kind, const Vector3& position, double yaw = 0, const Vector3& size = {0, 0, 0},
                     bool movable = true, int engine = 0)
   {
@@ -84,7 +84,7 @@ private:
 using test::TestParameters;
 using test::TreeOf;
 
-// A batch over `robots` with the channel of a specific device, all values 0.
+// Makes a batch for `robots`, with the channel of a specific device, all values 0.
 template <class Interface>
 class TestBatch
 {
@@ -132,7 +132,7 @@ class TestActuator : public TestBatch<ActuatorBatch>
 {
 public:
   using TestBatch::TestBatch;
-  // Channel values stand in `values`, attribute changes in `changes`.
+  // Channel values are in `values`, attribute changes in `changes`.
   void Commit()
   {
     changes.Clear();

@@ -193,7 +193,7 @@ TEST(ValueDevices, PreferentialDirectionLightsTheLedsThatPointThereWhateverTheTu
       if (world.Space().GetEntity(0).GetAttribute("led", led) != 0) leds.push_back(led);
     return leds;
   };
-  direction.SetDirection(kPi / 2, CCI_Colour::YELLOW);  // LED 2 stands at 75 degrees, LED 3 at 105
+  direction.SetDirection(kPi / 2, CCI_Colour::YELLOW);  // LED 2 is at 75 degrees, LED 3 at 105
   EXPECT_EQ(lit(), (std::vector<int>{2, 3}));
   world.Space().GetEntity(0).SetAttribute("turret_angle", kPi / 2);
   EXPECT_EQ(lit(), (std::vector<int>{0, 11}));
@@ -336,7 +336,7 @@ TEST(ValueDevices, NoiseLeavesResultsOfOtherRobotsAndTicksAlone)
   one.Commit();
   EXPECT_EQ(all.values[1], one.values[0]);
   EXPECT_NE(all.values[0], all.values[1]);
-  EXPECT_EQ(all.values[2], 0);  // told to stand still
+  EXPECT_EQ(all.values[2], 0);  // its command is to stand still
   const double first = one.values[0];
   world.Space().SetTick(10);
   one.Commit();

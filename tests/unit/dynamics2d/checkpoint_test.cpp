@@ -9,7 +9,7 @@ namespace swarmanoid
 namespace
 {
 
-// Thirty robots in a small pen with preys, a wall, a mirror; they drive, grip, turn turrets and let go.
+// Thirty robots are in a small pen with preys, a wall and a mirror; they drive, grip, turn turrets and let go.
 class Crowd : public Dynamics2dTestWorld
 {
 public:

@@ -1,4 +1,4 @@
-// The test world of dynamics2d: bodies by their places on the plane z = 0.
+// The tests of dynamics2d use this world. Bodies are given by their positions on the plane z = 0.
 #pragma once
 
 #include "common/plugin_descriptions/engines.h"

@@ -34,17 +34,17 @@ TEST(Dynamics2d, AGripperTakesWhatItTouchesAndLetsGo)
   EXPECT_NEAR(world.Position(prey).x(), before, 1e-3) << "it stays behind";
 }
 
-TEST(Dynamics2d, NeitherEyebotsNorBlocksAreGripped)
+TEST(Dynamics2d, MovableBlocksAreGrippedAndEyebotsAreNot)
 {
   Dynamics2dTestWorld world;
   const auto a = world.AddFootbot(1, 1);
   const auto b = world.AddFootbot(1, 3);
-  world.AddBlock({1 + kReach + 0.1, 1, 0.1}, {0.2, 0.2, 0.2}, 1);
+  const auto block = world.AddBlock({1 + kReach + 0.1, 1, 0.1}, {0.2, 0.2, 0.2}, 1);
   world.AddEyebot({1 + kReach + 0.25, 3, 0});
   world.Command("footbot_gripper", a, {1});
   world.Command("footbot_gripper", b, {1});
   world.Run(3);
-  EXPECT_EQ(world.Attribute(a, "gripped"), 0);
+  EXPECT_EQ(world.Attribute(a, "gripped"), block + 1);
   EXPECT_EQ(world.Attribute(b, "gripped"), 0);
 }
 
@@ -88,8 +88,8 @@ TEST(Dynamics2d, TheTorqueSensorReadsTheTractionOfADraggedLoad)
   EXPECT_NEAR(world.Sensor("footbot_turret_torque", robot, 1) * 25, 0, 0.02);
 }
 
-// The turret turns the load about its axis: it takes I dw/dt at first, here all of the motor's torque, and the load
-// stands against it with the opposite sign.
+// The turret turns the load about its axis. It takes I dw/dt at first, which is all of the motor's torque here, and the
+// load reacts with the opposite sign.
 TEST(Dynamics2d, ATurretTurnsItsLoadWithinItsTorque)
 {
   Dynamics2dTestWorld world("ground_friction", "0", "turret_torque", "0.3");
@@ -113,8 +113,8 @@ TEST(Dynamics2d, ATurretTurnsItsLoadWithinItsTorque)
       << "nothing resists a steady turn but the solver's steps along the arc";
 }
 
-// Turned at a steady speed, each point of a load rubs against its own way about the axis, with even pressure: force and
-// torque are integrals over the disc. The motor of the turret gives all of it, the load stands against it. The engine's
+// A load that turns at a steady speed rubs at each point against the direction of motion, with even pressure. Force and
+// torque are integrals over the disc. The motor of the turret gives all of it, and the load reacts. The engine's
 // ellipsoid is within 3 % of the integrals.
 TEST(Dynamics2d, TheTorqueSensorReadsTheFrictionOfATurnedLoad)
 {
@@ -195,7 +195,7 @@ void ChainOfTenPullsAPrey(bool turrets)
               1 + robots[static_cast<std::size_t>(i) + 1]);
   ASSERT_EQ(world.Attribute(robots.back(), "gripped"), 1 + prey);
 
-  // mu M g = 58.9 N: two robots (25.1 N) cannot move it, ten can.
+  // The limit is mu M g = 58.9 N: two robots (25.1 N) cannot move it, and ten can.
   world.Drive(robots[0], -0.1, -0.1);
   world.Drive(robots[1], -0.1, -0.1);
   world.Run(20);
@@ -275,6 +275,33 @@ TEST(Dynamics2d, AChainThatIsMovedKeepsItsShapeWithTurrets)
 {
   for (const double yaw : {1.0, kPi - 5e-4, -kPi + 5e-4}) AChainThatIsMovedKeepsItsShape(true, yaw);
 }
+
+// The prey is not turned, so its heading stays below pi when that of the robot passes it.
+void AGripFeelsNothingOfAHeadingThatPassesPi(bool turrets)
+{
+  Dynamics2dTestWorld world;
+  const double yaw = kPi - 0.1;
+  const auto robot = world.AddFootbot(2, 2, yaw);
+  const auto prey = world.AddPrey(2 + (kReach + 0.1) * std::cos(yaw), 2 + (kReach + 0.1) * std::sin(yaw), 0.2);
+  if (turrets) world.UseTurrets();
+  world.Command("footbot_gripper", robot, {1});
+  world.Run(2);
+  ASSERT_EQ(world.Attribute(robot, "gripped"), 1 + prey);
+  const auto between = [&] { return world.Space().GetPose(robot).Inverse().Compose(world.Space().GetPose(prey)); };
+  const Pose before = between();
+  world.Drive(robot, -0.02, 0.02);
+  for (int tick = 0; tick < 20; ++tick)
+  {
+    world.Tick();
+    world.engine->Canonicalise();
+    EXPECT_LT((between().position - before.position).norm(), 5e-3) << tick;
+    EXPECT_LT(between().orientation.angularDistance(before.orientation), 0.05) << tick;
+  }
+  EXPECT_LT(world.Yaw(robot), 0) << "it has passed pi";
+}
+
+TEST(Dynamics2d, ARigidGripFeelsNothingOfAHeadingThatPassesPi) { AGripFeelsNothingOfAHeadingThatPassesPi(false); }
+TEST(Dynamics2d, AGripOfATurretFeelsNothingOfAHeadingThatPassesPi) { AGripFeelsNothingOfAHeadingThatPassesPi(true); }
 
 }  // namespace
 }  // namespace swarmanoid

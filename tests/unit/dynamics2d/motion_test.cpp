@@ -25,7 +25,7 @@ TEST(Dynamics2d, EqualPreysExchangeTheirSpeedsInAnElasticHeadOnCollision)
   EXPECT_NEAR(world.Position(b).y(), 1, 1e-5);
 }
 
-// v1 = (m1 - e m2) / (m1 + m2) u, v2 = m1 (1 + e) / (m1 + m2) u for a body of m1 that hits one of m2 at rest.
+// If a body of m1 hits one of m2 at rest, v1 = (m1 - e m2) / (m1 + m2) u and v2 = m1 (1 + e) / (m1 + m2) u.
 TEST(Dynamics2d, HeadOnCollisionsFollowMassesAndRestitution)
 {
   for (const double restitution : {0.0, 0.5, 1.0})
@@ -106,7 +106,7 @@ TEST(Dynamics2d, APreyOffTheMiddleLeavesTheRobotThatPushesIt)
   }
 }
 
-// Angle = w^2 / (2 a), a = (2/3 mu m g R) / (m R^2 / 2).
+// The angle is w^2 / (2 a), with a = (2/3 mu m g R) / (m R^2 / 2).
 TEST(Dynamics2d, ASpinningPreyStopsByTheFrictionOfADisc)
 {
   Dynamics2dTestWorld world("ground_friction", "0.2", "substeps", "100");
@@ -116,6 +116,20 @@ TEST(Dynamics2d, ASpinningPreyStopsByTheFrictionOfADisc)
   world.Run(30);
   const double deceleration = 4.0 / 3.0 * 0.2 * kGravity / 0.15;
   EXPECT_NEAR(world.Yaw(prey), 64 / (2 * deceleration), 8e-3);
+}
+
+// A block counts as the disc with its radius of gyration k = sqrt((a^2 + b^2) / 12): the deceleration is
+// (2/3 mu g sqrt(2)) / k.
+TEST(Dynamics2d, ASpinningBlockStopsByItsRadiusOfGyration)
+{
+  Dynamics2dTestWorld world("ground_friction", "0.2", "substeps", "100");
+  const auto block = world.AddBlock({1, 1, 0.05}, {0.4, 0.1, 0.1}, 2);
+  world.Start();
+  world.engine->SetVelocity(block, {0, 0, 8});
+  world.Run(30);
+  const double gyration = std::sqrt((0.4 * 0.4 + 0.1 * 0.1) / 12);
+  const double deceleration = 2.0 / 3.0 * 0.2 * kGravity * std::sqrt(2.0) / gyration;
+  EXPECT_NEAR(world.Yaw(block), 64 / (2 * deceleration), 1e-2);
 }
 
 TEST(Dynamics2d, AFootbotDrivesTheArcOfItsWheels)

@@ -54,7 +54,7 @@ TEST(Dynamics2d, RobotsWorkOnAllThreePlanes)
     const Vector3 obstacle = start.first + start.second;
     world.AddWall(obstacle, {0.2, 0.2, 0.2});
     world.Start();
-    // Robots stand on the plane: forward is its first axis at heading 0.
+    // On the plane, forward is its first axis at heading 0.
     world.Space().SetPose(robot, PlaneFrame(axis == "x"   ? PlaneAxis::kX
                                             : axis == "y" ? PlaneAxis::kY
                                                           : PlaneAxis::kZ,
@@ -90,7 +90,7 @@ TEST(Dynamics2d, AMirrorPushesAndIsNotPushed)
   }
 }
 
-// Beside a prey, from far away: it did not come there through the prey.
+// It is put beside a prey, from far away: it did not come there through the prey.
 TEST(Dynamics2d, AMirrorThatIsPutElsewhereSweepsNobodyAway)
 {
   Dynamics2dTestWorld world;

@@ -7,9 +7,9 @@ namespace
 {
 
 constexpr double kSpeed = 0.1;   // m/s, of each robot
-constexpr double kDrift = 5e-4;  // m/s, of what should stand still
+constexpr double kDrift = 5e-4;  // m/s, for robots that should stand still
 
-// A robot on the left that looks right and one on the right that looks left, listed in either order.
+// A robot on the left looks right and one on the right looks left; they are listed in either order.
 struct Pair
 {
   Pair(Dynamics3dTestWorld& world, double apart, double offset, bool left_first)
@@ -79,6 +79,18 @@ TEST(Dynamics3dBalance, ATugOfWarBetweenTwoEqualRobotsIsADraw)
     world.Run(100);
     EXPECT_NEAR(world.Position(prey).x(), before, kDrift * 10) << "left first: " << left_first;
   }
+}
+
+TEST(Dynamics3dBalance, AStandingHandbotDoesNotCreep)
+{
+  Dynamics3dTestWorld world;
+  const auto handbot = world.AddHandbot({5, 5, 0}, 0.3);
+  world.Run(50);
+  const Vector3 start = world.Position(handbot);
+  const double heading = world.Yaw(handbot);
+  world.Run(300);
+  EXPECT_LT((world.Position(handbot) - start).norm(), 5e-5);
+  EXPECT_NEAR(world.Yaw(handbot), heading, 1e-4);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Saved states: a fresh engine goes on with the same bits.
+// A fresh engine continues from a saved state with the same bits.
 #include <cstring>
 
 #include "common/math/random.h"
@@ -128,7 +128,7 @@ TEST(Dynamics3dCheckpoint, AHandbotOnItsRopeKeepsItsHeadingWhenRestored)
   EXPECT_EQ(hashes(true), hashes(false));
 }
 
-// Every field of a checkpoint, also those that have their values of the start in most runs.
+// Tests every field of a checkpoint, including those that keep their start values in most runs.
 TEST(Dynamics3dCheckpoint, EachByteOfASavedStateIsTakenBack)
 {
   BusyWorld world(1, "8", 2);
@@ -173,7 +173,7 @@ TEST(Dynamics3dStability, ABusyWorldKeepsItsBoundsFor100000Steps)
     {
       if (!world.Space().GetEntity(k).IsMovable() || k == world.Mirror()) continue;
       const Vector3 p = world.Position(k);
-      const double way = (p - before[k]).head<2>().norm();  // what is let go falls as fast as it may
+      const double way = (p - before[k]).head<2>().norm();  // a released body falls as fast as gravity allows
       ASSERT_LT(way, 0.4) << "e" << k << " at tick " << tick;
       ASSERT_GT(p.z(), -0.02) << "e" << k << " at tick " << tick;
       ASSERT_LT(p.z(), 3) << "e" << k << " at tick " << tick;

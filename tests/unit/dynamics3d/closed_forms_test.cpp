@@ -1,4 +1,4 @@
-// The engine against closed forms of mechanics.
+// Tests the engine against closed forms of mechanics.
 #include <cmath>
 
 #include "dynamics3d_test_world.h"
@@ -39,7 +39,7 @@ TEST(Dynamics3dClosedForms, GravityPullsAlongTheAxisThatIsAskedFor)
   EXPECT_NEAR(world.Position(block).z(), 2, 1e-12);
 }
 
-// A ground tilted about the y axis of the engine's frame; the block slides towards +x of the frame.
+// The ground is tilted about the y axis of the engine's frame; the block slides towards +x of the frame.
 double SlideAfterTwoSeconds(double degrees, const char* friction)
 {
   Dynamics3dTestWorld world("orientation", "0, " + std::to_string(degrees) + ", 0", "friction", friction);
@@ -54,7 +54,7 @@ double SlideAfterTwoSeconds(double degrees, const char* friction)
 
 TEST(Dynamics3dClosedForms, ABlockHoldsBelowTheAngleOfFrictionAndSlidesAboveIt)
 {
-  // atan(0.4) = 21.8 degrees.
+  // The angle is atan(0.4) = 21.8 degrees.
   EXPECT_NEAR(SlideAfterTwoSeconds(20, "0.4"), 0, 2e-3);
   EXPECT_GT(SlideAfterTwoSeconds(24, "0.4"), 0.3);
 }
@@ -68,7 +68,7 @@ TEST(Dynamics3dClosedForms, ABlockSlidesDownAnInclineWithTheAccelerationOfCoulom
 
 TEST(Dynamics3dClosedForms, AHandbotOnItsRopeSwingsLikeAPendulum)
 {
-  // Gravity 5 degrees off the vertical: let go below its hook, the robot swings about that angle.
+  // Gravity is 5 degrees off the vertical: let go below its hook, the robot swings about that angle.
   Dynamics3dTestWorld world;
   const double angle = DegreesToRadians(5);
   world.Set("gravity", "0, " + std::to_string(kGravity * Sin(angle)) + ", " + std::to_string(-kGravity * Cos(angle)));
@@ -127,7 +127,7 @@ TEST(Dynamics3dClosedForms, TheWorkOfAnEyebotsThrustIsTheEnergyThatItGains)
     const double before = world.Position(eyebot).z();
     world.Tick();
     const double way = world.Position(eyebot).z() - before;
-    // x' = x + h v' : the mean speed of the step is half of the old and half of the new one.
+    // Since x' = x + h v', the mean speed of the step is half of the old and half of the new one.
     work += model->ThrustForTest() * (speed + way / 0.005) / 2 * 0.005;
     speed = way / 0.005;
   }
@@ -228,7 +228,7 @@ TEST(Dynamics3dClosedForms, AFootbotTurnsOnTheSpotAtTheDifferentialRate)
   EXPECT_LT((world.Position(footbot) - Vector3(5, 5, 0)).norm(), 2e-3);
 }
 
-// Up a slope of the angle a the wheels need m g sin a, and have mu times what they bear of m g cos a.
+// On a slope with the angle a the wheels need m g sin a. Their traction is mu times their share of m g cos a.
 TEST(Dynamics3dClosedForms, AFootbotClimbsWhatItsWheelsGripAndNothingSteeper)
 {
   const auto climbed = [](double degrees, const char* friction)
@@ -303,7 +303,7 @@ TEST(Dynamics3dClosedForms, AFootbotThatStartsStopsOrTurnsBackHardlyPitches)
 
 TEST(Dynamics3dClosedForms, ABlockTipsWhereItsCentreOfMassPassesItsEdge)
 {
-  // 0.1 wide and 0.2 high: atan(0.1 / 0.2) = 26.6 degrees.
+  // It is 0.1 wide and 0.2 high: atan(0.1 / 0.2) = 26.6 degrees.
   for (const double degrees : {24.0, 29.0})
   {
     Dynamics3dTestWorld world("orientation", "0, " + std::to_string(degrees) + ", 0", "friction", "2");
@@ -341,7 +341,7 @@ TEST(Dynamics3dClosedForms, ARollingPreyAcceleratesAsASolidCylinder)
   const double degrees = 10;
   Dynamics3dTestWorld world("orientation", "0, " + std::to_string(degrees) + ", 0");
   const Quaternion tilt = QuaternionFromEuler({0, DegreesToRadians(degrees), 0});
-  // Lying along y; the position is the centre of its base.
+  // It lies along y; the position is the centre of its base.
   const Quaternion lying = tilt * QuaternionFromEuler({-kPi / 2, 0, 0});
   const auto prey = world.Add(EntityKind::kCylindricPrey, tilt * Vector3(0, -0.05, 0.1), lying, {0.1, 0.1, 0.1}, 1);
   world.Run(20);

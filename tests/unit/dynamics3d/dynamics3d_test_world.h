@@ -1,4 +1,4 @@
-// The test world of dynamics3d.
+// The tests of dynamics3d use this world.
 #pragma once
 
 #include "common/math/elementary.h"
@@ -30,13 +30,12 @@ public:
     constexpr double kRadius = dynamics3d::FootbotShape::kWheelRadius;
     Command("footbot_wheels", footbot, {left_m_per_s / kRadius, right_m_per_s / kRadius});
   }
-  // The angle between the entity's z axis and that of the space.
+  // Returns the angle between the entity's z axis and that of the space.
   double Tilt(std::uint32_t entity) { return Acos((Orientation(entity) * Vector3::UnitZ()).z()); }
 };
 
-// Metres that a footbot goes in `t` seconds from standing, while its motors give all they can: m v' = F (1 - v / v0), F
-// what the grip of its wheels allows and v0 = 0.6 m/s; a geared wheel of 0.2 kg weighs 4 times as much along the
-// ground.
+// Returns how far (m) a footbot drives in `t` seconds from rest at full power: m v' = F (1 - v / v0). F is the largest
+// grip of its wheels, and v0 = 0.6 m/s. A geared wheel of 0.2 kg counts with 4 times its mass along the ground.
 inline double WayOfStartingFootbot(double t)
 {
   constexpr double kFreeSpeed = 0.6;

@@ -25,7 +25,7 @@ bool IsFree(const Dynamics3dTestWorld& world, std::uint32_t entity)
   return robot != nullptr && robot->IsFree();
 }
 
-// The same world twice, once with all robots in the solver.
+// It is the same world twice, once with all robots in the solver.
 struct FreeAndSolved
 {
   explicit FreeAndSolved(const std::function<void(Dynamics3dTestWorld&)>& add)
@@ -123,7 +123,7 @@ TEST(Dynamics3dFreeRobots, OnAnArcTheyStayOnTheCircle)
   }
 }
 
-// Into a wall, a prey and another robot: what is met is met with the speed of the free robot, at its outline.
+// A robot drives into a wall, a prey and another robot: it meets each with the speed of the free robot, at its outline.
 TEST(Dynamics3dFreeRobots, TheyMeetThingsWhereAndAsFastAsSolvedOnesDo)
 {
   std::uint32_t into_wall = 0, into_prey = 0, prey = 0, left = 0, right = 0;
@@ -264,7 +264,7 @@ TEST(Dynamics3dFreeRobots, WhoWasSolvedBecomesFree)
     }
 }
 
-// A robot that stands keeps the bits of its pose, however often it was moved before.
+// A standing robot keeps the bits of its pose, however often it was moved before.
 TEST(Dynamics3dFreeRobots, WhoStandsDoesNotCreep)
 {
   Dynamics3dTestWorld world;

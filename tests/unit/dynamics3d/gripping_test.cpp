@@ -30,8 +30,8 @@ TEST(Dynamics3dGripping, AFootbotDragsAPreyAndLetsGoOfIt)
   world.Run(50);
   EXPECT_NEAR(world.Position(footbot).x(), 1.5, 0.03);
   EXPECT_NEAR((world.Position(prey) - world.Position(footbot)).norm(), apart, 2e-3);
-  // Dragged at constant speed, the prey pulls forward with its friction, 0.5 m g, and a little more: held above the
-  // ground, it is also pressed down.
+  // Dragged at constant speed, the prey pulls forward with its friction, 0.5 m g, and a little more: it is held above
+  // the ground, and so is also pressed down.
   EXPECT_NEAR(world.Sensor("footbot_turret_torque", footbot, 0) * 25, 0.5 * 0.4 * 9.81, 0.8);
 
   world.Command("footbot_gripper", footbot, {0});
@@ -138,7 +138,7 @@ TEST(Dynamics3dGripping, AHandbotLiftsABookAndCarriesItUpItsRope)
   const Vector3 held = world.Space().GetPose(handbot).Inverse().Apply(world.Position(book));
   world.Command("handbot_rope", handbot, {1, -0.1});
   world.Run(100);
-  // A metre of rope taken in at 0.1 m/s.
+  // The robot takes in a metre of rope at 0.1 m/s.
   EXPECT_NEAR(world.Attribute(handbot, "rope_length"), 3 - 0.16 - 1, 0.01);
   EXPECT_NEAR(world.Position(handbot).z(), 1, 0.05);
   const Vector3 carried = world.Space().GetPose(handbot).Inverse().Apply(world.Position(book));
@@ -199,16 +199,16 @@ TEST(Dynamics3dGripping, AHandbotHangsOnAShelfByItsHandsAlone)
   EXPECT_LT(world.Position(handbot).z(), -5);
 }
 
-// The head turns one hand up and the other down. A robot that holds on with the upper one and turns its head the other
-// way goes up by twice the height of that hand above the head, and takes hold with the other hand, which is up then.
-// The rope bears the weight, which is more than a wrist can.
+// The head turns one hand up and the other down. A robot that holds on with the upper hand and turns its head the other
+// way rises by twice the height of that hand above the head. Then it grips with the other hand, which is now up. The
+// rope carries the weight, which is more than a wrist can hold.
 TEST(Dynamics3dGripping, AHandbotClimbsAShelfHandOverHandOnItsRope)
 {
   Dynamics3dTestWorld world("ceiling", "true");
   const auto handbot = world.AddHandbot({5, 5, 0});
   const auto shelf = world.AddWall({5.29, 5, 1}, {0.04, 0.4, 2});
   world.Start();
-  const double turn = kPi / 3;  // of the head to each side
+  const double turn = kPi / 3;  // angle of the head to each side
   const double rate = 0.5;
   const double rise = 2 * dynamics3d::HandbotShape::kShoulder * Sin(turn);
   const auto turn_head = [&](double speed, double angle)
@@ -261,7 +261,7 @@ TEST(Dynamics3dGripping, ARopePullsButDoesNotPush)
   const auto handbot = world.AddHandbot({5, 5, 0});
   world.Command("handbot_rope", handbot, {1, 0.15});
   world.Run(20);
-  // Slack: the robot stands on the ground, its weight on it.
+  // The rope is slack: the robot stands on the ground with its full weight.
   EXPECT_NEAR(world.Position(handbot).z(), 0, 2e-3);
   EXPECT_LT(world.Tilt(handbot), DegreesToRadians(1));
   EXPECT_NEAR(world.Attribute(handbot, "rope_length"), 2.84 + 0.3, 0.01);
@@ -276,7 +276,7 @@ TEST(Dynamics3dGripping, ARopeIsLetOutToItsLengthAndNoFurther)
   EXPECT_EQ(world.Attribute(handbot, "rope_length"), 5);
 }
 
-// An arm that opens turns the robot the other way; the fans bring it back, and it stands.
+// An arm that opens turns the robot the other way. The fans stop the turn.
 TEST(Dynamics3dGripping, FansEndTheTurnsOfAHandbotOnItsRope)
 {
   Dynamics3dTestWorld world("ceiling", "true");

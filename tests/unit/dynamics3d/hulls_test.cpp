@@ -55,7 +55,7 @@ TEST(Dynamics3dHulls, ATetrahedronRestsOnItsBaseAndOnTheSideThatItFallsOn)
 
 TEST(Dynamics3dHulls, AWedgeRestsOnItsSlopeOrItsBase)
 {
-  // Right-angled, 0.4 m long, 0.2 m high.
+  // The wedge is right-angled, 0.4 m long and 0.2 m high.
   const std::vector<Vector3> wedge{{-0.2, -0.1, -0.1}, {0.2, -0.1, -0.1}, {-0.2, -0.1, 0.1},
                                    {-0.2, 0.1, -0.1},  {0.2, 0.1, -0.1},  {-0.2, 0.1, 0.1}};
   Dynamics3dTestWorld world;
@@ -84,7 +84,7 @@ TEST(Dynamics3dHulls, AHullOfABoxFallsTipsAndRestsAsTheBox)
   EXPECT_EQ(world.engine->WorldForTest().SleeperCount(), 2U);
 }
 
-// On a slope of 20 degrees, tan 0.364.
+// It lies on a slope of 20 degrees, whose tangent is 0.364.
 TEST(Dynamics3dHulls, AHullSlidesWhereFrictionIsLessThanTheSlope)
 {
   const double slope = DegreesToRadians(20);
@@ -111,10 +111,11 @@ TEST(Dynamics3dHulls, AFreeBodyKeepsItsAngularMomentum)
   world.experiment.entities[body].hull = std::make_shared<const ConvexHull>(
       HullOf(std::vector<Vector3>{{0, 0, 0}, {0.4, 0, 0}, {0, 0.2, 0}, {0, 0, 0.3}}));
   world.Start();
-  const dBodyID ode = world.engine->WorldForTest().Body(0);
-  dBodySetAngularVel(ode, 1, 0.5, -0.7);
+  const auto body_of_ode = [&] { return world.engine->WorldForTest().Body(0); };
+  dBodySetAngularVel(body_of_ode(), 1, 0.5, -0.7);
   const auto momentum = [&]() -> Vector3
   {
+    const dBodyID ode = body_of_ode();
     dMass mass;
     dBodyGetMass(ode, &mass);
     const Vector3 rate = dynamics3d::VectorFromWorld(ode, dynamics3d::VectorOf(dBodyGetAngularVel(ode)));
@@ -124,10 +125,10 @@ TEST(Dynamics3dHulls, AFreeBodyKeepsItsAngularMomentum)
     return dynamics3d::VectorToWorld(ode, inertia * rate);
   };
   const Vector3 before = momentum();
-  const Vector3 place = dynamics3d::VectorOf(dBodyGetPosition(ode));
+  const Vector3 place = dynamics3d::VectorOf(dBodyGetPosition(body_of_ode()));
   world.Run(20);
   EXPECT_LT((momentum() - before).norm(), 0.02 * before.norm());
-  EXPECT_LT((dynamics3d::VectorOf(dBodyGetPosition(ode)) - place).norm(), 1e-9);
+  EXPECT_LT((dynamics3d::VectorOf(dBodyGetPosition(body_of_ode())) - place).norm(), 1e-9);
 }
 
 TEST(Dynamics3dHulls, APileOfHullsAndBoxesStands)
@@ -147,7 +148,7 @@ TEST(Dynamics3dHulls, APileOfHullsAndBoxesStands)
   EXPECT_EQ(world.engine->WorldForTest().SleeperCount(), pile.size());
 }
 
-// A robot pushes a hull in front of it, and stands before one that does not move as before a box.
+// A robot pushes a hull, and stops before a fixed hull as before a box.
 TEST(Dynamics3dHulls, ARobotPushesAHullAndStopsAtOneThatStands)
 {
   const Vector3 size(0.2, 0.2, 0.1);
@@ -184,7 +185,7 @@ TEST(Dynamics3dHulls, CylindersAndHullsBearOneAnother)
   EXPECT_EQ(world.engine->WorldForTest().SleeperCount(), 4U);
 }
 
-// Many bodies of many corners, thrown together: none goes through the ground, and all come to rest.
+// Many bodies of many corners are thrown together: none goes through the ground, and all come to rest.
 TEST(Dynamics3dHulls, AHeapOfStonesComesToRest)
 {
   Dynamics3dTestWorld world;
@@ -230,7 +231,7 @@ TEST(Dynamics3dHulls, HullsRestOnTerrain)
       world.AddTerrain("heightmap", {{"file", folder + "hills.png"}, {"size", "4, 4"}, {"height", "0.06"}},
                        Vector3::Zero());
     world.Run(150);
-    // Box below hull, each 0.1 m high.
+    // A box is below a hull, and each is 0.1 m high.
     EXPECT_NEAR((world.Position(hull) - world.Position(box)).norm(), 0.1, 2e-3) << cells;
     EXPECT_NEAR(world.Position(box).z(), 0.07, 0.03) << cells;
     EXPECT_GT(world.Position(stone).z(), 0.08) << cells;

@@ -8,7 +8,7 @@ namespace
 
 const Vector3 kCube(0.2, 0.2, 0.2);
 
-// The heights above the ground between the bounces of something dropped from 2 m, at the default settings.
+// Returns the heights above the ground between the bounces of something dropped from 2 m, at the default settings.
 std::vector<double> Bounces(bool is_prey, const char* restitution)
 {
   Dynamics3dTestWorld world;
@@ -142,7 +142,7 @@ TEST(Dynamics3dObjects, AnObjectFallsWhenWhatItSleptOnIsTakenAway)
   EXPECT_NEAR(world.Position(upper).z(), 0.1, 2e-3);
 }
 
-// Newton's first law: nothing that glides is put to sleep. Nor does anything in the air that stands still for a moment.
+// By Newton's first law, no gliding body is put to sleep, and no body in the air that stands still for a moment.
 TEST(Dynamics3dObjects, WhatGlidesSlowlyWithoutFrictionGoesOn)
 {
   Dynamics3dTestWorld world("friction", "0");
@@ -162,7 +162,7 @@ TEST(Dynamics3dObjects, WhatGlidesSlowlyWithoutFrictionGoesOn)
   EXPECT_NEAR(world.Position(block).x() - start, 0.1, 0.002);
 }
 
-// A scene and its mirror image in the plane y = 5, in one world: three preys, one of which a robot pushes onto the
+// A scene and its mirror image in the plane y = 5 are in one world: three preys, one of which a robot pushes onto the
 // others, and a cube that falls.
 TEST(Dynamics3dObjects, MirroredScenesStayMirrored)
 {

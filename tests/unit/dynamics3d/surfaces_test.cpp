@@ -1,4 +1,4 @@
-// Friction and restitution of single entities.
+// Tests friction and restitution of single entities.
 #include "dynamics3d_test_world.h"
 
 #include "tests/world/small_experiment.h"
@@ -48,7 +48,7 @@ TEST(Dynamics3dSurfaces, TwoBodiesRubByTheMeanOfTheirFrictions)
   }
 }
 
-// Dropped from half a metre, a block rises again to e^2 of the height; the larger restitution of the two counts.
+// A block that is dropped from half a metre rises again to e^2 of the height; the larger restitution of the two counts.
 TEST(Dynamics3dSurfaces, ABlockBouncesByItsOwnRestitution)
 {
   Dynamics3dTestWorld world;
@@ -83,7 +83,7 @@ TEST(Dynamics3dSurfaces, WheelsSlipOnASlipperyBoard)
     world.Drive(footbot, 1, 1);
     world.Run(5);
     const double way = world.Position(footbot).x() - start;
-    const double bound = 0.1 * 9.81 * 0.25 / 2;  // less what the casters bear
+    const double bound = 0.1 * 9.81 * 0.25 / 2;  // without the load on the casters
     if (slippery)
     {
       EXPECT_LT(way, bound);

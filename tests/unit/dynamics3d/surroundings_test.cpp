@@ -77,7 +77,7 @@ TEST(Dynamics3dFrame, AnEngineElsewhereInTheSpaceDoesTheSame)
   const auto run = [](const char* position, const char* orientation, const Pose& frame)
   {
     Dynamics3dTestWorld world("position", position, "orientation", orientation);
-    // Gravity along the frame's -z.
+    // Gravity is along the frame's -z.
     const Vector3 down = frame.orientation * Vector3(0, 0, -9.81);
     world.Set("gravity", fmt::format("{}, {}, {}", down.x(), down.y(), down.z()));
     const Pose footbot_at = frame.Compose({Vector3(1, 1, 0), QuaternionFromYaw(0.4)});
@@ -128,7 +128,7 @@ TEST(Dynamics3dStability, AHeapComesToRestAndStaysThereFor100000Steps)
   world.Run(450);
   for (std::size_t k = 0; k < things.size(); ++k)
     EXPECT_LT((world.Position(things[k]) - before[k]).norm(), 0.015) << "entity " << k;
-  // The creep that docs/engines.md tells of, 0.2 mm/s, and nothing else.
+  // Only the creep of docs/engines.md remains, 0.2 mm/s.
   world.Run(4500);
   for (std::size_t k = 0; k < things.size(); ++k)
   {

@@ -15,10 +15,10 @@ namespace swarmanoid
 namespace
 {
 
-// A real corridor, part of Debian's liboctomap-dev.
+// It is a real corridor, part of Debian's liboctomap-dev.
 constexpr const char* kBuilding = "/usr/share/doc/liboctomap-dev/examples/data/geb079.bt";
 
-// An OctoMap file that lives as long as the test.
+// It is an OctoMap file that lives as long as the test.
 class MapFile
 {
 public:
@@ -189,7 +189,6 @@ TEST(Dynamics3dTerrain, WhatIsLargerThanAPillarOfCellsRestsOnItAsOnABlock)
   }
 }
 
-// The merged boxes are the occupied cells, each once.
 TEST(Dynamics3dTerrain, MergedBoxesHoldTheOccupiedCellsOnce)
 {
   octomap::OcTree tree(0.05);
@@ -268,7 +267,7 @@ TEST(Dynamics3dTerrain, AFootbotStandsOnTheFloorOfARealBuilding)
 {
   if (!std::filesystem::exists(kBuilding)) GTEST_SKIP() << kBuilding << " is not installed";
   const VoxelTerrain terrain(kBuilding);
-  // A place with floor below, free above, flat around.
+  // The place has floor below, is free above, and is flat around.
   std::optional<Vector3> place;
   for (double x = terrain.Low().x() + 1; x < terrain.High().x() - 1 && !place; x += 0.25)
     for (double y = terrain.Low().y() + 1; y < terrain.High().y() - 1 && !place; y += 0.25)

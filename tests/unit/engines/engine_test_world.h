@@ -1,5 +1,5 @@
-// A rigid-body engine over a small experiment put together in memory, driven tick by tick without any other role. Base
-// of the test worlds of dynamics2d and dynamics3d.
+// EngineTestWorld: a rigid-body engine with a small experiment made in memory, run tick by tick without other roles. It
+// is the base of the test worlds of dynamics2d and dynamics3d.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -32,6 +32,7 @@ public:
   }
 
   Experiment experiment;
+  RegionTeam* team = nullptr;  // of engines that are made from now on
 
   // More parameters may follow, each with its value.
   template <class... More>
@@ -72,7 +73,7 @@ public:
   {
     return Add(EntityKind::kBlock, centre, QuaternionFromYaw(yaw), size, 0, false);
   }
-  // A terrain from a file, as <terrain><KIND file=… size=… height=…/></terrain> says.
+  // Adds a terrain from a file, the same as <terrain><KIND file=… size=… height=…/></terrain>.
   std::uint32_t AddTerrain(const std::string& kind, const test::TestParameters& attributes, const Vector3& position)
   {
     const std::uint32_t entity = Add(EntityKind::kTerrain, position, Quaternion::Identity(), Vector3::Zero(), 0, false);
@@ -84,8 +85,8 @@ public:
   // Footbots turn their turrets as commanded. Without this the turrets stand still.
   void UseTurrets() { uses_turrets_ = true; }
 
-  // After all entities, with all channels of the engine for all robots but mirrors. The first command, tick or look at
-  // the space starts the engine, too. More than one engine of the same experiment can be made.
+  // Starts the engine, after all entities were added, with all its channels for all robots but mirrors. The first
+  // command, tick or look at the space starts the engine, too. Several engines of the same experiment can be made.
   void Start()
   {
     for (std::uint32_t i = 0; i < experiment.entities.size(); ++i)
@@ -108,7 +109,7 @@ public:
   {
     auto made = std::make_unique<Engine>();
     const TConfigurationTree tree{std::shared_ptr<const ConfigurationNode>(engine_)};
-    made->Init({configuration_, Parameters(tree, description_.parameters), *space_, layout_});
+    made->Init({configuration_, Parameters(tree, description_.parameters), *space_, layout_, team});
     for (std::uint32_t i = 0; i < experiment.entities.size(); ++i)
       made->AddEntity(space_->GetEntity(i), !experiment.entities[i].movable ? EBinding::kFixed
                                             : IsMirror(i)                   ? EBinding::kMirror
@@ -116,7 +117,7 @@ public:
     made->Start();
     return made;
   }
-  // Puts a fresh engine in place of the running one, from its saved state, as a checkpoint does.
+  // Replaces the running engine by a fresh one from its saved state, as a checkpoint does.
   void ReplaceEngineBySavedState()
   {
     ByteWriter state;
@@ -176,7 +177,7 @@ private:
   {
     return std::find(mirrors_.begin(), mirrors_.end(), entity) != mirrors_.end();
   }
-  // Several devices may use one channel. Its name begins with the kind of its robots.
+  // Adds the channel of a device. Several devices may use one channel. Its name begins with the kind of its robots.
   void AddChannel(std::vector<ChannelBlock>& blocks, std::size_t& size, const PluginDescription& device)
   {
     if (std::ranges::find(description_.channels, device.channel) == description_.channels.end() ||

@@ -19,7 +19,7 @@ using testing::HasSubstr;
 
 const double kNan = __builtin_nan("");
 
-// Everything stands still; then `fault` changes what is handed over.
+// No body moves; then `fault` changes the results.
 class StillEngine : public CPhysicsEngine
 {
 public:
@@ -78,7 +78,7 @@ protected:
     return experiment;
   }
 
-  // The text of the error, "" for none.
+  // Returns the text of the error, or "" for none.
   static std::string Step(std::function<void(EngineUpdate& update, std::span<double> sensors)> fault,
                           BeyondLimit policy = BeyondLimit::kStop)
   {

@@ -86,7 +86,7 @@ TEST(PlaneFrame, CutsATiltedCubeInAHexagon)
   EXPECT_NEAR(AreaOf(cut), 3 * std::sqrt(3.0) / 4, 1e-12);
 }
 
-// A cone on its base of 24 corners, half a metre high: half way up the disc has half the radius.
+// A cone stands on its base of 24 corners, half a metre high: half way up, the disc has half the radius.
 TEST(PlaneFrame, CutsAHullInAPolygonOfFewCornersWithinIt)
 {
   std::vector<Vector3> corners{{0, 0, 0.25}};

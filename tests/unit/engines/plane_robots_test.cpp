@@ -74,7 +74,7 @@ TEST_P(PlaneRobotsIn, TheWinchRaisesTheHandbotByTheRopeThatItTakesIn)
   EXPECT_NEAR(Height(robot), 0.65, 1e-9);
   f.Ticks(200);
   EXPECT_NEAR(Height(robot), 3 - 0.16 - 0.05, 1e-9);
-  // Let out again it stands; what is let out further hangs slack.
+  // With the rope let out the robot stands. Further rope hangs slack.
   f.Command(8) = 0.15;
   f.Ticks(250);
   EXPECT_EQ(Height(robot), 0);
@@ -109,7 +109,7 @@ TEST_P(PlaneRobotsIn, JointsTurnAtTheirSpeedsWithinTheirRanges)
   EXPECT_EQ(Attribute(robot, "arm", 1), 0);
   EXPECT_EQ(Attribute(robot, "wrist", 0), 0);
   EXPECT_NEAR(Attribute(robot, "wrist", 1), 1.5708, 1e-12);
-  EXPECT_NEAR(Attribute(robot, "hand_aperture", 0), 3, 1e-12);  // told to open since the start, at 3 rad/s
+  EXPECT_NEAR(Attribute(robot, "hand_aperture", 0), 3, 1e-12);  // its command is to open at 3 rad/s since the start
   f.Ticks(30);
   EXPECT_NEAR(Attribute(robot, "head_angle"), 4 - 2 * kPi, 1e-9);  // turns on and on
   EXPECT_NEAR(Attribute(robot, "arm", 0), 1.0472, 1e-12);
@@ -147,7 +147,7 @@ TEST_P(PlaneRobotsIn, AHandTakesABlockItCanReachAndLiftsIt)
   EXPECT_NEAR(Height(robot), 0.5, 1e-9);
   EXPECT_NEAR(Height(book), 0.6, 1e-9);
   EXPECT_NEAR(Height(far), 0.1, 1e-9);
-  // Opened, the hand drops it.
+  // When it opens, the hand drops it.
   f.Command(5) = 0;
   f.Ticks(2);
   EXPECT_EQ(Attribute(robot, "gripped", 0), 0);
@@ -293,7 +293,7 @@ TEST_P(PlaneRobotsIn, AMirroredBlockBlocksAsItStandsNow)
   EXPECT_NEAR(stops_at({Vector3(5.4, 3, 0.4), QuaternionFromEuler({0, kPi / 2, 0})}), 5.3, 5e-3);
 }
 
-// Every field of a checkpoint, also those that have their values of the start in most runs.
+// Tests every field of a checkpoint, including those that keep their start values in most runs.
 TEST_P(PlaneRobotsIn, EachByteOfASavedStateIsTakenBack)
 {
   AddHandbot();

@@ -1,4 +1,4 @@
-// Whether each byte of a saved state counts. Used by the tests of checkpoints.
+// Finds bytes of a saved state that do not count. The tests of checkpoints use it.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,9 @@
 namespace swarmanoid
 {
 
-// The places of the bytes that are lost when a state is loaded: changed, they are neither refused nor found in what
-// `saved_again` gives, which loads a state and saves it again. The lowest bit is changed: no number becomes infinite.
+// Returns the positions of bytes that are lost when a state is loaded: a changed byte is neither refused nor in the
+// result of `saved_again`, which loads a state and saves it again. The lowest bit is changed, so that no number becomes
+// infinite.
 inline std::vector<std::size_t> LostBytes(const std::vector<char>& saved,
                                           const std::function<std::vector<char>(const std::vector<char>&)>& saved_again)
 {
@@ -26,7 +27,7 @@ inline std::vector<std::size_t> LostBytes(const std::vector<char>& saved,
     }
     catch (const std::runtime_error&)
     {
-      // Refused, as what cannot be.
+      // The change was refused, so the byte counts.
     }
   }
   return lost;

@@ -1,5 +1,5 @@
 // The bodies that can meet no other body within a tick are those that a comparison of all pairs finds.
-#include "engine_worker/engines/separation_test.h"
+#include "engine_worker/engines/rigid_bodies/separation_test.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace swarmanoid
 namespace
 {
 
-// The distance of a point from a square, by another way than the product's: in the frame of the square.
+// Returns the distance of a point from a square, by another way than the product's: in the frame of the square.
 double DistanceFromSquare(const Vector2& middle, double half, double angle, const Vector2& point)
 {
   const Vector2 offset = point - middle;

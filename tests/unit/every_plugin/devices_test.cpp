@@ -117,7 +117,7 @@ TEST(SimplestScenes, WhatComesLaterIsSensedThen)
       });
 }
 
-// Hills of a millimetre: the robot stands on them where it stood on the floor.
+// On hills of a millimetre the robot stands as on the floor.
 TEST(SimplestScenes, TerrainIsSensed)
 {
   std::set<std::string> engines;
@@ -195,6 +195,31 @@ TEST(SimplestScenes, ThreadsAndCheckpointsChangeNoBit)
         options.restore_file.clear();
         options.threads = 3;
         EXPECT_EQ(RunScene(*experiment, options), hash) << "with 3 threads";
+      });
+}
+
+// Readings of devices that fail stay within their ranges, and what faults remember is saved.
+TEST(SimplestScenes, EachDeviceMayFail)
+{
+  const test::TemporaryFolder folder;
+  ForEachSet(
+      [&](SmallScene scene, EntityKind robot, const PluginDescription&)
+      {
+        scene.framework = "<canonical_period>4</canonical_period>";
+        scene.faults =
+            "<fault id='lost' kind='drop' value='0.5'/><fault id='dead' kind='dead' entities='robot' from='3' to='5'/>"
+            "<fault id='off' kind='off' entities='second' from='2' to='6'/>";
+        scene.arena =
+            Robot(robot) + EntityElement(robot, "second", kRobotX_m + NearDistance(robot, robot), kRobotY_m, "c");
+        const std::unique_ptr<Experiment> experiment = Read(scene);
+        ASSERT_NE(experiment, nullptr);
+        SimulatorOptions options;
+        options.output_folder = folder.Path();
+        options.checkpoint_every = 4;
+        const std::uint64_t hash = RunScene(*experiment, options);
+        options.restore_file = folder / CheckpointName(4);
+        options.checkpoint_every = 0;
+        EXPECT_EQ(RunScene(*experiment, options), hash) << "from a checkpoint";
       });
 }
 

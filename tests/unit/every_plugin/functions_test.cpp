@@ -9,7 +9,7 @@
 
 #include "common/experiment/schema.h"
 #include "common/space/space.h"
-#include "studies/recorder.h"
+#include "studies/metrics/recorder.h"
 #include "tests/unit/every_plugin/small_scene.h"
 #include "tests/world/temporary_folder.h"
 

@@ -7,7 +7,7 @@
 
 #include "common/experiment/load_experiment.h"
 #include "common/experiment/schema.h"
-#include "studies/study.h"
+#include "studies/design/study.h"
 #include "tests/unit/every_plugin/small_scene.h"
 
 namespace swarmanoid

@@ -36,7 +36,10 @@ std::string RendererElement(const PluginDescription& renderer)
     EXPECT_TRUE(parameter.default_value || IsNumbered(parameter))
         << "the parameter '" << parameter.name << "' of <" << renderer.label << "> has no default: give it one, or its "
         << "value here";
-  return fmt::format("<{} id='shown'/>", renderer.label);
+  // A free port, since others may use the default one.
+  const bool listens =
+      std::ranges::any_of(renderer.parameters, [](const ParameterSpec& parameter) { return parameter.name == "port"; });
+  return fmt::format("<{} id='shown'{}/>", renderer.label, listens ? " port='0'" : "");
 }
 
 void DrawSimplestScenes(bool with_window)

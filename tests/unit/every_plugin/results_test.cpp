@@ -95,7 +95,7 @@ std::string ResultOf(const SmallScene& scene)
   return fmt::format("{:016x}", XXH3_64bits_withSeed(&hash, sizeof hash, HashOfReadings()));
 }
 
-// A robot before a prey, with another one at its back, a third one that pushes a prey along a wall, and
+// A robot stands before a prey, with another one at its back, a third one that pushes a prey along a wall, and
 // something for each sense.
 std::string ArenaOf(EntityKind robot, const PluginDescription& engine)
 {

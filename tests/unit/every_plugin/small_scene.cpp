@@ -29,7 +29,7 @@ std::set<std::string>& Mistakes()
   return mistakes;
 }
 
-// Reads every sensor, and tells every actuator something, by the columns that they state.
+// Reads every sensor, and sets every actuator, by their declared columns.
 class CSimplestScenesProbe : public CCI_Controller
 {
 public:
@@ -284,7 +284,8 @@ std::unique_ptr<Experiment> Read(const SmallScene& scene)
       .arena = scene.arena,
       .engines = fmt::format("<{} id='e'/>", scene.engine),
       .functions = scene.functions,
-      .visualisations = scene.renderers}
+      .visualisations = scene.renderers,
+      .faults = scene.faults}
       .Load(SWARMANOID_SOURCE_FOLDER);
 }
 

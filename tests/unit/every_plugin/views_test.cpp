@@ -57,6 +57,35 @@ void Check(const std::string& device, const std::vector<CCI_ColumnGroup>& groups
     }
 }
 
+// A switch is 0 or 1, and a colour has 24 bits. What may be negative reaches as far to the other side.
+void CheckRanges(const std::string& device, const std::vector<CCI_ColumnGroup>& groups)
+{
+  for (const CCI_ColumnGroup& group : groups)
+    for (const CCI_Column& column : group.columns)
+    {
+      const std::string name = device + " " + column.name;
+      EXPECT_LT(column.minimum, column.maximum) << name;
+      if (column.unit == "yes/no" || column.unit == "colour")
+      {
+        EXPECT_EQ(column.minimum, 0) << name;
+        EXPECT_EQ(column.maximum, column.unit == "colour" ? 0xffffff : 1) << name;
+      }
+      if (column.minimum < 0)
+      {
+        EXPECT_EQ(column.maximum, -column.minimum) << name;
+      }
+    }
+}
+
+TEST(Views, RangesOfColumnsAreThoseOfTheirUnits)
+{
+  RegisterEverything();
+  for (const PluginKind kind : {PluginKind::kSensor, PluginKind::kActuator})
+    for (const std::string& label : PluginCatalogue::Instance().Labels(kind))
+      if (const CCI_Columns* columns = FindColumns(kind, label))
+        for (const auto* groups : {&columns->readings, &columns->row, &columns->settings}) CheckRanges(label, *groups);
+}
+
 TEST(Views, EachDeviceDeclaresColumnsAndNoneIsMissingInAView)
 {
   RegisterEverything();

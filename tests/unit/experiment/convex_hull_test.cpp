@@ -5,7 +5,9 @@
 
 #include "common/math/convex_outline.h"
 #include "common/math/random.h"
+#include "common/mesh/mesh_points.h"
 #include "tests/world/message_of.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -116,6 +118,21 @@ TEST(ConvexOutline, RunsCounterClockwiseWithoutPointsOnItsEdges)
   EXPECT_EQ(ConvexOutline({{1, 1}, {0, 0}, {0.5, 0}, {0, 1}, {0.5, 0.5}, {1, 0}}), square);
   EXPECT_TRUE(ConvexOutline({}).empty());
   EXPECT_TRUE(ConvexOutline({{1, 1}}).empty());
+}
+
+// The tetrahedra from the origin to the triangles of a closed surface have its volume together.
+TEST(MeshPoints, TrianglesCloseTheSurfaceOfTheFile)
+{
+  const test::TemporaryFolder folder;
+  const std::string file = folder.Write("corner.obj",
+                                        "v 1 1 1\nv 3 1 1\nv 1 2 1\nv 1 1 5\n"
+                                        "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  const MeshPoints points = ReadMeshPoints(file);
+  ASSERT_EQ(points.triangles.size(), 4U);
+  double volume = 0;
+  for (const auto& [a, b, c] : points.triangles)
+    volume += points.corners[a].dot(points.corners[b].cross(points.corners[c])) / 6;
+  EXPECT_NEAR(volume, 2.0 * 1 * 4 / 6, 1e-6);
 }
 
 }  // namespace

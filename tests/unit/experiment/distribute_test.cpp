@@ -1,4 +1,4 @@
-// <distribute>: many entities, placed without overlaps, from the seed alone.
+// Tests <distribute>: many entities are placed without overlaps, from the seed alone.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -145,7 +145,7 @@ TEST(Distribute, UniformFillsTheFloorEvenly)
   {
     ++quarter[(entity.pose.position.x() > 20 ? 1 : 0) + (entity.pose.position.y() > 20 ? 2 : 0)];
   }
-  // 250 each, with a standard deviation of 13.7.
+  // Each count is 250, with a standard deviation of 13.7.
   for (const int count : quarter) EXPECT_NEAR(count, 250, 60);
 }
 
@@ -172,6 +172,46 @@ TEST(Distribute, GridGoesAlongXFirst)
   ASSERT_EQ(entities.size(), 5U);
   const Vector3 expected[] = {{4, 4, 0}, {5, 4, 0}, {6, 4, 0}, {4, 6, 0}, {5, 6, 0}};
   for (std::size_t i = 0; i < 5; ++i) EXPECT_TRUE(entities[i].pose.position.isApprox(expected[i])) << i;
+}
+
+TEST(Distribute, GridsOfNegativeSpacingBeginAtTheLargestCoordinatesAndOrientationsMayBeAGrid)
+{
+  const auto entities = EntitiesOf(Arena(
+      "<distribute quantity='5'><position method='grid' centre='5,5,0' spacing='-1,-2,0' layout='3,2,1'/>"
+      "<orientation method='grid' centre='0,0,10' spacing='0,0,-30' layout='1,1,4'/><footbot id='fb'/></distribute>"));
+  ASSERT_EQ(entities.size(), 5U);
+  const std::vector<Vector3> expected = {{6, 6, 55}, {5, 6, 25}, {4, 6, -5}, {6, 4, -35}, {5, 4, 55}};
+  for (std::size_t k = 0; k < expected.size(); ++k)
+  {
+    EXPECT_EQ(entities[k].pose.position, Vector3(expected[k].x(), expected[k].y(), 0)) << k;
+    EXPECT_NEAR(RadiansToDegrees(YawOf(entities[k].pose.orientation)), expected[k].z(), 1e-9) << k;
+  }
+}
+
+TEST(Distribute, AnglesMayBeAboutZThenYThenX)
+{
+  const auto turned = [](const std::string& orientation)
+  {
+    return EntitiesOf(Arena("<distribute quantity='30'><position method='uniform' min='1,1,1' max='9,9,2'/>" +
+                            orientation + "<block id='b' size='0.1,0.1,0.1'/></distribute>"));
+  };
+  const Quaternion expected = Eigen::AngleAxisd(DegreesToRadians(10), Vector3::UnitX()) *
+                              Eigen::AngleAxisd(DegreesToRadians(20), Vector3::UnitY()) *
+                              Eigen::AngleAxisd(DegreesToRadians(30), Vector3::UnitZ());
+  for (const EntityConfiguration& entity : turned("<orientation method='constant' axes='zyx' value='30,20,10'/>"))
+    EXPECT_LT(entity.pose.orientation.angularDistance(expected), 1e-9);
+  // The axis of a body that turns about its axis and then tilts about y leans by the second angle.
+  double least = 90, most = 0;
+  for (const EntityConfiguration& entity :
+       turned("<orientation method='uniform' axes='zyx' min='0,0,0' max='360,60,0'/>"))
+  {
+    const Vector3 axis = entity.pose.orientation * Vector3::UnitZ();
+    EXPECT_NEAR(axis.y(), 0, 1e-9);
+    const double lean = RadiansToDegrees(std::atan2(axis.x(), axis.z()));
+    least = std::min(least, lean);
+    most = std::max(most, lean);
+  }
+  EXPECT_TRUE(0 <= least && least < 15 && 45 < most && most <= 60) << least << " " << most;
 }
 
 TEST(Distribute, GridWithoutSettingsHoldsAll)

@@ -1,4 +1,4 @@
-// Descriptions of plug-ins for tests of the reader: what the real ones would register, and nothing else.
+// Descriptions of plug-ins for tests of the reader. They replace the registrations of the real ones.
 #pragma once
 
 #include <string>
@@ -77,7 +77,7 @@ inline LoadedExperiment LoadText(const std::string& text, LoadOptions options = 
   return LoadExperimentText(text, "test.xml", "/experiments", options);
 }
 
-// The errors, one a line.
+// Returns the errors, one in each line.
 inline std::string ErrorsOf(const std::string& text, const LoadOptions& options = {})
 {
   const LoadedExperiment loaded = LoadText(text, options);
@@ -86,7 +86,7 @@ inline std::string ErrorsOf(const std::string& text, const LoadOptions& options 
   return errors;
 }
 
-// The listings of chapter 4 of the documentation, completed where they are left open.
+// The listings of chapter 4 of the documentation, with the parts that they leave open.
 extern const char* const kChapter4;
 
 }  // namespace swarmanoid::test

@@ -53,7 +53,7 @@ struct Mistake
 {
   const char* name;
   const char* good;    // a part of the file above that occurs once
-  const char* bad;     // what stands there instead
+  const char* bad;     // the text that replaces it
   const char* errors;  // all of them
 };
 
@@ -80,7 +80,7 @@ const Mistake kMistakes[] = {
     {"UnknownSection", "<framework>\n", "<framwork/><framework>\n",
      "test.xml:2:3: <ahss-config> has no element <framwork>; allowed: framework, entity_kinds, controllers, arena, "
      "engines, "
-     "arena_physics, visualisations, experiment_functions; did you mean 'framework'?\n"},
+     "arena_physics, visualisations, experiment_functions, faults; did you mean 'framework'?\n"},
     {"SecondSection", "<engines>\n", "<engines/>\n  <engines>\n",
      "test.xml:24:3: <ahss-config> holds a second <engines>; the first is in line 23\ntest.xml:28:13: there is no "
      "engine 'ground'; there are: none\n"},
@@ -269,7 +269,8 @@ TEST(MistakesTogether, AllAreReportedInTheOrderOfTheFile)
             "test.xml:6:12: there is no physics engine <engine>; known: dummy_engine\n");
 }
 
-// One mistake each. What is missing because of it, in the arena, the lists of engines and the places, is not reported.
+// Each text has one mistake. What is missing because of it, in the arena, the lists of engines and the places, is not
+// reported.
 TEST(MistakesTogether, ConsequencesOfAMistakeAreLeftOut)
 {
   const auto told = [](const std::string& kinds, const std::string& arena, const std::string& physics)
@@ -318,7 +319,7 @@ TEST(MistakesTogether, ConsequencesOfAMistakeAreLeftOut)
     const std::string errors = told("", arena, "<entity id='f*'/>");
     EXPECT_EQ(count(errors), 1) << errors;
   }
-  // Where things stand on a map that cannot be read is unknown.
+  // Positions on a map that cannot be read are unknown.
   const std::string errors =
       told("",
            "<terrain id='t'><octomap file='none.bt'/></terrain><distribute quantity='3'><position "

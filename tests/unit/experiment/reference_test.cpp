@@ -48,6 +48,26 @@ TEST(Reference, SchemaNamesPluginsAndTheParametersOfControllers)
   EXPECT_NE(element("footbot_wheels").find("<xs:enumeration value=\"dummy_footbot_wheels\"/>"), std::string::npos);
 }
 
+TEST(Reference, CellsOfTablesAreShort)
+{
+  const auto split = [](const std::string& description)
+  {
+    TableNotes notes;
+    const std::string cell = notes.Cell({.name = "size", .description = description});
+    return std::pair(cell, notes.List());
+  };
+  const std::string nine = "one two three four five six seven eight nine";
+  EXPECT_EQ(split(nine + ", " + nine), std::pair(nine + ", " + nine, std::string()));
+  EXPECT_EQ(split(nine + ". A | b. " + nine + " " + nine),
+            std::pair(nine + ". A \\| b.", "\n* `size`: " + nine + " " + nine + "\n"));
+  EXPECT_EQ(split(nine + "; " + nine + " " + nine), std::pair(nine, "\n* `size`: " + nine + " " + nine + "\n"));
+  // The end of a list of characters is no end of a sentence.
+  EXPECT_EQ(split(nine + ". Letters and _ . : - " + nine + " " + nine),
+            std::pair(nine + ".", "\n* `size`: Letters and _ . : - " + nine + " " + nine + "\n"));
+  const std::string long_one = nine + " " + nine + " " + nine;
+  EXPECT_EQ(split(long_one), std::pair(std::string("see below"), "\n* `size`: " + long_one + "\n"));
+}
+
 TEST(Reference, PluginPageNamesWhatIsRegistered)
 {
   RegisterFakePlugins();

@@ -95,10 +95,10 @@ TEST(Settings, TwoOfOneValueAreRefusedHoweverTheyAreSpelled)
 
 TEST(Settings, MistakesNameThePath)
 {
-  EXPECT_EQ(
-      ErrorsOf(kChapter4, With("framework.maxclok", "7")),
-      "--set framework.maxclok: <framework> has no element <maxclok>; allowed: clocktick, maxclock, controller_path, "
-      "plugin_path, seed, canonical_period, ahead, name, folder; did you mean 'maxclock'?\n");
+  EXPECT_EQ(ErrorsOf(kChapter4, With("framework.maxclok", "7")),
+            "--set framework.maxclok: <framework> has no element <maxclok>; allowed: clocktick, ticks_per_second, "
+            "maxclock, controller_path, "
+            "plugin_path, seed, canonical_period, ahead, name, folder; did you mean 'maxclock'?\n");
   EXPECT_EQ(ErrorsOf(kChapter4, With("framework.maxclock", "x")),
             "--set framework.maxclock: 'maxclock' of <framework> is 'x'; it must be a whole number in ticks, from 0 to "
             "1000000000000000 ticks\n");

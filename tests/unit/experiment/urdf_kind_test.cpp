@@ -1,4 +1,4 @@
-// Kinds of robots from URDF files: body, mass, wheels, mesh, and what is said of all that cannot be read.
+// Kinds of robots from URDF files: body, mass, wheels, mesh, and the messages about unreadable parts.
 #include "common/experiment/urdf_kind.h"
 
 #include <gmock/gmock.h>
@@ -79,7 +79,7 @@ TEST(UrdfKind, OfAnUprightCylinderAboutTheAxleIsRound)
       "<collision><origin xyz='0.1 0 0.02'/><geometry><cylinder radius='0.2' length='0.1'/></geometry></collision>";
   EXPECT_EQ(WithBase(body).kind.form, BodyForm::kCylinder);
   EXPECT_TRUE(WithBase(body).kind.size.isApprox(Vector3(0.2, 0.2, 0.12), 1e-9));
-  // Wheels that stand out of it collide, too.
+  // Wheels that extend beyond the body collide, too.
   const UrdfKind wide = WithBase(body, Wheel("left", "0.25") + Wheel("right", "-0.25"));
   EXPECT_EQ(wide.kind.form, BodyForm::kBox);
   EXPECT_TRUE(wide.kind.size.isApprox(Vector3(0.4, 0.52, 0.12), 1e-9)) << wide.kind.size.transpose();
@@ -88,7 +88,7 @@ TEST(UrdfKind, OfAnUprightCylinderAboutTheAxleIsRound)
 TEST(UrdfKind, HoldsAllShapesInABoxAboutTheAxleAndSaysSo)
 {
   const UrdfKind read = WithBase(Box("0.4 0.2 0.1", "<origin xyz='0 0 0.05'/>"));
-  // From 0.3 m behind the axle to 0.1 m ahead of it.
+  // The body reaches from 0.3 m behind the axle to 0.1 m ahead of it.
   EXPECT_TRUE(read.kind.size.isApprox(Vector3(0.6, 0.32, 0.15), 1e-9)) << read.kind.size.transpose();
   EXPECT_THAT(
       TextsOf(read.notes),

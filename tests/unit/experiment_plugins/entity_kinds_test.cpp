@@ -1,6 +1,5 @@
-// The table of entity kinds: what a row must say, what follows from it, and what is refused. Rows stay for the rest of
-// a process: these tests have a program of their own, as those in unit/experiment name all kinds and engines that there
-// are.
+// The table of entity kinds: the required parts of a row, the derived ones, and the refused ones. Rows stay for the
+// rest of a process. So these tests have a separate program, since those in unit/experiment list all kinds and engines.
 #include "common/experiment/entity_kind.h"
 
 #include <gmock/gmock.h>
@@ -109,8 +108,8 @@ TEST(EntityKinds, OfObjectsHaveTheParametersThatTheirBodyNeeds)
   crate.mobility = Mobility::kIfAsked;
   RegisterEntityKind(crate);
   EXPECT_THAT(ParametersOf(*KindOfTag("test_crate")),
-              ElementsAre("size", "movable", "mass", "friction", "restitution", "ground_friction", "colour", "mesh",
-                          "mesh_orientation", "convex", "corners"));
+              ElementsAre("size", "movable", "mass", "friction", "restitution", "ground_friction", "ground_torque",
+                          "colour", "mesh", "mesh_orientation", "convex", "corners"));
   EntityKindDescription pillar = Object("test_pillar", BodyForm::kCylinder);
   pillar.mobility = Mobility::kNever;
   RegisterEntityKind(pillar);
@@ -122,8 +121,9 @@ TEST(EntityKinds, OfObjectsHaveTheParametersThatTheirBodyNeeds)
   ball.colour = 0x102030;
   RegisterEntityKind(ball);
   EXPECT_THAT(ParametersOf(*KindOfTag("test_drum")),
-              ElementsAre("mass", "friction", "restitution", "ground_friction", "colour", "mesh", "mesh_orientation"));
-  EXPECT_EQ(DescriptionOf(*KindOfTag("test_drum")).parameters[4].default_value, "#102030");
+              ElementsAre("mass", "friction", "restitution", "ground_friction", "ground_torque", "colour", "mesh",
+                          "mesh_orientation"));
+  EXPECT_EQ(DescriptionOf(*KindOfTag("test_drum")).parameters[5].default_value, "#102030");
   EXPECT_THAT(AttributesOf(*KindOfTag("test_drum")), ElementsAre("colour"));
 }
 

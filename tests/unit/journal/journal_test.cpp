@@ -94,7 +94,7 @@ protected:
     return ContentOf(JournalStart{{7, {{"libx.so", "abc"}}}, HostTable{2, {1, 0}}, 0});
   }
 
-  // Each tick in a block of its own, and states saved at tick 4; a part is lacking at tick 6.
+  // Writes each tick in a separate block, and states saved at tick 4. At tick 6 a part is missing.
   std::vector<TickRecord> WriteSome(const std::string& name, std::size_t count)
   {
     const std::vector<TickRecord> records = SomeTicks(count, 3);
@@ -126,6 +126,26 @@ protected:
 
   const test::TemporaryFolder folder_;
 };
+
+// A stated count of frames or commands takes no memory before their bytes are there. In a block of one tick without
+// both, their counts are the last eight bytes.
+TEST(JournalBlock, StatesNoMoreThanItHas)
+{
+  for (const std::size_t from_end : {8U, 4U})
+  {
+    SpaceState state;
+    state.poses = {1, 2, 3, 0, 0, 0, 1};
+    TickRows rows;
+    ASSERT_TRUE(rows.Add(state, false, {}, {}));
+    ReusedMemory memory;
+    const std::span<const char> content = rows.Content(memory);
+    std::vector<char> block(content.begin(), content.end());
+    TickRecord record;
+    EXPECT_TRUE(TickRecordReader(block, 1, true).Next(record));
+    std::fill_n(block.end() - static_cast<std::ptrdiff_t>(from_end), 4, '\xff');
+    EXPECT_THROW(TickRecordReader(block, 1, true).Next(record), std::runtime_error);
+  }
+}
 
 TEST_F(JournalTest, TicksComeBackBitByBitHoweverManyAreInABlock)
 {
@@ -232,7 +252,7 @@ TEST_F(JournalTest, AFlippedBitAnywhereIsFoundAndCostsItsBlockAlone)
   EXPECT_TRUE(JournalReader(File("whole")).Damages().empty());
 }
 
-// Not even the magic number of a block has to be whole for the next one to be found.
+// The next block is found even if the magic number of a block is damaged.
 TEST_F(JournalTest, DamageOfManyBlocksIsOnePlace)
 {
   WriteSome("j", 8);
@@ -327,7 +347,7 @@ TEST_F(JournalTest, ARunGoesOnAtTheNewestTickThatTheServerSavedAndOfWhichTheReco
   EXPECT_EQ(JournalReader(File("j")).RestartTick(any), 4U);
 }
 
-// Whatever the blocks are that the ticks stand in, however torn the end, and again.
+// Repeated ticks replace the earlier ones for any sizes of blocks and any torn end, several times.
 TEST_F(JournalTest, WhatIsDoneAgainTakesThePlaceOfWhatStoodThere)
 {
   const std::vector<TickRecord> records = SomeTicks(1000, 1), others = SomeTicks(1000, 2);

@@ -29,7 +29,7 @@ Shape Rectangle(double min_x, double min_y, double max_x, double max_y)
   return {{{min_x, min_y}, {max_x, min_y}, {max_x, max_y}, {min_x, max_y}}};
 }
 
-// Figure 3.9 of the documentation.
+// The outline is that of figure 3.9 of the documentation.
 Outline Footbot()
 {
   Shape gripper = Rectangle(0.07, -0.015, 0.1, 0.015);
@@ -62,7 +62,7 @@ Shape ShapeAt(const Shape& shape, double x, double y, double heading, double tur
   return placed;
 }
 
-// How far the projections of two shapes on a unit vector overlap; negative if they are apart.
+// Returns how far the projections of two shapes on a unit vector overlap; negative if they are apart.
 double OverlapAlong(const Shape& a, const Shape& b, const Vector2& axis)
 {
   const auto highest = [](const Shape& shape, const Vector2& along)
@@ -98,11 +98,11 @@ double OverlapOf(const Shape& a, const Shape& b)
   return least;
 }
 
-// A world and the outlines in it.
+// It holds a world and the outlines in it.
 struct Crowd
 {
   KinematicWorld world;
-  std::vector<Outline> outlines;  // of each body
+  std::vector<Outline> outlines;  // outline of each body
   std::vector<Shape> walls;
 
   std::uint32_t Add(const Outline& outline, double x, double y, double heading, bool follower = false)
@@ -144,7 +144,7 @@ double Deepest(const Outline& a, const Outline& b)
   return deepest;
 }
 
-// The deepest overlap of any two bodies, and of any with a wall. `skips(a, b)`: pairs that do not count.
+// Returns the deepest overlap of any two bodies, and of any with a wall. `skips(a, b)`: pairs that do not count.
 template <class Skips>
 double DeepestOverlap(const Crowd& scene, double widest, const Skips& skips)
 {
@@ -269,7 +269,7 @@ TEST(KinematicCrowd, OutlinesOfAllKindsGripsTurretsAndMirrorsNeverOverlap)
         const double from = pose.y;
         pose.y = std::max(0.2, pose.y - 0.01);
         way = from - pose.y;
-        scene.world.Follow(mirror, pose, true);
+        scene.world.Follow(mirror, scene.world.PoseOf(mirror), pose, true);
       }
       scene.world.Advance(kCrowdTick, steps);
       ASSERT_LE(DeepestOverlap(scene, 0.3, with_mirrors), scene.world.AllowedOverlapForTest() + 1e-9)
@@ -309,9 +309,63 @@ TEST(KinematicCrowd, WhoWasPutIntoOthersPartsFromThemAndNeverSinksDeeper)
   EXPECT_LT(before, scene.world.AllowedOverlapForTest() + 1e-9);
 }
 
+// Returns the ticks until two bodies of these outlines are apart, if one is put `offset` (m) from the other and both
+// are driven at random, with odd seeds always in the same way. `first_is_wall`: the first outline never moves.
+int TicksUntilApart(const Outline& first, const Outline& second, double offset, bool first_is_wall, unsigned seed)
+{
+  RandomStream random(41, seed, 0, 0);
+  Crowd scene;
+  const double direction = random.Uniform(-kPi, kPi);
+  const Pose2 pose{1 + offset * std::cos(direction), 1 + offset * std::sin(direction),
+                   RotorOf(random.Uniform(-kPi, kPi))};
+  if (first_is_wall)
+  {
+    scene.walls.push_back(ShapeAt(first[0], 1, 1, random.Uniform(-kPi, kPi), 0));
+    scene.world.AddStatic(ModelOf({scene.walls.back()}));
+  }
+  else
+    scene.Add(first, 1, 1, random.Uniform(-kPi, kPi));
+  const std::uint32_t put = scene.Add(second, 5, 5, 0);
+  scene.world.Start({0, 0, 6, 6});
+  scene.world.Place(put, pose);
+  const auto all = [](std::uint32_t, std::uint32_t) { return false; };
+  for (int tick = 0; tick < 200; ++tick)
+  {
+    if (DeepestOverlap(scene, 1, all) <= scene.world.AllowedOverlapForTest() + 1e-9) return tick;
+    for (std::uint32_t k = 0; k <= put; ++k)
+    {
+      RandomStream command(42, k, seed, seed % 2 == 0 ? static_cast<std::uint64_t>(tick) / 9 : 0);
+      scene.world.SetTwist(k, {0.05 * command.Uniform(-1, 1), 0, command.Uniform(-1, 1)});
+    }
+    scene.world.Advance(kCrowdTick, 1);
+  }
+  return 200;
+}
+
+TEST(KinematicCrowd, BodiesThatWerePutIntoEachOtherPartWhereverAndHoweverTheyStand)
+{
+  const Outline prey{{{{0, 0}}, 0.1}};
+  const Outline rectangle{Rectangle(-0.11, -0.04, 0.11, 0.04)};
+  const Outline triangle{{{{0.1, 0}, {-0.03, 0.09}, {-0.08, -0.08}}}};
+  const Outline wall{Rectangle(-0.8, -0.05, 0.8, 0.05)};
+  const std::vector<Outline> kinds{Footbot(), prey, rectangle, triangle};
+  // 0.4 m at the most, by 2.5 mm a substep and body.
+  constexpr int kMost = 90;
+  for (const double offset : {0.0, 0.001, 0.02, 0.05, 0.08, 0.1, 0.12, 0.15, 0.18})
+    for (unsigned seed = 0; seed < 30; ++seed)
+      for (std::size_t a = 0; a < kinds.size(); ++a)
+      {
+        for (std::size_t b = a; b < kinds.size(); ++b)
+          EXPECT_LT(TicksUntilApart(kinds[a], kinds[b], offset, false, seed), kMost)
+              << "kinds " << a << " and " << b << " at " << offset << " seed " << seed;
+        EXPECT_LT(TicksUntilApart(wall, kinds[a], offset, true, seed), kMost)
+            << "kind " << a << " in a wall at " << offset << " seed " << seed;
+      }
+}
+
 TEST(KinematicCrowd, ACrowdThatDrivesOnTogetherIsNotHeldByAJamElsewhere)
 {
-  // Twenty discs in a row, a tenth of a millimetre apart, and five that press each other against a wall.
+  // Twenty discs are in a row, a tenth of a millimetre apart, and five press each other against a wall.
   Crowd scene;
   const Outline disc{{{{0, 0}}, 0.085}};
   for (int k = 0; k < 20; ++k) scene.Add(disc, 0.1701 * k, 0, 0);

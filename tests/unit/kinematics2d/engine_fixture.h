@@ -1,4 +1,4 @@
-// A kinematic engine in a space of its own, made without files: entities, one engine, channels.
+// A kinematic engine in its own space, made without files: entities, one engine, channels.
 #pragma once
 
 #include <algorithm>
@@ -42,7 +42,7 @@ public:
     experiment_.entities.push_back(entity);
     return static_cast<std::uint32_t>(experiment_.entities.size() - 1);
   }
-  // Terrain from a map in an absolute path, at the origin.
+  // Adds a terrain from a map with an absolute path, at the origin.
   void AddTerrain(const std::string& octomap)
   {
     experiment_.entities[Add(EntityKind::kTerrain, Vector3::Zero(), {}, Vector3::Zero(), false)].tree =
@@ -83,7 +83,7 @@ public:
     update_.poses.resize(7 * layout_.owned.size());
   }
 
-  // A second engine of the same experiment, as a restored process would make it.
+  // Makes a second engine of the same experiment, as a restored process does.
   std::unique_ptr<CPhysicsEngine> MakeEngine()
   {
     const auto* entry = PluginRegistry<CPhysicsEngine>::Instance().Find(engine_configuration_.tag);
@@ -109,7 +109,7 @@ public:
   }
   double Sensor(std::size_t value) const { return sensors_[value]; }
 
-  // One tick; the space follows.
+  // Advances the engine and the space by one tick.
   void Tick()
   {
     EnsureStarted();
@@ -156,7 +156,7 @@ private:
   EngineUpdate update_;
 };
 
-// The wheel angular velocity (rad/s) of a ground speed (m/s).
+// Returns the angular velocity of a wheel (rad/s) for a ground speed (m/s).
 inline double WheelSpeed(double speed) { return speed / kinematics2d::kFootbotWheelRadius; }
 
 }  // namespace swarmanoid

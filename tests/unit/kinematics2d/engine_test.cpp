@@ -105,7 +105,7 @@ TEST(Kinematics2dEngine, RobotsArePutOnThePlaneAndBlocksKeepTheirHeight)
   EXPECT_NEAR(YawOf(f.PoseOf(block).orientation), 0.5, 1e-12);
 }
 
-// Where all stand upright, poses are written by columns.
+// If all bodies are upright, poses are written by columns.
 TEST(Kinematics2dEngine, BlocksThatAreNotTurnedKeepTheirHeightAmongRobots)
 {
   EngineFixture f;
@@ -121,7 +121,7 @@ TEST(Kinematics2dEngine, BlocksThatAreNotTurnedKeepTheirHeightAmongRobots)
   EXPECT_NEAR(f.PoseOf(high).position.z(), 0.25, 1e-12);
 }
 
-// Also while others on the plane drive.
+// It does so also while others on the plane drive.
 TEST(Kinematics2dEngine, BlocksThatLeanKeepTheirHeightAndLean)
 {
   EngineFixture f;
@@ -142,7 +142,7 @@ TEST(Kinematics2dEngine, BlocksThatLeanKeepTheirHeightAndLean)
 
 TEST(Kinematics2dEngine, OnlyBlocksThatThePlaneCutsAreInTheWay)
 {
-  // One block stands on the plane, one hangs above it, one is centred far below but reaches up through it.
+  // One block is on the plane, one is above it, and one is centred far below but reaches up through it.
   for (const auto& [height, size, blocked] :
        {std::tuple{0.25, 0.5, true}, std::tuple{0.8, 0.5, false}, std::tuple{-4.0, 9.0, true}})
   {
@@ -176,6 +176,62 @@ TEST(Kinematics2dEngine, AMirrorPushesIsNotMovedAndCountsOnlyInThePlane)
     else
       EXPECT_EQ(gap, 0);
   }
+}
+
+TEST(Kinematics2dEngine, AMirrorThatDrivesOnEntersNoRobotThatHasRoom)
+{
+  // The mirror is an eyebot of 0.25 m that goes 0.1 m a tick, straight on or on a curve.
+  for (const double turn : {0.0, 0.5})
+  {
+    EngineFixture f;
+    const Vector3 start = turn == 0 ? Vector3(3, 3, 0) : Vector3(2.435, 3.607, 0);
+    const auto pushed = f.Add(EntityKind::kFootbot, start, {0, 0, kPi / 2});
+    const auto mirror = f.AddMirror(EntityKind::kEyebot, Vector3(1, 3, 0));
+    f.Start();
+    double deepest = 0;
+    for (int k = 1; k <= 30; ++k)
+    {
+      const double angle = 0.1 * turn * k;
+      const Vector3 at = turn == 0 ? Vector3(1 + 0.1 * k, 3, 0)
+                                   : Vector3(1 + std::sin(angle) / turn, 3 + (1 - std::cos(angle)) / turn, 0);
+      f.Tick();
+      f.Space().SetPose(mirror, {at, QuaternionFromYaw(angle)});
+      const Vector3 between = f.PoseOf(pushed).position - at;
+      deepest = std::max(deepest, 0.25 + kinematics2d::kFootbotRadius - between.norm());
+    }
+    EXPECT_GT((f.PoseOf(pushed).position - start).norm(), 0.2);
+    EXPECT_LT(deepest, 1e-3) << turn;
+  }
+}
+
+TEST(Kinematics2dEngine, AMirrorThatWasPutElsewhereDoesNotGoOn)
+{
+  EngineFixture f;
+  const auto near = f.Add(EntityKind::kFootbot, Vector3(2, 3, 0));
+  const auto mirror = f.AddMirror(EntityKind::kEyebot, Vector3(1.2, 3, 0));
+  f.Start();
+  f.Tick();
+  f.Space().SetPose(mirror, {Vector3(1.6, 3, 0), Quaternion::Identity()});
+  f.Engine().MirrorMoved(mirror);
+  f.Ticks(2);
+  EXPECT_EQ(f.PoseOf(near).position.x(), 2);
+}
+
+TEST(Kinematics2dEngine, FrictionOfWallsIsThatOfTheFileOrOfTheEngine)
+{
+  const auto way = [](const std::string& of_engine)
+  {
+    EngineFixture f;
+    f.Parameter("wall_friction", of_engine);
+    const auto robot = f.Add(EntityKind::kFootbot, Vector3(2.9, 3, 0), {0, 0, kPi / 4});
+    f.Add(EntityKind::kBlock, Vector3(3.5, 5, 0.2), {}, Vector3(1, 9, 0.4), false);
+    f.AddCommands("footbot_wheels", 2, {robot});
+    f.Command(0) = f.Command(1) = WheelSpeed(0.1);
+    f.Ticks(300);
+    return f.PoseOf(robot).position.y() - 3;
+  };
+  EXPECT_NEAR(way("0"), 3 * std::sqrt(0.5), 1e-3);
+  EXPECT_NEAR(way("0.01"), 3 * std::sqrt(0.5) * 0.93, 2e-3);
 }
 
 TEST(Kinematics2dEngine, AnEntityPutElsewhereGoesOnFromThere)
@@ -258,7 +314,7 @@ TEST(Kinematics2dEngine, ThreadsChangeNoPoseAndNoMistake)
       robots.push_back(f.Add(EntityKind::kFootbot, Vector3(0.4 * (k % 50), 0.4 * (k / 50), 0), {0.001 * k, 0, 0}));
     f.AddCommands("footbot_wheels", 2, robots);
     f.Start();
-    std::vector<double> poses;  // of all ticks: both ways are tried
+    std::vector<double> poses;  // poses of all ticks, since both ways are tried
     for (int tick = 0; tick < 12; ++tick)
     {
       for (std::uint32_t k = 0; k < kRobots; ++k)

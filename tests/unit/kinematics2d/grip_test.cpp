@@ -1,4 +1,4 @@
-// Gripping and checkpoints of the kinematic engine.
+// Tests gripping and checkpoints of the kinematic engine.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace
 {
 
 constexpr double kPreyRadius = 0.1;
-// From the centre of a prey to that of a robot whose closed gripper touches it.
+// It is the distance from the centre of a prey to that of a robot whose closed gripper touches it.
 constexpr double kReach = kinematics2d::kFootbotGripperReach + kPreyRadius + 0.005;
 
 std::uint32_t AddPrey(EngineFixture& f, double x, double y)
@@ -94,7 +94,7 @@ TEST(Kinematics2dGrip, OpposedRobotsHoldThePreyStillAndFeelTheTraction)
   f.Ticks(20);
   EXPECT_LT((f.PoseOf(prey).position - Vector3(5, 5, 0)).norm(), 1e-12);
   // Each would go backwards at half of full speed and does not.
-  constexpr double kFullTraction = 0.8 * 1.6 * 9.81 / 25;  // what the wheels can pull, of 25 N
+  constexpr double kFullTraction = 0.8 * 1.6 * 9.81 / 25;  // the force of the wheels, as a fraction of 25 N
   EXPECT_NEAR(f.Sensor(0), 0.5 * kFullTraction, 1e-9) << "the load pulls ahead";
   EXPECT_NEAR(f.Sensor(1), 0, 1e-9);
   EXPECT_NEAR(f.Sensor(3), 0.5 * kFullTraction, 1e-9);
@@ -111,7 +111,7 @@ TEST(Kinematics2dGrip, RobotsThatTurnAgainstEachOtherFeelTheTorque)
   Drive(f, 1, 0.15, -0.15);
   f.Ticks(20);
   EXPECT_LT((f.PoseOf(prey).position - Vector3(5, 5, 0)).norm(), 1e-12);
-  constexpr double kFullTorque = 0.8 * 1.6 * 9.81 * 0.07 / 1.5;  // what the wheels can turn with, of 1.5 N m
+  constexpr double kFullTorque = 0.8 * 1.6 * 9.81 * 0.07 / 1.5;  // the torque of the wheels, as a fraction of 1.5 N m
   EXPECT_NEAR(f.Sensor(2), -0.5 * kFullTorque, 1e-9) << "the load turns the one to the right that would turn left";
   EXPECT_NEAR(f.Sensor(5), 0.5 * kFullTorque, 1e-9);
 }
@@ -185,7 +185,7 @@ TEST(Kinematics2dGrip, MovingAGrippedRobotAwayEndsTheGrip)
   EXPECT_LT((f.PoseOf(prey).position - Vector3(5, 5, 0)).norm(), 1e-12);
 }
 
-// It goes on to hold what it holds, though another prey would be nearer to the gripper; so does a restored one.
+// A robot keeps its grip, though another prey would be nearer to the gripper. So does a restored one.
 TEST(Kinematics2dGrip, ARobotThatIsMovedWithItsPreyHoldsItToTheLastBit)
 {
   for (const bool restored : {false, true})
@@ -214,7 +214,7 @@ TEST(Kinematics2dGrip, ARobotThatIsMovedWithItsPreyHoldsItToTheLastBit)
     const std::vector<Pose> poses = f.Space().Structure().GetCompound(robot).PosesAt(robot, there);
     f.Space().SetPose(prey, poses[0]);
     f.Space().SetPose(robot, poses[1]);
-    // Between gripper and prey.
+    // The point is between gripper and prey.
     f.Space().SetPose(nearer, {there.Apply({kinematics2d::kFootbotGripperReach + kPreyRadius - 0.001, 0, 0}),
                                Quaternion::Identity()});
     for (const std::uint32_t moved : {prey, robot, nearer}) f.Engine().EntityMoved(moved);

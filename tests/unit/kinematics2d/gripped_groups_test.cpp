@@ -12,7 +12,7 @@ namespace swarmanoid::kinematics2d
 namespace
 {
 
-// A prey at the origin, body 0, and robots around it that grip it.
+// A prey is at the origin, body 0, and robots around it grip it.
 struct GroupScene
 {
   Bodies bodies;

@@ -54,7 +54,7 @@ TEST(MotionLimiter, WhatWasLimitedIsFreeAgainAfterClear)
   limiter.Clear();
   EXPECT_TRUE(limiter.Limited().empty());
   for (std::uint32_t motion = 0; motion < 2 * kLeaders; ++motion) EXPECT_EQ(limiter.PartOf(motion), 1);
-  // Others than those before, with nothing left of them.
+  // The next planes are others, and nothing is left of those before.
   const std::vector<Plane> planes = RandomPlanes(2, kLeaders, 5);
   LimitList list;
   for (const Plane& plane : planes) list.Add(plane.gap, plane.approaches);
@@ -108,7 +108,7 @@ TEST(MotionLimiter, TheOrderOfPlanesChangesNoBit)
 TEST(MotionLimiter, TwoThatMeetShareTheGapAndWhoFollowsGoesAsFarAsTheOneAhead)
 {
   LimitList limits;
-  // 0 and 1 approach by 10 mm each, 8 mm apart; 2 follows 1, which backs off from it by 5 mm, and touches it.
+  // Bodies 0 and 1 approach by 10 mm each, 8 mm apart; 2 follows 1, which backs off from it by 5 mm, and touches it.
   EXPECT_TRUE(limits.Add(0.008, {{{WayMotion(0), 0.01}, {}, {WayMotion(1), 0.01}, {}}}));
   EXPECT_TRUE(limits.Add(0, {{{WayMotion(1), -0.005}, {}, {WayMotion(2), 0.01}, {}}}));
   EXPECT_FALSE(limits.Add(0.03, {{{WayMotion(2), 0.01}, {TurnMotion(2), 0.01}, {WayMotion(3), 0.01}, {}}}));

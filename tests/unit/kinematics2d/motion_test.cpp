@@ -51,7 +51,7 @@ TEST(Motion, AnArcEndsOnItsCircleForSlowAndFastTurns)
     const double seconds = 0.1;
     const Pose2 end = Moved({0, 0, RotorOf(start)}, {forward, left, turn}, seconds);
     const double angle = start + turn * seconds;
-    // Integral of the rotated velocity.
+    // It is the integral of the rotated velocity.
     const double x =
         (forward * (std::sin(angle) - std::sin(start)) + left * (std::cos(angle) - std::cos(start))) / turn;
     const double y =

@@ -32,7 +32,7 @@ Vector2 ToWorld(const Placed& body, const Vector2& p, bool on_turret)
   return {body.x + c * p.x() - s * p.y(), body.y + s * p.x() + c * p.y()};
 }
 
-// Points all over the outline, and inside it by 0.1 mm.
+// Returns points all over the outline, and inside it by 0.1 mm.
 std::vector<Vector2> PointsOf(const Placed& body)
 {
   constexpr double kInside = 1e-4;
@@ -165,12 +165,12 @@ TEST(NarrowPhase, DepthsAreThoseOfGeometry)
   const CollisionModel disc = CircleModel(0.1);
   const CollisionModel box = RectangleModel(0.2, 0.1);
   EXPECT_NEAR(DeepestOf(Put(disc, 0, 0, 0), Put(disc, 0.21, 0, 1)), -0.01, 1e-15);
-  // A face, then a corner (3-4-5 triangle), from either side.
+  // A face is nearest, and then a corner (3-4-5 triangle), from either side.
   EXPECT_NEAR(DeepestOf(Put(disc, 0.03, 0.14, 0), Put(box, 0, 0, 0)), 0.01, 1e-15);
   EXPECT_NEAR(DeepestOf(Put(box, 0, 0, 0), Put(disc, 0.03, 0.14, 0)), 0.01, 1e-15);
   EXPECT_NEAR(DeepestOf(Put(disc, 0.1 + 0.066, 0.05 + 0.088, 0), Put(box, 0, 0, 0)), -0.01, 1e-15);
   EXPECT_NEAR(DeepestOf(Put(box, 0, 0, 0), Put(disc, 0.1 + 0.066, 0.05 + 0.088, 0)), -0.01, 1e-15);
-  // A box upright on another one.
+  // A box stands upright on another one.
   EXPECT_NEAR(DeepestOf(Put(box, 0, 0, 0), Put(box, 0.02, 0.14, kPi / 2)), 0.01, 1e-15);
   EXPECT_EQ(Overlap(Put(disc, 0, 0, 0), Put(disc, 0.3, 0, 0)), 0);
 }

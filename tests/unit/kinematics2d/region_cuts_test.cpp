@@ -41,7 +41,7 @@ TEST(RegionCuts, AreAGridWhereOneIsWanted)
 
 TEST(RegionCuts, FollowTheBodies)
 {
-  // All of them in one corner.
+  // All of them are in one corner.
   std::vector<std::uint32_t> bodies(20UL * 20UL, 0);
   for (std::uint32_t row = 0; row < 6; ++row)
     for (std::uint32_t column = 0; column < 6; ++column) bodies[row * 20 + column] = 50;

@@ -1,5 +1,5 @@
-// The regions of a kinematic world in one process, for tests and benchmarks: each does its tasks in a thread of its
-// own, and messages go by memory.
+// The regions of a kinematic world in one process, for tests and benchmarks. Each does its tasks in a separate thread,
+// and messages are passed in memory.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,7 @@ public:
   // Return the number of calls of Swap so far, which is equal for each region, and the bytes of all messages.
   std::uint64_t Rounds() const { return rounds_; }
   std::uint64_t Bytes() const { return bytes_; }
-  // One of them takes part no more: the others need not wait for it.
+  // Excludes one region, so that the others do not wait for it.
   void Break()
   {
     const std::lock_guard lock(mutex_);
@@ -60,9 +60,10 @@ public:
   }
 
 private:
+  // Guards the members below.
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<std::vector<std::vector<char>>> left_, taken_;  // by sender and receiver
+  std::vector<std::vector<std::vector<char>>> left_, taken_;  // messages by sender and receiver
   unsigned here_ = 0;
   std::uint64_t rounds_ = 0;
   std::uint64_t bytes_ = 0;
@@ -93,15 +94,17 @@ public:
   unsigned RegionCount() const override { return static_cast<unsigned>(places_.size()); }
   bool IsReady() const override { return is_ready_; }
   void SetReady(bool is_ready) { is_ready_ = is_ready; }
-  void Work(bool anew, const WriteTasks& write, std::span<std::vector<char>> results) override
+  void Work(bool all_data, const WriteTasks& write, std::span<std::vector<char>> results,
+            const std::function<void()>& meanwhile) override
   {
     ++works_;
     if (replaced_ && replaced_->first == works_) Replace(replaced_->second);
-    anew = std::exchange(begins_again_, false) || anew;
+    all_data = std::exchange(begins_again_, false) || all_data;
     tasks_.resize(RegionCount());
     results_.resize(RegionCount());
     for (ByteWriter& task : tasks_) task.Clear();
-    write(anew, tasks_);
+    write(all_data, tasks_);
+    meanwhile();
     std::vector<std::string> errors(RegionCount());
     std::vector<std::thread> threads;
     for (unsigned region = 0; region < RegionCount(); ++region)
@@ -127,11 +130,11 @@ public:
       if (!error.empty() && error != "another region has ended") throw std::runtime_error(error);
   }
 
-  // How often the world gave them something to do.
+  // Returns the number of tasks that the world has given.
   unsigned Works() const { return works_; }
   // Calls Replace when a task is done for the n-th time.
   void ReplaceAt(unsigned work, unsigned region) { replaced_.emplace(work, region); }
-  // Another one takes its place, which knows nothing.
+  // Replaces a region by a new one without any state.
   void Replace(unsigned region)
   {
     Place& place = places_[region];
@@ -142,7 +145,7 @@ public:
   }
   const PlaneRegion& Region(unsigned region) const { return *places_[region].region; }
   const Hub& Exchanges() const { return *hub_; }
-  // Processor time of the thread that asks.
+  // Returns the processor time of the calling thread.
   static double ThreadSeconds()
   {
     timespec now;
@@ -150,14 +153,14 @@ public:
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
   }
 
-  // Bytes of the last tasks.
+  // Returns the bytes of the last tasks.
   std::size_t TaskBytes() const
   {
     std::size_t bytes = 0;
     for (const ByteWriter& task : tasks_) bytes += task.Bytes().size();
     return bytes;
   }
-  // Processor time that all took for the last tasks.
+  // Returns the processor time of all regions for the last tasks.
   double Seconds() const
   {
     double all = 0;

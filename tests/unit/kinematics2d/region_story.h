@@ -30,13 +30,13 @@ inline CollisionModel Box(double min_x, double min_y, double max_x, double max_y
 
 struct Scene
 {
-  double side = 15;  // m, around the origin of the plane
+  double side = 15;  // side of the square around the origin of the plane, m
   double density = 10;
   double speed = 0.3;
   bool has_grips = true;
   bool has_followers = true;
   bool has_large = true;
-  bool has_changes = true;  // some are put elsewhere, come and go
+  bool has_changes = true;  // whether bodies are moved, added and removed
   std::uint64_t seed = 1;
 
   std::uint32_t Bodies() const { return static_cast<std::uint32_t>(side * side * density); }
@@ -56,7 +56,8 @@ inline Pose2 FollowerPose(const Scene& scene, std::uint32_t k, std::uint64_t tic
   return {radius * at.cos, radius * at.sin, RotorOf(angle)};
 }
 
-// Footbots, preys and boxes, followers behind them, and walls around and across; `add` may add shapes.
+// Builds a world with footbots, preys and boxes, followers behind them, and walls around and across. `add` may add
+// shapes.
 inline KinematicWorld Build(
     const Scene& scene, const std::function<void(KinematicWorld&)>& add = [](KinematicWorld&) {})
 {
@@ -74,7 +75,7 @@ inline KinematicWorld Build(
   for (std::uint32_t k = 0; k < count; ++k)
   {
     const std::uint32_t model = scene.IsLarge(k) ? plank : scene.IsFootbot(k) ? footbot : scene.IsPrey(k) ? prey : box;
-    // Numbers lie anywhere.
+    // The numbers of the bodies do not follow their positions.
     const std::uint32_t place = static_cast<std::uint32_t>((std::uint64_t{k} * 7919) % count);
     world.AddBody(model, {(place % columns + 0.5) * spacing - edge, (place / columns + 0.5) * spacing - edge,
                           RotorOf(random.Uniform(-kPi, kPi))});
@@ -99,7 +100,7 @@ inline KinematicWorld Build(
 struct GripChange
 {
   std::uint32_t body;
-  std::optional<std::uint32_t> prey;  // none: it lets go
+  std::optional<std::uint32_t> prey;  // nothing: the robot releases its prey
 };
 struct Jump
 {
@@ -127,7 +128,7 @@ inline void Command(const Scene& scene, KinematicWorld& world, std::uint32_t bod
 {
   if (!scene.IsFootbot(body)) return;
   world.SetTwist(body, TwistAt(scene, body, tick));
-  // Some turn for a while only.
+  // Some robots turn only for a while.
   const bool turns = body % 3 == 0 && (tick / 20 + body) % 4 != 0;
   world.SetTurretRate(body, turns ? RandomStream(scene.seed, 3, body, tick / 7).Uniform(-1, 1) : 0);
   if (scene.has_changes && body % 53 == 1) world.SetPresent(body, tick / 11 % 3 != 0);
@@ -145,13 +146,16 @@ inline void Act(const Scene& scene, KinematicWorld& world, const Tick& now, std:
   for (std::uint32_t body = 0; body < scene.Bodies(); ++body) Command(scene, world, body, tick);
   if (!scene.has_followers) return;
   for (std::uint32_t k = 0; k < kFollowers; ++k)
-    world.Follow(scene.Bodies() + k, FollowerPose(scene, k, tick), (tick / 40 + k) % 4 != 0);
-  // The last one is a box that turns out of the plane: the outline at which it is cut grows and shrinks.
+  {
+    const std::uint32_t follower = scene.Bodies() + k;
+    world.Follow(follower, world.PoseOf(follower), FollowerPose(scene, k, tick), (tick / 40 + k) % 4 != 0);
+  }
+  // The last body is a box that turns out of the plane, so its outline in the plane grows and shrinks.
   if (tick % 5 == 0)
     world.ReplaceModel(scene.ModelOfLast(), RectangleModel(0.05 + 0.01 * static_cast<double>(tick % 10), 0.06));
 }
 
-// Footbots near a prey take it, some of those that hold one let go.
+// Footbots near a prey grip it, and some footbots with a prey release it.
 inline std::vector<GripChange> ChooseGrips(const Scene& scene, const KinematicWorld& world, std::uint64_t tick)
 {
   std::vector<GripChange> changes;
@@ -181,13 +185,13 @@ inline std::vector<GripChange> ChooseGrips(const Scene& scene, const KinematicWo
 struct Story
 {
   std::vector<Tick> ticks;
-  std::vector<char> saved;  // before the first tick that is told
+  std::vector<char> saved;  // before the first recorded tick
   std::uint64_t first = 0;
   WorldStatistics most;
   std::size_t most_grips = 0;
 };
 
-// The whole world through `ticks` ticks, after `before` of them that are not told.
+// Runs the whole world through `ticks` ticks, after `before` ticks that are not recorded.
 inline Story Tell(const Scene& scene, std::uint64_t before, std::uint64_t ticks)
 {
   Story story;
@@ -229,13 +233,13 @@ inline Story Tell(const Scene& scene, std::uint64_t before, std::uint64_t ticks)
 
 inline bool SameBits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
-// Which block is whose at a tick.
+// Returns the region of each block at a tick.
 using Cuts = std::function<std::vector<std::uint8_t>(std::uint32_t columns, std::uint32_t blocks, std::uint64_t tick)>;
 
 struct Outcome
 {
-  std::uint64_t differences = 0;  // of bodies and ticks
-  std::string first;              // of them
+  std::uint64_t differences = 0;  // number of differences between bodies at ticks
+  std::string first;              // the first of them
   std::string error;
   std::size_t most_held = 0;
 };
@@ -255,7 +259,8 @@ inline void CompareTick(const Scene& scene, const KinematicWorld& world, const T
   }
 }
 
-// The same with the world split, compared after each tick. `replaced`: a region that becomes another one then.
+// Runs the same events in a split world, and compares it after each tick. `replaced`: a region that is replaced on the
+// way.
 inline Outcome Retell(const Scene& scene, const Story& story, unsigned regions, const Cuts& cuts,
                       unsigned halo = PlaneRegion::kHalo,
                       const std::function<std::optional<unsigned>(std::uint64_t tick)>& replaced = nullptr)
@@ -275,7 +280,7 @@ inline Outcome Retell(const Scene& scene, const Story& story, unsigned regions, 
       const std::uint64_t tick = story.first + n;
       const auto other = replaced ? replaced(n) : std::nullopt;
       if (other) team.Replace(*other);
-      // Sometimes the world has to do without them.
+      // The regions are not always ready, so that the world sometimes does without them.
       team.SetReady(!replaced || n % 5 != 4);
       world.MoveCuts(cuts(world.BlockColumns(), world.BlockCount(), n));
       Act(scene, world, told, tick);

@@ -33,7 +33,7 @@ std::vector<std::uint8_t> Quadrants(std::uint32_t columns, std::uint32_t blocks)
   return cut;
 }
 
-// Each block anywhere.
+// Each block may belong to any region.
 std::vector<std::uint8_t> Scattered(unsigned regions, std::uint32_t blocks, std::uint64_t seed)
 {
   RandomStream random(seed, 5, 0, 0);
@@ -61,7 +61,7 @@ TEST(KinematicRegions, CutsMayMoveWhileACrowdIsPacked)
   scene.side = 12;
   scene.density = 20;
   scene.seed = 2;
-  // From a saved state, as a worker that takes the place of another one begins.
+  // The world starts from a saved state, as a replacement of a worker does.
   const Story story = Tell(scene, 30, 60);
   EXPECT_GT(story.most.held_back, 100U);
   const auto slide = [](auto columns, auto blocks, std::uint64_t tick)
@@ -191,7 +191,7 @@ TEST(KinematicRegions, AnyNumberOfWallsIsToldPieceByPiece)
   HubTeam team(3);
   split.Split(team);
   split.MoveCuts(Strips(3, split.BlockColumns(), split.BlockCount()));
-  // When some of it has been told.
+  // The region is replaced after a part of its state was sent.
   team.ReplaceAt(3, 1);
   for (std::uint64_t tick = 0; tick < 20; ++tick)
   {
@@ -240,7 +240,7 @@ TEST(KinematicRegions, WhatIsNoTaskIsRefused)
     try
     {
       team.Work(
-          false, [&](bool, std::span<ByteWriter> tasks) { write(tasks[0]); }, results);
+          false, [&](bool, std::span<ByteWriter> tasks) { write(tasks[0]); }, results, [] {});
       return false;
     }
     catch (const std::runtime_error&)
@@ -254,7 +254,7 @@ TEST(KinematicRegions, WhatIsNoTaskIsRefused)
       {
         for (int k = 0; k < 100; ++k) noise.Put<std::uint64_t>(~0ULL - static_cast<unsigned>(k));
       }));
-  // Without a plan.
+  // The regions have no plan.
   team.Replace(0);
   EXPECT_TRUE(refused([](ByteWriter& task) { task.Put(std::uint64_t{0}); }));
 }

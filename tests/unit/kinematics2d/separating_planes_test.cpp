@@ -21,7 +21,7 @@ struct Mover
   Placed start;
   double way_x, way_y, turn;
 
-  // After parts of its way and of its turn.
+  // Returns the body after parts of its way and of its turn.
   Placed After(double part_of_way, double part_of_turn) const
   {
     const SinCos turned = SinCosOf(part_of_turn * turn);

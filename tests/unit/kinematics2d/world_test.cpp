@@ -24,7 +24,7 @@ CollisionModel Wall(double x, double y, double length_x, double length_y)
   return MakeModel({}, {MakePolygon(corners)});
 }
 
-// The deepest overlap of any two bodies and of any body with a wall.
+// Returns the deepest overlap of any two bodies and of any body with a wall.
 double DeepestOverlap(const KinematicWorld& world)
 {
   double deepest = 0;
@@ -38,8 +38,7 @@ double DeepestOverlap(const KinematicWorld& world)
 
 TEST(KinematicWorld, HeadOnDiscsExchangeTheRestOfTheirWays)
 {
-  // Gap 0.02: with 0.2 and 0.1 m/s they meet after 2/3 of the tick; for the rest each goes on with the other's
-  // velocity.
+  // The gap is 0.02 m. At 0.2 and 0.1 m/s they meet after 2/3 of the tick; then each has the other's velocity.
   KinematicWorld world;
   const auto disc = world.AddModel(CircleModel(0.1));
   const auto a = world.AddBody(disc, {-0.11, 0, RotorOf(0)});
@@ -103,6 +102,33 @@ TEST(KinematicWorld, AWallReflectsTheWayIntoItAndLeavesTheWayAlongIt)
   EXPECT_NEAR(world.Poses().y[a], 0.03 * std::sin(0.5), 1e-12);
 }
 
+TEST(KinematicWorld, AWallWithFrictionSlowsTheWayAlongItByItsPartOfTheWayIntoIt)
+{
+  for (const double elasticity : {0.0, 1.0})
+    for (const double friction : {0.0, 0.07, 0.3})
+      for (const double degrees : {30.0, 45.0, 75.0})
+      {
+        KinematicWorld world(elasticity);
+        CollisionModel disc = CircleModel(0.085);
+        disc.friction = 0.49;
+        CollisionModel wall = Wall(0.5, 0, 1, 18);
+        wall.friction = friction * friction / 0.49;
+        const double angle = DegreesToRadians(degrees);  // from the wall
+        world.AddBody(world.AddModel(disc), {-0.085, -5, RotorOf(kPi / 2 - angle)});
+        world.AddStatic(wall);
+        world.Start(kArea);
+        world.SetTwist(0, {0.1, 0, 0});
+        for (int tick = 0; tick < 400; ++tick) world.Advance(kTick, 1);
+        // A body that bounces is free in every second step, so that friction takes at most half of its way.
+        const double into = 0.1 * std::sin(angle);
+        const double along = 0.1 * std::cos(angle);
+        const double least = along * elasticity / 2;
+        EXPECT_NEAR((world.Poses().y[0] + 5) / 40, std::max(along - friction * into, least), 2e-4)
+            << elasticity << ' ' << friction << ' ' << degrees;
+        EXPECT_LE(world.Poses().x[0], -0.085 + world.AllowedOverlapForTest());
+      }
+}
+
 TEST(KinematicWorld, StillBodiesStayWhereTheyAreToTheLastBit)
 {
   KinematicWorld world;
@@ -121,7 +147,7 @@ TEST(KinematicWorld, StillBodiesStayWhereTheyAreToTheLastBit)
 
 TEST(KinematicWorld, NothingPassesThroughThinWallsOrOthersAtTenTimesTheUsualSpeed)
 {
-  // 3 m/s: 0.3 m a tick, against a sheet of 1 cm and against an oncoming robot of the same speed.
+  // At 3 m/s a robot moves 0.3 m a tick, against a sheet of 1 cm and against an oncoming robot of the same speed.
   for (int start = 0; start < 20; ++start)
   {
     KinematicWorld world;
@@ -157,7 +183,7 @@ TEST(KinematicWorld, AThousandRobotsPushedIntoACornerStayApartAndFinite)
     const PoseStore before = world.Poses();
     for (std::uint32_t k = 0; k < 1000; ++k)
     {
-      // Full speed towards the corner, turning a little all the time.
+      // The robot drives at full speed towards the corner, turning a little all the time.
       const Rotor heading = world.PoseOf(k).heading;
       const double angle = AngleOf(Conjugate(heading) * RotorOf(Atan2(-world.Poses().y[k], -world.Poses().x[k])));
       world.SetTwist(k, {0.3 * Cos(angle), 0.3 * Sin(angle), random.Uniform(-1, 1)});
@@ -204,14 +230,14 @@ TEST(KinematicWorld, AFollowerPushesAndIsNotPushed)
   world.Start(kArea);
   for (int tick = 1; tick <= 20; ++tick)
   {
-    world.Follow(follower, {0.03 * tick, 0, RotorOf(0)}, true);
+    world.Follow(follower, world.PoseOf(follower), {0.03 * tick, 0, RotorOf(0)}, true);
     world.Advance(kTick, 1);
     EXPECT_EQ(world.Poses().x[follower], 0.03 * tick);
     EXPECT_GT(world.Poses().x[pushed] - world.Poses().x[follower], 0.2 - 1e-4);
   }
-  // A body lifted out of the plane touches no other body.
+  // A body that is lifted out of the plane touches no other body.
   const double before = world.Poses().x[pushed];
-  world.Follow(follower, {before, 0, RotorOf(0)}, false);
+  world.Follow(follower, world.PoseOf(follower), {before, 0, RotorOf(0)}, false);
   world.Advance(kTick, 1);
   EXPECT_EQ(world.Poses().x[pushed], before);
 }
@@ -241,8 +267,8 @@ TEST(KinematicWorld, ASpeedBeyondAllSenseIsRefused)
   EXPECT_THROW(world.Advance(kTick, 1), std::runtime_error);
 }
 
-// 3,600 robots, a prey gripped by two of them and a follower, all driven into a corner.
-// `now_and_then`: threads that share some of the ticks.
+// There are 3,600 robots, a prey that two of them grip, and a follower, all driven into a corner. `now_and_then`:
+// threads that share some of the ticks.
 KinematicWorld CornerPile(unsigned threads, WorkerPool* now_and_then = nullptr)
 {
   KinematicWorld world;
@@ -269,7 +295,7 @@ KinematicWorld CornerPile(unsigned threads, WorkerPool* now_and_then = nullptr)
       world.SetTwist(k, {0.25, 0, 2 * turn});
       world.SetTurretRate(k, 0.1 * (k % 7));
     }
-    world.Follow(follower, {13.2 - 0.02 * tick, 8, RotorOf(0)}, true);
+    world.Follow(follower, world.PoseOf(follower), {13.2 - 0.02 * tick, 8, RotorOf(0)}, true);
     if (now_and_then != nullptr) now_and_then->Share(tick % 3 == 1);
     world.Advance(kTick, 1);
   }
@@ -296,6 +322,24 @@ TEST(KinematicWorld, ThreadsChangeNoBit)
       ASSERT_EQ(one.TravelTurn(k), several.TravelTurn(k)) << k;
     }
   }
+}
+
+TEST(KinematicWorld, WhoIsNotPresentTouchesNobody)
+{
+  KinematicWorld world;
+  const auto disc = world.AddModel(CircleModel(0.1));
+  const auto a = world.AddBody(disc, {-0.15, 0, RotorOf(0)});
+  const auto b = world.AddBody(disc, {0.15, 0, RotorOf(0)});
+  world.Start(kArea);
+  world.SetPresent(b, false);
+  world.SetTwist(a, {0.3, 0, 0});
+  for (int tick = 0; tick < 10; ++tick) world.Advance(kTick, 1);
+  EXPECT_NEAR(world.Poses().x[a], 0.15, 1e-9) << "it drives through the place of the other one";
+  EXPECT_EQ(world.Poses().x[b], 0.15);
+  world.SetTwist(a, {0, 0, 0});
+  world.SetPresent(b, true);
+  for (int tick = 0; tick < 100; ++tick) world.Advance(kTick, 1);
+  EXPECT_LT(DeepestOverlap(world), 1e-3) << "they part when it has come back";
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
-// Which process failed, as told from what each says of itself and how it ended.
+// Attribution of a failure from the reports and the ends of processes.
 #include "launcher/supervision/attribution.h"
 
 #include <gmock/gmock.h>
 #include <signal.h>
 
-#include "common/activity/exit_codes.h"
+#include "common/errors/exit_codes.h"
 
 namespace swarmanoid
 {
@@ -42,7 +42,7 @@ TEST(Attribution, OneThatEndsForAnotherIsAConsequence)
 TEST(Attribution, OneThatDiedIsReplacedAndOneThatSaysWhatIsWrongIsNot)
 {
   EXPECT_TRUE(MayBeReplaced(Killed(SIGKILL), Record(EndReason::kUnknown), false));
-  EXPECT_TRUE(MayBeReplaced(Killed(SIGKILL), Record(EndReason::kDone), false)) << "nobody may have heard that";
+  EXPECT_TRUE(MayBeReplaced(Killed(SIGKILL), Record(EndReason::kDone), false)) << "the end may be unheard";
   EXPECT_FALSE(MayBeReplaced(Exited(0), Record(EndReason::kDone), false));
   EXPECT_TRUE(MayBeReplaced(Exited(4), Record(EndReason::kDied), false));
   EXPECT_FALSE(MayBeReplaced(Exited(4), Record(EndReason::kFailed), false));
@@ -83,7 +83,7 @@ TEST(Attribution, WhoeverSaidWhatIsWrongIsNotStartedAgain)
   EXPECT_FALSE(MayBeReplaced(Exited(137), ActivityRecord(), false)) << "it was not one of our programs";
   for (const EndReason reason : {EndReason::kDone, EndReason::kFailed, EndReason::kInvalid, EndReason::kOthers})
     EXPECT_FALSE(MayBeReplaced(Exited(4), Record(reason), false));
-  // A usage error and an invalid file, even if the page does not say so.
+  // A usage error and an invalid file count, even if the page does not report them.
   for (const int code : {2, 3})
     for (const bool elsewhere : {false, true})
       EXPECT_FALSE(MayBeReplaced(Exited(code), Record(EndReason::kUnknown), elsewhere)) << code;

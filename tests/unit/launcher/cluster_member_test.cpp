@@ -105,7 +105,7 @@ TEST_F(ClusterMemberTest, OutputEndsWithItsProcessWhoeverElseHoldsItOpen)
   member.Collect(spawner);
   EXPECT_FALSE(member.OutputClosed());
   read_output();
-  EXPECT_EQ(kill(left_behind, 0), 0) << "nobody held the output open";
+  EXPECT_EQ(kill(left_behind, 0), 0) << "no process held the output open";
   EXPECT_TRUE(member.OutputClosed());
   kill(left_behind, SIGKILL);
 }

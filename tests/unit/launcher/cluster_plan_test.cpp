@@ -50,7 +50,7 @@ RunSettings Settings()
   return settings;
 }
 
-// A file of --hosts.
+// It makes a file for --hosts, which is removed with the object.
 class HostsFile
 {
 public:
@@ -267,7 +267,7 @@ TEST(ControllerHosts, MoreThanPayAreNoted)
   EXPECT_EQ(NoteAboutControllerHosts(1, 0, 2), "") << "one host is always there";
 }
 
-// Each pair of options that contradict each other, and the error for it.
+// The table has each pair of options that contradict each other, and the error for it.
 TEST(RunRequest, ContradictionsAreRefusedWithTheCure)
 {
   const auto error_of = [](const std::function<void(RunSettings&)>& change, const WatchFunction& watch = {})

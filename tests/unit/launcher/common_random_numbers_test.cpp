@@ -40,7 +40,7 @@ public:
     robot.Actuator<CCI_RangeAndBearingActuator>("range_and_bearing").SetMessage({});
     const auto ground = robot.Sensor<CCI_FootBotGroundSensor>("footbot_ground").GetAllSensorReadings();
     record[Place("ground")].assign(ground.begin(), ground.end());
-    // Nearest first: the order of packets says nothing.
+    // Packets are sorted by distance, since their order has no meaning.
     std::vector<double>& ranges = record[Place("ranges")];
     for (const auto& packet : robot.Sensor<CCI_RangeAndBearingSensor>("range_and_bearing").GetAllPackets())
       ranges.push_back(packet.range_m);
@@ -139,7 +139,7 @@ TEST(CommonRandomNumbers, AThirdRobotBesideChangesNothingBetweenTwo)
   for (const auto& [name, numbers] : expected)
   {
     if (name.find("ranges") == std::string::npos) continue;
-    // The third one stands farther.
+    // The third robot is farther away.
     EXPECT_TRUE(std::equal(numbers.begin(), numbers.end(), found.at(name).begin())) << name;
   }
 }

@@ -1,11 +1,11 @@
-// The suggestions of shells after `swarmanoid`.
+// Tests the suggestions of shells after `swarmanoid`.
 #include <gmock/gmock.h>
 
 #include <CLI/CLI.hpp>
 
 #include "common/run/run_settings.h"
+#include "launcher/command/completion.h"
 #include "launcher/command/sub_command.h"
-#include "launcher/completion.h"
 #include "test_folders.h"
 
 namespace swarmanoid

@@ -1,4 +1,5 @@
-// The session of an editor, with a page that only listens: requests, what is told after each, and the file on disk.
+// Tests the session of an editor, with a page that only listens: requests, the messages after each, and the file on
+// disk.
 #include "launcher/editor/edit_session.h"
 #include "common/space/space.h"
 

@@ -7,7 +7,7 @@
 
 #include "common/configuration/xml_reader.h"
 #include "common/space/space.h"
-#include "launcher/scratch_folder.h"
+#include "launcher/system/scratch_folder.h"
 #include "simulation/register_all.h"
 #include "simulation/simulator.h"
 #include "test_folders.h"
@@ -51,6 +51,29 @@ std::string RefusalOf(Act act)
   return test::MessageOf<std::invalid_argument>(act);
 }
 
+TEST(EditedExperiment, OffersTheControllersOfSamplesWithTheirDevices)
+{
+  EditedExperiment experiment = Open(File(""));
+  const ElementPath controllers = experiment.Add({}, "controllers", std::nullopt);
+  const auto offered = experiment.FormAt(controllers).children;
+  const auto found = std::ranges::find(offered, "footbot_diffusion", &ElementForm::Child::tag);
+  ASSERT_NE(found, offered.end());
+  EXPECT_THAT(found->description, HasSubstr("Library footbot_diffusion"));
+  const ElementPath controller = experiment.Add(controllers, "footbot_diffusion", std::nullopt);
+  const std::string id = experiment.NameOf(controller);
+  EXPECT_EQ(id, "footbot_diffusion_1");
+  const ElementPath second = experiment.Add(controllers, "footbot_diffusion", std::nullopt);
+  EXPECT_EQ(experiment.NameOf(second), "footbot_diffusion_2");
+  const ElementPath robot = experiment.Add(kArena, "footbot", Vector2(1, 1));
+  EXPECT_EQ(TreeOf(experiment.NodeAt(robot)).Value("controller"), id);
+  EXPECT_THAT(experiment.Mistakes(), testing::IsEmpty());
+  ASSERT_NE(experiment.GetExperiment(), nullptr);
+  EXPECT_EQ(experiment.GetExperiment()->controllers.size(), 2U);
+  EXPECT_EQ(experiment.GetExperiment()->controllers[0].sensors.size(), 1U);
+  while (experiment.Undo()) continue;
+  EXPECT_EQ(experiment.Text(), File(""));
+}
+
 TEST(EditedExperiment, PlacesWithoutTouchingAnythingElse)
 {
   EditedExperiment experiment = Open(File(kRobots));
@@ -62,7 +85,7 @@ TEST(EditedExperiment, PlacesWithoutTouchingAnythingElse)
            "      <orientation>0, 0, 90</orientation>\n    </footbot>\n    <footbot id='fb_2' position='2, 3, 0'/>\n"));
   ASSERT_NE(experiment.GetExperiment(), nullptr);
   EXPECT_EQ(experiment.GetExperiment()->entities[0].pose.position, Vector3(1.5, 0.25, 0));
-  // One step for both.
+  // Both are one step.
   EXPECT_EQ(*experiment.History().UndoName(), "place 2 entities");
   EXPECT_TRUE(experiment.Undo());
   EXPECT_EQ(experiment.Text(), File(kRobots));
@@ -108,6 +131,8 @@ TEST(EditedExperiment, AddsSectionsControllersAndDevices)
       HasSubstr("</footbot_proximity>\n        <footbot_light>\n          <implementation>generic_footbot_light"));
   EXPECT_EQ(experiment.Add(controllers, "footbot_diffusion", std::nullopt), (ElementPath{1, 1}));
   EXPECT_EQ(experiment.NameOf({1, 1}), "diffusion_1");
+  EXPECT_THAT(experiment.Mistakes(), testing::IsEmpty());
+  experiment.Remove({{1, 1, 1}});
   experiment.Add({1, 1}, "sensors", std::nullopt);
   experiment.Add({}, "experiment_functions", std::nullopt);
   for (const Diagnostic& mistake : experiment.Mistakes()) EXPECT_THAT(mistake.message, HasSubstr("librar"));
@@ -126,7 +151,7 @@ TEST(EditedExperiment, ShowsWhatIsWrongAndWhere)
   ASSERT_EQ(experiment.Mistakes().size(), 1U);
   EXPECT_EQ(experiment.Mistakes().front().location.Text(), "f.xml:9:24");
   EXPECT_EQ(experiment.PathAt(experiment.Mistakes().front().location), kSecond);
-  // It is drawn where it stands all the same.
+  // It is drawn at its position all the same.
   EXPECT_EQ(experiment.GetExperiment()->entities[1].pose.position, Vector3(1.05, 1, 0));
   EXPECT_EQ(CSwarmanoidSpace(*experiment.GetExperiment()).Size(), 2U);
   experiment.SetValue(kSecond, "controller", "none");
@@ -186,7 +211,7 @@ TEST(EditedExperiment, WritesOutADistributionWhereItStands)
   }
   EXPECT_THAT(experiment.Text(),
               HasSubstr("    <footbot id=\"fb_0\">\n      <controller>diffusion</controller>\n      <position>"));
-  // Before and behind it stands what stood there.
+  // The text before and after it is unchanged.
   const std::size_t begin = before.find("<distribute"), behind = before.size() - before.find("</distribute>") - 13;
   EXPECT_EQ(experiment.Text().substr(0, begin), before.substr(0, begin));
   EXPECT_EQ(experiment.Text().substr(experiment.Text().size() - behind), before.substr(before.size() - behind));

@@ -1,4 +1,4 @@
-// Whether processes are left, for tests of what starts and ends them.
+// Checks whether processes are left, for tests of their start and end.
 #pragma once
 
 #include <signal.h>
@@ -28,7 +28,7 @@ inline bool GroupRuns(pid_t group)
   return false;
 }
 
-// A killed process needs a moment.
+// A killed process takes a moment to disappear.
 inline bool GroupIsGone(pid_t group)
 {
   return test::Eventually([=] { return !GroupRuns(group); });

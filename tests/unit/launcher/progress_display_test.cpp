@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "common/activity/print_error.h"
+#include "common/errors/print_error.h"
 
 namespace swarmanoid
 {
@@ -52,6 +52,17 @@ TEST_F(ProgressDisplayTest, PlainLinesComeAtChangesAndNowAndThen)
             "starting, 4 processes\n"
             "running: tick 0 of 1000 (0 %), 10.0x real time, 4 processes\n"
             "running: tick 500 of 1000 (50 %), 10.0x real time, 5 s left, 4 processes\n");
+}
+
+TEST_F(ProgressDisplayTest, OtherWorkHasAShareAndATimeThatIsLeft)
+{
+  ProgressDisplay display(ProgressDisplay::Style::kTerminal, ends_[1]);
+  RunProgress progress{"reading", 0, 400, 0, 0, "", 0, false};
+  display.Show(progress, now_);
+  progress.tick = 100;
+  display.Show(progress, now_ + seconds(1));
+  display.Clear();
+  EXPECT_EQ(Written(), "\rreading: 0 %\x1b[K\rreading: 25 %, 3 s left\x1b[K\r\x1b[K");
 }
 
 TEST_F(ProgressDisplayTest, SaysWhoIsWaitedFor)

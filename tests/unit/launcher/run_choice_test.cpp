@@ -1,10 +1,12 @@
 // Which network a command uses that looks for a run.
-#include "launcher/run_choice.h"
+#include "launcher/command/run_choice.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include "common/bus/bus.h"
+#include "common/program/usage_error.h"
+#include "tests/world/message_of.h"
 
 namespace swarmanoid
 {
@@ -44,6 +46,16 @@ TEST(UseNetworkOf, KnowsNothingOfARunElsewhere)
   BusOptions options;
   UseNetworkOf(elsewhere, options);
   EXPECT_EQ(options.network_interface, "lo");
+}
+
+TEST(ChooseRun, ARunOnAnotherMachineIsTheNameAndTheDomainTogether)
+{
+  const RunChoice there = ChooseRun("no_run_here_has_this_name", 231);
+  EXPECT_EQ(there.experiment, "no_run_here_has_this_name");
+  EXPECT_EQ(there.domain, 231);
+  EXPECT_FALSE(there.server);
+  EXPECT_NE(test::MessageOf<UsageError>([] { ChooseRun("", 231); }).find("name the experiment"), std::string::npos);
+  EXPECT_THROW(ChooseRun("no_run_here_has_this_name", std::nullopt), UsageError);
 }
 
 }  // namespace

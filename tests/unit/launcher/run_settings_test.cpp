@@ -1,5 +1,6 @@
-// The table of run settings: what a command line may say, and the command lines of the processes that it is written to.
+// The table of run settings: the allowed command lines, and the command lines of processes that are written from it.
 #include "common/run/run_settings.h"
+#include "common/bus/addresses.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

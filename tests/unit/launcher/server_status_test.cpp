@@ -21,7 +21,7 @@ TEST(ServerStatus, ReadsEachKindOfLine)
   EXPECT_EQ(tick.tick, 12U);
   EXPECT_EQ(tick.max, 500U);
   EXPECT_EQ(tick.real_time_factor, 3.5);
-  const auto stall = std::get<ServerStall>(*ParseServerStatus("stalled controller_host 0 2.5"));
+  const auto stall = std::get<ServerStall>(*ParseServerStatus("stalled 2.5 controller_host 0"));
   EXPECT_EQ(stall.name, "controller_host 0");
   EXPECT_EQ(stall.seconds, 2.5);
   EXPECT_EQ(std::get<ServerError>(*ParseServerStatus("error all is lost")).text, "all is lost");
@@ -53,7 +53,7 @@ TEST(ServerStatus, WhatIsWrittenIsRead)
       ServerState{ServerState::kPaused, ""},
       ServerTick{412, 0, 0.1},
       ServerTick{~0ULL, ~0ULL, 1e-7},
-      ServerStall{"controller host 0 (runs the controller of fb 3)", 2},
+      ServerStall{2, "controller host 0 (runs the controller of fb 3)"},
       ServerWarning{"engine 'ground' at tick 5: the footbot 'fb' left the world at 1, 1, -300"},
       ServerError{"controller 'x' of robot 'y' failed: 5 of 6"},
       ServerLeft{"engine 'the ground'"},
@@ -89,8 +89,8 @@ TEST(ServerStatus, LeavesOtherLinesAlone)
                            "stalled",
                            "stalled host",
                            "stalled 2.5",
-                           "stalled host -1",
-                           "stalled host nan",
+                           "stalled -1 host",
+                           "stalled nan host",
                            "state running away",
                            "tick -1 2 3",
                            "tick 1 2 inf",

@@ -92,5 +92,35 @@ TEST(Showing, WhatIsAskedForIsShownBesideTheFilesOwnVisualisationsOrInsteadOfThe
   }
 }
 
+TEST(Showing, ParametersOfAVisualisationFollowItsKind)
+{
+  RegisterBuiltins();
+  const auto experiment = Loaded("<ahss-config><arena size='1,1,1' optimization='2D'/></ahss-config>");
+  const auto shown = WithShown(*experiment, {"image video=a&b.webm  every=2", "web allow_control=false", "web"}, true);
+  ASSERT_EQ(shown->visualisations.size(), 3U);
+  const auto parameter = [&](std::size_t k, const char* name)
+  { return TConfigurationTree(shown->visualisations[k].tree).Attribute(name); };
+  EXPECT_EQ(parameter(0, "video"), "a&b.webm");
+  EXPECT_EQ(parameter(0, "every"), "2");
+  EXPECT_EQ(parameter(1, "allow_control"), "false");
+  EXPECT_EQ(parameter(2, "allow_control"), "true");
+  const auto mistake = [&](const std::string& words) -> std::string
+  {
+    try
+    {
+      WithShown(*experiment, {words}, true);
+      return "none";
+    }
+    catch (const std::runtime_error& error)
+    {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(mistake("image film.webm"),
+            "--show: 'film.webm' of 'image film.webm' must be NAME=VALUE, as in --show \"image video=film.webm\"");
+  EXPECT_THAT(mistake("image vidio=film.webm"), testing::HasSubstr("did you mean 'video'"));
+  EXPECT_THAT(mistake("  "), testing::HasSubstr("--show: there is no renderer"));
+}
+
 }  // namespace
 }  // namespace swarmanoid

@@ -1,4 +1,4 @@
-// A run in one process that is steered through one of its visualisations, and what the visualisation is told.
+// A run in one process that is controlled through one of its visualisations, and the messages to the visualisation.
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -21,7 +21,7 @@ namespace
 using testing::HasSubstr;
 using testing::StartsWith;
 
-// Does what a test says, at every call.
+// Calls the function of the test at every call.
 class CScriptedRender : public CRender
 {
 public:
@@ -117,7 +117,7 @@ TEST_F(SteeringTest, AResetIsRefusedWhereNobodyWouldBeginAgain)
   const RunSummary summary = RunSingleProcess(*experiment_, options_);
   EXPECT_EQ(summary.ticks, 40U);
   EXPECT_FALSE(summary.reset);
-  EXPECT_THAT(refused, HasSubstr("nobody would start this run again"));
+  EXPECT_THAT(refused, HasSubstr("nothing would start this run again"));
 }
 
 TEST_F(SteeringTest, RequestsBeyondTheLimitsOfAMessageAreRefusedAndNotWrittenDown)
@@ -151,14 +151,14 @@ TEST_F(SteeringTest, MovesAreWrittenDownAndRepeatedWithTheSameHashes)
     Pose pose = setup.space.FindEntity("fb_3")->GetPose();
     pose.position += Vector3(0.1234567890123, -0.05, 0);
     setup.control->MoveEntity("fb_3", pose);
-    setup.control->MoveEntity("nobody", pose);
+    setup.control->MoveEntity("none", pose);
   };
   options_.event_log = (folder_ / "events.csv").string();
   options_.hash_log = (folder_ / "first").string();
   const std::uint64_t moved = RunSingleProcess(*experiment_, options_).hash;
   EXPECT_NE(moved, undisturbed);
   EXPECT_THAT(Read("events.csv"), StartsWith("tick,request,entity,numbers,from,number,when,check\n7,move,fb_3,"));
-  EXPECT_THAT(Read("events.csv"), Not(HasSubstr("nobody")));
+  EXPECT_THAT(Read("events.csv"), Not(HasSubstr("none")));
 
   CScriptedRender::on_draw = nullptr;
   options_.events = options_.event_log;
@@ -262,13 +262,13 @@ TEST_F(SteeringTest, NotesSayWhatCameOfARequest)
   std::vector<std::string> notes;
   CScriptedRender::on_draw = [&](const RenderSetup& setup)
   {
-    if (setup.space.GetTick() == 1) setup.control->MoveEntity("nobody", {});
+    if (setup.space.GetTick() == 1) setup.control->MoveEntity("none", {});
     notes.clear();
     for (const RunNote& note : setup.monitor->Notes())
       notes.push_back(fmt::format("{} {} {}", note.tick, note.done, note.text));
   };
   RunSingleProcess(*experiment_, options_);
-  EXPECT_THAT(notes, testing::ElementsAre("2 false move: there is no entity 'nobody'"));
+  EXPECT_THAT(notes, testing::ElementsAre("2 false move: there is no entity 'none'"));
 }
 
 TEST_F(SteeringTest, KeepsThePaceThatAVisualisationAsksFor)
@@ -288,7 +288,7 @@ TEST_F(SteeringTest, KeepsThePaceThatAVisualisationAsksFor)
   };
   const auto start = Clock::now();
   EXPECT_EQ(RunSingleProcess(*experiment_, options_).ticks, 40U);
-  // 39 intervals of 100 ms at 20 times real time.
+  // At 20 times real time, 39 intervals of 100 ms pass.
   EXPECT_GT(Clock::now() - start, std::chrono::milliseconds(190));
 }
 

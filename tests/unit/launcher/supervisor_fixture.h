@@ -1,4 +1,4 @@
-// Clusters of shell scripts that behave as the real programs do, and as broken ones do, for tests of the supervisor.
+// SupervisorTest: clusters of shell scripts that behave as the real programs do, or as broken ones.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -76,13 +76,13 @@ protected:
   std::string Mark(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }
   std::string Tell(const std::string& name) const { return "touch " + Mark(name) + "; "; }
   std::string Await(const std::string& name) const { return "until [ -e " + Mark(name) + " ]; do sleep 0.01; done; "; }
-  // Until the supervisor has seen that the server has ended.
+  // Waits until the supervisor has seen the end of the server.
   std::string AwaitEndOfServer() const
   {
     return "while kill -0 $(cat " + Mark("server") + ") 2>/dev/null; do sleep 0.01; done; ";
   }
   bool IsTold(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
-  // An hour passes for the supervisor, which has looked at all that it watches before the script goes on.
+  // An hour passes for the supervisor. It has looked at all its processes before the script continues.
   std::string LetAnHourPass() const { return Tell("an hour later") + Await("looked"); }
   Clock::time_point Now()
   {
@@ -95,13 +95,13 @@ protected:
   {
     return "echo state running; echo tick 7 100 2.5; " + Tell("running") + "exec sleep 600";
   }
-  // Ends at its tick once it is asked to.
+  // Returns a script that ends at its tick once it is asked to.
   std::string Stoppable() const
   {
     return "trap 'echo finished 8 2 00000000000000aa 0.3 1.5; kill $!; exit 0' INT; echo state running; sleep 600 & " +
            Tell("running") + "wait";
   }
-  // Sends signals to the test itself, each as soon as a script has told that name.
+  // Sends signals to the test itself, each when a script has reported that name.
   std::jthread PressAt(std::vector<std::pair<std::string, int>> presses) const
   {
     return std::jthread(
@@ -145,15 +145,15 @@ protected:
     return text;
   }
 
-  SignalDescriptor interrupts_;  // first: threads of the tests must not get the signals
+  SignalDescriptor interrupts_;  // constructed first, so that threads of the tests do not get the signals
   test::TemporaryFolder folder_;
   SupervisorTimes times_;
   unsigned retries_ = 0;
-  int looks_ = 0;  // at the clock, since an hour passed
+  int looks_ = 0;  // number of looks at the clock since an hour passed
   SystemSpawner spawner_;
   ClusterPlan plan_;
-  ClusterPlan last_plan_;                                               // when the last process was started
-  std::string program_;                                                 // of engines, instead of their scripts
+  ClusterPlan last_plan_;                                               // the plan when the last process was started
+  std::string program_;                                                 // program of engines, instead of their scripts
   std::map<std::string, std::pair<std::string, std::string>> scripts_;  // by name: the first process, and all others
   FileDescriptor screen_read_, screen_write_;
 };

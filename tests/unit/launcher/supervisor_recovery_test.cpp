@@ -116,6 +116,17 @@ TEST_F(SupervisorTest, OneThatIsLostIsKilledAndReplaced)
   EXPECT_FALSE(IsTold("came back"));
 }
 
+// The server was stopped while the worker said its good-bye, so the worker took it for dead, and it the worker.
+TEST_F(SupervisorTest, OneThatIsLostAfterItsEndIsReplaced)
+{
+  retries_ = 1;
+  AddServer("echo state running; " + Await("ended") + "sleep 0.1; echo lost engine_worker ground; " + Await("second") +
+            kFinishing);
+  Add("engine_worker ground", Tell("ended") + "exit 0");
+  ReplaceBy(Tell("second"));
+  EXPECT_EQ(Run().kind, ClusterOutcome::kFinished);
+}
+
 TEST_F(SupervisorTest, OneThatIsStoppedBeforeAnybodyKnowsItIsKilledAndReplaced)
 {
   retries_ = 1;

@@ -47,7 +47,7 @@ TEST_F(SupervisorTest, OneInterruptStopsAtATickAndKeepsTheResult)
   EXPECT_EQ(outcome.finished->ticks, 8U);
 }
 
-// The kernel and a shell both tell of a closed terminal.
+// Both the kernel and a shell report a closed terminal.
 TEST_F(SupervisorTest, ALostTerminalStopsAtATickAndKeepsTheResult)
 {
   AddServer(Stoppable());

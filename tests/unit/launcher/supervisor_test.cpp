@@ -1,4 +1,4 @@
-// The supervisor's verdict about a cluster: how it ended, and which process failed first.
+// Tests the supervisor's verdict about a cluster: how it ended, and which process failed first.
 #include "launcher/supervision/supervisor.h"
 
 #include "tests/unit/launcher/supervisor_fixture.h"

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 
 #include "common/run/run_settings.h"
+#include "launcher/command/control_words.h"
 #include "launcher/command/sub_command.h"
-#include "launcher/control_words.h"
 #include "launcher/template_files.h"
 #include "simulation/load.h"
 #include "tests/world/message_of.h"
@@ -76,6 +76,25 @@ TEST(ControlWords, ErrorsSayTheRightForm)
   EXPECT_THAT(ErrorOf({"move", "fb0", "1,2"}), HasSubstr("write move ENTITY X,Y,Z[,A,B,G]"));
   EXPECT_THAT(ErrorOf({"pause", "now"}), HasSubstr("'now'"));
   EXPECT_THAT(ErrorOf({"world", "remove", "fb0", "1,2,0"}), HasSubstr("write remove ENTITY"));
+}
+
+TEST(ControlWords, ARunThatGivesNoAnswerIsTold)
+{
+  EXPECT_THAT(WhyNoAnswer(std::nullopt, 0, false), HasSubstr("nothing is heard of it"));
+  EXPECT_THAT(WhyNoAnswer(std::nullopt, 7, false), HasSubstr("give the --key of this run"));
+  EXPECT_THAT(WhyNoAnswer(std::nullopt, 7, true), HasSubstr("give its --key instead of --insecure"));
+  RunStatus status;
+  status.tick = 12;
+  EXPECT_EQ(WhyNoAnswer(status, 0, false), "; it is at tick 12");
+  status.processes.resize(3);
+  status.processes[1].name = "engine 'ground'";
+  status.processes[1].late_s = 3;
+  status.processes[2].name = "controller host 0";
+  status.processes[2].late_s = 2;
+  status.processes[2].doing = "runs the controller of fb_3";
+  EXPECT_EQ(WhyNoAnswer(status, 7, false),
+            "; it is at tick 12 and waits for engine 'ground' since 3 s, controller host 0 since 2 s (runs the "
+            "controller of fb_3)");
 }
 
 TEST(ControlWords, MovesOfWorkersHaveMorePatience)

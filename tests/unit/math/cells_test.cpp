@@ -52,7 +52,8 @@ TEST(CellEdge, IsTheSmallestThatTheLimitAllows)
     const double edge = CellEdge(extent, smallest, most);
     EXPECT_GE(edge, smallest);
     EXPECT_LE(cells(edge), most);
-    // No much shorter one would do, but where the extent is a thin plate: its content tells little of its cells.
+    // A much shorter edge would give nearly as many cells as allowed, or more. A thin plate is an exception, since its
+    // volume says little about its cells.
     if (edge > smallest && extent[2] > edge)
     {
       EXPECT_GT(cells(edge / 1.7), most * 0.4);

@@ -16,7 +16,7 @@ TEST(Conversions, ADoubleThatPassesThroughFloatIsRounded)
   std::array<float, 2> rounded;
   std::array<double, 2> back;
   test::ThroughFloat(x.data(), rounded.data(), back.data());
-  // The floats next to 1/10 and 1/3, exactly.
+  // These are the floats next to 1/10 and 1/3, exactly.
   EXPECT_EQ(back[0], 13421773.0 / 134217728);
   EXPECT_EQ(back[1], 11184811.0 / 33554432);
 }

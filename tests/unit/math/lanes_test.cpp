@@ -41,7 +41,7 @@ TEST(Lanes, ComputeWhatEachNumberWould)
 {
   const std::vector<float> numbers = Numbers();
   const std::vector<double> doubles(numbers.begin(), numbers.end());
-  // From any address.
+  // Lanes can be loaded from any address.
   for (std::size_t k = 1; k + kLanes < numbers.size(); ++k)
   {
     const FloatLanes a = LoadLanes(&numbers[k]), b = LoadLanes(&numbers[k - 1]);

@@ -12,7 +12,7 @@ namespace
 
 TEST(Pose, EulerAnglesTurnAboutTheFixedAxesInOrder)
 {
-  // A quarter about x, then a quarter about z: y goes to z by the first, and stays there by the second.
+  // The pose turns a quarter about x, then a quarter about z: y goes to z by the first, and stays there by the second.
   const Quaternion q = QuaternionFromEuler({kPi / 2, 0, kPi / 2});
   EXPECT_TRUE((q * Vector3::UnitY()).isApprox(Vector3::UnitZ(), 1e-12));
   EXPECT_TRUE((q * Vector3::UnitX()).isApprox(Vector3::UnitY(), 1e-12));

@@ -26,8 +26,8 @@ TEST(Random, PhiloxGivesItsPublishedAnswers)
 
 TEST(Random, StreamsDifferInEachPartOfTheirName)
 {
-  const auto first = [](std::uint64_t seed, std::uint64_t who, std::uint64_t what, std::uint64_t tick,
-                        std::uint64_t whom) { return RandomStream(seed, who, what, tick, whom).Bits(); };
+  const auto first = [](std::uint64_t seed, std::uint64_t entity, std::uint64_t purpose, std::uint64_t tick,
+                        std::uint64_t other) { return RandomStream(seed, entity, purpose, tick, other).Bits(); };
   const std::uint32_t reference = first(1, 2, 3, 4, 5);
   EXPECT_EQ(first(1, 2, 3, 4, 5), reference);
   constexpr std::uint64_t kHigh = 1ULL << 32;
@@ -60,7 +60,7 @@ TEST(Random, NearNamesNeverDrawTheSame)
       for (std::uint64_t tick = 0; tick < 20; ++tick)
       {
         draw({key, tick});
-        for (const std::uint64_t whom : names) draw({key, tick, whom});
+        for (const std::uint64_t partner : names) draw({key, tick, partner});
         for (std::uint64_t part = 0; part < 16; ++part) draw({key, tick, StreamPart(names[0], part)});
         for (std::uint64_t part = 0; part < 16; ++part) draw({key, tick, StreamPart(0, part)});
       }

@@ -65,7 +65,7 @@ enum class Spread
   kPowersOfBothSigns
 };
 
-// In the first line of each function stand the bounds of docs/determinism.md: units in the last place.
+// The first line of each function has the bounds of docs/determinism.md, in units in the last place.
 struct Function
 {
   const char* name;
@@ -190,7 +190,7 @@ TEST(ReproducibleMath, ComesBeforeLibm)
 #if __LDBL_MANT_DIG__ == 113
     if (const std::string text = name; text == "tanl" || text == "expl" || text == "cacosl") continue;  // libm's own
 #endif
-    // Sanitizers stand before these, and call ours.
+    // Sanitizers intercept these functions, and call ours.
     if (FileOf(dlsym(RTLD_DEFAULT, name)).find("san.so") != std::string::npos) continue;
     void* const own = dlvsym(RTLD_DEFAULT, name, "SWARMANOID_1");
     const bool only_for_others =
@@ -442,7 +442,8 @@ TEST(ReproducibleMath, SineAndCosineTogetherAreThoseApart)
   }
 }
 
-// A hash over the results of every function. A change of it changes the results of experiments: the changelog says so.
+// Compares a hash over the results of every function. A change of it changes the results of experiments, so the
+// changelog must mention it.
 TEST(ReproducibleMath, HasTheBitsThatItAlwaysHad)
 {
   std::uint64_t hash = 14695981039346656037ULL;

@@ -105,7 +105,8 @@ TEST(Distribute, KeepsGrippersApart)
   }
 }
 
-// Two engines that share the robots of one <distribute> between them, in the order of their numbers or of their places.
+// Returns an experiment with two engines that share the robots of one <distribute>, in the order of their numbers or of
+// their positions.
 std::unique_ptr<Experiment> Ordered(const std::string& order)
 {
   return Loaded(
@@ -140,7 +141,7 @@ TEST(Distribute, InTheOrderOfTheirPlacesNeighboursStandTogetherAndNothingElseCha
     EXPECT_EQ(poses.at(entity.id).orientation.coeffs(), entity.pose.orientation.coeffs()) << entity.id;
   }
   for (std::size_t i = 1; i <= 900; ++i) EXPECT_EQ(by_number->entities[i].id, "fb_" + std::to_string(i - 1));
-  // 900 robots, 2 m apart: from each to the next one, not across the arena.
+  // There are 900 robots, 2 m apart: the distances are from each to the next one, not across the arena.
   EXPECT_LT(WayAlong(by_place->entities), 900 * 3.0);
   EXPECT_GT(WayAlong(by_number->entities), 900 * 20.0);
 }

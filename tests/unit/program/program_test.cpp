@@ -1,8 +1,9 @@
-// The frame around every program: which exit code an end has. Launcher and scripts tell ends apart by it.
+// The exit codes of programs, by which the launcher and scripts distinguish ends.
 #include "common/program/program.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -11,10 +12,11 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "common/activity/exit_codes.h"
 #include "common/configuration/configuration_tree.h"
+#include "common/errors/exit_codes.h"
 #include "common/program/help_text.h"
 #include "common/program/options.h"
+#include "common/program/standard_output.h"
 #include "common/program/usage_error.h"
 
 namespace swarmanoid
@@ -113,6 +115,22 @@ TEST(ProgramDeathTest, OpensNoFileInThePlaceOfItsOutput)
                   },
                   opened)),
               testing::ExitedWithCode(0), "");
+}
+
+TEST(TerminalWidth, IsKnownOfATerminalThatTellsIt)
+{
+  const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+  ASSERT_GE(terminal, 0);
+  winsize size{};
+  ASSERT_EQ(ioctl(terminal, TIOCSWINSZ, &size), 0);
+  EXPECT_FALSE(TerminalWidth(terminal));
+  size.ws_col = 97;
+  ASSERT_EQ(ioctl(terminal, TIOCSWINSZ, &size), 0);
+  EXPECT_EQ(TerminalWidth(terminal).value_or(0), 97U);
+  close(terminal);
+  const int file = open("/dev/null", O_RDONLY);
+  EXPECT_FALSE(TerminalWidth(file));
+  close(file);
 }
 
 TEST(Help, LinesAreBrokenAtBlanksAndNoWordIsLost)

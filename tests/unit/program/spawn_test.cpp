@@ -1,4 +1,4 @@
-// The things that a started program inherits from its parent, and those that it does not.
+// A started program inherits only what it is given.
 #include "common/program/spawn.h"
 
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-// The control loop on a clock of its own, with drivers and a controller that write down what happens.
+// The control loop with its own clock, and with drivers and a controller that record events.
 #include "real_robot/control_loop.h"
 
 #include <gmock/gmock.h>

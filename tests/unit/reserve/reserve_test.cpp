@@ -24,7 +24,7 @@ using ::testing::HasSubstr;
 
 Pose At(double x, double y, double z = 0) { return {{x, y, z}, Quaternion::Identity()}; }
 
-// Does at each tick what a test says.
+// Calls the function of the test at each tick.
 class Script : public CExperimentFunctions
 {
 public:
@@ -128,7 +128,7 @@ TEST_P(Reserve, RobotsJoinDriveAndLeave)
   EXPECT_FALSE(space.IsPresent(late.GetIndex()) && space.GetTick() < 20);
   EXPECT_EQ(Feeler::felt.count("late_0"), 0U);
   Run(simulator, 19);
-  // 0.1 m/s for 1.9 s; wheels of dynamic engines start more slowly.
+  // It drives at 0.1 m/s for 1.9 s; wheels of dynamic engines start more slowly.
   EXPECT_NEAR(late.GetPosition().x(), 2.19, 0.03);
   EXPECT_EQ(Feeler::felt["late_0"].steps, 19U);
   Run(simulator, 20);
@@ -184,7 +184,7 @@ TEST_P(Reserve, BodiesThatAreAddedPushBackAndThoseThatWaitDoNot)
   const CSwarmanoidSpace& space = simulator.GetSpace();
   EXPECT_GT(space.FindEntity("prey_1")->GetPosition().x(), 1.55) << "the robot drove through the prey";
   EXPECT_LT(space.FindEntity("fb")->GetPosition().x(), space.FindEntity("prey_1")->GetPosition().x() - 0.15);
-  // Those that wait stay exactly where they were put at the start.
+  // Waiting entities stay exactly where they were put at the start.
   for (const char* id : {"prey_0", "late_0", "late_1", "box_0"})
   {
     const CSwarmanoidSpaceEntity& entity = *space.FindEntity(id);
@@ -209,7 +209,7 @@ TEST_F(Reserve, MistakesAreNamed)
     space.AddEntity("late", At(4, 4));
     keep([&] { space.AddEntity("late", At(5, 5)); });
     keep([&] { space.AddEntity("prey", At(-1e9, 5)); });
-    // A footbot of 0.085 m and a prey of 0.1 m.
+    // The footbot has a radius of 0.085 m, and the prey one of 0.1 m.
     EXPECT_TRUE(space.IsFree("prey", At(3.186, 3)));
     EXPECT_FALSE(space.IsFree("prey", At(3.175, 3)));
     keep([&] { space.AddEntity("prey", At(3.175, 3)); });
@@ -233,6 +233,32 @@ TEST_F(Reserve, MistakesAreNamed)
           "0, 0 to 10, 10, 2",
           "'prey_0' does not fit at 3.175, 3, 0: the footbot 'late_0' stands there, at 3, 3, 0; choose a free place",
           "'box_0' does not fit at 9, 6, 0.1: the wall 'wall' stands there, at 9, 5, 0.5; choose a free place"));
+}
+
+TEST_P(Reserve, NobodyIsMovedIntoOthersUnlessTheFunctionsAllowItAndThenTheyPart)
+{
+  std::string refused, refused_together;
+  Script::at_tick = [&](SpaceEditor& space)
+  {
+    if (space.GetSpace().GetTick() != 1) return;
+    space.AddEntity("late", At(5, 7));
+    refused = test::MessageOf<std::invalid_argument>([&] { space.MoveEntity("late_0", At(8.97, 5)); }, "none");
+    refused_together =
+        test::MessageOf<std::invalid_argument>([&] { space.MoveCompound("late_0", At(8.97, 5)); }, "none");
+    EXPECT_EQ(space.GetSpace().FindEntity("late_0")->GetPosition(), Vector3(5, 7, 0));
+    const Vector3 at = space.GetSpace().FindEntity("fb")->GetPosition();
+    space.MoveEntity("late_0", At(at.x() + 0.02, at.y()), EOccupied::kOverlap);
+  };
+  const auto experiment = Load(GetParam());
+  CSimulator simulator(*experiment);
+  Run(simulator, 60);
+  EXPECT_EQ(refused,
+            "'late_0' does not fit at 8.97, 5, 0: the wall 'wall' stands there, at 9, 5, 0.5; choose a free place");
+  EXPECT_EQ(refused_together, refused);
+  const CSwarmanoidSpace& space = simulator.GetSpace();
+  const Vector3 apart = space.FindEntity("late_0")->GetPosition() - space.FindEntity("fb")->GetPosition();
+  // With heights one may end on top of the other.
+  EXPECT_GT(apart.norm(), std::string(GetParam()) == "dynamics3d" ? 0.13 : 0.169);
 }
 
 TEST_F(Reserve, QueriesFindOnlyWhatIsInTheArena)

@@ -105,7 +105,7 @@ TEST(JoinedDatagrams, WhatCannotBeJoinedIsLeft)
   EXPECT_TRUE(is_refused(first, of_another));
   EXPECT_TRUE(is_refused(first, Message(2, 40, false))) << "statistics at one end alone";
   EXPECT_TRUE(is_refused(first, Bytes{'R', 'T'}));
-  // A last submessage that has all that is left tells no length, and nothing may follow it.
+  // A last submessage that extends to the end states no length, and nothing may follow it.
   Bytes endless = Header();
   Add(endless, kData, 0);
   endless.resize(endless.size() + 40);

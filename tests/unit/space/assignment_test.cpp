@@ -174,7 +174,7 @@ TEST(Assignment, ContiguousValuesAreOneCopy)
   EXPECT_EQ(assignment.engines[0].command_copies.size(), 4U);
 }
 
-// However they stand in the file: a square of robots is halved, and its halves across the longer side.
+// For any order of the file, a square of robots is halved, and its halves are cut across the longer side.
 TEST(Assignment, HostsHaveRobotsThatStartNearOneAnother)
 {
   Experiment experiment = Drivers(64);
@@ -197,7 +197,7 @@ TEST(Assignment, HostsHaveRobotsThatStartNearOneAnother)
   }
 }
 
-// Those of a row that start in order, and have changed their order since.
+// The robots start in the order of a row, and have changed their order since.
 TEST(Assignment, RobotsAreDealtByWhereTheyAre)
 {
   Experiment experiment = Drivers(6);

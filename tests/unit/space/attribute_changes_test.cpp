@@ -1,4 +1,4 @@
-// Slots ascend and stand once, in whatever order devices and engines add them.
+// Slots ascend and occur once, in any order in which devices and engines add them.
 #include "common/messages/attribute_changes.h"
 
 #include <gmock/gmock.h>
@@ -55,7 +55,7 @@ TEST(AttributeChanges, WhoReportsLastDecidesOnASlot)
   AttributeChanges changes;
   ReportChanges(std::vector<std::uint32_t>{1, 2, 3}, std::vector<double>{10, 21, 31}, known, changes);
   EXPECT_THAT(changes.slots, ElementsAre(2, 3));
-  // It leaves slot 2 as the space has it, and says nothing of slot 3.
+  // It leaves slot 2 as in the space, and does not change slot 3.
   ReportChanges(std::vector<std::uint32_t>{0, 1, 2}, std::vector<double>{0, 11, 20}, known, changes);
   AttributeOrder().Apply(changes);
   EXPECT_THAT(changes.slots, ElementsAre(1, 2, 3));

@@ -16,6 +16,7 @@
 #include "common/messages/assignment.h"
 #include "common/plugins/elf_file.h"
 #include "common/plugins/library.h"
+#include "common/serialisation/save_check.h"
 #include "tests/world/message_of.h"
 #include "tests/world/small_experiment.h"
 #include "tests/world/temporary_folder.h"
@@ -134,7 +135,7 @@ TEST_F(CheckpointFile, OfAnotherBuildIsRefusedUnlessAskedFor)
   Checkpoint checkpoint = SmallCheckpoint();
   checkpoint.origin.libraries.front().build = "another";
   WriteCheckpoint(path_, checkpoint);
-  EXPECT_THAT(Refusal(), HasSubstr("it was taken with another build of Swarmanoid; go on with that one, start anew "
+  EXPECT_THAT(Refusal(), HasSubstr("it was taken with another build of Swarmanoid; go on with that one, start again "
                                    "with this one, or let --any-build take it"));
   EXPECT_EQ(Refusal({1, true}), "");
 }
@@ -151,6 +152,18 @@ TEST_F(CheckpointFile, IsRestoredIntoALongerRunAndIntoNoOtherOne)
               testing::ThrowsMessage<std::runtime_error>(HasSubstr("it is of another experiment")));
 }
 
+TEST(Fingerprints, DependNeitherOnTheLengthNorOnTheFolderOfTheFiles)
+{
+  const auto of = [](const char* framework)
+  {
+    Experiment experiment;
+    experiment.effective_xml = fmt::format("<ahss-config><framework>{}</framework></ahss-config>", framework);
+    return FingerprintOf(experiment);
+  };
+  EXPECT_EQ(of("<maxclock>10</maxclock><folder>/here</folder>"), of("<maxclock>20</maxclock><folder>there</folder>"));
+  EXPECT_NE(of("<seed>1</seed><folder>/here</folder>"), of("<seed>2</seed><folder>/here</folder>"));
+}
+
 // Makes an experiment of `robots` robots.
 Experiment ExperimentOf(std::size_t robots)
 {
@@ -164,14 +177,14 @@ Experiment ExperimentOf(std::size_t robots)
 SavedPart HostPart(std::size_t host, const HostState& state)
 {
   ByteWriter bytes;
-  Write(state, bytes);
+  WriteFields(bytes, state);
   return {HostName(host), bytes.Bytes()};
 }
 
 HostState StateOf(const Checkpoint& checkpoint, std::size_t host)
 {
   HostState state;
-  checkpoint.LoadPart(HostName(host), [&](ByteReader& bytes) { state = ReadHostState(bytes); });
+  checkpoint.LoadPart(HostName(host), [&](ByteReader& bytes) { state = ReadFields<HostState>(bytes); });
   return state;
 }
 
@@ -275,6 +288,15 @@ TEST(LibraryBuilds, SwarmanoidIsAllOfItsLibrariesThatTheStateDependsOn)
     ++looked_at;
   }
   EXPECT_GT(looked_at, 5U);
+}
+
+TEST(TrySaving, TellsBeforeTheRunThatARoleCannotBeSaved)
+{
+  struct Unsavable
+  {
+    void SaveState(ByteWriter&) const { throw std::runtime_error("its controller cannot be saved"); }
+  };
+  EXPECT_EQ(test::MessageOf<std::runtime_error>([] { TrySaving(Unsavable()); }), "its controller cannot be saved");
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ protected:
   }
 };
 
-// 10^5 random moves in all: points wander, also over the border of the arena, stand on borders of cells, and meet.
+// Points make 10^5 random moves. They also cross the border of the arena, lie on borders of cells, and meet.
 TEST_P(PositionalIndexTest, AnswersAsBruteForceWhilePointsMove)
 {
   const Vector3 arena(20, 15, 4);
@@ -155,17 +155,38 @@ TEST_P(PositionalIndexTest, ACoordinateThatIsNotANumberIsNeverFound)
   EXPECT_EQ(found, (std::vector<std::uint32_t>{0}));
 }
 
+TEST_P(PositionalIndexTest, ABoxContainsItsFaces)
+{
+  const Vector3 low(1, 2, 0.5), high(3, 5, 1.5);
+  const Vector3 middle = (low + high) / 2;
+  Cloud cloud;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const Vector3& face : {low, high})
+    {
+      Vector3 point = middle;
+      point[axis] = face[axis];
+      cloud.x.push_back(point.x());
+      cloud.y.push_back(point.y());
+      cloud.z.push_back(point.z());
+    }
+  const auto index = Make({10, 10, 2}, 6);
+  index->Update(cloud.Arrays());
+  std::vector<std::uint32_t> found;
+  index->FindInBox(low, high, found);
+  EXPECT_EQ(found, (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5}));
+}
+
 INSTANTIATE_TEST_SUITE_P(Arrangements, PositionalIndexTest, testing::Values("flat", "layered", "octree"),
                          [](const auto& param) { return std::string(param.param); });
 
-// The worlds of docs/architecture.md, "Cost of the space", with 10,000 entities. The measurements stand there.
+// The worlds are those of docs/architecture.md, "Cost of the space", with 10,000 entities. The measurements are there.
 TEST(PositionalIndex, EachWorldOfTheCostTableHasItsQuickestArrangement)
 {
   constexpr std::size_t kMany = 10'000;
   EXPECT_STREQ(MakePositionalIndex(SpaceOptimization::k2D, {100, 100, 1}, kMany)->Name(), "flat grid");
   EXPECT_STREQ(MakePositionalIndex(SpaceOptimization::k3D, {60, 60, 22}, kMany)->Name(), "layered grid");
   EXPECT_STREQ(MakePositionalIndex(SpaceOptimization::k3D, {10'000, 10'000, 100}, kMany)->Name(), "oct-tree");
-  // A few eyebots in a hall, and very few in a large one.
+  // There are a few eyebots in a hall, and very few in a large one.
   EXPECT_STREQ(MakePositionalIndex(SpaceOptimization::k3D, {60, 60, 22}, 100)->Name(), "layered grid");
   EXPECT_STREQ(MakePositionalIndex(SpaceOptimization::k3D, {200, 200, 22}, 100)->Name(), "oct-tree");
 }

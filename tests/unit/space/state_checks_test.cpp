@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <limits>
 #include <type_traits>
 
@@ -102,6 +103,14 @@ TEST_F(StateChecks, OrientationsHaveNormOne)
   EXPECT_EQ(MistakeOfPoses(), "");
   poses[6 * count + 2] = 0;
   EXPECT_THAT(MistakeOfPoses(), HasSubstr("an orientation of norm 0 "));
+  // Each of the four parts counts once: one of them alone must be 1 or -1.
+  for (std::size_t part = 3; part < 7; ++part)
+    for (const double value : {-1.0, std::sqrt(0.5)})
+    {
+      for (std::size_t k = 3 * count; k < 7 * count; ++k) poses[k] = k / count == part ? value : 0;
+      const std::string mistake = MistakeOfPoses();
+      EXPECT_EQ(mistake.find("has an orientation of norm 0.707") != std::string::npos, value > 0) << part << mistake;
+    }
 }
 
 TEST_F(StateChecks, PosesMustBeAsManyAsThereAreEntities)
@@ -197,7 +206,7 @@ TEST_F(StateChecks, PresenceIsPartOfTheStateBesideThePose)
   EXPECT_FALSE(space.IsPresent(3));
   EXPECT_NE(space.Hash(), all);
 
-  // Wherever it is said to be.
+  // The check does not depend on the position.
   space.SetPose(4, {{-9e4, 0, 0}, Quaternion::Identity()});
   EXPECT_TRUE(space.IsPresent(4));
 

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <octomap/ColorOcTree.h>
+#include <octomap/OcTreeStamped.h>
 #include <octomap/octomap.h>
 #include <png.h>
 #include <zlib.h>
@@ -23,7 +25,7 @@ namespace swarmanoid
 namespace
 {
 
-// A real corridor, part of Debian's liboctomap-dev.
+// It is a real corridor, part of Debian's liboctomap-dev.
 constexpr const char* kBuilding = "/usr/share/doc/liboctomap-dev/examples/data/geb079.bt";
 
 class TemporaryFile
@@ -264,6 +266,14 @@ TEST(HeightTerrain, GreyIsHeightInProportionInAnyKindOfPicture)
   EXPECT_THAT(heights(8), near({0, 10, 0, 0, 0, 0, 0, 10}));
 }
 
+TEST(HeightTerrain, APictureOfASingleColumnIsRefused)
+{
+  TemporaryFile file("thin.png");
+  WritePicture(file.Path(), 1, PNG_COLOR_TYPE_GRAY, 8, {0, 255});
+  EXPECT_EQ(test::MessageOf<std::runtime_error>([&] { HeightTerrain terrain(file.Path(), 1, 1, 1); }),
+            "the PNG '" + file.Path() + "' must have at least 2 by 2 pixels");
+}
+
 TEST(HeightTerrain, FilesThatAreNoPicturesAreRefusedByName)
 {
   EXPECT_THROW(HeightTerrain("/nowhere/hills.png", 1, 1, 1), std::runtime_error);
@@ -303,7 +313,7 @@ TEST(RoughTerrain, IsMadeFromItsNumbersAlone)
   EXPECT_NE(test::TextOf(first.Path()), test::TextOf(other.Path()));
 }
 
-// OctoMap as Debian builds it tells on standard error what it does.
+// OctoMap as built by Debian prints its actions on standard error.
 TEST(RoughTerrain, IsMadeAndReadInSilence)
 {
   TemporaryFile file("silent.bt");
@@ -371,9 +381,10 @@ TEST(RoughTerrain, RefusesNumbersThatMakeNone)
 }
 
 // A wall of cells of 0.1 m, 0.2 m thick at x = 2, from y = 0 to 2 and up to 0.5 m; .ot with probabilities, .bt without.
+template <class Map = octomap::OcTree>
 void WriteWall(const std::string& path)
 {
-  octomap::OcTree map(0.1);
+  Map map(0.1);
   for (int x = 20; x < 22; ++x)
     for (int y = 0; y < 20; ++y)
       for (int z = 0; z < 5; ++z)
@@ -381,6 +392,7 @@ void WriteWall(const std::string& path)
           map.updateNode(octomap::point3d(static_cast<float>((x + 0.5) * 0.1), static_cast<float>((y + 0.5) * 0.1),
                                           static_cast<float>((z + 0.5) * 0.1)),
                          true);
+  if constexpr (std::is_same_v<Map, octomap::ColorOcTree>) map.integrateNodeColor(2.05F, 0.05F, 0.05F, 255, 0, 127);
   if (path.ends_with(".ot"))
     map.write(path);
   else
@@ -392,14 +404,25 @@ TEST(VoxelTerrain, BothKindsOfOctoMapFilesHoldTheSameGround)
   TemporaryFile binary("wall.bt"), full("wall.ot");
   WriteWall(binary.Path());
   WriteWall(full.Path());
-  const VoxelTerrain a(binary.Path()), b(full.Path());
-  EXPECT_EQ(a.Low(), b.Low());
-  EXPECT_EQ(a.High(), b.High());
-  RandomStream random(8, 0, 0, 0);
-  for (int k = 0; k < 2000; ++k)
+  // Maps with colours or times have the same ground.
+  TemporaryFile coloured("coloured.ot"), coloured_binary("coloured.bt"), stamped("stamped.ot"),
+      stamped_binary("stamped.bt");
+  WriteWall<octomap::ColorOcTree>(coloured.Path());
+  WriteWall<octomap::ColorOcTree>(coloured_binary.Path());
+  WriteWall<octomap::OcTreeStamped>(stamped.Path());
+  WriteWall<octomap::OcTreeStamped>(stamped_binary.Path());
+  const VoxelTerrain a(binary.Path());
+  for (const TemporaryFile* other : {&full, &coloured, &coloured_binary, &stamped, &stamped_binary})
   {
-    const Vector3 point(random.Uniform(1.5, 2.5), random.Uniform(-0.5, 2.5), random.Uniform(-0.2, 0.7));
-    ASSERT_EQ(a.IsSolid(point), b.IsSolid(point)) << point.transpose();
+    const VoxelTerrain b(other->Path());
+    EXPECT_EQ(a.Low(), b.Low());
+    EXPECT_EQ(a.High(), b.High());
+    RandomStream random(8, 0, 0, 0);
+    for (int k = 0; k < 2000; ++k)
+    {
+      const Vector3 point(random.Uniform(1.5, 2.5), random.Uniform(-0.5, 2.5), random.Uniform(-0.2, 0.7));
+      ASSERT_EQ(a.IsSolid(point), b.IsSolid(point)) << other->Path() << ": " << point.transpose();
+    }
   }
 }
 

@@ -85,7 +85,7 @@ TEST_F(Drawings, AreMadeOnceForAStateThatSomebodyLooksAt)
   SpaceServer& server = Server();
   server.Advance({}, {});
   server.Advance({}, {});
-  EXPECT_EQ(told.draws, 0) << "nobody looks";
+  EXPECT_EQ(told.draws, 0) << "no viewer";
   EXPECT_TRUE(server.Space().GetDrawing().IsEmpty());
   server.Draw();
   server.Draw();
@@ -189,7 +189,7 @@ TEST_F(Drawings, NumbersThatCannotBeDrawnAreRefused)
   const Vector3 two[] = {{0, 0, 0}, {1, 0, 0}};
   EXPECT_THROW(drawing.Polygon(two), std::invalid_argument);
   EXPECT_TRUE(drawing.IsEmpty());
-  // Cut between two characters.
+  // The text is cut between two characters.
   std::string text(Drawing::kLongestText - 1, 'a');
   drawing.Text({0, 0, 0}, text + "é");
   EXPECT_EQ(drawing.texts[0], text);
@@ -209,7 +209,7 @@ TEST_F(Drawings, KeysAndSelectionsComeInTheirOrder)
               ElementsAre("press I", "select fb", "release I", "deselect fb", "select other", "deselect other"));
   EXPECT_THROW(Server().PressKey("i", true), std::invalid_argument);
   EXPECT_THROW(Server().PressKey("", true), std::invalid_argument);
-  EXPECT_THROW(Server().Select("nobody"), std::invalid_argument);
+  EXPECT_THROW(Server().Select("none"), std::invalid_argument);
 }
 
 TEST_F(Drawings, WithoutFunctionsThereIsNobodyForKeys)
@@ -246,7 +246,7 @@ TEST_F(Asked, KeysAreEventsThatCanBeRepeated)
     Ask(control, {"press", {{"key", "M"}}});
     Ask(control, {"select", {{"entity", "fb"}}});
     Ask(control, {"press", {{"key", "nothing"}}});
-    Ask(control, {"select", {{"entity", "nobody"}}});
+    Ask(control, {"select", {{"entity", "none"}}});
     Ask(control, {"deselect"});
   }
   EXPECT_THAT(done_, ElementsAre("key M pressed at tick 0", "selected 'fb' at tick 0", "selected none at tick 0"));

@@ -1,4 +1,4 @@
-// Logs of events, whole, cut short and damaged; and logs of hashes that a run goes on with.
+// Logs of events, complete, cut short and damaged; and logs of hashes that a resumed run continues.
 #include "space_server/event_log.h"
 
 #include <fstream>

@@ -102,7 +102,7 @@ TEST_F(SurroundingsTest, HaveTheAttributesOfThoseAlone)
   EXPECT_THAT(Part().attributes.slots, ElementsAre(space_.GetEntity(2).SlotOf("beacon")));
 }
 
-// Its changes of the ticks before were not told.
+// Its changes in earlier ticks were not sent.
 TEST_F(SurroundingsTest, TellAllAttributesOfWhoComesIn)
 {
   Part();
@@ -134,7 +134,7 @@ TEST_F(SurroundingsTest, TellThePoseOfWhoComesInAgainAtTheSamePlace)
 TEST_F(SurroundingsTest, SearchAgainOnceSomebodyHasLeftTheMargin)
 {
   Part();
-  Put(5, 4.8);  // out of reach, whatever the search says
+  Put(5, 4.8);  // out of reach, even if the search includes it
   Part();
   Put(5, 3.9);
   EXPECT_THAT(NearOf(Part()), ElementsAre(0, 1, 2, 3, 4, 5));

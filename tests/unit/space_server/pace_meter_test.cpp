@@ -1,4 +1,4 @@
-// PaceMeter, on a clock of the test.
+// Tests PaceMeter, on a clock of the test.
 #include "space_server/pace_meter.h"
 
 #include <gtest/gtest.h>

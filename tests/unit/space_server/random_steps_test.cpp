@@ -1,4 +1,4 @@
-// Experiment functions draw numbers of their own in each step, which go on within it.
+// Experiment functions draw other numbers in each step, and consecutive ones within a step.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace swarmanoid
 namespace
 {
 
-// The drawn numbers by id, step and tick.
+// The map has the drawn numbers by id, step and tick.
 std::map<std::string, std::vector<double>> drawn;
 
 class CDrawingFunctions : public CExperimentFunctions

@@ -1,4 +1,4 @@
-// A run whose space server has died goes on, wherever it died.
+// A run whose space server has died at any point is resumed.
 #include "space_server/cluster/restart_point.h"
 
 #include <unistd.h>
@@ -26,7 +26,7 @@ Experiment FourRobots()
 SavedPart HostPart(std::size_t host, std::map<std::uint32_t, std::string> robots)
 {
   ByteWriter bytes;
-  Write(HostState{{}, std::move(robots)}, bytes);
+  WriteFields(bytes, HostState{{}, std::move(robots)});
   return {HostName(host), bytes.Bytes()};
 }
 
@@ -43,7 +43,7 @@ protected:
   RunSettings settings_;
 };
 
-// The server said which hosts have the robots now, and died before it wrote what these remember.
+// The server wrote the new hosts of the robots, and died before it wrote their saved states.
 TEST_F(ContinuationTest, WhatNewHostsRememberIsWrittenIfTheServerDiedBefore)
 {
   const HostTable first{2, {0, 0, 1, 1}}, second{2, {0, 1, 0, 1}};
@@ -83,7 +83,7 @@ TEST_F(ContinuationTest, WhatNewHostsRememberIsWrittenIfTheServerDiedBefore)
     const auto checkpoint = JournalReader(file).CheckpointAt(10, PartsOf(experiment_, 2), 1);
     ASSERT_TRUE(checkpoint);
     std::map<std::uint32_t, std::string> robots;
-    checkpoint->LoadPart(HostName(1), [&](ByteReader& bytes) { robots = ReadHostState(bytes).robots; });
+    checkpoint->LoadPart(HostName(1), [&](ByteReader& bytes) { robots = ReadFields<HostState>(bytes).robots; });
     EXPECT_EQ(robots, (std::map<std::uint32_t, std::string>{{1, "b"}, {3, "d"}}));
     // A second time there is nothing to write.
     EXPECT_EQ(journal.Places().size() - before, again == 0 ? 5U : 0U);

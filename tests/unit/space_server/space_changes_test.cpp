@@ -1,4 +1,4 @@
-// The entities that block the position of an added entity.
+// Tests which entities block the position of an added entity.
 #include "space_server/space_changes.h"
 
 #include <gmock/gmock.h>
@@ -94,7 +94,8 @@ TEST_F(InTheWay, NobodyWhoWaitsAndNothingWithoutABody)
   EXPECT_EQ(At("a", WaitingPose(experiment_.entities[1], 1).position), "");
 }
 
-// A plank of 2 m x 0.1 m and a prey of 0.1 m: along the plank it is taken, beside it is free, and turned the other way.
+// There are a plank of 2 m x 0.1 m and a prey of 0.1 m: along the plank the place is taken, beside it is free, and
+// turned the other way.
 TEST_F(InTheWay, BodiesCountWithTheirShapeHeightAndHeading)
 {
   Add(EntityKind::kCylindricPrey, "prey", {{5, 5.8, 0}, Quaternion::Identity()}, {0}, {0.1, 0.1, 0.2});

@@ -35,7 +35,7 @@ struct Assigned
   const Assignment assignment = MakeAssignment(experiment, 1);
 };
 
-// A space server with its own experiment.
+// It holds a space server with its own experiment.
 struct TestServer : Assigned, SpaceServer
 {
   explicit TestServer(const Experiment& of) : Assigned{of}, SpaceServer(experiment, assignment, ".") {}
@@ -135,7 +135,7 @@ TEST(SpaceServer, AMoveIsToldOnceWithItsPose)
   EXPECT_TRUE(server.State().moved.empty());
 }
 
-// The server's own state in a checkpoint, beside the snapshot.
+// A checkpoint has the server's own state beside the snapshot.
 TEST(SpaceServer, ARestoredOneKnowsItsEndAndWhoWasMoved)
 {
   const Experiment experiment = TwoEngines();

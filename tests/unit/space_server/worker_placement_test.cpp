@@ -80,7 +80,7 @@ TEST(WorkerPlacement, TheTextNamesEachMachineAndItsWorkers)
             "controller host 1");
   WorkerPlacement places = Places();
   places.Put({"controller host 1", "alpha"});
-  EXPECT_THAT(places.Text(), EndsWith("; beta: nobody"));
+  EXPECT_THAT(places.Text(), EndsWith("; beta: no process"));
 }
 
 // Two workers are at beta or here each; those of alpha go where the fewest are.
@@ -91,7 +91,7 @@ TEST(WorkerPlacement, DrainGivesToThoseWhoHaveTheFewest)
   WorkerPlacement places = Places();
   places.Put({"controller host 1", "here"});
   EXPECT_EQ(MovesOf(places, {"drain", "beta"}), "");
-  // The worker is not one that moves, does not say where it is, or names a machine that the run does not have.
+  // The worker cannot be moved, has no machine, or names a machine that the run does not have.
   places.Put({"controller host 7", "beta"});
   places.Put({"controller host 0", ""});
   places.Put({"controller host 0", "gamma"});
@@ -111,7 +111,7 @@ std::string HostsOf(std::int64_t more, const std::string& machine = "", std::siz
   return refusal.empty() ? text : refusal;
 }
 
-// At first one at alpha, then one at beta.
+// At first one is at alpha, then one at beta.
 TEST(WorkerPlacement, HostsComeAndGoAtTheEnd)
 {
   EXPECT_EQ(HostsOf(1), "alpha beta here ");

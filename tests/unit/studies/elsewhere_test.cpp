@@ -2,9 +2,10 @@
 #include <gmock/gmock.h>
 
 #include "common/program/usage_error.h"
-#include "studies/checked_frame.h"
-#include "studies/run_files.h"
-#include "studies/slurm.h"
+#include "studies/executors/checked_frame.h"
+#include "studies/executors/slurm.h"
+#include "studies/runs/run_files.h"
+#include "studies/runs/run_order.h"
 #include "tests/world/message_of.h"
 
 namespace swarmanoid
@@ -80,12 +81,31 @@ TEST(CheckedFrame, NoByteChangesUnseen)
   EXPECT_THAT(MistakeInFrames(BytesOf(std::string(100'000, 'x'))), HasSubstr("is not of a study"));
 }
 
+// Orders and results of Slurm stay in files, which a later command reads.
+TEST(RunOrders, KeepTheirFormat)
+{
+  const RunOrder order{{3, 7}, "e.xml", {{"framework.ticks", "9"}}};
+  ByteWriter bytes;
+  WriteFields(bytes, order);
+  ByteWriter expected;
+  expected.Put(std::uint32_t{3});
+  expected.Put(std::uint64_t{7});
+  expected.PutText("e.xml");
+  expected.Put(std::uint64_t{1});
+  expected.PutText("framework.ticks");
+  expected.PutText("9");
+  EXPECT_EQ(bytes.Bytes(), expected.Bytes());
+  ByteReader reader(bytes.Bytes());
+  EXPECT_EQ(ReadFields<RunOrder>(reader).settings, order.settings);
+  EXPECT_TRUE(reader.AtEnd());
+}
+
 TEST(RunFiles, StayBelowTheirFolder)
 {
   for (const char* path : {"../outside", "/etc/outside", "a/../../outside", ""})
   {
     ByteWriter bytes;
-    RunFiles{{{path, {}}}, {}}.Write(bytes);
+    WriteFields(bytes, RunFiles{{{path, {}}}, {}});
     ByteReader reader(bytes.Bytes());
     EXPECT_THROW(RunFiles::Read(reader), std::runtime_error) << path;
   }

@@ -1,5 +1,5 @@
 // Conditions over the factors of a study.
-#include "studies/expression.h"
+#include "studies/design/expression.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

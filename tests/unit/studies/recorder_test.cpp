@@ -1,5 +1,5 @@
 // Metrics of studies, against what is known of the scene: a robot that drives, rings of robots, cells that are counted.
-#include "studies/recorder.h"
+#include "studies/metrics/recorder.h"
 
 #include <gmock/gmock.h>
 
@@ -12,7 +12,7 @@
 #include "common/space/publish.h"
 #include "simulation/register_all.h"
 #include "space_server/experiment_functions.h"
-#include "studies/metric.h"
+#include "studies/metrics/metric.h"
 #include "tests/world/experiment_text.h"
 #include "tests/world/message_of.h"
 
@@ -164,7 +164,7 @@ TEST(StudyMetrics, OrderOfHeadings)
 
 TEST(StudyMetrics, DispersionAndClustersOfKnownPlaces)
 {
-  // A square of side 1 m about (3, 3), and one robot far away.
+  // The robots form a square of side 1 m about (3, 3), and one robot is far away.
   const std::string square =
       Footbot("a", 2.5, 2.5, 0) + Footbot("b", 3.5, 2.5, 0) + Footbot("c", 3.5, 3.5, 0) + Footbot("d", 2.5, 3.5, 0);
   const auto row = AtEnd(
@@ -201,7 +201,7 @@ TEST(StudyMetrics, CoverageCountsCells)
 {
   const auto study = Metrics("<coverage id='seen' cell='0.5'/><trajectories id='ways' of='a'/>", 50);
   const RunSamples samples = Measured(*study, *Scene(Footbot("a", 2.015, 5.2, 0, "go"), 100));
-  // 2.015 to 3.015 m: three cells of 400.
+  // The way from 2.015 to 3.015 m covers three cells of 400.
   ASSERT_EQ(samples.ticks, (std::vector<std::uint64_t>{0, 50, 100}));
   EXPECT_THAT(samples.values, testing::ElementsAre(DoubleEq(1.0 / 400), DoubleEq(2.0 / 400), DoubleEq(3.0 / 400)));
   ASSERT_EQ(samples.grids.size(), 1U);
@@ -333,7 +333,7 @@ TEST(Publishing, TakesThreeNamesAStep)
   EXPECT_EQ(PublishedNumberIn(report.bytes, "c"), 1);
   EXPECT_EQ(PublishedNumberIn(report.bytes, "d"), std::nullopt);
   EXPECT_THROW(Publish(robot, {{"a", 1}, {"b", 2}, {"c", 3}, {"d", 4}}), std::length_error);
-  // Names of which the report could not tell which is meant.
+  // The report could not distinguish these names.
   std::string same;
   for (int i = 0; same.empty(); ++i)
     if (ShortName("n" + std::to_string(i)) == ShortName("a")) same = "n" + std::to_string(i);
@@ -355,7 +355,8 @@ TEST(Publishing, CountsOnlyIfSomebodyMeasuresThatRun)
   EXPECT_THROW(Publish(one.GetSpace(), "x", NAN), std::invalid_argument);
 }
 
-// Idle 2 W; 3 N against the wheels; 1.5 kg; half of what the drive takes becomes work. Five seconds.
+// Idle, the robot takes 2 W; 3 N act against the wheels; it has 1.5 kg; half of what the drive takes becomes work. The
+// run lasts five seconds.
 constexpr const char* kEnergy = "<energy id='e' idle='2' resistance='3' mass='1.5' efficiency='0.5' aggregate='sum'/>";
 constexpr double kIdle_j = 2 * 5, kStart_j = 1.5 / 2 * 0.1 * 0.1 / 0.5;
 

@@ -1,15 +1,15 @@
-// Searches: what their ranges hold, and that an algorithm which is asked again from its beginning goes on as one that
-// was never interrupted.
+// Searches: the values of their ranges, and an algorithm that starts again and continues as if it was never
+// interrupted.
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <map>
 #include <set>
 
-#include "studies/design.h"
-#include "studies/optimiser.h"
-#include "studies/search.h"
-#include "studies/search_space.h"
+#include "studies/design/design.h"
+#include "studies/search/optimiser.h"
+#include "studies/search/search.h"
+#include "studies/search/search_space.h"
 #include "tests/world/message_of.h"
 
 namespace swarmanoid
@@ -100,12 +100,12 @@ struct Searched
 {
   std::vector<std::vector<double>> asked;  // in this order
   std::vector<std::size_t> generations;    // sizes of what was asked for together
-  std::size_t unused = 0;                  // what was asked for, and never again
+  std::size_t unused = 0;                  // number of requested values that were never requested again
 };
 
 using Function = std::function<KnownValue(std::span<const double>)>;
 
-// Stops, as if it was killed, behind `most` answers of those that come in `answers`.
+// Stops as if it was killed, after `most` of the answers in `answers`.
 Searched RunOptimiser(const SearchChoice& search, const Function& function, std::size_t most,
                       std::map<std::vector<double>, KnownValue>& answers)
 {
@@ -158,7 +158,7 @@ std::vector<double> BestOf(const std::map<std::vector<double>, KnownValue>& answ
 
 TEST(Optimiser, EachAlgorithmFindsTheBottomOfABowl)
 {
-  for (const std::string& algorithm : SearchAlgorithms())
+  for (const std::string algorithm : kSearchAlgorithms)
   {
     std::map<std::vector<double>, KnownValue> answers;
     const Searched searched = RunOptimiser(Choice(algorithm), Bowl, 900, answers);
@@ -170,7 +170,7 @@ TEST(Optimiser, EachAlgorithmFindsTheBottomOfABowl)
 
 TEST(Optimiser, OneThatWasKilledAsksWhatItWouldHaveAsked)
 {
-  for (const std::string& algorithm : SearchAlgorithms())
+  for (const std::string algorithm : kSearchAlgorithms)
   {
     std::map<std::vector<double>, KnownValue> undisturbed, killed;
     const Searched whole = RunOptimiser(Choice(algorithm), Bowl, 150, undisturbed);

@@ -1,5 +1,5 @@
-// Study files: what they say, what is refused, and which runs they make.
-#include "studies/study.h"
+// Study files: their content, the refused ones, and the runs that they make.
+#include "studies/design/study.h"
 
 #include <gmock/gmock.h>
 
@@ -8,9 +8,9 @@
 #include <map>
 #include <set>
 
-#include "launcher/scratch_folder.h"
-#include "studies/conflicts.h"
-#include "studies/design.h"
+#include "launcher/system/scratch_folder.h"
+#include "studies/design/conflicts.h"
+#include "studies/design/design.h"
 #include "test_folders.h"
 #include "tests/world/experiment_text.h"
 #include "tests/world/message_of.h"
@@ -251,7 +251,7 @@ TEST(StudyReference, IsThatOfTheTables)
   const std::filesystem::path page = std::filesystem::path(SWARMANOID_SOURCE_FOLDER) / "docs/study_reference.md";
   if (std::getenv("SWARMANOID_WRITE_REFERENCE") != nullptr) std::ofstream(page) << StudyReference();
   EXPECT_EQ(test::TextOf(page), StudyReference())
-      << "write it anew: SWARMANOID_WRITE_REFERENCE=1 unit_studies --gtest_filter='StudyReference.*'";
+      << "write it again: SWARMANOID_WRITE_REFERENCE=1 unit_studies --gtest_filter='StudyReference.*'";
 }
 
 }  // namespace

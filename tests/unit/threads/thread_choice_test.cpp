@@ -20,7 +20,7 @@ unsigned Shared(ThreadChoice& choice, unsigned pieces, ThreadChoice::Duration al
   for (unsigned k = 0; k < pieces; ++k)
   {
     count += choice.Shares() ? 1 : 0;
-    // Where it says that it does not matter, it must not.
+    // If the choice says that the time does not matter, any time must do.
     const ThreadChoice::Duration took = choice.Shares() ? shared : alone;
     choice.Took(choice.Measures() ? took : ThreadChoice::Duration(k % 2 == 0 ? 0 : 1'000'000'000));
   }
@@ -51,7 +51,7 @@ TEST(ThreadChoice, FewMicrosecondsWakeNobody)
   EXPECT_EQ(Shared(choice, 5 * ThreadChoice::kPeriod, 19us, 1us), 0U);
 }
 
-// Of a tick of some microseconds the clock would be a part.
+// Reading the clock would be a noticeable part of a tick of some microseconds.
 TEST(ThreadChoice, MeasuresTrialsAndWhatIsSharedAlone)
 {
   ThreadChoice quick = Settled();
@@ -109,7 +109,7 @@ TEST(ThreadChoice, TriesLessOftenWhatWasSlowerAgainAndAgain)
   EXPECT_EQ(Shared(choice, kPeriod, 100us, 4ms), ThreadChoice::kTrials);
 }
 
-// Others take a core between two trials: what is lost until one thread goes on is little.
+// Other programs take a core between two trials. Little time is lost until one thread continues.
 TEST(ThreadChoice, StopsWhenTheCoresAreTakenBetweenTrials)
 {
   ThreadChoice choice = Settled();
@@ -117,10 +117,10 @@ TEST(ThreadChoice, StopsWhenTheCoresAreTakenBetweenTrials)
   EXPECT_EQ(count, 96U);
   count = Shared(choice, ThreadChoice::kPeriod, 100us, 4ms);
   EXPECT_LE(count, 3U);
-  EXPECT_GT(Shared(choice, ThreadChoice::kPeriod, 100us, 60us), 500U) << "and tries anew";
+  EXPECT_GT(Shared(choice, ThreadChoice::kPeriod, 100us, 60us), 500U) << "and tries again";
 }
 
-// What there is to do grows: several threads are still quicker, though slower than one was at first.
+// The work grows. Several threads are still faster than one, though slower than one was at first.
 TEST(ThreadChoice, SharesWorkThatGrows)
 {
   ThreadChoice choice = Settled();
@@ -130,7 +130,7 @@ TEST(ThreadChoice, SharesWorkThatGrows)
   EXPECT_GE(count, ThreadChoice::kPeriod - 2 * ThreadChoice::kTrials);
 }
 
-// Not if others take the cores at the same time.
+// Sharing stops if other programs take the cores at the same time.
 TEST(ThreadChoice, WorkThatGrowsOnABusyMachineIsNotShared)
 {
   ThreadChoice choice = Settled();
@@ -149,7 +149,7 @@ TEST(ThreadChoice, BearsSomeSlowPiecesAmongManyQuickOnes)
   }
 }
 
-// Somebody else's work delays a piece now and then.
+// The work of another program delays a piece now and then.
 TEST(ThreadChoice, OneSlowPieceDoesNotDecide)
 {
   ThreadChoice choice = Settled();
@@ -161,7 +161,7 @@ TEST(ThreadChoice, OneSlowPieceDoesNotDecide)
   }
 }
 
-// All of a tick is shared or nothing; one thread is never told to share.
+// A tick is shared as a whole or not at all. One thread never shares.
 TEST(ThreadedTicks, ThePoolKnowsWhetherATickIsShared)
 {
   WorkerPool pool(2);

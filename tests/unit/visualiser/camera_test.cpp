@@ -188,7 +188,7 @@ TEST(Viewpoints, CameraIsANumberOrAPlaceOrTop)
   ExpectNear(camera("1, 2, 3.5/90,-20,0").position, {1, 2, 3.5});
   EXPECT_DOUBLE_EQ(camera("1,2,3/90,-20,0").heading, 90);
   ExpectNear(camera("top").Forward(), {0, 0, -1});
-  ExpectNear(camera("top").Right(), {1, 0, 0});  // as a map
+  ExpectNear(camera("top").Right(), {1, 0, 0});  // the view is that of a map
   EXPECT_THROW(camera("5"), ConfigurationError);
   EXPECT_THROW(camera("above"), ConfigurationError);
   EXPECT_THROW(camera("1,2"), ConfigurationError);

@@ -41,7 +41,7 @@ TEST_F(DrawnMarksTest, AreInTheSpaceOrInTheFrameOfAnEntity)
   EXPECT_EQ(marks.lines[0].colour, 0x123456U);
   EXPECT_NEAR(marks.lines[0].opacity, 0.5, 0.01);
   EXPECT_EQ(marks.lines[0].width, 2);
-  // Turned by a quarter.
+  // It is turned by a quarter.
   EXPECT_TRUE(marks.lines[1].from.isApprox(Vector3f(1, 2, 0.1F), 1e-5F));
   EXPECT_TRUE(marks.lines[1].to.isApprox(Vector3f(1, 3, 0.1F), 1e-5F)) << marks.lines[1].to.transpose();
   ASSERT_EQ(marks.texts.size(), 1U);

@@ -1,4 +1,4 @@
-// figure_render as an experiment file asks for it: what stands where on the page, measured in its pixels and its text.
+// Tests figure_render in an experiment file: the layout of the page, measured in its pixels and its text.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -57,7 +57,7 @@ protected:
     visualiser->Finish();
     return ended;
   }
-  // 103 mm wide without margins 100: 25 mm a metre; 10 pixels a mm.
+  // The page is 103 mm wide, and 100 without margins: 25 mm a metre, 10 pixels a mm.
   Picture Page(const std::string& attributes, int ticks = 0)
   {
     Run("file=\"plan.png\" width=\"103\" dpi=\"254\" show_legend=\"false\" show_scale=\"false\" " + attributes, ticks);
@@ -148,6 +148,47 @@ TEST_F(FigureRender, WhatExperimentFunctionsDrawIsAboveIt)
   EXPECT_NE(ColourIn(picture, 3.3, 1.5), 0x00ffffU);
 }
 
+TEST_F(FigureRender, DrawnLinesGoFromPointToPoint)
+{
+  Drawing drawing;
+  const std::vector<Vector3> bend{{0.5, 0.5, 0}, {0.9, 0.5, 0}, {0.9, 0.9, 1}};
+  const std::vector<Vector3> triangle{{1.2, 0.4, 0}, {1.8, 0.4, 0}, {1.2, 1, 0}};
+  drawing.Polyline(bend, {0x00ff00, 1, 8});
+  drawing.Polygon(triangle, {0xff00ff});
+  drawing.Circle({{2.5, 0.7, 0}, Quaternion::Identity()}, 0.2, {0x00ffff, 1, 8});
+  drawing.Point({3.5, 0.5, 0}, {0x0000ff, 1, 16});
+  world_.Space().SwapDrawing(drawing);
+  const Picture picture = Page("");
+  EXPECT_EQ(ColourIn(picture, 0.7, 0.5), 0x00ff00U);
+  EXPECT_EQ(ColourIn(picture, 0.9, 0.7), 0x00ff00U);
+  EXPECT_EQ(ColourIn(picture, 0.7, 0.7), 0xffffffU) << "it is open";
+  EXPECT_EQ(ColourIn(picture, 1.35, 0.55), 0xff00ffU);
+  EXPECT_EQ(ColourIn(picture, 1.65, 0.85), 0xffffffU);
+  for (const Vector2& side : {Vector2(-0.2, 0), Vector2(0, 0.2), Vector2(0, -0.2)})
+    EXPECT_EQ(ColourIn(picture, 2.5 + side.x(), 0.7 + side.y()), 0x00ffffU) << side.transpose();
+  EXPECT_EQ(ColourIn(picture, 2.5, 0.7), 0xffffffU);
+  EXPECT_EQ(ColourIn(picture, 3.5, 0.5), 0x0000ffU);
+}
+
+// A head is a quarter of its arrow, at most 0.1 m, and four fifths as wide as it is long.
+TEST_F(FigureRender, DrawnArrowsHaveAHeadAtTheirEnd)
+{
+  Drawing drawing;
+  drawing.Arrow({0.5, 0.5, 0}, {0.9, 0.5, 0}, {0x00ff00, 1, 1});
+  drawing.Arrow({2.5, 0.4, 0}, {2.5, 1.8, 0}, {0xff00ff, 1, 1});
+  drawing.Arrow({1.5, 1, 0}, {1.5, 1, 0}, {0x0000ff, 1, 1});
+  world_.Space().SwapDrawing(drawing);
+  const Picture picture = Page("");
+  for (const double side : {-0.025, 0.025})
+  {
+    EXPECT_EQ(ColourIn(picture, 0.815, 0.5 + side), 0x00ff00U);
+    EXPECT_EQ(ColourIn(picture, 0.78, 0.5 + side), 0xffffffU) << "in front of the head";
+    EXPECT_EQ(ColourIn(picture, 0.515, 0.5 + side), 0xffffffU) << "where it starts";
+    EXPECT_EQ(ColourIn(picture, 2.5 + side, 1.715), 0xff00ffU);
+    EXPECT_EQ(ColourIn(picture, 2.5 + side, 1.68), 0xffffffU);
+  }
+}
+
 TEST_F(FigureRender, DrawnBoxesAndCylindersAreTurnedByTheirPoses)
 {
   const auto turned = [](const Vector3& position, const Vector3& axis, double degrees) {
@@ -155,7 +196,7 @@ TEST_F(FigureRender, DrawnBoxesAndCylindersAreTurnedByTheirPoses)
   };
   Drawing drawing;
   drawing.Box(turned({1, 1, 0}, Vector3::UnitZ(), 30), {0.8, 0.1, 0.1}, {0xff00ff});
-  // Upright at first; turned about y it lies along x, turned about x along y.
+  // It is upright at first; turned about y it lies along x, turned about x along y.
   drawing.Cylinder(turned({2, 0.5, 0}, Vector3::UnitY(), 90), 0.05, 0.6, {0x00ff00});
   drawing.Cylinder(turned({3.5, 0.5, 0}, Vector3::UnitX(), 90), 0.05, 0.6, {0x0000ff});
   // Seen from its edge a disc is a line; a turn by 60 degrees halves one of its axes.

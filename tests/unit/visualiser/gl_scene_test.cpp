@@ -203,7 +203,7 @@ TEST(GlScene, LedsShineInExactlyTheirColour)
   options.samples = 0;
   const int lit = CountColour(DrawWorld(world, camera, {}, options), 0x12c4e7);
   EXPECT_GT(lit, 200);
-  // Half of those that are seen.
+  // Half of the visible LEDs are switched off.
   for (int led = 0; led < 6; ++led) world.Set("fb", "led", 0, led);
   const int half = CountColour(DrawWorld(world, camera, {}, options), 0x12c4e7);
   EXPECT_NEAR(half, lit / 2.0, lit * 0.12);
@@ -272,7 +272,8 @@ TEST(GlScene, OfPatchesThatOverlapTheLaterOneIsOnTop)
   }
 }
 
-// Neither they nor their marks, nor the depth of the picture, which reaches as far as there are bodies.
+// Neither they nor their marks are drawn. The depth of the picture, which reaches as far as the bodies, does not change
+// either.
 TEST(GlScene, WhatIsNotInTheArenaChangesNoPixel)
 {
   const auto picture = [](bool with_absent)
@@ -337,6 +338,7 @@ TEST(GlScene, DrawsTenThousandRobotsWithFewTriangles)
   renderer.Draw(scene, DefaultView(world.GetExperiment(), 4.0 / 3), buffer.Framebuffer(), kWidth, kHeight, {});
   EXPECT_GE(renderer.StatisticsForTest().instances, 20000U);
   EXPECT_LT(renderer.StatisticsForTest().triangles, 1'300'000U);
+  EXPECT_GE(renderer.StatisticsForTest().triangles, renderer.StatisticsForTest().instances);
 }
 
 }  // namespace

@@ -5,12 +5,15 @@
 #include <functional>
 
 #include "common/configuration/xml_reader.h"
+#include "common/plugin_descriptions/renderers.h"
 #include "tests/unit/visualiser/read_png.h"
 #include "tests/unit/visualiser/small_world.h"
 #include "tests/unit/visualiser/video_reader.h"
 #include "tests/world/fake_run.h"
 #include "tests/world/message_of.h"
+#include "tests/world/small_experiment.h"
 #include "tests/world/temporary_folder.h"
+#include "visualiser/gl/quality.h"
 #include "visualiser/scene/picture.h"
 #include "visualiser/visualiser.h"
 
@@ -89,6 +92,21 @@ std::vector<int> RowsThatDiffer(const Picture& one, const Picture& other)
   for (int y = 0; y < one.height; ++y)
     if (!std::equal(one.At(0, y), one.At(0, y) + row, other.At(0, y))) rows.push_back(y);
   return rows;
+}
+
+TEST(SceneOptions, EachParameterSwitchesItsOwn)
+{
+  const std::vector<ParameterSpec> specs = QualityParameters();
+  const auto switched = [&](const test::TestParameters& parameters)
+  {
+    const SceneOptions options = SceneOptionsOf(Parameters(test::TreeOf(parameters), specs));
+    return std::vector<bool>{options.ids, options.trails, options.rays, options.collision_models};
+  };
+  EXPECT_THAT(switched({}), testing::Each(false));
+  EXPECT_THAT(switched({{"show_ids", "true"}}), ElementsAre(true, false, false, false));
+  EXPECT_THAT(switched({{"show_trails", "true"}}), ElementsAre(false, true, false, false));
+  EXPECT_THAT(switched({{"show_rays", "true"}}), ElementsAre(false, false, true, false));
+  EXPECT_THAT(switched({{"show_collision_models", "true"}}), ElementsAre(false, false, false, true));
 }
 
 TEST_F(ImageRender, WritesNumberedPicturesAtTheTicksAsked)
@@ -189,11 +207,11 @@ TEST_F(ImageRender, LabelsNameTheOwners)
   assignment_.owner = {-1};
   assignment_.host = {-1};
   Run("file=\"ids.png\" show_ids=\"true\"", 0);
-  Run("file=\"nobody.png\" show_owners=\"true\"", 0);
+  Run("file=\"owners.png\" show_owners=\"true\"", 0);
   assignment_.host = {1};
   Run("file=\"host.png\" show_owners=\"true\"", 0);
   const Picture ids = ReadPng(Path("ids.png"));
-  EXPECT_TRUE(RowsThatDiffer(ids, ReadPng(Path("nobody.png"))).empty());
+  EXPECT_TRUE(RowsThatDiffer(ids, ReadPng(Path("owners.png"))).empty());
   EXPECT_FALSE(RowsThatDiffer(ids, ReadPng(Path("host.png"))).empty());
 }
 
@@ -223,17 +241,21 @@ TEST_F(ImageRender, VideosRunInSimulatedTime)
   EXPECT_FALSE(fs::exists(folder_ / "frames"));
 }
 
-TEST_F(ImageRender, WebmHoldsThePicturesThatWereDrawn)
+TEST_F(ImageRender, VideosHoldThePicturesThatWereDrawn)
 {
   if (!HasVideo()) GTEST_SKIP() << "this build has no video";
-  Run("video=\"run.webm\" directory=\"frames\"", 12);
-  const VideoContents video = ReadVideo(Path("run.webm"));
-  EXPECT_EQ(video.pictures, 13);
-  const Picture drawn = ReadPng(Path("frames/frame_000012.png"));
-  double difference = 0;
-  for (std::size_t i = 0; i < drawn.pixels.size(); ++i)
-    if (i % 4 != 3) difference += std::abs(drawn.pixels[i] - video.last.pixels[i]);
-  EXPECT_LT(difference / (3 * 96 * 64), 6);
+  for (const std::string ending : {"webm", "gif"})
+  {
+    Run("video=\"run." + ending + "\" directory=\"" + ending + "\"", 12);
+    const VideoContents video = ReadVideo(Path("run." + ending));
+    EXPECT_EQ(video.pictures, 13) << ending;
+    EXPECT_NEAR(video.seconds, 1.2, 0.011) << ending;
+    const Picture drawn = ReadPng(Path(ending + "/frame_000012.png"));
+    double difference = 0;
+    for (std::size_t i = 0; i < drawn.pixels.size(); ++i)
+      if (i % 4 != 3) difference += std::abs(drawn.pixels[i] - video.last.pixels[i]);
+    EXPECT_LT(difference / (3 * 96 * 64), 6) << ending;
+  }
 }
 
 TEST_F(ImageRender, MistakesAreNamedWithTheirCure)

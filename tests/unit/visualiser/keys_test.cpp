@@ -43,6 +43,13 @@ TEST(Keys, EachPressHasOneMeaning)
   EXPECT_FALSE(CommandOf({'S', true, false}));  // left to the panels and the desktop
 }
 
+TEST(Keys, APrintedCharacterIsItsOwnNameAndABlankHasAWord)
+{
+  for (int key = '!'; key <= '~'; ++key) EXPECT_EQ(NameOfKey(key), std::string(1, static_cast<char>(key)));
+  EXPECT_EQ(NameOfKey('~' + 1), "");
+  EXPECT_NE(NameOfKey(' '), " ");
+}
+
 TEST(Keys, TheDocumentationListsThemAll)
 {
   std::ifstream file(std::string(SWARMANOID_SOURCE_FOLDER) + "/docs/opengl_render.md");

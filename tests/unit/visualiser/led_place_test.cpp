@@ -1,4 +1,4 @@
-// Where LEDs are drawn: as the row of the kind says, and turned with a turret.
+// LEDs are drawn at the positions of the kind's row, and turned with a turret.
 #include "visualiser/led_place.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A camera for tests, from where it is and what it sees.
+// Makes a camera for tests from its position and the point that it looks at.
 #pragma once
 
 #include <cmath>

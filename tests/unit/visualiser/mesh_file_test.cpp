@@ -13,7 +13,7 @@
 #include "tests/world/message_of.h"
 #include "tests/world/temporary_folder.h"
 #include "visualiser/scene/kind_model.h"
-#include "visualiser/scene/meshes_file.h"
+#include "visualiser/scene/meshes_json.h"
 #include "visualiser/scene/object_model.h"
 #include "visualiser/scene/scene.h"
 #include "visualiser/scene/simplify_mesh.h"
@@ -32,7 +32,7 @@ std::string BytesOf(const std::string& path) { return ReadRegularFile(path, kMos
 class MeshFileTest : public ::testing::Test
 {
 protected:
-  // Another name for each, in all tests: what was read once is not read again.
+  // Each test has another name for its file, since what was read once is not read again.
   std::string Write(const std::string& bytes, const std::string& ending)
   {
     static int files = 0;
@@ -46,10 +46,11 @@ protected:
   test::TemporaryFolder folder_;
 };
 
-// A triangle a metre in front, to the left and above: glTF's z, x and y. `node` and `more` are members of its JSON.
+// Returns a triangle a metre in front, to the left and above: glTF's z, x and y. `node` and `more` are members of its
+// JSON.
 nlohmann::json Triangle()
 {
-  // 0 0 1, 1 0 0, 0 1 0 as floats, in base64.
+  // These are 0 0 1, 1 0 0, 0 1 0 as floats, in base64.
   return nlohmann::json::parse(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
     "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
     "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAIA/AACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
@@ -116,7 +117,7 @@ TEST_F(MeshFileTest, OfObjIsTakenAsItIsWithTheColoursOfItsMaterials)
 
 TEST_F(MeshFileTest, OfStlIsRoundWhereItIsAlmostSmooth)
 {
-  // Two triangles at 20 degrees: one normal at the edge that they share.
+  // Two triangles meet at 20 degrees: the edge that they share has one normal.
   const std::string stl =
       "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
       "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex -1 0 -0.36\nendloop\nendfacet\nendsolid s\n";
@@ -170,7 +171,7 @@ TEST_F(MeshFileTest, ReadsOrRefusesFilesThatAreCutOffAnywhere)
   }
 }
 
-// A ball of many triangles.
+// Returns a ball of many triangles.
 Mesh Ball(int segments)
 {
   Mesh mesh;
@@ -218,7 +219,7 @@ TEST_F(MeshFileTest, FinerMeshesAreSimplifiedAndKeepTheirSizeAndTheirOutside)
   EXPECT_EQ(Simplified(ball, ball.Triangles()).indices, ball.indices);
 }
 
-// A space with one entity of an own mesh.
+// It is a space with one entity of an own mesh.
 class WithMesh : public MeshFileTest
 {
 protected:

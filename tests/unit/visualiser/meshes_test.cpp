@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/world/temporary_folder.h"
-#include "visualiser/scene/meshes_file.h"
+#include "visualiser/scene/meshes_json.h"
 
 namespace swarmanoid
 {
@@ -115,7 +115,7 @@ TEST(Meshes, VoxelTerrainShowsItsSurfaceAlone)
     tree.updateNode(octomap::point3d(0.05F + 0.1F * static_cast<float>(x), 0.05F, 0.05F), true);
   tree.writeBinary(path);
   const Model model = TerrainModel(VoxelTerrain(path), "beam");
-  // Six faces, each of one piece, at every level.
+  // There are six faces, each of one piece, at every level.
   for (const Mesh& mesh : model.levels) EXPECT_EQ(mesh.Triangles(), 12U);
   Eigen::AlignedBox3f box;
   for (const MeshVertex& vertex : model.levels[0].vertices) box.extend(vertex.position);

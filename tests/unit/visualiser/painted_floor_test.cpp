@@ -43,7 +43,7 @@ void ExpectCovered(const FloorPicture& picture)
       for (int row = 0; row < floor.rows; ++row)
         for (int column = 0; column < floor.columns; ++column)
         {
-          // Off the diagonals on which triangles meet.
+          // The point is off the diagonals on which triangles meet.
           const Eigen::Vector2f middle((static_cast<float>(column) + 0.51F) / static_cast<float>(floor.columns) - 0.5F,
                                        0.5F - (static_cast<float>(row) + 0.503F) / static_cast<float>(floor.rows));
           bool inside = true;

@@ -186,7 +186,7 @@ TEST_F(PastViewerTest, ShowsThePastAndNobodyChangesIt)
   viewer.Press({'B', false, true});
   EXPECT_EQ(viewer.TakeCopy(), fmt::format("swarmanoid run --branch '{}@{}'", folder_.Path(), kTicks - 4));
   viewer.Press({'I', false, true});
-  EXPECT_EQ(viewer.TakeCopy(), "") << "nobody is selected";
+  EXPECT_EQ(viewer.TakeCopy(), "") << "no robot is selected";
   viewer.Select(0);
   viewer.Press({'I', false, true});
   EXPECT_EQ(viewer.TakeCopy(), fmt::format("swarmanoid inspect '{}@{}' fb", folder_.Path(), kTicks - 4));

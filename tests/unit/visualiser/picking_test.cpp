@@ -106,13 +106,13 @@ TEST(Scene, ALampShinesInItsColourWhileItIsOn)
   EXPECT_EQ(light(0.1), 0xffff00U);
 }
 
-// Parts of a robot in the order of RestingParts.
+// Returns a part of a robot. The parts are in the order of RestingParts.
 const SceneItem& PartOf(const Scene& scene, std::uint32_t entity, std::size_t part)
 {
   return (&FirstItemOf(scene, entity))[part];
 }
 
-// The direction in which an axis of a part looks.
+// Returns the direction in which an axis of a part looks.
 Eigen::Vector3f Looks(const SceneItem& part, const Eigen::Vector3f& axis) { return part.orientation * axis; }
 
 void ExpectNear(const Eigen::Vector3f& is, const Eigen::Vector3f& expected)
@@ -197,7 +197,7 @@ TEST(Scene, ABeamEndsOnTheFirstBodyOrTheFloor)
   scene.Update({});
   ASSERT_EQ(scene.Glows().size(), 1U);
   EXPECT_LT((scene.Glows()[0].position - Eigen::Vector3f(1, 2, 0)).norm(), 1e-5);
-  // Tilted by atan(0.9): towards a point 0.1 m above the floor, within the footbot.
+  // It is tilted by atan(0.9): towards a point 0.1 m above the floor, within the footbot.
   world.Set("eb", "laser_pan", kPi / 2);
   world.Set("eb", "laser_tilt", kPi / 4);
   scene.Update({});
@@ -247,7 +247,7 @@ TEST(Scene, RaysOfProximitySensorsStopAtBodies)
   ASSERT_EQ(scene.Lines().size(), 24U);
   int hits = 0;
   for (const SceneLine& line : scene.Lines()) hits += line.colour == palette::kRayHit;
-  // Those within acos(0.135 / 0.185) = 43 degrees of the front.
+  // The hits are those within acos(0.135 / 0.185) = 43 degrees of the front.
   EXPECT_EQ(hits, 6);
 }
 

@@ -1,4 +1,4 @@
-// Reads the pictures that renderers wrote.
+// Reads the pictures of renderers.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 namespace swarmanoid
 {
 
-// Throws std::runtime_error, naming the file.
+// Throws std::runtime_error, which names the file.
 Picture ReadPng(const std::string& path);
 
 }  // namespace swarmanoid

@@ -1,4 +1,4 @@
-// A small space made entity by entity, for tests of what is drawn.
+// SmallWorld: a small space made entity by entity, for tests of drawings.
 #pragma once
 
 #include <memory>
@@ -29,7 +29,7 @@ public:
     entity.colour = colour;
   }
 
-  // Entities come before this, attributes and poses after it.
+  // Makes the space at the first call. Entities must be added before, attributes and poses set afterwards.
   CSwarmanoidSpace& Space()
   {
     if (space_ == nullptr) space_ = std::make_unique<CSwarmanoidSpace>(experiment_);

@@ -1,4 +1,4 @@
-// text_render: tables that programs can read, whatever controllers call their states.
+// Tests text_render: programs can read its tables, whatever controllers call their states.
 #include "visualiser/text/text_render.h"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ namespace
 
 using testing::ElementsAre;
 
-// In one process nothing stands between a controller and the table.
+// In one process the state of a controller reaches the table without a check.
 constexpr const char* kState = "turn, \"left\"\\\n\tä \xff";
 
 // Columns of a user.

@@ -1,4 +1,4 @@
-// text_render: when it writes a table, and what stands in it.
+// Tests the ticks of the tables of text_render, and their content.
 #include <gmock/gmock.h>
 
 #include <fstream>

@@ -1,4 +1,4 @@
-// Reads videos, to compare them with what was drawn.
+// Reads videos, to compare them with the drawn pictures.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 namespace swarmanoid
 {
 
-// Whether this build has FFmpeg's libraries.
+// Returns whether this build has FFmpeg's libraries.
 bool HasVideo();
 
 struct VideoContents
@@ -16,11 +16,11 @@ struct VideoContents
   int width = 0;
   int height = 0;
   int pictures = 0;
-  double seconds = 0;  // from the first picture to the last one
+  double seconds = 0;  // time from the first picture to the last one
   std::string codec;
   Picture first, last;
 };
-// Decodes the whole video. Throws std::runtime_error, naming the file.
+// Decodes the whole video. Throws std::runtime_error, which names the file.
 VideoContents ReadVideo(const std::string& path);
 
 }  // namespace swarmanoid

@@ -1,4 +1,5 @@
-// The input of a user at a window, without the window: keys, mouse, selection, filter, plots, requests to the run.
+// Tests the input of a user at a window, without the window: keys, mouse, selection, filter, plots, requests to the
+// run.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -75,7 +76,7 @@ TEST_F(ViewerTest, StartsAtTheFirstViewpointAndRecallsTheOthers)
   viewer.Press({'2', true});
   EXPECT_DOUBLE_EQ(viewer.camera.position.y(), 6.5);
   EXPECT_DOUBLE_EQ(viewer.camera.heading, -155);
-  viewer.Press({'5', true});  // not given
+  viewer.Press({'5', true});  // the experiment does not define view 5
   EXPECT_DOUBLE_EQ(viewer.camera.position.y(), 6.5);
   EXPECT_TRUE(viewer.Messages().back().refused);
 }
@@ -163,7 +164,7 @@ TEST_F(ViewerTest, KeysPauseStepAndChangeTheSpeed)
   viewer.Press({'='});
   viewer.Press({'-'});
   monitor_.status.speed_wanted = 100;
-  viewer.Press({'='});  // as fast as possible comes next
+  viewer.Press({'='});  // the next speed is as fast as possible
   monitor_.status.speed_wanted = 0;
   viewer.Press({'-'});
   EXPECT_THAT(control_.asked,
@@ -358,7 +359,7 @@ TEST_F(ViewerTest, AnInspectorShowsPoseMotionAndTheInsideOfItsRobotAlone)
     world_.Space().SetPose(robot, {{3, 3 - 0.05 * tick, 0}, QuaternionFromYaw(DegreesToRadians(175 + 10 * tick))});
     viewer.StateCame();
   }
-  // The heading went from 175 to -175 degrees: by 10, not by 350.
+  // The heading went from 175 to -175 degrees: it turned by 10, not by 350.
   EXPECT_THAT(Listed(viewer, robot),
               ElementsAre("pose.x=3.000 m", "pose.y=2.950 m", "pose.z=0.000 m", "pose.alpha=0.000 degrees",
                           "pose.beta=0.000 degrees", "pose.gamma=-175.000 degrees", "pose.speed=0.500 m/s",

@@ -1,6 +1,6 @@
-// The rule of the diffusion of ARGoS3's examples (argos3-examples, controllers/footbot_diffusion at 604f97be): straight
-// on only while the mean of the readings, as vectors, points ahead and is short. What stands behind makes a robot turn,
-// too.
+// The rule of the diffusion of ARGoS3's examples (argos3-examples, controllers/footbot_diffusion at 604f97be): a robot
+// drives straight on only while the mean of the readings, as vectors, points ahead and is short. So a body behind makes
+// a robot turn, too.
 #include <cmath>
 #include <numbers>
 

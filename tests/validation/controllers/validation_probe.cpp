@@ -1,4 +1,4 @@
-// Does at each tick what a list of commands says, and writes what its sensors read as lines of CSV, so that a script
+// Executes a list of commands, tick by tick, and writes the readings of its sensors as lines of CSV, so that a script
 // can compare them with closed forms.
 #include <charconv>
 #include <fstream>
@@ -51,7 +51,7 @@ public:
   void ControlStep() override
   {
     const auto tick = static_cast<long long>(GetRobot()->GetTick());
-    // A line for ticks in which nothing is sensed, too.
+    // A tick without readings gets a line, too.
     Write(tick, "probe", "tick", static_cast<double>(tick));
     for (const auto& [sensor, device] : sensors_)
     {

@@ -6,7 +6,7 @@
 class CBTEyebotFollow : public CCI_Behavior<CCI_EyeBotState>
 {
 public:
-  // `colour`: of the robot's LEDs, 0xRRGGBB; `distance`: m to the robot; `speed`: m/s.
+  // `colour` is that of the robot's LEDs (0xRRGGBB), `distance` that to the robot (m), and `speed` is in m/s.
   explicit CBTEyebotFollow(std::uint32_t colour, double distance = 0.3, double speed = 0.2)
       : CCI_Behavior("follow"), go_to_(colour, speed, distance)
   {

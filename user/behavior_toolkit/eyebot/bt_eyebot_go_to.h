@@ -7,7 +7,7 @@
 class CBTEyebotGoTo : public CCI_Behavior<CCI_EyeBotState>
 {
 public:
-  // `colour`: 0xRRGGBB; `speed`: m/s; `near`: the horizontal distance in metres that counts as arrived.
+  // `colour` is 0xRRGGBB, `speed` is in m/s, and `near` is the horizontal distance (m) that counts as arrived.
   explicit CBTEyebotGoTo(std::uint32_t colour, double speed = 0.2, double near = 0.1)
       : CCI_Behavior("go to"), colour_(colour), speed_(speed), near_(near)
   {

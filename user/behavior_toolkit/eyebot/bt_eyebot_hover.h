@@ -8,7 +8,7 @@ class CBTEyebotHover : public CCI_Behavior<CCI_EyeBotState>
 {
 public:
   CBTEyebotHover() : CCI_Behavior("hover") {}
-  // `altitude`: m above the ground.
+  // `altitude` is in m above the ground.
   explicit CBTEyebotHover(double altitude) : CCI_Behavior("hover"), altitude_(altitude), keeps_altitude_(true) {}
 
   void Step(CCI_EyeBotState& cRobotState) override

@@ -8,7 +8,7 @@
 class CBTEyebotSearch : public CCI_Behavior<CCI_EyeBotState>
 {
 public:
-  // `speed`: m/s; `mean_straight`: s between two turns.
+  // `speed` is in m/s; `mean_straight` is the mean time (s) between two turns.
   explicit CBTEyebotSearch(double speed = 0.2, double mean_straight = 6.0)
       : CCI_Behavior("search"), speed_(speed), mean_straight_(mean_straight)
   {

@@ -11,7 +11,8 @@
 class CBTFootbotFlocking : public CCI_Behavior<CCI_FootBotState>
 {
 public:
-  // `colour`: of the neighbours' LEDs, 0xRRGGBB; `wanted_distance`: m between robots; `speed`: m/s.
+  // `colour` is that of the neighbours' LEDs (0xRRGGBB), `wanted_distance` that between robots (m), and `speed` is in
+  // m/s.
   explicit CBTFootbotFlocking(std::uint32_t colour, double wanted_distance = 0.4, double speed = 0.1);
 
   void Step(CCI_FootBotState& cRobotState) override;

@@ -6,7 +6,7 @@
 class CBTFootbotFollowLaser : public CCI_Behavior<CCI_FootBotState>
 {
 public:
-  // `colour`: of the spot, 0xRRGGBB; `speed`: m/s.
+  // `colour` is that of the spot (0xRRGGBB); `speed` is in m/s.
   explicit CBTFootbotFollowLaser(std::uint32_t colour = 0xff0000, double speed = 0.1)
       : CCI_Behavior("follow laser"), go_to_spot_(colour, speed, 0.05)
   {

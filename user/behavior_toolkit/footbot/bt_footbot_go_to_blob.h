@@ -7,7 +7,7 @@
 class CBTFootbotGoToBlob : public CCI_Behavior<CCI_FootBotState>
 {
 public:
-  // `colour`: 0xRRGGBB; `speed`: m/s; `stop_at`: the distance in metres at which the robot stops.
+  // `colour` is 0xRRGGBB, `speed` is in m/s, and `stop_at` is the distance (m) at which the robot stops.
   explicit CBTFootbotGoToBlob(std::uint32_t colour, double speed = 0.1, double stop_at = 0.1);
 
   void Step(CCI_FootBotState& cRobotState) override;

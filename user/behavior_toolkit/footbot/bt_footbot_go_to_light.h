@@ -7,7 +7,8 @@
 class CBTFootbotGoToLight : public CCI_Behavior<CCI_FootBotState>
 {
 public:
-  // `speed`: m/s; `away`: true to flee the light; `arrived_at`: the strongest reading (0..1) at which the robot stops.
+  // `speed` is in m/s. If `away` is true, the robot flees the light. `arrived_at` is the strongest reading (0..1) at
+  // which it stops.
   explicit CBTFootbotGoToLight(double speed = 0.1, bool away = false, double arrived_at = 0.95);
   void Step(CCI_FootBotState& cRobotState) override;
 

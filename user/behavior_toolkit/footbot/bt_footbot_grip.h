@@ -8,8 +8,8 @@
 class CBTFootbotGrip : public CCI_Behavior<CCI_FootBotState>
 {
 public:
-  // `colour`: of the object, 0xRRGGBB; `reach`: the distance (m) between centres within which the gripper may touch it;
-  // `speed`: m/s.
+  // `colour` is that of the object (0xRRGGBB), `reach` the distance (m) between centres within which the gripper may
+  // touch it, and `speed` is in m/s.
   explicit CBTFootbotGrip(std::uint32_t colour, double reach = 0.22, double speed = 0.05);
 
   void Step(CCI_FootBotState& cRobotState) override;

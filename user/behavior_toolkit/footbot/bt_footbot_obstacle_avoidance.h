@@ -13,7 +13,7 @@ public:
     VERSION_BRAITENBERG    // each sensor slows the wheel on the other side (Braitenberg, "Vehicles", 1984)
   };
 
-  // `speed`: m/s; `threshold`: the largest reading that is ignored, 0..1.
+  // `speed` is in m/s; `threshold` is the largest reading that is ignored, 0..1.
   explicit CBTFootbotObstacleAvoidance(EVersion version = VERSION_VECTOR_BASED, double speed = 0.1,
                                        double threshold = 0.02);
 

@@ -7,7 +7,8 @@
 class CBTFootbotRandomWalk : public CCI_Behavior<CCI_FootBotState>
 {
 public:
-  // `speed`: m/s on the ground; `mean_straight`: s between two turns; `largest_turn`: radians to either side.
+  // `speed` is in m/s on the ground, `mean_straight` the mean time (s) between two turns, and `largest_turn` the
+  // largest turn to either side (rad).
   explicit CBTFootbotRandomWalk(double speed = 0.1, double mean_straight = 3.0, double largest_turn = 2.0);
 
   void Step(CCI_FootBotState& cRobotState) override;

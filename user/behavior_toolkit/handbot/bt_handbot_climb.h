@@ -7,7 +7,7 @@
 class CBTHandbotClimb : public CCI_Behavior<CCI_HandBotState>
 {
 public:
-  // `rope_length`: m of rope between robot and ceiling at the end; `speed`: m/s of rope.
+  // `rope_length` is the length (m) of rope between robot and ceiling at the end; `speed` is in m/s of rope.
   explicit CBTHandbotClimb(double rope_length, double speed = 0.1)
       : CCI_Behavior("climb"), rope_length_(rope_length), speed_(speed)
   {

@@ -14,7 +14,7 @@ public:
   static constexpr unsigned int CLOSE_HANDS = 2;
   static constexpr unsigned int HOLD = 3;
 
-  // `opening`: radians that the arms open; `arm_speed`: rad/s.
+  // `opening` is the angle (rad) by which the arms open; `arm_speed` is in rad/s.
   explicit CBTHandbotGrasp(double opening = 0.6, double arm_speed = 0.5);
 
   void Step(CCI_HandBotState& cRobotState) override;

@@ -1,3 +1,8 @@
+// The difficult part is the way to the nest, which may be out of sight for minutes. The eyebot searches slowly enough
+// for the footbot to follow the laser spot, waits when the footbot falls behind, and fetches it when something hides
+// the spot. The nest's place is remembered in the eyebot's own frame and moved against its commanded velocity in each
+// step; the memory is given up when the place is reached without a nest in sight. The footbot that carries the prey is
+// the one with blue LEDs nearest to the prey, because another one may carry the other prey.
 #include "eyebot_guide.h"
 
 #include <algorithm>

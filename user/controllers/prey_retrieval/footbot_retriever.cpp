@@ -1,3 +1,6 @@
+// The footbot knows no positions: it acts on what its camera sees, the laser spot, preys and the blue LEDs of a robot
+// that carries. Three deadlocks are broken by time or chance: gripping is given up after a while, a prey that a wall
+// holds is pulled off backwards, and of two robots that grip at the same time one lets go at random.
 #include "footbot_retriever.h"
 
 #include <cmath>

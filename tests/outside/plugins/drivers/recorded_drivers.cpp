@@ -24,7 +24,7 @@ swarmanoid::ParameterSpec File(const char* description)
   return {.name = "file", .type = swarmanoid::ParameterType::kPath, .description = description};
 }
 
-// A line of numbers for each step.
+// The file gets a line of numbers for each step.
 class CRecordedSensor : public CSensorDriver
 {
 public:

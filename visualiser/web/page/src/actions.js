@@ -19,7 +19,9 @@ export class Actions {
   // ---- the run ----
 
   command(request) {
-    if (this.state.control === "granted" && !this.state.editor) this.send(request);
+    if (this.state.control !== "granted" || this.state.editor) return;
+    if (request.do === "stop") this.state.endedHere = true;
+    this.send(request);
   }
 
   step(ticks) {
@@ -100,6 +102,14 @@ export class Actions {
     return { x, y, z, heading: place ? (picture.yawOf(entity) * 180) / Math.PI : 0, present: place !== null };
   }
 
+  // Adds a frame to the plots of the swarm: of the selected robots if there are several, else of all.
+  countSwarm(frame) {
+    const { inspector, picture, state } = this;
+    const { chosen } = picture;
+    const robots = chosen.length > 1 ? chosen.filter((entity) => state.world.isRobot(entity)) : state.world.robots;
+    inspector.swarm?.addFrame(frame, picture.meter, robots, robots === state.world.robots);
+  }
+
   // ---- where the camera is ----
 
   approach(entity) {
@@ -133,6 +143,7 @@ export class Actions {
 
   toggle(name) {
     this.picture.show(name, !this.picture.shows[name]);
+    if (name === "trails") this.past.needsChanged();
     this.showToggle(name);
   }
 
@@ -154,12 +165,14 @@ export class Actions {
   colourBy(name) {
     this.colourChoice.value = name;
     this.picture.colourBy(name === "LEDs" ? null : name);
+    this.past.needsChanged();
     this.legend.show(this.picture.colouring, this.state.world);
   }
 
   toggleHeat() {
     this.picture.showHeat(!this.picture.heat);
     this.tools.set("heat", Boolean(this.picture.heat));
+    this.past.needsChanged();
   }
 
   // On a narrow screen the list of entities covers the picture only while the user wants it.
@@ -195,7 +208,9 @@ export class Actions {
     const shows = Object.keys(picture.shows).filter((name) => picture.shows[name]);
     const select = state.selected === null ? null : state.world.ids[state.selected];
     const fragment = writeLink({ view: viewpoint, select, shows, colours: picture.colouring?.name ?? null, quality: picture.isPlan ? "plan" : null });
-    state.link = `${location.origin}${location.pathname}#${fragment}`;
+    const address = new URL(location.href);
+    Object.assign(address, { search: "", hash: fragment });
+    state.link = address.href;
     if (await copyOrShow("A link to this view", state.link)) this.tell(`copied: ${state.link}`);
   }
 

@@ -4,7 +4,8 @@ const FIRST_DELAY_MS = 300;
 const LONGEST_DELAY_MS = 3000;
 
 export class Connection {
-  // `handlers`: onOpen(), onClose(), onText(message), onFrame(buffer).
+  // `handlers`: onOpen(), onClose(), onText(message), onFrame(buffer), isOver(): whether no connection is wanted after
+  // this one.
   constructor(handlers) {
     this.handlers = handlers;
     this.delay = FIRST_DELAY_MS;
@@ -24,6 +25,7 @@ export class Connection {
     };
     this.socket.onclose = () => {
       this.handlers.onClose();
+      if (this.handlers.isOver()) return;
       setTimeout(() => this.connect(), this.delay);
       this.delay = Math.min(this.delay * 1.6, LONGEST_DELAY_MS);
     };

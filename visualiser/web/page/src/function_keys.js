@@ -1,4 +1,6 @@
 // Passes keys and selections to experiment functions instead of the page, while this is switched on.
+import { takesText } from "./ui/keyboard.js";
+
 const NAMES = { " ": "Space", ArrowUp: "Up", ArrowDown: "Down", ArrowLeft: "Left", ArrowRight: "Right", Enter: "Return" };
 const SAME = ["Escape", "Tab", "Backspace", "Delete", "Insert", "Home", "End", "PageUp", "PageDown", "Shift", "Control", "Alt"];
 const SWITCH = "F8";
@@ -44,7 +46,7 @@ export class FunctionKeys {
   down(event) {
     if (event.key === SWITCH) return false;
     if (!this.on || event.metaKey || (event.ctrlKey && event.key !== "Control")) return false;
-    if (["INPUT", "SELECT", "TEXTAREA"].includes(event.target.tagName)) return false;
+    if (takesText(event.target)) return false;
     const key = nameOfKey(event.key);
     if (key === null) return false;
     event.preventDefault();

@@ -5,16 +5,17 @@ import { Connection } from "./connection.js";
 import { Film } from "./film.js";
 import { FunctionKeys } from "./function_keys.js";
 import { readLink } from "./link.js";
-import { LookingBack } from "./looking_back.js";
+import { Playback } from "./playback.js";
 import { pageHook } from "./page_hook.js";
 import { keysOf } from "./page_keys.js";
 import { Reception } from "./reception.js";
+import { Recording } from "./recording.js";
 import { Banner } from "./ui/banner.js";
 import { h } from "./ui/dom.js";
 import { Help } from "./ui/help.js";
 import { Inspector } from "./ui/inspector.js";
 import { listenToKeys } from "./ui/keyboard.js";
-import { Legend } from "./ui/legend.js";
+import { HeatLegend, Legend } from "./ui/legend.js";
 import { EntityList } from "./ui/list.js";
 import { LogPanel } from "./ui/log.js";
 import { Processes } from "./ui/processes.js";
@@ -31,8 +32,9 @@ const asked = new URLSearchParams(location.search).get("quality");
 const linked = readLink(location.hash.slice(1));
 const quality = [asked, linked.quality].find((name) => choices.includes(name)) ?? "auto";
 
-// `editor`: set if the server edits a file.
-const state = { world: null, status: null, control: "read-only", selected: null, connected: false, frames: 0, drawn: 0, linkWaits: true, watched: [], run: null, live: null, editor: null };
+// `endedHere`: whether this page has ended the run. `editor`: set if the server edits a file. `recorded`: whether this page has the run itself, and no server.
+const recorded = Recording.isHere;
+const state = { recorded, world: null, status: null, control: "read-only", selected: null, connected: false, frames: 0, drawn: 0, endedHere: false, linkWaits: true, watched: [], run: null, live: null, editor: null };
 
 const send = (request) => connection.send(request);
 const actions = new Actions(state);
@@ -62,15 +64,17 @@ const inspector = new Inspector({
   remove: (entity) => actions.remove([entity]),
   poseOf: (entity) => actions.poseOf(entity),
   swarmChanged: (on) => tools.set("swarm", on),
+  plotsChanged: () => past.needsChanged(),
+  isRecorded: recorded,
 });
 const log = new LogPanel();
 const processes = new Processes();
 const help = new Help();
-const banner = new Banner(state, { isLookingBack: () => past.isOn });
+const banner = new Banner(state, { isLookingBack: () => past.isOn, connect: () => connection.connect() });
 const main = h("main", {}, banner.element);
 list.element.append(processes.element);
 const app = document.getElementById("app");
-const timeline = new Timeline({ look: (tick) => past.look(tick), play: () => past.play(), live: () => past.live(), branch: () => past.branch() });
+const timeline = new Timeline({ look: (tick) => past.look(tick), play: () => past.play(), step: (ticks) => past.step(ticks), pace: (factor) => past.setPace(factor), live: () => past.live(), branch: () => past.branch() });
 app.append(toolbar.element, list.element, main, timeline.element, inspector.element, log.element, help.element);
 const picture = new Picture(main, quality, {
   select,
@@ -81,11 +85,15 @@ const picture = new Picture(main, quality, {
   mayMove: () => state.control === "granted" && !past.isOn,
   trouble,
   send,
+  meshes: () => (recorded ? Recording.meshes() : fetch("meshes.json").then((answer) => answer.json())),
+  hasServer: !recorded,
 });
-const past = new LookingBack({ state, timeline, inspector, toolbar, picture, send, tell, changed: showState });
+const past = new Playback({ state, actions, timeline, inspector, toolbar, picture, send, tell, trouble, changed: showState });
 const planNote = h("button.plan-note", { title: "Show it in three dimensions  (V)", onclick: () => picture.switchView() }, "Plan view · 3D: V");
 main.append(planNote);
 const legend = new Legend();
+const heatLegend = new HeatLegend();
+picture.onHeat = () => heatLegend.show(picture.heat);
 picture.onColouring = () => legend.show(picture.colouring, state.world);
 const film = new Film(picture, { fileName: () => actions.fileName(), changed: (on) => tools.set("film", on), trouble });
 const colourChoice = h(
@@ -96,28 +104,43 @@ const colourChoice = h(
 const viewpoints = new ViewpointsMenu({ picture, world: () => state.world, tell, left: () => inspector.setFollowed(null) });
 const tools = new Tools([
   [
-    { name: "measures", label: "Measure", key: "M", title: "Drag over the floor: a length and its direction", switches: true, act: () => actions.switchTool("measures") },
-    { name: "rays", label: "Rays", key: "R", title: "Rays of the proximity sensors", switches: true, act: () => toggle("rays") },
+    "Show",
     { name: "bodies", label: "Collision", key: "C", title: "Bodies as the engines collide them", switches: true, act: () => toggle("bodies") },
-    { name: "links", label: "Range and bearing", key: "X", title: "Who hears whom; half a line comes from one who is not answered", switches: true, act: () => toggle("links") },
-    { name: "heat", label: "Heat map", key: "J", title: "Where robots have been since this was switched on", switches: true, act: () => actions.toggleHeat() },
-    { name: "swarm", label: "Swarm plots", key: "W", title: "Mean and band of values over the robots", switches: true, act: () => inspector.toggleSwarm() },
-    { name: "link", label: "Link", key: "Y", title: "Copy a link that opens this view, without the token", act: () => actions.shareLink() },
-    { name: "aboard", label: "On board", key: "O", title: "Look from the selected robot", switches: true, act: () => actions.board() },
-    { name: "film", label: "Film", key: "shift + P", title: "Film the picture, until it is pressed again", switches: true, act: () => film.toggle() },
-  ],
-  [
-    { name: "function_keys", label: "Keys to functions", key: "F8", title: "Keys and selections go to the experiment functions", switches: true, control: true, act: () => functionKeys.toggle() },
-    { name: "handles", label: "Handles", key: "H", title: "The selected robot has handles that move and turn it", switches: true, control: true, act: () => actions.switchTool("handles") },
+    { name: "heat", label: "Heat map", key: "J", title: "Where robots have been since this was switched on, or before the tick that is looked at", switches: true, act: () => actions.toggleHeat() },
+    { name: "links", label: "Range and bearing", key: "X", title: "Which robots hear each other; half a line comes from a robot that hears no answer", switches: true, act: () => toggle("links") },
+    { name: "rays", label: "Rays", key: "R", title: "Rays of the proximity sensors", switches: true, act: () => toggle("rays") },
     h("label", {}, "Colours: ", colourChoice),
   ],
   [
-    h("label", {}, "Viewpoint: ", viewpoints.element),
-    { name: "store", label: "Keep view", key: "Ctrl + shift + 0 … 9", title: "Keep this view as the next viewpoint, and copy its XML", act: () => viewpoints.store() },
+    "Examine",
+    { name: "measures", label: "Measure", key: "M", title: "Drag over the floor: a length and its direction", switches: true, act: () => actions.switchTool("measures") },
+    { name: "swarm", label: "Swarm plots", key: "W", title: "Mean and band of values over the robots", switches: true, act: () => inspector.toggleSwarm() },
+  ],
+  [
+    "Camera",
     { name: "fly", label: "Fly", key: "U", title: "Fly through the viewpoints", act: () => viewpoints.fly() },
+    { name: "store", label: "Keep view", key: "Ctrl + shift + 0 … 9", title: "Keep this view as the next viewpoint, and copy its XML", act: () => viewpoints.store() },
+    { name: "aboard", label: "On board", key: "O", title: "Look from the selected robot", switches: true, act: () => actions.board() },
+    h("label", {}, "Viewpoint: ", viewpoints.element),
+  ],
+  [
+    "Steer",
+    { name: "handles", label: "Handles", key: "H", title: "The selected robot has handles that move and turn it", switches: true, control: true, act: () => actions.switchTool("handles") },
+    { name: "function_keys", label: "Keys to functions", key: "F8", title: "Keys and selections go to the experiment functions", switches: true, control: true, act: () => functionKeys.toggle() },
+  ],
+  [
+    "Save",
+    { name: "film", label: "Film", key: "shift + P", title: "Film the picture, until it is pressed again", switches: true, act: () => film.toggle() },
+    { name: "link", label: "Link", key: "Y", title: "Copy a link that opens this view, without the token", act: () => actions.shareLink() },
+    { name: "picture", label: "Picture", key: "P", title: "Save the picture (PNG)", act: () => actions.savePicture() },
   ],
 ]);
-main.append(tools.element, legend.element);
+// On a phone the bar has no room for the options of the view.
+const narrow = window.matchMedia("(max-width: 620px)");
+const placeViews = () => (narrow.matches ? tools.element.firstElementChild.after(toolbar.views) : toolbar.element.append(toolbar.views));
+narrow.addEventListener("change", placeViews);
+placeViews();
+main.append(tools.element, h("div.legends", {}, legend.element, heatLegend.element));
 picture.onQuality = () => {
   toolbar.setQuality(picture.wanted, picture.qualityName);
   planNote.hidden = picture.qualityName !== "plan";
@@ -135,12 +158,25 @@ window.addEventListener("blur", () => functionKeys.release());
 const authority = new Authority({ state, toolbar, tools, inspector, send });
 actions.reach({ app, toolbar, list, inspector, log, picture, past, legend, tools, colourChoice, functionKeys, send });
 const reception = new Reception({ state, actions, authority, toolbar, list, inspector, log, processes, timeline, viewpoints, banner, picture, past, startEditor, greet: sendVisibility, showState });
-const connection = new Connection({
+const connection = new (recorded ? Recording : Connection)({
   onOpen: () => reception.connected(true),
   onClose: () => reception.connected(false),
+  isOver: () => state.endedHere,
   onText: (message) => reception.message(message),
   onFrame: (buffer) => reception.frame(buffer),
+  onPast: (frame) => past.show(frame),
+  onFailure: (error) => failed(error),
 });
+if (recorded) {
+  tools.hide("function_keys", "handles", "rays", "bodies", "links");
+  for (const part of [toolbar, timeline]) part.setRecorded();
+}
+
+// The run of this page cannot be read.
+function failed(error) {
+  trouble(`The run in this page cannot be shown: ${error.message}`);
+  log.toggle();
+}
 listenToKeys({
   keys: keysOf({ state, actions, toolbar, inspector, picture, viewpoints, past, film, help, log, list, functionKeys }),
   digit: (number, { shiftKey }) => (shiftKey ? viewpoints.store(number) : viewpoints.recall(number)),
@@ -158,7 +194,7 @@ let loadingEditor = null;
 function startEditor() {
   state.status = { phase: "editing", real_time_factor: 0, speed_wanted: 1, processes: [] };
   loadingEditor ??= import("./edit/editor.js").then(({ Editor }) => {
-    for (const name of ["function_keys", "rays", "bodies", "links", "heat", "swarm", "aboard", "film"]) tools.buttons[name].hidden = true;
+    tools.hide("function_keys", "rays", "bodies", "links", "heat", "swarm", "aboard", "film");
     for (const name of ["trails", "beams"]) toolbar.toggles[name].hidden = true;
     state.editor = new Editor({ app, main, picture, left: list.element, send, choose: (chosen) => actions.showChosen(chosen) });
     if (state.control === "granted") state.editor.begin();
@@ -195,4 +231,4 @@ window.addEventListener("hashchange", () => {
 setInterval(() => picture.motion && list.render(picture.motion), 250);
 showState();
 
-window.swarmanoid = pageHook({ state, past, timeline, viewpoints, list, picture, select, toggle, approach, colourBy: (name) => actions.colourBy(name), send });
+window.swarmanoid = pageHook({ state, past, timeline, viewpoints, list, picture, inspector, select, toggle, approach, colourBy: (name) => actions.colourBy(name), send });

@@ -7,13 +7,24 @@ function inPage(picture, { x, y }) {
 }
 
 // Returns an object with the parts of the page and its actions.
-export function pageHook({ state, past, timeline, viewpoints, list, picture, select, toggle, approach, colourBy, send }) {
+export function pageHook({ state, past, timeline, viewpoints, list, picture, inspector, select, toggle, approach, colourBy, send }) {
   return {
     get past() {
       return past.isOn ? { tick: past.wanted, shown: state.frame?.tick, playing: past.isPlaying } : null;
     },
     get timeline() {
       return timeline.element.hidden ? null : { first: timeline.first, last: timeline.last, events: timeline.events.map(({ tick, what }) => [tick, what]) };
+    },
+    // Returns the shown plots: of each value its points, and the times of the first and last one.
+    get plots() {
+      const series = [...inspector.plots].flatMap((plot) => [...plot.series.values()].map((each) => ({ ...each, part: plot.part })));
+      return series.map(({ name, times, values, part }) => ({ name, points: times.length, first: times[0] ?? null, last: times.at(-1) ?? null, value: values.at(-1) ?? null, part }));
+    },
+    // Returns the trail of a robot, as places [x, y].
+    trail: (id) => {
+      const { trails } = picture;
+      const robot = state.world.robots.indexOf(state.world.find(id));
+      return Array.from({ length: trails.added - trails.first }, (_, i) => [...trails.sample(trails.first + i).subarray(3 * robot, 3 * robot + 2)]);
     },
     get branch() {
       return state.branch ?? null;
@@ -118,6 +129,9 @@ export function pageHook({ state, past, timeline, viewpoints, list, picture, sel
     },
     get heat() {
       return picture.heat && { columns: picture.heat.columns, rows: picture.heat.rows, seconds: Array.from(picture.heat.seconds), drawn: Boolean(picture.heat.canvas) };
+    },
+    get heatLegend() {
+      return document.querySelector(".legends").textContent;
     },
     get link() {
       return state.link ?? null;

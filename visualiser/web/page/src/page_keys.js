@@ -9,11 +9,11 @@ export function keysOf({ state, actions, toolbar, inspector, picture, viewpoints
     else actions.select(null);
   };
   return {
-    " ": () => toolbar.pause.click(),
+    " ": () => (state.recorded ? past.play() : toolbar.pause.click()),
     n: () => actions.step(1),
     N: () => actions.step(10),
-    "+": () => actions.changeSpeed(1),
-    "-": () => actions.changeSpeed(-1),
+    "+": () => (past.isOn ? past.changePace(1) : actions.changeSpeed(1)),
+    "-": () => (past.isOn ? past.changePace(-1) : actions.changeSpeed(-1)),
     f: () => state.selected !== null && actions.follow(state.selected),
     k: () => inspector.togglePin(),
     i: () => actions.toggle("ids"),

@@ -1,6 +1,6 @@
 // Receives frames and messages of the server, and passes them to the parts of the page.
 import { FrameDecoder, isPast } from "./protocol.js";
-import { isDrawing, readDrawing } from "./view/drawing.js";
+import { isDrawing, readDrawing } from "./view/drawing_reader.js";
 import { World } from "./world.js";
 
 export class Reception {
@@ -19,6 +19,7 @@ export class Reception {
       this.picture.setDrawing(null);
     }
     this.state.connected = isOpen;
+    if (isOpen) this.state.endedHere = false;
     this.showState();
   }
 
@@ -35,9 +36,7 @@ export class Reception {
     state.frame = frame;
     picture.addFrame(frame, performance.now());
     inspector.addFrame(frame);
-    const { chosen } = picture;
-    const robots = chosen.length > 1 ? chosen.filter((entity) => state.world.isRobot(entity)) : state.world.robots;
-    inspector.swarm?.addFrame(frame, picture.meter, robots, robots === state.world.robots);
+    this.actions.countSwarm(frame);
     this.toolbar.setFrame(frame);
   }
 
@@ -72,7 +71,7 @@ export class Reception {
   }
 }
 
-// By the type of the message.
+// The handlers of messages, by type.
 const receivers = {
   welcome({ log, authority, startEditor, greet }, { control, challenge, edits }) {
     log.clear();
@@ -96,15 +95,15 @@ const receivers = {
     if (!past.isOn) picture.paint(message);
   },
   watched: ({ past, inspector }, message) => past.isOn || inspector.addDetails(message),
-  timeline({ state, timeline }, message) {
+  timeline({ state, timeline, past }, message) {
     state.run = message.run;
     timeline.set(message, state.world?.tickSeconds);
+    if (!state.recorded || past.isOn) return;
+    state.world.lastTick = message.last;
+    past.look(message.first);
   },
-  past({ past, picture, inspector }, message) {
-    if (!past.isOn) return;
-    picture.paint(message.colours);
-    inspector.addDetails(message);
-  },
+  past: ({ past }, message) => past.takeDetails(message),
+  branched: ({ past }, message) => past.branched(message),
   past_inside: ({ past, inspector }, message) => past.isOn && past.wanted === message.tick && inspector.addInside(message),
   marks: ({ picture }, message) => picture.marks.receive(message),
   log: ({ log }, message) => log.add(message),

@@ -1,6 +1,8 @@
 // The token of an address that may control the run. It is kept for this tab, removed from the address bar, and never
 // sent. It answers the server's challenge by HMAC-SHA256 (RFC 2104, FIPS 180-4). The algorithm is written out here,
 // since a page from another machine without encryption has no crypto.subtle.
+import { keep, kept } from "./storage.js";
+
 const KEY = "swarmanoid.token";
 const BLOCK = 64; // bytes
 
@@ -14,11 +16,11 @@ export function takeToken() {
     const rest = fields.toString();
     history.replaceState(null, "", location.pathname + location.search + (rest ? `#${rest}` : ""));
   }
-  return given ?? sessionStorage.getItem(KEY);
+  return given ?? kept("sessionStorage", KEY);
 }
 
 export function keepToken(token) {
-  sessionStorage.setItem(KEY, token);
+  keep("sessionStorage", KEY, token);
 }
 
 // Returns the answer of the token's holder to a challenge, in hexadecimal digits.

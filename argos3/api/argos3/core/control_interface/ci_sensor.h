@@ -15,8 +15,10 @@ public:
   void Init(TConfigurationNode&) override {}
   void Reset() override {}
   void Destroy() override {}
-  // Switch the sensor on and off.
+  // Switches the sensor on.
   virtual void Enable() { enabled_ = true; }
+  // Switches the sensor off. Among the sensors that come with the simulator only the cameras heed it: a camera that is
+  // off reports no blobs. Every other sensor goes on reading.
   virtual void Disable() { enabled_ = false; }
   bool IsEnabled() const { return enabled_; }
   bool IsDisabled() const { return !enabled_; }

@@ -24,8 +24,9 @@ public:
   virtual void PreStep() {}
   // Called after the controllers. Entities are where the controllers saw them.
   virtual void PostStep() {}
-  // Called before the first step and after the last one.
+  // Called before the first step.
   virtual void PreExperiment() {}
+  // Called after the last step. It may still change entities.
   virtual void PostExperiment() {}
   // Returns true to end the experiment; called after each step.
   virtual bool IsExperimentFinished() { return false; }
@@ -34,6 +35,11 @@ public:
 
   CSimulator& GetSimulator() { return CSimulator::GetInstance(); }
   CSpace& GetSpace() { return CSimulator::GetInstance().GetSpace(); }
+
+  void IterateOverControllableEntities(const CSpace::TControllableEntityIterCBType& call) const
+  {
+    CSimulator::GetInstance().GetSpace().IterateOverControllableEntities(call);
+  }
 
   // Moves an entity. Returns false and moves nothing if it would touch another body. Throws CARGoSException for an
   // entity that cannot move.
@@ -45,8 +51,10 @@ public:
   // Such robots need a run of one process; GetController() works at once. The simulator takes ownership. Throws
   // CARGoSException for a box, cylinder or light that the file does not declare, and if there are too many robots.
   virtual void AddEntity(CEntity& entity);
-  // Remove an entity from the arena. Throw CARGoSException for an entity that is not in it or cannot be removed.
+  // Removes an entity from the arena by its id. Throws CARGoSException for an entity that is not in it or cannot be
+  // removed.
   virtual void RemoveEntity(const std::string& id);
+  // Removes an entity in the same way. The object stays valid.
   virtual void RemoveEntity(CEntity& entity);
 };
 

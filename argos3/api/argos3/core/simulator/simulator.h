@@ -68,13 +68,15 @@ public:
   }
   bool IsTerminated() const { return terminated_; }
 
-  // For a program that runs experiments itself: SetExperimentFileName, LoadExperiment, then Execute and Reset as often
-  // as needed, at the end Destroy. The experiment needs loop functions, runs in this process and shows nothing. The
-  // functions throw CARGoSException for mistakes in the file and errors in a run.
+  // These functions are for a program that runs experiments itself: SetExperimentFileName, LoadExperiment, then Execute
+  // and Reset as often as needed, at the end Destroy. The experiment needs loop functions, runs in this process and
+  // shows nothing. The functions throw CARGoSException for mistakes in the file and errors in a run.
   void SetExperimentFileName(const std::string& file) { experiment_file_ = file; }
   const std::string& GetExperimentFileName() const { return experiment_file_; }
   // Loads the experiment, up to Init of the loop functions.
   void LoadExperiment();
+  // Loads an experiment in memory, which the program may have changed. Paths in it are those of the document's file.
+  void Load(ticpp::Document& document);
   // Calls PreExperiment, steps until the experiment is over, and calls PostExperiment.
   void Execute();
   // Does one step.
@@ -83,7 +85,7 @@ public:
   // Ends the experiment; another one may be loaded then.
   void Destroy();
 
-  // For the bridge to the simulator.
+  // Starts the experiment, for the bridge to the simulator.
   void Start(UInt32 seed, UInt32 max_clock)
   {
     seed_ = seed;

@@ -10,7 +10,7 @@ namespace argos
 class CRate
 {
 public:
-  // `rate`: times a second.
+  // `rate` is in times a second.
   CRate(Real rate) { SetRate(rate); }
   Real GetRate() const { return rate_; }
   // Starts the period now.

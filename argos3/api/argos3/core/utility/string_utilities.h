@@ -31,8 +31,9 @@ void ParseValues(std::istream& input, UInt32 count, T* values, char delimiter = 
   for (UInt32 i = 0; i < count; ++i)
   {
     if (!std::getline(input, field, delimiter)) THROW_ARGOSEXCEPTION("expected " << count << " values, found " << i);
+    // A field without a value leaves the number as it is, as in ARGoS3.
     std::istringstream stream(field);
-    if (!(stream >> values[i])) THROW_ARGOSEXCEPTION("'" << field << "' is not a value");
+    stream >> values[i];
   }
   input.clear();
 }
@@ -47,7 +48,7 @@ void Tokenize(const std::string& text, std::vector<std::string>& tokens, const s
 std::string StringToUpperCase(const std::string& text);
 std::string StringToLowerCase(const std::string& text);
 void Replace(std::string& text, const std::string& original, const std::string& substitute);
-// `pattern`: an extended regular expression.
+// Returns whether the text matches `pattern`, an extended regular expression.
 bool MatchPattern(const std::string& text, const std::string& pattern);
 // Replaces $NAME by the value of that environment variable; an unset one stays unchanged.
 std::string& ExpandEnvVariables(std::string& text);

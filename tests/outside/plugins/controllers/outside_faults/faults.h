@@ -1,5 +1,5 @@
-// What goes wrong in the code of users, for plug-ins that fail when the environment variable OUTSIDE_FAULT says so:
-// "<who> <fault> <tick>". The file OUTSIDE_FAULT_TIME gets the time of the failure, in seconds of the monotonic clock.
+// Faults of users' code, for plug-ins that fail when the environment variable OUTSIDE_FAULT is "<who> <fault> <tick>".
+// The file OUTSIDE_FAULT_MARK is made before the failure.
 #pragma once
 
 #include <fcntl.h>
@@ -8,12 +8,9 @@
 #include <unistd.h>
 
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <exception>
-#include <new>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -22,7 +19,7 @@
 namespace faults
 {
 
-// Every call takes some of the stack, and none of it can be left out.
+// Every call takes some of the stack, and the compiler cannot remove it.
 [[gnu::noinline]] inline int Recurse(int depth)
 {
   volatile char room[4096];
@@ -30,32 +27,10 @@ namespace faults
   return Recurse(depth + 1) + room[depth % 4096];
 }
 
-// There may be no memory left.
-inline void NoteTime()
-{
-  const char* path = std::getenv("OUTSIDE_FAULT_TIME");
-  if (path == nullptr) return;
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  char text[40];
-  const int size = std::snprintf(text, sizeof text, "%lld.%09ld", static_cast<long long>(now.tv_sec), now.tv_nsec);
-  const int file = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
-  if (write(file, text, static_cast<std::size_t>(size)) < 0) std::abort();
-  close(file);
-}
-
 inline void TakeAllMemory()
 {
   std::vector<std::vector<char>> taken;
-  try
-  {
-    while (true) taken.emplace_back(std::size_t{4} << 20, 'x');
-  }
-  catch (const std::bad_alloc&)
-  {
-    NoteTime();
-    throw;
-  }
+  while (true) taken.emplace_back(std::size_t{4} << 20, 'x');
 }
 
 struct Foreign
@@ -64,7 +39,7 @@ struct Foreign
 
 inline void Fail(const std::string& fault)
 {
-  NoteTime();
+  if (const char* mark = std::getenv("OUTSIDE_FAULT_MARK")) close(open(mark, O_WRONLY | O_CREAT, 0666));
   if (fault == "throw") throw std::runtime_error("cannot go on");
   if (fault == "throw_number") throw 42;
   if (fault == "throw_foreign") throw Foreign();
@@ -85,15 +60,15 @@ inline void Fail(const std::string& fault)
   }
 }
 
-// `who`: controller, functions, engine, render or watch.
+// `who` is controller, functions, engine, render or watch.
 inline void FailIfAsked(const char* who, std::uint64_t tick)
 {
   const char* asked = std::getenv("OUTSIDE_FAULT");
   if (asked == nullptr) return;
   std::istringstream words(asked);
-  std::string whom, fault;
+  std::string part, fault;
   std::uint64_t when = 0;
-  if (words >> whom >> fault >> when && whom == who && tick == when) Fail(fault);
+  if (words >> part >> fault >> when && part == who && tick == when) Fail(fault);
 }
 
 }  // namespace faults

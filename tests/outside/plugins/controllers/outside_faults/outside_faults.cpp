@@ -1,4 +1,4 @@
-// A controller that fails as OUTSIDE_FAULT says.
+// A controller that fails by OUTSIDE_FAULT.
 #include "controllers/outside_faults/faults.h"
 
 #include "ci_controller.h"

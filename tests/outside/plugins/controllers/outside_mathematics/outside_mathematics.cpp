@@ -21,7 +21,7 @@ class Digest
 public:
   void Add(double x) { AddBits(std::isnan(x) ? 1 : std::bit_cast<std::uint64_t>(x)); }
   void Add(float x) { Add(static_cast<double>(x)); }
-  // As much of it as a double holds, and the rest.
+  // Adds the part of the number that fits a double, and the rest.
   void Add(long double x)
   {
     Add(static_cast<double>(x));
@@ -114,7 +114,7 @@ std::uint64_t DigestOf(std::uint64_t step)
 {
   Digest digest;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  // Known at run time alone: the compiler evaluates what it knows.
+  // The numbers are known only at run time, since the compiler evaluates constants.
   static volatile const double specials[] = {0.0,    -0.0,      1.0,        -1.0,         0.5,   -2.5,
                                              1e22,   -1e300,    5e-324,     1e-310,       1e-8,  709.7,
                                              -745.0, kInfinity, -kInfinity, std::nan(""), 171.5, 3.0};

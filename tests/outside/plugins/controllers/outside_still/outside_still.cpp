@@ -1,4 +1,4 @@
-// A controller without devices that does nothing: the stranger's plug-ins are loaded at all.
+// A controller without devices that does nothing. It shows that the user's plug-ins are loaded at all.
 #include "ci_controller.h"
 
 class COutsideStill : public CCI_Controller

@@ -1,4 +1,4 @@
-// A controller that commands what is no number at tick 5; the parameter says to which actuator.
+// A controller that commands NaN at tick 5; the parameter names the actuator.
 #include <limits>
 
 #include "common/control_interface/ci_controller.h"

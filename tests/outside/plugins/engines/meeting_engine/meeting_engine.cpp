@@ -1,5 +1,5 @@
-// An engine whose robots all go towards the one that is farthest along x, and which can be split: its regions tell one
-// another how far their robots are, and remember where they are.
+// An engine whose robots all move towards the one that is farthest along x. It can be split: its regions tell each
+// other the positions of their robots, and keep them.
 #include <algorithm>
 #include <stdexcept>
 
@@ -112,14 +112,14 @@ private:
     results_.resize(regions);
     team_->Work(
         !knows_all_,
-        [&](bool anew, std::span<ByteWriter> tasks)
+        [&](bool all_data, std::span<ByteWriter> tasks)
         {
           std::vector<std::vector<double>> parts(regions);
           for (std::size_t k = 0; k < x_.size(); ++k) parts[k % regions].push_back(x_[k]);
           for (unsigned region = 0; region < regions; ++region)
           {
-            tasks[region].Put(anew);
-            if (anew) tasks[region].PutArray(parts[region]);
+            tasks[region].Put(all_data);
+            if (all_data) tasks[region].PutArray(parts[region]);
           }
         },
         results_);

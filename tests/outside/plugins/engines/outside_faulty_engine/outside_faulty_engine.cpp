@@ -1,4 +1,4 @@
-// An engine in which nothing moves and which fails as OUTSIDE_FAULT says.
+// An engine in which nothing moves, and which fails by OUTSIDE_FAULT.
 #include "controllers/outside_faults/faults.h"
 
 #include "engine_worker/physics_engine.h"

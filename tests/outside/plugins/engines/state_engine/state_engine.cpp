@@ -1,5 +1,5 @@
-// An engine in which everything stands still, and which gives what cannot be part of the state in the step to tick 5;
-// the mode says what.
+// An engine in which nothing moves. In the step to tick 5 it returns a value that cannot be part of the state; the mode
+// says which.
 #include <limits>
 
 #include "engine_worker/physics_engine.h"

@@ -1,4 +1,4 @@
-// Experiment functions that fail as OUTSIDE_FAULT says.
+// Experiment functions that fail by OUTSIDE_FAULT.
 #include "controllers/outside_faults/faults.h"
 
 #include "space_server/experiment_functions.h"

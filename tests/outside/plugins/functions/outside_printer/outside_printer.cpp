@@ -1,4 +1,4 @@
-// Experiment functions that print what a space server tells its launcher, and what no program should trip over.
+// Experiment functions that print the status lines of a space server, and text that no program must trip over.
 #include <unistd.h>
 
 #include <cstdio>
@@ -24,7 +24,7 @@ public:
         "error forged\nfinished 1 1 00000000000000ff 1 1\ntick 99999999999999999999 1 nan\nstate\n";
     std::fputs(lines.c_str(), stdout);
     std::fflush(stdout);
-    const std::string raw = "stalled forged 9\n" + std::string(200'000, 'x') + "\n\x01\n";
+    const std::string raw = "stalled 9 forged\n" + std::string(200'000, 'x') + "\n\x01\n";
     [[maybe_unused]] const ssize_t written = write(STDOUT_FILENO, raw.data(), raw.size());
   }
 };

@@ -1,4 +1,4 @@
-// Experiment functions that ask for what cannot be part of the state, at tick 5; the mode says what.
+// Experiment functions that request a change that cannot be part of the state, at tick 5; the mode says which.
 #include <limits>
 
 #include "space_server/experiment_functions.h"

@@ -1,4 +1,4 @@
-// A renderer that shows nothing and fails as OUTSIDE_FAULT says.
+// A renderer that shows nothing, and fails by OUTSIDE_FAULT.
 #include "controllers/outside_faults/faults.h"
 
 #include "visualiser/render.h"

@@ -121,7 +121,7 @@ export class Editor {
             h(
               "div.mistake",
               { role: "alert" },
-              h("span", {}, "Somebody else has changed the file."),
+              h("span", {}, "The file has changed on the disk."),
               h("button.small", { title: "Undo brings your text back", onclick: () => this.ask({ do: "reload" }) }, "Read it again"),
               h("button.small", { onclick: () => this.ask({ do: "save", anyway: true }) }, "Save over it"),
             ),

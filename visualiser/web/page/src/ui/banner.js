@@ -4,11 +4,13 @@ import { h, setText } from "./dom.js";
 const NEWS_MS = 5000;
 
 export class Banner {
-  // `state`: of the page; isLookingBack(): whether it shows the past.
-  constructor(state, { isLookingBack }) {
+  // `state`: of the page; isLookingBack(): whether it shows the past; connect(): looks for the next start of the run.
+  constructor(state, { isLookingBack, connect }) {
     this.state = state;
     this.isLookingBack = isLookingBack;
-    this.element = h("div.banner", { role: "status" });
+    this.message = h("span");
+    this.again = h("button.small", { onclick: () => connect() }, "Look for its next start");
+    this.element = h("div.banner", { role: "status" }, this.message, this.again);
     this.newsUntil = 0;
   }
 
@@ -19,16 +21,19 @@ export class Banner {
   }
 
   show() {
-    const { connected, status } = this.state;
+    const { connected, status, endedHere } = this.state;
     const text = this.text();
-    setText(this.element, text);
+    setText(this.message, text);
+    this.again.hidden = connected || !endedHere;
     this.element.hidden = text === "";
-    this.element.dataset.kind = connected || status?.phase === "finished" ? "calm" : "trouble";
+    this.element.dataset.kind = connected || endedHere || status?.phase === "finished" ? "calm" : "trouble";
   }
 
   text() {
-    const { connected, status, world } = this.state;
+    const { connected, status, world, recorded, endedHere } = this.state;
+    if (recorded) return "";
     const ended = status?.phase === "finished";
+    if (endedHere && (ended || !connected) && !(connected && this.isLookingBack())) return "You have ended the run. This is its last state.";
     if (!connected && ended) return "The run has ended; this is its last state. Start the experiment again, and this page goes on.";
     if (connected && this.isLookingBack()) return "Looking back. Live, or Q, goes to the present.";
     if (!connected) return world ? "The connection is lost. Trying again; this is the last state." : "Waiting for the server.";

@@ -37,6 +37,7 @@ const shapes = {
   pause: "M4 2.5h3v11H4zM9 2.5h3v11H9z",
   resume: "M4 2.2v11.6L13.5 8z",
   step: "M3 2.5v11L10.5 8zM11 2.5h2.2v11H11z",
+  back: "M13 2.5v11L5.5 8zM2.8 2.5H5v11H2.8z",
   stop: "M3.2 3.2h9.6v9.6H3.2z",
   reset: "M2.8 2.5H5v11H2.8zM13.5 2.2v11.6L5 8z",
 };

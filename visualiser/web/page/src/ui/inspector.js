@@ -68,6 +68,7 @@ class Bars {
 }
 
 const NOT_RECORDED = "What its sensors and controller held then is not in the journal; it is computed when the tick stands, or by the command that shift + I copies.";
+const NOT_IN_PAGE = "What its sensors and controller held is not in this page.";
 
 class Card {
   constructor(panel, entity) {
@@ -177,16 +178,31 @@ class Card {
   }
 
   addFrame(frame) {
+    const values = this.poseIn(frame);
+    if (values === undefined) return;
+    this.showPresence(values !== null);
+    for (const name of ["x", "y", "z", "heading", "speed"]) {
+      const row = this.rows.get(`pose.${name}`);
+      if (values === null) row.text("not in the arena");
+      else row.number(values[name], name === "heading" ? 1 : 3);
+    }
+    if (!this.panel.past) this.plotPose(frame.time, values);
+  }
+
+  plotPose(time, values) {
+    for (const [key, plot] of this.plots) if (key.startsWith("pose.")) plot.add(key, time, values?.[key.slice(5)]);
+  }
+
+  // Returns the values of the pose in the next frame; null if the entity is not in the arena, undefined if it never
+  // moves.
+  poseIn(frame) {
     const slot = this.panel.world.slots[this.entity];
-    if (slot < 0) return;
+    if (slot < 0) return undefined;
     const [x, y, z] = frame.positions.subarray(3 * slot, 3 * slot + 3);
     if (frame.colours[4 * slot + 3] & Flag.absent) {
       this.last = null;
-      this.showPresence(false);
-      for (const name of ["x", "y", "z", "heading", "speed"]) this.rows.get(`pose.${name}`).text("not in the arena");
-      return;
+      return null;
     }
-    this.showPresence(true);
     const [qx, qy, qz, qw] = frame.quaternions.subarray(4 * slot, 4 * slot + 4).map(Number);
     const scale = 1 / 32767 ** 2;
     const heading = Math.atan2(2 * (qw * qz + qx * qy) * scale, 1 - 2 * (qy * qy + qz * qz) * scale) * DEGREES;
@@ -195,10 +211,16 @@ class Card {
     if (speed === undefined || !Number.isFinite(speed)) speed = 0;
     this.speed = speed;
     this.last = { time: frame.time, x, y, z };
-    const values = { x, y, z, heading, speed };
-    for (const [name, value] of Object.entries(values)) {
-      this.rows.get(`pose.${name}`).number(value, name === "heading" ? 1 : 3);
-      if (!this.panel.past) this.plots.get(`pose.${name}`)?.add(`pose.${name}`, frame.time, value);
+    return { x, y, z, heading, speed };
+  }
+
+  // Adds a state of the past to the plots. `details`: its attributes, or undefined.
+  addPast(frame, details) {
+    const values = this.poseIn(frame);
+    if (values !== undefined) this.plotPose(frame.time, values);
+    for (const [key, plot] of this.plots) {
+      const [group, name, place] = key.split(".");
+      if (group === "a") plot.add(key, frame.time, details?.attributes[name]?.[Number(place)]);
     }
   }
 
@@ -207,7 +229,7 @@ class Card {
       setText(this.state, details.state && details.text && details.text !== details.state ? `${details.state} — ${details.text}` : details.state || details.text);
       this.state.hidden = false;
     } else if (this.panel.past && !details.sensors && this.panel.world.isRobot(this.entity)) {
-      setText(this.state, NOT_RECORDED);
+      setText(this.state, this.panel.actions.isRecorded ? NOT_IN_PAGE : NOT_RECORDED);
       this.state.hidden = false;
     } else this.state.hidden = true;
     if (this.panel.past) this.hideInside(!details.sensors);
@@ -234,6 +256,8 @@ class Card {
 
   lookBack(on) {
     this.last = null;
+    this.speed = undefined;
+    for (const plot of new Set(this.plots.values())) plot.lookBack(on);
     this.hideInside(on);
   }
 
@@ -280,6 +304,7 @@ class Card {
       const plot = [...this.plots.values()].find((each) => each.unit === unit) ?? this.newPlot(unit);
       plot.open(key, title);
       this.plots.set(key, plot);
+      this.panel.actions.plotsChanged();
     }
     this.rows.get(key).element.classList.toggle("plotted", this.plots.has(key));
   }
@@ -289,8 +314,9 @@ class Card {
     const plot = new Plot(
       unit,
       () => `${world.experiment} ${world.ids[this.entity]} ${[...plot.series.values()].map(({ name }) => name).join(" ")}`,
-      () => [...plot.series.keys()].forEach((key) => this.togglePlot(key)),
+      { onClose: () => [...plot.series.keys()].forEach((key) => this.togglePlot(key)), onWhole: () => this.panel.actions.plotsChanged() },
     );
+    if (this.panel.past) plot.lookBack(true);
     this.plotArea.append(plot.element);
     return plot;
   }
@@ -298,7 +324,8 @@ class Card {
 
 export class Inspector {
   // `actions`: watch(entities), follow(entity), deselect(), put(entity, "move" or "add", pose), remove(entity),
-  // poseOf(entity), swarmChanged(on).
+  // poseOf(entity), swarmChanged(on), plotsChanged(): called when other values of the past are needed; isRecorded:
+  // whether the page itself has the run.
   constructor(actions) {
     this.actions = actions;
     this.cards = []; // pinned cards, then the selected one
@@ -339,7 +366,7 @@ export class Inspector {
   // Shows or hides the card of the swarm, above the others.
   toggleSwarm(on = !this.swarm) {
     this.swarm?.element.remove();
-    this.swarm = on ? new SwarmCard((text) => `${this.world.experiment} ${text}`, () => this.toggleSwarm(false)) : null;
+    this.swarm = on ? new SwarmCard((text) => `${this.world.experiment} ${text}`, { onClose: () => this.toggleSwarm(false), plotsChanged: () => this.actions.plotsChanged(), isPast: () => this.past }) : null;
     if (on) this.element.prepend(this.swarm.element);
     this.actions.swarmChanged(on);
     this.refresh();
@@ -401,14 +428,43 @@ export class Inspector {
     this.addDetails({ time_s: null, entities });
   }
 
-  // `on`: the shown state is of the past from now on. Plots ignore it, since their time continues.
+  // `on`: the shown state is of the past from now on. Plots then end at the shown tick.
   lookBack(on) {
+    if (on === this.past) return;
     this.past = on;
     for (const card of this.cards) card.lookBack(on);
+    for (const plot of this.swarm?.allPlots ?? []) plot.lookBack(on);
+  }
+
+  get plots() {
+    return new Set([...this.cards.flatMap((card) => [...card.plots.values()]), ...(this.swarm?.allPlots ?? [])]);
+  }
+  get hasPlots() {
+    return this.plots.size > 0;
+  }
+  get entitiesOfAttributePlots() {
+    return this.cards.filter((card) => [...card.plots.keys()].some((key) => key.startsWith("a."))).map(({ entity }) => entity);
+  }
+  get plotsWhole() {
+    return [...this.plots].some((plot) => plot.whole);
+  }
+
+  // Clears the plots for the states of the past, which addPast brings in the order of time.
+  beginPast() {
+    for (const plot of this.plots) plot.clear();
+    for (const card of this.cards) card.last = null;
+  }
+
+  // Shows the speed at the shown tick, which the states before it tell.
+  endPast() {
+    for (const card of this.cards) if (this.world.slots[card.entity] >= 0 && card.last) card.rows.get("pose.speed").number(card.speed);
+  }
+
+  addPast(frame, details) {
+    for (const card of this.cards) card.addPast(frame, details?.find(({ entity }) => entity === card.entity));
   }
 
   draw() {
-    this.swarm?.draw();
-    for (const card of this.cards) for (const plot of new Set(card.plots.values())) plot.draw();
+    for (const plot of this.plots) plot.draw();
   }
 }

@@ -1,6 +1,6 @@
-// The legend of the robots' colours, if they are not those of their LEDs.
+// The legends of the robots' colours, if they are not those of their LEDs, and of the heat map.
 import { categoryColour, rampColour, robotValues } from "../view/robot_values.js";
-import { fixed, h } from "./dom.js";
+import { fixed, h, setText } from "./dom.js";
 
 const rgb = (colour) => `rgb(${colour})`;
 
@@ -21,11 +21,36 @@ export class Legend {
     this.key = key;
     if (categories) this.element.replaceChildren(h("span", {}, name), ...names(name, world, low, high).flatMap(([text, number]) => [mark(number), h("span", {}, text)]));
     else {
-      const ramp = h("i.ramp");
-      ramp.style.background = `linear-gradient(to right, ${[0, 0.25, 0.5, 0.75, 1].map((share) => rgb(rampColour(share)))})`;
-      this.element.replaceChildren(h("span", {}, name), h("span.number", {}, fixed(low, 2)), ramp, h("span.number", {}, `${fixed(high, 2)} ${unit}`));
+      this.element.replaceChildren(h("span", {}, name), h("span.number", {}, fixed(low, 2)), ramp((share) => share), h("span.number", {}, `${fixed(high, 2)} ${unit}`));
     }
   }
+}
+
+// The colour bar of the heat map.
+export class HeatLegend {
+  constructor() {
+    this.most = h("span.number");
+    this.cell = h("span.dim");
+    // The colours follow the root of the time, and the bar the time.
+    this.element = h("div.legend", { role: "note" }, h("span", {}, "heat map"), h("span.number", {}, "0"), ramp(Math.sqrt), this.most, this.cell);
+    this.element.hidden = true;
+  }
+
+  // `heat`: HeatMap, or null.
+  show(heat) {
+    this.element.hidden = heat === null;
+    if (heat === null) return;
+    setText(this.most, `${fixed(heat.most, heat.most < 10 ? 1 : 0)} s`);
+    setText(this.cell, `in a cell of ${Math.round(100 * heat.cellSize)} cm`);
+  }
+}
+
+// Returns a bar. `shareAt`: the share of the ramp at a share of the bar.
+function ramp(shareAt) {
+  const bar = h("i.ramp");
+  const places = Array.from({ length: 9 }, (_, i) => i / 8);
+  bar.style.background = `linear-gradient(to right, ${places.map((place) => `${rgb(rampColour(shareAt(place)))} ${100 * place}%`)})`;
+  return bar;
 }
 
 function mark(number) {

@@ -110,7 +110,7 @@ export class EntityList {
       const absent = slot >= 0 && motion?.frame && !motion.isPresent(slot);
       row.dot.style.background = absent ? "transparent" : colour ?? "transparent";
       row.element.classList.toggle("absent", Boolean(absent));
-      row.element.title = absent ? "not in the arena" : "";
+      row.element.title = `${this.world.ids[entity]}, ${row.kind.textContent}${absent ? ": not in the arena" : ""}`;
     });
   }
 

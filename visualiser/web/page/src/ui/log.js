@@ -2,6 +2,7 @@
 import { h, setText } from "./dom.js";
 
 const MOST_LINES = 1000;
+const COMPARED = 8; // newest lines; a note that is among them is counted there instead of being added
 
 export class LogPanel {
   constructor() {
@@ -12,7 +13,7 @@ export class LogPanel {
     this.element = h("footer", {}, this.toggleButton, this.lines);
     this.lines.hidden = true;
     this.total = 0;
-    this.worst = "info";
+    this.newest = []; // {source, text, element, count} of the last lines
   }
 
   toggle() {
@@ -23,6 +24,7 @@ export class LogPanel {
 
   clear() {
     this.lines.replaceChildren();
+    this.newest = [];
     this.total = 0;
     setText(this.last, "");
     setText(this.count, "");
@@ -30,14 +32,29 @@ export class LogPanel {
 
   add({ tick, source, level, text }) {
     const atEnd = this.lines.scrollTop + this.lines.clientHeight >= this.lines.scrollHeight - 4;
-    this.lines.append(
-      h(`div.line.${level}`, {}, h("span.tick", {}, tick === null ? "" : String(tick)), h("span.source", {}, source), h("span", {}, text)),
-    );
-    if (this.lines.childElementCount > MOST_LINES) this.lines.firstElementChild.remove();
+    const same = this.newest.find((line) => line.source === source && line.text === text);
+    if (same) this.countAgain(same, tick);
+    else this.addLine({ tick, source, level, text });
     this.total++;
     setText(this.count, String(this.total));
     setText(this.last, `${source}: ${text}`);
     this.last.className = `last ${level}`;
     if (atEnd) this.lines.scrollTop = this.lines.scrollHeight;
+  }
+
+  addLine({ tick, source, level, text }) {
+    const [when, times] = [h("span.tick", {}, tick === null ? "" : String(tick)), h("span.times")];
+    const element = h(`div.line.${level}`, {}, when, h("span.source", {}, source), h("span", {}, text, times));
+    this.lines.append(element);
+    if (this.lines.childElementCount > MOST_LINES) this.lines.firstElementChild.remove();
+    this.newest = [...this.newest.slice(1 - COMPARED), { source, text, element, when, times, count: 1 }];
+  }
+
+  // Shows the tick of the newest repetition, at the end.
+  countAgain(line, tick) {
+    line.count++;
+    setText(line.when, tick === null ? "" : String(tick));
+    setText(line.times, `×${line.count}`);
+    this.lines.append(line.element);
   }
 }

@@ -15,6 +15,19 @@ export class Series {
     this.spreads = []; // for a mean: the standard deviation; else empty
   }
 
+  // Keeps the points while the series has those of the past.
+  keep() {
+    const { times, values, spreads } = this;
+    this.kept = { times, values, spreads };
+    this.clear();
+  }
+
+  restore() {
+    this.clear();
+    Object.assign(this, this.kept);
+    this.kept = null;
+  }
+
   // `spread`: the standard deviation of a mean. An infinite value, NaN or null makes a gap.
   add(time, value, spread) {
     const last = this.times.at(-1);
@@ -42,6 +55,13 @@ export class Series {
       else high = middle;
     }
     return low;
+  }
+
+  // Returns the point nearest to a time; -1 without points.
+  nearest(time) {
+    const next = this.from(time);
+    if (next === this.times.length || (next > 0 && time - this.times[next - 1] < this.times[next] - time)) return next - 1;
+    return next;
   }
 }
 

@@ -4,9 +4,10 @@ import { h, setText } from "./dom.js";
 import { Plot } from "./plot.js";
 
 export class SwarmCard {
-  // fileName(text): the name of a file without ending; onClose().
-  constructor(fileName, onClose) {
-    this.fileName = fileName;
+  // fileName(text): the name of a file without ending. `actions`: onClose(); plotsChanged(): called when other values
+  // of the past are needed; isPast(): whether the past is shown.
+  constructor(fileName, { onClose, plotsChanged, isPast }) {
+    Object.assign(this, { fileName, plotsChanged, isPast });
     this.plots = new Map(); // by the name of the value
     this.who = h("div.dim");
     this.area = h("div.plots");
@@ -29,10 +30,12 @@ export class SwarmCard {
       known.element.remove();
       this.plots.delete(name);
     } else {
-      const plot = new Plot(robotValues[name].unit, () => this.fileName(`swarm ${name}`), () => this.toggle(name));
+      const plot = new Plot(robotValues[name].unit, () => this.fileName(`swarm ${name}`), { onClose: () => this.toggle(name), onWhole: this.plotsChanged });
+      if (this.isPast()) plot.lookBack(true);
       plot.open(name, name);
       this.plots.set(name, plot);
       this.area.append(plot.element);
+      this.plotsChanged();
     }
     for (const [each, button] of this.choices) button.setAttribute("aria-pressed", String(this.plots.has(each)));
   }
@@ -46,12 +49,12 @@ export class SwarmCard {
     }
   }
 
+  get allPlots() {
+    return [...this.plots.values()];
+  }
+
   // Clears the plots for other robots, since earlier values do not belong to them.
   clear() {
     for (const plot of this.plots.values()) for (const series of plot.series.values()) series.clear();
-  }
-
-  draw() {
-    for (const plot of this.plots.values()) plot.draw();
   }
 }

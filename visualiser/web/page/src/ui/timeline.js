@@ -1,14 +1,25 @@
 // The timeline below the picture: the shown tick, the events of the run as marks, and the way back to the present.
 import { clockText, h, icon, setText } from "./dom.js";
 
+const PACES = [0.25, 0.5, 1, 2, 4, 8, 16, 32, 64]; // times real time
+
 export class Timeline {
-  // `actions`: look(tick), play(), live(), branch().
+  // `actions`: look(tick), play(), step(ticks), pace(factor), live(), branch().
   constructor(actions) {
     this.actions = actions;
     this.first = this.last = 0;
+    this.step = 1; // ticks between two states
     this.events = [];
     this.past = null; // the requested tick; null: the present
     this.play = h("button.icon", { onclick: () => actions.play() }, icon("resume"));
+    this.back = h("button.icon", { title: "One tick back  (,)", "aria-label": "One tick back", onclick: () => actions.step(-1) }, icon("back"));
+    this.ahead = h("button.icon", { title: "One tick ahead  (.)", "aria-label": "One tick ahead", onclick: () => actions.step(1) }, icon("step"));
+    this.pace = h(
+      "select",
+      { title: "Speed of playing the past", "aria-label": "Speed of playing the past", onchange: () => actions.pace(Number(this.pace.value)) },
+      ...PACES.map((pace) => h("option", { value: pace }, `${pace}×`)),
+    );
+    this.showPace(1);
     this.track = h("input.track", {
       type: "range",
       step: 1,
@@ -18,16 +29,18 @@ export class Timeline {
     this.marks = h("div.event-marks", { role: "group", "aria-label": "Events" });
     this.text = h("output.number", {});
     this.live = h("button.toggle", { title: "Back to the present  (Q)", onclick: () => actions.live() }, "Live");
-    this.branch = h("button.toggle", { title: "Copy the command that starts a new run from this tick  (Shift + B)", onclick: () => actions.branch() }, "Branch here");
-    this.element = h("section.timeline", { "aria-label": "Timeline" }, this.play, h("div.rail", {}, this.track, this.marks), this.text, this.branch, this.live);
+    this.branch = h("button.toggle", { title: "Start a new run from this tick; without control, copy the command that does  (Shift + B)", onclick: () => actions.branch() }, "Branch here");
+    this.branches = h("span.branches");
+    this.element = h("section.timeline", { "aria-label": "Timeline" }, this.play, this.back, this.ahead, h("div.rail", {}, this.track, this.marks), this.text, this.pace, this.branch, this.branches, this.live);
     this.element.hidden = true;
     this.showPlaying(false);
   }
 
   // Takes a message of the server. `tickSeconds`: simulated time of a tick.
-  set({ first, last, events, all_events: all }, tickSeconds) {
-    Object.assign(this, { first, last, tickSeconds });
+  set({ first, last, step = 1, events, all_events: all }, tickSeconds) {
+    Object.assign(this, { first, last, step, tickSeconds });
     this.element.hidden = last <= first;
+    this.track.step = step;
     this.track.min = first;
     this.track.max = last;
     if (this.past === null) this.track.value = last;
@@ -36,6 +49,31 @@ export class Timeline {
     this.shownMarks = marks;
     this.placeMarks();
     this.showText();
+  }
+
+  // Returns the recorded tick nearest to a tick.
+  recorded(tick) {
+    const { first, last, step } = this;
+    return Math.max(first, Math.min(last, first + Math.round((tick - first) / step) * step));
+  }
+
+  // For a run without a present.
+  setRecorded() {
+    this.live.hidden = this.branch.hidden = true;
+  }
+
+  // Shows the way to a new run.
+  showBranch(tick, url) {
+    this.branches.append(h("a.toggle", { href: url, target: "_blank", rel: "noopener", title: `The new run from tick ${tick}` }, `Run from ${tick}`));
+  }
+
+  showPace(pace) {
+    this.pace.value = String(pace);
+  }
+
+  // Returns the next quicker or slower pace.
+  neighbourPace(pace, step) {
+    return PACES[Math.max(0, Math.min(PACES.length - 1, PACES.indexOf(pace) + step))];
   }
 
   setEvents(events, all) {

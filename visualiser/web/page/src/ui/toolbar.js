@@ -54,12 +54,12 @@ export class Toolbar {
     this.element = h(
       "header",
       {},
-      h("div.group.title", {}, this.list, h("img.logo", { src: "favicon.svg", alt: "" }), this.name, this.phase),
+      h("div.group.title", {}, this.list, h("img.logo", { src: document.querySelector?.("link[rel=icon]")?.href ?? "favicon.svg", alt: "" }), this.name, this.phase),
       h("div.group", {}, this.clock, this.tick, this.pace),
       h("div.group.controls", {}, this.pause, this.step, this.speed, this.stop, this.reset, this.lock),
       h("div.space"),
-      h(
-        "div.group",
+      (this.views = h(
+        "div.group.views",
         {},
         toggle("ids", "Ids", "i"),
         toggle("trails", "Trails", "l"),
@@ -70,7 +70,7 @@ export class Toolbar {
         (this.top = h("button.toggle", { title: "From above  (End)", onclick: () => actions.top() }, "Top")),
         h("button.toggle", { title: "The whole arena  (Home)", onclick: () => actions.fit() }, "Fit"),
         h("button.toggle", { title: "Keys  (F1)", "aria-label": "Keys", onclick: () => actions.help() }, "?"),
-      ),
+      )),
     );
     this.setControl("read-only");
   }
@@ -97,7 +97,7 @@ export class Toolbar {
   setControl(control) {
     const granted = control === "granted";
     for (const element of [this.pause, this.step, this.speed, this.stop, this.reset]) element.disabled = !granted;
-    this.lock.hidden = granted;
+    this.lock.hidden = granted || this.pause.hidden;
     setText(this.lock, control === "read-only" || control === "granted" ? "read-only" : control);
     this.lock.title = {
       "read-only": "This page may only look. Start it with --allow-control to steer the run.",
@@ -105,6 +105,11 @@ export class Toolbar {
       "wrong token": "That is not the token of this server. Click to give the one of the address that was printed last.",
       granted: "",
     }[control];
+  }
+
+  // For a run that the page itself has, and nobody can steer.
+  setRecorded() {
+    for (const element of [this.pause, this.step, this.speed, this.stop, this.reset, this.lock]) element.hidden = true;
   }
 
   setWorld(world) {

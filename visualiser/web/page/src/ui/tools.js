@@ -2,8 +2,8 @@
 import { h } from "./dom.js";
 
 export class Tools {
-  // `groups`: lists of elements, or of {name, label, key, title, act, control}. `control`: only for pages that may
-  // control the run.
+  // `groups`: a name, and elements or {name, label, key, title, act, control}. `control`: only for pages that may control
+  // the run.
   constructor(groups) {
     this.buttons = {};
     const part = (tool) => {
@@ -14,12 +14,18 @@ export class Tools {
       this.buttons[tool.name] = button;
       return button;
     };
-    this.element = h("details.tools", {}, h("summary", {}, "Tools"), ...groups.map((tools) => h("div.tool-group", {}, ...tools.map(part))));
+    this.element = h("details.tools", {}, h("summary", {}, "Tools"), ...groups.map(([name, ...tools]) => h("div.tool-group", { role: "group", "aria-label": name }, h("span.dim", {}, name), ...tools.map(part))));
     this.setControl("read-only");
   }
 
   set(name, on) {
     this.buttons[name]?.setAttribute("aria-pressed", String(on));
+  }
+
+  // Hides tools that the page does not have, and groups without others.
+  hide(...names) {
+    for (const name of names) this.buttons[name].hidden = true;
+    for (const group of this.element.querySelectorAll(".tool-group")) group.hidden = !group.querySelector("button:not([hidden]), select");
   }
 
   setControl(control) {

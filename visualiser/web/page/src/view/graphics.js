@@ -8,16 +8,21 @@ export function drawsInSoftware(canvas) {
   // Browsers that know the answer refuse at once, without starting to draw in software.
   const gl = canvas.getContext("webgl2", { failIfMajorPerformanceCaveat: true });
   if (!gl) return true;
-  const info = gl.getExtension("WEBGL_debug_renderer_info");
-  const name = String(gl.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
+  const found = isSoftware(gl);
   gl.getExtension("WEBGL_lose_context")?.loseContext();
-  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+  return found;
 }
 
-// Returns a promise of that answer.
-export function findGraphics() {
+export function isSoftware(gl) {
+  const info = gl.getExtension("WEBGL_debug_renderer_info");
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(String(gl.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER)));
+}
+
+// Returns a promise of that answer. `hasWorker`: whether the file of the worker can be fetched.
+export function findGraphics(hasWorker) {
   return new Promise((answer) => {
     const ask = () => answer(drawsInSoftware(document.createElement("canvas")));
+    if (!hasWorker) return ask();
     try {
       const worker = new Worker(new URL("graphics_worker.js", import.meta.url), { type: "module" });
       const late = setTimeout(() => answer(true), PATIENCE_MS);

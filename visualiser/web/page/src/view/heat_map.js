@@ -14,6 +14,7 @@ export class HeatMap {
     const cell = Math.max(Math.max(width, depth) / MOST_CELLS, LEAST_CELL_M);
     this.columns = Math.max(1, Math.round(width / cell));
     this.rows = Math.max(1, Math.round(depth / cell));
+    this.cellSize = width / this.columns; // m
     this.seconds = new Float64Array(this.columns * this.rows);
     this.time = null;
     this.pictureTime = -Infinity;
@@ -21,6 +22,15 @@ export class HeatMap {
 
   // Returns true if the picture has changed.
   add(frame) {
+    if (!this.count(frame)) return false;
+    if (frame.time - this.pictureTime < PICTURE_EVERY_S && frame.time > this.pictureTime) return false;
+    this.pictureTime = frame.time;
+    this.draw();
+    return true;
+  }
+
+  // Adds the time since the frame before. Returns false if there is none.
+  count(frame) {
     if (this.time === null || frame.time < this.time) {
       this.time = frame.time;
       return false;
@@ -35,9 +45,6 @@ export class HeatMap {
       const row = Math.floor((frame.positions[3 * slot + 1] / this.world.arena[1]) * this.rows);
       if (column >= 0 && row >= 0 && column < this.columns && row < this.rows) this.seconds[row * this.columns + column] += elapsed;
     }
-    if (frame.time - this.pictureTime < PICTURE_EVERY_S && frame.time > this.pictureTime) return false;
-    this.pictureTime = frame.time;
-    this.draw();
     return true;
   }
 

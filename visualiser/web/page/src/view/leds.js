@@ -1,7 +1,7 @@
-// The colours of all LEDs in one texture, and the material that shows them. A robot has 20 texels: 16 LEDs, their mean
-// and the beacon.
+// The colours of all LEDs in one texture, and the material that shows them. A robot has 20 texels: 16 LEDs and the
+// beacon are used.
 import * as THREE from "three";
-import { BEACON, MEAN_LED } from "./models.js";
+import { BEACON } from "./models.js";
 import { Flag, RING_LEDS } from "../protocol.js";
 
 const TEXELS = 20;
@@ -45,7 +45,7 @@ export class LedTexture {
   }
 
   fill(slot, [r, g, b, flags]) {
-    for (let led = 0; led <= MEAN_LED; led++) this.set(slot, led, r, g, b, flags & Flag.lit);
+    for (let led = 0; led < RING_LEDS; led++) this.set(slot, led, r, g, b, flags & Flag.lit);
     this.set(slot, BEACON, r, g, b, flags & Flag.beaconLit);
   }
 
@@ -71,9 +71,7 @@ export function ledMaterial(texture) {
       attribute float led;
       attribute float slot;
       varying vec4 shine;
-      varying float whole;
       void main() {
-        whole = float(abs(led - ${MEAN_LED}.0) < 0.5);
         int row = int(slot) / ${ROBOTS_A_ROW};
         int column = (int(slot) - row * ${ROBOTS_A_ROW}) * ${TEXELS} + int(led + 0.5);
         shine = texelFetch(leds, ivec2(column, row), 0);
@@ -82,11 +80,8 @@ export function ledMaterial(texture) {
     // Colours of LEDs are shown unchanged, whatever the light of the scene.
     fragmentShader: `
       varying vec4 shine;
-      varying float whole;
       void main() {
-        // Dark LEDs; from far away they are the whole robot.
-        vec3 dark = mix(vec3(0.35, 0.38, 0.42), vec3(0.47, 0.51, 0.56), whole);
-        vec3 colour = mix(dark, shine.rgb, step(0.5, shine.a));
+        vec3 colour = mix(vec3(0.35, 0.38, 0.42), shine.rgb, step(0.5, shine.a));
         gl_FragColor = vec4(colour, 1.0);
       }`,
   });

@@ -10,6 +10,7 @@ const LABEL_PX = 13; // height
 const HANDLE_PX = 11;
 const SCALE_PX = 110; // longest bar
 const AXIS_PX = 22;
+const LEAST_TOLD = 1.2; // how much larger than they are robots may be drawn without a note
 
 export class Overlay {
   constructor(container, picture) {
@@ -19,7 +20,8 @@ export class Overlay {
     this.scaleText = h("span");
     this.scaleBar = h("div.scale-bar");
     this.axes = h("canvas.axes", { width: 64, height: 64, "aria-hidden": "true" });
-    this.corner = h("div.scale", { role: "img" }, this.axes, h("div", {}, this.scaleText, this.scaleBar));
+    this.scaleNote = h("div.dim"); // robots that would be too small to be seen are drawn larger
+    this.corner = h("div.scale", { role: "img" }, this.axes, h("div", {}, this.scaleNote, this.scaleText, this.scaleBar));
     this.corner.hidden = true;
     container.append(this.canvas, this.corner);
   }
@@ -258,13 +260,16 @@ export class Overlay {
       const [from, to] = [target, target.map((value, k) => value + (0.1 * axis[k] * SCALE_PX) / pixels)].map((point) => this.view.project(...point));
       return from && to ? [to.x - from.x, to.y - from.y].map((value) => (value * 10) / SCALE_PX) : [0, 0];
     });
-    const key = JSON.stringify([pixels.toPrecision(4), directions.flat().map((value) => value.toFixed(2)), this.view.dark]);
+    const larger = this.view.enlargement;
+    const key = JSON.stringify([pixels.toPrecision(4), larger.toPrecision(2), directions.flat().map((value) => value.toFixed(2)), this.view.dark]);
     if (key === this.scaleKey) return;
     this.scaleKey = key;
     const metres = scaleLength(SCALE_PX / pixels);
     const text = metres >= 1 ? `${metres} m` : `${Math.round(metres * 1000) / 10} cm`;
+    const note = larger < LEAST_TOLD ? "" : `robots up to ${Number(larger.toPrecision(2))}× as wide`;
     setText(this.scaleText, text);
-    this.corner.setAttribute("aria-label", `Scale: the bar is ${text} long`);
+    setText(this.scaleNote, note);
+    this.corner.setAttribute("aria-label", `Scale: the bar is ${text} long${note && `; ${note} as they are`}`);
     this.scaleBar.style.width = `${metres * pixels}px`;
     this.corner.hidden = false;
     this.drawAxes(directions);

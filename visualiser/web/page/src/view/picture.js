@@ -1,6 +1,7 @@
 // The picture of the experiment: its content, independent of the view that draws it. The plan is part of this page. The
 // view in three dimensions is loaded on demand, so that a browser that draws in software never waits for it.
 import { h } from "../ui/dom.js";
+import { keep, kept } from "../storage.js";
 import { Motion } from "../world.js";
 import { HeatMap } from "./heat_map.js";
 import { extentOf } from "./look.js";
@@ -23,7 +24,8 @@ const ARROW_GAZE = 0.09; // angle of an arrow key
 
 export class Picture {
   // `actions`: select(entity, further), selectAll(entities), approach(entity), move([{entity, place, yaw}]), mayMove(),
-  // trouble(text), send(request). `wanted`: one of quality.js.
+  // trouble(text), send(request), meshes(): the models of robots; hasServer: whether files can be fetched. `wanted`: one
+  // of quality.js.
   constructor(container, wanted, actions) {
     this.container = container;
     this.actions = actions;
@@ -32,7 +34,7 @@ export class Picture {
     this.governor = new Governor("high");
     this.shows = { ids: false, trails: false, beams: true, shadows: false, textures: true, rays: false, bodies: false, links: false };
     this.marks = new Marks(this, (request) => actions.send(request));
-    this.drawing = null; // drawings of experiment functions, from drawing.js
+    this.drawing = null; // drawings of experiment functions, from drawing_reader.js
     this.looksBack = false; // shows a tick for which no drawing is stored
     this.selected = null;
     this.edits = false; // whether static entities may be selected and moved, too
@@ -96,13 +98,13 @@ export class Picture {
   async useWantedView() {
     const turn = (this.turn = (this.turn ?? 0) + 1);
     if (this.wanted === "auto" && this.software === null) {
-      this.graphics ??= findGraphics().then((software) => {
+      this.graphics ??= findGraphics(this.actions.hasServer).then((software) => {
         this.software = software;
-        localStorage.setItem(GRAPHICS_KEY, software ? "software" : "card");
+        keep("localStorage", GRAPHICS_KEY, software ? "software" : "card");
         if (this.wanted === "auto" && !software) this.useWantedView();
       });
       // The result of the last visit is most likely still right.
-      const wait = localStorage.getItem(GRAPHICS_KEY) === "software" ? 0 : GRAPHICS_WAIT_MS;
+      const wait = kept("localStorage", GRAPHICS_KEY) === "software" ? 0 : GRAPHICS_WAIT_MS;
       if (wait > 0) await Promise.race([this.graphics, new Promise((done) => setTimeout(done, wait))]);
       if (turn !== this.turn) return;
     }
@@ -122,13 +124,16 @@ export class Picture {
   }
 
   async loadView3d() {
-    this.loading ??= Promise.all([import("./view_3d.js"), fetch("meshes.json").then((answer) => answer.json())]);
+    this.loading ??= Promise.all([import("./view_3d.js"), this.actions.meshes()]);
     const [{ View3d }, meshes] = await this.loading.catch((error) => {
       this.loading = null; // the next request tries again
       throw error;
     });
     if (this.views.solid) return this.views.solid;
     const view = new View3d(this.container, this, meshes, this.wanted !== "low" && this.wanted !== "least" && this.software === false);
+    // Without a card the first picture has a quality that comes soon.
+    if (view.stage.isSoftware) this.governor = new Governor("low");
+    view.setQuality(this.quality);
     listenToPointer(view, this);
     view.canvas.hidden = true;
     return view;
@@ -175,6 +180,7 @@ export class Picture {
     this.motion = new Motion(world.movable.length);
     this.trails = new TrailRecord(world);
     this.meter = new Meter(world);
+    this.present = null;
     this.colouring &&= new Colouring(world, this.colouring.name);
     this.heat &&= new HeatMap(world);
     this.trails.on = this.shows.trails;
@@ -199,7 +205,7 @@ export class Picture {
     if (frame.count !== this.world.movable.length) return;
     this.meter.add(frame);
     this.trails.add(frame);
-    if (this.heat?.add(frame)) this.view?.updateHeat();
+    if (this.heat?.add(frame)) this.heatChanged();
     this.showFrame(frame, now);
   }
 
@@ -208,6 +214,46 @@ export class Picture {
     this.motion.add(shown, now);
     this.view?.addFrame(shown);
     this.onColouring?.();
+  }
+
+  // ---- looking back ----
+
+  // `on`: the shown states are of the past from now on. Trails and rates of the present are kept meanwhile.
+  lookBack(on) {
+    if (on === this.looksBack) return;
+    this.looksBack = on;
+    if (on) {
+      this.present = { meter: this.meter, heat: this.heat };
+      this.trails.keep();
+      if (this.heat) this.heat = new HeatMap(this.world);
+    } else {
+      this.meter = this.present?.meter ?? new Meter(this.world);
+      this.heat &&= this.present?.heat ?? new HeatMap(this.world);
+      this.trails.restore();
+      this.heatChanged();
+    }
+    if (this.colouring) this.colouring = new Colouring(this.world, this.colouring.name);
+    this.invalidate();
+  }
+
+  // Forgets the states of the past. addPast brings them again in the order of time, up to the shown one, and endPast
+  // draws them.
+  beginPast() {
+    this.meter = new Meter(this.world);
+    this.trails.clear();
+    if (this.heat) this.heat = new HeatMap(this.world);
+  }
+
+  addPast(frame) {
+    this.meter.add(frame);
+    this.trails.add(frame);
+    this.heat?.count(frame);
+  }
+
+  endPast() {
+    this.heat?.draw();
+    if (this.heat) this.heatChanged();
+    this.invalidate();
   }
 
   // `name`: one of robot_values.js, or null for the colours of LEDs.
@@ -219,7 +265,12 @@ export class Picture {
 
   showHeat(on) {
     this.heat = on ? new HeatMap(this.world) : null;
+    this.heatChanged();
+  }
+
+  heatChanged() {
     this.view?.updateHeat();
+    this.onHeat?.();
   }
 
   // Returns null while the entity is not in the arena.

@@ -1,6 +1,6 @@
 // The actions of the pointer in any view. A click selects, a double click moves the camera there, and shift with a drag
 // moves a robot or selects by a box. Everything else moves the camera.
-import { pickBody } from "./pick_body.js";
+import { pickStatic } from "./pick_static.js";
 
 const CLICK_PIXELS = 4;
 const TURN_A_PIXEL = 0.005; // radians that the view from a robot turns
@@ -124,7 +124,7 @@ function pickAt(picture, view, at) {
   const entity = view.pick(at);
   if (entity !== null || !picture.edits) return entity;
   const { origin, direction } = view.sight(at);
-  return pickBody(picture.world, origin, direction);
+  return pickStatic(picture.world, origin, direction);
 }
 
 function dragFor(picture, view, event, at) {

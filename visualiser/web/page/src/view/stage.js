@@ -1,6 +1,7 @@
 // The renderer, the camera and the light. It draws only when something has changed.
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { isSoftware } from "./graphics.js";
 import { themes } from "./look.js";
 import { FIELD_OF_VIEW, viewOf } from "./viewpoints.js";
 
@@ -78,6 +79,17 @@ export class Stage {
     this.camera.updateProjectionMatrix();
     if (this.home) this.frameArena(...this.home);
     this.invalidate();
+  }
+
+  get size() {
+    return [this.container.clientWidth, this.container.clientHeight];
+  }
+  get isNight() {
+    return this.theme === themes.dark;
+  }
+  // Returns whether the processor draws.
+  get isSoftware() {
+    return isSoftware(this.renderer.getContext());
   }
 
   // Returns the pixels of one radian of the picture, for sizes on the screen.

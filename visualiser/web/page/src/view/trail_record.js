@@ -19,6 +19,20 @@ export class TrailRecord {
     this.beginnings = (this.beginnings ?? 0) + 1; // a view with another count starts again
   }
 
+  // Keeps the samples while others are recorded, those of the past.
+  keep() {
+    const { places, added, lastTime } = this;
+    this.kept = { places, added, lastTime };
+    this.places = new Float32Array(places.length);
+    this.clear();
+  }
+
+  restore() {
+    Object.assign(this, this.kept);
+    this.kept = null;
+    this.beginnings++;
+  }
+
   // Returns x, y, z of all robots.
   sample(number) {
     const length = 3 * this.world.robots.length;

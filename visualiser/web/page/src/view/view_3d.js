@@ -2,10 +2,10 @@
 import * as THREE from "three";
 import { Arena } from "./arena.js";
 import { extentOf } from "./look.js";
-import { Beams, Grips, MarkLines, Trails } from "./overlays.js";
-import { floorPoint, pick, sight } from "./picking.js";
+import { Beams, Grips, MarkLines, Trails } from "./beams_and_trails.js";
+import { floorPoint, pick, sight } from "./pick_entity.js";
 import { Stage } from "./stage.js";
-import { Swarm } from "./swarm.js";
+import { Swarm3d } from "./swarm_3d.js";
 
 const SHADOWS_UP_TO = 2500; // robots
 const WHEEL_STEP = 1.2;
@@ -23,7 +23,10 @@ export class View3d {
     this.quality = picture.quality;
     this.stage = new Stage(container, smoothEdges, this.quality);
     this.canvas = this.stage.renderer.domElement;
-    this.stage.onTheme = () => this.rebuildArena();
+    this.stage.onTheme = () => {
+      this.rebuildArena();
+      if (this.swarm) this.swarm.night = this.stage.isNight;
+    };
   }
 
   setWorld(world) {
@@ -52,7 +55,7 @@ export class View3d {
   rebuildSwarm() {
     const { motion } = this.picture;
     this.swarm?.dispose();
-    this.swarm = new Swarm(this.stage.scene, this.world, this.quality, this.meshes);
+    this.swarm = new Swarm3d(this.stage.scene, this.world, this.quality, this.meshes, this.stage.isNight);
     if (motion.frame) this.swarm.updateColours(motion.frame);
     this.picture.shows.shadows = this.quality.shadows && this.world.robots.length <= SHADOWS_UP_TO;
     this.applyShows();
@@ -112,7 +115,7 @@ export class View3d {
     if (!moved && !this.stage.stale) return false;
     const { motion, shows } = this.picture;
     this.stage.camera.updateMatrixWorld();
-    this.swarm.place(motion, this.stage.camera, this.stage.pixelsPerRadian);
+    this.swarm.place(motion, this.stage.camera, this.stage.pixelsPerRadian, this.stage.size, this.stage.renderer.getPixelRatio());
     this.arena.place(motion, this.stage.camera.position);
     if (motion.frame) {
       this.beams.update(motion.frame, motion);
@@ -127,7 +130,7 @@ export class View3d {
 
   // The code for drawings is loaded for the first drawing, since few experiments have any.
   showDrawing(drawing) {
-    if (drawing && !this.drawn && this.Drawn) this.drawn = new this.Drawn(this.stage.scene);
+    if (drawing && !this.drawn && this.Drawing3d) this.drawn = new this.Drawing3d(this.stage.scene);
     if (this.drawn) this.drawn.update(drawing);
     else if (drawing && !this.loadingDrawn) this.loadDrawn();
   }
@@ -135,7 +138,7 @@ export class View3d {
   async loadDrawn() {
     this.loadingDrawn = true;
     try {
-      this.Drawn = (await import("./drawn.js")).Drawn;
+      this.Drawing3d = (await import("./drawing_3d.js")).Drawing3d;
       this.stage.invalidate();
     } catch (error) {
       this.picture.actions.trouble(`What experiment functions draw is not shown: ${error.message}`);
@@ -247,7 +250,12 @@ export class View3d {
     return floorPoint(this.stage.camera, ...this.ray(at), height)?.toArray() ?? null;
   }
 
+  // Returns how much wider than they are robots are drawn, at most.
+  get enlargement() {
+    return this.swarm.enlargement;
+  }
+
   get details() {
-    return this.swarm.herds.map(({ slots, layers }) => ({ robots: slots.length, drawn: layers.map((layer) => layer.count) }));
+    return this.swarm.herds.map(({ slots, layers, far }) => ({ robots: slots.length, drawn: [...layers.map((layer) => layer?.count ?? 0), far] }));
   }
 }

@@ -18,7 +18,8 @@ public:
   explicit CComposableEntity(const std::string& id) : CEntity(nullptr, id) {}
   CComposableEntity(CEntity* parent, const std::string& id) : CEntity(parent, id) {}
 
-  // `name`: a type ("body"), one of several by its id ("led[led_3]"), or a part of a part ("leds.led[led_3]").
+  // Returns whether the entity has a component. `name` is a type ("body"), one of several by its id ("led[led_3]"), or
+  // a part of a part ("leds.led[led_3]").
   bool HasComponent(const std::string& name) { return Find(name) != nullptr; }
   // Throw CARGoSException for a part that does not exist.
   CEntity& GetComponent(const std::string& name);
@@ -97,7 +98,7 @@ public:
     for (const auto& led : leds_) led->Reset();
   }
   size_t GetNumLEDs() const { return leds_.size(); }
-  // For boxes and cylinders. The positions have no effect.
+  // Adds an LED to a box or cylinder. The positions have no effect.
   void AddLED(const CVector3& offset, const SAnchor& anchor, const CColor& colour = CColor::BLACK);
   void AddLEDRing(const CVector3& centre, Real radius, const CRadians& first_angle, UInt32 leds, const SAnchor& anchor,
                   const CColor& colour = CColor::BLACK);
@@ -146,6 +147,15 @@ public:
   }
   void EnableLEDs(CLEDMedium&) {}
   void DisableLEDs() { leds_.SetAllLEDsColors(CColor::BLACK); }
+
+protected:
+  // Throws CARGoSException for an object in the arena. `what`: size or mass.
+  void RefuseInArena(const char* what) const
+  {
+    if (GetIndex() >= 0)
+      THROW_ARGOSEXCEPTION("the " << what << " of '" << GetId() << "' is fixed while it is in the arena; remove it and "
+                                  << "add another one by AddEntity");
+  }
 
 private:
   CLEDEquippedEntity leds_;

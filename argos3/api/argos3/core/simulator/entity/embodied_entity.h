@@ -82,7 +82,8 @@ public:
   void UpdateAnchors();
   // Returns the box in the latest step. Throws CARGoSException outside loop functions.
   const SBoundingBox& GetBoundingBox() const;
-  // One engine has all bodies and accepts any name. Throws CARGoSException for another number.
+  // Returns 1, since one engine has all bodies and accepts any name. GetPhysicsModel throws CARGoSException for another
+  // number than 0.
   UInt32 GetPhysicsModelsNum() const { return 1; }
   CPhysicsModel& GetPhysicsModel(size_t number);
   CPhysicsModel& GetPhysicsModel(const std::string& engine);
@@ -92,7 +93,7 @@ public:
   }
   // Moves the entity, if it is movable, to where it was added to the arena.
   void Reset() override;
-  // Names of versions before 2014.
+  // These are names of versions before 2014.
   const CVector3& GetPosition() const { return m_sOriginAnchor.Position; }
   const CQuaternion& GetOrientation() const { return m_sOriginAnchor.Orientation; }
   // Moves the entity, as MoveEntity of the loop functions.

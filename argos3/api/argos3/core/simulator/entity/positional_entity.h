@@ -14,7 +14,9 @@ public:
       : CEntity(parent, id), m_cPosition(position), m_cOrientation(orientation)
   {
   }
+  // Returns the position in the arena, m.
   virtual const CVector3& GetPosition() const { return m_cPosition; }
+  // Returns the orientation in the arena.
   virtual const CQuaternion& GetOrientation() const { return m_cOrientation; }
   // Changes only this view; CLoopFunctions::MoveEntity moves an entity.
   void SetPosition(const CVector3& position) { m_cPosition = position; }

@@ -15,7 +15,9 @@ public:
   void Init(TConfigurationNode&) override {}
   void Reset() override {}
   void Destroy() override {}
+  // Does nothing, since media have no state here.
   virtual void PostSpaceInit() {}
+  // Does nothing, as PostSpaceInit.
   virtual void Update() {}
   const std::string& GetId() const { return id_; }
   void SetId(const std::string& id) { id_ = id; }

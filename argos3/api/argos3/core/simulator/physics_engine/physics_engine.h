@@ -43,7 +43,7 @@ public:
   static Real GetSimulationClockTick() { return tick_s_; }
   // Returns the ticks a second.
   static Real GetInverseSimulationClockTick() { return 1 / tick_s_; }
-  // For the bridge: sets the tick of the experiment.
+  // Sets the tick of the experiment, for the bridge.
   static void SetSimulationClockTick(Real tick_s) { tick_s_ = tick_s; }
 
 private:

@@ -6,6 +6,8 @@
 #include <argos3/core/utility/datatypes/any.h>
 #include <argos3/core/utility/math/range.h>
 
+#include <functional>
+
 namespace argos
 {
 
@@ -13,6 +15,7 @@ class CSpace
 {
 public:
   using TMapPerType = std::map<std::string, CAny, std::less<std::string>>;
+  using TControllableEntityIterCBType = std::function<void(CControllableEntity*)>;
   using TMapPerTypePerId = std::map<std::string, TMapPerType, std::less<std::string>>;
 
   UInt32 GetNumberEntities() const { return static_cast<UInt32>(entities_.size()); }
@@ -24,8 +27,14 @@ public:
   CEntity& GetEntity(const std::string& id);
   TMapPerType& GetEntitiesByType(const std::string& type);
   CFloorEntity& GetFloorEntity();
-  // `pattern`: a regular expression.
+  // Finds the entities whose ids match `pattern`, a regular expression.
   void GetEntitiesMatching(CEntity::TVector& found, const std::string& pattern);
+  // Calls a function for each robot in the arena, one after the other.
+  void IterateOverControllableEntities(const TControllableEntityIterCBType& call)
+  {
+    for (CEntity* entity : entities_)
+      if (auto* robot = dynamic_cast<CRobotWithController*>(entity)) call(&robot->GetControllableEntity());
+  }
 
   // Returns the ticks: 1 in the first step.
   UInt32 GetSimulationClock() const { return clock_; }
@@ -37,7 +46,7 @@ public:
   // Throws CARGoSException, and resets nothing, if one of their controllers is in another process.
   void Reset();
 
-  // For the bridge that fills the space.
+  // These functions are for the bridge that fills the space.
   void SetSimulationClock(UInt32 clock) { clock_ = clock; }
   void SetArena(const CVector3& size, const CVector3& center)
   {

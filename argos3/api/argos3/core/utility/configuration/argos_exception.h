@@ -11,7 +11,7 @@ namespace argos
 class CARGoSException : public std::exception
 {
 public:
-  // `nested`: the cause; its text follows the message.
+  // `nested` is the cause; its text follows the message.
   explicit CARGoSException(const std::string& message, std::exception* nested = nullptr)
       : text_(nested == nullptr ? message : message + ": " + nested->what())
   {

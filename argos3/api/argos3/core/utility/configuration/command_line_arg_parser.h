@@ -15,7 +15,8 @@ class CCommandLineArgParser
 public:
   virtual ~CCommandLineArgParser() = default;
 
-  // `flag` is false until Parse finds the option. `long_option` has no hyphens in front.
+  // Adds an option without a value. `flag` is false until Parse finds the option. `long_option` has no hyphens in
+  // front.
   void AddFlag(char short_option, const std::string& long_option, const std::string& description, bool& flag)
   {
     flag = false;

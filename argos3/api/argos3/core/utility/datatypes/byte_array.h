@@ -51,6 +51,15 @@ public:
     return *this;
   }
 
+  // Returns a copy of the bytes from `from` up to the one before `to`, -1 for all, which the caller deletes. Throws
+  // CARGoSException if `from` is beyond the end.
+  CByteArray* operator()(size_t from, ssize_t to = -1) const
+  {
+    const size_t end = to < 0 ? Size() : std::min(static_cast<size_t>(to), Size());
+    if (from >= Size() || from > end) THROW_ARGOSEXCEPTION("bytes from " << from << " of a byte array of " << end);
+    return new CByteArray(bytes_.data() + from, end - from);
+  }
+
   // Removes a value from the front and returns it.
   template <class T>
   T PopFront()

@@ -17,7 +17,7 @@ public:
       : red_(red), green_(green), blue_(blue), alpha_(alpha)
   {
   }
-  // `argb`: 0xAARRGGBB.
+  // Makes a colour from `argb`, 0xAARRGGBB.
   constexpr explicit CColor(UInt32 argb)
       : CColor(static_cast<UInt8>(argb >> 16), static_cast<UInt8>(argb >> 8), static_cast<UInt8>(argb),
                static_cast<UInt8>(argb >> 24))
@@ -37,6 +37,14 @@ public:
   void Set(const std::string& name);
   // Returns the brightness 0 to 255, weighted for the eye (ITU-R BT.601).
   Real ToGrayScale() const { return 0.299 * red_ + 0.587 * green_ + 0.114 * blue_; }
+  // Returns the colour over a background, weighted by its alpha.
+  CColor Blend(const CColor& background) const
+  {
+    const Real weight = alpha_ / 255.0;
+    const auto mix = [weight](UInt8 over, UInt8 under)
+    { return static_cast<UInt8>(weight * over + (1 - weight) * under); };
+    return CColor(mix(red_, background.red_), mix(green_, background.green_), mix(blue_, background.blue_));
+  }
   // Returns 0xAABBGGRR.
   operator UInt32() const
   {
@@ -75,10 +83,10 @@ inline const CColor CColor::GRAY10{26, 26, 26};
 inline const CColor CColor::GRAY20{51, 51, 51};
 inline const CColor CColor::GRAY30{77, 77, 77};
 inline const CColor CColor::GRAY40{102, 102, 102};
-inline const CColor CColor::GRAY50{128, 128, 128};
+inline const CColor CColor::GRAY50{127, 127, 127};
 inline const CColor CColor::GRAY60{153, 153, 153};
 inline const CColor CColor::GRAY70{179, 179, 179};
 inline const CColor CColor::GRAY80{204, 204, 204};
-inline const CColor CColor::GRAY90{230, 230, 230};
+inline const CColor CColor::GRAY90{229, 229, 229};
 
 }  // namespace argos

@@ -48,7 +48,7 @@ private:
 extern CARGoSLog LOG;
 extern CARGoSLog LOGERR;
 
-// Define RLOG and RLOGERR for controllers.
+// RLOG and RLOGERR are for controllers.
 #define RLOG argos::LOG << "[" << GetId() << "] "
 #define RLOGERR argos::LOGERR << "[" << GetId() << "] "
 

@@ -10,7 +10,7 @@ namespace argos
 class CBox
 {
 public:
-  // `position`: the middle of the base.
+  // `position` is the middle of the base.
   CBox(const CVector3& size, const CVector3& position = CVector3(), const CQuaternion& orientation = CQuaternion())
       : size_(size), position_(position), orientation_(orientation)
   {

@@ -9,7 +9,7 @@ namespace argos
 class CCylinder
 {
 public:
-  // `position`: the middle of the base; `axis`: of length 1.
+  // `position` is the middle of the base; `axis` has length 1.
   CCylinder(Real radius, Real height, const CVector3& position = CVector3(), const CVector3& axis = CVector3::Z)
       : radius_(radius), height_(height), position_(position), axis_(axis)
   {

@@ -26,6 +26,7 @@ public:
   void SetX(Real x) { v_.SetX(x); }
   void SetY(Real y) { v_.SetY(y); }
   void SetZ(Real z) { v_.SetZ(z); }
+  void Set(Real w, Real x, Real y, Real z) { *this = CQuaternion(w, x, y, z); }
 
   CQuaternion Conjugate() const { return {w_, -v_}; }
   CQuaternion Inverse() const { return Conjugate(); }

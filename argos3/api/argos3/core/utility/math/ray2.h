@@ -24,7 +24,7 @@ public:
   void GetInverseDirection(CVector2& direction) const { direction = (start_ - end_).Normalize(); }
   Real GetLength() const { return (end_ - start_).Length(); }
   void ToVector(CVector2& vector) const { vector = end_ - start_; }
-  // `t`: 0 at the start, 1 at the end.
+  // `t` is 0 at the start and 1 at the end.
   void GetPoint(CVector2& point, Real t) const { point = start_ + t * (end_ - start_); }
   // Returns the distance from the start to the point at `t`.
   Real GetDistance(Real t) const { return Abs(t) * GetLength(); }

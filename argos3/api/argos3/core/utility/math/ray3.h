@@ -27,7 +27,7 @@ public:
   void GetInverseDirection(CVector3& direction) const { direction = (start_ - end_).Normalize(); }
   Real GetLength() const { return (end_ - start_).Length(); }
   CVector3& ToVector(CVector3& vector) const { return vector = end_ - start_; }
-  // `t`: 0 at the start, 1 at the end.
+  // `t` is 0 at the start and 1 at the end.
   void GetPoint(CVector3& point, Real t) const { point = start_ + t * (end_ - start_); }
   // Returns the distance from the start to the point at `t`.
   Real GetDistance(Real t) const { return Abs(t) * GetLength(); }

@@ -7,6 +7,8 @@
 #include <argos3/core/utility/math/range.h>
 
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace argos
 {
@@ -39,6 +41,14 @@ public:
     Real Gaussian(Real deviation, Real mean = 0);
     Real Rayleigh(Real sigma);
     Real Lognormal(Real sigma, Real mu);
+    // Throws CARGoSException for a mean that is negative or above 700.
+    UInt32 Poisson(Real mean);
+    template <class T>
+    void Shuffle(std::vector<T>& values)
+    {
+      for (size_t i = 0; i + 1 < values.size(); ++i)
+        std::swap(values[i], values[i + Uniform(CRange<UInt32>(0, static_cast<UInt32>(values.size() - i)))]);
+    }
 
   private:
     friend class CRandom;
@@ -62,7 +72,7 @@ public:
     CRNG* CreateRNG(const std::string& type = "");
     void ResetRNGs();
     void ReseedRNGs();
-    // For CSimulator::Reset: changes the seeds of all generators; 0 restores the initial ones.
+    // Changes the seeds of all generators, for CSimulator::Reset; 0 restores the initial ones.
     void Vary(UInt32 variation);
 
   private:

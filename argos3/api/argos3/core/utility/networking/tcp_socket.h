@@ -9,7 +9,7 @@ namespace argos
 class CTCPSocket
 {
 public:
-  // `stream`: a connected socket, which is closed at the end.
+  // `stream` is a connected socket, which is closed at the end.
   explicit CTCPSocket(int stream = -1) : stream_(stream) {}
   ~CTCPSocket() { Disconnect(); }
   CTCPSocket(const CTCPSocket&) = delete;

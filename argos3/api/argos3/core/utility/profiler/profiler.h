@@ -13,7 +13,7 @@ namespace argos
 class CProfiler
 {
 public:
-  // `truncates`: empties the file first. Throws CARGoSException if it cannot be written.
+  // `truncates` empties the file first. Throws CARGoSException if it cannot be written.
   CProfiler(const std::string& file, bool truncates = true);
   void Start();
   void Stop();

@@ -39,7 +39,7 @@ public:
   TSensors& GetSensors() { return sensors_; }
   std::string GetTypeDescription() const override { return "proximity_sensors"; }
 
-  // For the robots of this library. Sensors added here do not change the simulated ones.
+  // Adds a sensor, for the robots of this library. Sensors added here do not change the simulated ones.
   void Place(const CVector3& offset, const CRadians& heading, Real range, SAnchor& anchor);
   void PlaceRing(Real height, Real radius, const CRadians& first_angle, Real range, unsigned sensors, SAnchor& anchor);
 

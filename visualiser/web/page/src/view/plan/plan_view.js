@@ -5,7 +5,7 @@ import { Flag } from "../../protocol.js";
 import { GRIP, css, extentOf, themes } from "../look.js";
 import { Backdrop } from "./backdrop.js";
 import { PlanCamera } from "./camera.js";
-import { PlanSwarm } from "./swarm.js";
+import { PlanSwarm } from "./plan_swarm.js";
 import { TrailLayer } from "./trail_layer.js";
 import { viewOf } from "../viewpoints.js";
 
@@ -287,6 +287,12 @@ export class PlanView {
       if (score < nearest) [best, nearest] = [entity, score];
     }
     return best;
+  }
+
+  // Returns how much wider than they are robots are drawn, at most.
+  get enlargement() {
+    const { frame } = this.camera;
+    return Math.max(1, ...this.swarm.herds.map((herd) => this.swarm.diameter(herd, frame) / (2 * herd.radius * frame.scale)));
   }
 
   get details() {

@@ -37,6 +37,7 @@ public:
   Attribute(std::string name, std::string value) : name_(std::move(name)), value_(std::move(value)) {}
   const std::string& Name() const { return name_; }
   const std::string& Value() const { return value_; }
+  void GetName(std::string* name) const { *name = name_; }
   template <class T>
   void GetValue(T* value) const
   {
@@ -49,19 +50,19 @@ private:
   std::string value_;
 };
 
+// A handle to an element. Copies share the element, as in ARGoS3: a change through one of them is seen by all.
 class Element
 {
 public:
-  Element() = default;
-  explicit Element(std::string name) : name_(std::move(name)) {}
-  Element(const Element& other) { *this = other; }
-  Element& operator=(const Element& other);
+  Element() : content_(std::make_shared<Content>()) {}
+  explicit Element(const std::string& name) : Element() { content_->name = name; }
 
-  const std::string& Value() const { return name_; }
-  void SetValue(const std::string& name) { name_ = name; }
+  const std::string& Value() const { return content_->name; }
+  void GetValue(std::string* name) const { *name = Value(); }
+  void SetValue(const std::string& name) { content_->name = name; }
   // Returns "file:line:column"; empty for an element made by code.
-  const std::string& Place() const { return place_; }
-  void SetPlace(std::string place) { place_ = std::move(place); }
+  const std::string& Place() const { return content_->place; }
+  void SetPlace(std::string place) { content_->place = std::move(place); }
 
   bool HasAttribute(const std::string& name) const { return Find(name) != nullptr; }
   // Returns an empty text if the attribute does not exist.
@@ -71,7 +72,7 @@ public:
   void GetAttribute(const std::string& name, T* value, bool required = true) const
   {
     if (const Attribute* attribute = Find(name)) return Read(*attribute, *value);
-    if (required) throw Exception(Where() + "<" + name_ + "> has no attribute '" + name + "'");
+    if (required) throw Exception(Where() + "<" + Value() + "> has no attribute '" + name + "'");
   }
   template <class T, class Default>
   void GetAttributeOrDefault(const std::string& name, T* value, const Default& fallback) const
@@ -86,39 +87,72 @@ public:
     text << std::boolalpha << value;
     Set(name, text.str());
   }
+  void RemoveAttribute(const std::string& name);
 
-  std::string GetText() const { return text_; }
+  std::string GetText() const { return content_->text; }
   template <class T>
   void GetText(T* value) const
   {
-    if (text_.empty()) throw Exception(Where() + "<" + name_ + "> has no text");
-    ReadText(text_, *value);
+    if (content_->text.empty()) throw Exception(Where() + "<" + Value() + "> has no text");
+    ReadText(content_->text, *value);
   }
   template <class T, class Default>
   void GetTextOrDefault(T* value, const Default& fallback) const
   {
-    if (text_.empty())
+    if (content_->text.empty())
       *value = fallback;
     else
-      ReadText(text_, *value);
+      ReadText(content_->text, *value);
   }
-  void SetText(const std::string& text) { text_ = text; }
+  void SetText(const std::string& text) { content_->text = text; }
 
   // Return the first or next element of that name, or of any if the name is empty. They return nullptr if none exists
   // and it is not required; otherwise they throw Exception.
-  Element* FirstChildElement(const std::string& name = "", bool required = true);
-  Element* NextSiblingElement(const std::string& name = "", bool required = true);
+  Element* FirstChildElement(const std::string& name = "", bool required = true) const;
+  Element* FirstChildElement(const char* name, bool required = true) const
+  {
+    return FirstChildElement(std::string(name), required);
+  }
+  Element* FirstChildElement(bool required) const { return FirstChildElement(std::string(), required); }
+  Element* NextSiblingElement(const std::string& name = "", bool required = true) const;
+  Element* NextSiblingElement(const char* name, bool required = true) const
+  {
+    return NextSiblingElement(std::string(name), required);
+  }
+  Element* NextSiblingElement(bool required) const { return NextSiblingElement(std::string(), required); }
+  // Adds a copy of the element with all that it holds.
   Element& InsertEndChild(const Element& child);
-  bool NoChildren() const { return children_.empty(); }
+  // Removes a child. Throws Exception for an element that is none.
+  void RemoveChild(Element* child);
+  bool NoChildren() const { return content_->children.empty(); }
 
-  const std::vector<Attribute>& Attributes() const { return attributes_; }
+  const std::vector<Attribute>& Attributes() const { return content_->attributes; }
 
+  // Writes the element as XML.
   friend std::ostream& operator<<(std::ostream& stream, const Element& element);
 
 private:
+  struct Content
+  {
+    std::string name, text, place;
+    std::vector<Attribute> attributes;
+    std::vector<std::unique_ptr<Element>> children;
+    Content* parent = nullptr;
+    std::size_t number = 0;  // index among the children of the parent
+
+    Content() = default;
+    Content(const Content&) = delete;
+    Content& operator=(const Content&) = delete;
+    ~Content()
+    {
+      for (const auto& child : children) child->content_->parent = nullptr;
+    }
+  };
+
   const Attribute* Find(const std::string& name) const;
   void Set(const std::string& name, const std::string& value);
-  std::string Where() const { return place_.empty() ? std::string() : place_ + ": "; }
+  void Write(std::ostream& stream, int depth) const;
+  std::string Where() const { return Place().empty() ? std::string() : Place() + ": "; }
   template <class T>
   void Read(const Attribute& attribute, T& value) const
   {
@@ -128,17 +162,26 @@ private:
     }
     catch (const std::exception& mistake)
     {
-      throw Exception(Where() + "'" + attribute.Name() + "' of <" + name_ + ">: " + mistake.what());
+      throw Exception(Where() + "'" + attribute.Name() + "' of <" + Value() + ">: " + mistake.what());
     }
   }
 
-  std::string name_;
-  std::string text_;
-  std::string place_;
-  std::vector<Attribute> attributes_;
-  std::vector<std::unique_ptr<Element>> children_;
-  Element* parent_ = nullptr;
-  std::size_t number_ = 0;  // index among the children of the parent
+  std::shared_ptr<Content> content_;
+};
+
+// A file in memory. A program may change it, save it, and run it by CSimulator::Load. Errors are Exceptions.
+class Document : public Element
+{
+public:
+  Document() = default;
+  Document(const std::string& file) : Element(file) {}
+  Document(const char* file) : Element(file) {}
+
+  void LoadFile() { LoadFile(Value()); }
+  void LoadFile(const std::string& file);
+  void Parse(const std::string& text);
+  void SaveFile() const { SaveFile(Value()); }
+  void SaveFile(const std::string& file) const;
 };
 
 // Iterates over all children, or over those of one name: for (it = it.begin(&node); it != it.end(); ++it).
@@ -194,6 +237,7 @@ public:
     return first.current_ == first.end_ ? Iterator() : first;
   }
   Iterator end() const { return {}; }
+  const Attribute* Get() const { return current_; }
   const Attribute& operator*() const { return *current_; }
   const Attribute* operator->() const { return current_; }
   Iterator& operator++()

@@ -56,7 +56,7 @@ public:
   }
 
 private:
-  // `x`, `y`, `z`: the images of the axes.
+  // `x`, `y` and `z` are the images of the axes.
   void SetFromAxes(const CVector3& x, const CVector3& y, const CVector3& z)
   {
     SetFromValues(x.GetX(), y.GetX(), z.GetX(), x.GetY(), y.GetY(), z.GetY(), x.GetZ(), y.GetZ(), z.GetZ());

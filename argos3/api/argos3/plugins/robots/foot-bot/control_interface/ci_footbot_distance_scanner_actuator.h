@@ -16,6 +16,7 @@ public:
   virtual void SetRPM(Real turns_a_minute) = 0;
   // Does the same as SetAngle with the last angle, 0 at the start. A turning head stops.
   virtual void Enable() = 0;
+  // Switches the head off: it stops, and nothing is measured.
   virtual void Disable() = 0;
 };
 

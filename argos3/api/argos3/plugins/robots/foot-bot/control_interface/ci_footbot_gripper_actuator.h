@@ -16,8 +16,9 @@ public:
 
   // Sets the angle of the jaws: 0 is open, +-pi/2 is closed.
   virtual void SetAperture(const CRadians& aperture) = 0;
-  // Do nothing here.
+  // Does nothing here, since the gripper always reports what it holds.
   virtual void EnableCheckForObjectGrippedRoutine() {}
+  // Does nothing here.
   virtual void DisableCheckForObjectGrippedRoutine() {}
   void LockPositive() { SetAperture(LOCKED_POSITIVE); }
   void LockNegative() { SetAperture(LOCKED_NEGATIVE); }

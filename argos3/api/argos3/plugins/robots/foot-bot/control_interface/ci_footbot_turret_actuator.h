@@ -20,8 +20,9 @@ public:
 
   // Sets the angle to turn to in the mode MODE_POSITION_CONTROL, counter-clockwise.
   virtual void SetRotation(const CRadians& angle) = 0;
-  // `speed`: rad/s, counter-clockwise.
+  // Sets the speed in rad/s, counter-clockwise.
   virtual void SetRotationSpeed(SInt32 speed) = 0;
+  // Sets the mode: off, passive, at a speed, or to an angle.
   virtual void SetMode(ETurretModes mode) = 0;
   void SetActiveWithRotation(const CRadians& angle)
   {

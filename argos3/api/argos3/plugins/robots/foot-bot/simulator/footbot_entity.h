@@ -19,9 +19,9 @@ public:
   CLightSensorEquippedEntity& GetLightSensorEquippedEntity() { return light_; }
   // Has the four sensors beside the motors, then the eight of the base.
   CGroundSensorEquippedEntity& GetGroundSensorEquippedEntity() { return ground_; }
-  // For AddEntity. `controller`: its id in the experiment file. The ranges and apertures are those of the file's robots
-  // with the same controller; the values given here are ignored. The constructor is defined in the library, since
-  // `swarmanoid` finds by its name which libraries make foot-bots.
+  // Makes a foot-bot for AddEntity. `controller` is its id in the experiment file. The ranges and apertures are those
+  // of the file's robots with the same controller; the values given here are ignored. The constructor is defined in the
+  // library, since `swarmanoid` finds by its name which libraries make foot-bots.
   CFootBotEntity(const std::string& id, const std::string& controller, const CVector3& position = CVector3(),
                  const CQuaternion& orientation = CQuaternion(), Real rab_range = 3, size_t rab_data_size = 10,
                  const CRadians& omnidirectional_camera_aperture = CRadians(70 * ARGOS_PI / 180),

@@ -18,7 +18,7 @@ public:
     SBlob(const CColor& colour, SInt32 x, SInt32 y) : Color(colour), X(x), Y(y) {}
 
     CColor Color;
-    // Pixels of an image of 640 by 480, to the right and down from its upper left corner.
+    // The position is in pixels of an image of 640 by 480, to the right and down from its upper left corner.
     SInt32 X = 0;
     SInt32 Y = 0;
 

@@ -13,12 +13,15 @@ public:
   using TSettings = std::vector<CColor>;
 
   size_t GetNumLEDs() const { return m_tSettings.size(); }
-  // Throw CARGoSException for an LED beyond the last one, and for a wrong number of colours.
+  // Sets the colour of an LED. Throws CARGoSException for an LED beyond the last one.
   virtual void SetSingleColor(UInt32 led, const CColor& colour);
+  // Sets one colour for all LEDs.
   virtual void SetAllColors(const CColor& colour);
+  // Sets a colour for each LED. Throws CARGoSException for a wrong number of colours.
   virtual void SetAllColors(const TSettings& colours);
-  // `intensity`: 0 to 255.
+  // Sets the intensity of an LED, 0 to 255. Throws CARGoSException for an LED beyond the last one.
   virtual void SetSingleIntensity(UInt32 led, UInt8 intensity);
+  // Sets the intensity of all LEDs, 0 to 255.
   virtual void SetAllIntensities(UInt8 intensity);
 
 protected:

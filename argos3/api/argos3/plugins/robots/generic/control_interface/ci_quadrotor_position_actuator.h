@@ -11,11 +11,13 @@ namespace argos
 class CCI_QuadRotorPositionActuator : public CCI_Actuator
 {
 public:
-  // Set a position in m: in the arena, or ahead, to the left and above the robot.
+  // Sets a position in the arena (m) to fly to.
   virtual void SetAbsolutePosition(const CVector3& position) = 0;
+  // Sets a position to fly to, in m ahead, to the left and above the robot.
   virtual void SetRelativePosition(const CVector3& position) = 0;
-  // Set a heading: in the arena, or relative to the present one.
+  // Sets a heading in the arena.
   virtual void SetAbsoluteYaw(const CRadians& yaw) = 0;
+  // Sets a heading relative to the present one.
   virtual void SetRelativeYaw(const CRadians& yaw) = 0;
 };
 

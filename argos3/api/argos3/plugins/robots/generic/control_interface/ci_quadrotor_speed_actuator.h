@@ -11,9 +11,9 @@ namespace argos
 class CCI_QuadRotorSpeedActuator : public CCI_Actuator
 {
 public:
-  // `velocity`: m/s ahead, to the left and up.
+  // Sets the velocity in m/s ahead, to the left and up.
   virtual void SetLinearVelocity(const CVector3& velocity) = 0;
-  // `speed`: rad/s, counter-clockwise.
+  // Sets the yaw rate in rad/s, counter-clockwise.
   virtual void SetRotationalSpeed(const CRadians& speed) = 0;
 };
 

@@ -189,7 +189,7 @@ private:
   std::string text_;
 };
 
-// Never sent, since windows and pages handle the mouse themselves.
+// The mouse is never sent, since windows and pages handle it themselves.
 class QMouseEvent
 {
 public:

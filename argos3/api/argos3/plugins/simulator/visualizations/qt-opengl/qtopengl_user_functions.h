@@ -28,17 +28,24 @@ public:
   void Reset() override {}
   void Destroy() override {}
 
-  // Handle a key and a user's selection, from a window or page of this simulator, or from `swarmanoid control`. They
-  // are called between two steps, and may do all that loop functions may do.
+  // Handles a pressed key, from a window or page of this simulator, or from `swarmanoid control`. The functions for
+  // keys and selections are called between two steps, and may do all that loop functions may do.
   virtual void KeyPressed(QKeyEvent* event) { GetQTOpenGLWidget().KeyPressed(event); }
+  // Handles a released key.
   virtual void KeyReleased(QKeyEvent* event) { GetQTOpenGLWidget().KeyReleased(event); }
+  // Called when a user has selected an entity.
   virtual void EntitySelected(CEntity&) {}
+  // Called when a user has ended the selection of an entity.
   virtual void EntityDeselected(CEntity&) {}
-  // Never called, since windows and pages handle the mouse themselves, and moves of entities are requests to the run.
+  // Never called, since windows and pages handle the mouse themselves.
   virtual void MouseKeyPressed(QMouseEvent*) {}
+  // Never called, as MouseKeyPressed.
   virtual void MouseKeyReleased(QMouseEvent*) {}
+  // Never called, as MouseKeyPressed.
   virtual void MouseMoved(QMouseEvent*) {}
+  // Never called, since moves of entities are requests to the run.
   virtual void EntityMoved(CEntity&, const CVector3& /*old_position*/, const CVector3& /*new_position*/) {}
+  // Never called, as EntityMoved.
   virtual void EntityRotated(CEntity&, const CQuaternion& /*old_orientation*/, const CQuaternion& /*new_orientation*/)
   {
   }
@@ -47,10 +54,12 @@ public:
   CEntity* GetSelectedEntity() { return selected_; }
   // Selects only here; windows and pages do not show it.
   virtual void SelectEntity(CEntity& entity);
+  // Ends the selection here.
   virtual void DeselectEntity();
 
   // Draws in the world. Called when a picture is due and a visualiser shows the run; it cannot change the run.
   virtual void DrawInWorld() {}
+  // Draws on the floor, at the same times.
   virtual void Draw(CFloorEntity&) {}
   // Never called, since drawings over pictures do not exist here.
   virtual void DrawOverlay(QPainter&) {}
@@ -68,8 +77,8 @@ public:
   CQTOpenGLWidget& GetQTOpenGLWidget() { return window_.GetOpenGLWidget(); }
   CQTOpenGLWidget& GetOpenGLWidget() { return window_.GetOpenGLWidget(); }
 
-  // For use within the drawing functions above; elsewhere they throw CARGoSException. Lengths are in metres, widths and
-  // diameters in pixels. Orientations turn shapes of the x, y plane.
+  // These functions work within the drawing functions above; elsewhere they throw CARGoSException. Lengths are in
+  // metres, widths and diameters in pixels. Orientations turn shapes of the x, y plane.
   void SetColor(const CColor& colour);
   void DrawPoint(const CVector3& position, const CColor& colour = CColor::RED, Real diameter = 5.0);
   // The base lies along x with its middle at the position; the tip points along y.
@@ -90,8 +99,8 @@ public:
                 const QFont& font = QFont());
 
 protected:
-  // Functions of OpenGL: shapes between glBegin and glEnd, moved by the matrices, in the current colour and width.
-  // Other switches have no effect.
+  // These are functions of OpenGL: shapes between glBegin and glEnd, moved by the matrices, in the current colour and
+  // width. Other switches have no effect.
   void glBegin(GLenum mode);
   void glEnd();
   void glVertex3d(GLdouble x, GLdouble y, GLdouble z);

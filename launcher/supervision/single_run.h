@@ -1,0 +1,17 @@
+// Runs an experiment in this process, with progress and Ctrl-C.
+#pragma once
+
+#include "launcher/supervision/prepared_run.h"
+
+namespace swarmanoid
+{
+
+// From now on users' code in this process runs within the limits of the settings, and slow code is reported.
+void ApplyLimitsHere(const RunSettings& settings);
+
+// Returns whether an experiment has loop functions of ARGoS3, which need one process.
+bool HasLoopFunctions(const Experiment& experiment);
+
+RunResult RunHere(const PreparedRun& prepared);
+
+}  // namespace swarmanoid
