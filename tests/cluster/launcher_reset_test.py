@@ -51,8 +51,8 @@ class Resets(LauncherTest):
         self.assertIn("with seed 9", self.control("reset"))
         said += self.await_reset(run, 2)
         self.resume(run)
-        self.assert_fresh(run, 9, 2, said)
         self.assertEqual(watcher.wait(), 0, watcher.stderr)
+        self.assert_fresh(run, 9, 2, said)
         self.assertIn(f"\n{TICKS}\t", (self.folder / "table").read_text())
         self.assertEqual(run.stdout.count("finished:"), 1)
         # Each of the runs is whole.
