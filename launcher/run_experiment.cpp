@@ -136,15 +136,6 @@ PreparedRun PrepareReset(const PreparedRun& first, const PreparedRun& run, const
                  });
 }
 
-// Why a run ended with the exit code of a failed experiment. Only experiment functions decide that.
-std::string FailureOf(const Experiment& experiment)
-{
-  std::vector<std::string> names;
-  for (const auto& functions : experiment.functions) names.push_back(Quoted(functions.id));
-  return fmt::format("the experiment failed by its own measure: {}experiment functions {} ended it as failed",
-                     names.size() > 1 ? "one of the " : "", Listed(names));
-}
-
 // Completes the manifest and prints the last line. Returns the exit code of the run.
 int Conclude(PreparedRun& run, const RunResult& result)
 {
@@ -164,7 +155,7 @@ int Conclude(PreparedRun& run, const RunResult& result)
   manifest.failure = result.failure;
   if (exit_code == kExitExperimentFailed)
   {
-    manifest.failure = FailureOf(*run.experiment);
+    manifest.failure = "the experiment failed by its own measure: " + result.summary->failure;
     PrintError("{}\n", manifest.failure);
   }
   if (result.summary)

@@ -347,6 +347,7 @@ const RunSummary& CSimulator::Finish()
   for (const auto& host : r.hosts) host->Destroy();
   r.server.Destroy();
   r.summary.failed = r.server.HasFailed();
+  r.summary.failure = r.server.Failure();
   return r.summary;
 }
 

@@ -142,6 +142,21 @@ public:
   virtual void SaveState(std::ostream&) const {}
   // Loads what SaveState has saved.
   virtual void LoadState(std::istream&) {}
+
+  // Returns the reason that Failed was given last; empty before.
+  const std::string& FailureReason() const { return failure_reason_; }
+
+protected:
+  // For IsFinished: `return Failed("3 of 10 preys are in the nest");` ends the experiment as kFailed does. The console
+  // and manifest.json show the reason, one line, behind the id of the functions.
+  Outcome Failed(std::string reason)
+  {
+    failure_reason_ = std::move(reason);
+    return Outcome::kFailed;
+  }
+
+private:
+  std::string failure_reason_;
 };
 
 template <>

@@ -115,6 +115,7 @@ void SpaceServer::LoadState(const SpaceSnapshot& snapshot, ByteReader& state)
   changed_slots_.clear();
   last_ = state.Get<bool>();
   failed_ = state.Get<bool>();
+  failure_ = failed_ ? "it had failed before the state that it continues from" : "";
   moved_ = state.GetArray<std::uint32_t>();
   for (const std::uint32_t entity : moved_)
     if (entity >= space_.Size()) throw std::runtime_error("it moved an entity that does not exist");
@@ -273,7 +274,11 @@ void SpaceServer::AskWhetherFinished()
                   const auto outcome = functions.object->IsFinished(editor_);
                   if (outcome == CExperimentFunctions::Outcome::kRunning) return;
                   last_ = true;
-                  failed_ |= outcome == CExperimentFunctions::Outcome::kFailed;
+                  if (outcome != CExperimentFunctions::Outcome::kFailed) return;
+                  failed_ = true;
+                  const std::string& reason = functions.object->FailureReason();
+                  failure_ += fmt::format("{}experiment functions '{}' {}{}", failure_.empty() ? "" : "; ",
+                                          functions.configuration->id, reason.empty() ? "gave no reason" : "say: ", reason);
                 });
 }
 

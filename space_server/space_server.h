@@ -99,6 +99,8 @@ public:
   void Destroy();
   // Returns true if the experiment functions say that the experiment failed: exit code 1.
   bool HasFailed() const { return failed_; }
+  // Returns which experiment functions ended the run as failed, and the reason if they gave one; empty if none did.
+  const std::string& Failure() const { return failure_; }
 
   // Returns true if maxclock is reached or Finish was called.
   bool IsLast() const { return last_ || (experiment_.max_clock != 0 && space_.GetTick() >= experiment_.max_clock); }
@@ -152,6 +154,7 @@ private:
   bool shares_space_ = false;
   bool last_ = false;
   bool failed_ = false;
+  std::string failure_;  // why; not saved, since a run that failed has ended
   bool destroyed_ = false;
   SpaceEditor editor_;
   StreamKey program_random_;  // for programs that change the experiment between two steps

@@ -26,6 +26,7 @@ struct RunSummary
   double real_time_factor = 0;
   bool interrupted = false;
   bool failed = false;                  // the experiment functions reported a failure
+  std::string failure{};                // which functions, and why
   std::optional<ResetRequest> reset{};  // the request that ended the run
 };
 

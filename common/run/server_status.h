@@ -112,6 +112,7 @@ struct ServerFinished
   std::uint64_t hash = 0;
   double wall_s = 0;
   double real_time_factor = 0;
+  std::string failure{};  // why the experiment functions ended the run as failed, if they did
 
   static constexpr std::string_view word = "finished";
   static void Visit(auto& archive, auto& line)
@@ -121,6 +122,7 @@ struct ServerFinished
     archive.Hash(line.hash);
     archive.Number(line.wall_s);
     archive.Number(line.real_time_factor);
+    archive.Text(line.failure);
   }
   friend bool operator==(const ServerFinished&, const ServerFinished&) = default;
 };

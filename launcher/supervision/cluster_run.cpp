@@ -49,10 +49,11 @@ RunResult ResultOf(const ClusterOutcome& outcome)
   constexpr std::array kCodes{kExitDone, kExitExperimentFailed, kExitInterrupted, kExitProcessFailed, kExitInvalidFile};
   RunResult result{.exit_code = kCodes[outcome.kind], .summary = {}, .failure = outcome.reason};
   if (!outcome.finished) return result;
-  const auto& [ticks, entities, hash, wall_s, real_time_factor] = *outcome.finished;
+  const auto& [ticks, entities, hash, wall_s, real_time_factor, failure] = *outcome.finished;
   result.summary = {ticks, entities, hash, wall_s, real_time_factor};
   result.summary->interrupted = outcome.kind == ClusterOutcome::kInterrupted;
   result.summary->failed = outcome.kind == ClusterOutcome::kUnsuccessful;
+  result.summary->failure = failure;
   if (outcome.reset && outcome.kind == ClusterOutcome::kFinished)
     result.summary->reset = ResetRequest{outcome.reset->seed, outcome.reset->paused, outcome.reset->real_time_factor};
   return result;

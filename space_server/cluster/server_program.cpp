@@ -496,7 +496,8 @@ void ServerProgram::Close()
     session_.Leave(result.ticks, "");
   if (const auto& reset = run_control_.Reset())
     status_.Publish(ServerReset{reset->seed, reset->paused, reset->real_time_factor});
-  status_.Publish(ServerFinished{result.ticks, result.entities, result.hash, result.wall_s, result.real_time_factor});
+  status_.Publish(ServerFinished{result.ticks, result.entities, result.hash, result.wall_s, result.real_time_factor,
+                                 server_.Failure()});
   if (status_.IsOpen()) return;
   std::fputs((FinishedLine(result) + "\n").c_str(), stdout);
   if (!OutputIsWritten()) throw std::runtime_error("the result of the run is lost");

@@ -85,6 +85,16 @@ class Ends(LauncherTest):
         self.assertRegex(self.run_it("run", broken).stderr, r"broken\.xml: 1 error\n")
 
 
+class FailedExperiments(LauncherTest):
+    def test_the_reason_of_the_functions_is_shown_and_kept(self):
+        expected = "the experiment failed by its own measure: experiment functions 'goal' say: no prey is in the nest at the last tick"
+        for output, options in (("cluster", []), ("one", ["--single-process"])):
+            run = self.run_it("run", CONFIGS / "prey_retrieval.xml", "--ticks", 20, "--no-visualisers", "--output", output, *options)
+            self.assertEqual(run.process.returncode, 1, run.stderr)
+            self.assertIn(expected, run.stderr)
+            self.assertEqual(json.loads((self.folder / output / "manifest.json").read_text())["failure"], expected)
+
+
 class Interrupts(LauncherTest):
     def test_once_keeps_a_whole_result(self):
         for options in ([], ["--single-process"]):

@@ -58,6 +58,7 @@ TEST(ServerStatus, WhatIsWrittenIsRead)
       ServerError{"controller 'x' of robot 'y' failed: 5 of 6"},
       ServerLeft{"engine 'the ground'"},
       ServerFinished{500, 10, 0xffULL, 0.0541234567, 1.0 / 3},
+      ServerFinished{500, 10, 0xffULL, 1, 2, "experiment functions 'goal' say: 3 of 10 preys"},
   };
   for (const ServerStatus& status : all)
   {

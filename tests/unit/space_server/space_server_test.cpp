@@ -245,6 +245,7 @@ class Recorder : public CExperimentFunctions
 public:
   static inline std::string calls;
   static inline Outcome outcome_at_2 = Outcome::kDone;
+  static inline std::string reason;
   static inline bool throw_in_post_step = false;
 
   void Init(const TConfigurationTree, SpaceEditor& space) override { Note("Init", space); }
@@ -258,7 +259,8 @@ public:
   }
   Outcome IsFinished(const SpaceEditor& space) override
   {
-    return space.GetSpace().GetTick() == 2 ? outcome_at_2 : Outcome::kRunning;
+    if (space.GetSpace().GetTick() != 2) return Outcome::kRunning;
+    return reason.empty() ? outcome_at_2 : Failed(reason);
   }
   void Destroy(SpaceEditor& space) override { Note("Destroy", space); }
 
@@ -278,6 +280,7 @@ Experiment WithRecorder()
   experiment.functions = {{"recorder", "goal", {}, {}}};
   Recorder::calls.clear();
   Recorder::outcome_at_2 = CExperimentFunctions::Outcome::kDone;
+  Recorder::reason.clear();
   Recorder::throw_in_post_step = false;
   return experiment;
 }
@@ -306,6 +309,17 @@ TEST(ExperimentFunctions, TheyCanDeclareFailure)
   Recorder::outcome_at_2 = CExperimentFunctions::Outcome::kFailed;
   while (!server.IsLast()) server.Advance({}, {});
   EXPECT_TRUE(server.HasFailed());
+  EXPECT_EQ(server.Failure(), "experiment functions 'goal' gave no reason");
+}
+
+TEST(ExperimentFunctions, TheyCanSayWhyTheyFailed)
+{
+  TestServer server(WithRecorder());
+  EXPECT_EQ(server.Failure(), "");
+  Recorder::reason = "3 of 10 preys";
+  while (!server.IsLast()) server.Advance({}, {});
+  EXPECT_TRUE(server.HasFailed());
+  EXPECT_EQ(server.Failure(), "experiment functions 'goal' say: 3 of 10 preys");
 }
 
 TEST(ExperimentFunctions, AnExceptionIsReportedWithNameAndTick)

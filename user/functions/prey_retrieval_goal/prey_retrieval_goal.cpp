@@ -9,6 +9,8 @@
 //     <nest>nest</nest>
 //     <metrics>retrieval.csv</metrics>
 //   </prey_retrieval_goal>
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -99,10 +101,12 @@ public:
     for (const auto* prey : preys_)
     {
       if ((guide_ != nullptr && chosen_ == nullptr) || !IsInNest(*prey)) continue;
-      return chosen_ == nullptr || prey == chosen_ ? Outcome::kDone : Outcome::kFailed;
+      if (chosen_ == nullptr || prey == chosen_) return Outcome::kDone;
+      return Failed(fmt::format("'{}' is in the nest, but the nearest prey was '{}'", prey->GetId(), chosen_->GetId()));
     }
     const std::uint64_t last = space.GetSpace().GetExperiment().max_clock;
-    return last != 0 && space.GetSpace().GetTick() >= last ? Outcome::kFailed : Outcome::kRunning;
+    if (last == 0 || space.GetSpace().GetTick() < last) return Outcome::kRunning;
+    return Failed("no prey is in the nest at the last tick");
   }
 
   void Destroy(SpaceEditor&) override { file_.reset(); }
