@@ -59,7 +59,8 @@ public:
       const double count = space_->Attributes()[senders_[s].slot];
       if (count == sent_[s]) continue;
       sent_[s] = count;
-      if (space_->IsPresent(senders_[s].entity)) Spread(senders_[s]);
+      // The count of a robot that on_failure stops goes back to 0. That is no packet.
+      if (count > 0 && space_->IsPresent(senders_[s].entity)) Spread(senders_[s]);
     }
     Deliver();
   }

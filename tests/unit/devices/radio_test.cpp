@@ -34,6 +34,16 @@ public:
   {
     return receivers_->Of<CCI_RadioSensor>(k).GetAllPackets();
   }
+  // Does what a host does to the radio of a robot that on_failure stops.
+  void Silence(std::size_t k)
+  {
+    const CSwarmanoidSpaceEntity& entity = Space().GetEntity(robots_[k]);
+    AttributeChanges changes;
+    for (const AttributeSpec& spec : AttributesOf(entity.GetKind()))
+      for (int element = 0; spec.name == "radio" && element < spec.count; ++element)
+        changes.Add(entity.SlotOf("radio", element), 0);
+    Space().SetAttributes(changes);
+  }
   TestActuator& Senders() { return *senders_; }
   TestSensor& Receivers() { return *receivers_; }
 
@@ -64,6 +74,15 @@ TEST(Radio, APacketArrivesOnceAtAllInRange)
         EXPECT_EQ(row.Heard(4).size(), 0U) << "3 m away";
       });
   row.Tick([&] { EXPECT_EQ(row.Heard(0).size(), 0U) << "sent once, heard once"; });
+}
+
+TEST(Radio, ARobotThatIsStoppedSendsNoPacket)
+{
+  Row row(2);
+  row.Tick([&] { row.Send(0, {7}); });
+  row.Tick([&] { EXPECT_EQ(row.Heard(1).size(), 1U); });
+  row.Silence(0);
+  for (int tick = 0; tick < 3; ++tick) row.Tick([&] { EXPECT_EQ(row.Heard(1).size(), 0U) << tick; });
 }
 
 TEST(Radio, TwoPacketsAlikeAreTwoPackets)
