@@ -7,7 +7,7 @@ import pathlib
 import shutil
 import tarfile
 
-from harness import CONFIGS, DIFFUSION, SWARMANOID, TEST_CONTROLLERS, LauncherTest
+from harness import CONFIGS, DIFFUSION, GENEROUS_S, SWARMANOID, TEST_CONTROLLERS, LauncherTest
 from world.case import controller, experiment, run_on_a_terminal
 
 ONE = ["--single-process"]
@@ -324,6 +324,7 @@ class Progress(Archives):
         code, seen = run_on_a_terminal([SWARMANOID, "demo", "diffusion_10", "--film", "--output", "film"], self.folder)
         self.assertEqual(code, 0, seen)
         self.assertRegex(seen, r"running: tick \d+ of \d+ \(\d+ %\)")
-        piped = self.go("demo", "diffusion_10", "--film", "--output", "piped")
+        piped = self.run_it("demo", "diffusion_10", "--film", "--output", "piped", timeout=10 * GENEROUS_S)
+        self.assertEqual(piped.process.returncode, 0, piped.stderr)
         self.assertNotIn("%", piped.stderr)
         self.assertTrue((self.folder / "piped/film.mp4").exists())
