@@ -252,6 +252,22 @@ class Window(LauncherTest):
         self.assertEqual(blue[0], 0)
         self.assertGreater(blue[1], 5)
 
+    def test_the_floor_of_a_large_arena_hides_the_ground_below_it(self):
+        """From 150 m above, the depth of the floor and of the ground around the arena, 2 cm lower, differ very little."""
+        element = (f'<{self.KIND}_render id="window" window_size="{WIDTH},{HEIGHT}" write_frames="true" frame_directory="frames" use_textures="false">'
+                   "<camera_view_XYZ_0>50, 50, 150</camera_view_XYZ_0><camera_view_HPR_0>90, -90, 0</camera_view_HPR_0>"
+                   f"</{self.KIND}_render>")
+        path = experiment(self.folder / "large.xml", "<maxclock>1</maxclock>", size="100,100,1", more=f"<visualisations>{element}</visualisations>")
+        run = self.run_it("run", path, "--quiet", "--output", "out", "--single-process", environment=self.display.environment)
+        self.assertEqual(run.process.returncode, 0, run.stderr)
+        # One of the places of the floor, and one at the left of it.
+        seen = [self.display.tool("convert", self.folder / "out/frames/frame_000000.png", "-format",
+                                  ",".join(f"%[fx:p{{{x},{y}}}.{channel}]" for channel in "rgb"), "info:").split(",")
+                for x, y in ((450, 300), (300, 400), (600, 150), (20, 300))]
+        *floor, around = [[float(value) for value in colour] for colour in seen]
+        for colour in floor:
+            self.assertGreater(max(abs(a - b) for a, b in zip(colour, around)), 0.02, seen)
+
     def test_an_attached_window_comes_and_goes(self):
         table = '<text_render id="table"><file>table.txt</file></text_render>'
         run = self.start("run", self.experiment(table), "--output", "out", "--quiet", "--real-time", 1)

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "common/math/elementary.h"
 
@@ -14,22 +15,7 @@ namespace swarmanoid
 ViewVolume::ViewVolume(const Camera& camera, int width, int height, const Vector3& low, const Vector3& high)
     : eye(camera.position.cast<float>()), forward(camera.Forward().cast<float>())
 {
-  // The near and far planes fit the content, since a wide range costs depth precision.
-  double nearest = 1e300;
-  double farthest = 1;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    const Vector3 point(corner & 1 ? high.x() : low.x(), corner & 2 ? high.y() : low.y(),
-                        corner & 4 ? high.z() : low.z());
-    const double depth = (point - camera.position).dot(camera.Forward());
-    nearest = std::min(nearest, depth);
-    farthest = std::max(farthest, depth);
-  }
-  const double size = (high - low).norm();
-  // The ground in front of the arena must be included.
-  const double above = std::abs(camera.position.z() - low.z());
-  near = std::max({0.02, std::min(nearest * 0.9, above * 0.5), 1e-4 * size});
-  far = 4 * farthest + 10 * size;
+  std::tie(near, far) = camera.DepthRange(low, high);
 
   const double aspect = static_cast<double>(width) / height;
   view_projection = camera.Projection(aspect, near, far) * camera.View();

@@ -14,8 +14,11 @@ namespace
 {
 
 const Ogre::String kGroup = Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME;
-constexpr Ogre::uint32 kGridPixels = 256;
+constexpr Ogre::uint32 kCellPixels = 256;
+constexpr Ogre::uint32 kGridPixels = 2 * kCellPixels;
 constexpr Ogre::uint32 kLinePixels = 3;
+// Every other cell is darker, so that cells are told apart where lines are too thin to be seen.
+constexpr float kOtherCells = 0.965F;
 
 Ogre::Pass* PassOf(const Ogre::MaterialPtr& material) { return material->getTechnique(0)->getPass(0); }
 
@@ -96,7 +99,7 @@ void OgreMaterials::MakeShining(const char* name, bool transparent, bool on_top)
   pass->setDepthCheckEnabled(!on_top);
 }
 
-// Makes one cell of the floor, with lines along two of its edges.
+// Makes two by two cells of the floor, with lines along two edges of each.
 void OgreMaterials::MakeGrid()
 {
   const Ogre::TexturePtr texture = Ogre::TextureManager::getSingleton().createManual(
@@ -107,8 +110,12 @@ void OgreMaterials::MakeGrid()
   for (Ogre::uint32 y = 0; y < kGridPixels; ++y)
     for (Ogre::uint32 x = 0; x < kGridPixels; ++x)
     {
-      const Colour colour = x < kLinePixels || y < kLinePixels ? palette::kFloorLine : palette::kFloor;
-      for (const int shift : {16, 8, 0}) pixels.push_back(static_cast<Ogre::uint8>(colour >> shift & 0xff));
+      const bool is_line = x % kCellPixels < kLinePixels || y % kCellPixels < kLinePixels;
+      const bool is_other = !is_line && (x < kCellPixels) != (y < kCellPixels);
+      const Colour colour = is_line ? palette::kFloorLine : palette::kFloor;
+      for (const int shift : {16, 8, 0})
+        pixels.push_back(
+            static_cast<Ogre::uint8>(static_cast<float>(colour >> shift & 0xff) * (is_other ? kOtherCells : 1)));
     }
   texture->getBuffer()->blitFromMemory(Ogre::PixelBox(kGridPixels, kGridPixels, 1, Ogre::PF_BYTE_RGB, pixels.data()));
 }

@@ -32,9 +32,7 @@ using Ogre::RenderOperation;
 constexpr float kNearPixels = 38;
 constexpr float kMiddlePixels = 11;
 constexpr float kPatchLift = 0.004F;  // m above the floor, against flicker at a distance
-constexpr float kAround = 60;         // m: the ground around the arena
 constexpr int kGlowCorners = 20;
-constexpr Ogre::Real kSmallestDepth = 0.02F;
 
 Ogre::Vector3 ToOgre(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 Ogre::Vector3 ToOgre(const Vector3& v)
@@ -92,8 +90,6 @@ OgreScene::OgreScene(Ogre::SceneManager& manager, const Scene& scene) : manager_
 
   camera_ = manager_.createCamera("camera");
   camera_->setAutoAspectRatio(true);
-  camera_->setNearClipDistance(kSmallestDepth);
-  camera_->setFarClipDistance(2 * kAround + static_cast<float>(scene.ArenaSize().norm()));
   camera_node_ = manager_.getRootSceneNode()->createChildSceneNode();
   camera_node_->attachObject(camera_);
 
@@ -135,7 +131,7 @@ void OgreScene::MakeGround(const Scene& scene)
     {
       object->position(x, y, z);
       object->normal(0, 0, 1);
-      object->textureCoord(x / cell, y / cell);
+      object->textureCoord(x / (2 * cell), y / (2 * cell));  // the texture has two by two cells
     }
     object->quad(0, 1, 2, 3);
     object->end();
@@ -143,8 +139,9 @@ void OgreScene::MakeGround(const Scene& scene)
     manager_.getRootSceneNode()->attachObject(object);
     return object;
   };
-  rectangle("outside", materials_.Lit(Material::kTint, palette::kOutside), -kAround, -kAround, width + kAround,
-            depth + kAround, -0.02F);
+  const float around = 10 * std::hypot(width, depth);
+  rectangle("outside", materials_.Lit(Material::kTint, palette::kOutside), -around, -around, width + around,
+            depth + around, -0.02F);
   floor_ = rectangle("floor", materials_.Floor(true), 0, 0, width, depth, 0);
 }
 
@@ -258,6 +255,11 @@ void OgreScene::Update(const Scene& scene, const Camera& camera, int height, boo
       Ogre::Quaternion(ToOgre(camera.Right()), ToOgre(camera.Up()), -ToOgre(camera.Forward())));
   const auto fov = static_cast<float>(camera.field_of_view * std::numbers::pi / 180);
   camera_->setFOVy(Ogre::Radian(fov));
+  Vector3 low, high;
+  scene.Bounds(low, high);
+  const auto [near, far] = camera.DepthRange(low, high);
+  camera_->setNearClipDistance(static_cast<float>(near));
+  camera_->setFarClipDistance(static_cast<float>(far));
   floor_->getSections()[0]->setMaterial(materials_.Floor(textures));
 
   const float pixels_per_radian = static_cast<float>(height) / (2 * std::tan(fov / 2));

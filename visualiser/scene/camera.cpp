@@ -55,6 +55,24 @@ Eigen::Matrix4f Camera::Projection(double aspect, double near, double far) const
   return projection.cast<float>();
 }
 
+std::pair<double, double> Camera::DepthRange(const Vector3& low, const Vector3& high) const
+{
+  double nearest = 1e300;
+  double farthest = 1;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Vector3 point(corner & 1 ? high.x() : low.x(), corner & 2 ? high.y() : low.y(),
+                        corner & 4 ? high.z() : low.z());
+    const double depth = (point - position).dot(Forward());
+    nearest = std::min(nearest, depth);
+    farthest = std::max(farthest, depth);
+  }
+  const double size = (high - low).norm();
+  // The ground in front of the arena must be included.
+  const double above = std::abs(position.z() - low.z());
+  return {std::max({0.02, std::min(nearest * 0.9, above * 0.5), 1e-4 * size}), 4 * farthest + 10 * size};
+}
+
 Ray Camera::RayThrough(double x, double y, double width, double height) const
 {
   const double half = HalfHeight(*this);

@@ -2,6 +2,8 @@
 // the experiment files: heading 0 looks along x, 90 along y; a positive pitch looks upwards.
 #pragma once
 
+#include <utility>
+
 #include "common/math/pose.h"
 
 namespace swarmanoid
@@ -30,6 +32,9 @@ struct Camera
   Eigen::Matrix4f View() const;
   // Returns a projection with depth -1..1 between two distances (m).
   Eigen::Matrix4f Projection(double aspect, double near, double far) const;
+  // Returns distances (m) of a near and a far plane that fit a box and the ground around it. A wider range costs
+  // precision of depth: surfaces that are close to each other would flicker.
+  std::pair<double, double> DepthRange(const Vector3& low, const Vector3& high) const;
 
   // Returns the ray through a point of the picture: x, y from its upper left corner, in the same unit as its size.
   Ray RayThrough(double x, double y, double width, double height) const;
