@@ -51,10 +51,13 @@ float ContourOf(const Scene& scene)
 
 struct GlScene::State
 {
+  explicit State(float scale) : text_scale(scale), labels(scale) {}
+
   Shaders shaders;
   MeshStore meshes;
   PictureTarget target;
   ShadowMap shadow_map;
+  float text_scale;
   LabelAtlas labels;
   Quads<GlLine> lines{3, 3, 4, 3};
   Quads<GlGlow> glows{4, 4, 2};
@@ -78,11 +81,11 @@ struct GlScene::State
   void DrawPaint(const ViewVolume& view, std::span<const GlPaint> corners);
 };
 
-GlScene::GlScene()
+GlScene::GlScene(float text_scale)
 {
   if (epoxy_gl_version() < 33 || !epoxy_is_desktop_gl())
     throw std::runtime_error("OpenGL 3.3 is needed; this machine offers " + ContextDescription());
-  state_ = std::make_unique<State>();
+  state_ = std::make_unique<State>(text_scale);
 }
 
 GlScene::~GlScene() = default;
@@ -115,7 +118,10 @@ void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffe
   s.statistics.instances = s.frame.instances;
   s.frame.SortMarks(scene, s.labels, camera, width, height);
   if (!options.caption.empty())
-    s.labels.AppendFrom(options.caption, kCaptionMargin, static_cast<float>(height) - kCaptionMargin, s.frame.glyphs);
+  {
+    const float margin = kCaptionMargin * s.text_scale;
+    s.labels.AppendFrom(options.caption, margin, static_cast<float>(height) - margin, s.frame.glyphs);
+  }
   s.UploadLights(scene);
 
   glEnable(GL_DEPTH_TEST);

@@ -31,8 +31,9 @@ struct DrawStatistics
 class GlScene
 {
 public:
-  // Throws std::runtime_error if the context is older than 3.3 or rejects the shaders.
-  GlScene();
+  // `text_scale`: of labels and the caption. Throws std::runtime_error if the context is older than 3.3 or rejects the
+  // shaders.
+  explicit GlScene(float text_scale = 1);
   ~GlScene();
 
   // Draws the state of the scene's last Update into a framebuffer object (0: the window's). Every call must get the

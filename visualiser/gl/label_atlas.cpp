@@ -4,6 +4,7 @@
 
 #include <stb_truetype.h>
 
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -15,9 +16,8 @@ namespace swarmanoid
 namespace
 {
 
-constexpr int kSide = 256;                // pixels, of the atlas
-constexpr float kHeight = 15;             // pixels, of the letters
-constexpr float kWhite = 253.5F / kSide;  // coordinate in the atlas where it is white
+constexpr int kSide = 256;     // pixels, of the atlas at scale 1
+constexpr float kHeight = 15;  // pixels, of the letters at scale 1
 constexpr int kFirst = ' ';
 constexpr int kCount = '~' - ' ' + 1;
 
@@ -34,7 +34,7 @@ std::vector<unsigned char> ReadFont()
 
 }  // namespace
 
-LabelAtlas::LabelAtlas()
+LabelAtlas::LabelAtlas(float scale) : scale_(scale)
 {
   const std::vector<unsigned char> font = ReadFont();
   if (font.empty())
@@ -43,17 +43,20 @@ LabelAtlas::LabelAtlas()
                stderr);
     return;
   }
-  std::vector<unsigned char> bitmap(kSide * kSide);
+  const int side = kSide * static_cast<int>(std::ceil(scale));
+  const auto size = static_cast<float>(side);
+  white_ = (size - 2.5F) / size;
+  std::vector<unsigned char> bitmap(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
   std::array<stbtt_bakedchar, kCount> baked;
-  stbtt_BakeFontBitmap(font.data(), 0, kHeight, bitmap.data(), kSide, kSide, kFirst, kCount, baked.data());
-  for (int y = kSide - 5; y < kSide; ++y)
-    for (int x = kSide - 5; x < kSide; ++x) bitmap[static_cast<std::size_t>(y * kSide + x)] = 255;
+  stbtt_BakeFontBitmap(font.data(), 0, kHeight * scale, bitmap.data(), side, side, kFirst, kCount, baked.data());
+  for (int y = side - 5; y < side; ++y)
+    for (int x = side - 5; x < side; ++x) bitmap[static_cast<std::size_t>(y * side + x)] = 255;
   for (const stbtt_bakedchar& letter : baked)
   {
     const auto width = static_cast<float>(letter.x1 - letter.x0);
     const auto height = static_cast<float>(letter.y1 - letter.y0);
-    glyphs_.push_back({{static_cast<float>(letter.x0) / kSide, static_cast<float>(letter.y0) / kSide,
-                        static_cast<float>(letter.x1) / kSide, static_cast<float>(letter.y1) / kSide},
+    glyphs_.push_back({{static_cast<float>(letter.x0) / size, static_cast<float>(letter.y0) / size,
+                        static_cast<float>(letter.x1) / size, static_cast<float>(letter.y1) / size},
                        letter.xoff,
                        letter.yoff,
                        letter.xoff + width,
@@ -62,7 +65,7 @@ LabelAtlas::LabelAtlas()
   }
   glBindTexture(GL_TEXTURE_2D, texture_.Name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, kSide, kSide, 0, GL_RED, GL_UNSIGNED_BYTE, bitmap.data());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, side, side, 0, GL_RED, GL_UNSIGNED_BYTE, bitmap.data());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -84,7 +87,7 @@ float LabelAtlas::WidthOf(std::string_view text) const
 
 void LabelAtlas::Append(std::string_view text, float x, float y, std::vector<Glyph>& glyphs) const
 {
-  if (!IsEmpty()) AppendFrom(text, x - WidthOf(text) / 2, y - 10, glyphs);
+  if (!IsEmpty()) AppendFrom(text, x - WidthOf(text) / 2, y - 10 * scale_, glyphs);
 }
 
 void LabelAtlas::AppendFrom(std::string_view text, float x, float y, std::vector<Glyph>& glyphs) const
@@ -93,8 +96,10 @@ void LabelAtlas::AppendFrom(std::string_view text, float x, float y, std::vector
   const auto channel = [](int shift) { return static_cast<float>((palette::kLabel >> shift) & 0xff) / 255; };
   const float pen = std::round(x);
   const float line = std::round(y);
-  glyphs.push_back(
-      {{pen - 5, line - 14, pen + WidthOf(text) + 5, line + 5}, {kWhite, kWhite, kWhite, kWhite}, {1, 1, 1, 0.78F}});
+  const float margin = 5 * scale_;
+  glyphs.push_back({{pen - margin, line - 14 * scale_, pen + WidthOf(text) + margin, line + margin},
+                    {white_, white_, white_, white_},
+                    {1, 1, 1, 0.78F}});
   AppendPlain(text, x, y, {channel(16), channel(8), channel(0), 1}, glyphs);
 }
 

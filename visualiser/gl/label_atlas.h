@@ -21,8 +21,9 @@ struct Glyph
 class LabelAtlas
 {
 public:
-  // Without the font (Debian's fonts-dejavu-core) it prints a message, and labels stay empty.
-  LabelAtlas();
+  // `scale`: of the letters, which are 15 pixels high at 1. Without the font (Debian's fonts-dejavu-core) it prints a
+  // message, and labels stay empty.
+  explicit LabelAtlas(float scale);
 
   GLuint Texture() const { return texture_.Name(); }
   bool IsEmpty() const { return glyphs_.empty(); }
@@ -45,6 +46,8 @@ private:
   const BakedGlyph& GlyphOf(char c) const;
   float WidthOf(std::string_view text) const;
 
+  float scale_;
+  float white_ = 0;  // the coordinate in the atlas where it is white
   GlObject texture_{GlObject::Kind::kTexture};
   std::vector<BakedGlyph> glyphs_;  // from ' ' to '~'
 };

@@ -5,7 +5,9 @@
 #include "visualiser/image/image_render.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -13,6 +15,7 @@
 #include "common/space/space.h"
 #include "visualiser/gl/quality.h"
 #include "visualiser/renderer_library.h"
+#include "visualiser/scene/floor_grid.h"
 #include "visualiser/scene/viewpoints.h"
 #include "visualiser/status_line.h"
 
@@ -23,6 +26,7 @@ namespace
 
 constexpr int kSmallest = 16;
 constexpr int kLargest = 16384;
+constexpr float kHeightOfPlainText = 1080;  // pixels; texts grow with larger pictures
 constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
 
 std::string Numbered(const std::string& name, std::uint64_t tick) { return fmt::format("{}_{:06}.png", name, tick); }
@@ -59,11 +63,20 @@ void CImageRender::Init(const RenderSetup& setup)
   scene_options_ = SceneOptionsOf(parameters);
   if (parameters.Boolean("show_owners")) NameOwners(setup);
   if (parameters.Boolean("show_status")) monitor_ = setup.monitor;
+  show_clock_ = parameters.Boolean("show_clock");
+  if (parameters.Boolean("show_scale"))
+  {
+    if (!draw_options_.textures)
+      throw ConfigurationError(
+          parameters.Tree().ValueLocation("show_scale"),
+          "show_scale gives the distance of the floor's lines, but use_textures=\"false\" draws none");
+    scale_ = fmt::format("{} m between lines", FloorSpacing(space_->GetExperiment().arena_size));
+  }
 
   scene_ = std::make_unique<Scene>(*space_);
   context_ = std::make_unique<OffscreenContext>();
   buffer_ = std::make_unique<PictureBuffer>(width_, height_);
-  renderer_ = std::make_unique<GlScene>();
+  renderer_ = std::make_unique<GlScene>(std::max(1.0F, static_cast<float>(height_) / kHeightOfPlainText));
   ReadOutputs(setup);
 }
 
@@ -125,13 +138,7 @@ void CImageRender::Draw()
   if (scene_options_.trails && !done_) scene_->Track();
   if (done_ || tick < next_) return;
   scene_->Update(scene_options_);
-  if (monitor_ != nullptr)
-  {
-    RunStatus status = monitor_->Status();
-    status.tick = tick;
-    const bool is_known = status.phase != RunStatus::Phase::kUnknown;
-    draw_options_.caption = is_known ? StatusLine(status) : fmt::format("tick {}", tick);
-  }
+  draw_options_.caption = Caption(tick);
   context_->MakeCurrent();
   renderer_->Draw(*scene_, camera_, buffer_->Framebuffer(), width_, height_, draw_options_);
   Write(buffer_->Read(), tick);
@@ -139,6 +146,21 @@ void CImageRender::Draw()
   // Pictures are at multiples of `every` from the first tick on. An attached visualiser may have missed some.
   next_ += ((tick - next_) / every_ + 1) * every_;
   done_ = next_ > last_;
+}
+
+std::string CImageRender::Caption(std::uint64_t tick) const
+{
+  std::vector<std::string> parts;
+  if (show_clock_) parts.push_back(fmt::format("{:.1f} s", static_cast<double>(tick) * space_->GetTickSeconds()));
+  if (!scale_.empty()) parts.push_back(scale_);
+  if (monitor_ != nullptr)
+  {
+    RunStatus status = monitor_->Status();
+    status.tick = tick;
+    const bool is_known = status.phase != RunStatus::Phase::kUnknown;
+    parts.push_back(is_known ? StatusLine(status) : fmt::format("tick {}", tick));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 void CImageRender::Write(const Picture& picture, std::uint64_t tick)

@@ -27,6 +27,7 @@ private:
   void ReadTicks(const Parameters& parameters);
   void ReadOutputs(const RenderSetup& setup);
   void NameOwners(const RenderSetup& setup);
+  std::string Caption(std::uint64_t tick) const;
   void Write(const Picture& picture, std::uint64_t tick);
 
   const CSwarmanoidSpace* space_ = nullptr;
@@ -34,7 +35,9 @@ private:
   Camera camera_;
   DrawOptions draw_options_;
   SceneOptions scene_options_;
-  RunMonitor* monitor_ = nullptr;   // not null if the pictures show the status of the run
+  RunMonitor* monitor_ = nullptr;  // not null if the pictures show the status of the run
+  bool show_clock_ = false;
+  std::string scale_;               // the distance of the floor's lines, if the pictures show it
   std::vector<std::string> names_;  // names of the entities and their owners
   std::uint64_t every_ = 1;
   std::uint64_t next_ = 0;  // the next picture is drawn at this tick or the first later one

@@ -202,6 +202,30 @@ TEST_F(ImageRender, ALineBelowSaysHowTheRunGoes)
   EXPECT_FALSE(RowsThatDiffer(tick, ReadPng(Path("late.png"))).empty());
 }
 
+TEST_F(ImageRender, ALineBelowShowsTheClockAndTheScale)
+{
+  Run("file=\"plain.png\"", 0);
+  Run("file=\"clock.png\" show_clock=\"true\"", 0);
+  Run("file=\"both.png\" show_clock=\"true\" show_scale=\"true\"", 0);
+  const Picture clock = ReadPng(Path("clock.png"));
+  ASSERT_FALSE(RowsThatDiffer(ReadPng(Path("plain.png")), clock).empty());
+  EXPECT_GE(RowsThatDiffer(ReadPng(Path("plain.png")), clock).front(), 64 - 30);
+  EXPECT_FALSE(RowsThatDiffer(clock, ReadPng(Path("both.png"))).empty());
+  EXPECT_THROW(Run("file=\"no.png\" show_scale=\"true\" use_textures=\"false\"", 0), ConfigurationError);
+}
+
+TEST_F(ImageRender, TextsGrowWithLargePictures)
+{
+  const auto rows_of_the_clock = [&](const std::string& size)
+  {
+    Run("file=\"plain.png\" use_shadows=\"false\" antialiasing=\"0\" size=\"" + size + "\"", 0);
+    Run("file=\"clock.png\" use_shadows=\"false\" antialiasing=\"0\" show_clock=\"true\" size=\"" + size + "\"", 0);
+    return RowsThatDiffer(ReadPng(Path("plain.png")), ReadPng(Path("clock.png"))).size();
+  };
+  const std::size_t small = rows_of_the_clock("100, 1080");
+  EXPECT_NEAR(static_cast<double>(rows_of_the_clock("100, 2160")), 2.0 * static_cast<double>(small), 2);
+}
+
 TEST_F(ImageRender, LabelsNameTheOwners)
 {
   assignment_.owner = {-1};
