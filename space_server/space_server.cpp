@@ -277,8 +277,9 @@ void SpaceServer::AskWhetherFinished()
                   if (outcome != CExperimentFunctions::Outcome::kFailed) return;
                   failed_ = true;
                   const std::string& reason = functions.object->FailureReason();
-                  failure_ += fmt::format("{}experiment functions '{}' {}{}", failure_.empty() ? "" : "; ",
-                                          functions.configuration->id, reason.empty() ? "gave no reason" : "say: ", reason);
+                  failure_ +=
+                      fmt::format("{}experiment functions '{}' {}{}", failure_.empty() ? "" : "; ",
+                                  functions.configuration->id, reason.empty() ? "gave no reason" : "say: ", reason);
                 });
 }
 
