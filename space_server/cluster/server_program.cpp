@@ -450,7 +450,7 @@ void ServerProgram::RunTicks()
     checkpoints_.Work();
     ReportProgress();
     PublishViews();
-    if (!lockstep_.Finished() && !lockstep_.Failure()) Sleep(std::min(next, views_.Next()));
+    if (!lockstep_.Finished() && !lockstep_.Failure()) Sleep(std::min(next, views_.Next(Clock::now())));
   }
   end_ = Clock::now();
   const auto who = lockstep_.Terminator();

@@ -14,6 +14,7 @@ constexpr double kMostViews = 30;  // each second
 // An unchanged state is sent again for a while. Fast DDS may lose messages while a new reader is matched. A client that
 // sent a request cannot tell which views are newer than the reply.
 constexpr auto kTimeOfRepeats = 10s;
+constexpr auto kTimeUntilNews = 10ms;  // a view may be sent, but the state is the one that was sent before
 constexpr int kLeastViews = 4;
 constexpr auto kStatusPeriod = 100ms;
 constexpr auto kRequestTime = 3s;  // a request that is not repeated ends after this time
@@ -134,12 +135,12 @@ void ViewPublisher::WaitUntilRead(double seconds)
   if (views_.WaitUntilRead(seconds)) statuses_.WaitUntilRead(seconds);
 }
 
-ViewPublisher::Clock::time_point ViewPublisher::Next() const
+ViewPublisher::Clock::time_point ViewPublisher::Next(Clock::time_point now) const
 {
   Clock::time_point next = Clock::time_point::max();
-  if (viewers_ > 0) next = viewed_ + ViewPeriod(Clock::now());
+  if (viewers_ > 0) next = viewed_ + ViewPeriod(now);
   if (status_readers_ > 0) next = std::min(next, said_ + kStatusPeriod);
-  return next;
+  return next > now ? next : now + kTimeUntilNews;
 }
 
 }  // namespace swarmanoid

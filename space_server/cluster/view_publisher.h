@@ -42,8 +42,8 @@ public:
   // The latest view and status were read by all observers, or that time is over.
   void WaitUntilRead(double seconds);
 
-  // Returns the time at which a view or a status may be due.
-  Clock::time_point Next() const;
+  // Returns the next time, later than `now`, at which a view or a status may be due.
+  Clock::time_point Next(Clock::time_point now) const;
   // Takes the rate that a client asks for. Any thread may call it.
   void Requested(const ViewRequestMessage& request);
   // A process is lost or has left, so its requests end.
