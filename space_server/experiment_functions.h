@@ -18,7 +18,7 @@
 #include "common/messages/drawing.h"
 #include "common/plugins/registry.h"
 #include "common/space/query.h"
-#include "common/space/structure/structural_tree.h"
+#include "common/space/structural_tree.h"
 #include "space_server/user_input.h"
 
 #ifndef SWARMANOID_OWN_SOURCES

@@ -16,7 +16,7 @@ namespace swarmanoid::argos3
 // The name of the file in the folder of the run.
 inline constexpr const char* kMadeBodiesFile = "made_bodies.txt";
 
-// Our kind for a box with LEDs, or one that loop functions make (argos3/kinds/box.cpp).
+// Our kind for a box with LEDs, or one that loop functions make (argos3/kinds/argos3_box.cpp).
 inline constexpr const char* kLitBox = "argos3_box";
 // Reserves of bodies have ids with this prefix. Static bodies among them get this mass.
 inline constexpr const char* kMadeBody = "made_body_";

@@ -16,8 +16,8 @@
 #include "argos3/library/editing.h"
 #include "argos3/library/pen.h"
 #include "argos3/library/running.h"
-#include "argos3/plugin/keyboard.h"
 #include "argos3/plugin/labels.h"
+#include "argos3/plugin/qt_keys.h"
 #include "common/space/space.h"
 
 namespace swarmanoid::argos3

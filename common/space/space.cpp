@@ -272,17 +272,4 @@ void CSwarmanoidSpace::WritePoses(std::vector<double>& poses) const
   }
 }
 
-std::uint64_t CSwarmanoidSpace::Hash() const
-{
-  XXH3_state_t state;
-  XXH3_64bits_reset(&state);
-  XXH3_64bits_update(&state, &tick_, sizeof tick_);
-  for (const auto* component : Components(poses_))
-    XXH3_64bits_update(&state, component->data(), component->size() * sizeof(double));
-  attributes_.VisitRuns(first_presence_,
-                        [&](std::span<const double> run) { XXH3_64bits_update(&state, run.data(), run.size_bytes()); });
-  XXH3_64bits_update(&state, absent_.data(), absent_.size() * sizeof(std::uint32_t));
-  return XXH3_64bits_digest(&state);
-}
-
 }  // namespace swarmanoid

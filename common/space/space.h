@@ -18,7 +18,7 @@
 #include "common/space/make_entity.h"
 #include "common/space/pose_arrays.h"
 #include "common/space/slot_table.h"
-#include "common/space/structure/structural_tree.h"
+#include "common/space/structural_tree.h"
 
 namespace swarmanoid
 {

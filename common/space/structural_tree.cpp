@@ -4,7 +4,7 @@
 //
 // Invariants: both views have the same grips; the lists ascend, so that every replica visits holders in the same order;
 // the space server lets no loop in (MistakeIn), so that the way to a root ends.
-#include "common/space/structure/structural_tree.h"
+#include "common/space/structural_tree.h"
 
 #include <algorithm>
 

@@ -4,6 +4,7 @@ import os
 import pathlib
 import re
 import select
+import shutil
 import signal
 import subprocess
 import sys
@@ -19,6 +20,9 @@ TEST_CONTROLLERS = os.environ["TEST_CONTROLLERS"]
 FINISHED = re.compile(r"^finished: (\d+) ticks, (\d+) entities, hash ([0-9a-f]{16}), [0-9.]+ s, [0-9.]+x real time$")
 # For what comes within moments, on a machine that is busy with much else.
 GENEROUS_S = 100
+# What a run says when one of its processes, or its space server, has died.
+REPLACED = "another process takes its place"
+AGAIN = "all processes start again where the journal ends"
 
 
 def stat_of(pid):
@@ -66,13 +70,14 @@ class Run:
                                         text=True, env={**os.environ, **(environment or {})}, start_new_session=True)
         self.pids = {}
 
-    def find(self, program, timeout=GENEROUS_S):
-        """The process id of a program of the run, as soon as it is there."""
+    def find(self, program, *words, lacks=None, dead=(), timeout=GENEROUS_S):
+        """The process id of a program of the run, as soon as it is there. Its command line has these words, and lacks that one."""
+        wanted = " ".join(map(str, words))
         deadline = time.monotonic() + timeout
         while time.monotonic() < deadline:
             for pid in children_of(self.process.pid):
-                words = words_of(pid)
-                if words and os.path.basename(words[0]) == program:
+                found = words_of(pid)
+                if found and os.path.basename(found[0]) == program and wanted in " ".join(found) and lacks not in found and pid not in dead:
                     self.pids[program] = pid
                     return pid
             if self.process.poll() is not None:
@@ -211,6 +216,23 @@ class LauncherTest(unittest.TestCase):
         if ticks is not None:
             self.assertEqual(int(match[1]), ticks)
         return match[3]
+
+    def one_process(self, experiment, ticks, *options, code=0, timeout=GENEROUS_S):
+        """The hash of the experiment in one process, whose hash log is `one` and whose folder is `one_out`."""
+        shutil.rmtree(self.folder / "one_out", ignore_errors=True)
+        run = self.run_it("run", experiment, "--ticks", ticks, "--single-process", "--quiet", "--hash-log", "one", "--output", "one_out", *options,
+                          timeout=timeout)
+        self.assertEqual(run.process.returncode, code, run.stderr)
+        return self.assert_finished(run, ticks)
+
+    def assert_same(self, run, ticks, expected, said="", code=0):
+        """A run with the hash log `cluster` ends, with the hashes of one_process."""
+        if not hasattr(run, "stdout"):
+            run.wait()
+        self.assertEqual(run.process.returncode, code, said + run.stderr)
+        self.assertEqual(self.assert_finished(run, ticks), expected)
+        self.assertEqual((self.folder / "cluster").read_text(), (self.folder / "one").read_text())
+        self.assert_nothing_left(run)
 
     def write_faulty(self, fault, tick=0, name="faulty"):
         """An experiment of one robot whose controller fails."""

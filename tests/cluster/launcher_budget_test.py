@@ -3,7 +3,7 @@ import os
 import re
 import signal
 
-from harness import CONFIGS, LauncherTest
+from harness import CONFIGS, REPLACED, LauncherTest
 
 # A state is saved at each hundredth tick. A hundred ticks take 560 kB, and 930 kB on a busy machine, which writes shorter
 # blocks. So the budget always has room for the last two states.
@@ -52,7 +52,7 @@ class Budget(LauncherTest):
 
     def test_each_process_is_replaced(self):
         run = self.go_on("out", lambda run: os.kill(run.find("engine_worker"), signal.SIGKILL))
-        run.read_until("another process takes its place")
+        run.read_until(REPLACED)
         self.control("step", 20)
         os.kill(run.find("space_server"), signal.SIGKILL)
         run.read_until("all processes start again where the journal ends")

@@ -3,11 +3,10 @@ import os
 import re
 import signal
 
-from harness import CONFIGS, LauncherTest
+from harness import CONFIGS, REPLACED, LauncherTest
 from world.case import controller, experiment
 
 TICKS = 200
-REPLACED = "another process takes its place"
 FAULTS = """<faults>
   <fault id="lost" device="range_and_bearing" side="sensor" kind="drop" value="0.4" from="10" to="180"/>
   <fault id="late" entities="fb_1*" device="footbot_proximity" kind="delay" value="7" from="20"/>

@@ -23,11 +23,6 @@ class Moves(LauncherTest):
         for text in says:
             self.assertIn(text, answer.stderr)
 
-    def pid_of(self, run, program, *words):
-        self.wait_until(program, lambda: any(os.path.basename((words_of(pid) or [""])[0]) == program for pid in children_of(run.process.pid)), run)
-        return next(pid for pid in children_of(run.process.pid)
-                    if os.path.basename((words_of(pid) or [""])[0]) == program and " ".join(words) in " ".join(words_of(pid)))
-
     def assert_undisturbed(self, run, said="", experiment=EXPERIMENT):
         self.assertEqual(run.wait(), 0, said + run.stderr)
         hash_of_run = self.assert_finished(run)
@@ -47,9 +42,9 @@ class Moves(LauncherTest):
         self.control("step", 777)
         for words, program, of_it in ((["move-host", "1"], "controller_host", ["--host", "1"]), (["move-engine", "ground"], "engine_worker", []),
                                       (["move-host", "1", "here"], "controller_host", ["--host", "1"])):
-            before = self.pid_of(run, program, *of_it)
+            before = run.find(program, *of_it)
             answer = self.control(*words)
-            after = self.pid_of(run, program, *of_it)
+            after = run.find(program, *of_it)
             self.assertNotEqual(before, after)
             self.assertRegex(answer, rf"is process \S+:{after} now, at tick 777")
         said = run.read_until("engine 'ground' moves to another process of this machine")
@@ -143,7 +138,7 @@ class Moves(LauncherTest):
         self.control("move-host", 1)
         # So does a start of all processes for another reason.
         self.control("step", 300)
-        os.kill(self.pid_of(run, "space_server"), signal.SIGKILL)
+        os.kill(run.find("space_server"), signal.SIGKILL)
         run.read_until("space server was killed by signal 9 (Killed)")
         self.wait_for_experiment("diffusion_10")
         self.control("step", 100)
@@ -196,7 +191,7 @@ class Moves(LauncherTest):
         self.control("resume")
         for words in (["+2"], ["-1"]):
             self.assertIn("now", self.control("hosts", *words))
-        os.kill(self.pid_of(run, "controller_host", "--host", "2"), signal.SIGKILL)
+        os.kill(run.find("controller_host", "--host", "2"), signal.SIGKILL)
         run.read_until("controller host 2 was killed by signal 9 (Killed)")
         self.control("stop")
         self.assert_undisturbed(run)

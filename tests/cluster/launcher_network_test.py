@@ -5,12 +5,11 @@ import os
 import signal
 
 import two_machines
-from harness import CONFIGS, LauncherTest
+from harness import CONFIGS, REPLACED, LauncherTest
 
 setUpModule = two_machines.require
 
 TICKS = 60
-REPLACED = "another process takes its place"
 FRAME_BYTES = 1514  # the largest of a link whose packets have 1,500
 
 
@@ -54,7 +53,7 @@ class Network(LauncherTest):
         experiment, ticks = CONFIGS / "diffusion_1000.xml", 150
         hosts = self.folder / "hosts.txt"
         hosts.write_text(self.machines.hosts() + "".join(f"controller_host {k} = {self.machines.names[1]}\n" for k in range(3)))
-        one = self.run_it("run", experiment, "--ticks", ticks, "--no-visualisers", "--single-process", "--hash-log", "one")
+        expected = self.one_process(experiment, ticks, "--no-visualisers")
         self.machines.connect(0.01, 1)
         run = self.start("run", experiment, "--ticks", ticks, "--no-visualisers", "--hosts", hosts, "--controller-hosts", 3, "--paused",
                          "--hash-log", "cluster")
@@ -67,10 +66,7 @@ class Network(LauncherTest):
             run.wait()
         finally:
             self.machines.disconnect()
-        self.assertEqual(run.process.returncode, 0, run.stderr)
-        self.assertEqual(self.assert_finished(run, ticks), self.assert_finished(one, ticks))
-        self.assertEqual((self.folder / "cluster").read_text(), (self.folder / "one").read_text())
-        self.assert_nothing_left(run)
+        self.assert_same(run, ticks, expected)
 
     def test_engines_that_are_told_of_others(self):
         """Entities that several engines see, those that functions move, and groups that hold one another."""

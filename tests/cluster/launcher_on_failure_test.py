@@ -3,11 +3,9 @@ import os
 import re
 import signal
 
-from harness import TEST_CONTROLLERS, LauncherTest
+from harness import AGAIN, REPLACED, TEST_CONTROLLERS, LauncherTest
 from world.case import controller, experiment
 
-REPLACED = "another process takes its place"
-AGAIN = "all processes start again where the journal ends"
 TICKS = 120
 HEADER = "tick,request,entity,numbers,from,number,when,check\n"
 ROBOTS = ("robot_one", "robot_two", "robot_three")

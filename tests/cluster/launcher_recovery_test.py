@@ -8,7 +8,7 @@ import shutil
 import signal
 import time
 
-from harness import CONFIGS, GENEROUS_S, LauncherTest, children_of
+from harness import AGAIN, CONFIGS, GENEROUS_S, REPLACED, LauncherTest, children_of
 
 WORKERS = ["engine_worker", "controller_host", "visualiser"]
 PROGRAMS = ["engine_worker", "controller_host", "space_server"]
@@ -19,35 +19,12 @@ SEED = int(os.environ.get("SWARMANOID_KILLS_SEED", "1"))
 # Several hosts get the robots assigned again by position each time that all processes start again.
 HOSTS = int(os.environ.get("SWARMANOID_KILLS_HOSTS", "2"))
 EXPERIMENT = CONFIGS / os.environ.get("SWARMANOID_KILLS_EXPERIMENT", "diffusion_10.xml")
-REPLACED = "another process takes its place"
-AGAIN = "all processes start again where the journal ends"
 
 
-class RecoveryTest(LauncherTest):
-    def undisturbed(self, experiment, ticks, *options, timeout=GENEROUS_S):
-        run = self.run_it("run", experiment, "--ticks", ticks, "--single-process", "--quiet", "--hash-log", "one", "--output", "one_out",
-                          *options, timeout=timeout)
-        return self.assert_finished(run, ticks)
-
-    def assert_same(self, run, ticks, expected, said="", code=0):
-        if not hasattr(run, "stdout"):
-            run.wait()
-        self.assertEqual(run.process.returncode, code, said + run.stderr)
-        self.assertEqual(self.assert_finished(run, ticks), expected)
-        self.assertEqual((self.folder / "cluster").read_text(), (self.folder / "one").read_text())
-        self.assert_nothing_left(run)
-
-    def alive(self, run, program, dead):
-        """The process of the program that is not among those that died."""
-        found = []
-        self.wait_until(f"a new {program}", lambda: found.append(run.find(program)) or found[-1] not in dead, run)
-        return found[-1]
-
-
-class Once(RecoveryTest):
+class Once(LauncherTest):
     def test_each_worker_while_the_run_is_paused(self):
         experiment = CONFIGS / "diffusion_10.xml"
-        expected = self.undisturbed(experiment, 400)
+        expected = self.one_process(experiment, 400)
         for program in WORKERS:
             with self.subTest(program):
                 run = self.start("run", experiment, "--ticks", 400, "--paused", "--hash-log", "cluster", "--output", program)
@@ -64,8 +41,7 @@ class Once(RecoveryTest):
         for name in ("diffusion_100_dynamics2d", "diffusion_100_dynamics3d"):
             with self.subTest(name):
                 experiment = CONFIGS / f"{name}.xml"
-                shutil.rmtree(self.folder / "one_out", ignore_errors=True)
-                expected = self.undisturbed(experiment, 200, "--threads", 1)
+                expected = self.one_process(experiment, 200, "--threads", 1)
                 run = self.start("run", experiment, "--ticks", 200, "--paused", "--set", "engines.ground.threads=2", "--hash-log", "cluster",
                                  "--output", name)
                 self.wait_for_experiment(name)
@@ -81,7 +57,7 @@ class Once(RecoveryTest):
         experiment = self.write_faulty(fault, tick)
         experiment.write_text(experiment.read_text().replace("</tick>", f"</tick><mark>{mark}</mark>"))
         mark.touch()
-        expected = self.undisturbed(experiment, 300)
+        expected = self.one_process(experiment, 300)
         mark.unlink()
         run = self.start("run", experiment, "--ticks", 300, "--hash-log", "cluster", "--output", "out")
         self.assert_same(run, 300, expected)
@@ -118,7 +94,7 @@ class Once(RecoveryTest):
 
     def test_one_that_is_stopped_for_longer_than_the_lease(self):
         experiment = CONFIGS / "diffusion_10.xml"
-        expected = self.undisturbed(experiment, 400)
+        expected = self.one_process(experiment, 400)
         run = self.start("run", experiment, "--ticks", 400, "--paused", "--hash-log", "cluster", "--output", "out", "--lease", 1)
         self.wait_for_experiment("diffusion_10")
         self.control("step", 120)
@@ -128,7 +104,7 @@ class Once(RecoveryTest):
         self.assert_same(run, 400, expected, said)
 
 
-class AllAgain(RecoveryTest):
+class AllAgain(LauncherTest):
     """The space server dies, alone or with others: all processes start again, and the files of the run do not show it."""
 
     def disturbed(self, victims, name, *options, stop=False):
@@ -150,7 +126,7 @@ class AllAgain(RecoveryTest):
         self.run_it("control", "resume")  # the run may end before its answer is heard
         self.assertEqual(run.wait(), 0, said + run.stderr)
         self.assertFalse((self.folder / "one_out").exists())
-        expected = self.undisturbed(CONFIGS / "diffusion_10.xml", 400, "--events", f"{name}/events.csv")
+        expected = self.one_process(CONFIGS / "diffusion_10.xml", 400, "--events", f"{name}/events.csv")
         self.assert_same(run, 400, expected, said)
         self.assertEqual((self.folder / name / "positions.txt").read_bytes(), (self.folder / "one_out/positions.txt").read_bytes())
         events = [line.split(",")[:3] for line in (self.folder / name / "events.csv").read_text().splitlines()[1:]]
@@ -180,7 +156,7 @@ class AllAgain(RecoveryTest):
         self.assertEqual(step.stdout, "diffusion_10: paused at tick 100\n")
         self.control("speed", 0)
         self.run_it("control", "resume")
-        self.assert_same(run, 400, self.undisturbed(CONFIGS / "diffusion_10.xml", 400), said)
+        self.assert_same(run, 400, self.one_process(CONFIGS / "diffusion_10.xml", 400), said)
 
     def test_sensors_of_engines_and_functions_and_checkpoints(self):
         experiment = CONFIGS / "prey_retrieval.xml"
@@ -195,14 +171,14 @@ class AllAgain(RecoveryTest):
             said += run.read_until(AGAIN)
             self.wait_for_experiment("prey_retrieval")
         self.control("resume")
-        expected = self.undisturbed(experiment, ticks, "--no-visualisers", "--checkpoint-every", 100)
+        expected = self.one_process(experiment, ticks, "--no-visualisers", "--checkpoint-every", 100, code=1)
         self.assert_same(run, ticks, expected, said, code=1)
         for tick in range(100, ticks, 100):
             name = f"checkpoint-{tick:08}"
             self.assertEqual((self.folder / "out" / name).read_bytes(), (self.folder / "one_out" / name).read_bytes(), tick)
 
 
-class LookingBack(RecoveryTest):
+class LookingBack(LauncherTest):
     def test_a_run_is_computed_again_shown_again_and_compared(self):
         for name in ("plain", "moved"):
             run = self.start("run", CONFIGS / "diffusion_10.xml", "--ticks", 300, "--paused", "--output", name)
@@ -247,7 +223,7 @@ class LookingBack(RecoveryTest):
             self.assertIn("the journals have no tick in common: 'short' ends at tick 40, 'late' begins at 50", compared.stderr)
 
 
-class Exported(RecoveryTest):
+class Exported(LauncherTest):
     def table(self, *options):
         done = self.run_it("export", "out", "--csv", "-", *options)
         self.assertEqual((done.process.returncode, done.stderr), (0, ""))
@@ -290,7 +266,7 @@ class Exported(RecoveryTest):
         self.assertEqual((self.folder / "there.csv").read_text(), "mine")
 
 
-class GivingUp(RecoveryTest):
+class GivingUp(LauncherTest):
     def test_a_crash_that_comes_again_is_named(self):
         run = self.run_it("run", self.write_faulty("step_crashes", 7), "--output", "out")
         self.assertEqual(run.process.returncode, 4)
@@ -311,7 +287,7 @@ class GivingUp(RecoveryTest):
                 os.unlink(self.folder / "hashes")
 
 
-class Resumed(RecoveryTest):
+class Resumed(LauncherTest):
     def test_after_the_launcher_was_killed_with_all_its_processes(self):
         experiment = CONFIGS / "diffusion_10.xml"
         for moment in (20, 400):
@@ -325,8 +301,7 @@ class Resumed(RecoveryTest):
                 self.control("step", moment - 10)
                 self.control("remove", "fb_1")
                 self.kill_all(run)
-                expected = self.undisturbed(experiment, 600, "--events", f"{out}/events.csv")
-                shutil.rmtree(self.folder / "one_out")
+                expected = self.one_process(experiment, 600, "--events", f"{out}/events.csv")
                 again = self.run_it("resume", out, "--quiet")
                 self.assertEqual(again.process.returncode, 0, again.stderr)
                 self.assertRegex(again.stderr, "going on from tick 0\n" if moment < 100 else "going on from tick [1-4]00\n")
@@ -334,7 +309,7 @@ class Resumed(RecoveryTest):
                 self.assert_nothing_left(again)
 
     def test_after_an_interrupt_at_a_tick_at_which_all_save_their_states(self):
-        expected = self.undisturbed(CONFIGS / "diffusion_10.xml", 300)
+        expected = self.one_process(CONFIGS / "diffusion_10.xml", 300)
         run = self.start("run", CONFIGS / "diffusion_10.xml", "--ticks", 300, "--paused", "--quiet", "--output", "out")
         self.wait_for_experiment("diffusion_10")
         self.control("step", 99)
@@ -348,7 +323,7 @@ class Resumed(RecoveryTest):
         self.assertEqual(self.assert_finished(again, 300), expected)
 
 
-class Soak(RecoveryTest):
+class Soak(LauncherTest):
     def newest(self):
         """The last tick of the hash log, which is cut where a run goes on."""
         log = self.folder / "cluster"
@@ -379,7 +354,7 @@ class Soak(RecoveryTest):
             if seed.random() < 0.8:
                 self.wait_until("the next tick", lambda: self.newest() > before, run)
                 waits.append(time.monotonic() - since)
-        expected = self.undisturbed(EXPERIMENT, ticks, "--no-visualisers", timeout=GENEROUS_S + 20 * KILLS)
+        expected = self.one_process(EXPERIMENT, ticks, "--no-visualisers", timeout=GENEROUS_S + 20 * KILLS)
         self.assertEqual(run.wait(GENEROUS_S + 20 * KILLS), 0, said + run.stderr)
         self.assert_same(run, ticks, expected, said)
         again = said.count(AGAIN)
@@ -389,7 +364,7 @@ class Soak(RecoveryTest):
     def test_kills_while_the_run_ends(self):
         seed = random.Random(SEED)
         ticks = 1500
-        expected = self.undisturbed(EXPERIMENT, ticks, "--no-visualisers")
+        expected = self.one_process(EXPERIMENT, ticks, "--no-visualisers")
         killed = 0
         for _ in range(ENDS):
             run = self.start("run", EXPERIMENT, "--ticks", ticks, "--hash-log", "cluster", "--output", "out", "--no-visualisers")

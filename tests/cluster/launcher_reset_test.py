@@ -4,7 +4,7 @@ import json
 import os
 import signal
 
-from harness import CONFIGS, LauncherTest, children_of, words_of
+from harness import CONFIGS, LauncherTest
 
 EXPERIMENT = CONFIGS / "diffusion_10.xml"
 TICKS = 600
@@ -76,7 +76,7 @@ class Resets(LauncherTest):
         self.control("reset", "--seed", 4)
         said = self.await_reset(run, 1)
         self.control("step", 300)
-        server = next(pid for pid in children_of(run.process.pid) if os.path.basename((words_of(pid) or [""])[0]) == "space_server")
+        server = run.find("space_server")
         os.kill(server, signal.SIGKILL)
         said += run.read_until("all processes start again where the journal ends")
         self.resume(run)
@@ -86,7 +86,7 @@ class Resets(LauncherTest):
         """Who goes on with the run finds the request in its events, and obeys."""
         run = self.begin()
         self.control("step", 100)
-        server = next(pid for pid in children_of(run.process.pid) if os.path.basename((words_of(pid) or [""])[0]) == "space_server")
+        server = run.find("space_server")
         with (self.folder / "out/events.csv").open("a") as file:
             file.write("100,reset,5,,somebody@here:1,1,,\n")
         os.kill(server, signal.SIGKILL)

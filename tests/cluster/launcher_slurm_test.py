@@ -5,7 +5,7 @@ import pathlib
 import signal
 import subprocess
 
-from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest, children_of, words_of
+from harness import CONFIGS, GENEROUS_S, REPLACED, SWARMANOID, LauncherTest, children_of, words_of
 import slurm
 from slurm import NODE
 
@@ -63,7 +63,7 @@ class OneJob(LauncherTest):
         os.kill(found[0], signal.SIGKILL)
         said, _ = run.communicate(timeout=2 * GENEROUS_S)
         self.assertIn("region 2 of engine 'ground'", said)
-        self.assertIn("another process takes its place", said)
+        self.assertIn(REPLACED, said)
         self.assert_same(run, 300, said)
 
     def test_an_interrupt_ends_all_steps(self):

@@ -8,43 +8,13 @@ import signal
 import unittest
 
 import two_machines
-from harness import CONFIGS, GENEROUS_S, LauncherTest, children_of, words_of
+from harness import CONFIGS, GENEROUS_S, REPLACED, LauncherTest
 
 EXPERIMENT = CONFIGS / "diffusion_1000.xml"
-REPLACED = "another process takes its place"
 
 class SplitTest(LauncherTest):
     def one_process(self, experiment, ticks, *options, code=0):
-        output = f"one_out{len(os.listdir(self.folder))}"
-        run = self.run_it("run", experiment, "--ticks", ticks, "--single-process", "--quiet", "--hash-log", "one", "--output", output,
-                          "--no-visualisers", *options)
-        self.assertEqual(run.process.returncode, code, run.stderr)
-        return self.assert_finished(run, ticks)
-
-    def assert_same(self, run, ticks, expected, code=0):
-        if not hasattr(run, "stdout"):
-            run.wait()
-        self.assertEqual(run.process.returncode, code, run.stderr)
-        self.assertEqual(self.assert_finished(run, ticks), expected)
-        self.assertEqual((self.folder / "cluster").read_text(), (self.folder / "one").read_text())
-        self.assert_nothing_left(run)
-
-    def region(self, run, number, dead=()):
-        found = []
-
-        def is_there():
-            for pid in children_of(run.process.pid):
-                words = words_of(pid)
-                if "--region" in words and words[words.index("--region") + 1] == str(number) and pid not in dead:
-                    found.append(pid)
-            return bool(found)
-
-        self.wait_until(f"region {number}", is_there, run)
-        return found[-1]
-
-    def engine(self, run, name="ground"):
-        return next(pid for pid in children_of(run.process.pid)
-                    if (words := words_of(pid)) and os.path.basename(words[0]) == "engine_worker" and "--region" not in words and name in words)
+        return super().one_process(experiment, ticks, "--no-visualisers", *options, code=code)
 
     def assert_rest_verified(self, run):
         """A paused run goes on to its end, and its journal holds the states that are computed again."""
@@ -67,7 +37,7 @@ class Split(SplitTest):
         expected = self.one_process(experiment, ticks, *options, code=code)
         run = self.run_it("run", experiment, "--ticks", ticks, "--hash-log", "cluster", "--output", f"out{len(os.listdir(self.folder))}",
                           "--no-visualisers", "--controller-hosts", hosts, *options)
-        self.assert_same(run, ticks, expected, code)
+        self.assert_same(run, ticks, expected, code=code)
 
     def test_a_crowd_among_walls(self):
         for split, seed in (("5", 2), ("2x2", 3)):
@@ -235,16 +205,16 @@ class GroupsOfDynamics2d(SplitTest):
         expected = self.one_process(experiment, 280)
         run = self.begin(280, split=3, experiment=experiment)
         self.control("step", 150)
-        first = self.region(run, 1)
+        first = run.find("engine_worker", "--region 1")
         os.kill(first, signal.SIGKILL)
         run.read_until(REPLACED)
         self.control("step", 20)
-        for pid in (self.region(run, 1, dead=[first]), self.region(run, 2)):
+        for pid in (run.find("engine_worker", "--region 1", dead=[first]), run.find("engine_worker", "--region 2")):
             os.kill(pid, signal.SIGKILL)
         run.read_until(REPLACED)
         run.read_until(REPLACED)
         self.control("step", 20)
-        for pid in (self.engine(run, "ground"), self.region(run, 0)):
+        for pid in (run.find("engine_worker", "--engine ground", lacks="--region"), run.find("engine_worker", "--region 0")):
             os.kill(pid, signal.SIGKILL)
         run.read_until(REPLACED)
         run.read_until(REPLACED)
@@ -255,29 +225,7 @@ class GroupsOfDynamics2d(SplitTest):
         self.assertNotIn("all processes start again", run.stderr)
 
 
-class WhoDies(SplitTest):
-    def test_a_region_its_engine_and_several_at_once(self):
-        expected = self.one_process(EXPERIMENT, 400)
-        run = self.begin(400, split=3)
-        self.control("step", 150)
-        first = self.region(run, 1)
-        os.kill(first, signal.SIGKILL)
-        run.read_until(REPLACED)
-        self.control("step", 50)
-        second = self.region(run, 1, dead=[first])
-        for pid in (second, self.region(run, 2)):
-            os.kill(pid, signal.SIGKILL)
-        run.read_until(REPLACED)
-        run.read_until(REPLACED)
-        self.control("step", 50)
-        for pid in (self.engine(run), self.region(run, 0)):
-            os.kill(pid, signal.SIGKILL)
-        run.read_until(REPLACED)
-        run.read_until(REPLACED)
-        self.control("resume")
-        self.assert_same(run, 400, expected)
-        self.assertNotIn("all processes start again", run.stderr)
-
+class Moves(SplitTest):
     def test_regions_move(self):
         expected = self.one_process(EXPERIMENT, 400)
         reach = self.folder / "reach.sh"

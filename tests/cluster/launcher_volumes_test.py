@@ -7,26 +7,14 @@ import signal
 import unittest
 
 import two_machines
-from harness import CONFIGS, GENEROUS_S, LauncherTest, children_of, words_of
+from harness import CONFIGS, GENEROUS_S, REPLACED, LauncherTest
 
 EXPERIMENT = CONFIGS / "rough_patch.xml"
-REPLACED = "another process takes its place"
 
 
 class VolumesTest(LauncherTest):
     def one_process(self, ticks, *options):
-        run = self.run_it("run", EXPERIMENT, "--ticks", ticks, "--single-process", "--quiet", "--hash-log", "one",
-                          "--output", f"one_out{len(os.listdir(self.folder))}", "--no-visualisers", *options)
-        self.assertEqual(run.process.returncode, 0, run.stderr)
-        return self.assert_finished(run, ticks)
-
-    def assert_same(self, run, ticks, expected, said=""):
-        if not hasattr(run, "stdout"):
-            run.wait()
-        self.assertEqual(run.process.returncode, 0, said + run.stderr)
-        self.assertEqual(self.assert_finished(run, ticks), expected)
-        self.assertEqual((self.folder / "cluster").read_text(), (self.folder / "one").read_text())
-        self.assert_nothing_left(run)
+        return super().one_process(EXPERIMENT, ticks, "--no-visualisers", *options)
 
     def change(self, ticks):
         """The first tick at which a robot is in the patch, and so belongs to its engine."""
@@ -43,10 +31,6 @@ class VolumesTest(LauncherTest):
         run = self.start("run", EXPERIMENT, "--ticks", ticks, "--paused", "--hash-log", "cluster", "--output", output, "--no-visualisers", *options)
         self.wait_for_experiment(EXPERIMENT.stem)
         return run
-
-    def engine(self, run, name):
-        return next(pid for pid in children_of(run.process.pid)
-                    if (words := words_of(pid)) and os.path.basename(words[0]) == "engine_worker" and words[words.index("--engine") + 1] == name)
 
 
 class Volumes(VolumesTest):
@@ -67,7 +51,7 @@ class Volumes(VolumesTest):
             with self.subTest(f"{name} at tick {step}"):
                 run = self.begin(ticks, f"{name}{step}")
                 self.control("step", step)
-                os.kill(self.engine(run, name), signal.SIGKILL)
+                os.kill(run.find("engine_worker", "--engine", name), signal.SIGKILL)
                 said = run.read_until(REPLACED)
                 self.control("resume")
                 self.assert_same(run, ticks, expected, said)

@@ -10,7 +10,7 @@ import subprocess
 import sys
 
 import two_machines
-from harness import CONFIGS, GENEROUS_S, SWARMANOID, LauncherTest
+from harness import CONFIGS, GENEROUS_S, REPLACED, SWARMANOID, LauncherTest
 
 setUpModule = two_machines.require
 
@@ -96,7 +96,7 @@ class WireAttacks(LauncherTest):
 
     def test_no_process_leaves_or_ends_by_the_word_of_another(self):
         run = self.run_under("part", "dispose", "break")
-        self.assertNotIn("another process takes its place", run.stderr)
+        self.assertNotIn(REPLACED, run.stderr)
 
     def test_no_process_is_made_deaf(self):
         self.run_under("gap", "ahead", "read")

@@ -2,6 +2,9 @@
 // cluster links this instead of the bus. All code above it is the product's.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "common/bus/bus.h"
 #include "common/bus/run_directory.h"
 #include "common/bus/topics/message_fields.h"
@@ -13,6 +16,7 @@ namespace swarmanoid
 using test::IdOf;
 using test::Sample;
 using test::SimulatedBus;
+using test::SimulatedCopy;
 using test::SimulatedNetwork;
 using test::SimulatedReader;
 using test::SimulatedWriter;
@@ -74,10 +78,24 @@ std::chrono::duration<double> Bus::SinceLastJoin() const { return std::chrono::d
 namespace
 {
 
-void Report(SimulatedBus& bus, const std::string& topic, const Sample& sample, const std::string& what)
+// Calls a function that reads a message, and reports a bad one.
+template <class Message, class Call>
+void TellBad(SimulatedBus& bus, const Sample& sample, const Call& call)
 {
-  const BadMessageReport report{topic, sample.process, sample.name, sample.header.tick, what, sample.name};
-  if (!bus.on_bad || !bus.on_bad(report)) ++bus.dropped;
+  try
+  {
+    call();
+  }
+  catch (const ForeignMessage&)
+  {
+    ++bus.dropped;
+  }
+  catch (const BadMessage& error)
+  {
+    const BadMessageReport report{kTopicOf<Message>,  sample.process, sample.name,
+                                  sample.header.tick, error.what(),   sample.name};
+    if (!bus.on_bad || !bus.on_bad(report)) ++bus.dropped;
+  }
 }
 
 std::string PartitionOf(const HotScope& scope)
@@ -89,6 +107,16 @@ template <class Message>
 std::string TopicOf(const std::optional<GrantChannel>& grant)
 {
   return grant ? fmt::format("{}/{}", kTopicOf<Message>, grant->id) : std::string(kTopicOf<Message>);
+}
+
+// Gives a place the content that it has while a message is copied there: a step that reads it has a wrong result.
+template <class Message>
+void Spoil(Message& place)
+{
+  if constexpr (requires { place.values; })
+    std::ranges::fill(place.values, std::numeric_limits<double>::quiet_NaN());
+  else
+    place = Message();
 }
 
 std::shared_ptr<SimulatedReader> NewReader(const std::string& topic, const std::string& partition, std::size_t depth)
@@ -146,20 +174,28 @@ HotSubscription<Message>::HotSubscription(Bus& bus, const HotScope& scope, Handl
           NewReader(kTopicOf<Message>, PartitionOf(scope),
                     static_cast<std::size_t>(QosOf(kTopicOf<Message>).reader_depth) * std::max(scope.writers, 1U))}))
 {
-  impl_->reader->take = [its_bus = bus.Internals().bus, handler = std::move(handler)](const Sample& sample)
+  impl_->reader->take = [its_bus = bus.Internals().bus,
+                         handler = std::make_shared<const Handler>(std::move(handler))](const Sample& sample)
   {
-    try
-    {
-      Message* const place = handler.choose(sample.header);
-      if (place == nullptr) return;
-      *place = *static_cast<const Message*>(sample.message.get());
-      if (handler.check) handler.check(sample.header, *place);
-      handler.received(sample.header, *place);
-    }
-    catch (const BadMessage& error)
-    {
-      Report(*its_bus, kTopicOf<Message>, sample, error.what());
-    }
+    SimulatedCopy copy;
+    TellBad<Message>(*its_bus, sample,
+                     [&]
+                     {
+                       Message* const place = handler->choose(sample.header);
+                       if (place == nullptr) return;
+                       copy.spoil = [place] { Spoil(*place); };
+                       copy.end = [its_bus, handler, sample, place]
+                       {
+                         TellBad<Message>(*its_bus, sample,
+                                          [&]
+                                          {
+                                            *place = *static_cast<const Message*>(sample.message.get());
+                                            if (handler->check) handler->check(sample.header, *place);
+                                            handler->received(sample.header, *place);
+                                          });
+                       };
+                     });
+    return copy;
   };
   SimulatedNetwork::Current().Add(impl_->reader);
 }
@@ -235,18 +271,8 @@ Subscription<Message>::Subscription(Bus& bus, const std::string& partition,
 {
   impl_->reader->take = [its_bus = bus.Internals().bus, received = std::move(received)](const Sample& sample)
   {
-    try
-    {
-      received(*static_cast<const Message*>(sample.message.get()));
-    }
-    catch (const ForeignMessage&)
-    {
-      ++its_bus->dropped;
-    }
-    catch (const BadMessage& error)
-    {
-      Report(*its_bus, kTopicOf<Message>, sample, error.what());
-    }
+    TellBad<Message>(*its_bus, sample, [&] { received(*static_cast<const Message*>(sample.message.get())); });
+    return SimulatedCopy();
   };
   SimulatedNetwork::Current().Add(impl_->reader);
 }

@@ -62,7 +62,7 @@ public:
         folder_(std::move(folder)),
         trace_(trace),
         simulation_(seed),
-        faults_(DrawFaults()),
+        faults_(DrawFaults(seed)),
         network_(simulation_, faults_, faults_.has_network ? kLease : kLocalLease)
   {
     std::filesystem::remove_all(folder_);
@@ -123,7 +123,7 @@ public:
   }
 
 private:
-  NetworkFaults DrawFaults()
+  NetworkFaults DrawFaults(std::uint64_t seed)
   {
     SeededRandom& random = simulation_.Random();
     NetworkFaults faults;
@@ -134,6 +134,7 @@ private:
     faults.loss = kLosses[random.Below(std::size(kLosses))];
     faults.duplicates = random.Happens(0.5) ? 0.05 : 0;
     faults.lost_at_match = random.Happens(0.5) ? 0.05 : 0;
+    faults.slow_copies = seed / 8 % 4 == 1 ? 0.1 : 0;  // without a draw, which would change other schedules
     return faults;
   }
 

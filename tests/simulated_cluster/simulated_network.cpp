@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace swarmanoid::test
 {
@@ -80,6 +81,7 @@ void SimulatedNetwork::Close(SimulatedReader& reader)
 {
   reader.is_open = false;
   reader.take = nullptr;
+  reader.end_of_copy = nullptr;
   reader.samples.clear();
   std::erase_if(readers_, [&](const auto& other) { return other.get() == &reader; });
   for (const auto& writer : writers_)
@@ -167,15 +169,28 @@ void SimulatedNetwork::Arrive(const std::shared_ptr<SimulatedReader>& reader, co
                    if (!reader->is_open || !reader->process->is_alive) return;
                    reader->samples.push_back(sample);
                    if (reader->depth > 0 && reader->samples.size() > reader->depth) reader->samples.pop_front();
-                   simulation_.Post(*reader->process,
-                                    [reader]
-                                    {
-                                      if (!reader->is_open || reader->samples.empty()) return;
-                                      const Sample oldest = std::move(reader->samples.front());
-                                      reader->samples.pop_front();
-                                      reader->take(oldest);
-                                    });
+                   simulation_.Post(*reader->process, [this, reader] { TakeOldest(reader); });
                  });
+}
+
+// A reader takes one message at a time, and the others of its process go on meanwhile.
+void SimulatedNetwork::TakeOldest(const std::shared_ptr<SimulatedReader>& reader)
+{
+  if (!reader->is_open || reader->end_of_copy || reader->samples.empty()) return;
+  const Sample oldest = std::move(reader->samples.front());
+  reader->samples.pop_front();
+  SimulatedCopy copy = reader->take(oldest);
+  if (!copy.end) return;
+  if (!copies_.Happens(faults_.slow_copies)) return copy.end();
+  copy.spoil();
+  reader->end_of_copy = std::move(copy.end);
+  const auto end = [this, reader]
+  {
+    if (!reader->is_open) return;
+    std::exchange(reader->end_of_copy, nullptr)();
+    for (std::size_t waiting = reader->samples.size(); waiting > 0; --waiting) TakeOldest(reader);
+  };
+  simulation_.After(copies_.Between(1us, 1ms), [this, reader, end] { simulation_.Post(*reader->process, end); });
 }
 
 unsigned SimulatedNetwork::Readers(const SimulatedWriter& writer) const

@@ -28,6 +28,7 @@ struct NetworkFaults
   double loss = 0;           // probability for a message of a tick
   double duplicates = 0;     // probability for a repeated message, which comes later
   double lost_at_match = 0;  // probability for messages kept for processes that join later
+  double slow_copies = 0;    // probability that a message of a tick is copied while other threads of its process run
 };
 
 // It holds a message for one reader.
@@ -39,6 +40,13 @@ struct Sample
   std::string name;
 };
 
+// What a reader does with a message of a tick that it takes, after it has chosen the place.
+struct SimulatedCopy
+{
+  std::function<void()> spoil;  // as the place is while the bytes are copied
+  std::function<void()> end;    // the message is there
+};
+
 struct SimulatedReader
 {
   SimulatedProcess* process = nullptr;
@@ -47,7 +55,8 @@ struct SimulatedReader
   std::size_t depth = 0;  // limit for unread messages; 0: none
   bool is_open = true;
   std::deque<Sample> samples;
-  std::function<void(const Sample&)> take;
+  std::function<SimulatedCopy(const Sample&)> take;  // without `end`: nothing is copied
+  std::function<void()> end_of_copy;                 // set while a message is copied
 };
 
 struct SimulatedWriter
@@ -114,6 +123,7 @@ private:
   void Deliver(const SimulatedWriter& writer, SimulatedWriter::Link& link, const Sample& sample, bool may_be_lost);
   void Arrive(const std::shared_ptr<SimulatedReader>& reader, const Sample& sample,
               const std::shared_ptr<int>& underway, RunTime at);
+  void TakeOldest(const std::shared_ptr<SimulatedReader>& reader);
   bool AreApart(const SimulatedProcess& a, const SimulatedProcess& b) const;
   // Changes whether one of them receives messages of the other.
   void Part(SimulatedProcess& of, SimulatedProcess& from, bool died);
@@ -121,6 +131,7 @@ private:
 
   Simulation& simulation_;
   NetworkFaults faults_;
+  SeededRandom copies_{1};
   Duration lease_;
   std::vector<std::shared_ptr<SimulatedBus>> buses_;
   std::vector<std::shared_ptr<SimulatedWriter>> writers_;

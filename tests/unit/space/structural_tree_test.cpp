@@ -1,4 +1,4 @@
-#include "common/space/structure/structural_tree.h"
+#include "common/space/structural_tree.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "argos3/plugin/keyboard.h"
+#include "argos3/plugin/qt_keys.h"
 
 #include <map>
 
