@@ -102,7 +102,6 @@ PluginDescription Dynamics3dDescription()
           .entity_tags = TagsOfKinds([](const EntityKindDescription&) { return true; }),
           .any_kind = true,
           .can_split = true,
-          .regions_know_entities = true,
           .hands_over = true,
           .ignores = {"ground_torque"},
           .collision_model = Dynamics3dBodies};

@@ -53,8 +53,6 @@ struct PluginDescription
   std::vector<std::string> entity_tags{};
   bool any_kind = false;   // engines only: it also serves the kinds of users, by the rows of the kinds
   bool can_split = false;  // engines only: its world may be cut into regions (CPhysicsEngine::MakeRegion)
-  // Engines with can_split only: the process of a region makes the whole engine first, with all its entities.
-  bool regions_know_entities = false;
   // Engines only: entities may change between it and other engines while the run goes on (CPhysicsEngine::TakeOver).
   bool hands_over = false;
   // Engines only: parameters and tags of entities without effect in it; `swarmanoid check` reports them.

@@ -297,10 +297,10 @@ int RunRegion(const WorkerSettings& settings, const BusOptions& bus)
         const std::unique_ptr<Experiment> engines = EnginesOf(session.World());
         const Experiment& experiment = *engines;
         const std::size_t engine = NumberOf(experiment, experiment.engines, "engine", settings.engine);
-        const auto& registered = RegisteredEngine(experiment.engines[engine]);
+        const std::unique_ptr<CPhysicsEngine> made = RegisteredEngine(experiment.engines[engine]).create();
         const RegionLimits limits = LimitsOf(session.World());
         std::optional<WorkerWorld> replica;
-        if (registered.description.regions_know_entities) replica.emplace(session.World(), false);
+        if (made->RegionsKnowEntities()) replica.emplace(session.World(), false);
         session.ReleaseWorld();
         malloc_trim(0);
         if (region >= RegionsOf(experiment.engines[engine]))
@@ -311,7 +311,7 @@ int RunRegion(const WorkerSettings& settings, const BusOptions& bus)
         std::optional<EngineWorker> whole;
         if (replica) whole.emplace(*replica->space, replica->assignment, engine);
         const std::unique_ptr<EngineRegion> world =
-            whole ? whole->Engine().MakeRegion(region, link) : registered.create()->MakeRegion(region, link);
+            (whole ? whole->Engine() : *made).MakeRegion(region, link);
         RunThread worker("does the tasks of a region",
                          [&]
                          {
