@@ -138,10 +138,13 @@ public:
   // Returns true if Canonicalise has nothing to drop at any tick: then SaveState is exact after each Update.
   virtual bool IsAlwaysCanonical() const { return false; }
 
-  // Makes a region of an engine that can be split (PluginDescription::can_split), in a process of its own. Only this
-  // function is called on such an object. The region belongs to an engine of the same tag with a team, and gets all
-  // data in its first task, without a space and an experiment. `exchange` outlives the result.
+  // Makes a region of an engine that can be split (PluginDescription::can_split), in a process of its own. The region
+  // belongs to an engine of the same tag with a team, and gets all data in its first task. Only this function is called
+  // on such an object, which has no space and no experiment; or, if RegionsKnowEntities, after Init, AddEntity and
+  // Start, and the object outlives the region. `exchange` outlives the result.
   virtual std::unique_ptr<EngineRegion> MakeRegion(unsigned region, RegionExchange& exchange);
+  // Returns true if the process of a region must make the whole engine first, with all its entities.
+  virtual bool RegionsKnowEntities() const { return false; }
 
   // Returns numbers about the last update for diagnosis, such as contacts or pairs, in one short line; it may be empty.
   virtual std::string StatusText() const { return {}; }

@@ -179,10 +179,8 @@ void ReadSplit(const ElementReader& reader, const PluginDescription* plugin, Eng
                                         "and rows of as many (\"2x2\")",
                                         Quoted(text), EngineSplit::kMostRegions));
   else if (split->regions > 1 && plugin != nullptr && !plugin->can_split)
-    reading.diagnostics.Add(
-        reader.Place("split"),
-        fmt::format("the engine {} ({}) cannot be split: it computes its world as one whole; leave out split{}",
-                    Quoted(engine.id), engine.tag, OthersThatSplit()));
+    reading.diagnostics.Add(reader.Place("split"), fmt::format("the engine {} ({}) cannot be split; leave out split{}",
+                                                               Quoted(engine.id), engine.tag, OthersThatSplit()));
   else
     engine.split = *split;
 }

@@ -101,6 +101,7 @@ PluginDescription Dynamics3dDescription()
                        "handbot_hands", "handbot_rope", "wheels"},
           .entity_tags = TagsOfKinds([](const EntityKindDescription&) { return true; }),
           .any_kind = true,
+          .can_split = true,
           .hands_over = true,
           .ignores = {"ground_torque"},
           .collision_model = Dynamics3dBodies};

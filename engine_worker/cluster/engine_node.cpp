@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <optional>
 #include <utility>
 
 #include "common/activity/activity.h"
@@ -270,7 +271,7 @@ private:
   std::optional<HotPublisher<SensorFrame>> frames_;
 };
 
-// The engine worker sends a region everything about its bodies. The region needs only the engines of the experiment.
+// The engine worker sends most regions everything about their bodies, so they need only the engines of the experiment.
 std::unique_ptr<Experiment> EnginesOf(const WorldMessage& world)
 {
   LoadOptions options;
@@ -294,18 +295,23 @@ int RunRegion(const WorkerSettings& settings, const BusOptions& bus)
       [&]
       {
         const std::unique_ptr<Experiment> engines = EnginesOf(session.World());
-        const RegionLimits limits = LimitsOf(session.World());
-        session.ReleaseWorld();
-        malloc_trim(0);
         const Experiment& experiment = *engines;
         const std::size_t engine = NumberOf(experiment, experiment.engines, "engine", settings.engine);
+        const std::unique_ptr<CPhysicsEngine> made = RegisteredEngine(experiment.engines[engine]).create();
+        const RegionLimits limits = LimitsOf(session.World());
+        std::optional<WorkerWorld> replica;
+        if (made->RegionsKnowEntities()) replica.emplace(session.World(), false);
+        session.ReleaseWorld();
+        malloc_trim(0);
         if (region >= RegionsOf(experiment.engines[engine]))
           throw ConfigurationError(experiment.engines[engine].location,
                                    fmt::format("the engine '{}' has {} regions, numbered from 0; there is no region {}",
                                                settings.engine, RegionsOf(experiment.engines[engine]), region));
         RegionLink link(session, experiment, engine, region, limits);
+        std::optional<EngineWorker> whole;
+        if (replica) whole.emplace(*replica->space, replica->assignment, engine);
         const std::unique_ptr<EngineRegion> world =
-            RegisteredEngine(experiment.engines[engine]).create()->MakeRegion(region, link);
+            (whole ? whole->Engine() : *made).MakeRegion(region, link);
         RunThread worker("does the tasks of a region",
                          [&]
                          {

@@ -8,7 +8,8 @@
 #include "bench_world.h"
 #include "common/plugin_descriptions/engines.h"
 #include "engine_worker/engines/dynamics2d/dynamics2d_engine.h"
-#include "tests/unit/dynamics2d/local_team.h"
+#include "engine_worker/engines/dynamics2d/group_region.h"
+#include "tests/unit/engines/local_team.h"
 
 namespace swarmanoid
 {
@@ -97,7 +98,7 @@ BENCHMARK(Dynamics2dMixed)
 void Dynamics2dRegions(benchmark::State& state)
 {
   const auto regions = static_cast<unsigned>(state.range(2));
-  LocalTeam team(std::max(regions, 1U));
+  LocalTeam team(std::max(regions, 1U), [] { return std::make_unique<dynamics2d::GroupRegion>(); });
   Field field(static_cast<int>(state.range(0)), static_cast<double>(state.range(1)), 1, regions == 0 ? nullptr : &team);
   field.Mix();
   double engine = 0;

@@ -100,9 +100,6 @@ class Split(SplitTest):
             answer = self.run_it("run", EXPERIMENT, "--set", f"engines.ground.split={split}", "--ticks", 1)
             self.assertEqual(answer.process.returncode, 3, answer.stderr)
             self.assertIn(said, answer.stderr)
-        answer = self.run_it("run", CONFIGS / "diffusion_100_dynamics3d.xml", "--set", "engines.ground.split=2", "--ticks", 1)
-        self.assertEqual(answer.process.returncode, 3, answer.stderr)
-        self.assertIn("the engine 'ground' (dynamics3d) cannot be split", answer.stderr)
 
 
 def robots(count, controller):
@@ -117,8 +114,10 @@ CROWD = (robots(20, "driver") + robots(20, "pusher") + robots(25, "taker") + rob
          '<block id="box" size="0.15, 0.1, 0.2" movable="true"/></distribute>')
 
 
-class GroupsOfDynamics2d(SplitTest):
-    """Regions of dynamics2d solve contact groups. `pusher`s drive on, `taker`s grip and pull, another engine moves the `other`s among them."""
+class Groups:
+    """Regions of an engine of rigid bodies solve contact groups. `pusher`s drive on, `taker`s grip and pull, another engine moves the `other`s
+    among them."""
+    engine_tag = ""
 
     def write(self, name, entities):
         path = self.folder / f"{name}.xml"
@@ -146,7 +145,7 @@ class GroupsOfDynamics2d(SplitTest):
     <wall id="south" position="1.5, 0, 0.2" size="3, 0.1, 0.4"/><wall id="north" position="1.5, 3, 0.2" size="3, 0.1, 0.4"/>
     {entities}
   </arena>
-  <engines><dummy_engine id="beside"/><dynamics2d id="ground"/></engines>
+  <engines><dummy_engine id="beside"/><{self.engine_tag} id="ground"/></engines>
   <arena_physics>
     <engine id="beside">{others}<entity id="west"/><entity id="east"/><entity id="south"/><entity id="north"/></engine>
     <engine id="ground"><all/></engine>
@@ -180,13 +179,11 @@ class GroupsOfDynamics2d(SplitTest):
                 self.assertEqual(run.process.returncode, 0, run.stderr)
                 self.assertEqual(self.assert_finished(run, 250), expected)
 
-    def test_robots_that_change_their_engine(self):
-        text = (CONFIGS / "rough_patch.xml").read_text().replace("<dummy_engine", "<dynamics2d").replace("</dummy_engine>", "</dynamics2d>")
-        self.assertIn('<dynamics2d id="field"', text)
+    def change_engines(self, text, engine):
         shutil.copytree(CONFIGS / "terrain", self.folder / "terrain")
         (self.folder / "patch.xml").write_text(text)
         expected = self.one_process("patch.xml", 400)
-        run = self.run_it("run", "patch.xml", "--set", "engines.field.split=2", "--ticks", 400, "--hash-log", "cluster", "--output", "out", "--no-visualisers")
+        run = self.run_it("run", "patch.xml", "--set", f"engines.{engine}.split=2", "--ticks", 400, "--hash-log", "cluster", "--output", "out", "--no-visualisers")
         self.assert_same(run, 400, expected)
 
     def test_robots_that_are_moved_removed_and_brought_back(self):
@@ -225,6 +222,30 @@ class GroupsOfDynamics2d(SplitTest):
         self.assertNotIn("all processes start again", run.stderr)
 
 
+class GroupsOfDynamics2d(Groups, SplitTest):
+    engine_tag = "dynamics2d"
+
+    def test_robots_that_change_their_engine(self):
+        text = (CONFIGS / "rough_patch.xml").read_text().replace("<dummy_engine", "<dynamics2d").replace("</dummy_engine>", "</dynamics2d>")
+        self.assertIn('<dynamics2d id="field"', text)
+        self.change_engines(text, "field")
+
+
+class GroupsOfDynamics3d(Groups, SplitTest):
+    engine_tag = "dynamics3d"
+
+    def test_robots_that_change_their_engine(self):
+        self.change_engines((CONFIGS / "rough_patch.xml").read_text(), "patch")
+
+    def test_ropes_arms_and_terrain(self):
+        for name, engine, ticks in (("handbot_shelf", "room", 300), ("rough_terrain", "ground", 60)):
+            with self.subTest(name):
+                expected = self.one_process(CONFIGS / f"{name}.xml", ticks)
+                run = self.run_it("run", CONFIGS / f"{name}.xml", "--set", f"engines.{engine}.split=3", "--ticks", ticks, "--hash-log", "cluster",
+                                  "--output", f"out_{name}", "--no-visualisers")
+                self.assert_same(run, ticks, expected)
+
+
 class Moves(SplitTest):
     def test_regions_move(self):
         expected = self.one_process(EXPERIMENT, 400)
@@ -250,15 +271,21 @@ class Moves(SplitTest):
 @unittest.skipUnless(two_machines.possible(), "network namespaces with a relay need root and /dev/net/tun")
 class OverANetwork(SplitTest):
     def test_regions_on_two_machines_with_loss(self):
+        self.run_on_two_machines(EXPERIMENT, 200)
+
+    def test_regions_of_dynamics3d_on_two_machines_with_loss(self):
+        self.run_on_two_machines(CONFIGS / "rough_terrain.xml", 60)
+
+    def run_on_two_machines(self, experiment, ticks):
         network = two_machines.TwoMachines(os.environ["SWARMANOID_BUILD"])
         self.addCleanup(network.remove)
-        expected = self.one_process(EXPERIMENT, 200)
+        expected = self.one_process(experiment, ticks)
         for loss in (0, 0.01):
             with self.subTest(loss=loss):
                 network.connect(loss, 0.2)
                 self.addCleanup(lambda: network.relay.poll() is None and network.disconnect())
                 (self.folder / "hosts.txt").write_text(network.hosts() + f"region ground/0 = {network.names[0]}\n")
-                run = self.run_it("run", EXPERIMENT, "--set", "engines.ground.split=2", "--ticks", 200, "--hosts", "hosts.txt", "--hash-log", "cluster",
+                run = self.run_it("run", experiment, "--set", "engines.ground.split=2", "--ticks", ticks, "--hosts", "hosts.txt", "--hash-log", "cluster",
                                   "--output", f"out{loss}", "--no-visualisers", before=("ip", "netns", "exec", network.names[0]), timeout=3 * GENEROUS_S)
-                self.assert_same(run, 200, expected)
+                self.assert_same(run, ticks, expected)
                 network.disconnect()

@@ -104,18 +104,22 @@ const std::vector<Scene>& Scenes()
           "<size>0.2, 0.2, 0.2</size><movable>true</movable></block>\n",
           k, 1.9 + 0.203 * (k % 2), 0.3 + 0.6 * (k / 2));
     const std::string groups = "<dynamics2d id=\"ground\" split=\"2\">" + kPlane + "</dynamics2d>";
+    const std::string groups_3d =
+        "<dynamics3d id=\"ground\" split=\"2\"><step_ms>20</step_ms><solve_all>true</solve_all></dynamics3d>";
     all.push_back(MakeScene("regions_ahead", Experiment(regions, one_place, 1), 2, Folder()));
     all.push_back(MakeScene("groups", Experiment(groups, one_place, 0, boxes), 2, Folder()));
+    all.push_back(MakeScene("groups_3d", Experiment(groups_3d, one_place, 0, boxes), 2, Folder()));
     return all;
   }();
   return scenes;
 }
 
-// One schedule in eight has regions of dynamics2d.
+// One schedule in eight has regions of dynamics2d, and another one has regions of dynamics3d.
 const Scene& SceneOf(std::uint64_t seed)
 {
   const std::vector<Scene>& scenes = Scenes();
-  return seed % 8 == 5 ? scenes.back() : scenes[seed % (scenes.size() - 1)];
+  const std::size_t others = scenes.size() - 2;
+  return seed % 8 == 5 ? scenes[others] : seed % 8 == 6 ? scenes[others + 1] : scenes[seed % others];
 }
 
 ScheduleResult RunSeed(std::uint64_t seed, const Trace& trace = {})

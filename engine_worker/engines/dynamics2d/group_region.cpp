@@ -3,7 +3,6 @@
 #include "engine_worker/engines/dynamics2d/group_region.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 namespace swarmanoid::dynamics2d
@@ -232,16 +231,9 @@ void GroupRegion::ReadSettings(ByteReader& task)
     pool_ = std::make_unique<WorkerPool>(settings_.threads);
 }
 
-void GroupRegion::Work(std::span<const char> bytes, ByteWriter& result)
+void GroupRegion::Execute(std::span<const char> stream, ByteWriter& result)
 {
-  ByteReader piece(bytes);
-  if (piece.Get<std::uint8_t>() != 0) stream_.clear();
-  const bool is_last = piece.Get<std::uint8_t>() != 0;
-  const std::span<const char> part = piece.GetImage<char>();
-  stream_.insert(stream_.end(), part.begin(), part.end());
-  if (!is_last) return;
-
-  ByteReader task(stream_);
+  ByteReader task(stream);
   if (task.Get<std::uint8_t>() != 0)
     ReadSettings(task);
   else
@@ -252,30 +244,11 @@ void GroupRegion::Work(std::span<const char> bytes, ByteWriter& result)
     std::unique_ptr<GroupReplica>& group = groups_[task.Get<std::uint32_t>()];
     if (task.Get<std::uint8_t>() != 0) group = std::make_unique<GroupReplica>(settings_);
     if (group == nullptr) RefuseGroup("a region gets orders for a group that it does not have");
-    due_.push_back({group.get(), task.GetImage<char>(), nullptr});
+    due_.push_back({group.get(), task.GetImage<char>()});
   }
   // The engine sends the largest groups first, so that threads end at about the same time.
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&](unsigned)
-  {
-    for (std::size_t k = next.fetch_add(1); k < due_.size(); k = next.fetch_add(1)) try
-      {
-        due_[k].group->Execute(due_[k].orders);
-      }
-      catch (...)
-      {
-        due_[k].error = std::current_exception();
-      }
-  };
-  if (pool_ == nullptr)
-    work(0);
-  else
-    pool_->Run(work);
-  for (const Due& of : due_)
-  {
-    if (of.error) std::rethrow_exception(of.error);
-    of.group->PutResult(result);
-  }
+  ShareWork(pool_.get(), due_.size(), [&](std::size_t k) { due_[k].group->Execute(due_[k].orders); });
+  for (const Due& of : due_) of.group->PutResult(result);
 }
 
 }  // namespace swarmanoid::dynamics2d

@@ -3,17 +3,16 @@
 #pragma once
 
 #include <cstdint>
-#include <exception>
 #include <memory>
 #include <span>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include "common/messages/regions.h"
 #include "common/threads/worker_pool.h"
 #include "engine_worker/engines/dynamics2d/dynamics2d_world.h"
 #include "engine_worker/engines/dynamics2d/remote_groups.h"
+#include "engine_worker/engines/rigid_bodies/region_streams.h"
 
 namespace swarmanoid::dynamics2d
 {
@@ -48,24 +47,20 @@ private:
   std::vector<Member> moving_;  // bodies in the world that are not static, by number
 };
 
-class GroupRegion final : public EngineRegion
+class GroupRegion final : public StreamedRegion
 {
-public:
-  void Work(std::span<const char> task, ByteWriter& result) override;
-
 private:
   struct Due
   {
     GroupReplica* group;
     std::span<const char> orders;
-    std::exception_ptr error;
   };
 
+  void Execute(std::span<const char> stream, ByteWriter& result) override;
   void ReadSettings(ByteReader& task);
 
   RegionSettings settings_{};
   std::unique_ptr<WorkerPool> pool_;  // nullptr for one thread
-  std::vector<char> stream_;          // the pieces of a task so far
   std::vector<Due> due_;              // of the task
   // By the engine's number of the world.
   std::unordered_map<std::uint32_t, std::unique_ptr<GroupReplica>> groups_;

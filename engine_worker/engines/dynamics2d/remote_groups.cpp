@@ -13,7 +13,6 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 #include "engine_worker/engines/dynamics2d/dynamics2d_world.h"
 
@@ -21,8 +20,6 @@ namespace swarmanoid::dynamics2d
 {
 namespace
 {
-
-constexpr std::size_t kPiece = 1 << 19;  // bytes of a task that go at once
 
 void PutModel(const BodyModel& model, ByteWriter& orders)
 {
@@ -53,64 +50,20 @@ void RefuseGroup(const char* reason)
 }
 
 RemoteGroups::RemoteGroups(RegionTeam& team, unsigned threads)
-    : team_(team),
-      threads_(threads),
-      loads_(team.RegionCount()),
-      closed_(team.RegionCount()),
-      streams_(team.RegionCount()),
-      sent_(team.RegionCount()),
-      results_(team.RegionCount())
+    : streams_(team), threads_(threads), closed_(team.RegionCount()), sent_(team.RegionCount())
 {
-}
-
-void RemoteGroups::ForgetLoads() { std::ranges::fill(loads_, 0); }
-
-std::uint32_t RemoteGroups::ChooseRegion(std::size_t bodies)
-{
-  const auto least = std::ranges::min_element(loads_);
-  *least += bodies;
-  return static_cast<std::uint32_t>(least - loads_.begin());
 }
 
 void RemoteGroups::Run(RegionSettings settings, const std::function<void()>& meanwhile,
                        const std::function<void(std::uint32_t, ByteReader&)>& take)
 {
   if (parts_.empty()) return meanwhile();
-  bool is_first = true;
   settings.threads = threads_;
-  bool is_done = false;
-  for (std::size_t piece = 0; !is_done; ++piece)
-    team_.Work(
-        !knows_all_ && piece == 0,
-        [&](bool all_data, std::span<ByteWriter> tasks)
-        {
-          if (all_data)
-          {
-            knows_all_ = false;
-            piece = 0;
-          }
-          if (piece == 0) WriteStreams(settings);
-          is_done = true;
-          for (const ByteWriter& stream : streams_) is_done = is_done && stream.Bytes().size() <= (piece + 1) * kPiece;
-          for (std::size_t region = 0; region < tasks.size(); ++region)
-          {
-            const std::span<const char> bytes(streams_[region].Bytes());
-            const std::span<const char> rest = bytes.subspan(std::min(piece * kPiece, bytes.size()));
-            tasks[region].Put(static_cast<std::uint8_t>(piece == 0 ? 1 : 0));
-            tasks[region].Put(static_cast<std::uint8_t>(is_done ? 1 : 0));
-            tasks[region].PutArray(rest.first(std::min(rest.size(), kPiece)));
-          }
-        },
-        results_,
-        [&]
-        {
-          if (std::exchange(is_first, false)) meanwhile();
-        });
-  knows_all_ = true;
-  for (std::size_t region = 0; region < results_.size(); ++region)
+  streams_.Run([&](bool all_data, std::span<ByteWriter> streams) { Write(all_data, settings, streams); }, meanwhile);
+  for (std::size_t region = 0; region < streams_.Count(); ++region)
   {
     closed_[region].clear();
-    ByteReader result(results_[region]);
+    ByteReader result(streams_.ResultOf(region));
     for (const std::size_t part : sent_[region])
     {
       GroupWorld::Remote& remote = *parts_[part].world->remote;
@@ -122,26 +75,25 @@ void RemoteGroups::Run(RegionSettings settings, const std::function<void()>& mea
   parts_.clear();
 }
 
-void RemoteGroups::WriteStreams(const RegionSettings& settings)
+void RemoteGroups::Write(bool all_data, const RegionSettings& settings, std::span<ByteWriter> streams)
 {
-  for (std::size_t region = 0; region < streams_.size(); ++region)
+  for (std::size_t region = 0; region < streams.size(); ++region)
   {
-    ByteWriter& stream = streams_[region];
-    stream.Clear();
+    ByteWriter& stream = streams[region];
     sent_[region].clear();
-    stream.Put(static_cast<std::uint8_t>(knows_all_ ? 0 : 1));
-    if (knows_all_)
-      stream.PutArray(closed_[region]);
-    else
+    stream.Put(static_cast<std::uint8_t>(all_data ? 1 : 0));
+    if (all_data)
       stream.Put(settings);
+    else
+      stream.PutArray(closed_[region]);
   }
   for (std::size_t k = 0; k < parts_.size(); ++k)
   {
     const GroupWorld::Remote& remote = *parts_[k].world->remote;
     const std::span<const char> orders(remote.orders.Bytes());
-    const std::size_t done = knows_all_ ? remote.done : 0;
+    const std::size_t done = all_data ? 0 : remote.done;
     if (done == orders.size()) continue;
-    ByteWriter& stream = streams_[remote.region];
+    ByteWriter& stream = streams[remote.region];
     stream.Put(parts_[k].number);
     stream.Put(static_cast<std::uint8_t>(done == 0 ? 1 : 0));
     stream.PutArray(orders.subspan(done));

@@ -3,9 +3,10 @@
 // with the fewest bodies. All calls on a group's world become orders, which the region executes as they would have been
 // here. So it computes the same bits, whatever else it has.
 //
-// A task has, for each region: whether it gets everything; then RegionSettings, or the numbers of closed worlds; then
-// for each world its number, whether it is new, and its orders. The result has the steps done, whether a body goes too
-// far, contacts, and the motion and measures of each body that moves, in the order of the bodies.
+// The stream to a region (region_streams.h) has: whether it gets everything; then RegionSettings, or the numbers of
+// closed worlds; then for each world its number, whether it is new, and its orders. The result has the steps done,
+// whether a body goes too far, contacts, and the motion and measures of each body that moves, in the order of the
+// bodies.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +14,8 @@
 #include <span>
 #include <vector>
 
-#include "common/messages/regions.h"
 #include "engine_worker/engines/dynamics2d/group_world.h"
+#include "engine_worker/engines/rigid_bodies/region_streams.h"
 
 namespace swarmanoid::dynamics2d
 {
@@ -50,12 +51,12 @@ public:
   // `team` outlives it.
   RemoteGroups(RegionTeam& team, unsigned threads);
 
-  bool AreReady() const { return team_.IsReady(); }
+  bool AreReady() const { return streams_.AreReady(); }
 
-  // Choose the region of a group that begins, by the numbers of bodies. The result decides no bit.
-  void ForgetLoads();
-  void AddLoad(std::uint32_t region, std::size_t bodies) { loads_[region] += bodies; }
-  std::uint32_t ChooseRegion(std::size_t bodies);
+  // Choose the region of a group that begins, by the numbers of bodies.
+  void ForgetLoads() { streams_.ForgetLoads(); }
+  void AddLoad(std::uint32_t region, std::size_t bodies) { streams_.AddLoad(region, bodies); }
+  std::uint32_t ChooseRegion(std::size_t bodies) { return streams_.ChooseRegion(bodies); }
 
   // The world of a region has ended.
   void Close(std::uint32_t region, std::uint32_t number) { closed_[region].push_back(number); }
@@ -73,17 +74,13 @@ private:
     std::uint32_t group, number;
     GroupWorld* world;
   };
-  void WriteStreams(const RegionSettings& settings);
+  void Write(bool all_data, const RegionSettings& settings, std::span<ByteWriter> streams);
 
-  RegionTeam& team_;
+  RegionStreams streams_;
   unsigned threads_;
-  bool knows_all_ = false;                          // the regions know all but new orders and closed_
-  std::vector<std::size_t> loads_;                  // bodies, by region
   std::vector<std::vector<std::uint32_t>> closed_;  // worlds, by region
-  std::vector<ByteWriter> streams_;                 // tasks as a whole, by region
   std::vector<Part> parts_;
-  std::vector<std::vector<std::size_t>> sent_;  // parts in them
-  std::vector<std::vector<char>> results_;
+  std::vector<std::vector<std::size_t>> sent_;  // parts, by region
 };
 
 void PutPolygon(std::span<const Vector2> polygon, ByteWriter& orders);

@@ -12,7 +12,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
+
 #include "common/space/space.h"
 
 namespace swarmanoid::dynamics3d
@@ -359,6 +361,39 @@ void ContactFreeSet::EndTick(std::uint32_t number)
   if (!body.IsFree()) return;
   AdvanceTo(body, steps_);
   body.robot->MoveBodies();
+}
+
+void ContactFreeSet::SaveTick(std::uint32_t number, ByteWriter& state) const
+{
+  const Body& body = bodies_[number];
+  state.Put(body.may_be_free);
+  state.Put(body.is_near);
+  state.Put(static_cast<std::int32_t>(body.advanced));
+  if (!is_searched_) return;
+  const MovingOutline& outline = outlines_[number];
+  state.Put(outline.whole);
+  state.Put(static_cast<std::int32_t>(outline.part_count));
+  state.Put(outline.present);
+}
+
+void ContactFreeSet::LoadTick(std::uint32_t number, ByteReader& state)
+{
+  Body& body = bodies_[number];
+  body.may_be_free = state.Get<std::uint8_t>() != 0;
+  body.is_near = state.Get<std::uint8_t>() != 0;
+  body.advanced = state.Get<std::int32_t>();
+  if (!is_searched_) return;
+  MovingOutline& outline = outlines_[number];
+  outline.whole = state.Get<MovingCircle>();
+  outline.part_count = state.Get<std::int32_t>();
+  outline.present = state.Get<std::uint8_t>() != 0;
+}
+
+void ContactFreeSet::FollowSearch(bool is_searched)
+{
+  if (solids_ != scene_.world.Solids().size()) Configure();
+  if (is_searched && !has_level_ground_) throw std::runtime_error("a region of dynamics3d has no level ground");
+  is_searched_ = is_searched;
 }
 
 std::size_t ContactFreeSet::Count() const

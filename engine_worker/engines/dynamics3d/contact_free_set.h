@@ -51,6 +51,15 @@ public:
   // Ends the tick of one body.
   void EndTick(std::uint32_t body);
 
+  // Save and restore the decisions of the last search about a body, and how far its closed form is, so that its steps
+  // can be made in another process.
+  void SaveTick(std::uint32_t body, ByteWriter& state) const;
+  void LoadTick(std::uint32_t body, ByteReader& state);
+  bool IsSearched() const { return is_searched_; }
+  // Takes over the results of a search in another process, before LoadTick.
+  void FollowSearch(bool is_searched);
+  std::size_t OutlineCount() const { return bodies_.size() + isolation_.Statics().size(); }
+
   // Returns the number of free robots in the last step.
   std::size_t Count() const;
 

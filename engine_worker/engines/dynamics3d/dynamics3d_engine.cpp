@@ -51,6 +51,7 @@ void CDynamics3dEngine::Init(const EngineSetup& setup)
     groups_->UseThreads(setup.threads, setup.pool);
   else
     groups_->UseThreads(threads, nullptr);
+  if (setup.team != nullptr) groups_->UseRegions(*setup.team);
 
   AddGround();
   if (settings_.arena_walls) AddArenaWalls();
@@ -303,6 +304,28 @@ void CDynamics3dEngine::EntityMoved(std::uint32_t entity)
     model->Carry(pose);
   else
     model->Place(pose);
+}
+
+namespace
+{
+
+// A region needs no other region.
+class GroupRegion final : public StreamedRegion
+{
+public:
+  explicit GroupRegion(SolverGroups& groups) : groups_(groups) {}
+
+private:
+  void Execute(std::span<const char> stream, ByteWriter& result) override { groups_.Execute(stream, result); }
+
+  SolverGroups& groups_;
+};
+
+}  // namespace
+
+std::unique_ptr<EngineRegion> CDynamics3dEngine::MakeRegion(unsigned /*region*/, RegionExchange& /*exchange*/)
+{
+  return std::make_unique<GroupRegion>(*groups_);
 }
 
 std::string CDynamics3dEngine::StatusText() const

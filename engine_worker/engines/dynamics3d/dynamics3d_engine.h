@@ -31,6 +31,8 @@ public:
   // The engine has no hidden state: each step makes all contacts again, in an order that follows from the entities.
   void Canonicalise() override {}
   bool IsAlwaysCanonical() const override { return true; }
+  std::unique_ptr<EngineRegion> MakeRegion(unsigned region, RegionExchange& exchange) override;
+  bool RegionsKnowEntities() const override { return true; }
   std::string StatusText() const override;
 
   // Returns nullptr for entities without a body.

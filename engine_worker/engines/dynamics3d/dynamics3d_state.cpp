@@ -20,19 +20,8 @@ void CDynamics3dEngine::SaveState(ByteWriter& state) const
   links_->Save(state);
   state.Put(static_cast<std::uint64_t>(world_->BodyCount()));
   for (int number = 0; number < static_cast<int>(world_->BodyCount()); ++number)
-  {
-    const dBodyID body = world_->Body(number);
-    state.Put(RawPoseOf(body));
-    for (const dReal* velocity : {dBodyGetLinearVel(body), dBodyGetAngularVel(body)})
-      for (int k = 0; k < 3; ++k) state.Put(velocity[k]);
-  }
-  for (const int object : world_->Objects())
-  {
-    const Rest& rest = world_->RestOf(object);
-    state.Put(rest.reference);
-    state.Put(rest.steps);
-    state.Put(rest.asleep);
-  }
+    SaveMotion(world_->Body(number), state);
+  for (const int object : world_->Objects()) SaveRest(world_->RestOf(object), state);
   for (const auto& model : models_) model->Save(state);
 }
 
@@ -44,22 +33,8 @@ void CDynamics3dEngine::LoadState(ByteReader& state)
   if (state.Get<std::uint64_t>() != world_->BodyCount())
     throw std::runtime_error("saved state: it is of another experiment");
   for (int number = 0; number < static_cast<int>(world_->BodyCount()); ++number)
-  {
-    const dBodyID body = world_->Body(number);
-    SetRawPose(body, state.Get<RawPose>());
-    double velocity[6];
-    for (double& value : velocity) value = state.Get<double>();
-    dBodySetLinearVel(body, velocity[0], velocity[1], velocity[2]);
-    dBodySetAngularVel(body, velocity[3], velocity[4], velocity[5]);
-  }
-  for (const int object : world_->Objects())
-  {
-    Rest rest;
-    rest.reference = state.Get<RawPose>();
-    rest.steps = state.Get<std::uint32_t>();
-    rest.asleep = state.Get<bool>();
-    world_->SetRest(object, rest);
-  }
+    LoadMotion(world_->Body(number), state);
+  for (const int object : world_->Objects()) world_->SetRest(object, LoadRest(state));
   for (const auto& model : models_) model->Load(state);
 }
 

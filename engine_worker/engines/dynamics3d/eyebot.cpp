@@ -174,4 +174,18 @@ void EyebotModel::Load(ByteReader& state)
   magnet_ = state.Get<std::uint32_t>();
 }
 
+void EyebotModel::SaveTick(ByteWriter& state) const
+{
+  for (const double velocity : velocity_command_) state.Put(velocity);
+  state.Put(yaw_rate_command_);
+  state.Put(thrust_);
+}
+
+void EyebotModel::LoadTick(ByteReader& state)
+{
+  for (double& velocity : velocity_command_) velocity = state.Get<double>();
+  yaw_rate_command_ = state.Get<double>();
+  thrust_ = state.Get<double>();
+}
+
 }  // namespace swarmanoid::dynamics3d

@@ -37,6 +37,8 @@ public:
   void Report(AttributeReport& report) const override;
   void Save(ByteWriter& state) const override;
   void Load(ByteReader& state) override;
+  void SaveTick(ByteWriter& state) const override;
+  void LoadTick(ByteReader& state) override;
 
   // Returns the thrust of the last step in newton.
   double ThrustForTest() const { return thrust_; }

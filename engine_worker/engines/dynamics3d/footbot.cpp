@@ -169,4 +169,20 @@ void FootbotModel::Load(ByteReader& state)
   gripper_.Load(state);
 }
 
+void FootbotModel::SaveTick(ByteWriter& state) const
+{
+  WheeledModel::SaveTick(state);
+  state.Put(turret_command_);
+  state.Put(grip_torque_);
+  for (int k = 0; k < 3; ++k) state.Put(grip_force_[k]);
+}
+
+void FootbotModel::LoadTick(ByteReader& state)
+{
+  WheeledModel::LoadTick(state);
+  turret_command_ = state.Get<double>();
+  grip_torque_ = state.Get<double>();
+  for (int k = 0; k < 3; ++k) grip_force_[k] = state.Get<double>();
+}
+
 }  // namespace swarmanoid::dynamics3d

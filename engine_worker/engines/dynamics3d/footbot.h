@@ -45,6 +45,8 @@ public:
   void Report(AttributeReport& report) const override;
   void Save(ByteWriter& state) const override;
   void Load(ByteReader& state) override;
+  void SaveTick(ByteWriter& state) const override;
+  void LoadTick(ByteReader& state) override;
 
 protected:
   void AfterFreeMotion(double seconds) override;

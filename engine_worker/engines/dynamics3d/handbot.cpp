@@ -320,4 +320,26 @@ void HandbotModel::Load(ByteReader& state)
   heading_ = state.Get<double>();
 }
 
+void HandbotModel::SaveTick(ByteWriter& state) const
+{
+  for (const Servo& servo : servos_) state.Put(servo.rate);
+  for (const Hand& hand : hands_)
+  {
+    state.Put(hand.wrist_rate);
+    state.Put(hand.close);
+  }
+  state.Put(winch_);
+}
+
+void HandbotModel::LoadTick(ByteReader& state)
+{
+  for (Servo& servo : servos_) servo.rate = state.Get<double>();
+  for (Hand& hand : hands_)
+  {
+    hand.wrist_rate = state.Get<double>();
+    hand.close = state.Get<std::uint8_t>() != 0;
+  }
+  winch_ = state.Get<double>();
+}
+
 }  // namespace swarmanoid::dynamics3d

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <utility>
 
 namespace swarmanoid::dynamics3d
 {
@@ -55,7 +57,8 @@ void Link::CreateJoint()
       dJointAttach(joint_, a, b);
       dJointSetDBallAnchor1(joint_, p[0], p[1], p[2]);
       dJointSetDBallAnchor2(joint_, spec_.other[0], spec_.other[1], spec_.other[2]);
-      if (length_ < 0) length_ = dJointGetDBallDistance(joint_);
+      first_length_ = dJointGetDBallDistance(joint_);
+      if (length_ < 0) length_ = first_length_;
       dJointSetDBallDistance(joint_, length_);
       break;
   }
@@ -165,27 +168,55 @@ bool LinkTable::AreConnected(std::uint32_t a, std::uint32_t b) const
   return false;
 }
 
+void LinkTable::SaveLink(const Link& link, ByteWriter& state)
+{
+  state.Put(link.serial_);
+  const LinkSpec& spec = link.spec_;
+  state.Put(spec.kind);
+  state.Put(spec.body_a);
+  state.Put(spec.body_b);
+  state.Put(spec.entity_a);
+  state.Put(spec.entity_b);
+  state.Put(spec.anchor);
+  state.Put(spec.axis);
+  state.Put(spec.other);
+  state.Put(spec.motor_torque);
+  state.Put(link.pose_a_);
+  state.Put(link.pose_b_);
+  if (spec.kind == ELink::kRope) state.Put(link.length_);
+}
+
+std::unique_ptr<Link> LinkTable::LoadLink(ByteReader& state) const
+{
+  const auto serial = state.Get<std::uint32_t>();
+  LinkSpec spec;
+  spec.kind = state.Get<ELink>();
+  spec.body_a = state.Get<int>();
+  spec.body_b = state.Get<int>();
+  spec.entity_a = state.Get<std::uint32_t>();
+  spec.entity_b = state.Get<std::uint32_t>();
+  for (double* values : {spec.anchor, spec.axis, spec.other})
+    for (int i = 0; i < 3; ++i) values[i] = state.Get<double>();
+  spec.motor_torque = state.Get<double>();
+  const auto pose_a = state.Get<RawPose>();
+  const auto pose_b = state.Get<RawPose>();
+  const double length = spec.kind == ELink::kRope ? state.Get<double>() : -1;
+
+  const auto bodies = static_cast<int>(world_.BodyCount());
+  if (spec.kind > ELink::kRope || spec.body_a < 0 || spec.body_a >= bodies || spec.body_b < -1 || spec.body_b >= bodies)
+    throw std::runtime_error("saved state: a grip names a body that the engine does not have");
+  auto link = std::make_unique<Link>(world_, spec, serial);
+  link->pose_a_ = pose_a;
+  link->pose_b_ = pose_b;
+  link->length_ = length;
+  return link;
+}
+
 void LinkTable::Save(ByteWriter& state) const
 {
   state.Put(next_serial_);
   state.Put(static_cast<std::uint64_t>(links_.size()));
-  for (const auto& link : links_)
-  {
-    state.Put(link->serial_);
-    const LinkSpec& spec = link->spec_;
-    state.Put(spec.kind);
-    state.Put(spec.body_a);
-    state.Put(spec.body_b);
-    state.Put(spec.entity_a);
-    state.Put(spec.entity_b);
-    state.Put(spec.anchor);
-    state.Put(spec.axis);
-    state.Put(spec.other);
-    state.Put(spec.motor_torque);
-    state.Put(link->pose_a_);
-    state.Put(link->pose_b_);
-    if (spec.kind == ELink::kRope) state.Put(link->length_);
-  }
+  for (const auto& link : links_) SaveLink(*link, state);
 }
 
 void LinkTable::Load(ByteReader& state)
@@ -195,30 +226,28 @@ void LinkTable::Load(ByteReader& state)
   const auto count = state.Get<std::uint64_t>();
   for (std::uint64_t k = 0; k < count; ++k)
   {
-    const auto serial = state.Get<std::uint32_t>();
-    LinkSpec spec;
-    spec.kind = state.Get<ELink>();
-    spec.body_a = state.Get<int>();
-    spec.body_b = state.Get<int>();
-    spec.entity_a = state.Get<std::uint32_t>();
-    spec.entity_b = state.Get<std::uint32_t>();
-    for (double* values : {spec.anchor, spec.axis, spec.other})
-      for (int i = 0; i < 3; ++i) values[i] = state.Get<double>();
-    spec.motor_torque = state.Get<double>();
-    const auto pose_a = state.Get<RawPose>();
-    const auto pose_b = state.Get<RawPose>();
-    const double length = spec.kind == ELink::kRope ? state.Get<double>() : 0;
-
-    const auto bodies = static_cast<int>(world_.BodyCount());
-    if (spec.kind > ELink::kRope || spec.body_a < 0 || spec.body_a >= bodies || spec.body_b < -1 ||
-        spec.body_b >= bodies)
-      throw std::runtime_error("saved state: a grip names a body that the engine does not have");
-    Link& link = *links_.emplace_back(std::make_unique<Link>(world_, spec, serial));
-    link.pose_a_ = pose_a;
-    link.pose_b_ = pose_b;
-    if (spec.kind == ELink::kRope) link.length_ = length;
-    IgnorePair(spec);
+    links_.push_back(LoadLink(state));
+    IgnorePair(links_.back()->spec_);
   }
+}
+
+void LinkTable::Follow(std::size_t count, ByteReader& state)
+{
+  // Serials ascend in both lists.
+  std::size_t place = 0;
+  for (std::size_t k = 0; k < count; ++k, ++place)
+  {
+    std::unique_ptr<Link> link = LoadLink(state);
+    while (place < links_.size() && links_[place]->serial_ < link->serial_) Erase(place);
+    if (place < links_.size() && links_[place]->serial_ == link->serial_)
+    {
+      links_[place]->FollowLength(link->length_);
+      continue;
+    }
+    IgnorePair(link->spec_);
+    links_.insert(links_.begin() + static_cast<std::ptrdiff_t>(place), std::move(link));
+  }
+  while (links_.size() > place) Erase(links_.size() - 1);
 }
 
 }  // namespace swarmanoid::dynamics3d

@@ -53,6 +53,8 @@ public:
   // Ropes: the free length in metres; the rope is slack while the anchors are nearer.
   void SetLength(double length);
   double Length() const { return length_; }
+  // Takes over the length that the rope has in another process; the joint follows with the next step.
+  void FollowLength(double length) { length_ = length < 0 ? first_length_ : length; }
   bool IsTaut() const { return taut_; }
   double AnchorDistance() const;
   void TightenOrSlacken();
@@ -73,7 +75,8 @@ private:
   RawPose pose_a_, pose_b_;  // at creation
   dJointID joint_ = nullptr;
   dJointFeedback feedback_{};
-  double length_ = -1;  // -1: of the new joint
+  double length_ = -1;        // -1: of the new joint
+  double first_length_ = -1;  // of the new joint
   bool taut_ = true;
 };
 
@@ -130,8 +133,18 @@ public:
 
   void Save(ByteWriter& state) const;
   void Load(ByteReader& state);
+  // Calls act(link) for each link, in the order of creation.
+  template <class Act>
+  void ForEach(const Act& act) const
+  {
+    for (const auto& link : links_) act(*link);
+  }
+  static void SaveLink(const Link& link, ByteWriter& state);
+  // Ends all links but `count` ones that SaveLink saved, in the order of creation. Links that exist keep their joints.
+  void Follow(std::size_t count, ByteReader& state);
 
 private:
+  std::unique_ptr<Link> LoadLink(ByteReader& state) const;
   void Erase(std::size_t k);
   void IgnorePair(const LinkSpec& spec);
 

@@ -102,6 +102,22 @@ double Model::LargestSpeed() const
   return largest + radius * std::sqrt(spin.squaredNorm());
 }
 
+void Model::SaveWithin(ByteWriter& state) const
+{
+  state.Put(is_left_out_);
+  scene_.world.SaveBodies(assembly_, state);
+  Save(state);
+  SaveTick(state);
+}
+
+void Model::LoadWithin(ByteReader& state)
+{
+  is_left_out_ = state.Get<std::uint8_t>() != 0;
+  scene_.world.LoadBodies(assembly_, state);
+  Load(state);
+  LoadTick(state);
+}
+
 void Model::Command(std::string_view, std::span<const double>) {}
 
 void Model::Sense(std::string_view, std::span<double> values) const

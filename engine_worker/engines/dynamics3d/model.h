@@ -120,6 +120,13 @@ public:
   virtual void Save(ByteWriter& /*state*/) const {}
   // Restores the state from Save. Throws std::runtime_error if the state is too short.
   virtual void Load(ByteReader& /*state*/) {}
+  // Save and restore, beside Save and Load, what the steps of a tick read and write: the commands, and sums for the
+  // sensors. So the steps can be made by the same model in another process.
+  virtual void SaveTick(ByteWriter& /*state*/) const {}
+  virtual void LoadTick(ByteReader& /*state*/) {}
+  // Saves and restores the model within a tick, with its bodies and whether it is left out.
+  void SaveWithin(ByteWriter& state) const;
+  void LoadWithin(ByteReader& state);
 
 protected:
   struct PlacedBody

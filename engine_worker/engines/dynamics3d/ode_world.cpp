@@ -145,6 +145,30 @@ void OdeWorld::SetMembersOfHomes()
   }
 }
 
+void OdeWorld::SaveBodies(std::uint32_t number, ByteWriter& state) const
+{
+  const Assembly& assembly = assemblies_[number];
+  for (int body = assembly.first_body; body < assembly.end_body; ++body)
+  {
+    const BodyRecord& record = RecordOf(body);
+    SaveMotion(record.body, state);
+    state.Put(record.is_left_out);
+    if (record.owner.kind == EBody::kObject) SaveRest(record.rest, state);
+  }
+}
+
+void OdeWorld::LoadBodies(std::uint32_t number, ByteReader& state)
+{
+  const Assembly& assembly = assemblies_[number];
+  for (int body = assembly.first_body; body < assembly.end_body; ++body)
+  {
+    LoadMotion(Body(body), state);
+    BodyRecord& record = RecordOf(body);
+    record.is_left_out = state.Get<std::uint8_t>() != 0;
+    SetRest(body, record.owner.kind == EBody::kObject ? LoadRest(state) : record.rest);
+  }
+}
+
 void OdeWorld::SetLeftOut(int body, bool left_out)
 {
   BodyRecord& record = RecordOf(body);
@@ -340,6 +364,38 @@ void SetRawPose(dBodyID body, const RawPose& pose)
   std::copy_n(pose.quaternion, 4, const_cast<dReal*>(dBodyGetQuaternion(body)));
   dRfromQ(const_cast<dReal*>(dBodyGetRotation(body)), pose.quaternion);
   dBodySetPosition(body, pose.position[0], pose.position[1], pose.position[2]);
+}
+
+void SaveMotion(dBodyID body, ByteWriter& state)
+{
+  state.Put(RawPoseOf(body));
+  for (const dReal* velocity : {dBodyGetLinearVel(body), dBodyGetAngularVel(body)})
+    for (int k = 0; k < 3; ++k) state.Put(velocity[k]);
+}
+
+void LoadMotion(dBodyID body, ByteReader& state)
+{
+  SetRawPose(body, state.Get<RawPose>());
+  double velocity[6];
+  for (double& value : velocity) value = state.Get<double>();
+  dBodySetLinearVel(body, velocity[0], velocity[1], velocity[2]);
+  dBodySetAngularVel(body, velocity[3], velocity[4], velocity[5]);
+}
+
+void SaveRest(const Rest& rest, ByteWriter& state)
+{
+  state.Put(rest.reference);
+  state.Put(rest.steps);
+  state.Put(rest.asleep);
+}
+
+Rest LoadRest(ByteReader& state)
+{
+  Rest rest;
+  rest.reference = state.Get<RawPose>();
+  rest.steps = state.Get<std::uint32_t>();
+  rest.asleep = state.Get<bool>();
+  return rest;
 }
 
 Pose PoseOf(const RawPose& raw)

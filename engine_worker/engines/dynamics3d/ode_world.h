@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "common/math/pose.h"
+#include "common/serialisation/bytes.h"
 #include "engine_worker/engines/dynamics3d/collide.h"
 
 namespace swarmanoid::dynamics3d
@@ -220,6 +221,10 @@ public:
   void SetMembersOfHomes();
   std::span<const std::unique_ptr<SolverWorld>> Homes() const { return homes_; }
 
+  // Save and restore the bodies of an assembly bit by bit: motion, rest, and which are left out.
+  void SaveBodies(std::uint32_t assembly, ByteWriter& state) const;
+  void LoadBodies(std::uint32_t assembly, ByteReader& state);
+
   // A body that is left out is neither moved nor met, but found by FindTouching. For all bodies of an assembly alike.
   void SetLeftOut(int body, bool left_out);
   bool IsLeftOut(const Assembly& assembly) const { return RecordOf(assembly.first_body).is_left_out; }
@@ -314,6 +319,11 @@ void InitialiseOde();
 // Poses are read and written bit by bit. Setting one also recomputes the rotation matrix as a step of ODE does.
 RawPose RawPoseOf(dBodyID body);
 void SetRawPose(dBodyID body, const RawPose& pose);
+// Save and restore pose and velocities.
+void SaveMotion(dBodyID body, ByteWriter& state);
+void LoadMotion(dBodyID body, ByteReader& state);
+void SaveRest(const Rest& rest, ByteWriter& state);
+Rest LoadRest(ByteReader& state);
 Pose PoseOf(const RawPose& raw);
 RawPose RawOf(const Pose& pose);
 

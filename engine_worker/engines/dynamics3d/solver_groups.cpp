@@ -29,7 +29,6 @@ constexpr std::size_t kLeastShared = 12;
 constexpr std::size_t kLeastEnded = 256;
 // No body that is alone speeds up by more than this multiple of gravity.
 constexpr double kLargestAcceleration = 3;
-constexpr std::uint32_t kNoGroup = std::numeric_limits<std::uint32_t>::max();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool Contains(const Box& outer, const Box& inner)
@@ -62,17 +61,31 @@ void SolverGroups::Add(Model& model, bool owned)
 
 void SolverGroups::Advance(std::uint64_t first_step)
 {
-  for (Task& task : tasks_) task.most_parts = 1;
+  contacts_ = 0;
+  most_parts_ = 1;
   free_robots_.BeginTick();
-  Search(0);
+  Find(0);
+  if (regions_ != nullptr && regions_->AreReady())
+    AdvanceWithRegions(first_step);
+  else
+    AdvanceHere(first_step);
+  EndTick();
+}
+
+void SolverGroups::AdvanceHere(std::uint64_t first_step)
+{
+  for (Task& task : tasks_) task.most_parts = 1;
+  Place();
   for (int step = 0; step < steps_; ++step)
   {
     RunStep(step, first_step + static_cast<std::uint64_t>(step));
     if (step + 1 == steps_ || !IsAnyTooFar()) continue;
     free_robots_.SearchAgain(step + 1);
-    Search(step + 1);
+    Find(step + 1);
+    Place();
   }
-  EndTick();
+  for (std::size_t k = 0; k < task_count_; ++k) contacts_ += tasks_[k].contacts;
+  for (const Task& task : tasks_) most_parts_ = std::max(most_parts_, task.most_parts);
 }
 
 void SolverGroups::EndTick()
@@ -89,22 +102,8 @@ void SolverGroups::EndTick()
   pool->Run(part);
 }
 
-int SolverGroups::ContactCount() const
-{
-  int count = 0;
-  for (std::size_t k = 0; k < task_count_; ++k) count += tasks_[k].world->ContactCount();
-  return count;
-}
-
-int SolverGroups::MostParts() const
-{
-  int most = 1;
-  for (const Task& task : tasks_) most = std::max(most, task.most_parts);
-  return most;
-}
-
-// Finds the groups for the steps from `step` on, and puts their bodies into worlds.
-void SolverGroups::Search(int step)
+// Finds the groups for the steps from `step` on.
+void SolverGroups::Find(int step)
 {
   const double seconds = (steps_ - step) * step_seconds_;
   const auto count = static_cast<std::uint32_t>(models_.size());
@@ -116,8 +115,13 @@ void SolverGroups::Search(int step)
     if (!models_[assembly]->IsLeftOut() && !free_robots_.IsFar(assembly)) SetReach(assembly, seconds);
   FindPairs();
   FindGroups();
+}
+
+// Puts the bodies of the groups into worlds.
+void SolverGroups::Place()
+{
   PlaceGroups();
-  MakeTasks();
+  MakeTasks(free_robots_.NearPairs());
 }
 
 void SolverGroups::SetReach(std::uint32_t assembly, double seconds)
@@ -247,7 +251,7 @@ void SolverGroups::PlaceGroups()
 }
 
 // Tells the worlds which of their members and static solids can meet.
-void SolverGroups::MakeTasks()
+void SolverGroups::MakeTasks(std::span<const kinematics2d::Pair> near_pairs)
 {
   OdeWorld& world = scene_.world;
   const std::size_t homes = world.Homes().size();
@@ -261,6 +265,7 @@ void SolverGroups::MakeTasks()
     task.world = k < homes ? world.Homes()[k].get() : worlds_[world_of_group_[k - homes]].get();
     task.world->ForgetNear();
     task.near_pairs.clear();
+    task.contacts = 0;
     task.goes_too_far = false;
   }
   const auto world_of = [&](std::uint32_t assembly) -> SolverWorld& { return *world.AssemblyAt(assembly).world; };
@@ -269,7 +274,7 @@ void SolverGroups::MakeTasks()
   for (const OdeWorld::IgnoredPair& pair : world.IgnoredPairs())
     if (pair.high != kNoEntity && world.IsMovable(pair.high))
       world_of(world.AssemblyOfEntity(pair.low)).AddHeld(pair.low, pair.high);
-  for (const kinematics2d::Pair& pair : free_robots_.NearPairs())
+  for (const kinematics2d::Pair& pair : near_pairs)
   {
     const std::uint32_t group = GroupOf(pair.first);
     tasks_[group == kNoGroup ? OdeWorld::HomeNumberOf(pair.first) : homes + group].near_pairs.push_back(pair);
@@ -302,6 +307,7 @@ void SolverGroups::RunStep(int step, std::uint64_t number)
 void SolverGroups::RunTask(Task& task, int step, std::uint64_t number)
 {
   SolverWorld& world = *task.world;
+  task.contacts = 0;
   task.is_done = !free_robots_.BeforeStep(world.Members(), task.near_pairs, step, task.solved);
   if (task.is_done) return;
   const int parts = world.PartsOfStep(step_seconds_);
@@ -313,6 +319,7 @@ void SolverGroups::RunTask(Task& task, int step, std::uint64_t number)
     world.Step(seconds, number);
     for (Model* model : task.solved) model->AfterStep(seconds);
   }
+  task.contacts = world.ContactCount();
   free_robots_.AfterStep(world.Members(), step);
   task.goes_too_far = IsAnyTooFar(task);
 }

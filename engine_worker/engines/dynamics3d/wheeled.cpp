@@ -246,6 +246,24 @@ void WheeledModel::AfterStep(double seconds)
   for (std::size_t wheel = 0; wheel < 2; ++wheel) wheel_turn_[wheel] += dJointGetHingeAngleRate(Axle(wheel)) * seconds;
 }
 
+void WheeledModel::SaveTick(ByteWriter& state) const
+{
+  state.Put(wheel_command_);
+  state.Put(wheel_turn_);
+  state.Put(elapsed_);
+  state.Put(is_free_);
+  if (is_free_) state.Put(motion_);
+}
+
+void WheeledModel::LoadTick(ByteReader& state)
+{
+  wheel_command_ = state.Get<std::array<double, 2>>();
+  wheel_turn_ = state.Get<std::array<double, 2>>();
+  elapsed_ = state.Get<double>();
+  is_free_ = state.Get<std::uint8_t>() != 0;
+  if (is_free_) motion_ = state.Get<PlaneMotion>();
+}
+
 void WheeledModel::Sense(std::string_view channel, std::span<double> values) const
 {
   if (elapsed_ <= 0 || channel != "footbot_encoders") return Model::Sense(channel, values);

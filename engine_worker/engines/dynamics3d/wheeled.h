@@ -45,6 +45,8 @@ public:
   void SetLeftOut(bool left_out) override;
   void BeforeStep(double seconds) override;
   void AfterStep(double seconds) override;
+  void SaveTick(ByteWriter& state) const override;
+  void LoadTick(ByteReader& state) override;
 
   double Radius() const { return radius_; }  // m, of the upright robot about its vertical axis
   double Height() const { return height_; }  // m, of its highest point

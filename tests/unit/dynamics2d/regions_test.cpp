@@ -1,6 +1,5 @@
 // Regions solve the groups of an engine that is split. They give the bits of an engine that is not, whatever happens to
 // the processes that have them.
-#include "local_team.h"
 #include "swarm.h"
 
 namespace swarmanoid
@@ -20,7 +19,7 @@ TEST(RegionsOfDynamics2d, GiveTheBitsOfOneProcess)
 {
   for (const double pitch : {0.22, 0.3, 0.5})
   {
-    LocalTeam of_one(1), of_two(2), of_four(4), of_two_with_threads(2);
+    TeamOfDynamics2d of_one(1), of_two(2), of_four(4), of_two_with_threads(2);
     Swarm whole("1", pitch);
     Swarm one("1", pitch, &of_one), two("1", pitch, &of_two), four("1", pitch, &of_four);
     Swarm threads("2", pitch, &of_two_with_threads);
@@ -48,7 +47,7 @@ TEST(RegionsOfDynamics2d, ARegionThatIsReplacedGoesOnWithTheSameBits)
 {
   for (const double pitch : {0.22, 0.3})
   {
-    LocalTeam team(3);
+    TeamOfDynamics2d team(3);
     Swarm whole("1", pitch);
     Swarm split("1", pitch, &team);
     for (unsigned tick = 0; tick < 120; ++tick)
@@ -67,7 +66,7 @@ TEST(RegionsOfDynamics2d, ARegionThatIsReplacedGoesOnWithTheSameBits)
 // Engines that recover, or whose regions come later, compute the groups that begin meanwhile.
 TEST(RegionsOfDynamics2d, MayComeAndGoWithTheEngine)
 {
-  LocalTeam first(2), second(4);
+  TeamOfDynamics2d first(2), second(4);
   Swarm whole("1", 0.3);
   Swarm split("1", 0.3, &first);
   first.SetReady(false);
@@ -90,7 +89,7 @@ TEST(RegionsOfDynamics2d, MayComeAndGoWithTheEngine)
 
 TEST(RegionsOfDynamics2d, FollowWhatIsDoneFromOutside)
 {
-  LocalTeam team(2);
+  TeamOfDynamics2d team(2);
   Swarm whole("1", 0.25);
   Swarm split("1", 0.25, &team);
   for (int tick = 0; tick < 90; ++tick)
@@ -118,7 +117,7 @@ TEST(RegionsOfDynamics2d, FollowWhatIsDoneFromOutside)
 // The history of a crowd is sent to a region that knows nothing, in several pieces.
 TEST(RegionsOfDynamics2d, ALongHistoryComesInPieces)
 {
-  LocalTeam team(2);
+  TeamOfDynamics2d team(2);
   Dynamics2dTestWorld whole, split;
   split.team = &team;
   for (Dynamics2dTestWorld* world : {&whole, &split})
@@ -146,7 +145,7 @@ TEST(RegionsOfDynamics2d, ALongHistoryComesInPieces)
 
 TEST(RegionsOfDynamics2d, AreNotAskedWhileNothingMeets)
 {
-  LocalTeam team(2);
+  TeamOfDynamics2d team(2);
   Dynamics2dTestWorld none, one, pair, whole;
   for (Dynamics2dTestWorld* world : {&none, &one, &pair}) world->team = &team;
   one.AddFootbot(2, 2);

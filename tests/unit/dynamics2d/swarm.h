@@ -5,9 +5,21 @@
 
 #include "common/math/random.h"
 #include "dynamics2d_test_world.h"
+#include "engine_worker/engines/dynamics2d/group_region.h"
+#include "tests/unit/engines/local_team.h"
 
 namespace swarmanoid
 {
+
+// The regions of dynamics2d in the thread of the caller.
+class TeamOfDynamics2d : public LocalTeam
+{
+public:
+  explicit TeamOfDynamics2d(unsigned regions)
+      : LocalTeam(regions, [] { return std::make_unique<dynamics2d::GroupRegion>(); })
+  {
+  }
+};
 
 inline void DriveAtRandom(Dynamics2dTestWorld& world, std::uint32_t robot, std::uint64_t name, std::uint64_t tick,
                           bool uses_turret = true)

@@ -1,98 +1,13 @@
 // Contact groups are solved by themselves: threads and other groups change no bit, and bodies of two groups that come
 // together within a tick meet.
-#include <octomap/octomap.h>
-
-#include <cmath>
-
-#include "common/math/random.h"
-#include "dynamics3d_test_world.h"
 #include "engine_worker/engines/dynamics3d/ode_world.h"
 #include "engine_worker/engines/dynamics3d/shuffle.h"
-#include "engine_worker/engines/dynamics3d/terrain_shape.h"
-#include "tests/world/temporary_folder.h"
+#include "swarm.h"
 
 namespace swarmanoid
 {
 namespace
 {
-
-void DriveAtRandom(Dynamics3dTestWorld& world, std::uint32_t robot, std::uint64_t name, std::uint64_t tick)
-{
-  RandomStream random(3, name, 0, static_cast<std::uint32_t>(tick / 9));
-  world.Drive(robot, random.Uniform(-0.1, 0.3), random.Uniform(-0.1, 0.3));
-  world.Command("footbot_gripper", robot, {random.Uniform() < 0.6 ? 1.0 : 0.0});
-  world.Command("footbot_turret", robot, {random.Uniform(-2, 2)});
-}
-
-enum class Ground
-{
-  kPlane,
-  kHills,
-  kCells
-};
-
-// Robots that drive, grip and turn among preys, stacks, walls, eyebots above them and a mirror.
-class Swarm : public Dynamics3dTestWorld
-{
-public:
-  Swarm(const std::string& threads, double pitch, Ground ground, const std::string& iterations = "8")
-      : Dynamics3dTestWorld("threads", threads, "iterations", iterations)
-  {
-    experiment.arena_size = {6, 6, 3};
-    Set("arena_walls", "true");
-    if (ground != Ground::kPlane) Set("ground", "false");
-    for (int i = 0; i < 36; ++i) robots_.push_back(AddFootbot({1 + pitch * (i % 6), 1 + pitch * (i / 6), 0}, 0.7 * i));
-    for (int i = 0; i < 5; ++i) AddPrey({1 + pitch * (i + 0.5), 1 + pitch * 3.5, 0}, 0.5 + 0.3 * i, 0.05);
-    for (int i = 0; i < 8; ++i) AddBlock({0.6 + 3 * (i % 2), 0.5, 0.05 + 0.1 * (i / 2)}, {0.1, 0.1, 0.1}, 0.2);
-    for (int i = 0; i < 3; ++i) AddEyebot({1 + pitch * i, 1.5, 0.5}, i);
-    AddWall({1 + 5.5 * pitch, 2, 0.2}, {0.05, 2, 0.4}, 0.1);
-    mirror_ = AddFootbot({0.5, 0.9, 0});
-    MakeMirror(mirror_);
-    if (ground == Ground::kCells)
-    {
-      octomap::OcTree tree(0.1);
-      for (int x = 0; x < 60; ++x)
-        for (int y = 0; y < 60; ++y)
-          tree.updateNode(
-              octomap::point3d(0.05F + 0.1F * static_cast<float>(x), 0.05F + 0.1F * static_cast<float>(y), -0.05F),
-              true, true);
-      tree.updateInnerOccupancy();
-      tree.writeBinary((folder_ / "map.bt").string());
-      AddTerrain("octomap", {{"file", (folder_ / "map.bt").string()}}, {0, 0, 0});
-    }
-    UseTurrets();
-    Start();
-    if (ground != Ground::kHills) return;
-    std::vector<double> heights;
-    for (int k = 0; k < 61 * 61; ++k) heights.push_back(0.01 * Sin(k % 61) * Sin(k / 61 * 0.7) - 0.01);
-    const auto hills = std::make_shared<const HeightTerrain>(heights, 61, 61, 6.0, 6.0);
-    hills_ = AddHeightfield(engine->WorldForTest(), 0xfffffff0U, hills, Pose());
-  }
-  ~Swarm() { engine.reset(); }
-  Swarm(const Swarm&) = delete;
-  Swarm& operator=(const Swarm&) = delete;
-
-  void Step()
-  {
-    const std::uint64_t tick = Space().GetTick();
-    for (const std::uint32_t robot : robots_) DriveAtRandom(*this, robot, robot, tick);
-    const double along = 0.01 * static_cast<double>(tick);
-    Space().SetPose(mirror_, {Vector3(0.5 + along, 0.9 + along, 0), QuaternionFromYaw(along)});
-    Tick();
-  }
-  std::vector<char> Saved() const
-  {
-    ByteWriter state;
-    engine->SaveState(state);
-    return state.Bytes();
-  }
-
-private:
-  test::TemporaryFolder folder_;
-  std::unique_ptr<dynamics3d::TerrainShape> hills_;
-  std::vector<std::uint32_t> robots_;
-  std::uint32_t mirror_ = 0;
-};
 
 TEST(Dynamics3dGroups, AnyNumberOfThreadsGivesTheSameBits)
 {

@@ -105,11 +105,12 @@ public:
     update_.poses.resize(7 * layout_.owned.size());
     engine = MakeEngine();
   }
-  std::unique_ptr<Engine> MakeEngine()
+  std::unique_ptr<Engine> MakeEngine() { return MakeEngine(team); }
+  std::unique_ptr<Engine> MakeEngine(RegionTeam* its_team)
   {
     auto made = std::make_unique<Engine>();
     const TConfigurationTree tree{std::shared_ptr<const ConfigurationNode>(engine_)};
-    made->Init({configuration_, Parameters(tree, description_.parameters), *space_, layout_, team});
+    made->Init({configuration_, Parameters(tree, description_.parameters), *space_, layout_, its_team});
     for (std::uint32_t i = 0; i < experiment.entities.size(); ++i)
       made->AddEntity(space_->GetEntity(i), !experiment.entities[i].movable ? EBinding::kFixed
                                             : IsMirror(i)                   ? EBinding::kMirror

@@ -216,8 +216,7 @@ const Mistake kMistakes[] = {
      "test.xml:24:31: <dummy_engine> has no element <perpendicular>; allowed: id, subclock, split, library, "
      "perpendicular_axis, distance; did you mean 'perpendicular_axis'?\n"},
     {"EngineThatCannotBeSplit", "<dummy_engine id=\"ground\">", "<dummy_engine id=\"ground\" split=\"2\">",
-     "test.xml:24:31: the engine 'ground' (dummy_engine) cannot be split: it computes its world as one whole; leave "
-     "out split\n"},
+     "test.xml:24:31: the engine 'ground' (dummy_engine) cannot be split; leave out split\n"},
     {"SplitThatIsNone", "<dummy_engine id=\"ground\">", "<dummy_engine id=\"ground\" split=\"6x6\">",
      "test.xml:24:31: split is '6x6'; it must be a number of regions from 1 to 32 (\"4\"), or columns and rows of as "
      "many (\"2x2\")\n"},

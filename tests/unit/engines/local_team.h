@@ -1,15 +1,16 @@
-// The regions of dynamics2d in one process, for tests and benchmarks. Messages are passed in memory.
+// The regions of an engine of rigid bodies in one process, for tests and benchmarks. Messages are passed in memory.
 #pragma once
 
 #include <algorithm>
 #include <ctime>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "engine_worker/engines/dynamics2d/group_region.h"
+#include "engine_worker/engines/rigid_bodies/region_streams.h"
 
 namespace swarmanoid
 {
@@ -18,7 +19,9 @@ namespace swarmanoid
 class LocalTeam : public RegionTeam
 {
 public:
-  explicit LocalTeam(unsigned regions) : regions_(regions), result_bytes_(regions), seconds_(regions)
+  // `make` makes a region before its first task.
+  LocalTeam(unsigned regions, std::function<std::unique_ptr<EngineRegion>()> make)
+      : make_(std::move(make)), regions_(regions), result_bytes_(regions), seconds_(regions)
   {
     for (unsigned region = 0; region < regions; ++region) Replace(region);
   }
@@ -28,7 +31,7 @@ public:
   // Replaces a region by one without any state.
   void Replace(unsigned region)
   {
-    regions_[region] = std::make_unique<dynamics2d::GroupRegion>();
+    regions_[region] = nullptr;
     begins_again_ = true;
   }
   // A region that has done the n-th task dies before the engine has its result.
@@ -80,17 +83,19 @@ private:
   {
     for (std::size_t region = 0; region < regions_.size(); ++region)
     {
+      if (regions_[region] == nullptr) regions_[region] = make_();
       const double start = ThreadSeconds();
       ByteWriter result;
       regions_[region]->Work(tasks[region].Bytes(), result);
       results[region] = result.Bytes();
-      result_bytes_[region] += result.Bytes().size();
+      result_bytes_[region] += result.Bytes().size() - RegionStreams::kAnswerHead;
       bytes_ += tasks[region].Bytes().size() + result.Bytes().size();
       seconds_[region] += ThreadSeconds() - start;
       longest_ = std::max(longest_, tasks[region].Bytes().size());
     }
   }
 
+  std::function<std::unique_ptr<EngineRegion>()> make_;
   std::vector<std::unique_ptr<EngineRegion>> regions_;
   std::vector<std::size_t> result_bytes_;
   std::vector<double> seconds_;
