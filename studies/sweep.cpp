@@ -516,7 +516,7 @@ int SweepChecked(const SweepOptions& options)
   }
   else
     store = StudyStore::Create(options.output.empty() ? NewFolder(study.name) : options.output, study, design);
-  if (study.search) return RunSearch({options.jobs, options.retries, options.quiet}, study, design, *store);
+  if (study.search) return RunSearch({options.jobs, options.retries, options.quiet}, study, *store);
   if (!options.quiet)
     PrintError("study {}: {} points, {} seeds, in {}\n", study.name, design.Points(), study.seeds.size(),
                store->Folder());

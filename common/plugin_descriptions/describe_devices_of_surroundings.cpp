@@ -13,6 +13,8 @@ namespace
 
 using enum ParameterType;
 
+constexpr long long kMostBeams = 65536;  // of a range scanner
+
 ParameterSpec Share(const char* name, const char* description) { return {name, kNumber, "", "0", description, 0, 1}; }
 
 ParameterSpec Length(const char* name, const char* value, const char* description, double least = 0)
@@ -137,6 +139,40 @@ void DescribeDepthCamera()
   DescribeSensor(camera);
 }
 
+std::vector<ConfigurationError> MistakesInBeams(const Parameters& parameters)
+{
+  std::vector<ConfigurationError> mistakes = MistakesInDepths(parameters);
+  const long long beams = parameters.Integer("beams"), layers = parameters.Integer("layers");
+  if (beams * layers > kMostBeams)
+    mistakes.push_back(ConfigurationError(
+        parameters.Tree().ValueLocation(parameters.IsGiven("layers") ? "layers" : "beams"),
+        "<" + parameters.Tree().Name() + "> has " + std::to_string(beams) + " beams in each of " +
+            std::to_string(layers) + " layers; " + std::to_string(kMostBeams) + " beams in all are the most"));
+  return mistakes;
+}
+
+void DescribeRangeScanner()
+{
+  const PluginDescription scanner{
+      .label = "range_scanner",
+      .implementation = "generic_range_scanner",
+      .brief = "a laser scanner: distances along many beams, in one or several layers",
+      .parameters = Joined({Count("beams", "360", "Beams of a layer, evenly spaced from right to left.", 8192),
+                            Angle("field_of_view", "360",
+                                  "Between the first and the last beam; 360: all around, from the back.", 1, 360),
+                            Count("layers", "1", "Layers of beams, from the lowest up.", 256),
+                            Angle("vertical_field_of_view", "30",
+                                  "Between the lowest and the highest layer, if there are several.", 1, 170),
+                            Length("range", "10", "Longest distance that is measured.", 0.001),
+                            Length("nearest", "0", "Shortest distance that is measured; what is nearer reads 0."),
+                            {"position", kVector3, "m", "0, 0, 0.1",
+                             "Of the scanner, in the frame of the robot, which it does not see itself.", -1e6, 1e6},
+                            Angle("pan", "0", "Of its middle beam to the left of the robot's front.", -180, 180)},
+                           NoiseParameters("each distance", "m"))};
+  ParameterChecks::Instance().Add(PluginKind::kSensor, scanner, MistakesInBeams);
+  DescribeSensor(scanner);
+}
+
 void DescribeRadio()
 {
   DescribeActuator(
@@ -169,6 +205,7 @@ void DescribeSurroundingsDevices()
   DescribeMicrophones();
   DescribeDistanceScanners();
   DescribeDepthCamera();
+  DescribeRangeScanner();
   DescribeRadio();
   DescribeActuator({.label = "report",
                     .implementation = "generic_report",

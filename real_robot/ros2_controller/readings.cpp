@@ -15,6 +15,7 @@
 #include "common/control_interface/ci_gyroscope_sensor.h"
 #include "common/control_interface/ci_proximity_sensor.h"
 #include "common/control_interface/ci_range_and_bearing.h"
+#include "common/control_interface/ci_range_scanner_sensor.h"
 #include "common/control_interface/eyebot/ci_eyebot_altitude_sensor.h"
 #include "common/control_interface/eyebot/ci_eyebot_camera_sensor.h"
 #include "common/control_interface/footbot/ci_footbot_accelerometer_sensor.h"
@@ -306,6 +307,73 @@ private:
                      CCI_RangeAndBearingActuator::NUM_BYTES};
 };
 
+// A range scanner: the layer that is nearest to level as LaserScan, and the points of all layers in the frame of the
+// robot, without beams that measured nothing. "ring" is the number of the layer, as of common laser scanners.
+class Scanner : public ReadingPublisher
+{
+public:
+  explicit Scanner(const ReadingSetup& setup)
+      : sensor_(setup.robot->Sensor<CCI_RangeScannerSensor>("range_scanner")),
+        scan_(setup, "laser_scan"),
+        points_(setup, "points")
+  {
+    const unsigned beams = sensor_.GetBeams();
+    message_.angle_min(static_cast<float>(sensor_.GetAngle(0)));
+    message_.angle_max(static_cast<float>(sensor_.GetAngle(beams - 1)));
+    message_.angle_increment(
+        beams > 1 ? static_cast<float>((sensor_.GetAngle(beams - 1) - sensor_.GetAngle(0)) / (beams - 1)) : 0);
+    message_.range_min(static_cast<float>(sensor_.GetNearest()));
+    message_.range_max(static_cast<float>(sensor_.GetRange()));
+    message_.ranges().resize(beams);
+    for (unsigned layer = 0; layer < sensor_.GetLayers(); ++layer)
+    {
+      const SinCos up = SinCosOf(sensor_.GetElevation(layer));
+      for (unsigned beam = 0; beam < beams; ++beam)
+        directions_.push_back(PlaceAt(up.cos, sensor_.GetAngle(beam), up.sin));
+    }
+    level_ = (sensor_.GetLayers() - 1) / 2;
+  }
+  void Publish(const Header& header) override
+  {
+    if (scan_.Listeners() != 0) PublishScan(header);
+    if (points_.Listeners() != 0) PublishPoints(header);
+  }
+  unsigned Listeners() const override { return scan_.Listeners() + points_.Listeners(); }
+
+private:
+  // By REP 117 -infinity means too near.
+  void PublishScan(const Header& header)
+  {
+    message_.header(header);
+    const unsigned beams = sensor_.GetBeams();
+    const auto distances = sensor_.GetAllDistances().subspan(std::size_t{level_} * beams, beams);
+    for (unsigned beam = 0; beam < beams; ++beam)
+      message_.ranges()[beam] =
+          distances[beam] == 0 ? -std::numeric_limits<float>::infinity() : static_cast<float>(distances[beam]);
+    scan_.Publish(message_);
+  }
+  void PublishPoints(const Header& header)
+  {
+    cloud_.Begin(header);
+    const auto distances = sensor_.GetAllDistances();
+    for (std::size_t i = 0; i < distances.size(); ++i)
+    {
+      if (distances[i] == 0 || distances[i] == std::numeric_limits<double>::infinity()) continue;
+      const auto ring = static_cast<std::uint16_t>(i / sensor_.GetBeams());
+      cloud_.Add(sensor_.GetPosition() + distances[i] * directions_[i], &ring);
+    }
+    points_.Publish(cloud_.End());
+  }
+
+  const CCI_RangeScannerSensor& sensor_;
+  ReadingTopic<LaserScan> scan_;
+  ReadingTopic<PointCloud2> points_;
+  LaserScan message_;
+  CloudWriter cloud_{"ring", PointCloud::Type::kUint16, 1, 2};
+  std::vector<Vector3> directions_;  // of all beams, in the frame of the robot
+  unsigned level_ = 0;               // the layer of the scan
+};
+
 // Wheels, turret and gripper.
 class Joints : public ReadingPublisher
 {
@@ -513,6 +581,7 @@ const std::map<std::string, Source>& Sources()
       {"positioning", {}},
       {"proximity", {"proximity", Make<Ranges>}},
       {"range_and_bearing", {"range_and_bearing", Make<Packets>}},
+      {"range_scanner", {"range_scanner", Make<Scanner>}},
   };
   return sources;
 }

@@ -141,22 +141,25 @@ private:
     if (reader.IsGood("metric") && std::find(columns.begin(), columns.end(), search.column) == columns.end())
       reader.Fail("metric", fmt::format("the <metrics> make no column {}; they make: {}{}", Quoted(search.column),
                                         Listed(columns), DidYouMean(search.column, columns)));
-    if (search.runs < study_.seeds.size())
+    if (search.algorithm != kRace && search.runs < study_.seeds.size())
       reader.Fail("runs", fmt::format("{} runs are less than one point takes, which has {} seeds", search.runs,
                                       study_.seeds.size()));
     std::size_t searched = 0;
     for (const Factor* factor : study_.Factors())
     {
-      if (factor->range)
+      if (factor->range || (search.algorithm == kRace && factor->levels.size() > 1))
         ++searched;
       else if (factor->levels.size() > 1)
         diagnostics_.Add(factor->location,
                          fmt::format("a search goes through ranges of numbers, and {} has {} values: give it 'from' "
-                                     "and 'to', or one value",
+                                     "and 'to', or one value, or take algorithm=\"race\"",
                                      Quoted(factor->id), factor->levels.size()));
     }
     if (searched == 0)
-      diagnostics_.Add(tree.Location(), "<search> has no <factor> with 'from' and 'to' whose best value it could find");
+      diagnostics_.Add(tree.Location(),
+                       search.algorithm == kRace
+                           ? "<search> has no <factor> with several values whose best one it could find"
+                           : "<search> has no <factor> with 'from' and 'to' whose best value it could find");
     study_.search = std::move(search);
   }
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -148,7 +149,9 @@ std::string MetricUnit(const MetricChoice& choice);
 // Returns the columns of the table except those that identify a run: "travelled.mean", "polarisation".
 std::vector<std::string> MetricColumns(const Study& study);
 // The algorithms that <search> may name. The first one is the default.
-inline constexpr std::array kSearchAlgorithms = {"crs", "isres", "direct", "sbplx", "bobyqa", "cobyla", "nelder_mead"};
+inline constexpr std::array kSearchAlgorithms = {"crs",    "isres",       "direct", "sbplx", "bobyqa",
+                                                 "cobyla", "nelder_mead", "cma_es", "race"};
+inline constexpr std::string_view kRace = "race";  // the one that compares runs, not points
 // Returns docs/study_reference.md: every element and parameter.
 std::string StudyReference();
 

@@ -19,7 +19,7 @@ def aggregated(name, values):
 
 
 class Search:
-    """The points of a study with a <search>: what the algorithm learned of each, in its order."""
+    """The points of a study with a <search>: what the algorithm learned of each, in its order. The points of a race have different numbers of seeds."""
 
     def __init__(self, study):
         self.label = study.label
@@ -30,19 +30,30 @@ class Search:
         for row in study.last:
             (values if row["seed"] in seeds else fresh).setdefault(row["point"], []).append(row[self.metric])
             self.factors[row["point"]] = {name: row[name] for name, _ in study.factors}
-        # Keep only points with all seeds and all values.
-        self.points = [p for p in sorted(values) if len(values[p]) == len(seeds) and None not in values[p]]
+        self.is_race = study.facts.get("algorithm") == "race"
+        # Keep only points with all seeds, except of a race, and all values.
+        self.points = [p for p in sorted(values) if (self.is_race or len(values[p]) == len(seeds)) and None not in values[p]]
+        self.runs = [len(values[p]) for p in self.points]
         self.values = [aggregated(self.aggregate, values[p]) for p in self.points]
         better = np.maximum if self.goal == "max" else np.minimum
         self.best_so_far = better.accumulate(self.values) if self.values else []
         self.best = self.points[int(np.argmax(self.values) if self.goal == "max" else np.argmin(self.values))] if self.values else None
+        if self.is_race and self.points:
+            # The winner has the fresh seeds. Before its end, it is the best of the points that ran most often.
+            sign = 1 if self.goal == "max" else -1
+            self.best = max(self.points, key=lambda p: (len(fresh.get(p, [])), len(values[p]), sign * self.values[self.points.index(p)]))
         self.fresh = [value for value in fresh.get(self.best, []) if value is not None]
 
 
 def course(search):
     figure, axes = plt.subplots(figsize=style.SIZE)
-    axes.plot(search.points, search.values, linestyle="", marker="o", markersize=4, color=style.COLOURS[5], label="each point")
-    axes.step(search.points, search.best_so_far, where="post", color=style.COLOURS[0], label="best so far")
+    if search.is_race:
+        seen = axes.scatter(search.points, search.values, c=search.runs, cmap=style.HEAT, s=18)
+        figure.colorbar(seen, label="seeds that it ran with")
+        axes.plot(search.best, search.values[search.points.index(search.best)], marker="*", markersize=15, color=style.COLOURS[1], linestyle="", label="winner")
+    else:
+        axes.plot(search.points, search.values, linestyle="", marker="o", markersize=4, color=style.COLOURS[5], label="each point")
+        axes.step(search.points, search.best_so_far, where="post", color=style.COLOURS[0], label="best so far")
     if len(search.fresh) > 1:
         mean, half = style.mean_and_band(search.fresh)
         colour = style.COLOURS[1]
@@ -51,6 +62,9 @@ def course(search):
     axes.set_xlabel("point, in the order of the search")
     axes.set_ylabel(f"{search.label(search.metric)}, {search.aggregate} of the seeds")
     axes.legend(fontsize=9)
+    if search.is_race:
+        return figure, (f"The races for the {'most' if search.goal == 'max' else 'least'} {search.metric}: each point, and the number of seeds that it ran with before it "
+                        "was dropped. The band is the confidence interval of 95 % of the winner's mean with fresh seeds.")
     return figure, (f"The course of the search for the {'most' if search.goal == 'max' else 'least'} {search.metric}: each point, and the best one so far. The best "
                     "value of a search is flattered, since chance helped to choose it; the band is the confidence interval of 95 % of its mean with fresh seeds.")
 
@@ -88,7 +102,7 @@ def pictures(study):
         return
     yield f"{search.metric}_search", partial(course, search)
     searched = [name for name, numeric in study.varied() if numeric]
-    for factor in searched:
+    for factor, _ in study.varied():
         yield f"{search.metric}_tried_{factor}", partial(tried, search, factor)
     for x, y in itertools.islice(itertools.combinations(searched, 2), 6):
         yield f"{search.metric}_tried_{x}_and_{y}", partial(tried_pair, search, x, y)

@@ -1,5 +1,5 @@
-// Asks an algorithm of NLopt for the next values that it needs. It has no state to store: each call starts the
-// algorithm again and gives it the known values, which leads to the same questions. One thread.
+// Asks CMA-ES or an algorithm of NLopt for the next values that it needs. It has no state to store: each call starts
+// the algorithm again and gives it the known values, which leads to the same questions. One thread.
 #pragma once
 
 #include <functional>

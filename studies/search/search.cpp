@@ -1,7 +1,7 @@
-// Runs a study with a <search>. Each step asks the Optimiser for places, makes points of them, executes their runs, and
-// stores the results. Its own state is only what the database has: points by the text of their values, and results by
-// point and seed. So a step after a kill equals the step before it. At the end, the best point is run with fresh seeds,
-// since the best of many noisy values is too good by chance.
+// Runs a study with a <search>. Each step asks the Optimiser for places, or the Race for runs, makes points of them,
+// executes their runs, and stores the results. Its own state is only what the database has: points by the text of their
+// values, and results by point and seed. So a step after a kill equals the step before it. At the end, the best point
+// is run with fresh seeds, since the best of many noisy values is too good by chance.
 #include "studies/search/search.h"
 
 #include <fmt/format.h>
@@ -24,6 +24,7 @@
 #include "studies/executors/run_pool.h"
 #include "studies/metrics/metric.h"
 #include "studies/search/optimiser.h"
+#include "studies/search/race.h"
 #include "studies/search/search_space.h"
 #include "studies/tables/statistics.h"
 
@@ -45,19 +46,35 @@ int MostQuestions(const Study& study)
   return static_cast<int>(std::min<std::size_t>(kQuestionsOfPoint * (1000 + MostPoints(study)), 1'000'000'000));
 }
 
+Race RaceOf(const Study& study, const SearchSpace& space)
+{
+  const auto identity = [&space](std::span<const double> place) -> std::optional<std::string>
+  {
+    const std::vector<ExpressionValue> values = space.Values(place);
+    return space.Allows(values) ? std::optional(space.Text(values)) : std::nullopt;
+  };
+  return {*study.search, space.Start(), space.Levels(), study.seeds.size(), identity};
+}
+
+std::string SizeText(const Study& study)
+{
+  const SearchChoice& search = *study.search;
+  if (search.algorithm == kRace)
+    return fmt::format("races of at most {} runs, over at most {} seeds", search.runs, study.seeds.size());
+  return fmt::format("a search of at most {} points, {} seeds each", MostPoints(study), study.seeds.size());
+}
+
 // The state of one search, over the runs of this process and earlier ones.
 class Searcher
 {
 public:
-  Searcher(const SearchOptions& options, const Study& study, const Design& design, StudyStore& store)
-      : options_(options),
-        study_(study),
-        search_(*study.search),
-        store_(store),
-        space_(study),
-        optimiser_(search_, space_.Start(), MostQuestions(study)),
-        experiment_(design.ExperimentOf(0))
+  Searcher(const SearchOptions& options, const Study& study, StudyStore& store)
+      : options_(options), study_(study), search_(*study.search), store_(store), space_(study)
   {
+    if (search_.algorithm == kRace)
+      race_.emplace(RaceOf(study, space_));
+    else
+      optimiser_.emplace(search_, space_.Start(), MostQuestions(study));
     const std::vector<std::string>& columns = store.Columns();
     column_ = static_cast<std::size_t>(std::find(columns.begin(), columns.end(), search_.column) - columns.begin());
     for (auto& [point, values] : store.PointValues())
@@ -79,7 +96,7 @@ public:
     std::string end;
     try
     {
-      end = Search(pool);
+      end = race_ ? RunRaces(pool) : Search(pool);
       is_whole = !end.empty() && RunFresh(pool);
       store_.Commit();
       store_.WriteTable();
@@ -111,7 +128,7 @@ private:
   {
     while (true)
     {
-      const auto wanted = optimiser_.Next([this](std::span<const double> place) { return KnownAt(place); });
+      const auto wanted = optimiser_->Next([this](std::span<const double> place) { return KnownAt(place); });
       if (wanted.empty()) return "the algorithm found no better place to try";
       const std::string end = EndOfPatience();
       if (!end.empty()) return end;
@@ -132,6 +149,58 @@ private:
       if (!RunAll(pool, runs)) return "";
       RequireValueAtStart();
     }
+  }
+
+  // Returns as Search.
+  std::string RunRaces(RunPool& pool)
+  {
+    while (true)
+    {
+      Race::Step step = race_->Next([this](std::span<const double> place, std::size_t seed)
+                                    { return KnownRun(place, study_.seeds[seed]); });
+      winner_.reset();
+      if (!step.survivors.empty()) winner_ = PointOf(space_.Values(step.survivors.front()));
+      state_ = fmt::format("race {}, {} candidates left", step.iteration, step.alive);
+      if (step.wanted.empty())
+      {
+        if (!winner_)
+          throw ConfigurationError(search_.location,
+                                   "the conditions allow only one point, and a race needs two or more");
+        if (!ValueOf(*winner_))
+          throw ConfigurationError(search_.location,
+                                   fmt::format("not all runs of the best point have a value of {}", search_.column));
+        return fmt::format("{} races used {} of {} runs", step.iteration - 1, RunsOfSeeds(), search_.runs);
+      }
+      std::vector<RunName> runs;
+      for (const RaceRun& run : step.wanted)
+      {
+        const std::uint64_t seed = study_.seeds[run.seed];
+        const std::vector<ExpressionValue> values = space_.Values(run.place);
+        const RunName name{PointOf(values), seed};
+        if (attempts_.try_emplace(name).second) store_.AddPoint(name.point, values, {seed});
+        runs.push_back(name);
+      }
+      store_.Commit();
+      std::sort(runs.begin(), runs.end());
+      if (!RunAll(pool, runs)) return "";
+    }
+  }
+
+  std::size_t RunsOfSeeds() const
+  {
+    return static_cast<std::size_t>(std::count_if(
+        results_.begin(), results_.end(),
+        [this](const auto& result)
+        { return std::find(study_.seeds.begin(), study_.seeds.end(), result.first.seed) != study_.seeds.end(); }));
+  }
+
+  KnownValue KnownRun(std::span<const double> place, std::uint64_t seed) const
+  {
+    const auto point = point_of_.find(space_.Text(space_.Values(place)));
+    const auto found = point == point_of_.end() ? results_.end() : results_.find({point->second, seed});
+    if (found == results_.end()) return {KnownValue::Kind::kUnknown};
+    if (std::isnan(found->second)) return {KnownValue::Kind::kRefused};
+    return {KnownValue::Kind::kValue, search_.maximise ? -found->second : found->second};
   }
 
   void RequireValueAtStart() const
@@ -162,8 +231,17 @@ private:
                        });
   }
 
-  // Returns the value of a point whose runs are done; nothing if one of them has no value.
-  std::optional<double> ValueOf(std::uint32_t point) const { return ValueOver(point, study_.seeds); }
+  // Returns the seeds of the study with which the point has run.
+  std::vector<std::uint64_t> SeedsOf(std::uint32_t point) const
+  {
+    std::vector<std::uint64_t> seeds;
+    for (const std::uint64_t seed : study_.seeds)
+      if (results_.contains({point, seed})) seeds.push_back(seed);
+    return seeds;
+  }
+
+  // Returns the value of a point over the seeds that it has; nothing if one of its runs has no value.
+  std::optional<double> ValueOf(std::uint32_t point) const { return ValueOver(point, SeedsOf(point)); }
   std::optional<double> ValueOver(std::uint32_t point, const std::vector<std::uint64_t>& seeds) const
   {
     std::vector<double> values;
@@ -183,16 +261,23 @@ private:
     const std::string text = space_.Text(values);
     if (const auto found = point_of_.find(text); found != point_of_.end()) return found->second;
     if (values_.size() >= MostPoints()) return std::nullopt;
-    const auto point = static_cast<std::uint32_t>(values_.size());
+    const std::uint32_t point = PointOf(values);
     store_.AddPoint(point, values, study_.seeds);
-    point_of_[text] = point;
-    values_.push_back(values);
     return point;
   }
 
-  // Returns the best of the finished points; the first of equal ones.
+  // Returns the number of the point of these values, a new one if there is none.
+  std::uint32_t PointOf(const std::vector<ExpressionValue>& values)
+  {
+    const auto [found, is_new] = point_of_.try_emplace(space_.Text(values), static_cast<std::uint32_t>(values_.size()));
+    if (is_new) values_.push_back(values);
+    return found->second;
+  }
+
+  // Returns the best of the finished points, the first of equal ones; of races the winner of the last one.
   std::optional<std::uint32_t> Best() const
   {
+    if (race_) return winner_;
     std::optional<std::uint32_t> best;
     double best_value = 0;
     for (std::uint32_t point = 0; point < values_.size(); ++point)
@@ -249,7 +334,7 @@ private:
       {
         const RunName name = queue.front();
         queue.pop_front();
-        pool.Give({name, experiment_, space_.Settings(values_[name.point])});
+        pool.Give({name, space_.Experiment(values_[name.point]), space_.Settings(values_[name.point])});
       }
       for (const RunOutcome& outcome : pool.Wait(100ms)) Take(outcome, queue);
       const auto now = SearchClock::now();
@@ -285,10 +370,12 @@ private:
   {
     if (options_.quiet || now < next_) return;
     next_ = now + (terminal_ ? SearchClock::duration(200ms) : SearchClock::duration(10s));
-    std::string line = fmt::format("point {} of at most {}, {} run{}", values_.size(), MostPoints(), results_.size(),
-                                   results_.size() == 1 ? "" : "s");
+    std::string line = race_ ? fmt::format("{}, {} of at most {} runs", state_, results_.size(), search_.runs)
+                             : fmt::format("point {} of at most {}, {} run{}", values_.size(), MostPoints(),
+                                           results_.size(), results_.size() == 1 ? "" : "s");
     if (const auto best = Best())
-      line += fmt::format("; best {} {:.6g} ({})", search_.column, *ValueOf(*best), space_.Text(values_[*best]));
+      if (const auto value = ValueOf(*best))
+        line += fmt::format("; best {} {:.6g} ({})", search_.column, *value, space_.Text(values_[*best]));
     Clear();
     PrintError("{}{}", line, terminal_ ? "" : "\n");
     std::fflush(stderr);
@@ -304,7 +391,7 @@ private:
   void Report(const std::string& end) const
   {
     const std::uint32_t best = *Best();
-    const std::size_t seeds = study_.seeds.size();
+    const std::size_t seeds = SeedsOf(best).size();
     fmt::print("the search ended after {} points: {}\n", values_.size(), end);
     fmt::print("best: point {}, {}\n", best, space_.Text(values_[best]));
     fmt::print("{} ({} of {} seed{}): {:.6g} in the search, which is flattered, as it was chosen by it\n",
@@ -322,7 +409,7 @@ private:
     }
     std::string words;
     for (const auto& [path, value] : space_.Settings(values_[best])) words += " --set " + ShellWord(path + "=" + value);
-    fmt::print("swarmanoid run {} --single-process{}\n", ShellWord(experiment_), words);
+    fmt::print("swarmanoid run {} --single-process{}\n", ShellWord(space_.Experiment(values_[best])), words);
   }
 
   const SearchOptions options_;
@@ -330,8 +417,11 @@ private:
   const SearchChoice& search_;
   StudyStore& store_;
   SearchSpace space_;
-  Optimiser optimiser_;
-  std::string experiment_;
+  // One of both.
+  std::optional<Optimiser> optimiser_;
+  std::optional<Race> race_;
+  std::optional<std::uint32_t> winner_;  // of the last race that ended
+  std::string state_;                    // of the race, for the progress line
   std::size_t column_ = 0;
   std::map<std::string, std::uint32_t> point_of_;     // by the text of its values
   std::vector<std::vector<ExpressionValue>> values_;  // by point
@@ -345,14 +435,12 @@ private:
 
 }  // namespace
 
-int RunSearch(const SearchOptions& options, const Study& study, const Design& design, StudyStore& store)
+int RunSearch(const SearchOptions& options, const Study& study, StudyStore& store)
 {
   try
   {
-    if (!options.quiet)
-      PrintError("study {}: a search of at most {} points, {} seeds each, in {}\n", study.name, MostPoints(study),
-                 study.seeds.size(), store.Folder());
-    return Searcher(options, study, design, store).Run();
+    if (!options.quiet) PrintError("study {}: {}, in {}\n", study.name, SizeText(study), store.Folder());
+    return Searcher(options, study, store).Run();
   }
   catch (const ConfigurationError& error)
   {
@@ -364,7 +452,10 @@ int RunSearch(const SearchOptions& options, const Study& study, const Design& de
 void CheckSearch(const Study& study)
 {
   const SearchSpace space(study);
-  const Optimiser checked(*study.search, space.Start(), 1);
+  if (study.search->algorithm == kRace)
+    const Race checked = RaceOf(study, space);
+  else
+    const Optimiser checked(*study.search, space.Start(), 1);
   const std::vector<ExpressionValue> values = space.Values(space.Start());
   if (!space.Allows(values))
     throw ConfigurationError(
@@ -383,14 +474,21 @@ void DescribeSearch(const Study& study)
                  factor->range->step > 0 ? fmt::format(" in steps of {:.12g}", factor->range->step) : "",
                  factor->range->logarithmic ? ", logarithmic" : "");
     else
-      fmt::print("{}: {}\n", factor->id, factor->levels[0].value);
+    {
+      std::string values;
+      for (const FactorLevel& level : factor->levels) values += (values.empty() ? "" : ", ") + level.value;
+      fmt::print("{}: {}\n", factor->id, values);
+    }
   }
   const SearchSpace space(study);
   fmt::print("begins at {}\n", space.Text(space.Values(space.Start())));
   fmt::print("{} of {} ({} of {} seeds), by {}\n", search.maximise ? "most" : "least", search.column, search.aggregate,
              study.seeds.size(), search.algorithm);
-  PrintError("at most {} points, {} runs, and {} with fresh seeds\n", MostPoints(study),
-             MostPoints(study) * study.seeds.size(), search.fresh_seeds);
+  if (search.algorithm == kRace)
+    PrintError("{}, and {} with fresh seeds\n", SizeText(study), search.fresh_seeds);
+  else
+    PrintError("at most {} points, {} runs, and {} with fresh seeds\n", MostPoints(study),
+               MostPoints(study) * study.seeds.size(), search.fresh_seeds);
 }
 
 }  // namespace swarmanoid

@@ -2,7 +2,7 @@
 // study, stored in its database. So a killed search asks again from the beginning, and continues where the answers end.
 #pragma once
 
-#include "studies/design/design.h"
+#include "studies/design/study.h"
 #include "studies/tables/study_store.h"
 
 namespace swarmanoid
@@ -16,7 +16,7 @@ struct SearchOptions
 };
 
 // Returns the exit code.
-int RunSearch(const SearchOptions& options, const Study& study, const Design& design, StudyStore& store);
+int RunSearch(const SearchOptions& options, const Study& study, StudyStore& store);
 // Throws ConfigurationError if the search cannot begin.
 void CheckSearch(const Study& study);
 // Writes the plan of the search to standard output.

@@ -405,6 +405,34 @@ class Devices(Case):
         for heard in self.commanded(file, "floor", ("fb_0",)):
             self.assertEqual({tuple(words[2:]) for words in heard if words[0] == "floor"}, {("1",) * 8})
 
+    def test_a_range_scanner_is_a_scan_and_a_cloud(self):
+        control, robots = footbots([2], {}, ["range_scanner"])
+        file = self.world((control, [*robots, '<block id="fb_wall" position="3.1, 2, 0.25" size="0.2, 1, 0.5" movable="false"/>']))
+        for heard in self.commanded(file, "scanner", ("fb_0",)):
+            scans = {tuple(float(word) for word in words[2:]) for words in heard if words[0] == "laser"}
+            self.assertEqual(len(scans), 1)
+            first, step, shortest, longest, *ranges = scans.pop()
+            self.assertAlmostEqual(first, -math.pi, 6)
+            self.assertAlmostEqual(step, math.radians(1), 6)
+            self.assertEqual((shortest, longest, len(ranges)), (0, 10, 360))
+            seen = {}
+            for beam, distance in enumerate(ranges):
+                if math.isfinite(distance):
+                    seen[beam - 180] = distance
+                    self.assertAlmostEqual(distance, 1 / math.cos(math.radians(beam - 180)), 6)
+            self.assertEqual(sorted(seen), list(range(-26, 27)))  # the wall ends at 26.6 degrees
+            clouds = {tuple(words[2:]) for words in heard if words[0] == "points"}
+            self.assertEqual(len(clouds), 1)
+            frame, *numbers = clouds.pop()
+            self.assertEqual(frame, "fb_0")
+            points = [[float(number) for number in numbers[i:i + 4]] for i in range(0, len(numbers), 4)]
+            self.assertEqual(len(points), len(seen))
+            for angle, (x, y, z, ring) in zip(sorted(seen), points):
+                self.assertAlmostEqual(x, 1, 6)
+                self.assertAlmostEqual(y, math.tan(math.radians(angle)), 6)
+                self.assertAlmostEqual(z, 0.1, 6)
+                self.assertEqual(ring, 0)
+
     def test_wrong_commands(self):
         # For tick 12 the node says nine bytes, and numbers that are none.
         for ground, sky, words, robot, text in (

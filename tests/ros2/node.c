@@ -14,6 +14,8 @@
      packet ROBOT SEC NANOSEC BYTE... for what a robot receives by range and bearing, with the word bytes
      turret ROBOT SEC NANOSEC ANGLE   with the word turret
      floor ROBOT BRIGHTNESS...        with the word floor
+     laser ROBOT ANGLE_MIN INCREMENT RANGE_MIN RANGE_MAX RANGE...   with the word scanner
+     points ROBOT FRAME, and X Y Z RING of each                     with the word scanner
      holding ROBOT 0|1                whenever it changes, with the word gripper
    A robot whose id begins with eb is an eyebot: it is answered once its altitude is here. */
 #include <dds/dds.h>
@@ -74,7 +76,7 @@ struct Robot
   dds_entity_t scans, odometries, commands, leds, beacon;
   /* 0 where the device is not commanded. */
   dds_entity_t gripper, turret, bytes, laser_colour, laser_pan, laser_tilt, attach, columns;
-  dds_entity_t altitudes, packets, joints, holdings, tables, floors;
+  dds_entity_t altitudes, packets, joints, holdings, tables, floors, lasers, points;
   int holding;                              /* as printed last; negative: not yet */
   std_msgs_msg_dds__Header_ scan, odometry; /* of what came last, until it is answered */
   bool has_scan, has_odometry;
@@ -161,6 +163,11 @@ static void CommandDevices(dds_entity_t participant, struct Robot* robot)
   {
     robot->columns = WriterOf(participant, robot, &std_msgs_msg_dds__Float32MultiArray__desc, "directional_leds/set");
     robot->tables = ReaderOf(participant, robot, &std_msgs_msg_dds__Float32MultiArray__desc, "battery");
+  }
+  if (IsCommanded("scanner"))
+  {
+    robot->lasers = ReaderOf(participant, robot, &sensor_msgs_msg_dds__LaserScan__desc, "laser_scan");
+    robot->points = ReaderOf(participant, robot, &sensor_msgs_msg_dds__PointCloud2__desc, "points");
   }
   if (IsCommanded("floor"))
     robot->floors = ReaderOf(participant, robot, &std_msgs_msg_dds__Float32MultiArray__desc, "ground");
@@ -285,6 +292,34 @@ static bool Hear(struct Robot* robot)
     for (uint32_t i = 0; i < floor->data._length; ++i) printf(" %.9g", floor->data._buffer[i]);
     puts("");
     dds_return_loan(robot->floors, &sample, 1);
+  }
+  while (robot->lasers != 0 && (sample = Next(robot->lasers)) != NULL)
+  {
+    heard = true;
+    const Scan* scan = sample;
+    printf("laser %s %.9g %.9g %.9g %.9g", robot->name, scan->angle_min, scan->angle_increment, scan->range_min,
+           scan->range_max);
+    for (uint32_t i = 0; i < scan->ranges._length; ++i) printf(" %.9g", scan->ranges._buffer[i]);
+    puts("");
+    dds_return_loan(robot->lasers, &sample, 1);
+  }
+  while (robot->points != 0 && (sample = Next(robot->points)) != NULL)
+  {
+    heard = true;
+    const Cloud* cloud = sample;
+    const uint32_t ring_at = OffsetOf(cloud, "ring");
+    printf("points %s %s", robot->name, cloud->header.frame_id);
+    for (uint32_t point = 0; point < cloud->width; ++point)
+    {
+      const uint8_t* bytes = cloud->data._buffer + (size_t)point * cloud->point_step;
+      float place[3];
+      uint16_t ring;
+      memcpy(place, bytes, sizeof place);
+      memcpy(&ring, bytes + ring_at, sizeof ring);
+      printf(" %.9g %.9g %.9g %u", place[0], place[1], place[2], ring);
+    }
+    puts("");
+    dds_return_loan(robot->points, &sample, 1);
   }
   while (robot->joints != 0 && (sample = Next(robot->joints)) != NULL)
   {

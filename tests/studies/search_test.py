@@ -16,9 +16,9 @@ FACTORS = ('<factor id="speed" path="controllers.diffusion.parameters.velocity" 
 
 
 class Search(StudyCase):
-    def study(self, search, inside=FACTORS, ticks=60, name="study"):
+    def study(self, search, inside=FACTORS, ticks=60, name="study", seeds="1-3"):
         path = self.folder / f"{name}.xml"
-        path.write_text(f'<study experiment="{CONFIGS / "diffusion_10.xml"}" ticks="{ticks}" seeds="1-3">\n{inside}\n<search {search}/>\n</study>\n')
+        path.write_text(f'<study experiment="{CONFIGS / "diffusion_10.xml"}" ticks="{ticks}" seeds="{seeds}">\n{inside}\n<search {search}/>\n</study>\n')
         return path
 
     def best_of(self, name, output):
@@ -36,7 +36,7 @@ class Search(StudyCase):
         return best
 
     def test_the_same_for_any_number_of_processes_and_after_any_death(self):
-        for algorithm in ("crs", "isres", "sbplx"):
+        for algorithm in ("crs", "isres", "cma_es", "sbplx"):
             population = ' population="8"' if algorithm != "sbplx" else ""
             study = self.study(f'metric="seen" runs="75" algorithm="{algorithm}"{population} fresh_seeds="4"', name=algorithm)
             one = self.command("sweep", study, "--output", f"{algorithm}_one", "--jobs", "1", "--quiet")
@@ -47,24 +47,7 @@ class Search(StudyCase):
             fresh = [row["seed"] for row in self.table(f"{algorithm}_one") if int(row["seed"]) > 3]
             self.assertEqual(fresh, ["4", "5", "6", "7"])
             self.assertEqual({int(row["point"]) for row in self.table(f"{algorithm}_one") if int(row["seed"]) > 3}, {best})
-            # Killed again and again, with all its processes: they end with it.
-            started = subprocess.Popen([SWARMANOID, "sweep", str(study), "--output", "killed", "--quiet"], cwd=self.folder,
-                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            for runs in (5, 30, 60):
-                deadline = time.monotonic() + 60
-                while time.monotonic() < deadline and started.poll() is None:
-                    try:
-                        if self.query("killed", "SELECT COUNT(*) FROM runs WHERE state = 'done'")[0][0] >= runs:
-                            break
-                    except sqlite3.Error:
-                        pass
-                    time.sleep(0.01)
-                started.send_signal(signal.SIGKILL)
-                started.wait()
-                started = subprocess.Popen([SWARMANOID, "sweep", "killed", "--resume", "--quiet"], cwd=self.folder, text=True,
-                                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-            output = started.communicate(timeout=200)[0]
-            self.assertEqual(started.returncode, 0, output)
+            output = self.killed_again_and_again(study)
             self.assertEqual(whole, (self.folder / "killed/table.csv").read_bytes())
             without_time = [re.sub(r"^finished.*", "", text, flags=re.MULTILINE) for text in (one.stdout, three.stdout, output)]
             self.assertEqual(without_time[0], without_time[1])
@@ -74,6 +57,52 @@ class Search(StudyCase):
             again = self.command("sweep", "killed", "--resume", "--quiet")
             self.assertEqual(re.sub(r"^finished.*", "", again.stdout, flags=re.MULTILINE), without_time[0])
             shutil.rmtree(self.folder / "killed")
+
+    def killed_again_and_again(self, study):
+        """The output of a search in the folder `killed` whose processes all ended with it, and that was resumed each time."""
+        started = subprocess.Popen([SWARMANOID, "sweep", str(study), "--output", "killed", "--quiet"], cwd=self.folder,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        for runs in (5, 30, 60):
+            deadline = time.monotonic() + 60
+            while time.monotonic() < deadline and started.poll() is None:
+                try:
+                    if self.query("killed", "SELECT COUNT(*) FROM runs WHERE state = 'done'")[0][0] >= runs:
+                        break
+                except sqlite3.Error:
+                    pass
+                time.sleep(0.01)
+            started.send_signal(signal.SIGKILL)
+            started.wait()
+            started = subprocess.Popen([SWARMANOID, "sweep", "killed", "--resume", "--quiet"], cwd=self.folder, text=True,
+                                       stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        output = started.communicate(timeout=200)[0]
+        self.assertEqual(started.returncode, 0, output)
+        return output
+
+    def test_a_race_is_the_same_for_any_number_of_processes_and_after_any_death(self):
+        # Robots that are faster see more, and of two variants one stands nearly still.
+        inside = ('<factor id="speed" path="controllers.diffusion.parameters.velocity" from="0.02" to="0.2"/>'
+                  '<variants id="robots"><variant id="one"><set path="arena.distribute.quantity" value="1"/></variant>'
+                  '<variant id="six"><set path="arena.distribute.quantity" value="6"/></variant></variants>'
+                  '<metrics><coverage id="seen" cell="0.5"/></metrics>')
+        study = self.study('metric="seen" runs="150" algorithm="race" fresh_seeds="4"', inside, name="race", seeds="1-12")
+        one = self.command("sweep", study, "--output", "one", "--jobs", "1", "--quiet")
+        three = self.command("sweep", study, "--output", "three", "--jobs", "3", "--quiet")
+        killed = self.killed_again_and_again(study)
+        whole = (self.folder / "one/table.csv").read_bytes()
+        self.assertEqual(whole, (self.folder / "three/table.csv").read_bytes())
+        self.assertEqual(whole, (self.folder / "killed/table.csv").read_bytes())
+        outputs = [re.sub(r"^finished.*", "", text, flags=re.MULTILINE) for text in (one.stdout, three.stdout, killed)]
+        self.assertEqual(outputs[0], outputs[1])
+        self.assertEqual(outputs[0], outputs[2])
+        self.assertEqual(self.query("killed", "SELECT MAX(attempts), COUNT(*) FROM runs"), [(1, len(self.table("killed")))])
+        # All six robots see more than one.
+        self.assertRegex(one.stdout, r"(?m)^best: point \d+, speed=\S+ robots=six$")
+        runs = self.query("one", "SELECT robots, COUNT(*) FROM runs WHERE seed <= 12 GROUP BY robots ORDER BY robots")
+        self.assertLessEqual(sum(count for _, count in runs), 150)
+        self.assertGreater(dict(runs)["six"], 2 * dict(runs)["one"])
+        self.command("plot", "one")
+        self.assertTrue((self.folder / "one/pictures/seen_search.svg").exists() or list((self.folder / "one/pictures").glob("seen_search*")))
 
     def test_its_words_repeat_the_best_run(self):
         done = self.command("sweep", self.study('metric="seen" runs="30" algorithm="sbplx" fresh_seeds="0"'), "--output", "out", "--quiet")

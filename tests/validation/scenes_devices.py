@@ -330,6 +330,33 @@ def depth_camera(lab):
 
 
 @scene(GROUP)
+def range_scanner(lab):
+    # Robots with one beam each, in many directions: to a wall, to a cylinder, and to the floor from the lower of two layers.
+    def distances(bodies, pans, parameters):
+        who = "".join(probe(f"c{i}", sensors={"range_scanner": {"beams": 1, "pan": pan, **parameters}}) for i, pan in enumerate(pans))
+        result = lab.run("".join(footbot(f"fb{i}", 5.0, 4.0 + 8 * i, 0, f"c{i}") + bodies(4.0 + 8 * i) for i in range(len(pans))), who, ENGINE, 1,
+                         size=f"10,{8 * len(pans)},3")
+        return [result.readings(f"fb{i}", "range_scanner")[0]["nearest"] for i in range(len(pans))]
+
+    pans = list(range(-60, 61, 15))
+    found = distances(lambda y: block(f"w{y}", f"7.1,{y},1", "0.2,7,2"), pans, {"position": "0.1,0,0.2", "range": 5})
+    worst = max(abs(distance - 1.9 / math.cos(math.radians(pan))) for pan, distance in zip(pans, found))
+    yield Row("range scanner: 9 beams to a wall", "d / cos α", GEOMETRY, 0, worst, ROUNDING, "rounding", "m")
+    pans = [-14.4, -10, -5, 0, 5, 10, 14.4]
+    found = distances(lambda y: prey(f"p{y}", 7.0, y, radius=0.5, height=1), pans, {"range": 3})
+    worst = max(abs(distance - 2 * math.cos(math.radians(pan)) + math.sqrt(0.25 - 4 * math.sin(math.radians(pan)) ** 2)) for pan, distance in zip(pans, found))
+    yield Row("range scanner: 7 beams to a cylinder", "ray and circle", GEOMETRY, 0, worst, ROUNDING, "rounding", "m")
+    pans = [-170, -30, 0, 100]
+    found = distances(lambda y: "", pans, {"layers": 2, "vertical_field_of_view": 30, "position": "0,0,0.3", "range": 3})
+    yield Row("range scanner: 4 beams of a lower layer to the floor", "h / sin ε", GEOMETRY, 0, max(abs(distance - 0.3 / math.sin(math.radians(15))) for distance in found),
+              ROUNDING, "rounding", "m")
+    who = probe("c", sensors={"range_scanner": {"beams": 1, "noise_kind": "gaussian", "noise_deviation": 0.02}})
+    ticks = 2000 if lab.quick else 20000
+    found = [now["nearest"] for now in lab.run(footbot("fb", 5.0, 5.0, 0, "c") + block("w", "7.1,5,1", "0.2,9,2"), who, ENGINE, ticks, every=ticks).readings("fb", "range_scanner")]
+    yield Row("range scanner: deviation of the distance", "σ", "normal", 0.02, deviation(found), 4 * 0.02 / math.sqrt(2 * ticks), "4 s.e.", "m")
+
+
+@scene(GROUP)
 def hands(lab):
     # A plate across the claws of both hands, at rest: the six sensors that look ahead are on the palms.
     plate = 0.012

@@ -49,6 +49,14 @@ test("rays turn with their robot and end at what they meet", () => {
   near(hit.points, [0.9, 2, 0.05, 0.8, 2, 0.05]);
 });
 
+test("beams of a range scanner turn with their robot", () => {
+  const { marks } = pictureOf([[1, 2, 0]], { rays: true });
+  marks.receive({ ...nothing, scans: [{ entity: 0, from: [0.1, 0, 0.2], free: [1.1, 0, 0.2], hit: [0.1, 0.5, 0.2] }] });
+  const [free, hit] = marks.lines({});
+  near(free.points, [1, 2.1, 0.2, 1, 3.1, 0.2]);
+  near(hit.points, [1, 2.1, 0.2, 0.5, 2.1, 0.2]);
+});
+
 test("a link is whole if both hear each other, and else half a line from the robot that is heard", () => {
   const { marks } = pictureOf([[0, 0, 0], [2, 0, 0], [0, 4, 0]], { links: true });
   marks.receive({ ...nothing, links: { both: [0, 1], one: [2, 0] } });

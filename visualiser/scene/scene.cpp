@@ -42,7 +42,7 @@ std::uint16_t Number(ModelId model) { return static_cast<std::uint16_t>(model); 
 
 }  // namespace
 
-Scene::Scene(const CSwarmanoidSpace& space) : space_(space), models_(StandardModels())
+Scene::Scene(const CSwarmanoidSpace& space) : space_(space), models_(StandardModels()), scanner_rays_(space)
 {
   const Vector3f arena = ArenaSize().cast<float>();
   SceneItem& floor = AddItem(kNoEntity, ModelId::kRectangle);
@@ -236,7 +236,7 @@ void Scene::Update(const SceneOptions& options)
       glows_.push_back(
           {entity.GetPosition().cast<float>(), 0.35F, lights_[static_cast<std::size_t>(body.lights)], false});
     const bool selected = options.selected == body.entity;
-    if (kind.proximity && (options.rays || selected)) AddRays(body.entity);
+    if (kind.role == EntityRole::kRobot && (options.rays || selected)) AddRays(body.entity);
     if (body.cones >= 0 && (options.rays || selected)) AddLedCones(body);
     if (options.collision_models) AddCollisionModel(body.entity);
     if (selected) AddOutline(body.entity, palette::kSelection, 2.5F);

@@ -16,6 +16,7 @@
 #include "visualiser/scene/drawn_marks.h"
 #include "visualiser/scene/meshes.h"
 #include "visualiser/scene/proximity_rays.h"
+#include "visualiser/scene/scanner_rays.h"
 
 namespace swarmanoid
 {
@@ -76,7 +77,7 @@ struct SceneOptions
   bool ids = false;
   std::span<const std::string> names;  // the texts of labels, by entity; empty: the ids
   bool trails = false;
-  bool rays = false;  // rays of proximity sensors, and cones of lit directional LEDs
+  bool rays = false;  // rays of proximity sensors and range scanners, and cones of lit directional LEDs
   bool collision_models = false;
   bool beams = true;
   std::optional<std::uint32_t> selected;  // an entity that gets a mark, its id, and its rays if `rays` is off
@@ -193,6 +194,7 @@ private:
   std::unique_ptr<CollisionModels> collision_models_;
   std::vector<CollisionBody> collision_bodies_;
   std::vector<ProximityRay> rays_;
+  ScannerRays scanner_rays_;
   std::vector<LedCones> led_cones_;  // by robot with directional LEDs
   std::unique_ptr<Trail[]> trails_;  // by movable entity; made when trails are first shown
   std::uint64_t revision_ = 0;

@@ -116,6 +116,7 @@ void Scene::AddRays(std::uint32_t robot)
 {
   if (query_ == nullptr) query_ = std::make_unique<SpaceQuery>(space_);
   FindProximityRays(space_, *query_, robot, rays_);
+  scanner_rays_.Find(*query_, robot, rays_);
   for (const auto& [from, to, hit] : rays_)
     AddLine(from, from + hit * (to - from), hit < 1 ? palette::kRayHit : palette::kRayFree, 1.5F, hit < 1 ? 1 : 0.7F);
 }

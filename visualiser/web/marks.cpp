@@ -53,7 +53,7 @@ Json EdgesOf(const ConvexHull& hull)
 }  // namespace
 
 MarksWriter::MarksWriter(const CSwarmanoidSpace& space)
-    : space_(space), query_(space), models_(space), antennas_(space.Size())
+    : space_(space), query_(space), models_(space), antennas_(space.Size()), scanner_rays_(space)
 {
   for (std::size_t e = 0; e < space.Size(); ++e)
   {
@@ -75,15 +75,32 @@ Vector3 MarksWriter::PlaceOf(std::uint32_t robot) const
 std::string MarksWriter::Text(const MarksRequest& wanted)
 {
   Json rays{{"entities", Json::array()}, {"hits", Json::array()}};
+  Json scans = Json::array();
   for (const std::uint32_t robot : wanted.rays)
   {
     if (!IsPresent(robot)) continue;
     FindProximityRays(space_, query_, robot, rays_);
+    if (!rays_.empty())
+    {
+      Json hits = Json::array();
+      for (const ProximityRay& ray : rays_) hits.push_back(Rounded(ray.hit));
+      rays["entities"].push_back(robot);
+      rays["hits"].push_back(std::move(hits));
+    }
+    // The page does not know the beams of scanners, and gets the ends in the frame of the robot.
+    rays_.clear();
+    scanner_rays_.Find(query_, robot, rays_);
     if (rays_.empty()) continue;
-    Json hits = Json::array();
-    for (const ProximityRay& ray : rays_) hits.push_back(Rounded(ray.hit));
-    rays["entities"].push_back(robot);
-    rays["hits"].push_back(std::move(hits));
+    const Pose to_robot = space_.GetPose(robot).Inverse();
+    Json start = Json::array(), free = Json::array(), hit = Json::array();
+    const auto put = [&](const Vector3& place, Json& list)
+    {
+      const Vector3 local = to_robot.Apply(place);
+      for (int axis = 0; axis < 3; ++axis) list.push_back(Rounded(local[axis]));
+    };
+    put(rays_.front().from, start);
+    for (const ProximityRay& ray : rays_) put(ray.from + ray.hit * (ray.to - ray.from), ray.hit < 1 ? hit : free);
+    scans.push_back({{"entity", robot}, {"from", start}, {"free", free}, {"hit", hit}});
   }
 
   // Robots of one kind usually have the same bodies.
@@ -145,6 +162,7 @@ std::string MarksWriter::Text(const MarksRequest& wanted)
   return Json{{"type", "marks"},
               {"tick", space_.GetTick()},
               {"rays", std::move(rays)},
+              {"scans", std::move(scans)},
               {"shapes", std::move(shapes)},
               {"links", {{"both", std::move(both)}, {"one", std::move(one)}}}}
       .dump();

@@ -1,5 +1,5 @@
-// Marks that pages show beside bodies on request: rays of proximity sensors, the bodies that engines collide, and the
-// links of range and bearing. web_render uses it in the thread of Draw and Idle.
+// Marks that pages show beside bodies on request: rays of proximity sensors and range scanners, the bodies that engines
+// collide, and the links of range and bearing. web_render uses it in the thread of Draw and Idle.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include "common/space/collision_models.h"
 #include "common/space/query.h"
 #include "visualiser/scene/proximity_rays.h"
+#include "visualiser/scene/scanner_rays.h"
 #include "visualiser/web/page_messages.h"
 
 namespace swarmanoid
@@ -39,6 +40,7 @@ private:
   std::vector<std::optional<Antenna>> antennas_;  // by entity
   double longest_range_ = 0;
   std::vector<ProximityRay> rays_;
+  ScannerRays scanner_rays_;
   std::vector<CollisionBody> bodies_;
 };
 

@@ -7,11 +7,25 @@ namespace swarmanoid::ros2
 namespace
 {
 
-std::size_t SizeOf(PointCloud::Type type) { return type == PointCloud::Type::kUint8 ? 1 : 4; }
+std::size_t SizeOf(PointCloud::Type type)
+{
+  return type == PointCloud::Type::kUint8 ? 1 : type == PointCloud::Type::kUint16 ? 2 : 4;
+}
 
 const char* NameOf(PointCloud::Type type)
 {
-  return type == PointCloud::Type::kUint8 ? "uint8" : type == PointCloud::Type::kUint32 ? "uint32" : "float32";
+  switch (type)
+  {
+    case PointCloud::Type::kUint8:
+      return "uint8";
+    case PointCloud::Type::kUint16:
+      return "uint16";
+    case PointCloud::Type::kUint32:
+      return "uint32";
+    case PointCloud::Type::kFloat32:
+      break;
+  }
+  return "float32";
 }
 
 }  // namespace

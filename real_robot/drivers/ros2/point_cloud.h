@@ -22,6 +22,7 @@ public:
   enum class Type : std::uint8_t
   {
     kUint8 = 2,
+    kUint16 = 4,
     kUint32 = 6,
     kFloat32 = 7
   };

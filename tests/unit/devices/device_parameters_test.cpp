@@ -87,6 +87,17 @@ TEST(DeviceParameters, ThePolynomialIsNotUsedBeyondItsFit)
             "test.xml:3:74: <coefficients> '1, two' is not a list of numbers; write \"c0, c1, c2\"\n");
 }
 
+TEST(DeviceParameters, ARangeScannerHasNotTooManyBeams)
+{
+  const auto scanner = [](const std::string& parameters)
+  { return MistakesOf("range_scanner", "generic_range_scanner", parameters); };
+  EXPECT_EQ(scanner("beams=\"2048\" layers=\"32\""), "");
+  EXPECT_EQ(scanner("beams=\"2048\" layers=\"33\""),
+            "test.xml:3:67: <range_scanner> has 2048 beams in each of 33 layers; 65536 beams in all are the most\n");
+  EXPECT_EQ(scanner("nearest=\"10\""),
+            "test.xml:3:54: 'nearest' of <range_scanner> is 10 m and 'range' 10 m; nearest must be less\n");
+}
+
 TEST(DeviceParameters, ADepthCameraSeesSomething)
 {
   const auto camera = [](const std::string& parameters)

@@ -16,6 +16,7 @@
 #include "common/control_interface/ci_proximity_sensor.h"
 #include "common/control_interface/ci_radio.h"
 #include "common/control_interface/ci_range_and_bearing.h"
+#include "common/control_interface/ci_range_scanner_sensor.h"
 #include "common/control_interface/ci_tag_reader_sensor.h"
 #include "common/control_interface/ci_wheels_actuator.h"
 #include "common/control_interface/eyebot/ci_eyebot_altitude_sensor.h"
@@ -159,6 +160,11 @@ std::vector<double> ReadingsOf(const CCI_Sensor& sensor)
       all.push_back(std::min(pixel.depth_m, 99.0));
       all.push_back(pixel.colour);
     }
+    return all;
+  }
+  if (const auto* s = As<CCI_RangeScannerSensor>(sensor))
+  {
+    for (const double distance : s->GetAllDistances()) all.push_back(std::min(distance, 99.0));
     return all;
   }
   if (const auto* s = As<CCI_TagReaderSensor>(sensor))

@@ -24,6 +24,9 @@ const std::set<std::string>& OneSidedColumns()
       "depth_camera depth in the middle",
       "depth_camera colour in the middle",
       "depth_camera nearest",
+      "range_scanner distance #",
+      "range_scanner nearest",
+      "range_scanner angle of the nearest",
       // People read the heading, which follows from the orientation.
       "positioning qx",
       "positioning qy",

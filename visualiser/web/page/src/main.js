@@ -108,7 +108,7 @@ const tools = new Tools([
     { name: "bodies", label: "Collision", key: "C", title: "Bodies as the engines collide them", switches: true, act: () => toggle("bodies") },
     { name: "heat", label: "Heat map", key: "J", title: "Where robots have been since this was switched on, or before the tick that is looked at", switches: true, act: () => actions.toggleHeat() },
     { name: "links", label: "Range and bearing", key: "X", title: "Which robots hear each other; half a line comes from a robot that hears no answer", switches: true, act: () => toggle("links") },
-    { name: "rays", label: "Rays", key: "R", title: "Rays of the proximity sensors", switches: true, act: () => toggle("rays") },
+    { name: "rays", label: "Rays", key: "R", title: "Rays of proximity sensors and range scanners", switches: true, act: () => toggle("rays") },
     h("label", {}, "Colours: ", colourChoice),
   ],
   [

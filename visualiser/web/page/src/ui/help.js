@@ -24,7 +24,7 @@ const KEYS = [
   ["I", "ids"],
   ["L", "trails"],
   ["B", "laser beams and grips"],
-  ["R", "rays of the proximity sensors"],
+  ["R", "rays of proximity sensors and range scanners"],
   ["C", "collision models"],
   ["X", "links of range and bearing: half a line comes from who is not answered"],
   ["S, T", "shadows, textures (in three dimensions)"],

@@ -67,7 +67,7 @@ export class Marks {
       shows[name] ? seen.map(({ entity }) => entity).filter(fits).slice(0, MOST[name]).sort((a, b) => a - b) : [];
     const isRobot = (entity) => world.isRobot(entity);
     return {
-      rays: nearest("rays", (entity) => isRobot(entity) && Boolean(world.look(entity).proximity)),
+      rays: nearest("rays", isRobot),
       bodies: nearest("bodies", (entity) => world.look(entity).form !== "none"),
       links: nearest("links", isRobot),
     };
@@ -96,6 +96,7 @@ export class Marks {
     const { shows } = picture;
     const [free, hit, bodies, links] = [[], [], [], []];
     if (shows.rays) told.rays.entities.forEach((entity, i) => this.addRays(entity, told.rays.hits[i], free, hit));
+    if (shows.rays) told.scans?.forEach((scan) => this.addScan(scan, free, hit));
     if (shows.bodies) told.shapes.entities.forEach((entity, i) => this.addBodies(entity, told.shapes.bodies[told.shapes.models[i]], bodies));
     if (shows.links) this.addLinks(told.links, links);
     return [
@@ -131,6 +132,14 @@ export class Marks {
       const list = hits[i] < 1 ? hit : free;
       list.push(...at([x, y, height]), ...at([x + reach * Math.cos(direction), y + reach * Math.sin(direction), height]));
     });
+  }
+
+  // The beams of a range scanner: the ends of those that are free and of those that meet something, in the frame of the robot.
+  addScan({ entity, from, free: ends, hit: hits }, free, hit) {
+    const at = this.frameOf(entity);
+    if (!at) return;
+    for (const [places, list] of [[ends, free], [hits, hit]])
+      for (let i = 0; i < places.length; i += 3) list.push(...at(from), ...at(places.slice(i, i + 3)));
   }
 
   addBodies(entity, model, list) {
