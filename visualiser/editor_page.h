@@ -38,6 +38,8 @@ public:
   virtual void Show(const CSwarmanoidSpace& space, const Assignment& assignment) = 0;
   // Sends JSON to all present and future pages with the token. It replaces the document of the previous call.
   virtual void Tell(const std::string& document) = 0;
+  // From now on pages reach the run at this address of this machine, with its token, under /run/stream. Empty: no run.
+  virtual void ShowRun(const std::string& url) = 0;
   // Carries out the requests of pages. Call it every 10 to 20 ms.
   virtual void Idle() = 0;
 };

@@ -76,6 +76,36 @@ std::vector<Placing> PlacingsIn(const Json& json)
   return placings;
 }
 
+EditedRun::Pace PaceIn(const Json& json)
+{
+  constexpr double kFastest = 1e9;
+  EditedRun::Pace pace;
+  pace.is_paused = json.value("paused", Json(false)) == Json(true);
+  if (const auto speed = json.find("speed"); speed != json.end())
+    pace.real_time_factor = std::max(NumberIn(*speed, kFastest), 0.0);
+  return pace;
+}
+
+// ---- the run and scripts ----
+
+// The token is a part of the run's address, behind "token=". Only pages that may edit get the document.
+Json JsonOf(const EditedRun& run)
+{
+  constexpr const char* kPhases[] = {"none", "starting", "running", "ending"};
+  const std::string& url = run.Url();
+  const std::size_t token = url.find("token=");
+  return {{"phase", kPhases[static_cast<std::size_t>(run.GetPhase())]},
+          {"token", token == std::string::npos ? "" : url.substr(token + std::string_view("token=").size())},
+          {"failure", run.Failure()}};
+}
+
+Json JsonOf(const std::vector<ControllerScript>& scripts)
+{
+  Json list = Json::array();
+  for (const ControllerScript& script : scripts) list.push_back({{"name", script.name}, {"file", script.file}});
+  return list;
+}
+
 // ---- forms ----
 
 Json JsonOf(const ParameterSpec& spec)
@@ -217,7 +247,10 @@ EditRequest ParseEditRequest(std::string_view text)
     if (revision == json.end() || !revision->is_number_unsigned()) RefuseEdit("an edit needs the number 'revision'");
     request.revision = revision->get<std::uint64_t>();
   }
-  if (request.verb == "save") request.anyway = json.value("anyway", Json(false)) == Json(true);
+  request.anyway = json.value("anyway", Json(false)) == Json(true);
+  if (request.verb == "script" || request.verb == "save_script") request.file = TextIn(json, "file");
+  if (request.verb == "save_script") request.content = TextIn(json, "text");
+  if (request.verb == "run") request.pace = PaceIn(json);
   return request;
 }
 
@@ -294,8 +327,22 @@ std::string DocumentText(const EditedExperiment& experiment, const DocumentState
             {"distributed", alike},
             {"path_of", numbers},
             {"kinds", kinds}};
+  json["scripts"] = JsonOf(state.scripts);
+  if (state.run != nullptr) json["run"] = JsonOf(*state.run);
   json["arena"] = has_arena ? Json(PathText(arena_path)) : Json(nullptr);
   return Text(json);
+}
+
+std::string ScriptText(const std::string& file, const std::string& content)
+{
+  try
+  {
+    return Json{{"type", "script"}, {"file", file}, {"text", content}}.dump();
+  }
+  catch (const Json::exception&)
+  {
+    RefuseEdit(file + " is no text in UTF-8, and cannot be edited here");
+  }
 }
 
 std::string FormText(const EditedExperiment& experiment, const ElementPath& path)

@@ -11,7 +11,6 @@
 #include "common/experiment/notes.h"
 #include "common/messages/assignment.h"
 #include "common/space/space.h"
-#include "launcher/editor/edit_messages.h"
 #include "launcher/system/installation.h"
 
 namespace swarmanoid
@@ -46,6 +45,12 @@ std::string EditSession::Carry(std::string_view text)
   const std::uint64_t before = experiment_.History().Revision();
   if (verb == "document") return {};
   if (verb == "form") return FormText(experiment_, request.path);
+  if (verb == "script") return ScriptText(request.file, scripts_.Read(request.file, Scripts()));
+  if (verb == "save_script")
+  {
+    scripts_.Save(request.file, request.content, request.anyway, Scripts());
+    return ScriptText(request.file, request.content);
+  }
   if (verb == "undo" && !experiment_.Undo()) RefuseEdit("there is nothing to undo");
   if (verb == "redo" && !experiment_.Redo()) RefuseEdit("there is nothing to do again");
   if (verb == "edit")
@@ -57,6 +62,8 @@ std::string EditSession::Carry(std::string_view text)
   if (verb == "save") Save(request.anyway);
   if (verb == "reload") Reload();
   if (verb == "check") StartCheck();
+  if (verb == "run") Run(request);
+  if (verb == "end_run") run_.End();
   if (experiment_.History().Revision() != before) Show();
   Tell();
   return {};
@@ -100,6 +107,11 @@ void EditSession::Reload()
 void EditSession::Idle()
 {
   if (check_ && check_->Ended()) FinishCheck();
+  if (run_.Look())
+  {
+    page_.ShowRun(run_.Url());
+    Tell();
+  }
   const Clock::time_point now = Clock::now();
   if (now < disk_due_) return;
   disk_due_ = now + kDiskPeriod;
@@ -145,6 +157,27 @@ void EditSession::FinishCheck()
   Tell();
 }
 
+// ---- the run ----
+
+void EditSession::Run(const EditRequest& request)
+{
+  const Experiment* experiment = experiment_.GetExperiment();
+  if (!experiment_.Mistakes().empty() || experiment == nullptr) RefuseEdit("mend the mistakes that are listed first");
+  try
+  {
+    run_.Start(experiment->name, experiment->effective_xml + experiment_.Places(), request.pace);
+  }
+  catch (const std::runtime_error& error)
+  {
+    RefuseEdit(error.what());
+  }
+}
+
+std::vector<ControllerScript> EditSession::Scripts() const
+{
+  return ScriptsOf(experiment_.NodeAt({}), FolderOf(file_.Path()));
+}
+
 // ---- what pages are told ----
 
 // Sends the picture of the experiment. No space can be made of some files with mistakes; then the old picture stays.
@@ -179,6 +212,8 @@ void EditSession::Tell()
   state.added = added_in_ == history.Revision() ? &added_ : nullptr;
   state.is_checking = check_ != nullptr;
   state.checked = checked_in_ == history.Revision() && check_ == nullptr ? &checked_ : nullptr;
+  state.scripts = Scripts();
+  state.run = &run_;
   page_.Tell(DocumentText(experiment_, state));
 }
 

@@ -6,8 +6,11 @@
 #include <memory>
 #include <string>
 
+#include "launcher/editor/edit_messages.h"
 #include "launcher/editor/edited_experiment.h"
 #include "launcher/editor/edited_file.h"
+#include "launcher/editor/edited_run.h"
+#include "launcher/editor/edited_scripts.h"
 #include "launcher/system/command_process.h"
 #include "launcher/system/scratch_folder.h"
 #include "visualiser/editor_page.h"
@@ -24,7 +27,7 @@ public:
   // Sends the page everything, once it is open.
   void Begin();
   std::string Carry(std::string_view request) override;
-  // Checks the file on disk and the running check. Call it from time to time.
+  // Looks at the file on disk, the running check and the run. Call it from time to time.
   void Idle();
   bool IsSaved() const { return experiment_.Text() == file_.Text(); }
   const EditedExperiment& GetExperiment() const { return experiment_; }
@@ -32,11 +35,12 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
 
-  void Edit(std::string_view request);
   void Save(bool anyway);
   void Reload();
   void StartCheck();
   void FinishCheck();
+  void Run(const EditRequest& request);
+  std::vector<ControllerScript> Scripts() const;
   void Show();
   void Tell();
 
@@ -53,6 +57,8 @@ private:
   std::unique_ptr<CommandProcess> check_;
   std::string checked_;           // the output of the last check
   std::uint64_t checked_in_ = 0;  // the revision that was checked
+  EditedScripts scripts_;
+  EditedRun run_{scratch_.Path()};
 };
 
 }  // namespace swarmanoid

@@ -3,11 +3,11 @@
 //
 // Environment: see harness.mjs.
 import assert from "node:assert/strict";
-import { readFileSync, readdirSync, writeFileSync } from "node:fs";
+import { mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { folder, open, Process, read, runCases, settled, textOf, until, write } from "./harness.mjs";
 
-const { PAGE_MODULES } = process.env;
+const { PAGE_MODULES, SWARMANOID_CONFIGS } = process.env;
 
 // ---- the editor and its page ----
 
@@ -51,6 +51,21 @@ async function fill(page, name, value) {
   await page.fill(`.edit-form [name="${name}"]`, value);
   await page.press(`.edit-form [name="${name}"]`, "Tab");
 }
+
+// Noise of a page whose run has ended: it has tried to connect.
+const noise = [/WebSocket connection to .* failed/];
+
+// Presses Run, and waits for the page of the run.
+async function startRun(page) {
+  await page.click('header button:text-is("Run")');
+  await inRun(page);
+}
+async function inRun(page) {
+  await page.waitForURL(/[?&]run=1/);
+  await until(page, () => window.swarmanoid?.run.phase === "running" && swarmanoid.control === "granted" && swarmanoid.drawn > 0);
+}
+const inEditor = (page) => until(page, () => !location.search.includes("run=") && window.swarmanoid?.editor?.form && swarmanoid.drawn > 0);
+const runsOf = (name) => readdirSync(join(folder, "runs")).filter((each) => each.startsWith(`${name}-`));
 
 // The lines that two texts do not share.
 function differences(a, b) {
@@ -269,6 +284,119 @@ const tests = {
     await page.keyboard.press("Control+s");
     assert.equal(await editor.ended, 0);
     assert.match(onDisk(editor), /<colour>blue<\/colour>/);
+  },
+
+  async "Run shows the experiment as it is here in the same page, where it is steered; Edit goes back"() {
+    const editor = await edit("diffusion_10", { noise });
+    const { page } = editor;
+    const name = editor.file.split("/").at(-1).replace(".xml", "");
+    await select(page, "wall_west");
+    await changed(page, () => fill(page, "colour", "red"));
+    await startRun(page);
+    assert.equal(new URL(page.url()).port, new URL(editor.url).port);
+    assert.equal(await read(page, () => swarmanoid.experiment), name);
+    assert.equal(await read(page, () => swarmanoid.selected), "wall_west");
+    assert.equal(onDisk(editor), editor.text); // it ran what is not saved, and did not save it
+    const [run] = runsOf(name);
+    assert.match(readFileSync(join(folder, "runs", run, "experiment.xml"), "utf8"), /red/);
+    await until(page, () => swarmanoid.tick > 3);
+    await page.keyboard.press(" ");
+    await until(page, () => swarmanoid.phase === "paused");
+    const tick = await read(page, () => swarmanoid.tick);
+    await page.keyboard.press("n");
+    await until(page, (before) => swarmanoid.tick > before, tick);
+    page.once("dialog", (dialog) => dialog.accept());
+    await page.click('header .controls button[aria-label="Begin again at tick 0"]');
+    await until(page, () => swarmanoid.tick === 0 && swarmanoid.phase === "paused" && swarmanoid.control === "granted");
+
+    // Run again is another run, with the same pace.
+    await page.keyboard.press("Control+Enter");
+    for (let runs = 1; runs < 2; await page.waitForTimeout(50)) runs = runsOf(name).length;
+    await until(page, () => swarmanoid.run.phase === "running" && swarmanoid.connected && swarmanoid.phase === "paused" && swarmanoid.control === "granted");
+
+    // A page without the token watches the run, and neither steers nor ends it.
+    const bare = await open(`${editor.url.split("#")[0]}?run=1`, { noise });
+    await until(bare, () => swarmanoid.drawn > 0 && swarmanoid.control === "token needed").catch(() => {});
+    if (await read(bare, () => swarmanoid.connected)) {
+      for (const request of [{ do: "resume" }, { do: "stop" }]) await bare.evaluate((each) => swarmanoid.command(each), request);
+      await bare.waitForSelector(".last:has-text('only the address with the token')");
+    }
+    await bare.close();
+
+    await page.click('header button:text-is("Edit")');
+    await inEditor(page);
+    assert.equal(await read(page, () => swarmanoid.editor.saved), false);
+    assert.equal(await read(page, () => swarmanoid.editor.undo), "set colour of wall_west");
+    await until(page, () => swarmanoid.editor.run.phase === "none");
+    const ended = () => runsOf(name).every((each) => JSON.parse(readFileSync(join(folder, "runs", each, "manifest.json"), "utf8")).exit_code !== undefined);
+    while (!ended()) await page.waitForTimeout(50);
+    await changed(page, () => page.keyboard.press("Control+z"));
+    editor.child.kill("SIGINT");
+    assert.equal(await editor.ended, 0);
+  },
+
+  async "an experiment with mistakes does not run"() {
+    const { page } = await edit("diffusion_10");
+    await select(page, "wall_west");
+    await changed(page, () => fill(page, "size", "none"));
+    assert.ok(await page.isDisabled('header button:text-is("Run")'));
+    await changed(page, () => page.keyboard.press("Control+z"));
+    assert.ok(!(await page.isDisabled('header button:text-is("Run")')));
+  },
+
+  async "a Lua script is edited beside the picture; an error is marked at its line, and one key runs it again"() {
+    const template = (name) => readFileSync(join(SWARMANOID_CONFIGS, "../user/templates/lua", name), "utf8").replaceAll("@name@", "avoid");
+    mkdirSync(join(folder, "controllers/avoid"), { recursive: true });
+    const script = write("controllers/avoid/avoid.lua", template("lua.in"));
+    write("avoid.argos", template("experiment.argos.in"));
+    const converted = new Process("convert", "avoid.argos", "--output", "avoid.xml");
+    assert.equal(await converted.ended, 0, converted.output);
+    const editor = await edit("diffusion_10", { change: () => readFileSync(join(folder, "avoid.xml"), "utf8"), noise });
+    const { page } = editor;
+    await page.click('header button:text-is("Script")');
+    await until(page, () => document.querySelector(".script-pane textarea")?.value.includes("function step()"));
+    const text = await page.inputValue(".script-pane textarea");
+    assert.equal(text, readFileSync(script, "utf8"));
+    assert.equal(await page.textContent(".script-lines span:last-child"), `${text.split("\n").length}\n`);
+
+    // A mistake in the third step: the run ends, and the pane shows the line.
+    const line = text.split("\n").findIndex((each) => each.startsWith("function step()")) + 2;
+    const wrong = text.replace("function step()\n", "function step()\n  if robot.nothing.there then return end\n");
+    await page.fill(".script-pane textarea", wrong);
+    await page.press(".script-pane textarea", "Control+Enter");
+    await until(page, () => /attempt to index a nil value/.test(document.querySelector(".script-error")?.textContent));
+    assert.equal(readFileSync(script, "utf8"), wrong);
+    assert.match(await page.textContent(".script-error"), new RegExp(`^Line ${line}: `));
+    assert.equal(await page.textContent(".script-lines .wrong"), `${line}\n`);
+    assert.ok(await page.isVisible(".script-band"));
+    // The mended script runs by the same key.
+    await page.fill(".script-pane textarea", text);
+    await page.press(".script-pane textarea", "Control+Enter");
+    await inRun(page);
+    assert.equal(readFileSync(script, "utf8"), text);
+    await until(page, () => swarmanoid.tick > 3);
+
+    // In the page of the run, too: a text that is no Lua.
+    await page.click('header button:text-is("Script")');
+    await until(page, () => document.querySelector(".script-pane textarea")?.value.includes("function step()"));
+    await page.fill(".script-pane textarea", `${text}\nend end\n`);
+    await page.press(".script-pane textarea", "Control+Enter");
+    await until(page, () => /^Line \d+: .*expected/.test(document.querySelector(".script-error")?.textContent) && swarmanoid.run.phase === "none");
+    assert.match(await page.textContent(".banner"), /The run has failed/);
+    await page.fill(".script-pane textarea", text.replace("SPEED = 10", "SPEED = 0"));
+    await page.press(".script-pane textarea", "Control+Enter");
+    await until(page, () => swarmanoid.run.phase === "running" && swarmanoid.connected && swarmanoid.control === "granted" && swarmanoid.tick > 3 && document.querySelector(".script-error").hidden);
+    assert.match(readFileSync(script, "utf8"), /SPEED = 0/);
+
+    // Another program has changed the script.
+    writeFileSync(script, text);
+    await page.fill(".script-pane textarea", `${text}-- mine\n`);
+    await page.press(".script-pane textarea", "Control+s");
+    await page.waitForSelector(".script-error:has-text('another program has changed')");
+    assert.equal(readFileSync(script, "utf8"), text);
+    await page.click('.script-pane button:text-is("Save over it")');
+    await until(page, () => document.querySelector(".script-error").hidden);
+    assert.equal(readFileSync(script, "utf8"), `${text}-- mine\n`);
   },
 
   async "it can be read in light and dark, and works in three dimensions"() {

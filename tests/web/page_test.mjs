@@ -139,6 +139,103 @@ const tests = {
     await until(page, () => swarmanoid.place("late_0").length === 0);
   },
 
+  async "a click on the floor adds an entity of a reserve, and the run says why one does not fit"() {
+    run("prey_supply", "--paused", "--ticks", 0, "--no-visualisers", "--output", "added");
+    const { url } = await attach("--allow-control");
+    const page = await drawnPage(url, { quality: "plan" });
+    await until(page, () => swarmanoid.adding?.options.some((text) => text === "footbot late (2 of 2 left)"));
+    const click = async (x, y) => {
+      await settled(page);
+      const at = await page.evaluate(([a, b]) => swarmanoid.projectPoint(a, b, 0), [x, y]);
+      await page.mouse.click(at.x, at.y);
+    };
+    await page.selectOption(".palette select", "late");
+    await until(page, () => swarmanoid.adding.said === "click on the floor (Esc ends)");
+    await click(2.5, 2.2);
+    await until(page, () => /^added 'late_0' at tick 0$/.test(swarmanoid.adding.said));
+    await until(page, () => Math.hypot(swarmanoid.place("late_0")[0] - 2.5, swarmanoid.place("late_0")[1] - 2.2) < 0.03);
+    await until(page, () => swarmanoid.adding.options.includes("footbot late (1 of 2 left)"));
+    await click(2.52, 2.2);
+    await until(page, () => /^add: 'late_1' does not fit at 2\.5.*: the footbot 'late_0' stands there, at .*; choose a free place$/.test(swarmanoid.adding.said));
+    await click(0.5, 0.4);
+    await until(page, () => swarmanoid.place("late_1").length > 0);
+    await click(0.5, 1.4);
+    await until(page, () => /^add: all 2 entities of the reserve 'late' are in the arena; give its <reserve> \(line \d+\) a larger quantity$/.test(swarmanoid.adding.said));
+    assert.equal(await read(page, () => swarmanoid.adding.chosen), "late");
+    await page.keyboard.press("Escape");
+    assert.equal(await read(page, () => swarmanoid.adding.chosen), null);
+    await click(2.5, 2.2);
+    await until(page, () => swarmanoid.selected === "late_0");
+    // An entity that was taken out of the arena is offered, too.
+    await read(page, () => swarmanoid.select("fb_0"));
+    await page.keyboard.press("Delete");
+    await until(page, () => swarmanoid.adding.options.includes("fb_0 (removed)"));
+    await page.selectOption(".palette select", "fb_0");
+    await click(0.4, 2.6);
+    await until(page, () => Math.hypot(swarmanoid.place("fb_0")[0] - 0.4, swarmanoid.place("fb_0")[1] - 2.6) < 0.03);
+    await until(page, () => swarmanoid.adding.chosen === null && !swarmanoid.adding.options.includes("fb_0 (removed)"));
+    const events = readFileSync(join(folder, "added/events.csv"), "utf8");
+    assert.match(events, /add.*late_0/);
+
+    // A page without the token has no such choice.
+    const bare = await drawnPage(url.split("#")[0], { quality: "plan" });
+    await until(bare, () => swarmanoid.control === "token needed");
+    await bare.waitForTimeout(600);
+    assert.equal(await read(bare, () => swarmanoid.adding), null);
+  },
+
+  async "moves and removals by this page are undone and done again"() {
+    run("prey_supply", "--paused", "--ticks", 0, "--no-visualisers");
+    const { url } = await attach("--allow-control");
+    const page = await drawnPage(url, { quality: "plan" });
+    await until(page, () => swarmanoid.control === "granted");
+    await settled(page, "fb_1");
+    const first = await read(page, () => [...swarmanoid.place("fb_1"), swarmanoid.heading("fb_1")]);
+    const near = (wanted) => until(page, ([x, y, , heading]) => {
+      const [px, py] = swarmanoid.place("fb_1");
+      const turn = Math.abs(((swarmanoid.heading("fb_1") - heading + 540) % 360) - 180);
+      return Math.hypot(px - x, py - y) < 1e-3 && turn < 0.1;
+    }, wanted);
+    const state = (done, undone) => until(page, ([a, b]) => swarmanoid.moves.done === a && swarmanoid.moves.undone === b && swarmanoid.moves.waiting === 0, [done, undone]);
+    await state(0, 0);
+    assert.ok(await page.isDisabled('.tools button:has-text("Undo move")'));
+    const [from, to] = [await read(page, () => swarmanoid.project("fb_1")), await read(page, () => swarmanoid.projectPoint(0.4, 0.4, 0))];
+    await page.keyboard.down("Shift");
+    await page.mouse.move(from.x, from.y);
+    await page.mouse.down();
+    await page.mouse.move((from.x + to.x) / 2, to.y);
+    await page.mouse.wheel(0, 100);
+    await page.mouse.move(to.x, to.y);
+    await page.mouse.up();
+    await page.keyboard.up("Shift");
+    await state(1, 0);
+    await until(page, () => Math.hypot(swarmanoid.place("fb_1")[0] - 0.4, swarmanoid.place("fb_1")[1] - 0.4) < 0.1);
+    const second = await read(page, () => [...swarmanoid.place("fb_1"), swarmanoid.heading("fb_1")]);
+    await page.keyboard.press("Control+z");
+    await state(0, 1);
+    await near(first);
+    await page.keyboard.press("Control+y");
+    await state(1, 0);
+    await near(second);
+    // A removal, undone by the button.
+    await read(page, () => swarmanoid.select("fb_1"));
+    await page.keyboard.press("Delete");
+    await until(page, () => swarmanoid.place("fb_1").length === 0);
+    await state(2, 0);
+    await page.click(".tools summary");
+    await page.click('.tools button:has-text("Undo move")');
+    await near(second);
+    await state(1, 1);
+    // What the run refuses is no step.
+    await read(page, () => swarmanoid.select("fb_1"));
+    await page.click(".place summary");
+    await page.fill(".place-form [name=x]", "50");
+    await page.click('.place-form button:has-text("Move")');
+    await page.waitForSelector(".last:has-text('outside the arena')");
+    await state(1, 0);
+    await near(second);
+  },
+
   async "with the token the run is paused, stepped, resumed, and robots are moved"() {
     run("diffusion_10", "--real-time", 2, "--ticks", 100000);
     const { url } = await attach("--allow-control");

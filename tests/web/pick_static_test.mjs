@@ -1,6 +1,7 @@
 // Which wall or patch a ray meets: against steps along the ray that ask where it is in a body.
 import assert from "node:assert/strict";
 import test from "node:test";
+import { World } from "../../visualiser/web/page/src/world.js";
 import { pickStatic } from "../../visualiser/web/page/src/view/pick_static.js";
 
 const looks = [
@@ -61,4 +62,18 @@ test("the first body of a slanted ray, as steps along it find it", () => {
     if (larger !== null) met++;
   }
   assert.ok(met > 15, String(met));
+});
+
+test("the ground is the highest cell of a terrain about a place, and the floor elsewhere", () => {
+  const terrain = { low: [-1, -0.5, 0], high: [1, 0.5, 0.4], columns: 4, rows: 2, heights: [0.1, 0.1, 0.1, 0.4, 0.1, 0.1, 0.1, null] };
+  const entities = { id: ["hill"], kind: [0], movable: [0], engine: [-1], host: [-1], controller: [-1] };
+  const at = (x, y, orientation) => new World({ kinds: ["terrain"], looks: { terrain: { role: "terrain" } }, bodies: [{ entity: 0, position: [5, 5, 0.5], orientation, terrain }], entities }).groundAt(x, y);
+  const near = (found, wanted) => assert.ok(Math.abs(found - wanted) < 1e-9, `${found} is not ${wanted}`);
+  near(at(4.1, 4.6, level(0)), 0.6);
+  near(at(5.9, 4.6, level(0)), 0.9);
+  near(at(5.4, 4.6, level(0)), 0.9); // a cell beside it is higher
+  near(at(3.9, 5, level(0)), 0);
+  near(at(5, 6.1, level(0)), 0);
+  near(at(5.4, 5.9, level(Math.PI / 2)), 0.9);
+  near(new World({ kinds: [], looks: {}, bodies: [], entities: { id: [], kind: [], movable: [] } }).groundAt(0, 0), 0);
 });

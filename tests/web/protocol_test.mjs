@@ -111,6 +111,7 @@ function pageOf() {
     toolbar: { setFrame() {} },
     processes: { update() {} },
     log: { add: ({ text }) => calls.push(text) },
+    moves: { clear() {} },
     banner: told("banner", "itBegan"),
     showState() {},
   });

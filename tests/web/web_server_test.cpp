@@ -95,6 +95,38 @@ TEST_F(WebServerTest, FilesAreSentCompressedAndOnlyIfTheyHaveChanged)
   EXPECT_NE(files_.Find("/main.js")->tag, tag);
 }
 
+TEST_F(WebServerTest, TheStreamOfAnotherServerIsRelayedByteByByte)
+{
+  Start();
+  EXPECT_EQ(Connect().Open("/run/stream"), 503u);
+  WebServerSettings settings;
+  WebServer other(settings, {}, *this);
+  server_->SetRelay(other.Port());
+  BlockingClient client = Connect();
+  ASSERT_EQ(client.Open("/run/stream", "http://" + client.Host()), 101u);
+  EXPECT_THAT(client.Read(), HasSubstr("welcome"));
+  // It is a client of the other server only.
+  EXPECT_TRUE(Eventually([&] { return other.Clients() == 1; }));
+  EXPECT_EQ(server_->Clients(), 0u);
+  const std::string large(300000, 'x');
+  other.Publish(WebServer::Slot::kKey, Shared(large));
+  EXPECT_EQ(client.Read(), large);
+  EXPECT_TRUE(client.GotBinary());
+  EXPECT_EQ(Connect().Open("/run/stream", "http://evil.example"), 403u);
+  EXPECT_EQ(Connect().Open("/run/other"), 404u);
+
+  // A page that leaves, leaves the other server, too.
+  {
+    BlockingClient second = Connect();
+    ASSERT_EQ(second.Open("/run/stream"), 101u);
+    EXPECT_TRUE(Eventually([&] { return other.Clients() == 2; }));
+  }
+  EXPECT_TRUE(Eventually([&] { return other.Clients() == 1; }));
+  server_->SetRelay(0);
+  EXPECT_EQ(Connect().Open("/run/stream"), 503u);
+  EXPECT_EQ(Connect().Get("/").result_int(), 200u);
+}
+
 TEST_F(WebServerTest, OddRequestsAreRefused)
 {
   Start();

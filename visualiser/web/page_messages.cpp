@@ -346,6 +346,15 @@ std::string WorldText(const CSwarmanoidSpace& space, const Assignment& assignmen
     controller.push_back(number);
     if (!IsRobot(entity.GetKind())) bodies.push_back(Body(entity, experiment.folder, meshes));
   }
+  Json reserves = Json::array();
+  for (std::size_t e = 0; e < space.Size(); ++e)
+  {
+    const std::string& reserve = space.GetEntity(e).GetConfiguration().reserve;
+    if (reserve.empty()) continue;
+    if (reserves.empty() || reserves.back()["id"] != reserve)
+      reserves.push_back({{"id", reserve}, {"first", e}, {"count", 0}});
+    reserves.back()["count"] = reserves.back()["count"].get<std::size_t>() + 1;
+  }
   return Text({{"type", "world"},
                {"experiment", experiment.name},
                {"seed", experiment.seed},
@@ -367,6 +376,7 @@ std::string WorldText(const CSwarmanoidSpace& space, const Assignment& assignmen
                  {"engine", engine},
                  {"host", host},
                  {"controller", controller}}},
+               {"reserves", reserves},
                {"bodies", bodies},
                {"meshes", meshes.models}});
 }

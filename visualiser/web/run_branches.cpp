@@ -1,46 +1,15 @@
 #include "visualiser/web/run_branches.h"
 
 #include <fmt/format.h>
-#include <poll.h>
-#include <unistd.h>
 
-#include <array>
-#include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <utility>
+#include <vector>
 
 namespace swarmanoid
 {
 namespace
 {
-
-constexpr std::size_t kMostErrorBytes = 65536;  // of the errors of a run
-
-bool IsReadable(const FileDescriptor& file)
-{
-  pollfd end{file.Get(), POLLIN, 0};
-  return file.IsOpen() && poll(&end, 1, 0) > 0;
-}
-
-// Reads what is there, so that the process never waits for a reader.
-void Drain(FileDescriptor& file, std::string* text)
-{
-  std::array<char, 4096> bytes{};
-  while (IsReadable(file))
-  {
-    const ssize_t count = read(file.Get(), bytes.data(), bytes.size());
-    if (count <= 0) return file.Reset();
-    if (text != nullptr && text->size() < kMostErrorBytes) text->append(bytes.data(), static_cast<std::size_t>(count));
-  }
-}
-
-// Returns the last line of what a program said before it failed.
-std::string LastLine(std::string text)
-{
-  while (text.ends_with('\n')) text.pop_back();
-  return text.empty() ? "the new run ended without a word" : text.substr(text.rfind('\n') + 1);
-}
 
 // Returns a folder that does not exist.
 std::string NewFolder(const std::string& run_folder, std::uint64_t tick)
@@ -58,10 +27,10 @@ RunBranches::RunBranches(std::string program, std::string run_folder, Answered a
 {
 }
 
+// All runs end at the same time.
 RunBranches::~RunBranches()
 {
-  for (const Branch& branch : branches_) spawner_.Signal(branch.process, SIGTERM);
-  for (const Branch& branch : branches_) spawner_.Collect(branch.process);
+  for (const Branch& branch : branches_) branch.run->Stop();
 }
 
 void RunBranches::Start(std::uint64_t client, std::uint64_t tick)
@@ -74,13 +43,8 @@ void RunBranches::Start(std::uint64_t client, std::uint64_t tick)
   const std::string folder = NewFolder(run_folder_, tick);
   try
   {
-    ProcessCommand command;
-    command.name = "swarmanoid run";
-    command.arguments = {program_,   "run",  "--branch",    fmt::format("{}@{}", run_folder_, tick),
-                         "--output", folder, "--quiet",     "--no-visualisers",
-                         "--show",   "web",  "--real-time", "1"};
-    command.signal_at_our_end = SIGTERM;
-    branches_.push_back({client, tick, folder, spawner_.Start(command)});
+    const std::vector<std::string> what{"--branch", fmt::format("{}@{}", run_folder_, tick), "--real-time", "1"};
+    branches_.push_back({client, tick, std::make_unique<StartedRun>(program_, what, folder)});
   }
   catch (const std::exception& error)
   {
@@ -95,20 +59,14 @@ void RunBranches::Look()
 
 bool RunBranches::Follow(Branch& branch)
 {
-  Drain(branch.process.output, nullptr);
-  Drain(branch.process.errors, &branch.errors);
-  std::string url;
-  if (std::ifstream file(branch.folder + "/web_render.url");
-      !branch.is_answered && std::getline(file, url) && !file.eof())
+  const bool goes_on = branch.run->Look();
+  if (const std::string& url = branch.run->Url(); !url.empty() && !branch.is_answered)
   {
     branch.is_answered = true;
     answered_(branch.client, {branch.tick, url, {}});
   }
-  if (!IsReadable(branch.process.end)) return true;
-  spawner_.Collect(branch.process);
-  Drain(branch.process.errors, &branch.errors);
-  if (!branch.is_answered) answered_(branch.client, {branch.tick, {}, LastLine(branch.errors)});
-  return false;
+  if (!goes_on && !branch.is_answered) answered_(branch.client, {branch.tick, {}, branch.run->LastError()});
+  return goes_on;
 }
 
 }  // namespace swarmanoid

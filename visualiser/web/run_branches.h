@@ -5,9 +5,10 @@
 #include <cstdint>
 #include <functional>
 #include <list>
+#include <memory>
 #include <string>
 
-#include "common/program/process.h"
+#include "visualiser/started_run.h"
 
 namespace swarmanoid
 {
@@ -42,9 +43,7 @@ private:
   {
     std::uint64_t client;
     std::uint64_t tick;
-    std::string folder;
-    SpawnedProcess process;
-    std::string errors{};
+    std::unique_ptr<StartedRun> run;
     bool is_answered = false;
   };
 
@@ -54,7 +53,6 @@ private:
   const std::string program_;
   const std::string run_folder_;
   const Answered answered_;
-  SystemSpawner spawner_;
   std::list<Branch> branches_;
 };
 

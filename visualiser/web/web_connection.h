@@ -8,6 +8,7 @@
 
 #include "visualiser/web/access.h"
 #include "visualiser/web/web_client.h"
+#include "visualiser/web/web_relay.h"
 
 namespace swarmanoid
 {
@@ -137,9 +138,16 @@ private:
 
   void Upgrade(std::string_view target)
   {
-    if (PathOf(target) != "/stream") return Refuse(http::status::not_found, "the stream is at /stream");
+    const bool relays = PathOf(target) == "/run/stream";
+    if (!relays && PathOf(target) != "/stream") return Refuse(http::status::not_found, "the stream is at /stream");
     if (!IsOwnOrigin(Field(http::field::origin), Field(http::field::host), stream_.HasTls()))
       return Refuse(http::status::forbidden, "a page of another site may not look");
+    if (relays && server_.relay_port_ == 0) return Refuse(http::status::service_unavailable, "there is no run");
+    if (relays)
+    {
+      HandOver();
+      return std::make_shared<Relay>(server_, std::move(stream_), address)->Run(parser_->release(), std::move(buffer_));
+    }
     if (!server_.HasRoom()) return Refuse(http::status::service_unavailable, "as many pages look as may");
     HandOver();
     std::make_shared<Client>(server_, std::move(stream_), address)->Run(parser_->release());

@@ -1,4 +1,5 @@
 // The page as an editor. It has the server, token and pictures of web_render, without a run.
+#include <cstdlib>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -21,10 +22,20 @@ constexpr std::size_t kMostEditRequests = 1024;  // limit of waiting requests
 
 WebServer::Bytes SharedText(std::string text) { return std::make_shared<const std::string>(std::move(text)); }
 
-// Returns whether a request is about the file, and not about the picture.
+// Returns the port of "http://127.0.0.1:8080/#…"; 0 if there is none.
+std::uint16_t PortOf(const std::string& url)
+{
+  const std::size_t host = url.find("//");
+  const std::size_t colon = host == std::string::npos ? host : url.find(':', host);
+  return colon == std::string::npos ? std::uint16_t{0}
+                                    : static_cast<std::uint16_t>(std::strtoul(url.c_str() + colon + 1, nullptr, 10));
+}
+
+// Returns whether a request is about the file or its run, and not about the picture.
 bool IsForEditor(std::string_view text)
 {
-  static const std::set<std::string> verbs{"document", "form", "edit", "undo", "redo", "save", "reload", "check"};
+  static const std::set<std::string> verbs{"document", "form",  "edit", "undo",    "redo",   "save",
+                                           "reload",   "check", "run",  "end_run", "script", "save_script"};
   const auto json = nlohmann::json::parse(text, nullptr, false);
   return json.is_object() && json.contains("do") && json["do"].is_string() && verbs.contains(json["do"]);
 }
@@ -57,6 +68,8 @@ public:
     for (const std::uint64_t client : editors_)
       host_->Server().SendState(client, WebServer::Slot::kDocument, document_);
   }
+
+  void ShowRun(const std::string& url) override { host_->Server().SetRelay(PortOf(url)); }
 
   void Idle() override
   {
@@ -111,7 +124,7 @@ private:
       if (const auto* answer = std::get_if<ProveRequest>(&request))
         host_->Server().Send(client, SharedText(AuthorityText(host_->Prove(client, answer->proof))));
       else if (std::holds_alternative<ControlOrder>(request))
-        throw std::invalid_argument("this page edits an experiment: there is no run");
+        throw std::invalid_argument("this page edits an experiment; its run is on another page");
     }
     catch (const std::invalid_argument& error)
     {

@@ -286,6 +286,11 @@ void WebServer::SendAll(Bytes text)
       });
 }
 
+void WebServer::SetRelay(std::uint16_t port)
+{
+  impl_->Post([impl = impl_.get(), port] { impl->relay_port_ = port; });
+}
+
 void WebServer::SetFramePeriod(std::uint64_t client, unsigned period_ms)
 {
   impl_->With(client,

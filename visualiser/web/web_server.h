@@ -99,6 +99,9 @@ public:
   // Queues a message. The last 256 messages for all clients are repeated to later ones.
   void Send(std::uint64_t client, Bytes text);
   void SendAll(Bytes text);
+  // Passes connections to /run/stream on to the stream of another server, at this port of this machine. 0: refuses
+  // them. That server decides which of them may look or control.
+  void SetRelay(std::uint16_t port);
   // Limits the frames for this client to one in so many milliseconds.
   void SetFramePeriod(std::uint64_t client, unsigned period_ms);
 

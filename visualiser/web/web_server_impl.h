@@ -36,6 +36,7 @@ class WebServer::Impl
 public:
   class Client;      // a connected page
   class Connection;  // a connection that has not become a client
+  class Relay;       // a connection that is passed on to another server
 
   // A connection without a place. It makes room for a new one when there are too many.
   class Droppable
@@ -102,6 +103,7 @@ public:
   tcp::acceptor acceptor_{context_};
   asio::steady_timer pause_{context_};  // delay of the next accept after a failed one
   std::uint16_t port_ = 0;
+  std::uint16_t relay_port_ = 0;
   std::string url_;
   std::map<std::uint64_t, std::shared_ptr<Client>> clients_;
   std::size_t watchers_ = 0;  // number of clients with a place that have not proved the token

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -37,8 +38,10 @@ public:
     for (std::size_t e = 0; e < space.Size(); ++e) places[space.GetEntity(e).GetId()] = space.GetPose(e).position;
   }
   void Tell(const std::string& text) override { document = Json::parse(text); }
+  void ShowRun(const std::string& url) override { run = url; }
   void Idle() override {}
 
+  std::string run;
   int shown = 0;
   std::map<std::string, Vector3> places;
   Json document;
@@ -171,10 +174,69 @@ TEST_F(EditSessionTest, ReadsWhatOthersWriteIfNothingIsChangedHere)
   EXPECT_EQ(session_->GetExperiment().Text(), text_);
 }
 
+TEST_F(EditSessionTest, ShowsAndSavesScriptsOfControllersAndNoOtherFiles)
+{
+  EXPECT_TRUE(page_.document["scripts"].empty());
+  EXPECT_EQ(page_.document["run"]["phase"], "none");
+  EXPECT_EQ(page_.document["run"]["token"], "");
+  const std::string script = folder_ / "avoid.lua";
+  std::ofstream(script) << "step = nil\n";
+  std::ofstream(folder_ / "other.lua") << "secret\n";
+  const std::size_t at = text_.find("<parameters");
+  ASSERT_NE(at, std::string::npos);
+  const std::size_t end = text_.find('>', at) + 1;
+  std::string changed = text_;
+  changed.replace(at, end - at,
+                  "<parameters><argos3 script=\"avoid.lua\" again=\"./avoid.lua\" none=\"no.lua\"/>" +
+                      std::string(text_[end - 2] == '/' ? "</parameters>" : ""));
+  Write(changed);
+  Ask({{"do", "reload"}});
+  const Json scripts = page_.document["scripts"];
+  ASSERT_EQ(scripts.size(), 1U) << scripts;
+  EXPECT_EQ(scripts[0]["name"], "avoid.lua");
+  const std::string file = scripts[0]["file"];
+  EXPECT_EQ(file, std::filesystem::canonical(script).string());
+
+  const Json request{{"do", "save_script"}, {"file", file}, {"text", "function step() end\n"}};
+  EXPECT_THAT(RefusalOf(request.dump()), HasSubstr("read the script first"));
+  Json shown = Ask({{"do", "script"}, {"file", file}});
+  EXPECT_EQ(shown["type"], "script");
+  EXPECT_EQ(shown["text"], "step = nil\n");
+  EXPECT_EQ(Ask(request)["text"], "function step() end\n");
+  EXPECT_EQ(test::TextOf(script), "function step() end\n");
+
+  std::ofstream(script) << "of another program\n";
+  EXPECT_THAT(RefusalOf(request.dump()), HasSubstr("another program has changed"));
+  EXPECT_EQ(test::TextOf(script), "of another program\n");
+  Json anyway = request;
+  anyway["anyway"] = true;
+  Ask(anyway);
+  EXPECT_EQ(test::TextOf(script), "function step() end\n");
+  std::ofstream(script) << "\xff";
+  EXPECT_THAT(RefusalOf(Json{{"do", "script"}, {"file", file}}.dump()), HasSubstr("UTF-8"));
+
+  for (const std::string& other : std::vector<std::string>{folder_ / "other.lua", file_, "/etc/passwd", ""})
+    for (const char* verb : {"script", "save_script"})
+      EXPECT_THAT(RefusalOf(Json{{"do", verb}, {"file", other}, {"text", "x"}, {"anyway", true}}.dump()),
+                  HasSubstr("no controller of the experiment has this script"))
+          << other;
+  EXPECT_EQ(test::TextOf(folder_ / "other.lua"), "secret\n");
+}
+
+TEST_F(EditSessionTest, AFileWithMistakesDoesNotRun)
+{
+  Write("<ahss-config><arena size=\"1, 1, 1\"/></ahss-config>");
+  Ask({{"do", "reload"}});
+  EXPECT_THAT(RefusalOf(R"({"do": "run"})"), HasSubstr("mend the mistakes"));
+  EXPECT_EQ(page_.document["run"]["phase"], "none");
+}
+
 TEST_F(EditSessionTest, RefusesWhatIsNoRequest)
 {
-  for (const char* request : {"", "[]", "{}", R"({"do": 1})", R"({"do": "edit"})", R"({"do": "edit", "revision": -1})",
-                              R"({"do": "form", "path": "a"})", R"({"do": "form", "path": "99999999999999999999999"})"})
+  for (const char* request :
+       {"", "[]", "{}", R"({"do": 1})", R"({"do": "edit"})", R"({"do": "edit", "revision": -1})",
+        R"({"do": "run", "speed": "x"})", R"({"do": "script"})", R"({"do": "save_script", "file": "x"})",
+        R"({"do": "form", "path": "a"})", R"({"do": "form", "path": "99999999999999999999999"})"})
     EXPECT_NE(RefusalOf(request), "") << request;
   for (const char* change :
        {R"({})", R"({"change": "x"})", R"({"change": "set", "path": "", "name": 1, "value": ""})",

@@ -1,6 +1,7 @@
 // The actions of users by keys, buttons and the picture, on the view of this page and on the run.
 import { copyOrShow } from "./clipboard.js";
 import { writeLink } from "./link.js";
+import { poseIn } from "./move_history.js";
 import { saveBlob } from "./ui/dom.js";
 import { robotValues } from "./view/robot_values.js";
 
@@ -10,7 +11,7 @@ export class Actions {
     this.state = state;
   }
 
-  // `parts`: app, toolbar, list, inspector, log, picture, past, legend, tools, colourChoice, functionKeys of the page,
+  // `parts`: moves, app, toolbar, list, inspector, log, picture, past, legend, tools, colourChoice, functionKeys of the page,
   // and send(request).
   reach(parts) {
     Object.assign(this, parts);
@@ -44,19 +45,28 @@ export class Actions {
   move(changes) {
     const { editor, world } = this.state;
     if (editor) return editor.move(changes);
-    for (const { entity, place, yaw } of changes)
-      this.command({ do: "move", entity: world.ids[entity], position: [...place], angles: [0, 0, (yaw * 180) / Math.PI] });
+    this.steer(changes.map(({ entity, place, yaw }) => ({ do: "move", entity: world.ids[entity], position: [...place], angles: [0, 0, (yaw * 180) / Math.PI] })));
+  }
+
+  // Moves or removes entities that are in the arena, as one step that can be undone.
+  steer(requests) {
+    const { world, live, control, editor } = this.state;
+    if (control !== "granted" || editor || !live || requests.length === 0) return;
+    this.moves.add(requests.map((again) => ({ id: again.entity, again, back: { do: again.do === "remove" ? "add" : "move", entity: again.entity, ...poseIn(live, world.slots[world.find(again.entity)]) } })));
+    for (const request of requests) this.command(request);
   }
 
   // `pose`: {x, y, z, heading} in m and degrees.
   put(entity, verb, { x, y, z, heading }) {
-    this.command({ do: verb, entity: this.state.world.ids[entity], position: [x, y, z], angles: [0, 0, heading] });
+    const request = { do: verb, entity: this.state.world.ids[entity], position: [x, y, z], angles: [0, 0, heading] };
+    if (verb === "move") this.steer([request]);
+    else this.command(request);
   }
 
   remove(entities) {
     const { editor, world } = this.state;
     if (editor) return editor.remove();
-    for (const entity of entities) if (world.slots[entity] >= 0 && this.picture.placeOf(entity)) this.command({ do: "remove", entity: world.ids[entity] });
+    this.steer(entities.filter((entity) => world.slots[entity] >= 0 && this.picture.placeOf(entity)).map((entity) => ({ do: "remove", entity: world.ids[entity] })));
   }
 
   // ---- what is selected ----

@@ -3,10 +3,10 @@
 import { keepToken, proofOf, takeToken } from "./token.js";
 
 export class Authority {
-  // `parts`: state, toolbar, tools, inspector of the page, and send(request).
+  // `parts`: state, toolbar, tools, inspector of the page, and send(request). `token`: the known one, or null.
+  // editorLink(): the connection to the editor that has started the run, or null. The users' token is then the editor's.
   constructor(parts) {
     Object.assign(this, parts);
-    this.token = takeToken();
     this.challenge = null;
   }
 
@@ -29,20 +29,27 @@ export class Authority {
     if (this.token && this.challenge) this.send({ do: "prove", proof: proofOf(this.token, this.challenge) });
   }
 
+  use(token) {
+    this.token = token;
+    this.prove();
+  }
+
   unlock() {
-    if (!this.challenge) return;
+    const link = this.editorLink();
+    if (!this.challenge && !link) return;
     const found = /[0-9a-f]{32}/.exec(prompt("The token, or the address that was printed with it") ?? "");
     if (!found) return;
-    [this.token] = found;
-    keepToken(this.token);
-    this.prove();
+    keepToken(found[0]);
+    if (link) return link.prove(found[0]);
+    this.use(found[0]);
   }
 
   // Handles another address in the address bar.
   addressChanged() {
     const given = takeToken();
-    if (given === this.token) return;
-    this.token = given;
-    this.prove();
+    const link = this.editorLink();
+    if (given === (link ?? this).token) return;
+    if (link) return link.prove(given);
+    this.use(given);
   }
 }

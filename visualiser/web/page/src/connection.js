@@ -5,15 +5,19 @@ const LONGEST_DELAY_MS = 3000;
 
 export class Connection {
   // `handlers`: onOpen(), onClose(), onText(message), onFrame(buffer), isOver(): whether no connection is wanted after
-  // this one.
-  constructor(handlers) {
+  // this one. `path`: that of the stream.
+  constructor(handlers, path = "stream") {
     this.handlers = handlers;
+    this.path = path;
     this.delay = FIRST_DELAY_MS;
     this.connect();
   }
 
+  // Does nothing if the connection is open or begins already.
   connect() {
-    this.socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/stream`);
+    if (this.socket && this.socket.readyState <= WebSocket.OPEN) return;
+    clearTimeout(this.timer);
+    this.socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/${this.path}`);
     this.socket.binaryType = "arraybuffer";
     this.socket.onopen = () => {
       this.delay = FIRST_DELAY_MS;
@@ -26,7 +30,7 @@ export class Connection {
     this.socket.onclose = () => {
       this.handlers.onClose();
       if (this.handlers.isOver()) return;
-      setTimeout(() => this.connect(), this.delay);
+      this.timer = setTimeout(() => this.connect(), this.delay);
       this.delay = Math.min(this.delay * 1.6, LONGEST_DELAY_MS);
     };
   }

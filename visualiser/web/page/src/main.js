@@ -4,17 +4,20 @@ import { Authority } from "./authority.js";
 import { Connection } from "./connection.js";
 import { Film } from "./film.js";
 import { FunctionKeys } from "./function_keys.js";
-import { readLink } from "./link.js";
+import { readLink, writeLink } from "./link.js";
 import { Playback } from "./playback.js";
 import { pageHook } from "./page_hook.js";
 import { keysOf } from "./page_keys.js";
+import { MoveHistory } from "./move_history.js";
 import { Reception } from "./reception.js";
 import { Recording } from "./recording.js";
+import { takeToken } from "./token.js";
+import { AddPalette } from "./ui/add_palette.js";
 import { Banner } from "./ui/banner.js";
 import { h } from "./ui/dom.js";
 import { Help } from "./ui/help.js";
 import { Inspector } from "./ui/inspector.js";
-import { listenToKeys } from "./ui/keyboard.js";
+import { listenToKeys, takesText } from "./ui/keyboard.js";
 import { HeatLegend, Legend } from "./ui/legend.js";
 import { EntityList } from "./ui/list.js";
 import { LogPanel } from "./ui/log.js";
@@ -28,13 +31,15 @@ import { choices } from "./view/quality.js";
 import { robotValues } from "./view/robot_values.js";
 
 const HIDDEN_PERIOD_MS = 1000; // between frames while the page is hidden
-const asked = new URLSearchParams(location.search).get("quality");
+const search = new URLSearchParams(location.search);
+const asked = search.get("quality");
+const isEditorsRun = search.has("run"); // the page shows the run that the editor has started, at the address of the editor
 const linked = readLink(location.hash.slice(1));
 const quality = [asked, linked.quality].find((name) => choices.includes(name)) ?? "auto";
 
-// `endedHere`: whether this page has ended the run. `editor`: set if the server edits a file. `recorded`: whether this page has the run itself, and no server.
+// `endedHere`: whether this page has ended the run. `failure`, `runPhase`: of the run that the editor has started. `editor`: set if the server edits a file. `recorded`: whether this page has the run itself, and no server.
 const recorded = Recording.isHere;
-const state = { recorded, world: null, status: null, control: "read-only", selected: null, connected: false, frames: 0, drawn: 0, endedHere: false, linkWaits: true, watched: [], run: null, live: null, editor: null };
+const state = { recorded, world: null, status: null, control: "read-only", selected: null, connected: false, frames: 0, drawn: 0, endedHere: false, failure: "", runPhase: null, linkWaits: true, watched: [], run: null, live: null, editor: null };
 
 const send = (request) => connection.send(request);
 const actions = new Actions(state);
@@ -81,7 +86,7 @@ const picture = new Picture(main, quality, {
   selectAll: (entities) => actions.selectAll(entities),
   approach,
   move: (changes) => actions.move(changes),
-  place: (point) => Boolean(state.editor?.place(point)),
+  place: (point) => (state.editor ?? palette).place(point),
   mayMove: () => state.control === "granted" && !past.isOn,
   trouble,
   send,
@@ -91,6 +96,8 @@ const picture = new Picture(main, quality, {
 const past = new Playback({ state, actions, timeline, inspector, toolbar, picture, send, tell, trouble, changed: showState });
 const planNote = h("button.plan-note", { title: "Show it in three dimensions  (V)", onclick: () => picture.switchView() }, "Plan view · 3D: V");
 main.append(planNote);
+const palette = new AddPalette({ command: (request) => actions.command(request), main });
+main.append(palette.element);
 const legend = new Legend();
 const heatLegend = new HeatLegend();
 picture.onHeat = () => heatLegend.show(picture.heat);
@@ -126,6 +133,7 @@ const tools = new Tools([
   [
     "Steer",
     { name: "handles", label: "Handles", key: "H", title: "The selected robot has handles that move and turn it", switches: true, control: true, act: () => actions.switchTool("handles") },
+    { name: "undo", label: "Undo move", key: "Ctrl + Z", title: "Move back what this page has moved, or put back what it has removed", control: true, act: () => moves.undo() },
     { name: "function_keys", label: "Keys to functions", key: "F8", title: "Keys and selections go to the experiment functions", switches: true, control: true, act: () => functionKeys.toggle() },
   ],
   [
@@ -135,6 +143,7 @@ const tools = new Tools([
     { name: "picture", label: "Picture", key: "P", title: "Save the picture (PNG)", act: () => actions.savePicture() },
   ],
 ]);
+const moves = new MoveHistory({ command: (request) => actions.command(request), tell, changed: (may) => tools.enable("undo", may) });
 // On a phone the bar has no room for the options of the view.
 const narrow = window.matchMedia("(max-width: 620px)");
 const placeViews = () => (narrow.matches ? tools.element.firstElementChild.after(toolbar.views) : toolbar.element.append(toolbar.views));
@@ -155,20 +164,41 @@ const functionKeys = new FunctionKeys({
 });
 window.addEventListener("keyup", (event) => functionKeys.up(event));
 window.addEventListener("blur", () => functionKeys.release());
-const authority = new Authority({ state, toolbar, tools, inspector, send });
-actions.reach({ app, toolbar, list, inspector, log, picture, past, legend, tools, colourChoice, functionKeys, send });
-const reception = new Reception({ state, actions, authority, toolbar, list, inspector, log, processes, timeline, viewpoints, banner, picture, past, startEditor, greet: sendVisibility, showState });
+let editorLink = null;
+const token = takeToken();
+const authority = new Authority({ state, toolbar, tools, inspector, send, token: isEditorsRun ? null : token, editorLink: () => editorLink });
+actions.reach({ moves, app, toolbar, list, inspector, log, picture, past, legend, tools, colourChoice, functionKeys, send });
+const reception = new Reception({ state, actions, authority, toolbar, list, inspector, log, processes, timeline, viewpoints, banner, picture, past, palette, moves, startEditor, greet: sendVisibility, showState });
 const connection = new (recorded ? Recording : Connection)({
   onOpen: () => reception.connected(true),
   onClose: () => reception.connected(false),
-  isOver: () => state.endedHere,
+  isOver: () => state.endedHere || (isEditorsRun && state.runPhase !== "running"),
   onText: (message) => reception.message(message),
   onFrame: (buffer) => reception.frame(buffer),
   onPast: (frame) => past.show(frame),
   onFailure: (error) => failed(error),
-});
+}, isEditorsRun ? "run/stream" : "stream");
+if (isEditorsRun)
+  import("./edit/editor_link.js").then(({ EditorLink }) => {
+    editorLink = new EditorLink({
+      app,
+      left: list.element,
+      token,
+      status: () => state.status,
+      leave: () => changePage(false),
+      // `run`: of the editor's document.
+      changed(run) {
+        state.failure = run.failure;
+        state.runPhase = run.phase;
+        if (run.token && run.token !== authority.token) authority.use(run.token);
+        if (run.phase === "running") connection.connect();
+        showState();
+      },
+      trouble,
+    });
+  });
 if (recorded) {
-  tools.hide("function_keys", "handles", "rays", "bodies", "links");
+  tools.hide("undo", "function_keys", "handles", "rays", "bodies", "links");
   for (const part of [toolbar, timeline]) part.setRecorded();
 }
 
@@ -180,7 +210,7 @@ function failed(error) {
 listenToKeys({
   keys: keysOf({ state, actions, toolbar, inspector, picture, viewpoints, past, film, help, log, list, functionKeys }),
   digit: (number, { shiftKey }) => (shiftKey ? viewpoints.store(number) : viewpoints.recall(number)),
-  first: (event) => functionKeys.down(event) || state.editor?.key(event),
+  first: (event) => functionKeys.down(event) || (state.editor ?? editorLink)?.key(event) || (!state.editor && (palette.key(event) || (!takesText(event.target) && state.control === "granted" && moves.key(event)))),
   isReady: () => state.world !== null,
 });
 
@@ -194,12 +224,23 @@ let loadingEditor = null;
 function startEditor() {
   state.status = { phase: "editing", real_time_factor: 0, speed_wanted: 1, processes: [] };
   loadingEditor ??= import("./edit/editor.js").then(({ Editor }) => {
-    tools.hide("function_keys", "rays", "bodies", "links", "heat", "swarm", "aboard", "film");
+    tools.hide("undo", "function_keys", "rays", "bodies", "links", "heat", "swarm", "aboard", "film");
     for (const name of ["trails", "beams"]) toolbar.toggles[name].hidden = true;
-    state.editor = new Editor({ app, main, picture, left: list.element, send, choose: (chosen) => actions.showChosen(chosen) });
+    state.editor = new Editor({ app, main, picture, left: list.element, send, showRun: () => changePage(true), choose: (chosen) => actions.showChosen(chosen) });
     if (state.control === "granted") state.editor.begin();
   });
   showState();
+}
+
+// Goes from the editor to its run, or back, with the same view.
+function changePage(toRun) {
+  const address = new URL(location.href);
+  if (toRun) address.searchParams.set("run", "1");
+  else address.searchParams.delete("run");
+  if (picture.wanted !== "auto") address.searchParams.set("quality", picture.wanted);
+  const select = state.selected === null ? null : state.world.ids[state.selected];
+  address.hash = picture.view?.world ? writeLink({ view: picture.view.viewpoint, select }) : "";
+  location.assign(address);
 }
 
 function sendVisibility() {
@@ -228,7 +269,10 @@ window.addEventListener("hashchange", () => {
   authority.addressChanged();
   if (state.world && picture.view?.world) actions.openLink(readLink(location.hash.slice(1)));
 });
-setInterval(() => picture.motion && list.render(picture.motion), 250);
+setInterval(() => {
+  if (picture.motion) list.render(picture.motion);
+  palette.show(state.live, !recorded && !state.editor && state.control === "granted" && !past.isOn);
+}, 250);
 showState();
 
-window.swarmanoid = pageHook({ state, past, timeline, viewpoints, list, picture, inspector, select, toggle, approach, colourBy: (name) => actions.colourBy(name), send });
+window.swarmanoid = pageHook({ state, moves, palette, past, timeline, viewpoints, list, picture, inspector, select, toggle, approach, colourBy: (name) => actions.colourBy(name), send });

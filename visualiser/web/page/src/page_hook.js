@@ -7,7 +7,7 @@ function inPage(picture, { x, y }) {
 }
 
 // Returns an object with the parts of the page and its actions.
-export function pageHook({ state, past, timeline, viewpoints, list, picture, inspector, select, toggle, approach, colourBy, send }) {
+export function pageHook({ state, moves, palette, past, timeline, viewpoints, list, picture, inspector, select, toggle, approach, colourBy, send }) {
   return {
     get past() {
       return past.isOn ? { tick: past.wanted, shown: state.frame?.tick, playing: past.isPlaying } : null;
@@ -37,6 +37,17 @@ export function pageHook({ state, past, timeline, viewpoints, list, picture, ins
     get editor() {
       const { editor } = state;
       return editor && { ...editor.document, shown: editor.path, form: editor.form.form, said: editor.form.said.textContent, busy: editor.isBusy || editor.waiting.length > 0 };
+    },
+    // Returns the numbers of moves that can be undone and done again, and of those without an answer.
+    get moves() {
+      const waiting = (steps) => steps.reduce((sum, { waits }) => sum + waits.size, 0);
+      return { done: moves.done.length, undone: moves.undone.length, waiting: waiting(moves.done) + waiting(moves.undone) };
+    },
+    get adding() {
+      return palette.element.hidden ? null : { chosen: palette.chosen, options: [...palette.choice.options].map(({ text }) => text), said: palette.hint.textContent };
+    },
+    get run() {
+      return { phase: state.runPhase, failure: state.failure };
     },
     get connected() {
       return state.connected;

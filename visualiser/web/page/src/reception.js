@@ -5,7 +5,7 @@ import { World } from "./world.js";
 
 export class Reception {
   // `parts`: state, actions, authority, toolbar, list, inspector, log, processes, timeline, viewpoints, banner,
-  // picture, past of the page; startEditor(); greet(): called once the server has sent its welcome; showState().
+  // picture, past, palette, moves of the page; startEditor(); greet(): called once the server has sent its welcome; showState().
   constructor(parts) {
     Object.assign(this, parts);
     this.decoder = new FrameDecoder();
@@ -50,6 +50,7 @@ export class Reception {
     this.log.add({ tick: 0, source: "page", level: "info", text: "the experiment was started again" });
     state.status = null;
     state.live = null;
+    this.moves.clear();
     this.banner.itBegan();
     this.showState();
   }
@@ -60,6 +61,8 @@ export class Reception {
     const chosen = picture.chosen.map((entity) => state.world.ids[entity]);
     const isNew = state.world?.experiment !== message.experiment;
     state.world = new World(message);
+    this.palette.setWorld(state.world);
+    this.moves.clear();
     if (isNew) this.viewpoints.set(state.world.viewpoints);
     document.title = `${message.experiment} · Swarmanoid`;
     for (const part of [this.toolbar, this.inspector, this.list, picture]) part.setWorld(state.world);
@@ -82,6 +85,7 @@ const receivers = {
   authority: ({ authority }, { control }) => authority.grant(control),
   document: ({ state }, message) => state.editor?.receive(message),
   form: ({ state }, message) => state.editor?.receiveForm(message),
+  script: ({ state }, message) => state.editor?.receiveScript(message),
   world: (page, message) => page.setWorld(message),
   status(page, message) {
     const { state } = page;
@@ -106,7 +110,11 @@ const receivers = {
   branched: ({ past }, message) => past.branched(message),
   past_inside: ({ past, inspector }, message) => past.isOn && past.wanted === message.tick && inspector.addInside(message),
   marks: ({ picture }, message) => picture.marks.receive(message),
-  log: ({ log }, message) => log.add(message),
+  log({ log, palette, moves }, message) {
+    log.add(message);
+    palette.answer(message.text);
+    moves.answer(message.text);
+  },
   reply({ state, log, past }, { text }) {
     log.add({ tick: state.editor ? null : state.frame?.tick ?? null, source: "server", level: "warning", text });
     state.editor?.refused(text);

@@ -16,6 +16,7 @@ export class World {
     this.attributes = message.attributes;
     this.bodies = message.bodies;
     this.viewpoints = message.viewpoints;
+    this.reserves = message.reserves ?? []; // {id, first, count}: the entities of each reserve
     this.beginsAtViewpoint = message.begins_at_viewpoint;
     this.ids = message.entities.id;
     this.kinds = message.entities.kind.map((kind) => message.kinds[kind]);
@@ -45,6 +46,12 @@ export class World {
   isRobot(entity) {
     return this.look(entity).role === "robot";
   }
+  // Returns the height of the ground (m) at a position: that of a terrain, otherwise 0. Around the position the highest
+  // cell counts, since a robot is as wide as some cells.
+  groundAt(x, y) {
+    const heights = this.bodies.flatMap((body) => (body.terrain ? [terrainHeight(body, x, y)] : [])).filter((height) => height !== null);
+    return heights.length > 0 ? Math.max(...heights) : 0;
+  }
   find(id) {
     return this.ids.indexOf(id);
   }
@@ -59,6 +66,21 @@ export class World {
     const controller = this.controllers[this.controllerOf[entity]];
     return controller ? `${controller.id} (${controller.tag})` : "none";
   }
+}
+
+function terrainHeight({ position, orientation: [qx, qy, qz, qw], terrain: { low, high, columns, rows, heights } }, x, y) {
+  const yaw = Math.atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz));
+  const [dx, dy] = [x - position[0], y - position[1]];
+  const inside = [dx * Math.cos(yaw) + dy * Math.sin(yaw), dy * Math.cos(yaw) - dx * Math.sin(yaw)];
+  const cell = (k, count) => Math.floor(((inside[k] - low[k]) / (high[k] - low[k])) * count);
+  const [column, row] = [cell(0, columns), cell(1, rows)];
+  let top = null;
+  for (let r = Math.max(row - 1, 0); r <= Math.min(row + 1, rows - 1); r++)
+    for (let c = Math.max(column - 1, 0); c <= Math.min(column + 1, columns - 1); c++) {
+      const height = heights[r * columns + c] ?? null;
+      if (height !== null) top = Math.max(top ?? -Infinity, position[2] + height);
+    }
+  return column >= 0 && column < columns && row >= 0 && row < rows ? top : null;
 }
 
 // The drawn state between the last two frames.

@@ -3,11 +3,12 @@
 // requests and shows the results.
 import { h, setText } from "../ui/dom.js";
 import { ElementForm } from "./element_form.js";
+import { ScriptPane } from "./script_pane.js";
 
 const LONGEST_REQUEST = 60000; // bytes; the server ends a connection with longer ones
 
 export class Editor {
-  // `page`: app, main, picture, left, send(request), choose(entities), tell(text), trouble(text).
+  // `page`: app, main, picture, left, send(request), choose(entities), showRun(): goes to the page of the run.
   constructor(page) {
     this.page = page;
     this.document = null;
@@ -17,6 +18,8 @@ export class Editor {
     this.waiting = []; // requests that wait for the answer to the previous one
     this.isBusy = false;
     this.form = new ElementForm({ edit: (change) => this.edit(change), open: (path) => this.open(path) });
+    this.wantsRun = false; // whether the page goes to the run once its page is open
+    this.pane = new ScriptPane({ app: page.app, ask: (request) => this.ask(request), run: () => this.startRun(), shown: (on) => this.scripts.setAttribute("aria-pressed", String(on)) });
     this.addBar();
     this.addPalette();
     this.mistakes = h("div.mistakes", { "aria-live": "polite" });
@@ -32,8 +35,13 @@ export class Editor {
     this.redo = button("Redo", "", () => this.ask({ do: "redo" }));
     this.save = button("Save", "Write the file  (Ctrl + S)", () => this.ask({ do: "save" }));
     this.check = button("Check", "Make everything as a run does at its start, and throw it away", () => this.ask({ do: "check" }));
+    this.run = button("Run", "Run the experiment as it is here, saved or not  (Ctrl + Enter)", () => this.pane.writeAndRun());
+    this.runShown = button("Show the run", "", () => this.page.showRun());
+    this.runEnd = button("End the run", "", () => this.ask({ do: "end_run" }));
+    this.scripts = button("Script", "The Lua scripts of the controllers", () => this.pane.toggle());
+    this.scripts.setAttribute("aria-pressed", "false");
     this.file = h("span.file.dim");
-    this.bar = h("div.group.edit-bar", {}, this.undo, this.redo, this.save, this.check, this.file);
+    this.bar = h("div.group.edit-bar", {}, this.undo, this.redo, this.save, this.check, this.run, this.runShown, this.runEnd, this.scripts, this.file);
     this.page.app.querySelector("header .space").before(this.bar);
   }
 
@@ -62,9 +70,17 @@ export class Editor {
       this.many = false;
     }
     this.showBar();
+    this.showRunButtons();
+    this.pane.receive(document);
     this.showKinds();
     this.showMistakes();
     if (isNew) this.show(this.path);
+    this.sendNext();
+  }
+
+  receiveScript(script) {
+    this.isBusy = false;
+    this.pane.receiveText(script);
     this.sendNext();
   }
 
@@ -76,6 +92,8 @@ export class Editor {
   // Handles a refused request.
   refused(text) {
     this.isBusy = false;
+    this.wantsRun = false;
+    if (this.pane.refused(text)) return this.sendNext();
     this.form.say(text);
     // If the element is gone, the element above it is shown.
     if (/not there any more/.test(text)) this.open(this.path.split("/").slice(0, -1).join("/"));
@@ -98,6 +116,19 @@ export class Editor {
     document.title = `${saved ? "" : "• "}${file.split("/").at(-1)} · Swarmanoid`;
   }
 
+  showRunButtons() {
+    const { run, scripts, mistakes } = this.document;
+    const isThere = run.phase === "running";
+    if (run.phase === "none") this.wantsRun &&= run.failure === "";
+    this.run.disabled = run.phase === "starting" || mistakes.some(({ kind }) => kind === "mistake");
+    setText(this.run, run.phase === "starting" ? "Starting …" : "Run");
+    this.runShown.hidden = this.runEnd.hidden = !isThere;
+    this.scripts.hidden = scripts.length === 0;
+    if (!this.wantsRun || !isThere) return;
+    this.wantsRun = false;
+    this.page.showRun();
+  }
+
   showKinds() {
     const tags = this.document.kinds.filter(({ tag }) => tag !== "distribute" && tag !== "reserve");
     const shown = JSON.stringify(tags);
@@ -111,7 +142,8 @@ export class Editor {
   }
 
   showMistakes() {
-    const { mistakes, checked, hidden, changed_on_disk: changed } = this.document;
+    const { mistakes, checked, hidden, changed_on_disk: changed, run } = this.document;
+    const { failure } = run;
     const notes = mistakes.filter(({ kind }) => kind === "note").length;
     const wrong = mistakes.length - notes;
     const title = wrong > 0 ? `Mistakes (${this.document.all_mistakes})` : notes > 0 ? `No mistakes, notes (${notes})` : "No mistakes";
@@ -130,6 +162,7 @@ export class Editor {
       h("h2", {}, title),
       ...(hidden ? [h("div.dim", {}, hidden)] : []),
       ...(checked ? [h("pre.mistake", {}, checked)] : []),
+      ...(failure ? [h("h2", {}, "The run has failed"), h("pre.mistake", {}, failure)] : []),
       ...mistakes.map(({ kind, place, text, path }) =>
         h(`button.mistake.${kind}`, { title: "Show the element", onclick: () => this.open(path) }, h("b", {}, place.split("/").at(-1)), ` ${kind === "note" ? "note: " : ""}${text}`),
       ),
@@ -137,6 +170,12 @@ export class Editor {
   }
 
   // ---- what the user does ----
+
+  startRun() {
+    if (this.run.disabled) return;
+    this.wantsRun = true;
+    this.ask({ do: "run" });
+  }
 
   edit(change) {
     this.ask({ do: "edit", ...change });
@@ -219,6 +258,10 @@ export class Editor {
     const key = event.key.toLowerCase();
     if (event.key === "Escape" && this.kind !== null) this.arm(null);
     else if (!(event.ctrlKey || event.metaKey) || event.altKey) return false;
+    else if (key === "enter") {
+      document.activeElement?.blur(); // the typed text belongs to the experiment
+      this.pane.writeAndRun();
+    }
     else if (key === "s") {
       document.activeElement?.blur(); // the typed text belongs to the change
       this.ask({ do: "save" });

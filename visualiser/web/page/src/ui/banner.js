@@ -30,9 +30,10 @@ export class Banner {
   }
 
   text() {
-    const { connected, status, world, recorded, endedHere } = this.state;
+    const { connected, status, world, recorded, endedHere, failure } = this.state;
     if (recorded) return "";
     const ended = status?.phase === "finished";
+    if (failure && !connected) return `The run has failed: ${failure.split("\n")[0]}`;
     if (endedHere && (ended || !connected) && !(connected && this.isLookingBack())) return "You have ended the run. This is its last state.";
     if (!connected && ended) return "The run has ended; this is its last state. Start the experiment again, and this page goes on.";
     if (connected && this.isLookingBack()) return "Looking back. Live, or Q, goes to the present.";

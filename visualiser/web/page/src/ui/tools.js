@@ -22,6 +22,12 @@ export class Tools {
     this.buttons[name]?.setAttribute("aria-pressed", String(on));
   }
 
+  // A tool without anything to do is disabled.
+  enable(name, on) {
+    this.buttons[name].dataset.idle = on ? "" : "1";
+    this.setControl(this.control);
+  }
+
   // Hides tools that the page does not have, and groups without others.
   hide(...names) {
     for (const name of names) this.buttons[name].hidden = true;
@@ -29,6 +35,7 @@ export class Tools {
   }
 
   setControl(control) {
-    for (const button of Object.values(this.buttons)) button.disabled = button.dataset.control !== "" && control !== "granted";
+    this.control = control;
+    for (const button of Object.values(this.buttons)) button.disabled = Boolean(button.dataset.idle) || (button.dataset.control !== "" && control !== "granted");
   }
 }

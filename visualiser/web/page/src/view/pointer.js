@@ -140,6 +140,19 @@ function dragFor(picture, view, event, at) {
   return new Box(picture, at);
 }
 
+// Returns the point of the ground under the pointer; null if there is none.
+function groundPoint(view, at, world) {
+  let point = view.floorPoint(at, 0);
+  // On a slope each step comes nearer to the point that is seen.
+  for (let steps = 0; point && steps < 4; steps++) {
+    const height = world.groundAt(point[0], point[1]);
+    if (height === 0) break;
+    const [x, y] = view.floorPoint(at, height) ?? point;
+    point = [x, y, height];
+  }
+  return point;
+}
+
 export function listenToPointer(view, picture) {
   const { canvas } = view;
   let start = null;
@@ -191,7 +204,7 @@ export function listenToPointer(view, picture) {
       drag.end(clicked || cancelled);
       picture.invalidate();
     }
-    const placed = clicked && !cancelled && !drag && picture.world && picture.actions.place(view.floorPoint(at, 0));
+    const placed = clicked && !cancelled && !drag && picture.world && picture.actions.place(groundPoint(view, at, picture.world));
     if (clicked && !cancelled && !placed && (!drag || drag.isCamera)) picture.actions.select(pick(event), event.ctrlKey);
     start = drag = null;
   };
