@@ -327,6 +327,8 @@ void CheckSnapshot(const CSwarmanoidSpace& space, const SpaceSnapshot& snapshot)
 {
   if (snapshot.poses.size() != 7 * space.Movable().size() || snapshot.attributes.size() != space.Attributes().size())
     Refuse("it has other entities");
+  if (const std::string mistake = MistakeIn(snapshot.fields, FloorFieldCells(space.GetExperiment())); !mistake.empty())
+    Refuse(mistake);
   CheckPoses(space, space.Movable(), snapshot.poses);
   const std::uint32_t first_presence = space.PresenceSlot(0);
   for (std::uint32_t slot = 0; slot < first_presence; ++slot)
