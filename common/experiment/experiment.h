@@ -213,7 +213,6 @@ struct Experiment
   std::vector<EntityKindConfiguration> entity_kinds;
   std::vector<ControllerConfiguration> controllers;
   std::vector<EntityConfiguration> entities;
-  std::vector<FloorFieldConfiguration> floor_fields;
   std::vector<EngineConfiguration> engines;
   EngineChoices engine_choices;  // from the volumes of the engines
   OutsideVolumes outside_volumes = OutsideVolumes::kStop;
@@ -221,6 +220,7 @@ struct Experiment
   std::vector<FunctionsConfiguration> functions;
   std::vector<FaultConfiguration> faults;
   std::string effective_xml;  // a text that gives this experiment again, with --set and --seed applied
+  std::vector<FloorFieldConfiguration> floor_fields;
 
   double TickSeconds() const { return ticks_per_second == 0 ? clock_tick_ms * 1e-3 : 1.0 / ticks_per_second; }
   // Returns the controller with that id; nullptr if it does not exist.

@@ -49,8 +49,9 @@ void DescribeFloorFieldDevices()
   DescribeActuator({.label = "floor_field",
                     .implementation = "generic_floor_field",
                     .brief = "deposits on the fields of the floor, under a point of the robot",
-                    .parameters = {{"point", kVector2, "m", "0, 0", "Where, in the frame of the robot.", -kFarthest_m,
-                                    kFarthest_m}}});
+                    .parameters = Joined({{"point", kVector2, "m", "0, 0", "Where, in the frame of the robot.",
+                                           -kFarthest_m, kFarthest_m}},
+                                         NoiseParameters("each rate that is not 0", "1/s"))});
   const PluginDescription sensor{
       .label = "floor_field",
       .implementation = "generic_floor_field",

@@ -47,6 +47,7 @@ public:
   {
     fields_ = IdsOfFields(setup);
     Reset(setup, fields_.size());
+    noise_ = NoiseFrom(setup.parameters);
     for (const std::uint32_t robot : setup.robots)
       for (std::uint32_t k = 0; k < fields_.size(); ++k)
         slots_.push_back(setup.space.RateSlotOf(robot) + k);
@@ -57,10 +58,23 @@ public:
   CCI_FloorFieldActuator* Actuator(std::size_t k) override { return &devices_[k]; }
   void Commit(const ChannelView&, AttributeChanges& changes) override
   {
-    ReportChanges(slots_, values_, space_->Attributes(), changes);
+    if (!noise_.IsActive()) return ReportChanges(slots_, values_, space_->Attributes(), changes);
+    shown_ = values_;
+    for (std::size_t k = 0; k < robots_.size(); ++k)
+    {
+      RandomStream random = streams_.Of(k);
+      for (std::size_t i = k * width_; i < (k + 1) * width_; ++i)
+      {
+        const double noise = noise_.Sample(random);
+        if (shown_[i] != 0) shown_[i] += noise;
+      }
+    }
+    ReportChanges(slots_, shown_, space_->Attributes(), changes);
   }
 
 private:
+  NoiseModel noise_;
+  std::vector<double> shown_;  // with noise
   std::vector<std::string> fields_;
   std::vector<std::uint32_t> slots_;  // robot after robot
   std::vector<Depositor> devices_;
