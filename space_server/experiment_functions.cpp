@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "common/configuration/output_file.h"
@@ -95,6 +97,32 @@ std::string SpaceEditor::AddEntity(std::string_view id, const Pose& pose)
 void SpaceEditor::BeginAgain(std::uint64_t first_tick, std::uint32_t variation)
 {
   server_.BeginAgain(first_tick, variation);
+}
+
+void SpaceEditor::Deposit(std::string_view field, double x, double y, double amount)
+{
+  const FloorField& on = server_.Space().Fields().Field(field);
+  const std::size_t cell = std::isfinite(x) && std::isfinite(y) ? on.CellAt(x, y) : on.Cells();
+  if (cell == on.Cells())
+    throw std::invalid_argument(fmt::format("the point {:g}, {:g} is outside the floor field '{}'", x, y, field));
+  if (!std::isfinite(amount))
+    throw std::invalid_argument(fmt::format("an amount of {:g} on the floor field '{}'; it must be finite", amount, field));
+  const double edge = on.GetConfiguration().cell_m;
+  const double value = on.ValueOf(cell) + amount / (edge * edge);
+  SetFieldCell(field, cell, std::clamp(value, 0.0, static_cast<double>(FloorField::kMost)));
+}
+
+void SpaceEditor::SetFieldCell(std::string_view field, std::size_t cell, double value)
+{
+  const FloorFields& fields = server_.Space().Fields();
+  const std::size_t number = fields.NumberOf(field);
+  if (cell >= fields[number].Cells())
+    throw std::invalid_argument(
+        fmt::format("the floor field '{}' has {} cells; there is no cell {}", field, fields[number].Cells(), cell));
+  if (!(value >= 0 && value <= FloorField::kMost))
+    throw std::invalid_argument(
+        fmt::format("the value {:g} for the floor field '{}'; it must be from 0 to {:g}", value, field, FloorField::kMost));
+  server_.SetFieldCell(fields.FirstCell(number) + static_cast<std::uint32_t>(cell), static_cast<float>(value));
 }
 
 void SpaceEditor::RemoveEntity(std::string_view id) { server_.Move(Removal(FindToRemove(server_.Space(), id))); }

@@ -77,6 +77,12 @@ public:
   // unknown id, name or element, and for a value outside the attribute's range. The engines set "gripped", so only 0 is
   // accepted, which ends the grip.
   void SetAttribute(std::string_view id, std::string_view attribute, double value, int element = 0);
+  // Adds an amount to a floor field at a point (m) in the arena, or takes from it if the amount is negative. Throws
+  // std::invalid_argument for an unknown field, an amount that is not finite, and a point outside the field.
+  void Deposit(std::string_view field, double x, double y, double amount);
+  // Sets the value (1/m²) of a cell of a floor field, row · Columns() + column. Throws std::invalid_argument for an
+  // unknown field or cell, and for values that are not from 0 to FloorField::kMost.
+  void SetFieldCell(std::string_view field, std::size_t cell, double value);
   // Random numbers of noise, robots and functions, and periodic events of engines, count ticks from `first_tick` from
   // now on. So a run whose entities were put back repeats itself. `variation` 0 gives the same numbers, other values
   // give others. The run cannot be saved afterwards. Throws std::logic_error in a cluster.

@@ -62,6 +62,11 @@ const SpaceState& SpaceServer::State()
   changed_slots_.erase(std::unique(changed_slots_.begin(), changed_slots_.end()), changed_slots_.end());
   state.attributes.Clear();
   for (const std::uint32_t slot : changed_slots_) state.attributes.Add(slot, space_.Attributes()[slot]);
+  std::sort(changed_cells_.begin(), changed_cells_.end());
+  changed_cells_.erase(std::unique(changed_cells_.begin(), changed_cells_.end()), changed_cells_.end());
+  state.fields.runs.clear();
+  state.fields.values.clear();
+  for (const std::uint32_t cell : changed_cells_) AddCell(state.fields, cell, space_.Fields().ValueOf(cell));
   const auto moved = Moved();
   state.moved.assign(moved.begin(), moved.end());
   if (draws_into_states_) state.drawing = space_.GetDrawing();
@@ -81,6 +86,21 @@ void SpaceServer::WriteSnapshot(SpaceSnapshot& snapshot) const
   snapshot.last = IsLast();
   space_.WritePoses(snapshot.poses);
   snapshot.attributes.assign(space_.Attributes().Values().begin(), space_.Attributes().Values().end());
+  space_.Fields().WriteCells(snapshot.fields);
+}
+
+void SpaceServer::Resend(const SpaceState& state)
+{
+  changed_slots_ = state.attributes.slots;
+  changed_cells_.clear();
+  for (std::size_t k = 0; k + 1 < state.fields.runs.size(); k += 2)
+    for (std::uint32_t n = 0; n < state.fields.runs[k + 1]; ++n) changed_cells_.push_back(state.fields.runs[k] + n);
+}
+
+void SpaceServer::SetFieldCell(std::uint32_t cell, float value)
+{
+  space_.Fields().Set(cell, value);
+  changed_cells_.push_back(cell);
 }
 
 void SpaceServer::BeginAgain(std::uint64_t first_tick, std::uint32_t variation)
@@ -113,6 +133,7 @@ void SpaceServer::LoadState(const SpaceSnapshot& snapshot, ByteReader& state)
   CheckSnapshot(space_, snapshot);
   space_.Apply(snapshot);
   changed_slots_.clear();
+  changed_cells_.clear();
   last_ = state.Get<bool>();
   failed_ = state.Get<bool>();
   failure_ = failed_ ? "it had failed before the state that it continues from" : "";
@@ -133,7 +154,9 @@ void SpaceServer::LoadState(const SpaceSnapshot& snapshot, ByteReader& state)
 void SpaceServer::Advance(std::span<const EngineUpdate* const> updates,
                           std::span<const ControlCommands* const> commands)
 {
+  space_.AdvanceFields();
   changed_slots_.clear();
+  changed_cells_.clear();
   moved_.clear();
   for (const ControlCommands* command : commands) Merge(command->attributes);
   TellFaults(commands);

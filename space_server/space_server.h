@@ -60,8 +60,9 @@ public:
   // that have the snapshot too.
   void LoadState(const SpaceSnapshot& snapshot, ByteReader& state);
 
-  // Marks attributes as changed after LoadState, for processes that have the state of the tick before.
-  void Resend(const AttributeChanges& changes) { changed_slots_ = changes.slots; }
+  // Marks the attributes and cells of floor fields that this recorded state changed as changed after LoadState, for
+  // processes that have the state of the tick before.
+  void Resend(const SpaceState& state);
 
   // Checks messages of other processes before Advance; roles in this process check their results themselves. Throws
   // std::runtime_error that names the engine or host, the entity, the tick of the step and the wrong value.
@@ -79,6 +80,9 @@ public:
   // Changes one attribute at the current tick, before its state is sent. Throws StateError for a value outside its
   // range. The attribute "gripped" accepts only 0, which ends the grip.
   void SetAttribute(std::uint32_t slot, double value);
+  // Changes a cell of the floor fields at the current tick, before its state is sent. The value must be from 0 to
+  // FloorField::kMost.
+  void SetFieldCell(std::uint32_t cell, float value);
   // States that all roles read this space, since they are in one process with the server.
   void ShareSpace() { shares_space_ = true; }
   // Does what SpaceEditor::BeginAgain describes.
@@ -148,6 +152,7 @@ private:
   CSwarmanoidSpace space_;
   std::array<SpaceState, 2> states_;  // for even and odd ticks
   std::vector<std::uint32_t> changed_slots_;
+  std::vector<std::uint32_t> changed_cells_;  // of floor fields
   std::vector<std::uint32_t> moved_;
   std::vector<bool> told_;  // by entity: whether its hold at the limit was reported
   EngineUpdate own_part_;   // scratch

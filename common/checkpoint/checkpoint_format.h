@@ -11,7 +11,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
+#include <type_traits>
 
 namespace swarmanoid
 {
@@ -36,12 +38,20 @@ void ForEachOriginField(Archive& archive, Origin& origin)
                });
 }
 
+// This bit of the tick says that cells of floor fields follow. Files without them are as in the versions before.
+inline constexpr std::uint64_t kHasFieldCells = std::uint64_t{1} << 63U;
+
 template <class Archive, class Snapshot>
 void ForEachSnapshotField(Archive& archive, Snapshot& snapshot)
 {
-  archive.Number(snapshot.tick);
+  std::uint64_t tick = snapshot.tick | (snapshot.fields.values.empty() ? 0 : kHasFieldCells);
+  archive.Number(tick);
+  if constexpr (!std::is_const_v<Snapshot>) snapshot.tick = tick & ~kHasFieldCells;
   archive.Array(snapshot.poses);
   archive.Array(snapshot.attributes);
+  if ((tick & kHasFieldCells) == 0) return;
+  archive.Array(snapshot.fields.runs);
+  archive.Array(snapshot.fields.values);
 }
 
 template <class Archive, class Part>

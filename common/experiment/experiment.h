@@ -176,6 +176,24 @@ struct FaultConfiguration
   bool IsActive(std::uint64_t tick) const { return tick >= from && (to == 0 || tick < to); }
 };
 
+// One <floor_field> of the arena: a number per m² on the floor, which robots write and read (docs/floor_fields.md).
+struct FloorFieldConfiguration
+{
+  std::string id;
+  double cell_m = 0.05;             // the edge of a square cell
+  std::size_t columns = 0;          // cells along x, from x = 0
+  std::size_t rows = 0;             // cells along y, from y = 0
+  double evaporation_per_s = 0;     // the share that a second takes, as the rate of an exponential
+  double diffusion_m2_per_s = 0;    // its constant
+  std::uint32_t period = 1;         // ticks between two steps of evaporation and diffusion
+  double least = 1e-6;              // per m²; a step sets smaller values to 0
+  std::uint32_t colour = 0x00a050;  // 0xRRGGBB, of pictures
+  double full = 0;                  // per m²: pictures show this value opaque; 0: the largest value of the moment
+  SourceLocation location;
+
+  std::size_t Cells() const { return columns * rows; }
+};
+
 struct Experiment
 {
   std::string name;    // the file's name without folder and extension, unless <framework><name> says otherwise
@@ -202,6 +220,7 @@ struct Experiment
   std::vector<FunctionsConfiguration> functions;
   std::vector<FaultConfiguration> faults;
   std::string effective_xml;  // a text that gives this experiment again, with --set and --seed applied
+  std::vector<FloorFieldConfiguration> floor_fields;
 
   double TickSeconds() const { return ticks_per_second == 0 ? clock_tick_ms * 1e-3 : 1.0 / ticks_per_second; }
   // Returns the controller with that id; nullptr if it does not exist.

@@ -90,6 +90,7 @@ void ReadSections(const TConfigurationTree& root, Reading& reading)
   ReadExperimentFunctions(root.Child("experiment_functions"), reading);
   ReadFaults(root.Child("faults"), reading);
   CheckControllersOfRobots(reading);
+  CheckFloorFieldDevices(reading);
   CheckDevicesOfEngines(reading);
   CheckPlanes(reading);
   CheckVolumes(reading);

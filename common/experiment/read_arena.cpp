@@ -190,6 +190,10 @@ public:
       {
         ReadReserve(child, *element);
       }
+      else if (element->HasTag("floor_field"))
+      {
+        ReadFloorField(child, *element, reading_);
+      }
       else
       {
         ReadDistribute(child, *element);

@@ -170,6 +170,32 @@ ElementSpec Reserve()
   return element;
 }
 
+ElementSpec FloorField()
+{
+  using enum ParameterType;
+  ElementSpec element;
+  element.tags = {"floor_field"};
+  element.description =
+      "A field on the floor, such as a virtual pheromone: an amount per m² in square cells over the whole arena. Robots "
+      "deposit with the actuator floor_field and read with the sensor floor_field.";
+  element.repeatable = true;
+  element.parameters = {
+      Id("The name of the field; unique among the fields."),
+      Size({"cell", kNumber, "m", "0.05", "The edge of a cell."}),
+      {"evaporation", kNumber, "1/s", "0", "Rate of the exponential by which the field vanishes.", 0, 1e6},
+      {"diffusion", kNumber, "m²/s", "0",
+       "Diffusion constant; at most cell² / (4 · step), where a step lasts `period` ticks.", 0, 1e6},
+      {"period", kInteger, "ticks", "1",
+       "Ticks between two steps of evaporation and diffusion. Deposits count at every tick.", 1, 1e6},
+      {"least", kNumber, "1/m²", "1e-6",
+       "Values that are smaller after a step become 0, so that empty parts of the floor cost no time.", 0, 1e6},
+      {"colour", kColour, "", "#00a050", "In pictures."},
+      {"full", kNumber, "1/m²", "0", "Value that pictures show in full colour; 0: the largest one of the moment.", 0,
+       1e12},
+  };
+  return element;
+}
+
 }  // namespace
 
 ElementSpec Arena()
@@ -197,6 +223,7 @@ ElementSpec Arena()
   element.children = EntityElements();
   element.children.push_back(Distribute());
   element.children.push_back(Reserve());
+  element.children.push_back(FloorField());
   return element;
 }
 

@@ -15,6 +15,8 @@
 namespace swarmanoid
 {
 
+struct ElementSpec;
+
 // The entities of a <distribute>, whose positions are not chosen yet (see PlaceDistributed).
 struct Distribution
 {
@@ -39,6 +41,8 @@ void ReadFramework(const TConfigurationTree& tree, Reading& reading);
 void ReadEntityKinds(const TConfigurationTree& tree, Reading& reading);
 void ReadControllers(const TConfigurationTree& tree, Reading& reading);
 void ReadArena(const TConfigurationTree& tree, Reading& reading);
+// Reads one <floor_field> of the arena, whose size must be known.
+void ReadFloorField(const TConfigurationTree& tree, const ElementSpec& spec, Reading& reading);
 void ReadEngines(const TConfigurationTree& tree, Reading& reading);
 void ReadArenaPhysics(const TConfigurationTree& tree, Reading& reading);
 void ReadVisualisations(const TConfigurationTree& tree, Reading& reading);
@@ -48,6 +52,7 @@ void ReadFaults(const TConfigurationTree& tree, Reading& reading);
 
 // Reports mistakes that only the whole experiment shows.
 void CheckControllersOfRobots(Reading& reading);
+void CheckFloorFieldDevices(Reading& reading);
 void CheckDevicesOfEngines(Reading& reading);
 void CheckPlanes(Reading& reading);
 void CheckVolumes(Reading& reading);

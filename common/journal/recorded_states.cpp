@@ -87,12 +87,19 @@ bool RecordedStates::Seek(std::uint64_t tick)
   if (tick_ == tick) return true;
   const std::uint64_t from = tick_ ? *tick_ + 1 : *next_;
   tick_.reset();
-  // The poses are those of the tick. Attributes accumulate the changes of all ticks before it.
+  // The poses are those of the tick. Attributes accumulate the changes of all ticks before it. Floor fields follow from
+  // every tick before.
+  const bool needs_each = !space_->Fields().empty();
   AttributeChanges changes;
-  while (NextRecord(tick))
+  while (NextRecord(needs_each ? from : tick))
   {
     const SpaceState& state = record_.state;
     if (state.tick < from) continue;
+    if (needs_each && state.tick < tick)
+    {
+      space_->Apply(state);
+      continue;
+    }
     for (std::size_t k = 0; k < state.attributes.slots.size(); ++k)
       changes.Add(state.attributes.slots[k], state.attributes.values[k]);
     if (state.tick < tick) continue;

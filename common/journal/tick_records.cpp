@@ -20,6 +20,7 @@ namespace
 
 constexpr std::uint8_t kLast = 1;
 constexpr std::uint8_t kSave = 2;
+constexpr std::uint8_t kFieldCells = 4;  // experiment functions changed cells of floor fields
 
 void Put(ByteWriter& bytes, const AttributeChanges& changes)
 {
@@ -97,7 +98,13 @@ bool TickRows::Add(const SpaceState& state, bool save, std::span<const SensorFra
     return false;
   ++ticks_;
   double* number = std::copy(state.poses.begin(), state.poses.end(), numbers_.NextRow());
-  rest_.Put(static_cast<std::uint8_t>((state.last ? kLast : 0) | (save ? kSave : 0)));
+  const bool has_cells = !state.fields.values.empty();
+  rest_.Put(static_cast<std::uint8_t>((state.last ? kLast : 0) | (save ? kSave : 0) | (has_cells ? kFieldCells : 0)));
+  if (has_cells)
+  {
+    rest_.PutArray(state.fields.runs);
+    rest_.PutArray(state.fields.values);
+  }
   Put(rest_, state.attributes);
   rest_.PutArray(state.moved);
   rest_.Put(static_cast<std::uint32_t>(frames.size()));
@@ -179,6 +186,12 @@ bool TickRecordReader::Next(TickRecord& record)
   const auto flags = rest_.Get<std::uint8_t>();
   record.state.last = (flags & kLast) != 0;
   record.save = (flags & kSave) != 0;
+  record.state.fields = {};
+  if ((flags & kFieldCells) != 0)
+  {
+    record.state.fields.runs = rest_.GetArray<std::uint32_t>();
+    record.state.fields.values = rest_.GetArray<float>();
+  }
   Get(rest_, record.state.attributes);
   record.state.moved = rest_.GetArray<std::uint32_t>();
   const auto frames = rest_.Get<std::uint32_t>();

@@ -45,6 +45,7 @@ void DescribeBuiltinDevices()
     DescribeRangeAndBearing();
     DescribeAnyRobotDevices();
     DescribeSurroundingsDevices();
+    DescribeFloorFieldDevices();
     return true;
   }();
   static_cast<void>(described);

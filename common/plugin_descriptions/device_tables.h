@@ -17,6 +17,7 @@ void DescribeCameras();
 void DescribeRangeAndBearing();
 void DescribeAnyRobotDevices();
 void DescribeSurroundingsDevices();
+void DescribeFloorFieldDevices();
 
 // Describes the light sensors of footbots and eyebots.
 void DescribeLight(const std::string& robot);

@@ -4,7 +4,9 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <stdexcept>
 
 #include "common/space/attributes.h"
 #include "common/space/message_slots.h"
@@ -23,7 +25,7 @@ auto Components(Space& poses)
 
 }  // namespace
 
-CSwarmanoidSpace::CSwarmanoidSpace(const Experiment& experiment) : experiment_(experiment), structure_(*this)
+CSwarmanoidSpace::CSwarmanoidSpace(const Experiment& experiment) : experiment_(experiment), structure_(*this), fields_(experiment)
 {
   const std::size_t count = experiment.entities.size();
   for (auto* component : Components(poses_)) component->resize(count);
@@ -34,7 +36,8 @@ CSwarmanoidSpace::CSwarmanoidSpace(const Experiment& experiment) : experiment_(e
   std::size_t slots = count + EngineSlots::kCount * choices.entities.size();  // and those of presence
   for (const EntityConfiguration& configuration : experiment.entities)
     slots +=
-        static_cast<std::size_t>(AttributeCount(configuration.kind) + FurtherMessageSlots(experiment, configuration));
+        static_cast<std::size_t>(AttributeCount(configuration.kind) + FurtherMessageSlots(experiment, configuration)) +
+        DepositSlots(experiment, configuration);
   attributes_.reserve(slots);
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -50,9 +53,13 @@ CSwarmanoidSpace::CSwarmanoidSpace(const Experiment& experiment) : experiment_(e
     }
     const auto further = static_cast<std::size_t>(FurtherMessageSlots(experiment, configuration));
     attributes_.resize(attributes_.size() + further);
+    const std::size_t rates = DepositSlots(experiment, configuration);
+    if (rates > 0) fields_.AddDepositor(index, static_cast<std::uint32_t>(attributes_.size()));
+    attributes_.resize(attributes_.size() + rates);
     const bool changes_engine =
         engine_slots_.size() < choices.entities.size() && choices.entities[engine_slots_.size()] == index;
-    attribute_values_.Add(configuration.kind, static_cast<std::uint32_t>(further), changes_engine);
+    attribute_values_.Add(configuration.kind, static_cast<std::uint32_t>(further), changes_engine,
+                          static_cast<std::uint32_t>(rates));
     if (changes_engine)
     {
       engine_slots_.push_back(static_cast<std::uint32_t>(attributes_.size()));
@@ -90,6 +97,15 @@ CSwarmanoidSpaceEntity* CSwarmanoidSpace::FindEntity(std::string_view id)
 {
   const std::uint32_t found = place_of_id_[PlaceOfId(id)];
   return found == 0 ? nullptr : entities_[found - 1].get();
+}
+
+const FloorFields& CSwarmanoidSpace::Fields() const
+{
+  if (!fields_.AreKept())
+    throw std::logic_error(
+        "this process does not keep the floor fields: engines have none, and a device that reads them must not override "
+        "Reach");
+  return fields_;
 }
 
 Pose CSwarmanoidSpace::GetPose(std::size_t i) const
@@ -195,9 +211,12 @@ void CSwarmanoidSpace::FindAbsent()
 
 void CSwarmanoidSpace::Apply(const SpaceState& state)
 {
+  // The first state of a run, and one that a snapshot has shown already, is of the tick of the space.
+  if (state.tick != tick_) AdvanceFields();
   tick_ = state.tick;
   SetPoses(movable_, state.poses);
   SetAttributes(state.attributes);
+  fields_.SetCells(state.fields);
   SetDrawing(state.drawing);
 }
 
@@ -251,6 +270,7 @@ void CSwarmanoidSpace::Apply(const SpaceSnapshot& snapshot)
   ++attribute_revision_;
   FindAbsent();
   structure_.FollowAll();
+  fields_.Load(snapshot.fields);
   SetDrawing(snapshot.drawing);
 }
 

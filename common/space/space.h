@@ -15,6 +15,7 @@
 #include "common/math/zeroed_vector.h"
 #include "common/messages/tick_messages.h"
 #include "common/space/attributes.h"
+#include "common/space/floor_fields.h"
 #include "common/space/make_entity.h"
 #include "common/space/pose_arrays.h"
 #include "common/space/slot_table.h"
@@ -77,6 +78,12 @@ public:
   std::uint32_t EngineBefore(std::uint32_t entity) const;
   // Returns the engine that moves an entity in the next tick. `engines` are those of the start (Assignment::owner).
   int EngineOf(std::uint32_t entity, std::span<const int> engines) const;
+  // Returns the fields on the floor. Throws std::logic_error in a process that does not keep them: engine workers, and
+  // controller hosts of which all devices have a Reach.
+  const FloorFields& Fields() const;
+  // Returns the slot of a robot's rate of deposits to the first floor field; those to the others follow. The robot must
+  // have the actuator floor_field.
+  std::uint32_t RateSlotOf(std::uint32_t entity) const { return fields_.RateSlotOf(entity); }
   // Returns the indices of the movable entities, ascending.
   std::span<const std::uint32_t> Movable() const { return movable_; }
 
@@ -97,6 +104,10 @@ public:
   void SetPoses(std::span<const std::uint32_t> entities, std::span<const double> poses);
   void SetAttribute(std::uint32_t slot, double value);
   void SetAttributes(const AttributeChanges& changes);
+  // Returns the fields on the floor for changes.
+  FloorFields& Fields() { return fields_; }
+  // Brings the floor fields to the tick after the present one. Call it before any value of the next state is set.
+  void AdvanceFields() { fields_.Advance(*this); }
 
   // Returns the drawing of experiment functions at this tick. It is empty unless a visualiser needs it, and is no part
   // of the state.
@@ -115,8 +126,8 @@ public:
   void Apply(const SpaceSnapshot& snapshot);
   void WritePoses(std::vector<double>& poses) const;  // writes the poses of the movable entities, as in SpaceState
 
-  // Returns XXH3-64 over the tick, the bits of all poses and the attributes, in entity order, and the indices of the
-  // entities outside the arena.
+  // Returns XXH3-64 over the tick, the bits of all poses and the attributes, in entity order, the indices of the
+  // entities outside the arena, and the cells of floor fields that are not 0.
   std::uint64_t Hash() const;
 
 private:
@@ -147,6 +158,7 @@ private:
   // the id or behind it, and 0 is a free place.
   std::vector<std::uint32_t> place_of_id_;
   StructuralTree structure_;
+  FloorFields fields_;
 };
 
 }  // namespace swarmanoid

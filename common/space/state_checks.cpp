@@ -149,12 +149,20 @@ std::string NameOfSlot(const CSwarmanoidSpace& space, std::uint32_t slot)
                          NameOf(space, entity));
     element -= count;
   }
-  if (static_cast<int>(element) >=
-      FurtherMessageSlots(space.GetExperiment(), space.GetEntity(entity).GetConfiguration()))
-    return "the engine and velocity of " + NameOf(space, entity);
-  const int own = FindAttribute(space.GetEntity(entity).GetKind(), "message")->count;
-  return fmt::format("the attribute 'message' {} of {}", element + static_cast<std::uint32_t>(own),
-                     NameOf(space, entity));
+  const Experiment& experiment = space.GetExperiment();
+  const EntityConfiguration& configuration = space.GetEntity(entity).GetConfiguration();
+  const auto further = static_cast<std::uint32_t>(FurtherMessageSlots(experiment, configuration));
+  if (element < further)
+  {
+    const int own = FindAttribute(configuration.kind, "message")->count;
+    return fmt::format("the attribute 'message' {} of {}", element + static_cast<std::uint32_t>(own),
+                       NameOf(space, entity));
+  }
+  element -= further;
+  if (element < DepositSlots(experiment, configuration))
+    return fmt::format("the rate of deposits on the floor field '{}' of {}", experiment.floor_fields[element].id,
+                       NameOf(space, entity));
+  return "the engine and velocity of " + NameOf(space, entity);
 }
 
 }  // namespace
@@ -327,6 +335,8 @@ void CheckSnapshot(const CSwarmanoidSpace& space, const SpaceSnapshot& snapshot)
 {
   if (snapshot.poses.size() != 7 * space.Movable().size() || snapshot.attributes.size() != space.Attributes().size())
     Refuse("it has other entities");
+  if (const std::string mistake = MistakeIn(snapshot.fields, FloorFieldCells(space.GetExperiment())); !mistake.empty())
+    Refuse(mistake);
   CheckPoses(space, space.Movable(), snapshot.poses);
   const std::uint32_t first_presence = space.PresenceSlot(0);
   for (std::uint32_t slot = 0; slot < first_presence; ++slot)

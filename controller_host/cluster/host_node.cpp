@@ -44,6 +44,7 @@ public:
         commands_(session.GetBus(), session.Scope(replica.limits->CommandBytes(), 1)),
         inspection_(session, role_, host_, inputs_.Mutex())
   {
+    if (std::isfinite(role_.Reach())) replica.space->Fields().Stop();
     // Sensors that ask for all, wherever they are, need the state of all.
     if (const double reach = role_.Reach(); HostsAskForParts(session.World()) && std::isfinite(reach))
     {

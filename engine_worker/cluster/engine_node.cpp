@@ -52,6 +52,7 @@ public:
     if (session.World().recorded) update_.recorded.resize(role_.Layout().command_size + role_.Layout().sensor_size);
     if (role_.Layout().sensor_size > 0)
       frames_.emplace(session.GetBus(), session.Scope(replica.limits->FrameBytes(), 1));
+    replica.space->Fields().Stop();
     if (EnginesHearParts(session.World()))
       inputs_.HearPart(PartNameOfEngine(engine), engine_, [this](const LocalState& state) { Apply(state); });
     Begin();

@@ -53,7 +53,7 @@ void RestartPoint::Restore(SpaceServer& server) const
   if (!record_) return;
   const auto checkpoint = journal_->CheckpointAt(tick_, {kServerPart});
   checkpoint->LoadPart(kServerPart, [&](ByteReader& state) { server.LoadState(checkpoint->snapshot, state); });
-  server.Resend(record_->state.attributes);
+  server.Resend(record_->state);
 }
 
 void RestartPoint::ShareOut(JournalWriter& journal, const Experiment& experiment, const HostTable& hosts) const

@@ -78,6 +78,50 @@ std::string Experiment(const std::string& engines, const std::string& places, un
          engines + "</engines>\n  <arena_physics>" + places + "</arena_physics>\n</ahss-config>\n";
 }
 
+// Robots that write to a field on the floor and read it at once, between forks beside the nests. The functions wipe the
+// field at tick 13.
+std::string FieldExperiment()
+{
+  return R"(<?xml version="1.0"?>
+<ahss-config>
+  <framework>
+    <clocktick>100</clocktick><maxclock>25</maxclock><seed>3</seed><canonical_period>5</canonical_period>
+  </framework>
+  <controllers>
+    <trail_chooser id="ant" library="trail_chooser">
+      <actuators>
+        <footbot_wheels><implementation>dummy_footbot_wheels</implementation></footbot_wheels>
+        <floor_field><implementation>generic_floor_field</implementation></floor_field>
+      </actuators>
+      <sensors>
+        <positioning><implementation>generic_positioning</implementation></positioning>
+        <footbot_proximity><implementation>generic_footbot_proximity</implementation></footbot_proximity>
+        <floor_field><implementation>generic_floor_field</implementation><points>0.1, 0.1; 0.1, -0.1</points></floor_field>
+      </sensors>
+      <parameters>
+        <nests>0.5, 1, 3.5, 1</nests><forks>0.6, 1, 3.4, 1</forks>
+        <bridge_left>2, 1.6</bridge_left><bridge_right>2, 0.4</bridge_right>
+        <departures>10</departures><lane>0.1</lane>
+      </parameters>
+    </trail_chooser>
+  </controllers>
+  <arena size="4, 2, 1" optimization="2D">
+    <floor_field id="trail" cell="0.1" evaporation="0.1" diffusion="0.01"/>
+    <distribute quantity="6">
+      <position method="grid" centre="0.5, 1, 0" spacing="0.25, 0.3, 0" layout="2, 3, 1"/>
+      <orientation method="uniform"/>
+      <footbot id="fb"><controller>ant</controller></footbot>
+    </distribute>
+  </arena>
+  <engines><dummy_engine id="ground">)" +
+         std::string("<perpendicular_axis>z</perpendicular_axis><distance>0</distance>") +
+         R"(</dummy_engine></engines>
+  <arena_physics><engine id="ground"><all/></engine></arena_physics>
+  <experiment_functions><two_bridges id="count" library="two_bridges"><wipe_at>13</wipe_at></two_bridges></experiment_functions>
+</ahss-config>
+)";
+}
+
 const std::string kPlane = "<perpendicular_axis>z</perpendicular_axis><distance>0</distance>";
 
 std::string Folder() { return fmt::format("/dev/shm/swarmanoid-simulated-{}", getpid()); }
@@ -107,6 +151,7 @@ const std::vector<Scene>& Scenes()
     const std::string groups_3d =
         "<dynamics3d id=\"ground\" split=\"2\"><step_ms>20</step_ms><solve_all>true</solve_all></dynamics3d>";
     all.push_back(MakeScene("regions_ahead", Experiment(regions, one_place, 1), 2, Folder()));
+    all.push_back(MakeScene("floor_field", FieldExperiment(), 2, Folder()));
     all.push_back(MakeScene("groups", Experiment(groups, one_place, 0, boxes), 2, Folder()));
     all.push_back(MakeScene("groups_3d", Experiment(groups_3d, one_place, 0, boxes), 2, Folder()));
     return all;

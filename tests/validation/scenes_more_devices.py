@@ -70,6 +70,24 @@ def device_faults(lab):
 
 
 @scene(GROUP)
+def floor_field(lab):
+    """One deposit of 5 in the middle of a cell, read 8 cells (the deviation) and more away."""
+    cell, diffusion, rate, ticks = 0.05, 2.5e-3, 0.02, 322
+    field = element("floor_field", {"id": "trail", "cell": cell, "evaporation": rate, "diffusion": diffusion})
+    distances = (0, 0.2, 0.4, 0.8)
+    sensor = {"floor_field": {"points": "; ".join(f"{distance}, 0" for distance in distances)}}
+    now = lab.run(field + footbot("w", 5.025, 5.025, 30, "w"), probe("w", [(0, 0, "floor_field", 50), (1, 1, "floor_field", 0)], sensors=sensor), ENGINE, ticks).readings("w", "floor_field")[-1]
+    time = (ticks - 2) * 0.1  # the deposit is in the field of tick 2, after a step; the last readings are of one tick before the end
+    spread = 4 * diffusion * time
+    for k, distance in enumerate(distances):
+        expected = 5 / (math.pi * spread) * math.exp(-distance ** 2 / spread - rate * time)
+        yield Row(f"floor field: value {distance} m from one deposit after {time:.0f} s", "M / (4 π D t) exp(-r² / (4 D t) - λ t)", "heat equation", expected, now[f"value {k}"],
+                  0.006 * 5 / (math.pi * spread), "grid of 8 cells in a deviation", "1/m²")
+    expected = -2 * 0.4 / spread * 5 / (math.pi * spread) * math.exp(-0.4 ** 2 / spread - rate * time)
+    yield Row("floor field: gradient 0.4 m from one deposit, in the robot's frame", "∂/∂r of the value", "heat equation", expected, now["gradient x 2"], 0.02 * abs(expected), "grid", "1/m³")
+
+
+@scene(GROUP)
 def eyebot_light(lab):
     turn = math.radians(20)
     bulb = element("light_bulb", {"id": "l", "position": "6,5.5,2.5", "intensity": 0.8})

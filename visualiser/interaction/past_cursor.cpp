@@ -30,6 +30,7 @@ LookBackAnswers PastCursor::Answers()
             state.tick = space.GetTick();
             space.WritePoses(state.poses);
             state.attributes.assign(space.Attributes().Values().begin(), space.Attributes().Values().end());
+            space.Fields().WriteCells(state.fields);
             const std::lock_guard lock(mutex_);
             arrived_.state = std::move(state);
           },

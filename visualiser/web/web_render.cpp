@@ -232,8 +232,11 @@ void CWebRender::SendDrawing()
   const Clock::time_point start = Clock::now();
   drawing_due_ = start + kDrawingPeriod;
   const bool is_empty = space_->GetDrawing().IsEmpty();
-  if (drawing_revision_ == space_->DrawingRevision() && (is_empty || drawing_poses_ == space_->Revision())) return;
+  if (drawing_revision_ == space_->DrawingRevision() && drawn_fields_ == space_->Fields().Revision() &&
+      (is_empty || drawing_poses_ == space_->Revision()))
+    return;
   drawing_revision_ = space_->DrawingRevision();
+  drawn_fields_ = space_->Fields().Revision();
   drawing_poses_ = space_->Revision();
   const WebServer::Bytes bytes = Shared(DrawingBytes(*space_));
   host_->Server().Publish(WebServer::Slot::kDrawing, bytes);

@@ -90,6 +90,7 @@ private:
   std::map<std::uint64_t, MarksRequest> marked_;  // by client
   std::unique_ptr<MarksWriter> marks_writer_;     // once a page has asked for marks
   std::uint64_t drawing_revision_ = 1;            // the revision that pages have; at first they have none
+  std::uint64_t drawn_fields_ = 1;                // the revision of the floor fields that pages have
   std::uint64_t drawing_poses_ = 0;
   std::uint64_t marked_revision_ = 0, marked_attributes_ = 0;
 

@@ -36,6 +36,13 @@ void FillDrawing(Drawing& drawing)
   drawing.texts.assign(Drawing::kMostTexts, std::string(Drawing::kLongestText, ' '));
 }
 
+// The longest message changes every other cell, or all cells.
+void FillCells(FieldCells& cells, std::size_t all)
+{
+  cells.runs.resize(all + 2);
+  cells.values.resize(all);
+}
+
 void CheckLength(const char* field, std::size_t length, std::size_t wanted)
 {
   if (length != wanted) RefuseField(field, fmt::format("it has {} numbers, not {}", length, wanted));
@@ -64,6 +71,8 @@ TickLimits::TickLimits(const CSwarmanoidSpace& space, const Assignment& assignme
     : entities_(space.Size()),
       movable_(space.Movable().size()),
       slots_(space.Attributes().size()),
+      cells_(FloorFieldCells(space.GetExperiment())),
+      sets_cells_(cells_ > 0 && !space.GetExperiment().functions.empty()),
       draws_(!space.GetExperiment().functions.empty() && !space.GetExperiment().visualisations.empty())
 {
   const Experiment& experiment = space.GetExperiment();
@@ -94,6 +103,7 @@ std::size_t TickLimits::StateBytes() const
   FillPoses(state.poses, movable_);
   FillSlots(state.attributes, slots_);
   state.moved.resize(entities_);
+  if (sets_cells_) FillCells(state.fields, cells_);
   if (draws_) FillDrawing(state.drawing);
   return PayloadSize(MessageHeader(), state);
 }
@@ -144,6 +154,8 @@ void TickLimits::Check(const MessageHeader& header, const SpaceState& state) con
   CheckLength("poses", state.poses.size(), kPoseColumns * movable_);
   CheckSlots(state.attributes);
   CheckMoved(state.moved);
+  if (!sets_cells_ && !state.fields.values.empty()) RefuseField("fields", "nothing changes floor fields in this run");
+  CheckCells(state.fields);
   if (!draws_ && !state.drawing.IsEmpty()) RefuseField("shapes", "nothing draws in this run");
   CheckDrawing(state.drawing);
 }
@@ -168,6 +180,11 @@ void TickLimits::CheckMoved(const std::vector<std::uint32_t>& moved) const
   for (std::size_t k = 0; k < moved.size(); ++k)
     if (moved[k] >= entities_ || (k > 0 && moved[k] <= moved[k - 1]))
       RefuseField("moved", fmt::format("entity {} of {} does not ascend, or there is none", moved[k], entities_));
+}
+
+void TickLimits::CheckCells(const FieldCells& cells) const
+{
+  if (const std::string mistake = MistakeIn(cells, cells_); !mistake.empty()) RefuseField("fields", mistake);
 }
 
 void TickLimits::CheckDrawing(const Drawing& drawing) const
@@ -198,6 +215,7 @@ void TickLimits::Check(const SpaceSnapshot& snapshot) const
 {
   CheckLength("poses", snapshot.poses.size(), kPoseColumns * movable_);
   CheckLength("attributes", snapshot.attributes.size(), slots_);
+  CheckCells(snapshot.fields);
   CheckDrawing(snapshot.drawing);
 }
 

@@ -59,11 +59,14 @@ private:
   void CheckSlots(const AttributeChanges& changes) const;
   void CheckMoved(const std::vector<std::uint32_t>& moved) const;
   void CheckDrawing(const Drawing& drawing) const;
+  void CheckCells(const FieldCells& cells) const;
   void CheckFaults(const ControllerFaults& faults) const;
 
   std::size_t entities_;
   std::size_t movable_;
   std::size_t slots_;
+  std::size_t cells_;                        // of floor fields
+  bool sets_cells_;                          // experiment functions may change them
   bool draws_;                               // states have the drawings of experiment functions
   std::vector<bool> is_movable_;             // by entity
   std::vector<bool> may_fail_;               // by entity

@@ -4,6 +4,7 @@
 
 #include "ci_colour_blob_sensor.h"
 #include "ci_controller.h"
+#include "ci_floor_field.h"
 #include "ci_range_and_bearing.h"
 #include "common/math/elementary.h"
 #include "eyebot/ci_eyebot_propellers_actuator.h"
@@ -42,6 +43,8 @@ public:
       camera_ = &robot.Sensor<CCI_ColourBlobSensor>("footbot_omnidirectional_camera");
     if (robot.HasActuator("footbot_leds"))
       robot.Actuator<CCI_FootBotLedsActuator>("footbot_leds").SetAllColours(CCI_Colour::RED);
+    if (robot.HasActuator("floor_field")) robot.Actuator<CCI_FloorFieldActuator>("floor_field").SetRate(1);
+    if (robot.HasSensor("floor_field")) smell_ = &robot.Sensor<CCI_FloorFieldSensor>("floor_field");
     if (robot.HasActuator("range_and_bearing"))
       robot.Actuator<CCI_RangeAndBearingActuator>("range_and_bearing").SetMessage({1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
     return RETURN_OK;
@@ -53,6 +56,7 @@ public:
     // Readings are made on demand.
     if (light_ != nullptr) read_ = light_->GetAllSensorReadings()[0];
     if (ground_ != nullptr) read_ = ground_->GetAllSensorReadings()[0];
+    if (smell_ != nullptr) read_ = smell_->GetReadings()[0].value;
     if (heard_ != nullptr) read_ = static_cast<double>(heard_->GetAllPackets().size());
     if (camera_ != nullptr && looks_always_) read_ = static_cast<double>(camera_->GetAllBlobs().size());
     if (propellers_ != nullptr) propellers_->SetVelocity(0.1, 0, 0, 0.2);
@@ -90,6 +94,7 @@ private:
   CCI_FootBotLightSensor* light_ = nullptr;
   CCI_FootBotGroundSensor* ground_ = nullptr;
   CCI_RangeAndBearingSensor* heard_ = nullptr;
+  CCI_FloorFieldSensor* smell_ = nullptr;
   std::vector<CCI_Sensor*> steered_by_;
   std::vector<CCI_Reading> readings_;
   CCI_FootBotWheelsActuator* wheels_ = nullptr;

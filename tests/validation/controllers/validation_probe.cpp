@@ -8,6 +8,7 @@
 
 #include "ci_controller.h"
 #include "ci_directional_leds_actuator.h"
+#include "ci_floor_field.h"
 #include "ci_radio.h"
 #include "ci_range_and_bearing.h"
 #include "eyebot/ci_eyebot_laser_actuator.h"
@@ -88,6 +89,8 @@ private:
     const auto colour = static_cast<std::uint32_t>(values[0]);
     if (command.device == "footbot_wheels")
       robot.Actuator<CCI_FootBotWheelsActuator>("footbot_wheels").SetFootBotWheelsLinearVelocity(values[0], values[1]);
+    else if (command.device == "floor_field")
+      robot.Actuator<CCI_FloorFieldActuator>("floor_field").SetRate(values[0]);
     else if (command.device == "footbot_gripper")
       robot.Actuator<CCI_FootBotGripperActuator>("footbot_gripper").SetGripper(values[0]);
     else if (command.device == "footbot_turret")
