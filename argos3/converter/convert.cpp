@@ -213,6 +213,9 @@ private:
       const Made engine = AddNode(*list, tag, at);
       SetValue(*engine, "id", id, at);
       if (flat) SetValue(*engine, "distance", TextOf(Number(*theirs, "elevation", 0) + arena.Origin().z()), at);
+      // The motors of ARGoS3's foot-bots, not their wheels, limit the force (dynamics2d_footbot_model.cpp).
+      if (flat) SetValue(*engine, "wheel_friction", "1", at);
+      if (flat) SetValue(*engine, "gripper", "rod", at);
       NoteOthers(*theirs, flat ? std::set<std::string>{"id", "elevation"} : std::set<std::string>{"id"});
       NoteOtherChildren(*theirs,
                         flat ? std::set<std::string>{"boundaries", "friction"} : std::set<std::string>{"boundaries"});

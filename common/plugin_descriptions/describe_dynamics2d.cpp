@@ -53,6 +53,11 @@ std::vector<ParameterSpec> Dynamics2dParameters()
           "What the turret's motor exerts at most while gripping, and the torque that the torque sensor reads as 1."),
       Number("traction_range", "N", "25", 1e-6, 1e6, "The traction on the turret that the torque sensor reads as 1."),
       Number("grip_distance", "m", "0.02", 0, 0.1, "How far from the gripper's face a surface may be to be gripped."),
+      {.name = "gripper",
+       .type = ParameterType::kText,
+       .default_value = "square",
+       .description = "square stops bodies and holds rigidly; rod, as in ARGoS3, stops none, and its ends turn freely.",
+       .choices = {"square", "rod"}},
       ThreadsParameter(),
   };
 }

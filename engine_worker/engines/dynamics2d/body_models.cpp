@@ -153,6 +153,7 @@ BodyModel MovableModel(const CSwarmanoidSpaceEntity& entity, EMotion motion, con
     model.inertia = model.mass * UnitInertia(model.polygon);
   }
   model.has_gripper = kind.mechanism == Mechanism::kTurretGripper;
+  model.grips_by_rod = model.has_gripper && parameters.grips_by_rods;
   if (motion != EMotion::kDynamic) return model;
 
   model.grippable = kind.grippable;

@@ -1,7 +1,8 @@
 // Grippers, turrets and grips: which body a gripper can take, the joint that holds it, and its load.
 //
-// Method: a grip is a revolute joint about the axis of the turret if a motor turns the turret, else a rigid one. A held
-// turret returns to its angle with limited speed, and slips when the load exceeds the torque of its motor.
+// Method: a grip is a revolute joint about the axis of the turret if a motor turns the turret, else a rigid one, or a
+// rod of fixed length from that axis to the place of the grip. A held turret returns to its angle with limited speed,
+// and slips when the load exceeds the torque of its motor.
 //
 // Invariants: grips lead from body to body without a loop. The joint's angle is stated against reference_angle, so that
 // whole turns of the bodies do not count.
@@ -59,6 +60,17 @@ void Dynamics2dWorld::BuildGrip(Body& body)
     joint.referenceAngle = body.grip.reference_angle;
     joint.enableMotor = true;
     joint.maxMotorTorque = static_cast<float>(settings_.turret_torque * kTorqueUnits);
+    body.joint = worlds_[body.world]->box2d->CreateJoint(&joint);
+    return;
+  }
+  if (body.model.grips_by_rod)
+  {
+    b2DistanceJointDef joint;
+    joint.bodyA = body.b2;
+    joint.bodyB = target;
+    joint.localAnchorB = body.grip.anchor;
+    joint.length = joint.minLength = joint.maxLength = static_cast<float>(body.model.radius * kUnitsPerMetre);
+    joint.collideConnected = true;
     body.joint = worlds_[body.world]->box2d->CreateJoint(&joint);
     return;
   }
@@ -158,8 +170,10 @@ int Dynamics2dWorld::FindGrippable(int number) const
   if (body.world == ContactGroups::kAlone) return kNoBody;  // no body is near
   const BodyState state = StateOf(body);
   const SinCos turret = SinCosOf(state.angle + body.turret_angle);
-  const double x = state.x / kUnitsPerMetre + kGripperReach * turret.cos;
-  const double y = state.y / kUnitsPerMetre + kGripperReach * turret.sin;
+  const double reach = body.model.grips_by_rod ? body.model.radius : kGripperReach;
+  const double grip_distance = body.model.grips_by_rod ? kRodGripDistance : settings_.grip_distance;
+  const double x = state.x / kUnitsPerMetre + reach * turret.cos;
+  const double y = state.y / kUnitsPerMetre + reach * turret.sin;
 
   NearbyBodies nearby;
   if (IsRemote(body))
@@ -171,14 +185,14 @@ int Dynamics2dWorld::FindGrippable(int number) const
   else
   {
     b2AABB box;
-    box.lowerBound = ToUnits(x - 2 * settings_.grip_distance, y - 2 * settings_.grip_distance);
-    box.upperBound = ToUnits(x + 2 * settings_.grip_distance, y + 2 * settings_.grip_distance);
+    box.lowerBound = ToUnits(x - 2 * grip_distance, y - 2 * grip_distance);
+    box.upperBound = ToUnits(x + 2 * grip_distance, y + 2 * grip_distance);
     worlds_[body.world]->box2d->QueryAABB(&nearby, box);
     std::sort(nearby.bodies.begin(), nearby.bodies.end());
   }
 
   int best = kNoBody;
-  double best_distance = settings_.grip_distance;
+  double best_distance = grip_distance;
   for (const int candidate : nearby.bodies)
   {
     const Body& other = bodies_[Index(candidate)];
@@ -202,7 +216,13 @@ void Dynamics2dWorld::Grip(int number, int target)
   const Body& other = bodies_[Index(target)];
   const BodyState own_state = StateOf(body);
   const BodyState state = StateOf(other);
-  body.grip.anchor = b2MulT(b2Transform({state.x, state.y}, b2Rot(state.angle)), {own_state.x, own_state.y});
+  b2Vec2 held{own_state.x, own_state.y};  // the axis of the turret, or the outer end of a rod
+  if (body.model.grips_by_rod && !body.model.has_turret_motor)
+  {
+    const SinCos turret = SinCosOf(own_state.angle + body.turret_angle);
+    held += ToUnits(body.model.radius * turret.cos, body.model.radius * turret.sin);
+  }
+  body.grip.anchor = b2MulT(b2Transform({state.x, state.y}, b2Rot(state.angle)), held);
   const double difference = static_cast<double>(state.angle) - own_state.angle;
   body.grip.reference_angle =
       static_cast<float>(body.model.has_turret_motor ? difference - body.turret_angle : difference);

@@ -23,6 +23,7 @@ Dynamics2dParameters ReadDynamics2dParameters(const Parameters& parameters)
   values.turret_torque = parameters.Number("turret_torque");
   values.traction_range = parameters.Number("traction_range");
   values.grip_distance = parameters.Number("grip_distance");
+  values.grips_by_rods = parameters.Text("gripper") == "rod";
   return values;
 }
 

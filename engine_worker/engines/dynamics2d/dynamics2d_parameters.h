@@ -29,6 +29,7 @@ struct Dynamics2dParameters
   double turret_torque = 1.5;   // N m
   double traction_range = 25;   // N
   double grip_distance = 0.01;  // m
+  bool grips_by_rods = false;
 };
 
 Dynamics2dParameters ReadDynamics2dParameters(const Parameters& parameters);

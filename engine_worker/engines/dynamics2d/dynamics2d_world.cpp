@@ -99,6 +99,7 @@ b2Body* Dynamics2dWorld::BuildIn(GroupWorld& world, std::uint32_t number)
     b2PolygonShape square;
     square.SetAsBox(1, 1);
     fixture.shape = &square;
+    fixture.isSensor = model.grips_by_rod;
     body.gripper = b2->CreateFixture(&fixture);
     TurnGripper(body);
   }

@@ -45,6 +45,7 @@ struct BodyModel
   bool lies = false;             // on the ground, by friction alone: sliding takes from what resists turning
   bool has_gripper = false;      // a square at the front of a turret at the origin
   bool has_turret_motor = false;
+  bool grips_by_rod = false;  // the square stops no body, and a grip without a motor leaves both ends free to turn
   bool grippable = false;
 };
 
@@ -90,6 +91,9 @@ struct TickMeasures
 // The square of the gripper: its edge, and how far its outer face stands from the axis of the turret (m).
 inline constexpr double kGripperSide = GripperSquare::kSide;
 inline constexpr double kGripperReach = GripperSquare::kReach;
+// How far from its front a gripper of the model rod takes bodies (m): the circle of dynamics2d_footbot_model.cpp of
+// ARGoS3.
+inline constexpr double kRodGripDistance = 0.01;
 inline constexpr int kNoBody = -1;
 // Box2D's units.
 inline constexpr double kUnitsPerMetre = 10;

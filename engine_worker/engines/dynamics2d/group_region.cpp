@@ -38,7 +38,7 @@ BodyModel GetModel(ByteReader& orders)
   const auto motion = orders.Get<std::uint8_t>();
   if (motion > static_cast<int>(EMotion::kStatic)) RefuseGroup("a body moves in an unknown way");
   model.motion = static_cast<EMotion>(motion);
-  for (bool* const flag : {&model.lies, &model.has_gripper, &model.has_turret_motor})
+  for (bool* const flag : {&model.lies, &model.has_gripper, &model.has_turret_motor, &model.grips_by_rod})
     *flag = orders.Get<std::uint8_t>() != 0;
   for (double* const value : {&model.radius, &model.mass, &model.inertia, &model.friction, &model.restitution,
                               &model.ground_force, &model.ground_torque})

@@ -23,8 +23,8 @@ namespace
 
 void PutModel(const BodyModel& model, ByteWriter& orders)
 {
-  for (const auto flag :
-       {static_cast<int>(model.motion), model.lies ? 1 : 0, model.has_gripper ? 1 : 0, model.has_turret_motor ? 1 : 0})
+  for (const auto flag : {static_cast<int>(model.motion), model.lies ? 1 : 0, model.has_gripper ? 1 : 0,
+                          model.has_turret_motor ? 1 : 0, model.grips_by_rod ? 1 : 0})
     orders.Put(static_cast<std::uint8_t>(flag));
   for (const double value : {model.radius, model.mass, model.inertia, model.friction, model.restitution,
                              model.ground_force, model.ground_torque})

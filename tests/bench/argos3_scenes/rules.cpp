@@ -189,7 +189,7 @@ void CChainLink::ControlStep()
     last = std::max(last, place);
   }
   // A link joins beyond 60 cm from the others, and the last one may leave.
-  if (place_ == 0 && last != 0 && nearest > 60 && random_->Bernoulli(0.2))
+  if (place_ == 0 && last != 0 && nearest > 60 && random_->Bernoulli(0.05))
     place_ = last + 1;
   else if (place_ > 1 && last < place_ && random_->Bernoulli(0.004))
     place_ = 0;
@@ -246,17 +246,11 @@ void CEPuckAvoider::Init(TConfigurationNode&)
 
 void CEPuckAvoider::ControlStep()
 {
-  // The first four sensors look to the right half, the others to the left one.
+  // The two sensors ahead on each side see at most 10 cm.
   const auto& readings = proximity_->GetReadings();
-  Real right = 0;
-  Real left = 0;
-  for (int i = 0; i < 2; ++i) right = std::max(right, readings[static_cast<size_t>(i)]);
-  for (int i = 6; i < 8; ++i) left = std::max(left, readings[static_cast<size_t>(i)]);
+  const bool is_free = readings[0] + readings[1] + readings[6] + readings[7] == 0;
   constexpr Real kSpeed = 8;  // cm/s
-  if (right == 0 && left == 0)
-    wheels_->SetLinearVelocity(kSpeed, kSpeed);
-  else
-    wheels_->SetLinearVelocity(right > left ? -kSpeed / 2 : kSpeed / 2, right > left ? kSpeed / 2 : -kSpeed / 2);
+  wheels_->SetLinearVelocity(is_free ? kSpeed : -kSpeed / 2, is_free ? kSpeed : kSpeed / 2);
 }
 
 REGISTER_CONTROLLER(CDiffusion, "scene_diffusion")

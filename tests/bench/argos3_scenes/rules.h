@@ -167,7 +167,7 @@ private:
   argos::CCI_BatterySensor* battery_ = nullptr;
 };
 
-// An e-puck that turns away from what is before it.
+// An e-puck that turns left while something is before it.
 class CEPuckAvoider : public argos::CCI_Controller
 {
 public:

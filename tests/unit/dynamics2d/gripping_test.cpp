@@ -1,4 +1,6 @@
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "dynamics2d_test_world.h"
 
@@ -72,6 +74,63 @@ TEST(Dynamics2d, ARingOfFootbotsCannotClose)
   world.Run(5);
   EXPECT_EQ(world.Attribute(a, "gripped"), 1 + b);
   EXPECT_EQ(world.Attribute(b, "gripped"), 0);
+}
+
+// The gripper of ARGoS3's foot-bots is a sensor (dynamics2d_footbot_model.cpp): its body alone meets walls.
+TEST(Dynamics2d, AGripperOfTheModelRodStopsNothing)
+{
+  for (const auto& [model, gap] : {std::pair("square", kReach), std::pair("rod", 0.085)})
+  {
+    Dynamics2dTestWorld world("gripper", model);
+    const auto robot = world.AddFootbot(1, 1);
+    world.AddWall({1.6, 1, 0.1}, {0.2, 2, 0.2});
+    world.Drive(robot, 0.1, 0.1);
+    world.Run(100);
+    EXPECT_NEAR(1.5 - world.Position(robot).x(), gap, 2e-3) << model;
+  }
+}
+
+TEST(Dynamics2d, ARodTakesWithinACentimetreOfTheFront)
+{
+  for (const auto& [gap, takes] : {std::pair(0.009, true), std::pair(0.011, false)})
+  {
+    Dynamics2dTestWorld world("gripper", "rod");
+    const auto robot = world.AddFootbot(1, 1);
+    const auto prey = world.AddPrey(1 + 0.085 + gap + 0.1, 1, 0.5);
+    world.Command("footbot_gripper", robot, {1});
+    world.Run(1);
+    EXPECT_EQ(world.Attribute(robot, "gripped"), takes ? 1 + prey : 0) << gap;
+  }
+}
+
+// Both ends of a rod turn freely: a robot that turns on the spot leaves its load where it is, and one that drives back
+// pulls it.
+TEST(Dynamics2d, ARodPullsAndDoesNotTurnItsLoad)
+{
+  for (const std::string model : {"square", "rod"})
+  {
+    Dynamics2dTestWorld world("gripper", model);
+    const auto robot = world.AddFootbot(2, 2);
+    const auto prey = world.AddPrey(2 + 0.085 + 0.1, 2, 0.5);
+    world.Command("footbot_gripper", robot, {1});
+    world.Run(1);
+    ASSERT_EQ(world.Attribute(robot, "gripped"), 1 + prey);
+    const Vector3 before = world.Position(prey);
+    world.Drive(robot, -0.05, 0.05);
+    world.Run(20);
+    const double moved = (world.Position(prey) - before).norm();
+    if (model == "rod")
+      EXPECT_LT(moved, 2e-3);
+    else
+      EXPECT_GT(moved, 0.1);
+    world.Drive(robot, 0, 0);
+    world.Run(10);
+    const double length = (world.Position(prey) - world.Position(robot)).norm();
+    world.Drive(robot, -0.1, -0.1);
+    world.Run(20);
+    EXPECT_GT((world.Position(prey) - before).norm(), 0.1) << model;
+    EXPECT_NEAR((world.Position(prey) - world.Position(robot)).norm(), length, 0.012) << model;
+  }
 }
 
 // A load that is dragged at a steady speed pulls with mu M g.
