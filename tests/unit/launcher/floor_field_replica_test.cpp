@@ -101,8 +101,11 @@ TEST(FloorFieldReplicas, HaveTheHashesOfTheServer)
     replica.Apply(state);
     stopped.Apply(state);
     EXPECT_EQ(replica.Hash(), server.Hash()) << tick;
-    if (tick >= 20) late.Apply(state);
-    if (tick >= 20) EXPECT_EQ(late.Hash(), server.Hash()) << tick;
+    if (tick >= 20)
+    {
+      late.Apply(state);
+      EXPECT_EQ(late.Hash(), server.Hash()) << tick;
+    }
     ASSERT_TRUE(rows.Add(state, false, {}, {}));
     hashes.push_back(server.Hash());
   }
