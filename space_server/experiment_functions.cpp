@@ -106,7 +106,8 @@ void SpaceEditor::Deposit(std::string_view field, double x, double y, double amo
   if (cell == on.Cells())
     throw std::invalid_argument(fmt::format("the point {:g}, {:g} is outside the floor field '{}'", x, y, field));
   if (!std::isfinite(amount))
-    throw std::invalid_argument(fmt::format("an amount of {:g} on the floor field '{}'; it must be finite", amount, field));
+    throw std::invalid_argument(
+        fmt::format("an amount of {:g} on the floor field '{}'; it must be finite", amount, field));
   const double edge = on.GetConfiguration().cell_m;
   const double value = on.ValueOf(cell) + amount / (edge * edge);
   SetFieldCell(field, cell, std::clamp(value, 0.0, static_cast<double>(FloorField::kMost)));
@@ -120,8 +121,8 @@ void SpaceEditor::SetFieldCell(std::string_view field, std::size_t cell, double 
     throw std::invalid_argument(
         fmt::format("the floor field '{}' has {} cells; there is no cell {}", field, fields[number].Cells(), cell));
   if (!(value >= 0 && value <= FloorField::kMost))
-    throw std::invalid_argument(
-        fmt::format("the value {:g} for the floor field '{}'; it must be from 0 to {:g}", value, field, FloorField::kMost));
+    throw std::invalid_argument(fmt::format("the value {:g} for the floor field '{}'; it must be from 0 to {:g}", value,
+                                            field, FloorField::kMost));
   server_.SetFieldCell(fields.FirstCell(number) + static_cast<std::uint32_t>(cell), static_cast<float>(value));
 }
 

@@ -72,9 +72,9 @@ public:
   // What the sensor reads at one of its points.
   struct Reading
   {
-    double value = 0;      // 1/m²
-    double gradient_x = 0; // 1/m³, to the front of the robot
-    double gradient_y = 0; // 1/m³, to its left
+    double value = 0;       // 1/m²
+    double gradient_x = 0;  // 1/m³, to the front of the robot
+    double gradient_y = 0;  // 1/m³, to its left
   };
 
   // Returns the number of points, which the experiment file states.

@@ -12,8 +12,8 @@ namespace swarmanoid
 namespace
 {
 
-constexpr double kMostCells = 1 << 24;  // of one field
-constexpr double kMostOfAll = 1 << 26;
+constexpr double kMostFieldCells = 1 << 24;  // of one field
+constexpr double kMostCellsOfFields = 1 << 26;
 constexpr const char* kFieldOfArena = "<field of the arena>";  // lost (Diagnostics::Lose) if a field is wrong
 
 // Returns the number of cells along one side of the arena; an incomplete last cell counts.
@@ -63,13 +63,13 @@ void ReadFloorField(const TConfigurationTree& tree, const ElementSpec& spec, Rea
   const double cells = std::ceil(size.x() / field.cell_m) * std::ceil(size.y() / field.cell_m);
   double all = cells;
   for (const FloorFieldConfiguration& other : fields) all += static_cast<double>(other.Cells());
-  if (cells > kMostCells || all > kMostOfAll)
+  if (cells > kMostFieldCells || all > kMostCellsOfFields)
   {
     reading.diagnostics.Add(
         reader.Place("cell"),
         fmt::format("<floor_field> {} has {:.0f} cells of {:g} m; a field may have {:.0f}, and all together {:.0f}; "
                     "take larger cells",
-                    Quoted(field.id), cells, field.cell_m, kMostCells, kMostOfAll));
+                    Quoted(field.id), cells, field.cell_m, kMostFieldCells, kMostCellsOfFields));
     return reading.diagnostics.Lose(kFieldOfArena);
   }
   field.columns = CellsAlong(size.x(), field.cell_m);

@@ -176,7 +176,8 @@ ElementSpec FloorField()
   ElementSpec element;
   element.tags = {"floor_field"};
   element.description =
-      "A field on the floor, such as a virtual pheromone: an amount per m² in square cells over the whole arena. Robots "
+      "A field on the floor, such as a virtual pheromone: an amount per m² in square cells over the whole arena. "
+      "Robots "
       "deposit with the actuator floor_field and read with the sensor floor_field.";
   element.repeatable = true;
   element.parameters = {

@@ -76,7 +76,8 @@ Vector2 FloorField::GradientAt(double x, double y) const
 float FloorField::Largest() const
 {
   float largest = 0;
-  VisitRuns([&](std::size_t, std::span<const float> run) { largest = std::max(largest, *std::ranges::max_element(run)); });
+  VisitRuns([&](std::size_t, std::span<const float> run)
+            { largest = std::max(largest, *std::ranges::max_element(run)); });
   return largest;
 }
 
@@ -215,8 +216,8 @@ void FloorField::FindTiles()
       if (holds_[tile] == 0) continue;
       const std::size_t left = column * kTile, right = EndColumn(column);
       const std::size_t bottom = row * kTile, top = EndRow(row);
-      const auto mark = [&](std::size_t other, std::size_t at_column, std::size_t at_row, std::size_t step,
-                            std::size_t count)
+      const auto mark =
+          [&](std::size_t other, std::size_t at_column, std::size_t at_row, std::size_t step, std::size_t count)
       {
         if (is_due_[other] == 0 && edge(at_column, at_row, step, count)) is_due_[other] = 1;
       };

@@ -160,8 +160,7 @@ std::string MistakeIn(const FieldCells& cells, std::size_t all)
     count += cells.runs[k + 1];
   }
   if (end > all) return fmt::format("there is no cell {}; the floor fields have {}", end - 1, all);
-  if (count != cells.values.size())
-    return fmt::format("there are {} values for {} cells", cells.values.size(), count);
+  if (count != cells.values.size()) return fmt::format("there are {} values for {} cells", cells.values.size(), count);
   for (const float value : cells.values)
     if (!(value >= 0 && value <= FloorField::kMost)) return fmt::format("the value {:g} is not from 0 to 1e30", value);
   return {};

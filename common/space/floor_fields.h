@@ -1,9 +1,9 @@
-// FloorFields: the fields on the floor of an experiment, and the robots that write to them. Every process that keeps the
-// fields computes them from the same deposits with the same code, so the bits are equal and no cells travel. What
+// FloorFields: the fields on the floor of an experiment, and the robots that write to them. Every process that keeps
+// the fields computes them from the same deposits with the same code, so the bits are equal and no cells travel. What
 // experiment functions change travels as cells, and so does the whole field in snapshots.
 //
-// The fields of tick t + 1 are those of tick t, plus the deposits in the order of the entities, by the poses and rates in
-// the state of tick t, and then a step, if one is due. One thread at a time may use them.
+// The fields of tick t + 1 are those of tick t, plus the deposits in the order of the entities, by the poses and rates
+// in the state of tick t, and then a step, if one is due. One thread at a time may use them.
 #pragma once
 
 #include <cstdint>

@@ -28,8 +28,7 @@ const SlotTable::Values* SlotTable::ValuesOf(EntityKind kind, std::uint32_t furt
                                              std::uint32_t rates)
 {
   const auto same = std::ranges::find_if(runs_,
-                                         [&](const Run& run)
-                                         {
+                                         [&](const Run& run) {
                                            return run.kind == kind && run.further == further &&
                                                   run.changes_engine == changes_engine && run.rates == rates;
                                          });

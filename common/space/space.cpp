@@ -25,7 +25,8 @@ auto Components(Space& poses)
 
 }  // namespace
 
-CSwarmanoidSpace::CSwarmanoidSpace(const Experiment& experiment) : experiment_(experiment), structure_(*this), fields_(experiment)
+CSwarmanoidSpace::CSwarmanoidSpace(const Experiment& experiment)
+    : experiment_(experiment), structure_(*this), fields_(experiment)
 {
   const std::size_t count = experiment.entities.size();
   for (auto* component : Components(poses_)) component->resize(count);
@@ -103,7 +104,8 @@ const FloorFields& CSwarmanoidSpace::Fields() const
 {
   if (!fields_.AreKept())
     throw std::logic_error(
-        "this process does not keep the floor fields: engines have none, and a device that reads them must not override "
+        "this process does not keep the floor fields: engines have none, and a device that reads them must not "
+        "override "
         "Reach");
   return fields_;
 }

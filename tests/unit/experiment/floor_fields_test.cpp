@@ -20,7 +20,8 @@ std::string MistakesOf(const std::string& fields, const std::string& framework =
 {
   std::string all;
   for (const Diagnostic& error : With(fields, framework).errors)
-    all += std::to_string(error.location.line) + ":" + std::to_string(error.location.column) + ": " + error.message + "\n";
+    all +=
+        std::to_string(error.location.line) + ":" + std::to_string(error.location.column) + ": " + error.message + "\n";
   return all;
 }
 
@@ -47,12 +48,14 @@ TEST(FloorFieldElement, CoversTheArenaWithCells)
 TEST(FloorFieldElement, RefusesUnstableDiffusionWithTheLimit)
 {
   EXPECT_EQ(MistakesOf("<floor_field id='trail' diffusion='6.25e-3'/>"), "") << "the limit itself is stable";
-  EXPECT_EQ(MistakesOf("<floor_field id='trail' diffusion='0.01'/>"),
-            "3:32: the diffusion of <floor_field> 'trail' is 0.01 m²/s; with cells of 0.05 m and steps of 0.1 s it must "
-            "be at most cell² / (4 · step) = 0.00625 m²/s; lower it, or take larger cells\n");
-  EXPECT_EQ(MistakesOf("<floor_field id='trail' diffusion='0.002' period='4'/>", "<clocktick>200</clocktick>"),
-            "3:32: the diffusion of <floor_field> 'trail' is 0.002 m²/s; with cells of 0.05 m and steps of 0.8 s it must "
-            "be at most cell² / (4 · step) = 0.00078125 m²/s; lower it or the period, or take larger cells\n");
+  EXPECT_EQ(
+      MistakesOf("<floor_field id='trail' diffusion='0.01'/>"),
+      "3:32: the diffusion of <floor_field> 'trail' is 0.01 m²/s; with cells of 0.05 m and steps of 0.1 s it must "
+      "be at most cell² / (4 · step) = 0.00625 m²/s; lower it, or take larger cells\n");
+  EXPECT_EQ(
+      MistakesOf("<floor_field id='trail' diffusion='0.002' period='4'/>", "<clocktick>200</clocktick>"),
+      "3:32: the diffusion of <floor_field> 'trail' is 0.002 m²/s; with cells of 0.05 m and steps of 0.8 s it must "
+      "be at most cell² / (4 · step) = 0.00078125 m²/s; lower it or the period, or take larger cells\n");
 }
 
 TEST(FloorFieldElement, RefusesTooManyCellsAndTwoOfOneId)

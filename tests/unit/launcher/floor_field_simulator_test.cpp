@@ -49,7 +49,8 @@ private:
 };
 REGISTER_CONTROLLER(CFieldWriter, "field_writer")
 
-std::unique_ptr<Experiment> Scene(const std::string& robots, const std::string& more = "", const std::string& faults = "")
+std::unique_ptr<Experiment> Scene(const std::string& robots, const std::string& more = "",
+                                  const std::string& faults = "")
 {
   RegisterBuiltins();
   return test::ExperimentText{
@@ -58,7 +59,8 @@ std::unique_ptr<Experiment> Scene(const std::string& robots, const std::string& 
                                        .actuators = {"generic_floor_field point='0.1, 0'"},
                                        .sensors = {"generic_floor_field points='0, 0; 0.1, 0'"}}),
       .size = "4,4,1",
-      .arena = "<floor_field id='trail' evaporation='0.5' diffusion='1e-3' " + more + "/><floor_field id='food'/>" + robots,
+      .arena =
+          "<floor_field id='trail' evaporation='0.5' diffusion='1e-3' " + more + "/><floor_field id='food'/>" + robots,
       .faults = faults}
       .Load();
 }
@@ -168,7 +170,9 @@ TEST(FloorFieldDevices, GoOnFromACheckpoint)
   options.restore_file = folder + "/" + CheckpointName(20);
   CSimulator restored(*experiment, options);
   EXPECT_GT(restored.GetSpace().Fields().Field("food").Total(), 0);
-  while (restored.Step()) {}
+  while (restored.Step())
+  {
+  }
   EXPECT_EQ(restored.Finish().hash, whole.Finish().hash);
   std::filesystem::remove_all(folder);
 }

@@ -136,7 +136,8 @@ std::vector<float> StepOfAll(const std::vector<float>& before, std::size_t colum
 TEST(FloorField, HasTheSameBitsAsAComputationOfAllCells)
 {
   std::mt19937 random(1);
-  for (const auto& [columns, rows] : {std::pair<std::size_t, std::size_t>{1, 1}, {16, 16}, {7, 50}, {33, 17}, {100, 64}})
+  for (const auto& [columns, rows] :
+       {std::pair<std::size_t, std::size_t>{1, 1}, {16, 16}, {7, 50}, {33, 17}, {100, 64}})
   {
     FloorFieldConfiguration configuration = Configuration(columns, rows, 0.3, 0.004);
     configuration.least = 1;
@@ -195,7 +196,8 @@ TEST(FloorFields, AreTheSameAfterTheirCellsWereSent)
   EXPECT_EQ(fields.Cells(), 209U);
   EXPECT_EQ(fields.NumberOf("food"), 1U);
   EXPECT_THROW(fields.NumberOf("fod"), std::invalid_argument);
-  for (const std::uint32_t cell : {0U, 1U, 19U, 20U, 199U, 200U, 208U}) fields.Set(cell, 1.0F + static_cast<float>(cell));
+  for (const std::uint32_t cell : {0U, 1U, 19U, 20U, 199U, 200U, 208U})
+    fields.Set(cell, 1.0F + static_cast<float>(cell));
   others.Set(5, 9);
   FieldCells cells;
   fields.WriteCells(cells);
@@ -211,8 +213,9 @@ TEST(FloorFields, AreTheSameAfterTheirCellsWereSent)
 
 TEST(FloorFields, RefuseCellsThatCannotBe)
 {
-  const auto mistake = [](std::vector<std::uint32_t> runs, std::vector<float> values)
-  { return MistakeIn({std::move(runs), std::move(values)}, 10); };
+  const auto mistake = [](std::vector<std::uint32_t> runs, std::vector<float> values) {
+    return MistakeIn({std::move(runs), std::move(values)}, 10);
+  };
   EXPECT_EQ(mistake({}, {}), "");
   EXPECT_EQ(mistake({0, 2, 5, 5}, {0, 1, 2, 3, 4, 5, 6}), "");
   EXPECT_EQ(mistake({0, 2, 5}, {0, 1}), "a run of cells has no length");

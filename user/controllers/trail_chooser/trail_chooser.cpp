@@ -23,7 +23,8 @@ std::vector<Vector2> Points(const TConfigurationTree& tree, const char* name)
 {
   const auto numbers = ParseNumbers(tree.GetText(name));
   if (!numbers || numbers->empty() || numbers->size() % 2 != 0)
-    throw ConfigurationError(tree.ValueLocation(name), std::string("'") + name + "' must be pairs of numbers, x, y in m");
+    throw ConfigurationError(tree.ValueLocation(name),
+                             std::string("'") + name + "' must be pairs of numbers, x, y in m");
   std::vector<Vector2> points;
   for (std::size_t k = 0; k < numbers->size(); k += 2) points.emplace_back((*numbers)[k], (*numbers)[k + 1]);
   return points;
@@ -43,10 +44,7 @@ int CTrailChooser::Init(const TConfigurationTree t_tree)
   bridges_[0] = Points(t_tree, "bridge_left");
   bridges_[1] = Points(t_tree, "bridge_right");
   if (nests_.size() != 2 || forks_.size() != 2 || smell_->PointCount() != 2)
-  {
-    GetRobot()->Log("trail_chooser needs two nests, two forks, and two points of the sensor floor_field");
-    return RETURN_FAIL;
-  }
+    throw ConfigurationError(t_tree.Location(), "trail_chooser needs two nests, two forks, and two points of its sensor");
   velocity_m_s_ = t_tree.GetNumber("velocity");
   lane_m_ = t_tree.GetNumber("lane");
   threshold_ = t_tree.GetNumber("threshold");
@@ -100,10 +98,10 @@ void CTrailChooser::DriveTo(const Vector2& target)
   double ahead = 0;
   for (unsigned i = 0; i < CCI_FootBotProximitySensor::NUM_SENSORS; ++i)
     ahead += proximity_->GetProximitySensorReading(i) * std::max(0.0, Cos(CCI_FootBotProximitySensor::AngleOf(i)));
-  if (ahead > kNearby && GetRobot()->GetRandom().Uniform(0, 1) < kStops) return wheels_->SetLinearVelocity(0, 0);
+  if (ahead > kNearby && GetRobot()->GetRandom().Uniform(0, 1) < kStops) return wheels_->SetFootBotWheelsLinearVelocity(0, 0);
   const double turn = std::clamp(kTurnGain * error * 0.07, -velocity_m_s_, velocity_m_s_);
   const double forward = velocity_m_s_ * std::max(0.0, Cos(std::clamp(error, -kPi / 2, kPi / 2)));
-  wheels_->SetLinearVelocity(forward - turn, forward + turn);
+  wheels_->SetFootBotWheelsLinearVelocity(forward - turn, forward + turn);
 }
 
 void CTrailChooser::ControlStep()
@@ -159,7 +157,10 @@ REGISTER_CONTROLLER(
      .brief = "goes to and fro between two nests, and chooses one of two bridges by the trails on them",
      .parameters = {
          {.name = "nests", .type = ParameterType::kText, .unit = "m", .description = "Both nests: x, y, x, y."},
-         {.name = "forks", .type = ParameterType::kText, .unit = "m", .description = "Both ends of the bridges, as nests."},
+         {.name = "forks",
+          .type = ParameterType::kText,
+          .unit = "m",
+          .description = "Both ends of the bridges, as nests."},
          {.name = "bridge_left",
           .type = ParameterType::kText,
           .unit = "m",
@@ -168,7 +169,12 @@ REGISTER_CONTROLLER(
           .type = ParameterType::kText,
           .unit = "m",
           .description = "Corners of the other bridge."},
-         {.name = "velocity", .unit = "m/s", .default_value = "0.2", .description = "Of the robot.", .minimum = 0, .maximum = 10},
+         {.name = "velocity",
+          .unit = "m/s",
+          .default_value = "0.2",
+          .description = "Of the robot.",
+          .minimum = 0,
+          .maximum = 10},
          {.name = "lane",
           .unit = "m",
           .default_value = "0.13",
@@ -181,8 +187,17 @@ REGISTER_CONTROLLER(
           .description = "Trail beside which a fainter one counts little; k of the choice function.",
           .minimum = 1e-6,
           .maximum = 1e12},
-         {.name = "power", .default_value = "2", .description = "n of the choice function.", .minimum = 0, .maximum = 20},
-         {.name = "rate", .unit = "1/s", .default_value = "1", .description = "Deposit on a bridge.", .minimum = 0, .maximum = 1e6},
+         {.name = "power",
+          .default_value = "2",
+          .description = "n of the choice function.",
+          .minimum = 0,
+          .maximum = 20},
+         {.name = "rate",
+          .unit = "1/s",
+          .default_value = "1",
+          .description = "Deposit on a bridge.",
+          .minimum = 0,
+          .maximum = 1e6},
          {.name = "departures",
           .unit = "m/s",
           .default_value = "0.02",

@@ -22,7 +22,8 @@ using namespace swarmanoid;
 
 ParameterSpec Metres(const char* name, const char* value, const char* description)
 {
-  return {.name = name, .unit = "m", .default_value = value, .description = description, .minimum = -1e6, .maximum = 1e6};
+  return {
+      .name = name, .unit = "m", .default_value = value, .description = description, .minimum = -1e6, .maximum = 1e6};
 }
 
 class CTwoBridges : public CExperimentFunctions

@@ -49,8 +49,7 @@ public:
     Reset(setup, fields_.size());
     noise_ = NoiseFrom(setup.parameters);
     for (const std::uint32_t robot : setup.robots)
-      for (std::uint32_t k = 0; k < fields_.size(); ++k)
-        slots_.push_back(setup.space.RateSlotOf(robot) + k);
+      for (std::uint32_t k = 0; k < fields_.size(); ++k) slots_.push_back(setup.space.RateSlotOf(robot) + k);
     for (std::size_t i = 0; i < slots_.size(); ++i) values_[i] = setup.space.Attributes()[slots_[i]];
     devices_.reserve(robots_.size());
     for (std::size_t k = 0; k < robots_.size(); ++k) devices_.emplace_back(ValuesOf(k), fields_);
