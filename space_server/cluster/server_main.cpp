@@ -78,10 +78,6 @@ int Serve(const ServerOptions& options)
                                              loaded.errors.size() == 1 ? "" : "s")});
       return kExitInvalidFile;
     }
-    // Real clusters with killed processes were not compared with one process yet (docs/floor_fields.md).
-    if (!loaded.experiment->floor_fields.empty())
-      throw ConfigurationError(loaded.experiment->floor_fields.front().location,
-                               "floor fields run in one process only; start the run with --single-process");
     if (!options.output_folder.empty())
     {
       std::filesystem::create_directories(options.output_folder);

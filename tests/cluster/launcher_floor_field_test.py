@@ -1,35 +1,21 @@
 """Fields on the floor: the same hash in one process and in clusters, over a network too, whichever process dies, from a checkpoint and from the journal."""
 import os
 import signal
-import unittest
 
-from harness import CONFIGS, LauncherTest
+from harness import AGAIN, CONFIGS, REPLACED, LauncherTest
 
 TICKS = 500
-REPLACED = "another process takes its place"
-AGAIN = "all processes start again where the journal ends"
 # Robots that leave at once are on the bridges after 150 ticks. The functions wipe the trails, which then begin again.
 SETTINGS = ["--set", "controllers.ant.parameters.departures=0.2", "--set", "experiment_functions.count.wipe_at=300",
             "--set", "arena.trail.evaporation=0.01", "--set", "arena.trail.diffusion=0.01"]
 
 
-# space_server/cluster/server_main.cpp refuses fields in clusters until these tests have passed.
-IN_CLUSTERS = False
-
-
 class FloorFieldTest(LauncherTest):
-    @unittest.skipIf(IN_CLUSTERS, "clusters take floor fields")
-    def test_a_cluster_is_refused_with_the_cure(self):
-        run = self.run_it("run", CONFIGS / "two_bridges.xml", "--ticks", 10, "--output", "out")
-        self.assertEqual(run.process.returncode, 3, run.stderr)
-        self.assertIn("floor fields run in one process only; start the run with --single-process", run.stderr)
-
     def done(self, name, *options, code=0):
         run = self.run_it("run", CONFIGS / "two_bridges.xml", "--ticks", TICKS, "--hash-log", name, "--output", name + "_out", *SETTINGS, *options)
         self.assertEqual(run.process.returncode, code, run.stderr)
         return (self.folder / name).read_text()
 
-    @unittest.skipUnless(IN_CLUSTERS, "clusters refuse floor fields")
     def test_the_same_everywhere(self):
         one = self.done("one", "--single-process")
         self.assertEqual(one.count("\n"), TICKS + 1)
@@ -38,7 +24,6 @@ class FloorFieldTest(LauncherTest):
         replayed = self.run_it("replay", "hosts_out", "--verify")
         self.assertEqual(replayed.process.returncode, 0, replayed.stdout + replayed.stderr)
 
-    @unittest.skipUnless(IN_CLUSTERS, "clusters refuse floor fields")
     def test_whichever_process_dies(self):
         one = self.done("one", "--single-process")
         for program, says in (("controller_host", REPLACED), ("engine_worker", REPLACED), ("space_server", AGAIN)):
@@ -55,7 +40,6 @@ class FloorFieldTest(LauncherTest):
                     self.assertEqual(run.wait(), 0, said + run.stderr)
                     self.assertEqual((self.folder / name).read_text(), one)
 
-    @unittest.skipUnless(IN_CLUSTERS, "clusters refuse floor fields")
     def test_from_a_checkpoint(self):
         one = self.done("one", "--single-process", "--checkpoint-every", 200)
         for name, options in (("restored", ("--single-process",)), ("hosts", ("--controller-hosts", 2))):
@@ -65,7 +49,6 @@ class FloorFieldTest(LauncherTest):
             restored = (self.folder / name).read_text()
             self.assertTrue(one.endswith(restored[restored.index("\n") + 1:]), name)
 
-    @unittest.skipUnless(IN_CLUSTERS, "clusters refuse floor fields")
     def test_a_branch_at_any_tick(self):
         one = self.done("one")
         run = self.run_it("run", "--branch", "one_out@333", "--output", "branch_out", "--hash-log", "branch", "--single-process")

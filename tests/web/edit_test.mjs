@@ -376,8 +376,8 @@ const tests = {
     assert.equal(readFileSync(script, "utf8"), text);
     await until(page, () => swarmanoid.tick > 3);
 
-    // In the page of the run, too: a text that is no Lua.
-    await page.click('header button:text-is("Script")');
+    // The pane stays open beside the run, too: a text that is no Lua.
+    assert.ok(await page.isVisible(".script-pane textarea"));
     await until(page, () => document.querySelector(".script-pane textarea")?.value.includes("function step()"));
     await page.fill(".script-pane textarea", `${text}\nend end\n`);
     await page.press(".script-pane textarea", "Control+Enter");

@@ -211,7 +211,7 @@ private:
   std::shared_ptr<SensorWorld> world_;
   std::unique_ptr<FixedBodies> fixed_;
   std::vector<RangeScanner> scanners_;
-  // Of the robot being scanned.
+  // These belong to the robot being scanned.
   std::vector<std::uint32_t> near_;
   std::vector<BeamFan::Disc> discs_;
   std::vector<double> x_, y_, angles_;

@@ -11,15 +11,15 @@ namespace swarmanoid::test
 namespace
 {
 
-LoadedExperiment With(const std::string& fields, const std::string& framework = "")
+LoadedExperiment WithFields(const std::string& fields, const std::string& framework = "")
 {
   return LoadText(ExperimentText{.framework = framework, .size = "4, 3, 1", .arena = fields}.Text());
 }
 
-std::string MistakesOf(const std::string& fields, const std::string& framework = "")
+std::string MistakesOfFields(const std::string& fields, const std::string& framework = "")
 {
   std::string all;
-  for (const Diagnostic& error : With(fields, framework).errors)
+  for (const Diagnostic& error : WithFields(fields, framework).errors)
     all +=
         std::to_string(error.location.line) + ":" + std::to_string(error.location.column) + ": " + error.message + "\n";
   return all;
@@ -27,7 +27,7 @@ std::string MistakesOf(const std::string& fields, const std::string& framework =
 
 TEST(FloorFieldElement, CoversTheArenaWithCells)
 {
-  const LoadedExperiment loaded = With(
+  const LoadedExperiment loaded = WithFields(
       "<floor_field id='trail'/><floor_field id='food' cell='0.7' evaporation='0.1' diffusion='1e-4' period='10' "
       "least='0.01' colour='red' full='50'/>");
   ASSERT_TRUE(loaded.experiment);
@@ -47,23 +47,23 @@ TEST(FloorFieldElement, CoversTheArenaWithCells)
 
 TEST(FloorFieldElement, RefusesUnstableDiffusionWithTheLimit)
 {
-  EXPECT_EQ(MistakesOf("<floor_field id='trail' diffusion='6.25e-3'/>"), "") << "the limit itself is stable";
+  EXPECT_EQ(MistakesOfFields("<floor_field id='trail' diffusion='6.25e-3'/>"), "") << "the limit itself is stable";
   EXPECT_EQ(
-      MistakesOf("<floor_field id='trail' diffusion='0.01'/>"),
+      MistakesOfFields("<floor_field id='trail' diffusion='0.01'/>"),
       "3:32: the diffusion of <floor_field> 'trail' is 0.01 m²/s; with cells of 0.05 m and steps of 0.1 s it must "
       "be at most cell² / (4 · step) = 0.00625 m²/s; lower it, or take larger cells\n");
   EXPECT_EQ(
-      MistakesOf("<floor_field id='trail' diffusion='0.002' period='4'/>", "<clocktick>200</clocktick>"),
+      MistakesOfFields("<floor_field id='trail' diffusion='0.002' period='4'/>", "<clocktick>200</clocktick>"),
       "3:32: the diffusion of <floor_field> 'trail' is 0.002 m²/s; with cells of 0.05 m and steps of 0.8 s it must "
       "be at most cell² / (4 · step) = 0.00078125 m²/s; lower it or the period, or take larger cells\n");
 }
 
 TEST(FloorFieldElement, RefusesTooManyCellsAndTwoOfOneId)
 {
-  EXPECT_EQ(MistakesOf("<floor_field id='trail' cell='1e-4'/>"),
+  EXPECT_EQ(MistakesOfFields("<floor_field id='trail' cell='1e-4'/>"),
             "3:27: <floor_field> 'trail' has 1200000000 cells of 0.0001 m; a field may have 16777216, and all together "
             "67108864; take larger cells\n");
-  EXPECT_EQ(MistakesOf("<floor_field id='trail'/>\n<floor_field id='trail'/>"),
+  EXPECT_EQ(MistakesOfFields("<floor_field id='trail'/>\n<floor_field id='trail'/>"),
             "4:14: two <floor_field> have the id 'trail'; the first is in line 3\n");
 }
 
