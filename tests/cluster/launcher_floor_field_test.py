@@ -36,7 +36,8 @@ class FloorFieldTest(LauncherTest):
                     self.control("step", tick)
                     os.kill(run.find(program), signal.SIGKILL)
                     said = run.read_until(says)
-                    self.run_it("control", "resume")
+                    self.wait_for_experiment("two_bridges")
+                    self.control("resume")
                     self.assertEqual(run.wait(), 0, said + run.stderr)
                     self.assertEqual((self.folder / name).read_text(), one)
 

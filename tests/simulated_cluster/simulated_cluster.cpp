@@ -70,7 +70,9 @@ public:
     simulation_.on_end = [this](SimulatedProcess& process) { Ended(process); };
     network_.on_send = [this](const SimulatedWriter& writer, const SimulatedReader& reader, const Sample& sample)
     {
-      if (faults_.has_network && scene_.hosts > 1 && writer.topic == "SpaceState")
+      // A host that computes a field on the floor needs the robots that deposit, wherever they are.
+      if (faults_.has_network && scene_.hosts > 1 && writer.topic == "SpaceState" &&
+          scene_.experiment->floor_fields.empty())
         Trouble(reader.process->name + " hears the whole state over a network, instead of its part");
       if (trace_.messages.empty() || !writer.topic.starts_with(trace_.messages)) return;
       std::string text = fmt::format("{} of {} to {}", writer.topic, writer.process->name, reader.process->name);

@@ -93,9 +93,9 @@ TEST(DeviceParameters, ARangeScannerHasNotTooManyBeams)
   { return MistakesOf("range_scanner", "generic_range_scanner", parameters); };
   EXPECT_EQ(scanner("beams=\"2048\" layers=\"32\""), "");
   EXPECT_EQ(scanner("beams=\"2048\" layers=\"33\""),
-            "test.xml:3:67: <range_scanner> has 2048 beams in each of 33 layers; 65536 beams in all are the most\n");
+            "test.xml:3:68: <range_scanner> has 2048 beams in each of 33 layers; 65536 beams in all are the most\n");
   EXPECT_EQ(scanner("nearest=\"10\""),
-            "test.xml:3:54: 'nearest' of <range_scanner> is 10 m and 'range' 10 m; nearest must be less\n");
+            "test.xml:3:55: 'nearest' of <range_scanner> is 10 m and 'range' 10 m; nearest must be less\n");
 }
 
 TEST(DeviceParameters, ADepthCameraSeesSomething)

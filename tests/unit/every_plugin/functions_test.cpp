@@ -48,7 +48,11 @@ const std::map<std::string, FunctionScenes>& ScenesOfFunctions()
       {"prey_retrieval_goal",
        {" preys='prey' nest='nest'", {Nest(kFarX_m) + Prey("prey", 8), Robot() + Nest(kFarX_m) + Prey("prey", 8)}}},
       {"prey_supply",
-       {" preys='prey' nest='nest' every='2'", {Nest(kFarX_m) + waiting, Robot() + Nest(kFarX_m) + waiting}}}};
+       {" preys='prey' nest='nest' every='2'", {Nest(kFarX_m) + waiting, Robot() + Nest(kFarX_m) + waiting}}},
+      {"two_bridges",
+       {" wipe_at='2'",
+        {"<floor_field id='trail'/>", "<floor_field id='trail'/>" + Robot(),
+         "<floor_field id='trail'/>" + Waiting(EntityKind::kFootbot, "robot", "c")}}}};
   return scenes;
 }
 

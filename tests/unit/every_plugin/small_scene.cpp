@@ -262,6 +262,13 @@ double NearDistance(EntityKind robot, EntityKind other)
   return HalfWidth(robot) + HalfWidth(other) + kGap;
 }
 
+// The devices of fields refuse an arena that has none.
+bool NeedsField(const Devices& devices)
+{
+  const auto is_of_field = [](const PluginDescription* device) { return device->label == "floor_field"; };
+  return std::ranges::any_of(devices.sensors, is_of_field) || std::ranges::any_of(devices.actuators, is_of_field);
+}
+
 std::unique_ptr<Experiment> Read(const SmallScene& scene)
 {
   RegisterEverything();
@@ -281,7 +288,7 @@ std::unique_ptr<Experiment> Read(const SmallScene& scene)
       .controllers = fmt::format("<{0} id='c'><actuators>{1}</actuators><sensors>{2}</sensors></{0}>", scene.controller,
                                  elements(scene.devices.actuators), elements(scene.devices.sensors)),
       .size = fmt::format("{0},{0},3", kArena_m),
-      .arena = scene.arena,
+      .arena = (NeedsField(scene.devices) ? "<floor_field id='field'/>" : "") + scene.arena,
       .engines = fmt::format("<{} id='e'/>", scene.engine),
       .functions = scene.functions,
       .visualisations = scene.renderers,

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 
 #include "common/checkpoint/checkpoint.h"
 #include "common/control_interface/ci_controller.h"
@@ -50,19 +51,51 @@ private:
 REGISTER_CONTROLLER(CFieldWriter, "field_writer")
 
 std::unique_ptr<Experiment> Scene(const std::string& robots, const std::string& more = "",
-                                  const std::string& faults = "")
+                                  const std::string& faults = "", const std::string& noise = "")
 {
   RegisterBuiltins();
   return test::ExperimentText{
       .framework = "<maxclock>40</maxclock><canonical_period>10</canonical_period>",
       .controllers = test::Controller({.tag = "field_writer",
-                                       .actuators = {"generic_floor_field point='0.1, 0'"},
+                                       .actuators = {"generic_floor_field point='0.1, 0'" + noise},
                                        .sensors = {"generic_floor_field points='0, 0; 0.1, 0'"}}),
       .size = "4,4,1",
       .arena =
           "<floor_field id='trail' evaporation='0.5' diffusion='1e-3' " + more + "/><floor_field id='food'/>" + robots,
       .faults = faults}
       .Load();
+}
+
+// The sums of the trail after four ticks of 4 per second, for three seeds, with these parameters of the actuator.
+std::vector<double> SumsOfTrails(const std::string& noise)
+{
+  std::vector<double> sums;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed)
+  {
+    auto experiment = Scene("<footbot id='a' position='1.025,1.025,0' controller='c'/>", "", "", noise);
+    if (!experiment) return {};
+    experiment->seed = seed;
+    CSimulator simulator(*experiment, {});
+    for (int tick = 0; tick < 4; ++tick) simulator.Step();
+    double sum = 0;
+    simulator.GetSpace().Fields().Field("trail").VisitRuns([&](std::size_t, std::span<const float> run)
+                                                           { sum = std::accumulate(run.begin(), run.end(), sum); });
+    sums.push_back(sum);
+  }
+  return sums;
+}
+
+TEST(FloorFieldDevices, NoiseChangesWhatIsDeposited)
+{
+  const std::vector<double> exact = SumsOfTrails("");
+  const std::vector<double> noisy = SumsOfTrails(" noise_kind='uniform' noise_range='1'");
+  ASSERT_EQ(exact.size(), 3U);
+  ASSERT_EQ(noisy.size(), 3U);
+  EXPECT_GT(exact[0], 0);
+  EXPECT_EQ(exact[1], exact[0]) << "without noise nothing is random";
+  EXPECT_NE(noisy[0], exact[0]);
+  EXPECT_NE(noisy[1], noisy[0]);
+  EXPECT_NEAR(noisy[0], exact[0], exact[0] / 4 + 1e-9) << "1 of 4 at most";
 }
 
 const std::string kTwo =

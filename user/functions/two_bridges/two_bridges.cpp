@@ -1,15 +1,16 @@
-// Counts the robots on two bridges, and wipes the trails if the experiment asks for it. Publishes the share of the
-// shorter bridge.
+// Counts the passages of robots over two bridges, and wipes the trails if the experiment asks for it. Publishes the
+// share of the shorter bridge.
 //
 //   <two_bridges id="count" library="two_bridges">
 //     <field>trail</field>        the field of the trails
 //     <border>2.5</border>        y (m) below which a robot is on the shorter bridge
-//     <from>3</from><to>5</to>    x (m) between which robots count
-//     <count_from>0</count_from>  tick from which they count
+//     <line>4</line>              x (m) that a robot passes in the middle of either bridge
+//     <count_from>0</count_from>  tick from which passages count
 //     <wipe_at>0</wipe_at>        tick at which the trails vanish; 0: never
 //   </two_bridges>
 #include <istream>
 #include <ostream>
+#include <vector>
 
 #include "common/space/entities_by_kind.h"
 #include "common/space/publish.h"
@@ -33,19 +34,18 @@ public:
   {
     PluginDescription description;
     description.label = "two_bridges";
-    description.brief = "counts robots on two bridges over some time, and may wipe the trails";
+    description.brief = "counts the passages of robots over two bridges, and may wipe the trails";
     description.parameters = {{.name = "field",
                                .type = ParameterType::kText,
                                .default_value = "trail",
                                .description = "Id of the floor field that is wiped."},
                               Metres("border", "2.5", "y below which a robot is on the shorter bridge."),
-                              Metres("from", "3", "x from which on robots count."),
-                              Metres("to", "5", "x up to which robots count."),
+                              Metres("line", "4", "x that a robot passes in the middle of either bridge."),
                               {.name = "count_from",
                                .type = ParameterType::kInteger,
                                .unit = "ticks",
                                .default_value = "0",
-                               .description = "Tick from which on robots are counted.",
+                               .description = "Tick from which on passages are counted.",
                                .minimum = 0,
                                .maximum = 1e12},
                               {.name = "wipe_at",
@@ -62,33 +62,53 @@ public:
   {
     field_ = t_tree.GetText("field");
     border_m_ = t_tree.GetNumber("border");
-    from_m_ = t_tree.GetNumber("from");
-    to_m_ = t_tree.GetNumber("to");
+    line_m_ = t_tree.GetNumber("line");
     count_from_ = static_cast<std::uint64_t>(t_tree.GetInteger("count_from"));
     wipe_at_ = static_cast<std::uint64_t>(t_tree.GetInteger("wipe_at"));
     robots_ = GetEntitiesByKind(space.GetSpace(), "footbot");
     if (wipe_at_ > 0) space.GetSpace().Fields().NumberOf(field_);
+    for (const std::uint32_t robot : robots_) is_beyond_.push_back(IsBeyond(space.GetSpace(), robot));
   }
 
   void PostStep(SpaceEditor& editor) override
   {
     const CSwarmanoidSpace& space = editor.GetSpace();
     if (wipe_at_ > 0 && space.GetTick() == wipe_at_) Wipe(editor);
-    if (space.GetTick() < count_from_) return;
-    for (const std::uint32_t robot : robots_)
+    for (std::size_t k = 0; k < robots_.size(); ++k)
     {
-      const Vector3 at = space.GetPose(robot).position;
-      if (at.x() >= from_m_ && at.x() <= to_m_) ++(at.y() < border_m_ ? on_shorter_ : on_longer_);
+      const bool is_beyond = IsBeyond(space, robots_[k]);
+      if (is_beyond == is_beyond_[k]) continue;
+      is_beyond_[k] = is_beyond;
+      if (space.GetTick() >= count_from_)
+        ++(space.GetPose(robots_[k]).position.y() < border_m_ ? over_shorter_ : over_longer_);
     }
-    const auto all = static_cast<double>(on_shorter_ + on_longer_);
-    Publish(space, "on_shorter", all > 0 ? static_cast<double>(on_shorter_) / all : 0.5);
+    const auto all = static_cast<double>(over_shorter_ + over_longer_);
+    Publish(space, "on_shorter", all > 0 ? static_cast<double>(over_shorter_) / all : 0.5);
   }
 
   bool HasState() const override { return true; }
-  void SaveState(std::ostream& state) const override { state << on_shorter_ << ' ' << on_longer_; }
-  void LoadState(std::istream& state) override { state >> on_shorter_ >> on_longer_; }
+  void SaveState(std::ostream& state) const override
+  {
+    state << over_shorter_ << ' ' << over_longer_;
+    for (const bool is_beyond : is_beyond_) state << ' ' << is_beyond;
+  }
+  void LoadState(std::istream& state) override
+  {
+    state >> over_shorter_ >> over_longer_;
+    for (std::size_t k = 0; k < is_beyond_.size(); ++k)
+    {
+      bool is_beyond = false;
+      state >> is_beyond;
+      is_beyond_[k] = is_beyond;
+    }
+  }
 
 private:
+  bool IsBeyond(const CSwarmanoidSpace& space, std::uint32_t robot) const
+  {
+    return space.GetPose(robot).position.x() > line_m_;
+  }
+
   void Wipe(SpaceEditor& editor) const
   {
     std::vector<std::size_t> cells;
@@ -101,10 +121,11 @@ private:
   }
 
   std::string field_;
-  double border_m_ = 0, from_m_ = 0, to_m_ = 0;
+  double border_m_ = 0, line_m_ = 0;
   std::uint64_t count_from_ = 0, wipe_at_ = 0;
   std::vector<std::uint32_t> robots_;
-  std::uint64_t on_shorter_ = 0, on_longer_ = 0;
+  std::vector<bool> is_beyond_;  // the line, by robot
+  std::uint64_t over_shorter_ = 0, over_longer_ = 0;
 };
 
 REGISTER_EXPERIMENT_FUNCTIONS(CTwoBridges, CTwoBridges::Description())
