@@ -311,8 +311,7 @@ int RunRegion(const WorkerSettings& settings, const BusOptions& bus)
         RegionLink link(session, experiment, engine, region, limits);
         std::optional<EngineWorker> whole;
         if (replica) whole.emplace(*replica->space, replica->assignment, engine);
-        const std::unique_ptr<EngineRegion> world =
-            (whole ? whole->Engine() : *made).MakeRegion(region, link);
+        const std::unique_ptr<EngineRegion> world = (whole ? whole->Engine() : *made).MakeRegion(region, link);
         RunThread worker("does the tasks of a region",
                          [&]
                          {

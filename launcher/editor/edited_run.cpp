@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -19,7 +21,8 @@ void EditedRun::Start(const std::string& name, const std::string& text, const Pa
 {
   const fs::path file = fs::path(folder_) / "run.xml";
   std::ofstream stream(file, std::ios::binary);
-  if (!(stream << text) || !stream.flush()) throw std::runtime_error(fmt::format("cannot write '{}'", file.string()));
+  if (!(stream << text) || !stream.flush())
+    throw std::runtime_error(fmt::format("cannot write '{}': {}", file.string(), std::strerror(errno)));
   next_ = {file.string(), "--real-time", fmt::format("{}", pace.real_time_factor)};
   if (pace.is_paused) next_->emplace_back("--paused");
   next_name_ = name;

@@ -38,7 +38,11 @@ constexpr std::array kBindings{
 
     KeyBinding{Action::kIds, {'I'}, "Show", "I", "ids"},
     KeyBinding{Action::kTrails, {'L'}, "Show", "L", "trails"},
-    KeyBinding{Action::kRays, {'R'}, "Show", "R", "rays of proximity sensors and range scanners, cones of lit directional LEDs"},
+    KeyBinding{Action::kRays,
+               {'R'},
+               "Show",
+               "R",
+               "rays of proximity sensors and range scanners, cones of lit directional LEDs"},
     KeyBinding{Action::kBeams, {'B'}, "Show", "B", "laser beams"},
     KeyBinding{Action::kCollisionModels, {'C'}, "Show", "C", "collision models"},
     KeyBinding{Action::kTextures, {'T'}, "Show", "T", "textures"},

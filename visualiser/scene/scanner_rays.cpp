@@ -16,12 +16,14 @@ const std::optional<ScannerRays::Drawn>& ScannerRays::Of(std::uint32_t robot)
   const ControllerConfiguration* controller = is_new ? space_.GetExperiment().FindController(id) : nullptr;
   if (controller == nullptr) return scanner;
   const auto device = std::ranges::find_if(
-      controller->sensors, [](const DeviceConfiguration& sensor)
-      { return sensor.type == "range_scanner" && sensor.implementation == "generic_range_scanner"; });
+      controller->sensors, [](const DeviceConfiguration& sensor) { return sensor.type == "range_scanner"; });
   if (device == controller->sensors.end()) return scanner;
   const PluginDescription* description =
       PluginCatalogue::Instance().Find(PluginKind::kSensor, device->type, device->implementation);
-  if (description == nullptr) return scanner;
+  // The beams of a user's implementation are drawn if its parameters state them in the same way.
+  if (description == nullptr || std::ranges::none_of(description->parameters, [](const ParameterSpec& parameter)
+                                                     { return parameter.name == "beams"; }))
+    return scanner;
   const RangeScannerBeams beams(Parameters(device->tree, description->parameters));
   scanner = Drawn{beams.position, beams.nearest_m, beams.range_m, {}};
   const std::size_t layers = beams.elevations.size();

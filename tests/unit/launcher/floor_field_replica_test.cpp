@@ -24,12 +24,14 @@ std::unique_ptr<Experiment> ThreeRobots()
   LoadOptions options;
   options.check_files = false;
   return test::ExperimentText{
-      .controllers = "<nothing id='c'><actuators><floor_field implementation='generic_floor_field' point='0.1, 0'/>"
-                     "</actuators></nothing>",
+      .controllers =
+          "<nothing id='c'><actuators><floor_field implementation='generic_floor_field' point='0.1, 0'/>"
+          "</actuators></nothing>",
       .size = "4,4,1",
-      .arena = "<floor_field id='trail' evaporation='0.5' diffusion='1e-3' period='3'/><floor_field id='food' cell='0.3'/>"
-               "<footbot id='a' position='1,1,0' controller='c'/><footbot id='n' position='2,2,0'/>"
-               "<footbot id='b' position='3,2,0' orientation='0,0,90' controller='c'/>"}
+      .arena =
+          "<floor_field id='trail' evaporation='0.5' diffusion='1e-3' period='3'/><floor_field id='food' cell='0.3'/>"
+          "<footbot id='a' position='1,1,0' controller='c'/><footbot id='n' position='2,2,0'/>"
+          "<footbot id='b' position='3,2,0' orientation='0,0,90' controller='c'/>"}
       .Load(".", "test.xml", options);
 }
 
@@ -140,9 +142,10 @@ TEST(FloorFieldReplicas, RefuseWrongCellsAndRates)
   }
   catch (const StateError& error)
   {
-    EXPECT_STREQ(error.what(),
-                 "the rate of deposits on the floor field 'food' of the footbot 'b' is 10000000000: it must be finite and "
-                 "at most 1e9 from 0");
+    EXPECT_STREQ(
+        error.what(),
+        "the rate of deposits on the floor field 'food' of the footbot 'b' is 10000000000: it must be finite and "
+        "at most 1e9 from 0");
   }
 }
 

@@ -44,7 +44,8 @@ int CTrailChooser::Init(const TConfigurationTree t_tree)
   bridges_[0] = Points(t_tree, "bridge_left");
   bridges_[1] = Points(t_tree, "bridge_right");
   if (nests_.size() != 2 || forks_.size() != 2 || smell_->PointCount() != 2)
-    throw ConfigurationError(t_tree.Location(), "trail_chooser needs two nests, two forks, and two points of its sensor");
+    throw ConfigurationError(t_tree.Location(),
+                             "trail_chooser needs two nests, two forks, and two points of its sensor");
   velocity_m_s_ = t_tree.GetNumber("velocity");
   lane_m_ = t_tree.GetNumber("lane");
   threshold_ = t_tree.GetNumber("threshold");
@@ -98,7 +99,8 @@ void CTrailChooser::DriveTo(const Vector2& target)
   double ahead = 0;
   for (unsigned i = 0; i < CCI_FootBotProximitySensor::NUM_SENSORS; ++i)
     ahead += proximity_->GetProximitySensorReading(i) * std::max(0.0, Cos(CCI_FootBotProximitySensor::AngleOf(i)));
-  if (ahead > kNearby && GetRobot()->GetRandom().Uniform(0, 1) < kStops) return wheels_->SetFootBotWheelsLinearVelocity(0, 0);
+  if (ahead > kNearby && GetRobot()->GetRandom().Uniform(0, 1) < kStops)
+    return wheels_->SetFootBotWheelsLinearVelocity(0, 0);
   const double turn = std::clamp(kTurnGain * error * 0.07, -velocity_m_s_, velocity_m_s_);
   const double forward = velocity_m_s_ * std::max(0.0, Cos(std::clamp(error, -kPi / 2, kPi / 2)));
   wheels_->SetFootBotWheelsLinearVelocity(forward - turn, forward + turn);
