@@ -50,18 +50,18 @@ TEST(FloorFieldElement, RefusesUnstableDiffusionWithTheLimit)
   EXPECT_EQ(MistakesOfFields("<floor_field id='trail' diffusion='6.25e-3'/>"), "") << "the limit itself is stable";
   EXPECT_EQ(
       MistakesOfFields("<floor_field id='trail' diffusion='0.01'/>"),
-      "3:32: the diffusion of <floor_field> 'trail' is 0.01 m²/s; with cells of 0.05 m and steps of 0.1 s it must "
+      "3:25: the diffusion of <floor_field> 'trail' is 0.01 m²/s; with cells of 0.05 m and steps of 0.1 s it must "
       "be at most cell² / (4 · step) = 0.00625 m²/s; lower it, or take larger cells\n");
   EXPECT_EQ(
       MistakesOfFields("<floor_field id='trail' diffusion='0.002' period='4'/>", "<clocktick>200</clocktick>"),
-      "3:32: the diffusion of <floor_field> 'trail' is 0.002 m²/s; with cells of 0.05 m and steps of 0.8 s it must "
+      "3:25: the diffusion of <floor_field> 'trail' is 0.002 m²/s; with cells of 0.05 m and steps of 0.8 s it must "
       "be at most cell² / (4 · step) = 0.00078125 m²/s; lower it or the period, or take larger cells\n");
 }
 
 TEST(FloorFieldElement, RefusesTooManyCellsAndTwoOfOneId)
 {
   EXPECT_EQ(MistakesOfFields("<floor_field id='trail' cell='1e-4'/>"),
-            "3:27: <floor_field> 'trail' has 1200000000 cells of 0.0001 m; a field may have 16777216, and all together "
+            "3:25: <floor_field> 'trail' has 1200000000 cells of 0.0001 m; a field may have 16777216, and all together "
             "67108864; take larger cells\n");
   EXPECT_EQ(MistakesOfFields("<floor_field id='trail'/>\n<floor_field id='trail'/>"),
             "4:14: two <floor_field> have the id 'trail'; the first is in line 3\n");

@@ -30,6 +30,7 @@ export class PlanView {
     const applyTheme = () => {
       this.dark = dark.matches;
       this.theme = dark.matches ? themes.dark : themes.light;
+      this.clear();
       this.invalidate();
     };
     dark.addEventListener("change", applyTheme);
@@ -46,7 +47,14 @@ export class PlanView {
     [this.canvas.style.width, this.canvas.style.height] = [`${width}px`, `${height}px`];
     this.camera.resize(width, height, ratio);
     this.pixels = null;
+    this.clear();
     this.invalidate();
+  }
+
+  // Fills the canvas, which is black at first. It stays so while there is no run to be drawn.
+  clear() {
+    this.context.fillStyle = css(this.theme.background);
+    this.context.fillRect(0, 0, this.canvas.width, this.canvas.height);
   }
 
   setWorld(world) {
