@@ -2,7 +2,7 @@
 // together within a tick meet.
 #include "engine_worker/engines/dynamics3d/ode_world.h"
 #include "engine_worker/engines/dynamics3d/shuffle.h"
-#include "swarm.h"
+#include "swarm_of_rigid_bodies.h"
 
 namespace swarmanoid
 {
@@ -21,13 +21,13 @@ TEST(Dynamics3dGroups, AnyNumberOfThreadsGivesTheSameBits)
        {Case{0.18, Ground::kPlane, "8"}, Case{0.3, Ground::kPlane, "8"}, Case{0.6, Ground::kPlane, "8"},
         Case{0.3, Ground::kPlane, "20"}, Case{0.4, Ground::kHills, "8"}, Case{0.4, Ground::kCells, "8"}})
   {
-    Swarm one("1", scene.pitch, scene.ground, scene.iterations);
-    Swarm two("2", scene.pitch, scene.ground, scene.iterations);
-    Swarm three("3", scene.pitch, scene.ground, scene.iterations);
+    RigidSwarm one("1", scene.pitch, scene.ground, scene.iterations);
+    RigidSwarm two("2", scene.pitch, scene.ground, scene.iterations);
+    RigidSwarm three("3", scene.pitch, scene.ground, scene.iterations);
     std::size_t most_groups = 0;
     for (int tick = 0; tick < 40; ++tick)
     {
-      for (Swarm* swarm : {&one, &two, &three}) swarm->Step();
+      for (RigidSwarm* swarm : {&one, &two, &three}) swarm->Step();
       ASSERT_EQ(one.Space().Hash(), two.Space().Hash()) << scene.pitch << ", tick " << tick;
       ASSERT_EQ(one.Space().Hash(), three.Space().Hash()) << scene.pitch << ", tick " << tick;
       ASSERT_EQ(one.engine->StatusText(), three.engine->StatusText());

@@ -1,6 +1,6 @@
 // Regions make the steps of an engine that is split. They give the bits of an engine that is not, whatever happens to
 // the processes that have them.
-#include "swarm.h"
+#include "swarm_of_rigid_bodies.h"
 
 namespace swarmanoid
 {
@@ -20,13 +20,13 @@ TEST(RegionsOfDynamics3d, GiveTheBitsOfOneProcess)
         Case{0.4, Ground::kHills, "8"}, Case{0.4, Ground::kCells, "8"}})
   {
     const auto make = [&](const char* threads, unsigned regions)
-    { return std::make_unique<Swarm>(threads, scene.pitch, scene.ground, scene.iterations, regions); };
+    { return std::make_unique<RigidSwarm>(threads, scene.pitch, scene.ground, scene.iterations, regions); };
     const auto whole = make("1", 0), one = make("1", 1), two = make("1", 2), four = make("1", 4),
                threads = make("2", 2);
     for (int tick = 0; tick < 25; ++tick)
     {
       whole->Step();
-      for (Swarm* swarm : {one.get(), two.get(), four.get(), threads.get()})
+      for (RigidSwarm* swarm : {one.get(), two.get(), four.get(), threads.get()})
       {
         swarm->Step();
         ASSERT_EQ(whole->Space().Hash(), swarm->Space().Hash()) << scene.pitch << ", tick " << tick;
@@ -38,7 +38,7 @@ TEST(RegionsOfDynamics3d, GiveTheBitsOfOneProcess)
               ASSERT_EQ(whole->Sensor(sensor, robot, element), swarm->Sensor(sensor, robot, element)) << sensor;
       }
     }
-    for (const Swarm* swarm : {one.get(), two.get(), four.get(), threads.get()})
+    for (const RigidSwarm* swarm : {one.get(), two.get(), four.get(), threads.get()})
       EXPECT_EQ(whole->Saved(), swarm->Saved()) << scene.pitch;
     EXPECT_EQ(two->Team().BusyRegions(), 2U);
     EXPECT_EQ(four->Team().BusyRegions(), 4U);
@@ -47,7 +47,7 @@ TEST(RegionsOfDynamics3d, GiveTheBitsOfOneProcess)
 
 TEST(RegionsOfDynamics3d, ARegionThatIsReplacedGoesOnWithTheSameBits)
 {
-  Swarm whole("1", 0.25, Ground::kPlane), split("1", 0.25, Ground::kPlane, "8", 3);
+  RigidSwarm whole("1", 0.25, Ground::kPlane), split("1", 0.25, Ground::kPlane, "8", 3);
   for (unsigned tick = 0; tick < 60; ++tick)
   {
     TeamOfDynamics3d& team = split.Team();
@@ -64,7 +64,7 @@ TEST(RegionsOfDynamics3d, ARegionThatIsReplacedGoesOnWithTheSameBits)
 // Engines that recover, or whose regions come later, make the steps themselves.
 TEST(RegionsOfDynamics3d, MayComeAndGoWithTheEngine)
 {
-  Swarm whole("1", 0.25, Ground::kPlane), split("1", 0.25, Ground::kPlane, "8", 2);
+  RigidSwarm whole("1", 0.25, Ground::kPlane), split("1", 0.25, Ground::kPlane, "8", 2);
   const auto second = split.MakeTeam(4);
   split.Team().SetReady(false);
   for (int tick = 0; tick < 80; ++tick)
@@ -84,10 +84,10 @@ TEST(RegionsOfDynamics3d, MayComeAndGoWithTheEngine)
 
 TEST(RegionsOfDynamics3d, FollowWhatIsDoneFromOutside)
 {
-  Swarm whole("1", 0.3, Ground::kPlane), split("1", 0.3, Ground::kPlane, "8", 2);
+  RigidSwarm whole("1", 0.3, Ground::kPlane), split("1", 0.3, Ground::kPlane, "8", 2);
   for (int tick = 0; tick < 60; ++tick)
   {
-    for (Swarm* swarm : {&whole, &split})
+    for (RigidSwarm* swarm : {&whole, &split})
     {
       const auto move = [&](std::uint32_t robot, double x, double y)
       {

@@ -67,11 +67,11 @@ private:
 };
 
 // Robots that drive, grip and turn among preys, stacks, walls, eyebots above them and a mirror. Handbots hang on ropes.
-class Swarm : public Dynamics3dTestWorld
+class RigidSwarm : public Dynamics3dTestWorld
 {
 public:
-  Swarm(const std::string& threads, double pitch, Ground ground, const std::string& iterations = "8",
-        unsigned regions = 0)
+  RigidSwarm(const std::string& threads, double pitch, Ground ground, const std::string& iterations = "8",
+             unsigned regions = 0)
       : Dynamics3dTestWorld("threads", threads, "iterations", iterations), ground_(ground)
   {
     if (regions > 0)
@@ -107,7 +107,7 @@ public:
     Start();
     AddHills(*engine);
   }
-  ~Swarm()
+  ~RigidSwarm()
   {
     engine.reset();
     team_.reset();
@@ -124,8 +124,8 @@ public:
   }
   // The team from the start.
   TeamOfDynamics3d& Team() { return *team_; }
-  Swarm(const Swarm&) = delete;
-  Swarm& operator=(const Swarm&) = delete;
+  RigidSwarm(const RigidSwarm&) = delete;
+  RigidSwarm& operator=(const RigidSwarm&) = delete;
 
   void Step()
   {
