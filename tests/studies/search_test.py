@@ -97,7 +97,7 @@ class Search(StudyCase):
         self.assertEqual(outputs[0], outputs[2])
         self.assertEqual(self.query("killed", "SELECT MAX(attempts), COUNT(*) FROM runs"), [(1, len(self.table("killed")))])
         # All six robots see more than one.
-        self.assertRegex(one.stdout, r"(?m)^best: point \d+, speed=\S+ robots=six$")
+        self.assertRegex(one.stdout, r"(?m)^best: point \d+, robots=six speed=\S+$")
         runs = self.query("one", "SELECT robots, COUNT(*) FROM runs WHERE seed <= 12 GROUP BY robots ORDER BY robots")
         self.assertLessEqual(sum(count for _, count in runs), 150)
         self.assertGreater(dict(runs)["six"], 2 * dict(runs)["one"])
