@@ -501,7 +501,7 @@ const tests = {
     assert.equal(await read(page, () => swarmanoid.view), "plan");
     await page.waitForSelector(".plan-note", { state: "visible" });
     assert.deepEqual(files.filter((file) => /view_3d|meshes/.test(file)), []);
-    assert.ok(bytes < 64000, `${bytes} bytes`);
+    assert.ok(bytes < 68000, `${bytes} bytes`);
     // Seen from above: dark tracks, the blue body, and the orange mark that tells the front, here to the right.
     const { x, y } = await read(page, () => swarmanoid.project("fb"));
     await read(page, () => swarmanoid.approach("fb"));
