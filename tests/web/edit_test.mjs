@@ -89,7 +89,7 @@ const tests = {
     const { page } = editor;
     const mistakes = () => page.textContent(".mistakes");
     await until(page, () => document.querySelector(".mistakes").textContent.includes("has no entities"));
-    await page.selectOption(".palette select", "footbot");
+    await page.selectOption(".palette:not([hidden]) select", "footbot");
     await settled(page);
     const click = async (x, y) => {
       const at = await page.evaluate(([a, b]) => swarmanoid.projectPoint(a, b, 0), [x, y]);
@@ -112,7 +112,7 @@ const tests = {
     assert.equal(await page.inputValue('.edit-form [name="library"]'), "footbot_diffusion");
     await select(page, "footbot_1");
     await changed(page, () => fill(page, "controller", "footbot_diffusion_1"));
-    await page.selectOption(".palette select", "footbot");
+    await page.selectOption(".palette:not([hidden]) select", "footbot");
     await changed(page, () => click(3, 3));
     await until(page, () => document.querySelector(".mistakes").textContent === "No mistakes").catch(async () => assert.fail(await mistakes()));
     const saved = await save(editor);
@@ -156,7 +156,7 @@ const tests = {
     assert.equal(state.undo, "remove wall_west");
     await until(page, () => swarmanoid.shown === 10);
 
-    await page.selectOption(".palette select", "footbot");
+    await page.selectOption(".palette:not([hidden]) select", "footbot");
     await settled(page, "fb_1");
     const free = await read(page, () => swarmanoid.projectPoint(2.5, 3, 0));
     state = await changed(page, () => page.mouse.click(free.x, free.y));
