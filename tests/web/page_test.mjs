@@ -523,7 +523,7 @@ const tests = {
     await page.waitForLoadState("networkidle");
     // But for what shows drawings, of which this experiment has none.
     assert.deepEqual(files.filter((file) => /drawn/.test(file)), []);
-    assert.ok(bytes > 100000 && bytes < 310000, `${bytes} bytes`);
+    assert.ok(bytes > 100000 && bytes < 320000, `${bytes} bytes`);
   },
 
   async "plan and three dimensions show the same place, and keep what is selected and shown"() {
