@@ -375,7 +375,7 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
     AddDevice(ours.sensors, "footbot_turret_encoder", "generic_footbot_turret_encoder", at);
   }
   else if (tag == "range_and_bearing" && !context.hears)
-    context.note(at, "without the sensor <range_and_bearing> the robots are in no medium, and nobody hears them");
+    context.note(at, "without the sensor <range_and_bearing> the robots are in no medium, and no robot hears them");
   else if (tag == "range_and_bearing")
     AddSender(at, context, ours);
   else if (tag == "quadrotor_position" || tag == "quadrotor_speed")

@@ -69,7 +69,7 @@ private:
 class CCI_FloorFieldSensor : public CCI_SensorOf<CCI_FloorFieldSensor>, public CCI_FloorFieldNames
 {
 public:
-  // What the sensor reads at one of its points.
+  // A Reading belongs to one of the points of the sensor.
   struct Reading
   {
     double value = 0;       // 1/m²

@@ -136,7 +136,7 @@ class BesideArgos3(RunningTest):
         file.write_text(first + '<lua_controller id="m">' + second)
         stderr = self.swarmanoid("run", file, "--single-process", "--output", "run").stderr
         self.assertIn("robot 'b' at tick 10: hears 0", self.said_in("run"))
-        self.assertRegex(stderr, r"x\.argos:\d+:\d+: note: without the sensor <range_and_bearing> .* nobody hears them")
+        self.assertRegex(stderr, r"x\.argos:\d+:\d+: note: without the sensor <range_and_bearing> .* no robot hears them")
 
     def test_parameters_at_a_robot_replace_those_of_its_controller(self):
         arena = foot_bot("a", controller='<params script="leader.lua"/>') + foot_bot("b", 1)

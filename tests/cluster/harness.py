@@ -20,7 +20,7 @@ TEST_CONTROLLERS = os.environ["TEST_CONTROLLERS"]
 FINISHED = re.compile(r"^finished: (\d+) ticks, (\d+) entities, hash ([0-9a-f]{16}), [0-9.]+ s, [0-9.]+x real time$")
 # For what comes within moments, on a machine that is busy with much else.
 GENEROUS_S = 100
-# What a run says when one of its processes, or its space server, has died.
+# A run prints the first when one of its processes has died, and the second when its space server has.
 REPLACED = "another process takes its place"
 AGAIN = "all processes start again where the journal ends"
 

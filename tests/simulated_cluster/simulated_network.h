@@ -40,7 +40,7 @@ struct Sample
   std::string name;
 };
 
-// What a reader does with a message of a tick that it takes, after it has chosen the place.
+// A reader does this with a message of a tick that it takes, after it has chosen the place.
 struct SimulatedCopy
 {
   std::function<void()> spoil;  // as the place is while the bytes are copied

@@ -85,7 +85,7 @@ private:
     std::uint32_t region = 0;
     std::span<const char> result;
   };
-  // What a region says about a unit, before the states of its members.
+  // A region sends this about a unit, before the states of its members.
   struct UnitEnd
   {
     std::int32_t step;  // after the last one

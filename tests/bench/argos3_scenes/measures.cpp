@@ -166,7 +166,7 @@ private:
   std::string output_ = "result.txt";
   std::vector<std::pair<std::string, Real>> results_;
   Real path_ = 0;    // m, of all robots together
-  Real turned_ = 0;  // rad, likewise
+  Real turned_ = 0;  // rad, of all robots together
   std::clock_t started_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// What the server tells a process that replaces another one about the tick that the run waits at.
+// The server tells a process that replaces another one about the tick that the run waits at.
 #include "space_server/cluster/lockstep.h"
 
 #include "space_server/space_server.h"
