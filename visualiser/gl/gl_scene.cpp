@@ -8,6 +8,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 #include "visualiser/gl/draw_list.h"
 #include "visualiser/gl/label_atlas.h"
 #include "visualiser/gl/mesh_store.h"
@@ -32,6 +34,7 @@ constexpr GLint kShadowUnit = 0;
 constexpr GLint kLightsUnit = 1;
 constexpr GLint kAtlasUnit = 2;
 constexpr float kCaptionMargin = 12;  // pixels
+constexpr float kLeastTold = 1.2F;    // how much wider than they are robots may be drawn without a word
 
 Vector3f Linear(Colour colour) { return ChannelsOf(colour).cwiseAbs2(); }
 
@@ -100,7 +103,7 @@ std::string GlScene::ContextDescription()
   return text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION);
 }
 
-const DrawStatistics& GlScene::StatisticsForTest() const { return state_->statistics; }
+const DrawStatistics& GlScene::Statistics() const { return state_->statistics; }
 
 void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffer, int width, int height,
                    const DrawOptions& options)
@@ -114,13 +117,18 @@ void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffe
   scene.Bounds(low, high);
   const ViewVolume view(camera, width, height, low, high);
   const SunVolume sun(kTowardsSun, view.seen_low, view.seen_high);
-  s.frame.Sort(scene, view, sun, options);
+  s.frame.Sort(scene, view, sun, options, s.text_scale);
   s.statistics.instances = s.frame.instances;
+  s.statistics.points = s.frame.points.size();
+  s.statistics.enlargement = s.frame.enlargement;
   s.frame.SortMarks(scene, s.labels, camera, width, height);
-  if (!options.caption.empty())
+  std::string caption = options.caption;
+  if (const std::string larger = EnlargementText(s.frame.enlargement); options.says_enlargement && !larger.empty())
+    caption += (caption.empty() ? "" : ", ") + larger;
+  if (!caption.empty())
   {
     const float margin = kCaptionMargin * s.text_scale;
-    s.labels.AppendFrom(options.caption, margin, static_cast<float>(height) - margin, s.frame.glyphs);
+    s.labels.AppendFrom(caption, margin, static_cast<float>(height) - margin, s.frame.glyphs);
   }
   s.UploadLights(scene);
 
@@ -168,6 +176,7 @@ void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffe
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
   s.DrawGlows(view, camera, s.frame.soft);
+  s.DrawGlows(view, camera, s.frame.points);
   s.DrawLines(view, width, height, s.frame.under, true);
   glDisable(GL_CULL_FACE);
   body.Use();
@@ -334,6 +343,11 @@ void GlScene::State::DrawGlows(const ViewVolume& view, const Camera& camera, std
   glow.Set("u_up", Vector3f(camera.Up().cast<float>()));
   glDisable(GL_CULL_FACE);
   glows.Draw(some);
+}
+
+std::string EnlargementText(float enlargement)
+{
+  return enlargement < kLeastTold ? "" : fmt::format("robots up to {:.2g} times as wide", enlargement);
 }
 
 Picture ReadPicture(unsigned framebuffer, int width, int height)

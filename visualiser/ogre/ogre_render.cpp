@@ -19,7 +19,7 @@ void COgreRender::Open(const std::string& title, int width, int height, const Pa
 void COgreRender::Show(const TakePicture& take)
 {
   Viewer& viewer = GetViewer();
-  viewer.SetSize(window_->Width(), window_->Height(), panels_->LeftColumn());
+  viewer.SetSize(window_->Width(), window_->Height(), panels_->Hidden());
   const Scene& scene = viewer.Refresh();
   window_->SetShadows(viewer.shown.shadows);
   scene_->Update(scene, viewer.camera, window_->Height(), viewer.shown.textures);
