@@ -103,8 +103,10 @@ struct BusOptions
 class Bus
 {
 public:
-  // Throws BusError. `name`: as others report this process, "engine 'ground'".
-  Bus(const BusOptions& options, const std::string& name);
+  // Throws BusError. `name`: as others report this process, "engine 'ground'". `experiment`: the one to join, if known.
+  // If its run is this user's and on this machine, its key signs all datagrams; otherwise those from the first message
+  // on.
+  Bus(const BusOptions& options, const std::string& name, const std::string& experiment = {});
   ~Bus();
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;

@@ -28,15 +28,13 @@ namespace swarmanoid
 namespace
 {
 
-constexpr double kPatience_s = 5;
-
 struct ControlOptions
 {
   std::vector<std::string> words;
   BusOptions bus;
   bool json = false;
   std::map<std::string, std::optional<std::uint64_t>> parameters;  // the parameters given as --name
-  double patience_s = kPatience_s;
+  double patience_s = ControlClient::kPatience_s;
 };
 
 void PrintJson(const std::string& experiment, const ControlReplyMessage& reply)
@@ -63,7 +61,7 @@ int Control(ControlOptions& options, bool domain_given)
   CheckInsecure(run, options.bus);
   options.bus.domain = run.domain;
   UseNetworkOf(run, options.bus);
-  Bus bus(options.bus, "swarmanoid control");
+  Bus bus(options.bus, "swarmanoid control", run.experiment);
   if (!bus.MaySpeakTo(run.experiment))
   {
     PrintError(

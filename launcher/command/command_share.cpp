@@ -28,7 +28,6 @@ namespace swarmanoid
 namespace
 {
 
-constexpr double kAnswerTime_s = 5;
 constexpr double kLongestTime_s = 366.0 * 24 * 3600;
 
 struct ShareOptions
@@ -146,7 +145,7 @@ int ShareRun(ShareOptions& options, bool domain_given)
 
   Bus bus(options.bus, "swarmanoid share");
   ControlClient client(bus, run.experiment);
-  const auto reply = client.Ask(order, kAnswerTime_s);
+  const auto reply = client.Ask(order, ControlClient::kPatience_s);
   if (!reply)
   {
     PrintError("swarmanoid: experiment {} in domain {} does not answer\n", Quoted(run.experiment), run.domain);

@@ -53,7 +53,7 @@ WorkerSession::WorkerSession(const BusOptions& options, const std::string& exper
       incarnation_(incarnation),
       machine_(machine),
       stop_(stop != nullptr ? *stop : InterruptFlag()),
-      bus_(options, name),
+      bus_(options, name, experiment),
       domain_(options.domain)
 {
   bus_.OnProcessGone(

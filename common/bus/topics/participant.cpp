@@ -152,7 +152,7 @@ WriterId IdOf(const rtps::GUID_t& writer)
   return id;
 }
 
-Bus::Impl::Impl(const BusOptions& options, const std::string& name)
+Bus::Impl::Impl(const BusOptions& options, const std::string& name, const std::string& experiment)
     : insecure(options.insecure),
       grant(options.grant),
       key_ring(std::make_shared<KeyRing>(options.domain, GivenKey(options))),
@@ -164,6 +164,9 @@ Bus::Impl::Impl(const BusOptions& options, const std::string& name)
   if (options.domain < 0 || options.domain > 232)
     throw BusError(fmt::format("domain {}: it must be 0 to 232", options.domain));
   std::set_terminate(SleepInsteadOfTerminate);
+  // Members drop unsigned datagrams of a process that has signed one. Discovery would lose those on their way, and
+  // repeat them a second later.
+  if (!insecure && !grant && !experiment.empty()) key_ring->Of(experiment);
 
   dds::DomainParticipantQos qos;
   qos.name(name.c_str());
@@ -364,7 +367,10 @@ dds::Topic* Bus::Impl::TopicOf(const std::string& name, const std::function<dds:
   return topic;
 }
 
-Bus::Bus(const BusOptions& options, const std::string& name) : impl_(std::make_unique<Impl>(options, name)) {}
+Bus::Bus(const BusOptions& options, const std::string& name, const std::string& experiment)
+    : impl_(std::make_unique<Impl>(options, name, experiment))
+{
+}
 Bus::~Bus() = default;
 
 void Bus::OnProcessGone(std::function<void(const std::string&, const std::string&, bool)> callback)

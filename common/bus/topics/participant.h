@@ -22,7 +22,7 @@ void MarkBroken();
 
 struct Bus::Impl : ParticipantListener
 {
-  Impl(const BusOptions& options, const std::string& name);
+  Impl(const BusOptions& options, const std::string& name, const std::string& experiment);
   ~Impl() override;
 
   void OnParticipant(const DiscoveredParticipant& participant) override;

@@ -1,10 +1,12 @@
 // Seals: only holders of the run's key can send a message, once, on one topic and as one writer.
 #include "common/bus/security/seal.h"
 
+#include <arpa/inet.h>
 #include <fcntl.h>
 #include <openssl/core_names.h>
 #include <openssl/evp.h>
 #include <openssl/params.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,6 +14,7 @@
 
 #include <gmock/gmock.h>
 
+#include "common/bus/security/datagram_signatures.h"
 #include "common/bus/security/digest.h"
 #include "tests/eventually.h"
 #include "tests/unit/bus/key_of_byte.h"
@@ -259,6 +262,66 @@ TEST_F(SealedBus, NobodyWithoutTheKeyReadsAMessage)
   EXPECT_EQ(heard, 0);
   EXPECT_THAT(listener.Heard(), testing::Not(HasSubstr("secret")));
   EXPECT_THAT(listener.Heard(), testing::Not(HasSubstr("ground")));
+}
+
+// All datagrams that come to the announcements of a domain on loopback, from processes of this one on.
+class Announcements
+{
+public:
+  explicit Announcements(int domain) : socket_(socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK, 0))
+  {
+    const int yes = 1;
+    setsockopt(socket_, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    setsockopt(socket_, SOL_SOCKET, SO_REUSEPORT, &yes, sizeof yes);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    // DDSI-RTPS 2.2, 9.6.1.1
+    address.sin_port = htons(static_cast<std::uint16_t>(7400 + 250 * domain));
+    inet_pton(AF_INET, "239.255.0.1", &address.sin_addr);
+    const ip_mreq group{address.sin_addr, {htonl(INADDR_LOOPBACK)}};
+    is_open_ = bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 &&
+               setsockopt(socket_, IPPROTO_IP, IP_ADD_MEMBERSHIP, &group, sizeof group) == 0;
+  }
+  ~Announcements() { close(socket_); }
+  Announcements(const Announcements&) = delete;
+  Announcements& operator=(const Announcements&) = delete;
+
+  bool IsOpen() const { return is_open_; }
+  std::optional<std::string> Next()
+  {
+    std::string datagram(65536, '\0');
+    const ssize_t size = recv(socket_, datagram.data(), datagram.size(), 0);
+    if (size < 0) return std::nullopt;
+    datagram.resize(static_cast<std::size_t>(size));
+    return datagram;
+  }
+
+private:
+  const int socket_;
+  bool is_open_ = false;
+};
+
+// A process that has signed once is not heard without a signature. So what it sent before must not be on its way still.
+TEST_F(SealedBus, AProcessThatJoinsARunOfThisUserSignsItsFirstDatagram)
+{
+  ServerSession session(options_, world_, {"engine 'ground'"}, {[](const auto&) {}, [] {}, [](const auto&) {}});
+  session.Open();
+  Announcements announcements(options_.domain);
+  ASSERT_TRUE(announcements.IsOpen());
+  BusOptions without = options_;
+  without.key.reset();
+  const Bus bus(without, "watcher", "sealed");
+  // The announcement holds the name of the process.
+  std::string first;
+  const auto is_announced = [&]
+  {
+    while (const auto next = announcements.Next())
+      if (first = *next; first.find("watcher") != std::string::npos) return true;
+    return false;
+  };
+  ASSERT_TRUE(Eventually(is_announced));
+  DatagramSignatures signatures(std::make_shared<KeyRing>(options_.domain, options_.key));
+  EXPECT_FALSE(signatures.Check(first).is_of_stranger);
 }
 
 // Another process announces itself as one of the run's, and leaves.
