@@ -172,8 +172,8 @@ const tests = {
     await page.keyboard.press("Delete");
     await until(page, () => swarmanoid.adding.options.includes("fb_0 (removed)"));
     await page.selectOption(".palette select", "fb_0");
-    await click(0.4, 2.6);
-    await until(page, () => Math.hypot(swarmanoid.place("fb_0")[0] - 0.4, swarmanoid.place("fb_0")[1] - 2.6) < 0.03);
+    await click(0.5, 2.3);
+    await until(page, () => Math.hypot(swarmanoid.place("fb_0")[0] - 0.5, swarmanoid.place("fb_0")[1] - 2.3) < 0.03);
     await until(page, () => swarmanoid.adding.chosen === null && !swarmanoid.adding.options.includes("fb_0 (removed)"));
     const events = readFileSync(join(folder, "added/events.csv"), "utf8");
     assert.match(events, /add.*late_0/);

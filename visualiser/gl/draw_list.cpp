@@ -29,10 +29,10 @@ using Eigen::Vector3f;
 constexpr float kNearPixels = 38;
 constexpr float kMiddlePixels = 11;
 
-// Discs of distant robots, as on the page of web_render (robot_points.js): diameters in pixels of a picture with texts
+// Diameters of the discs of distant robots, in pixels of a picture with texts
 // of the usual size.
-constexpr float kPointPixels = 4;  // robots that are wider have meshes
-constexpr float kLeastPixels = 3.4F;
+constexpr float kPointPixels = 4;     // robots that are wider have meshes
+constexpr float kLeastPixels = 2.6F;  // more would fill the horizon
 constexpr float kMostEnlargement = 8;
 constexpr Colour kUnlit = 0x59626c;
 

@@ -316,7 +316,7 @@ TEST_F(ViewerTest, TheWholeArenaIsFittedBesidePanelsButAnInspectorMovesNoPicture
     for (const double x : {0.0, 4.0})
       for (const double y : {0.0, 4.0})
       {
-        const Vector3 corner = OnScreen({x, y, 0});
+        const Vector3 corner = OnScreen(Vector3(x, y, 0));
         EXPECT_GT(corner.x(), hidden.left * kWidth);
         EXPECT_LT(corner.x(), (1 - hidden.right) * kWidth);
         EXPECT_GT(corner.y(), 0);
