@@ -16,6 +16,7 @@
 
 #include "common/space/shape.h"
 #include "common/space/space.h"
+#include "visualiser/scene/enlargement.h"
 #include "visualiser/scene/picking.h"
 
 namespace swarmanoid
@@ -33,7 +34,6 @@ constexpr float kMiddlePixels = 11;
 // of the usual size.
 constexpr float kPointPixels = 4;     // robots that are wider have meshes
 constexpr float kLeastPixels = 2.6F;  // more would fill the horizon
-constexpr float kMostEnlargement = 8;
 constexpr Colour kUnlit = 0x59626c;
 
 std::array<float, 4> Components(Colour colour, float opacity = 1)
@@ -126,7 +126,7 @@ bool Frame::AddPoint(std::span<const SceneItem> items, const Scene& scene, const
   const auto radius = static_cast<float>(shape.half_size.head<2>().maxCoeff());
   const float width = 2 * view.PixelsOf(middle, radius);
   if (width >= kPointPixels * text_scale) return false;
-  const float larger = std::clamp(kLeastPixels * text_scale / width, 1.0F, kMostEnlargement);
+  const float larger = Enlargement(width, kLeastPixels * text_scale);
   if (!view.Sees(middle, larger * radius)) return true;
   ++instances;
   enlargement = std::max(enlargement, larger);

@@ -8,8 +8,6 @@
 #include <cstring>
 #include <stdexcept>
 
-#include <fmt/format.h>
-
 #include "visualiser/gl/draw_list.h"
 #include "visualiser/gl/label_atlas.h"
 #include "visualiser/gl/mesh_store.h"
@@ -17,6 +15,7 @@
 #include "visualiser/gl/shaders.h"
 #include "visualiser/gl/targets.h"
 #include "visualiser/gl/view_volume.h"
+#include "visualiser/scene/enlargement.h"
 #include "visualiser/scene/floor_grid.h"
 
 namespace swarmanoid
@@ -34,7 +33,6 @@ constexpr GLint kShadowUnit = 0;
 constexpr GLint kLightsUnit = 1;
 constexpr GLint kAtlasUnit = 2;
 constexpr float kCaptionMargin = 12;  // pixels
-constexpr float kLeastTold = 1.2F;    // how much wider than they are robots may be drawn without a word
 
 Vector3f Linear(Colour colour) { return ChannelsOf(colour).cwiseAbs2(); }
 
@@ -343,11 +341,6 @@ void GlScene::State::DrawGlows(const ViewVolume& view, const Camera& camera, std
   glow.Set("u_up", Vector3f(camera.Up().cast<float>()));
   glDisable(GL_CULL_FACE);
   glows.Draw(some);
-}
-
-std::string EnlargementText(float enlargement)
-{
-  return enlargement < kLeastTold ? "" : fmt::format("robots up to {:.2g} times as wide", enlargement);
 }
 
 Picture ReadPicture(unsigned framebuffer, int width, int height)

@@ -32,9 +32,6 @@ struct DrawStatistics
   float enlargement = 1;      // how much wider than they are robots are drawn, at most
 };
 
-// Returns "robots up to 2.8 times as wide", or nothing if they are as wide as they are.
-std::string EnlargementText(float enlargement);
-
 class GlScene
 {
 public:

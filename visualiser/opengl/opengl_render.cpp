@@ -5,6 +5,7 @@
 #include "common/logging/log.h"
 #include "visualiser/gl/quality.h"
 #include "visualiser/renderer_library.h"
+#include "visualiser/scene/enlargement.h"
 
 namespace swarmanoid
 {

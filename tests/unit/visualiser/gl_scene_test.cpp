@@ -15,6 +15,7 @@
 #include "tests/unit/visualiser/small_world.h"
 #include "tests/world/temporary_folder.h"
 #include "visualiser/image/offscreen_context.h"
+#include "visualiser/scene/enlargement.h"
 #include "visualiser/scene/viewpoints.h"
 
 namespace swarmanoid
