@@ -11,7 +11,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 
 const { SWARMANOID, SWARMANOID_CONFIGS, PAGE_MODULES } = process.env;
-export const TIMEOUT_MS = 40000; // which only what hangs reaches
+export const TIMEOUT_MS = 100000; // which only what hangs reaches
 
 export const folder = mkdtempSync(join(tmpdir(), "swarmanoid_web_"));
 process.env.SWARMANOID_SHARED_FOLDER = `/dev/shm/swarmanoid-web-${process.pid}`;
