@@ -314,7 +314,8 @@ ControlReplyMessage AttachedRun::Control(const std::vector<std::string>& words,
           fmt::format("no run of experiment {} in domain {} on this machine is of user {}, and no key of it is given; "
                       "the user who started it can steer it, or give you its key (docs/security.md)",
                       Quoted(choice_.experiment), choice_.domain, UserName()));
-    reply = client_->Ask(order, PatienceFor(order, ControlClient::kPatience_s), [this] { return stop_ || SignalCame(); });
+    reply =
+        client_->Ask(order, PatienceFor(order, ControlClient::kPatience_s), [this] { return stop_ || SignalCame(); });
     status = client_->LatestStatus();
     dropped = bus_->Dropped();
   }
