@@ -242,7 +242,7 @@ const tests = {
     await until(page, () => swarmanoid.editor.form.tag === "distribute" && swarmanoid.robots === 10);
     state = await changed(page, () => page.click("text=Write its entities out one by one"));
     assert.equal(state.all_mistakes, 0);
-    assert.deepEqual(await read(page, () => swarmanoid.place("fb_3")), place);
+    await until(page, (wanted) => swarmanoid.place("fb_3").join() === wanted, place.join()); // the state follows the world
     const saved = await save(editor);
     assert.equal(saved.match(/<footbot id="fb_\d"/g).length, 10);
     assert.equal(saved.slice(0, saved.indexOf("<footbot id")), editor.text.slice(0, editor.text.indexOf("<distribute")));
