@@ -22,6 +22,7 @@
 #include "common/activity/shared_activity.h"
 #include "common/checkpoint/host_state.h"
 #include "common/configuration/shown_text.h"
+#include "common/control_interface/ci_step_group.h"
 #include "common/control_interface/init_controller.h"
 #include "common/experiment/actors.h"
 #include "common/logging/log.h"
@@ -218,12 +219,19 @@ ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& 
 void ControllerHost::ListSteps()
 {
   for (auto* list : {&parallel_, &in_turn_, &guarded_}) list->clear();
+  groups_.clear();
   Clear(commands_.faults);
   for (std::uint32_t k = 0; k < robots_.size(); ++k)
   {
     if (device_faults_ != nullptr && device_faults_->SwitchedOff(k) != nullptr) continue;
     if (robots_[k].guard != nullptr)
       guarded_.push_back(k);
+    else if (auto* grouped = dynamic_cast<CCI_InStepGroup*>(robots_[k].controller.get()))
+    {
+      auto found = std::ranges::find(groups_, &grouped->StepGroup(), &StepGroup::group);
+      if (found == groups_.end()) found = groups_.insert(found, StepGroup{&grouped->StepGroup()});
+      found->robots.push_back(k);
+    }
     else
       (robots_[k].controller->StepsInParallel() ? parallel_ : in_turn_).push_back(k);
   }
@@ -624,6 +632,7 @@ void ControllerHost::RunControllers(std::uint64_t tick)
   else
     StepInTurn(parallel_, tick);
   StepInTurn(in_turn_, tick);
+  if (!groups_.empty()) StepTogether(tick);
   if (!guarded_.empty()) StepGuarded(tick);
 }
 
@@ -678,6 +687,25 @@ void ControllerHost::ControlSteps(std::span<const std::uint32_t> robots, std::ui
   catch (...)
   {
     RethrowFor(*running, ActivityStep::kControlStep, tick);
+  }
+}
+
+void ControllerHost::StepTogether(std::uint64_t tick)
+{
+  for (StepGroup& group : groups_)
+  {
+    const Actor* first = nullptr;
+    group.steps.clear();
+    for (const std::uint32_t k : group.robots)
+    {
+      Robot& robot = robots_[k];
+      if (!space_.IsPresent(robot.entity)) continue;
+      robot.interface->BeginControlStep(tick, space_.StreamTick());
+      if (first == nullptr) first = &robot.actor;
+      group.steps.push_back(robot.controller.get());
+    }
+    if (first != nullptr)
+      RunCodeOf(*first, ActivityStep::kControlStep, tick, [&] { group.group->ControlSteps(group.steps); });
   }
 }
 

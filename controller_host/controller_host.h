@@ -19,6 +19,7 @@
 namespace swarmanoid
 {
 
+class CCI_StepGroup;
 class DeviceFaults;
 
 // A controller failed: what() names the robot, the controller, the tick and the reason.
@@ -119,6 +120,7 @@ private:
   void ControlSteps(std::span<const std::uint32_t> robots, std::uint64_t tick, ActivityOfThread& activity);
   void StepInTurn(std::span<const std::uint32_t> robots, std::uint64_t tick);
   void StepInParallel(std::uint64_t tick);
+  void StepTogether(std::uint64_t tick);
   void StepGuarded(std::uint64_t tick);
   void TryStep(Robot& robot, std::uint64_t tick);
   // Returns false if it took more than its time budget.
@@ -155,6 +157,13 @@ private:
   const CSwarmanoidSpace& space_;
   const HostLayout& layout_;
   std::vector<Robot> robots_;
+  struct StepGroup
+  {
+    CCI_StepGroup* group;
+    std::vector<std::uint32_t> robots{};   // positions in robots_
+    std::vector<CCI_Controller*> steps{};  // of one tick
+  };
+  std::vector<StepGroup> groups_;
   // The numbers are positions in robots_: controllers that may step at the same time, the others, and those with a
   // guard.
   std::vector<std::uint32_t> parallel_;

@@ -230,19 +230,29 @@ void NewDevice(const std::string& name) { NewPlugin(name, "sensor", "devices", "
 
 void NewEntity(const std::string& name) { NewPlugin(name, "kind of robot", "entities", "entity", {".cpp"}, true); }
 
-// Makes a controller in Lua. The simulator reads the script, so nothing must be built.
-void NewLua(const std::string& name)
+namespace
+{
+
+// Makes a controller in a script. The simulator reads it, so nothing must be built.
+void NewScript(const std::string& name, const std::string& language, const std::string& ending)
 {
   RequireIdentifier(name);
   const fs::path user = RequireUserDirectory();
-  const fs::path experiment = user / "experiments" / (name + ".argos");
+  const fs::path experiment = user / "experiments" / (name + ".xml");
   RefuseTakenTarget(user, name);
   RefuseExisting(experiment);
-  fmt::print("Made Lua controller {}:\n", name);
-  MakeFile("lua/lua.in", user / "controllers" / name / (name + ".lua"), {{"name", name}});
-  MakeFile("lua/experiment.argos.in", experiment, {{"name", name}});
+  fmt::print("Made controller {} in {}:\n", name, language == "lua" ? "Lua" : "Python");
+  const TemplateValues values{{"name", name}, {"language", language}, {"ending", ending}};
+  MakeFile("script/controller." + ending + ".in", user / "controllers" / name / (name + "." + ending), values);
+  MakeFile("script/experiment.xml.in", experiment, values);
   TellRun(experiment);
 }
+
+}  // namespace
+
+void NewLua(const std::string& name) { NewScript(name, "lua", "lua"); }
+
+void NewPython(const std::string& name) { NewScript(name, "python", "py"); }
 
 void NewTerrain(const std::string& name, const RoughTerrain& terrain)
 {

@@ -18,6 +18,7 @@ void NewRenderer(const std::string& name);
 void NewDevice(const std::string& name);
 void NewEntity(const std::string& name);
 void NewLua(const std::string& name);
+void NewPython(const std::string& name);
 // Makes an OctoMap file and an experiment on it, here or in the user directory.
 void NewTerrain(const std::string& name, const RoughTerrain& terrain);
 

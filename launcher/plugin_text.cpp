@@ -14,6 +14,7 @@
 #include "common/configuration/xml_reader.h"
 #include "common/experiment/reference.h"
 #include "common/experiment/schema.h"
+#include "common/plugins/script_parameters.h"
 #include "controller_host/device.h"
 
 namespace swarmanoid
@@ -72,7 +73,7 @@ void AppendPlugin(std::string& rows, const std::string& path, const TConfigurati
                   const std::string& label, const std::string& implementation = "")
 {
   const PluginDescription* plugin = PluginCatalogue::Instance().Find(kind, label, implementation);
-  if (plugin != nullptr) AppendSettings(rows, path, tree, plugin->parameters);
+  if (plugin != nullptr) AppendSettings(rows, path, tree, ScriptParameters::Instance().TableOf(*plugin, tree, ""));
 }
 
 // Returns "left [rad/s], right [rad/s]". For numbered columns the text has the first and the last number: "0 … 23".

@@ -14,6 +14,7 @@
 #include "common/control_interface/init_controller.h"
 #include "common/logging/log.h"
 #include "common/plugins/library.h"
+#include "common/plugins/script_parameters.h"
 
 namespace swarmanoid
 {
@@ -139,12 +140,13 @@ const ControllerEntry& FindController(const RobotConfiguration& configuration)
 }
 
 // Returns the parameters as the simulator reads them: checked and complete if the controller declared them.
-TConfigurationTree ParametersOfController(const RobotConfiguration& configuration, const PluginDescription& description)
+TConfigurationTree CheckedParameters(const RobotConfiguration& configuration, const PluginDescription& description)
 {
   if (!description.declares_parameters) return configuration.parameters;
   const TConfigurationTree given = OrEmpty(configuration.parameters, "parameters", configuration.location);
-  CheckParameters(given, description.parameters, "controller <" + description.label + ">", {});
-  return WithDefaults(given, description.parameters, configuration.folder);
+  const auto parameters = ScriptParameters::Instance().TableOf(description, given, configuration.folder);
+  CheckParameters(given, parameters, "controller <" + description.label + ">", {});
+  return WithDefaults(given, parameters, configuration.folder);
 }
 
 }  // namespace
@@ -171,7 +173,7 @@ Robot::Robot(RobotConfiguration configuration)
 {
   LoadDriverLibraries(configuration_);
   controller_entry_ = &FindController(configuration_);
-  configuration_.parameters = ParametersOfController(configuration_, controller_entry_->description);
+  configuration_.parameters = CheckedParameters(configuration_, controller_entry_->description);
   controller_ = controller_entry_->create();
   interface_.SetLog([](const CCI_Robot& robot, std::string_view text)
                     { LogInfo("step {}: {}", robot.GetTick(), text); });

@@ -133,10 +133,10 @@ private:
     {
       std::string script = options.GetText("script", "");
       if (script.empty()) return std::make_unique<argos::CCI_Controller>();
-      LuaScript lua{options.GetText("script_name"), std::move(script),
-                    [robot = GetRobot()] { return robot->GetTime(); }};
+      LuaScript lua{
+          {options.GetText("script_name"), std::move(script), [robot = GetRobot()] { return robot->GetTime(); }}};
       for (const std::string& type : SplitWords(options.GetText("own_sensors", "")))
-        lua.sensors[type] = GetRobot()->GetSensor(type);
+        lua.sensors.try_emplace(type, *GetRobot()->GetSensor(type));
       for (const std::string& type : SplitWords(options.GetText("own_actuators", "")))
         lua.actuators[type] = GetRobot()->GetActuator(type);
       return MakeLuaController(std::move(lua));

@@ -5,24 +5,20 @@
 
 #include <argos3/core/control_interface/ci_controller.h>
 
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 
-#include "common/control_interface/ci_device.h"
+#include "controller_host/scripts/lua/lua_columns.h"
+#include "controller_host/scripts/lua/lua_libraries.h"
 
 namespace swarmanoid::argos3
 {
 
-struct LuaScript
+struct LuaScript : lua::LuaScript
 {
-  std::string file;  // the name in messages
-  std::string path;
-  // Returns the simulated time in s.
-  std::function<double()> clock;
   // The devices that ARGoS3 does not have, by type.
-  std::map<std::string, CCI_Sensor*> sensors{};
+  std::map<std::string, lua::SensorTable> sensors{};
   std::map<std::string, CCI_Actuator*> actuators{};
 };
 

@@ -28,11 +28,14 @@
 #include <cmath>
 
 #include "argos3/plugin/lua_device_parts.h"
-#include "argos3/plugin/lua_stack.h"
 #include "argos3/plugin/lua_vectors.h"
+#include "controller_host/scripts/lua/lua_stack.h"
 
 namespace swarmanoid::argos3
 {
+
+using namespace lua;
+
 namespace
 {
 

@@ -7,8 +7,6 @@
 #include <lua.hpp>
 #include <string>
 
-#include "common/control_interface/ci_device.h"
-
 namespace swarmanoid::argos3
 {
 
@@ -18,9 +16,5 @@ void AddFunctions(lua_State* lua, const std::string& tag, argos::CCI_Actuator& a
 void AddFunctions(lua_State* lua, const std::string& tag, argos::CCI_Sensor& sensor);
 // Writes the current readings of the sensor.
 void AddReadings(lua_State* lua, const std::string& tag, argos::CCI_Sensor& sensor);
-
-// The same for devices that ARGoS3 does not have, by their columns (lua_columns.cpp).
-void AddColumns(lua_State* lua, const std::string& type, CCI_Actuator& actuator);
-void ReadColumns(lua_State* lua, const std::string& type, const CCI_Sensor& sensor);
 
 }  // namespace swarmanoid::argos3

@@ -1,10 +1,13 @@
 #include <cmath>
 
 #include "argos3/plugin/lua_device_parts.h"
-#include "argos3/plugin/lua_stack.h"
+#include "controller_host/scripts/lua/lua_stack.h"
 
 namespace swarmanoid::argos3
 {
+
+using namespace lua;
+
 namespace
 {
 

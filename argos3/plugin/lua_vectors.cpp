@@ -8,10 +8,13 @@
 #include <new>
 #include <type_traits>
 
-#include "argos3/plugin/lua_stack.h"
+#include "controller_host/scripts/lua/lua_stack.h"
 
 namespace swarmanoid::argos3
 {
+
+using namespace lua;
+
 namespace
 {
 

@@ -1,8 +1,10 @@
 #include "common/experiment/element_form.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "common/experiment/schema.h"
+#include "common/plugins/script_parameters.h"
 
 namespace swarmanoid
 {
@@ -15,8 +17,26 @@ struct SchemaPlace
   const ElementSpec* element = nullptr;  // nullptr: only a table of parameters, or an unknown element
   const PluginDescription* plugin = nullptr;
   std::optional<PluginKind> kind;  // the kind of plug-in that the element stands for
-  const std::vector<ParameterSpec>* table = nullptr;
+  std::optional<std::vector<ParameterSpec>> table{};
 };
+
+// Returns the parameters of a controller with this <parameters>. A script with a mistake, which the reader reports,
+// adds none.
+std::vector<ParameterSpec> TableOf(const PluginDescription& controller, const ConfigurationNode& node)
+{
+  const TConfigurationTree parameters(
+      std::shared_ptr<const ConfigurationNode>(std::shared_ptr<const ConfigurationNode>(), &node));
+  try
+  {
+    const std::string file = node.location.file == nullptr ? "" : *node.location.file;
+    return ScriptParameters::Instance().TableOf(controller, parameters,
+                                                std::filesystem::path(file).parent_path().string());
+  }
+  catch (const ConfigurationError&)
+  {
+    return controller.parameters;
+  }
+}
 
 const std::string* ValueIn(const ConfigurationNode& node, std::string_view name)
 {
@@ -36,15 +56,15 @@ const PluginDescription* PluginOf(PluginKind kind, const ConfigurationNode& node
 SchemaPlace Into(const SchemaPlace& above, const ConfigurationNode& node)
 {
   if (above.element == nullptr) return {};
-  if (const ElementSpec* child = above.element->FindChild(node.name)) return {child, nullptr, {}, nullptr};
+  if (const ElementSpec* child = above.element->FindChild(node.name)) return {child, nullptr, {}, {}};
   if (above.element->plugins)
   {
     const PluginKind kind = *above.element->plugins;
-    return {&above.element->plugin_element.front(), PluginOf(kind, node), kind, nullptr};
+    return {&above.element->plugin_element.front(), PluginOf(kind, node), kind, {}};
   }
   const bool has_table = above.kind == PluginKind::kController && node.name == "parameters" &&
                          above.plugin != nullptr && above.plugin->declares_parameters;
-  return has_table ? SchemaPlace{nullptr, nullptr, {}, &above.plugin->parameters} : SchemaPlace{};
+  return has_table ? SchemaPlace{nullptr, nullptr, {}, TableOf(*above.plugin, node)} : SchemaPlace{};
 }
 
 // Adds the registered implementations as choices, for the elements of devices.
@@ -101,10 +121,10 @@ ElementForm FormOf(std::span<const ConfigurationNode* const> path)
 {
   ElementForm form;
   if (path.empty() || path.front()->name != ExperimentSchema().Name()) return form;
-  SchemaPlace place{&ExperimentSchema(), nullptr, {}, nullptr};
+  SchemaPlace place{&ExperimentSchema(), nullptr, {}, {}};
   for (const ConfigurationNode* node : path.subspan(1)) place = Into(place, *node);
   const ConfigurationNode& node = *path.back();
-  if (place.table != nullptr)
+  if (place.table)
   {
     form.known = true;
     form.description = "The parameters of the controller.";

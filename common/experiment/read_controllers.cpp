@@ -10,6 +10,7 @@
 #include "common/experiment/sections.h"
 #include "common/plugins/library.h"
 #include "common/plugins/parameter_checks.h"
+#include "common/plugins/script_parameters.h"
 
 namespace swarmanoid
 {
@@ -87,10 +88,20 @@ TConfigurationTree ReadParameters(const ControllerConfiguration& controller, con
   const PluginDescription* plugin = PluginCatalogue::Instance().Find(PluginKind::kController, controller.tag);
   if (plugin == nullptr || !plugin->declares_parameters) return given;
   const TConfigurationTree tree = OrEmpty(given, "parameters", controller.location);
-  const auto mistakes = MistakesIn(tree, plugin->parameters, "controller <" + controller.tag + ">");
+  std::vector<ParameterSpec> parameters;
+  try
+  {
+    parameters = ScriptParameters::Instance().TableOf(*plugin, tree, reading.experiment.folder);
+  }
+  catch (const ConfigurationError& mistake)
+  {
+    reading.diagnostics.Add(mistake.Location(), mistake.Message());
+    return given;
+  }
+  const auto mistakes = MistakesIn(tree, parameters, "controller <" + controller.tag + ">");
   for (const ConfigurationError& mistake : mistakes) reading.diagnostics.Add(mistake.Location(), mistake.Message());
   if (mistakes.empty()) CheckTogether(tree, PluginKind::kController, *plugin, reading);
-  return WithDefaults(tree, plugin->parameters, reading.experiment.folder);
+  return WithDefaults(tree, parameters, reading.experiment.folder);
 }
 
 ControllerConfiguration ReadController(const TConfigurationTree& tree, Reading& reading)

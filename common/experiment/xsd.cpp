@@ -8,6 +8,7 @@
 #include "common/configuration/xml_writer.h"
 #include "common/experiment/reference.h"
 #include "common/experiment/schema.h"
+#include "common/plugins/script_parameters.h"
 
 namespace swarmanoid
 {
@@ -133,7 +134,8 @@ std::map<std::string, LabelElement> LabelElements(const ElementSpec& root)
       if (!plugin->implementation.empty()) label.implementations.insert(plugin->implementation);
       if (kind == PluginKind::kController)
       {
-        label.declares_parameters = plugin->declares_parameters;
+        // A script may declare more parameters than the table has.
+        label.declares_parameters = plugin->declares_parameters && !ScriptParameters::Instance().Has(plugin->label);
         label.controller_parameters = plugin->parameters;
         continue;
       }

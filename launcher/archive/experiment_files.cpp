@@ -47,6 +47,7 @@ public:
     if (!files_.insert(normal.string()).second) return;
     folders_.insert(normal.parent_path().string());
     if (normal.extension() == ".lua") AddOfScript(normal);
+    if (normal.extension() == ".py") AddOfPython(normal);
     if (normal.extension() == ".urdf") AddOfUrdf(normal);
   }
 
@@ -95,6 +96,25 @@ private:
       for (const std::string& one : names)
         if (fs::path(one).is_relative() && IsFile(script.parent_path() / one)) Add(script.parent_path() / one);
     }
+  }
+
+  // Adds the modules beside a script in Python, and the files that it reads by a name in quotes.
+  void AddOfPython(const fs::path& script)
+  {
+    static const std::regex module(R"((^|\n)\s*(from|import)\s+([\w.]+))");
+    static const std::regex file(R"((open|load|loadtxt|genfromtxt)\s*\(\s*["']([^"'\n]+)["'])");
+    const std::string text = ReadRegularFile(script.string(), kMostTextBytes);
+    std::vector<std::string> names;
+    for (std::sregex_iterator found(text.begin(), text.end(), module), end; found != end; ++found)
+    {
+      std::string name = (*found)[3];
+      std::ranges::replace(name, '.', '/');
+      names.insert(names.end(), {name + ".py", name + "/__init__.py"});
+    }
+    for (std::sregex_iterator found(text.begin(), text.end(), file), end; found != end; ++found)
+      names.push_back((*found)[2]);
+    for (const std::string& name : names)
+      if (fs::path(name).is_relative() && IsFile(script.parent_path() / name)) Add(script.parent_path() / name);
   }
 
   void AddOfUrdf(const fs::path& urdf)

@@ -101,6 +101,7 @@ void AddNewCommand(CLI::App& app, int& exit_code)
       "  swarmanoid new behavior-controller wall_follower\n"
       "  swarmanoid new controller from_scratch\n"
       "  swarmanoid new lua avoid\n"
+      "  swarmanoid new python evade\n"
       "  swarmanoid new device compass\n"
       "  swarmanoid new entity rover\n"
       "  swarmanoid new engine gliding\n"
@@ -129,8 +130,10 @@ void AddNewCommand(CLI::App& app, int& exit_code)
   AddTerrain(*verb, exit_code);
   add("controller", "A footbot controller in one class, and an experiment with it", "NAME",
       std::string("Name of the controller") + kNameRule, "controller wall_follower", NewController);
-  add("lua", "A foot-bot controller in Lua, and an experiment of ARGoS3 with it", "NAME",
+  add("lua", "A foot-bot controller in Lua, and an experiment with it", "NAME",
       std::string("Name of the controller") + kNameRule, "lua avoid", NewLua);
+  add("python", "A foot-bot controller in Python, and an experiment with it", "NAME",
+      std::string("Name of the controller") + kNameRule, "python evade", NewPython);
   add("device", "A sensor, a controller that uses it, and an experiment with them", "NAME",
       std::string("Name of the sensor") + kNameRule, "device compass", NewDevice);
   add("entity", "A kind of robot, a controller of it, and an experiment with them", "NAME",

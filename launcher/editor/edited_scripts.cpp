@@ -15,6 +15,8 @@ namespace
 
 namespace fs = std::filesystem;
 
+bool IsScript(const fs::path& path) { return path.extension() == ".lua" || path.extension() == ".py"; }
+
 bool IsBelow(const fs::path& path, const fs::path& folder)
 {
   const fs::path relative = path.lexically_relative(folder);
@@ -43,7 +45,7 @@ public:
 private:
   void AddValue(const std::string& value)
   {
-    if (fs::path(value).extension() != ".lua") return;
+    if (!IsScript(value)) return;
     for (const fs::path& folder : folders_)
     {
       std::error_code none;
@@ -51,7 +53,7 @@ private:
       if (none || !fs::is_regular_file(file, none)) continue;
       const bool allowed = std::ranges::any_of(folders_, [&](const fs::path& each) { return IsBelow(file, each); });
       const bool known = std::ranges::any_of(scripts, [&](const auto& each) { return each.file == file.string(); });
-      if (allowed && file.extension() == ".lua" && !known) scripts.push_back({value, file.string()});
+      if (allowed && IsScript(file) && !known) scripts.push_back({value, file.string()});
       return;
     }
   }

@@ -1,4 +1,5 @@
-// EditedScripts: the Lua scripts of the controllers of an edited experiment. `swarmanoid edit` shows and saves them.
+// EditedScripts: the scripts, in Lua or Python, of the controllers of an edited experiment. `swarmanoid edit` shows and
+// saves them.
 #pragma once
 
 #include <map>
@@ -18,8 +19,8 @@ struct ControllerScript
   bool operator==(const ControllerScript&) const = default;
 };
 
-// Returns the scripts that the elements of <controllers> name, each once. A script is a file NAME.lua in or below the
-// working folder, the folder of the experiment or its parent. `root`: the root element.
+// Returns the scripts that the elements of <controllers> name, each once. A script is a file NAME.lua or NAME.py in or
+// below the working folder, the folder of the experiment or its parent. `root`: the root element.
 std::vector<ControllerScript> ScriptsOf(const ConfigurationNode& root, const std::string& folder);
 
 class EditedScripts

@@ -3,6 +3,7 @@ import gzip
 import hashlib
 import io
 import json
+import os
 import pathlib
 import shutil
 import tarfile
@@ -162,6 +163,21 @@ class Files(Archives):
         self.archive()
         self.assertTrue({"files/code/walk.lua", "files/code/parts/speed.lua"} <= set(self.members()), self.members().keys())
         shutil.rmtree(scripts)
+        self.assert_equal_states(self.reproduce(), 1)
+
+    def test_a_script_in_python_brings_its_modules(self):
+        if not (pathlib.Path(os.environ["SWARMANOID_BUILD"]) / "lib/swarmanoid/libpython.so").exists():
+            self.skipTest("the build has no controllers in Python")
+        (self.folder / "parts").mkdir()
+        (self.folder / "parts/speed.py").write_text("SPEED = 5\n")
+        (self.folder / "walk.py").write_text("from parts.speed import SPEED\n\n\ndef step(robots):\n    robots.actuators['footbot_wheels'][:] = SPEED\n")
+        experiment(self.folder / "walk.xml", "<maxclock>20</maxclock>", controller("python_controller", ["dummy_footbot_wheels"],
+                                                                                  parameters="<script>walk.py</script>", library="python"),
+                   '<footbot id="fb" position="1,1,0" controller="c"/>')
+        self.run_of("walk.xml", *ONE)
+        self.archive()
+        self.assertTrue({"files/walk.py", "files/parts/speed.py"} <= set(self.members()), self.members().keys())
+        shutil.rmtree(self.folder / "parts")
         self.assert_equal_states(self.reproduce(), 1)
 
     def test_a_file_that_changed_since_the_run_is_refused(self):

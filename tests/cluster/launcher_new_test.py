@@ -1,5 +1,6 @@
 """What `swarmanoid new` makes builds and runs."""
 import os
+import pathlib
 import re
 import subprocess
 
@@ -27,6 +28,22 @@ class New(LauncherTest):
         self.assertIn("is there already", again.stderr)
         self.folder = self.folder.parent
 
+    def test_scripts_in_both_languages_have_one_rule_and_one_hash(self):
+        self.assertEqual(self.run_it("new", "user", "mine").process.returncode, 0)
+        outside, self.folder = self.folder, self.folder / "mine"
+        hashes = []
+        for language, name in (("lua", "avoid"), ("python", "evade")):
+            if not (pathlib.Path(BUILD) / f"lib/swarmanoid/lib{language}.so").exists():
+                continue
+            made = self.run_it("new", language, name)
+            self.assertEqual(made.process.returncode, 0, made.stderr)
+            for options in (("--single-process",), ("--controller-hosts", 2)):
+                run = self.run_it("run", f"experiments/{name}.xml", "--quiet", "--ticks", 200, *options)
+                self.assertEqual(run.process.returncode, 0, run.stderr)
+                hashes.append(self.assert_finished(run, 200))
+        self.folder = outside
+        self.assertEqual(len(set(hashes)), 1, hashes)
+
     def test_an_experiment_is_valid_and_runs(self):
         self.assertEqual(self.run_it("new", "experiment", "first_try").process.returncode, 0)
         self.assertEqual(self.run_it("check", "first_try.xml").process.returncode, 0)
@@ -38,7 +55,7 @@ class New(LauncherTest):
     def test_what_is_written_is_xml_for_other_programs_too(self):
         made = [("user", "mine"), ("experiment", "first_try"), ("terrain", "moor", "--holes", "1", "--seed", "7")]
         made_inside = [("controller", "follower"), ("functions", "spreading"), ("engine", "gliding"), ("renderer", "plan"), ("device", "compass"),
-                       ("entity", "rover"), ("lua", "avoid"),
+                       ("entity", "rover"), ("lua", "avoid"), ("python", "evade"),
                        *(("behavior-controller", f"{robot}_watch", "--robot", robot) for robot in ("footbot", "handbot", "eyebot"))]
         for words in made:
             self.assertEqual(self.run_it("new", *words).process.returncode, 0, words)
@@ -51,7 +68,7 @@ class New(LauncherTest):
             self.assertEqual(self.run_it("new", *words).process.returncode, 0, words)
         self.folder = outside
         files = sorted(str(path.relative_to(outside)) for path in outside.rglob("*") if path.suffix in (".xml", ".argos"))
-        self.assertEqual(len(files), 17, files)
+        self.assertEqual(len(files), 18, files)
         checked = subprocess.run(["xmllint", "--noout", "--nonet", *files], cwd=outside, capture_output=True, text=True)
         self.assertEqual((checked.returncode, checked.stderr), (0, ""))
 

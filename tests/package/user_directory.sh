@@ -120,12 +120,6 @@ TryUserDirectory()
     [ -n "$(Hash "$cluster")" ]
     [ "$(Hash "$cluster")" = "$(Hash "$own")" ]
   done
-  echo "== a Lua controller runs without a build, as a cluster and in one process alike"
-  swarmanoid check experiments/avoid.argos
-  cluster=$(swarmanoid run experiments/avoid.argos --ticks 60 --quiet --output "$runs/avoid")
-  own=$(swarmanoid run experiments/avoid.argos --ticks 60 --quiet --single-process --output "$runs/avoid-one")
-  [ -n "$(Hash "$cluster")" ]
-  [ "$(Hash "$cluster")" = "$(Hash "$own")" ]
 
   echo "== a visualisation of the user draws in the file, and attached"
   # Ten robots at most, those that share a place are one letter.

@@ -45,6 +45,30 @@ class Equality(InFolderCase):
                 self.assertEqual(summary.hash, hash_of_run(file, "--seed", "5", "--ticks", str(ticks)))
                 self.assertEqual(simulation.finish(), summary)
 
+    def test_controllers_in_scripts_have_the_bits_of_the_command(self):
+        scripts = {"lua": """state = {}
+function step() robot.footbot_wheels.set(5 + math.sin(robot.tick), robot.random.uniform(2, 8)) end
+""", "python": """import math
+import numpy as np
+stateless = True
+def step(robots):
+    robots.actuators["footbot_wheels"] = np.stack([np.full(len(robots), 5 + math.sin(robots.tick)), robots.uniform(2, 8)], axis=1)
+"""}
+        for language, text in scripts.items():
+            if subprocess.run([os.environ["SWARMANOID"], "list", "plugins", language], capture_output=True).returncode:
+                continue  # the build does not have it
+            with self.subTest(language):
+                pathlib.Path(f"walk.{language}").write_text(text)
+                file = experiment(pathlib.Path(f"{language}.xml"), "<maxclock>100</maxclock>",
+                                  controller(f"{language}_controller", ["dummy_footbot_wheels"], parameters=f"<script>walk.{language}</script>",
+                                             library=language),
+                                  '<footbot id="a" position="1,1,0" controller="c"/><footbot id="b" position="2,1,0" controller="c"/>')
+                both = [swarmanoid.Simulation(file) for _ in range(2)]
+                while all([simulation.step(3) for simulation in both]):
+                    pass
+                command = hash_of_run(file)
+                self.assertEqual([simulation.finish().hash for simulation in both], [command] * 2)
+
     def test_simulations_side_by_side_do_not_disturb_each_other(self):
         file = CONFIGS / "diffusion_10.xml"
         alone = []

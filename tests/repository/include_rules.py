@@ -58,8 +58,12 @@ def allowed():
         # The process around a role joins the bus.
         rules[role + "/cluster"] = rules[role] + BUS + [role + "/cluster"]
         rules[role + "/main.cpp"] = rules[role + "/cluster"]
+    # Plug-ins that run the scripts of users' controllers.
+    rules["controller_host/scripts/declaration"] = INTERFACE + ["controller_host/scripts/declaration"]
+    for language in ("controller_host/scripts/lua", "controller_host/scripts/python"):
+        rules[language] = rules["controller_host/scripts/declaration"] + ["common/serialisation", language]
     # The API of ARGoS3 over ours; its files are read by the launcher.
-    rules["argos3"] = rules["space_server"] + ["argos3", "argos3/converter"]
+    rules["argos3"] = rules["space_server"] + ["controller_host/scripts/lua", "argos3", "argos3/converter"]
     rules["argos3/converter"] = below[: below.index("common/experiment") + 1] + ["argos3/converter"]
     rules["argos3/program"] = rules["argos3"] + ["simulation", "launcher", "argos3/program"]
     # The simulator of one process registers all roles.

@@ -17,12 +17,12 @@ READ = re.compile(r"^(?!tests/repository/).*\.(h|cpp|py|js|mjs|md)$")
 MOST_IDIOM = 0.05
 # Pages that the programs write.
 ROWS = "<!-- From here on by tests/validation/run. -->"  # in docs/validation.md
-GENERATED = ("docs/experiment_reference.md", "docs/plugin_reference.md", "docs/study_reference.md")
+GENERATED = ("docs/argos3_statistics.md", "docs/experiment_reference.md", "docs/plugin_reference.md", "docs/study_reference.md")
 FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 TARGET = re.compile(r"\]\([^)\s]+\)")
 CELL = re.compile(r"(?<!\\)\|")
 MOST_IN_CELL = 20     # words; longer text stands under its table
-MOST_IN_DOCS = 72850  # words without the generated pages and rows
+MOST_IN_DOCS = 73402  # words without the generated pages and rows
 OWN_LINE = re.compile(r"\s*//+<?\s*(.*)")
 TRAILING = re.compile(r"[^\s\"'].*[;,{}()]\s+//+<?\s*(.*)")
 

@@ -46,7 +46,7 @@ struct Bus::Impl
   std::shared_ptr<SimulatedBus> bus;
 };
 
-Bus::Bus(const BusOptions&, const std::string& name)
+Bus::Bus(const BusOptions&, const std::string& name, const std::string&)
     : impl_(std::make_unique<Impl>(Impl{SimulatedNetwork::Current().Join(name)}))
 {
 }

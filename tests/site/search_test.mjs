@@ -24,7 +24,7 @@ const kQuestions = [
   ["random numbers", "docs/determinism.html"],
   ["noise", "docs/devices.html"],
   ["checkpoint", "docs/command.html"],
-  ["lua", "docs/argos3.html"],
+  ["lua", "docs/scripts.html"],
   ["rviz", "docs/ros2.html"],
   ["learning", "docs/python.html"],
   ["ticks per second", "docs/performance.html"],

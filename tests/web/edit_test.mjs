@@ -346,13 +346,11 @@ const tests = {
   },
 
   async "a Lua script is edited beside the picture; an error is marked at its line, and one key runs it again"() {
-    const template = (name) => readFileSync(join(SWARMANOID_CONFIGS, "../user/templates/lua", name), "utf8").replaceAll("@name@", "avoid");
+    const template = (name) => readFileSync(join(SWARMANOID_CONFIGS, "../user/templates/script", name), "utf8").replaceAll("@name@", "avoid");
     mkdirSync(join(folder, "controllers/avoid"), { recursive: true });
-    const script = write("controllers/avoid/avoid.lua", template("lua.in"));
-    write("avoid.argos", template("experiment.argos.in"));
-    const converted = new Process("convert", "avoid.argos", "--output", "avoid.xml");
-    assert.equal(await converted.ended, 0, converted.output);
-    const editor = await edit("diffusion_10", { change: () => readFileSync(join(folder, "avoid.xml"), "utf8"), noise, bypassCSP: true });
+    const script = write("controllers/avoid/avoid.lua", template("controller.lua.in"));
+    const experiment = template("experiment.xml.in").replaceAll("@language@", "lua").replace("../controllers", "controllers").replaceAll("@ending@", "lua");
+    const editor = await edit("diffusion_10", { change: () => experiment, noise, bypassCSP: true });
     const { page } = editor;
     await page.click('header button:text-is("Script")');
     await until(page, () => document.querySelector(".script-pane textarea")?.value.includes("function step()"));
@@ -386,7 +384,7 @@ const tests = {
     await page.press(".script-pane textarea", "Control+Enter");
     await until(page, () => /^Line \d+: .*expected/.test(document.querySelector(".script-error")?.textContent) && swarmanoid.run.phase === "none");
     assert.match(await page.textContent(".banner"), /The run has failed/);
-    await page.fill(".script-pane textarea", text.replace("SPEED = 10", "SPEED = 0"));
+    await page.fill(".script-pane textarea", text.replace("local SPEED = p.speed", "local SPEED = 0 * p.speed"));
     await page.press(".script-pane textarea", "Control+Enter");
     await until(page, () => swarmanoid.run.phase === "running" && swarmanoid.connected && swarmanoid.control === "granted" && swarmanoid.tick > 3 && document.querySelector(".script-error").hidden);
     assert.match(readFileSync(script, "utf8"), /SPEED = 0/);

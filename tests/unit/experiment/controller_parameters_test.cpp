@@ -1,7 +1,14 @@
 // Parameters of controllers and experiment functions that declared them are checked with the file, and complete in the
 // experiment.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
+
+#include "common/configuration/xml_reader.h"
+#include "common/experiment/element_form.h"
+#include "common/plugins/script_parameters.h"
 #include "tests/unit/experiment/fake_plugins.h"
 #include "tests/world/experiment_text.h"
 
@@ -9,6 +16,9 @@ namespace swarmanoid::test
 {
 namespace
 {
+
+using testing::HasSubstr;
+using testing::MatchesRegex;
 
 std::string File(const std::string& parameters, const std::string& functions = "")
 {
@@ -104,6 +114,58 @@ TEST(ControllerParameters, ThoseOfFunctionsLikewise)
 TEST(ControllerParameters, OfAControllerThatDeclaresNothingAreLeftToIt)
 {
   EXPECT_EQ(ErrorsOf(kChapter4, With("controllers.fc.parameters.anything", "x")), "");
+}
+
+const ConfigurationNode* ChildOf(const ConfigurationNode& element, const std::string& name)
+{
+  const auto found = std::ranges::find(element.children, name, [](const auto& child) { return child->name; });
+  return found == element.children.end() ? nullptr : found->get();
+}
+
+// The script "good.lua" declares a speed, and "bad.lua" has a mistake.
+std::vector<ParameterSpec> DeclaredIn(const TConfigurationTree& parameters, const std::string& folder)
+{
+  const std::string script = parameters.Value("script").value_or("");
+  if (script == "bad.lua") throw ConfigurationError(parameters.ValueLocation("script"), "bad.lua:7: no Lua");
+  EXPECT_EQ(folder, "/experiments");
+  return {{.name = "speed", .unit = "m/s", .default_value = "0.1", .minimum = 0, .maximum = 0.3}};
+}
+
+TEST(ControllerParameters, AScriptDeclaresMoreOfThem)
+{
+  RegisterFakePlugins();
+  PluginCatalogue::Instance().Add(
+      PluginKind::kController, {.label = "scripted", .parameters = {{.name = "script", .type = ParameterType::kPath}}});
+  ScriptParameters::Instance().Add("scripted", DeclaredIn);
+  const auto file = [](const std::string& parameters)
+  {
+    return ExperimentText{.controllers = "<scripted id='s'><parameters " + parameters + "/></scripted>", .engines = ""}
+        .Text();
+  };
+
+  const LoadedExperiment loaded = LoadText(file("script='good.lua'"));
+  ASSERT_TRUE(loaded.errors.empty()) << loaded.errors.front().Text();
+  const TConfigurationTree& tree = loaded.experiment->controllers.at(0).parameters;
+  EXPECT_EQ(tree.GetNumber("speed"), 0.1);
+  EXPECT_EQ(tree.GetText("script"), "/experiments/good.lua");
+  EXPECT_THAT(ErrorsOf(file("script='good.lua' speed='0.5'")),
+              HasSubstr("'speed' of the controller <scripted> is 0.5 m/s"));
+  EXPECT_THAT(ErrorsOf(file("script='good.lua' sped='0.2'")),
+              HasSubstr("it has: script, speed; did you mean 'speed'?"));
+
+  // The editor's form of <parameters> has them, too. A mistake of the script leaves those of the table.
+  for (const auto& [script, names] :
+       std::map<std::string, std::vector<std::string>>{{"good.lua", {"script", "speed"}}, {"bad.lua", {"script"}}})
+  {
+    const auto root = ReadXml(file("script='" + script + "'"), "/experiments/test.xml");
+    std::vector<const ConfigurationNode*> path{root.get()};
+    for (const char* name : {"controllers", "scripted", "parameters"}) path.push_back(ChildOf(*path.back(), name));
+    std::vector<std::string> offered;
+    for (const ParameterSpec& parameter : FormOf(path).parameters) offered.push_back(parameter.name);
+    EXPECT_EQ(offered, names) << script;
+  }
+  EXPECT_THAT(ErrorsOf(file("script='bad.lua' sped='0.2'")),
+              MatchesRegex("test.xml:[0-9]+:[0-9]+: bad.lua:7: no Lua\n"));
 }
 
 }  // namespace

@@ -181,18 +181,21 @@ TEST_F(EditSessionTest, ShowsAndSavesScriptsOfControllersAndNoOtherFiles)
   EXPECT_EQ(page_.document["run"]["token"], "");
   const std::string script = folder_ / "avoid.lua";
   std::ofstream(script) << "step = nil\n";
+  std::ofstream(folder_ / "evade.py") << "step = None\n";
   std::ofstream(folder_ / "other.lua") << "secret\n";
   const std::size_t at = text_.find("<parameters");
   ASSERT_NE(at, std::string::npos);
   const std::size_t end = text_.find('>', at) + 1;
   std::string changed = text_;
-  changed.replace(at, end - at,
-                  "<parameters><argos3 script=\"avoid.lua\" again=\"./avoid.lua\" none=\"no.lua\"/>" +
-                      std::string(text_[end - 2] == '/' ? "</parameters>" : ""));
+  changed.replace(
+      at, end - at,
+      "<parameters><argos3 script=\"avoid.lua\" again=\"./avoid.lua\" none=\"no.lua\" python=\"evade.py\"/>" +
+          std::string(text_[end - 2] == '/' ? "</parameters>" : ""));
   Write(changed);
   Ask({{"do", "reload"}});
   const Json scripts = page_.document["scripts"];
-  ASSERT_EQ(scripts.size(), 1U) << scripts;
+  ASSERT_EQ(scripts.size(), 2U) << scripts;
+  EXPECT_EQ(scripts[1]["name"], "evade.py");
   EXPECT_EQ(scripts[0]["name"], "avoid.lua");
   const std::string file = scripts[0]["file"];
   EXPECT_EQ(file, std::filesystem::canonical(script).string());

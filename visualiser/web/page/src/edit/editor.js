@@ -38,7 +38,7 @@ export class Editor {
     this.run = button("Run", "Run the experiment as it is here, saved or not  (Ctrl + Enter)", () => this.pane.writeAndRun());
     this.runShown = button("Show the run", "", () => this.page.showRun());
     this.runEnd = button("End the run", "", () => this.ask({ do: "end_run" }));
-    this.scripts = button("Script", "The Lua scripts of the controllers", () => this.pane.toggle());
+    this.scripts = button("Script", "The scripts of the controllers", () => this.pane.toggle());
     this.scripts.setAttribute("aria-pressed", "false");
     this.file = h("span.file.dim");
     this.bar = h("div.group.edit-bar", {}, this.undo, this.redo, this.save, this.check, this.run, this.runShown, this.runEnd, this.scripts, this.file);

@@ -15,7 +15,7 @@ export class EditorLink {
     this.leaves = false;
     this.back = h("button.toggle", { title: "End the run, and edit the experiment", onclick: () => this.leave() }, "Edit");
     this.again = h("button.toggle", { title: "Start the experiment again, as it is in the editor  (Ctrl + Enter)", onclick: () => this.pane.writeAndRun() }, "Run again");
-    this.scripts = h("button.toggle", { title: "The Lua scripts of the controllers", "aria-pressed": "false", hidden: true, onclick: () => this.pane.toggle() }, "Script");
+    this.scripts = h("button.toggle", { title: "The scripts of the controllers", "aria-pressed": "false", hidden: true, onclick: () => this.pane.toggle() }, "Script");
     this.bar = h("div.group.edit-bar", {}, this.back, this.again, this.scripts);
     page.app.querySelector("header .space").before(this.bar);
     this.failure = h("div.mistakes", { role: "region", "aria-label": "Failure", tabindex: 0, hidden: true }); // it may scroll

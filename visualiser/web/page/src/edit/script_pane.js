@@ -1,4 +1,4 @@
-// The Lua scripts of the experiment beside the picture: text, line numbers, and the line of an error.
+// The scripts, in Lua or Python, of the experiment beside the picture: text, line numbers, and the line of an error.
 import { h, setText } from "../ui/dom.js";
 
 const LONGEST_SCRIPT = 60000; // bytes of a request; the server ends a connection with longer ones

@@ -4,7 +4,7 @@
 #include <exception>
 #include <lua.hpp>
 
-namespace swarmanoid::argos3
+namespace swarmanoid::lua
 {
 
 // Pushes the table of that name, which is made if it does not exist.
@@ -24,6 +24,17 @@ inline void Enter(lua_State* lua, lua_Integer number)
   lua_newtable(lua);
   lua_pushvalue(lua, -1);
   lua_rawseti(lua, -3, number);
+}
+
+// Pushes a global variable without the metamethods that a script may give to the table of globals, and returns its
+// type.
+inline int PushGlobal(lua_State* lua, const char* name)
+{
+  lua_pushglobaltable(lua);
+  lua_pushstring(lua, name);
+  const int type = lua_rawget(lua, -2);
+  lua_remove(lua, -2);
+  return type;
 }
 
 // Makes new tables with space for their elements.
@@ -97,4 +108,4 @@ inline void CheckCount(lua_State* lua, int count)
   if (lua_gettop(lua) != count) luaL_error(lua, "%d values are given, and %d are needed", lua_gettop(lua), count);
 }
 
-}  // namespace swarmanoid::argos3
+}  // namespace swarmanoid::lua
