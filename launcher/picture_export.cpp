@@ -38,7 +38,7 @@ RenderConfiguration ConfigurationOf(const std::string& kind, const std::vector<s
 
 PictureExport::PictureExport(const RecordedRun& run, const std::string& kind,
                              const std::vector<std::string>& parameters)
-    : monitor_(run, 0),
+    : monitor_(run),
       assignment_(MakeAssignment(run.GetExperiment(), 1)),
       visualiser_(ConfigurationOf(kind, parameters), run.Space(), assignment_, ".", nullptr, &monitor_)
 {

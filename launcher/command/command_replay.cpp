@@ -112,13 +112,14 @@ int Show(RecordedRun& run, const ReplayOptions& options)
                                      : "; what was before is more than its --journal-budget"));
   bool more = run.SeekFrom(from);
   if (!more) throw UsageError(fmt::format("--from: the journal ends before tick {}", from));
-  ReplayMonitor monitor(run, options.speed);
+  ReplayMonitor monitor(run);
   Visualiser visualiser(configuration, run.Space(), assignment, options.output, nullptr, &monitor);
   const double speed = visualiser.IsInteractive() && options.speed == 0 ? 1 : options.speed;
   bool closed = false;
   auto due = Clock::now();
   for (; more && !closed && !Interrupted(); more = run.Next())
   {
+    monitor.Shown(speed, Clock::now());
     closed = visualiser.Draw();
     if (speed > 0)
       due += std::chrono::duration_cast<Clock::duration>(

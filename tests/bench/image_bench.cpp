@@ -42,7 +42,7 @@ void BM_Picture(benchmark::State& state)
   }
   state.counters["pictures/s"] =
       benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
-  state.counters["triangles"] = static_cast<double>(renderer.StatisticsForTest().triangles);
+  state.counters["triangles"] = static_cast<double>(renderer.Statistics().triangles);
   state.SetLabel(GlScene::ContextDescription());
 }
 BENCHMARK(BM_Picture)

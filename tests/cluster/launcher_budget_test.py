@@ -44,6 +44,8 @@ class Budget(LauncherTest):
         self.assertEqual(verified.stdout, f"equal: {TICKS + 1 - first} states, computed again\n", verified.stderr)
         shown = self.run_it("replay", "out", "text", "file=shown.txt", "--from", TICKS - 20)
         self.assertEqual(shown.process.returncode, 0, shown.stderr)
+        paced = self.run_it("replay", "out", "text", "status=true", "every=5", "entities=footbot", "--from", TICKS - 20, "--speed", 5)
+        self.assertRegex(paced.stdout, rf"# tick {TICKS}, running, [1-9][\d.]*x real time", "a replay says how fast it is")
         refused = self.run_it("run", "--branch", f"out@{first - 1}")
         self.assertEqual(refused.process.returncode, 2)
         self.assertIn(f"has ticks {first} to {TICKS}, and not {first - 1}", refused.stderr)

@@ -133,6 +133,32 @@ export async function pixelsOf(page, png) {
   return Array.from({ length: bytes.length / 4 }, (_, i) => [...bytes.subarray(4 * i, 4 * i + 3)]);
 }
 
+// What axe-core finds at level AA by day and by night, and targets with less than 24 pixels. The page is opened with
+// `bypassCSP`, and goes back to its own scheme of colours.
+export async function barriers(page) {
+  const found = new Set();
+  for (const colorScheme of ["light", "dark"]) {
+    await page.emulateMedia({ colorScheme });
+    for (const barrier of await barriersNow(page)) found.add(`${colorScheme}: ${barrier}`);
+  }
+  await page.emulateMedia({ colorScheme: null });
+  return [...found];
+}
+
+async function barriersNow(page) {
+  if (!(await page.evaluate(() => "axe" in window))) await page.addScriptTag({ path: join(PAGE_MODULES, "axe-core/axe.min.js") });
+  return page.evaluate(async () => {
+    const runOnly = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"];
+    const { violations } = await axe.run(document, { runOnly, rules: { "target-size": { enabled: true } } });
+    const found = violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html, failureSummary }) => `${html.slice(0, 160)} ${failureSummary}`).join("; ")}`);
+    for (const target of document.querySelectorAll("a[href], button, input, select, textarea, summary, [role=option]")) {
+      const { width, height } = target.getBoundingClientRect();
+      if (target.checkVisibility({ visibilityProperty: true }) && width > 0 && Math.min(width, height) < 23.9) found.push(`small: ${target.outerHTML.slice(0, 120)} ${width} x ${height}`);
+    }
+    return found;
+  });
+}
+
 // ---- running the cases ----
 
 // Runs the cases whose names have one of the words of the command line, or all. Ends the program: with 77 if there is no browser.

@@ -125,6 +125,25 @@ class Window(LauncherTest):
         self.assertEqual(self.display.tool("identify", "-format", "%w %h", picture), f"{WIDTH} {HEIGHT}")
         self.close(run, window)
 
+    def test_a_distant_robot_is_drawn_so_large_that_it_is_seen(self):
+        view = "<camera_view_XYZ_0>50, 50, 150</camera_view_XYZ_0><camera_view_HPR_0>90, -90, 0</camera_view_HPR_0>"
+        window = (f'<{self.KIND}_render id="mainwindow"><window_size>{WIDTH}, {HEIGHT}</window_size><window_title>{TITLE}</window_title>'
+                  f"{view}<use_textures>false</use_textures></{self.KIND}_render>")
+        file = experiment(self.folder / "far.xml", "<maxclock>0</maxclock>", arena='<footbot id="fb" position="50,50,0"/>', size="100,100,1",
+                          more=f"<visualisations>{window}</visualisations>")
+        run = self.start("run", file, "--output", "out", "--quiet", "--paused", environment=self.display.environment)
+        window = self.display.window(TITLE, run=run)
+        self.wait_for_log("F1 lists the keys", run)
+        self.display.key("p")
+        self.wait_for_log("written: ", run)
+        picture = next((self.folder / "out").glob("picture_*.png"))
+        area = f"9x9+{WIDTH // 2 - 4}+{HEIGHT // 2 - 4}"
+        # The floor is lighter. A robot of its true size has less than a pixel.
+        dark = self.display.tool("convert", picture, "-crop", area, "+repage", "-colorspace", "gray", "-threshold", "78%",
+                                 "-format", "%[fx:(1-mean)*81]", "info:")
+        self.assertGreaterEqual(float(dark), 4)
+        self.close(run, window)
+
     def test_beside_pictures_and_other_windows_in_one_process(self):
         """Each renderer finds its own context current, whatever the others of the thread are drawn by."""
         pictures = [f'<image_render id="{name}"><directory>{name}</directory><size>320, 240</size></image_render>' for name in ("before", "after")]

@@ -286,7 +286,8 @@ private:
     double x = kMargin;
     for (const PlanLegendEntry& entry : legend_)
     {
-      const double width = 2.2 * font_mm_ + TextWidth(measure, entry.text);
+      texts_.push_back(LegendText(entry, scale_));
+      const double width = 2.2 * font_mm_ + TextWidth(measure, texts_.back());
       if (x > kMargin && x + width > right - (lines_ == 1 ? bar_room : 0))
       {
         ++lines_;
@@ -400,7 +401,7 @@ private:
         DrawShape(on, shape, frame);
       }
       SetColour(on, palette::kLabel);
-      DrawText(on, places_[i].x() + 1.6 * font_mm_, top + places_[i].y(), legend_[i].text);
+      DrawText(on, places_[i].x() + 1.6 * font_mm_, top + places_[i].y(), texts_[i]);
     }
     if (!options_.scale_bar) return;
     const double right = options_.width_mm - kMargin;
@@ -422,7 +423,8 @@ private:
   double bar_mm_ = 0;
   std::string bar_text_;
   int lines_ = 0;
-  std::vector<Vector2> places_;  // mm: positions of the legend's entries
+  std::vector<Vector2> places_;     // mm: positions of the legend's entries
+  std::vector<std::string> texts_;  // of the legend's entries
 };
 
 std::string EndingOf(const std::string& path) { return std::filesystem::path(path).extension().string(); }
@@ -435,6 +437,14 @@ std::string EndingOf(const std::string& path) { return std::filesystem::path(pat
 }  // namespace
 
 double ScaleBarLength(double panel_m) { return RoundLength(panel_m / 3); }
+
+std::string LegendText(const PlanLegendEntry& entry, double mm_per_metre)
+{
+  const double true_mm = entry.radius * mm_per_metre;
+  if (true_mm <= 0 || true_mm >= entry.least_radius_mm) return entry.text;
+  const double drawn_mm = entry.least_radius_mm + PlanShape().edge_mm / 2;
+  return fmt::format("{}, {:.2g} times as wide", entry.text, drawn_mm / true_mm);
+}
 
 void CheckPlanFile(const std::string& path)
 {

@@ -48,5 +48,7 @@ void WritePlan(const std::string& path, const std::vector<PlanPanel>& panels,
 
 // Returns the length of the bar of a scale in metres: 1, 2 or 5 times a power of ten, at most a third of the panel.
 double ScaleBarLength(double panel_m);
+// Returns the text of the entry, and how much wider than they are its bodies are drawn, if they have their least size.
+std::string LegendText(const PlanLegendEntry& entry, double mm_per_metre);
 
 }  // namespace swarmanoid

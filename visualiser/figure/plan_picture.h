@@ -58,6 +58,9 @@ struct PlanLegendEntry
 {
   PlanPicture sample;
   std::string text;
+  // The size of the smallest body that the entry stands for, if bodies have a least size on the page; otherwise 0.
+  double radius = 0;  // m
+  double least_radius_mm = 0;
 };
 
 }  // namespace swarmanoid

@@ -394,11 +394,18 @@ std::vector<PlanLegendEntry> PlanScene::Legend() const
   // Entries follow the order of the kinds. A kind with several colours has an entry for each of at most three.
   constexpr std::size_t kMostColours = 3;
   std::map<EntityKind, std::map<std::uint32_t, std::size_t>> counts;
+  std::map<EntityKind, double> radii;  // of round robots
   for (std::uint32_t e = 0; e < space_.Size(); ++e)
   {
     const EntityKind kind = space_.GetEntity(e).GetKind();
     if (space_.IsPresent(e) && DescriptionOf(kind).role != EntityRole::kTerrain && !images_.contains(e))
       ++counts[kind][ColourOf(e)];
+    if (!space_.IsPresent(e) || !IsRobot(kind) || meshes_.contains(e)) continue;
+    if (const Shape shape = ShapeOf(space_.GetEntity(e).GetConfiguration()); shape.kind == Shape::Kind::kCylinder)
+    {
+      const auto [radius, is_first] = radii.try_emplace(kind, shape.half_size.x());
+      if (!is_first) radius->second = std::min(radius->second, shape.half_size.x());
+    }
   }
   std::vector<PlanLegendEntry> entries;
   for (const auto& [kind, colours] : counts)
@@ -420,6 +427,9 @@ std::vector<PlanLegendEntry> PlanScene::Legend() const
       entry.sample.push_back(is_round ? Disc({0, 0}, 0.9, fill, edge)
                                       : Polygon({{-1, -half}, {1, -half}, {1, half}, {-1, half}}, fill, edge));
       if (row.role == EntityRole::kRobot) entry.sample.push_back(Line({{0, 0}, {0.9, 0}}, {0xffffff}, 0.25));
+      if (!radii.contains(kind)) return;
+      entry.radius = radii[kind];
+      entry.least_radius_mm = kLeastRobot_mm;
     };
     if (colours.size() <= kMostColours)
       for (const auto& [rgb, count] : colours) add(rgb, count);

@@ -5,13 +5,18 @@
 // shadows by a mesh of at most the middle level, if their sphere reaches the volume of the sun. A tall wall at the edge
 // becomes glass over a solid kerb.
 //
+// A robot of a few pixels is a disc in the colour of its LEDs, without a shadow. Discs have a least size, since robots
+// of a pixel would neither be seen nor have a colour.
+//
 // Invariant: the order of items is that of the scene, so a picture does not depend on earlier frames.
 #include "visualiser/gl/draw_list.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "common/space/shape.h"
 #include "common/space/space.h"
+#include "visualiser/scene/enlargement.h"
 #include "visualiser/scene/picking.h"
 
 namespace swarmanoid
@@ -24,6 +29,12 @@ using Eigen::Vector3f;
 // These limits choose the level of detail: a body with a smaller radius (pixels) gets the next one.
 constexpr float kNearPixels = 38;
 constexpr float kMiddlePixels = 11;
+
+// Diameters of the discs of distant robots, in pixels of a picture with texts
+// of the usual size.
+constexpr float kPointPixels = 4;     // robots that are wider have meshes
+constexpr float kLeastPixels = 2.6F;  // more would fill the horizon
+constexpr Colour kUnlit = 0x59626c;
 
 std::array<float, 4> Components(Colour colour, float opacity = 1)
 {
@@ -45,51 +56,97 @@ Eigen::Vector3f ChannelsOf(Colour colour)
   return {c[0], c[1], c[2]};
 }
 
-void Frame::Sort(const Scene& scene, const ViewVolume& view, const SunVolume& sun, const DrawOptions& options)
+void Frame::Sort(const Scene& scene, const ViewVolume& view, const SunVolume& sun, const DrawOptions& options,
+                 float text_scale)
 {
   const std::span<const Model> models = scene.Models();
-  std::vector<char> see_through(models.size());
-  for (std::size_t m = 0; m < models.size(); ++m) see_through[m] = IsSeeThrough(models[m]);
+  see_through_.resize(models.size());
+  for (std::size_t m = 0; m < models.size(); ++m) see_through_[m] = IsSeeThrough(models[m]);
   for (InstanceBuckets* buckets : {&solid, &ground, &patches, &glass, &casters})
   {
     buckets->Resize(models.size());
     buckets->Clear();
   }
   instances = 0;
+  enlargement = 1;
   over.clear();
   under.clear();
   soft.clear();
   bright.clear();
+  points.clear();
 
-  for (const SceneItem& item : scene.Items())
+  const std::span<const SceneItem> items = scene.Items();
+  for (std::size_t first = 0, end = 0; first < items.size(); first = end)
   {
-    using Role = SceneItem::Role;
-    if (item.role == Role::kFloor || !item.present) continue;
-    const Model& model = models[item.model];
-    const float radius = model.radius * item.scale.maxCoeff();
-    const float pixels = view.PixelsOf(item.position, radius);
-    const int level = pixels > kNearPixels ? 0 : pixels > kMiddlePixels ? 1 : 2;
-    const bool seen = view.Sees(item.position, radius);
-    if (seen)
-    {
-      ++instances;
-      if (item.role == Role::kPatch)
-        patches.Add(item.model, level, InstanceOf(item));
-      else if (see_through[item.model])
-        glass.Add(item.model, level, InstanceOf(item, LookOf(model.levels[0].vertices[0].material).opacity));
-      else if (item.role == Role::kWall && options.glass_walls)
-        SortWall(item, scene, view);
-      else
-        (model.is_terrain ? ground : solid).Add(item.model, level, InstanceOf(item));
-      if (item.role == Role::kBody && pixels > kMiddlePixels) AddUnderglow(item, scene);
-    }
-    if (!options.shadows || item.role != Role::kBody || see_through[item.model] || !sun.Holds(item.position, radius))
-      continue;
-    // At a distance the shadow of a footbot's turret is covered by that of the whole robot.
-    const bool hidden = level == 2 && item.model == static_cast<std::uint16_t>(ModelId::kFootbotBase);
-    // A terrain throws shadows on itself, so that both passes must use the same surface.
-    if (!hidden) casters.Add(item.model, model.is_terrain ? level : std::max(level, 1), InstanceOf(item));
+    for (end = first + 1; end < items.size() && items[end].entity == items[first].entity;) ++end;
+    const std::span<const SceneItem> of_entity = items.subspan(first, end - first);
+    if (AddPoint(of_entity, scene, view, text_scale)) continue;
+    for (const SceneItem& item : of_entity) SortItem(item, scene, view, sun, options);
   }
+}
+
+void Frame::SortItem(const SceneItem& item, const Scene& scene, const ViewVolume& view, const SunVolume& sun,
+                     const DrawOptions& options)
+{
+  using Role = SceneItem::Role;
+  if (item.role == Role::kFloor || !item.present) return;
+  const Model& model = scene.Models()[item.model];
+  const float radius = model.radius * item.scale.maxCoeff();
+  const float pixels = view.PixelsOf(item.position, radius);
+  const int level = pixels > kNearPixels ? 0 : pixels > kMiddlePixels ? 1 : 2;
+  if (view.Sees(item.position, radius))
+  {
+    ++instances;
+    if (item.role == Role::kPatch)
+      patches.Add(item.model, level, InstanceOf(item));
+    else if (see_through_[item.model])
+      glass.Add(item.model, level, InstanceOf(item, LookOf(model.levels[0].vertices[0].material).opacity));
+    else if (item.role == Role::kWall && options.glass_walls)
+      SortWall(item, scene, view);
+    else
+      (model.is_terrain ? ground : solid).Add(item.model, level, InstanceOf(item));
+    if (item.role == Role::kBody && pixels > kMiddlePixels) AddUnderglow(item, scene);
+  }
+  if (!options.shadows || item.role != Role::kBody || see_through_[item.model] || !sun.Holds(item.position, radius))
+    return;
+  // At a distance the shadow of a footbot's turret is covered by that of the whole robot.
+  const bool hidden = level == 2 && item.model == static_cast<std::uint16_t>(ModelId::kFootbotBase);
+  // A terrain throws shadows on itself, so that both passes must use the same surface.
+  if (!hidden) casters.Add(item.model, model.is_terrain ? level : std::max(level, 1), InstanceOf(item));
+}
+
+bool Frame::AddPoint(std::span<const SceneItem> items, const Scene& scene, const ViewVolume& view, float text_scale)
+{
+  const SceneItem& first = items.front();
+  if (first.entity == kNoEntity || first.role != SceneItem::Role::kBody || !first.present) return false;
+  const CSwarmanoidSpaceEntity& robot = scene.Space().GetEntity(first.entity);
+  if (!IsRobot(robot.GetKind())) return false;
+  const Shape shape = ShapeOf(robot.GetConfiguration());
+  const Vector3f middle = scene.Space().GetPose(first.entity).Apply(shape.centre).cast<float>();
+  const auto radius = static_cast<float>(shape.half_size.head<2>().maxCoeff());
+  const float width = 2 * view.PixelsOf(middle, radius);
+  if (width >= kPointPixels * text_scale) return false;
+  const float larger = Enlargement(width, kLeastPixels * text_scale);
+  if (!view.Sees(middle, larger * radius)) return true;
+  ++instances;
+  enlargement = std::max(enlargement, larger);
+
+  Vector3f sum = Vector3f::Zero();
+  int lit = 0;
+  const auto lights = std::ranges::find_if(items, [](const SceneItem& item) { return item.lights >= 0; });
+  for (int light = 0; lights != items.end() && light < kLightsPerRobot; ++light)
+    if (const Colour colour = scene.Lights()[static_cast<std::size_t>(lights->lights + light)]; colour != 0)
+    {
+      sum += ChannelsOf(colour);
+      ++lit;
+    }
+  const Vector3f colour = lit > 0 ? Vector3f(sum / static_cast<float>(lit)) : ChannelsOf(kUnlit);
+  // The soft edge of the disc takes half a pixel more. The disc stands before the floor, which its lower half would
+  // meet otherwise.
+  const float drawn = larger * radius * (1 + 1 / (larger * width));
+  const Vector3f place = middle + drawn * (view.eye - middle).normalized();
+  points.push_back({{place.x(), place.y(), place.z(), drawn}, {colour.x(), colour.y(), colour.z(), 1}, {0, kDisc}});
+  return true;
 }
 
 // Cuts tall walls open: glass over a solid lower part, with the upper edge drawn.

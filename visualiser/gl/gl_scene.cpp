@@ -15,6 +15,7 @@
 #include "visualiser/gl/shaders.h"
 #include "visualiser/gl/targets.h"
 #include "visualiser/gl/view_volume.h"
+#include "visualiser/scene/enlargement.h"
 #include "visualiser/scene/floor_grid.h"
 
 namespace swarmanoid
@@ -100,7 +101,7 @@ std::string GlScene::ContextDescription()
   return text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION);
 }
 
-const DrawStatistics& GlScene::StatisticsForTest() const { return state_->statistics; }
+const DrawStatistics& GlScene::Statistics() const { return state_->statistics; }
 
 void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffer, int width, int height,
                    const DrawOptions& options)
@@ -114,13 +115,18 @@ void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffe
   scene.Bounds(low, high);
   const ViewVolume view(camera, width, height, low, high);
   const SunVolume sun(kTowardsSun, view.seen_low, view.seen_high);
-  s.frame.Sort(scene, view, sun, options);
+  s.frame.Sort(scene, view, sun, options, s.text_scale);
   s.statistics.instances = s.frame.instances;
+  s.statistics.points = s.frame.points.size();
+  s.statistics.enlargement = s.frame.enlargement;
   s.frame.SortMarks(scene, s.labels, camera, width, height);
-  if (!options.caption.empty())
+  std::string caption = options.caption;
+  if (const std::string larger = EnlargementText(s.frame.enlargement); options.says_enlargement && !larger.empty())
+    caption += (caption.empty() ? "" : ", ") + larger;
+  if (!caption.empty())
   {
     const float margin = kCaptionMargin * s.text_scale;
-    s.labels.AppendFrom(options.caption, margin, static_cast<float>(height) - margin, s.frame.glyphs);
+    s.labels.AppendFrom(caption, margin, static_cast<float>(height) - margin, s.frame.glyphs);
   }
   s.UploadLights(scene);
 
@@ -168,6 +174,7 @@ void GlScene::Draw(const Scene& scene, const Camera& camera, unsigned framebuffe
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
   s.DrawGlows(view, camera, s.frame.soft);
+  s.DrawGlows(view, camera, s.frame.points);
   s.DrawLines(view, width, height, s.frame.under, true);
   glDisable(GL_CULL_FACE);
   body.Use();

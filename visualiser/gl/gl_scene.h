@@ -19,6 +19,8 @@ struct DrawOptions
   int samples = 4;          // samples a pixel, for smooth edges; 0 or 1: none
   bool glass_walls = true;  // cuts tall walls at the edge of the arena open, so that they hide nothing
   std::string caption{};    // a line in the lower left corner; empty: none
+  // Adds to the caption how much wider than they are robots are drawn, if they are.
+  bool says_enlargement = false;
 };
 
 // Numbers of the last frame, for a status line.
@@ -26,6 +28,8 @@ struct DrawStatistics
 {
   std::size_t instances = 0;
   std::size_t triangles = 0;  // including those of the shadow map
+  std::size_t points = 0;     // robots that are discs
+  float enlargement = 1;      // how much wider than they are robots are drawn, at most
 };
 
 class GlScene
@@ -41,7 +45,7 @@ public:
   void Draw(const Scene& scene, const Camera& camera, unsigned framebuffer, int width, int height,
             const DrawOptions& options);
 
-  const DrawStatistics& StatisticsForTest() const;
+  const DrawStatistics& Statistics() const;
   // Returns a text such as "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa 22.3.6".
   static std::string ContextDescription();
 

@@ -322,7 +322,8 @@ void main()
 }
 )";
 
-// Strength 0 is a dark spot, the soft shadow under a body; 1 is a lamp; 2 is the spot of a laser.
+// Strength 0 is a dark spot, the soft shadow under a body; 1 is a lamp; 2 is the spot of a laser; 3 is a disc with a
+// dark rim, a distant robot.
 const std::string kGlowFragment = kVersion + R"(
 in vec2 v_place;
 in vec4 v_colour;
@@ -333,7 +334,14 @@ void main()
   float r2 = dot(v_place, v_place);
   float soft = max(1.0 - r2, 0.0);
   soft *= soft;
-  if (v_strength > 1.5)
+  if (v_strength > 2.5)
+  {
+    float r = sqrt(r2);
+    float pixel = max(fwidth(r), 1e-4);
+    float rim = smoothstep(-0.5, 0.5, (r - 1.0 + max(1.4 * pixel, 0.26)) / pixel);
+    o_colour = vec4(mix(v_colour.rgb, 0.42 * v_colour.rgb, rim), v_colour.a * clamp((1.0 - r) / pixel, 0.0, 1.0));
+  }
+  else if (v_strength > 1.5)
   {
     float core = 1.0 - smoothstep(0.03, 0.06, r2);
     o_colour = vec4(mix(v_colour.rgb, vec3(1.0), 0.55 * (1.0 - smoothstep(0.0, 0.03, r2))), max(core, 0.55 * soft));

@@ -60,6 +60,7 @@ void CImageRender::Init(const RenderSetup& setup)
   else
     camera_ = viewpoints.First().value_or(DefaultView(space_->GetExperiment(), aspect));
   draw_options_ = DrawOptionsOf(parameters);
+  draw_options_.says_enlargement = true;
   scene_options_ = SceneOptionsOf(parameters);
   if (parameters.Boolean("show_owners")) NameOwners(setup);
   if (parameters.Boolean("show_status")) monitor_ = setup.monitor;

@@ -68,22 +68,19 @@ Viewer::Viewer(const RenderSetup& setup, int width, int height)
 
 const Experiment& Viewer::GetExperiment() const { return setup_.space.GetExperiment(); }
 
-void Viewer::SetSize(int width, int height, int left)
+void Viewer::SetSize(int width, int height, const HiddenEdges& hidden)
 {
-  if (width == width_ && height == height_ && left == left_) return;
+  const bool is_same =
+      width == width_ && height == height_ && hidden.left == hidden_.left && hidden.bottom == hidden_.bottom;
   width_ = width;
   height_ = height;
-  left_ = left;
-  if (whole_arena_) ShowWholeArena(camera.pitch < -80);
+  hidden_ = hidden;
+  if (whole_arena_ && !is_same) ShowWholeArena(camera.pitch < -80);
 }
 
 void Viewer::ShowWholeArena(bool from_above)
 {
-  const double free = std::max(width_ - left_, width_ / 2);
-  camera = DefaultView(GetExperiment(), free / height_, from_above);
-  // The middle of the arena is placed in the middle of the area that no panel hides.
-  const Vector3 middle = GetExperiment().arena_size.cwiseProduct(Vector3(0.5, 0.5, 0));
-  camera.Pan(-left_ / 2.0 * MetresPerPixel(middle), 0);
+  camera = DefaultView(GetExperiment(), static_cast<double>(width_) / height_, from_above, hidden_);
   whole_arena_ = true;
 }
 

@@ -75,8 +75,9 @@ public:
   // The size is in pixels. The renderer's parameters hold viewpoints and quality (view_parameters.h).
   Viewer(const RenderSetup& setup, int width, int height);
 
-  // Sets the size of the window. `left`: pixels that a panel hides, so that views of the whole arena avoid them.
-  void SetSize(int width, int height, int left);
+  // Sets the size of the window in pixels, and the edges that panels hide, which views of the whole arena avoid. If the
+  // whole arena is shown, it is fitted again, but not for inspectors at the right: a click moves no picture.
+  void SetSize(int width, int height, const HiddenEdges& hidden);
 
   // Handles the user's input, except keys and buttons that are meant for a panel. Positions are in pixels from the
   // upper left corner.
@@ -147,6 +148,7 @@ public:
   Shown shown;
   Camera camera;
   bool follows = false;  // the camera follows the selected entity
+  std::string note;      // about the picture, for the panel of the run; empty: none
 
 private:
   enum class Drag
@@ -199,7 +201,7 @@ private:
   Viewpoints viewpoints_;
   EntityFilter filter_;
   int width_, height_;
-  int left_ = 0;
+  HiddenEdges hidden_;                    // by panels
   std::vector<std::uint32_t> inspected_;  // in the order of their windows; the last one follows the selection
   std::vector<Plot> plots_;
   std::map<std::uint32_t, Track> tracks_;  // by entity that is inspected or plotted

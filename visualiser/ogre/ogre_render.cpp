@@ -3,6 +3,7 @@
 #include "common/logging/log.h"
 #include "visualiser/panels/theme.h"
 #include "visualiser/renderer_library.h"
+#include "visualiser/scene/enlargement.h"
 
 namespace swarmanoid
 {
@@ -19,10 +20,11 @@ void COgreRender::Open(const std::string& title, int width, int height, const Pa
 void COgreRender::Show(const TakePicture& take)
 {
   Viewer& viewer = GetViewer();
-  viewer.SetSize(window_->Width(), window_->Height(), panels_->LeftColumn());
+  viewer.SetSize(window_->Width(), window_->Height(), panels_->Hidden());
   const Scene& scene = viewer.Refresh();
   window_->SetShadows(viewer.shown.shadows);
   scene_->Update(scene, viewer.camera, window_->Height(), viewer.shown.textures);
+  viewer.note = EnlargementText(scene_->MostEnlargement());
   if (take) take(window_->TakePicture(scene_->OgreCamera()));
   window_->Present(viewer, [&] { ShowPanels(scene); });
 }

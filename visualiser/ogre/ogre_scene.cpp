@@ -17,7 +17,9 @@
 #include <set>
 #include <utility>
 
+#include "common/space/shape.h"
 #include "common/space/space.h"
+#include "visualiser/scene/enlargement.h"
 #include "visualiser/scene/floor_grid.h"
 #include "visualiser/scene/picking.h"
 
@@ -31,6 +33,7 @@ using Ogre::RenderOperation;
 // A body with a smaller radius (pixels) gets the next level of detail.
 constexpr float kNearPixels = 38;
 constexpr float kMiddlePixels = 11;
+constexpr float kLeastPixels = 4;     // the width of a robot
 constexpr float kPatchLift = 0.004F;  // m above the floor, against flicker at a distance
 constexpr int kGlowCorners = 20;
 
@@ -233,6 +236,16 @@ void OgreScene::Place(Body& body, const Scene& scene, const SceneItem& item, con
       scale.z() = left;
     }
   }
+  body.larger = 1;
+  if (item.entity != kNoEntity && IsRobot(scene.Space().GetEntity(item.entity).GetKind()))
+  {
+    const Vector3 half_size = ShapeOf(scene.Space().GetEntity(item.entity).GetConfiguration()).half_size;
+    const auto radius = static_cast<float>(half_size.head<2>().maxCoeff());
+    const float away = std::max((position - camera.position.cast<float>()).norm(), 0.01F);
+    body.larger = Enlargement(2 * radius / away * pixels_per_radian, kLeastPixels);
+    enlargement_ = std::max(enlargement_, body.larger);
+    scale *= body.larger;
+  }
   body.node->setPosition(ToOgre(position));
   body.node->setOrientation(item.orientation.w(), item.orientation.x(), item.orientation.y(), item.orientation.z());
   body.node->setScale(ToOgre(scale));
@@ -263,6 +276,7 @@ void OgreScene::Update(const Scene& scene, const Camera& camera, int height, boo
   floor_->getSections()[0]->setMaterial(materials_.Floor(textures));
 
   const float pixels_per_radian = static_cast<float>(height) / (2 * std::tan(fov / 2));
+  enlargement_ = 1;
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     if (scene.Items()[i].role != SceneItem::Role::kFloor)
       Place(bodies_[i], scene, scene.Items()[i], camera, pixels_per_radian);
@@ -283,8 +297,9 @@ void OgreScene::BuildLights(const Scene& scene)
     for (const LightVertex& vertex : led_meshes_[item.model][static_cast<std::size_t>(bodies_[i].shown)])
     {
       const Colour colour = scene.Lights()[static_cast<std::size_t>(item.lights + vertex.light)];
+      const Eigen::Vector3f scale = bodies_[i].larger * item.scale;
       lights_->position(
-          ToOgre(Eigen::Vector3f(item.position + item.orientation * vertex.position.cwiseProduct(item.scale))));
+          ToOgre(Eigen::Vector3f(item.position + item.orientation * vertex.position.cwiseProduct(scale))));
       lights_->colour(OgreColour(colour == 0 ? vertex.off : colour));
     }
   }

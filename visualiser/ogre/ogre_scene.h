@@ -26,6 +26,9 @@ public:
   // Updates all objects to the scene's state. `height`: of the picture in pixels, for the level of detail.
   void Update(const Scene& scene, const Camera& camera, int height, bool textures);
 
+  // Returns how much wider than they are robots are drawn, at most.
+  float MostEnlargement() const { return enlargement_; }
+
 private:
   // The model of an item in three levels of detail, of which one is visible. It is made when first seen.
   struct Body
@@ -34,6 +37,7 @@ private:
     std::array<Ogre::Entity*, kLevels> levels{};
     Colour tint = 0;
     int shown = -1;
+    float larger = 1;  // how much larger than it is it is drawn
   };
   // The vertices of a model's LEDs, three a triangle.
   struct LightVertex
@@ -65,6 +69,7 @@ private:
   Ogre::ManualObject* paint_ = nullptr;  // triangles of experiment functions
   Ogre::ManualObject* clear_paint_ = nullptr;
   std::vector<Body> bodies_;
+  float enlargement_ = 1;
   std::vector<std::array<Ogre::MeshPtr, kLevels>> meshes_;                 // by model
   std::vector<std::array<std::vector<LightVertex>, kLevels>> led_meshes_;  // by model
 };

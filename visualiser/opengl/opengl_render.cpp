@@ -5,6 +5,7 @@
 #include "common/logging/log.h"
 #include "visualiser/gl/quality.h"
 #include "visualiser/renderer_library.h"
+#include "visualiser/scene/enlargement.h"
 
 namespace swarmanoid
 {
@@ -29,9 +30,10 @@ void COpenGlRender::Show(const TakePicture& take)
 {
   Viewer& viewer = GetViewer();
   window_->MakeCurrent();
-  viewer.SetSize(window_->Width(), window_->Height(), panels_->LeftColumn());
+  viewer.SetSize(window_->Width(), window_->Height(), panels_->Hidden());
   const Scene& scene = viewer.Refresh();
-  const DrawOptions options{viewer.shown.shadows, viewer.shown.textures, samples_, true};
+  DrawOptions options{viewer.shown.shadows, viewer.shown.textures, samples_, true};
+  options.says_enlargement = take != nullptr;  // a panel says it otherwise
   const int width = std::max(window_->PixelWidth(), 1);
   const int height = std::max(window_->PixelHeight(), 1);
 
@@ -48,6 +50,7 @@ void COpenGlRender::Show(const TakePicture& take)
   }
   else
     renderer_->Draw(scene, viewer.camera, 0, width, height, options);
+  viewer.note = EnlargementText(renderer_->Statistics().enlargement);
   window_->Present([&] { panels_->Show(static_cast<float>(window_->Width()), static_cast<float>(window_->Height())); });
 }
 

@@ -99,6 +99,7 @@ void Panels::Show(float width, float height)
   if (const std::string copy = viewer_.TakeCopy(); !copy.empty()) ImGui::SetClipboardText(copy.c_str());
   ShowMove();
   ShowMessages();
+  plots_height_ = 0;
   if (!viewer_.shown.panels) return;
   run_bottom_ = 0;
   if (viewer_.shown.run) ShowRun();
@@ -110,17 +111,27 @@ void Panels::Show(float width, float height)
   if (viewer_.shown.help) ShowHelp();
 }
 
-int Panels::LeftColumn() const
+HiddenEdges Panels::Hidden() const
+{
+  HiddenEdges hidden;
+  if (width_ <= 0 || height_ <= 0) return hidden;
+  constexpr double kMost = 0.5;
+  hidden.left = std::min<double>(LeftColumn() / width_, kMost);
+  hidden.right = std::min<double>((width_ - InspectorEdge()) / width_, kMost - hidden.left);
+  hidden.bottom = std::min<double>((TimelineHeight() + plots_height_) / height_, kMost);
+  return hidden;
+}
+
+float Panels::LeftColumn() const
 {
   const Viewer::Shown& shown = viewer_.shown;
-  return shown.panels && (shown.run || shown.entities) ? static_cast<int>(Scaled(theme::kLeftWidth + 2 * theme::kGap))
-                                                       : 0;
+  return shown.panels && (shown.run || shown.entities) ? Scaled(theme::kLeftWidth + 2 * theme::kGap) : 0;
 }
 
 int Panels::InspectorColumns() const
 {
   const float step = Scaled(theme::kInspectorWidth + theme::kGap);
-  return std::max(1, static_cast<int>((width_ - static_cast<float>(LeftColumn())) / step));
+  return std::max(1, static_cast<int>((width_ - LeftColumn()) / step));
 }
 
 float Panels::InspectorEdge() const
@@ -178,7 +189,7 @@ void Panels::ShowMessages()
   const auto& messages = viewer_.Messages();
   if (messages.empty()) return;
   // The message is in the middle of the area that no panel hides.
-  const auto left = static_cast<float>(LeftColumn());
+  const float left = LeftColumn();
   const float right = InspectorEdge();
   ImGui::SetNextWindowPos(ImVec2((left + std::max(right, left)) / 2, Scaled(theme::kGap)), ImGuiCond_Always,
                           ImVec2(0.5F, 0));
@@ -259,6 +270,7 @@ void Panels::ShowRun()
   {
     const RunStatus& status = viewer_.Status();
     ShowPace(status);
+    if (!viewer_.note.empty()) ImGui::TextDisabled("%s", viewer_.note.c_str());
     ShowProcesses(status);
     ShowSwitches();
     ShowViewpoints();
@@ -421,10 +433,14 @@ void Panels::ShowEntities()
     if (ImGui::BeginTable("entities", 4, kTable))
     {
       ImGui::TableSetupScrollFreeze(0, 1);
+      // Places have room for any number of the arena, and words share the rest.
+      const double extent = viewer_.GetExperiment().arena_size.head<2>().maxCoeff();
+      const float number =
+          std::max(ImGui::CalcTextSize(fmt::format("-{:.2f}", extent).c_str()).x, ImGui::CalcTextSize("absent").x);
       ImGui::TableSetupColumn("id", 0, 3);
       ImGui::TableSetupColumn("kind", 0, 2.4F);
-      ImGui::TableSetupColumn("x", 0, 1.5F);
-      ImGui::TableSetupColumn("y", 0, 1.5F);
+      ImGui::TableSetupColumn("x", ImGuiTableColumnFlags_WidthFixed, number);
+      ImGui::TableSetupColumn("y", ImGuiTableColumnFlags_WidthFixed, number);
       ImGui::TableHeadersRow();
       ImGuiListClipper clipper;
       clipper.Begin(static_cast<int>(rows.size()));
@@ -723,7 +739,7 @@ void Panels::ShowPlots()
   for (const Plot& plot : plots)
     if (std::find(units.begin(), units.end(), plot.unit) == units.end()) units.push_back(plot.unit);
 
-  const auto left = std::max(static_cast<float>(LeftColumn()), Scaled(theme::kGap));
+  const float left = std::max(LeftColumn(), Scaled(theme::kGap));
   const float width = InspectorEdge() - left - Scaled(theme::kGap);
   const float chart = Scaled(130);
   const float height = std::min((chart + Scaled(34)) * static_cast<float>(units.size()) + Scaled(34), 0.5F * height_);
@@ -735,7 +751,8 @@ void Panels::ShowPlots()
     above_timeline_ = below;
     place_ = ImGuiCond_Always;
   }
-  PlaceNext(left, height_ - height - Scaled(theme::kGap) - above_timeline_, std::max(width, Scaled(240)), height);
+  plots_height_ = height + Scaled(theme::kGap);
+  PlaceNext(left, height_ - plots_height_ - above_timeline_, std::max(width, Scaled(240)), height);
   if (ImGui::Begin("Plots", &viewer_.shown.plots, ImGuiWindowFlags_NoSavedSettings))
   {
     std::vector<ValueName> closed;
@@ -785,7 +802,7 @@ float Panels::TimelineHeight() const
 void Panels::ShowTimeline()
 {
   const PastCursor& past = viewer_.GetPast();
-  const auto left = std::max(static_cast<float>(LeftColumn()), Scaled(theme::kGap));
+  const float left = std::max(LeftColumn(), Scaled(theme::kGap));
   const float width = std::max(InspectorEdge() - left - Scaled(theme::kGap), Scaled(300));
   const float height = TimelineHeight() - Scaled(theme::kGap);
   ImGui::SetNextWindowPos(ImVec2(left, height_ - height - Scaled(theme::kGap)), ImGuiCond_Always);

@@ -26,8 +26,9 @@ public:
 
   // Call it between ImGui's NewFrame and Render. The size of the window is in pixels.
   void Show(float width, float height);
-  // Returns the pixels of the window that the left panels hide, for Viewer::SetSize.
-  int LeftColumn() const;
+  // Returns the edges of the window that the panels hide, for Viewer::SetSize. At least half of its width and height
+  // count as free.
+  HiddenEdges Hidden() const;
 
 private:
   // A pose that is being edited in an inspector.
@@ -56,6 +57,8 @@ private:
   void ShowTrack(const PastCursor& past);
   // Returns the height including the gap below; 0 if the timeline is not shown.
   float TimelineHeight() const;
+  // Returns the pixels that the panels at the left hide.
+  float LeftColumn() const;
   void ShowHelp();
   void ShowMessages();
   void ShowMove();
@@ -74,6 +77,7 @@ private:
   float run_bottom_ = 0;      // the lower end of the run panel, where the list of entities starts
   std::size_t charts_ = 0;    // the number of charts for which the panel of plots was made
   float above_timeline_ = 0;  // the lower end of the panel of plots
+  float plots_height_ = 0;    // of that panel with its gap; 0 if it is not shown
   ImGuiCond place_ = ImGuiCond_Always;
   std::array<char, 128> filter_{};
   std::map<std::uint32_t, PoseEdit> edits_;

@@ -114,7 +114,7 @@ Vector3 PointOnFloor(const Ray& ray, double height, double otherwise)
 }
 
 Camera FrameBox(const Vector3& low, const Vector3& high, double aspect, double heading, double pitch,
-                double field_of_view)
+                double field_of_view, const HiddenEdges& hidden)
 {
   Camera camera;
   camera.heading = heading;
@@ -123,24 +123,32 @@ Camera FrameBox(const Vector3& low, const Vector3& high, double aspect, double h
   const Vector3 forward = camera.Forward();
   const Vector3 right = camera.Right();
   const Vector3 up = camera.Up();
-  // A corner is in the picture if |right| <= slope * depth and |up| <= slope * depth. The planes of the four sides are
-  // pushed out until the box is inside. Each pair meets in a line, and the camera is at the greater depth of the two.
+  // A corner is in the free part of the picture if |right - shift * depth| <= slope * depth, and up the same. The
+  // planes of the four sides are pushed out until the box is inside. Each pair meets in a line, and the camera is at
+  // the greater depth of the two.
   constexpr double kMargin = 1.06;
-  const double slope_up = HalfHeight(camera) / kMargin;
-  const double slope_right = slope_up * aspect;
+  const double half_up = HalfHeight(camera);
+  const double half_right = half_up * aspect;
+  const double shift_right = half_right * (hidden.left - hidden.right);
+  const double shift_up = half_up * hidden.bottom;
+  const double slope_right = half_right * (1 - hidden.left - hidden.right) / kMargin;
+  const double slope_up = half_up * (1 - hidden.bottom) / kMargin;
   double most_right = -1e300, most_left = -1e300, most_up = -1e300, most_down = -1e300;
   for (int corner = 0; corner < 8; ++corner)
   {
     const Vector3 point(corner & 1 ? high.x() : low.x(), corner & 2 ? high.y() : low.y(),
                         corner & 4 ? high.z() : low.z());
     const double depth = point.dot(forward);
-    most_right = std::max(most_right, point.dot(right) - slope_right * depth);
-    most_left = std::max(most_left, -point.dot(right) - slope_right * depth);
-    most_up = std::max(most_up, point.dot(up) - slope_up * depth);
-    most_down = std::max(most_down, -point.dot(up) - slope_up * depth);
+    const double to_right = point.dot(right) - shift_right * depth;
+    const double to_up = point.dot(up) - shift_up * depth;
+    most_right = std::max(most_right, to_right - slope_right * depth);
+    most_left = std::max(most_left, -to_right - slope_right * depth);
+    most_up = std::max(most_up, to_up - slope_up * depth);
+    most_down = std::max(most_down, -to_up - slope_up * depth);
   }
   const double back = std::max((most_right + most_left) / (2 * slope_right), (most_up + most_down) / (2 * slope_up));
-  camera.position = -back * forward + (most_right - most_left) / 2 * right + (most_up - most_down) / 2 * up;
+  camera.position = -back * forward + ((most_right - most_left) / 2 - back * shift_right) * right +
+                    ((most_up - most_down) / 2 - back * shift_up) * up;
   return camera;
 }
 

@@ -55,8 +55,15 @@ struct Camera
 // plane.
 Vector3 PointOnFloor(const Ray& ray, double height, double otherwise);
 
-// Returns a view from outside, above the corner of smallest x and y, in which the whole box is visible.
+// The parts of a picture that panels hide, as shares of its width and height.
+struct HiddenEdges
+{
+  double left = 0, right = 0, bottom = 0;
+};
+
+// Returns a view from outside, above the corner of smallest x and y, in which the whole box is visible beside the
+// hidden edges.
 Camera FrameBox(const Vector3& low, const Vector3& high, double aspect, double heading = 62, double pitch = -38,
-                double field_of_view = 45);
+                double field_of_view = 45, const HiddenEdges& hidden = {});
 
 }  // namespace swarmanoid

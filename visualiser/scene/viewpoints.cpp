@@ -130,7 +130,7 @@ std::string ViewpointXml(int number, const Camera& camera)
       text(camera.pitch), text(camera.roll));
 }
 
-Camera DefaultView(const Experiment& experiment, double aspect, bool top)
+Camera DefaultView(const Experiment& experiment, double aspect, bool top, const HiddenEdges& hidden)
 {
   // The height covers only the robots, since an arena may have a ceiling far above them.
   double height = 0.35;
@@ -138,8 +138,8 @@ Camera DefaultView(const Experiment& experiment, double aspect, bool top)
     if (entity.movable) height = std::max(height, entity.pose.position.z() + entity.size.z());
   const Vector3& size = experiment.arena_size;
   const Vector3 high(size.x(), size.y(), std::min(height, size.z()));
-  if (top) return FrameBox(Vector3::Zero(), high, aspect, 90, -90, kTopFieldOfView);
-  return FrameBox(Vector3::Zero(), high, aspect);
+  if (top) return FrameBox(Vector3::Zero(), high, aspect, 90, -90, kTopFieldOfView, hidden);
+  return FrameBox(Vector3::Zero(), high, aspect, 62, -38, 45, hidden);
 }
 
 Camera CameraFromText(const std::string& text, const Viewpoints& viewpoints, const Experiment& experiment,

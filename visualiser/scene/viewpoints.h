@@ -39,7 +39,7 @@ private:
 std::string ViewpointXml(int number, const Camera& camera);
 
 // Returns a view of the whole arena from outside; with `top`, from straight above.
-Camera DefaultView(const Experiment& experiment, double aspect, bool top = false);
+Camera DefaultView(const Experiment& experiment, double aspect, bool top = false, const HiddenEdges& hidden = {});
 
 // Reads a camera from text: the number of a viewpoint, "top", "default", or "x,y,z/heading,pitch,roll" (m, degrees; the
 // second part is optional). Throws ConfigurationError with the position in the file.

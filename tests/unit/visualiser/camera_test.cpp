@@ -139,6 +139,34 @@ TEST(Camera, FrameBoxShowsAllCornersAndFillsThePicture)
       }
 }
 
+TEST(Camera, FrameBoxShowsAllCornersBesideHiddenEdges)
+{
+  for (const HiddenEdges& hidden : {HiddenEdges{0.3, 0, 0.1}, HiddenEdges{0.1, 0.35, 0}, HiddenEdges{0, 0, 0.5}})
+    for (const double pitch : {-90.0, -38.0})
+    {
+      const Vector3 low(0, 0, 0), high(3, 3, 0.35);
+      const Camera camera = FrameBox(low, high, 4.0 / 3, 62, pitch, 45, hidden);
+      double left = 1, right = 0, upper = 1, lower = 0;  // as shares of the picture
+      for (int corner = 0; corner < 8; ++corner)
+      {
+        const Vector3 point(corner & 1 ? 3 : 0, corner & 2 ? 3 : 0, corner & 4 ? 0.35 : 0);
+        const Vector3 share = camera.Project(point, 4.0 / 3, 1);
+        left = std::min(left, share.x() * 0.75);
+        right = std::max(right, share.x() * 0.75);
+        upper = std::min(upper, share.y());
+        lower = std::max(lower, share.y());
+      }
+      EXPECT_GT(left, hidden.left);
+      EXPECT_LT(right, 1 - hidden.right);
+      EXPECT_GT(upper, 0);
+      EXPECT_LT(lower, 1 - hidden.bottom);
+      // It fills the free area in one direction, and stands in its middle.
+      const double width = 1 - hidden.left - hidden.right;
+      EXPECT_GT(std::max((right - left) / width, (lower - upper) / (1 - hidden.bottom)), 0.9);
+      EXPECT_NEAR(left - hidden.left, 1 - hidden.right - right, 0.25 * width);
+    }
+}
+
 TConfigurationTree Tree(const std::string& inner)
 {
   return TConfigurationTree(ReadXml("<r>" + inner + "</r>", "views.xml"));

@@ -279,6 +279,15 @@ TEST_F(FigureRender, LegendsNameWhatIsInTheArena)
   EXPECT_THAT(texts, testing::ElementsAre("2 footbots", "1 cylindric prey"));
 }
 
+TEST_F(FigureRender, LegendsSayIfRobotsAreDrawnWiderThanTheyAre)
+{
+  const std::vector<PlanLegendEntry> legend = PlanScene(world_.Space(), {}).Legend();
+  ASSERT_EQ(legend.size(), 1U);
+  EXPECT_EQ(LegendText(legend[0], 25), "1 footbot");
+  // 100 m on 100 mm: the radius of 0.085 mm is drawn with 0.2, and an edge around it.
+  EXPECT_EQ(LegendText(legend[0], 1), "1 footbot, 3.2 times as wide");
+}
+
 TEST_F(FigureRender, BarsOfScalesAreRoundAndAtMostAThird)
 {
   for (const auto& [panel, bar] :

@@ -15,6 +15,7 @@
 #include "tests/unit/visualiser/small_world.h"
 #include "tests/world/temporary_folder.h"
 #include "visualiser/image/offscreen_context.h"
+#include "visualiser/scene/enlargement.h"
 #include "visualiser/scene/viewpoints.h"
 
 namespace swarmanoid
@@ -325,6 +326,53 @@ TEST(GlScene, AWallThatHidesTheArenaIsGlass)
   EXPECT_EQ(red(DrawWorld(world, outside, {}, options)), 0);
 }
 
+TEST(GlScene, DistantRobotsAreDiscsOfALeastSizeInTheColourOfTheirLedsAndTheCaptionSaysSo)
+{
+  SmallWorld world({100, 100, 1});
+  for (int i = 0; i < 40; ++i)
+    world.Add(EntityKind::kFootbot, "fb_" + std::to_string(i), {20.0 + i % 10, 30.0 + i / 10, 0}, i);
+  world.SetLeds("fb_0", 12, 0xff0000);
+  Context();
+  Scene scene(world.Space());
+  scene.Update({});
+  GlScene renderer;
+  const PictureBuffer buffer(kWidth, kHeight);
+  const auto draw = [&](const Camera& camera, bool says)
+  {
+    DrawOptions options;
+    options.says_enlargement = says;
+    renderer.Draw(scene, camera, buffer.Framebuffer(), kWidth, kHeight, options);
+    return ReadPicture(buffer.Framebuffer(), kWidth, kHeight);
+  };
+  const Camera far = DefaultView(world.GetExperiment(), static_cast<double>(kWidth) / kHeight, true);
+  const Picture picture = draw(far, false);
+  EXPECT_EQ(renderer.Statistics().points, 40U);
+  EXPECT_GT(renderer.Statistics().enlargement, 3);
+  // The disc of 2.6 pixels covers about five.
+  const auto count = [&](const Vector3& at, auto&& is_wanted)
+  {
+    const Vector3 pixel = far.Project(at, kWidth, kHeight);
+    int found = 0;
+    for (int y = -4; y <= 4; ++y)
+      for (int x = -4; x <= 4; ++x)
+        found += is_wanted(picture.At(static_cast<int>(pixel.x()) + x, static_cast<int>(pixel.y()) + y));
+    return found;
+  };
+  const auto is_red = [](const auto& pixel) { return pixel[0] > pixel[1] + 60 && pixel[0] > pixel[2] + 60; };
+  const auto is_dark = [](const auto& pixel) { return pixel[0] < 150; };
+  EXPECT_GE(count({20, 30, 0}, is_red), 3);
+  EXPECT_EQ(count({60, 60, 0}, is_red), 0);
+  EXPECT_GE(count({25, 33, 0}, is_dark), 3);
+  EXPECT_EQ(count({60, 60, 0}, is_dark), 0);
+  EXPECT_NE(draw(far, true).pixels, picture.pixels);
+  EXPECT_EQ(EnlargementText(renderer.Statistics().enlargement).substr(0, 13), "robots up to ");
+  // From near by they are what they are.
+  const Camera near = LookAt({22, 28, 3}, {24, 32, 0});
+  EXPECT_EQ(draw(near, true).pixels, draw(near, false).pixels);
+  EXPECT_EQ(renderer.Statistics().points, 0U);
+  EXPECT_EQ(EnlargementText(renderer.Statistics().enlargement), "");
+}
+
 TEST(GlScene, DrawsTenThousandRobotsWithFewTriangles)
 {
   SmallWorld world({100, 100, 1});
@@ -336,9 +384,14 @@ TEST(GlScene, DrawsTenThousandRobotsWithFewTriangles)
   GlScene renderer;
   const PictureBuffer buffer(kWidth, kHeight);
   renderer.Draw(scene, DefaultView(world.GetExperiment(), 4.0 / 3), buffer.Framebuffer(), kWidth, kHeight, {});
-  EXPECT_GE(renderer.StatisticsForTest().instances, 20000U);
-  EXPECT_LT(renderer.StatisticsForTest().triangles, 1'300'000U);
-  EXPECT_GE(renderer.StatisticsForTest().triangles, renderer.StatisticsForTest().instances);
+  EXPECT_EQ(renderer.Statistics().points, 10000U);
+  EXPECT_EQ(renderer.Statistics().triangles, 0U);
+  // Nearer robots have meshes.
+  const Camera near = LookAt({50, 20, 6}, {50, 40, 0});
+  renderer.Draw(scene, near, buffer.Framebuffer(), kWidth, kHeight, {});
+  EXPECT_GT(renderer.Statistics().points, 100U);
+  EXPECT_GT(renderer.Statistics().triangles, 1000U);
+  EXPECT_LT(renderer.Statistics().triangles, 1'400'000U);
 }
 
 }  // namespace

@@ -307,6 +307,35 @@ TEST_F(ViewerTest, DraggingTurnsAndShiftsTheView)
   EXPECT_NEAR(OnScreen(floor).y(), 280, 0.5);
 }
 
+TEST_F(ViewerTest, TheWholeArenaIsFittedBesidePanelsButAnInspectorMovesNoPicture)
+{
+  Viewer& viewer = Make();
+  const HiddenEdges panels{0.3, 0, 0.1};
+  const auto expect_beside = [&](const HiddenEdges& hidden)
+  {
+    for (const double x : {0.0, 4.0})
+      for (const double y : {0.0, 4.0})
+      {
+        const Vector3 corner = OnScreen(Vector3(x, y, 0));
+        EXPECT_GT(corner.x(), hidden.left * kWidth);
+        EXPECT_LT(corner.x(), (1 - hidden.right) * kWidth);
+        EXPECT_GT(corner.y(), 0);
+        EXPECT_LT(corner.y(), (1 - hidden.bottom) * kHeight);
+      }
+  };
+  viewer.SetSize(kWidth, kHeight, panels);
+  expect_beside(panels);
+  const Vector3 before = viewer.camera.position;
+  const HiddenEdges inspector{0.3, 0.3, 0.1};
+  viewer.SetSize(kWidth, kHeight, inspector);
+  EXPECT_EQ(viewer.camera.position, before);
+  for (const Action action : {Action::kFromAbove, Action::kWholeArena})
+  {
+    viewer.Do({action});
+    expect_beside(inspector);
+  }
+}
+
 TEST_F(ViewerTest, TheFilterLooksInAllColumnsOrInOne)
 {
   EntityFilter& filter = Make().Filter();

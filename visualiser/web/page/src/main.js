@@ -226,6 +226,7 @@ function startEditor() {
   loadingEditor ??= import("./edit/editor.js").then(({ Editor }) => {
     tools.hide("undo", "function_keys", "rays", "bodies", "links", "heat", "swarm", "aboard", "film");
     for (const name of ["trails", "beams"]) toolbar.toggles[name].hidden = true;
+    palette.element.remove(); // the editor has its own
     state.editor = new Editor({ app, main, picture, left: list.element, send, showRun: () => changePage(true), choose: (chosen) => actions.showChosen(chosen) });
     if (state.control === "granted") state.editor.begin();
   });

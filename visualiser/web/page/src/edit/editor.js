@@ -22,7 +22,7 @@ export class Editor {
     this.pane = new ScriptPane({ app: page.app, ask: (request) => this.ask(request), run: () => this.startRun(), shown: (on) => this.scripts.setAttribute("aria-pressed", String(on)) });
     this.addBar();
     this.addPalette();
-    this.mistakes = h("div.mistakes", { "aria-live": "polite" });
+    this.mistakes = h("div.mistakes", { role: "region", "aria-label": "Mistakes", "aria-live": "polite", tabindex: 0 }); // it may scroll
     page.left.append(this.mistakes);
     page.app.classList.add("editing");
     page.app.append(this.form.element);

@@ -18,7 +18,7 @@ export class EditorLink {
     this.scripts = h("button.toggle", { title: "The scripts of the controllers", "aria-pressed": "false", hidden: true, onclick: () => this.pane.toggle() }, "Script");
     this.bar = h("div.group.edit-bar", {}, this.back, this.again, this.scripts);
     page.app.querySelector("header .space").before(this.bar);
-    this.failure = h("div.mistakes", { hidden: true });
+    this.failure = h("div.mistakes", { role: "region", "aria-label": "Failure", tabindex: 0, hidden: true }); // it may scroll
     page.left.append(this.failure);
     this.pane = new ScriptPane({ app: page.app, ask: (request) => this.ask(request), run: () => this.run(), shown: (on) => this.scripts.setAttribute("aria-pressed", String(on)) });
     this.connection = new Connection({

@@ -46,17 +46,32 @@ class Row {
   }
 }
 
-// Shows many values of one kind, such as the rays of a ring, with a bar for each.
+// Shows many values of one kind, such as the rays of a ring, with a bar for each. Bars are too narrow to be targets of
+// their own, so that all are one control: the pointer or the arrow keys choose a bar, a click or Enter plots it.
 class Bars {
   constructor(card, section, key, names, unit) {
     this.unit = unit;
     this.names = names;
-    this.bars = names.map((name) => {
-      const bar = h("button.bar-button", { "aria-label": `Plot ${name}`, onclick: () => card.togglePlot(`${key}.${name}`, name, unit) }, h("b"));
+    this.chosen = 0;
+    const plot = (i) => card.togglePlot(`${key}.${names[i]}`, names[i], unit);
+    this.bars = names.map((name, i) => {
+      const bar = h("span.reading", { onclick: () => plot(i) }, h("b"));
       card.rows.set(`${key}.${name}`, { element: bar });
       return bar;
     });
-    section.element.append(h("div.bars", {}, ...this.bars));
+    this.element = h("div.bars", { role: "slider", tabindex: 0, "aria-label": "Reading to plot with Enter", "aria-valuemin": 0, "aria-valuemax": names.length - 1, onkeydown: (event) => this.key(event, plot) }, ...this.bars);
+    section.element.append(this.element);
+  }
+  key(event, plot) {
+    if (event.ctrlKey || event.metaKey || event.altKey || !this.element.matches(":focus-visible")) return; // after a click, keys are the page's
+    const last = this.bars.length - 1;
+    const goals = { ArrowLeft: this.chosen - 1, ArrowDown: this.chosen - 1, ArrowRight: this.chosen + 1, ArrowUp: this.chosen + 1, Home: 0, End: last };
+    if (event.key in goals) this.chosen = Math.max(0, Math.min(last, goals[event.key]));
+    else if (event.key === "Enter" || event.key === " ") plot(this.chosen);
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+    this.showChosen();
   }
   show(values) {
     this.most = Math.max(this.most ?? 0, 1e-9, ...values.map(Math.abs));
@@ -64,6 +79,12 @@ class Bars {
       this.bars[i].firstChild.style.height = `${(100 * Math.abs(value)) / this.most}%`;
       this.bars[i].title = `${this.names[i]}: ${fixed(value)} ${this.unit}`;
     });
+    this.showChosen();
+  }
+  showChosen() {
+    this.bars.forEach((bar, i) => bar.classList.toggle("chosen", i === this.chosen));
+    this.element.setAttribute("aria-valuenow", this.chosen);
+    this.element.setAttribute("aria-valuetext", this.bars[this.chosen].title);
   }
 }
 

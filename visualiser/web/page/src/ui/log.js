@@ -8,7 +8,7 @@ export class LogPanel {
   constructor() {
     this.last = h("span.last");
     this.count = h("span.dim");
-    this.lines = h("div.lines", { role: "log" });
+    this.lines = h("div.lines", { role: "log", "aria-label": "Log", tabindex: 0 });
     this.toggleButton = h("button.bar", { "aria-expanded": "false", title: "Log  (G)", onclick: () => this.toggle() }, h("span", {}, "Log"), this.count, this.last);
     this.element = h("footer", {}, this.toggleButton, this.lines);
     this.lines.hidden = true;

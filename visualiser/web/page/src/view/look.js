@@ -24,6 +24,7 @@ export const themes = {
 export const SELECTION = 0x3d8bfd;
 export const GRIP = 0xf08a3c;
 export const LED_OFF = 0x59626c;
+export const LED_OFF_BY_NIGHT = 0xc3ccd6;
 // The colours of trails in turn; neighbours are easy to distinguish.
 export const TRAILS = [0x3d8bfd, 0xe08a2e, 0x2fa58a, 0xb65fcf, 0xd9575a, 0x8a9a2f, 0x4fa3c7, 0xa0785a];
 

@@ -2,10 +2,13 @@
 // a nose to the front, as in the plan (plan/dots.js). Positions, orientations and colours are uploaded as they are, so
 // that ten thousand robots cost one call and ten thousand vertices.
 import * as THREE from "three";
+import { LED_OFF, LED_OFF_BY_NIGHT, rgb } from "./look.js";
 import { Flag } from "../protocol.js";
 
 const NOSE_FROM = "5.6"; // pixels: on smaller points a nose would hide the colour …
 const RIM_FROM = "3.6"; // … as would a rim
+
+const vector = (colour) => `vec3(${rgb(colour).map((channel) => (channel / 255).toFixed(3))})`;
 
 // The attributes that the points of all kinds share. `motion`: see world.js.
 export class PointAttributes {
@@ -29,7 +32,7 @@ export class PointAttributes {
 const vertexShader = `
   attribute vec4 turn, colour;
   uniform vec2 body, pixels; // diameter and height in metres; size of the picture
-  uniform float scale, least, largest, nearest;
+  uniform float scale, least, largest, nearest, night;
   varying vec3 fill;
   varying vec2 ahead;
   varying float width, reach;
@@ -51,7 +54,7 @@ const vertexShader = `
     reach = width < ${NOSE_FROM} ? 1.0 : 1.25; // to the tip of the nose
     gl_PointSize = reach * width;
     bool lit = mod(colour.a, 2.0) > 0.5;
-    fill = lit ? colour.rgb / 255.0 : vec3(0.47, 0.51, 0.56);
+    fill = lit ? colour.rgb / 255.0 : mix(${vector(LED_OFF)}, ${vector(LED_OFF_BY_NIGHT)}, night);
   }`;
 
 const fragmentShader = `

@@ -1,16 +1,15 @@
 // The robots and objects of the plan, at the level of detail for their size: dots in the picture's memory, or sprites
 // with the LEDs drawn over them.
 import { Flag, RING_LEDS } from "../../protocol.js";
-import { LED_OFF, css, extentOf } from "../look.js";
+import { LED_OFF, LED_OFF_BY_NIGHT, css, extentOf } from "../look.js";
 import { fillBody, shadowOf } from "./bodies.js";
 import { DOT_PIXELS, DotSprites } from "./dots.js";
 import { makeSprite, ringOf } from "./robots.js";
 
 const LEAST_PIXELS = 6; // CSS pixels; less in dense swarms
-const LEAST_OF_SPACING = 0.75;
+const LEAST_OF_SPACING = 0.5; // more would look like a denser swarm
 const FLIES_M = 0.05;
 const GLOW_RADII = 2.3;
-const OFF_BY_NIGHT = 0xc3ccd6;
 
 export class PlanSwarm {
   constructor(world) {
@@ -54,7 +53,7 @@ export class PlanSwarm {
   // Writes robots that are dots into the memory of the picture.
   writeDots(pixels, frame, motion, dark) {
     this.drawn = { dots: 0, sprites: 0 };
-    const off = dark ? OFF_BY_NIGHT : LED_OFF;
+    const off = dark ? LED_OFF_BY_NIGHT : LED_OFF;
     const { positions: p, colours } = motion;
     for (const herd of this.herds) {
       if (!this.isDots(herd, frame)) continue;
