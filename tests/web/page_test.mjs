@@ -254,8 +254,17 @@ const tests = {
     await until(page, (before) => swarmanoid.tick === before + 1, tick);
     await page.keyboard.press("N");
     await until(page, (before) => swarmanoid.tick === before + 11, tick);
-    await read(page, () => swarmanoid.command({ do: "move", entity: "fb_3", position: [1.25, 0.75, 0], angles: [0, 0, 90] }));
-    await until(page, () => Math.hypot(swarmanoid.place("fb_3")[0] - 1.25, swarmanoid.place("fb_3")[1] - 0.75) < 1e-6);
+    // Robots have driven about, so the place is one that is free now, and so is the way's middle from fb_5 to it.
+    const free = await read(page, () => {
+      const places = [...Array(10).keys()].map((robot) => swarmanoid.place(`fb_${robot}`));
+      const isFree = (x, y, but) => places.every((place, robot) => robot === but || Math.hypot(place[0] - x, place[1] - y) > 0.3);
+      for (let x = 0.4; x < 2.8; x += 0.2)
+        for (let y = 0.4; y < 2.8; y += 0.2)
+          if (isFree(x, y, 3) && isFree((x + places[5][0]) / 2, (y + places[5][1]) / 2, 5)) return [x, y];
+      return null;
+    });
+    await page.evaluate(([x, y]) => swarmanoid.command({ do: "move", entity: "fb_3", position: [x, y, 0], angles: [0, 0, 90] }), free);
+    await until(page, ([x, y]) => Math.hypot(swarmanoid.place("fb_3")[0] - x, swarmanoid.place("fb_3")[1] - y) < 1e-6, free);
 
     // By hand: shift and drag.
     const [from, to] = await read(page, () => ["fb_5", "fb_3"].map((id) => swarmanoid.project(id)));
