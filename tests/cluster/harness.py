@@ -170,6 +170,27 @@ class LauncherTest(unittest.TestCase):
         self.assertEqual(answer.process.returncode, 0, answer.stderr)
         return answer.stdout
 
+    def assert_survives(self, program, says, tick, name, expected, experiment, *options):
+        """A cluster whose `program` is killed at a tick, until it `says` so, has the hashes `expected`."""
+        run = self.start("run", experiment, "--paused", "--hash-log", name, "--output", name + "_out", *options)
+        self.wait_for_experiment(experiment.stem)
+        self.control("step", tick)
+        os.kill(run.find(program), signal.SIGKILL)
+        said = run.read_until(says)
+        self.wait_for_experiment(experiment.stem)
+        self.control("resume")
+        self.assertEqual(run.wait(), 0, said + run.stderr)
+        self.assertEqual((self.folder / name).read_text(), expected)
+
+    def assert_restored(self, hashes, tick):
+        """A run in the folder one_out, with these hashes, goes on from its checkpoint with the same, in one process and as a cluster."""
+        for name, options in (("restored", ("--single-process",)), ("hosts", ("--controller-hosts", 2))):
+            run = self.run_it("run", self.folder / "one_out/experiment.xml", "--restore", f"one_out/checkpoint-{tick:08}", "--hash-log", name,
+                              "--output", name + "_out", *options)
+            self.assertEqual(run.process.returncode, 0, run.stderr)
+            restored = (self.folder / name).read_text()
+            self.assertTrue(hashes.endswith(restored[restored.index("\n") + 1:]), name)
+
     def wait_until(self, what, condition, run=None, timeout=GENEROUS_S):
         deadline = time.monotonic() + timeout
         while not condition():

@@ -1,7 +1,4 @@
 """Fields on the floor: the same hash in one process and in clusters, over a network too, whichever process dies, from a checkpoint and from the journal."""
-import os
-import signal
-
 from harness import AGAIN, CONFIGS, REPLACED, LauncherTest
 
 TICKS = 500
@@ -30,25 +27,11 @@ class FloorFieldTest(LauncherTest):
             for tick in (280, 420):
                 name = f"{program}_{tick}"
                 with self.subTest(name):
-                    run = self.start("run", CONFIGS / "two_bridges.xml", "--ticks", TICKS, "--paused", "--hash-log", name, "--output", name + "_out",
-                                     "--controller-hosts", 2, *SETTINGS)
-                    self.wait_for_experiment("two_bridges")
-                    self.control("step", tick)
-                    os.kill(run.find(program), signal.SIGKILL)
-                    said = run.read_until(says)
-                    self.wait_for_experiment("two_bridges")
-                    self.control("resume")
-                    self.assertEqual(run.wait(), 0, said + run.stderr)
-                    self.assertEqual((self.folder / name).read_text(), one)
+                    self.assert_survives(program, says, tick, name, one, CONFIGS / "two_bridges.xml", "--ticks", TICKS, "--controller-hosts", 2, *SETTINGS)
 
     def test_from_a_checkpoint(self):
         one = self.done("one", "--single-process", "--checkpoint-every", 200)
-        for name, options in (("restored", ("--single-process",)), ("hosts", ("--controller-hosts", 2))):
-            run = self.run_it("run", self.folder / "one_out/experiment.xml", "--restore", "one_out/checkpoint-00000200", "--hash-log", name,
-                              "--output", name + "_out", *options)
-            self.assertEqual(run.process.returncode, 0, run.stderr)
-            restored = (self.folder / name).read_text()
-            self.assertTrue(one.endswith(restored[restored.index("\n") + 1:]), name)
+        self.assert_restored(one, 200)
 
     def test_a_branch_at_any_tick(self):
         one = self.done("one")

@@ -8,7 +8,7 @@ from harness import AGAIN, CONFIGS, REPLACED, LauncherTest
 from world.case import controller, experiment
 
 TICKS = 300
-# What the script keeps in `state`, the random numbers of the robot, and tables that it refers to by local variables.
+# The script uses the table `state`, the random numbers of the robot, and local variables that refer to tables of the state.
 LUA = """local p = parameters{speed = {default = 5, unit = "rad/s", maximum = 20}, name = "x", fast = false}
 state = {turning = 0, seen = {}, name = p.name}
 local seen = state.seen
@@ -95,24 +95,11 @@ class InEachLanguage:
         one = self.done("one", file, "--single-process")
         for program, says in (("controller_host", REPLACED), ("space_server", AGAIN)):
             with self.subTest(program):
-                run = self.start("run", file, "--ticks", TICKS, "--paused", "--hash-log", program, "--output", program + "_out", "--controller-hosts", 2)
-                self.wait_for_experiment("walk")
-                self.control("step", 170)
-                os.kill(run.find(program), signal.SIGKILL)
-                said = run.read_until(says)
-                self.wait_for_experiment("walk")
-                self.control("resume")
-                self.assertEqual(run.wait(), 0, said + run.stderr)
-                self.assertEqual((self.folder / program).read_text(), one)
+                self.assert_survives(program, says, 170, program, one, file, "--ticks", TICKS, "--controller-hosts", 2)
 
     def test_from_a_checkpoint(self):
         one = self.done("one", self.write(self.script, robots=6), "--single-process", "--checkpoint-every", 200)
-        for name, options in (("restored", ("--single-process",)), ("hosts", ("--controller-hosts", 2))):
-            run = self.run_it("run", self.folder / "one_out/experiment.xml", "--restore", "one_out/checkpoint-00000200", "--hash-log", name,
-                              "--output", name + "_out", *options)
-            self.assertEqual(run.process.returncode, 0, run.stderr)
-            restored = (self.folder / name).read_text()
-            self.assertTrue(one.endswith(restored[restored.index("\n") + 1:]), name)
+        self.assert_restored(one, 200)
 
     def test_lists_have_the_parameters_of_the_script(self):
         settings = self.run_it("list", "settings", self.write(self.script)).stdout

@@ -12,7 +12,7 @@ namespace swarmanoid
 namespace
 {
 
-// What a group saw: the robots of each call, and a random number of each.
+// A group notes the robots of each call, and draws a random number for each.
 struct Calls : CCI_StepGroup
 {
   void ControlSteps(std::span<CCI_Controller* const> controllers) override
