@@ -47,6 +47,9 @@ endif()
 add_compile_options(${SWARMANOID_EXACT} -fno-trapping-math -fno-math-errno)
 # No other library replaces one of our functions by a function of the same name, so functions of shared libraries may be inlined.
 add_compile_options(-fno-semantic-interposition)
+# For the same reason the dynamic linker need not look up the functions of a library for the library itself, which takes most of the
+# start of a program.
+add_link_options(LINKER:-Bsymbolic-functions)
 add_compile_definitions(EIGEN_DONT_VECTORIZE)
 # Fast DDS 3 defines this macro for all targets that link it. GCC reads precompiled headers only if all macros are the same.
 add_compile_definitions(_FILE_OFFSET_BITS=64)

@@ -1,7 +1,8 @@
-// Texts, colours, elements of files and the log of the API.
+// Angles, texts, colours, elements of files and the log of the API.
 #include <argos3/core/utility/configuration/argos_configuration.h>
 #include <argos3/core/utility/datatypes/color.h>
 #include <argos3/core/utility/logging/argos_log.h>
+#include <argos3/core/utility/math/angles.h>
 #include <argos3/core/utility/string_utilities.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_leds_actuator.h>
 
@@ -11,6 +12,7 @@
 #include <regex>
 
 #include "argos3/library/running.h"
+#include "common/math/elementary.h"
 
 namespace argos
 {
@@ -62,6 +64,13 @@ std::string& PendingLine()
 }
 
 }  // namespace
+
+void SinCos(const CRadians& angle, Real& sine, Real& cosine)
+{
+  const swarmanoid::SinCos both = swarmanoid::SinCosOf(angle.GetValue());
+  sine = both.sin;
+  cosine = both.cos;
+}
 
 void Tokenize(const std::string& text, std::vector<std::string>& tokens, const std::string& delimiters)
 {

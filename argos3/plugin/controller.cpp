@@ -56,7 +56,7 @@ public:
     if (GetRobot()->GetTick() == 0) return;
     if (controller_ == nullptr || !is_enabled_) return;
     const Speaker speaker(*GetRobot());
-    for (const auto& sensor : sensors_) sensor->Update();
+    for (const auto& sensor : sensors_) sensor->BeforeStep();
     controller_->ControlStep();
     Commit();
   }
@@ -123,6 +123,7 @@ private:
     const TConfigurationTree params = parameters_.Child("params");
     params_ = argos::TConfigurationNode();
     if (params.Exists()) CopyElement(*params.Node(), params_);
+    for (const auto& sensor : sensors_) sensor->BeforeInit();
     Calling(params.Exists() ? params.Location() : parameters_.Location(), [&] { controller_->Init(params_); });
     Commit();
   }

@@ -93,6 +93,13 @@ public:
     }
   }
   argos::CCI_Sensor& Sensor() override { return *this; }
+  void BeforeStep() override
+  {
+    if (noise_ > 0)
+      Update();
+    else
+      this->OnDemand();
+  }
   void Update() override
   {
     const auto readings = ours_.GetAllSensorReadings();
@@ -126,6 +133,7 @@ public:
     m_tReadings.resize(ours_.GetAllSensorReadings().size());
   }
   argos::CCI_Sensor& Sensor() override { return *this; }
+  void BeforeStep() override { OnDemand(); }
   void Update() override { std::ranges::copy(ours_.GetAllSensorReadings(), m_tReadings.begin()); }
 
 private:
@@ -144,6 +152,13 @@ public:
   {
   }
   argos::CCI_Sensor& Sensor() override { return *this; }
+  void BeforeStep() override
+  {
+    if (axis_low_ != axis_high_)
+      Update();
+    else
+      OnDemand();
+  }
   void Update() override
   {
     m_sReading.Position = translation_.Argos3Position(ours_.GetPosition());
@@ -264,6 +279,13 @@ public:
   {
   }
   argos::CCI_Sensor& Sensor() override { return *this; }
+  void BeforeStep() override
+  {
+    if (noise_m_ > 0)
+      Update();
+    else
+      OnDemand();
+  }
   void Update() override
   {
     const auto packets = ours_.GetAllPackets();

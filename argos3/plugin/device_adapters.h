@@ -24,15 +24,43 @@ struct DeviceSetup
   std::shared_ptr<WheelSpeeds> told_wheels = std::make_shared<WheelSpeeds>();
 };
 
-// A sensor that reads our sensor before each control step.
-class SensorBridge
+// A sensor that reads our sensor before each control step, or when the controller first asks for the readings of a
+// step.
+class SensorBridge : private argos::CSensorReader
 {
 public:
-  virtual ~SensorBridge() = default;
   // Returns the sensor for the controller.
   virtual argos::CCI_Sensor& Sensor() = 0;
-  // Takes the readings of our sensor, before each control step.
+  // Takes the readings of our sensor.
   virtual void Update() = 0;
+  // Called before the controller's Init. A controller that asks for readings there may keep the reference, so they are
+  // then updated before each step.
+  void BeforeInit() { Sensor().ReadOnDemand(*this); }
+  // Called before each control step. Sensors that cost time or are not always read call OnDemand, except if they draw
+  // random numbers.
+  virtual void BeforeStep() { Update(); }
+
+protected:
+  void OnDemand()
+  {
+    has_begun_ = true;
+    if (is_kept_)
+      Update();
+    else
+      Sensor().ReadOnDemand(*this);
+  }
+
+private:
+  void Read() final
+  {
+    if (has_begun_)
+      Update();
+    else
+      is_kept_ = true;
+  }
+
+  bool has_begun_ = false;
+  bool is_kept_ = false;
 };
 
 // An actuator that passes deferred commands to our actuator after each control step.

@@ -41,6 +41,7 @@ public:
       this->m_tReadings.emplace_back(0, argos::CRadians(Ours::AngleOf(i)).SignedNormalize());
   }
   argos::CCI_Sensor& Sensor() override { return *this; }
+  void BeforeStep() override { this->OnDemand(); }
   void Update() override
   {
     const auto readings = ours_.GetAllSensorReadings();

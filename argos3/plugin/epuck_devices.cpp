@@ -127,6 +127,13 @@ public:
     m_tReadings.resize(kEPuckGround.size());
   }
   argos::CCI_Sensor& Sensor() override { return *this; }
+  void BeforeStep() override
+  {
+    if (positioning_ != nullptr && noise_ > 0)
+      Update();
+    else
+      OnDemand();
+  }
   void Update() override
   {
     if (positioning_ == nullptr)

@@ -142,6 +142,13 @@ public:
       this->m_tReadings.emplace_back(0, argos::CVector2(kCentimetres * place.x, kCentimetres * place.y));
   }
   argos::CCI_Sensor& Sensor() override { return *this; }
+  void BeforeStep() override
+  {
+    if (is_painted_ && noise_ > 0)
+      Update();
+    else
+      this->OnDemand();
+  }
   void Update() override
   {
     if (is_painted_) return Ask();
@@ -183,10 +190,18 @@ public:
     Disable();
   }
   argos::CCI_Sensor& Sensor() override { return *this; }
-  void Update() override
+  void BeforeStep() override
   {
     m_sReadings.BlobList.clear();
     if (IsDisabled()) return;
+    ++m_sReadings.Counter;
+    if (noise_ > 0)
+      Update();
+    else
+      OnDemand();
+  }
+  void Update() override
+  {
     const auto blobs = ours_.GetAllBlobs();
     if (blobs_.size() < blobs.size()) blobs_.resize(blobs.size());
     for (std::size_t i = 0; i < blobs.size(); ++i)
@@ -199,7 +214,6 @@ public:
       blobs_[i].Distance = kCentimetres * distance_m;
       m_sReadings.BlobList.push_back(&blobs_[i]);
     }
-    ++m_sReadings.Counter;
   }
 
 private:
@@ -321,6 +335,7 @@ public:
   {
   }
   argos::CCI_Sensor& Sensor() override { return *this; }
+  void BeforeStep() override { OnDemand(); }
   void Update() override
   {
     m_tReadingsMap.clear();

@@ -27,15 +27,19 @@ public:
     Disable();
   }
   argos::CCI_Sensor& Sensor() override { return *this; }
-  void Update() override
+  void BeforeStep() override
   {
     m_sReadings.BlobList.clear();
     if (IsDisabled()) return;
+    ++m_sReadings.Counter;
+    OnDemand();
+  }
+  void Update() override
+  {
     const auto blobs = ours_.GetAllBlobs();
     if (blobs_.size() < blobs.size()) blobs_.resize(blobs.size());
     for (std::size_t i = 0; i < blobs.size(); ++i)
       if (Draw(blobs[i], blobs_[i])) m_sReadings.BlobList.push_back(&blobs_[i]);
-    ++m_sReadings.Counter;
   }
 
 private:

@@ -39,6 +39,22 @@ class Sensors(RunningTest):
         self.assertAlmostEqual(statistics.stdev(blob), 2.5 / math.sqrt(2), delta=0.2)
         self.assertAlmostEqual(statistics.stdev(angle), 0.1 / math.sqrt(2), delta=0.008)
 
+    def test_readings_on_demand_are_those_of_every_step(self):
+        def said(*changes):
+            folder = f"run{len(list(self.folder.glob('run*')))}"
+            self.swarmanoid("run", self.changed("glance.argos", *changes), "--output", folder)
+            return dict(re.findall(r"'still' .* step (\d+): (.*)", self.said_in(folder)))
+        every = said()
+        self.assertEqual(len(every), 30)
+        # The camera sees LEDs of the other robot from the step after it was enabled on, and counts the steps.
+        self.assertIn("picture 0 of 0 ", every["3"])
+        self.assertIn("picture 1 of 7 ", every["4"])
+        self.assertIn("picture 26 of 7 ", every["29"])
+        self.assertGreater(len(set(every.values())), 20)
+        third = said(('every="1"', 'every="3"'))
+        self.assertEqual(third, {step: of for step, of in every.items() if int(step) % 3 == 0})
+        self.assertEqual(said(('every="1"', 'keep="true"')), every)
+
     def test_batteries_discharge_as_the_file_says_and_are_charged(self):
         self.swarmanoid("run", HERE / "battery.argos", "--output", "run")
         said = self.said_in("run")

@@ -7,6 +7,14 @@
 namespace argos
 {
 
+// Reads for a sensor of the simulator.
+class CSensorReader
+{
+public:
+  virtual ~CSensorReader() = default;
+  virtual void Read() = 0;
+};
+
 class CCI_Sensor : public CBaseConfigurableResource
 {
 public:
@@ -22,9 +30,23 @@ public:
   virtual void Disable() { enabled_ = false; }
   bool IsEnabled() const { return enabled_; }
   bool IsDisabled() const { return !enabled_; }
+  // Has the reader read once, when the readings are next asked for.
+  void ReadOnDemand(CSensorReader& reader) { reader_ = &reader; }
 
 protected:
+  // The getters of readings call this first.
+  void Demand() const
+  {
+    if (reader_ == nullptr) return;
+    CSensorReader& reader = *reader_;
+    reader_ = nullptr;
+    reader.Read();
+  }
+
   bool enabled_ = true;
+
+private:
+  mutable CSensorReader* reader_ = nullptr;
 };
 
 }  // namespace argos

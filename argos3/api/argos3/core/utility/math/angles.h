@@ -151,14 +151,21 @@ constexpr CRadians ToRadians(const CDegrees& angle)
 inline CRadians NormalizedDifference(const CRadians& a, const CRadians& b) { return (a - b).SignedNormalize(); }
 inline CDegrees NormalizedDifference(const CDegrees& a, const CDegrees& b) { return (a - b).SignedNormalize(); }
 
-inline Real Sin(const CRadians& angle) { return std::sin(angle.GetValue()); }
-inline Real Cos(const CRadians& angle) { return std::cos(angle.GetValue()); }
-inline Real Tan(const CRadians& angle) { return std::tan(angle.GetValue()); }
-inline void SinCos(const CRadians& angle, Real& sine, Real& cosine)
+// Computes both at once. Sin and Cos give the same bits.
+void SinCos(const CRadians& angle, Real& sine, Real& cosine);
+inline Real Sin(const CRadians& angle)
 {
-  sine = Sin(angle);
-  cosine = Cos(angle);
+  Real sine, cosine;
+  SinCos(angle, sine, cosine);
+  return sine;
 }
+inline Real Cos(const CRadians& angle)
+{
+  Real sine, cosine;
+  SinCos(angle, sine, cosine);
+  return cosine;
+}
+inline Real Tan(const CRadians& angle) { return std::tan(angle.GetValue()); }
 inline CRadians ASin(Real value) { return CRadians(std::asin(value)); }
 inline CRadians ACos(Real value) { return CRadians(std::acos(value)); }
 inline CRadians ATan2(Real y, Real x) { return CRadians(std::atan2(y, x)); }

@@ -22,7 +22,11 @@ public:
   CVector2(const std::array<T, 2>& coordinates) : x_(coordinates[0]), y_(coordinates[1])
   {
   }
-  CVector2(Real length, const CRadians& angle) : x_(length * Cos(angle)), y_(length * Sin(angle)) {}
+  CVector2(Real length, const CRadians& angle)
+  {
+    SinCos(angle, y_, x_);
+    *this *= length;
+  }
 
   Real GetX() const { return x_; }
   Real GetY() const { return y_; }
@@ -46,8 +50,8 @@ public:
   CVector2& Normalize() { return *this /= Length(); }
   CVector2& Rotate(const CRadians& angle)
   {
-    const Real sine = Sin(angle);
-    const Real cosine = Cos(angle);
+    Real sine, cosine;
+    SinCos(angle, sine, cosine);
     return *this = CVector2(x_ * cosine - y_ * sine, x_ * sine + y_ * cosine);
   }
   CVector2& Perpendicularize() { return *this = CVector2(-y_, x_); }

@@ -13,9 +13,21 @@ class CCI_FootBotDistanceScannerSensor : public CCI_Sensor
 {
 public:
   using TReadingsMap = std::map<CRadians, Real>;
-  const TReadingsMap& GetReadingsMap() const { return m_tReadingsMap; }
-  const TReadingsMap& GetShortReadingsMap() const { return m_tShortReadingsMap; }
-  const TReadingsMap& GetLongReadingsMap() const { return m_tLongReadingsMap; }
+  const TReadingsMap& GetReadingsMap() const
+  {
+    Demand();
+    return m_tReadingsMap;
+  }
+  const TReadingsMap& GetShortReadingsMap() const
+  {
+    Demand();
+    return m_tShortReadingsMap;
+  }
+  const TReadingsMap& GetLongReadingsMap() const
+  {
+    Demand();
+    return m_tLongReadingsMap;
+  }
 
 protected:
   TReadingsMap m_tReadingsMap;

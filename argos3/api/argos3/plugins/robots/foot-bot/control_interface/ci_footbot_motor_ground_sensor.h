@@ -18,7 +18,11 @@ public:
     SReading(Real value, const CVector2& offset) : Value(value), Offset(offset) {}
   };
   using TReadings = std::vector<SReading>;
-  const TReadings& GetReadings() const { return m_tReadings; }
+  const TReadings& GetReadings() const
+  {
+    Demand();
+    return m_tReadings;
+  }
 
 protected:
   TReadings m_tReadings;

@@ -24,7 +24,11 @@ public:
     TBlobList BlobList;
     UInt64 Counter = 0;  // the number of the picture
   };
-  const SReadings& GetReadings() const { return m_sReadings; }
+  const SReadings& GetReadings() const
+  {
+    Demand();
+    return m_sReadings;
+  }
 
 protected:
   SReadings m_sReadings;

@@ -10,7 +10,11 @@ class CCI_GroundSensor : public CCI_Sensor
 {
 public:
   using TReadings = std::vector<Real>;
-  const TReadings& GetReadings() const { return m_tReadings; }
+  const TReadings& GetReadings() const
+  {
+    Demand();
+    return m_tReadings;
+  }
 
 protected:
   TReadings m_tReadings;

@@ -16,7 +16,11 @@ public:
     CVector3 Position;  // m
     CQuaternion Orientation;
   };
-  const SReading& GetReading() const { return m_sReading; }
+  const SReading& GetReading() const
+  {
+    Demand();
+    return m_sReading;
+  }
 
 protected:
   SReading m_sReading;

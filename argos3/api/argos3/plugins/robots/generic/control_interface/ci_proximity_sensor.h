@@ -12,7 +12,11 @@ class CCI_ProximitySensor : public CCI_Sensor
 public:
   using TReadings = std::vector<Real>;
   // Returns the readings counter-clockwise from the front left.
-  const TReadings& GetReadings() const { return m_tReadings; }
+  const TReadings& GetReadings() const
+  {
+    Demand();
+    return m_tReadings;
+  }
 
 protected:
   TReadings m_tReadings;

@@ -20,7 +20,11 @@ public:
     CByteArray Data;
   };
   using TReadings = std::vector<SPacket>;
-  const TReadings& GetReadings() const { return m_tReadings; }
+  const TReadings& GetReadings() const
+  {
+    Demand();
+    return m_tReadings;
+  }
 
 protected:
   TReadings m_tReadings;

@@ -19,7 +19,11 @@ public:
     SReading(Real value, const CRadians& angle) : Value(value), Angle(angle) {}
   };
   using TReadings = std::vector<SReading>;
-  const TReadings& GetReadings() const { return m_tReadings; }
+  const TReadings& GetReadings() const
+  {
+    Demand();
+    return m_tReadings;
+  }
 
 protected:
   TReadings m_tReadings;
