@@ -108,7 +108,7 @@ class Messages(unittest.TestCase):
 
     def test_wrong_options(self):
         self.assertIn("give --statistics or --speed", self.call().stderr)
-        self.assertIn("--seeds 1: intervals need at least 2", self.call("--statistics", "--seeds", "1").stderr)
+        self.assertIn("--seeds 2: the comparison of spreads needs at least 3", self.call("--statistics", "--seeds", "2").stderr)
 
 
 class Scenes(unittest.TestCase):
