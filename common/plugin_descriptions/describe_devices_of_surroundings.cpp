@@ -2,6 +2,7 @@
 #include <string>
 #include <utility>
 
+#include "common/experiment/battery_model.h"
 #include "common/plugin_descriptions/device_tables.h"
 #include "common/plugins/noise_parameters.h"
 #include "common/plugins/parameter_checks.h"
@@ -47,6 +48,10 @@ void DescribeMotionSensors()
                              Consumption("per_metre", "1/m", "1e-3", "Charge that a metre of way takes."),
                              Consumption("per_radian", "1/rad", "1e-3", "Charge that a radian of turning takes.")},
                             NoiseParameters("the charge that is read", ""))});
+  DescribeSensor({.label = "battery",
+                  .implementation = kEnergyBattery,
+                  .brief = "the charge of a battery that the robot's parts draw from and charging stations fill",
+                  .parameters = Joined(BatteryParameters(), NoiseParameters("the charge that is read", ""))});
 }
 
 void DescribeMicrophones()
