@@ -2,6 +2,8 @@
 // Generic.
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <stdexcept>
 #include <vector>
 
 #include "common/control_interface/ci_battery_sensor.h"
@@ -34,7 +36,12 @@ public:
   {
     Reset(setup, 2);
     noise_ = NoiseFrom(setup.parameters);
-    for (const std::uint32_t robot : robots_) batteries_.push_back(*BatteryView::Of(setup.space, robot));
+    for (const std::uint32_t robot : robots_)
+    {
+      const std::optional<BatteryView> battery = BatteryView::Of(setup.space, robot);
+      if (!battery) throw std::logic_error("the controller of a robot with an energy_battery does not list it");
+      batteries_.push_back(*battery);
+    }
     MakeDevices();
   }
   void Update(const ChannelView&) override
