@@ -112,6 +112,23 @@ def batteries(lab):
 
 
 @scene(GROUP)
+def shared_radio(lab):
+    """20 robots send in each tick, in one of its slots; a packet gets through if no other one is in its slot."""
+    senders, ticks = 20, 501
+    arena = footbot("r", 5.0, 9.0, 0, "r")
+    for k in range(senders):
+        arena += footbot(f"s{k}", 0.3 + 0.45 * k, 1.0, 0, "s")
+    for slots in (10, 20, 60):
+        radio = {"implementation": "shared_radio", "range": 100, "capture": 1000, "slots": slots}
+        who = probe("r", sensors={"radio": radio}) + probe("s", [(0, ticks, "radio", 1)])
+        result = lab.run(arena, who, ENGINE, ticks + 1)
+        heard = sum(1 if isinstance(value, (int, float)) else len(value) for now in result.readings("r", "radio") for name, value in now.items() if name.endswith(" length"))
+        through, packets = (1 - 1 / slots) ** (senders - 1), senders * ticks
+        yield Row(f"shared radio: packets of {senders} senders heard in one of {slots} slots", "N/m (1 - 1/m)^(N - 1)", "slotted ALOHA (Roberts 1975)", senders / slots * through,
+                  heard / ticks / slots, 4 * math.sqrt(through * (1 - through) / packets) * senders / slots, "4 standard deviations")
+
+
+@scene(GROUP)
 def eyebot_light(lab):
     turn = math.radians(20)
     bulb = element("light_bulb", {"id": "l", "position": "6,5.5,2.5", "intensity": 0.8})
