@@ -4,7 +4,7 @@
 
 #include "common/experiment/battery_model.h"
 #include "common/plugin_descriptions/device_tables.h"
-#include "common/plugin_descriptions/shared_channel.h"
+#include "common/plugin_descriptions/shared_channel_parameters.h"
 #include "common/plugins/noise_parameters.h"
 #include "common/plugins/parameter_checks.h"
 

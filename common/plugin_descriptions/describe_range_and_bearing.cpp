@@ -1,5 +1,5 @@
 #include "common/plugin_descriptions/device_tables.h"
-#include "common/plugin_descriptions/shared_channel.h"
+#include "common/plugin_descriptions/shared_channel_parameters.h"
 #include "common/plugins/noise_parameters.h"
 
 namespace swarmanoid

@@ -18,6 +18,7 @@
 #include "common/space/battery_slots.h"
 #include "common/space/space.h"
 #include "controller_host/device.h"
+#include "controller_host/devices/noise.h"
 #include "controller_host/powered_device.h"
 #include "simulation/register_all.h"
 #include "simulation/simulator.h"

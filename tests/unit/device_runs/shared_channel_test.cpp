@@ -1,5 +1,6 @@
 // Radios, and range and bearing, that share a channel: collisions, capture, shadowing, and the throughput of slotted
 // ALOHA.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -57,8 +58,8 @@ std::string At(const std::string& id, double x, double y)
 }
 
 // Runs robots for some ticks; `sensor` has attributes.
-void Run(const std::string& robots, const std::string& sensor, int ticks, const std::string& actuator = "",
-         std::uint64_t seed = 1)
+void Talk(const std::string& robots, const std::string& sensor, int ticks, const std::string& actuator = "",
+          std::uint64_t seed = 1)
 {
   RegisterBuiltins();
   CTalker::heard.clear();
@@ -81,8 +82,8 @@ void Run(const std::string& robots, const std::string& sensor, int ticks, const 
 
 TEST(SharedRadio, OfOneSenderIsHeardUpToItsRangeWithTheLossOfThePath)
 {
-  Run(At("s", 1, 1) + At("near", 5, 1) + At("edge", 10.9, 1) + At("far", 11.1, 1),
-      "shared_radio range='10' path_loss='3'", 3);
+  Talk(At("s", 1, 1) + At("near", 5, 1) + At("edge", 10.9, 1) + At("far", 11.1, 1),
+       "shared_radio range='10' path_loss='3'", 3);
   ASSERT_EQ(CTalker::heard["near"].size(), 2U) << "the first packet comes a tick after it is sent";
   EXPECT_EQ(CTalker::heard["near"][0].first, "s");
   EXPECT_NEAR(CTalker::heard["near"][0].second, -30 * std::log10(4.0), 1e-9);
@@ -95,21 +96,21 @@ TEST(SharedRadio, LosesPacketsOfOneSlotUnlessOneIsMuchStronger)
 {
   // The ratio of the powers is 20 log10(4) = 12.04 dB.
   const std::string robots = At("s1", 1, 1) + At("r", 2, 1) + At("s2", 6, 1);
-  Run(robots, "shared_radio capture='12'", 2);
+  Talk(robots, "shared_radio capture='12'", 2);
   ASSERT_EQ(CTalker::heard["r"].size(), 1U);
   EXPECT_EQ(CTalker::heard["r"][0].first, "s1");
-  Run(robots, "shared_radio capture='12.1'", 2);
+  Talk(robots, "shared_radio capture='12.1'", 2);
   EXPECT_TRUE(CTalker::heard["r"].empty());
   EXPECT_TRUE(CTalker::heard["s1"].empty()) << "it sends in the only slot itself";
   // Two disturb more than one: 4 m and 4 m are 9.03 dB.
-  Run(robots + At("s3", 2, 5), "shared_radio capture='10'", 2);
+  Talk(robots + At("s3", 2, 5), "shared_radio capture='10'", 2);
   EXPECT_TRUE(CTalker::heard["r"].empty());
-  Run(robots + At("s3", 2, 5), "shared_radio capture='9'", 2);
+  Talk(robots + At("s3", 2, 5), "shared_radio capture='9'", 2);
   EXPECT_EQ(CTalker::heard["r"].size(), 1U);
   // Equal powers never capture, and a sender out of range does not disturb.
-  Run(At("s1", 1, 1) + At("r", 2, 1) + At("s2", 3, 1), "shared_radio capture='0.1'", 2);
+  Talk(At("s1", 1, 1) + At("r", 2, 1) + At("s2", 3, 1), "shared_radio capture='0.1'", 2);
   EXPECT_TRUE(CTalker::heard["r"].empty());
-  Run(At("s1", 1, 1) + At("r", 2, 1) + At("s2", 13, 1), "shared_radio capture='1000'", 2);
+  Talk(At("s1", 1, 1) + At("r", 2, 1) + At("s2", 13, 1), "shared_radio capture='1000'", 2);
   EXPECT_EQ(CTalker::heard["r"].size(), 1U);
 }
 
@@ -121,7 +122,7 @@ TEST(SharedRadio, HasTheThroughputOfSlottedAloha)
   for (int k = 0; k < kSenders; ++k) robots += At(fmt::format("s{}", k), 20 + k, 20);
   for (const int slots : {10, 20, 60})
   {
-    Run(robots, fmt::format("shared_radio range='100' capture='1000' slots='{}'", slots), kTicks + 1);
+    Talk(robots, fmt::format("shared_radio range='100' capture='1000' slots='{}'", slots), kTicks + 1);
     const double expected = std::pow(1 - 1.0 / slots, kSenders - 1);
     const double share = static_cast<double>(CTalker::heard["r"].size()) / (kSenders * kTicks);
     EXPECT_NEAR(share, expected, 5 * std::sqrt(expected * (1 - expected) / (kSenders * kTicks))) << slots;
@@ -134,7 +135,7 @@ TEST(SharedRadio, HasTheThroughputOfSlottedAloha)
 TEST(SharedRadio, HasLinksThatAreShadowedForEverAndAlikeInBothDirections)
 {
   // Two robots that send in different slots hear each other equally well.
-  Run(At("s1", 1, 1) + At("s2", 6, 1), "shared_radio range='100' shadowing='8' slots='1000'", 20);
+  Talk(At("s1", 1, 1) + At("s2", 6, 1), "shared_radio range='100' shadowing='8' slots='1000'", 20);
   const auto& to_first = CTalker::heard["s1"];
   const auto& to_second = CTalker::heard["s2"];
   ASSERT_GE(to_first.size(), 10U);
@@ -146,13 +147,13 @@ TEST(SharedRadio, HasLinksThatAreShadowedForEverAndAlikeInBothDirections)
   std::string robots = At("s", 30, 30);
   for (int k = 0; k < 200; ++k)
     robots += At(fmt::format("r{}", k), 30 + 20 * std::cos(k * 0.0314159), 30 + 20 * std::sin(k * 0.0314159));
-  Run(robots, "shared_radio range='20' shadowing='6'", 2);
+  Talk(robots, "shared_radio range='20' shadowing='6'", 2);
   std::size_t hearing = 0;
   double sum = 0, squares = 0;
   for (const auto& [id, packets] : CTalker::heard) hearing += packets.empty() ? 0 : 1;
   EXPECT_NEAR(static_cast<double>(hearing), 100, 30);
   // With a long range all hear it, with the deviation of the shadowing.
-  Run(robots, "shared_radio range='2000' shadowing='6'", 2);
+  Talk(robots, "shared_radio range='2000' shadowing='6'", 2);
   std::size_t count = 0;
   for (const auto& [id, packets] : CTalker::heard)
     for (const auto& [sender, signal] : packets)
@@ -170,9 +171,9 @@ TEST(SharedRadio, HasLinksThatAreShadowedForEverAndAlikeInBothDirections)
 TEST(SharedRadio, RefusesPacketsBeyondTheQueue)
 {
   CTalker::packets = 4;
-  Run(At("s", 1, 1), "shared_radio", 1, "queue='3'");
+  Talk(At("s", 1, 1), "shared_radio", 1, "queue='3'");
   EXPECT_EQ(CTalker::accepted, (std::vector<bool>{true, true, true, false}));
-  Run(At("s", 1, 1), "shared_radio", 1);
+  Talk(At("s", 1, 1), "shared_radio", 1);
   EXPECT_EQ(CTalker::accepted, (std::vector<bool>{true, true, true, true}));
   CTalker::packets = 1;
 }
@@ -180,14 +181,14 @@ TEST(SharedRadio, RefusesPacketsBeyondTheQueue)
 TEST(SharedRangeAndBearing, LosesMessagesOfOneSlotUnlessOneIsMuchStronger)
 {
   const std::string robots = At("s1", 1, 1) + At("r", 1.5, 1) + At("s2", 3.5, 1);
-  Run(robots, "shared_range_and_bearing capture='12'", 3);
+  Talk(robots, "shared_range_and_bearing capture='12'", 3);
   EXPECT_EQ(CTalker::bearings["r"], 2U);
-  Run(robots, "shared_range_and_bearing capture='12.1'", 3);
+  Talk(robots, "shared_range_and_bearing capture='12.1'", 3);
   EXPECT_EQ(CTalker::bearings["r"], 0U);
   EXPECT_EQ(CTalker::bearings["s1"], 0U) << "it sends in the only slot itself";
-  Run(At("s1", 1, 1) + At("r", 1.5, 1), "shared_range_and_bearing", 3);
+  Talk(At("s1", 1, 1) + At("r", 1.5, 1), "shared_range_and_bearing", 3);
   EXPECT_EQ(CTalker::bearings["r"], 2U);
-  Run(At("s1", 1, 1) + At("r", 1.5, 1), "shared_range_and_bearing range='0.49'", 3);
+  Talk(At("s1", 1, 1) + At("r", 1.5, 1), "shared_range_and_bearing range='0.49'", 3);
   EXPECT_EQ(CTalker::bearings["r"], 0U);
 }
 
@@ -197,7 +198,7 @@ TEST(SharedRangeAndBearing, HasTheThroughputOfSlottedAloha)
   std::string robots = At("r", 30, 30);
   for (int k = 0; k < kSenders; ++k)
     robots += At(fmt::format("s{}", k), 30 + 2 * std::cos(k * 0.5236), 30 + 2 * std::sin(k * 0.5236));
-  Run(robots, "shared_range_and_bearing range='5' capture='1000' slots='12'", kTicks + 1);
+  Talk(robots, "shared_range_and_bearing range='5' capture='1000' slots='12'", kTicks + 1);
   const double expected = std::pow(1 - 1.0 / 12, kSenders - 1);
   const double share = static_cast<double>(CTalker::bearings["r"]) / (kSenders * kTicks);
   EXPECT_NEAR(share, expected, 5 * std::sqrt(expected * (1 - expected) / (kSenders * kTicks)));
