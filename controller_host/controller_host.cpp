@@ -33,6 +33,7 @@
 #include "common/space/space.h"
 #include "common/space/state_checks.h"
 #include "common/threads/worker_pool.h"
+#include "controller_host/battery_reports.h"
 #include "controller_host/device.h"
 #include "controller_host/device_faults.h"
 #include "controller_host/on_demand_sensor.h"
@@ -194,7 +195,8 @@ ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& 
     }
   }
 
-  if (!experiment.faults.empty()) MakeFaults();
+  MakeBatteries();
+  MakeFaults();
   // Init is called in entity order, whatever the controllers are.
   for (Robot& robot : robots_)
   {
@@ -237,42 +239,82 @@ void ControllerHost::ListSteps()
   }
 }
 
+void ControllerHost::MakeBatteries()
+{
+  battery_reports_ = BatteryReports::Of(space_, layout_);
+  if (battery_reports_ == nullptr) return;
+  for (const Batches::Sensor& sensor : batches_->sensors)
+    for (std::size_t n = 0; n < sensor.robots.size(); ++n) battery_reports_->Add(sensor.robots[n], *sensor.batch, n);
+  for (const Batches::Actuator& actuator : batches_->actuators)
+    for (std::size_t n = 0; n < actuator.places.size(); ++n)
+      battery_reports_->Add(actuator.places[n], *actuator.batch, n);
+}
+
 void ControllerHost::MakeFaults()
 {
   const Experiment& experiment = space_.GetExperiment();
+  std::vector<std::uint32_t> stopping;  // robots that an empty battery stops
+  for (std::size_t k = 0; k < robots_.size(); ++k)
+    if (battery_reports_ != nullptr && battery_reports_->Stops(k)) stopping.push_back(robots_[k].entity);
+  if (experiment.faults.empty() && stopping.empty()) return;
   device_faults_ = std::make_unique<DeviceFaults>(space_, robots_.size());
   for (const FaultConfiguration& fault : experiment.faults)
   {
     device_faults_->Begin(fault);
-    const auto concerns = [&](const DeviceConfiguration& device)
-    { return fault.device.empty() || fault.device == device.type; };
-    for (const std::uint32_t entity : fault.entities)
+    AddFault(fault, fault.entities);
+  }
+  if (stopping.empty()) return;
+  empty_battery_.id = "empty battery";
+  empty_battery_.kind = DeviceFaultKind::kOff;
+  empty_battery_.kind_name = "off";
+  empty_battery_.location = experiment.FindController(experiment.entities[stopping.front()].controller)->location;
+  device_faults_->BeginEmptyBatteries(empty_battery_,
+                                      [this](std::size_t robot) { return battery_reports_->IsOff(robot); });
+  AddFault(empty_battery_, stopping);
+}
+
+void ControllerHost::AddFault(const FaultConfiguration& fault, std::span<const std::uint32_t> entities)
+{
+  const Experiment& experiment = space_.GetExperiment();
+  const auto concerns = [&](const DeviceConfiguration& device)
+  { return fault.device.empty() || fault.device == device.type; };
+  for (const std::uint32_t entity : entities)
+  {
+    const auto place = std::ranges::lower_bound(layout_.robots, entity);
+    if (place == layout_.robots.end() || *place != entity) continue;
+    const auto k = static_cast<std::size_t>(place - layout_.robots.begin());
+    const auto number_in = [k](const std::vector<std::size_t>& robots) -> std::optional<std::size_t>
     {
-      const auto place = std::ranges::lower_bound(layout_.robots, entity);
-      if (place == layout_.robots.end() || *place != entity) continue;
-      const auto k = static_cast<std::size_t>(place - layout_.robots.begin());
-      const auto number_in = [k](const std::vector<std::size_t>& robots) -> std::optional<std::size_t>
+      const auto found = std::ranges::lower_bound(robots, k);
+      if (found == robots.end() || *found != k) return std::nullopt;
+      return static_cast<std::size_t>(found - robots.begin());
+    };
+    if (fault.kind == DeviceFaultKind::kOff) device_faults_->AddOff(k);
+    if (fault.of_sensors && fault.kind != DeviceFaultKind::kOff)
+      for (const Batches::Sensor& sensor : batches_->sensors)
       {
-        const auto found = std::ranges::lower_bound(robots, k);
-        if (found == robots.end() || *found != k) return std::nullopt;
-        return static_cast<std::size_t>(found - robots.begin());
-      };
-      if (fault.kind == DeviceFaultKind::kOff) device_faults_->AddOff(k);
-      if (fault.of_sensors && fault.kind != DeviceFaultKind::kOff)
-        for (const Batches::Sensor& sensor : batches_->sensors)
-        {
-          const DeviceConfiguration& device = experiment.controllers[sensor.number.first].sensors[sensor.number.second];
-          if (!concerns(device)) continue;
-          if (const auto n = number_in(sensor.robots))
-            device_faults_->Add({.sensor = sensor.batch.get(), .on_demand = sensor.on_demand, .k = *n, .robot = k},
-                                entity, device);
-        }
-      if (fault.of_actuators)
-        for (const Batches::Actuator& actuator : batches_->actuators)
-          if (concerns(*actuator.device))
-            if (const auto n = number_in(actuator.places))
-              device_faults_->Add({.actuator = actuator.batch.get(), .k = *n, .robot = k}, entity, *actuator.device);
-    }
+        const DeviceConfiguration& device = experiment.controllers[sensor.number.first].sensors[sensor.number.second];
+        if (!concerns(device)) continue;
+        if (const auto n = number_in(sensor.robots))
+          device_faults_->Add({.sensor = sensor.batch.get(), .on_demand = sensor.on_demand, .k = *n, .robot = k},
+                              entity, device);
+      }
+    if (fault.of_actuators)
+      for (const Batches::Actuator& actuator : batches_->actuators)
+        if (concerns(*actuator.device))
+          if (const auto n = number_in(actuator.places))
+            device_faults_->Add({.actuator = actuator.batch.get(), .k = *n, .robot = k}, entity, *actuator.device);
+  }
+}
+
+void ControllerHost::LogBatteries() const
+{
+  for (std::size_t k = 0; k < robots_.size(); ++k)
+  {
+    const bool is_empty = device_faults_->SwitchedOff(k) == &empty_battery_;
+    if (is_empty == (device_faults_->SwitchedOffBefore(k) == &empty_battery_)) continue;
+    LogInfo("robot '{}' at tick {}: {}", robots_[k].interface->GetId(), space_.GetTick(),
+            is_empty ? "its battery is empty, and it is switched off" : "its battery is charged, and it runs again");
   }
 }
 
@@ -385,7 +427,8 @@ void ControllerHost::DescribeController(const Robot& robot, RobotStatus& status)
     if (const auto* fault = device_faults_->SwitchedOff(static_cast<std::size_t>(&robot - robots_.data())))
     {
       status.state = "off";
-      status.text = fmt::format("the fault '{}' switched it off", fault->id);
+      status.text =
+          fault == &empty_battery_ ? "its battery is empty" : fmt::format("the fault '{}' switched it off", fault->id);
       return;
     }
   if (robot.IsStopped())
@@ -470,6 +513,7 @@ void ControllerHost::Sense(std::span<const SensorFrame* const> frames)
   }
   UpdateSensors(tick);
   if (device_faults_ != nullptr) device_faults_->ChangeReadings();
+  if (battery_reports_ != nullptr) battery_reports_->ReadReceivers();
 }
 
 const ControlCommands& ControllerHost::Tick(std::span<const SensorFrame* const> frames)
@@ -477,7 +521,11 @@ const ControlCommands& ControllerHost::Tick(std::span<const SensorFrame* const> 
   const std::uint64_t tick = space_.GetTick();
   Due();
   Sense(frames);
-  if (device_faults_ != nullptr && device_faults_->SwitchRobots()) ListSteps();
+  if (device_faults_ != nullptr && device_faults_->SwitchRobots())
+  {
+    ListSteps();
+    if (battery_reports_ != nullptr) LogBatteries();
+  }
   RunControllers(tick);
   for (const Batches::Sensor& sensor : batches_->sensors)
     if (sensor.on_demand != nullptr) sensor.on_demand->EndSteps();
@@ -569,6 +617,8 @@ void ControllerHost::CommitActuators()
   }
   if (device_faults_ != nullptr) device_faults_->RestoreSettings();
   if (!silence_.robots.empty()) SilenceStopped();
+  if (battery_reports_ != nullptr)
+    battery_reports_->Report(commands_.values, device_faults_.get(), ahead_ > 0, commands_.attributes);
   batches_->order.Apply(commands_.attributes);
   CheckCommands();
 }

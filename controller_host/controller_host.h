@@ -19,6 +19,7 @@
 namespace swarmanoid
 {
 
+class BatteryReports;
 class CCI_StepGroup;
 class DeviceFaults;
 
@@ -109,7 +110,10 @@ private:
     std::vector<std::pair<std::size_t, std::size_t>> commands;  // first and behind the last in ControlCommands::values
   };
 
+  void MakeBatteries();
   void MakeFaults();
+  void AddFault(const FaultConfiguration& fault, std::span<const std::uint32_t> entities);
+  void LogBatteries() const;
   // Lists the robots whose controllers are called: all that are not switched off by a fault.
   void ListSteps();
   void UpdateSensors(std::uint64_t tick);
@@ -175,7 +179,9 @@ private:
   ControllerFaults faults_of_tick_;
   const char* cure_of_death_ = "";
   std::unique_ptr<Batches> batches_;
-  std::unique_ptr<DeviceFaults> device_faults_;  // null without <faults>
+  std::unique_ptr<BatteryReports> battery_reports_;  // null without an energy_battery
+  FaultConfiguration empty_battery_;                 // switches its robots off
+  std::unique_ptr<DeviceFaults> device_faults_;      // null if nothing can fail
   std::vector<double> sensor_values_;
   const std::uint32_t ahead_;  // framework.ahead
   std::uint64_t stepped_tick_ = 0;

@@ -44,6 +44,11 @@ std::uint64_t DeviceFaults::Tick() const { return space_.GetTick() - space_.Firs
 
 void DeviceFaults::Begin(const FaultConfiguration& fault) { rows_.push_back({.fault = &fault}); }
 
+void DeviceFaults::BeginEmptyBatteries(const FaultConfiguration& fault, std::function<bool(std::size_t)> is_off)
+{
+  rows_.push_back({.fault = &fault, .is_off = std::move(is_off)});
+}
+
 void DeviceFaults::Expose(const Device& device)
 {
   values_.Clear();
@@ -85,7 +90,8 @@ void DeviceFaults::Add(const Device& device, std::uint32_t entity, const DeviceC
   };
   const std::size_t count = values_.Numbers().size();
   if (count == 0 && !values_.HasList())
-    refuse("it does not show its values; its class must override Expose, or name other devices");
+    refuse(std::string("it does not show its values; its class must override Expose") +
+           (row.is_off ? ", or the battery has empty=\"ignore\"" : ", or name other devices"));
   const std::string named = fault.device.empty() ? "; name the devices of the fault one by one" : "";
   if (values_.HasList() && fault.kind != kDead && fault.kind != kOff && fault.kind != kDrop)
     refuse(fmt::format("it has a list, for which there is no '{}'; choose dead or drop{}", fault.kind_name, named));
@@ -120,9 +126,10 @@ void DeviceFaults::ForEachTarget(std::vector<Target> Row::*targets, Change chang
   {
     // A sample lost in the first tick leaves the one before, which is remembered then.
     const bool comes = row.fault->kind == kDrop && tick + 1 == row.fault->from;
-    if (!row.fault->IsActive(tick) && !comes) continue;
+    if (!row.is_off && !row.fault->IsActive(tick) && !comes) continue;
     for (const Target& target : row.*targets)
-      if (space_.IsPresent(target.entity)) change(*row.fault, target, tick);
+      if (space_.IsPresent(target.entity) && (!row.is_off || row.is_off(target.device.robot)))
+        change(*row.fault, target, tick);
   }
 }
 
@@ -250,19 +257,21 @@ void DeviceFaults::RestoreSettings()
 bool DeviceFaults::SwitchRobots()
 {
   const std::uint64_t tick = Tick();
-  bool switched = false;
+  bool may_switch = false;
   for (Row& row : rows_)
-    if (const bool is_active = row.fault->IsActive(tick); !row.off.empty() && is_active != row.is_active)
-    {
-      row.is_active = is_active;
-      switched = true;
-    }
-  if (!switched) return false;
+  {
+    if (row.off.empty()) continue;
+    const bool is_active = row.fault->IsActive(tick);
+    may_switch |= row.is_off || is_active != row.is_active;
+    row.is_active = is_active;
+  }
+  if (!may_switch) return false;
+  off_before_ = switched_off_;
   std::ranges::fill(switched_off_, nullptr);
   for (const Row& row : rows_)
-    if (row.is_active)
-      for (const std::size_t robot : row.off) switched_off_[robot] = row.fault;
-  return true;
+    for (const std::size_t robot : row.off)
+      if (row.is_off ? row.is_off(robot) : row.is_active) switched_off_[robot] = row.fault;
+  return switched_off_ != off_before_;
 }
 
 void DeviceFaults::SaveState(std::span<ByteWriter> states) const

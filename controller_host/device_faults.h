@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -38,6 +39,8 @@ public:
   // Begin, AddOff and Add describe the faults in their order: Begin a fault, the others its robots and devices. Add
   // throws ConfigurationError if the device cannot have such a fault.
   void Begin(const FaultConfiguration& fault);
+  // Begins the faults that switch robots off while their batteries are empty. `is_off` tells it of a robot of the host.
+  void BeginEmptyBatteries(const FaultConfiguration& fault, std::function<bool(std::size_t robot)> is_off);
   void AddOff(std::size_t robot) { rows_.back().off.push_back(robot); }
   void Add(const Device& device, std::uint32_t entity, const DeviceConfiguration& configuration);
 
@@ -52,6 +55,8 @@ public:
   bool SwitchRobots();
   // Returns the fault that has switched a robot off, or nullptr if the robot is on.
   const FaultConfiguration* SwitchedOff(std::size_t robot) const { return switched_off_[robot]; }
+  // Returns the same as it was before the last call of SwitchRobots.
+  const FaultConfiguration* SwitchedOffBefore(std::size_t robot) const { return off_before_[robot]; }
 
   // The state of robot k of the host goes to states[k].
   void SaveState(std::span<ByteWriter> states) const;
@@ -75,7 +80,8 @@ private:
   struct Row
   {
     const FaultConfiguration* fault;
-    bool is_active = false;  // since SwitchRobots
+    std::function<bool(std::size_t)> is_off{};  // of empty batteries; otherwise the ticks of the fault count
+    bool is_active = false;                     // since SwitchRobots
     std::vector<Target> sensors{}, actuators{};
     std::vector<std::size_t> off{};  // robots of the host
   };
@@ -97,7 +103,7 @@ private:
   std::vector<Row> rows_;
   std::vector<Column> columns_;
   std::vector<double> memory_;
-  std::vector<const FaultConfiguration*> switched_off_;  // by robot
+  std::vector<const FaultConfiguration*> switched_off_, off_before_;  // by robot; before the last SwitchRobots
   // Scratch, and the settings to restore.
   ExposedValues values_;
   std::vector<double> now_;

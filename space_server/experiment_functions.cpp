@@ -126,6 +126,22 @@ void SpaceEditor::SetFieldCell(std::string_view field, std::size_t cell, double 
   server_.SetFieldCell(fields.FirstCell(number) + static_cast<std::uint32_t>(cell), static_cast<float>(value));
 }
 
+void SpaceEditor::SetCharge(std::string_view id, double charge_j)
+{
+  const CSwarmanoidSpaceEntity& entity = FindOrThrow(server_.Space(), id);
+  const auto battery = BatteryView::Of(server_.Space(), entity.GetIndex());
+  if (!battery)
+    throw std::invalid_argument(
+        fmt::format("'{}' has no battery that could be charged; give its controller the sensor <battery> with the "
+                    "implementation {}",
+                    id, kEnergyBattery));
+  const double most_j = battery->Model().capacity_j;
+  if (!(charge_j >= 0 && charge_j <= most_j))
+    throw std::invalid_argument(
+        fmt::format("a charge of {:g} J for '{}'; it must be from 0 to the capacity, {:g} J", charge_j, id, most_j));
+  server_.SetAttribute(battery->Slot(BatterySlots::kCharge), charge_j);
+}
+
 void SpaceEditor::RemoveEntity(std::string_view id) { server_.Move(Removal(FindToRemove(server_.Space(), id))); }
 
 void SpaceEditor::SetAttribute(std::string_view id, std::string_view attribute, double value, int element)

@@ -77,6 +77,10 @@ public:
   // unknown id, name or element, and for a value outside the attribute's range. The engines set "gripped", so only 0 is
   // accepted, which ends the grip.
   void SetAttribute(std::string_view id, std::string_view attribute, double value, int element = 0);
+  // Sets the charge (J) of a robot's energy_battery. A robot that an empty battery has switched off runs again from the
+  // charge that its parameter restart gives. Throws std::invalid_argument for an unknown id, a robot without such a
+  // battery, and a charge that is not from 0 to the capacity.
+  void SetCharge(std::string_view id, double charge_j);
   // Adds an amount to a floor field at a point (m) in the arena, or takes from it if the amount is negative. Throws
   // std::invalid_argument for an unknown field, an amount that is not finite, and a point outside the field.
   void Deposit(std::string_view field, double x, double y, double amount);

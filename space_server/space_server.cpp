@@ -27,6 +27,7 @@ SpaceServer::SpaceServer(const Experiment& experiment, const Assignment& assignm
     : experiment_(experiment),
       assignment_(assignment),
       space_(experiment),
+      batteries_(space_),
       editor_(*this, output_folder),
       program_random_(experiment.seed, StreamName("program"), StreamName("between steps")),
       warn_([](const std::string& text) { LogWarning("{}", text); })
@@ -107,6 +108,7 @@ void SpaceServer::BeginAgain(std::uint64_t first_tick, std::uint32_t variation)
 {
   if (!shares_space_) throw std::logic_error("BeginAgain needs all roles in one process: run it with --single-process");
   space_.BeginAgain(first_tick, variation);
+  batteries_.Reset([this](std::uint32_t slot, double value) { Change(slot, value); });
 }
 
 void SpaceServer::SaveState(ByteWriter& state) const
@@ -155,6 +157,7 @@ void SpaceServer::Advance(std::span<const EngineUpdate* const> updates,
                           std::span<const ControlCommands* const> commands)
 {
   space_.AdvanceFields();
+  batteries_.BeginTick();
   changed_slots_.clear();
   changed_cells_.clear();
   moved_.clear();
@@ -162,6 +165,7 @@ void SpaceServer::Advance(std::span<const EngineUpdate* const> updates,
   TellFaults(commands);
   for (const EngineUpdate* update : updates) Merge(*update);
   HandOverAll();
+  batteries_.Advance([this](std::uint32_t slot, double value) { Change(slot, value); });
   space_.SetTick(space_.GetTick() + 1);
 
   CallFunctions(ActivityStep::kPostStep, [this](const Functions& functions) { functions.object->PostStep(editor_); });

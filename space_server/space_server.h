@@ -15,6 +15,7 @@
 #include "common/messages/tick_messages.h"
 #include "common/serialisation/bytes.h"
 #include "common/space/space.h"
+#include "space_server/batteries.h"
 #include "space_server/experiment_functions.h"
 
 namespace swarmanoid
@@ -150,6 +151,7 @@ private:
   const Experiment& experiment_;
   const Assignment& assignment_;
   CSwarmanoidSpace space_;
+  Batteries batteries_;
   std::array<SpaceState, 2> states_;  // for even and odd ticks
   std::vector<std::uint32_t> changed_slots_;
   std::vector<std::uint32_t> changed_cells_;  // of floor fields

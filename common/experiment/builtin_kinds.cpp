@@ -1,6 +1,7 @@
 #include "common/experiment/builtin_kinds.h"
 
 #include "common/control_interface/footbot/ci_footbot_base_ground_sensor.h"
+#include "common/experiment/battery_model.h"
 #include "common/experiment/schema_parts.h"
 #include "common/math/elementary.h"
 
@@ -265,6 +266,32 @@ EntityKindDescription TerrainRow()
   return row;
 }
 
+EntityKindDescription ChargingStation()
+{
+  EntityKindDescription row;
+  row.tag = "charging_station";
+  row.word = "ChargingStation";
+  row.short_word = "station";
+  row.description =
+      "An area of the floor that charges the batteries of robots whose centre is over it. Either size or radius is "
+      "given.";
+  row.role = EntityRole::kPatch;
+  row.mobility = Mobility::kNever;
+  row.seen_by_cameras = true;
+  row.colour = 0xf0c000;
+  row.parameters = {AreaSizeParameter(),
+                    AreaRadiusParameter(),
+                    ColourParameter("#f0c000"),
+                    PictureParameter(),
+                    {kChargingPower, kNumber, "W", "10", "Power for each robot on it.", 0, 1e6},
+                    {kChargingLimit, kNumber, "W", "0",
+                     "Power for all robots on it together, which share it equally; 0: no limit.", 0, 1e6}};
+  row.attributes = {kSurface,
+                    {kChargingPower, 1, 10, "W for each robot on it"},
+                    {kChargingLimit, 1, 0, "W for all robots on it together; 0: no limit"}};
+  return row;
+}
+
 }  // namespace
 
 ParameterSpec ControllerParameter()
@@ -375,7 +402,7 @@ std::vector<EntityKindDescription> OwnKinds()
 {
   std::vector<EntityKindDescription> rows = {Footbot(),       Handbot(),   Eyebot(),      Block(),
                                              CylindricPrey(), LightBulb(), SoundSource(), GroundPatch(),
-                                             Hole(),          Wall(),      TerrainRow()};
+                                             Hole(),          Wall(),      TerrainRow(),  ChargingStation()};
   for (EntityKindDescription& row : rows)
     if (row.short_word.empty()) row.short_word = row.tag;
   return rows;

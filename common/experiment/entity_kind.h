@@ -33,7 +33,8 @@ enum class EntityKind : std::uint8_t
   kGroundPatch,
   kHole,
   kWall,
-  kTerrain
+  kTerrain,
+  kChargingStation
 };
 
 enum class EntityRole : std::uint8_t

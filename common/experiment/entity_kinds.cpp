@@ -17,7 +17,7 @@ namespace swarmanoid
 namespace
 {
 
-constexpr std::size_t kOwnKinds = static_cast<std::size_t>(EntityKind::kTerrain) + 1;
+constexpr std::size_t kOwnKinds = static_cast<std::size_t>(EntityKind::kChargingStation) + 1;
 constexpr std::size_t kMostKinds = 256;
 constexpr std::size_t kMostLeds = 16;
 constexpr std::size_t kMostProximitySensors = 64;

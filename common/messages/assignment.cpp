@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/experiment/battery_model.h"
 #include "common/plugins/catalogue.h"
 
 namespace swarmanoid
@@ -23,6 +24,7 @@ struct ControllerChannels
   std::map<std::string, int> sensors;
   bool has_generic_actuators = false;
   bool may_fail = false;
+  bool has_battery = false;  // the server computes its charge from what the host reports
 };
 
 ControllerChannels ChannelsOf(const ControllerConfiguration& controller)
@@ -43,6 +45,7 @@ ControllerChannels ChannelsOf(const ControllerConfiguration& controller)
     const PluginDescription* description = catalogue.Find(PluginKind::kSensor, device.type, device.implementation);
     if (description != nullptr && !description->channel.empty())
       channels.sensors[description->channel] = description->channel_width;
+    channels.has_battery |= device.type == "battery" && device.implementation == kEnergyBattery;
   }
   return channels;
 }
@@ -271,7 +274,7 @@ Assignment MakeAssignment(const Experiment& experiment, const HostTable& table)
       assignment.host[robot] = static_cast<int>(h);
       layout.reports_to_server |= channels_of[robot]->has_generic_actuators || channels_of[robot]->commands.empty() ||
                                   assignment.owner[robot] < 0;
-      layout.reports_to_server |= channels_of[robot]->may_fail;
+      layout.reports_to_server |= channels_of[robot]->may_fail || channels_of[robot]->has_battery;
     }
     layout.commands = MakeBlocks(layout.robots, channels_of, &ControllerChannels::commands, layout.command_size);
     layout.sensors = MakeBlocks(layout.robots, channels_of, &ControllerChannels::sensors, layout.sensor_size);

@@ -2,7 +2,9 @@
 #include <string>
 #include <utility>
 
+#include "common/experiment/battery_model.h"
 #include "common/plugin_descriptions/device_tables.h"
+#include "common/plugin_descriptions/shared_channel_parameters.h"
 #include "common/plugins/noise_parameters.h"
 #include "common/plugins/parameter_checks.h"
 
@@ -47,6 +49,10 @@ void DescribeMotionSensors()
                              Consumption("per_metre", "1/m", "1e-3", "Charge that a metre of way takes."),
                              Consumption("per_radian", "1/rad", "1e-3", "Charge that a radian of turning takes.")},
                             NoiseParameters("the charge that is read", ""))});
+  DescribeSensor({.label = "battery",
+                  .implementation = kEnergyBattery,
+                  .brief = "the charge of a battery that the robot's parts draw from and charging stations fill",
+                  .parameters = Joined(BatteryParameters(), NoiseParameters("the charge that is read", ""))});
 }
 
 void DescribeMicrophones()
@@ -181,7 +187,8 @@ void DescribeRadio()
        .brief = "sends packets of up to 30 bytes, one a tick, within a bandwidth",
        .parameters =
            Joined({{"bandwidth", kNumber, "bytes/s", "0",
-                    "Packets wait until the ones before are through; 0: one packet a tick is the only limit.", 0, 1e6}},
+                    "Packets wait until the ones before are through; 0: one packet a tick is the only limit.", 0, 1e6},
+                   Count("queue", "16", "Packets that may wait, with the one that is sent in the tick.", 16)},
                   NoiseParameters("each byte that is sent", "1/255")),
        .robots = {"footbot", "eyebot", "handbot"}});
   DescribeSensor(
@@ -194,6 +201,17 @@ void DescribeRadio()
             {"latency", kNumber, "s", "0",
              "Time that packets take beyond the one tick that everything takes; whole ticks, rounded up.", 0, 3600}},
            NoiseParameters("each signal strength", "dB")),
+       .robots = {"footbot", "eyebot", "handbot"}});
+  DescribeSensor(
+      {.label = "radio",
+       .implementation = "shared_radio",
+       .brief = "receives what gets through a channel that all radios share: packets collide and links are shadowed",
+       .parameters =
+           Joined(Joined(SharedChannelParameters("10"),
+                         {{"latency", kNumber, "s", "0",
+                           "Time that packets take beyond the one tick that everything takes; whole ticks, rounded up.",
+                           0, 3600}}),
+                  NoiseParameters("each signal strength", "dB")),
        .robots = {"footbot", "eyebot", "handbot"}});
 }
 

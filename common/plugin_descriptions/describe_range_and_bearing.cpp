@@ -1,4 +1,5 @@
 #include "common/plugin_descriptions/device_tables.h"
+#include "common/plugin_descriptions/shared_channel_parameters.h"
 #include "common/plugins/noise_parameters.h"
 
 namespace swarmanoid
@@ -28,6 +29,14 @@ void DescribeRangeAndBearing()
                       {{"range", kNumber, "m", "3", "Distance from which packets are received.", 0.001, 1e6},
                        {"loss_probability", kNumber, "", "0", "Share of the packets that get lost.", 0, 1},
                        {"line_of_sight", kBoolean, "", "true", "Whether bodies between two robots keep packets off."}},
+                      noise),
+                  .robots = {"footbot", "eyebot", "handbot"}});
+  DescribeSensor({.label = "range_and_bearing",
+                  .implementation = "shared_range_and_bearing",
+                  .brief = "the same through a channel that all senders share: packets collide and links are shadowed",
+                  .parameters = Joined(
+                      Joined(SharedChannelParameters("3"), {{"line_of_sight", kBoolean, "", "true",
+                                                             "Whether bodies between two robots keep packets off."}}),
                       noise),
                   .robots = {"footbot", "eyebot", "handbot"}});
 }

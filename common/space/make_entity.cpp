@@ -29,6 +29,7 @@ EntityPointer MakeEntity(std::pmr::memory_resource& memory, CSwarmanoidSpace& sp
     case EntityKind::kSoundSource:
       return make(std::type_identity<CSoundSourceEntity>{});
     case EntityKind::kGroundPatch:
+    case EntityKind::kChargingStation:
       return make(std::type_identity<CGroundPatchEntity>{});
     default:
       break;

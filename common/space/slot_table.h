@@ -24,9 +24,10 @@ struct EngineSlots
 class SlotTable
 {
 public:
-  // Adds the next entity in order: the attributes of its kind, then `further` slots of a long message, then `rates` of
-  // its deposits to floor fields, then the slots of an entity that changes its engine (EngineSlots).
-  void Add(EntityKind kind, std::uint32_t further, bool changes_engine = false, std::uint32_t rates = 0);
+  // Adds the next entity in order: the attributes of its kind, then `further` slots of a long message, then `numbers`:
+  // the rates of its deposits to floor fields and its battery (BatterySlots), then the slots of an entity that changes
+  // its engine (EngineSlots).
+  void Add(EntityKind kind, std::uint32_t further, bool changes_engine = false, std::uint32_t numbers = 0);
 
   // Returns the number of slots of all attributes, with the presence of each entity at the end.
   std::uint32_t size() const { return slots_; }
@@ -52,12 +53,12 @@ private:
     EntityKind kind;
     std::uint32_t further;
     bool changes_engine;
-    std::uint32_t rates;
+    std::uint32_t numbers;
     const Values* values;  // the slots of each of its entities; never empty
   };
 
   const Run& RunOf(std::uint32_t slot) const;
-  const Values* ValuesOf(EntityKind kind, std::uint32_t further, bool changes_engine, std::uint32_t rates);
+  const Values* ValuesOf(EntityKind kind, std::uint32_t further, bool changes_engine, std::uint32_t numbers);
 
   std::vector<Run> runs_;  // has no entry for entities without attributes
   std::vector<std::unique_ptr<const Values>> layouts_;

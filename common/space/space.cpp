@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "common/space/attributes.h"
+#include "common/space/battery_slots.h"
 #include "common/space/message_slots.h"
 #include "common/space/state_checks.h"
 
@@ -38,7 +39,7 @@ CSwarmanoidSpace::CSwarmanoidSpace(const Experiment& experiment)
   for (const EntityConfiguration& configuration : experiment.entities)
     slots +=
         static_cast<std::size_t>(AttributeCount(configuration.kind) + FurtherMessageSlots(experiment, configuration)) +
-        DepositSlots(experiment, configuration);
+        DepositSlots(experiment, configuration) + BatterySlotsOf(experiment, configuration);
   attributes_.reserve(slots);
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -49,7 +50,9 @@ CSwarmanoidSpace::CSwarmanoidSpace(const Experiment& experiment)
     {
       const double initial = spec.name == "colour"      ? configuration.colour
                              : spec.name == "intensity" ? configuration.intensity
-                                                        : spec.initial;
+                             : spec.name == kChargingPower || spec.name == kChargingLimit
+                                 ? configuration.tree.GetNumber(spec.name, spec.initial)
+                                 : spec.initial;
       attributes_.resize(attributes_.size() + static_cast<std::size_t>(spec.count), initial);
     }
     const auto further = static_cast<std::size_t>(FurtherMessageSlots(experiment, configuration));
@@ -57,10 +60,13 @@ CSwarmanoidSpace::CSwarmanoidSpace(const Experiment& experiment)
     const std::size_t rates = DepositSlots(experiment, configuration);
     if (rates > 0) fields_.AddDepositor(index, static_cast<std::uint32_t>(attributes_.size()));
     attributes_.resize(attributes_.size() + rates);
+    std::vector<double> battery;
+    if (const auto model = BatteryOf(experiment, configuration)) battery = FullBattery(*model);
+    for (const double number : battery) attributes_.push_back(number);
     const bool changes_engine =
         engine_slots_.size() < choices.entities.size() && choices.entities[engine_slots_.size()] == index;
     attribute_values_.Add(configuration.kind, static_cast<std::uint32_t>(further), changes_engine,
-                          static_cast<std::uint32_t>(rates));
+                          static_cast<std::uint32_t>(rates + battery.size()));
     if (changes_engine)
     {
       engine_slots_.push_back(static_cast<std::uint32_t>(attributes_.size()));

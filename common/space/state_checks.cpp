@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include "common/space/battery_slots.h"
 #include "common/space/message_slots.h"
 #include "common/space/space.h"
 
@@ -162,6 +163,8 @@ std::string NameOfSlot(const CSwarmanoidSpace& space, std::uint32_t slot)
   if (element < DepositSlots(experiment, configuration))
     return fmt::format("the rate of deposits on the floor field '{}' of {}", experiment.floor_fields[element].id,
                        NameOf(space, entity));
+  element -= static_cast<std::uint32_t>(DepositSlots(experiment, configuration));
+  if (element < BatterySlotsOf(experiment, configuration)) return "the battery of " + NameOf(space, entity);
   return "the engine and velocity of " + NameOf(space, entity);
 }
 

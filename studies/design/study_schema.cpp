@@ -132,6 +132,13 @@ ElementSpec MetricsElement()
                      {"efficiency", kNumber, "", "1",
                       "The share of the drive's energy that becomes work: motors, gears.", 0.001, 1}},
                     true)),
+      Repeated("battery", "The energy_battery of each robot.",
+               With({OneOf({"value", kChoice, "", "charge",
+                            "charge: its energy (J); used: energy that the robot used so far (J); charged: energy that "
+                            "it got so far (J); power: what it used in the last tick (W); empty: 1 if it is empty or "
+                            "has switched the robot off, otherwise 0."},
+                           {"charge", "used", "charged", "power", "empty"})},
+                    true)),
       Repeated("nearest_neighbour", "The distance from each entity to the nearest other one, in metres.",
                With({}, true)),
       Repeated("time_to_region",
@@ -289,6 +296,12 @@ std::string MetricUnit(const MetricChoice& choice)
   if (choice.kind == "distance" || choice.kind == "displacement" || choice.kind == "nearest_neighbour") return "m";
   if (choice.kind == "time_to_region") return "s";
   if (choice.kind == "energy") return "J";
+  if (choice.kind == "battery")
+  {
+    const std::string value = choice.tree.Value("value").value_or("charge");
+    if (value == "empty") return "";
+    return value == "power" ? "W" : "J";
+  }
   return choice.tree.Value("unit").value_or("");
 }
 

@@ -7,6 +7,7 @@
 #include "common/configuration/wording.h"
 #include "common/control_interface/ci_publish.h"
 #include "common/space/attributes.h"
+#include "common/space/battery_slots.h"
 #include "common/space/packet_attribute.h"
 #include "common/space/publish.h"
 #include "common/space/space.h"
@@ -39,6 +40,95 @@ private:
   std::string name_;
   int element_;
 };
+
+// The parameter `value` of <battery>.
+enum class BatteryValue
+{
+  kCharge,
+  kUsed,
+  kCharged,
+  kPower,
+  kEmpty
+};
+
+BatteryValue BatteryValueOf(const std::string& name)
+{
+  using enum BatteryValue;
+  if (name == "used") return kUsed;
+  if (name == "charged") return kCharged;
+  if (name == "power") return kPower;
+  return name == "empty" ? kEmpty : kCharge;
+}
+
+class BatteryMetric : public Metric
+{
+public:
+  BatteryMetric(Entities entities, BatteryValue value)
+      : entities_(std::move(entities)),
+        value_(value),
+        last_j_(entities_.size(), kNoValue),
+        used_j_(entities_.size(), 0),
+        charged_j_(entities_.size(), 0)
+  {
+  }
+
+  void Look(CSimulator& simulator) override
+  {
+    const CSwarmanoidSpace& space = simulator.GetSpace();
+    for (std::size_t i = 0; i < entities_.size(); ++i)
+    {
+      const BatteryView battery = *BatteryView::Of(space, entities_[i]);
+      const double charge_j = battery.Charge_J();
+      if (last_j_[i] == last_j_[i])
+      {
+        const double used_j = battery.Power_W() * space.GetTickSeconds();
+        used_j_[i] += used_j;
+        charged_j_[i] += charge_j - last_j_[i] + used_j;
+      }
+      last_j_[i] = charge_j;
+    }
+  }
+  void Measure(CSimulator& simulator, std::vector<double>& values) override
+  {
+    const CSwarmanoidSpace& space = simulator.GetSpace();
+    for (std::size_t i = 0; i < entities_.size(); ++i)
+      if (space.IsPresent(entities_[i])) values.push_back(Value(*BatteryView::Of(space, entities_[i]), i));
+  }
+
+private:
+  double Value(const BatteryView& battery, std::size_t i) const
+  {
+    using enum BatteryValue;
+    switch (value_)
+    {
+      case kCharge:
+        return battery.Charge_J();
+      case kUsed:
+        return used_j_[i];
+      case kCharged:
+        return charged_j_[i];
+      case kPower:
+        return battery.Power_W();
+      case kEmpty:
+        break;
+    }
+    return battery.Charge_J() == 0 || battery.IsOff() ? 1 : 0;
+  }
+
+  Entities entities_;
+  BatteryValue value_;
+  std::vector<double> last_j_, used_j_, charged_j_;  // by entity
+};
+
+void RequireBatteries(const MetricChoice& choice, const Entities& entities, const Experiment& experiment)
+{
+  for (const std::uint32_t index : entities)
+    if (!BatteryOf(experiment, experiment.entities[index]))
+      throw ConfigurationError(
+          choice.location, fmt::format("'{}' has no battery that its parts draw from; name robots by 'of', and give "
+                                       "their controllers the sensor <battery> with the implementation {}",
+                                       experiment.entities[index].id, kEnergyBattery));
+}
 
 class PublishedByFunctions : public Metric
 {
@@ -189,6 +279,11 @@ std::unique_ptr<Metric> MakeValueMetric(const MetricChoice& choice, const std::v
   {
     RequireReports(choice, entities, experiment);
     return std::make_unique<PublishedByControllers>(entities, name, choice.tree.ValueLocation("name"));
+  }
+  if (choice.kind == "battery")
+  {
+    RequireBatteries(choice, entities, experiment);
+    return std::make_unique<BatteryMetric>(entities, BatteryValueOf(choice.tree.Value("value").value_or("charge")));
   }
   if (choice.kind != "attribute") return nullptr;
   RequireAttribute(choice, entities, experiment);

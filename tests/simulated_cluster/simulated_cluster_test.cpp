@@ -122,6 +122,48 @@ std::string FieldExperiment()
 )";
 }
 
+// Robots that drive and shine until their batteries are empty, one after the other, beside a station that charges some.
+std::string BatteryExperiment()
+{
+  return R"(<?xml version="1.0"?>
+<ahss-config>
+  <framework>
+    <clocktick>100</clocktick><maxclock>25</maxclock><seed>3</seed><canonical_period>5</canonical_period>
+  </framework>
+  <controllers>
+    <trail_chooser id="ant" library="trail_chooser">
+      <actuators>
+        <footbot_wheels><implementation>dummy_footbot_wheels</implementation></footbot_wheels>
+        <floor_field><implementation>generic_floor_field</implementation></floor_field>
+      </actuators>
+      <sensors>
+        <positioning><implementation>generic_positioning</implementation></positioning>
+        <footbot_proximity><implementation>generic_footbot_proximity</implementation></footbot_proximity>
+        <floor_field><implementation>generic_floor_field</implementation><points>0.1, 0.1; 0.1, -0.1</points></floor_field>
+        <battery capacity="4" idle="2" wheels="20" restart="0.2"><implementation>energy_battery</implementation></battery>
+      </sensors>
+      <parameters>
+        <nests>0.5, 1, 3.5, 1</nests><forks>0.6, 1, 3.4, 1</forks>
+        <bridge_left>2, 1.6</bridge_left><bridge_right>2, 0.4</bridge_right>
+        <departures>10</departures><lane>0.1</lane>
+      </parameters>
+    </trail_chooser>
+  </controllers>
+  <arena size="4, 2, 1" optimization="2D">
+    <floor_field id="trail" cell="0.5"/>
+    <charging_station id="station" position="0.9, 1, 0" size="0.8, 0.9" charging_power="4" charging_limit="7"/>
+    <distribute quantity="6">
+      <position method="grid" centre="0.5, 1, 0" spacing="0.25, 0.3, 0" layout="2, 3, 1"/>
+      <orientation method="uniform"/>
+      <footbot id="fb"><controller>ant</controller></footbot>
+    </distribute>
+  </arena>
+  <engines><dummy_engine id="ground"/></engines>
+  <arena_physics><engine id="ground"><all/></engine></arena_physics>
+</ahss-config>
+)";
+}
+
 const std::string kPlane = "<perpendicular_axis>z</perpendicular_axis><distance>0</distance>";
 
 std::string Folder() { return fmt::format("/dev/shm/swarmanoid-simulated-{}", getpid()); }
@@ -152,6 +194,7 @@ const std::vector<Scene>& Scenes()
         "<dynamics3d id=\"ground\" split=\"2\"><step_ms>20</step_ms><solve_all>true</solve_all></dynamics3d>";
     all.push_back(MakeScene("regions_ahead", Experiment(regions, one_place, 1), 2, Folder()));
     all.push_back(MakeScene("floor_field", FieldExperiment(), 2, Folder()));
+    all.push_back(MakeScene("batteries", BatteryExperiment(), 2, Folder()));
     all.push_back(MakeScene("groups", Experiment(groups, one_place, 0, boxes), 2, Folder()));
     all.push_back(MakeScene("groups_3d", Experiment(groups_3d, one_place, 0, boxes), 2, Folder()));
     return all;

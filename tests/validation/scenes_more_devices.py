@@ -88,6 +88,47 @@ def floor_field(lab):
 
 
 @scene(GROUP)
+def batteries(lab):
+    """Robots that drive, shine, send and receive; one on a station, and two that share another one."""
+    ticks, speed = 201, 0.1
+    battery = {"implementation": "energy_battery", "capacity": 1000, "start": 0.5, "idle": 2, "wheels": 30, "led": 0.5, "sent": 0.01, "received": 0.003}
+    drives = probe("w", [(0, ticks, "footbot_wheels", speed, speed)], sensors={"battery": battery})
+    shines = probe("l", [(0, 0, "footbot_leds", 0xff0000)], sensors={"battery": battery})
+    talks = probe("t", [(0, ticks, "range_and_bearing", 1, 2, 3)], sensors={"battery": battery, "range_and_bearing": {}})
+    stands = probe("s", [], sensors={"battery": battery})
+    arena = (footbot("w", 1.0, 1.0, 0, "w") + footbot("l", 1.0, 3.0, 0, "l") + footbot("t1", 1.0, 7.0, 0, "t") + footbot("t2", 2.0, 7.0, 0, "t") +
+             footbot("s", 6.0, 6.0, 0, "s") + footbot("p", 9.0, 6.0, 0, "s") + footbot("q", 9.0, 6.3, 0, "s") +
+             element("charging_station", {"id": "one", "position": "6,6,0", "radius": 0.3, "charging_power": 20}) +
+             element("charging_station", {"id": "two", "position": "9,6.15,0", "size": "0.6,0.6", "charging_power": 20, "charging_limit": 30}))
+    result = lab.run(arena, drives + shines + talks + stands, ENGINE, ticks)
+    time = 200 * 0.1
+    for robot, formula, power in (("w", "E - (P + k v) t", -2 - 30 * speed), ("l", "E - (P + 12 L) t", -2 - 12 * 0.5), ("s", "E + (C - P) t", 20 - 2),
+                                  ("p", "E + (C / 2 - P) t", 15 - 2)):
+        yield Row(f"energy battery: charge after {time:.0f} s, {dict(w='driving', l='12 LEDs lit', s='on a station', p='two on a station with a limit')[robot]}", formula, "docs/batteries.md",
+                  (500 + power * time) / 1000, result.readings(robot, "battery")[200]["charge"], 1e-11, "rounding of a sum")
+    received = 10 * 0.003 * 199  # the first message comes a tick after it is sent
+    yield Row("energy battery: charge after 20 s, messages of 10 bytes sent and received", "E - P t - s n - r (n - 1)", "docs/batteries.md", (500 - 2 * time - 10 * 0.01 * 200 - received) / 1000,
+              result.readings("t1", "battery")[200]["charge"], 1e-11, "rounding of a sum")
+
+
+@scene(GROUP)
+def shared_radio(lab):
+    """20 robots send in each tick, in one of its slots; a packet gets through if no other one is in its slot."""
+    senders, ticks = 20, 501
+    arena = footbot("r", 5.0, 9.0, 0, "r")
+    for k in range(senders):
+        arena += footbot(f"s{k}", 0.3 + 0.45 * k, 1.0, 0, "s")
+    for slots in (10, 20, 60):
+        radio = {"implementation": "shared_radio", "range": 100, "capture": 1000, "slots": slots}
+        who = probe("r", sensors={"radio": radio}) + probe("s", [(0, ticks, "radio", 1)])
+        result = lab.run(arena, who, ENGINE, ticks + 1)
+        heard = sum(1 if isinstance(value, (int, float)) else len(value) for now in result.readings("r", "radio") for name, value in now.items() if name.endswith(" length"))
+        through, packets = (1 - 1 / slots) ** (senders - 1), senders * ticks
+        yield Row(f"shared radio: packets of {senders} senders heard in one of {slots} slots", "N/m (1 - 1/m)^(N - 1)", "slotted ALOHA (Roberts 1975)", senders / slots * through,
+                  heard / ticks / slots, 4 * math.sqrt(through * (1 - through) / packets) * senders / slots, "4 standard deviations")
+
+
+@scene(GROUP)
 def eyebot_light(lab):
     turn = math.radians(20)
     bulb = element("light_bulb", {"id": "l", "position": "6,5.5,2.5", "intensity": 0.8})

@@ -28,19 +28,23 @@ public:
   };
 
   explicit Radio(double*) {}
+  void SetMostWaiting(std::uint32_t most) { most_waiting_ = most; }
 
   bool Send(std::span<const std::uint8_t> bytes) override
   {
     if (bytes.size() > MAX_BYTES)
       throw std::length_error("a radio packet of " + std::to_string(bytes.size()) + " bytes; it has at most " +
                               std::to_string(MAX_BYTES));
-    if (queue.count == kMostWaiting) return false;
+    if (queue.count >= most_waiting_) return false;
     queue.packets[(queue.first + queue.count++) % kMostWaiting] = AttributePacket(bytes);
     return true;
   }
   unsigned GetWaiting() const override { return queue.count; }
 
   Queue queue;
+
+private:
+  std::uint32_t most_waiting_ = kMostWaiting;
 };
 
 class RadioSender : public ActuatorsOf<AttributeActuator, Radio>
@@ -52,6 +56,7 @@ public:
     byte_noise_ = NoiseFrom(setup.parameters);
     bytes_per_tick_ = setup.parameters.Number("bandwidth") * setup.space.GetTickSeconds();
     MakeDevices();
+    for (Radio& radio : devices_) radio.SetMostWaiting(static_cast<std::uint32_t>(setup.parameters.Integer("queue")));
   }
   void Commit(const ChannelView& channel, AttributeChanges& changes) override
   {

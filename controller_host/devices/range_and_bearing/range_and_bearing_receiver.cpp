@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "common/math/elementary.h"
@@ -12,6 +13,7 @@
 #include "common/space/space.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/noise.h"
+#include "controller_host/devices/radio/shared_channel.h"
 #include "controller_host/devices/range_and_bearing/heard_senders.h"
 #include "controller_host/devices/sensing/sight_lines.h"
 #include "controller_host/on_demand_sensor.h"
@@ -73,14 +75,15 @@ public:
     range_streams_ = DeviceStreams(setup, "range");
     bearing_streams_ = DeviceStreams(setup, "bearing");
     vertical_bearing_streams_ = DeviceStreams(setup, "vertical_bearing");
-    range_ = setup.parameters.Number("range");
+    MakeChannel(setup, channel_);
+    range_ = channel_ ? channel_->Reach() : setup.parameters.Number("range");
     loss_ = setup.parameters.Number("loss_probability");
     needs_sight_ = setup.parameters.Boolean("line_of_sight");
     range_noise_ = NoiseFrom(setup.parameters, "range_");
     bearing_noise_ = NoiseFrom(setup.parameters, "bearing_");
     vertical_bearing_noise_ = NoiseFrom(setup.parameters, "vertical_bearing_");
     has_noise_ = range_noise_.IsActive() || bearing_noise_.IsActive() || vertical_bearing_noise_.IsActive();
-    if (has_noise_ || loss_ > 0) names_ = world_->Names();
+    if (has_noise_ || loss_ > 0 || channel_) names_ = world_->Names();
     lines_ = std::make_unique<SightLines>(*world_, range_);
     InitDemand(robots_.size());
     receivers_.reserve(robots_.size());
@@ -129,6 +132,10 @@ public:
                        if (kept[i] != 0) receiver.packets[receiver.count++] = receiver.packets[i];
                    });
   }
+
+protected:
+  // Makes the channel that all senders share; none: packets do not disturb each other.
+  virtual void MakeChannel(const DeviceSetup&, std::optional<SharedChannel>&) {}
 
 private:
   struct alignas(16) Sent
@@ -198,7 +205,7 @@ private:
     if (look_at_all_)
     {
       const std::span<const std::int32_t> seen = PlacesSeen();
-      if (loss_ == 0)
+      if (loss_ == 0 && !channel_)
       {
         const PoseArrays& poses = space.Poses();
         heard_.Add(seen.size(), world_->Grid(), {poses.x[robot], poses.y[robot], poses.z[robot]},
@@ -210,6 +217,11 @@ private:
     else
       ListenThenLook(robot);
 
+    if (channel_)
+    {
+      KeepSenders(first);
+      KeepReceived(first, robot);
+    }
     if (loss_ > 0)
     {
       KeepSenders(first);
@@ -319,6 +331,27 @@ private:
                return messages_[place].is_sent && square <= range_ * range_ &&
                       (square_ranges_.empty() || square <= square_ranges_[world_->Grid().Sorted()[place]]);
              });
+  }
+
+  // Keeps the senders from `first` on whose packets get through the channel.
+  void KeepReceived(std::size_t first, std::uint32_t robot)
+  {
+    const HeardSenders::Lanes& at = heard_.At();
+    arrivals_.clear();
+    for (std::size_t i = first; i < heard_.count; ++i)
+    {
+      const double square = at.x[i] * at.x[i] + at.y[i] * at.y[i] + at.z[i] * at.z[i];
+      const std::uint64_t sender = SenderOf(i);
+      arrivals_.push_back({world_->Grid().Sorted()[static_cast<std::size_t>(at.place[i])], channel_->SlotOf(sender),
+                           channel_->Signal_dB(sender, names_[robot], square), i});
+    }
+    const std::uint32_t slot = message_slots_[robot];
+    const bool sends = slot != kNoSlot && world_->Space().Attributes()[slot] != 0;
+    channel_->Receive(arrivals_, sends ? std::optional(channel_->SlotOf(names_[robot])) : std::nullopt);
+    std::ranges::sort(arrivals_, {}, &SharedChannel::Arrival::index);
+    std::size_t kept = first;
+    for (const SharedChannel::Arrival& arrival : arrivals_) heard_.Move(arrival.index, kept++);
+    heard_.count = kept;
   }
 
   // Makes the packets of all robots that have listened since the last call.
@@ -432,6 +465,8 @@ private:
   std::vector<Sent> messages_;                    // by place in the grid, of this tick
   bool messages_are_read_ = false;                // in this tick
   std::vector<std::int32_t> place_of_entity_;     // k of an entity, or -1
+  std::optional<SharedChannel> channel_;
+  std::vector<SharedChannel::Arrival> arrivals_;  // scratch
   bool look_at_all_ = false;
   bool all_send_ = false;
   Vector3 antenna_ = Vector3::Zero();
@@ -442,9 +477,22 @@ private:
   std::vector<Receiver> receivers_;
 };
 
+class SharedReceiverBatch : public ReceiverBatch
+{
+protected:
+  void MakeChannel(const DeviceSetup& setup, std::optional<SharedChannel>& channel) override
+  {
+    channel.emplace(setup.parameters, setup.space, "range and bearing");
+  }
+};
+
 }  // namespace
 
 const DeviceCode kRangeAndBearingReceiverCode(
-    [] { BindSensor<ReceiverBatch>("range_and_bearing", "generic_range_and_bearing"); });
+    []
+    {
+      BindSensor<ReceiverBatch>("range_and_bearing", "generic_range_and_bearing");
+      BindSensor<SharedReceiverBatch>("range_and_bearing", "shared_range_and_bearing");
+    });
 
 }  // namespace swarmanoid

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 
+#include "common/experiment/battery_model.h"
 #include "common/experiment/schema.h"
 #include "common/space/space.h"
 #include "studies/metrics/recorder.h"
@@ -123,6 +124,7 @@ void Measure(const ElementSpec& metric, const std::string& arena, bool has_steps
   const PluginDescription* report = PluginCatalogue::Instance().Find(PluginKind::kActuator, "report", "generic_report");
   SmallScene scene;
   scene.devices.actuators.push_back(report);
+  scene.devices.sensors.push_back(PluginCatalogue::Instance().Find(PluginKind::kSensor, "battery", kEnergyBattery));
   scene.arena = arena;
   const std::unique_ptr<Experiment> experiment = Read(scene);
   ASSERT_NE(experiment, nullptr);

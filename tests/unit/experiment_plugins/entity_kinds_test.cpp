@@ -62,7 +62,7 @@ TEST(EntityKinds, OfTheSimulatorAreFoundByAllTheirTags)
   EXPECT_EQ(KindOfTag("cyllindric_prej"), EntityKind::kCylindricPrey);
   EXPECT_EQ(KindOfTag("nest"), EntityKind::kGroundPatch);
   EXPECT_EQ(KindOfTag("submarine"), std::nullopt);
-  for (std::size_t k = 0; k <= static_cast<std::size_t>(EntityKind::kTerrain); ++k)
+  for (std::size_t k = 0; k <= static_cast<std::size_t>(EntityKind::kChargingStation); ++k)
     EXPECT_EQ(KindOfTag(TagName(static_cast<EntityKind>(k))), static_cast<EntityKind>(k)) << "the order of the table";
   EXPECT_EQ(TableName(EntityKind::kCylindricPrey), "CylindricPrey");
 }

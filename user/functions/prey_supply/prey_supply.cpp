@@ -1,5 +1,6 @@
 // A supply of preys. Every few ticks it puts a prey into the arena at random, and it removes preys that reach the nest.
-// Robots may join in the same way. The experiment is done when enough preys were delivered.
+// Robots may join in the same way. The experiment is done when enough preys were delivered. It publishes "delivered",
+// the number of preys, and "net_energy", the income of all deliveries less what the batteries of all robots gave (J).
 //
 //   <prey_supply id="supply" library="prey_supply">
 //     <preys>prey</preys>       id of their <reserve>
@@ -8,8 +9,10 @@
 //     <nest>nest</nest>         id of the patch, a disc
 //     <enough>5</enough>        deliveries
 //     <log>supply.csv</log>     file in the folder of the run; empty: none
+//     <income>0</income>        J for the swarm with each delivery
 //   </prey_supply>
 #include <algorithm>
+#include <bit>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -19,6 +22,8 @@
 #include <stdexcept>
 
 #include "common/math/elementary.h"
+#include "common/space/battery_slots.h"
+#include "common/space/publish.h"
 #include "space_server/experiment_functions.h"
 
 namespace
@@ -62,7 +67,13 @@ public:
         {.name = "log",
          .type = ParameterType::kText,
          .default_value = "",
-         .description = "CSV file in the folder of the run: tick, what happened, id; empty: none."}};
+         .description = "CSV file in the folder of the run: tick, what happened, id; empty: none."},
+        {.name = "income",
+         .unit = "J",
+         .default_value = "0",
+         .description = "Energy that the swarm gains with each delivery, for the published net_energy.",
+         .minimum = 0,
+         .maximum = 1e9}};
     return description;
   }
 
@@ -73,7 +84,10 @@ public:
     every_ = static_cast<std::uint64_t>(t_tree.GetInteger("every"));
     enough_ = static_cast<std::uint64_t>(t_tree.GetInteger("enough"));
     nest_ = space.GetSpace().FindEntity(t_tree.GetText("nest"));
-    if (nest_ == nullptr || nest_->GetKind() != EntityKind::kGroundPatch)
+    income_j_ = t_tree.GetNumber("income");
+    for (std::uint32_t e = 0; e < space.GetSpace().Size(); ++e)
+      if (const auto battery = BatteryView::Of(space.GetSpace(), e)) batteries_.push_back(*battery);
+    if (nest_ == nullptr || DescriptionOf(nest_->GetKind()).role != EntityRole::kPatch)
       throw ConfigurationError(t_tree.ValueLocation("nest"), "the nest must be the id of a patch of the floor");
     for (const char* name : {"preys", "robots"})
       if (const std::string reserve = t_tree.GetText(name); !reserve.empty() && !HasReserve(space, reserve))
@@ -89,6 +103,7 @@ public:
   void PostStep(SpaceEditor& space) override
   {
     const CSwarmanoidSpace& all = space.GetSpace();
+    for (const BatteryView& battery : batteries_) used_j_ += battery.Power_W() * all.GetTickSeconds();
     for (std::size_t i = 0; i < all.Size(); ++i)
     {
       const CSwarmanoidSpaceEntity& entity = all.GetEntity(i);
@@ -97,6 +112,8 @@ public:
       ++delivered_;
       Write(all, "delivered", entity.GetId());
     }
+    Publish(all, "delivered", static_cast<double>(delivered_));
+    Publish(all, "net_energy", static_cast<double>(delivered_) * income_j_ - used_j_);
     if (all.GetTick() % every_ != 0) return;
     RandomStream& random = space.GetRandom();
     AddOne(space, preys_, random);
@@ -106,8 +123,16 @@ public:
   Outcome IsFinished(const SpaceEditor&) override { return delivered_ >= enough_ ? Outcome::kDone : Outcome::kRunning; }
 
   bool HasState() const override { return true; }
-  void SaveState(std::ostream& state) const override { state << delivered_; }
-  void LoadState(std::istream& state) override { state >> delivered_; }
+  void SaveState(std::ostream& state) const override
+  {
+    state << delivered_ << ' ' << std::bit_cast<std::uint64_t>(used_j_);
+  }
+  void LoadState(std::istream& state) override
+  {
+    std::uint64_t used = 0;
+    state >> delivered_ >> used;
+    used_j_ = std::bit_cast<double>(used);
+  }
 
 private:
   static bool HasReserve(const SpaceEditor& space, const std::string& reserve)
@@ -154,6 +179,8 @@ private:
   std::uint64_t every_ = 0;
   std::uint64_t enough_ = 0;
   std::uint64_t delivered_ = 0;
+  double income_j_ = 0, used_j_ = 0;
+  std::vector<BatteryView> batteries_;
   const CSwarmanoidSpaceEntity* nest_ = nullptr;
   std::unique_ptr<std::FILE, Close> file_;
 };
