@@ -18,6 +18,7 @@
 #include "argos3/converter/convert_code.h"
 #include "argos3/converter/node_reader.h"
 #include "argos3/converter/our_ids.h"
+#include "argos3/converter/robot_rows.h"
 #include "argos3/converter/tiny_xml.h"
 #include "common/errors/print_error.h"
 #include "common/experiment/foreign_experiments.h"
@@ -67,9 +68,14 @@ public:
     const Made kinds = AddNode(*ours, "entity_kinds", root_.location);
     code.ConvertControllers(*ours);
     arena.Convert(*ours);
-    for (const char* kind : {"argos3_epuck", kLitBox})
+    const auto add_library = [&](const std::string& kind)
+    {
       if (arena.Kinds().contains(kind))
         SetValue(*AddNode(*kinds, kind, root_.location), "library", kind, root_.location);
+    };
+    for (const RobotRow& robot : RobotRows())
+      if (robot.is_generic) add_library(std::string(robot.kind));
+    add_library(kLitBox);
     if (kinds->children.empty()) std::erase(ours->children, kinds);
     ConvertEngines(*ours, arena);
     ReadMedia();
@@ -234,7 +240,8 @@ private:
       {
         if (kind == "light_bulb") continue;
         // If both kinds of engines exist, eye-bots fly and foot-bots drive. Obstacles are in all.
-        if (has_both && (engine.is_flat ? kind == "eyebot" : kind == "footbot" || kind == "argos3_epuck")) continue;
+        if (has_both && (engine.is_flat ? kind == "eyebot" : kind != "eyebot" && RobotOfKind(kind) != nullptr))
+          continue;
         SetValue(*AddNode(*binding, "all", engines->location), "kind", kind, engines->location);
       }
     }

@@ -12,6 +12,7 @@
 #include <filesystem>
 
 #include "argos3/converter/our_ids.h"
+#include "argos3/converter/robot_rows.h"
 #include "common/configuration/wording.h"
 #include "common/configuration/xml_writer.h"
 #include "common/math/pose.h"
@@ -27,8 +28,7 @@ namespace
 // Returns our kind of a robot that other projects add to ARGoS3; empty: there is none.
 std::string OurKindLike(const std::string& tag)
 {
-  if (tag == "kilobot" || tag == "kheperaiv" || tag == "khepera_iv" || tag == "pipuck" || tag == "pi-puck")
-    return tag == "kilobot" ? "kilobot" : tag.starts_with("k") ? "khepera_iv" : "pipuck";
+  if (tag == "kilobot" || tag == "pipuck" || tag == "pi-puck") return tag == "kilobot" ? "kilobot" : "pipuck";
   return {};
 }
 
@@ -184,11 +184,11 @@ void ArenaConverter::FindBearers(const ConfigurationNode& within)
 Bearers ArenaConverter::BearersOf(const ConfigurationNode& robot, const std::string& kind,
                                   const ConfigurationNode& controller)
 {
-  const bool is_epuck = kind == "argos3_epuck";
+  const RobotRow& row = *RobotOfKind(kind);
   Bearers bearers;
   bearers.kinds.insert(kind);
   if (kind == "footbot") bearers.camera_aperture = Positive(robot, "omnidirectional_camera_aperture", 70);
-  if (!is_epuck)
+  if (!row.is_generic)
   {
     const std::string camera = kind == "footbot" ? "perspective_camera_" : "camera_";
     bearers.perspective_aperture = Positive(robot, camera + "aperture", 30);
@@ -196,8 +196,8 @@ Bearers ArenaConverter::BearersOf(const ConfigurationNode& robot, const std::str
   }
   bearers.battery = FindChild(robot, "battery");
   bearers.params = FindChild(controller, "params");
-  bearers.radio_range = Positive(robot, "rab_range", is_epuck ? 0.8 : 3);
-  bearers.radio_bytes = Whole(robot, "rab_data_size", is_epuck ? 2 : 10);
+  bearers.radio_range = Positive(robot, "rab_range", row.radio_range_m);
+  bearers.radio_bytes = Whole(robot, "rab_data_size", row.radio_bytes);
   if (bearers.radio_bytes < 1 || bearers.radio_bytes > 10'000)
     Mistake(robot.location, "'rab_data_size' is " + std::to_string(bearers.radio_bytes) +
                                 "; range-and-bearing messages have 1 to 10000 bytes here");
@@ -213,7 +213,8 @@ const std::vector<ArenaConverter::Variant>& ArenaConverter::VariantsOf(const std
 
 std::string ArenaConverter::KindOf(const std::string& tag)
 {
-  return tag == "foot-bot" ? "footbot" : tag == "eye-bot" ? "eyebot" : tag == "e-puck" ? "argos3_epuck" : "";
+  const RobotRow* row = RobotOfTag(tag);
+  return row == nullptr ? "" : std::string(row->kind);
 }
 
 void ArenaConverter::Convert(ConfigurationNode& ours)
@@ -301,11 +302,10 @@ void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, const std::s
   else
   {
     const auto ours = OurKindLike(theirs.name);
-    Mistake(at,
-            "<" + theirs.name + "> has no counterpart" +
-                (ours.empty() ? "; those that have: foot-bot, eye-bot, e-puck, box, cylinder, light, floor, distribute"
-                              : " in files of ARGoS3; files of ours have the kind " + Quoted(ours) +
-                                    ", with controllers of our interface"));
+    Mistake(at, "<" + theirs.name + "> has no counterpart" +
+                    (ours.empty() ? "; those that have: " + RobotTags() + ", box, cylinder, light, floor, distribute"
+                                  : " in files of ARGoS3; files of ours have the kind " + Quoted(ours) +
+                                        ", with controllers of our interface"));
     return;
   }
   kinds_.insert(made->name);

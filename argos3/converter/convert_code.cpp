@@ -5,11 +5,13 @@
 // it changes no result.
 #include "argos3/converter/convert_code.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 
 #include "argos3/converter/our_ids.h"
+#include "argos3/converter/robot_rows.h"
 #include "common/configuration/wording.h"
 #include "common/plugins/library.h"
 
@@ -22,16 +24,14 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPlugin = "argos3";
 
-constexpr std::pair<const char*, const char*> kConstructors[]{{"footbot", "14CFootBotEntityC"},
-                                                              {"eyebot", "13CEyeBotEntityC"},
-                                                              {"argos3_epuck", "12CEPuckEntityC"},
-                                                              {"light_bulb", "12CLightEntityC"},
-                                                              {"box", "10CBoxEntityC"},
-                                                              {"cylinder", "15CCylinderEntityC"},
-                                                              {"reset", "10CSimulator5ResetE"},
-                                                              {"reset", "6CSpace5ResetE"},
-                                                              {"configuration", "20GetConfigurationRootE"},
-                                                              {"configuration", "22GetConfigForControllerE"}};
+// Constructors and functions beside the constructors of robots.
+constexpr std::pair<const char*, const char*> kFunctions[]{{"light_bulb", "12CLightEntityC"},
+                                                           {"box", "10CBoxEntityC"},
+                                                           {"cylinder", "15CCylinderEntityC"},
+                                                           {"reset", "10CSimulator5ResetE"},
+                                                           {"reset", "6CSpace5ResetE"},
+                                                           {"configuration", "20GetConfigurationRootE"},
+                                                           {"configuration", "22GetConfigForControllerE"}};
 
 // Returns the kind for a controller that no robot of the file has, judged by its devices.
 std::string KindByDevices(const ConfigurationNode& controller)
@@ -45,6 +45,7 @@ std::string KindByDevices(const ConfigurationNode& controller)
       if (device->name.starts_with("eyebot") || device->name.starts_with("quadrotor")) return "eyebot";
       if (device->name.starts_with("epuck")) return "argos3_epuck";
       if (device->name.starts_with("footbot")) return "footbot";
+      if (const RobotRow* owner = OwnerOfDevice(device->name)) return std::string(owner->kind);
     }
   }
   return "";
@@ -162,8 +163,10 @@ std::set<std::string> CodeConverter::FindMadeKinds() const
                                        : std::nullopt;
   if (!file) return kinds;
   const std::string bytes = BytesOf(*file);
-  for (const auto& [kind, constructor] : kConstructors)
-    if (bytes.find(constructor) != std::string::npos) kinds.insert(kind);
+  for (const RobotRow& robot : RobotRows())
+    if (!robot.constructor.empty() && bytes.find(robot.constructor) != std::string::npos) kinds.emplace(robot.kind);
+  for (const auto& [kind, name] : kFunctions)
+    if (bytes.find(name) != std::string::npos) kinds.insert(kind);
   return kinds;
 }
 
@@ -185,9 +188,10 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, const std
   SetValue(*made, "id", variant.id, at);
   SetValue(*made, "library", kPlugin, at);
   const Bearers& bearers = variant.bearers;
-  if (bearers.kinds.size() > 1 && bearers.kinds.contains("argos3_epuck"))
+  const auto is_generic = [](const std::string& kind) { return RobotOfKind(kind)->is_generic; };
+  if (bearers.kinds.size() > 1 && std::ranges::any_of(bearers.kinds, is_generic))
     Mistake(at, "robots of several kinds have the controller " + Quoted(id) +
-                    ", and e-pucks have other devices; give each kind a controller of its own");
+                    ", and their devices differ; give each kind a controller of its own");
   const ConfigurationNode* framework = FindChild(root_, "framework");
   const ConfigurationNode* experiment = framework == nullptr ? nullptr : FindChild(*framework, "experiment");
   const double ticks = experiment == nullptr ? 10 : Number(*experiment, "ticks_per_second", 10);
@@ -244,8 +248,13 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, const std
     const auto level = ParseNumber(NoiseOf(theirs, devices, attribute));
     if (level && *level > 0) SetValue(*options, name, TextOf(*level), at);
   };
-  set_noise("ground_noise", {"footbot_motor_ground", "footbot_base_ground", "ground"});
-  set_noise("proximity_noise", {"proximity", "epuck_proximity", "eyebot_proximity"});
+  set_noise("ground_noise", {"footbot_motor_ground", "footbot_base_ground", "ground", "kheperaiv_ground"});
+  set_noise("proximity_noise", {"proximity", "epuck_proximity", "eyebot_proximity", "kheperaiv_proximity"});
+  set_noise("ultrasound_noise", {"kheperaiv_ultrasound"});
+  if (const auto ring = lists.sensors.find("proximity"); ring != lists.sensors.end())
+    if (const auto* range = FindAttributeOf(*ring->second, "range"))
+      SetValue(*options, "proximity_range", range->value, at);
+  set_noise("lidar_noise", {"kheperaiv_lidar"});
   set_noise("camera_noise", {"colored_blob_omnidirectional_camera"}, "noise_std_dev");
   set_noise("radio_noise", {"range_and_bearing"}, "noise_std_dev");
   for (const auto& [name, sensor, attribute] :
@@ -261,7 +270,7 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, const std
   }
   const ConfigurationNode* told = FindChild(theirs, "actuators");
   const ConfigurationNode* wheels = told == nullptr ? nullptr : FindChild(*told, "differential_steering");
-  if (wheels != nullptr && bearers.kinds.contains("argos3_epuck"))
+  if (wheels != nullptr && std::ranges::any_of(bearers.kinds, is_generic))
     for (const std::string name : kWheelNoise)
       for (const char* side : {"_left", "_right"})
       {

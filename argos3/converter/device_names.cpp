@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "argos3/converter/battery.h"
+#include "argos3/converter/robot_rows.h"
 #include "common/configuration/wording.h"
 
 namespace swarmanoid::argos3
@@ -118,9 +119,35 @@ private:
   std::set<std::string> used_;
 };
 
-constexpr const char* kEPuck = "argos3_epuck";
+// Returns the row of the generic robots that have the controller; nullptr: other robots have it.
+const RobotRow* GenericRobot(const DeviceContext& context)
+{
+  for (const std::string& kind : context.bearers.kinds)
+    if (const RobotRow* row = RobotOfKind(kind); row != nullptr && row->is_generic) return row;
+  return nullptr;
+}
 
-bool IsForEPucks(const DeviceContext& context) { return context.bearers.kinds.contains(kEPuck); }
+// Returns false, after a mistake, for a device that only other robots have.
+bool IsOnItsRobot(const ConfigurationNode& node, const DeviceContext& context)
+{
+  const RobotRow* owner = OwnerOfDevice(node.name);
+  if (owner == nullptr) return true;
+  for (const std::string& kind : context.bearers.kinds)
+    if (kind != owner->kind)
+    {
+      context.mistake(node.location, "<" + node.name + "> is a device of <" + std::string(owner->tag) +
+                                         ">, and other robots have this controller; give them one without it");
+      return false;
+    }
+  return true;
+}
+
+// Reports a second sensor for light, since a controller of ours has one.
+void RefuseSecondLight(const ConfigurationNode& node, const DeviceContext& context, const DeviceLists& ours)
+{
+  if (ours.sensors.contains("light"))
+    context.mistake(node.location, "a controller has one sensor for light here; leave out <light>, or the other one");
+}
 
 void ConvertWheels(Attributes& attributes, ConfigurationNode& device)
 {
@@ -134,7 +161,7 @@ void ConvertWheels(Attributes& attributes, ConfigurationNode& device)
     }
 }
 
-constexpr std::array<const char*, 17> kSensors{"differential_steering",
+constexpr std::array<const char*, 22> kSensors{"differential_steering",
                                                "light",
                                                "footbot_distance_scanner",
                                                "proximity",
@@ -150,7 +177,12 @@ constexpr std::array<const char*, 17> kSensors{"differential_steering",
                                                "battery",
                                                "colored_blob_omnidirectional_camera",
                                                "colored_blob_perspective_camera",
-                                               "footbot_turret_encoder"};
+                                               "footbot_turret_encoder",
+                                               "kheperaiv_proximity",
+                                               "kheperaiv_ultrasound",
+                                               "kheperaiv_light",
+                                               "kheperaiv_ground",
+                                               "kheperaiv_lidar"};
 constexpr const char* kScanner = "footbot_distance_scanner";
 
 constexpr std::array<const char*, 8> kActuators{kScanner,
@@ -173,13 +205,15 @@ void CheckImplementation(const ConfigurationNode& node, const std::string& neede
 
 std::string ImplementationOfSensor(const std::string& tag)
 {
-  constexpr std::array<std::string_view, 7> kRotZOnly{"colored_blob_omnidirectional_camera",
+  constexpr std::array<std::string_view, 9> kRotZOnly{"colored_blob_omnidirectional_camera",
                                                       "eyebot_light",
                                                       "footbot_base_ground",
                                                       kScanner,
                                                       "footbot_light",
                                                       "footbot_motor_ground",
-                                                      "ground"};
+                                                      "ground",
+                                                      "kheperaiv_ground",
+                                                      "kheperaiv_light"};
   if (tag == "range_and_bearing") return "medium";
   return std::ranges::find(kRotZOnly, tag) != kRotZOnly.end() ? "rot_z_only" : "default";
 }
@@ -223,6 +257,57 @@ void ConvertBattery(const DeviceContext& context, ConfigurationNode& device)
   SetValue(device, "per_radian", TextOf(per_radian), device.location);
 }
 
+// The sensors of Khepera IVs alone. Returns false for other tags.
+bool ConvertKheperaSensor(const ConfigurationNode& node, const DeviceContext& context, Attributes& attributes,
+                          DeviceLists& ours)
+{
+  const SourceLocation& at = node.location;
+  const std::string& tag = node.name;
+  // The plug-in adds the noise to the responses (argos3/plugin/khepera_devices.cpp).
+  if (tag == "kheperaiv_proximity")
+  {
+    AddDevice(ours.sensors, "proximity", "generic_proximity", at);
+    attributes.Number("noise_level");
+  }
+  else if (tag == "kheperaiv_ultrasound")
+  {
+    SetValue(AddDevice(ours.sensors, "proximity", "generic_proximity", at), "range", TextOf(kUltrasoundReach), at);
+    attributes.Number("noise_level");
+  }
+  else if (tag == "kheperaiv_light")
+  {
+    RefuseSecondLight(node, context, ours);
+    ConfigurationNode& device = AddDevice(ours.sensors, "light", "argos3_light", at);
+    SetValue(device, "sensors", "8", at);
+    SetValue(device, "first_angle", "0", at);
+    SetValue(device, "half_angle", "90", at);
+    // ARGoS3 finds the five sensors that a light reaches by steps of 15 degrees, although the sensors are 45 degrees
+    // apart (kheperaiv_light_rotzonly_sensor.cpp).
+    SetValue(device, "index_step", "15", at);
+    attributes.CopyLevel(device);
+  }
+  else if (tag == "kheperaiv_lidar")
+  {
+    ConfigurationNode& device = AddDevice(ours.sensors, "range_scanner", "generic_range_scanner", at);
+    constexpr double kUsual = 682, kMost = 8192;
+    const double beams = attributes.Number("num_readings").value_or(kUsual);
+    if (!(beams >= 2 && beams <= kMost && beams == std::floor(beams)))
+      context.mistake(at, "'num_readings' of <kheperaiv_lidar> is " + TextOf(beams) + "; it must be from 2 to 8192");
+    SetValue(device, "beams", TextOf(beams), at);
+    SetValue(device, "field_of_view", "210", at);
+    SetValue(device, "position", TextOf(Vector3(0, 0, kLidarHeight)), at);
+    SetValue(device, "nearest", TextOf(kLidarStart), at);
+    SetValue(device, "range", TextOf(kLidarReach), at);
+    attributes.Number("noise_level");
+  }
+  else if (tag == "kheperaiv_encoder" || tag == "kheperaiv_camera")
+    context.mistake(at, "<" + tag + "> exists on the real robot alone, also in ARGoS3; " +
+                            (tag == "kheperaiv_encoder" ? "take differential_steering" : "leave it out"));
+  else
+    return false;
+  return true;
+}
+
 }  // namespace
 
 void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, DeviceLists& ours)
@@ -230,11 +315,14 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
   const SourceLocation& at = node.location;
   const std::string& tag = node.name;
   CheckImplementation(node, ImplementationOfSensor(tag), context);
+  if (!IsOnItsRobot(node, context)) return;
   Attributes attributes(node, context);
+  const RobotRow* generic = GenericRobot(context);
+  if (ConvertKheperaSensor(node, context, attributes, ours)) return;
   if (tag == "differential_steering")
   {
-    // The encoders of e-pucks read the wheel commands (argos3/plugin/epuck_devices.cpp).
-    if (!IsForEPucks(context)) AddDevice(ours.sensors, "footbot_encoders", "engine_footbot_encoders", at);
+    // The encoders of generic robots read the wheel commands (argos3/plugin/generic_devices.cpp).
+    if (generic == nullptr) AddDevice(ours.sensors, "footbot_encoders", "engine_footbot_encoders", at);
     // The plug-in adds this noise, and that of the camera and of range and bearing, to the readings
     // (argos3/plugin/device_noise.h).
     attributes.Range("vel_noise_range");
@@ -254,25 +342,28 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
     context.mistake(at, "<light> has no counterpart here on eye-bots; take eyebot_light");
   else if (tag == "light")
   {
-    // The values are those of epuck_entity.cpp and footbot_entity.cpp of ARGoS3.
+    RefuseSecondLight(node, context, ours);
     ConfigurationNode& device = AddDevice(ours.sensors, tag, "generic_light", at);
-    const bool is_epuck = IsForEPucks(context);
-    SetValue(device, "sensors", is_epuck ? "8" : "24", at);
-    SetValue(device, "first_angle", is_epuck ? "22.5" : "7.5", at);
-    SetValue(device, "radius", is_epuck ? "0.035" : "0.085036758", at);
-    SetValue(device, "height", "0.06", at);
+    const LightRingRow ring = generic == nullptr ? LightRingRow{} : generic->light;
+    SetValue(device, "sensors", std::to_string(ring.sensors), at);
+    SetValue(device, "first_angle", TextOf(ring.first_angle_deg), at);
+    SetValue(device, "radius", TextOf(ring.radius_m), at);
+    SetValue(device, "height", TextOf(ring.height_m), at);
     attributes.CopyLevel(device);
   }
-  else if (tag == "ground" && !IsForEPucks(context))
+  else if (tag == "ground" && generic == nullptr)
     context.mistake(at,
-                    "<ground> has no counterpart here on robots that are no e-pucks; take footbot_motor_ground or "
+                    "<ground> has no counterpart here on foot-bots and eye-bots; take footbot_motor_ground or "
                     "footbot_base_ground");
-  else if ((tag == "footbot_motor_ground" || tag == "footbot_base_ground" || tag == "ground") &&
+  else if ((tag == "footbot_motor_ground" || tag == "footbot_base_ground" || tag == "ground" ||
+            tag == "kheperaiv_ground") &&
            context.floor_is_painted)
   {
     AddDevice(ours.sensors, "positioning", "generic_positioning", at);
     attributes.Number("noise_level");
   }
+  else if (tag == "kheperaiv_ground")
+    attributes.CopyLevel(AddDevice(ours.sensors, "ground", "generic_ground", at));
   else if (tag == "footbot_motor_ground" || tag == "footbot_base_ground" || tag == "ground")
     attributes.CopyLevel(AddDevice(ours.sensors, tag, "generic_" + tag, at));
   else if (tag == "positioning")
@@ -290,6 +381,8 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
     ConvertBattery(context, AddDevice(ours.sensors, tag, "generic_battery", at));
     attributes.Range("noise_range");
   }
+  else if (tag.starts_with("colored_blob_") && generic != nullptr)
+    context.mistake(at, "<" + tag + "> is no sensor of <" + std::string(generic->tag) + ">; leave it out");
   else if (tag == "colored_blob_omnidirectional_camera")
   {
     ConfigurationNode& device =
@@ -300,8 +393,6 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
     attributes.Number("noise_std_dev");
     attributes.Medium("led");
   }
-  else if (tag == "colored_blob_perspective_camera" && IsForEPucks(context))
-    context.mistake(at, "<colored_blob_perspective_camera> has no counterpart on e-pucks; leave it out");
   else if (tag == "colored_blob_perspective_camera")
   {
     const std::string type =
@@ -347,10 +438,11 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
     ConfigurationNode& device = AddDevice(ours.actuators, type, std::string("generic_") + type, at);
     if (FindAttributeOf(device, "separate") == nullptr) SetValue(device, "separate", "true", at);
   };
-  if (tag == "differential_steering" && IsForEPucks(context))
+  const RobotRow* generic = GenericRobot(context);
+  if (tag == "differential_steering" && generic != nullptr)
   {
     AddDevice(ours.actuators, "wheels", "generic_wheels", at);
-    // The plug-in computes ARGoS3's noise in argos3/plugin/epuck_devices.cpp.
+    // The plug-in computes ARGoS3's noise in argos3/plugin/generic_devices.cpp.
     for (const char* name : kWheelNoise)
       for (const char* side : {"", "_left", "_right"}) attributes.Number(std::string(name) + side);
   }
@@ -358,7 +450,7 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
     ConvertWheels(attributes, AddDevice(ours.actuators, "footbot_wheels", "argos3_footbot_wheels", at));
   else if (tag == "leds" && context.bearers.kinds.contains("eyebot"))
     add_leds("eyebot_leds");
-  else if (tag == "leds" && IsForEPucks(context))
+  else if (tag == "leds" && generic != nullptr)
     add_leds("led_ring");
   else if (tag == "leds")
   {

@@ -76,6 +76,27 @@ void DescribeAnyRobotDevices()
             {"radius", kNumber, "m", "0.085", "Of the ring.", 0, 1e6},
             {"height", kNumber, "m", "0.06", "Of the ring above the position of the robot.", 0, 1e6}},
            NoiseParameters("each reading", ""))});
+  DescribeSensor(
+      {.label = "light",
+       .implementation = "argos3_light",
+       .brief = "light sensors at one point, each with exp(-2 d / I) of the lights of intensity I at d m that it sees, "
+                "less by the angle; as on the robots of ARGoS3's plug-ins",
+       .parameters = Joined(
+           {{"sensors", kInteger, "", "8", "How many there are, evenly around the body.", 1, 360},
+            {"first_angle", kNumber, "deg", "0", "Of the first one from the front, counter-clockwise.", -360, 360},
+            {"half_angle", kNumber, "deg", "90", "Between a sensor and a light that it does not see any more.", 1, 180},
+            {.name = "position",
+             .type = kVector3,
+             .unit = "m",
+             .default_value = "0, 0, 0",
+             .description = "Of the sensors, in the frame of the robot, which hides no light.",
+             .minimum = -1e6,
+             .maximum = 1e6},
+            {"index_step", kNumber, "deg", "0",
+             "If not 0, a light reaches five sensors about number bearing / step, modulo their number, as in ARGoS3's "
+             "model of the Khepera IV.",
+             0, 360}},
+           NoiseParameters("each reading", ""))});
   DescribeSensor({.label = "ground",
                   .implementation = "generic_ground",
                   .brief = "brightness and colour of the floor under any robot that looks at it",

@@ -1,19 +1,21 @@
-// The e-puck of ARGoS3 has no wheel encoders: its sensor repeats the commanded speeds, and noise is put on the commands
-// instead. The adapters here do the same, so that controllers that integrate the readings drift by the same amount.
-// Speeds are in cm/s, distances are in cm for the last tick.
+// The devices of e-pucks and of the robots of plug-ins. They have no wheel encoders in ARGoS3: the sensor repeats the
+// commanded speeds, and noise is put on the commands instead. The adapters here do the same, so that controllers that
+// integrate the readings drift by the same amount. Speeds are in cm/s, distances are in cm for the last tick. The
+// numbers and places of sensors are those of the robot's kind.
 #include "argos3/plugin/device_parts.h"
 
 #include <argos3/plugins/robots/generic/control_interface/ci_differential_steering_actuator.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_differential_steering_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_ground_sensor.h>
+#include <argos3/plugins/robots/kheperaiv/control_interface/ci_kheperaiv_ground_sensor.h>
 
 #include <algorithm>
 
-#include "argos3/kinds/epuck_ground.h"
 #include "argos3/plugin/device_noise.h"
 #include "common/control_interface/ci_ground_sensor.h"
 #include "common/control_interface/ci_positioning_sensor.h"
 #include "common/control_interface/ci_wheels_actuator.h"
+#include "common/experiment/entity_kind.h"
 
 namespace swarmanoid::argos3
 {
@@ -22,10 +24,10 @@ namespace
 
 // Adds ARGoS3's noise. While at least one wheel turns, each turns at factor * (speed + bias). The bias is drawn once,
 // the factor in each step.
-class EPuckWheels : public ActuatorBridge, public argos::CCI_DifferentialSteeringActuator
+class GenericWheels : public ActuatorBridge, public argos::CCI_DifferentialSteeringActuator
 {
 public:
-  explicit EPuckWheels(const DeviceSetup& setup)
+  explicit GenericWheels(const DeviceSetup& setup)
       : robot_(setup.robot),
         wheels_(robot_.Actuator<CCI_WheelsActuator>("wheels")),
         told_(setup.told_wheels),
@@ -34,7 +36,7 @@ public:
   {
     TheRunning().wheels[robot_.GetId()] = told_.get();
   }
-  ~EPuckWheels() override { TheRunning().wheels.erase(robot_.GetId()); }
+  ~GenericWheels() override { TheRunning().wheels.erase(robot_.GetId()); }
   argos::CCI_Actuator& Actuator() override { return *this; }
   void Reset() override { SetLinearVelocity(0, 0); }
   void SetLinearVelocity(Real left, Real right) override
@@ -87,10 +89,10 @@ private:
 };
 
 // Gives the commanded wheel speeds, as ARGoS3 does; this robot has no encoders.
-class EPuckEncoders : public SensorBridge, public argos::CCI_DifferentialSteeringSensor
+class CommandedSpeeds : public SensorBridge, public argos::CCI_DifferentialSteeringSensor
 {
 public:
-  explicit EPuckEncoders(const DeviceSetup& setup)
+  explicit CommandedSpeeds(const DeviceSetup& setup)
       : robot_(setup.robot), noise_(setup.options), tick_s_(setup.robot.GetTickSeconds()), told_(setup.told_wheels)
   {
     if (setup.robot.HasActuator("wheels"))
@@ -114,54 +116,75 @@ private:
   const std::shared_ptr<const WheelSpeeds> told_;
 };
 
-class EPuckGround : public SensorBridge, public argos::CCI_GroundSensor
+// Readings are numbers, or structs with an offset in m.
+template <class Theirs>
+class GenericGround : public SensorBridge, public Theirs
 {
 public:
-  explicit EPuckGround(const DeviceSetup& setup)
-      : robot_(setup.robot), translation_(setup.translation), noise_(setup.options.GetNumber("ground_noise", 0))
+  explicit GenericGround(const DeviceSetup& setup)
+      : robot_(setup.robot),
+        translation_(setup.translation),
+        noise_(setup.options.GetNumber("ground_noise", 0)),
+        points_(DescriptionOf(*KindOfTag(robot_.GetKind())).ground_points)
   {
     if (setup.options.GetText("floor", "") == "loop_functions")
       positioning_ = &robot_.Sensor<swarmanoid::CCI_PositioningSensor>("positioning");
     else
       ours_ = &robot_.Sensor<swarmanoid::CCI_GroundSensor>("ground");
-    m_tReadings.resize(kEPuckGround.size());
+    this->m_tReadings.resize(points_.size());
+    if constexpr (kHasOffsets)
+      for (std::size_t i = 0; i < points_.size(); ++i)
+        this->m_tReadings[i].Offset = argos::CVector2(points_[i].x(), points_[i].y());
   }
   argos::CCI_Sensor& Sensor() override { return *this; }
   void Update() override
   {
     if (positioning_ == nullptr)
     {
-      std::ranges::copy(ours_->GetAllSensorReadings(), m_tReadings.begin());
+      const auto readings = ours_->GetAllSensorReadings();
+      for (std::size_t i = 0; i < points_.size(); ++i) Set(i, readings[i]);
       return;
     }
     const PaintedFloor floor(translation_, *positioning_);
-    for (std::size_t i = 0; i < kEPuckGround.size(); ++i)
+    for (std::size_t i = 0; i < points_.size(); ++i)
     {
       const double noise = noise_ > 0 ? robot_.GetRandom().Uniform(-noise_, noise_) : 0;
-      m_tReadings[i] = std::clamp(floor.GreyAt(kEPuckGround[i].x, kEPuckGround[i].y) + noise, 0.0, 1.0);
+      Set(i, std::clamp(floor.GreyAt(points_[i].x(), points_[i].y()) + noise, 0.0, 1.0));
     }
   }
 
 private:
+  static constexpr bool kHasOffsets = !std::is_same_v<typename Theirs::TReadings, std::vector<Real>>;
+
+  void Set(std::size_t i, double reading)
+  {
+    if constexpr (kHasOffsets)
+      this->m_tReadings[i].Value = reading;
+    else
+      this->m_tReadings[i] = reading;
+  }
+
   CCI_Robot& robot_;
   const Translation& translation_;
   const double noise_;
+  const std::vector<Vector2>& points_;  // m, in the frame of the robot
   const swarmanoid::CCI_PositioningSensor* positioning_ = nullptr;
   const swarmanoid::CCI_GroundSensor* ours_ = nullptr;
 };
 
 }  // namespace
 
-std::unique_ptr<SensorBridge> MakeEPuckSensor(const std::string& tag, const DeviceSetup& setup)
+std::unique_ptr<SensorBridge> MakeGenericSensor(const std::string& tag, const DeviceSetup& setup)
 {
-  if (tag == "differential_steering") return std::make_unique<EPuckEncoders>(setup);
-  if (tag == "ground") return std::make_unique<EPuckGround>(setup);
-  return nullptr;
+  if (tag == "differential_steering") return std::make_unique<CommandedSpeeds>(setup);
+  if (tag == "ground") return std::make_unique<GenericGround<argos::CCI_GroundSensor>>(setup);
+  if (tag == "kheperaiv_ground") return std::make_unique<GenericGround<argos::CCI_KheperaIVGroundSensor>>(setup);
+  return MakeKheperaSensor(tag, setup);
 }
 
-std::unique_ptr<ActuatorBridge> MakeEPuckActuator(const std::string& tag, const DeviceSetup& setup)
+std::unique_ptr<ActuatorBridge> MakeGenericActuator(const std::string& tag, const DeviceSetup& setup)
 {
-  if (tag == "differential_steering") return std::make_unique<EPuckWheels>(setup);
+  if (tag == "differential_steering") return std::make_unique<GenericWheels>(setup);
   return nullptr;
 }
 

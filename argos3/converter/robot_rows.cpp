@@ -1,0 +1,57 @@
+#include "argos3/converter/robot_rows.h"
+
+#include <algorithm>
+#include <array>
+
+namespace swarmanoid::argos3
+{
+namespace
+{
+
+// The values are those of footbot_entity.cpp, eyebot_entity.cpp and epuck_entity.cpp of ARGoS3, and of
+// kheperaiv_entity.cpp of argos3-kheperaiv.
+constexpr std::array kRobots{
+    RobotRow{.tag = "foot-bot", .kind = "footbot", .constructor = "14CFootBotEntityC"},
+    RobotRow{.tag = "eye-bot", .kind = "eyebot", .constructor = "13CEyeBotEntityC"},
+    RobotRow{.tag = "e-puck",
+             .kind = "argos3_epuck",
+             .is_generic = true,
+             .constructor = "12CEPuckEntityC",
+             .radio_range_m = 0.8,
+             .radio_bytes = 2,
+             .light = {8, 22.5, 0.035, 0.06}},
+    RobotRow{.tag = "kheperaiv",
+             .kind = "argos3_kheperaiv",
+             .is_generic = true,
+             .constructor = "16CKheperaIVEntityC",
+             .prefix = "kheperaiv_",
+             .light = {8, 0, 0.0704, 0.0145}},
+};
+
+const RobotRow* Find(std::string_view name, std::string_view RobotRow::*member)
+{
+  const auto found = std::ranges::find(kRobots, name, member);
+  return found == kRobots.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::span<const RobotRow> RobotRows() { return kRobots; }
+const RobotRow* RobotOfTag(std::string_view tag) { return Find(tag, &RobotRow::tag); }
+const RobotRow* RobotOfKind(std::string_view kind) { return Find(kind, &RobotRow::kind); }
+
+const RobotRow* OwnerOfDevice(std::string_view device)
+{
+  for (const RobotRow& row : kRobots)
+    if (!row.prefix.empty() && device.starts_with(row.prefix)) return &row;
+  return nullptr;
+}
+
+std::string RobotTags()
+{
+  std::string tags;
+  for (const RobotRow& row : kRobots) tags += (tags.empty() ? "" : ", ") + std::string(row.tag);
+  return tags;
+}
+
+}  // namespace swarmanoid::argos3
