@@ -179,12 +179,15 @@ private:
     {
       const bool is_radio = medium->name == "range_and_bearing";
       NoteOtherChildren(*medium, {});
-      NoteOthers(*medium, is_radio ? std::set<std::string>{"id", "check_occlusions"} : std::set<std::string>{"id"});
+      const bool is_kilobots = medium->name == "kilobot_communication";
+      NoteOthers(*medium, is_radio      ? std::set<std::string>{"id", "check_occlusions"}
+                          : is_kilobots ? std::set<std::string>{"id", "message_drop_prob", "ignore_conflicts"}
+                                        : std::set<std::string>{"id"});
       if (is_radio)
         Flag(*medium, "check_occlusions", true);
-      else if (medium->name != "led")
+      else if (medium->name != "led" && !is_kilobots)
         Note(medium->location, "<" + medium->name + "> of <media> has no effect here");
-      else if (std::exchange(has_led, true))
+      else if (!is_kilobots && std::exchange(has_led, true))
         Note(medium->location, "robots of several media <led> see each other here");
     }
   }

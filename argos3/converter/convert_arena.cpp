@@ -28,7 +28,7 @@ namespace
 // Returns our kind of a robot that other projects add to ARGoS3; empty: there is none.
 std::string OurKindLike(const std::string& tag)
 {
-  if (tag == "kilobot" || tag == "pipuck" || tag == "pi-puck") return tag == "kilobot" ? "kilobot" : "pipuck";
+  if (tag == "pipuck" || tag == "pi-puck") return "pipuck";
   return {};
 }
 
@@ -196,8 +196,8 @@ Bearers ArenaConverter::BearersOf(const ConfigurationNode& robot, const std::str
   }
   bearers.battery = FindChild(robot, "battery");
   bearers.params = FindChild(controller, "params");
-  bearers.radio_range = Positive(robot, "rab_range", row.radio_range_m);
-  bearers.radio_bytes = Whole(robot, "rab_data_size", row.radio_bytes);
+  bearers.radio_range = Positive(robot, std::string(row.radio_range_name), row.radio_range_m);
+  bearers.radio_bytes = row.HasFixedMessages() ? row.radio_bytes : Whole(robot, "rab_data_size", row.radio_bytes);
   if (bearers.radio_bytes < 1 || bearers.radio_bytes > 10'000)
     Mistake(robot.location, "'rab_data_size' is " + std::to_string(bearers.radio_bytes) +
                                 "; range-and-bearing messages have 1 to 10000 bytes here");
@@ -256,7 +256,9 @@ void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, const std::s
       SetValue(*made, "controller", controller_of_robot_.at(&theirs), controller->location);
     }
     // In ARGoS3, too, the focal length determines none of the angles of the image, and eye-bots ignore camera_front.
-    std::set<std::string> known{"id", "rab_range", "rab_data_size"};
+    const RobotRow& row = *RobotOfKind(robot);
+    std::set<std::string> known{"id", std::string(row.radio_range_name)};
+    if (!row.HasFixedMessages()) known.insert("rab_data_size");
     if (robot == "footbot")
       known.insert({"omnidirectional_camera_aperture", "perspective_camera_aperture", "perspective_camera_range",
                     "perspective_camera_front"});

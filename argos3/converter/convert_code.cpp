@@ -51,6 +51,9 @@ std::string KindByDevices(const ConfigurationNode& controller)
   return "";
 }
 
+// The controller of Kilobots that this library has.
+constexpr const char* kKilobotController = "kilobot_controller";
+
 constexpr int kSpareRobots = 100;  // for each controller
 constexpr int kSpareLights = 20;
 
@@ -114,6 +117,7 @@ std::optional<std::string> CodeConverter::RadioMediumOf(const ConfigurationNode&
 {
   const ConfigurationNode* sensors = FindChild(controller, "sensors");
   const ConfigurationNode* radio = sensors == nullptr ? nullptr : FindChild(*sensors, "range_and_bearing");
+  if (sensors != nullptr && radio == nullptr) radio = FindChild(*sensors, "kilobot_communication");
   if (radio == nullptr) return std::nullopt;
   const auto* medium = FindAttributeOf(*radio, "medium");
   return medium == nullptr ? "" : medium->value;
@@ -134,6 +138,35 @@ void CodeConverter::FindRadioChannels(const ConfigurationNode& controllers)
     Mistake(controllers.location,
             fmt::format("robots have {} different media and sizes of messages; {} are possible here",
                         radio_channels_.size(), kMost));
+}
+
+void CodeConverter::SetKilobotMedium(const std::string& medium, ConfigurationNode& options)
+{
+  const ConfigurationNode* media = FindChild(root_, "media");
+  if (media == nullptr) return;
+  for (const auto& one : media->children)
+  {
+    const auto* id = FindAttributeOf(*one, "id");
+    if (one->name != "kilobot_communication" || id == nullptr || id->value != medium) continue;
+    if (const double drops = Number(*one, "message_drop_prob", 0); drops > 0)
+      SetValue(options, "message_drop_prob", TextOf(drops), one->location);
+    if (Flag(*one, "ignore_conflicts", false)) SetValue(options, "ignore_conflicts", "true", one->location);
+  }
+}
+
+void CodeConverter::FindBehavior(const ConfigurationNode& theirs, ConfigurationNode& params)
+{
+  for (ConfigurationNode::Attribute& attribute : params.attributes)
+  {
+    if (attribute.name != "behavior") continue;
+    std::string searched;
+    if (const auto file = Found(Folders(), {attribute.value}, searched))
+      attribute.value = *file;
+    else if (theirs.name == kKilobotController)
+      Mistake(attribute.location, "the behaviour " + Quoted(attribute.value) +
+                                      " is not found; build it, or start in the folder from which the path leads to " +
+                                      "it; searched:" + searched);
+  }
 }
 
 bool CodeConverter::ChecksOcclusions(const std::string& medium) const
@@ -213,7 +246,8 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, const std
   const std::string own_sensors = TakeOwn(theirs, "sensors", lists.sensors);
   const std::string own_actuators = TakeOwn(theirs, "actuators", lists.actuators);
   // In ARGoS3 the sensor brings a robot into the medium, where others hear it.
-  if (radio_medium && !bearers.kinds.empty() && !lists.actuators.contains("range_and_bearing"))
+  const bool is_kilobot = bearers.kinds.contains("kilobot");
+  if (radio_medium && !bearers.kinds.empty() && !is_kilobot && !lists.actuators.contains("range_and_bearing"))
   {
     AddSender(at, context, lists);
     actuators += " range_and_bearing";
@@ -233,7 +267,8 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, const std
   else
   {
     SetValue(*options, "label", theirs.name, at);
-    SetLibrary(theirs, theirs.name, "library", *options);
+    if (theirs.name != kKilobotController || FindAttributeOf(theirs, "library") != nullptr)
+      SetLibrary(theirs, theirs.name, "library", *options);
     if (const auto* library = FindAttributeOf(*options, "library"))
       controller_libraries_ += (controller_libraries_.empty() ? "" : ":") + library->value;
   }
@@ -256,7 +291,8 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, const std
       SetValue(*options, "proximity_range", range->value, at);
   set_noise("lidar_noise", {"kheperaiv_lidar"});
   set_noise("camera_noise", {"colored_blob_omnidirectional_camera"}, "noise_std_dev");
-  set_noise("radio_noise", {"range_and_bearing"}, "noise_std_dev");
+  set_noise("radio_noise", {"range_and_bearing", "kilobot_communication"}, "noise_std_dev");
+  if (is_kilobot && radio_medium) SetKilobotMedium(*radio_medium, *options);
   for (const auto& [name, sensor, attribute] :
        {std::tuple("speed", "differential_steering", "vel_noise_range"),
         std::tuple("distance", "differential_steering", "dist_noise_range"),
@@ -294,7 +330,14 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, const std
     Note(bearers.battery->location,
          "<battery> has no effect without the sensor <battery> in the controller " + Quoted(id));
   options_.push_back(options);
-  if (params != nullptr) parameters->children.push_back(std::make_shared<ConfigurationNode>(*params));
+  if (params == nullptr)
+  {
+    if (theirs.name == kKilobotController) Mistake(at, "<kilobot_controller> has no <params behavior=\"PROGRAM\"/>");
+    return;
+  }
+  const auto copy = std::make_shared<ConfigurationNode>(*params);
+  if (is_kilobot) FindBehavior(theirs, *copy);
+  parameters->children.push_back(copy);
 }
 
 std::string CodeConverter::NoiseOf(const ConfigurationNode& controller, std::initializer_list<const char*> names,

@@ -127,9 +127,16 @@ const RobotRow* GenericRobot(const DeviceContext& context)
   return nullptr;
 }
 
-// Returns false, after a mistake, for a device that only other robots have.
+// Returns false, after a mistake, for a device that the robot does not have in ARGoS3.
 bool IsOnItsRobot(const ConfigurationNode& node, const DeviceContext& context)
 {
+  if (const RobotRow* row = GenericRobot(context);
+      row != nullptr && (" " + std::string(row->lacks) + " ").find(" " + node.name + " ") != std::string::npos)
+  {
+    context.mistake(node.location, "<" + node.name + "> is no device of <" + std::string(row->tag) +
+                                       ">, also in ARGoS3; leave it out");
+    return false;
+  }
   const RobotRow* owner = OwnerOfDevice(node.name);
   if (owner == nullptr) return true;
   for (const std::string& kind : context.bearers.kinds)
@@ -161,7 +168,7 @@ void ConvertWheels(Attributes& attributes, ConfigurationNode& device)
     }
 }
 
-constexpr std::array<const char*, 22> kSensors{"differential_steering",
+constexpr std::array<const char*, 24> kSensors{"differential_steering",
                                                "light",
                                                "footbot_distance_scanner",
                                                "proximity",
@@ -182,17 +189,21 @@ constexpr std::array<const char*, 22> kSensors{"differential_steering",
                                                "kheperaiv_ultrasound",
                                                "kheperaiv_light",
                                                "kheperaiv_ground",
-                                               "kheperaiv_lidar"};
+                                               "kheperaiv_lidar",
+                                               "kilobot_light",
+                                               "kilobot_communication"};
 constexpr const char* kScanner = "footbot_distance_scanner";
 
-constexpr std::array<const char*, 8> kActuators{kScanner,
-                                                "differential_steering",
-                                                "leds",
-                                                "footbot_gripper",
-                                                "footbot_turret",
-                                                "range_and_bearing",
-                                                "quadrotor_position",
-                                                "quadrotor_speed"};
+constexpr std::array<const char*, 10> kActuators{kScanner,
+                                                 "differential_steering",
+                                                 "leds",
+                                                 "footbot_gripper",
+                                                 "footbot_turret",
+                                                 "range_and_bearing",
+                                                 "quadrotor_position",
+                                                 "quadrotor_speed",
+                                                 "kilobot_led",
+                                                 "kilobot_communication"};
 
 // Each device of ARGoS3 has one implementation.
 void CheckImplementation(const ConfigurationNode& node, const std::string& needed, const DeviceContext& context)
@@ -205,15 +216,16 @@ void CheckImplementation(const ConfigurationNode& node, const std::string& neede
 
 std::string ImplementationOfSensor(const std::string& tag)
 {
-  constexpr std::array<std::string_view, 9> kRotZOnly{"colored_blob_omnidirectional_camera",
-                                                      "eyebot_light",
-                                                      "footbot_base_ground",
-                                                      kScanner,
-                                                      "footbot_light",
-                                                      "footbot_motor_ground",
-                                                      "ground",
-                                                      "kheperaiv_ground",
-                                                      "kheperaiv_light"};
+  constexpr std::array<std::string_view, 10> kRotZOnly{"colored_blob_omnidirectional_camera",
+                                                       "eyebot_light",
+                                                       "footbot_base_ground",
+                                                       kScanner,
+                                                       "footbot_light",
+                                                       "footbot_motor_ground",
+                                                       "ground",
+                                                       "kheperaiv_ground",
+                                                       "kheperaiv_light",
+                                                       "kilobot_light"};
   if (tag == "range_and_bearing") return "medium";
   return std::ranges::find(kRotZOnly, tag) != kRotZOnly.end() ? "rot_z_only" : "default";
 }
@@ -308,6 +320,34 @@ bool ConvertKheperaSensor(const ConfigurationNode& node, const DeviceContext& co
   return true;
 }
 
+// The sensors of Kilobots alone. Returns false for other tags.
+bool ConvertKilobotSensor(const ConfigurationNode& node, const DeviceContext& context, Attributes& attributes,
+                          DeviceLists& ours)
+{
+  const SourceLocation& at = node.location;
+  if (node.name == "kilobot_light")
+  {
+    ConfigurationNode& device = AddDevice(ours.sensors, "light", "argos3_light", at);
+    SetValue(device, "sensors", "1", at);
+    SetValue(device, "first_angle", "100", at);
+    SetValue(device, "half_angle", "180", at);
+    SetValue(device, "position", TextOf(KilobotEye()), at);
+    attributes.CopyLevel(device);
+  }
+  else if (node.name == "kilobot_communication")
+  {
+    // The plug-in draws losses and adds the noise (argos3/plugin/kilobot_devices.cpp).
+    ConfigurationNode& device = AddDevice(ours.sensors, "range_and_bearing", "generic_range_and_bearing", at);
+    SetValue(device, "range", TextOf(context.largest_radio_range), at);
+    SetValue(device, "line_of_sight", "false", at);
+    attributes.Medium("kilobot_communication");
+    attributes.Number("noise_std_dev");
+  }
+  else
+    return false;
+  return true;
+}
+
 }  // namespace
 
 void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, DeviceLists& ours)
@@ -318,7 +358,8 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
   if (!IsOnItsRobot(node, context)) return;
   Attributes attributes(node, context);
   const RobotRow* generic = GenericRobot(context);
-  if (ConvertKheperaSensor(node, context, attributes, ours)) return;
+  if (ConvertKheperaSensor(node, context, attributes, ours) || ConvertKilobotSensor(node, context, attributes, ours))
+    return;
   if (tag == "differential_steering")
   {
     // The encoders of generic robots read the wheel commands (argos3/plugin/generic_devices.cpp).
@@ -430,6 +471,7 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
   const SourceLocation& at = node.location;
   const std::string& tag = node.name;
   CheckImplementation(node, "default", context);
+  if (!IsOnItsRobot(node, context)) return;
   Attributes attributes(node, context);
   if (tag == "leds") attributes.Medium("led");
   // Cameras of ARGoS3 see each LED, and bodies hide LEDs, also those of their own robot.
@@ -441,7 +483,8 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
   const RobotRow* generic = GenericRobot(context);
   if (tag == "differential_steering" && generic != nullptr)
   {
-    AddDevice(ours.actuators, "wheels", "generic_wheels", at);
+    ConfigurationNode& wheels = AddDevice(ours.actuators, "wheels", "generic_wheels", at);
+    if (generic->max_speed_m_s > 0) SetValue(wheels, "max_speed", TextOf(generic->max_speed_m_s), at);
     // The plug-in computes ARGoS3's noise in argos3/plugin/generic_devices.cpp.
     for (const char* name : kWheelNoise)
       for (const char* side : {"", "_left", "_right"}) attributes.Number(std::string(name) + side);
@@ -450,7 +493,7 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
     ConvertWheels(attributes, AddDevice(ours.actuators, "footbot_wheels", "argos3_footbot_wheels", at));
   else if (tag == "leds" && context.bearers.kinds.contains("eyebot"))
     add_leds("eyebot_leds");
-  else if (tag == "leds" && generic != nullptr)
+  else if ((tag == "leds" && generic != nullptr) || tag == "kilobot_led")
     add_leds("led_ring");
   else if (tag == "leds")
   {
@@ -466,9 +509,9 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
     AddDevice(ours.actuators, tag, "dummy_footbot_turret", at);
     AddDevice(ours.sensors, "footbot_turret_encoder", "generic_footbot_turret_encoder", at);
   }
-  else if (tag == "range_and_bearing" && !context.hears)
-    context.note(at, "without the sensor <range_and_bearing> the robots are in no medium, and no robot hears them");
-  else if (tag == "range_and_bearing")
+  else if ((tag == "range_and_bearing" || tag == "kilobot_communication") && !context.hears)
+    context.note(at, "without the sensor <" + tag + "> the robots are in no medium, and no robot hears them");
+  else if (tag == "range_and_bearing" || tag == "kilobot_communication")
     AddSender(at, context, ours);
   else if (tag == "quadrotor_position" || tag == "quadrotor_speed")
   {

@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <array>
 
+#include "common/math/elementary.h"
+
 namespace swarmanoid::argos3
 {
 namespace
 {
 
-// The values are those of footbot_entity.cpp, eyebot_entity.cpp and epuck_entity.cpp of ARGoS3, and of
-// kheperaiv_entity.cpp of argos3-kheperaiv.
+// The values are those of footbot_entity.cpp, eyebot_entity.cpp and epuck_entity.cpp of ARGoS3, of
+// kheperaiv_entity.cpp of argos3-kheperaiv, and of kilobot_entity.cpp of argos3-kilobot.
 constexpr std::array kRobots{
     RobotRow{.tag = "foot-bot", .kind = "footbot", .constructor = "14CFootBotEntityC"},
     RobotRow{.tag = "eye-bot", .kind = "eyebot", .constructor = "13CEyeBotEntityC"},
@@ -26,6 +28,17 @@ constexpr std::array kRobots{
              .constructor = "16CKheperaIVEntityC",
              .prefix = "kheperaiv_",
              .light = {8, 0, 0.0704, 0.0145}},
+    // The kind is that of user/entities/kilobot.
+    RobotRow{.tag = "kilobot",
+             .kind = "kilobot",
+             .is_generic = true,
+             .constructor = "14CKilobotEntityC",
+             .prefix = "kilobot_",
+             .radio_range_m = 0.1,
+             .radio_bytes = kKilobotBytes,
+             .radio_range_name = "communication_range",
+             .max_speed_m_s = 10,
+             .lacks = "range_and_bearing proximity ground light battery"},
 };
 
 const RobotRow* Find(std::string_view name, std::string_view RobotRow::*member)
@@ -45,6 +58,13 @@ const RobotRow* OwnerOfDevice(std::string_view device)
   for (const RobotRow& row : kRobots)
     if (!row.prefix.empty() && device.starts_with(row.prefix)) return &row;
   return nullptr;
+}
+
+Vector3 KilobotEye()
+{
+  constexpr double kEccentricity = 0.0092, kFromAxis = 0.0165 - 0.002, kHeight = 0.0217 + 0.0127;
+  const SinCos angle = SinCosOf(DegreesToRadians(100));
+  return {kEccentricity + kFromAxis * angle.cos, kFromAxis * angle.sin, kHeight};
 }
 
 std::string RobotTags()

@@ -1,9 +1,12 @@
 // The robots of ARGoS3 and of its plug-ins that a file may have, a row each.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
+
+#include "common/math/pose.h"
 
 namespace swarmanoid::argos3
 {
@@ -28,6 +31,14 @@ struct RobotRow
   std::string_view prefix{};       // of the names of the devices that it alone has
   double radio_range_m = 3;
   long long radio_bytes = 10;
+  std::string_view radio_range_name = "rab_range";  // the attribute of the robot with the range of its messages
+  // The fastest speed of a wheel that ARGoS3 allows; 0: that of the kind.
+  double max_speed_m_s = 0;
+  // Devices of ARGoS3's generic robots that this one does not have, separated by blanks.
+  std::string_view lacks{};
+
+  // Kilobots have messages of their own.
+  bool HasFixedMessages() const { return radio_range_name == "communication_range"; }
   LightRingRow light{};
 };
 
@@ -39,6 +50,12 @@ const RobotRow* RobotOfKind(std::string_view kind);
 const RobotRow* OwnerOfDevice(std::string_view device);
 // Returns the tags of all robots in ARGoS3, with commas between them.
 std::string RobotTags();
+
+// Returns the position of a Kilobot's light sensor (m), as in kilobot_measures.h of argos3-kilobot.
+Vector3 KilobotEye();
+
+// A message between Kilobots: what the sender does, and its message_t (argos3/plugin/kilobot_devices.cpp).
+inline constexpr std::size_t kKilobotBytes = 13;
 
 // The Khepera IV's ultrasound sensors see from 0.25 m before the ring of its infrared sensors on, up to 2 m further, as
 // in kheperaiv_entity.cpp of argos3-kheperaiv. The ring measures both here.

@@ -171,13 +171,6 @@ private:
   double spent_ = 0;
 };
 
-// If robots have several media or sizes of messages, the last byte of a message names both.
-std::optional<std::uint8_t> ChannelOf(const TConfigurationTree& options)
-{
-  const auto channel = options.GetInteger("radio_channel", -1);
-  return channel < 0 ? std::nullopt : std::optional(static_cast<std::uint8_t>(channel));
-}
-
 class RangeAndBearingSender : public ActuatorBridge, public argos::CCI_RangeAndBearingActuator
 {
 public:

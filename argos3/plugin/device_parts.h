@@ -22,6 +22,8 @@ std::unique_ptr<ActuatorBridge> MakeFootBotActuator(const std::string& tag, cons
 std::unique_ptr<SensorBridge> MakeGenericSensor(const std::string& tag, const DeviceSetup& setup);
 std::unique_ptr<ActuatorBridge> MakeGenericActuator(const std::string& tag, const DeviceSetup& setup);
 std::unique_ptr<SensorBridge> MakeKheperaSensor(const std::string& tag, const DeviceSetup& setup);
+std::unique_ptr<SensorBridge> MakeKilobotSensor(const std::string& tag, const DeviceSetup& setup);
+std::unique_ptr<ActuatorBridge> MakeKilobotActuator(const std::string& tag, const DeviceSetup& setup);
 // Makes the camera of foot-bots and eye-bots.
 std::unique_ptr<SensorBridge> MakePerspectiveCamera(const DeviceSetup& setup);
 std::unique_ptr<ActuatorBridge> MakeEyeBotActuator(const std::string& tag, const DeviceSetup& setup);
@@ -33,6 +35,13 @@ inline std::uint32_t Lit(const argos::CColor& colour)
 {
   const auto shine = [&](std::uint32_t channel) { return channel * colour.GetAlpha() / 255; };
   return shine(colour.GetRed()) << 16U | shine(colour.GetGreen()) << 8U | shine(colour.GetBlue());
+}
+
+// If robots have several media or sizes of messages, the last byte of a message names both.
+inline std::optional<std::uint8_t> ChannelOf(const TConfigurationTree& options)
+{
+  const auto channel = options.GetInteger("radio_channel", -1);
+  return channel < 0 ? std::nullopt : std::optional(static_cast<std::uint8_t>(channel));
 }
 
 // A ring of readings, with the same order of angles on both sides.

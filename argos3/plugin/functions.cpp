@@ -6,6 +6,7 @@
 #include <argos3/plugins/robots/eye-bot/simulator/eyebot_entity.h>
 #include <argos3/plugins/robots/foot-bot/simulator/footbot_entity.h>
 #include <argos3/plugins/robots/kheperaiv/simulator/kheperaiv_entity.h>
+#include <argos3/plugins/robots/kilobot/simulator/kilobot_entity.h>
 #include <argos3/plugins/simulator/entities/box_entity.h>
 #include <argos3/plugins/simulator/entities/cylinder_entity.h>
 #include <argos3/plugins/simulator/entities/light_entity.h>
@@ -315,6 +316,8 @@ private:
       view.made = std::make_unique<argos::CEyeBotEntity>(id);
     else if (tag == "argos3_epuck")
       view.made = std::make_unique<argos::CEPuckEntity>(id);
+    else if (tag == "kilobot")
+      view.made = std::make_unique<argos::CKilobotEntity>(id);
     else if (tag == "argos3_kheperaiv")
       view.made = std::make_unique<argos::CKheperaIVEntity>(id);
     else if (view.is_box)

@@ -179,13 +179,14 @@ std::unique_ptr<SensorBridge> MakeGenericSensor(const std::string& tag, const De
   if (tag == "differential_steering") return std::make_unique<CommandedSpeeds>(setup);
   if (tag == "ground") return std::make_unique<GenericGround<argos::CCI_GroundSensor>>(setup);
   if (tag == "kheperaiv_ground") return std::make_unique<GenericGround<argos::CCI_KheperaIVGroundSensor>>(setup);
-  return MakeKheperaSensor(tag, setup);
+  if (auto sensor = MakeKheperaSensor(tag, setup)) return sensor;
+  return MakeKilobotSensor(tag, setup);
 }
 
 std::unique_ptr<ActuatorBridge> MakeGenericActuator(const std::string& tag, const DeviceSetup& setup)
 {
   if (tag == "differential_steering") return std::make_unique<GenericWheels>(setup);
-  return nullptr;
+  return MakeKilobotActuator(tag, setup);
 }
 
 }  // namespace swarmanoid::argos3
