@@ -45,11 +45,7 @@ public:
     auto ours = MakeNode("ahss-config", root_.location);
     const ConfigurationNode* theirs = Needed(root_, "arena");
     if (theirs == nullptr) return false;
-    std::set<std::string> controllers;
-    if (const ConfigurationNode* all = FindChild(root_, "controllers"))
-      for (const auto& controller : all->children)
-        if (const auto* id = FindAttributeOf(*controller, "id")) controllers.insert(OurCharacters(id->value));
-    ArenaConverter arena(*theirs, std::move(controllers), result_);
+    ArenaConverter arena(*theirs, FindChild(root_, "controllers"), result_);
     if (bodies != nullptr) arena.KeepMadeBodies(*bodies);
     ReadGround(arena);
     if (FindChild(root_, "loop_functions") == nullptr) arena.PaintFloorWhite();

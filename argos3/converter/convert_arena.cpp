@@ -37,13 +37,43 @@ constexpr const char* kTiltLost =
 
 }  // namespace
 
-ArenaConverter::ArenaConverter(const ConfigurationNode& arena, std::set<std::string> controllers,
+ArenaConverter::ArenaConverter(const ConfigurationNode& arena, const ConfigurationNode* controllers,
                                ConvertedExperiment& result)
-    : NodeReader(result), arena_(arena), controllers_(std::move(controllers))
+    : NodeReader(result), arena_(arena)
 {
+  if (controllers != nullptr)
+    for (const auto& controller : controllers->children)
+      if (const auto* id = FindAttributeOf(*controller, "id"))
+      {
+        controllers_.insert(OurCharacters(id->value));
+        FindDemiurgeEPucks(OurCharacters(id->value), *controller);
+      }
   ReadFloor(FindChild(arena, "floor"));
   FindArena();
   FindBearers(arena);
+}
+
+void ArenaConverter::FindDemiurgeEPucks(const std::string& id, const ConfigurationNode& controller)
+{
+  for (const char* list : {"sensors", "actuators"})
+    if (const ConfigurationNode* devices = FindChild(controller, list))
+      for (const auto& device : devices->children)
+        if (const RobotRow* owner = OwnerOfDevice(device->name); owner != nullptr && owner->kind == kDemiurgeEPuck)
+          demiurge_epucks_.emplace(id, owner->radio_range_m);
+  const ConfigurationNode* actuators = FindChild(controller, "actuators");
+  const ConfigurationNode* sender = actuators == nullptr ? nullptr : FindChild(*actuators, "epuck_range_and_bearing");
+  if (sender != nullptr && FindAttributeOf(*sender, "range") != nullptr)
+    demiurge_epucks_[id] = Positive(*sender, "range", 0.8);
+}
+
+std::string ArenaConverter::KindOfRobot(const ConfigurationNode& robot)
+{
+  std::string kind = KindOf(robot.name);
+  const ConfigurationNode* controller = FindChild(robot, "controller");
+  if (kind != "argos3_epuck" || controller == nullptr) return kind;
+  const auto* id = FindAttributeOf(*controller, "config");
+  if (id != nullptr && demiurge_epucks_.contains(OurCharacters(id->value))) kind = kDemiurgeEPuck;
+  return kind;
 }
 
 void ArenaConverter::ReadFloor(const ConfigurationNode* floor)
@@ -154,7 +184,7 @@ void ArenaConverter::FindBearers(const ConfigurationNode& within)
   for (const auto& child : within.children)
   {
     if (child->name == "distribute" || child->name == "entity") FindBearers(*child);
-    const std::string kind = KindOf(child->name);
+    const std::string kind = KindOfRobot(*child);
     const ConfigurationNode* controller = FindChild(*child, "controller");
     if (kind.empty() && controller != nullptr)
       unknown_controllers_.insert(OurCharacters(Text(*controller, "config").value_or("")));
@@ -187,7 +217,8 @@ Bearers ArenaConverter::BearersOf(const ConfigurationNode& robot, const std::str
   const RobotRow& row = *RobotOfKind(kind);
   Bearers bearers;
   bearers.kinds.insert(kind);
-  if (kind == "footbot") bearers.camera_aperture = Positive(robot, "omnidirectional_camera_aperture", 70);
+  if (kind == "footbot" || kind == kDemiurgeEPuck)
+    bearers.camera_aperture = Positive(robot, "omnidirectional_camera_aperture", 70);
   if (!row.is_generic)
   {
     const std::string camera = kind == "footbot" ? "perspective_camera_" : "camera_";
@@ -196,8 +227,9 @@ Bearers ArenaConverter::BearersOf(const ConfigurationNode& robot, const std::str
   }
   bearers.battery = FindChild(robot, "battery");
   bearers.params = FindChild(controller, "params");
-  bearers.radio_range = Positive(robot, std::string(row.radio_range_name), row.radio_range_m);
-  bearers.radio_bytes = row.HasFixedMessages() ? row.radio_bytes : Whole(robot, "rab_data_size", row.radio_bytes);
+  bearers.radio_range = kind == kDemiurgeEPuck ? demiurge_epucks_.at(OurCharacters(NeededText(controller, "config")))
+                                               : Positive(robot, std::string(row.radio_range_name), row.radio_range_m);
+  bearers.radio_bytes = row.has_own_messages ? row.radio_bytes : Whole(robot, "rab_data_size", row.radio_bytes);
   if (bearers.radio_bytes < 1 || bearers.radio_bytes > 10'000)
     Mistake(robot.location, "'rab_data_size' is " + std::to_string(bearers.radio_bytes) +
                                 "; range-and-bearing messages have 1 to 10000 bytes here");
@@ -242,7 +274,7 @@ void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, const std::s
                                    bool placed)
 {
   const SourceLocation& at = theirs.location;
-  const std::string robot = KindOf(theirs.name);
+  const std::string robot = KindOfRobot(theirs);
   Made made;
   double lift = 0;
   if (!robot.empty())
@@ -257,8 +289,12 @@ void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, const std::s
     }
     // In ARGoS3, too, the focal length determines none of the angles of the image, and eye-bots ignore camera_front.
     const RobotRow& row = *RobotOfKind(robot);
-    std::set<std::string> known{"id", std::string(row.radio_range_name)};
-    if (!row.HasFixedMessages()) known.insert("rab_data_size");
+    std::set<std::string> known{"id"};
+    if (robot == kDemiurgeEPuck)
+      known.insert("omnidirectional_camera_aperture");
+    else
+      known.emplace(row.radio_range_name);
+    if (!row.has_own_messages) known.insert("rab_data_size");
     if (robot == "footbot")
       known.insert({"omnidirectional_camera_aperture", "perspective_camera_aperture", "perspective_camera_range",
                     "perspective_camera_front"});

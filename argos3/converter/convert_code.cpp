@@ -43,9 +43,9 @@ std::string KindByDevices(const ConfigurationNode& controller)
     for (const auto& device : devices->children)
     {
       if (device->name.starts_with("eyebot") || device->name.starts_with("quadrotor")) return "eyebot";
-      if (device->name.starts_with("epuck")) return "argos3_epuck";
       if (device->name.starts_with("footbot")) return "footbot";
       if (const RobotRow* owner = OwnerOfDevice(device->name)) return std::string(owner->kind);
+      if (device->name.starts_with("epuck")) return "argos3_epuck";
     }
   }
   return "";
@@ -117,7 +117,8 @@ std::optional<std::string> CodeConverter::RadioMediumOf(const ConfigurationNode&
 {
   const ConfigurationNode* sensors = FindChild(controller, "sensors");
   const ConfigurationNode* radio = sensors == nullptr ? nullptr : FindChild(*sensors, "range_and_bearing");
-  if (sensors != nullptr && radio == nullptr) radio = FindChild(*sensors, "kilobot_communication");
+  for (const char* own : {"kilobot_communication", "epuck_range_and_bearing"})
+    if (sensors != nullptr && radio == nullptr) radio = FindChild(*sensors, own);
   if (radio == nullptr) return std::nullopt;
   const auto* medium = FindAttributeOf(*radio, "medium");
   return medium == nullptr ? "" : medium->value;
@@ -247,7 +248,9 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, const std
   const std::string own_actuators = TakeOwn(theirs, "actuators", lists.actuators);
   // In ARGoS3 the sensor brings a robot into the medium, where others hear it.
   const bool is_kilobot = bearers.kinds.contains("kilobot");
-  if (radio_medium && !bearers.kinds.empty() && !is_kilobot && !lists.actuators.contains("range_and_bearing"))
+  const auto has_own_messages = [](const std::string& kind) { return RobotOfKind(kind)->has_own_messages; };
+  if (radio_medium && !bearers.kinds.empty() && std::ranges::none_of(bearers.kinds, has_own_messages) &&
+      !lists.actuators.contains("range_and_bearing"))
   {
     AddSender(at, context, lists);
     actuators += " range_and_bearing";
@@ -283,15 +286,22 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, const std
     const auto level = ParseNumber(NoiseOf(theirs, devices, attribute));
     if (level && *level > 0) SetValue(*options, name, TextOf(*level), at);
   };
-  set_noise("ground_noise", {"footbot_motor_ground", "footbot_base_ground", "ground", "kheperaiv_ground"});
+  set_noise("ground_noise",
+            {"footbot_motor_ground", "footbot_base_ground", "ground", "kheperaiv_ground", "epuck_ground"});
   set_noise("proximity_noise", {"proximity", "epuck_proximity", "eyebot_proximity", "kheperaiv_proximity"});
   set_noise("ultrasound_noise", {"kheperaiv_ultrasound"});
   if (const auto ring = lists.sensors.find("proximity"); ring != lists.sensors.end())
     if (const auto* range = FindAttributeOf(*ring->second, "range"))
       SetValue(*options, "proximity_range", range->value, at);
   set_noise("lidar_noise", {"kheperaiv_lidar"});
-  set_noise("camera_noise", {"colored_blob_omnidirectional_camera"}, "noise_std_dev");
-  set_noise("radio_noise", {"range_and_bearing", "kilobot_communication"}, "noise_std_dev");
+  set_noise("camera_noise", {"colored_blob_omnidirectional_camera", "epuck_omnidirectional_camera"}, "noise_std_dev");
+  set_noise("radio_loss", {"epuck_range_and_bearing"}, "loss_probability");
+  set_noise("radio_noise", {"range_and_bearing", "kilobot_communication", "epuck_range_and_bearing"}, "noise_std_dev");
+  for (const auto& [ours_name, attribute] :
+       {std::pair("max_packets", "max_packets"), std::pair("radio_data_size", "data_size"),
+        std::pair("real_range_noise", "real_range_noise")})
+    if (const std::string text = NoiseOf(theirs, {"epuck_range_and_bearing"}, attribute); !text.empty())
+      SetValue(*options, ours_name, text, at);
   if (is_kilobot && radio_medium) SetKilobotMedium(*radio_medium, *options);
   for (const auto& [name, sensor, attribute] :
        {std::tuple("speed", "differential_steering", "vel_noise_range"),
@@ -306,6 +316,9 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, const std
   }
   const ConfigurationNode* told = FindChild(theirs, "actuators");
   const ConfigurationNode* wheels = told == nullptr ? nullptr : FindChild(*told, "differential_steering");
+  const ConfigurationNode* epuck_wheels = told == nullptr ? nullptr : FindChild(*told, "epuck_wheels");
+  if (const auto* noise = epuck_wheels == nullptr ? nullptr : FindAttributeOf(*epuck_wheels, "noise_std_dev"))
+    SetValue(*options, "wheel_noise", noise->value, at);
   if (wheels != nullptr && std::ranges::any_of(bearers.kinds, is_generic))
     for (const std::string name : kWheelNoise)
       for (const char* side : {"_left", "_right"})

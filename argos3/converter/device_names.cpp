@@ -168,7 +168,7 @@ void ConvertWheels(Attributes& attributes, ConfigurationNode& device)
     }
 }
 
-constexpr std::array<const char*, 24> kSensors{"differential_steering",
+constexpr std::array<const char*, 28> kSensors{"differential_steering",
                                                "light",
                                                "footbot_distance_scanner",
                                                "proximity",
@@ -191,10 +191,14 @@ constexpr std::array<const char*, 24> kSensors{"differential_steering",
                                                "kheperaiv_ground",
                                                "kheperaiv_lidar",
                                                "kilobot_light",
-                                               "kilobot_communication"};
+                                               "kilobot_communication",
+                                               "epuck_light",
+                                               "epuck_ground",
+                                               "epuck_omnidirectional_camera",
+                                               "epuck_range_and_bearing"};
 constexpr const char* kScanner = "footbot_distance_scanner";
 
-constexpr std::array<const char*, 10> kActuators{kScanner,
+constexpr std::array<const char*, 14> kActuators{kScanner,
                                                  "differential_steering",
                                                  "leds",
                                                  "footbot_gripper",
@@ -203,7 +207,11 @@ constexpr std::array<const char*, 10> kActuators{kScanner,
                                                  "quadrotor_position",
                                                  "quadrotor_speed",
                                                  "kilobot_led",
-                                                 "kilobot_communication"};
+                                                 "kilobot_communication",
+                                                 "epuck_wheels",
+                                                 "epuck_rgb_leds",
+                                                 "epuck_base_leds",
+                                                 "epuck_range_and_bearing"};
 
 // Each device of ARGoS3 has one implementation.
 void CheckImplementation(const ConfigurationNode& node, const std::string& needed, const DeviceContext& context)
@@ -216,7 +224,7 @@ void CheckImplementation(const ConfigurationNode& node, const std::string& neede
 
 std::string ImplementationOfSensor(const std::string& tag)
 {
-  constexpr std::array<std::string_view, 10> kRotZOnly{"colored_blob_omnidirectional_camera",
+  constexpr std::array<std::string_view, 12> kRotZOnly{"colored_blob_omnidirectional_camera",
                                                        "eyebot_light",
                                                        "footbot_base_ground",
                                                        kScanner,
@@ -225,8 +233,10 @@ std::string ImplementationOfSensor(const std::string& tag)
                                                        "ground",
                                                        "kheperaiv_ground",
                                                        "kheperaiv_light",
-                                                       "kilobot_light"};
-  if (tag == "range_and_bearing") return "medium";
+                                                       "kilobot_light",
+                                                       "epuck_ground",
+                                                       "epuck_omnidirectional_camera"};
+  if (tag == "range_and_bearing" || tag == "epuck_range_and_bearing") return "medium";
   return std::ranges::find(kRotZOnly, tag) != kRotZOnly.end() ? "rot_z_only" : "default";
 }
 
@@ -290,9 +300,6 @@ bool ConvertKheperaSensor(const ConfigurationNode& node, const DeviceContext& co
   {
     RefuseSecondLight(node, context, ours);
     ConfigurationNode& device = AddDevice(ours.sensors, "light", "argos3_light", at);
-    SetValue(device, "sensors", "8", at);
-    SetValue(device, "first_angle", "0", at);
-    SetValue(device, "half_angle", "90", at);
     // ARGoS3 finds the five sensors that a light reaches by steps of 15 degrees, although the sensors are 45 degrees
     // apart (kheperaiv_light_rotzonly_sensor.cpp).
     SetValue(device, "index_step", "15", at);
@@ -320,6 +327,73 @@ bool ConvertKheperaSensor(const ConfigurationNode& node, const DeviceContext& co
   return true;
 }
 
+// The sensors of e-pucks of argos3-epuck alone. Returns false for other tags.
+bool ConvertEPuckSensor(const ConfigurationNode& node, const DeviceContext& context, Attributes& attributes,
+                        DeviceLists& ours)
+{
+  const SourceLocation& at = node.location;
+  const std::string& tag = node.name;
+  if (tag == "epuck_light")
+  {
+    RefuseSecondLight(node, context, ours);
+    ConfigurationNode& device = AddDevice(ours.sensors, "light", "argos3_light", at);
+    // ci_epuck_light_sensor.cpp has the angles as parts of pi.
+    std::string directions;
+    for (const double divisor : {10.5884, 3.5999, 2.0, 1.2, 0.8571, 0.6667, 0.5806, 0.5247})
+      directions += (directions.empty() ? "" : ", ") + TextOf(180 / divisor);
+    SetValue(device, "directions", directions, at);
+    attributes.CopyLevel(device);
+  }
+  else if (tag == "epuck_omnidirectional_camera")
+  {
+    // It sees what is nearer to the eye than the border on the floor. Here the range is along the floor, for the
+    // coloured LEDs of e-pucks.
+    constexpr double kEye = 0.122, kLeds = 0.0765;
+    const double far = kEye * std::tan(context.bearers.camera_aperture * kRadians);
+    ConfigurationNode& device =
+        AddDevice(ours.sensors, "footbot_omnidirectional_camera", "generic_footbot_omnidirectional_camera", at);
+    SetValue(device, "height", TextOf(kEye), at);
+    SetValue(device, "aperture", "89.9", at);
+    constexpr double kLeast = 1e-6;
+    SetValue(device, "range", TextOf(std::sqrt(std::max(far * far - (kEye - kLeds) * (kEye - kLeds), kLeast))), at);
+    attributes.Number("noise_std_dev");
+    attributes.Medium("led");
+  }
+  else if (tag == "epuck_range_and_bearing")
+  {
+    ConfigurationNode& device = AddDevice(ours.sensors, "range_and_bearing", "generic_range_and_bearing", at);
+    SetValue(device, "range", TextOf(context.largest_radio_range), at);
+    if (!context.checks_occlusions(attributes.Medium("range_and_bearing")))
+      SetValue(device, "line_of_sight", "false", at);
+    if (const RobotRow* row = GenericRobot(context)) SetValue(device, "antenna", TextOf(row->antenna_m), at);
+    AddDevice(ours.sensors, "positioning", "generic_positioning", at);
+    // The plug-in adds these to the packets (argos3/plugin/epuck_devices.cpp).
+    for (const char* name : {"noise_std_dev", "loss_probability", "max_packets", "data_size"}) attributes.Number(name);
+    attributes.Text("real_range_noise", "");
+  }
+  else
+    return false;
+  return true;
+}
+
+// Refuses devices of argos3-epuck that are not simulated here. Returns false for other tags.
+bool RefuseEPuckDevice(const ConfigurationNode& node, const DeviceContext& context)
+{
+  constexpr std::pair<std::string_view, std::string_view> kMissing[]{
+      {"epuck_ircom", "take epuck_range_and_bearing"},
+      {"epuck_virtual_camrab", "take epuck_range_and_bearing and epuck_omnidirectional_camera"},
+      {"epuck_encoder", "take differential_steering"},
+      {"epuck_battery", "leave it out"},
+      {"epuck_accelerometer", "leave it out"},
+      {"epuck_micro", "leave it out"},
+      {"epuck_camera", "take epuck_omnidirectional_camera"},
+      {"epuck_front_camera", "take epuck_omnidirectional_camera"}};
+  const auto* missing = std::ranges::find(kMissing, node.name, &std::pair<std::string_view, std::string_view>::first);
+  if (missing == std::end(kMissing)) return false;
+  context.mistake(node.location, "<" + node.name + "> has no counterpart here; " + std::string(missing->second));
+  return true;
+}
+
 // The sensors of Kilobots alone. Returns false for other tags.
 bool ConvertKilobotSensor(const ConfigurationNode& node, const DeviceContext& context, Attributes& attributes,
                           DeviceLists& ours)
@@ -328,8 +402,7 @@ bool ConvertKilobotSensor(const ConfigurationNode& node, const DeviceContext& co
   if (node.name == "kilobot_light")
   {
     ConfigurationNode& device = AddDevice(ours.sensors, "light", "argos3_light", at);
-    SetValue(device, "sensors", "1", at);
-    SetValue(device, "first_angle", "100", at);
+    SetValue(device, "directions", "100", at);
     SetValue(device, "half_angle", "180", at);
     SetValue(device, "position", TextOf(KilobotEye()), at);
     attributes.CopyLevel(device);
@@ -358,7 +431,8 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
   if (!IsOnItsRobot(node, context)) return;
   Attributes attributes(node, context);
   const RobotRow* generic = GenericRobot(context);
-  if (ConvertKheperaSensor(node, context, attributes, ours) || ConvertKilobotSensor(node, context, attributes, ours))
+  if (RefuseEPuckDevice(node, context) || ConvertKheperaSensor(node, context, attributes, ours) ||
+      ConvertKilobotSensor(node, context, attributes, ours) || ConvertEPuckSensor(node, context, attributes, ours))
     return;
   if (tag == "differential_steering")
   {
@@ -397,13 +471,13 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
                     "<ground> has no counterpart here on foot-bots and eye-bots; take footbot_motor_ground or "
                     "footbot_base_ground");
   else if ((tag == "footbot_motor_ground" || tag == "footbot_base_ground" || tag == "ground" ||
-            tag == "kheperaiv_ground") &&
+            tag == "kheperaiv_ground" || tag == "epuck_ground") &&
            context.floor_is_painted)
   {
     AddDevice(ours.sensors, "positioning", "generic_positioning", at);
     attributes.Number("noise_level");
   }
-  else if (tag == "kheperaiv_ground")
+  else if (tag == "kheperaiv_ground" || tag == "epuck_ground")
     attributes.CopyLevel(AddDevice(ours.sensors, "ground", "generic_ground", at));
   else if (tag == "footbot_motor_ground" || tag == "footbot_base_ground" || tag == "ground")
     attributes.CopyLevel(AddDevice(ours.sensors, tag, "generic_" + tag, at));
@@ -459,6 +533,7 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
     SetValue(device, "range", TextOf(context.largest_radio_range), at);
     if (!context.checks_occlusions(attributes.Medium("range_and_bearing")))
       SetValue(device, "line_of_sight", "false", at);
+    if (generic != nullptr) SetValue(device, "antenna", TextOf(generic->antenna_m), at);
     attributes.Copy("packet_drop_prob", "loss_probability", device);
     attributes.Number("noise_std_dev");
   }
@@ -470,10 +545,12 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
 {
   const SourceLocation& at = node.location;
   const std::string& tag = node.name;
-  CheckImplementation(node, "default", context);
-  if (!IsOnItsRobot(node, context)) return;
+  CheckImplementation(node, tag == "epuck_range_and_bearing" ? "medium" : "default", context);
+  if (!IsOnItsRobot(node, context) || RefuseEPuckDevice(node, context)) return;
   Attributes attributes(node, context);
-  if (tag == "leds") attributes.Medium("led");
+  if (tag == "leds" || tag == "epuck_rgb_leds" || tag == "epuck_base_leds") attributes.Medium("led");
+  const bool is_sender =
+      tag == "range_and_bearing" || tag == "kilobot_communication" || tag == "epuck_range_and_bearing";
   // Cameras of ARGoS3 see each LED, and bodies hide LEDs, also those of their own robot.
   const auto add_leds = [&](const char* type)
   {
@@ -493,7 +570,13 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
     ConvertWheels(attributes, AddDevice(ours.actuators, "footbot_wheels", "argos3_footbot_wheels", at));
   else if (tag == "leds" && context.bearers.kinds.contains("eyebot"))
     add_leds("eyebot_leds");
-  else if ((tag == "leds" && generic != nullptr) || tag == "kilobot_led")
+  else if (tag == "epuck_wheels")
+  {
+    AddDevice(ours.actuators, "wheels", "generic_wheels", at);
+    attributes.Number("noise_std_dev");
+  }
+  else if ((tag == "leds" && generic != nullptr) || tag == "kilobot_led" || tag == "epuck_rgb_leds" ||
+           tag == "epuck_base_leds")
     add_leds("led_ring");
   else if (tag == "leds")
   {
@@ -509,10 +592,15 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
     AddDevice(ours.actuators, tag, "dummy_footbot_turret", at);
     AddDevice(ours.sensors, "footbot_turret_encoder", "generic_footbot_turret_encoder", at);
   }
-  else if ((tag == "range_and_bearing" || tag == "kilobot_communication") && !context.hears)
+  else if (is_sender && !context.hears)
     context.note(at, "without the sensor <" + tag + "> the robots are in no medium, and no robot hears them");
-  else if (tag == "range_and_bearing" || tag == "kilobot_communication")
+  else if (is_sender)
+  {
     AddSender(at, context, ours);
+    if (tag != "epuck_range_and_bearing") return;
+    AddDevice(ours.sensors, "positioning", "generic_positioning", at);
+    attributes.Number("range");  // the arena's (convert_arena.cpp)
+  }
   else if (tag == "quadrotor_position" || tag == "quadrotor_speed")
   {
     AddDevice(ours.actuators, "eyebot_propellers", "position_eyebot_propellers", at);

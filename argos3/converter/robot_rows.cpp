@@ -10,8 +10,12 @@ namespace swarmanoid::argos3
 namespace
 {
 
+// ARGoS3's antennas on the top of a body are hidden by bodies of the same height. Here they are a little below it.
+constexpr double kBelowTop = 0.001;  // m
+
 // The values are those of footbot_entity.cpp, eyebot_entity.cpp and epuck_entity.cpp of ARGoS3, of
-// kheperaiv_entity.cpp of argos3-kheperaiv, and of kilobot_entity.cpp of argos3-kilobot.
+// kheperaiv_entity.cpp of argos3-kheperaiv, of kilobot_entity.cpp of argos3-kilobot and of
+// epuck_entity.cpp of argos3-epuck.
 constexpr std::array kRobots{
     RobotRow{.tag = "foot-bot", .kind = "footbot", .constructor = "14CFootBotEntityC"},
     RobotRow{.tag = "eye-bot", .kind = "eyebot", .constructor = "13CEyeBotEntityC"},
@@ -21,12 +25,25 @@ constexpr std::array kRobots{
              .constructor = "12CEPuckEntityC",
              .radio_range_m = 0.8,
              .radio_bytes = 2,
+             .antenna_m = 0.086 - kBelowTop,
              .light = {8, 22.5, 0.035, 0.06}},
+    RobotRow{.tag = "e-puck",
+             .kind = kDemiurgeEPuck,
+             .is_generic = true,
+             .constructor = "12CEPuckEntityC",
+             .prefix = "epuck_",
+             .radio_range_m = 0.8,
+             .radio_bytes = kDemiurgeEPuckBytes,
+             .has_own_messages = true,
+             .antenna_m = 0.052,
+             .lacks = "range_and_bearing battery",
+             .light = {8, 11.25, 0.036, 0.032}},
     RobotRow{.tag = "kheperaiv",
              .kind = "argos3_kheperaiv",
              .is_generic = true,
              .constructor = "16CKheperaIVEntityC",
              .prefix = "kheperaiv_",
+             .antenna_m = 0.0577 - kBelowTop,
              .light = {8, 0, 0.0704, 0.0145}},
     // The kind is that of user/entities/kilobot.
     RobotRow{.tag = "kilobot",
@@ -37,6 +54,7 @@ constexpr std::array kRobots{
              .radio_range_m = 0.1,
              .radio_bytes = kKilobotBytes,
              .radio_range_name = "communication_range",
+             .has_own_messages = true,
              .max_speed_m_s = 10,
              .lacks = "range_and_bearing proximity ground light battery"},
 };
@@ -56,7 +74,7 @@ const RobotRow* RobotOfKind(std::string_view kind) { return Find(kind, &RobotRow
 const RobotRow* OwnerOfDevice(std::string_view device)
 {
   for (const RobotRow& row : kRobots)
-    if (!row.prefix.empty() && device.starts_with(row.prefix)) return &row;
+    if (!row.prefix.empty() && device.starts_with(row.prefix) && device != "epuck_proximity") return &row;
   return nullptr;
 }
 
@@ -70,7 +88,8 @@ Vector3 KilobotEye()
 std::string RobotTags()
 {
   std::string tags;
-  for (const RobotRow& row : kRobots) tags += (tags.empty() ? "" : ", ") + std::string(row.tag);
+  for (const RobotRow& row : kRobots)
+    if (row.kind != kDemiurgeEPuck) tags += (tags.empty() ? "" : ", ") + std::string(row.tag);
   return tags;
 }
 

@@ -32,13 +32,12 @@ struct RobotRow
   double radio_range_m = 3;
   long long radio_bytes = 10;
   std::string_view radio_range_name = "rab_range";  // the attribute of the robot with the range of its messages
+  bool has_own_messages = false;                    // of radio_bytes, whatever the file says
+  double antenna_m = 0.1;                           // above the base
   // The fastest speed of a wheel that ARGoS3 allows; 0: that of the kind.
   double max_speed_m_s = 0;
   // Devices of ARGoS3's generic robots that this one does not have, separated by blanks.
   std::string_view lacks{};
-
-  // Kilobots have messages of their own.
-  bool HasFixedMessages() const { return radio_range_name == "communication_range"; }
   LightRingRow light{};
 };
 
@@ -50,6 +49,11 @@ const RobotRow* RobotOfKind(std::string_view kind);
 const RobotRow* OwnerOfDevice(std::string_view device);
 // Returns the tags of all robots in ARGoS3, with commas between them.
 std::string RobotTags();
+
+// The e-puck of argos3-epuck. It has the same tag as ARGoS3's own, and is known by the devices of its controller.
+inline constexpr const char* kDemiurgeEPuck = "argos3_demiurge_epuck";
+// Its message: 12 emitters with four bytes each, and its heading (argos3/plugin/epuck_devices.cpp).
+inline constexpr std::size_t kDemiurgeEPuckBytes = 58;
 
 // Returns the position of a Kilobot's light sensor (m), as in kilobot_measures.h of argos3-kilobot.
 Vector3 KilobotEye();

@@ -2,6 +2,7 @@
 #include <argos3/core/simulator/entity/composable_entity.h>
 #include <argos3/core/simulator/physics_engine/physics_engine.h>
 #include <argos3/core/simulator/simulator.h>
+#include <argos3/plugins/robots/e-puck/control_interface/ci_epuck_wheels_actuator.h>
 #include <argos3/plugins/robots/e-puck/simulator/epuck_entity.h>
 #include <argos3/plugins/robots/eye-bot/simulator/eyebot_entity.h>
 #include <argos3/plugins/robots/foot-bot/simulator/footbot_entity.h>
@@ -213,6 +214,9 @@ CEPuckEntity::CEPuckEntity(const std::string& id, const std::string& controller,
 {
   AddParts();
 }
+
+const Real CCI_EPuckWheelsActuator::MAX_VELOCITY_CM_SEC = 30;
+const Real CCI_EPuckWheelsActuator::MIN_VELOCITY_CM_SEC = -30;
 
 CKheperaIVEntity::CKheperaIVEntity(const std::string& id, const std::string& controller, const CVector3& position,
                                    const CQuaternion& orientation, Real, size_t, const std::string&)

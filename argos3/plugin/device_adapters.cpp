@@ -59,14 +59,8 @@ private:
   CCI_LedRingActuator& ring_;
 };
 
-// Returns the response of ARGoS3's infrared sensors (generic, e-puck, eye-bot) to a distance in m.
+// Return the response of ARGoS3's infrared sensors (generic, eye-bot) to a distance in m.
 double GenericResponse(double distance) { return std::exp(-distance); }
-double EPuckResponse(double distance)
-{
-  constexpr double kFarthest = 0.05;
-  if (distance > kFarthest) return 0;
-  return std::clamp(298.701 * distance * distance - 36.8961 * distance + 1.08212, 0.0, 1.0);
-}
 double EyeBotResponse(double distance)
 {
   constexpr double kTouching = 0.009889556;
@@ -267,6 +261,7 @@ bool IsGeneric(const CCI_Robot& robot)
 
 std::unique_ptr<SensorBridge> MakeSensor(const std::string& tag, const DeviceSetup& setup)
 {
+  if (auto own = MakeEPuckSensor(tag, setup)) return own;
   if (tag == "proximity") return std::make_unique<Proximity<argos::CCI_ProximitySensor>>(setup, GenericResponse);
   if (tag == "epuck_proximity")
     return std::make_unique<Proximity<argos::CCI_EPuckProximitySensor>>(setup, EPuckResponse);

@@ -22,6 +22,8 @@ std::unique_ptr<ActuatorBridge> MakeFootBotActuator(const std::string& tag, cons
 std::unique_ptr<SensorBridge> MakeGenericSensor(const std::string& tag, const DeviceSetup& setup);
 std::unique_ptr<ActuatorBridge> MakeGenericActuator(const std::string& tag, const DeviceSetup& setup);
 std::unique_ptr<SensorBridge> MakeKheperaSensor(const std::string& tag, const DeviceSetup& setup);
+std::unique_ptr<SensorBridge> MakeEPuckSensor(const std::string& tag, const DeviceSetup& setup);
+std::unique_ptr<ActuatorBridge> MakeEPuckActuator(const std::string& tag, const DeviceSetup& setup);
 std::unique_ptr<SensorBridge> MakeKilobotSensor(const std::string& tag, const DeviceSetup& setup);
 std::unique_ptr<ActuatorBridge> MakeKilobotActuator(const std::string& tag, const DeviceSetup& setup);
 // Makes the camera of foot-bots and eye-bots.
@@ -29,6 +31,14 @@ std::unique_ptr<SensorBridge> MakePerspectiveCamera(const DeviceSetup& setup);
 std::unique_ptr<ActuatorBridge> MakeEyeBotActuator(const std::string& tag, const DeviceSetup& setup);
 
 inline constexpr double kCentimetres = 100;  // in a metre
+
+// Returns the response of an e-puck's infrared sensors to a distance in m, in ARGoS3 and in argos3-epuck.
+inline double EPuckResponse(double distance)
+{
+  constexpr double kFarthest = 0.05;
+  if (distance > kFarthest) return 0;
+  return std::clamp(298.701 * distance * distance - 36.8961 * distance + 1.08212, 0.0, 1.0);
+}
 
 // The alpha of a colour is the intensity of the LED.
 inline std::uint32_t Lit(const argos::CColor& colour)

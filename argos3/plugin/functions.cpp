@@ -15,6 +15,7 @@
 #include <optional>
 #include <utility>
 
+#include "argos3/converter/robot_rows.h"
 #include "argos3/library/editing.h"
 #include "argos3/library/pen.h"
 #include "argos3/library/running.h"
@@ -316,6 +317,8 @@ private:
       view.made = std::make_unique<argos::CEyeBotEntity>(id);
     else if (tag == "argos3_epuck")
       view.made = std::make_unique<argos::CEPuckEntity>(id);
+    else if (tag == kDemiurgeEPuck)
+      view.made = std::make_unique<argos::CEPuckEntity>(id, 11U);
     else if (tag == "kilobot")
       view.made = std::make_unique<argos::CKilobotEntity>(id);
     else if (tag == "argos3_kheperaiv")

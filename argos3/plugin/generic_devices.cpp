@@ -186,6 +186,7 @@ std::unique_ptr<SensorBridge> MakeGenericSensor(const std::string& tag, const De
 std::unique_ptr<ActuatorBridge> MakeGenericActuator(const std::string& tag, const DeviceSetup& setup)
 {
   if (tag == "differential_steering") return std::make_unique<GenericWheels>(setup);
+  if (auto actuator = MakeEPuckActuator(tag, setup)) return actuator;
   return MakeKilobotActuator(tag, setup);
 }
 

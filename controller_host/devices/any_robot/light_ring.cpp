@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "common/configuration/configuration_tree.h"
 #include "common/control_interface/ci_light_sensor.h"
 #include "common/math/elementary.h"
 #include "common/space/space.h"
@@ -29,12 +30,9 @@ class LightRing : public ValueSensor, public OnDemandSensor
 public:
   void Init(const DeviceSetup& setup) override
   {
-    const auto count = static_cast<std::size_t>(setup.parameters.Integer("sensors"));
-    Reset(setup, count);
+    angles_ = AnglesFrom(setup.parameters);
+    Reset(setup, angles_.size());
     noise_ = NoiseFrom(setup.parameters);
-    const double first = DegreesToRadians(setup.parameters.Number("first_angle"));
-    for (std::size_t i = 0; i < count; ++i)
-      angles_.push_back(WrapAngle(first + 2 * kPi * static_cast<double>(i) / static_cast<double>(count)));
     world_ = SensorWorld::Of(setup.space);
     for (std::uint32_t e = 0; e < setup.space.Size(); ++e)
       if (DescriptionOf(setup.space.GetEntity(e).GetKind()).role == EntityRole::kLight)
@@ -52,6 +50,8 @@ public:
   void Update(const ChannelView&) override { MakeAhead(); }
 
 protected:
+  // Returns the directions of the sensors, rad.
+  virtual std::vector<double> AnglesFrom(const Parameters& parameters) const = 0;
   virtual void Configure(const Parameters& parameters) = 0;
   // Fills points_ with the points of robots that are due, from which a light at `source` may be seen.
   virtual void CollectPoints(const Vector3& source) = 0;
@@ -120,6 +120,15 @@ private:
 class InverseSquareRing : public LightRing
 {
 private:
+  std::vector<double> AnglesFrom(const Parameters& parameters) const override
+  {
+    const auto count = static_cast<std::size_t>(parameters.Integer("sensors"));
+    const double first = DegreesToRadians(parameters.Number("first_angle"));
+    std::vector<double> angles;
+    for (std::size_t i = 0; i < count; ++i)
+      angles.push_back(WrapAngle(first + 2 * kPi * static_cast<double>(i) / static_cast<double>(count)));
+    return angles;
+  }
   void Configure(const Parameters& parameters) override
   {
     for (const double angle : angles_)
@@ -169,6 +178,12 @@ private:
 class ExponentialRing : public LightRing
 {
 private:
+  std::vector<double> AnglesFrom(const Parameters& parameters) const override
+  {
+    std::vector<double> angles = *ParseNumbers(parameters.Text("directions"));
+    for (double& angle : angles) angle = WrapAngle(DegreesToRadians(angle));
+    return angles;
+  }
   void Configure(const Parameters& parameters) override
   {
     position_ = parameters.Vector3Of("position");
