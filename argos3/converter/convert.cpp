@@ -18,6 +18,7 @@
 #include "argos3/converter/convert_code.h"
 #include "argos3/converter/node_reader.h"
 #include "argos3/converter/our_ids.h"
+#include "argos3/converter/robot_rows.h"
 #include "argos3/converter/tiny_xml.h"
 #include "common/errors/print_error.h"
 #include "common/experiment/foreign_experiments.h"
@@ -44,11 +45,7 @@ public:
     auto ours = MakeNode("ahss-config", root_.location);
     const ConfigurationNode* theirs = Needed(root_, "arena");
     if (theirs == nullptr) return false;
-    std::set<std::string> controllers;
-    if (const ConfigurationNode* all = FindChild(root_, "controllers"))
-      for (const auto& controller : all->children)
-        if (const auto* id = FindAttributeOf(*controller, "id")) controllers.insert(OurCharacters(id->value));
-    ArenaConverter arena(*theirs, std::move(controllers), result_);
+    ArenaConverter arena(*theirs, FindChild(root_, "controllers"), result_);
     if (bodies != nullptr) arena.KeepMadeBodies(*bodies);
     ReadGround(arena);
     if (FindChild(root_, "loop_functions") == nullptr) arena.PaintFloorWhite();
@@ -67,9 +64,14 @@ public:
     const Made kinds = AddNode(*ours, "entity_kinds", root_.location);
     code.ConvertControllers(*ours);
     arena.Convert(*ours);
-    for (const char* kind : {"argos3_epuck", kLitBox})
+    const auto add_library = [&](const std::string& kind)
+    {
       if (arena.Kinds().contains(kind))
         SetValue(*AddNode(*kinds, kind, root_.location), "library", kind, root_.location);
+    };
+    for (const RobotRow& robot : RobotRows())
+      if (robot.is_generic) add_library(std::string(robot.kind));
+    add_library(kLitBox);
     if (kinds->children.empty()) std::erase(ours->children, kinds);
     ConvertEngines(*ours, arena);
     ReadMedia();
@@ -173,12 +175,15 @@ private:
     {
       const bool is_radio = medium->name == "range_and_bearing";
       NoteOtherChildren(*medium, {});
-      NoteOthers(*medium, is_radio ? std::set<std::string>{"id", "check_occlusions"} : std::set<std::string>{"id"});
+      const bool is_kilobots = medium->name == "kilobot_communication";
+      NoteOthers(*medium, is_radio      ? std::set<std::string>{"id", "check_occlusions"}
+                          : is_kilobots ? std::set<std::string>{"id", "message_drop_prob", "ignore_conflicts"}
+                                        : std::set<std::string>{"id"});
       if (is_radio)
         Flag(*medium, "check_occlusions", true);
-      else if (medium->name != "led")
+      else if (medium->name != "led" && !is_kilobots)
         Note(medium->location, "<" + medium->name + "> of <media> has no effect here");
-      else if (std::exchange(has_led, true))
+      else if (!is_kilobots && std::exchange(has_led, true))
         Note(medium->location, "robots of several media <led> see each other here");
     }
   }
@@ -234,7 +239,8 @@ private:
       {
         if (kind == "light_bulb") continue;
         // If both kinds of engines exist, eye-bots fly and foot-bots drive. Obstacles are in all.
-        if (has_both && (engine.is_flat ? kind == "eyebot" : kind == "footbot" || kind == "argos3_epuck")) continue;
+        if (has_both && (engine.is_flat ? kind == "eyebot" : kind != "eyebot" && RobotOfKind(kind) != nullptr))
+          continue;
         SetValue(*AddNode(*binding, "all", engines->location), "kind", kind, engines->location);
       }
     }

@@ -12,6 +12,7 @@
 #include <filesystem>
 
 #include "argos3/converter/our_ids.h"
+#include "argos3/converter/robot_rows.h"
 #include "common/configuration/wording.h"
 #include "common/configuration/xml_writer.h"
 #include "common/math/pose.h"
@@ -27,8 +28,7 @@ namespace
 // Returns our kind of a robot that other projects add to ARGoS3; empty: there is none.
 std::string OurKindLike(const std::string& tag)
 {
-  if (tag == "kilobot" || tag == "kheperaiv" || tag == "khepera_iv" || tag == "pipuck" || tag == "pi-puck")
-    return tag == "kilobot" ? "kilobot" : tag.starts_with("k") ? "khepera_iv" : "pipuck";
+  if (tag == "pipuck" || tag == "pi-puck") return "pipuck";
   return {};
 }
 
@@ -37,13 +37,43 @@ constexpr const char* kTiltLost =
 
 }  // namespace
 
-ArenaConverter::ArenaConverter(const ConfigurationNode& arena, std::set<std::string> controllers,
+ArenaConverter::ArenaConverter(const ConfigurationNode& arena, const ConfigurationNode* controllers,
                                ConvertedExperiment& result)
-    : NodeReader(result), arena_(arena), controllers_(std::move(controllers))
+    : NodeReader(result), arena_(arena)
 {
+  if (controllers != nullptr)
+    for (const auto& controller : controllers->children)
+      if (const auto* id = FindAttributeOf(*controller, "id"))
+      {
+        controllers_.insert(OurCharacters(id->value));
+        FindDemiurgeEPucks(OurCharacters(id->value), *controller);
+      }
   ReadFloor(FindChild(arena, "floor"));
   FindArena();
   FindBearers(arena);
+}
+
+void ArenaConverter::FindDemiurgeEPucks(const std::string& id, const ConfigurationNode& controller)
+{
+  for (const char* list : {"sensors", "actuators"})
+    if (const ConfigurationNode* devices = FindChild(controller, list))
+      for (const auto& device : devices->children)
+        if (const RobotRow* owner = OwnerOfDevice(device->name); owner != nullptr && owner->kind == kDemiurgeEPuck)
+          demiurge_epucks_.emplace(id, owner->radio_range_m);
+  const ConfigurationNode* actuators = FindChild(controller, "actuators");
+  const ConfigurationNode* sender = actuators == nullptr ? nullptr : FindChild(*actuators, "epuck_range_and_bearing");
+  if (sender != nullptr && FindAttributeOf(*sender, "range") != nullptr)
+    demiurge_epucks_[id] = Positive(*sender, "range", 0.8);
+}
+
+std::string ArenaConverter::KindOfRobot(const ConfigurationNode& robot)
+{
+  std::string kind = KindOf(robot.name);
+  const ConfigurationNode* controller = FindChild(robot, "controller");
+  if (kind != "argos3_epuck" || controller == nullptr) return kind;
+  const auto* id = FindAttributeOf(*controller, "config");
+  if (id != nullptr && demiurge_epucks_.contains(OurCharacters(id->value))) kind = kDemiurgeEPuck;
+  return kind;
 }
 
 void ArenaConverter::ReadFloor(const ConfigurationNode* floor)
@@ -154,7 +184,7 @@ void ArenaConverter::FindBearers(const ConfigurationNode& within)
   for (const auto& child : within.children)
   {
     if (child->name == "distribute" || child->name == "entity") FindBearers(*child);
-    const std::string kind = KindOf(child->name);
+    const std::string kind = KindOfRobot(*child);
     const ConfigurationNode* controller = FindChild(*child, "controller");
     if (kind.empty() && controller != nullptr)
       unknown_controllers_.insert(OurCharacters(Text(*controller, "config").value_or("")));
@@ -184,11 +214,12 @@ void ArenaConverter::FindBearers(const ConfigurationNode& within)
 Bearers ArenaConverter::BearersOf(const ConfigurationNode& robot, const std::string& kind,
                                   const ConfigurationNode& controller)
 {
-  const bool is_epuck = kind == "argos3_epuck";
+  const RobotRow& row = *RobotOfKind(kind);
   Bearers bearers;
   bearers.kinds.insert(kind);
-  if (kind == "footbot") bearers.camera_aperture = Positive(robot, "omnidirectional_camera_aperture", 70);
-  if (!is_epuck)
+  if (kind == "footbot" || kind == kDemiurgeEPuck)
+    bearers.camera_aperture = Positive(robot, "omnidirectional_camera_aperture", 70);
+  if (!row.is_generic)
   {
     const std::string camera = kind == "footbot" ? "perspective_camera_" : "camera_";
     bearers.perspective_aperture = Positive(robot, camera + "aperture", 30);
@@ -196,8 +227,9 @@ Bearers ArenaConverter::BearersOf(const ConfigurationNode& robot, const std::str
   }
   bearers.battery = FindChild(robot, "battery");
   bearers.params = FindChild(controller, "params");
-  bearers.radio_range = Positive(robot, "rab_range", is_epuck ? 0.8 : 3);
-  bearers.radio_bytes = Whole(robot, "rab_data_size", is_epuck ? 2 : 10);
+  bearers.radio_range = kind == kDemiurgeEPuck ? demiurge_epucks_.at(OurCharacters(NeededText(controller, "config")))
+                                               : Positive(robot, std::string(row.radio_range_name), row.radio_range_m);
+  bearers.radio_bytes = row.has_own_messages ? row.radio_bytes : Whole(robot, "rab_data_size", row.radio_bytes);
   if (bearers.radio_bytes < 1 || bearers.radio_bytes > 10'000)
     Mistake(robot.location, "'rab_data_size' is " + std::to_string(bearers.radio_bytes) +
                                 "; range-and-bearing messages have 1 to 10000 bytes here");
@@ -213,7 +245,8 @@ const std::vector<ArenaConverter::Variant>& ArenaConverter::VariantsOf(const std
 
 std::string ArenaConverter::KindOf(const std::string& tag)
 {
-  return tag == "foot-bot" ? "footbot" : tag == "eye-bot" ? "eyebot" : tag == "e-puck" ? "argos3_epuck" : "";
+  const RobotRow* row = RobotOfTag(tag);
+  return row == nullptr ? "" : std::string(row->kind);
 }
 
 void ArenaConverter::Convert(ConfigurationNode& ours)
@@ -241,7 +274,7 @@ void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, const std::s
                                    bool placed)
 {
   const SourceLocation& at = theirs.location;
-  const std::string robot = KindOf(theirs.name);
+  const std::string robot = KindOfRobot(theirs);
   Made made;
   double lift = 0;
   if (!robot.empty())
@@ -255,7 +288,13 @@ void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, const std::s
       SetValue(*made, "controller", controller_of_robot_.at(&theirs), controller->location);
     }
     // In ARGoS3, too, the focal length determines none of the angles of the image, and eye-bots ignore camera_front.
-    std::set<std::string> known{"id", "rab_range", "rab_data_size"};
+    const RobotRow& row = *RobotOfKind(robot);
+    std::set<std::string> known{"id"};
+    if (robot == kDemiurgeEPuck)
+      known.insert("omnidirectional_camera_aperture");
+    else
+      known.emplace(row.radio_range_name);
+    if (!row.has_own_messages) known.insert("rab_data_size");
     if (robot == "footbot")
       known.insert({"omnidirectional_camera_aperture", "perspective_camera_aperture", "perspective_camera_range",
                     "perspective_camera_front"});
@@ -301,11 +340,10 @@ void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, const std::s
   else
   {
     const auto ours = OurKindLike(theirs.name);
-    Mistake(at,
-            "<" + theirs.name + "> has no counterpart" +
-                (ours.empty() ? "; those that have: foot-bot, eye-bot, e-puck, box, cylinder, light, floor, distribute"
-                              : " in files of ARGoS3; files of ours have the kind " + Quoted(ours) +
-                                    ", with controllers of our interface"));
+    Mistake(at, "<" + theirs.name + "> has no counterpart" +
+                    (ours.empty() ? "; those that have: " + RobotTags() + ", box, cylinder, light, floor, distribute"
+                                  : " in files of ARGoS3; files of ours have the kind " + Quoted(ours) +
+                                        ", with controllers of our interface"));
     return;
   }
   kinds_.insert(made->name);

@@ -27,8 +27,8 @@ class ArenaConverter : NodeReader
 {
 public:
   // Reads the parts of `arena` that other parts of the file need.
-  // `controllers`: the ids of all controllers.
-  ArenaConverter(const ConfigurationNode& arena, std::set<std::string> controllers, ConvertedExperiment& result);
+  // `controllers`: <controllers>, or nullptr.
+  ArenaConverter(const ConfigurationNode& arena, const ConfigurationNode* controllers, ConvertedExperiment& result);
 
   void Convert(ConfigurationNode& ours);
 
@@ -88,6 +88,9 @@ private:
   void FindBearers(const ConfigurationNode& within);
   Bearers BearersOf(const ConfigurationNode& robot, const std::string& kind, const ConfigurationNode& controller);
   static std::string KindOf(const std::string& tag);
+  // E-pucks are those of ARGoS3, or of argos3-epuck if their controller has a device of it.
+  std::string KindOfRobot(const ConfigurationNode& robot);
+  void FindDemiurgeEPucks(const std::string& id, const ConfigurationNode& controller);
   // `id` is our id. If `placed` is true, the entity has its own position; otherwise <distribute> gives it one.
   void ConvertEntity(const ConfigurationNode& theirs, const std::string& id, ConfigurationNode& parent, bool placed);
   // Returns our id of an entity. Each id of the file has one.
@@ -126,7 +129,8 @@ private:
   std::map<std::string, std::vector<Variant>> variants_;                    // by controller
   std::map<std::pair<std::string, std::string>, std::string> variant_ids_;  // by controller and properties
   std::map<const ConfigurationNode*, std::string> controller_of_robot_;
-  std::set<std::string> controllers_;  // ids in the file
+  std::set<std::string> controllers_;              // ids in the file
+  std::map<std::string, double> demiurge_epucks_;  // the range of messages, m, by controller
   std::set<std::string> unknown_controllers_;
   double largest_radio_range_ = 0.001;
   std::set<std::string> kinds_;

@@ -5,11 +5,13 @@
 // it changes no result.
 #include "argos3/converter/convert_code.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 
 #include "argos3/converter/our_ids.h"
+#include "argos3/converter/robot_rows.h"
 #include "common/configuration/wording.h"
 #include "common/plugins/library.h"
 
@@ -22,16 +24,14 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPlugin = "argos3";
 
-constexpr std::pair<const char*, const char*> kConstructors[]{{"footbot", "14CFootBotEntityC"},
-                                                              {"eyebot", "13CEyeBotEntityC"},
-                                                              {"argos3_epuck", "12CEPuckEntityC"},
-                                                              {"light_bulb", "12CLightEntityC"},
-                                                              {"box", "10CBoxEntityC"},
-                                                              {"cylinder", "15CCylinderEntityC"},
-                                                              {"reset", "10CSimulator5ResetE"},
-                                                              {"reset", "6CSpace5ResetE"},
-                                                              {"configuration", "20GetConfigurationRootE"},
-                                                              {"configuration", "22GetConfigForControllerE"}};
+// Constructors and functions beside the constructors of robots.
+constexpr std::pair<const char*, const char*> kFunctions[]{{"light_bulb", "12CLightEntityC"},
+                                                           {"box", "10CBoxEntityC"},
+                                                           {"cylinder", "15CCylinderEntityC"},
+                                                           {"reset", "10CSimulator5ResetE"},
+                                                           {"reset", "6CSpace5ResetE"},
+                                                           {"configuration", "20GetConfigurationRootE"},
+                                                           {"configuration", "22GetConfigForControllerE"}};
 
 // Returns the kind for a controller that no robot of the file has, judged by its devices.
 std::string KindByDevices(const ConfigurationNode& controller)
@@ -43,12 +43,16 @@ std::string KindByDevices(const ConfigurationNode& controller)
     for (const auto& device : devices->children)
     {
       if (device->name.starts_with("eyebot") || device->name.starts_with("quadrotor")) return "eyebot";
-      if (device->name.starts_with("epuck")) return "argos3_epuck";
       if (device->name.starts_with("footbot")) return "footbot";
+      if (const RobotRow* owner = OwnerOfDevice(device->name)) return std::string(owner->kind);
+      if (device->name.starts_with("epuck")) return "argos3_epuck";
     }
   }
   return "";
 }
+
+// The controller of Kilobots that this library has.
+constexpr const char* kKilobotController = "kilobot_controller";
 
 constexpr int kSpareRobots = 100;  // for each controller
 constexpr int kSpareLights = 20;
@@ -113,6 +117,8 @@ std::optional<std::string> CodeConverter::RadioMediumOf(const ConfigurationNode&
 {
   const ConfigurationNode* sensors = FindChild(controller, "sensors");
   const ConfigurationNode* radio = sensors == nullptr ? nullptr : FindChild(*sensors, "range_and_bearing");
+  for (const char* own : {"kilobot_communication", "epuck_range_and_bearing"})
+    if (sensors != nullptr && radio == nullptr) radio = FindChild(*sensors, own);
   if (radio == nullptr) return std::nullopt;
   const auto* medium = FindAttributeOf(*radio, "medium");
   return medium == nullptr ? "" : medium->value;
@@ -133,6 +139,35 @@ void CodeConverter::FindRadioChannels(const ConfigurationNode& controllers)
     Mistake(controllers.location,
             fmt::format("robots have {} different media and sizes of messages; {} are possible here",
                         radio_channels_.size(), kMost));
+}
+
+void CodeConverter::SetKilobotMedium(const std::string& medium, ConfigurationNode& options)
+{
+  const ConfigurationNode* media = FindChild(root_, "media");
+  if (media == nullptr) return;
+  for (const auto& one : media->children)
+  {
+    const auto* id = FindAttributeOf(*one, "id");
+    if (one->name != "kilobot_communication" || id == nullptr || id->value != medium) continue;
+    if (const double drops = Number(*one, "message_drop_prob", 0); drops > 0)
+      SetValue(options, "message_drop_prob", TextOf(drops), one->location);
+    if (Flag(*one, "ignore_conflicts", false)) SetValue(options, "ignore_conflicts", "true", one->location);
+  }
+}
+
+void CodeConverter::FindBehavior(const ConfigurationNode& theirs, ConfigurationNode& params)
+{
+  for (ConfigurationNode::Attribute& attribute : params.attributes)
+  {
+    if (attribute.name != "behavior") continue;
+    std::string searched;
+    if (const auto file = Found(Folders(), {attribute.value}, searched))
+      attribute.value = *file;
+    else if (theirs.name == kKilobotController)
+      Mistake(attribute.location, "the behaviour " + Quoted(attribute.value) +
+                                      " is not found; build it, or start in the folder from which the path leads to " +
+                                      "it; searched:" + searched);
+  }
 }
 
 bool CodeConverter::ChecksOcclusions(const std::string& medium) const
@@ -162,8 +197,10 @@ std::set<std::string> CodeConverter::FindMadeKinds() const
                                        : std::nullopt;
   if (!file) return kinds;
   const std::string bytes = BytesOf(*file);
-  for (const auto& [kind, constructor] : kConstructors)
-    if (bytes.find(constructor) != std::string::npos) kinds.insert(kind);
+  for (const RobotRow& robot : RobotRows())
+    if (!robot.constructor.empty() && bytes.find(robot.constructor) != std::string::npos) kinds.emplace(robot.kind);
+  for (const auto& [kind, name] : kFunctions)
+    if (bytes.find(name) != std::string::npos) kinds.insert(kind);
   return kinds;
 }
 
@@ -185,9 +222,10 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, const std
   SetValue(*made, "id", variant.id, at);
   SetValue(*made, "library", kPlugin, at);
   const Bearers& bearers = variant.bearers;
-  if (bearers.kinds.size() > 1 && bearers.kinds.contains("argos3_epuck"))
+  const auto is_generic = [](const std::string& kind) { return RobotOfKind(kind)->is_generic; };
+  if (bearers.kinds.size() > 1 && std::ranges::any_of(bearers.kinds, is_generic))
     Mistake(at, "robots of several kinds have the controller " + Quoted(id) +
-                    ", and e-pucks have other devices; give each kind a controller of its own");
+                    ", and their devices differ; give each kind a controller of its own");
   const ConfigurationNode* framework = FindChild(root_, "framework");
   const ConfigurationNode* experiment = framework == nullptr ? nullptr : FindChild(*framework, "experiment");
   const double ticks = experiment == nullptr ? 10 : Number(*experiment, "ticks_per_second", 10);
@@ -209,7 +247,10 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, const std
   const std::string own_sensors = TakeOwn(theirs, "sensors", lists.sensors);
   const std::string own_actuators = TakeOwn(theirs, "actuators", lists.actuators);
   // In ARGoS3 the sensor brings a robot into the medium, where others hear it.
-  if (radio_medium && !bearers.kinds.empty() && !lists.actuators.contains("range_and_bearing"))
+  const bool is_kilobot = bearers.kinds.contains("kilobot");
+  const auto has_own_messages = [](const std::string& kind) { return RobotOfKind(kind)->has_own_messages; };
+  if (radio_medium && !bearers.kinds.empty() && std::ranges::none_of(bearers.kinds, has_own_messages) &&
+      !lists.actuators.contains("range_and_bearing"))
   {
     AddSender(at, context, lists);
     actuators += " range_and_bearing";
@@ -229,7 +270,8 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, const std
   else
   {
     SetValue(*options, "label", theirs.name, at);
-    SetLibrary(theirs, theirs.name, "library", *options);
+    if (theirs.name != kKilobotController || FindAttributeOf(theirs, "library") != nullptr)
+      SetLibrary(theirs, theirs.name, "library", *options);
     if (const auto* library = FindAttributeOf(*options, "library"))
       controller_libraries_ += (controller_libraries_.empty() ? "" : ":") + library->value;
   }
@@ -244,10 +286,23 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, const std
     const auto level = ParseNumber(NoiseOf(theirs, devices, attribute));
     if (level && *level > 0) SetValue(*options, name, TextOf(*level), at);
   };
-  set_noise("ground_noise", {"footbot_motor_ground", "footbot_base_ground", "ground"});
-  set_noise("proximity_noise", {"proximity", "epuck_proximity", "eyebot_proximity"});
-  set_noise("camera_noise", {"colored_blob_omnidirectional_camera"}, "noise_std_dev");
-  set_noise("radio_noise", {"range_and_bearing"}, "noise_std_dev");
+  set_noise("ground_noise",
+            {"footbot_motor_ground", "footbot_base_ground", "ground", "kheperaiv_ground", "epuck_ground"});
+  set_noise("proximity_noise", {"proximity", "epuck_proximity", "eyebot_proximity", "kheperaiv_proximity"});
+  set_noise("ultrasound_noise", {"kheperaiv_ultrasound"});
+  if (const auto ring = lists.sensors.find("proximity"); ring != lists.sensors.end())
+    if (const auto* range = FindAttributeOf(*ring->second, "range"))
+      SetValue(*options, "proximity_range", range->value, at);
+  set_noise("lidar_noise", {"kheperaiv_lidar"});
+  set_noise("camera_noise", {"colored_blob_omnidirectional_camera", "epuck_omnidirectional_camera"}, "noise_std_dev");
+  set_noise("radio_loss", {"epuck_range_and_bearing"}, "loss_probability");
+  set_noise("radio_noise", {"range_and_bearing", "kilobot_communication", "epuck_range_and_bearing"}, "noise_std_dev");
+  for (const auto& [ours_name, attribute] :
+       {std::pair("max_packets", "max_packets"), std::pair("radio_data_size", "data_size"),
+        std::pair("real_range_noise", "real_range_noise")})
+    if (const std::string text = NoiseOf(theirs, {"epuck_range_and_bearing"}, attribute); !text.empty())
+      SetValue(*options, ours_name, text, at);
+  if (is_kilobot && radio_medium) SetKilobotMedium(*radio_medium, *options);
   for (const auto& [name, sensor, attribute] :
        {std::tuple("speed", "differential_steering", "vel_noise_range"),
         std::tuple("distance", "differential_steering", "dist_noise_range"),
@@ -261,7 +316,10 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, const std
   }
   const ConfigurationNode* told = FindChild(theirs, "actuators");
   const ConfigurationNode* wheels = told == nullptr ? nullptr : FindChild(*told, "differential_steering");
-  if (wheels != nullptr && bearers.kinds.contains("argos3_epuck"))
+  const ConfigurationNode* epuck_wheels = told == nullptr ? nullptr : FindChild(*told, "epuck_wheels");
+  if (const auto* noise = epuck_wheels == nullptr ? nullptr : FindAttributeOf(*epuck_wheels, "noise_std_dev"))
+    SetValue(*options, "wheel_noise", noise->value, at);
+  if (wheels != nullptr && std::ranges::any_of(bearers.kinds, is_generic))
     for (const std::string name : kWheelNoise)
       for (const char* side : {"_left", "_right"})
       {
@@ -285,7 +343,14 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, const std
     Note(bearers.battery->location,
          "<battery> has no effect without the sensor <battery> in the controller " + Quoted(id));
   options_.push_back(options);
-  if (params != nullptr) parameters->children.push_back(std::make_shared<ConfigurationNode>(*params));
+  if (params == nullptr)
+  {
+    if (theirs.name == kKilobotController) Mistake(at, "<kilobot_controller> has no <params behavior=\"PROGRAM\"/>");
+    return;
+  }
+  const auto copy = std::make_shared<ConfigurationNode>(*params);
+  if (is_kilobot) FindBehavior(theirs, *copy);
+  parameters->children.push_back(copy);
 }
 
 std::string CodeConverter::NoiseOf(const ConfigurationNode& controller, std::initializer_list<const char*> names,

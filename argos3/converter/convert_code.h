@@ -39,10 +39,15 @@ private:
   void ConvertController(const ConfigurationNode& theirs, const std::string& id, const ArenaConverter::Variant& variant,
                          ConfigurationNode& parent);
   void NoteListsOf(const ConfigurationNode& controller);
-  // Returns the id of the medium that a controller's range and bearing names; nullopt without the sensor.
+  // Returns the id of the medium that a controller's range and bearing, or communication of Kilobots, names; nullopt
+  // without the sensor.
   static std::optional<std::string> RadioMediumOf(const ConfigurationNode& controller);
   // Robots hear messages of their medium and their size only.
   void FindRadioChannels(const ConfigurationNode& controllers);
+  // Copies the attributes of a Kilobot's medium to the options of a controller.
+  void SetKilobotMedium(const std::string& medium, ConfigurationNode& options);
+  // Replaces the program of a Kilobot's behaviour by its path.
+  void FindBehavior(const ConfigurationNode& theirs, ConfigurationNode& params);
   // Returns whether the medium of range and bearing lets bodies hide senders.
   bool ChecksOcclusions(const std::string& medium) const;
   // Returns the attribute of the first of these sensors of the controller that has it; empty: none has.

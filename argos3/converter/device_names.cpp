@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "argos3/converter/battery.h"
+#include "argos3/converter/robot_rows.h"
 #include "common/configuration/wording.h"
 
 namespace swarmanoid::argos3
@@ -118,9 +119,42 @@ private:
   std::set<std::string> used_;
 };
 
-constexpr const char* kEPuck = "argos3_epuck";
+// Returns the row of the generic robots that have the controller; nullptr: other robots have it.
+const RobotRow* GenericRobot(const DeviceContext& context)
+{
+  for (const std::string& kind : context.bearers.kinds)
+    if (const RobotRow* row = RobotOfKind(kind); row != nullptr && row->is_generic) return row;
+  return nullptr;
+}
 
-bool IsForEPucks(const DeviceContext& context) { return context.bearers.kinds.contains(kEPuck); }
+// Returns false, after a mistake, for a device that the robot does not have in ARGoS3.
+bool IsOnItsRobot(const ConfigurationNode& node, const DeviceContext& context)
+{
+  if (const RobotRow* row = GenericRobot(context);
+      row != nullptr && (" " + std::string(row->lacks) + " ").find(" " + node.name + " ") != std::string::npos)
+  {
+    context.mistake(node.location, "<" + node.name + "> is no device of <" + std::string(row->tag) +
+                                       ">, also in ARGoS3; leave it out");
+    return false;
+  }
+  const RobotRow* owner = OwnerOfDevice(node.name);
+  if (owner == nullptr) return true;
+  for (const std::string& kind : context.bearers.kinds)
+    if (kind != owner->kind)
+    {
+      context.mistake(node.location, "<" + node.name + "> is a device of <" + std::string(owner->tag) +
+                                         ">, and other robots have this controller; give them one without it");
+      return false;
+    }
+  return true;
+}
+
+// Reports a second sensor for light, since a controller of ours has one.
+void RefuseSecondLight(const ConfigurationNode& node, const DeviceContext& context, const DeviceLists& ours)
+{
+  if (ours.sensors.contains("light"))
+    context.mistake(node.location, "a controller has one sensor for light here; leave out <light>, or the other one");
+}
 
 void ConvertWheels(Attributes& attributes, ConfigurationNode& device)
 {
@@ -134,7 +168,7 @@ void ConvertWheels(Attributes& attributes, ConfigurationNode& device)
     }
 }
 
-constexpr std::array<const char*, 17> kSensors{"differential_steering",
+constexpr std::array<const char*, 28> kSensors{"differential_steering",
                                                "light",
                                                "footbot_distance_scanner",
                                                "proximity",
@@ -150,17 +184,34 @@ constexpr std::array<const char*, 17> kSensors{"differential_steering",
                                                "battery",
                                                "colored_blob_omnidirectional_camera",
                                                "colored_blob_perspective_camera",
-                                               "footbot_turret_encoder"};
+                                               "footbot_turret_encoder",
+                                               "kheperaiv_proximity",
+                                               "kheperaiv_ultrasound",
+                                               "kheperaiv_light",
+                                               "kheperaiv_ground",
+                                               "kheperaiv_lidar",
+                                               "kilobot_light",
+                                               "kilobot_communication",
+                                               "epuck_light",
+                                               "epuck_ground",
+                                               "epuck_omnidirectional_camera",
+                                               "epuck_range_and_bearing"};
 constexpr const char* kScanner = "footbot_distance_scanner";
 
-constexpr std::array<const char*, 8> kActuators{kScanner,
-                                                "differential_steering",
-                                                "leds",
-                                                "footbot_gripper",
-                                                "footbot_turret",
-                                                "range_and_bearing",
-                                                "quadrotor_position",
-                                                "quadrotor_speed"};
+constexpr std::array<const char*, 14> kActuators{kScanner,
+                                                 "differential_steering",
+                                                 "leds",
+                                                 "footbot_gripper",
+                                                 "footbot_turret",
+                                                 "range_and_bearing",
+                                                 "quadrotor_position",
+                                                 "quadrotor_speed",
+                                                 "kilobot_led",
+                                                 "kilobot_communication",
+                                                 "epuck_wheels",
+                                                 "epuck_rgb_leds",
+                                                 "epuck_base_leds",
+                                                 "epuck_range_and_bearing"};
 
 // Each device of ARGoS3 has one implementation.
 void CheckImplementation(const ConfigurationNode& node, const std::string& needed, const DeviceContext& context)
@@ -173,14 +224,19 @@ void CheckImplementation(const ConfigurationNode& node, const std::string& neede
 
 std::string ImplementationOfSensor(const std::string& tag)
 {
-  constexpr std::array<std::string_view, 7> kRotZOnly{"colored_blob_omnidirectional_camera",
-                                                      "eyebot_light",
-                                                      "footbot_base_ground",
-                                                      kScanner,
-                                                      "footbot_light",
-                                                      "footbot_motor_ground",
-                                                      "ground"};
-  if (tag == "range_and_bearing") return "medium";
+  constexpr std::array<std::string_view, 12> kRotZOnly{"colored_blob_omnidirectional_camera",
+                                                       "eyebot_light",
+                                                       "footbot_base_ground",
+                                                       kScanner,
+                                                       "footbot_light",
+                                                       "footbot_motor_ground",
+                                                       "ground",
+                                                       "kheperaiv_ground",
+                                                       "kheperaiv_light",
+                                                       "kilobot_light",
+                                                       "epuck_ground",
+                                                       "epuck_omnidirectional_camera"};
+  if (tag == "range_and_bearing" || tag == "epuck_range_and_bearing") return "medium";
   return std::ranges::find(kRotZOnly, tag) != kRotZOnly.end() ? "rot_z_only" : "default";
 }
 
@@ -223,6 +279,148 @@ void ConvertBattery(const DeviceContext& context, ConfigurationNode& device)
   SetValue(device, "per_radian", TextOf(per_radian), device.location);
 }
 
+// The sensors of Khepera IVs alone. Returns false for other tags.
+bool ConvertKheperaSensor(const ConfigurationNode& node, const DeviceContext& context, Attributes& attributes,
+                          DeviceLists& ours)
+{
+  const SourceLocation& at = node.location;
+  const std::string& tag = node.name;
+  // The plug-in adds the noise to the responses (argos3/plugin/khepera_devices.cpp).
+  if (tag == "kheperaiv_proximity")
+  {
+    AddDevice(ours.sensors, "proximity", "generic_proximity", at);
+    attributes.Number("noise_level");
+  }
+  else if (tag == "kheperaiv_ultrasound")
+  {
+    SetValue(AddDevice(ours.sensors, "proximity", "generic_proximity", at), "range", TextOf(kUltrasoundReach), at);
+    attributes.Number("noise_level");
+  }
+  else if (tag == "kheperaiv_light")
+  {
+    RefuseSecondLight(node, context, ours);
+    ConfigurationNode& device = AddDevice(ours.sensors, "light", "argos3_light", at);
+    // ARGoS3 finds the five sensors that a light reaches by steps of 15 degrees, although the sensors are 45 degrees
+    // apart (kheperaiv_light_rotzonly_sensor.cpp).
+    SetValue(device, "index_step", "15", at);
+    attributes.CopyLevel(device);
+  }
+  else if (tag == "kheperaiv_lidar")
+  {
+    ConfigurationNode& device = AddDevice(ours.sensors, "range_scanner", "generic_range_scanner", at);
+    constexpr double kUsual = 682, kMost = 8192;
+    const double beams = attributes.Number("num_readings").value_or(kUsual);
+    if (!(beams >= 2 && beams <= kMost && beams == std::floor(beams)))
+      context.mistake(at, "'num_readings' of <kheperaiv_lidar> is " + TextOf(beams) + "; it must be from 2 to 8192");
+    SetValue(device, "beams", TextOf(beams), at);
+    SetValue(device, "field_of_view", "210", at);
+    SetValue(device, "position", TextOf(Vector3(0, 0, kLidarHeight)), at);
+    SetValue(device, "nearest", TextOf(kLidarStart), at);
+    SetValue(device, "range", TextOf(kLidarReach), at);
+    attributes.Number("noise_level");
+  }
+  else if (tag == "kheperaiv_encoder" || tag == "kheperaiv_camera")
+    context.mistake(at, "<" + tag + "> exists on the real robot alone, also in ARGoS3; " +
+                            (tag == "kheperaiv_encoder" ? "take differential_steering" : "leave it out"));
+  else
+    return false;
+  return true;
+}
+
+// The sensors of e-pucks of argos3-epuck alone. Returns false for other tags.
+bool ConvertEPuckSensor(const ConfigurationNode& node, const DeviceContext& context, Attributes& attributes,
+                        DeviceLists& ours)
+{
+  const SourceLocation& at = node.location;
+  const std::string& tag = node.name;
+  if (tag == "epuck_light")
+  {
+    RefuseSecondLight(node, context, ours);
+    ConfigurationNode& device = AddDevice(ours.sensors, "light", "argos3_light", at);
+    // ci_epuck_light_sensor.cpp has the angles as parts of pi.
+    std::string directions;
+    for (const double divisor : {10.5884, 3.5999, 2.0, 1.2, 0.8571, 0.6667, 0.5806, 0.5247})
+      directions += (directions.empty() ? "" : ", ") + TextOf(180 / divisor);
+    SetValue(device, "directions", directions, at);
+    attributes.CopyLevel(device);
+  }
+  else if (tag == "epuck_omnidirectional_camera")
+  {
+    // It sees what is nearer to the eye than the border on the floor. Here the range is along the floor, for the
+    // coloured LEDs of e-pucks.
+    constexpr double kEye = 0.122, kLeds = 0.0765;
+    const double far = kEye * std::tan(context.bearers.camera_aperture * kRadians);
+    ConfigurationNode& device =
+        AddDevice(ours.sensors, "footbot_omnidirectional_camera", "generic_footbot_omnidirectional_camera", at);
+    SetValue(device, "height", TextOf(kEye), at);
+    SetValue(device, "aperture", "89.9", at);
+    constexpr double kLeast = 1e-6;
+    SetValue(device, "range", TextOf(std::sqrt(std::max(far * far - (kEye - kLeds) * (kEye - kLeds), kLeast))), at);
+    attributes.Number("noise_std_dev");
+    attributes.Medium("led");
+  }
+  else if (tag == "epuck_range_and_bearing")
+  {
+    ConfigurationNode& device = AddDevice(ours.sensors, "range_and_bearing", "generic_range_and_bearing", at);
+    SetValue(device, "range", TextOf(context.largest_radio_range), at);
+    if (!context.checks_occlusions(attributes.Medium("range_and_bearing")))
+      SetValue(device, "line_of_sight", "false", at);
+    if (const RobotRow* row = GenericRobot(context)) SetValue(device, "antenna", TextOf(row->antenna_m), at);
+    AddDevice(ours.sensors, "positioning", "generic_positioning", at);
+    // The plug-in adds these to the packets (argos3/plugin/epuck_devices.cpp).
+    for (const char* name : {"noise_std_dev", "loss_probability", "max_packets", "data_size"}) attributes.Number(name);
+    attributes.Text("real_range_noise", "");
+  }
+  else
+    return false;
+  return true;
+}
+
+// Refuses devices of argos3-epuck that are not simulated here. Returns false for other tags.
+bool RefuseEPuckDevice(const ConfigurationNode& node, const DeviceContext& context)
+{
+  constexpr std::pair<std::string_view, std::string_view> kMissing[]{
+      {"epuck_ircom", "take epuck_range_and_bearing"},
+      {"epuck_virtual_camrab", "take epuck_range_and_bearing and epuck_omnidirectional_camera"},
+      {"epuck_encoder", "take differential_steering"},
+      {"epuck_battery", "leave it out"},
+      {"epuck_accelerometer", "leave it out"},
+      {"epuck_micro", "leave it out"},
+      {"epuck_camera", "take epuck_omnidirectional_camera"},
+      {"epuck_front_camera", "take epuck_omnidirectional_camera"}};
+  const auto* missing = std::ranges::find(kMissing, node.name, &std::pair<std::string_view, std::string_view>::first);
+  if (missing == std::end(kMissing)) return false;
+  context.mistake(node.location, "<" + node.name + "> has no counterpart here; " + std::string(missing->second));
+  return true;
+}
+
+// The sensors of Kilobots alone. Returns false for other tags.
+bool ConvertKilobotSensor(const ConfigurationNode& node, const DeviceContext& context, Attributes& attributes,
+                          DeviceLists& ours)
+{
+  const SourceLocation& at = node.location;
+  if (node.name == "kilobot_light")
+  {
+    ConfigurationNode& device = AddDevice(ours.sensors, "light", "argos3_light", at);
+    SetValue(device, "directions", "100", at);
+    SetValue(device, "half_angle", "180", at);
+    SetValue(device, "position", TextOf(KilobotEye()), at);
+    attributes.CopyLevel(device);
+  }
+  else if (node.name == "kilobot_communication")
+  {
+    // The plug-in draws losses and adds the noise (argos3/plugin/kilobot_devices.cpp).
+    ConfigurationNode& device = AddDevice(ours.sensors, "range_and_bearing", "generic_range_and_bearing", at);
+    SetValue(device, "range", TextOf(context.largest_radio_range), at);
+    SetValue(device, "line_of_sight", "false", at);
+    attributes.Medium("kilobot_communication");
+    attributes.Number("noise_std_dev");
+  }
+  else
+    return false;
+  return true;
+}
+
 }  // namespace
 
 void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, DeviceLists& ours)
@@ -230,11 +428,16 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
   const SourceLocation& at = node.location;
   const std::string& tag = node.name;
   CheckImplementation(node, ImplementationOfSensor(tag), context);
+  if (!IsOnItsRobot(node, context)) return;
   Attributes attributes(node, context);
+  const RobotRow* generic = GenericRobot(context);
+  if (RefuseEPuckDevice(node, context) || ConvertKheperaSensor(node, context, attributes, ours) ||
+      ConvertKilobotSensor(node, context, attributes, ours) || ConvertEPuckSensor(node, context, attributes, ours))
+    return;
   if (tag == "differential_steering")
   {
-    // The encoders of e-pucks read the wheel commands (argos3/plugin/epuck_devices.cpp).
-    if (!IsForEPucks(context)) AddDevice(ours.sensors, "footbot_encoders", "engine_footbot_encoders", at);
+    // The encoders of generic robots read the wheel commands (argos3/plugin/generic_devices.cpp).
+    if (generic == nullptr) AddDevice(ours.sensors, "footbot_encoders", "engine_footbot_encoders", at);
     // The plug-in adds this noise, and that of the camera and of range and bearing, to the readings
     // (argos3/plugin/device_noise.h).
     attributes.Range("vel_noise_range");
@@ -254,25 +457,28 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
     context.mistake(at, "<light> has no counterpart here on eye-bots; take eyebot_light");
   else if (tag == "light")
   {
-    // The values are those of epuck_entity.cpp and footbot_entity.cpp of ARGoS3.
+    RefuseSecondLight(node, context, ours);
     ConfigurationNode& device = AddDevice(ours.sensors, tag, "generic_light", at);
-    const bool is_epuck = IsForEPucks(context);
-    SetValue(device, "sensors", is_epuck ? "8" : "24", at);
-    SetValue(device, "first_angle", is_epuck ? "22.5" : "7.5", at);
-    SetValue(device, "radius", is_epuck ? "0.035" : "0.085036758", at);
-    SetValue(device, "height", "0.06", at);
+    const LightRingRow ring = generic == nullptr ? LightRingRow{} : generic->light;
+    SetValue(device, "sensors", std::to_string(ring.sensors), at);
+    SetValue(device, "first_angle", TextOf(ring.first_angle_deg), at);
+    SetValue(device, "radius", TextOf(ring.radius_m), at);
+    SetValue(device, "height", TextOf(ring.height_m), at);
     attributes.CopyLevel(device);
   }
-  else if (tag == "ground" && !IsForEPucks(context))
+  else if (tag == "ground" && generic == nullptr)
     context.mistake(at,
-                    "<ground> has no counterpart here on robots that are no e-pucks; take footbot_motor_ground or "
+                    "<ground> has no counterpart here on foot-bots and eye-bots; take footbot_motor_ground or "
                     "footbot_base_ground");
-  else if ((tag == "footbot_motor_ground" || tag == "footbot_base_ground" || tag == "ground") &&
+  else if ((tag == "footbot_motor_ground" || tag == "footbot_base_ground" || tag == "ground" ||
+            tag == "kheperaiv_ground" || tag == "epuck_ground") &&
            context.floor_is_painted)
   {
     AddDevice(ours.sensors, "positioning", "generic_positioning", at);
     attributes.Number("noise_level");
   }
+  else if (tag == "kheperaiv_ground" || tag == "epuck_ground")
+    attributes.CopyLevel(AddDevice(ours.sensors, "ground", "generic_ground", at));
   else if (tag == "footbot_motor_ground" || tag == "footbot_base_ground" || tag == "ground")
     attributes.CopyLevel(AddDevice(ours.sensors, tag, "generic_" + tag, at));
   else if (tag == "positioning")
@@ -290,6 +496,8 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
     ConvertBattery(context, AddDevice(ours.sensors, tag, "generic_battery", at));
     attributes.Range("noise_range");
   }
+  else if (tag.starts_with("colored_blob_") && generic != nullptr)
+    context.mistake(at, "<" + tag + "> is no sensor of <" + std::string(generic->tag) + ">; leave it out");
   else if (tag == "colored_blob_omnidirectional_camera")
   {
     ConfigurationNode& device =
@@ -300,8 +508,6 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
     attributes.Number("noise_std_dev");
     attributes.Medium("led");
   }
-  else if (tag == "colored_blob_perspective_camera" && IsForEPucks(context))
-    context.mistake(at, "<colored_blob_perspective_camera> has no counterpart on e-pucks; leave it out");
   else if (tag == "colored_blob_perspective_camera")
   {
     const std::string type =
@@ -327,6 +533,7 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
     SetValue(device, "range", TextOf(context.largest_radio_range), at);
     if (!context.checks_occlusions(attributes.Medium("range_and_bearing")))
       SetValue(device, "line_of_sight", "false", at);
+    if (generic != nullptr) SetValue(device, "antenna", TextOf(generic->antenna_m), at);
     attributes.Copy("packet_drop_prob", "loss_probability", device);
     attributes.Number("noise_std_dev");
   }
@@ -338,19 +545,24 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
 {
   const SourceLocation& at = node.location;
   const std::string& tag = node.name;
-  CheckImplementation(node, "default", context);
+  CheckImplementation(node, tag == "epuck_range_and_bearing" ? "medium" : "default", context);
+  if (!IsOnItsRobot(node, context) || RefuseEPuckDevice(node, context)) return;
   Attributes attributes(node, context);
-  if (tag == "leds") attributes.Medium("led");
+  if (tag == "leds" || tag == "epuck_rgb_leds" || tag == "epuck_base_leds") attributes.Medium("led");
+  const bool is_sender =
+      tag == "range_and_bearing" || tag == "kilobot_communication" || tag == "epuck_range_and_bearing";
   // Cameras of ARGoS3 see each LED, and bodies hide LEDs, also those of their own robot.
   const auto add_leds = [&](const char* type)
   {
     ConfigurationNode& device = AddDevice(ours.actuators, type, std::string("generic_") + type, at);
     if (FindAttributeOf(device, "separate") == nullptr) SetValue(device, "separate", "true", at);
   };
-  if (tag == "differential_steering" && IsForEPucks(context))
+  const RobotRow* generic = GenericRobot(context);
+  if (tag == "differential_steering" && generic != nullptr)
   {
-    AddDevice(ours.actuators, "wheels", "generic_wheels", at);
-    // The plug-in computes ARGoS3's noise in argos3/plugin/epuck_devices.cpp.
+    ConfigurationNode& wheels = AddDevice(ours.actuators, "wheels", "generic_wheels", at);
+    if (generic->max_speed_m_s > 0) SetValue(wheels, "max_speed", TextOf(generic->max_speed_m_s), at);
+    // The plug-in computes ARGoS3's noise in argos3/plugin/generic_devices.cpp.
     for (const char* name : kWheelNoise)
       for (const char* side : {"", "_left", "_right"}) attributes.Number(std::string(name) + side);
   }
@@ -358,7 +570,13 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
     ConvertWheels(attributes, AddDevice(ours.actuators, "footbot_wheels", "argos3_footbot_wheels", at));
   else if (tag == "leds" && context.bearers.kinds.contains("eyebot"))
     add_leds("eyebot_leds");
-  else if (tag == "leds" && IsForEPucks(context))
+  else if (tag == "epuck_wheels")
+  {
+    AddDevice(ours.actuators, "wheels", "generic_wheels", at);
+    attributes.Number("noise_std_dev");
+  }
+  else if ((tag == "leds" && generic != nullptr) || tag == "kilobot_led" || tag == "epuck_rgb_leds" ||
+           tag == "epuck_base_leds")
     add_leds("led_ring");
   else if (tag == "leds")
   {
@@ -374,10 +592,15 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
     AddDevice(ours.actuators, tag, "dummy_footbot_turret", at);
     AddDevice(ours.sensors, "footbot_turret_encoder", "generic_footbot_turret_encoder", at);
   }
-  else if (tag == "range_and_bearing" && !context.hears)
-    context.note(at, "without the sensor <range_and_bearing> the robots are in no medium, and no robot hears them");
-  else if (tag == "range_and_bearing")
+  else if (is_sender && !context.hears)
+    context.note(at, "without the sensor <" + tag + "> the robots are in no medium, and no robot hears them");
+  else if (is_sender)
+  {
     AddSender(at, context, ours);
+    if (tag != "epuck_range_and_bearing") return;
+    AddDevice(ours.sensors, "positioning", "generic_positioning", at);
+    attributes.Number("range");  // the arena's (convert_arena.cpp)
+  }
   else if (tag == "quadrotor_position" || tag == "quadrotor_speed")
   {
     AddDevice(ours.actuators, "eyebot_propellers", "position_eyebot_propellers", at);

@@ -16,7 +16,7 @@ namespace swarmanoid::argos3
 // The properties of robots that share a controller of ours.
 struct Bearers
 {
-  std::set<std::string> kinds;       // "footbot", "eyebot", "argos3_epuck"; empty: no robot of the file has it
+  std::set<std::string> kinds;       // our kinds (robot_rows.h); empty: no robot of the file has it
   double camera_aperture = 70;       // degrees
   double perspective_aperture = 30;  // degrees
   double perspective_range = 2;      // m

@@ -3,6 +3,8 @@
 #include <argos3/plugins/robots/e-puck/simulator/epuck_entity.h>
 #include <argos3/plugins/robots/eye-bot/simulator/eyebot_entity.h>
 #include <argos3/plugins/robots/foot-bot/simulator/footbot_entity.h>
+#include <argos3/plugins/robots/kheperaiv/simulator/kheperaiv_entity.h>
+#include <argos3/plugins/robots/kilobot/simulator/kilobot_entity.h>
 #include <argos3/plugins/simulator/entities/box_entity.h>
 #include <argos3/plugins/simulator/entities/cylinder_entity.h>
 #include <argos3/plugins/simulator/entities/light_entity.h>
@@ -134,7 +136,8 @@ void CSpace::GetEntitiesMatching(CEntity::TVector& found, const std::string& pat
 void CSpace::InsertAny(CEntity& entity)
 {
   if (InsertIfRobot<CFootBotEntity>(*this, entity) || InsertIfRobot<CEyeBotEntity>(*this, entity) ||
-      InsertIfRobot<CEPuckEntity>(*this, entity) || InsertIfBody<CBoxEntity>(*this, entity) ||
+      InsertIfRobot<CEPuckEntity>(*this, entity) || InsertIfRobot<CKheperaIVEntity>(*this, entity) ||
+      InsertIfRobot<CKilobotEntity>(*this, entity) || InsertIfBody<CBoxEntity>(*this, entity) ||
       InsertIfBody<CCylinderEntity>(*this, entity))
     return;
   if (auto* light = dynamic_cast<CLightEntity*>(&entity)) Insert(*light);

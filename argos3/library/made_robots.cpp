@@ -2,13 +2,16 @@
 #include <argos3/core/simulator/entity/composable_entity.h>
 #include <argos3/core/simulator/physics_engine/physics_engine.h>
 #include <argos3/core/simulator/simulator.h>
+#include <argos3/plugins/robots/e-puck/control_interface/ci_epuck_wheels_actuator.h>
 #include <argos3/plugins/robots/e-puck/simulator/epuck_entity.h>
 #include <argos3/plugins/robots/eye-bot/simulator/eyebot_entity.h>
 #include <argos3/plugins/robots/foot-bot/simulator/footbot_entity.h>
+#include <argos3/plugins/robots/kheperaiv/simulator/kheperaiv_entity.h>
 #include <argos3/plugins/simulator/entities/box_entity.h>
 #include <argos3/plugins/simulator/entities/cylinder_entity.h>
 #include <argos3/plugins/simulator/entities/light_entity.h>
 
+#include "argos3/converter/robot_rows.h"
 #include "argos3/kinds/epuck_ground.h"
 #include "argos3/library/editing.h"
 #include "argos3/library/running.h"
@@ -212,6 +215,16 @@ CEPuckEntity::CEPuckEntity(const std::string& id, const std::string& controller,
   AddParts();
 }
 
+const Real CCI_EPuckWheelsActuator::MAX_VELOCITY_CM_SEC = 30;
+const Real CCI_EPuckWheelsActuator::MIN_VELOCITY_CM_SEC = -30;
+
+CKheperaIVEntity::CKheperaIVEntity(const std::string& id, const std::string& controller, const CVector3& position,
+                                   const CQuaternion& orientation, Real, size_t, const std::string&)
+    : CRobotWithController(id, kLeds, controller, position, orientation)
+{
+  AddParts();
+}
+
 CBoxEntity::CBoxEntity(const std::string& id, const CVector3& position, const CQuaternion& orientation, bool movable,
                        const CVector3& size, Real mass)
     : CBoxEntity(id, movable, 0, size, mass)
@@ -235,6 +248,19 @@ CLightEntity::CLightEntity(const std::string& id, const CVector3& position, cons
 
 // The positions are those of the simulated sensors.
 
+namespace
+{
+
+void PlaceProximity(const swarmanoid::EntityKindDescription& row, CProximitySensorEquippedEntity& sensors,
+                    SAnchor& origin)
+{
+  for (const auto& sensor : row.proximity->sensors)
+    sensors.Place(CVector3(sensor.place.x(), sensor.place.y(), row.proximity->height_m), CRadians(sensor.direction),
+                  row.proximity->range_m, origin);
+}
+
+}  // namespace
+
 void CFootBotEntity::AddParts()
 {
   using Proximity = swarmanoid::CCI_FootBotProximitySensor;
@@ -257,13 +283,32 @@ void CEyeBotEntity::AddParts()
 {
   using Light = swarmanoid::CCI_EyeBotLightSensor;
   SAnchor& origin = GetEmbodiedEntity().GetOriginAnchor();
-  if (const auto& ring = swarmanoid::DescriptionOf(*swarmanoid::KindOfTag("eyebot")).proximity)
-    for (const auto& sensor : ring->sensors)
-      proximity_.Place(CVector3(sensor.place.x(), sensor.place.y(), ring->height_m), CRadians(sensor.direction),
-                       ring->range_m, origin);
+  PlaceProximity(swarmanoid::DescriptionOf(*swarmanoid::KindOfTag("eyebot")), proximity_, origin);
   light_.PlaceRing(Light::RING_HEIGHT_M, 0.255, CRadians(Light::FIRST_ANGLE), 0.1, Light::NUM_SENSORS, origin);
   AddComponent(proximity_);
   AddComponent(light_);
+}
+
+void CKheperaIVEntity::AddParts()
+{
+  SAnchor& origin = GetEmbodiedEntity().GetOriginAnchor();
+  const auto& row = swarmanoid::DescriptionOf(*swarmanoid::KindOfTag("argos3_kheperaiv"));
+  PlaceProximity(row, proximity_, origin);
+  for (const int degrees : {0, 45, 90, -90, -45})
+  {
+    const CRadians heading = ToRadians(CDegrees(degrees));
+    const Real from_axis = row.size.x() + swarmanoid::argos3::kUltrasoundGap;
+    ultrasound_.Place(CVector3(from_axis * Cos(heading), from_axis * Sin(heading), 0), heading,
+                      swarmanoid::argos3::kUltrasoundReach - swarmanoid::argos3::kUltrasoundGap, origin);
+  }
+  light_.PlaceRing(row.proximity->height_m, row.size.x(), CRadians(0), row.proximity->range_m, 8, origin);
+  for (const auto& place : row.ground_points)
+    ground_.Place(place.x(), place.y(), CGroundSensorEquippedEntity::TYPE_GRAYSCALE, origin);
+  AddComponent(wheels_);
+  AddComponent(proximity_);
+  AddComponent(ultrasound_);
+  AddComponent(light_);
+  AddComponent(ground_);
 }
 
 void CEPuckEntity::AddParts()

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <argos3/core/simulator/loop_functions.h>
+#include <argos3/plugins/robots/kilobot/control_interface/message.h>
 #include <argos3/plugins/simulator/visualizations/qt-opengl/qtopengl_user_functions.h>
 
 #include <functional>
@@ -152,6 +153,8 @@ struct Running
   std::map<std::string, ControlledRobot*> controlled;
   // The batteries of the robots of this process that have the sensor <battery>, by our id.
   std::map<std::string, BatteryCharge*> batteries;
+  // The messages of the overhead controller to Kilobots, by our id.
+  std::map<std::string, message_t> overhead_messages;
   // The wheel speeds of the robots of this process that have the actuator <differential_steering>, by our id.
   std::map<std::string, const WheelSpeeds*> wheels;
   // The first map has our ids of entities that loop functions added and did not remove, and of robots whose controller

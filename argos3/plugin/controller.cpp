@@ -142,6 +142,11 @@ private:
         lua.actuators[type] = GetRobot()->GetActuator(type);
       return MakeLuaController(std::move(lua));
     }
+    // Files need not name a library for the controllers of this library.
+    const auto& known = ControllersByLabel();
+    const auto own = known.find(options.GetText("label"));
+    if (!options.HasAttribute("library") && own != known.end())
+      return std::unique_ptr<argos::CCI_Controller>(own->second());
     return std::unique_ptr<argos::CCI_Controller>(FindLabel(options, "library", "controller", ControllersByLabel)());
   }
 

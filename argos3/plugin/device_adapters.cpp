@@ -23,6 +23,7 @@
 #include <optional>
 
 #include "argos3/converter/battery.h"
+#include "argos3/converter/robot_rows.h"
 #include "argos3/plugin/device_noise.h"
 #include "argos3/plugin/device_parts.h"
 #include "common/control_interface/ci_battery_sensor.h"
@@ -58,72 +59,13 @@ private:
   CCI_LedRingActuator& ring_;
 };
 
-// Returns the response of ARGoS3's infrared sensors (generic, e-puck, eye-bot) to a distance in m.
+// Return the response of ARGoS3's infrared sensors (generic, eye-bot) to a distance in m.
 double GenericResponse(double distance) { return std::exp(-distance); }
-double EPuckResponse(double distance)
-{
-  constexpr double kFarthest = 0.05;
-  if (distance > kFarthest) return 0;
-  return std::clamp(298.701 * distance * distance - 36.8961 * distance + 1.08212, 0.0, 1.0);
-}
 double EyeBotResponse(double distance)
 {
   constexpr double kTouching = 0.009889556;
   return distance < kTouching ? 1 : 0.0100527 / (distance + 0.000163144);
 }
-
-// Our readings fall linearly from 1 at the sensor to 0 at its range, so the distance follows from them.
-template <class Theirs>
-class Proximity : public SensorBridge, public Theirs
-{
-public:
-  Proximity(const DeviceSetup& setup, double range_m, double (*response)(double))
-      : robot_(setup.robot),
-        ours_(robot_.Sensor<swarmanoid::CCI_ProximitySensor>("proximity")),
-        range_m_(range_m),
-        response_(response),
-        noise_(setup.options.GetNumber("proximity_noise", 0))
-  {
-    for (unsigned i = 0; i < ours_.GetAllSensorReadings().size(); ++i)
-    {
-      if constexpr (kHasAngles)
-        this->m_tReadings.emplace_back(0, argos::CRadians(ours_.GetAngle(i)).SignedNormalize());
-      else
-        this->m_tReadings.emplace_back(0);
-    }
-  }
-  argos::CCI_Sensor& Sensor() override { return *this; }
-  void BeforeStep() override
-  {
-    if (noise_ > 0)
-      Update();
-    else
-      this->OnDemand();
-  }
-  void Update() override
-  {
-    const auto readings = ours_.GetAllSensorReadings();
-    for (unsigned i = 0; i < readings.size(); ++i)
-    {
-      const double noise = noise_ > 0 ? robot_.GetRandom().Uniform(-noise_, noise_) : 0;
-      const double seen = readings[i] > 0 ? response_(range_m_ * (1 - readings[i])) : 0;
-      const double value = std::clamp(seen + noise, 0.0, 1.0);
-      if constexpr (kHasAngles)
-        this->m_tReadings[i].Value = value;
-      else
-        this->m_tReadings[i] = value;
-    }
-  }
-
-private:
-  static constexpr bool kHasAngles = !std::is_same_v<typename Theirs::TReadings, std::vector<Real>>;
-
-  CCI_Robot& robot_;
-  const swarmanoid::CCI_ProximitySensor& ours_;
-  const double range_m_;
-  double (*const response_)(double);
-  const double noise_;
-};
 
 class Light : public SensorBridge, public argos::CCI_LightSensor
 {
@@ -231,13 +173,6 @@ private:
   double spent_ = 0;
 };
 
-// If robots have several media or sizes of messages, the last byte of a message names both.
-std::optional<std::uint8_t> ChannelOf(const TConfigurationTree& options)
-{
-  const auto channel = options.GetInteger("radio_channel", -1);
-  return channel < 0 ? std::nullopt : std::optional(static_cast<std::uint8_t>(channel));
-}
-
 class RangeAndBearingSender : public ActuatorBridge, public argos::CCI_RangeAndBearingActuator
 {
 public:
@@ -331,17 +266,22 @@ private:
   const size_t further_;  // bytes behind the common ones
 };
 
+bool IsGeneric(const CCI_Robot& robot)
+{
+  const RobotRow* row = RobotOfKind(robot.GetKind());
+  return row != nullptr && row->is_generic;
+}
+
 }  // namespace
 
 std::unique_ptr<SensorBridge> MakeSensor(const std::string& tag, const DeviceSetup& setup)
 {
-  const double proximity_range_m = setup.robot.GetKind() == "eyebot" ? 3 : 0.1;
-  if (tag == "proximity")
-    return std::make_unique<Proximity<argos::CCI_ProximitySensor>>(setup, proximity_range_m, GenericResponse);
+  if (auto own = MakeEPuckSensor(tag, setup)) return own;
+  if (tag == "proximity") return std::make_unique<Proximity<argos::CCI_ProximitySensor>>(setup, GenericResponse);
   if (tag == "epuck_proximity")
-    return std::make_unique<Proximity<argos::CCI_EPuckProximitySensor>>(setup, proximity_range_m, EPuckResponse);
+    return std::make_unique<Proximity<argos::CCI_EPuckProximitySensor>>(setup, EPuckResponse);
   if (tag == "eyebot_proximity")
-    return std::make_unique<Proximity<argos::CCI_EyeBotProximitySensor>>(setup, proximity_range_m, EyeBotResponse);
+    return std::make_unique<Proximity<argos::CCI_EyeBotProximitySensor>>(setup, EyeBotResponse);
   if (tag == "eyebot_light")
     return std::make_unique<Ring<argos::CCI_EyeBotLightSensor, CCI_EyeBotLightSensor>>(setup, tag.c_str());
   if (tag == "colored_blob_perspective_camera") return MakePerspectiveCamera(setup);
@@ -349,17 +289,16 @@ std::unique_ptr<SensorBridge> MakeSensor(const std::string& tag, const DeviceSet
   if (tag == "positioning") return std::make_unique<Positioning>(setup);
   if (tag == "battery") return std::make_unique<Battery>(setup);
   if (tag == "range_and_bearing") return std::make_unique<RangeAndBearingReceiver>(setup);
-  return setup.robot.GetKind() == "argos3_epuck" ? MakeEPuckSensor(tag, setup) : MakeFootBotSensor(tag, setup);
+  return IsGeneric(setup.robot) ? MakeGenericSensor(tag, setup) : MakeFootBotSensor(tag, setup);
 }
 
 std::unique_ptr<ActuatorBridge> MakeActuator(const std::string& tag, const DeviceSetup& setup)
 {
-  const bool is_epuck = setup.robot.GetKind() == "argos3_epuck";
   if (tag == "leds" && setup.robot.GetKind() == "eyebot") return std::make_unique<RingLeds>(setup, "eyebot_leds");
-  if (tag == "leds" && is_epuck) return std::make_unique<RingLeds>(setup, "led_ring");
+  if (tag == "leds" && IsGeneric(setup.robot)) return std::make_unique<RingLeds>(setup, "led_ring");
   if (tag == "range_and_bearing") return std::make_unique<RangeAndBearingSender>(setup);
   if (auto flies = MakeEyeBotActuator(tag, setup)) return flies;
-  return is_epuck ? MakeEPuckActuator(tag, setup) : MakeFootBotActuator(tag, setup);
+  return IsGeneric(setup.robot) ? MakeGenericActuator(tag, setup) : MakeFootBotActuator(tag, setup);
 }
 
 }  // namespace swarmanoid::argos3

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <argos3/core/control_interface/ci_controller.h>
+#include <argos3/plugins/robots/kilobot/control_interface/message.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,13 @@
 
 namespace swarmanoid::argos3
 {
+
+// The message of a Kilobot on its way.
+struct KilobotRadio
+{
+  std::optional<message_t> waiting;  // it is sent if no other robot is in the way
+  std::optional<message_t> sent;     // others receive it in the next step
+};
 
 // The arguments of a device beside the robot.
 struct DeviceSetup
@@ -22,6 +31,8 @@ struct DeviceSetup
   TConfigurationTree options;
   // The last commanded speeds of the wheels; for e-pucks with the noise of the latest step.
   std::shared_ptr<WheelSpeeds> told_wheels = std::make_shared<WheelSpeeds>();
+  // What the sender and the receiver of a Kilobot share.
+  std::shared_ptr<KilobotRadio> kilobot_radio = std::make_shared<KilobotRadio>();
 };
 
 // A sensor that reads our sensor before each control step, or when the controller first asks for the readings of a

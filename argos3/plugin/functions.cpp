@@ -5,6 +5,8 @@
 #include <argos3/plugins/robots/e-puck/simulator/epuck_entity.h>
 #include <argos3/plugins/robots/eye-bot/simulator/eyebot_entity.h>
 #include <argos3/plugins/robots/foot-bot/simulator/footbot_entity.h>
+#include <argos3/plugins/robots/kheperaiv/simulator/kheperaiv_entity.h>
+#include <argos3/plugins/robots/kilobot/simulator/kilobot_entity.h>
 #include <argos3/plugins/simulator/entities/box_entity.h>
 #include <argos3/plugins/simulator/entities/cylinder_entity.h>
 #include <argos3/plugins/simulator/entities/light_entity.h>
@@ -13,6 +15,7 @@
 #include <optional>
 #include <utility>
 
+#include "argos3/converter/robot_rows.h"
 #include "argos3/library/editing.h"
 #include "argos3/library/pen.h"
 #include "argos3/library/running.h"
@@ -314,6 +317,12 @@ private:
       view.made = std::make_unique<argos::CEyeBotEntity>(id);
     else if (tag == "argos3_epuck")
       view.made = std::make_unique<argos::CEPuckEntity>(id);
+    else if (tag == kDemiurgeEPuck)
+      view.made = std::make_unique<argos::CEPuckEntity>(id, 11U);
+    else if (tag == "kilobot")
+      view.made = std::make_unique<argos::CKilobotEntity>(id);
+    else if (tag == "argos3_kheperaiv")
+      view.made = std::make_unique<argos::CKheperaIVEntity>(id);
     else if (view.is_box)
       view.made =
           std::make_unique<argos::CBoxEntity>(id, entity.IsMovable(), tag == "block" ? 0U : 1U,

@@ -24,6 +24,11 @@
 #include <argos3/plugins/robots/generic/control_interface/ci_proximity_sensor.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_range_and_bearing_actuator.h>
 #include <argos3/plugins/robots/generic/control_interface/ci_range_and_bearing_sensor.h>
+#include <argos3/plugins/robots/kheperaiv/control_interface/ci_kheperaiv_ground_sensor.h>
+#include <argos3/plugins/robots/kheperaiv/control_interface/ci_kheperaiv_lidar_sensor.h>
+#include <argos3/plugins/robots/kheperaiv/control_interface/ci_kheperaiv_light_sensor.h>
+#include <argos3/plugins/robots/kheperaiv/control_interface/ci_kheperaiv_proximity_sensor.h>
+#include <argos3/plugins/robots/kheperaiv/control_interface/ci_kheperaiv_ultrasound_sensor.h>
 
 #include <cmath>
 
@@ -308,6 +313,14 @@ void ReadNumbers(lua_State* lua, const std::vector<Real>& readings, const char* 
   Leave(lua);
 }
 
+// ARGoS3 gives scripts no lidar; here it is a list of distances in cm.
+void ReadLidar(lua_State* lua, argos::CCI_KheperaIVLIDARSensor& sensor)
+{
+  std::vector<Real> readings(sensor.GetNumReadings());
+  for (UInt32 i = 0; i < readings.size(); ++i) readings[i] = static_cast<Real>(sensor.GetReading(i));
+  ReadNumbers(lua, readings, "lidar");
+}
+
 // The next functions are those of robot.positioning, in m; the quaternion is also given as an angle about an axis.
 
 void ReadPosition(lua_State* lua, argos::CCI_PositioningSensor& sensor)
@@ -370,6 +383,12 @@ void AddReadings(lua_State* lua, const std::string& tag, argos::CCI_Sensor& sens
   if (tag == "ground") return ReadNumbers(lua, As<argos::CCI_GroundSensor>(sensor).GetReadings(), "ground");
   if (tag == "footbot_light") return ReadRing(lua, As<argos::CCI_FootBotLightSensor>(sensor), "light");
   if (tag == "eyebot_light") return ReadRing(lua, As<argos::CCI_EyeBotLightSensor>(sensor), "light");
+  if (tag == "kheperaiv_proximity") return ReadRing(lua, As<argos::CCI_KheperaIVProximitySensor>(sensor), "proximity");
+  if (tag == "kheperaiv_ultrasound")
+    return ReadRing(lua, As<argos::CCI_KheperaIVUltrasoundSensor>(sensor), "ultrasound");
+  if (tag == "kheperaiv_light") return ReadRing(lua, As<argos::CCI_KheperaIVLightSensor>(sensor), "light");
+  if (tag == "kheperaiv_ground") return ReadGround(lua, As<argos::CCI_KheperaIVGroundSensor>(sensor), "ground");
+  if (tag == "kheperaiv_lidar") return ReadLidar(lua, As<argos::CCI_KheperaIVLIDARSensor>(sensor));
   if (tag == "footbot_motor_ground")
     return ReadGround(lua, As<argos::CCI_FootBotMotorGroundSensor>(sensor), "motor_ground");
   if (tag == "footbot_base_ground")

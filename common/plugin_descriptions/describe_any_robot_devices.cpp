@@ -3,6 +3,7 @@
 #include "common/experiment/entity_kind.h"
 #include "common/plugin_descriptions/device_tables.h"
 #include "common/plugins/noise_parameters.h"
+#include "common/plugins/parameter_checks.h"
 
 namespace swarmanoid
 {
@@ -24,6 +25,45 @@ std::vector<ParameterSpec> LedRingParameters()
                                  "otherwise LEDs of one colour are one blob."}},
                 ColourNoiseParameters());
 }
+
+namespace
+{
+
+std::vector<ConfigurationError> MistakesInDirections(const Parameters& parameters)
+{
+  constexpr std::size_t kMost = 360;
+  const std::string text = parameters.Text("directions");
+  const auto directions = ParseNumbers(text);
+  if (directions && !directions->empty() && directions->size() <= kMost) return {};
+  return {ConfigurationError(parameters.Tree().ValueLocation("directions"),
+                             "'directions' of <" + parameters.Tree().Name() + "> is '" + text +
+                                 "'; it must be 1 to 360 angles in degrees, with commas between them")};
+}
+
+void DescribeExponentialLight()
+{
+  const PluginDescription light{
+      .label = "light",
+      .implementation = "argos3_light",
+      .brief =
+          "light sensors at one point, each with exp(-2 d / I) of the lights of intensity I at d m that it sees, "
+          "less by the angle; as on the robots of ARGoS3's plug-ins",
+      .parameters = Joined(
+          {{"directions", kText, "deg", "0, 45, 90, 135, 180, 225, 270, 315",
+            "Of the sensors from the front, counter-clockwise."},
+           {"half_angle", kNumber, "deg", "90", "Between a sensor and a light that it does not see any more.", 1, 180},
+           {"position", kVector3, "m", "0, 0, 0", "Of the sensors, in the frame of the robot, which hides no light.",
+            -1e6, 1e6},
+           {"index_step", kNumber, "deg", "0",
+            "If not 0, a light reaches five sensors about number bearing / step, modulo their number, as in ARGoS3's "
+            "model of the Khepera IV.",
+            0, 360}},
+          NoiseParameters("each reading", ""))};
+  ParameterChecks::Instance().Add(PluginKind::kSensor, light, MistakesInDirections);
+  DescribeSensor(light);
+}
+
+}  // namespace
 
 void DescribeAnyRobotDevices()
 {
@@ -76,6 +116,7 @@ void DescribeAnyRobotDevices()
             {"radius", kNumber, "m", "0.085", "Of the ring.", 0, 1e6},
             {"height", kNumber, "m", "0.06", "Of the ring above the position of the robot.", 0, 1e6}},
            NoiseParameters("each reading", ""))});
+  DescribeExponentialLight();
   DescribeSensor({.label = "ground",
                   .implementation = "generic_ground",
                   .brief = "brightness and colour of the floor under any robot that looks at it",

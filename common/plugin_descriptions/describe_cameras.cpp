@@ -52,7 +52,9 @@ void DescribeCamera(const std::string& label, const char* robot, const std::stri
 void DescribeCameras()
 {
   // The apertures are those of ARGoS3 for the footbot, and of ARGoS 2 for the eyebot.
-  DescribeCamera("footbot_omnidirectional_camera", "footbot", "omnidirectional camera", ViewParameters("70", "3"),
+  const std::vector<ParameterSpec> omnidirectional =
+      Joined(ViewParameters("70", "3"), {{"height", kNumber, "m", "0.2887", "Of the eye above the base.", 0.001, 1e6}});
+  DescribeCamera("footbot_omnidirectional_camera", "footbot", "omnidirectional camera", omnidirectional,
                  Elevation::kNone);
   DescribeSensor(
       {.label = "footbot_omnidirectional_camera",

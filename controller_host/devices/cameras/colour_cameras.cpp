@@ -23,6 +23,7 @@ struct FootbotCamera
 {
   using Interface = CCI_FootBotOmnidirectionalCameraSensor;
   static constexpr const char* kLabel = "footbot_omnidirectional_camera";
+  static constexpr bool kHasHeight = true;
   static CameraModel Model() { return {CameraModel::View::kDown, {0, 0, 0.2887}, 0, 0}; }
 };
 // It sees as in ARGoS3 (colored_blob_omnidirectional_camera, rot_z_only).
@@ -96,7 +97,9 @@ public:
 protected:
   void InitBatch(const DeviceSetup& setup)
   {
-    InitCamera(setup, Traits::Model());
+    CameraModel model = Traits::Model();
+    if constexpr (requires { Traits::kHasHeight; }) model.eye.z() = setup.parameters.Number("height");
+    InitCamera(setup, model);
     cameras_.reserve(setup.robots.size());
     for (std::size_t k = 0; k < setup.robots.size(); ++k) cameras_.emplace_back(*this, k);
     if (model_.view != CameraModel::View::kTurned) return;

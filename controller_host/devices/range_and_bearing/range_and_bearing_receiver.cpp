@@ -79,6 +79,7 @@ public:
     range_ = channel_ ? channel_->Reach() : setup.parameters.Number("range");
     loss_ = setup.parameters.Number("loss_probability");
     needs_sight_ = setup.parameters.Boolean("line_of_sight");
+    antenna_m_ = setup.parameters.Number("antenna");
     range_noise_ = NoiseFrom(setup.parameters, "range_");
     bearing_noise_ = NoiseFrom(setup.parameters, "bearing_");
     vertical_bearing_noise_ = NoiseFrom(setup.parameters, "vertical_bearing_");
@@ -120,7 +121,7 @@ public:
   }
   void Update(const ChannelView&) override { MakeAhead(); }
   // The antenna of a tilted robot is beside its origin, for receiver and sender.
-  double Reach() const override { return range_ + 2 * kAntennaHeight_m; }
+  double Reach() const override { return range_ + 2 * antenna_m_; }
   void Expose(std::size_t k, ExposedValues& values) override
   {
     values.SetList(receivers_[k].count, &receivers_[k],
@@ -190,8 +191,8 @@ private:
   Vector3 AntennaOf(std::uint32_t robot) const
   {
     const PoseArrays& poses = world_->Space().Poses();
-    if (IsUpright(poses, robot)) return {poses.x[robot], poses.y[robot], poses.z[robot] + kAntennaHeight_m};
-    return world_->Space().GetPose(robot).Apply({0, 0, kAntennaHeight_m});
+    if (IsUpright(poses, robot)) return {poses.x[robot], poses.y[robot], poses.z[robot] + antenna_m_};
+    return world_->Space().GetPose(robot).Apply({0, 0, antenna_m_});
   }
 
   void Receive(std::size_t k)
@@ -456,7 +457,8 @@ private:
   DeviceStreams loss_streams_, range_streams_, bearing_streams_, vertical_bearing_streams_;
   double range_ = 0, loss_ = 0;
   bool needs_sight_ = true;
-  std::vector<double> square_ranges_;  // of senders, m², by entity; empty if no sender has a range
+  double antenna_m_ = kAntennaHeight_m;  // above the base of a robot
+  std::vector<double> square_ranges_;    // of senders, m², by entity; empty if no sender has a range
   NoiseModel range_noise_, bearing_noise_, vertical_bearing_noise_;
   std::vector<std::uint32_t> message_slots_;  // by entity
   Receiver::Further further_bytes_;

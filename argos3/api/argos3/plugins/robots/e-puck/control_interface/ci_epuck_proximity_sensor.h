@@ -8,6 +8,9 @@ namespace argos
 
 class CCI_EPuckProximitySensor : public CRingSensor
 {
+public:
+  // Throws std::out_of_range for a sensor that does not exist.
+  const SReading& GetReading(UInt16 sensor) const { return GetReadings().at(sensor); }
 };
 
 }  // namespace argos

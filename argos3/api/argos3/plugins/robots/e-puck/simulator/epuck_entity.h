@@ -12,7 +12,8 @@ namespace argos
 class CEPuckEntity : public CRobotWithController
 {
 public:
-  explicit CEPuckEntity(const std::string& id) : CRobotWithController(id, kLeds) { AddParts(); }
+  // `leds`: eight, or eleven for e-pucks of argos3-epuck.
+  explicit CEPuckEntity(const std::string& id, unsigned leds = kLeds) : CRobotWithController(id, leds) { AddParts(); }
   CWheeledEntity& GetWheeledEntity() { return wheels_; }
   CProximitySensorEquippedEntity& GetProximitySensorEquippedEntity() { return proximity_; }
   CLightSensorEquippedEntity& GetLightSensorEquippedEntity() { return light_; }
