@@ -37,6 +37,7 @@ public:
   virtual bool IsOpen() const = 0;
   // Sends what is due. Call it between two ticks, again and again while the run waits.
   virtual void Publish(RunMonitor& run) = 0;
+  // Sends the reply to a request.
   virtual void Reply(const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text) = 0;
   // Returns the visualisers that are attached.
   virtual std::vector<ProcessStatus> Attached() const = 0;

@@ -80,7 +80,8 @@ OwnDevices::~OwnDevices() = default;
 void OwnDevices::Make(const TConfigurationTree& parameters, const std::string& our_id,
                       argos::CCI_Controller& controller)
 {
-  const TConfigurationTree sensors = parameters.Child("registered_sensors"), actuators = parameters.Child("registered_actuators");
+  const TConfigurationTree sensors = parameters.Child("registered_sensors"),
+                           actuators = parameters.Child("registered_actuators");
   if (!sensors.Exists() && !actuators.Exists()) return;
   LoadBefore("");
   const Working working;

@@ -23,8 +23,8 @@ public:
   OwnDevices(const OwnDevices&) = delete;
   OwnDevices& operator=(const OwnDevices&) = delete;
 
-  // Makes the devices of <registered_sensors> and <registered_actuators> in `parameters`, and gives them to the controller of the
-  // robot. `our_id`: of the robot. Throws ConfigurationError.
+  // Makes the devices of <registered_sensors> and <registered_actuators> in `parameters`, and gives them to the
+  // controller of the robot. `our_id`: of the robot. Throws ConfigurationError.
   void Make(const TConfigurationTree& parameters, const std::string& our_id, argos::CCI_Controller& controller);
   // Before each control step.
   void Sense();

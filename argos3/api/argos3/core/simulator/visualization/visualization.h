@@ -13,6 +13,7 @@ public:
   void Init(TConfigurationNode&) override {}
   void Reset() override {}
   void Destroy() override {}
+  // Runs the experiment; never called here.
   virtual void Execute() = 0;
 };
 

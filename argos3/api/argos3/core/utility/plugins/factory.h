@@ -1,5 +1,5 @@
-// What the macros that register plug-ins share. Libraries written for ARGoS3 can register controllers, loop functions, Qt
-// user functions, sensors and actuators.
+// What the macros that register plug-ins share. Libraries written for ARGoS3 can register controllers, loop functions,
+// Qt user functions, sensors and actuators.
 #pragma once
 
 #include <argos3/core/utility/configuration/argos_exception.h>
