@@ -331,9 +331,8 @@ int RunExperiment(RunRequest request)
   {
     request = request.With([](RunSettings& settings) { settings.single_process = true; });
     PrintError(
-        "{}: note: it has loop functions or user functions, so it runs in one process; `swarmanoid convert` makes an "
-        "experiment "
-        "that runs as a cluster if they reach into no controller\n",
+        "{}: note: it has loop functions, user functions or registered devices, so it runs in one process; `swarmanoid "
+        "convert` makes an experiment that runs as a cluster if they reach into no controller\n",
         request->file);
   }
   RefuseBadCheckpoints(request, *experiment);

@@ -19,7 +19,7 @@ namespace swarmanoid
 class RunLink
 {
 public:
-  // The roles of the run. They outlive the calls, except that of Fail.
+  // The roles of the run, which exist until Detach.
   struct Roles
   {
     SpaceServer& server;
@@ -41,6 +41,8 @@ public:
   virtual void Reply(const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text) = 0;
   // Returns the visualisers that are attached.
   virtual std::vector<ProcessStatus> Attached() const = 0;
+  // The roles end, after Close or because the run failed: none of them is used any more.
+  virtual void Detach() = 0;
   // Sends the last state. `begins_again`: observers wait for the next run instead.
   virtual void Close(RunMonitor& run, bool begins_again) = 0;
 };

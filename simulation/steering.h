@@ -23,6 +23,12 @@ class Steering : public RunMonitor
 public:
   // `stop`: see SimulatorOptions. The references must outlive the object.
   Steering(const Experiment& experiment, SpaceServer& server, RunControlSetup setup, const std::atomic<bool>* stop);
+  ~Steering() override
+  {
+    if (link_ != nullptr) link_->Detach();
+  }
+  Steering(const Steering&) = delete;
+  Steering& operator=(const Steering&) = delete;
 
   ExperimentControl& Control() { return control_; }
   // Sets the controller host whose robots can be watched.

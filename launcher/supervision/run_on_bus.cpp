@@ -8,6 +8,8 @@
 
 #include "common/bus/membership/server_session.h"
 #include "common/bus/membership/worker_world.h"
+#include "common/bus/security/digest.h"
+#include "common/checkpoint/library_builds.h"
 #include "common/errors/print_error.h"
 #include "common/messages/control_verbs.h"
 #include "controller_host/watched_robots.h"
@@ -31,11 +33,11 @@ struct RunOnBus::Parts
 {
   Parts(const BusOptions& options, WorldMessage world, const Roles& roles, RunOnBus& link)
       : session(options, std::move(world), {},
-                {[this, roles](const ControlRequestMessage& request)
+                {[this, &link](const ControlRequestMessage& request)
                  {
                    const ControlVerb* const verb = FindControlVerb(request.verb);
                    if (verb != nullptr && verb->who == Asker::kOwner) return grants.Ask(request);
-                   roles.ask(request);
+                   link.Ask(request);
                  },
                  [&link] { link.woken_ = true; }, [this](const std::string& process) { views.Lost(process); },
                  [this](const ControlReplyMessage& reply)
@@ -44,8 +46,8 @@ struct RunOnBus::Parts
                    views.Renew();
                  }}),
         grants(session, options,
-               {[this](const ViewRequestMessage& request) { views.Requested(request); }, roles.note,
-                [&link] { link.woken_ = true; }}),
+               {[this](const ViewRequestMessage& request) { views.Requested(request); },
+                [&link](const ControlRequestMessage& note) { link.Note(note); }, [&link] { link.woken_ = true; }}),
         views(session, grants, [&link] { link.woken_ = true; }),
         watched(roles.host.Layout().robots),
         robots(session.GetBus(), session.World().experiment),
@@ -58,10 +60,10 @@ struct RunOnBus::Parts
                  })
   {
     session.GetBus().OnRefused(
-        [roles](const BadMessageReport& report)
+        [&link](const BadMessageReport& report)
         {
           PrintError("refused a {} message of {}: {}\n", report.topic, report.sender, report.what);
-          roles.note(NoteOf(kRefusedMessage, report.topic, report.sender));
+          link.Note(NoteOf(kRefusedMessage, report.topic, report.sender));
         });
     robot_status.run = session.World().run;
     session.Open();
@@ -103,6 +105,11 @@ void RunOnBus::Open(const Roles& roles)
   {
     WorldMessage world = DescribeWorld(roles.server.Space(), NewRun(), run_.request->file, roles.assignment.table);
     world.recorded = run_.request->journal;
+    ForEachLibrary(*run_.experiment,
+                   [&](const std::string& name, const std::string& file, bool)
+                   {
+                     if (!file.empty()) world.libraries.push_back({name, DigestOfFile(file)});
+                   });
     parts_ = std::make_unique<Parts>(options_, std::move(world), roles, *this);
     if (run_.request->journal)
       parts_->session.AnnounceFolder(std::filesystem::absolute(run_.folder.Path()).lexically_normal());
@@ -112,6 +119,24 @@ void RunOnBus::Open(const Roles& roles)
     parts_.reset();
     PrintError("no visualiser can be attached to this run: {}\n", error.what());
   }
+}
+
+void RunOnBus::Detach()
+{
+  const std::lock_guard lock(mutex_);
+  roles_.reset();
+}
+
+void RunOnBus::Ask(const ControlRequestMessage& request)
+{
+  const std::lock_guard lock(mutex_);
+  if (roles_) roles_->ask(request);
+}
+
+void RunOnBus::Note(const ControlRequestMessage& note)
+{
+  const std::lock_guard lock(mutex_);
+  if (roles_) roles_->note(note);
 }
 
 void RunOnBus::Try(const std::function<void()>& code)

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -27,6 +28,7 @@ public:
   void Publish(RunMonitor& run) override;
   void Reply(const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text) override;
   std::vector<ProcessStatus> Attached() const override;
+  void Detach() override;
   void Close(RunMonitor& run, bool begins_again) override;
   // Tells observers that the run failed. It does nothing after Close.
   void Fail(const std::string& why);
@@ -34,6 +36,9 @@ public:
 private:
   struct Parts;
 
+  // Threads of the bus call these.
+  void Ask(const ControlRequestMessage& request);
+  void Note(const ControlRequestMessage& note);
   void Send(RunMonitor& run, bool last);
   void SendRobots(bool at_once);
   // Runs code of the bus, whose errors must not end the run. They are reported once.
@@ -41,7 +46,8 @@ private:
 
   const PreparedRun& run_;
   BusOptions options_;
-  std::optional<Roles> roles_;
+  std::mutex mutex_;            // guards roles_ from threads of the bus
+  std::optional<Roles> roles_;  // set while the run exists
   std::uint64_t tick_ = 0;
   bool has_complained_ = false;
   std::atomic<bool> woken_ = true;        // threads of the bus set it
