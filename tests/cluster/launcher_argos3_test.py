@@ -31,7 +31,7 @@ class LoopFunctions(LauncherTest):
         watchers = [self.start("attach", "text", "--file", f"table_{k}", "--output", self.folder, "--status") for k in range(2)]
         for k in range(2):
             self.wait_until(f"table {k}", lambda k=k: self.has_robots(f"table_{k}"))
-        self.assertEqual(self.control("step", 50).strip(), "paused at tick 50")
+        self.assertEqual(self.control("step", 50).strip(), "collect: paused at tick 50")
         watchers[1].process.kill()
         self.control("resume")
         self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
@@ -65,19 +65,23 @@ class LoopFunctions(LauncherTest):
         self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
         self.assertEqual(watcher.wait(GENEROUS_S), 0, watcher.stderr)
         ticks = [line.split(",")[0] for line in (self.folder / "table").read_text().splitlines()[1:]]
-        self.assertIn("2000", ticks)
-        self.assertEqual(ticks[-1], "3000")
+        # The second run begins at tick 0 and ends at 30.
+        self.assertIn("20", ticks)
+        self.assertEqual(ticks[-1], "30")
+        self.assertIn("0", ticks[ticks.index("20"):])
         self.assert_nothing_left(run)
 
     def test_a_run_that_fails_tells_its_visualisers(self):
-        text = COLLECT.read_text().replace('<output file="collected.tsv"/>', '<output file="none/collected.tsv"/>')
-        (self.folder / "failing.argos").write_text(text)
+        # Init of the loop functions needs the element.
+        (self.folder / "failing.argos").write_text(COLLECT.read_text().replace('<home x="-0.5"/>', ""))
         run = self.begin("--paused", file=self.folder / "failing.argos")
         watcher = self.start("attach", "text", "--file", "table", "--output", self.folder)
         self.wait_until("a table", lambda: self.has_robots("table"))
-        self.control("stop")
-        self.assertIn(run.wait(GENEROUS_S), (0, 3, 4), run.stderr)
-        watcher.wait(GENEROUS_S)
+        self.control("resume")
+        self.assertEqual(run.wait(GENEROUS_S), 3, run.stderr)
+        self.assertEqual(watcher.wait(GENEROUS_S), 4)
+        for said in (run.stderr, watcher.stderr):
+            self.assertIn("<loop_functions> has no <home>", said)
         self.assert_nothing_left(run)
 
     def test_grants_and_two_runs_of_one_experiment(self):
@@ -88,7 +92,7 @@ class LoopFunctions(LauncherTest):
         token = self.run_it("share", "collect", "--domain", domains[0], "--watch")
         self.assertEqual(token.process.returncode, 0, token.stderr)
         for domain in domains:
-            self.control("stop", "collect", "--domain", domain)
+            self.control("collect", "stop", "--domain", domain)
         for run in (first, second):
             self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
 
