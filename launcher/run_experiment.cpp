@@ -28,7 +28,9 @@
 #include "launcher/supervision/cluster_plan.h"
 #include "launcher/supervision/cluster_run.h"
 #include "launcher/supervision/prepared_run.h"
+#include "launcher/supervision/run_on_bus.h"
 #include "launcher/supervision/single_run.h"
+#include "launcher/system/network_namespace.h"
 #include "simulation/load.h"
 #include "space_server/event_log.h"
 
@@ -255,6 +257,32 @@ int RunAsCluster(PreparedRun& first)
                      });
 }
 
+// Runs in this process, so that users can watch and steer the run from outside as they do a cluster.
+int RunHereOnBus(PreparedRun& first)
+{
+  if (first.request->isolated) IsolateNetwork();
+  std::optional<FreeDomain> free_domain;
+  try
+  {
+    const int domain = free_domain.emplace().Id();
+    first.request = first.request.With([&](RunSettings& settings) { settings.domain = domain; });
+    first.manifest.domain = domain;
+    first.folder.Write("manifest.json", first.manifest.Text());
+  }
+  catch (const BusError& error)
+  {
+    PrintError("no visualiser can be attached to this run: {}\n", error.what());
+    return RunUntilEnd(first, [](PreparedRun& run) { return RunHere(run); });
+  }
+  const std::optional<RunKey> key = KeyFor(first.request.Settings());
+  return RunUntilEnd(first,
+                     [&](PreparedRun& run)
+                     {
+                       RunOnBus bus(run, key);
+                       return RunHere(run, &bus);
+                     });
+}
+
 // The folder and the terminal get the origin of the run.
 void Install(const Branch& branch, const Experiment& experiment, const RunFolder& folder, RunSettings& settings,
              Manifest& manifest)
@@ -294,14 +322,17 @@ int RunExperiment(RunRequest request)
     experiment = WithShown(*experiment, shown, request->visualisations);
     request = request.With([](RunSettings& settings) { settings.visualisations = true; });
   }
-  const bool is_of_argos3 = IsForeignExperiment(ReadTextFile(request->file));
-  if (WantsOneProcess(request, *experiment, is_of_argos3))
+  const std::string text = ReadTextFile(request->file);
+  const bool is_of_argos3 = IsForeignExperiment(text);
+  if (is_of_argos3 && request->real_time_factor == 0 && KeepsRealTime(text))
+    request = request.With([](RunSettings& settings) { settings.real_time_factor = 1; });
+  const bool needs_one_process = WantsOneProcess(request, *experiment, is_of_argos3);
+  if (needs_one_process)
   {
     request = request.With([](RunSettings& settings) { settings.single_process = true; });
     PrintError(
-        "{}: note: it has loop functions or user functions, so it runs in one process; `swarmanoid convert` makes an "
-        "experiment "
-        "that runs as a cluster if they reach into no controller\n",
+        "{}: note: it has loop functions, user functions or registered devices, so it runs in one process; `swarmanoid "
+        "convert` makes an experiment that runs as a cluster if they reach into no controller\n",
         request->file);
   }
   RefuseBadCheckpoints(request, *experiment);
@@ -322,7 +353,9 @@ int RunExperiment(RunRequest request)
                                 // The space server reads only files of Swarmanoid.
                                 if (is_of_argos3 || !shown.empty()) settings.file = folder.File("experiment.xml");
                               });
-    return run.request->single_process ? RunUntilEnd(run, RunHere) : RunAsCluster(run);
+    if (needs_one_process) return RunHereOnBus(run);
+    return run.request->single_process ? RunUntilEnd(run, [](PreparedRun& one) { return RunHere(one); })
+                                       : RunAsCluster(run);
   }
   catch (const RunFolderError& error)
   {

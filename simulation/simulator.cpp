@@ -63,7 +63,7 @@ unsigned FreeCores()
 
 struct CSimulator::Roles
 {
-  Roles(const Experiment& of, const SimulatorOptions& with, const HostTable& table)
+  Roles(const Experiment& of, const SimulatorOptions& with, const HostTable& table, RunLink* link)
       : experiment(of),
         options(WithFolder(with)),
         assignment(MakeAssignment(of, table)),
@@ -91,8 +91,10 @@ struct CSimulator::Roles
       for (const RenderConfiguration& render : experiment.visualisations)
         visualisers.push_back(std::make_unique<Visualiser>(render, space, assignment, options.output_folder,
                                                            &steering.Control(), &steering));
+    if (link != nullptr) steering.Open(*link, assignment);
     const auto interactive = [](const auto& visualiser) { return visualiser->IsInteractive(); };
-    if (options.paused && std::none_of(visualisers.begin(), visualisers.end(), interactive))
+    const bool reachable = link != nullptr && link->IsOpen();
+    if (options.paused && !reachable && std::none_of(visualisers.begin(), visualisers.end(), interactive))
       throw UsageError(
           "the run would stay paused: none of its visualisations is a window or a page that can resume it; leave out "
           "--paused, or run a cluster, which `swarmanoid control resume` reaches");
@@ -137,6 +139,14 @@ struct CSimulator::Roles
       checkpoint.LoadPart(EngineName(experiment, e), [&](ByteReader& state) { engines[e]->LoadState(state); });
     for (std::size_t h = 0; h < hosts.size(); ++h)
       checkpoint.LoadPart(HostName(h), [&](ByteReader& state) { hosts[h]->LoadState(state); });
+  }
+
+  // Writes the journal of the run from the present tick on.
+  void KeepJournal(const std::string& file)
+  {
+    std::filesystem::create_directories(std::filesystem::path(file).parent_path());
+    const JournalStart beginning{origin, assignment.table, space.GetTick()};
+    journal.emplace(file, ContentOf(beginning));
   }
 
   // Writes the tick whose state was last taken, with the frames and the commands of its step.
@@ -205,13 +215,14 @@ struct CSimulator::Roles
 };
 
 CSimulator::CSimulator(const Experiment& experiment, const SimulatorOptions& options)
-    : CSimulator(experiment, options, {})
+    : CSimulator(experiment, options, RunCompanions())
 {
 }
 
 CSimulator::CSimulator(SpaceServer& server) : server_(&server) {}
 
-CSimulator::CSimulator(const Experiment& experiment, const SimulatorOptions& options, Watch watch, unsigned hosts)
+CSimulator::CSimulator(const Experiment& experiment, const SimulatorOptions& options, const RunCompanions& companions,
+                       unsigned hosts)
 {
   RequireReproducibleMath();
   ReportDeaths(program_invocation_short_name);
@@ -220,14 +231,16 @@ CSimulator::CSimulator(const Experiment& experiment, const SimulatorOptions& opt
     restored = ReadCheckpoint(options.restore_file, experiment, {hosts, options.any_build});
   roles_ = std::make_unique<Roles>(
       experiment, options,
-      restored ? DealRobots(experiment, hosts, restored->snapshot.poses) : DealRobots(experiment, hosts));
+      restored ? DealRobots(experiment, hosts, restored->snapshot.poses) : DealRobots(experiment, hosts),
+      companions.link);
   server_ = &roles_->server;
-  roles_->watch = std::move(watch);
+  roles_->watch = companions.watch;
   CheckCheckpointPeriod(options.checkpoint_every, experiment);
   if (options.checkpoint_every != 0) roles_->TrySavingAll();
   if (restored) roles_->Restore(*restored);
   roles_->first_tick = roles_->space.GetTick();
   roles_->start = std::chrono::steady_clock::now();
+  if (!companions.journal_file.empty()) roles_->KeepJournal(companions.journal_file);
   Show();
 }
 
@@ -255,7 +268,6 @@ bool CSimulator::Step()
                  r.server.Advance(r.updates, r.commands);
                });
   Show();
-  if (r.journal) r.journal_state = &r.server.State();
   return true;
 }
 
@@ -282,15 +294,7 @@ void CSimulator::Show()
   if (terminator != nullptr && !r.server.IsLast()) r.steering.Stopped(terminator->Id());
   r.over = terminator != nullptr || r.server.IsLast();
   r.summary.interrupted = r.steering.Interrupted();
-}
-
-void WatchedSimulator::KeepJournal(CSimulator& simulator, const std::string& file)
-{
-  CSimulator::Roles& r = *simulator.roles_;
-  std::filesystem::create_directories(std::filesystem::path(file).parent_path());
-  const JournalStart start{r.origin, r.assignment.table, r.space.GetTick()};
-  r.journal.emplace(file, ContentOf(start));
-  r.journal_state = &r.server.State();
+  if (r.journal) r.journal_state = &r.server.State();
 }
 
 bool WatchedSimulator::Describe(const CSimulator& simulator, std::uint32_t robot, RobotStatus& status)
@@ -343,6 +347,7 @@ const RunSummary& CSimulator::Finish()
   }
   r.hash_log.Close();
   r.summary.hash = r.space.Hash();
+  r.steering.CloseLink();
   for (const auto& visualiser : r.visualisers) visualiser->Finish();
   for (const auto& host : r.hosts) host->Destroy();
   r.server.Destroy();

@@ -31,6 +31,7 @@ class CSwarmanoidSpace;
 class SpaceEditor;
 class SpaceServer;
 struct Checkpoint;
+struct RunCompanions;
 
 class CSimulator
 {
@@ -67,8 +68,9 @@ private:
   struct Roles;
   friend struct WatchedSimulator;
   using Watch = std::function<void(CSimulator&)>;
-  // `watch` is called at each tick, before its state is written, drawn or sent.
-  CSimulator(const Experiment& experiment, const SimulatorOptions& options, Watch watch, unsigned hosts = 1);
+  // The watch function is called at each tick, before its state is written, drawn or sent.
+  CSimulator(const Experiment& experiment, const SimulatorOptions& options, const RunCompanions& companions,
+             unsigned hosts = 1);
   // Makes a simulator without roles of its own, to look at a run that others step.
   explicit CSimulator(SpaceServer& server);
   void Show();

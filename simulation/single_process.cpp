@@ -3,7 +3,6 @@
 #include <chrono>
 
 #include "common/space/space.h"
-#include "simulation/watched_simulator.h"
 
 namespace swarmanoid
 {
@@ -12,8 +11,7 @@ RunSummary RunSingleProcess(const Experiment& experiment, const SingleProcessOpt
 {
   using Clock = std::chrono::steady_clock;
 
-  CSimulator simulator = WatchedSimulator::Running(experiment, options, options.watch);
-  if (!options.journal_file.empty()) WatchedSimulator::KeepJournal(simulator, options.journal_file);
+  CSimulator simulator = WatchedSimulator::Running(experiment, options, options.companions);
   Clock::time_point reported = Clock::now();
   while (simulator.Step())
   {

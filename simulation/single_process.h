@@ -5,18 +5,17 @@
 #include <functional>
 #include <string>
 
-#include "simulation/simulator.h"
+#include "simulation/watched_simulator.h"
 
 namespace swarmanoid
 {
 
 struct SingleProcessOptions : SimulatorOptions
 {
-  // It is called at each tick from the first one on, before the state of the tick is written or drawn.
-  std::function<void(CSimulator&)> watch;
+  // Its watch function is called at each tick from the first one on, before the state of the tick is written or drawn.
+  RunCompanions companions;
   // It is called at most ten times a second with the tick just finished.
   std::function<void(std::uint64_t tick)> progress;
-  std::string journal_file;  // empty: none
 };
 
 // Throws the exceptions of CSimulator.

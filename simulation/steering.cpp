@@ -31,10 +31,7 @@ Steering::Steering(const Experiment& experiment, SpaceServer& server, RunControl
       stop_(stop),
       run_control_(experiment, std::move(setup),
                    [this](const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)
-                   {
-                     notes_.push_back({tick, done, text, request.client, request.number});
-                     if (notes_.size() > kNotesKept) notes_.erase(notes_.begin());
-                   }),
+                   { Answer(request, done, tick, text); }),
       control_([this](const ControlOrder& order) { run_control_.Ask({order}); }),
       pace_(experiment.TickSeconds())
 {
@@ -42,11 +39,31 @@ Steering::Steering(const Experiment& experiment, SpaceServer& server, RunControl
   status_.processes.push_back({"single process", OwnProcess(), 0, 0, {}});
 }
 
+void Steering::Answer(const ControlRequestMessage& request, bool done, std::uint64_t tick, const std::string& text)
+{
+  notes_.push_back({tick, done, text, request.client, request.number});
+  if (notes_.size() > kNotesKept) notes_.erase(notes_.begin());
+  if (link_ != nullptr) link_->Reply(request, done, tick, text);
+}
+
+void Steering::Open(RunLink& link, const Assignment& assignment)
+{
+  link.Open({server_, assignment, *host_, [this](const ControlRequestMessage& request) { run_control_.Ask(request); },
+             [this](const ControlRequestMessage& note) { run_control_.Note(note); }});
+  if (link.IsOpen()) link_ = &link;
+}
+
+void Steering::CloseLink()
+{
+  if (link_ != nullptr) link_->Close(*this, Reset().has_value());
+}
+
 void Steering::WaitForGo(const std::vector<std::unique_ptr<Visualiser>>& visualisers)
 {
   const std::uint64_t tick = server_.Space().GetTick();
   if (!started_) run_control_.Start(tick, Clock::now());
   if (Interrupted()) run_control_.Stop("interrupt");
+  if (link_ != nullptr) link_->Publish(*this);
   if (started_ && tick != until_ && !run_control_.WantsHold()) return;
   started_ = true;
   while (true)
@@ -57,6 +74,7 @@ void Steering::WaitForGo(const std::vector<std::unique_ptr<Visualiser>>& visuali
     until_ = decision.until;
     if (decision.go) return;
     if (run_control_.Paused()) pace_.Rest(tick, now);
+    if (link_ != nullptr) link_->Publish(*this);
     // Windows are not updated in a short wait, since drawing may take longer than the wait.
     const bool idle = !decision.due || *decision.due - now >= kIdlePeriod;
     if (idle && !visualisers.empty()) server_.Draw();
@@ -93,7 +111,10 @@ const RunStatus& Steering::Status()
   status_.real_time_factor = paused ? 0 : pace_.RealTimeFactor();
   status_.ticks_per_second = paused ? 0 : pace_.TicksPerSecond();
   if (status_.ended.empty()) status_.ended = run_control_.WhyStopped();
+  status_.processes.resize(1);
   status_.processes[0].tick = tick;
+  if (link_ != nullptr)
+    for (const ProcessStatus& attached : link_->Attached()) status_.processes.push_back(attached);
   return status_;
 }
 

@@ -127,7 +127,7 @@ private:
     SetValue(*made, "seed", std::to_string(seed == 0 ? 1 : seed), at);
     if (Flag(*experiment, "real_time", false))
       Note(FindAttributeOf(*experiment, "real_time")->location,
-           "'real_time' has no effect here; run with --real-time 1");
+           "'real_time': `swarmanoid run` keeps real time (--real-time F: another pace), not what `convert` writes");
     NoteOthers(*experiment, {"length", "ticks_per_second", "random_seed", "real_time"});
     NoteOthers(*framework, {});
     NoteOtherChildren(*framework, {"system", "experiment"});
@@ -345,6 +345,16 @@ ConvertedExperiment ConvertArgos3(const ConfigurationNode& root, const std::stri
   ConvertedExperiment result;
   argos3::Converter(root, folder, result).Convert(&bodies);
   return result;
+}
+
+bool KeepsRealTime(const std::string& text)
+{
+  std::vector<Diagnostic> notes;
+  const auto root = argos3::ReadTinyXml(text, "", notes);
+  const ConfigurationNode* framework = root == nullptr ? nullptr : argos3::FindChild(*root, "framework");
+  const ConfigurationNode* experiment = framework == nullptr ? nullptr : argos3::FindChild(*framework, "experiment");
+  const auto* attribute = experiment == nullptr ? nullptr : argos3::FindAttributeOf(*experiment, "real_time");
+  return attribute != nullptr && ParseBoolean(attribute->value).value_or(false);
 }
 
 void PrintNotes(const std::vector<Diagnostic>& notes)

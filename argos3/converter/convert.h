@@ -34,6 +34,9 @@ ConvertedExperiment ConvertArgos3(const ConfigurationNode& root, const std::stri
 // Prints notes to standard error: each text once, with its places.
 void PrintNotes(const std::vector<Diagnostic>& notes);
 
+// Returns whether an experiment of ARGoS3 asks for real time.
+bool KeepsRealTime(const std::string& text);
+
 // Without visualisers, Qt user functions whose library does not exist are left out, with a note.
 void LetUserFunctionsBeMissing();
 

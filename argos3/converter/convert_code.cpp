@@ -343,6 +343,7 @@ void CodeConverter::ConvertController(const ConfigurationNode& theirs, const std
     Note(bearers.battery->location,
          "<battery> has no effect without the sensor <battery> in the controller " + Quoted(id));
   options_.push_back(options);
+  for (const char* list : {"sensors", "actuators"}) CopyRegistered(theirs, list, *parameters);
   if (params == nullptr)
   {
     if (theirs.name == kKilobotController) Mistake(at, "<kilobot_controller> has no <params behavior=\"PROGRAM\"/>");
@@ -429,6 +430,48 @@ std::string CodeConverter::TakeOwn(const ConfigurationNode& controller, const ch
     tags += (tags.empty() ? "" : " ") + device->name;
   }
   return tags;
+}
+
+std::optional<std::string> CodeConverter::LibraryOfDevice(const ConfigurationNode& controller, const std::string& list,
+                                                          const ConfigurationNode& device)
+{
+  const auto* implementation = FindAttributeOf(device, "implementation");
+  if (implementation == nullptr) return std::nullopt;
+  const std::string label =
+      "argos3 " + list.substr(0, list.size() - 1) + " " + device.name + " (" + implementation->value + ")";
+  const auto [known, is_new] = libraries_of_devices_.try_emplace(label);
+  if (!is_new) return known->second;
+  for (const ConfigurationNode* user : {&controller, FindChild(root_, "loop_functions")})
+  {
+    const auto* library = user == nullptr ? nullptr : FindAttributeOf(*user, "library");
+    std::string searched;
+    const auto file = library == nullptr ? std::nullopt : Found(Folders(), LibraryNames(library->value), searched);
+    if (file && BytesOf(*file).find(label + '\0') != std::string::npos) return known->second = file;
+  }
+  std::string searched;
+  return known->second = LibraryThatNames(label, searched);
+}
+
+void CodeConverter::CopyRegistered(const ConfigurationNode& controller, const std::string& list,
+                                   ConfigurationNode& parameters)
+{
+  const ConfigurationNode* theirs = FindChild(controller, list);
+  if (theirs == nullptr) return;
+  Made copies;
+  for (const auto& device : theirs->children)
+  {
+    const auto library = LibraryOfDevice(controller, list, *device);
+    if (!library || FindAttributeOf(*device, "library") != nullptr) continue;
+    if (controller.name == "lua_controller")
+      Mistake(device->location, "<" + device->name + "> is registered by " + *library +
+                                    ", and only controllers in C++ reach such devices; scripts use devices with "
+                                    "columns (docs/own_device.md)");
+    if (copies == nullptr) copies = AddNode(parameters, "registered_" + list, theirs->location);
+    const auto copy = std::make_shared<ConfigurationNode>(*device);
+    SetValue(*copy, "argos3_library", *library, device->location);
+    copies->children.push_back(copy);
+    has_registered_devices_ = true;
+  }
 }
 
 void CodeConverter::SetLibrary(const ConfigurationNode& theirs, const std::string& label, const char* ours,
@@ -529,8 +572,8 @@ void CodeConverter::ConvertLoopFunctions(ConfigurationNode& ours, bool for_rehea
   }
   const ConfigurationNode* theirs = FindChild(root_, "loop_functions");
   const ConfigurationNode* user = UserFunctions();
-  if (theirs == nullptr && user == nullptr) return;
-  const SourceLocation& at = theirs == nullptr ? user->location : theirs->location;
+  if (theirs == nullptr && user == nullptr && !has_registered_devices_) return;
+  const SourceLocation& at = theirs != nullptr ? theirs->location : user != nullptr ? user->location : root_.location;
   const Made list = AddNode(ours, "experiment_functions", at);
   const Made made = AddNode(*list, "argos3_loop_functions", at);
   SetValue(*made, "id", "loop_functions", at);
@@ -548,7 +591,8 @@ void CodeConverter::ConvertLoopFunctions(ConfigurationNode& ours, bool for_rehea
   if (resets_runs_) MoveLength(ours, *made);
   if (for_rehearsal) SetValue(*made, "rehearsal", "true", at);
   if (theirs != nullptr) made->children.push_back(std::make_shared<ConfigurationNode>(*theirs));
-  if (user != nullptr && !SetUserFunctions(*user, *made) && theirs == nullptr) std::erase(ours.children, list);
+  const bool draws = user != nullptr && SetUserFunctions(*user, *made);
+  if (!draws && theirs == nullptr && !has_registered_devices_) std::erase(ours.children, list);
   if (!asks_for_configuration_) return;
   const Made configuration = AddNode(*made, "configuration", at);
   configuration->children = root_.children;

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <initializer_list>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -68,7 +69,7 @@ private:
     if (theirs == nullptr) return tags;
     for (const auto& device : theirs->children)
     {
-      if (FindAttributeOf(*device, "library") != nullptr) continue;
+      if (FindAttributeOf(*device, "library") != nullptr || LibraryOfDevice(controller, name, *device)) continue;
       convert(*device, context, lists);
       tags += (tags.empty() ? "" : " ") + device->name;
     }
@@ -77,6 +78,12 @@ private:
   // Devices that name a library are ours, for scripts: they are taken as they are. Their tags, with blanks between
   // them.
   std::string TakeOwn(const ConfigurationNode& controller, const char* name, Devices& devices);
+  // Returns the library that registers a device by REGISTER_SENSOR or REGISTER_ACTUATOR; nullopt: none does. `list`:
+  // "sensors" or "actuators".
+  std::optional<std::string> LibraryOfDevice(const ConfigurationNode& controller, const std::string& list,
+                                             const ConfigurationNode& device);
+  // Copies the devices that libraries register, with their libraries.
+  void CopyRegistered(const ConfigurationNode& controller, const std::string& list, ConfigurationNode& parameters);
   static void MoveLength(ConfigurationNode& ours, ConfigurationNode& functions);
   // Returns the folders in which libraries are searched.
   std::vector<std::filesystem::path> Folders() const;
@@ -106,7 +113,9 @@ private:
   bool makes_bodies_ = false;
   bool resets_runs_ = false;
   bool asks_for_configuration_ = false;
-  std::string controller_libraries_;  // separated by colons
+  bool has_registered_devices_ = false;
+  std::map<std::string, std::optional<std::string>> libraries_of_devices_;  // by the label in the library
+  std::string controller_libraries_;                                        // separated by colons
 };
 
 }  // namespace swarmanoid::argos3

@@ -98,6 +98,7 @@ void GiveController(const CEntity& made)
   const auto spare = running.spares.find(ours);
   if (spare == running.spares.end()) return;
   running.taken[made.GetId()] = ours;
+  running.given[ours] = const_cast<CEntity*>(&made);
   spare->second->Take(made.GetId());
 }
 

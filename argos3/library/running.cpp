@@ -54,6 +54,18 @@ std::map<std::string, argos::CQTOpenGLUserFunctions* (*)()>& UserFunctionsByLabe
   return functions;
 }
 
+std::map<std::string, argos::SMadeSensor (*)()>& SensorsByLabel()
+{
+  static std::map<std::string, argos::SMadeSensor (*)()> sensors;
+  return sensors;
+}
+
+std::map<std::string, argos::SMadeActuator (*)()>& ActuatorsByLabel()
+{
+  static std::map<std::string, argos::SMadeActuator (*)()> actuators;
+  return actuators;
+}
+
 Translation Translation::From(const TConfigurationTree& tree)
 {
   Translation translation;
@@ -177,6 +189,16 @@ SControllerRegistration::SControllerRegistration(const char* label, CCI_Controll
 SLoopFunctionsRegistration::SLoopFunctionsRegistration(const char* label, CLoopFunctions* (*create)())
 {
   swarmanoid::argos3::LoopFunctionsByLabel().emplace(label, create);
+}
+
+SSensorRegistration::SSensorRegistration(const char* label, SMadeSensor (*make)())
+{
+  swarmanoid::argos3::SensorsByLabel().emplace(label, make);
+}
+
+SActuatorRegistration::SActuatorRegistration(const char* label, SMadeActuator (*make)())
+{
+  swarmanoid::argos3::ActuatorsByLabel().emplace(label, make);
 }
 
 SUserFunctionsRegistration::SUserFunctionsRegistration(const char* label, CQTOpenGLUserFunctions* (*create)())

@@ -2,7 +2,9 @@
 // with the plug-in that drives it. One experiment in a process, one thread.
 #pragma once
 
+#include <argos3/core/simulator/actuator.h>
 #include <argos3/core/simulator/loop_functions.h>
+#include <argos3/core/simulator/sensor.h>
 #include <argos3/plugins/robots/kilobot/control_interface/message.h>
 #include <argos3/plugins/simulator/visualizations/qt-opengl/qtopengl_user_functions.h>
 
@@ -27,6 +29,9 @@ namespace swarmanoid::argos3
 std::map<std::string, argos::CCI_Controller* (*)()>& ControllersByLabel();
 std::map<std::string, argos::CLoopFunctions* (*)()>& LoopFunctionsByLabel();
 std::map<std::string, argos::CQTOpenGLUserFunctions* (*)()>& UserFunctionsByLabel();
+// The labels are those that the macros write: "argos3 sensor TAG (IMPLEMENTATION)".
+std::map<std::string, argos::SMadeSensor (*)()>& SensorsByLabel();
+std::map<std::string, argos::SMadeActuator (*)()>& ActuatorsByLabel();
 
 // Converts between the arena and ids of an ARGoS3 experiment and ours.
 struct Translation
@@ -144,6 +149,8 @@ struct Running
   argos::CLoopFunctions* functions = nullptr;
   // Carries out the changes of functions; set while they run.
   SpaceEditor* editor = nullptr;
+  // The editor of the experiment, for sensors and actuators of users; nullptr if loop functions are in another process.
+  SpaceEditor* editor_for_devices = nullptr;
   // The pen is set while user functions draw.
   Pen* pen = nullptr;
   Translation translation;

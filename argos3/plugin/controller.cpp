@@ -13,6 +13,7 @@
 #include "argos3/plugin/device_adapters.h"
 #include "argos3/plugin/labels.h"
 #include "argos3/plugin/lua_controller.h"
+#include "argos3/plugin/own_devices.h"
 
 // Both interfaces have a macro of that name.
 #undef REGISTER_CONTROLLER
@@ -57,8 +58,10 @@ public:
     if (controller_ == nullptr || !is_enabled_) return;
     const Speaker speaker(*GetRobot());
     for (const auto& sensor : sensors_) sensor->BeforeStep();
+    own_devices_.Sense();
     controller_->ControlStep();
     Commit();
+    own_devices_.Act();
   }
 
   void Destroy() override
@@ -84,6 +87,7 @@ private:
     Destroy();
     Forget();
     controller_.reset();
+    own_devices_.Clear();
     sensors_.clear();
     actuators_.clear();
   }
@@ -103,6 +107,7 @@ private:
     const Speaker speaker(robot);
     for (const auto& sensor : sensors_) sensor->Sensor().Reset();
     for (const auto& actuator : actuators_) actuator->Actuator().Reset();
+    own_devices_.Reset();
     controller_->Reset();
     Commit();
   }
@@ -116,6 +121,7 @@ private:
     controller_ = MakeController(options);
     controller_->SetId(id_);
     MakeDevices(options);
+    own_devices_.Make(parameters_, GetRobot()->GetId(), *controller_);
     if (!TheRunning().controllers.emplace(id_, controller_.get()).second)
       throw std::runtime_error("a process runs one ARGoS3 experiment at a time; another one has a robot '" + id_ + "'");
 
@@ -185,6 +191,7 @@ private:
   std::string id_;  // the id in ARGoS3
   std::vector<std::unique_ptr<SensorBridge>> sensors_;
   std::vector<std::unique_ptr<ActuatorBridge>> actuators_;
+  OwnDevices own_devices_;
   argos::TConfigurationNode params_;
   std::unique_ptr<argos::CCI_Controller> controller_;
 };

@@ -64,6 +64,7 @@ public:
     Running& running = TheRunning();
     if (running.functions == functions_.get()) running.functions = nullptr;
     running.stepped = nullptr;
+    running.editor_for_devices = nullptr;
     running.rehearsal.reset();
     running.given.clear();
     running.taken.clear();
@@ -117,6 +118,7 @@ public:
     functions_.reset(create_());
     TheRunning().functions = functions_.get();
     TheRunning().stepped = this;
+    TheRunning().editor_for_devices = &editor;
   }
 
   void PreStep(SpaceEditor& editor) override

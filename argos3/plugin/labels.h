@@ -50,7 +50,10 @@ void Calling(const SourceLocation& place, Call call)
   }
   catch (const argos::CARGoSException& mistake)
   {
-    throw ConfigurationError(place, mistake.what());
+    // The exceptions of GetNode… name their place.
+    const std::string what = mistake.what();
+    if (what.starts_with(place.Text() + ": ")) throw ConfigurationError(what);
+    throw ConfigurationError(place, what);
   }
 }
 

@@ -3,16 +3,12 @@
 // bus.
 #pragma once
 
-#include <atomic>
-#include <chrono>
-#include <map>
 #include <memory>
 #include <mutex>
-#include <string>
-#include <vector>
 
 #include "common/bus/membership/worker_session.h"
 #include "controller_host/controller_host.h"
+#include "controller_host/watched_robots.h"
 
 namespace swarmanoid
 {
@@ -27,36 +23,19 @@ public:
   // A step is done and sent. The caller holds `step`.
   void Stepped()
   {
-    if (watched_) Publish();
+    if (watched_.AreAny()) Publish(false);
   }
 
 private:
-  using Clock = std::chrono::steady_clock;
-  struct Request
-  {
-    std::vector<std::uint32_t> robots;
-    bool every_tick = false;
-    Clock::time_point heard;
-  };
-
   void Requested(const ViewRequestMessage& request);
-  // Collects the robots that all visualisers together ask for.
-  void Collect(Clock::time_point now);
-  void Publish();
-  void Send(Clock::time_point now);
+  // The caller holds `step`.
+  void Publish(bool at_once);
 
   WorkerSession& session_;
   const ControllerHost& role_;
   std::mutex& step_;
-  std::atomic<bool> watched_ = false;
-
-  std::mutex mutex_;  // guards the members below; taken after step_ if both are needed
-  std::map<std::string, Request> requests_;
-  std::vector<std::uint32_t> robots_;  // of this host, ascending
-  bool every_tick_ = false;
-  Clock::time_point collected_;
-  Clock::time_point sent_;
-  RobotStatusMessage message_;
+  WatchedRobots watched_;
+  RobotStatusMessage message_;  // guarded by step_
   Publisher<RobotStatusMessage> statuses_;
   std::unique_ptr<Subscription<ViewRequestMessage>> requests_in_;
 };

@@ -84,7 +84,7 @@ int Verify(RecordedRun& run)
     if (space.Hash() != run.Space().Hash())
       difference = fmt::format("tick {}: {}", space.GetTick(), FirstDifference(run.Space(), space));
   };
-  CSimulator simulator = WatchedSimulator::Running(*experiment, options, compare);
+  CSimulator simulator = WatchedSimulator::Running(*experiment, options, {.watch = compare});
   while (!over && difference.empty() && !Interrupted() && simulator.Step()) continue;
   progress.Clear();
   if (!difference.empty())

@@ -16,6 +16,7 @@
 #include "common/program/usage_error.h"
 #include "launcher/supervision/manifest_at_death.h"
 #include "launcher/supervision/progress_display.h"
+#include "launcher/supervision/run_on_bus.h"
 #include "simulation/single_process.h"
 
 namespace swarmanoid
@@ -36,7 +37,7 @@ bool HasLoopFunctions(const Experiment& experiment)
                              [](const auto& functions) { return functions.tag == "argos3_loop_functions"; });
 }
 
-RunResult RunHere(const PreparedRun& prepared)
+RunResult RunHere(const PreparedRun& prepared, RunOnBus* bus)
 {
   using Clock = ProgressDisplay::Clock;
 
@@ -54,9 +55,11 @@ RunResult RunHere(const PreparedRun& prepared)
   static_cast<SimulatorOptions&>(run) = request.Settings();
   run.event_log = prepared.folder.File("events.csv");
   // Users of loop functions want to look back, too.
-  if (request->journal && HasLoopFunctions(experiment)) run.journal_file = JournalFile(prepared.folder.Path());
+  if (request->journal && HasLoopFunctions(experiment))
+    run.companions.journal_file = JournalFile(prepared.folder.Path());
+  run.companions.link = bus;
   run.stop = &InterruptFlag();
-  run.watch = request.Watch();
+  run.companions.watch = request.Watch();
   run.may_reset = !request.Watch();
   run.progress = [&](std::uint64_t tick)
   {
@@ -92,6 +95,7 @@ RunResult RunHere(const PreparedRun& prepared)
     result.exit_code = kExitProcessFailed;
     result.failure = error.what();
   }
+  if (bus != nullptr) bus->Fail(result.failure);
   display.Clear();
   if (!result.failure.empty()) PrintError("{}\n", result.failure);
   return result;

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <random>
 #include <utility>
 
 #include "common/bus/security/digest.h"
@@ -48,12 +47,6 @@ public:
 private:
   int exit_code_;
 };
-
-std::uint64_t NewRun()
-{
-  std::random_device device;
-  return (static_cast<std::uint64_t>(device()) << 32) | device();
-}
 
 RunControlSetup MakeRunControlSetup(const ServerOptions& options, const Experiment& experiment,
                                     const std::optional<RestartPoint>& restart_point)

@@ -1,4 +1,6 @@
 """Files that ARGoS3 reads although they have mistakes, or names that ours may not have."""
+import re
+
 from running import RunningTest
 
 ARENA = '<box id="w" size="0.1,1,0.5" movable="false"><body position="0.5,0,0" orientation="0,0,0"/></box>'
@@ -57,6 +59,24 @@ class Files(RunningTest):
         hashes = {self.hash_of(self.file(robot, ROBOTS, name=name), *words)
                   for name in ("x.xml", "x.argos") for words in ((), ("--single-process",))}
         self.assertEqual(len(hashes), 1)
+
+    def test_a_file_may_ask_for_real_time(self):
+        def pace(*options):
+            return float(re.search(r", ([0-9.]+)x real time", self.swarmanoid("run", file, "--single-process", *options).stdout)[1])
+
+        file = self.file()
+        file.write_text(file.read_text().replace('random_seed="1"', 'random_seed="1" real_time="true"'))
+        self.assertLess(pace(), 1.3)
+        self.assertLess(pace("--real-time", 3), 3.5)
+        self.assertIn("keeps real time", self.swarmanoid("check", file).stderr)
+
+    def test_buzz_is_refused_once_a_file(self):
+        buzz = '<buzz_controller id="{}"><actuators/><sensors/><params bytecode_file="a.bo"/></buzz_controller>'
+        robot = '<foot-bot id="{0}"><body position="0,{1},0" orientation="0,0,0"/><controller config="{0}"/></foot-bot>'
+        file = self.file(controllers=buzz.format("a") + buzz.format("b"), arena=ARENA + robot.format("a", 1) + robot.format("b", 2))
+        mistakes = [line for line in self.swarmanoid("check", file, code=3).stderr.splitlines() if line.startswith(str(file)) and "note" not in line]
+        self.assertRegex(mistakes[0], r"x.argos:4:14: <buzz_controller> runs Buzz, which has no counterpart here; write the rule in Lua or C\+\+ \(also at 4:")
+        self.assertEqual(mistakes[1:], [f"{file}: 1 error"])
 
     def test_a_floor_of_no_loop_functions_is_white(self):
         (self.folder / "s.lua").write_text("function step() log('grey ', robot.motor_ground[1].value) end")

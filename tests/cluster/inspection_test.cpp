@@ -14,6 +14,7 @@
 #include "simulation/playback/recorded_robot_states.h"
 #include "simulation/register_all.h"
 #include "tests/cluster/cluster_fixture.h"
+#include "tests/cluster/latest_message.h"
 #include "tests/world/message_of.h"
 
 namespace swarmanoid
@@ -23,40 +24,6 @@ namespace
 
 using namespace std::chrono_literals;
 using testing::HasSubstr;
-
-// It keeps the latest message of a topic.
-template <class Message>
-class Latest
-{
-public:
-  Latest(Bus& bus, const std::string& experiment)
-      : subscription_(bus, experiment,
-                      [this](const Message& message)
-                      {
-                        const std::lock_guard lock(mutex_);
-                        message_ = message;
-                        ++count_;
-                      })
-  {
-  }
-  std::optional<Message> Get() const
-  {
-    const std::lock_guard lock(mutex_);
-    return message_;
-  }
-  int Count() const
-  {
-    const std::lock_guard lock(mutex_);
-    return count_;
-  }
-
-private:
-  // Guards message_ and count_.
-  mutable std::mutex mutex_;
-  std::optional<Message> message_;
-  int count_ = 0;
-  Subscription<Message> subscription_;
-};
 
 class InspectionTest : public ClusterTest
 {
@@ -112,13 +79,13 @@ protected:
   std::vector<ChildProcess> workers_;
   std::optional<Bus> bus_;
   std::optional<ControlClient> client_;
-  std::optional<Latest<WorldMessage>> world_;
+  std::optional<LatestMessage<WorldMessage>> world_;
 };
 
 TEST_F(InspectionTest, TheRunTellsItsPhasePaceAndProcesses)
 {
   Begin(0, 2, {"--paused", "--real-time", "3"});
-  Latest<RunStatusMessage> status(*bus_, "inspected");
+  LatestMessage<RunStatusMessage> status(*bus_, "inspected");
   const auto phase = [&] { return status.Get() ? status.Get()->status.phase : RunStatus::Phase::kUnknown; };
   ASSERT_TRUE(Eventually([&] { return phase() == RunStatus::Phase::kPaused; }));
   const RunStatus paused = status.Get()->status;
@@ -151,7 +118,7 @@ TEST_F(InspectionTest, AProcessThatIsLateIsNamed)
 {
   // Paused, it holds no lock of the memory that it shares with the others when it is stopped.
   Begin(0, 2, {"--paused", "--real-time", "5"});
-  Latest<RunStatusMessage> status(*bus_, "inspected");
+  LatestMessage<RunStatusMessage> status(*bus_, "inspected");
   ASSERT_EQ(Ask("step 20").tick, 20U);
   ChildProcess& host = workers_.back();
   ASSERT_TRUE(host.StopAsleep());
@@ -183,7 +150,7 @@ TEST_F(InspectionTest, AProcessThatIsLateIsNamed)
 TEST_F(InspectionTest, WatchedRobotsOfAllHostsTellTheirInside)
 {
   Begin(0, 2, {"--paused"});
-  Latest<RobotStatusMessage> status(*bus_, "inspected");
+  LatestMessage<RobotStatusMessage> status(*bus_, "inspected");
   Publisher<ViewRequestMessage> request(*bus_, "inspected");
   // These are the robots of one host; while the run is paused the answer comes too.
   ASSERT_EQ(Ask("step 4").tick, 4U);
@@ -298,7 +265,7 @@ TEST_F(InspectionTest, WatchingIsForgottenWithoutRepetitionAndLeavesTheHashesAlo
   Begin(0, 1, {"--paused"});
   std::uint64_t ticks = 0;
   {
-    Latest<RobotStatusMessage> status(*bus_, "inspected");
+    LatestMessage<RobotStatusMessage> status(*bus_, "inspected");
     Publisher<ViewRequestMessage> request(*bus_, "inspected");
     ViewRequestMessage all = Request({"robots0_0", "robots0_1", "robots0_5"});
     all.every_tick = true;
@@ -336,7 +303,7 @@ TEST_F(InspectionTest, ViewsComeAtThePaceThatIsWishedFor)
   ViewRequestMessage slow = Request({});
   slow.views = 2;
   request.Write(slow);
-  Latest<ViewMessage> views(*bus_, "inspected");
+  LatestMessage<ViewMessage> views(*bus_, "inspected");
   // Until the server has received the request, views come more often.
   int seen = 0;
   auto start = std::chrono::steady_clock::now();

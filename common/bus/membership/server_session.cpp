@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 #include <cstdio>
+#include <random>
 #include <utility>
 
 #include "common/errors/print_error.h"
@@ -44,6 +45,12 @@ BusOptions WithKey(BusOptions options, const std::optional<RunKey>& key)
 }
 
 }  // namespace
+
+std::uint64_t NewRun()
+{
+  std::random_device device;
+  return (static_cast<std::uint64_t>(device()) << 32) | device();
+}
 
 ServerSession::ServerSession(const BusOptions& options, WorldMessage world, std::vector<std::string> expected,
                              Callbacks callbacks)

@@ -18,6 +18,9 @@
 namespace swarmanoid
 {
 
+// Returns a random number for a new run.
+std::uint64_t NewRun();
+
 class ServerSession
 {
 public:

@@ -4,7 +4,8 @@
 // entities are at last sorted along a Z-order curve. Then neighbours in space are mostly neighbours in memory.
 //
 // Invariants: the volumes that must stay free do not depend on the engine, so that each engine starts from the same
-// positions. If an entity finds no place, that is reported, and no later check uses the poses of its <distribute>.
+// positions. Engines whose grippers stop no body are the exception, as in experiments of ARGoS3. If an entity finds no
+// place, that is reported, and no later check uses the poses of its <distribute>.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -192,6 +193,10 @@ public:
   Placer(const Vector3& arena, Reading& reading)
       : reading_(reading), arena_(arena), grid_(arena, 0.25), ground_(reading)
   {
+    const std::vector<EngineConfiguration>& engines = reading.experiment.engines;
+    grippers_stop_bodies_ =
+        engines.empty() || std::ranges::any_of(engines, [](const EngineConfiguration& engine)
+                                               { return engine.tree.GetText("gripper", "") != "rod"; });
   }
 
   void AddPlaced(std::size_t first, std::size_t last)
@@ -272,7 +277,7 @@ private:
     constexpr double kGripperReach = 0.102;  // m: a little beyond its corners
     const EntityConfiguration& entity = reading_.experiment.entities[index];
     auto body = placement::BodyOf(entity);
-    if (body && DescriptionOf(entity.kind).mechanism == Mechanism::kTurretGripper)
+    if (body && grippers_stop_bodies_ && DescriptionOf(entity.kind).mechanism == Mechanism::kTurretGripper)
       body->half.head<2>().setConstant(std::max(kGripperReach, body->half.x()));
     return body;
   }
@@ -310,6 +315,7 @@ private:
   Vector3 arena_;
   placement::BodyGrid grid_;
   placement::Ground ground_;
+  bool grippers_stop_bodies_ = true;
 };
 
 // Marks the poses as unknown, so that no later check uses them.

@@ -240,6 +240,8 @@ TEST(Argos3Api, DocumentsAreReadChangedAndWritten)
   EXPECT_EQ(experiment.NextSiblingElement("none", false), nullptr);
   framework.RemoveChild(framework.FirstChildElement("experiment"));
   EXPECT_EQ(GetNode(*document.FirstChildElement(), "framework").FirstChildElement()->Value(), "system");
+  EXPECT_EQ(GetNode(*document.FirstChildElement(), "framework").FirstChild()->ToElement()->Value(), "system");
+  EXPECT_EQ(document.FirstChild()->FirstChild("framework")->FirstChild("system")->NextSibling(false), nullptr);
   EXPECT_THROW(again.LoadFile(folder.Path() + "/none.argos"), ticpp::Exception);
   EXPECT_THROW(again.Parse("<a>"), ticpp::Exception);
   // An element outlives its document.

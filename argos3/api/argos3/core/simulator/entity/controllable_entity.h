@@ -22,6 +22,9 @@ public:
   void SetEnabled(bool enabled) override;
   // Resets its devices and, if it is in this process, its controller.
   void Reset() override;
+  // Do nothing: rays of sensors are not drawn.
+  void AddCheckedRay(bool /*obstructed*/, const CRay3&) {}
+  void AddIntersectionPoint(const CRay3&, Real /*t*/) {}
   std::string GetTypeDescription() const override { return "controller"; }
 };
 

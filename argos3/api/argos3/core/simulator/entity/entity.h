@@ -6,6 +6,7 @@
 #include <argos3/core/utility/datatypes/any.h>
 #include <argos3/core/utility/math/quaternion.h>
 #include <argos3/core/utility/math/vector3.h>
+#include <argos3/core/utility/plugins/refused.h>
 
 #include <sys/types.h>
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <argos3/core/utility/configuration/base_configurable_resource.h>
+#include <argos3/core/utility/plugins/refused.h>
 
 namespace argos
 {

@@ -4,6 +4,7 @@
 
 #include <argos3/core/utility/datatypes/datatypes.h>
 #include <argos3/core/utility/math/ray3.h>
+#include <argos3/core/utility/plugins/refused.h>
 
 #include <vector>
 

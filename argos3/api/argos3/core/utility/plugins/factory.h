@@ -1,8 +1,9 @@
-// REGISTER_SYMBOL. The only plug-ins that libraries written for ARGoS3 can register here are controllers and loop
-// functions.
+// What the macros that register plug-ins share. Libraries written for ARGoS3 can register controllers, loop functions,
+// Qt user functions, sensors and actuators.
 #pragma once
 
 #include <argos3/core/utility/configuration/argos_exception.h>
+#include <argos3/core/utility/plugins/refused.h>
 
 #include <string>
 

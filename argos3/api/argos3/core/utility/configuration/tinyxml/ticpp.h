@@ -120,6 +120,20 @@ public:
     return NextSiblingElement(std::string(name), required);
   }
   Element* NextSiblingElement(bool required) const { return NextSiblingElement(std::string(), required); }
+  // Do the same, since all children are elements here.
+  Element* FirstChild(const std::string& name = "", bool required = true) const
+  {
+    return FirstChildElement(name, required);
+  }
+  Element* FirstChild(const char* name, bool required = true) const { return FirstChildElement(name, required); }
+  Element* FirstChild(bool required) const { return FirstChildElement(required); }
+  Element* NextSibling(const std::string& name = "", bool required = true) const
+  {
+    return NextSiblingElement(name, required);
+  }
+  Element* NextSibling(const char* name, bool required = true) const { return NextSiblingElement(name, required); }
+  Element* NextSibling(bool required) const { return NextSiblingElement(required); }
+  Element* ToElement() { return this; }
   // Adds a copy of the element with all that it holds.
   Element& InsertEndChild(const Element& child);
   // Removes a child. Throws Exception for an element that is none.

@@ -10,7 +10,7 @@ class CCI_EPuckLightSensor : public CRingSensor
 {
 public:
   // Throws std::out_of_range for a sensor that does not exist.
-  const SReading& GetReading(UInt16 sensor) const { return m_tReadings.at(sensor); }
+  const SReading& GetReading(UInt16 sensor) const { return GetReadings().at(sensor); }
 };
 
 }  // namespace argos
