@@ -63,8 +63,7 @@ class Khepera(RunningTest):
         self.assertEqual({value for _, value in self.values(said, "turned", "light")}, {0})
 
     def test_wheels_follow_every_command(self):
-        self.swarmanoid("run", HERE / "khepera.argos", "--output", "run")
-        said = self.said_in("run")
+        said = self.swarmanoid("run", HERE / "khepera.argos", "--output", "run").stderr + self.said_in("run")
         places = lambda robot: [tuple(map(float, text.split(","))) for text in
                                 re.findall(rf"at {robot} (\S+) ", said)]
         fast = places("fast")
