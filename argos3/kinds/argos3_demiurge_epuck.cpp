@@ -52,7 +52,6 @@ EntityKindDescription EPuck()
   for (const GroundPlace& place : kEPuckGround) row.ground_points.emplace_back(place.x, place.y);
   row.attributes = {{"message", 3, 0, "range and bearing: 1 while sending, then bytes 0..4 and 5..9 as one number each",
                      AttributeValue::kBytes}};
-  row.devices = {"footbot_omnidirectional_camera"};
   return row;
 }
 

@@ -53,7 +53,7 @@ class Kilobots(RunningTest):
         turn = (0.012 - 0.024) / 0.025 / 31
         self.assertAlmostEqual(at[20][2] - at[19][2], math.degrees(turn), places=3)
         self.assertAlmostEqual(math.hypot(at[20][0] - at[19][0], at[20][1] - at[19][1]), 0.018 / 31, places=5)
-        self.assertRegex(said, r"kilobot kb4 at .* colour 255,0,0 state 3")
+        self.assertRegex(said, r"kilobot kb4 at .* colour red state 3")
 
     def test_the_light_sensor_is_to_the_left(self):
         said = self.run_file(('behavior="kilo_gradient"', 'behavior="kilo_blink"'),
