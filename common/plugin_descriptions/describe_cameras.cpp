@@ -60,14 +60,14 @@ void DescribeCameras()
       Joined(ViewParameters("70", "3"), {{"height", kNumber, "m", "0.2887", "Of the eye above the base.", 0.001, 1e6}});
   DescribeCamera("footbot_omnidirectional_camera", "footbot", "omnidirectional camera", omnidirectional,
                  Elevation::kNone, {"argos3_demiurge_epuck"});
-  DescribeSensor(
-      {.label = "footbot_omnidirectional_camera",
-       .implementation = "argos3_footbot_omnidirectional_camera",
-       .brief = "omnidirectional camera of ARGoS3: sees in a square around the robot, whatever the height of "
-                "a blob",
-       .parameters = Joined(Joined(ViewParameters("70", "3"), NoiseParameters("each distance", "m", "distance_")),
-                            NoiseParameters("each angle", "rad", "angle_")),
-       .robots = {"footbot"}});
+  DescribeSensor({.label = "footbot_omnidirectional_camera",
+                  .implementation = "argos3_footbot_omnidirectional_camera",
+                  .brief =
+                      "omnidirectional camera of ARGoS3: sees in a square around the robot, whatever the height of "
+                      "a blob",
+                  .parameters = Joined(Joined(omnidirectional, NoiseParameters("each distance", "m", "distance_")),
+                                       NoiseParameters("each angle", "rad", "angle_")),
+                  .robots = {"footbot"}});
   DescribeCamera("eyebot_camera", "eyebot", "camera that looks down", ViewParameters("30", "3"), Elevation::kNone);
   // Aperture and range are those of the perspective camera of ARGoS3.
   DescribeCamera("eyebot_pan_tilt_camera", "eyebot", "camera that turns with the laser", ViewParameters("30", "2"),
