@@ -52,9 +52,10 @@ double rest_of_tick = 0;   // ticks
 double ms_since_sent = 0;  // since the latest message
 uint64_t hard_random = 0;
 
-// Waits for the next step.
+// Waits for the next step. What the behaviour commands stays, also if setup() commanded it.
 void Receive()
 {
+  const kilobot_state_t before = state;
   size_t received = 0;
   while (received < sizeof state)
   {
@@ -62,6 +63,9 @@ void Receive()
     if (part <= 0) exit(0);
     received += static_cast<size_t>(part);
   }
+  state.left_motor = before.left_motor;
+  state.right_motor = before.right_motor;
+  state.color = before.color;
   is_in_step = true;
 }
 

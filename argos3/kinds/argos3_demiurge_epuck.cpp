@@ -27,11 +27,14 @@ ProximityRing Proximity()
   return ring;
 }
 
-// The red LEDs around the robot, then the three coloured ones.
+// The red LEDs around the robot, which look outwards, then the three coloured ones on top, which look up: the own body
+// does not hide them.
 LedLayout Leds()
 {
   LedLayout leds{PlacesOnCircle(8, kRing, kFirstAngle), 0.0765, false};
+  for (const Vector2& place : leds.places) leds.directions.emplace_back(place.x(), place.y(), 0);
   leds.places.insert(leds.places.end(), {{0.018, 0.0311769}, {0.018, -0.0311769}, {-kRing, 0}});
+  leds.directions.resize(leds.places.size(), Vector3::UnitZ());
   return leds;
 }
 
@@ -52,7 +55,6 @@ EntityKindDescription EPuck()
   for (const GroundPlace& place : kEPuckGround) row.ground_points.emplace_back(place.x, place.y);
   row.attributes = {{"message", 3, 0, "range and bearing: 1 while sending, then bytes 0..4 and 5..9 as one number each",
                      AttributeValue::kBytes}};
-  row.devices = {"footbot_omnidirectional_camera"};
   return row;
 }
 

@@ -4,6 +4,8 @@
 // readings it has, and the cast by reference throws if a robot's device is another one.
 #include "argos3/plugin/lua_devices.h"
 
+#include <argos3/plugins/robots/e-puck/control_interface/ci_epuck_light_sensor.h>
+#include <argos3/plugins/robots/e-puck/control_interface/ci_epuck_omnidirectional_camera_sensor.h>
 #include <argos3/plugins/robots/e-puck/control_interface/ci_epuck_proximity_sensor.h>
 #include <argos3/plugins/robots/eye-bot/control_interface/ci_eyebot_light_sensor.h>
 #include <argos3/plugins/robots/eye-bot/control_interface/ci_eyebot_proximity_sensor.h>
@@ -41,6 +43,33 @@ namespace swarmanoid::argos3
 
 using namespace lua;
 
+argos::CColor ColourAt(lua_State* lua, int index)
+{
+  argos::CColor colour;
+  if (lua_gettop(lua) == index)
+  {
+    colour.Set(luaL_checkstring(lua, index));
+    return colour;
+  }
+  CheckCount(lua, index + 2);
+  const auto channel = [&](int at)
+  {
+    const double value = luaL_checknumber(lua, at);
+    if (!(value >= 0 && value <= 255)) luaL_argerror(lua, at, "a colour is 0 to 255");
+    return static_cast<UInt8>(value);
+  };
+  const UInt8 red = channel(index);
+  const UInt8 green = channel(index + 1);
+  colour.Set(red, green, channel(index + 2));
+  return colour;
+}
+
+UInt8 ByteAt(lua_State* lua, int index)
+{
+  const double value = luaL_checknumber(lua, index);
+  return std::abs(value) < 0x1p62 ? static_cast<UInt8>(static_cast<std::int64_t>(value)) : 0;
+}
+
 namespace
 {
 
@@ -75,27 +104,6 @@ void ReadWheels(lua_State* lua, argos::CCI_DifferentialSteeringSensor& encoders)
 
 // The next functions are those of robot.leds, with colours by name, or by red, green and blue of 0 to 255.
 
-argos::CColor ColourAt(lua_State* lua, int index)
-{
-  argos::CColor colour;
-  if (lua_gettop(lua) == index)
-  {
-    colour.Set(luaL_checkstring(lua, index));
-    return colour;
-  }
-  CheckCount(lua, index + 2);
-  const auto channel = [&](int at)
-  {
-    const double value = luaL_checknumber(lua, at);
-    if (!(value >= 0 && value <= 255)) luaL_argerror(lua, at, "a colour is 0 to 255");
-    return static_cast<UInt8>(value);
-  };
-  const UInt8 red = channel(index);
-  const UInt8 green = channel(index + 1);
-  colour.Set(red, green, channel(index + 2));
-  return colour;
-}
-
 int SetAllColors(lua_State* lua)
 {
   Subject<argos::CCI_LEDsActuator>(lua).SetAllColors(ColourAt(lua, 1));
@@ -121,13 +129,6 @@ void AddLeds(lua_State* lua, argos::CCI_LEDsActuator& leds)
 }
 
 // The next functions are those of robot.range_and_bearing, with bytes, cm and rad.
-
-// A number that is too large for a byte loses its higher bits, as in ARGoS3.
-UInt8 ByteAt(lua_State* lua, int index)
-{
-  const double value = luaL_checknumber(lua, index);
-  return std::abs(value) < 0x1p62 ? static_cast<UInt8>(static_cast<std::int64_t>(value)) : 0;
-}
 
 int SetData(lua_State* lua)
 {
@@ -242,7 +243,8 @@ void ReadBlobsOf(lua_State* lua, const char* table, const Camera& camera, const 
   Leave(lua);
 }
 
-void ReadBlobs(lua_State* lua, argos::CCI_ColoredBlobOmnidirectionalCameraSensor& camera)
+template <class Camera>
+void ReadBlobs(lua_State* lua, const Camera& camera)
 {
   ReadBlobsOf(lua, kCamera, camera,
               [lua](const auto& blob)
@@ -364,12 +366,13 @@ void AddFunctions(lua_State* lua, const std::string& tag, argos::CCI_Actuator& a
   if (tag == "footbot_gripper") return AddGripper(lua, As<argos::CCI_FootBotGripperActuator>(actuator));
   if (tag == "quadrotor_position") return AddPosition(lua, As<argos::CCI_QuadRotorPositionActuator>(actuator));
   if (tag == "quadrotor_speed") return AddSpeed(lua, As<argos::CCI_QuadRotorSpeedActuator>(actuator));
-  Unknown("actuator", tag);
+  if (!AddEPuckFunctions(lua, tag, actuator)) Unknown("actuator", tag);
 }
 
 void AddFunctions(lua_State* lua, const std::string& tag, argos::CCI_Sensor& sensor)
 {
   if (tag == kCamera || tag == kPerspectiveCamera) AddCamera(lua, tag.c_str(), sensor);
+  if (tag == "epuck_omnidirectional_camera") AddCamera(lua, kCamera, sensor);
 }
 
 void AddReadings(lua_State* lua, const std::string& tag, argos::CCI_Sensor& sensor)
@@ -383,6 +386,11 @@ void AddReadings(lua_State* lua, const std::string& tag, argos::CCI_Sensor& sens
   if (tag == "ground") return ReadNumbers(lua, As<argos::CCI_GroundSensor>(sensor).GetReadings(), "ground");
   if (tag == "footbot_light") return ReadRing(lua, As<argos::CCI_FootBotLightSensor>(sensor), "light");
   if (tag == "eyebot_light") return ReadRing(lua, As<argos::CCI_EyeBotLightSensor>(sensor), "light");
+  if (tag == "epuck_light") return ReadRing(lua, As<argos::CCI_EPuckLightSensor>(sensor), "light");
+  if (tag == "epuck_ground") return ReadEPuckGround(lua, As<argos::CCI_EPuckGroundSensor>(sensor));
+  if (tag == "epuck_range_and_bearing") return ReadEPuckPackets(lua, As<argos::CCI_EPuckRangeAndBearingSensor>(sensor));
+  if (tag == "epuck_omnidirectional_camera")
+    return ReadBlobs(lua, As<argos::CCI_EPuckOmnidirectionalCameraSensor>(sensor));
   if (tag == "kheperaiv_proximity") return ReadRing(lua, As<argos::CCI_KheperaIVProximitySensor>(sensor), "proximity");
   if (tag == "kheperaiv_ultrasound")
     return ReadRing(lua, As<argos::CCI_KheperaIVUltrasoundSensor>(sensor), "ultrasound");

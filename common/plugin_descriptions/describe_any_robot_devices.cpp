@@ -55,9 +55,8 @@ void DescribeExponentialLight()
            {"position", kVector3, "m", "0, 0, 0", "Of the sensors, in the frame of the robot, which hides no light.",
             -1e6, 1e6},
            {"index_step", kNumber, "deg", "0",
-            "If not 0, a light reaches five sensors about number bearing / step, modulo their number, as in ARGoS3's "
-            "model of the Khepera IV.",
-            0, 360}},
+            "If not 0, a light reaches the five sensors about number bearing / step, as in ARGoS3's Khepera IV.", 0,
+            360}},
           NoiseParameters("each reading", ""))};
   ParameterChecks::Instance().Add(PluginKind::kSensor, light, MistakesInDirections);
   DescribeSensor(light);

@@ -22,10 +22,14 @@ enum class Elevation
   kReported
 };
 
-// Describes the two implementations of a camera: ideal, and with noise in pixels.
+// Describes the two implementations of a camera: ideal, and with noise in pixels. `other_robots` carry the ideal one,
+// too.
 void DescribeCamera(const std::string& label, const char* robot, const std::string& what,
-                    const std::vector<ParameterSpec>& view, Elevation elevation)
+                    const std::vector<ParameterSpec>& view, Elevation elevation,
+                    const std::vector<std::string>& other_robots = {})
 {
+  std::vector<std::string> robots{robot};
+  robots.insert(robots.end(), other_robots.begin(), other_robots.end());
   std::vector<ParameterSpec> ideal = Joined(Joined(view, NoiseParameters("each distance", "m", "distance_")),
                                             NoiseParameters("each angle", "rad", "angle_"));
   if (elevation == Elevation::kReported)
@@ -34,7 +38,7 @@ void DescribeCamera(const std::string& label, const char* robot, const std::stri
                   .implementation = "generic_" + label,
                   .brief = what + ": blobs at their exact places, with noise on distance and angles where asked",
                   .parameters = std::move(ideal),
-                  .robots = {robot}});
+                  .robots = std::move(robots)});
   DescribeSensor(
       {.label = label,
        .implementation = "pixel_noise_" + label,
@@ -55,15 +59,15 @@ void DescribeCameras()
   const std::vector<ParameterSpec> omnidirectional =
       Joined(ViewParameters("70", "3"), {{"height", kNumber, "m", "0.2887", "Of the eye above the base.", 0.001, 1e6}});
   DescribeCamera("footbot_omnidirectional_camera", "footbot", "omnidirectional camera", omnidirectional,
-                 Elevation::kNone);
-  DescribeSensor(
-      {.label = "footbot_omnidirectional_camera",
-       .implementation = "argos3_footbot_omnidirectional_camera",
-       .brief = "omnidirectional camera of ARGoS3: sees in a square around the robot, whatever the height of "
-                "a blob",
-       .parameters = Joined(Joined(ViewParameters("70", "3"), NoiseParameters("each distance", "m", "distance_")),
-                            NoiseParameters("each angle", "rad", "angle_")),
-       .robots = {"footbot"}});
+                 Elevation::kNone, {"argos3_demiurge_epuck"});
+  DescribeSensor({.label = "footbot_omnidirectional_camera",
+                  .implementation = "argos3_footbot_omnidirectional_camera",
+                  .brief =
+                      "omnidirectional camera of ARGoS3: sees in a square around the robot, whatever the height of "
+                      "a blob",
+                  .parameters = Joined(Joined(omnidirectional, NoiseParameters("each distance", "m", "distance_")),
+                                       NoiseParameters("each angle", "rad", "angle_")),
+                  .robots = {"footbot"}});
   DescribeCamera("eyebot_camera", "eyebot", "camera that looks down", ViewParameters("30", "3"), Elevation::kNone);
   // Aperture and range are those of the perspective camera of ARGoS3.
   DescribeCamera("eyebot_pan_tilt_camera", "eyebot", "camera that turns with the laser", ViewParameters("30", "2"),

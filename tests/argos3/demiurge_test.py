@@ -15,10 +15,10 @@ class DemiurgeEPuck(RunningTest):
     def said(self, robot, word):
         return re.search(rf"robot '{robot}' at tick 3: {word}(?: (.*))?\n", self.log).group(1) or ""
 
-    def ran(self, *changes):
+    def ran(self, *changes, output="run"):
         file = self.changed("demiurge.argos", *changes)
-        self.notes = self.swarmanoid("run", file, "--output", "run").stderr
-        self.log = self.notes + self.said_in("run")
+        self.notes = self.swarmanoid("run", file, "--output", output).stderr
+        self.log = self.notes + self.said_in(output)
 
     def test_readings_are_those_of_the_plug_in(self):
         self.ran()
@@ -74,7 +74,7 @@ class DemiurgeEPuck(RunningTest):
         self.ran()
         x = [float(text) for text in re.findall(r"at d ([^,]+),", self.log)]
         self.assertAlmostEqual(x[-1] - x[-2], 0.04, places=4)
-        self.ran(('<epuck_wheels implementation="default"/>', '<epuck_wheels implementation="default" noise_std_dev="0.1"/>'))
+        self.ran(('<epuck_wheels implementation="default"/>', '<epuck_wheels implementation="default" noise_std_dev="0.1"/>'), output="noisy")
         x = [float(text) for text in re.findall(r"at d ([^,]+),", self.log)]
         steps = [after - before for before, after in zip(x[2:], x[3:])]
         self.assertGreater(max(steps) - min(steps), 0.002)

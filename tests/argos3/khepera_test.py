@@ -60,11 +60,10 @@ class Khepera(RunningTest):
             for (angle, value), expected in zip(self.values(said, robot, "light"), light(x, y, 0, heading)):
                 self.assertAlmostEqual(value, expected, places=5, msg=(robot, angle))
         # A light straight to the left is behind the steps of 15 degrees.
-        self.assertEqual({value for _, value in self.values(said, "turned", "light")}, {0})
+        self.assertLess(max(value for _, value in self.values(said, "turned", "light")), 1e-6)
 
     def test_wheels_follow_every_command(self):
-        self.swarmanoid("run", HERE / "khepera.argos", "--output", "run")
-        said = self.said_in("run")
+        said = self.swarmanoid("run", HERE / "khepera.argos", "--output", "run").stderr + self.said_in("run")
         places = lambda robot: [tuple(map(float, text.split(","))) for text in
                                 re.findall(rf"at {robot} (\S+) ", said)]
         fast = places("fast")

@@ -62,7 +62,7 @@ private:
   static void Say(const char* name, const Readings& readings)
   {
     LOG << name;
-    for (const auto& reading : readings) LOG << " " << ToDegrees(reading.Angle) << "=" << reading.Value;
+    for (const auto& reading : readings) LOG << " " << ToDegrees(reading.Angle).GetValue() << "=" << reading.Value;
     LOG << std::endl;
   }
 

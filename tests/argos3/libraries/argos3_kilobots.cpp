@@ -76,8 +76,8 @@ public:
       message.type = 1;
       message.data[8] = 77;
       if (id == "kb3")
-        GetSimulator().GetMedium<CKilobotCommunicationMedium>("air").SendOHCMessageTo(
-            kilobot, clock == 40 ? &message : nullptr);
+        GetSimulator().GetMedium<CKilobotCommunicationMedium>("air").SendOHCMessageTo(kilobot,
+                                                                                      clock == 40 ? &message : nullptr);
     }
   }
 

@@ -11,6 +11,7 @@ function step()
   robot.range_and_bearing.set_data({5, 6, 7, 8})
   if steps ~= 3 then return end
   local packet = robot.range_and_bearing[1]
+  if packet == nil then return end
   log("lua " .. #robot.proximity .. " " .. #robot.light .. " ground " .. robot.ground.left .. " " .. robot.ground.right
       .. " heard " .. packet.data[4] .. " from " .. packet.range .. " sees " .. #robot.colored_blob_omnidirectional_camera)
 end

@@ -98,6 +98,15 @@ TEST(DeviceParameters, ARangeScannerHasNotTooManyBeams)
             "test.xml:3:55: 'nearest' of <range_scanner> is 10 m and 'range' 10 m; nearest must be less\n");
 }
 
+TEST(DeviceParameters, LightSensorsHaveDirections)
+{
+  const auto light = [](const std::string& parameters) { return MistakesOf("light", "argos3_light", parameters); };
+  EXPECT_EQ(light("directions=\"17, 50\""), "");
+  EXPECT_EQ(light("directions=\"17, left\""),
+            "test.xml:3:47: 'directions' of <light> is '17, left'; it must be 1 to 360 angles in degrees, with commas "
+            "between them\n");
+}
+
 TEST(DeviceParameters, ADepthCameraSeesSomething)
 {
   const auto camera = [](const std::string& parameters)

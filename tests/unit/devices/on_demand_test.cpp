@@ -36,6 +36,8 @@ const std::vector<Device> kDevices = {
      EntityKind::kFootbot,
      {{"noise_kind", "uniform"}, {"noise_minimum", "-0.1"}, {"noise_maximum", "0.1"}}},
     {"eyebot_light", "argos3_eyebot_light", EntityKind::kEyebot},
+    {"light", "generic_light"},
+    {"light", "argos3_light", EntityKind::kFootbot, {{"noise_kind", "gaussian"}, {"noise_deviation", "0.1"}}},
     {"footbot_proximity",
      "generic_footbot_proximity",
      EntityKind::kFootbot,

@@ -10,11 +10,13 @@ namespace argos
 class CCI_EPuckBaseLEDsActuator : public CCI_Actuator
 {
 public:
+  // Switches an LED, 0 to 7.
   virtual void SwitchLED(size_t led, bool on)
   {
     const UInt8 bit = static_cast<UInt8>(1U << led);
     m_unLEDSettings = static_cast<UInt8>(on ? m_unLEDSettings | bit : m_unLEDSettings & ~bit);
   }
+  // Switches all LEDs.
   virtual void SwitchLEDs(bool on) { m_unLEDSettings = on ? 255 : 0; }
 
 protected:

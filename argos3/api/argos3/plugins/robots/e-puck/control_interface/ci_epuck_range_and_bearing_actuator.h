@@ -46,7 +46,9 @@ public:
     changed.Enabled = true;
     std::copy(data, data + MAX_BYTES_SENT, changed.Data);
   }
+  // Stops the messages of an emitter. Throws CARGoSException if it does not exist.
   virtual void DisableEmitter(size_t emitter) { EmitterOf(emitter).Enabled = false; }
+  // Stops all messages.
   virtual void Disable()
   {
     for (SEmitter& emitter : m_sDesiredData.Emitter) emitter.Enabled = false;

@@ -22,6 +22,7 @@ public:
   using TBlobs = std::vector<SBlob>;
   UInt32 GetWidth() const { return m_unWidth; }
   UInt32 GetHeight() const { return m_unHeight; }
+  // Returns the pixels, row by row.
   virtual const unsigned char* GetPixels() const = 0;
   const TBlobs& GetBlobs() const { return m_tBlobs; }
 

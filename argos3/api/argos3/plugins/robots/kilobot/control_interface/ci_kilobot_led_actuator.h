@@ -10,6 +10,7 @@ namespace argos
 class CCI_KilobotLEDActuator : public CCI_Actuator
 {
 public:
+  // Sets the colour, which stays until the next one.
   virtual void SetColor(const CColor& color) { m_cColor = color; }
 
 protected:
