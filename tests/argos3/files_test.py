@@ -70,6 +70,17 @@ class Files(RunningTest):
         self.assertLess(pace("--real-time", 3), 3.5)
         self.assertIn("keeps real time", self.swarmanoid("check", file).stderr)
 
+    def test_distributed_foot_bots_need_room_for_their_bodies_alone(self):
+        wall = '<box id="{}" size="4,0.1,0.5" movable="false"><body position="0,{},0" orientation="0,0,0"/></box>'
+        group = """<distribute><position method="uniform" min="-1,-0.004,0" max="1,0.004,0"/><orientation method="constant" values="0,0,0"/>
+<entity quantity="3" max_trials="100"><foot-bot id="fb"><controller config="my robot"/></foot-bot></entity></distribute>"""
+        (self.folder / "s.lua").write_text(SCRIPT)
+        # A body is 17 cm wide, and 20 cm with the reach of a gripper of our own experiments.
+        for place, code in ((0.14, 0), (0.13, 3)):
+            arena = wall.format("north", place) + wall.format("south", -place) + group
+            said = self.swarmanoid("check", self.file(arena, ROBOTS), code=code).stderr
+            self.assertEqual("does not fit" in said, code != 0, said)
+
     def test_buzz_is_refused_once_a_file(self):
         buzz = '<buzz_controller id="{}"><actuators/><sensors/><params bytecode_file="a.bo"/></buzz_controller>'
         robot = '<foot-bot id="{0}"><body position="0,{1},0" orientation="0,0,0"/><controller config="{0}"/></foot-bot>'
