@@ -235,11 +235,12 @@ TEST(EnergyBattery, GivesEnergyForBytesSentAndReceived)
 
 TEST(EnergyBattery, GivesPowerToAGripperThatHolds)
 {
+  EnergyRun empty({.actuators = {"dummy_footbot_gripper"}});
+  empty.Ticks(20);
+  EXPECT_EQ(empty.Power(), 2) << "it is closed, and holds nothing";
   EnergyRun run({.actuators = {"dummy_footbot_gripper"},
                  .arena = "<footbot id='a' position='1,1,0' controller='c'/>"
                           "<cylindric_prey id='p' position='1.16,1,0' radius='0.06' height='0.1' mass='0.1'/>"});
-  run.Ticks(1);
-  EXPECT_EQ(run.Power(), 2);
   run.Ticks(20);
   ASSERT_NE((*run).GetSpace().FindEntity("a")->GetAttribute("gripped"), 0);
   EXPECT_EQ(run.Power(), 6);

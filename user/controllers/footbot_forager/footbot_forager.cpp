@@ -146,9 +146,10 @@ public:
   int Init(const TConfigurationTree t_tree) override
   {
     state_ = std::make_unique<CCI_FootBotState>(GetRobot());
-    behavior_ = std::make_unique<CBTFootbotForager>(
-        t_tree.GetNumber("search"), t_tree.GetNumber("rest"), t_tree.GetNumber("recharge"),
-        dynamic_cast<const CCI_BatterySensor*>(GetRobot()->GetSensor("battery")));
+    const CCI_BatterySensor* battery =
+        GetRobot()->HasSensor("battery") ? &GetRobot()->Sensor<CCI_BatterySensor>("battery") : nullptr;
+    behavior_ = std::make_unique<CBTFootbotForager>(t_tree.GetNumber("search"), t_tree.GetNumber("rest"),
+                                                    t_tree.GetNumber("recharge"), battery);
     m_pcState = state_.get();
     m_pcRootBehavior = behavior_.get();
     state_->Init();
