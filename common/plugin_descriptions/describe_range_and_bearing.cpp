@@ -22,25 +22,29 @@ void DescribeRangeAndBearing()
   const std::vector<ParameterSpec> noise =
       Joined(Joined(NoiseParameters("each range", "m", "range_"), NoiseParameters("each bearing", "rad", "bearing_")),
              NoiseParameters("each vertical bearing", "rad", "vertical_bearing_"));
+  const ParameterSpec line_of_sight{"line_of_sight", kBoolean, "", "true",
+                                    "Whether bodies between two robots keep packets off."};
+  const ParameterSpec antenna{"antenna",
+                              kNumber,
+                              "m",
+                              "0.1",
+                              "Height of the antennas above the bases of robots, for the receivers and what they hear.",
+                              0,
+                              1e6};
   DescribeSensor(
       {.label = "range_and_bearing",
        .implementation = "generic_range_and_bearing",
        .brief = "receives the bytes of all in sight within 3 m, with distance and direction",
-       .parameters =
-           Joined({{"range", kNumber, "m", "3", "Distance from which packets are received.", 0.001, 1e6},
-                   {"loss_probability", kNumber, "", "0", "Share of the packets that get lost.", 0, 1},
-                   {"line_of_sight", kBoolean, "", "true", "Whether bodies between two robots keep packets off."},
-                   {"antenna", kNumber, "m", "0.1",
-                    "Height of the antennas above the bases of robots, for the receivers and what they hear.", 0, 1e6}},
-                  noise),
+       .parameters = Joined({{"range", kNumber, "m", "3", "Distance from which packets are received.", 0.001, 1e6},
+                             {"loss_probability", kNumber, "", "0", "Share of the packets that get lost.", 0, 1},
+                             line_of_sight,
+                             antenna},
+                            noise),
        .robots = {"footbot", "eyebot", "handbot"}});
   DescribeSensor({.label = "range_and_bearing",
                   .implementation = "shared_range_and_bearing",
                   .brief = "the same through a channel that all senders share: packets collide and links are shadowed",
-                  .parameters = Joined(
-                      Joined(SharedChannelParameters("3"), {{"line_of_sight", kBoolean, "", "true",
-                                                             "Whether bodies between two robots keep packets off."}}),
-                      noise),
+                  .parameters = Joined(Joined(SharedChannelParameters("3"), {line_of_sight, antenna}), noise),
                   .robots = {"footbot", "eyebot", "handbot"}});
 }
 

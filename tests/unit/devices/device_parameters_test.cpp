@@ -103,7 +103,7 @@ TEST(DeviceParameters, LightSensorsHaveDirections)
   const auto light = [](const std::string& parameters) { return MistakesOf("light", "argos3_light", parameters); };
   EXPECT_EQ(light("directions=\"17, 50\""), "");
   EXPECT_EQ(light("directions=\"17, left\""),
-            "test.xml:3:47: 'directions' of <light> is '17, left'; it must be 1 to 360 angles in degrees, with commas "
+            "test.xml:3:38: 'directions' of <light> is '17, left'; it must be 1 to 360 angles in degrees, with commas "
             "between them\n");
 }
 

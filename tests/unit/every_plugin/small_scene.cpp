@@ -130,6 +130,7 @@ const std::map<std::string, std::string>& ElementsOfKinds()
   static const std::map<std::string, std::string> attributes = {{"block", " size='0.2,0.2,0.2'"},
                                                                 {"wall", " size='0.2,0.2,0.2'"},
                                                                 {"ground_patch", " radius='0.1'"},
+                                                                {"charging_station", " radius='0.1'"},
                                                                 {"hole", " radius='0.1'"}};
   return attributes;
 }

@@ -236,7 +236,7 @@ const Mistake kMistakes[] = {
      "eyebot, handbot, block, cylindric_prey, wall\n"},
     {"UnknownKindOfAll", "<entity id=\"fb2\"/>", "<all kind=\"footbots\"/>",
      "test.xml:27:47: there is no kind of entity 'footbots'; known: footbot, eyebot, handbot, block, cylindric_prey, "
-     "light_bulb, sound_source, ground_patch, hole, wall, terrain; did you mean 'footbot'?\n"},
+     "light_bulb, sound_source, ground_patch, hole, wall, terrain, charging_station; did you mean 'footbot'?\n"},
     {"EngineMembersTwice", "<arena_physics>\n", "<arena_physics><engine id=\"ground\"/>\n",
      "test.xml:27:13: the entities of the engine 'ground' are given twice; the first time in line 26\n"},
     {"UnknownVisualisation", "<text_render id=\"table\"><file>table.txt</file></text_render>",

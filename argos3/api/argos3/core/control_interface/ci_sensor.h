@@ -12,6 +12,7 @@ class CSensorReader
 {
 public:
   virtual ~CSensorReader() = default;
+  // Updates the readings. Called at most once for each ReadOnDemand.
   virtual void Read() = 0;
 };
 
