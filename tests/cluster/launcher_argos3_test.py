@@ -81,7 +81,7 @@ class LoopFunctions(LauncherTest):
         self.assertEqual(run.wait(GENEROUS_S), 3, run.stderr)
         self.assertEqual(watcher.wait(GENEROUS_S), 4)
         for said in (run.stderr, watcher.stderr):
-            self.assertRegex(said, r"(?m)(^|: )failing.argos:16:3: <loop_functions> has no <home>")
+            self.assertRegex(said, r"(?m)(^|: )(\S*/)?failing\.argos:16:3: <loop_functions> has no <home>")
         self.assert_nothing_left(run)
 
     def test_grants_and_two_runs_of_one_experiment(self):
