@@ -16,6 +16,7 @@ set(PUBLIC_HEADERS
   controller_host/devices/noise.h
   controller_host/devices/value_devices.h
   controller_host/on_demand_sensor.h
+  controller_host/powered_device.h
   # kinds of robots and objects
   common/experiment/entity_kind.h
   common/mesh/convex_hull.h
@@ -24,6 +25,7 @@ set(PUBLIC_HEADERS
   common/threads/worker_pool.h
   engine_worker/physics_engine.h
   # experiment functions
+  common/space/battery_slots.h
   common/space/entities_by_kind.h
   common/space/publish.h
   common/space/space.h

@@ -22,7 +22,7 @@ USERS = ["user", "tests/outside/plugins", "tests/package", "tests/seed/behaviors
 PAGES_OF_DEVELOPERS = {"architecture", "code_tour", "command", "constants", "design_decisions", "determinism", "performance", "recovery", "scaling",
                        "wire"}
 # Folders of headers that are installed by other rules.
-ARGOS3 = "argos3/api/"
+ARGOS3 = ("argos3/api/", "argos3/refused/")
 
 
 def files(folder, *endings):
