@@ -544,6 +544,7 @@ const ControlCommands* ControllerHost::Due()
   due_tick_ = tick;
   due_ = commands_;
   due_.tick = tick;
+  due_.attributes.pending = nullptr;
   return &due_;
 }
 
@@ -600,6 +601,7 @@ void ControllerHost::UpdateParts(std::uint64_t tick)
 void ControllerHost::CommitActuators()
 {
   commands_.attributes.Clear();
+  commands_.attributes.pending = ahead_ > 0 ? &due_.attributes : nullptr;
   if (device_faults_ != nullptr) device_faults_->ChangeSettings();
   for (Batches::Actuator& actuator : batches_->actuators)
   {

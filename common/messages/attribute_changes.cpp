@@ -39,16 +39,26 @@ void AttributeOrder::Apply(AttributeChanges& changes)
     if (k + 1 < places_.size() && places_[k + 1] >> 32U == slot) continue;  // a later value counts
     ordered_.Add(slot, changes.values[static_cast<std::uint32_t>(places_[k])]);
   }
-  std::swap(changes, ordered_);
+  changes.slots.swap(ordered_.slots);
+  changes.values.swap(ordered_.values);
 }
 
 void ReportChanges(std::span<const std::uint32_t> slots, std::span<const double> values,
                    const SparseVector<double>& known, AttributeChanges& changes)
 {
+  std::size_t next = 0;  // of the pending changes
+  const auto differs = [&](std::uint32_t slot, double value)
+  {
+    if (changes.pending == nullptr) return known[slot] != value;
+    const AttributeChanges& pending = *changes.pending;
+    while (next < pending.slots.size() && pending.slots[next] < slot) ++next;
+    const bool is_pending = next < pending.slots.size() && pending.slots[next] == slot;
+    return (is_pending ? pending.values[next] : known[slot]) != value;
+  };
   if (changes.slots.empty())
   {
     for (std::size_t i = 0; i < slots.size(); ++i)
-      if (known[slots[i]] != values[i]) changes.Add(slots[i], values[i]);
+      if (differs(slots[i], values[i])) changes.Add(slots[i], values[i]);
     return;
   }
   thread_local AttributeOrder order;
@@ -59,7 +69,7 @@ void ReportChanges(std::span<const std::uint32_t> slots, std::span<const double>
   {
     while (other < others && changes.slots[other] < slots[i]) ++other;
     const bool changed_before = other < others && changes.slots[other] == slots[i];
-    if (changed_before || known[slots[i]] != values[i]) changes.Add(slots[i], values[i]);
+    if (differs(slots[i], values[i]) || changed_before) changes.Add(slots[i], values[i]);
   }
 }
 

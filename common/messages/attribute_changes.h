@@ -22,6 +22,10 @@ struct AttributeChanges : ChangedAttributes
     slots.push_back(slot);
     values.push_back(value);
   }
+
+  // The changes that act before these and are not in the space yet (framework.ahead), in order; usually none. They are
+  // not part of the message.
+  const AttributeChanges* pending = nullptr;
 };
 
 // Puts changes in order; of values for one slot the last one counts. Keeps its scratch memory, so that steady running
@@ -40,8 +44,9 @@ private:
 // Returns whether slots ascend, each with a value.
 bool IsOrdered(const AttributeChanges& changes);
 
-// Adds the values of `slots` (ascending) that differ from those of the space (`known`, all slots). A slot that has a
-// change already is added too, since the last reporter decides, even if it restores the old value.
+// Adds the values of `slots` (ascending) that differ from those of the space (`known`, all slots) after the pending
+// changes. A slot that has a change already is added too, since the last reporter decides, even if it restores the old
+// value.
 void ReportChanges(std::span<const std::uint32_t> slots, std::span<const double> values,
                    const SparseVector<double>& known, AttributeChanges& changes);
 

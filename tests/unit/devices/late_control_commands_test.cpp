@@ -15,8 +15,8 @@ namespace
 
 using testing::ElementsAre;
 
-// Its wheels are as fast as the number of its step, in mm/s; its LEDs are lit by the second one. It fails in the
-// fourth.
+// Its wheels are as fast as the number of its step, in mm/s; its LEDs are lit by the second one, and dark in the third.
+// It fails in the fourth.
 class Counter : public CCI_Controller
 {
 public:
@@ -25,7 +25,7 @@ public:
   {
     if (++steps_ == 4 && GetRobot()->GetId() == "a") throw std::runtime_error("no way");
     GetRobot()->Actuator<CCI_WheelsActuator>("wheels").SetLinearVelocity(steps_ * 1e-3, steps_ * 1e-3);
-    if (steps_ == 2) GetRobot()->Actuator<CCI_LedRingActuator>("led_ring").SetAllColours(0xff0000);
+    GetRobot()->Actuator<CCI_LedRingActuator>("led_ring").SetAllColours(steps_ == 2 ? 0xff0000 : 0);
   }
   bool HasState() const override { return true; }
   void SaveState(std::ostream& state) const override { state << steps_; }
@@ -54,8 +54,12 @@ public:
   const ControlCommands& Tick(std::uint64_t tick)
   {
     space.SetTick(tick);
-    return host.Tick({});
+    const ControlCommands& commands = host.Tick({});
+    Act(commands);
+    return commands;
   }
+  // Changes the space as the server does behind the tick.
+  void Act(const ControlCommands& commands) { space.SetAttributes(commands.attributes); }
 
 private:
   const Experiment experiment_;
@@ -85,6 +89,7 @@ TEST(LateCommands, AreThoseThatWouldHaveActedATickBefore)
     EXPECT_EQ(due->faults, before.faults) << tick;
     EXPECT_EQ(&late.host.Tick({}), due);
     EXPECT_EQ(due->values, before.values) << "the step of the tick changed them";
+    late.Act(*due);
     has_lit |= !due->attributes.slots.empty();
     has_failed |= !due->faults.robots.empty();
     before = now.Tick(tick);

@@ -62,5 +62,24 @@ TEST(AttributeChanges, WhoReportsLastDecidesOnASlot)
   EXPECT_THAT(changes.values, ElementsAre(11, 20, 31));
 }
 
+TEST(AttributeChanges, AreThoseAgainstTheSpaceAfterPendingChanges)
+{
+  SparseVector<double> known;
+  for (const double value : {0.0, 10.0, 20.0, 30.0}) known.push_back(value);
+  AttributeChanges pending, changes;
+  pending.Add(1, 11);
+  pending.Add(3, 31);
+  changes.pending = &pending;
+  // Slot 1 goes back to the value of the space, slot 2 stays, slot 3 keeps the pending value.
+  ReportChanges(std::vector<std::uint32_t>{1, 2, 3}, std::vector<double>{10, 20, 31}, known, changes);
+  EXPECT_THAT(changes.slots, ElementsAre(1));
+  EXPECT_THAT(changes.values, ElementsAre(10));
+  ReportChanges(std::vector<std::uint32_t>{0, 3}, std::vector<double>{1, 30}, known, changes);
+  AttributeOrder().Apply(changes);
+  EXPECT_THAT(changes.slots, ElementsAre(0, 1, 3));
+  EXPECT_THAT(changes.values, ElementsAre(1, 10, 30));
+  EXPECT_EQ(changes.pending, &pending);
+}
+
 }  // namespace
 }  // namespace swarmanoid
