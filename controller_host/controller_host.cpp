@@ -942,6 +942,7 @@ void ControllerHost::Stop(const Robot& robot)
     if (std::find(std::begin(kSilenced), std::end(kSilenced), spec.name) != std::end(kSilenced))
       for (int element = 0; element < spec.count; ++element)
         silence_.slots.push_back(entity.SlotOf(spec.name, element));
+  std::ranges::sort(silence_.slots);  // ReportChanges takes ascending slots
   ForEachCommand(robot.entity,
                  [&](std::size_t first, std::size_t behind) { silence_.commands.emplace_back(first, behind); });
 }
@@ -959,8 +960,7 @@ void ControllerHost::SilenceStopped()
   }
   changes.slots.resize(kept);
   changes.values.resize(kept);
-  for (const std::uint32_t slot : silence_.slots)
-    if (space_.Attributes()[slot] != 0) changes.Add(slot, 0);
+  ReportChanges(silence_.slots, std::vector<double>(silence_.slots.size()), space_.Attributes(), changes);
   for (const auto& [first, behind] : silence_.commands)
     std::fill(commands_.values.begin() + static_cast<std::ptrdiff_t>(first),
               commands_.values.begin() + static_cast<std::ptrdiff_t>(behind), 0.0);
