@@ -49,6 +49,9 @@ set(REFUSED_HEADERS
   kDevices:plugins/robots/generic/control_interface/ci_magnets_actuator.h
   kDevices:plugins/robots/generic/control_interface/ci_tags_actuator.h
   kDevices:plugins/robots/generic/control_interface/ci_directional_leds_actuator.h
+  kDevices:plugins/robots/pi-puck/control_interface/ci_pipuck_front_camera_sensor.h
+  kDevices:plugins/robots/pi-puck/control_interface/ci_pipuck_imu_sensor.h
+  kParts:plugins/robots/pi-puck/simulator/pipuck_differential_drive_entity.h
   kDevices:plugins/robots/prototype/control_interface/ci_prototype_joints_sensor.h
   kDevices:plugins/robots/prototype/control_interface/ci_prototype_joints_actuator.h)
 foreach(header IN LISTS REFUSED_HEADERS)

@@ -25,13 +25,6 @@ namespace fs = std::filesystem;
 namespace
 {
 
-// Returns our kind of a robot that other projects add to ARGoS3; empty: there is none.
-std::string OurKindLike(const std::string& tag)
-{
-  if (tag == "pipuck" || tag == "pi-puck") return "pipuck";
-  return {};
-}
-
 constexpr const char* kTiltLost =
     "dynamics2d keeps the heading alone, and pointmass3d that of robots: the tilt has no effect, as in ARGoS3";
 
@@ -227,8 +220,12 @@ Bearers ArenaConverter::BearersOf(const ConfigurationNode& robot, const std::str
   }
   bearers.battery = FindChild(robot, "battery");
   bearers.params = FindChild(controller, "params");
-  bearers.radio_range = kind == kDemiurgeEPuck ? demiurge_epucks_.at(OurCharacters(NeededText(controller, "config")))
-                                               : Positive(robot, std::string(row.radio_range_name), row.radio_range_m);
+  if (kind == kDemiurgeEPuck)
+    bearers.radio_range = demiurge_epucks_.at(OurCharacters(NeededText(controller, "config")));
+  else
+    bearers.radio_range = row.radio_range_name.empty()
+                              ? row.radio_range_m
+                              : Positive(robot, std::string(row.radio_range_name), row.radio_range_m);
   bearers.radio_bytes = row.has_own_messages ? row.radio_bytes : Whole(robot, "rab_data_size", row.radio_bytes);
   if (bearers.radio_bytes < 1 || bearers.radio_bytes > 10'000)
     Mistake(robot.location, "'rab_data_size' is " + std::to_string(bearers.radio_bytes) +
@@ -292,7 +289,7 @@ void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, const std::s
     std::set<std::string> known{"id"};
     if (robot == kDemiurgeEPuck)
       known.insert("omnidirectional_camera_aperture");
-    else
+    else if (!row.radio_range_name.empty())
       known.emplace(row.radio_range_name);
     if (!row.has_own_messages) known.insert("rab_data_size");
     if (robot == "footbot")
@@ -339,11 +336,8 @@ void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, const std::s
   }
   else
   {
-    const auto ours = OurKindLike(theirs.name);
-    Mistake(at, "<" + theirs.name + "> has no counterpart" +
-                    (ours.empty() ? "; those that have: " + RobotTags() + ", box, cylinder, light, floor, distribute"
-                                  : " in files of ARGoS3; files of ours have the kind " + Quoted(ours) +
-                                        ", with controllers of our interface"));
+    Mistake(at, "<" + theirs.name + "> has no counterpart; those that have: " + RobotTags() +
+                    ", box, cylinder, light, floor, distribute");
     return;
   }
   kinds_.insert(made->name);

@@ -168,7 +168,7 @@ void ConvertWheels(Attributes& attributes, ConfigurationNode& device)
     }
 }
 
-constexpr std::array<const char*, 28> kSensors{"differential_steering",
+constexpr std::array<const char*, 32> kSensors{"differential_steering",
                                                "light",
                                                "footbot_distance_scanner",
                                                "proximity",
@@ -195,10 +195,14 @@ constexpr std::array<const char*, 28> kSensors{"differential_steering",
                                                "epuck_light",
                                                "epuck_ground",
                                                "epuck_omnidirectional_camera",
-                                               "epuck_range_and_bearing"};
+                                               "epuck_range_and_bearing",
+                                               "pipuck_differential_drive",
+                                               "pipuck_rangefinders",
+                                               "pipuck_ground",
+                                               "pipuck_system"};
 constexpr const char* kScanner = "footbot_distance_scanner";
 
-constexpr std::array<const char*, 14> kActuators{kScanner,
+constexpr std::array<const char*, 16> kActuators{kScanner,
                                                  "differential_steering",
                                                  "leds",
                                                  "footbot_gripper",
@@ -211,7 +215,9 @@ constexpr std::array<const char*, 14> kActuators{kScanner,
                                                  "epuck_wheels",
                                                  "epuck_rgb_leds",
                                                  "epuck_base_leds",
-                                                 "epuck_range_and_bearing"};
+                                                 "epuck_range_and_bearing",
+                                                 "pipuck_differential_drive",
+                                                 "pipuck_leds"};
 
 // Each device of ARGoS3 has one implementation.
 void CheckImplementation(const ConfigurationNode& node, const std::string& needed, const DeviceContext& context)
@@ -376,6 +382,28 @@ bool ConvertEPuckSensor(const ConfigurationNode& node, const DeviceContext& cont
   return true;
 }
 
+// The sensors of Pi-Pucks alone. Returns false for other tags.
+bool ConvertPiPuckSensor(const ConfigurationNode& node, const DeviceContext& context, DeviceLists& ours)
+{
+  const SourceLocation& at = node.location;
+  const std::string& tag = node.name;
+  if (tag == "pipuck_rangefinders")
+    AddDevice(ours.sensors, "proximity", "generic_proximity", at);
+  else if (tag == "pipuck_ground" && context.floor_is_painted)
+    AddDevice(ours.sensors, "positioning", "generic_positioning", at);
+  else if (tag == "pipuck_ground")
+    AddDevice(ours.sensors, "ground", "generic_ground", at);
+  else if (tag == "pipuck_imu")
+    context.mistake(at, "<pipuck_imu> has no counterpart here, and reads 0 in ARGoS3; leave it out");
+  else if (tag == "pipuck_front_camera")
+    context.mistake(at,
+                    "<pipuck_front_camera> has no counterpart here; leave it out, or take robots with "
+                    "colored_blob_perspective_camera");
+  else
+    return tag == "pipuck_differential_drive" || tag == "pipuck_system";
+  return true;
+}
+
 // Refuses devices of argos3-epuck that are not simulated here. Returns false for other tags.
 bool RefuseEPuckDevice(const ConfigurationNode& node, const DeviceContext& context)
 {
@@ -432,7 +460,8 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
   Attributes attributes(node, context);
   const RobotRow* generic = GenericRobot(context);
   if (RefuseEPuckDevice(node, context) || ConvertKheperaSensor(node, context, attributes, ours) ||
-      ConvertKilobotSensor(node, context, attributes, ours) || ConvertEPuckSensor(node, context, attributes, ours))
+      ConvertKilobotSensor(node, context, attributes, ours) || ConvertEPuckSensor(node, context, attributes, ours) ||
+      ConvertPiPuckSensor(node, context, ours))
     return;
   if (tag == "differential_steering")
   {
@@ -570,13 +599,15 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
     ConvertWheels(attributes, AddDevice(ours.actuators, "footbot_wheels", "argos3_footbot_wheels", at));
   else if (tag == "leds" && context.bearers.kinds.contains("eyebot"))
     add_leds("eyebot_leds");
+  else if (tag == "pipuck_differential_drive")
+    AddDevice(ours.actuators, "wheels", "generic_wheels", at);
   else if (tag == "epuck_wheels")
   {
     AddDevice(ours.actuators, "wheels", "generic_wheels", at);
     attributes.Number("noise_std_dev");
   }
   else if ((tag == "leds" && generic != nullptr) || tag == "kilobot_led" || tag == "epuck_rgb_leds" ||
-           tag == "epuck_base_leds")
+           tag == "epuck_base_leds" || tag == "pipuck_leds")
     add_leds("led_ring");
   else if (tag == "leds")
   {

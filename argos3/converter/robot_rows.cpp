@@ -57,6 +57,14 @@ constexpr std::array kRobots{
              .has_own_messages = true,
              .max_speed_m_s = 10,
              .lacks = "range_and_bearing proximity ground light battery"},
+    RobotRow{.tag = "pipuck",
+             .kind = "argos3_pipuck",
+             .is_generic = true,
+             .prefix = "pipuck_",
+             .radio_range_m = 0,
+             .radio_range_name = "",
+             .has_own_messages = true,
+             .lacks = "differential_steering leds range_and_bearing proximity ground light battery"},
 };
 
 const RobotRow* Find(std::string_view name, std::string_view RobotRow::*member)

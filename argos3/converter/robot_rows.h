@@ -31,9 +31,10 @@ struct RobotRow
   std::string_view prefix{};       // of the names of the devices that it alone has
   double radio_range_m = 3;
   long long radio_bytes = 10;
-  std::string_view radio_range_name = "rab_range";  // the attribute of the robot with the range of its messages
-  bool has_own_messages = false;                    // of radio_bytes, whatever the file says
-  double antenna_m = 0.1;                           // above the base
+  // The attribute of the robot with the range of its messages; empty: it sends none.
+  std::string_view radio_range_name = "rab_range";
+  bool has_own_messages = false;  // of radio_bytes, whatever the file says
+  double antenna_m = 0.1;         // above the base
   // The fastest speed of a wheel that ARGoS3 allows; 0: that of the kind.
   double max_speed_m_s = 0;
   // Devices of ARGoS3's generic robots that this one does not have, separated by blanks.

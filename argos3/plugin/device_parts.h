@@ -24,6 +24,8 @@ std::unique_ptr<ActuatorBridge> MakeGenericActuator(const std::string& tag, cons
 std::unique_ptr<SensorBridge> MakeKheperaSensor(const std::string& tag, const DeviceSetup& setup);
 std::unique_ptr<SensorBridge> MakeEPuckSensor(const std::string& tag, const DeviceSetup& setup);
 std::unique_ptr<ActuatorBridge> MakeEPuckActuator(const std::string& tag, const DeviceSetup& setup);
+std::unique_ptr<SensorBridge> MakePiPuckSensor(const std::string& tag, const DeviceSetup& setup);
+std::unique_ptr<ActuatorBridge> MakePiPuckActuator(const std::string& tag, const DeviceSetup& setup);
 std::unique_ptr<SensorBridge> MakeKilobotSensor(const std::string& tag, const DeviceSetup& setup);
 std::unique_ptr<ActuatorBridge> MakeKilobotActuator(const std::string& tag, const DeviceSetup& setup);
 // Makes the camera of foot-bots and eye-bots.

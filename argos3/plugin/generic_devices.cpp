@@ -180,6 +180,7 @@ std::unique_ptr<SensorBridge> MakeGenericSensor(const std::string& tag, const De
   if (tag == "ground") return std::make_unique<GenericGround<argos::CCI_GroundSensor>>(setup);
   if (tag == "kheperaiv_ground") return std::make_unique<GenericGround<argos::CCI_KheperaIVGroundSensor>>(setup);
   if (auto sensor = MakeKheperaSensor(tag, setup)) return sensor;
+  if (auto sensor = MakePiPuckSensor(tag, setup)) return sensor;
   return MakeKilobotSensor(tag, setup);
 }
 
@@ -187,6 +188,7 @@ std::unique_ptr<ActuatorBridge> MakeGenericActuator(const std::string& tag, cons
 {
   if (tag == "differential_steering") return std::make_unique<GenericWheels>(setup);
   if (auto actuator = MakeEPuckActuator(tag, setup)) return actuator;
+  if (auto actuator = MakePiPuckActuator(tag, setup)) return actuator;
   return MakeKilobotActuator(tag, setup);
 }
 

@@ -25,6 +25,9 @@ void AddPosition(lua_State* lua, argos::CCI_QuadRotorPositionActuator& quadrotor
 void AddSpeed(lua_State* lua, argos::CCI_QuadRotorSpeedActuator& quadrotor);
 // Adds the functions of an actuator of argos3-epuck. Returns false for other tags.
 bool AddEPuckFunctions(lua_State* lua, const std::string& tag, argos::CCI_Actuator& actuator);
+// Add the functions of an actuator of Pi-Pucks, and write the readings of a sensor. They return false for other tags.
+bool AddPiPuckFunctions(lua_State* lua, const std::string& tag, argos::CCI_Actuator& actuator);
+bool ReadPiPuckSensor(lua_State* lua, const std::string& tag, argos::CCI_Sensor& sensor);
 // Return the colour at the end of the arguments, a name or three numbers, and a number as a byte. A number that is too
 // large for a byte loses its higher bits, as in ARGoS3.
 argos::CColor ColourAt(lua_State* lua, int index);

@@ -366,7 +366,7 @@ void AddFunctions(lua_State* lua, const std::string& tag, argos::CCI_Actuator& a
   if (tag == "footbot_gripper") return AddGripper(lua, As<argos::CCI_FootBotGripperActuator>(actuator));
   if (tag == "quadrotor_position") return AddPosition(lua, As<argos::CCI_QuadRotorPositionActuator>(actuator));
   if (tag == "quadrotor_speed") return AddSpeed(lua, As<argos::CCI_QuadRotorSpeedActuator>(actuator));
-  if (!AddEPuckFunctions(lua, tag, actuator)) Unknown("actuator", tag);
+  if (!AddEPuckFunctions(lua, tag, actuator) && !AddPiPuckFunctions(lua, tag, actuator)) Unknown("actuator", tag);
 }
 
 void AddFunctions(lua_State* lua, const std::string& tag, argos::CCI_Sensor& sensor)
@@ -413,7 +413,7 @@ void AddReadings(lua_State* lua, const std::string& tag, argos::CCI_Sensor& sens
     Set(lua, "rotation", As<argos::CCI_FootBotTurretEncoderSensor>(sensor).GetRotation().GetValue());
     return Leave(lua);
   }
-  Unknown("sensor", tag);
+  if (!ReadPiPuckSensor(lua, tag, sensor)) Unknown("sensor", tag);
 }
 
 }  // namespace swarmanoid::argos3

@@ -127,13 +127,13 @@ class Files(RunningTest):
             self.swarmanoid("check", self.file(ARENA.replace("0.5,0,0", wrong)), code=3)
 
     def test_a_mistake_is_told_once_and_without_what_follows_from_it(self):
-        robot = '<pipuck id="k{}"><body position="{},0,0" orientation="0,0,0"/><controller config="k"/></pipuck>\n'
-        controller = '<lua_controller id="k"><actuators/><sensors><pipuck_rangefinders implementation="default"/></sensors></lua_controller>' \
+        robot = '<drone id="k{}"><body position="{},0,0" orientation="0,0,0"/><controller config="k"/></drone>\n'
+        controller = '<lua_controller id="k"><actuators/><sensors><drone_rangefinders implementation="default"/></sensors></lua_controller>' \
                      '<buzz_controller id="b"/>'
         result = self.swarmanoid("check", self.file("".join(robot.format(x, x) for x in range(8)), controller), code=3)
         mistakes = result.stderr.splitlines()
         self.assertEqual(len(mistakes), 3, result.stderr)
         self.assertRegex(mistakes[0], r"x\.argos:4:\d+: <buzz_controller> runs Buzz, which has no counterpart here")
-        self.assertRegex(mistakes[1], r"x\.argos:6:1: <pipuck> has no counterpart in files of ARGoS3; files of ours have the kind 'pipuck'"
+        self.assertRegex(mistakes[1], r"x\.argos:6:1: <drone> has no counterpart; those that have: foot-bot, eye-bot"
                                       r".* \(also at 7:1, 8:1, 9:1, 10:1, 11:1 and 2 other places\)")
         self.assertRegex(mistakes[2], r"x\.argos: 2 errors")
