@@ -60,7 +60,7 @@ private:
 
   SpaceServer& server_;
   const ControllerHost* host_ = nullptr;
-  RunLink* link_ = nullptr;  // nullptr: nobody outside of this process knows the run
+  RunLink* link_ = nullptr;  // nullptr if no other process can find the run
   const std::atomic<bool>* stop_;
   RunControl run_control_;
   ControlByRequests control_;

@@ -31,7 +31,7 @@ struct DeviceSetup
   TConfigurationTree options;
   // The last commanded speeds of the wheels; for e-pucks with the noise of the latest step.
   std::shared_ptr<WheelSpeeds> told_wheels = std::make_shared<WheelSpeeds>();
-  // What the sender and the receiver of a Kilobot share.
+  // The sender and the receiver of a Kilobot share this object.
   std::shared_ptr<KilobotRadio> kilobot_radio = std::make_shared<KilobotRadio>();
 };
 

@@ -1,5 +1,5 @@
 // The thread of the run sends everything, between two ticks. Threads of the bus only leave requests and wake it. While
-// nobody watches, a tick costs the reading of a clock.
+// no program watches, a tick costs the reading of a clock.
 #include "launcher/supervision/run_on_bus.h"
 
 #include <fmt/format.h>

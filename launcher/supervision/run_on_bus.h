@@ -53,7 +53,7 @@ private:
   std::atomic<bool> woken_ = true;        // threads of the bus set it
   std::atomic<bool> robots_due_ = false;  // as well
   std::chrono::steady_clock::time_point due_{};
-  std::unique_ptr<Parts> parts_;  // nullptr if nobody can attach
+  std::unique_ptr<Parts> parts_;  // nullptr if no program can attach
 };
 
 }  // namespace swarmanoid

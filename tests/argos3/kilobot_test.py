@@ -24,7 +24,7 @@ class Kilobots(RunningTest):
         told = {int(uid): tuple(map(int, rest)) for uid, *rest in
                 re.findall(r"\[kb(\d)\] sent (\d+) hops (\d+) nearest (\d+)", said)}
         self.assertEqual({uid: hops for uid, (_, hops, _) in told.items()}, {0: 0, 1: 1, 2: 2, 3: 3, 4: 255, 5: 255})
-        # Distances are in mm. Robot 4 hears nobody, since the messages of robot 5 end before it.
+        # Distances are in mm. Robot 4 hears no robot, since the messages of robot 5 end before it.
         self.assertEqual([told[uid][2] for uid in range(6)], [80, 80, 80, 80, 1000, 40])
         # A message each 100 ms: in each fourth step of 1/31 s, if no other robot is in the way.
         self.assertEqual(told[4][0], 93 // 5)

@@ -224,7 +224,7 @@ TEST(EnergyBattery, GivesEnergyForBytesSentAndReceived)
   EXPECT_NEAR(run.Power(), 2 + 7 * 0.01 / 0.1, kRounding) << "nothing has arrived yet";
   run.Ticks(1);
   EXPECT_NEAR(run.Power(), 2 + 7 * (0.01 + 0.003) / 0.1, kRounding);
-  EXPECT_NEAR(run.Power("far"), 2 + 7 * 0.01 / 0.1, kRounding) << "it hears nobody";
+  EXPECT_NEAR(run.Power("far"), 2 + 7 * 0.01 / 0.1, kRounding) << "it hears no robot";
 
   scene.actuators = {"generic_range_and_bearing"};
   scene.sensors = {"generic_range_and_bearing"};

@@ -76,7 +76,7 @@ extern "C"
   /* Calls setup() once, and loop() in each step until the run ends. It does not return. */
   void kilo_start(void (*setup)(void), void (*loop)(void));
 
-  /* What the simulator and a behaviour tell each other. */
+  /* The simulator and a behaviour exchange these messages. */
   typedef struct
   {
     message_t tx_message;
