@@ -95,17 +95,17 @@ double BatteryReports::Power(std::size_t k, std::span<const double> commands) co
   return power_w;
 }
 
-void BatteryReports::Report(std::span<const double> commands, const DeviceFaults* faults, bool ahead,
-                            AttributeChanges& changes) const
+void BatteryReports::Report(std::span<const double> commands, const DeviceFaults* faults, AttributeChanges& changes)
 {
+  reports_.Clear();
   for (std::size_t k = 0; k < robots_.size(); ++k)
   {
     if (!batteries_[k]) continue;
     const std::uint32_t slot = batteries_[k]->Slot(BatterySlots::kReported);
     const bool is_off = faults != nullptr && faults->SwitchedOff(k) != nullptr;
-    const double power_w = is_off ? kSwitchedOff : Power(k, commands);
-    if (ahead || space_.Attributes()[slot] != power_w) changes.Add(slot, power_w);
+    reports_.Add(slot, is_off ? kSwitchedOff : Power(k, commands));
   }
+  ReportChanges(reports_.slots, reports_.values, space_.Attributes(), changes);
 }
 
 }  // namespace swarmanoid

@@ -35,10 +35,9 @@ public:
   void Add(std::size_t robot, ActuatorBatch& batch, std::size_t k);
   // Counts the bytes that arrived, after the sensors have read them.
   void ReadReceivers();
-  // Adds the reports that differ from the space to the changes of a tick, after `commands` are final. If commands act
-  // later (`ahead`), it adds all. `faults` says which robots are switched off; it may be null.
-  void Report(std::span<const double> commands, const DeviceFaults* faults, bool ahead,
-              AttributeChanges& changes) const;
+  // Adds the reports that differ from the space to the changes of a tick, after `commands` are final. `faults` says
+  // which robots are switched off; it may be null.
+  void Report(std::span<const double> commands, const DeviceFaults* faults, AttributeChanges& changes);
   // Returns whether the empty battery of a robot of the host has switched it off.
   bool IsOff(std::size_t robot) const { return batteries_[robot] && batteries_[robot]->IsOff(); }
   // Returns whether the robot has a battery that switches it off.
@@ -68,6 +67,7 @@ private:
   const CSwarmanoidSpace& space_;
   std::vector<std::optional<BatteryView>> batteries_;  // by robot of the host
   std::vector<Robot> robots_;
+  AttributeChanges reports_;  // of all robots, in this tick
 };
 
 }  // namespace swarmanoid

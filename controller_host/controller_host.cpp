@@ -620,7 +620,7 @@ void ControllerHost::CommitActuators()
   if (device_faults_ != nullptr) device_faults_->RestoreSettings();
   if (!silence_.robots.empty()) SilenceStopped();
   if (battery_reports_ != nullptr)
-    battery_reports_->Report(commands_.values, device_faults_.get(), ahead_ > 0, commands_.attributes);
+    battery_reports_->Report(commands_.values, device_faults_.get(), commands_.attributes);
   batches_->order.Apply(commands_.attributes);
   CheckCommands();
 }
