@@ -94,13 +94,7 @@ public:
   {
   }
   argos::CCI_Sensor& Sensor() override { return *this; }
-  void BeforeStep() override
-  {
-    if (axis_low_ != axis_high_)
-      Update();
-    else
-      OnDemand();
-  }
+  void BeforeStep() override { OnDemand(axis_low_ != axis_high_); }
   void Update() override
   {
     m_sReading.Position = translation_.Argos3Position(ours_.GetPosition());
@@ -214,13 +208,7 @@ public:
   {
   }
   argos::CCI_Sensor& Sensor() override { return *this; }
-  void BeforeStep() override
-  {
-    if (noise_m_ > 0)
-      Update();
-    else
-      OnDemand();
-  }
+  void BeforeStep() override { OnDemand(noise_m_ > 0); }
   void Update() override
   {
     const auto packets = ours_.GetAllPackets();

@@ -52,13 +52,12 @@ public:
   virtual void BeforeStep() { Update(); }
 
 protected:
-  void OnDemand()
+  // With `draws` it reads at once, since the order of random numbers may not depend on the controller.
+  void OnDemand(bool draws = false)
   {
+    if (is_kept_ || draws) return Update();
     has_begun_ = true;
-    if (is_kept_)
-      Update();
-    else
-      Sensor().ReadOnDemand(*this);
+    Sensor().ReadOnDemand(*this);
   }
 
 private:

@@ -102,13 +102,7 @@ public:
     }
   }
   argos::CCI_Sensor& Sensor() override { return *this; }
-  void BeforeStep() override
-  {
-    if (noise_ > 0)
-      Update();
-    else
-      this->OnDemand();
-  }
+  void BeforeStep() override { this->OnDemand(noise_ > 0); }
   void Update() override
   {
     const auto readings = ours_.GetAllSensorReadings();

@@ -142,13 +142,7 @@ public:
       this->m_tReadings.emplace_back(0, argos::CVector2(kCentimetres * place.x, kCentimetres * place.y));
   }
   argos::CCI_Sensor& Sensor() override { return *this; }
-  void BeforeStep() override
-  {
-    if (is_painted_ && noise_ > 0)
-      Update();
-    else
-      this->OnDemand();
-  }
+  void BeforeStep() override { this->OnDemand(is_painted_ && noise_ > 0); }
   void Update() override
   {
     if (is_painted_) return Ask();
@@ -195,10 +189,7 @@ public:
     m_sReadings.BlobList.clear();
     if (IsDisabled()) return;
     ++m_sReadings.Counter;
-    if (noise_ > 0)
-      Update();
-    else
-      OnDemand();
+    OnDemand(noise_ > 0);
   }
   void Update() override
   {
