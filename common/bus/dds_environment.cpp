@@ -10,7 +10,14 @@ namespace
 
 constexpr const char* kVariables[] = {
     "ROS_DISCOVERY_SERVER",     "ROS_SUPER_CLIENT",   "FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE",
-    "FASTDDS_ENVIRONMENT_FILE", "FASTDDS_STATISTICS", "FASTDDS_BUILTIN_TRANSPORTS",     "SKIP_DEFAULT_XML"};
+    "FASTDDS_ENVIRONMENT_FILE", "FASTDDS_STATISTICS", "FASTDDS_BUILTIN_TRANSPORTS"};
+constexpr const char* kNoProfiles = "SKIP_DEFAULT_XML";  // set to 1, no file of the working folder is read
+
+std::mutex& TheMutex()
+{
+  static std::mutex mutex;
+  return mutex;
+}
 
 }  // namespace
 
@@ -22,10 +29,16 @@ std::vector<std::string> DdsVariablesThatAreSet()
   return names;
 }
 
-HiddenDdsVariables::HiddenDdsVariables()
+HiddenDdsVariables::HiddenDdsVariables() : lock_(TheMutex())
 {
+  if (std::getenv(kNoProfiles) == nullptr) setenv(kNoProfiles, "1", 0);
   const char* kept = std::getenv(kKeepDdsVariables);
   if (kept != nullptr && std::string_view(kept) == "1") return;
+  if (const std::string value = std::getenv(kNoProfiles); value != "1")
+  {
+    hidden_.emplace_back(kNoProfiles, value);
+    setenv(kNoProfiles, "1", 1);
+  }
   for (const std::string& name : DdsVariablesThatAreSet())
   {
     hidden_.emplace_back(name, std::getenv(name.c_str()));

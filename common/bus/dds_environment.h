@@ -3,6 +3,7 @@
 // SWARMANOID_DDS_ENVIRONMENT is 1.
 #pragma once
 
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,8 +16,10 @@ inline constexpr const char* kKeepDdsVariables = "SWARMANOID_DDS_ENVIRONMENT";
 // Returns the names of the variables that are set.
 std::vector<std::string> DdsVariablesThatAreSet();
 
-// Hides the variables while it lives, so that participants that others make in this process see them again. For one
-// thread that makes a participant.
+// Hides the variables while it lives, so that participants that others make in this process see them again. Fast DDS
+// then reads no file of profiles either. Only one thread at a time has such an object: making a participant is not
+// safe for threads, and neither are changes of variables. Unless a user has set one of them, nothing is changed after
+// the first object.
 class HiddenDdsVariables
 {
 public:
@@ -26,6 +29,7 @@ public:
   HiddenDdsVariables& operator=(const HiddenDdsVariables&) = delete;
 
 private:
+  std::unique_lock<std::mutex> lock_;
   std::vector<std::pair<std::string, std::string>> hidden_;  // name and value
 };
 

@@ -205,8 +205,6 @@ Bus::Impl::Impl(const BusOptions& options, const std::string& name, const std::s
 
   [[maybe_unused]] static const bool logs = KeepLog();
   const HiddenDdsVariables hidden;
-  // A profile file in the working folder must not change a run.
-  setenv("SKIP_DEFAULT_XML", "1", 0);
   participant = dds::DomainParticipantFactory::get_instance()->create_participant(
       static_cast<std::uint32_t>(options.domain), qos, this, dds::StatusMask::none());
   if (participant == nullptr)
