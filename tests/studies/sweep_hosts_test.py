@@ -129,7 +129,7 @@ class SweepHosts(StartedStudyCase):
 
     def test_the_runs_of_a_machine_that_dies_go_to_the_others(self):
         # Enough for some to be left when the machine dies, however quick it is.
-        study = self.study("1-160", ticks=10000)
+        study = self.study("1-48", ticks=10000)
         table = self.here(study)
 
         def kill_service():
