@@ -162,8 +162,8 @@ TEST(SdfWorld, NamesEachPartWithoutCounterpart)
       + SdfModel(SdfLink("<collision name='c'><geometry><plane/></geometry>" + SdfPose("0 0 1 0 0 0") +
                          "</collision>"))  // 8
       + "<plugin name='p'/>\n"             // 9
-      + SdfModel(
-            SdfLink("<collision name='c'><geometry><mesh><uri>absent.stl</uri></mesh></geometry></collision>")));  // 10
+      + SdfModel(SdfLink("<collision name='c'><geometry><mesh><uri>absent.stl</uri></mesh></geometry></collision>"),
+                 "rock"));  // 10
   EXPECT_THAT(LinesOf(world.mistakes), IsEmpty());
   EXPECT_THAT(world.bodies, IsEmpty());
   const auto notes = LinesOf(world.notes);
@@ -176,14 +176,13 @@ TEST(SdfWorld, NamesEachPartWithoutCounterpart)
   EXPECT_THAT(notes, Contains(HasSubstr("7:20: 'seen' is left out: it has a <visual>, but no <collision>")));
   EXPECT_THAT(notes, Contains(HasSubstr("a <plane> at the height 1 m")));
   EXPECT_THAT(notes, Contains("9:1: <plugin> of <world> has no counterpart: it is left out"));
-  EXPECT_THAT(notes, Contains(HasSubstr("the mesh 'absent.stl' of 'm' is left out: it is not there")));
+  EXPECT_THAT(notes, Contains(HasSubstr("the mesh 'absent.stl' of 'rock' is left out: it is not there")));
 }
 
 TEST(SdfWorld, LongChainsOfFramesAreRefused)
 {
   std::string chain;
-  for (int k = 0; k < 100'000; ++k)
-    chain += fmt::format("<frame name='f{}'><pose relative_to='f{}'/></frame>", k, k + 1);
+  for (int k = 0; k < 5'000; ++k) chain += fmt::format("<frame name='f{}'><pose relative_to='f{}'/></frame>", k, k + 1);
   const World world = ReadSdf(SdfModel(chain + SdfLink(SdfPose("0 0 0 0 0 0", "relative_to='f0'") + SdfBox("1 1 1"))));
   EXPECT_THAT(LinesOf(world.mistakes), Contains(HasSubstr("more than 1000 frames are relative to each other")));
 }
