@@ -157,13 +157,16 @@ void AddConvertCommand(CLI::App& app, int& exit_code)
   verb->add_option("--output", request->output, "The file to write; without it the standard output")->type_name("FILE");
   FloorPlanOptions& plan = request->plan;
   verb->add_option("--resolution", plan.resolution_m, "Of a floor plan: the edge of a pixel in metres")
-      ->check(CLI::Range(1e-6, 1e3));
+      ->type_name("METRES")
+      ->check(CLI::Range(1e-6, 1e3).description(""));
   verb->add_option("--threshold", plan.threshold,
                    "Of a floor plan: darker pixels are walls, from 0 (black) to 1 (white)")
-      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("GREY")
+      ->check(CLI::Range(0.0, 1.0).description(""))
       ->capture_default_str();
   verb->add_option("--height", plan.height_m, "Of a floor plan: the height of its walls in metres")
-      ->check(CLI::Range(1e-3, 1e3))
+      ->type_name("METRES")
+      ->check(CLI::Range(1e-3, 1e3).description(""))
       ->capture_default_str();
   verb->footer(
       "`swarmanoid run` and `check` read experiments of ARGoS3 directly; what is written here is to be changed and "

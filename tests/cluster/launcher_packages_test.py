@@ -1,6 +1,7 @@
 """A user shares a directory by `swarmanoid pack`; another one installs, builds and runs it, and sees what changed since."""
 import json
 import os
+import shutil
 import subprocess
 
 from harness import LauncherTest
@@ -28,6 +29,9 @@ class Packages(LauncherTest):
     def test_a_directory_travels_from_one_user_to_another(self):
         self.done(self.run_in("alice_home", "new", "user", "alice"))
         self.done(self.run_in("alice_home/alice", "new", "behavior-controller", "wall_follower"))
+        # Without the samples there is less to compile.
+        for sample in ("controllers/sample_footbot_controller", "controllers/footbot_diffusion", "controllers/prey_retrieval", "functions"):
+            shutil.rmtree(self.folder / "alice_home/alice" / sample)
         packed = self.done(self.run_in("alice_home/alice", "pack", "--release", "1.0", *META, "--output", "../alice-1.0.tar.gz"))
         self.assertIn("packed alice 1.0 by A. User, MIT", packed)
         self.assertIn("wall_follower", packed)
