@@ -161,16 +161,19 @@ private:
       Shape& shape = shapes[k];
       shape.body.name = shapes.size() > 1 ? fmt::format("{}.{}", name, shape.body.name) : name;
       shape.body.movable = moves;
-      shape.body.mass_kg = moves ? MassOf(link) : 0;
+      shape.body.mass_kg = moves ? MassOf(link, shape.body) : 0;
       Paint(shape, k, shapes.size(), visuals);
       AddBody(std::move(shape));
     }
   }
 
-  double MassOf(const ConfigurationNode& link)
+  double MassOf(const ConfigurationNode& link, const WorldBody& body)
   {
     const ConfigurationNode* inertial = Child(link, "inertial");
     const ConfigurationNode* mass = inertial == nullptr ? nullptr : Child(*inertial, "mass");
+    if (inertial != nullptr && TextOf(*inertial, "auto") == "true")
+      Note(inertial->location, fmt::format("the mass of {} is not derived from densities here: it is {} kg",
+                                           Quoted(body.name), mass == nullptr ? "1" : mass->text));
     return mass == nullptr ? 1 : Mass(mass->location, Number(mass->location, mass->text, "<mass>", 1));
   }
 

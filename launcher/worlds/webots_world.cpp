@@ -28,6 +28,7 @@ namespace fs = std::filesystem;
 
 constexpr double kLevel = 1e-6;  // differences of poses that count as none
 constexpr int kFirstYear = 2022;
+constexpr double kWoodenBoxHeight = 0.3;  // m, without a translation in the file
 
 class WebotsReader : WorldReader
 {
@@ -141,6 +142,8 @@ private:
     if (node.name == "PointLight") return ReadLight(node, outer);
     if (node.name == "RectangleArena") return ReadArena(node, outer);
     if (node.name == "Floor") return NoteSlope(node, outer.Compose(PoseOf(node)));
+    if (node.name == "WoodenBox") return ReadBoxProto(node, outer, Vector3::Constant(0.6), 0);
+    if (node.name == "Wall") return ReadBoxProto(node, outer, {0.2, 1, 2.4}, 0.5);
     if (node.name == "WorldInfo") return ReadWorldInfo(node);
     if (node.name == "Robot") return LeaveOut(node, "it is a robot; take one of the kinds of Swarmanoid");
     if (node.name == "Shape") return LeaveOut(node, "it is in no Solid with a boundingObject, so it is only seen");
@@ -358,6 +361,24 @@ private:
     const Vector3 colour = VectorOf(light, "color", Vector3::Ones());
     made.colour = ColourOf({colour.data(), 3});
     world_.lights.push_back(std::move(made));
+  }
+
+  // A WoodenBox is placed by its centre, a Wall by its base: `lift` is the part of the height between the two.
+  void ReadBoxProto(const ConfigurationNode& node, const Pose& outer, const Vector3& usual_size, double lift)
+  {
+    NoteOthers(node, {"DEF", "name", "translation", "rotation", "size", "mass", "locked", "appearance"});
+    WorldBody body;
+    body.name = NameOf(node);
+    body.location = node.location;
+    body.size = VectorOf(node, "size", usual_size);
+    if (!AreLengths(node.location, {body.size.data(), 3}, "size of " + node.name)) return;
+    Pose pose = PoseOf(node);
+    if (Attribute(node, "translation") == nullptr && node.name == "WoodenBox") pose.position.z() = kWoodenBoxHeight;
+    body.pose = outer.Compose(pose).Compose({{0, 0, lift * body.size.z()}, Quaternion::Identity()});
+    const double mass = NumberOf(node, "mass", 0);
+    body.movable = mass > 0;
+    if (body.movable) body.mass_kg = Mass(node.location, mass);
+    world_.bodies.push_back(std::move(body));
   }
 
   // The walls of a RectangleArena stand around its floor; those along x include the corners.

@@ -85,6 +85,22 @@ TEST(WebotsWorld, AnArenaHasWallsAroundItsFloor)
   EXPECT_TRUE(world.bodies[3].size.isApprox(Vector3(3.2, 0.1, 0.4)));
 }
 
+TEST(WebotsWorld, BoxesAndWallsOfTheLibraryArePlacedByCentreAndBase)
+{
+  const World world = ReadWebots(
+      "WoodenBox { translation 1 2 0.05 size 0.1 0.1 0.1 mass 0.4 }\nWoodenBox { }\n"
+      "Wall { translation 3 0 0 size 0.2 2 1 }");
+  EXPECT_THAT(LinesOf(world.notes), IsEmpty());
+  ASSERT_EQ(world.bodies.size(), 3U);
+  EXPECT_EQ(world.bodies[0].pose.position, Vector3(1, 2, 0.05));
+  EXPECT_TRUE(world.bodies[0].movable);
+  EXPECT_EQ(world.bodies[0].mass_kg, 0.4);
+  EXPECT_FALSE(world.bodies[1].movable);
+  EXPECT_EQ(world.bodies[1].size, Vector3(0.6, 0.6, 0.6));
+  EXPECT_EQ(world.bodies[1].pose.position, Vector3(0, 0, 0.3));
+  EXPECT_EQ(world.bodies[2].pose.position, Vector3(3, 0, 0.5));
+}
+
 TEST(WebotsWorld, ALightHasItsPlaceColourAndStrength)
 {
   const World world =
