@@ -23,10 +23,20 @@
 
 namespace swarmanoid
 {
-namespace
-{
 
 namespace fs = std::filesystem;
+
+fs::path UserDirectoryHere()
+{
+  for (fs::path folder = fs::current_path();; folder = folder.parent_path())
+  {
+    if (fs::is_directory(folder / "controllers") && fs::exists(folder / "build.sh")) return folder;
+    if (folder == folder.root_path()) return {};
+  }
+}
+
+namespace
+{
 
 constexpr double kLeastTerrain_m = 0.8;
 
@@ -63,19 +73,9 @@ const RobotKind& Robot(const std::string& name)
       fmt::format("there is no robot {}; the robots are {}{}", Quoted(name), Listed(names), DidYouMean(name, names)));
 }
 
-// Returns the user directory around the current folder: the nearest folder upwards that has controllers/ and build.sh.
-fs::path UserDirectory()
-{
-  for (fs::path folder = fs::current_path();; folder = folder.parent_path())
-  {
-    if (fs::is_directory(folder / "controllers") && fs::exists(folder / "build.sh")) return folder;
-    if (folder == folder.root_path()) return {};
-  }
-}
-
 fs::path RequireUserDirectory()
 {
-  fs::path folder = UserDirectory();
+  fs::path folder = UserDirectoryHere();
   if (folder.empty())
     throw UsageError(
         "this is no user directory; make a user directory first and go there:\n"
@@ -209,7 +209,7 @@ void NewController(const std::string& name)
 void NewExperiment(const std::string& name)
 {
   RequireIdentifier(name);
-  const fs::path user = UserDirectory();
+  const fs::path user = UserDirectoryHere();
   const fs::path file = (user.empty() ? fs::current_path() : user / "experiments") / (name + ".xml");
   RefuseExisting(file);
   fmt::print("Made experiment {}:\n", name);
@@ -257,7 +257,7 @@ void NewPython(const std::string& name) { NewScript(name, "python", "py"); }
 void NewTerrain(const std::string& name, const RoughTerrain& terrain)
 {
   RequireIdentifier(name);
-  const fs::path user = UserDirectory();
+  const fs::path user = UserDirectoryHere();
   const fs::path folder = user.empty() ? fs::current_path() : user / "experiments";
   const fs::path map = folder / "terrain" / (name + ".bt");
   const fs::path experiment = folder / (name + ".xml");

@@ -2,12 +2,17 @@
 // throws UsageError if a name is invalid, a file exists already, or the folder is the wrong one.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "common/space/terrain/rough_terrain.h"
 
 namespace swarmanoid
 {
+
+// Returns the user directory around the current folder: the nearest folder upwards that has controllers/ and build.sh.
+// The path is empty if there is none.
+std::filesystem::path UserDirectoryHere();
 
 void NewUserDirectory(const std::string& directory);
 void NewController(const std::string& name);

@@ -125,8 +125,9 @@ LoadedExperiment LoadExperimentText(const std::string& text, const std::string& 
     if (!mistakes.empty()) return Refused(std::move(mistakes));
     if (file_root->name != ExperimentSchema().Name())
     {
-      const std::string advice =
-          file_root->name == "study" ? "; a study is run by: swarmanoid sweep " + ShellWord(file_name) : "";
+      std::string advice;
+      if (file_root->name == "study") advice = "; a study is run by: swarmanoid sweep " + ShellWord(file_name);
+      if (file_root->name == "sdf") advice = "; a world is converted by: swarmanoid convert " + ShellWord(file_name);
       return Refused(std::vector<Diagnostic>{
           {file_root->location, fmt::format("the root element is <{}>; it must be <{}>{}", file_root->name,
                                             ExperimentSchema().Name(), advice)}});

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "common/checkpoint/library_builds.h"
+#include "launcher/archive/archive_members.h"
 
 namespace swarmanoid
 {
@@ -39,13 +40,6 @@ class ArchiveError : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
-};
-
-struct ArchiveMember
-{
-  std::string name;
-  std::uint64_t bytes = 0;
-  std::string digest;  // SHA-256
 };
 
 // The content of archive.json.

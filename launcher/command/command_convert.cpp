@@ -1,15 +1,21 @@
-// `swarmanoid convert`: an experiment of ARGoS3 as one of ours.
+// `swarmanoid convert`: an experiment of ARGoS3, a world of Gazebo or Webots, or a floor plan as one of our
+// experiments.
 #include <fmt/format.h>
-#include <cerrno>
-#include <cstring>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "argos3/converter/convert.h"
+#include "common/configuration/regular_file.h"
+#include "common/configuration/wording.h"
 #include "common/configuration/xml_reader.h"
 #include "common/configuration/xml_writer.h"
 #include "common/errors/exit_codes.h"
@@ -17,6 +23,10 @@
 #include "common/experiment/foreign_experiments.h"
 #include "launcher/argos3_dry_run.h"
 #include "launcher/command/sub_command.h"
+#include "launcher/worlds/floor_plan.h"
+#include "launcher/worlds/sdf_world.h"
+#include "launcher/worlds/webots_file.h"
+#include "launcher/worlds/webots_world.h"
 
 namespace swarmanoid
 {
@@ -25,29 +35,107 @@ namespace
 
 namespace fs = std::filesystem;
 
-int Convert(const std::string& file, const std::string& output)
+struct ConvertRequest
 {
+  std::string file;
+  std::string output;
+  FloorPlanOptions plan;
+};
+
+// Prints each mistake once.
+int RefuseFor(const std::vector<Diagnostic>& mistakes)
+{
+  std::set<std::string> printed;
+  for (const Diagnostic& mistake : mistakes)
+    if (printed.insert(mistake.Text()).second) PrintError("{}\n", mistake.Text());
+  return kExitInvalidFile;
+}
+
+int Write(const ConvertRequest& request, const std::string& text)
+{
+  if (request.output.empty())
+  {
+    fmt::print("{}", text);
+    return kExitDone;
+  }
+  std::ofstream stream(request.output);
+  if (!(stream << text).flush())
+    throw UsageError("--output: the file '" + request.output + "' cannot be written: " + std::strerror(errno));
+  return kExitDone;
+}
+
+int WriteWorld(const ConvertRequest& request, World world)
+{
+  if (!world.mistakes.empty())
+  {
+    PrintNotes(world.notes);
+    return RefuseFor(world.mistakes);
+  }
+  const fs::path output = request.output.empty() ? fs::current_path() / "-" : fs::absolute(request.output);
+  const std::string text =
+      ExperimentOfWorld(world, {output.parent_path().lexically_normal().string(), fs::path(request.file).filename()});
+  PrintNotes(world.notes);
+  const auto counted = [](std::size_t count, const char* one, const char* many)
+  { return fmt::format("{} {}", count, count == 1 ? one : many); };
+  PrintError("{}: {}, {}\n", request.file, counted(world.bodies.size(), "body", "bodies"),
+             counted(world.lights.size(), "light", "lights"));
+  return Write(request, text);
+}
+
+int WritePlan(const ConvertRequest& request)
+{
+  if (!(request.plan.resolution_m > 0))
+    throw UsageError("--resolution: a floor plan needs the edge of its pixels in metres, such as --resolution 0.05");
+  FloorPlan plan;
   try
   {
-    const auto root = ReadExperimentXml(ReadTextFile(file), file);
-    if (root->name != "argos-configuration")
-      throw ConfigurationError(root->location,
-                               "the root element is <" + root->name + ">; that of ARGoS3 is <argos-configuration>");
-    const ConvertedExperiment converted =
-        ConvertArgos3(*root, fs::absolute(file).parent_path().string(), RehearseArgos3);
-    PrintNotes(converted.notes);
-    for (const Diagnostic& mistake : converted.mistakes) PrintError("{}\n", mistake.Text());
-    if (!converted.mistakes.empty()) return kExitInvalidFile;
-    const std::string text = WriteXml(*converted.root);
-    if (output.empty())
-    {
-      fmt::print("{}", text);
-      return kExitDone;
-    }
-    std::ofstream stream(output);
-    if (!(stream << text).flush())
-      throw UsageError("--output: the file '" + output + "' cannot be written: " + std::strerror(errno));
-    return kExitDone;
+    plan = PlanFromPicture(ReadPlanPicture(request.file), request.plan, fs::path(request.file).filename());
+  }
+  catch (const std::runtime_error& mistake)
+  {
+    PrintError("{}\n", mistake.what());
+    return kExitInvalidFile;
+  }
+  PrintError("{}: {} x {} pixels, {:g} x {:g} m, {} walls\n", request.file, plan.columns, plan.rows,
+             plan.columns * request.plan.resolution_m, plan.rows * request.plan.resolution_m, plan.walls);
+  return Write(request, plan.experiment);
+}
+
+int WriteArgos3(const ConvertRequest& request, const ConfigurationNode& root)
+{
+  const ConvertedExperiment converted =
+      ConvertArgos3(root, fs::absolute(request.file).parent_path().string(), RehearseArgos3);
+  PrintNotes(converted.notes);
+  if (!converted.mistakes.empty()) return RefuseFor(converted.mistakes);
+  return Write(request, WriteXml(*converted.root));
+}
+
+// Returns whether a file begins as a picture does. A file that cannot be read is reported by the caller's next step.
+bool IsPictureFile(const std::string& path)
+{
+  if (!FileMistake(path).empty()) return false;
+  const std::vector<char> start = RegularFile(path).Read(0, 16);
+  return IsPicture({start.data(), start.size()});
+}
+
+int Convert(const ConvertRequest& request)
+{
+  std::error_code none;
+  if (!request.output.empty() && fs::equivalent(request.file, request.output, none))
+    throw UsageError("--output: it is the file to convert; choose another name");
+  try
+  {
+    if (IsPictureFile(request.file)) return WritePlan(request);
+    if (request.plan.resolution_m > 0)
+      throw UsageError(fmt::format("--resolution: {} is no PNG, JPEG or PGM", Quoted(request.file)));
+    const std::string text = ReadTextFile(request.file);
+    if (IsWebotsFile(text)) return WriteWorld(request, ReadWebotsWorld(text, request.file));
+    const auto root = ReadExperimentXml(text, request.file);
+    if (root->name == "sdf") return WriteWorld(request, ReadSdfWorld(*root, request.file));
+    if (root->name == "argos-configuration") return WriteArgos3(request, *root);
+    throw ConfigurationError(root->location, fmt::format("the root element is <{}>; that of ARGoS3 is "
+                                                         "<argos-configuration>, that of SDF is <sdf>",
+                                                         root->name));
   }
   catch (const ConfigurationError& mistake)
   {
@@ -59,17 +147,38 @@ int Convert(const std::string& file, const std::string& output)
 void AddConvertCommand(CLI::App& app, int& exit_code)
 {
   ReadArgos3Experiments(RehearseArgos3);
-  auto file = std::make_shared<std::string>(), output = std::make_shared<std::string>();
-  CLI::App* verb = app.add_subcommand("convert", "Write an experiment of ARGoS3 as one of ours");
-  verb->add_option("FILE", *file, "An experiment of ARGoS3")->required();
-  verb->add_option("--output", *output, "The file to write; without it the standard output")->type_name("FILE");
+  auto request = std::make_shared<ConvertRequest>();
+  CLI::App* verb =
+      app.add_subcommand("convert", "Write an experiment of ARGoS3, a world or a floor plan as one of ours");
+  verb->add_option(
+          "FILE", request->file,
+          "An experiment of ARGoS3, a world of Gazebo (SDF) or Webots (.wbt), or a floor plan (PNG, JPEG, PGM)")
+      ->required();
+  verb->add_option("--output", request->output, "The file to write; without it the standard output")->type_name("FILE");
+  FloorPlanOptions& plan = request->plan;
+  verb->add_option("--resolution", plan.resolution_m, "Of a floor plan: the edge of a pixel in metres")
+      ->type_name("METRES")
+      ->check(CLI::Range(1e-6, 1e3).description(""));
+  verb->add_option("--threshold", plan.threshold,
+                   "Of a floor plan: darker pixels are walls, from 0 (black) to 1 (white)")
+      ->type_name("GREY")
+      ->check(CLI::Range(0.0, 1.0).description(""))
+      ->capture_default_str();
+  verb->add_option("--height", plan.height_m, "Of a floor plan: the height of its walls in metres")
+      ->type_name("METRES")
+      ->check(CLI::Range(1e-3, 1e3).description(""))
+      ->capture_default_str();
   verb->footer(
-      "`swarmanoid run` and `check` read such files directly; what is written here is to be changed and kept.\n"
-      "Exit codes: 0 written; 3 something in the file has no counterpart, and its place and cure are told.\n"
+      "`swarmanoid run` and `check` read experiments of ARGoS3 directly; what is written here is to be changed and "
+      "kept.\n"
+      "Parts of a world that have no counterpart are left out, and named on standard error with file and line.\n"
+      "Exit codes: 0 written; 3 the file cannot be read, or something in an experiment of ARGoS3 has no counterpart.\n"
       "Examples:\n"
-      "  swarmanoid convert experiments/foraging.argos > foraging.xml\n"
-      "  swarmanoid convert experiments/foraging.argos --output foraging.xml");
-  verb->callback([file, output, &exit_code] { exit_code = Convert(*file, *output); });
+      "  swarmanoid convert experiments/foraging.argos --output foraging.xml\n"
+      "  swarmanoid convert warehouse.sdf --output warehouse.xml\n"
+      "  swarmanoid convert maze.wbt --output maze.xml\n"
+      "  swarmanoid convert office.png --resolution 0.05 --output office.xml");
+  verb->callback([request, &exit_code] { exit_code = Convert(*request); });
 }
 
 const RegisterSubCommand kConvert(14, AddConvertCommand);

@@ -1,4 +1,5 @@
-// `swarmanoid list plugins|experiments`: what an experiment file may use, and what runs on this machine.
+// `swarmanoid list plugins|experiments|packages`: what an experiment file may use, what runs on this machine, and what
+// was installed.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -15,7 +16,9 @@
 #include "common/experiment/reference.h"
 #include "common/plugins/catalogue.h"
 #include "common/plugins/library.h"
+#include "common/program/shell_word.h"
 #include "launcher/command/sub_command.h"
+#include "launcher/packages/installed_packages.h"
 #include "launcher/plugin_text.h"
 #include "simulation/load.h"
 
@@ -205,6 +208,65 @@ int ListExperiments(bool as_json)
   return kExitDone;
 }
 
+// Returns how the files of a package differ from its manifest.
+std::string FileStateOf(const PackageInFolder& package)
+{
+  std::string state;
+  const auto add = [&](const char* what, const std::vector<std::string>& files)
+  {
+    if (!files.empty()) state += fmt::format("{}{}: {}", state.empty() ? "" : "; ", what, Listed(files));
+  };
+  add("changed since", package.changed);
+  add("added", package.added);
+  return state.empty() ? "unchanged" : state;
+}
+
+int ListPackages(const std::string& folder, bool as_json)
+{
+  const fs::path place = folder.empty() ? FolderOfPackages() : fs::path(folder);
+  if (!fs::is_directory(place)) throw UsageError(fmt::format("there is no folder {}", Quoted(place.string())));
+  const std::vector<PackageInFolder> packages = PackagesIn(place);
+  auto json = nlohmann::ordered_json::array();
+  if (packages.empty() && !as_json) fmt::print("no package is in {}\n", place.string());
+  int exit_code = kExitDone;
+  for (const PackageInFolder& package : packages)
+  {
+    const PackageManifest& manifest = package.manifest;
+    if (!package.mistake.empty())
+    {
+      PrintError("{}\n", package.mistake);
+      exit_code = kExitInvalidFile;
+      continue;
+    }
+    if (as_json)
+    {
+      auto& row = json.emplace_back(nlohmann::ordered_json{{"name", manifest.name},
+                                                           {"release", manifest.release},
+                                                           {"author", manifest.author},
+                                                           {"licence", manifest.licence},
+                                                           {"summary", manifest.summary},
+                                                           {"folder", package.folder},
+                                                           {"built", package.is_built},
+                                                           {"changed", package.changed},
+                                                           {"added", package.added}});
+      for (const auto& [kind, names] : manifest.Content()) row["content"][kind] = names;
+      continue;
+    }
+    fmt::print("{} {} by {}, {}{}{}\n", manifest.name, manifest.release, manifest.author, manifest.licence,
+               manifest.summary.empty() ? "" : ": ", manifest.summary);
+    for (const auto& [kind, names] : manifest.Content())
+      fmt::print("  {:<12} {}\n", kind, Listed({names.begin(), names.end()}));
+    fmt::print("  {:<12} {}\n", "files", FileStateOf(package));
+    const std::string build = (fs::relative(package.folder) / "build.sh").string();
+    fmt::print("  {:<12} {}\n", "libraries",
+               !manifest.HasSources() ? "none"
+               : package.is_built     ? (fs::relative(package.folder) / "simulation_build").string()
+                                      : "not built; build them by " + ShellWord(build));
+  }
+  if (as_json) PrintJson(json);
+  return exit_code;
+}
+
 void AddListCommand(CLI::App& app, int& exit_code)
 {
   CLI::App* verb =
@@ -217,7 +279,8 @@ void AddListCommand(CLI::App& app, int& exit_code)
       "  swarmanoid list plugins build/lib/swarmanoid/libfootbot_diffusion.so\n"
       "  swarmanoid list settings configs/diffusion_10.xml          what --set may change in it\n"
       "  swarmanoid list schema > experiment.xsd                    for editors, with the plug-ins built here\n"
-      "  swarmanoid list experiments");
+      "  swarmanoid list experiments\n"
+      "  swarmanoid list packages                                   those that `install` put beside your directory");
 
   auto options = std::make_shared<ListOptions>();
   CLI::App* plugins = verb->add_subcommand("plugins",
@@ -245,6 +308,12 @@ void AddListCommand(CLI::App& app, int& exit_code)
   CLI::App* experiments = verb->add_subcommand("experiments", "Experiments that run on this machine as clusters");
   experiments->add_flag("--json", options->json, "For programs");
   experiments->callback([options, &exit_code] { exit_code = ListExperiments(options->json); });
+
+  CLI::App* packages =
+      verb->add_subcommand("packages", "Packages of users: what is in them, and whether files changed");
+  packages->add_option("FOLDER", *file, "Where they are; otherwise the folder that holds your user directory");
+  packages->add_flag("--json", options->json, "For programs");
+  packages->callback([file, options, &exit_code] { exit_code = ListPackages(*file, options->json); });
 }
 
 const RegisterSubCommand kList(15, AddListCommand);

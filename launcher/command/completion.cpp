@@ -148,6 +148,10 @@ private:
            {PluginKind::kEngine, PluginKind::kSensor, PluginKind::kActuator, PluginKind::kRenderer})
         OfferPlugins(kind);
     }
+    else if (path_ == "convert" || path_ == "install" || path_ == "pack" || path_ == "list packages")
+    {
+      if (given_.empty()) offered_.emplace_back(kFiles);
+    }
     else if (path_ == "demo")
     {
       for (const std::string& name : SampleNames()) Offer(name);

@@ -29,8 +29,8 @@ const std::map<int, const char*>& Headings()
                                                    {3, "Look at runs that are over"},
                                                    {9, "Watch and steer runs"},
                                                    {12, "Write experiments and plug-ins"},
-                                                   {17, "Try it"},
-                                                   {19, "Studies"}};
+                                                   {19, "Try it"},
+                                                   {21, "Studies"}};
   return headings;
 }
 

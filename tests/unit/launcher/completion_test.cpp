@@ -57,6 +57,8 @@ TEST_F(Completion, OffersValuesOfTheirTypes)
   EXPECT_THAT(Offered({"run", kSample, "--placement", "o"}), ElementsAre("one-core"));
   EXPECT_THAT(Offered({"run", kSample, "--restore", ""}), ElementsAre(":files"));
   EXPECT_THAT(Offered({"run", ""}), ElementsAre(":files .xml"));
+  for (const char* command : {"convert", "install", "pack"})
+    EXPECT_THAT(Offered({command, ""}), ElementsAre(":files")) << command;
   // A flag takes no value: the next word is the experiment.
   EXPECT_THAT(Offered({"run", "--quiet", ""}), ElementsAre(":files .xml"));
   EXPECT_THAT(Offered({"run", "--seed", ""}), testing::IsEmpty());
@@ -72,6 +74,7 @@ TEST_F(Completion, OffersWhatMayBeSetInTheExperiment)
 TEST_F(Completion, OffersPlugInsAndRequests)
 {
   EXPECT_THAT(Offered({"attach", "te"}), ElementsAre("text"));
+  EXPECT_THAT(Offered({"list", "pa"}), ElementsAre(StartsWith("packages\t")));
   EXPECT_THAT(Offered({"list", "plugins", "footbot_wh"}), ElementsAre("footbot_wheels"));
   EXPECT_THAT(Offered({"control", "st"}),
               ElementsAre(StartsWith("step\tgo on for one tick or N"), StartsWith("stop\tend the run")));
