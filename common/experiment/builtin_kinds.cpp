@@ -144,7 +144,7 @@ EntityKindDescription Eyebot()
   row.proximity = RingOfSensors(24, 0.255, 0.1635, 3);
   row.propellers = Propellers{.max_thrust_n = 10.791,  // 2.2 times the weight
                                                        // A cylinder of radius 0.18 m and height 0.3 m.
-                              .inertia_kg_m2 = {0.0078000000000000005, 0.0078000000000000005, 0.0081},
+                              .inertia_kg_m2 = {0.0078, 0.0078, 0.0081},
                               .centre_of_mass_m = 0.2,
                               .plane_force_n = 5,
                               .plane_torque_n_m = 0.2,
