@@ -23,7 +23,7 @@ constexpr double kRotorRadius = 0.0225;
 constexpr double kRotorHeight = 0.024;
 constexpr double kRadius = kArm + kRotorRadius;
 
-// Of the rotor's command c, 0 to 65535 [1]: thrust p0 + p1 c + p2 c² (N), speed w0 + w1 c (rad/s).
+// A rotor's command c, 0 to 65535, gives the thrust p0 + p1 c + p2 c² (N) and the speed w0 + w1 c (rad/s) [1].
 constexpr double kP0 = 5.484560e-4, kP1 = 1.032633e-6, kP2 = 2.130295e-11;
 constexpr double kW0 = 380.8359, kW1 = 0.04076521;
 constexpr double kMostCommand = 65535;
