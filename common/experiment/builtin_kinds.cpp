@@ -113,12 +113,22 @@ EntityKindDescription Handbot()
 
 EntityKindDescription Eyebot()
 {
+  // Ring, rod, legs and mass are those of the ODE model of ARGoS 2. Limits and frequencies are ours.
+  constexpr double kRadius = 0.25;
+  constexpr double kHeight = 0.566;
+  constexpr double kRingCentre = 0.1735;
+  constexpr double kRodSide = 0.07;
+  constexpr double kRodLength = kHeight - kRingCentre;
+  constexpr double kLegRadius = 0.01;
+  constexpr double kLegReach = 0.12;
+  constexpr double kLegLength = kRingCentre - 2 * kLegRadius;
   EntityKindDescription row;
   row.tag = "eyebot";
   row.word = "Eyebot";
   row.description = "An eyebot: a flying robot with a camera. The position is the centre of its base.";
   row.form = BodyForm::kCylinder;
-  row.size = {0.25, 0.25, 0.566};
+  row.size = {kRadius, kRadius, kHeight};
+  row.mass_kg = 0.5;
   row.parameters = {ControllerParameter()};
   row.attributes = {{"led", 16, 0, "colours of the LED ring", AttributeValue::kColour},
                     {"laser", 1, 0, "1 while the laser is on", AttributeValue::kSwitch},
@@ -132,6 +142,20 @@ EntityKindDescription Eyebot()
                     kInstruction};
   row.leds = LedLayout{PlacesOnCircle(16, 0.255, kPi / 16), 0.1535, false};
   row.proximity = RingOfSensors(24, 0.255, 0.1635, 3);
+  row.propellers = Propellers{.max_thrust_n = 10.791,  // 2.2 times the weight
+                                                       // A cylinder of radius 0.18 m and height 0.3 m.
+                              .inertia_kg_m2 = {0.0078, 0.0078, 0.0081},
+                              .centre_of_mass_m = 0.2,
+                              .plane_force_n = 5,
+                              .plane_torque_n_m = 0.2,
+                              .magnet_reach_m = 0.03,
+                              .drag_in_wind = {0.1, 0.1, 0.1}};
+  row.solids = {{SolidPart::Form::kCylinder, {0, 0, kRingCentre}, {kRadius, kRadius, 0.03}},
+                {SolidPart::Form::kBox, {0, 0, kRingCentre + kRodLength / 2}, {kRodSide, kRodSide, kRodLength}}};
+  for (const double x : {kLegReach, -kLegReach})
+    for (const double y : {kLegReach, -kLegReach})
+      row.solids.push_back(
+          {SolidPart::Form::kCapsule, {x, y, kLegRadius + kLegLength / 2}, {kLegRadius, kLegRadius, kLegLength}});
   row.mechanism = Mechanism::kPropellers;
   return row;
 }

@@ -75,7 +75,7 @@ enum class Mechanism : std::uint8_t
   kNone,
   kTurretGripper,  // the footbot: a turret with a gripper at its front
   kArms,           // the handbot: a head with two arms, and a rope to climb
-  kPropellers      // the eyebot: it flies, and hangs on the ceiling
+  kPropellers      // the eyebot: four rotors in a ring, and a laser
 };
 
 // It tells the meaning of the numbers of an attribute, and so which numbers may enter the state.
@@ -106,6 +106,69 @@ struct WheelDrive
   double axle_m = 0;  // between the wheels
   double radius_m = 0;
   double max_speed_m_s = 0.3;  // the greatest speed of a wheel on the ground
+};
+
+// The rotors of a flying robot stand evenly on a circle, all at one height. The first one is half a spacing to the left
+// of the front, and turns clockwise. Neighbours turn opposite ways.
+struct Rotors
+{
+  int count = 4;            // even, at least 4
+  double reach_m = 0;       // from the middle to each rotor
+  double max_thrust_n = 0;  // of each
+  double torque_m = 0;      // torque about a rotor's axis, for each newton of its thrust
+  // A rotor that turns at w (rad/s) has the thrust x + y w + z w² (N). Its largest root is the speed without thrust.
+  Vector3 thrust_of_speed = Vector3::Zero();
+  // Its speed follows the command with a first-order lag of these time constants. 0: at once.
+  double spin_up_s = 0;
+  double spin_down_s = 0;
+  // The rotors' drag along the robot's own axes, in N for 1 m/s of air and 1 rad/s of all rotors' speeds together.
+  Vector3 drag = Vector3::Zero();
+};
+
+// A robot that flies pushes along its own z axis. An autopilot in the engine holds the commanded velocities: a place
+// loop asks for an acceleration, and an attitude loop tilts the robot towards it. All loops are critically damped.
+struct Propellers
+{
+  double max_thrust_n = 0;                  // if the row has no rotors
+  Vector3 inertia_kg_m2 = Vector3::Zero();  // about the centre of mass, along x, y and z, at `mass_kg`
+  double centre_of_mass_m = 0;              // height above the base
+
+  // Limits of the commands: speed along each axis, and yaw rate.
+  double max_speed_m_s = 1;
+  double max_yaw_rate_rad_s = 1.57079633;
+  // Limits of the autopilot.
+  double max_across_m_s2 = 3;
+  double max_upward_m_s2 = 5;
+  double max_angular_rad_s2 = 60;
+  double furthest_reference_m = 0.25;  // the commanded place is at most so far ahead, on each axis
+  // Frequencies of its loops.
+  double place_rad_s = 3;
+  double tilt_rad_s = 12;
+  double yaw_rad_s = 6;
+
+  // The horizontal force and the yaw torque in dynamics2d, at most.
+  double plane_force_n = 0;
+  double plane_torque_n_m = 0;
+  // A magnet holds its top to a ceiling at most so far above. 0: the robot has no magnet.
+  double magnet_reach_m = 0;
+  // The drag of a robot without rotors, along its axes, in N for 1 m/s of air. It acts only in an arena with <wind>.
+  Vector3 drag_in_wind = Vector3::Zero();
+  // If they are missing, thrust and torques are as commanded at once.
+  std::optional<Rotors> rotors{};
+};
+
+// One of the simple solids that form a body in dynamics3d, upright, in the frame of the robot.
+struct SolidPart
+{
+  enum class Form : std::uint8_t
+  {
+    kCylinder,  // size: radius, radius, height
+    kBox,
+    kCapsule  // size: radius, radius, height without the round ends
+  };
+  Form form = Form::kCylinder;
+  Vector3 centre = Vector3::Zero();
+  Vector3 size = Vector3::Zero();
 };
 
 // LEDs of a robot are all at one height. They set the attribute "led".
@@ -201,6 +264,8 @@ struct EntityKindDescription
   std::vector<AttributeSpec> attributes{};
 
   std::optional<WheelDrive> wheels{};
+  std::optional<Propellers> propellers{};
+  std::vector<SolidPart> solids{};  // of a robot that flies; empty: one of its form and size
   std::optional<LedLayout> leds{};
   std::optional<double> beacon_height_m{};  // height of an LED above the middle; it sets the attribute "beacon"
   bool seen_by_cameras = false;             // by its attribute "colour"; LEDs are always seen
@@ -235,7 +300,8 @@ bool HasBody(EntityKind kind);
 // Returns whether engines on a plane cut the body and keep its height and lean, as for a block.
 bool IsFreeBox(EntityKind kind);
 // Returns whether a kind can carry a type of device. Types for all robots with a part are "wheels", "led_ring",
-// "directional_leds", "proximity" and "ground". A row can name further types.
+// "directional_leds", "proximity" and "ground". Robots with propellers carry "eyebot_propellers", "eyebot_altitude" and
+// "eyebot_camera", and with a magnet "eyebot_attachment". A row can name further types.
 bool Carries(EntityKind kind, std::string_view device_type);
 // Returns whether entities of the kind may be added to the arena and removed during a run.
 bool CanWait(EntityKind kind);

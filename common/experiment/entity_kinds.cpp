@@ -24,6 +24,9 @@ constexpr std::size_t kMostProximitySensors = 64;
 constexpr int kMostSlots = 1000;
 constexpr double kMostMetresOfRow = 100;
 constexpr double kStandOut = 0.01;  // m
+constexpr int kMostRotors = 16;
+constexpr double kMostOfPropellers = 1e6;  // in the unit of the value
+constexpr double kGravity = 9.81;          // m/s²
 
 using Row = EntityKindDescription;
 
@@ -81,11 +84,64 @@ std::string MistakeInBody(const Row& row)
   return {};
 }
 
+bool IsPositive(double value) { return value > 0 && value <= kMostOfPropellers; }
+
+bool IsLimited(double value) { return value >= 0 && value <= kMostOfPropellers; }
+
+bool IsDrag(const Vector3& drag) { return (drag.array() >= 0).all() && (drag.array() <= kMostOfPropellers).all(); }
+
+std::string MistakeInRotors(const Rotors& rotors, double mass_kg)
+{
+  if (rotors.count < 4 || rotors.count > kMostRotors || rotors.count % 2 != 0)
+    return fmt::format("{} rotors; there may be 4 to {}, an even number", rotors.count, kMostRotors);
+  if (!IsLength(rotors.reach_m) || !IsPositive(rotors.torque_m) || !IsLimited(rotors.spin_up_s) ||
+      !IsLimited(rotors.spin_down_s))
+    return "rotors need a reach_m and a torque_m of more than 0, and spin_up_s and spin_down_s of 0 or more";
+  const Vector3& curve = rotors.thrust_of_speed;
+  if (!curve.allFinite() || !(curve.z() > 0) || curve.x() > 0 || !IsLimited(curve.y()))
+    return "thrust_of_speed needs a first number of 0 or less, a second of 0 or more, and a third of more than 0";
+  if (!IsDrag(rotors.drag)) return "the drag of rotors is 0 or more along each axis";
+  if (!IsPositive(rotors.max_thrust_n) || rotors.count * rotors.max_thrust_n <= mass_kg * kGravity)
+    return fmt::format("{} rotors of {} N do not lift {} kg", rotors.count, rotors.max_thrust_n, mass_kg);
+  return {};
+}
+
+std::string MistakeInPropellers(const Row& row)
+{
+  if (!row.propellers) return row.solids.empty() ? "" : "solids are for robots with propellers";
+  const Propellers& flight = *row.propellers;
+  if (row.wheels) return "a robot has either wheels or propellers";
+  if (!IsPositive(row.mass_kg)) return "a robot with propellers needs a mass_kg";
+  if (!(flight.inertia_kg_m2.array() > 0).all() || !(flight.inertia_kg_m2.array() <= kMostOfPropellers).all() ||
+      2 * flight.inertia_kg_m2.maxCoeff() > flight.inertia_kg_m2.sum())
+    return "inertia_kg_m2 needs three numbers of more than 0, none larger than the other two together";
+  if (!(flight.centre_of_mass_m >= 0 && flight.centre_of_mass_m <= row.size.z()))
+    return fmt::format("centre_of_mass_m is {}; it must be within the height of {} m", flight.centre_of_mass_m,
+                       row.size.z());
+  for (const double value :
+       {flight.max_speed_m_s, flight.max_yaw_rate_rad_s, flight.max_across_m_s2, flight.max_upward_m_s2,
+        flight.max_angular_rad_s2, flight.furthest_reference_m, flight.place_rad_s, flight.tilt_rad_s, flight.yaw_rad_s,
+        flight.plane_force_n, flight.plane_torque_n_m})
+    if (!IsPositive(value)) return "speeds, limits and frequencies of propellers, and their plane forces, are above 0";
+  if (!IsLimited(flight.magnet_reach_m)) return "magnet_reach_m is 0 or more";
+  if (!IsDrag(flight.drag_in_wind)) return "drag_in_wind is 0 or more along each axis";
+  if (flight.rotors && !flight.drag_in_wind.isZero()) return "drag_in_wind is for propellers without rotors";
+  if (flight.rotors && flight.max_thrust_n != 0) return "max_thrust_n is for propellers without rotors";
+  if (!flight.rotors && !(flight.max_thrust_n > row.mass_kg * kGravity && IsLimited(flight.max_thrust_n)))
+    return fmt::format("propellers of {} N do not lift {} kg", flight.max_thrust_n, row.mass_kg);
+  for (const SolidPart& solid : row.solids)
+    if (!solid.centre.allFinite() || !IsLength(solid.size.x()) || !IsLength(solid.size.y()) ||
+        !IsLength(solid.size.z()))
+      return fmt::format("a solid needs a size of more than 0 and at most {} m", kMostMetresOfRow);
+  return flight.rotors ? MistakeInRotors(*flight.rotors, row.mass_kg) : std::string();
+}
+
 std::string MistakeInParts(const Row& row)
 {
   if (row.role != EntityRole::kRobot &&
-      (row.wheels || row.leds || row.beacon_height_m || row.proximity || !row.ground_points.empty()))
-    return "wheels, LEDs and sensors are for robots";
+      (row.wheels || row.propellers || row.leds || row.beacon_height_m || row.proximity || !row.ground_points.empty()))
+    return "wheels, propellers, LEDs and sensors are for robots";
+  if (const std::string wrong = MistakeInPropellers(row); !wrong.empty()) return wrong;
   if (row.wheels &&
       !(IsLength(row.wheels->axle_m) && IsLength(row.wheels->radius_m) && IsLength(row.wheels->max_speed_m_s)))
     return fmt::format(
@@ -272,6 +328,8 @@ void AddAttributes(Row& row)
     all.push_back(
         {"led", static_cast<int>(row.leds->places.size()), 0, "colours of the LEDs", AttributeValue::kColour});
   if (row.beacon_height_m) all.push_back({"beacon", 1, 0, "colour of the beacon", AttributeValue::kColour});
+  if (row.propellers && row.propellers->magnet_reach_m > 0)
+    all.push_back({"attached", 1, 0, "1 while attached to the ceiling", AttributeValue::kSwitch});
   if (row.role == EntityRole::kObject || row.role == EntityRole::kPatch)
     all.push_back({"colour", 1, static_cast<double>(row.colour), "colour of the surface", AttributeValue::kColour});
   if (row.role == EntityRole::kLight || row.role == EntityRole::kSound)
@@ -363,6 +421,9 @@ bool Carries(EntityKind kind, std::string_view device_type)
   if (device_type == "led_ring" || device_type == "directional_leds") return row.leds.has_value();
   if (device_type == "proximity") return row.proximity.has_value();
   if (device_type == "ground") return !row.ground_points.empty();
+  if (device_type == "eyebot_propellers" || device_type == "eyebot_altitude" || device_type == "eyebot_camera")
+    return row.propellers.has_value();
+  if (device_type == "eyebot_attachment") return row.propellers && row.propellers->magnet_reach_m > 0;
   if (device_type == "range_and_bearing") return std::ranges::any_of(row.attributes, IsMessage);
   return std::find(row.devices.begin(), row.devices.end(), device_type) != row.devices.end();
 }

@@ -194,6 +194,16 @@ struct FloorFieldConfiguration
   std::size_t Cells() const { return columns * rows; }
 };
 
+// The <wind> of the arena (docs/flying.md).
+struct WindConfiguration
+{
+  Vector3 velocity_m_s = Vector3::Zero();
+  double gusts_m_s = 0;  // the speed of the wind at a height of 6.1 m that scales the gusts; 0: none
+  double height_m = 0;   // the height whose gusts blow everywhere
+
+  bool operator==(const WindConfiguration&) const = default;
+};
+
 struct Experiment
 {
   std::string name;    // the file's name without folder and extension, unless <framework><name> says otherwise
@@ -221,6 +231,7 @@ struct Experiment
   std::vector<FaultConfiguration> faults;
   std::string effective_xml;  // a text that gives this experiment again, with --set and --seed applied
   std::vector<FloorFieldConfiguration> floor_fields;
+  std::optional<WindConfiguration> wind;
 
   double TickSeconds() const { return ticks_per_second == 0 ? clock_tick_ms * 1e-3 : 1.0 / ticks_per_second; }
   // Returns the controller with that id; nullptr if it does not exist.

@@ -194,6 +194,10 @@ public:
       {
         ReadFloorField(child, *element, reading_);
       }
+      else if (element->HasTag("wind"))
+      {
+        ReadWind(child, *element);
+      }
       else
       {
         ReadDistribute(child, *element);
@@ -213,6 +217,20 @@ private:
     if (reader.IsGiven("id")) CheckId(entity.id, reader.Place("id"), reading_.diagnostics);
     if (reader.IsGood("position")) CheckInside(reader, entity.id, entity.pose.position, reading_);
     reading_.experiment.entities.push_back(std::move(entity));
+  }
+
+  void ReadWind(const TConfigurationTree& tree, const ElementSpec& spec)
+  {
+    ElementReader reader(tree, spec, reading_.diagnostics);
+    WindConfiguration wind;
+    wind.velocity_m_s = reader.Vector("velocity");
+    wind.gusts_m_s = reader.Number("gusts");
+    wind.height_m = reader.Number("height");
+    if (wind.gusts_m_s > 0 && wind.velocity_m_s.head<2>().isZero() && reader.IsGood("gusts"))
+      reader.Fail("gusts",
+                  "gusts need a wind that carries them along: give <wind> a velocity along x or y, such as "
+                  "velocity=\"1, 0, 0\"");
+    reading_.experiment.wind = wind;
   }
 
   // Loses the ids of all elements of a <distribute> or <reserve>. Returns true if an element is of an unknown kind,

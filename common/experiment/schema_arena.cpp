@@ -7,6 +7,8 @@ namespace swarmanoid
 namespace
 {
 
+constexpr double kMostWind = 100;  // m/s
+
 ElementSpec OctoMap()
 {
   ElementSpec octomap;
@@ -197,6 +199,23 @@ ElementSpec FloorField()
   return element;
 }
 
+ElementSpec Wind()
+{
+  using enum ParameterType;
+  ElementSpec element;
+  element.tags = {"wind"};
+  element.description = "Wind that acts on flying robots: a constant velocity, and gusts by Dryden's model.";
+  element.parameters = {
+      {"velocity", kVector3, "m/s", "0, 0, 0", "The constant velocity of the air.", -kMostWind, kMostWind},
+      {"gusts", kNumber, "m/s", "0",
+       "Scales the gusts: the speed of the wind 20 feet (6.1 m) above the ground. The velocity carries them along.", 0,
+       kMostWind},
+      {"height", kNumber, "m", "3",
+       "The height whose gusts blow everywhere in the arena; taken as 3.048 m if it is lower.", 0, 304.8},
+  };
+  return element;
+}
+
 }  // namespace
 
 ElementSpec Arena()
@@ -225,6 +244,7 @@ ElementSpec Arena()
   element.children.push_back(Distribute());
   element.children.push_back(Reserve());
   element.children.push_back(FloorField());
+  element.children.push_back(Wind());
   return element;
 }
 

@@ -1,3 +1,8 @@
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+
 #include "common/configuration/parameter_table.h"
 #include "common/experiment/entity_kind.h"
 #include "common/plugin_descriptions/engine_bodies.h"
@@ -8,10 +13,10 @@ namespace swarmanoid
 namespace
 {
 
-ParameterSpec Number(const char* name, const char* unit, const char* value, double minimum, double maximum,
+ParameterSpec Number(const char* name, const char* unit, std::string value, double minimum, double maximum,
                      const char* description)
 {
-  return {name, ParameterType::kNumber, unit, value, description, minimum, maximum, {}};
+  return {name, ParameterType::kNumber, unit, std::move(value), description, minimum, maximum, {}};
 }
 
 ParameterSpec Integer(const char* name, const char* value, double maximum, const char* description)
@@ -22,6 +27,7 @@ ParameterSpec Integer(const char* name, const char* value, double maximum, const
 // docs/engines.md has the sources of the defaults.
 std::vector<ParameterSpec> Dynamics2dParameters()
 {
+  const EntityKindDescription& eyebot = DescriptionOf(*KindOfTag("eyebot"));
   return {
       Integer("substeps", "4", 1000,
               "Steps of the solver in each step of the engine: more make contacts stiffer and friction more exact, and "
@@ -43,11 +49,13 @@ std::vector<ParameterSpec> Dynamics2dParameters()
       Number("density", "kg/m3", "200", 1e-3, 1e5, "Of preys and movable blocks that have no mass of their own."),
       Number("footbot_mass", "kg", "1.6", 1e-3, 1e5, "The mass of a footbot."),
       Number("handbot_mass", "kg", "3", 1e-3, 1e5, "The mass of a handbot."),
-      Number("eyebot_mass", "kg", "0.5", 1e-3, 1e5, "The mass of an eyebot."),
+      Number("eyebot_mass", "kg", fmt::format("{}", eyebot.mass_kg), 1e-3, 1e5, "The mass of an eyebot."),
       Number("drive_force", "N", "15", 0, 1e6,
              "What the motors of a footbot exert at most; the grip of its wheels on the ground is a second limit."),
-      Number("eyebot_force", "N", "5", 0, 1e6, "The horizontal force of an eyebot's propellers at most."),
-      Number("eyebot_torque", "N m", "0.2", 0, 1e6, "The yaw torque of an eyebot's propellers at most."),
+      Number("eyebot_force", "N", fmt::format("{}", eyebot.propellers->plane_force_n), 0, 1e6,
+             "The horizontal force of an eyebot's propellers at most."),
+      Number("eyebot_torque", "N m", fmt::format("{}", eyebot.propellers->plane_torque_n_m), 0, 1e6,
+             "The yaw torque of an eyebot's propellers at most."),
       Number(
           "turret_torque", "N m", "1.5", 1e-6, 1e6,
           "What the turret's motor exerts at most while gripping, and the torque that the torque sensor reads as 1."),

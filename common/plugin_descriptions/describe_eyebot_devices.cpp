@@ -11,9 +11,12 @@ using enum ParameterType;
 void DescribePropellers()
 {
   const std::vector<ParameterSpec> limits = {
-      {"max_speed", kNumber, "m/s", "1",
-       "Horizontal and vertical speed to which commands are clamped, along each axis.", 0, 1e6},
-      {"max_yaw_rate", kNumber, "rad/s", "1.57079633", "Yaw rate to which commands are clamped.", 0, 1e6}};
+      {"max_speed", kNumber, "m/s", "",
+       "Horizontal and vertical speed to which commands are clamped, along each axis; by default that of the kind, 1 "
+       "m/s for an eyebot.",
+       0, 1e6},
+      {"max_yaw_rate", kNumber, "rad/s", "",
+       "Yaw rate to which commands are clamped; by default that of the kind, 90 degrees/s for an eyebot.", 0, 1e6}};
   const std::vector<ParameterSpec> noise = NoiseParameters("each velocity that is not 0", "m/s, rad/s");
   const auto describe = [](const char* implementation, const char* brief, std::vector<ParameterSpec> parameters)
   {

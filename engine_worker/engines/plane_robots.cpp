@@ -13,8 +13,7 @@ namespace swarmanoid
 namespace
 {
 
-constexpr double kGravity = 9.81;      // m/s2
-constexpr double kMagnetReach = 0.03;  // m, as in dynamics3d
+constexpr double kGravity = 9.81;  // m/s2
 
 // Returns the distance (m) from a point to a body, 0 inside.
 double DistanceTo(const Shape& shape, const Pose& pose, const Vector3& point)
@@ -48,7 +47,9 @@ Robot& Find(std::vector<Robot>& robots, std::uint32_t entity)
 void PlaneRobots::Init(const CSwarmanoidSpace& space, const PlaneFrame& frame, PlaneGrips& grips)
 {
   space_ = &space;
+  frame_ = &frame;
   grips_ = &grips;
+  if (space.GetExperiment().wind) wind_ = std::make_unique<Wind>(space.GetExperiment());
   up_ = frame.Frame().orientation * Vector3::UnitZ();
   // A plane that leans, or stands upright, has no ceiling.
   if (up_.z() > 1 - 1e-12) ceiling_ = std::max(space.GetExperiment().arena_size.z() - frame.Frame().position.z(), 0.0);
@@ -65,7 +66,8 @@ void PlaneRobots::AddOwned(const CSwarmanoidSpaceEntity& entity)
     handbots_.push_back(handbot);
     lifted_.push_back({index, 0, 0, 0, 0});
   }
-  if (kind.mechanism == Mechanism::kPropellers) eyebots_.push_back({index, false});
+  if (kind.propellers && kind.propellers->magnet_reach_m > 0)
+    magnets_.push_back({index, entity.GetSize().z() + kind.propellers->magnet_reach_m, false});
   if (kind.role != EntityRole::kObject || !kind.grippable) return;
   objects_.push_back(index);
   const Shape shape = ShapeOf(entity.GetConfiguration());
@@ -102,18 +104,33 @@ bool PlaneRobots::Command(const ChannelBlock& block, std::span<const double> val
       HandbotOf(entity).launch = value[0] > 0.5;
       HandbotOf(entity).winch = std::clamp(value[1], -PlaneHandbot::kWinchSpeed, PlaneHandbot::kWinchSpeed);
     }
-    if (!arms && !hands && !rope) Find(eyebots_, entity).attach = value[0] > 0.5;
+    if (!arms && !hands && !rope) Find(magnets_, entity).attach = value[0] > 0.5;
   }
   return true;
+}
+
+Vector2 PlaneRobots::Drift(std::uint32_t entity, double yaw_rate) const
+{
+  if (!wind_) return Vector2::Zero();
+  const double seconds = space_->GetTickSeconds();
+  const Pose pose = space_->GetPose(entity);
+  const Vector3 wind = wind_->At(pose.position, static_cast<double>(space_->GetTick()) * seconds);
+  const Vector3 on_plane = frame_->Frame().orientation.conjugate() * wind;
+  // The engine turns the velocity with the robot. One that points along the wind in the middle of the tick gives its
+  // way, longer by what the arc takes from it.
+  const double half_turn = yaw_rate * seconds / 2;
+  const SinCos heading = SinCosOf(frame_->ToPlane(pose).heading + half_turn);
+  const double longer = std::abs(half_turn) > 1e-6 && std::abs(half_turn) < 1 ? half_turn / Sin(half_turn) : 1;
+  return longer * Vector2(heading.cos * on_plane.x() + heading.sin * on_plane.y(),
+                          heading.cos * on_plane.y() - heading.sin * on_plane.x());
 }
 
 void PlaneRobots::Advance(double seconds)
 {
   near_objects_.Forget();
   attached_.clear();
-  for (const Eyebot& eyebot : eyebots_)
-    if (eyebot.attach && ceiling_ > 0 && space_->GetEntity(eyebot.entity).GetSize().z() + kMagnetReach >= ceiling_)
-      attached_.push_back(eyebot.entity);
+  for (const Magnet& magnet : magnets_)
+    if (magnet.attach && ceiling_ > 0 && magnet.reach >= ceiling_) attached_.push_back(magnet.entity);
   // Hands that open come first, then hands that close, in entity order.
   for (Handbot& handbot : handbots_)
     for (std::size_t hand = 0; hand < 2; ++hand)
@@ -317,9 +334,9 @@ void PlaneRobots::Report(AttributeChanges& changes) const
   {
     if (known[slot] != value) changes.Add(slot, value);
   };
-  for (const Eyebot& eyebot : eyebots_)
-    report(space_->GetEntity(eyebot.entity).SlotOf("attached"),
-           std::binary_search(attached_.begin(), attached_.end(), eyebot.entity) ? 1 : 0);
+  for (const Magnet& magnet : magnets_)
+    report(space_->GetEntity(magnet.entity).SlotOf("attached"),
+           std::binary_search(attached_.begin(), attached_.end(), magnet.entity) ? 1 : 0);
   for (const Handbot& handbot : handbots_)
   {
     const CSwarmanoidSpaceEntity& entity = space_->GetEntity(handbot.entity);

@@ -1,14 +1,15 @@
 // The parts of robots on a plane other than their drive: the handbot's head, arms, wrists, hands and rope, and the
-// eyebot's magnet, as kinematic models. Shared by kinematics2d and dynamics2d, in their engine's thread.
+// magnets of flying robots, as kinematic models. Shared by kinematics2d and dynamics2d, in their engine's thread.
 //
 // Joints turn at their commanded speeds within their ranges. A hand that closes takes the nearest block or prey of the
 // engine within its reach in the space. Hand and object then move as one rigid body on the plane. A handbot holds one
 // object at a time, with one hand or both. The rope goes straight up to the ceiling. Its winch sets the height of the
 // robot above the plane, and that of a held object. Objects released in the air fall freely. Collisions are those of
-// the plane at any height.
+// the plane at any height. Wind carries flying robots along: their commands are velocities in the air.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,7 @@
 #include "common/serialisation/bytes.h"
 #include "common/space/entity.h"
 #include "common/space/shape.h"
+#include "common/space/wind.h"
 #include "engine_worker/engines/near_objects.h"
 #include "engine_worker/engines/plane_frame.h"
 #include "engine_worker/physics_engine.h"
@@ -67,7 +69,10 @@ public:
   // Is called before the plane's motion. First hands and ropes grip and release; then all joints and heights become
   // those at the end of the tick.
   void Advance(double seconds);
-  // Eyebots that hang on the ceiling, and do not move.
+  // Returns the velocity (m/s, forward and left) with which the wind carries a flying robot along in this tick, in
+  // which it turns by `yaw_rate` (rad/s).
+  Vector2 Drift(std::uint32_t entity, double yaw_rate) const;
+  // Flying robots that hang on the ceiling, and do not move.
   const std::vector<std::uint32_t>& Attached() const { return attached_; }
   // An entity was put elsewhere from outside. It stands on the plane there, and the space says what it holds and what
   // holds it.
@@ -100,9 +105,11 @@ private:
     bool is_hanging = false;
     double rope = 0;  // m
   };
-  struct Eyebot
+  // The magnet of a flying robot.
+  struct Magnet
   {
     std::uint32_t entity = 0;
+    double reach = 0;  // m, above the base of the robot
     bool attach = false;
   };
   // An entity that can be in the air.
@@ -125,11 +132,13 @@ private:
   void TurnJoints(Handbot& handbot, double seconds) const;
 
   const CSwarmanoidSpace* space_ = nullptr;
+  const PlaneFrame* frame_ = nullptr;
   PlaneGrips* grips_ = nullptr;
+  std::unique_ptr<Wind> wind_;  // nullptr: calm
   Vector3 up_ = Vector3::UnitZ();
   double ceiling_ = 0;  // m above the plane; 0: none
   std::vector<Handbot> handbots_;
-  std::vector<Eyebot> eyebots_;
+  std::vector<Magnet> magnets_;
   std::vector<std::uint32_t> attached_;
   std::vector<Lifted> lifted_;  // handbots, blocks and preys, by entity; none if there is no handbot
   std::vector<std::uint32_t> objects_;

@@ -241,7 +241,7 @@ PlanPicture PlanScene::Draw() const
   each([](const auto& kind) { return IsFlat(kind.role); }, &PlanScene::AddFlat);
   AddTrails(picture);
   each([](const auto& kind) { return !IsFlat(kind.role) && kind.role != EntityRole::kRobot; }, &PlanScene::AddBody);
-  const auto flies = [](const auto& kind) { return kind.mechanism == Mechanism::kPropellers; };
+  const auto flies = [](const auto& kind) { return kind.propellers.has_value(); };
   each([&](const auto& kind) { return kind.role == EntityRole::kRobot && !flies(kind); }, &PlanScene::AddRobot);
   AddHolds(picture);
   each([&](const auto& kind) { return kind.role == EntityRole::kRobot && flies(kind); }, &PlanScene::AddRobot);
@@ -323,7 +323,7 @@ void PlanScene::AddRobot(std::uint32_t entity, PlanPicture& picture) const
   const EntityKindDescription& kind = DescriptionOf(robot.GetKind());
   const Shape shape = ShapeOf(robot.GetConfiguration());
   const double reach = shape.half_size.x();
-  const double opacity = kind.mechanism == Mechanism::kPropellers ? 0.45 : 1;
+  const double opacity = kind.propellers ? 0.45 : 1;
   const PlanColour fill{ColourOf(entity), opacity}, edge{Darker(fill.rgb)};
   const bool stands = (pose.orientation * Vector3::UnitZ()).z() > 0.999;
   if (shape.kind == Shape::Kind::kCylinder && stands && !meshes_.contains(entity))
@@ -413,7 +413,7 @@ std::vector<PlanLegendEntry> PlanScene::Legend() const
     const EntityKindDescription& row = DescriptionOf(kind);
     const bool is_fixed = row.role == EntityRole::kObject && row.mobility == Mobility::kNever;
     const bool is_round = row.form == BodyForm::kCylinder || row.role == EntityRole::kLight;
-    const double opacity = row.role == EntityRole::kPatch ? 0.6 : row.mechanism == Mechanism::kPropellers ? 0.45 : 1;
+    const double opacity = row.role == EntityRole::kPatch ? 0.6 : row.propellers ? 0.45 : 1;
     const auto add = [&](std::uint32_t rgb, std::size_t count)
     {
       PlanLegendEntry& entry = entries.emplace_back();

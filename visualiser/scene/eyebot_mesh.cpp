@@ -1,5 +1,6 @@
 // The mesh of the eyebot: four ducted rotors within a ring of 50 cm with the LEDs, four thin legs, and a rod with the
-// ceiling magnet. The lengths are from engine_worker/engines/dynamics3d/eyebot.h.
+// ceiling magnet. The lengths are those of its row in
+// common/experiment/builtin_kinds.cpp.
 
 #include "visualiser/scene/led_ring.h"
 #include "visualiser/scene/meshes.h"

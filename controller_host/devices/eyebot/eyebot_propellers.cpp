@@ -1,5 +1,6 @@
-// Propulsion of the eyebot: velocities to the engine on channel "eyebot_propellers": forward, left, up in m/s, yaw rate
-// in rad/s. The position-controlled implementation closes its loop on the robot's own pose.
+// Propulsion of eyebots and of other robots with propellers: velocities to the engine on channel "eyebot_propellers":
+// forward, left, up in m/s, yaw rate in rad/s. The position-controlled implementation closes its loop on the robot's
+// own pose.
 #include <algorithm>
 #include <optional>
 
@@ -25,9 +26,13 @@ struct Limits
   double yaw_rate = 0;  // rad/s
 };
 
-Limits LimitsFrom(const Parameters& parameters)
+// Returns the limits that the experiment gives, or those of the robot's kind.
+Limits LimitsOf(const DeviceSetup& setup, std::uint32_t robot)
 {
-  return {parameters.Number("max_speed"), parameters.Number("max_yaw_rate")};
+  const Propellers& row = *DescriptionOf(setup.space.GetEntity(robot).GetKind()).propellers;
+  const auto given = [&](const char* name, double of_row)
+  { return setup.parameters.IsGiven(name) ? setup.parameters.Number(name) : of_row; };
+  return {given("max_speed", row.max_speed_m_s), given("max_yaw_rate", row.max_yaw_rate_rad_s)};
 }
 
 void PutVelocity(double* values, const Limits& limits, double forward, double left, double up, double yaw_rate)
@@ -61,7 +66,7 @@ public:
   void Init(const DeviceSetup& setup) override
   {
     ChannelCommands::Init(setup);
-    for (VelocityPropellers& propellers : devices_) propellers.limits = LimitsFrom(setup.parameters);
+    for (std::size_t k = 0; k < devices_.size(); ++k) devices_[k].limits = LimitsOf(setup, setup.robots[k]);
   }
 };
 
@@ -113,11 +118,10 @@ public:
   void Init(const DeviceSetup& setup) override
   {
     Reset(setup, kFlightWidth);
-    limits_ = LimitsFrom(setup.parameters);
     gain_ = setup.parameters.Number("gain");
     noise_ = NoiseFrom(setup.parameters);
     MakeDevices();
-    for (PositionPropellers& propellers : devices_) propellers.limits = limits_;
+    for (std::size_t k = 0; k < devices_.size(); ++k) devices_[k].limits = LimitsOf(setup, setup.robots[k]);
   }
   void Commit(const ChannelView& channel, AttributeChanges&) override
   {
@@ -147,12 +151,11 @@ private:
     const SinCos heading = SinCosOf(yaw);
     const double dx = target[0] - pose.position.x();
     const double dy = target[1] - pose.position.y();
-    PutVelocity(velocity, limits_, gain_ * (heading.cos * dx + heading.sin * dy),
+    PutVelocity(velocity, devices_[k].limits, gain_ * (heading.cos * dx + heading.sin * dy),
                 gain_ * (heading.cos * dy - heading.sin * dx), gain_ * (target[2] - pose.position.z()),
                 gain_ * WrapAngle(target[3] - yaw));
   }
 
-  Limits limits_;
   double gain_ = 0;
   NoiseModel noise_;
 };

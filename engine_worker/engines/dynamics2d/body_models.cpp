@@ -111,11 +111,15 @@ void SetGroundFriction(BodyModel& model, double coefficient, double gravity)
   model.ground_torque = 2.0 / 3.0 * model.ground_force * std::sqrt(2 * model.inertia / model.mass);
 }
 
-double DefaultMass(const CSwarmanoidSpaceEntity& entity, const Dynamics2dParameters& parameters)
+double MassOf(const CSwarmanoidSpaceEntity& entity, const Dynamics2dParameters& parameters)
 {
   const Vector3& size = entity.GetSize();
   const EntityKindDescription& kind = DescriptionOf(entity.GetKind());
-  if (const auto mass = parameters.robot_mass.find(kind.tag); mass != parameters.robot_mass.end()) return mass->second;
+  // The parameters of the engine replace the masses of the rows of the simulator's own robots.
+  const double own = entity.GetConfiguration().mass_kg;
+  const auto replaced = parameters.robot_mass.find(kind.tag);
+  if (replaced != parameters.robot_mass.end() && (own == 0 || own == kind.mass_kg)) return replaced->second;
+  if (own > 0) return own;
   if (kind.form == BodyForm::kCylinder) return parameters.density * kPi * size.x() * size.x() * size.z();
   return parameters.density * size.prod();
 }
@@ -131,8 +135,7 @@ BodyModel MovableModel(const CSwarmanoidSpaceEntity& entity, EMotion motion, con
   const Vector3& size = entity.GetSize();
   const EntityKindDescription& kind = DescriptionOf(entity.GetKind());
   const bool is_free_box = IsFreeBox(entity.GetKind());
-  const double mass = entity.GetConfiguration().mass_kg;
-  model.mass = mass > 0 ? mass : DefaultMass(entity, parameters);
+  model.mass = MassOf(entity, parameters);
   if (kind.form == BodyForm::kCylinder)
   {
     if (size.x() < kSmallest_m) TooSmall(entity);
@@ -162,10 +165,12 @@ BodyModel MovableModel(const CSwarmanoidSpaceEntity& entity, EMotion motion, con
     model.ground_force = std::min(parameters.wheel_friction * model.mass * parameters.gravity, parameters.drive_force);
     model.ground_torque = model.ground_force * kind.wheels->axle_m / 2;
   }
-  else if (kind.mechanism == Mechanism::kPropellers)
+  else if (kind.propellers)
   {
-    model.ground_force = parameters.eyebot_force;
-    model.ground_torque = parameters.eyebot_torque;
+    const auto replaced = parameters.propellers.find(kind.tag);
+    const PropellerForces forces = replaced == parameters.propellers.end() ? ForcesOfKind(kind.tag) : replaced->second;
+    model.ground_force = forces.force_n;
+    model.ground_torque = forces.torque_n_m;
   }
   else
   {

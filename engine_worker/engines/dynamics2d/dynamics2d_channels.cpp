@@ -50,7 +50,9 @@ void CDynamics2dEngine::ReadCommands(const EngineCommands& commands)
       }
       else if (block.name == "eyebot_propellers")
       {
-        world_->SetDrive(body, {Speed(command[0]), Speed(command[1]), TurnRate(command[3])});
+        const double turn = TurnRate(command[3]);
+        const Vector2 drift = robots_.Drift(block.entities[i], turn);
+        world_->SetDrive(body, {Speed(command[0] + drift.x()), Speed(command[1] + drift.y()), turn});
       }
       else if (block.name == "footbot_turret")
       {

@@ -18,8 +18,8 @@ Dynamics2dParameters ReadDynamics2dParameters(const Parameters& parameters)
   values.density = parameters.Number("density");
   for (auto& [tag, mass] : values.robot_mass) mass = parameters.Number(tag + "_mass");
   values.drive_force = parameters.Number("drive_force");
-  values.eyebot_force = parameters.Number("eyebot_force");
-  values.eyebot_torque = parameters.Number("eyebot_torque");
+  for (auto& [tag, forces] : values.propellers)
+    forces = {parameters.Number(tag + "_force"), parameters.Number(tag + "_torque")};
   values.turret_torque = parameters.Number("turret_torque");
   values.traction_range = parameters.Number("traction_range");
   values.grip_distance = parameters.Number("grip_distance");

@@ -3,11 +3,27 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "common/configuration/parameter.h"
+#include "common/experiment/entity_kind.h"
 
 namespace swarmanoid::dynamics2d
 {
+
+// What propellers exert along the plane at most.
+struct PropellerForces
+{
+  double force_n = 0;
+  double torque_n_m = 0;  // about the normal
+};
+
+inline double MassOfKind(std::string_view tag) { return DescriptionOf(*KindOfTag(tag)).mass_kg; }
+inline PropellerForces ForcesOfKind(std::string_view tag)
+{
+  const Propellers& row = *DescriptionOf(*KindOfTag(tag)).propellers;
+  return {row.plane_force_n, row.plane_torque_n_m};
+}
 
 struct Dynamics2dParameters
 {
@@ -21,11 +37,11 @@ struct Dynamics2dParameters
   double wheel_friction = 0.8;
   double ground_friction = 0.5;
   double density = 200;  // kg/m3
-  // Mass in kg by the robot's tag. Other robots have the mass of their row in the table of kinds, or the density.
-  std::map<std::string, double> robot_mass = {{"footbot", 1.6}, {"handbot", 3}, {"eyebot", 0.5}};
+  // By the robot's tag. Other robots have the values of their row in the table of kinds; those without a mass have the
+  // density.
+  std::map<std::string, double> robot_mass = {{"footbot", 1.6}, {"handbot", 3}, {"eyebot", MassOfKind("eyebot")}};
+  std::map<std::string, PropellerForces> propellers = {{"eyebot", ForcesOfKind("eyebot")}};
   double drive_force = 15;      // N
-  double eyebot_force = 5;      // N
-  double eyebot_torque = 0.2;   // N m
   double turret_torque = 1.5;   // N m
   double traction_range = 25;   // N
   double grip_distance = 0.01;  // m

@@ -7,9 +7,9 @@
 #include <iterator>
 
 #include "common/space/space.h"
-#include "engine_worker/engines/dynamics3d/eyebot.h"
 #include "engine_worker/engines/dynamics3d/footbot.h"
 #include "engine_worker/engines/dynamics3d/handbot.h"
+#include "engine_worker/engines/dynamics3d/propelled.h"
 #include "engine_worker/engines/dynamics3d/wheeled.h"
 #include "engine_worker/volume_members.h"
 
@@ -42,6 +42,8 @@ void CDynamics3dEngine::Init(const EngineSetup& setup)
                                          .up = frame.VectorToLocal(Vector3::UnitZ()),
                                          .tick_seconds = tick,
                                          .density = settings_.density,
+                                         .time_s = 0,
+                                         .wind = Wind(space_->GetExperiment()),
                                          .models = {}});
   scene_->models.assign(space_->Size(), nullptr);
 
@@ -102,10 +104,10 @@ std::unique_ptr<Model> CDynamics3dEngine::MakeModel(const CSwarmanoidSpaceEntity
     case Mechanism::kArms:
       return std::make_unique<HandbotModel>(*scene_, entity);
     case Mechanism::kPropellers:
-      return std::make_unique<EyebotModel>(*scene_, entity, CeilingHeight());
     case Mechanism::kNone:
       break;
   }
+  if (kind.propellers) return std::make_unique<PropelledModel>(*scene_, entity, CeilingHeight());
   if (kind.wheels) return std::make_unique<WheeledModel>(*scene_, entity, WheeledShape::Of(entity, scene_->density));
   return std::make_unique<ObjectModel>(*scene_, entity);
 }
@@ -234,6 +236,7 @@ void CDynamics3dEngine::Update(const EngineCommands& commands, EngineUpdate& upd
     if (const std::uint32_t entity = model->GetSpaceEntity().GetIndex(); !space_->IsPresent(entity))
       model->Place(scene_->frame.ToLocal(space_->GetPose(entity)));
   ApplyCommands(commands);
+  scene_->time_s = static_cast<double>(space_->GetTick()) * scene_->tick_seconds;
   for (Model* model : active_) model->BeginTick();
   groups_->Advance(space_->GetTick() * static_cast<std::uint64_t>(steps_));
   WritePoses(update.poses);

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/space/wind.h"
 #include "engine_worker/engines/dynamics3d/links.h"
 #include "engine_worker/engines/dynamics3d/ode_world.h"
 #include "engine_worker/physics_engine.h"
@@ -41,7 +42,9 @@ struct Scene
   Frame frame;
   Vector3 up = Vector3::UnitZ();  // the space's z axis
   double tick_seconds = 0.1;
-  double density = 200;        // kg/m³, of movable objects without a mass of their own
+  double density = 200;  // kg/m³, of movable objects without a mass of their own
+  double time_s = 0;     // of the run, at the start of this tick
+  Wind wind;
   std::vector<Model*> models;  // by entity; nullptr for those without a body
 
   bool CanBeHeld(std::uint32_t entity) const;

@@ -104,7 +104,9 @@ void Kinematics2dEngine::DrivePropellers(const ChannelBlock& block, std::span<co
   {
     const std::span<const double> v = values.subspan(4 * k, 4);
     CheckCommand(v[0] + v[1] + v[3], block.entities[k], block);
-    world_.SetTwist(BodyOf(block.entities[k]), {v[0], v[1], v[3]});
+    const std::uint32_t body = BodyOf(block.entities[k]);
+    const Vector2 drift = robots_.Drift(block.entities[k], v[3]);
+    world_.SetTwist(body, {v[0] + drift.x(), v[1] + drift.y(), v[3]});
   }
 }
 

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "dynamics3d_test_world.h"
-#include "engine_worker/engines/dynamics3d/eyebot.h"
+#include "engine_worker/engines/dynamics3d/propelled.h"
 
 namespace swarmanoid
 {
@@ -104,9 +104,9 @@ TEST(Dynamics3dClosedForms, AnEyebotHoversWithAThrustOfItsWeight)
   world.Run(100);
   EXPECT_LT((world.Position(eyebot) - Vector3(5, 5, 1)).norm(), 1e-4);
   EXPECT_NEAR(world.Yaw(eyebot), 0.7, 1e-4);
-  const auto* model = dynamic_cast<const dynamics3d::EyebotModel*>(world.engine->ModelForTest(eyebot));
+  const auto* model = dynamic_cast<const dynamics3d::PropelledModel*>(world.engine->ModelForTest(eyebot));
   ASSERT_NE(model, nullptr);
-  EXPECT_NEAR(model->ThrustForTest(), dynamics3d::EyebotShape::kMass * kGravity, 1e-3);
+  EXPECT_NEAR(model->ThrustForTest(), DescriptionOf(EntityKind::kEyebot).mass_kg * kGravity, 1e-3);
 }
 
 TEST(Dynamics3dClosedForms, TheWorkOfAnEyebotsThrustIsTheEnergyThatItGains)
@@ -116,9 +116,9 @@ TEST(Dynamics3dClosedForms, TheWorkOfAnEyebotsThrustIsTheEnergyThatItGains)
   const auto eyebot = world.AddEyebot({5, 5, 0.5});
   world.Run(20);
   world.Command("eyebot_propellers", eyebot, {0, 0, 0.4, 0});
-  const auto* model = dynamic_cast<const dynamics3d::EyebotModel*>(world.engine->ModelForTest(eyebot));
+  const auto* model = dynamic_cast<const dynamics3d::PropelledModel*>(world.engine->ModelForTest(eyebot));
   ASSERT_NE(model, nullptr);
-  const double mass = dynamics3d::EyebotShape::kMass;
+  const double mass = DescriptionOf(EntityKind::kEyebot).mass_kg;
   const double start = world.Position(eyebot).z();
   double work = 0;
   double speed = 0;

@@ -186,8 +186,12 @@ private:
       return;
     ChannelBlock block{device.channel, device.channel_width, {}, size};
     for (std::uint32_t i = 0; i < experiment.entities.size(); ++i)
-      if (device.channel.starts_with(std::string(TagName(experiment.entities[i].kind)) + "_") && !IsMirror(i))
+    {
+      const EntityKind kind = experiment.entities[i].kind;
+      const bool is_flight = device.channel == "eyebot_propellers" && DescriptionOf(kind).propellers;
+      if ((is_flight || device.channel.starts_with(std::string(TagName(kind)) + "_")) && !IsMirror(i))
         block.entities.push_back(i);
+    }
     if (block.entities.empty() || (block.name == "footbot_turret" && !uses_turrets_)) return;
     size += block.entities.size() * static_cast<std::size_t>(block.width);
     blocks.push_back(block);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/unit/engines/saved_state_bytes.h"
+#include "tests/unit/engines/test_quadrotor.h"
 #include "tests/unit/kinematics2d/engine_fixture.h"
 
 namespace swarmanoid
@@ -364,6 +365,38 @@ TEST_P(PlaneRobotsIn, AnEyebotOnThePlaneUnderTheCeilingHangsOnItByItsMagnet)
   f.Ticks(10);
   EXPECT_EQ(Attribute(robot, "attached"), 0);
   EXPECT_GT(f.PoseOf(robot).position.x(), x + 0.1);
+}
+
+TEST_P(PlaneRobotsIn, QuadrotorsFlyAtTheCommandedVelocityAtTheHeightOfThePlane)
+{
+  f.Parameter("distance", "1");
+  const auto robot = f.Add(test::Quadrotor(), Vector3(2, 3, 1));
+  f.AddCommands("eyebot_propellers", 4, {robot});
+  f.Command(0) = 0.4;
+  f.Command(1) = -0.2;
+  f.Ticks(10);
+  const Vector3 before = f.PoseOf(robot).position;
+  f.Ticks(20);
+  EXPECT_LT((f.PoseOf(robot).position - before - Vector3(0.8, -0.4, 0)).norm(), 1e-4);
+}
+
+TEST_P(PlaneRobotsIn, WindCarriesFlyingRobotsAlongHoweverTheyTurn)
+{
+  f.GetExperiment().wind = WindConfiguration{{0.3, -0.1, 0.2}, 0, 3};
+  std::vector<std::uint32_t> robots;
+  for (const double y : {3.0, 5.0, 7.0}) robots.push_back(f.Add(EntityKind::kEyebot, Vector3(2, y, 0), {0, 0, y}));
+  const auto footbot = f.Add(EntityKind::kFootbot, Vector3(8, 8, 0));
+  f.AddCommands("eyebot_propellers", 4, robots);
+  f.Command(7) = 1;    // the second one turns,
+  f.Command(8) = 0.2;  // and the third one also flies on a circle
+  f.Command(11) = kPi / 2;
+  f.Ticks(10);
+  std::vector<Vector3> before;
+  for (const std::uint32_t robot : robots) before.push_back(f.PoseOf(robot).position);
+  f.Ticks(40);  // one turn of the third robot
+  for (std::size_t k = 0; k < robots.size(); ++k)
+    EXPECT_LT((f.PoseOf(robots[k]).position - before[k] - Vector3(1.2, -0.4, 0)).norm(), 1e-3) << k;
+  EXPECT_EQ(f.PoseOf(footbot).position, Vector3(8, 8, 0));
 }
 
 TEST_P(PlaneRobotsIn, FarBelowTheCeilingTheMagnetHoldsNothing)

@@ -134,7 +134,7 @@ const Mistake kMistakes[] = {
     {"UnknownEntity", "<light_bulb id=\"lamp\"", "<lightbulb id=\"lamp\"",
      "test.xml:21:5: <arena> has no element <lightbulb>; allowed: footbot, eyebot, handbot, block, cylindric_prey, "
      "light_bulb, sound_source, ground_patch, hole, wall, terrain, charging_station, distribute, reserve, "
-     "floor_field, size, optimization, limit, "
+     "floor_field, wind, size, optimization, limit, "
      "beyond_limit; did you mean 'light_bulb'?\n"},
     {"UnknownPolicy", "optimization=\"2D\"", "optimization=\"2D\" beyond_limit=\"ignore\"",
      "test.xml:17:43: 'beyond_limit' of <arena> is 'ignore'; it must be one of stop, hold, remove\n"},

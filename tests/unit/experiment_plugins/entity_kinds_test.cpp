@@ -7,6 +7,7 @@
 
 #include "common/experiment/load_experiment.h"
 #include "common/math/elementary.h"
+#include "tests/unit/engines/test_quadrotor.h"
 #include "tests/world/message_of.h"
 
 namespace swarmanoid
@@ -100,6 +101,54 @@ TEST(EntityKinds, CarryTheDevicesOfTheirPartsAndThoseThatTheyName)
     EXPECT_TRUE(Carries(kind, device)) << device;
   EXPECT_THAT(AttributesOf(kind), ElementsAre("led", "beacon", "mood"));
   EXPECT_EQ(DescriptionOf(kind).attributes[0].count, 3);
+}
+
+TEST(EntityKinds, WithPropellersCarryTheDevicesOfFlight)
+{
+  RegisterEntityKind(test::QuadrotorRow("flying_robot"));
+  const EntityKind kind = *KindOfTag("flying_robot");
+  for (const char* device : {"eyebot_propellers", "eyebot_altitude", "eyebot_camera"})
+    EXPECT_TRUE(Carries(kind, device)) << device;
+  for (const char* device : {"eyebot_attachment", "eyebot_laser", "wheels"}) EXPECT_FALSE(Carries(kind, device));
+  EXPECT_THAT(AttributesOf(kind), ElementsAre());
+  EntityKindDescription row = test::QuadrotorRow("hanging_robot");
+  row.propellers->magnet_reach_m = 0.02;
+  RegisterEntityKind(row);
+  EXPECT_TRUE(Carries(*KindOfTag("hanging_robot"), "eyebot_attachment"));
+  EXPECT_THAT(AttributesOf(*KindOfTag("hanging_robot")), ElementsAre("attached"));
+}
+
+TEST(EntityKinds, ThatCannotFlyAreRefusedByName)
+{
+  const auto changed = [](auto change)
+  {
+    EntityKindDescription row = test::QuadrotorRow("wrong_quadrotor");
+    change(row);
+    return RefusalOf(std::move(row));
+  };
+  using Row = EntityKindDescription;
+  EXPECT_THAT(changed([](Row& row) { row.mass_kg = 0; }), HasSubstr("needs a mass_kg"));
+  EXPECT_THAT(changed([](Row& row) { row.wheels = WheelDrive{0.05, 0.02, 0.2}; }), HasSubstr("wheels or propellers"));
+  EXPECT_THAT(changed([](Row& row) { row.propellers->inertia_kg_m2.z() = 1; }), HasSubstr("inertia_kg_m2"));
+  EXPECT_THAT(changed([](Row& row) { row.propellers->centre_of_mass_m = 0.2; }), HasSubstr("centre_of_mass_m is 0.2"));
+  EXPECT_THAT(changed([](Row& row) { row.propellers->tilt_rad_s = 0; }), HasSubstr("frequencies"));
+  EXPECT_THAT(changed([](Row& row) { row.propellers->max_thrust_n = 1; }), HasSubstr("without rotors"));
+  EXPECT_THAT(changed([](Row& row) { row.propellers->rotors.reset(); }), HasSubstr("0 N do not lift 0.03 kg"));
+  EXPECT_THAT(changed([](Row& row) { row.propellers->rotors->max_thrust_n = 0.07; }),
+              HasSubstr("4 rotors of 0.07 N do not lift 0.03 kg"));
+  EXPECT_THAT(changed([](Row& row) { row.propellers->rotors->count = 3; }),
+              HasSubstr("3 rotors; there may be 4 to 16"));
+  EXPECT_THAT(changed([](Row& row) { row.propellers->rotors->thrust_of_speed.z() = 0; }), HasSubstr("thrust_of_speed"));
+  EXPECT_THAT(changed([](Row& row) { row.propellers->rotors->drag.x() = -1; }), HasSubstr("drag of rotors"));
+  EXPECT_THAT(changed([](Row& row) { row.propellers->drag_in_wind.x() = 1; }), HasSubstr("drag_in_wind"));
+  EXPECT_THAT(changed([](Row& row) { row.solids = {SolidPart{}}; }), HasSubstr("a solid needs a size"));
+  EXPECT_THAT(changed(
+                  [](Row& row)
+                  {
+                    row.propellers.reset();
+                    row.solids = {SolidPart{}};
+                  }),
+              HasSubstr("solids are for robots with propellers"));
 }
 
 TEST(EntityKinds, OfObjectsHaveTheParametersThatTheirBodyNeeds)

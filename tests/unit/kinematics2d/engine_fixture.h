@@ -29,6 +29,8 @@ public:
 
   void Parameter(const std::string& name, const std::string& value) { node_->attributes.push_back({name, value, {}}); }
   EngineConfiguration& Configuration() { return engine_configuration_; }
+  // Before the start.
+  Experiment& GetExperiment() { return experiment_; }
 
   std::uint32_t Add(EntityKind kind, const Vector3& position, const EulerAngles& angles = {},
                     const Vector3& size = Vector3::Zero(), bool movable = true)

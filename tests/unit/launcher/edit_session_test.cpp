@@ -129,7 +129,8 @@ TEST_F(EditSessionTest, FormsComeFromTheTables)
   EXPECT_EQ((*found)["type"], "choice");
   EXPECT_EQ((*found)["choices"], (Json{"2D", "3D", "octree"}));
   // All kinds can be placed.
-  EXPECT_EQ(page_.document["kinds"].size(), EntityKindCount() + 3);  // <distribute>, <reserve> and <floor_field>, too
+  EXPECT_EQ(page_.document["kinds"].size(),
+            EntityKindCount() + 4);  // <distribute>, <reserve>, <floor_field> and <wind>, too
   EXPECT_THAT(RefusalOf(R"({"do": "form", "path": "9/9"})"), HasSubstr("not there"));
 }
 
