@@ -202,7 +202,8 @@ const std::vector<Scene>& Scenes()
   return scenes;
 }
 
-// One schedule in eight has regions of dynamics2d. One in sixteen has regions of dynamics3d, which take four times as long.
+// One schedule in eight has regions of dynamics2d. One in sixteen has regions of dynamics3d, which take four times as
+// long.
 const Scene& SceneOf(std::uint64_t seed)
 {
   const std::vector<Scene>& scenes = Scenes();
