@@ -2,6 +2,7 @@
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 
 from harness import CONFIGS, LauncherTest
@@ -13,6 +14,8 @@ class New(LauncherTest):
     def test_a_controller_builds_and_runs(self):
         self.assertEqual(self.run_it("new", "user", "mine").process.returncode, 0)
         self.folder = self.folder / "mine"
+        for sample in [*self.folder.glob("controllers/*"), *self.folder.glob("functions/*")]:
+            shutil.rmtree(sample)  # tests/package builds them
         made = self.run_it("new", "controller", "wall_follower")
         self.assertEqual(made.process.returncode, 0, made.stderr)
         built = subprocess.run(["./build.sh", f"-DCMAKE_PREFIX_PATH={BUILD}", f"-DSwarmanoid_DIR={BUILD}"], cwd=self.folder,

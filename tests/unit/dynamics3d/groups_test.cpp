@@ -25,7 +25,7 @@ TEST(Dynamics3dGroups, AnyNumberOfThreadsGivesTheSameBits)
     RigidSwarm two("2", scene.pitch, scene.ground, scene.iterations);
     RigidSwarm three("3", scene.pitch, scene.ground, scene.iterations);
     std::size_t most_groups = 0;
-    for (int tick = 0; tick < 40; ++tick)
+    for (int tick = 0; tick < 16; ++tick)
     {
       for (RigidSwarm* swarm : {&one, &two, &three}) swarm->Step();
       ASSERT_EQ(one.Space().Hash(), two.Space().Hash()) << scene.pitch << ", tick " << tick;

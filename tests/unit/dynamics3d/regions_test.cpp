@@ -23,7 +23,7 @@ TEST(RegionsOfDynamics3d, GiveTheBitsOfOneProcess)
     { return std::make_unique<RigidSwarm>(threads, scene.pitch, scene.ground, scene.iterations, regions); };
     const auto whole = make("1", 0), one = make("1", 1), two = make("1", 2), four = make("1", 4),
                threads = make("2", 2);
-    for (int tick = 0; tick < 25; ++tick)
+    for (int tick = 0; tick < 12; ++tick)
     {
       whole->Step();
       for (RigidSwarm* swarm : {one.get(), two.get(), four.get(), threads.get()})

@@ -64,7 +64,7 @@ void DrawSimplestScenes(bool with_window)
     {
       SCOPED_TRACE(fmt::format("{} of '{}'", renderer->label, arena));
       const std::unique_ptr<Experiment> experiment =
-          Read(SmallScene{.devices = {}, .arena = arena, .renderers = RendererElement(*renderer)});
+          Read(SmallScene{.devices = {}, .arena = arena, .renderers = RendererElement(*renderer), .ticks = 2});
       ASSERT_NE(experiment, nullptr);
       SimulatorOptions options;
       options.threads = 1;

@@ -308,7 +308,7 @@ std::uint64_t RunScene(const Experiment& experiment, const SimulatorOptions& opt
     do {
       if (change) change(simulator);
     } while (simulator.Step());
-    EXPECT_EQ(simulator.GetSpace().GetTick(), kTicks) << "the run ended too early";
+    EXPECT_EQ(simulator.GetSpace().GetTick(), experiment.max_clock) << "the run ended too early";
     hash = simulator.Finish().hash;
   }
   catch (const std::exception& error)
