@@ -1,50 +1,38 @@
 #include "common/mesh/mesh_points.h"
 
+#include <dlfcn.h>
+
 #include "common/configuration/regular_file.h"
-#include "common/mesh/import_mesh.h"
+#include "common/math/reproducible_math.h"
+#include "common/plugins/library.h"
 
 namespace swarmanoid
 {
 namespace
 {
 
-MeshPoints PointsIn(const ImportedMesh& mesh)
+using Import = decltype(&ImportMeshPoints);
+
+// Throws FileError if the library is missing, as in a build without Assimp.
+Import LoadImport()
 {
-  MeshPoints points;
-  mesh.ForEachPart(
-      [&](const aiMesh& part, const aiMatrix4x4& place)
-      {
-        const auto first = static_cast<std::uint32_t>(points.corners.size());
-        for (unsigned v = 0; v < part.mNumVertices; ++v)
-          points.corners.push_back(mesh.VertexOf(part, v, place).cast<double>());
-        for (unsigned f = 0; f < part.mNumFaces; ++f)
-        {
-          const aiFace& face = part.mFaces[f];
-          if (face.mNumIndices != 3) continue;
-          const unsigned* const index = face.mIndices;
-          points.triangles.push_back({first + index[0], first + index[1], first + index[2]});
-        }
-      });
-  if (points.triangles.empty()) throw FileError("it has no triangles");
-  return points;
+  const std::string file = OwnLibraryFolder() + "/" SWARMANOID_MESH_LIBRARY;
+  void* const library = OpenLibrary(file);
+  void* const function = library == nullptr ? nullptr : dlsym(library, "ImportMeshPoints");
+  if (function == nullptr)
+    throw FileError("this installation reads no meshes (" + std::string(dlerror()) +
+                    "): install libassimp-dev, then build again");
+  return reinterpret_cast<Import>(function);
 }
 
 }  // namespace
 
 MeshPoints ReadMeshPoints(const std::string& path)
 {
-  try
-  {
-    return PointsIn(ImportedMesh(path));
-  }
-  catch (const FileError&)
-  {
-    throw;
-  }
-  catch (const std::exception& error)  // an error of Assimp or of memory
-  {
-    throw FileError(error.what());
-  }
+  static const Import import = LoadImport();
+  MeshPoints points;
+  import(path, points);
+  return points;
 }
 
 }  // namespace swarmanoid

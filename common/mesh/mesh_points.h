@@ -23,7 +23,11 @@ struct MeshPoints
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-// Throws FileError with the reason, without the path. Any thread may call it.
+// Throws FileError with the reason, without the path. Any thread may call it. The first call loads the library
+// mesh_files and with it Assimp, whose loading takes a seventh of the start of a process.
 MeshPoints ReadMeshPoints(const std::string& path);
+
+// The function of that library, by its name. Throws like ReadMeshPoints.
+extern "C" void ImportMeshPoints(const std::string& path, MeshPoints& points);
 
 }  // namespace swarmanoid

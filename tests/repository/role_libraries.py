@@ -17,9 +17,9 @@ OF_ROLE = {
     "controller_host": {"controller_host_role"},
     "visualiser": {"render"},
 }
-# Solvers belong to the engines. Renderers that need graphics or films load theirs when one is made.
+# Solvers belong to the engines. Renderers that need graphics or films load theirs when one is made. Assimp is loaded for mesh files.
 SOLVERS = {"libode", "libbox2d"}
-GRAPHICS = re.compile(r"lib(GL|EGL|OpenGL|epoxy|glfw|Ogre|imgui|SDL|X11|avcodec|avformat|avutil|swscale)")
+GRAPHICS = re.compile(r"lib(GL|EGL|OpenGL|epoxy|glfw|Ogre|imgui|SDL|X11|avcodec|avformat|avutil|swscale)|libassimp")
 
 
 def loaded(program):
