@@ -9,8 +9,6 @@ namespace swarmanoid
 namespace
 {
 
-constexpr double kGravity = 9.81;
-
 TEST(Dynamics3dClosedForms, ABlockFallsFreely)
 {
   Dynamics3dTestWorld world;

@@ -10,6 +10,8 @@
 namespace swarmanoid
 {
 
+inline constexpr double kGravity = 9.81;  // m/s², the default of the engine
+
 class Dynamics3dTestWorld : public EngineTestWorld<CDynamics3dEngine>
 {
 public:

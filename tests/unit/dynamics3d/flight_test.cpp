@@ -15,8 +15,6 @@ namespace
 using dynamics3d::PropelledModel;
 using dynamics3d::RotorSet;
 
-constexpr double kGravity = 9.81;
-
 const EntityKindDescription& Row() { return DescriptionOf(test::Quadrotor()); }
 const Rotors& RotorsOfRow() { return *Row().propellers->rotors; }
 
