@@ -180,8 +180,8 @@ TEST(RobotsOfTheShelfRows, AreDrawnAsLargeAsTheyArePublished)
   };
   // Webots' guide gives the Thymio II 112 x 117 x 53 mm with its wheels, Mobsya 110 x 112 mm.
   for (const Published& published :
-       {Published{"thymio_ii", {0.112, 0.112, 0.053}, 0.006}, Published{"turtlebot4", {0.342, 0.339, 0.351}, 0.006},
-        Published{"epuck2", {0.071, 0.071, 0.045}, 0.002}, Published{"khepera_iv", {0.1408, 0.1408, 0.058}, 0.006}})
+       {Published{"thymio_ii", {0.112, 0.112, 0.053}, 0.005}, Published{"turtlebot4", {0.342, 0.339, 0.351}, 0.005},
+        Published{"epuck2", {0.071, 0.071, 0.045}, 0.002}, Published{"khepera_iv", {0.1408, 0.1408, 0.058}, 0.005}})
   {
     const Eigen::AlignedBox3d box = DrawnBox(RowOf(published.tag));
     for (int k = 0; k < 3; ++k)

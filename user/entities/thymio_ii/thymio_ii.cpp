@@ -84,9 +84,9 @@ std::vector<MeshPart> Mesh()
   std::vector<MeshPart> parts;
   for (int strip = 0; strip < kStrips; ++strip)
   {
-    const double left = kHalfWidth * (2.0 * strip / kStrips - 1);
-    const double right = kHalfWidth * (2.0 * (strip + 1) / kStrips - 1);
-    parts.push_back({.from = {kBehindArc, left, kElevation}, .to = {FrontAt((left + right) / 2), right, kHeight}});
+    const double begin = kHalfWidth * (2.0 * strip / kStrips - 1);
+    const double end = kHalfWidth * (2.0 * (strip + 1) / kStrips - 1);
+    parts.push_back({.from = {kBehindArc, begin, kElevation}, .to = {FrontAt((begin + end) / 2), end, kHeight}});
   }
   parts.push_back({.from = {kBack, -kHalfWidth, kUpperShell}, .to = {kBehindArc, kHalfWidth, kHeight}});
   parts.push_back({.from = {kBack, -kBetweenWheels, kElevation}, .to = {kBehindArc, kBetweenWheels, kUpperShell}});
@@ -99,14 +99,14 @@ std::vector<MeshPart> Mesh()
   for (const ProximityRing::Sensor& sensor : ProximitySensors())
     parts.push_back({.form = MeshPart::Form::kBall,
                      .from = {sensor.place.x(), sensor.place.y(), kSensorHeight},
-                     .radius = 0.004,
+                     .radius = 0.003,
                      .paint = Paint::kDark});
   for (const Vector2& button : PlacesOnCircle(4, 0.015, 0))
     parts.push_back(Rod({kButtonsAt + button.x(), button.y(), kHeight},
                         {kButtonsAt + button.x(), button.y(), kHeight + 0.001}, 0.005, Paint::kDark));
-  parts.push_back(Led({kButtonsAt - 0.003, kHalfWidth, kLedHeight}, 0.006, 0));
-  for (const double side : {-1.0, 1.0}) parts.push_back(Led({0, side * 0.0319, kHeight - 0.004}, 0.009, 1));
-  parts.push_back(Led({kButtonsAt - 0.003, -kHalfWidth, kLedHeight}, 0.006, 2));
+  parts.push_back(Led({0.0459, kHalfWidth - 0.003, kLedHeight}, 0.006, 0));
+  for (const double side : {-1.0, 1.0}) parts.push_back(Led({0, side * 0.0319, kHeight - 0.007}, 0.009, 1));
+  parts.push_back(Led({0.0459, -kHalfWidth + 0.003, kLedHeight}, 0.006, 2));
   return parts;
 }
 

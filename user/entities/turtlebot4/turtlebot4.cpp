@@ -68,14 +68,14 @@ std::vector<MeshPart> Mesh(const std::vector<Vector2>& leds)
                         Paint::kRubber));
   }
   parts.push_back(Rod({0, 0, kElevation}, {0, 0, 0.02}, 0.155, Paint::kDark));
-  parts.push_back(Rod({0, 0, 0.02}, {0, 0, kShell - 0.008}, kRadius - 0.001, Paint::kBody));
+  parts.push_back(Rod({0, 0, 0.02}, {0, 0, kShell - 0.008}, 0.168, Paint::kBody));
   parts.push_back(Rod({0, 0, kShell - 0.008}, {0, 0, kShell}, 0.164, Paint::kShell));
   for (const ProximityRing::Sensor& sensor : InfraredSensors())
   {
     const SinCos direction = SinCosOf(sensor.direction);
     parts.push_back({.form = MeshPart::Form::kBall,
-                     .from = {0.166 * direction.cos, 0.166 * direction.sin, kSensorHeight},
-                     .radius = 0.0085,
+                     .from = {0.163 * direction.cos, 0.163 * direction.sin, kSensorHeight},
+                     .radius = 0.008,
                      .paint = Paint::kGlass});
   }
   parts.push_back(Rod({-0.02, 0, kShell}, {-0.02, 0, kDeck}, 0.12, Paint::kBody));
