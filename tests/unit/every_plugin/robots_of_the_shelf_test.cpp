@@ -27,18 +27,18 @@ namespace swarmanoid
 namespace
 {
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
-constexpr int kTicks = 20;
-constexpr double kSeconds = 0.1 * kTicks;
+constexpr double kNothing = std::numeric_limits<double>::infinity();
+constexpr int kTicksOfDrive = 20;
+constexpr double kSecondsOfDrive = 0.1 * kTicksOfDrive;
 
 // The readings of the robot in its last control step.
-struct Seen
+struct SeenByProbe
 {
   std::vector<double> proximity, ground, distances;
 };
-Seen& LastSeen()
+SeenByProbe& LastSeen()
 {
-  static Seen seen;
+  static SeenByProbe seen;
   return seen;
 }
 
@@ -67,13 +67,13 @@ REGISTER_CONTROLLER(CShelfProbe,
                     {.label = "shelf_probe",
                      .parameters = {{.name = "left", .default_value = "0"}, {.name = "right", .default_value = "0"}}})
 
-struct Place
+struct DrivenTo
 {
   Vector3 position;
   double yaw = 0;
 };
 
-struct Scene
+struct ShelfScene
 {
   std::string kind, library;
   std::string scanner = "beams='1'";  // parameters of the range scanner
@@ -85,13 +85,13 @@ class RobotsOfTheShelf : public testing::TestWithParam<const char*>
 {
 protected:
   // Returns where the robot is after the last tick.
-  Place Run(const Scene& scene) const
+  DrivenTo Run(const ShelfScene& scene) const
   {
     RegisterEverything();
     LastSeen() = {};
     const auto experiment =
         test::ExperimentText{
-            .framework = fmt::format("<maxclock>{}</maxclock><plugin_path>{}</plugin_path>", kTicks,
+            .framework = fmt::format("<maxclock>{}</maxclock><plugin_path>{}</plugin_path>", kTicksOfDrive,
                                      SWARMANOID_BUILD_FOLDER "/lib/swarmanoid"),
             .kinds = fmt::format("<{} library='{}'/>", scene.kind, scene.library),
             .controllers = test::Controller(
@@ -109,7 +109,7 @@ protected:
     while (simulator.Step())
       ;
     const CSwarmanoidSpaceEntity& robot = *simulator.GetSpace().FindEntity("it");
-    const Place place{robot.GetPosition() - Vector3(5, 5, 0), YawOf(robot.GetOrientation())};
+    const DrivenTo place{robot.GetPosition() - Vector3(5, 5, 0), YawOf(robot.GetOrientation())};
     simulator.Finish();
     return place;
   }
@@ -124,7 +124,7 @@ protected:
 };
 
 // Returns a wall across the way of the robot with its near face at x, ahead or behind.
-std::string WallAt(double x, double height = 0.5)
+std::string WallAcross(double x, double height = 0.5)
 {
   return fmt::format("<wall id='w' position='{}, 5, {}' size='0.1, 2, {}'/>", 5 + x + std::copysign(0.05, x),
                      height / 2, height);
@@ -137,7 +137,7 @@ double ReadingOf(double wall, double x, double angle, double range)
   return distance < range ? 1 - distance / range : 0;
 }
 
-const EntityKindDescription& RowOf(const char* tag)
+const EntityKindDescription& RowOfTag(const char* tag)
 {
   RegisterEverything();
   return DescriptionOf(*KindOfTag(tag));
@@ -183,7 +183,7 @@ TEST(RobotsOfTheShelfRows, AreDrawnAsLargeAsTheyArePublished)
        {Published{"thymio_ii", {0.112, 0.112, 0.053}, 0.005}, Published{"turtlebot4", {0.342, 0.339, 0.351}, 0.005},
         Published{"epuck2", {0.071, 0.071, 0.045}, 0.002}, Published{"khepera_iv", {0.1408, 0.1408, 0.058}, 0.005}})
   {
-    const Eigen::AlignedBox3d box = DrawnBox(RowOf(published.tag));
+    const Eigen::AlignedBox3d box = DrawnBox(RowOfTag(published.tag));
     for (int k = 0; k < 3; ++k)
       EXPECT_NEAR(box.max()[k] - (k == 2 ? 0 : box.min()[k]), published.size[k], published.tolerance)
           << published.tag << " " << k;
@@ -193,17 +193,17 @@ TEST(RobotsOfTheShelfRows, AreDrawnAsLargeAsTheyArePublished)
 
 TEST(RobotsOfTheShelfRows, HaveThePublishedMasses)
 {
-  EXPECT_NEAR(RowOf("thymio_ii").mass_kg, 0.25, 0.005);
-  EXPECT_EQ(RowOf("turtlebot4").mass_kg, 3.945);
-  EXPECT_EQ(RowOf("epuck2").mass_kg, 0.13);
-  EXPECT_EQ(RowOf("epuck").mass_kg, 0.15);
+  EXPECT_NEAR(RowOfTag("thymio_ii").mass_kg, 0.25, 0.005);
+  EXPECT_EQ(RowOfTag("turtlebot4").mass_kg, 3.945);
+  EXPECT_EQ(RowOfTag("epuck2").mass_kg, 0.13);
+  EXPECT_EQ(RowOfTag("epuck").mass_kg, 0.15);
 }
 
 // The axle is 30 mm before the back and 80 mm behind the front.
 TEST(RobotsOfTheShelfRows, TheThymioHasItsWheelsAtTheBack)
 {
   Eigen::AlignedBox3d outline;
-  for (const Vector3& corner : RowOf("thymio_ii").corners) outline.extend(corner);
+  for (const Vector3& corner : RowOfTag("thymio_ii").corners) outline.extend(corner);
   EXPECT_NEAR((outline.min() - Vector3(-0.03, -0.055, 0)).norm(), 0, 1e-9);
   EXPECT_NEAR((outline.max() - Vector3(0.08, 0.055, 0.053)).norm(), 0, 1e-9);
 }
@@ -211,7 +211,7 @@ TEST(RobotsOfTheShelfRows, TheThymioHasItsWheelsAtTheBack)
 TEST_P(RobotsOfTheShelf, ThymiosSenseAWallAheadByTheirFiveFrontSensors)
 {
   constexpr double kWall = 0.11;
-  Run({.kind = "thymio_ii", .library = "thymio_ii", .things = WallAt(kWall)});
+  Run({.kind = "thymio_ii", .library = "thymio_ii", .things = WallAcross(kWall)});
   const std::vector<double> expected = {ReadingOf(kWall, 0.063, 0.66323, 0.12),
                                         ReadingOf(kWall, 0.0756, 0.33161, 0.12),
                                         ReadingOf(kWall, 0.08, 0, 0.12),
@@ -226,7 +226,7 @@ TEST_P(RobotsOfTheShelf, ThymiosSenseAWallAheadByTheirFiveFrontSensors)
 TEST_P(RobotsOfTheShelf, ThymiosSenseAWallBehindByTheirTwoRearSensors)
 {
   constexpr double kWall = -0.1;
-  Run({.kind = "thymio_ii", .library = "thymio_ii", .things = WallAt(kWall)});
+  Run({.kind = "thymio_ii", .library = "thymio_ii", .things = WallAcross(kWall)});
   ASSERT_EQ(LastSeen().proximity.size(), 7U);
   for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(LastSeen().proximity[i], 0) << i;
   for (std::size_t i = 5; i < 7; ++i) EXPECT_NEAR(LastSeen().proximity[i], 1 - 0.07 / 0.12, 0.01) << i;
@@ -234,9 +234,9 @@ TEST_P(RobotsOfTheShelf, ThymiosSenseAWallBehindByTheirTwoRearSensors)
 
 TEST_P(RobotsOfTheShelf, ThymiosTurnAboutTheirAxleAndDriveAtMost20CmInASecond)
 {
-  EXPECT_NEAR(FurthestDrive("thymio_ii", "thymio_ii"), 0.2 * kSeconds, OfDrive(0.2 * kSeconds));
-  const Place place = Run({.kind = "thymio_ii", .library = "thymio_ii", .left = -0.02, .right = 0.02});
-  const double turned = 0.04 / 0.0935 * kSeconds;
+  EXPECT_NEAR(FurthestDrive("thymio_ii", "thymio_ii"), 0.2 * kSecondsOfDrive, OfDrive(0.2 * kSecondsOfDrive));
+  const DrivenTo place = Run({.kind = "thymio_ii", .library = "thymio_ii", .left = -0.02, .right = 0.02});
+  const double turned = 0.04 / 0.0935 * kSecondsOfDrive;
   EXPECT_NEAR(place.yaw, turned, IsKinematic() ? 1e-9 : 0.08 * turned);
   EXPECT_NEAR(place.position.norm(), 0, 0.003);
 }
@@ -245,8 +245,8 @@ TEST_P(RobotsOfTheShelf, ThymiosTurnAboutTheirAxleAndDriveAtMost20CmInASecond)
 TEST_P(RobotsOfTheShelf, ThymiosThatDriveBackStopWithTheirBackAtTheWall)
 {
   const bool is_plane = GetParam() != std::string("dynamics3d");
-  const Place place =
-      Run({.kind = "thymio_ii", .library = "thymio_ii", .things = WallAt(-0.13), .left = -0.1, .right = -0.1});
+  const DrivenTo place =
+      Run({.kind = "thymio_ii", .library = "thymio_ii", .things = WallAcross(-0.13), .left = -0.1, .right = -0.1});
   EXPECT_NEAR(place.position.x(), -0.13 + (is_plane ? 0.08 : 0.03), 0.004);
 }
 
@@ -261,7 +261,7 @@ TEST_P(RobotsOfTheShelf, ThymiosSeeALineUnderOneOfTheirGroundSensors)
 TEST_P(RobotsOfTheShelf, TurtleBotsSenseAWallByTheInfraredSensorsThatReachIt)
 {
   constexpr double kWall = 0.2;
-  Run({.kind = "turtlebot4", .library = "turtlebot4", .things = WallAt(kWall)});
+  Run({.kind = "turtlebot4", .library = "turtlebot4", .things = WallAcross(kWall)});
   const double left = ReadingOf(kWall, 0.099, 0.873, 0.2), front_left = ReadingOf(kWall, 0.1396, 0.436, 0.2);
   const std::vector<double> expected = {0, left, front_left, ReadingOf(kWall, 0.154, 0, 0.2), front_left, left, 0};
   ASSERT_EQ(LastSeen().proximity.size(), expected.size());
@@ -274,22 +274,22 @@ TEST_P(RobotsOfTheShelf, TurtleBotsScanWhatIsAsHighAsTheirScannerUpTo12M)
   const std::string scanner = "beams='4' range='12' nearest='0.15' position='-0.04, 0, 0.193'";
   const auto scan = [&](double wall, double height)
   {
-    Run({.kind = "turtlebot4", .library = "turtlebot4", .scanner = scanner, .things = WallAt(wall, height)});
+    Run({.kind = "turtlebot4", .library = "turtlebot4", .scanner = scanner, .things = WallAcross(wall, height)});
     return LastSeen().distances;
   };
   std::vector<double> distances = scan(1.5, 0.5);
   ASSERT_EQ(distances.size(), 4U);
   EXPECT_NEAR(distances[2], 1.54, 1e-3);
-  for (const std::size_t aside : {0U, 1U, 3U}) EXPECT_EQ(distances[aside], kFar) << aside;
+  for (const std::size_t aside : {0U, 1U, 3U}) EXPECT_EQ(distances[aside], kNothing) << aside;
   EXPECT_NEAR(scan(-1.5, 0.5)[0], 1.46, 1e-3);
-  EXPECT_EQ(scan(1.5, 0.19)[2], kFar);
+  EXPECT_EQ(scan(1.5, 0.19)[2], kNothing);
 }
 
 TEST_P(RobotsOfTheShelf, TurtleBotsDriveAtMost306MmInASecondAndTurnByTheirAxle)
 {
-  EXPECT_NEAR(FurthestDrive("turtlebot4", "turtlebot4"), 0.306 * kSeconds, OfDrive(0.306 * kSeconds));
-  const Place place = Run({.kind = "turtlebot4", .library = "turtlebot4", .left = -0.05, .right = 0.05});
-  const double turned = 0.1 / 0.233 * kSeconds;
+  EXPECT_NEAR(FurthestDrive("turtlebot4", "turtlebot4"), 0.306 * kSecondsOfDrive, OfDrive(0.306 * kSecondsOfDrive));
+  const DrivenTo place = Run({.kind = "turtlebot4", .library = "turtlebot4", .left = -0.05, .right = 0.05});
+  const double turned = 0.1 / 0.233 * kSecondsOfDrive;
   EXPECT_NEAR(place.yaw, turned, IsKinematic() ? 1e-9 : 0.08 * turned);
 }
 
@@ -304,8 +304,8 @@ TEST_P(RobotsOfTheShelf, TurtleBotsSeeAHoleByTheCliffSensorAboveIt)
 // 1,200 steps of a motor are 1.2 turns of a wheel.
 TEST_P(RobotsOfTheShelf, EPuck2sDriveAtMost1200StepsInASecond)
 {
-  const double expected = 1.2 * 2 * kPi * 0.0205 * kSeconds;
-  EXPECT_NEAR(expected, 0.154 * kSeconds, 0.002);
+  const double expected = 1.2 * 2 * kPi * 0.0205 * kSecondsOfDrive;
+  EXPECT_NEAR(expected, 0.154 * kSecondsOfDrive, 0.002);
   EXPECT_NEAR(FurthestDrive("epuck2", "epuck"), expected, OfDrive(expected));
 }
 
@@ -316,11 +316,11 @@ TEST_P(RobotsOfTheShelf, EPuck2sMeasureDistancesAheadUpTo2M)
     Run({.kind = "epuck2",
          .library = "epuck",
          .scanner = "beams='1' range='2' position='0.034, -0.0018, 0.033'",
-         .things = WallAt(wall)});
+         .things = WallAcross(wall)});
     return LastSeen().distances.at(0);
   };
   EXPECT_NEAR(measure(1.534), 1.5, 1e-3);
-  EXPECT_EQ(measure(2.1), kFar);
+  EXPECT_EQ(measure(2.1), kNothing);
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, RobotsOfTheShelf, testing::Values("kinematics2d", "dynamics2d", "dynamics3d"),
