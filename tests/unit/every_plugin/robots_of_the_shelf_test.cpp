@@ -65,7 +65,8 @@ private:
 };
 REGISTER_CONTROLLER(CShelfProbe,
                     {.label = "shelf_probe",
-                     .parameters = {{.name = "left", .default_value = "0"}, {.name = "right", .default_value = "0"}}})
+                     .parameters = {{.name = "left", .default_value = "0", .minimum = -10, .maximum = 10},
+                                    {.name = "right", .default_value = "0", .minimum = -10, .maximum = 10}}})
 
 struct DrivenTo
 {
