@@ -27,7 +27,7 @@ WheeledShape ShapeOf(const CSwarmanoidSpaceEntity& entity)
           .wheel_radius = FootbotShape::kWheelRadius,
           .half_track = FootbotShape::kHalfTrack,
           .caster_radius = FootbotShape::kCasterRadius,
-          .caster_reach = FootbotShape::kCasterReach,
+          .caster_reach = {FootbotShape::kCasterReach, FootbotShape::kCasterReach},
           .chassis_mass = scale * FootbotShape::kChassisMass,
           .wheel_mass = scale * FootbotShape::kWheelMass,
           .centre_of_mass = FootbotShape::kCentreOfMass,

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "common/math/elementary.h"
@@ -32,6 +33,11 @@ constexpr double kFreeSpeed = 2;
 
 // Casters are soft enough to leave the weight to the wheels, and so stiff that stalled motors tilt the robot by that.
 constexpr double kStallTilt = 0.02;  // rad
+
+// A caster stands at this part of the way from the axle to the end of the body, but at least a wheel's radius away.
+constexpr double kCasterPlace = 7.0 / 8;
+
+double ShorterReach(const WheeledShape& shape) { return std::min(shape.caster_reach[0], shape.caster_reach[1]); }
 
 // Returns the force (N) that both motors together can exert on the ground, if it holds.
 double StallForce(const WheeledShape& shape)
@@ -56,7 +62,18 @@ WheeledShape WheeledShape::Of(const CSwarmanoidSpaceEntity& entity, double densi
   shape.half_track = kind.wheels->axle_m / 2;
   shape.clearance = std::min(shape.wheel_radius / 2, shape.size.z() / 4);
   shape.caster_radius = shape.clearance * 2 / 3;
-  shape.caster_reach = half_length * 7 / 8;
+  shape.caster_reach = {kCasterPlace * half_length, kCasterPlace * half_length};
+  if (shape.hull)
+  {
+    double front = 0, back = 0;
+    for (const Vector3& corner : shape.hull->corners)
+    {
+      front = std::max(front, corner.x());
+      back = std::max(back, -corner.x());
+    }
+    for (const auto& [reach, end] : {std::pair(&shape.caster_reach[0], front), std::pair(&shape.caster_reach[1], back)})
+      *reach = std::max(shape.wheel_radius, kCasterPlace * end);
+  }
   shape.wheel_mass = mass / 8;
   shape.chassis_mass = mass - 2 * shape.wheel_mass;
   shape.centre_of_mass = shape.size.z() / 3;
@@ -110,7 +127,7 @@ bool KeepsItsWheelsDown(const WheeledShape& shape, const WorldSettings& settings
   const double across = drive.mass * speed * speed / (4 * shape.half_track);
   const double height =
       (shape.chassis_mass * shape.centre_of_mass + 2 * shape.wheel_mass * shape.wheel_radius) / drive.mass;
-  const double load = std::min(kUsableWeight * weight, weight - braking * height / shape.caster_reach);
+  const double load = std::min(kUsableWeight * weight, weight - braking * height / ShorterReach(shape));
   const double grip = 0.95 * settings.wheel_friction * load;
   return load > 0 && braking * braking + across * across < grip * grip &&
          2 * across * height < weight * shape.half_track;
@@ -173,7 +190,7 @@ WheeledModel::WheeledModel(Scene& scene, const CSwarmanoidSpaceEntity& entity, c
   }
 
   const double stall_torque = StallForce(shape) * shape.wheel_radius;
-  const double lever = shape.caster_reach * shape.caster_reach;
+  const double lever = ShorterReach(shape) * ShorterReach(shape);
   Touch touch;
   touch.caster_stiffness = stall_torque / (lever * kStallTilt);
   world.BeginEntity(Entity(), touch);
@@ -189,7 +206,7 @@ WheeledModel::WheeledModel(Scene& scene, const CSwarmanoidSpaceEntity& entity, c
   if (hull) middle.position = hull->Centre() - Vector3(0, 0, shape.centre_of_mass);
   world.AddSolid(body, bodies_[0].number, ELayer::kRobot, ESurface::kPlain, middle);
   world.KeepShape(hull);
-  for (const double x : {shape.caster_reach, -shape.caster_reach})
+  for (const double x : {shape.caster_reach[0], -shape.caster_reach[1]})
     world.AddSolid(dCreateSphere(nullptr, shape.caster_radius), bodies_[0].number, ELayer::kWheel, ESurface::kCaster,
                    in_chassis(x, shape.caster_radius));
   for (std::size_t wheel = 1; wheel <= 2; ++wheel)

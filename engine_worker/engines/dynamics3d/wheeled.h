@@ -21,7 +21,7 @@ struct WheeledShape
   double wheel_radius = 0;
   double half_track = 0;
   double caster_radius = 0;
-  double caster_reach = 0;
+  std::array<double, 2> caster_reach = {};  // from the axle to the front one and to the back one
   double chassis_mass = 0;
   double wheel_mass = 0;  // of each, with motor and tread
   double centre_of_mass = 0;

@@ -153,22 +153,32 @@ bool CanHave(const PluginDescription& device, EntityKind robot, const PluginDesc
          (device.channel.empty() || Has(engine.channels, device.channel));
 }
 
-}  // namespace
-
-void RegisterEverything()
+// Registers everything at the first call. Returns the names of the libraries of entity kinds by the tags of the kinds.
+const std::map<std::string, std::string, std::less<>>& LibrariesOfKinds()
 {
-  static const bool done = []
+  static const auto libraries = []
   {
     RegisterBuiltins();
     namespace fs = std::filesystem;
     const std::vector<std::string> folders = {SWARMANOID_BUILD_FOLDER "/lib/swarmanoid"};
+    std::map<std::string, std::string, std::less<>> of_kinds;
     for (const char* folder : {"controllers", "entities", "functions"})
       for (const auto& entry : fs::directory_iterator(fs::path(SWARMANOID_SOURCE_FOLDER) / "user" / folder))
-        EXPECT_EQ(LoadPluginLibrary(entry.path().filename().string(), folders).error, "");
-    return true;
+      {
+        const std::string name = entry.path().filename().string();
+        const PluginLibrary& library = LoadPluginLibrary(name, folders);
+        EXPECT_EQ(library.error, "");
+        for (const auto& [kind, label] : library.registrations.labels)
+          if (kind == PluginKind::kEntityKind) of_kinds.emplace(label, name);
+      }
+    return of_kinds;
   }();
-  static_cast<void>(done);
+  return libraries;
 }
+
+}  // namespace
+
+void RegisterEverything() { LibrariesOfKinds(); }
 
 std::vector<EntityKind> AllKinds()
 {
@@ -281,7 +291,8 @@ std::unique_ptr<Experiment> Read(const SmallScene& scene)
   };
   std::string kinds;
   for (const EntityKind kind : AllKinds())
-    if (!IsBuiltIn(kind)) kinds += fmt::format("<{0} library='{0}'/>", TagName(kind));
+    if (!IsBuiltIn(kind))
+      kinds += fmt::format("<{} library='{}'/>", TagName(kind), LibrariesOfKinds().find(TagName(kind))->second);
   return test::ExperimentText{
       .framework = fmt::format("<maxclock>{}</maxclock><plugin_path>{}</plugin_path>{}", scene.ticks,
                                SWARMANOID_BUILD_FOLDER "/lib/swarmanoid", scene.framework),

@@ -1,7 +1,9 @@
-// The e-puck, a small wheeled robot for teaching: a kind of robot that a library adds to the simulator. This row has
-// all that the simulator knows about it. Lengths are in metres. The figures are from
-// https://cyberbotics.com/doc/guide/epuck (the page of Webots, a simulator with a model of it), tables "E-puck
-// features", "E-puck characteristics" and "Devices orientations".
+// The e-puck, a small wheeled robot for teaching, and its successor, the e-puck2: kinds of robots that a library adds
+// to the simulator. These rows have all that the simulator knows about them. Lengths are in metres. The figures are
+// from https://cyberbotics.com/doc/guide/epuck (the page of Webots, a simulator with a model of it), tables "E-puck
+// features", "E-puck characteristics" and "Devices orientations". Section "e-puck2" has the mass and the speed of the
+// e-puck2; the place of its time-of-flight sensor is from projects/robots/gctronic/e-puck/protos/E-puck.proto of
+// Webots, revision 01310723.
 #include "common/experiment/entity_kind.h"
 #include "common/math/elementary.h"
 
@@ -30,7 +32,7 @@ MeshPart Rod(const Vector3& from, const Vector3& to, double radius, MeshPart::Pa
   return {.form = MeshPart::Form::kRod, .from = from, .to = to, .radius = radius, .paint = paint};
 }
 
-// Wheels, a lower body with the batteries, a green ring of electronics with the LEDs around it, and the camera.
+// The parts of both: wheels, a lower body with the battery, a green board, a ring with the LEDs, and the camera.
 std::vector<MeshPart> Mesh(const std::vector<Vector2>& leds)
 {
   using Paint = MeshPart::Paint;
@@ -44,8 +46,6 @@ std::vector<MeshPart> Mesh(const std::vector<Vector2>& leds)
   parts.push_back({.from = {-0.026, -0.022, 0.006}, .to = {0.026, 0.022, 0.030}, .paint = Paint::kShell});
   parts.push_back(Rod({0, 0, 0.029}, {0, 0, 0.034}, 0.0335, Paint::kBody));
   parts.push_back(Rod({0, 0, 0.034}, {0, 0, 0.038}, kRadius, Paint::kShell));
-  parts.push_back(Rod({0, 0, 0.038}, {0, 0, 0.046}, 0.030, Paint::kBody));
-  parts.push_back(Rod({-0.012, 0, 0.046}, {-0.012, 0, kHeight}, 0.008, Paint::kDark));
   parts.push_back({.from = {0.024, -0.005, 0.021}, .to = {0.034, 0.005, 0.029}, .paint = Paint::kDark});
   for (std::size_t led = 0; led < leds.size(); ++led)
     parts.push_back({.form = MeshPart::Form::kBall,
@@ -75,9 +75,38 @@ EntityKindDescription EPuck()
   // The ground sensors are those of the extension with three sensors below the front.
   kind.ground_points = {{0.03, 0.01}, {0.03, 0}, {0.03, -0.01}};
   kind.mesh = Mesh(kind.leds->places);
+  // The upper board with the selector.
+  kind.mesh.push_back(Rod({0, 0, 0.038}, {0, 0, 0.046}, 0.030, MeshPart::Paint::kBody));
+  kind.mesh.push_back(Rod({-0.012, 0, 0.046}, {-0.012, 0, kHeight}, 0.008, MeshPart::Paint::kDark));
+  return kind;
+}
+
+// The same body without the upper board. Its time-of-flight sensor is the sensor range_scanner with one beam, at
+// 0.034, -0.0018, 0.033 with a range of 2 m. Its four microphones together are one of the sensors microphone.
+EntityKindDescription EPuck2()
+{
+  constexpr double kStepsInTurn = 1000, kStepsInSecond = 1200;
+  constexpr double kTop = 0.045;
+  EntityKindDescription kind = EPuck();
+  kind.tag = "epuck2";
+  kind.word = "EPuck2";
+  kind.description =
+      "An e-puck2: the successor of the e-puck, with the same sensors and LEDs, and a distance sensor ahead (the "
+      "sensor "
+      "range_scanner). The position is the centre of its base.";
+  kind.size.z() = kTop;
+  kind.mass_kg = 0.13;
+  kind.colour = 0x237a3b;
+  kind.wheels->max_speed_m_s = kStepsInSecond / kStepsInTurn * 2 * kPi * kWheelRadius;
+  kind.mesh = Mesh(kind.leds->places);
+  kind.mesh.push_back(Rod({0, 0, 0.038}, {0, 0, 0.0395}, 0.034, MeshPart::Paint::kBody));
+  kind.mesh.push_back({.from = {-0.012, -0.015, 0.0395}, .to = {0.010, -0.009, kTop}, .paint = MeshPart::Paint::kDark});
+  kind.mesh.push_back(
+      {.from = {0.033, -0.004, 0.031}, .to = {0.0352, 0.0004, 0.035}, .paint = MeshPart::Paint::kGlass});
   return kind;
 }
 
 }  // namespace
 
 REGISTER_ENTITY_KIND(epuck, EPuck())
+REGISTER_ENTITY_KIND(epuck2, EPuck2())
