@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "common/configuration/wording.h"
+#include "common/version/version.h"
 
 namespace swarmanoid
 {
@@ -73,6 +74,16 @@ std::string MemberNameMistake(const std::string& name)
     begin = end + 1;
   }
   return {};
+}
+
+void CheckFormat(const Json& list, const char* format, unsigned version, const char* files)
+{
+  if (list.at("format") != format) throw std::runtime_error("its format has another name");
+  if (const std::uint64_t there = CountIn(list, "version"); there != version)
+    throw std::runtime_error(
+        fmt::format("it is of version {} of {}, made by Swarmanoid {}; this is Swarmanoid {}, which reads version {}{}",
+                    there, files, Quoted(list.value("swarmanoid", "")), Version(), version,
+                    there > version ? "; install a newer Swarmanoid" : ""));
 }
 
 std::uint64_t CountIn(const Json& json, const char* name)

@@ -29,6 +29,9 @@ std::string MemberNameMistake(const std::string& name);
 // name is not allowed, if a size is no count or 2^40 bytes and more, or if names are not in ascending order.
 nlohmann::ordered_json MembersJson(const std::vector<ArchiveMember>& members);
 std::vector<ArchiveMember> MembersOf(const nlohmann::ordered_json& json);
+// Throws std::runtime_error, or an exception of nlohmann::json, unless a list names this format and version. `files`:
+// "archives" or "packages", for the error.
+void CheckFormat(const nlohmann::ordered_json& list, const char* format, unsigned version, const char* files);
 // Returns a member of an object that must be a count. Throws std::runtime_error.
 std::uint64_t CountIn(const nlohmann::ordered_json& json, const char* name);
 

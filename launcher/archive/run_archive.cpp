@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "common/configuration/wording.h"
-#include "common/version/version.h"
 
 namespace swarmanoid
 {
@@ -60,12 +59,7 @@ ArchiveIndex ArchiveIndex::Parse(const std::string& text)
   try
   {
     const Json json = Json::parse(text);
-    if (json.at("format") != kFormat) throw std::runtime_error("its format has another name");
-    if (const std::uint64_t version = CountIn(json, "version"); version != kArchiveVersion)
-      throw std::runtime_error(fmt::format(
-          "it is of version {} of archives, made by Swarmanoid {}; this is Swarmanoid {}, which reads version {}{}",
-          version, Quoted(json.value("swarmanoid", "")), Version(), kArchiveVersion,
-          version > kArchiveVersion ? "; install a newer Swarmanoid" : ""));
+    CheckFormat(json, kFormat, kArchiveVersion, "archives");
     ArchiveIndex index;
     index.version = json.at("swarmanoid").get<std::string>();
     index.revision = json.at("revision").get<std::string>();

@@ -7,7 +7,6 @@
 
 #include "common/configuration/shown_text.h"
 #include "common/configuration/wording.h"
-#include "common/version/version.h"
 
 namespace swarmanoid
 {
@@ -98,12 +97,7 @@ PackageManifest PackageManifest::Parse(const std::string& text)
   try
   {
     const Json json = Json::parse(text);
-    if (json.at("format") != kPackageFormat) throw std::runtime_error("its format has another name");
-    if (const std::uint64_t version = CountIn(json, "version"); version != kPackageVersion)
-      throw std::runtime_error(fmt::format(
-          "it is of version {} of packages, made by Swarmanoid {}; this is Swarmanoid {}, which reads version {}{}",
-          version, Quoted(json.value("swarmanoid", "")), Version(), kPackageVersion,
-          version > kPackageVersion ? "; install a newer Swarmanoid" : ""));
+    CheckFormat(json, kPackageFormat, kPackageVersion, "packages");
     PackageManifest manifest;
     manifest.swarmanoid = json.at("swarmanoid").get<std::string>();
     manifest.name = json.at("name").get<std::string>();

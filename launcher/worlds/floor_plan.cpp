@@ -11,9 +11,9 @@
 
 #include "common/configuration/regular_file.h"
 #include "common/configuration/wording.h"
-#include "common/configuration/xml_writer.h"
 #include "common/space/terrain/jpeg_picture.h"
 #include "common/space/terrain/rectangles.h"
+#include "launcher/worlds/world.h"
 
 namespace swarmanoid
 {
@@ -173,13 +173,8 @@ FloorPlan PlanFromPicture(const GreyPicture& picture, const FloorPlanOptions& op
   // Ten digits keep positions exact to a micrometre, without the rounding errors of products.
   const auto number = [](double metres) { return fmt::format("{:.10g}", metres); };
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
-  std::string shown = source;
-  for (std::size_t at = 0; (at = shown.find("--", at)) != std::string::npos;) shown.replace(at, 2, "-_");
-  text += fmt::format(
-      "<!-- Made from {} by `swarmanoid convert`: {} x {} pixels of {} m.\n     Add <controllers> and robots to "
-      "<arena>. "
-      "-->\n",
-      EscapedXml(Quoted(shown)), picture.columns, picture.rows, number(pixel));
+  text +=
+      ConvertedComment(source, fmt::format(": {} x {} pixels of {} m.", picture.columns, picture.rows, number(pixel)));
   text += "<ahss-config>\n  <framework clocktick=\"100\" maxclock=\"600\" seed=\"1\"/>\n";
   text += fmt::format("  <arena size=\"{}, {}, {}\" optimization=\"2D\">\n", number(picture.columns * pixel),
                       number(picture.rows * pixel), number(std::max(1.0, options.height_m)));

@@ -209,15 +209,10 @@ private:
 
   std::string Comment() const
   {
-    std::string source = output_.source;
-    // A comment must not hold two hyphens.
-    for (std::size_t at = 0; (at = source.find("--", at)) != std::string::npos;) source.replace(at, 2, "-_");
-    const std::string shift = shift_.isZero() ? std::string("Positions are those of the file.")
-                                              : fmt::format("Positions of the file plus {}, {}, 0 are those here.",
-                                                            Shown(shift_.x()), Shown(shift_.y()));
-    return fmt::format(
-        "<!-- Made from {} by `swarmanoid convert`. {}\n     Add <controllers> and robots to <arena>. -->\n",
-        EscapedXml(Quoted(source)), shift);
+    return ConvertedComment(output_.source, shift_.isZero()
+                                                ? ". Positions are those of the file."
+                                                : fmt::format(". Positions of the file plus {}, {}, 0 are those here.",
+                                                              Shown(shift_.x()), Shown(shift_.y())));
   }
 
   World& world_;
@@ -260,6 +255,15 @@ void World::AddMesh(WorldBody body, const std::string& path, const Vector3& scal
   }
   notes.push_back({body.location, "a mesh collides as its convex hull: its hollows are filled"});
   bodies.push_back(std::move(body));
+}
+
+std::string ConvertedComment(const std::string& source, const std::string& about)
+{
+  std::string shown = source;
+  // A comment must not hold two hyphens.
+  for (std::size_t at = 0; (at = shown.find("--", at)) != std::string::npos;) shown.replace(at, 2, "-_");
+  return fmt::format("<!-- Made from {} by `swarmanoid convert`{}\n     Add <controllers> and robots to <arena>. -->\n",
+                     EscapedXml(Quoted(shown)), about);
 }
 
 std::string ExperimentOfWorld(World& world, const WorldOutput& output) { return Writer(world, output).Write(); }

@@ -67,6 +67,9 @@ struct WorldOutput
   std::string source;  // the name of the world file, for the comment at the start
 };
 
+// Returns the comment at the start of an experiment that is made from a file. `about` says how, without two hyphens.
+std::string ConvertedComment(const std::string& source, const std::string& about);
+
 // Returns the text of an experiment with the bodies and lights of a world, in the engine dynamics3d. The arena begins
 // at 0, 0, so whole metres are added to x and y. Bodies whose position is below the floor z = 0 become notes.
 std::string ExperimentOfWorld(World& world, const WorldOutput& output);
