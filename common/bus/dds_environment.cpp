@@ -31,7 +31,7 @@ std::vector<std::string> DdsVariablesThatAreSet()
 
 HiddenDdsVariables::HiddenDdsVariables() : lock_(TheMutex())
 {
-  if (std::getenv(kNoProfiles) == nullptr) setenv(kNoProfiles, "1", 0);
+  setenv(kNoProfiles, "1", 0);  // changes nothing if it is set
   const char* kept = std::getenv(kKeepDdsVariables);
   if (kept != nullptr && std::string_view(kept) == "1") return;
   if (const std::string value = std::getenv(kNoProfiles); value != "1")

@@ -142,8 +142,8 @@ EntityKindDescription Eyebot()
                     kInstruction};
   row.leds = LedLayout{PlacesOnCircle(16, 0.255, kPi / 16), 0.1535, false};
   row.proximity = RingOfSensors(24, 0.255, 0.1635, 3);
-  row.propellers = Propellers{.max_thrust_n = 10.791,  // 2.2 times the weight
-                                                       // A cylinder of radius 0.18 m and height 0.3 m.
+  // The thrust is 2.2 times the weight, and the inertia that of a cylinder of radius 0.18 m and height 0.3 m.
+  row.propellers = Propellers{.max_thrust_n = 10.791,
                               .inertia_kg_m2 = {0.0078, 0.0078, 0.0081},
                               .centre_of_mass_m = 0.2,
                               .plane_force_n = 5,

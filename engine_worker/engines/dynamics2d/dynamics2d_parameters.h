@@ -11,7 +11,7 @@
 namespace swarmanoid::dynamics2d
 {
 
-// What propellers exert along the plane at most.
+// The greatest force and torque that propellers exert along the plane.
 struct PropellerForces
 {
   double force_n = 0;
