@@ -24,7 +24,7 @@ namespace
 // A mirror that jumps farther than this in a tick was put elsewhere; it pushes nothing on its way.
 constexpr double kMirrorJump_m = 0.5;
 constexpr double kSameOutline_m = 1e-6;
-constexpr std::uint32_t kDynamics2dVersion = 5;  // of saved states
+constexpr std::uint32_t kDynamics2dVersion = 6;  // of saved states
 constexpr std::size_t kMostCorners = 6;          // of the cut of a box
 
 }  // namespace
