@@ -29,9 +29,6 @@ constexpr double kPushed = 0.02;
 constexpr double kSkin = 2 * kPolygonSkin;
 // If a body goes faster than this (m/s), all bodies are one group: the cells around it would hold too many.
 constexpr double kFastest = 2;
-const double kGripperRadius = std::sqrt(0.5) * kGripperSide;
-
-double Length(double x, double y) { return std::sqrt(x * x + y * y); }
 
 StaticOutline OutlineInPlane(const Body& body)
 {

@@ -28,8 +28,6 @@ namespace
 constexpr std::size_t kChunk = 64;        // isolated bodies that a thread takes at once
 constexpr std::size_t kLeastShared = 32;  // bodies; with fewer, waking threads takes longer
 
-double Length(double x, double y) { return std::sqrt(x * x + y * y); }
-
 // The law of the ground (group_solver.cpp), and x += h v, within the limits for a step.
 void AdvanceByStep(Body& body, double seconds, const ChordOfStep& chord)
 {

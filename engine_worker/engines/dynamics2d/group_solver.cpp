@@ -50,11 +50,6 @@ constexpr double kHoldGain = 0.2;        // part of the error of a held turret t
 constexpr double kHoldSpeed = 1.0;       // rad/s, at most
 constexpr double kOverload = 0.999;      // of the motor's torque: the turret slips
 constexpr std::size_t kFewBodies = 24;   // all pairs of so many are compared
-constexpr double kMostOfInside = 0.5;    // of the inner radius of a body, that it goes in a step
-constexpr int kMostCuts = 32;            // of a step
-const double kGripperRadius = std::sqrt(0.5) * kGripperSide;
-
-double Length(double x, double y) { return std::sqrt(x * x + y * y); }
 
 void SetAngle(Mover& mover, double angle)
 {
@@ -110,9 +105,7 @@ public:
         KeepContacts();
         FindCandidates();
       }
-      // A body that is fast for its size makes several shorter steps.
-      const int cuts = CutsOfStep();
-      for (int cut = 0; cut < cuts; ++cut) Step(seconds_ / cuts, cuts);
+      Step();
       for (std::size_t i = 0; i < run_.bodies.size(); ++i)
         run_.goes_too_far = run_.goes_too_far || IsTooFar(run_.movers[i], run_.ways[i]);
     }
@@ -137,6 +130,8 @@ private:
     mover.moves = model.motion == EMotion::kDynamic && body.solid;
     if (mover.moves)
     {
+      mover.mass = model.mass;
+      mover.inertia = model.inertia;
       mover.inverse_mass = 1 / model.mass;
       mover.inverse_inertia = 1 / model.inertia;
       mover.chord = ChordOf(body.drive.turn * seconds_);
@@ -315,18 +310,6 @@ private:
     return seconds * (speed + turn * arm);
   }
 
-  int CutsOfStep()
-  {
-    double most = 1;
-    for (std::size_t i = 0; i < run_.bodies.size(); ++i)
-    {
-      const Mover& mover = run_.movers[i];
-      const double way = std::min(seconds_ * Length(mover.vx, mover.vy), kLongestStep);
-      most = std::max(most, way / (kMostOfInside * BodyOf(mover).inner_radius));
-    }
-    return std::min(static_cast<int>(std::ceil(std::min(most, 1.0 * kMostCuts))), kMostCuts);
-  }
-
   bool IsTooFar(const Mover& mover, const Way& way)
   {
     if (!mover.moves) return false;
@@ -335,10 +318,8 @@ private:
     return gone + seconds_ * (Length(mover.vx, mover.vy) + arm * std::abs(mover.turn)) > way.most;
   }
 
-  void Step(double h, int cuts)
+  void Step()
   {
-    step_ = h;
-    cuts_ = cuts;
     for (std::size_t i = 0; i < run_.bodies.size(); ++i) Prepare(run_.movers[i]);
     MakeGripRows();
     MakeContactRows();
@@ -366,12 +347,12 @@ private:
     mover.before = mover.place;
     mover.angle_before = mover.angle;
     mover.ground_x = mover.ground_y = mover.ground_turn = 0;
-    mover.way = WayOf(mover, body, step_);
+    mover.way = WayOf(mover, body, seconds_);
     if (!mover.moves) return;
     mover.wanted = {0, 0, body.drive.turn};
     if (body.drive.forward != 0 || body.drive.left != 0)
     {
-      const ChordOfStep chord = cuts_ == 1 ? mover.chord : ChordOf(body.drive.turn * step_);
+      const ChordOfStep& chord = mover.chord;
       const double c = chord.shortening * (mover.place.cos * chord.cos - mover.place.sin * chord.sin);
       const double s = chord.shortening * (mover.place.sin * chord.cos + mover.place.cos * chord.sin);
       mover.wanted.u = c * body.drive.forward - s * body.drive.left;
@@ -380,10 +361,10 @@ private:
     FrictionShares shares{1, 1};
     if (body.model.lies && body.model.ground_force > 0)
       shares = SharesOf(body.model, mover.vx, mover.vy, mover.turn);
-    mover.most_force = step_ * shares.sliding * body.model.ground_force;
-    mover.most_turn = step_ * shares.turning * body.model.ground_torque;
+    mover.most_force = seconds_ * shares.sliding * body.model.ground_force;
+    mover.most_turn = seconds_ * shares.turning * body.model.ground_torque;
     if (body.gripped != kNoBody || body.turret_speed == 0 || !body.model.has_gripper) return;
-    body.turret_angle = WrapAngle(body.turret_angle + body.turret_speed * step_);
+    body.turret_angle = WrapAngle(body.turret_angle + body.turret_speed * seconds_);
     TurnTurret(mover, body.turret_angle);
   }
 
@@ -397,9 +378,9 @@ private:
       holder.is_bound = held.is_bound = true;
       grip.anchor_x = held.place.cos * body.grip.anchor_x - held.place.sin * body.grip.anchor_y;
       grip.anchor_y = held.place.sin * body.grip.anchor_x + held.place.cos * body.grip.anchor_y;
-      grip.impulse_x = body.grip_forces.x * step_;
-      grip.impulse_y = body.grip_forces.y * step_;
-      grip.impulse_turn = body.grip_forces.torque * step_;
+      grip.impulse_x = body.grip_forces.x * seconds_;
+      grip.impulse_y = body.grip_forces.y * seconds_;
+      grip.impulse_turn = body.grip_forces.torque * seconds_;
       grip.turn_mass = 1 / (holder.inverse_inertia + held.inverse_inertia);
       if (IsRod(body))
         AlignRod(grip, holder, held);
@@ -422,7 +403,7 @@ private:
     }
     const bool slips = std::abs(body.grip_forces.torque) >= kOverload * settings_.turret_torque;
     if (!body.held_angle || slips) body.held_angle = angle;
-    const double speed = kHoldGain * WrapAngle(*body.held_angle - angle) / step_;
+    const double speed = kHoldGain * WrapAngle(*body.held_angle - angle) / seconds_;
     return std::clamp(speed, -kHoldSpeed, kHoldSpeed);
   }
 
@@ -506,7 +487,7 @@ private:
     Impulse impulse{};
     if (body.model.has_turret_motor)
     {
-      const double most = step_ * settings_.turret_torque;
+      const double most = seconds_ * settings_.turret_torque;
       const double wanted = -grip.turn_mass * (held.turn - holder.turn - grip.motor_speed);
       const double turn = std::clamp(grip.impulse_turn + wanted, -most, most) - grip.impulse_turn;
       grip.impulse_turn += turn;
@@ -531,8 +512,8 @@ private:
   static double SolveGround(Mover& mover)
   {
     if (!mover.moves) return 0;
-    double x = mover.ground_x + (mover.wanted.u - mover.vx) / mover.inverse_mass;
-    double y = mover.ground_y + (mover.wanted.v - mover.vy) / mover.inverse_mass;
+    double x = mover.ground_x + mover.mass * (mover.wanted.u - mover.vx);
+    double y = mover.ground_y + mover.mass * (mover.wanted.v - mover.vy);
     const double size = x * x + y * y;
     if (size > mover.most_force * mover.most_force)
     {
@@ -540,7 +521,7 @@ private:
       x *= part;
       y *= part;
     }
-    const double turn = std::clamp(mover.ground_turn + (mover.wanted.turn - mover.turn) / mover.inverse_inertia,
+    const double turn = std::clamp(mover.ground_turn + mover.inertia * (mover.wanted.turn - mover.turn),
                                    -mover.most_turn, mover.most_turn);
     const double change_x = mover.inverse_mass * (x - mover.ground_x);
     const double change_y = mover.inverse_mass * (y - mover.ground_y);
@@ -609,7 +590,7 @@ private:
         1 / (mass + a.inverse_inertia * along_a * along_a + b.inverse_inertia * along_b * along_b);
     const double approach = NormalSpeed(row, point, a, b);
     const double gap = std::max(meeting.gap, 0.0);
-    point.target = -gap / step_;
+    point.target = -gap / seconds_;
     if (candidate.restitution * -approach > 0 && approach < -kBounceSpeed && approach <= point.target)
       point.target = -candidate.restitution * approach;
     candidate.touches = candidate.touches || meeting.gap <= 0;
@@ -617,8 +598,8 @@ private:
     for (std::size_t k = 0; k < static_cast<std::size_t>(before.points); ++k)
     {
       if (before.features[k] != row.manifold.features[static_cast<std::size_t>(i)]) continue;
-      point.normal = before.normal[k] * step_;
-      point.tangent = before.tangent[k] * step_;
+      point.normal = before.normal[k] * seconds_;
+      point.tangent = before.tangent[k] * seconds_;
       break;
     }
   }
@@ -720,8 +701,8 @@ private:
   void BeginWithGround(Mover& mover)
   {
     const GroundForce& before = BodyOf(mover).ground;
-    double x = before.x * step_;
-    double y = before.y * step_;
+    double x = before.x * seconds_;
+    double y = before.y * seconds_;
     const double size = x * x + y * y;
     if (size > mover.most_force * mover.most_force)
     {
@@ -731,7 +712,7 @@ private:
     }
     mover.ground_x = x;
     mover.ground_y = y;
-    mover.ground_turn = std::clamp(before.torque * step_, -mover.most_turn, mover.most_turn);
+    mover.ground_turn = std::clamp(before.torque * seconds_, -mover.most_turn, mover.most_turn);
     mover.vx += mover.inverse_mass * x;
     mover.vy += mover.inverse_mass * y;
     mover.turn += mover.inverse_inertia * mover.ground_turn;
@@ -739,7 +720,7 @@ private:
 
   void KeepForces()
   {
-    const double rate = 1 / step_;
+    const double rate = 1 / seconds_;
     for (std::size_t i = 0; i < run_.bodies.size(); ++i)
     {
       const Mover& mover = run_.movers[i];
@@ -764,7 +745,7 @@ private:
     if (!body.solid) return;
     if (mover.moves)
     {
-      const double longest = kLongestStep / cuts_ / step_;
+      const double longest = kLongestStep / seconds_;
       const double speed = mover.vx * mover.vx + mover.vy * mover.vy;
       if (speed > longest * longest)
       {
@@ -772,12 +753,12 @@ private:
         mover.vx *= part;
         mover.vy *= part;
       }
-      const double most_turn = kLargestTurn / cuts_ / step_;
+      const double most_turn = kLargestTurn / seconds_;
       mover.turn = std::clamp(mover.turn, -most_turn, most_turn);
     }
-    mover.place.x += step_ * mover.vx;
-    mover.place.y += step_ * mover.vy;
-    if (mover.turn != 0) SetAngle(mover, mover.angle + step_ * mover.turn);
+    mover.place.x += seconds_ * mover.vx;
+    mover.place.y += seconds_ * mover.vy;
+    if (mover.turn != 0) SetAngle(mover, mover.angle + seconds_ * mover.turn);
   }
 
   // Adds the ways of both wheels, along the heading in the middle of the step.
@@ -894,7 +875,7 @@ private:
     const double angle = body.model.has_turret_motor ? held.angle - body.grip.reference_angle
                                                      : holder.angle + body.turret_angle;
     const SinCos turret = SinCosOf(angle);
-    const double part = 1.0 / (steps_ * cuts_);
+    const double part = 1.0 / steps_;
     body.measures.load.force_x -= part * (turret.cos * x + turret.sin * y);
     body.measures.load.force_y -= part * (turret.cos * y - turret.sin * x);
     body.measures.load.torque -= part * forces.torque;
@@ -905,8 +886,6 @@ private:
   const SolverSettings& settings_;
   double seconds_;  // of a step
   int steps_;       // in the tick
-  double step_ = 0;  // seconds of this step, which may be a part of one
-  int cuts_ = 1;     // parts of a step
 };
 
 }  // namespace

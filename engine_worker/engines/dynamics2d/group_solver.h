@@ -52,7 +52,7 @@ struct Way
 struct Mover
 {
   double vx, vy, turn;
-  double inverse_mass, inverse_inertia;
+  double mass, inertia, inverse_mass, inverse_inertia;
   BodyPlace place, before;  // now, and before the step
   double angle, angle_before;
   PlaneVelocity wanted;          // against the ground

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "common/math/elementary.h"
 
@@ -14,8 +13,6 @@ namespace
 constexpr double kSlip = 1e-3;         // m/s: slower than this a body on the ground is taken to stand
 constexpr double kSameCorner = 1e-4;   // m
 constexpr double kSmallTurn = 1e-6;    // rad: the chord is as long as the arc
-
-double Length(double x, double y) { return std::sqrt(x * x + y * y); }
 
 // Returns the corners in counter-clockwise order, without those that lie on the one before.
 std::vector<Vector2> DistinctCorners(const std::vector<Vector2>& polygon)
@@ -38,12 +35,10 @@ void UpdateShape(Body& body)
 {
   const BodyModel& model = body.model;
   body.radius = model.radius;
-  body.inner_radius = model.radius;
   body.corners.clear();
   if (model.radius <= 0)
   {
     const std::vector<Vector2> corners = DistinctCorners(model.polygon);
-    body.inner_radius = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < corners.size(); ++i)
     {
       const Vector2 edge = corners[(i + 1) % corners.size()] - corners[i];
@@ -51,8 +46,6 @@ void UpdateShape(Body& body)
       const Corner corner{corners[i].x(), corners[i].y(), edge.y() / length, -edge.x() / length};
       body.corners.push_back(corner);
       body.radius = std::max(body.radius, Length(corner.x, corner.y));
-      body.inner_radius =
-          std::min(body.inner_radius, std::abs(corner.normal_x * corner.x + corner.normal_y * corner.y));
     }
   }
   body.arm = model.has_gripper ? Length(kGripperReach, kGripperSide / 2) : 0;

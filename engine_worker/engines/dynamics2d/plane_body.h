@@ -2,6 +2,7 @@
 // radians. Dynamics2dWorld has them; group_solver.h moves those that can touch others.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -76,9 +77,12 @@ inline constexpr int kNoBody = -1;
 inline constexpr double kGripperSide = GripperSquare::kSide;
 inline constexpr double kGripperReach = GripperSquare::kReach;
 inline constexpr double kGripperMiddle = kGripperReach - kGripperSide / 2;
+inline const double kGripperRadius = std::sqrt(0.5) * kGripperSide;
 // No body goes farther than this in a step (m), or turns more (radians).
 inline constexpr double kLongestStep = 0.2;
 inline constexpr double kLargestTurn = kPi / 2;
+
+inline double Length(double x, double y) { return std::sqrt(x * x + y * y); }
 
 struct BodyState
 {
@@ -119,7 +123,6 @@ struct Body
   GroundForce ground;
   double radius = 0;        // around the origin, of the outline and the gripper
   double arm = 0;           // m, from the origin to the point of the gripper that turning moves farthest
-  double inner_radius = 0;  // m, of a circle around the origin within the outline
   double half_axle = 0;     // m; 0: the wheels are not measured
   TickMeasures measures;
   bool solid = true;
