@@ -55,9 +55,10 @@ void Dynamics2dWorld::ConfigureSeparation()
   std::vector<StaticOutline> statics;
   for (std::size_t i = 0; i < bodies_.size(); ++i)
   {
-    const Body& body = bodies_[i];
+    Body& body = bodies_[i];
     if (body.model.motion == EMotion::kStatic)
     {
+      body.heading = SinCosOf(body.state.angle);
       fixed_.push_back(static_cast<std::uint32_t>(i));
       statics.push_back(OutlineInPlane(body));
       continue;
@@ -215,7 +216,7 @@ void Dynamics2dWorld::GoOn(std::size_t group, std::uint32_t number)
 // other groups may be at any of their steps.
 void Dynamics2dWorld::LetGoOn(std::uint32_t moving, double seconds)
 {
-  const Body& body = bodies_[moving_[moving]];
+  Body& body = bodies_[moving_[moving]];
   MovingOutline ahead;
   Outline(body, seconds, ahead);
   const BodyState& now = body.state;
@@ -242,11 +243,12 @@ void Dynamics2dWorld::SortGroups()
                     });
 }
 
-// Sets the outline of a body at its position, and how far the body can move by itself within `seconds`.
-void Dynamics2dWorld::Outline(const Body& body, double seconds, MovingOutline& outline) const
+// Sets the heading of a body, its outline at its position, and how far the body can move by itself within `seconds`.
+void Dynamics2dWorld::Outline(Body& body, double seconds, MovingOutline& outline) const
 {
   const BodyModel& model = body.model;
   const BodyState& state = body.state;
+  body.heading = SinCosOf(state.angle);
   outline.present = body.solid;
   double speed = Length(state.vx, state.vy);
   double turn = std::abs(state.turn);
@@ -260,7 +262,9 @@ void Dynamics2dWorld::Outline(const Body& body, double seconds, MovingOutline& o
   outline.whole = {state.x, state.y, body.radius, swept};
   outline.part_count = model.has_gripper && model.radius > 0 ? 2 : 0;
   if (outline.part_count == 0) return;
-  const SinCos front = SinCosOf(state.angle + TurretAngleOf(static_cast<int>(&body - bodies_.data())));
+  const double turret_angle = TurretAngleOf(static_cast<int>(&body - bodies_.data()));
+  SinCos front = body.heading;
+  if (turret_angle != 0) front = SinCosOf(state.angle + turret_angle);
   outline.parts = {
       {{state.x, state.y, model.radius, way},
        {state.x + kGripperMiddle * front.cos, state.y + kGripperMiddle * front.sin, kGripperRadius, swept}}};

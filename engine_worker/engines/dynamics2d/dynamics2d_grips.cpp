@@ -1,7 +1,8 @@
 // Problem: grippers take bodies, and a turret turns what its gripper holds.
 //
 // Method: a gripper takes the nearest body within reach of the middle of its front. A grip says where the axis of the
-// turret, or the end of a rod, is on the held body, and at which angle; the solver has a joint for it (group_solver.cpp).
+// turret, or the end of a rod, is on the held body, and at which angle; the solver has a joint for it
+// (group_solver.cpp).
 //
 // Invariant: grips form trees.
 #include <algorithm>
@@ -27,8 +28,7 @@ double OutlineDistance(const BodyModel& model, const Vector2& point)
 // Headings come without whole turns: the turns that the bodies had made are taken from the angle of the grip.
 void Dynamics2dWorld::CountTurns(Body& body)
 {
-  const double angle =
-      bodies_[Index(body.gripped)].state.angle - body.state.angle - body.grip.reference_angle;
+  const double angle = bodies_[Index(body.gripped)].state.angle - body.state.angle - body.grip.reference_angle;
   if (std::abs(angle) > kPi) body.grip.reference_angle += angle - WrapAngle(angle);
 }
 

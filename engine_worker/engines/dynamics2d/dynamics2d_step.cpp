@@ -7,8 +7,8 @@
 //
 // Derivation: in a step of h, a body with the turn w covers the chord h v sinc(w h / 2) in the direction of the middle
 // of the step. From step to step the wanted velocity turns by w h, so that its change is v sinc(w h / 2) 2 sin(w h / 2)
-// at most. If the ground can give this, and the change to the first chord, the body follows all chords. They are those of
-// one circle: the sum is T v sinc(w T / 2) in the direction of the middle of the tick T, and the last chord is the
+// at most. If the ground can give this, and the change to the first chord, the body follows all chords. They are those
+// of one circle: the sum is T v sinc(w T / 2) in the direction of the middle of the tick T, and the last chord is the
 // velocity at its end.
 //
 // Invariant: the solver gives the same motion, to rounding, to a body of a group that nothing touches.
@@ -35,8 +35,8 @@ void AdvanceByStep(Body& body, double seconds, const ChordOfStep& chord)
   BodyState& state = body.state;
   double wanted_x = 0;
   double wanted_y = 0;
-  const SinCos heading = body.drive.forward != 0 || body.drive.left != 0 || body.half_axle > 0 ? SinCosOf(state.angle)
-                                                                                              : SinCos{0, 1};
+  const SinCos heading =
+      body.drive.forward != 0 || body.drive.left != 0 || body.half_axle > 0 ? SinCosOf(state.angle) : SinCos{0, 1};
   if (body.drive.forward != 0 || body.drive.left != 0)
   {
     const double c = chord.shortening * (heading.cos * chord.cos - heading.sin * chord.sin);
@@ -94,7 +94,7 @@ bool FollowsArc(Body& body, double seconds, int steps)
   if (speed * std::abs(drive.turn) * seconds > most) return false;
 
   const double whole = drive.turn * seconds * steps;
-  const SinCos heading = SinCosOf(state.angle);
+  const SinCos& heading = body.heading;
   const ChordOfStep step = ChordOf(drive.turn * seconds);
   const auto velocity_at = [&](double cos, double sin, double& x, double& y)
   {
@@ -184,6 +184,7 @@ void Dynamics2dWorld::ReturnToStart(std::size_t moving)
   Body& body = bodies_[moving_[moving]];
   const TickStart& start = starts_[moving];
   body.state = start.state;
+  body.heading = SinCosOf(start.state.angle);
   body.ground = start.ground;
   body.grip_forces = start.grip_forces;
   body.turret_angle = start.turret_angle;

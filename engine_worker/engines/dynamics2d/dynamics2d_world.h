@@ -160,7 +160,7 @@ private:
 
   // The groups of bodies (body_groups.cpp).
   void ConfigureSeparation();
-  void Outline(const Body& body, double seconds, MovingOutline& outline) const;
+  void Outline(Body& body, double seconds, MovingOutline& outline) const;
   void FindGroups();
   bool MergeGroups(double step_seconds, int steps);
   void LetGoOn(std::uint32_t moving, double seconds);
@@ -196,10 +196,10 @@ private:
   std::vector<MovingOutline> outlines_;   // of moving_
   std::vector<GapPair> pairs_;
   std::vector<BodyLink> links_;
-  std::vector<TickStart> starts_;           // of moving_
-  std::vector<std::uint8_t> is_pushable_;   // of moving_
-  std::vector<std::uint32_t> no_groups_;    // of moving_: kAlone
-  std::vector<std::uint32_t> isolated_;     // dynamic bodies, ascending
+  std::vector<TickStart> starts_;          // of moving_
+  std::vector<std::uint8_t> is_pushable_;  // of moving_
+  std::vector<std::uint32_t> no_groups_;   // of moving_: kAlone
+  std::vector<std::uint32_t> isolated_;    // dynamic bodies, ascending
   ContactGroups groups_;
   bool are_all_in_one_ = false;    // every body and fixed outline is in the same group
   bool must_find_groups_ = false;  // a grip joined two groups

@@ -1,26 +1,26 @@
 // Problem: bodies strive for a velocity against the ground with limited force, while contacts and grips hold them. A
 // load that is too heavy must stand still, and a free robot must reach its speed, at a few hundred nanoseconds a body.
 //
-// The law of the ground. In a step of h seconds, the ground gives a body of mass m at most the impulse h F, and turns it
-// by at most h T: wheels by their friction or motors, propellers by their force, and what lies on the ground by
+// The law of the ground. In a step of h seconds, the ground gives a body of mass m at most the impulse h F, and turns
+// it by at most h T: wheels by their friction or motors, propellers by their force, and what lies on the ground by
 // Coulomb's friction. It strives for the wanted velocity w, which is 0 for what lies. Without other forces this has a
 // closed form:
 //
 //   v' = v + (w - v) min(1, h F / (m |w - v|))
 //
-// because the shortest way to w is straight, so that the impulse m (w - v) is cut to the disc of radius h F (the cone of
-// Coulomb). The same holds for the turn, with T and the moment of inertia. Bodies that nothing else holds in a step get
-// this impulse, and no iteration.
+// because the shortest way to w is straight, so that the impulse m (w - v) is cut to the disc of radius h F (the cone
+// of Coulomb). The same holds for the turn, with T and the moment of inertia. Bodies that nothing else holds in a step
+// get this impulse, and no iteration.
 //
-// If contacts or grips hold a body, the same cut is a row of the solver. It cannot come before the contacts: a robot that
-// pushes a load would get h F / M of speed, the contact would give a part to the load, and the friction of the load would
-// see it only in the next step. The load would creep with h F / m, however heavy it is.
+// If contacts or grips hold a body, the same cut is a row of the solver. It cannot come before the contacts: a robot
+// that pushes a load would get h F / M of speed, the contact would give a part to the load, and the friction of the
+// load would see it only in the next step. The load would creep with h F / m, however heavy it is.
 //
 // Method: sequential impulses with the sums of all impulses kept (E. Catto, Iterative dynamics with temporal coherence,
 // 2005), as in Box2D: grips, ground and contacts in turn, then positions, then overlaps (nonlinear Gauss-Seidel). Sums
 // begin with those of the last step. The iterations end when none changes a velocity any more. Contacts begin before
-// bodies meet: along the normal of a gap g they may approach with g / h, so that they do not overlap. If they would meet
-// in this step and bounce, they bounce now. Pairs that can meet within the tick are found once.
+// bodies meet: along the normal of a gap g they may approach with g / h, so that they do not overlap. If they would
+// meet in this step and bounce, they bounce now. Pairs that can meet within the tick are found once.
 //
 // Friction under a face opposes the slip at each of its points, so that sliding and turning share one limit: nearly an
 // ellipsoid (Howe and Cutkosky, "Practical force-motion models for sliding manipulation", 1996). A body that slides
@@ -41,15 +41,15 @@ namespace
 {
 
 // The tolerances of Box2D for bodies of a decimetre.
-constexpr double kSlop = 5e-4;           // m: overlaps that stay
-constexpr double kBounceSpeed = 0.1;     // m/s: slower bodies do not bounce
-constexpr double kCorrected = 0.2;       // part of an overlap that an iteration removes
-constexpr double kLargestPush = 0.02;    // m, that an iteration removes at most
-constexpr double kStill = 1e-10;         // m/s: a change of velocity that no iteration need follow
-constexpr double kHoldGain = 0.2;        // part of the error of a held turret that is corrected in a step
-constexpr double kHoldSpeed = 1.0;       // rad/s, at most
-constexpr double kOverload = 0.999;      // of the motor's torque: the turret slips
-constexpr std::size_t kFewBodies = 24;   // all pairs of so many are compared
+constexpr double kSlop = 5e-4;          // m: overlaps that stay
+constexpr double kBounceSpeed = 0.1;    // m/s: slower bodies do not bounce
+constexpr double kCorrected = 0.2;      // part of an overlap that an iteration removes
+constexpr double kLargestPush = 0.02;   // m, that an iteration removes at most
+constexpr double kStill = 1e-10;        // m/s: a change of velocity that no iteration need follow
+constexpr double kHoldGain = 0.2;       // part of the error of a held turret that is corrected in a step
+constexpr double kHoldSpeed = 1.0;      // rad/s, at most
+constexpr double kOverload = 0.999;     // of the motor's torque: the turret slips
+constexpr std::size_t kFewBodies = 24;  // all pairs of so many are compared
 
 void SetAngle(Mover& mover, double angle)
 {
@@ -79,7 +79,7 @@ void TurnGripper(Mover& mover)
 
 void TurnTurret(Mover& mover, double angle)
 {
-  const SinCos turret = SinCosOf(angle);
+  const SinCos turret = angle == 0 ? SinCos{0, 1} : SinCosOf(angle);
   mover.turret_cos = turret.cos;
   mover.turret_sin = turret.sin;
   if (mover.parts[1].count > 0) TurnGripper(mover);
@@ -136,10 +136,15 @@ private:
       mover.inverse_inertia = 1 / model.inertia;
       mover.chord = ChordOf(body.drive.turn * seconds_);
     }
-    mover.parts[0] = {body.corners.data(), static_cast<int>(body.corners.size()),
-                      model.radius > 0 ? model.radius : kPolygonSkin, model.radius > 0 ? model.radius : body.radius, 0,
+    mover.parts[0] = {body.corners.data(),
+                      static_cast<int>(body.corners.size()),
+                      model.radius > 0 ? model.radius : kPolygonSkin,
+                      model.radius > 0 ? model.radius : body.radius,
+                      0,
                       0};
-    SetAngle(mover, body.state.angle);
+    mover.angle = body.state.angle;
+    mover.place.cos = body.heading.cos;
+    mover.place.sin = body.heading.sin;
     return mover;
   }
 
@@ -167,8 +172,7 @@ private:
       grip.holder = i;
       grip.held = static_cast<std::uint32_t>(
           std::ranges::lower_bound(run_.bodies, static_cast<std::uint32_t>(body.gripped)) - run_.bodies.begin());
-      if (body.model.has_turret_motor)
-        TurnTurret(run_.movers[i], AngleOfGrip(body, bodies_[run_.bodies[grip.held]]));
+      if (body.model.has_turret_motor) TurnTurret(run_.movers[i], AngleOfGrip(body, bodies_[run_.bodies[grip.held]]));
     }
   }
 
@@ -205,7 +209,10 @@ private:
       const double dx = x_of(b) - x_of(a);
       const double dy = y_of(b) - y_of(a);
       const double reach = reach_of(a) + reach_of(b) + 2 * kPolygonSkin;
-      return dx * dx + dy * dy < reach * reach;
+      if (dx * dx + dy * dy >= reach * reach) return false;
+      // Long walls are near many bodies that do not meet them.
+      return b < bodies || !IsBeyondEdge(run_.movers[b].parts[0], run_.movers[b].place, x_of(a), y_of(a),
+                                         reach_of(a) + 2 * kPolygonSkin);
     };
     run_.pairs.clear();
     if (count <= kFewBodies)
@@ -232,7 +239,8 @@ private:
       for (std::size_t k = i + 1; k < count && begin_of(run_.by_x[k]) < end; ++k)
       {
         const std::uint32_t b = run_.by_x[k];
-        if ((a < bodies || b < bodies) && can_meet(a, b)) run_.pairs.push_back({std::min(a, b), std::max(a, b)});
+        const std::uint32_t first = std::min(a, b);
+        if (first < bodies && can_meet(first, std::max(a, b))) run_.pairs.push_back({first, std::max(a, b)});
       }
     }
     std::ranges::sort(run_.pairs);
@@ -359,8 +367,7 @@ private:
       mover.wanted.v = s * body.drive.forward + c * body.drive.left;
     }
     FrictionShares shares{1, 1};
-    if (body.model.lies && body.model.ground_force > 0)
-      shares = SharesOf(body.model, mover.vx, mover.vy, mover.turn);
+    if (body.model.lies && body.model.ground_force > 0) shares = SharesOf(body.model, mover.vx, mover.vy, mover.turn);
     mover.most_force = seconds_ * shares.sliding * body.model.ground_force;
     mover.most_turn = seconds_ * shares.turning * body.model.ground_torque;
     if (body.gripped != kNoBody || body.turret_speed == 0 || !body.model.has_gripper) return;
@@ -582,12 +589,10 @@ private:
     const double mass = a.inverse_mass + b.inverse_mass;
     const double lever_a = point.ax * row.normal_y - point.ay * row.normal_x;
     const double lever_b = point.bx * row.normal_y - point.by * row.normal_x;
-    point.normal_mass =
-        1 / (mass + a.inverse_inertia * lever_a * lever_a + b.inverse_inertia * lever_b * lever_b);
+    point.normal_mass = 1 / (mass + a.inverse_inertia * lever_a * lever_a + b.inverse_inertia * lever_b * lever_b);
     const double along_a = point.ax * row.normal_x + point.ay * row.normal_y;
     const double along_b = point.bx * row.normal_x + point.by * row.normal_y;
-    point.tangent_mass =
-        1 / (mass + a.inverse_inertia * along_a * along_a + b.inverse_inertia * along_b * along_b);
+    point.tangent_mass = 1 / (mass + a.inverse_inertia * along_a * along_a + b.inverse_inertia * along_b * along_b);
     const double approach = NormalSpeed(row, point, a, b);
     const double gap = std::max(meeting.gap, 0.0);
     point.target = -gap / seconds_;
@@ -674,7 +679,8 @@ private:
     for (const GripRow& grip : run_.grips)
     {
       const bool is_rod = IsRod(BodyOf(run_.movers[grip.holder]));
-      Push(grip, run_.movers[grip.holder], run_.movers[grip.held], is_rod ? grip.impulse_x * grip.axis_x : grip.impulse_x,
+      Push(grip, run_.movers[grip.holder], run_.movers[grip.held],
+           is_rod ? grip.impulse_x * grip.axis_x : grip.impulse_x,
            is_rod ? grip.impulse_x * grip.axis_y : grip.impulse_y, grip.impulse_turn);
     }
     for (const ContactRow& row : run_.rows)
@@ -858,8 +864,7 @@ private:
     MovePlace(holder, -holder.inverse_mass * impulse.x, -holder.inverse_mass * impulse.y,
               TurnBy(-holder.inverse_inertia * impulse.turn));
     const double turn = impulse.turn + grip.anchor_x * impulse.y - grip.anchor_y * impulse.x;
-    MovePlace(held, held.inverse_mass * impulse.x, held.inverse_mass * impulse.y,
-              TurnBy(held.inverse_inertia * turn));
+    MovePlace(held, held.inverse_mass * impulse.x, held.inverse_mass * impulse.y, TurnBy(held.inverse_inertia * turn));
     constexpr double kAngularSlop = 2.0 / 180 * kPi;
     return std::abs(error) <= kSlop && std::abs(turn_error) <= kAngularSlop;
   }
@@ -872,8 +877,8 @@ private:
     const GripForces& forces = body.grip_forces;
     const double x = IsRod(body) ? forces.x * grip.axis_x : forces.x;
     const double y = IsRod(body) ? forces.x * grip.axis_y : forces.y;
-    const double angle = body.model.has_turret_motor ? held.angle - body.grip.reference_angle
-                                                     : holder.angle + body.turret_angle;
+    const double angle =
+        body.model.has_turret_motor ? held.angle - body.grip.reference_angle : holder.angle + body.turret_angle;
     const SinCos turret = SinCosOf(angle);
     const double part = 1.0 / steps_;
     body.measures.load.force_x -= part * (turret.cos * x + turret.sin * y);

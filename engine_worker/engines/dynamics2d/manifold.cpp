@@ -71,6 +71,15 @@ Manifold DiscOnPolygon(const PartShape& polygon, const BodyPlace& at, const Body
   return manifold;
 }
 
+// Compares the circle around `other` with the edges of `polygon`.
+bool AreFar(const PartShape& polygon, const BodyPlace& at, const PartShape& other, const BodyPlace& at_other,
+            double margin)
+{
+  return IsBeyondEdge(polygon, at, at_other.x + at_other.cos * other.x - at_other.sin * other.y,
+                      at_other.y + at_other.sin * other.x + at_other.cos * other.y,
+                      other.reach + polygon.radius + margin);
+}
+
 b2PolygonShape ShapeOf(const PartShape& part, double margin)
 {
   b2PolygonShape shape;
@@ -123,6 +132,7 @@ void KeepOnEdge(const PartShape& reference, Manifold& manifold, std::array<doubl
 Manifold PolygonOnPolygon(const PartShape& a, const BodyPlace& at_a, const PartShape& b, const BodyPlace& at_b,
                           double margin)
 {
+  if (AreFar(a, at_a, b, at_b, margin) || AreFar(b, at_b, a, at_a, margin)) return {};
   const double dx = at_b.x - at_a.x;
   const double dy = at_b.y - at_a.y;
   const BodyPlace relative{at_a.cos * dx + at_a.sin * dy, at_a.cos * dy - at_a.sin * dx,
@@ -152,12 +162,10 @@ Manifold PolygonOnPolygon(const PartShape& a, const BodyPlace& at_a, const PartS
     const double x = found.points[i].localPoint.x;
     const double y = found.points[i].localPoint.y;
     manifold.features[i] = found.points[i].id.key;
-    to_x[i] = manifold.is_plane_of_b
-                  ? relative.cos * (x - relative.x) + relative.sin * (y - relative.y)
-                  : relative.x + relative.cos * x - relative.sin * y;
-    to_y[i] = manifold.is_plane_of_b
-                  ? relative.cos * (y - relative.y) - relative.sin * (x - relative.x)
-                  : relative.y + relative.sin * x + relative.cos * y;
+    to_x[i] = manifold.is_plane_of_b ? relative.cos * (x - relative.x) + relative.sin * (y - relative.y)
+                                     : relative.x + relative.cos * x - relative.sin * y;
+    to_y[i] = manifold.is_plane_of_b ? relative.cos * (y - relative.y) - relative.sin * (x - relative.x)
+                                     : relative.y + relative.sin * x + relative.cos * y;
   }
   KeepOnEdge(manifold.is_plane_of_b ? b : a, manifold, to_x, to_y);
   for (std::size_t i = 0; i < points; ++i)
@@ -173,6 +181,20 @@ Manifold PolygonOnPolygon(const PartShape& a, const BodyPlace& at_a, const PartS
 }
 
 }  // namespace
+
+bool IsBeyondEdge(const PartShape& polygon, const BodyPlace& at, double x, double y, double radius)
+{
+  const double dx = x - at.x;
+  const double dy = y - at.y;
+  const double u = at.cos * dx + at.sin * dy;
+  const double v = at.cos * dy - at.sin * dx;
+  for (int i = 0; i < polygon.count; ++i)
+  {
+    const Corner& corner = polygon.corners[i];
+    if (corner.normal_x * (u - corner.x) + corner.normal_y * (v - corner.y) > radius) return true;
+  }
+  return false;
+}
 
 Manifold Collide(const PartShape& a, const BodyPlace& at_a, const PartShape& b, const BodyPlace& at_b, double margin)
 {

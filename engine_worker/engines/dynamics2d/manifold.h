@@ -39,6 +39,9 @@ struct Manifold
   std::array<std::uint32_t, 2> features{};
 };
 
+// Returns true if a circle is farther than its radius from an edge of a polygon, on the outer side.
+bool IsBeyondEdge(const PartShape& polygon, const BodyPlace& at, double x, double y, double radius);
+
 // Finds the points with gaps up to `margin`.
 Manifold Collide(const PartShape& a, const BodyPlace& at_a, const PartShape& b, const BodyPlace& at_b, double margin);
 

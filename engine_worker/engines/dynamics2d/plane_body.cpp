@@ -10,9 +10,9 @@ namespace swarmanoid::dynamics2d
 namespace
 {
 
-constexpr double kSlip = 1e-3;         // m/s: slower than this a body on the ground is taken to stand
-constexpr double kSameCorner = 1e-4;   // m
-constexpr double kSmallTurn = 1e-6;    // rad: the chord is as long as the arc
+constexpr double kSlip = 1e-3;        // m/s: slower than this a body on the ground is taken to stand
+constexpr double kSameCorner = 1e-4;  // m
+constexpr double kSmallTurn = 1e-6;   // rad: the chord is as long as the arc
 
 // Returns the corners in counter-clockwise order, without those that lie on the one before.
 std::vector<Vector2> DistinctCorners(const std::vector<Vector2>& polygon)

@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "common/serialisation/bytes.h"
 #include "common/math/elementary.h"
 #include "common/plugin_descriptions/robot_parts.h"
+#include "common/serialisation/bytes.h"
 #include "engine_worker/engines/plane_frame.h"
 
 namespace swarmanoid::dynamics2d
@@ -117,13 +117,14 @@ struct Corner
 struct Body
 {
   BodyState state{};
+  SinCos heading{0, 1};  // of state.angle when the tick began
   Twist drive;
   double turret_speed = 0;
   double turret_angle = 0;  // while nothing is gripped by a turret with a motor; otherwise the joint's
   GroundForce ground;
-  double radius = 0;        // around the origin, of the outline and the gripper
-  double arm = 0;           // m, from the origin to the point of the gripper that turning moves farthest
-  double half_axle = 0;     // m; 0: the wheels are not measured
+  double radius = 0;     // around the origin, of the outline and the gripper
+  double arm = 0;        // m, from the origin to the point of the gripper that turning moves farthest
+  double half_axle = 0;  // m; 0: the wheels are not measured
   TickMeasures measures;
   bool solid = true;
   int gripped = kNoBody;

@@ -107,6 +107,7 @@ void GetModel(Body& body, ByteReader& stream)
   model.polygon = GetPolygon(stream);
   if ((model.radius > 0) != model.polygon.empty()) RefuseGroup("a body has no outline, or two");
   body.state = stream.Get<BodyState>();
+  body.heading = SinCosOf(body.state.angle);
   UpdateShape(body);
 }
 
@@ -141,6 +142,7 @@ void GetGroup(std::span<Body> bodies, GroupRun& run, ByteReader& stream)
     Body& body = bodies[number];
     GetMotion(body, stream);
     GetGrip(body, stream);
+    body.heading = SinCosOf(body.state.angle);
     body.ground = stream.Get<GroundForce>();
     body.grip_forces = stream.Get<GripForces>();
     body.drive = stream.Get<Twist>();

@@ -1,11 +1,12 @@
 // RemoteGroups: the engine's side of groups that the regions of a split engine solve, in processes of their own
-// (group_region.h). The engine finds the groups and moves isolated bodies. In each tick it gives each group to the region
-// with the fewest bodies, with all that its motion follows from. So a region computes the same bits as the engine would,
-// and remembers nothing but the models of all bodies.
+// (group_region.h). The engine finds the groups and moves isolated bodies. In each tick it gives each group to the
+// region with the fewest bodies, with all that its motion follows from. So a region computes the same bits as the
+// engine would, and remembers nothing but the models of all bodies.
 //
 // The stream to a region (region_streams.h) has: whether it gets the models; SolverSettings, threads and all models if
-// it does; seconds of a step and steps in the tick; then for each group its bodies and forces (PutGroup). The result has
-// for each group the steps done, whether a body goes too far, the bodies that move and their measures, and the contacts.
+// it does; seconds of a step and steps in the tick; then for each group its bodies and forces (PutGroup). The result
+// has for each group the steps done, whether a body goes too far, the bodies that move and their measures, and the
+// contacts.
 #pragma once
 
 #include <cstdint>

@@ -250,7 +250,8 @@ TEST(Dynamics2d, AFootbotDrivesAsFastFarFromTheOriginAsNearIt)
   }
 }
 
-// Whatever the phase of the sub-steps at which two robots meet: a contact lets them approach by their gap and no farther.
+// Whatever the phase of the sub-steps at which two robots meet: a contact lets them approach by their gap and no
+// farther.
 TEST(Dynamics2d, RobotsThatMeetDoNotOverlap)
 {
   for (int phase = 0; phase < 12; ++phase)
