@@ -18,7 +18,8 @@
 //
 // Method: sequential impulses with the sums of all impulses kept (E. Catto, Iterative dynamics with temporal coherence,
 // 2005), as in Box2D: grips, ground and contacts in turn, then positions, then overlaps (nonlinear Gauss-Seidel). Sums
-// begin with those of the last step. The iterations end when none changes a velocity any more. Contacts begin before
+// begin with those of the last step. The iterations end when none changes a velocity by
+// 0.1 µm/s. Contacts begin before
 // bodies meet: along the normal of a gap g they may approach with g / h, so that they do not overlap. If they would
 // meet in this step and bounce, they bounce now. Pairs that can meet within the tick are found once.
 //
@@ -45,7 +46,7 @@ constexpr double kSlop = 5e-4;          // m: overlaps that stay
 constexpr double kBounceSpeed = 0.1;    // m/s: slower bodies do not bounce
 constexpr double kCorrected = 0.2;      // part of an overlap that an iteration removes
 constexpr double kLargestPush = 0.02;   // m, that an iteration removes at most
-constexpr double kStill = 1e-10;        // m/s: a change of velocity that no iteration need follow
+constexpr double kStill = 1e-7;         // m/s: a change of velocity that no iteration need follow
 constexpr double kHoldGain = 0.2;       // part of the error of a held turret that is corrected in a step
 constexpr double kHoldSpeed = 1.0;      // rad/s, at most
 constexpr double kOverload = 0.999;     // of the motor's torque: the turret slips
