@@ -18,10 +18,9 @@
 //
 // Method: sequential impulses with the sums of all impulses kept (E. Catto, Iterative dynamics with temporal coherence,
 // 2005), as in Box2D: grips, ground and contacts in turn, then positions, then overlaps (nonlinear Gauss-Seidel). Sums
-// begin with those of the last step. The iterations end when none changes a velocity by
-// 0.1 µm/s. Contacts begin before
-// bodies meet: along the normal of a gap g they may approach with g / h, so that they do not overlap. If they would
-// meet in this step and bounce, they bounce now. Pairs that can meet within the tick are found once.
+// begin with those of the last step. The iterations end early if none changes a velocity by 0.1 µm/s. Contacts begin
+// before bodies meet: along the normal of a gap g they may approach with g / h, so that they do not overlap. If they
+// would meet in this step and bounce, they bounce now. Pairs that can meet within the tick are found once.
 //
 // Friction under a face opposes the slip at each of its points, so that sliding and turning share one limit: nearly an
 // ellipsoid (Howe and Cutkosky, "Practical force-motion models for sliding manipulation", 1996). A body that slides
@@ -590,11 +589,14 @@ private:
     const double mass = a.inverse_mass + b.inverse_mass;
     const double lever_a = point.ax * row.normal_y - point.ay * row.normal_x;
     const double lever_b = point.bx * row.normal_y - point.by * row.normal_x;
-    point.normal_mass = 1 / (mass + a.inverse_inertia * lever_a * lever_a + b.inverse_inertia * lever_b * lever_b);
+    point.inverse_normal_mass = mass + a.inverse_inertia * lever_a * lever_a + b.inverse_inertia * lever_b * lever_b;
+    point.normal_mass = 1 / point.inverse_normal_mass;
     const double along_a = point.ax * row.normal_x + point.ay * row.normal_y;
     const double along_b = point.bx * row.normal_x + point.by * row.normal_y;
-    point.tangent_mass = 1 / (mass + a.inverse_inertia * along_a * along_a + b.inverse_inertia * along_b * along_b);
-    const double approach = NormalSpeed(row, point, a, b);
+    point.inverse_tangent_mass = mass + a.inverse_inertia * along_a * along_a + b.inverse_inertia * along_b * along_b;
+    point.tangent_mass = 1 / point.inverse_tangent_mass;
+    const Vector2 slip = SlipAt<true>(point, a, b);
+    const double approach = slip.x() * row.normal_x + slip.y() * row.normal_y;
     const double gap = std::max(meeting.gap, 0.0);
     point.target = -gap / seconds_;
     if (candidate.restitution * -approach > 0 && approach < -kBounceSpeed && approach <= point.target)
@@ -610,24 +612,30 @@ private:
     }
   }
 
-  static double NormalSpeed(const ContactRow& row, const ContactPoint& point, const Mover& a, const Mover& b)
+  // The velocity of b against a at a point. `kBoth`: b is not static.
+  template <bool kBoth>
+  static Vector2 SlipAt(const ContactPoint& point, const Mover& a, const Mover& b)
   {
-    const double x = b.vx - b.turn * point.by - a.vx + a.turn * point.ay;
-    const double y = b.vy + b.turn * point.bx - a.vy - a.turn * point.ax;
-    return x * row.normal_x + y * row.normal_y;
+    const double x = a.turn * point.ay - a.vx;
+    const double y = -a.turn * point.ax - a.vy;
+    if constexpr (!kBoth) return {x, y};
+    return {x + b.vx - b.turn * point.by, y + b.vy + b.turn * point.bx};
   }
 
+  template <bool kBoth>
   static void PushApart(const ContactPoint& point, Mover& a, Mover& b, double x, double y)
   {
     a.vx -= a.inverse_mass * x;
     a.vy -= a.inverse_mass * y;
     a.turn -= a.inverse_inertia * (point.ax * y - point.ay * x);
+    if constexpr (!kBoth) return;
     b.vx += b.inverse_mass * x;
     b.vy += b.inverse_mass * y;
     b.turn += b.inverse_inertia * (point.bx * y - point.by * x);
   }
 
-  // Friction first, since the normal impulses matter more.
+  // Friction first, since the normal impulses matter more. Returns the largest change of velocity.
+  template <bool kBoth>
   double SolveContact(ContactRow& row)
   {
     const Candidate& candidate = *row.candidate;
@@ -640,26 +648,26 @@ private:
     {
       ContactPoint& point = row.points[static_cast<std::size_t>(i)];
       if (point.normal == 0 && point.tangent == 0) continue;
-      const double x = b.vx - b.turn * point.by - a.vx + a.turn * point.ay;
-      const double y = b.vy + b.turn * point.bx - a.vy - a.turn * point.ax;
+      const Vector2 slip = SlipAt<kBoth>(point, a, b);
+      const double speed = slip.x() * tangent_x + slip.y() * tangent_y;
       const double limit = candidate.friction * point.normal;
-      const double sum =
-          std::clamp(point.tangent - point.tangent_mass * (x * tangent_x + y * tangent_y), -limit, limit);
+      const double sum = std::clamp(point.tangent - point.tangent_mass * speed, -limit, limit);
       const double impulse = sum - point.tangent;
       point.tangent = sum;
-      PushApart(point, a, b, impulse * tangent_x, impulse * tangent_y);
-      most = std::max(most, std::abs(impulse) / point.tangent_mass);
+      PushApart<kBoth>(point, a, b, impulse * tangent_x, impulse * tangent_y);
+      most = std::max(most, std::abs(impulse) * point.inverse_tangent_mass);
     }
     for (int i = 0; i < row.manifold.points; ++i)
     {
       ContactPoint& point = row.points[static_cast<std::size_t>(i)];
-      const double speed = NormalSpeed(row, point, a, b);
+      const Vector2 slip = SlipAt<kBoth>(point, a, b);
+      const double speed = slip.x() * row.normal_x + slip.y() * row.normal_y;
       const double sum = std::max(point.normal - point.normal_mass * (speed - point.target), 0.0);
       const double impulse = sum - point.normal;
       if (impulse == 0) continue;
       point.normal = sum;
-      PushApart(point, a, b, impulse * row.normal_x, impulse * row.normal_y);
-      most = std::max(most, std::abs(impulse) / point.normal_mass);
+      PushApart<kBoth>(point, a, b, impulse * row.normal_x, impulse * row.normal_y);
+      most = std::max(most, std::abs(impulse) * point.inverse_normal_mass);
     }
     return most;
   }
@@ -689,9 +697,9 @@ private:
       {
         const ContactPoint& point = row.points[static_cast<std::size_t>(i)];
         if (point.normal == 0 && point.tangent == 0) continue;
-        PushApart(point, run_.movers[row.candidate->a], run_.movers[row.candidate->b],
-                  point.normal * row.normal_x + point.tangent * row.normal_y,
-                  point.normal * row.normal_y - point.tangent * row.normal_x);
+        PushApart<true>(point, run_.movers[row.candidate->a], run_.movers[row.candidate->b],
+                        point.normal * row.normal_x + point.tangent * row.normal_y,
+                        point.normal * row.normal_y - point.tangent * row.normal_x);
       }
     for (int iteration = 0; iteration < settings_.velocity_iterations; ++iteration)
     {
@@ -699,7 +707,9 @@ private:
       for (GripRow& grip : run_.grips) change = std::max(change, SolveGrip(grip));
       for (std::size_t i = 0; i < run_.bodies.size(); ++i)
         if (run_.movers[i].is_bound) change = std::max(change, SolveGround(run_.movers[i]));
-      for (ContactRow& row : run_.rows) change = std::max(change, SolveContact(row));
+      for (ContactRow& row : run_.rows)
+        change = std::max(change,
+                          row.candidate->b < run_.bodies.size() ? SolveContact<true>(row) : SolveContact<false>(row));
       if (change < kStill) break;
     }
   }

@@ -80,7 +80,7 @@ struct Candidate
 struct ContactPoint
 {
   double ax, ay, bx, by;  // from the middles of both bodies
-  double normal_mass, tangent_mass;
+  double normal_mass, tangent_mass, inverse_normal_mass, inverse_tangent_mass;
   double target;  // velocity along the normal, at least
   double normal, tangent;
 };
