@@ -75,7 +75,7 @@ std::vector<ParameterSpec> Dynamics2dParameters()
 PluginDescription Dynamics2dDescription()
 {
   return {.label = "dynamics2d",
-          .brief = "Rigid bodies with masses, friction and grips on a plane, solved by Box2D.",
+          .brief = "Rigid bodies with masses, friction and grips on a plane.",
           .parameters = Joined(PlaneParameters(), Dynamics2dParameters()),
           .channels = WithChannelsOfPlaneRobots({"footbot_wheels", "footbot_gripper", "footbot_turret",
                                                  "eyebot_propellers", "footbot_encoders", "footbot_turret_torque",

@@ -24,7 +24,7 @@ namespace
 // A mirror that jumps farther than this in a tick was put elsewhere; it pushes nothing on its way.
 constexpr double kMirrorJump_m = 0.5;
 constexpr double kSameOutline_m = 1e-6;
-constexpr std::uint32_t kDynamics2dVersion = 5;  // of saved states
+constexpr std::uint32_t kDynamics2dVersion = 6;  // of saved states
 constexpr std::size_t kMostCorners = 6;          // of the cut of a box
 
 }  // namespace
@@ -139,6 +139,7 @@ void CDynamics2dEngine::Start()
       for (const Footbot& footbot : footbots_)
         world_->MeasureWheels(footbot.body, DescriptionOf(footbot.entity->GetKind()).wheels->axle_m / 2);
     if (block.name == "footbot_turret_torque") world_->MeasureLoads();
+    if (block.name == "footbot_accelerometer") reads_accelerometers_ = true;
   }
   world_->Build();
 }
@@ -162,7 +163,8 @@ void CDynamics2dEngine::Update(const EngineCommands& commands, EngineUpdate& upd
     world_->SetDrive(BodyOf(eyebot), {});
     world_->SetVelocity(BodyOf(eyebot), {});
   }
-  for (Footbot& footbot : footbots_) footbot.velocity = world_->VelocityOf(footbot.body);
+  if (reads_accelerometers_)
+    for (Footbot& footbot : footbots_) footbot.velocity = world_->VelocityOf(footbot.body);
   world_->Advance(steps_);
   WritePoses(update);
   robots_.Raise(layout_->owned, update.poses);

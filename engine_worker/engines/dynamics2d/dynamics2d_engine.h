@@ -72,6 +72,8 @@ private:
   Footbot& FootbotOf(std::uint32_t entity);
   PlanePose StandingPose(const CSwarmanoidSpaceEntity& entity, PlaneStance& stance) const;
   void ReadCommands(const EngineCommands& commands);
+  void ReadWheels(const ChannelBlock& block, std::span<const double> values);
+  void CheckFinite(const ChannelBlock& block, std::span<const double> values) const;
   void FollowMirrors();
   bool IsElsewhere(std::uint32_t entity) const;
   void ApplyGrippers();
@@ -87,6 +89,7 @@ private:
   std::unique_ptr<dynamics2d::Dynamics2dWorld> world_;
   PlaneRobots robots_;
   int steps_ = 4;  // in each tick
+  bool reads_accelerometers_ = false;
   std::vector<Owned> owned_;
   std::vector<Mirror> mirrors_;
   std::vector<std::uint32_t> elsewhere_;  // owned entities that other engines move, ascending

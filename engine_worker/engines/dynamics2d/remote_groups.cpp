@@ -1,206 +1,254 @@
-// Problem: other processes solve groups, with the bits of one process, although Box2D's memory of contacts can neither
-// be read nor set, and a process may be lost at any time.
+// Problem: other processes solve groups, with the bits of one process, and a process may be lost at any time.
 //
-// Method: what is done to the world of a group is written down as orders, from the moment when the world was opened. A
-// region executes the new ones in each tick. A region that knows nothing executes all, tick by tick: the orders are the
-// state of the world. A rebuild, every `canonical_period` ticks, ends all worlds and their orders.
+// Method: the motion of a group follows from its bodies, their commands, and the forces of the last step. All of that
+// goes to a region in each tick, and comes back. A region that knows nothing gets the models of all bodies first.
 //
-// Invariants: a world is here or in one region from its begin to its end. While the regions are not ready (before the
-// start, in recovery), worlds begin here. The engine knows the states of all bodies after each call of Run.
+// Invariants: a group is here or in one region in a tick. While the regions are not ready (before the start, in
+// recovery), groups are solved here.
 #include "engine_worker/engines/dynamics2d/remote_groups.h"
 
 #include <algorithm>
-#include <cstring>
 #include <stdexcept>
 #include <string>
-
-#include "engine_worker/engines/dynamics2d/dynamics2d_world.h"
 
 namespace swarmanoid::dynamics2d
 {
 namespace
 {
 
-void PutModel(const BodyModel& model, ByteWriter& orders)
+void PutPolygon(std::span<const Vector2> polygon, ByteWriter& stream)
 {
-  for (const auto flag : {static_cast<int>(model.motion), model.lies ? 1 : 0, model.has_gripper ? 1 : 0,
-                          model.has_turret_motor ? 1 : 0, model.grips_by_rod ? 1 : 0})
-    orders.Put(static_cast<std::uint8_t>(flag));
-  for (const double value : {model.radius, model.mass, model.inertia, model.friction, model.restitution,
-                             model.ground_force, model.ground_torque})
-    orders.Put(value);
-  PutPolygon(model.polygon, orders);
+  stream.Put(static_cast<std::uint8_t>(polygon.size()));
+  for (const Vector2& corner : polygon)
+  {
+    stream.Put(corner.x());
+    stream.Put(corner.y());
+  }
+}
+
+std::vector<Vector2> GetPolygon(ByteReader& stream)
+{
+  std::vector<Vector2> polygon(stream.Get<std::uint8_t>());
+  if (polygon.size() > kMostCutCorners || (!polygon.empty() && polygon.size() < 3))
+    RefuseGroup("an outline has too many or too few corners");
+  for (Vector2& corner : polygon)
+  {
+    corner.x() = stream.Get<double>();
+    corner.y() = stream.Get<double>();
+  }
+  return polygon;
+}
+
+// Mirrored blocks change their outlines.
+bool HasOutlineThatChanges(const Body& body)
+{
+  return body.model.motion == EMotion::kKinematic && !body.model.polygon.empty();
+}
+
+bool IsAscending(std::span<const std::uint32_t> numbers, std::size_t bodies)
+{
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    if (numbers[i] >= bodies || (i > 0 && numbers[i] <= numbers[i - 1])) return false;
+  return true;
+}
+
+// Throws unless the numbers of all bodies that a group names are of bodies in it.
+void Check(std::span<const Body> bodies, const GroupRun& run)
+{
+  const auto has = [](std::span<const std::uint32_t> numbers, std::uint32_t number)
+  { return std::ranges::binary_search(numbers, number); };
+  for (const std::uint32_t number : run.bodies)
+  {
+    const Body& body = bodies[number];
+    if (body.model.motion == EMotion::kStatic) RefuseGroup("a body that moves is static");
+    if (body.gripped != kNoBody && !has(run.bodies, static_cast<std::uint32_t>(body.gripped)))
+      RefuseGroup("a body holds a body that is not there");
+  }
+  std::uint32_t last = 0;
+  for (const Contact& contact : run.contacts)
+  {
+    if (contact.a < last || contact.forces.points < 0 || contact.forces.points > 2)
+      RefuseGroup("a contact does not fit");
+    last = contact.a;
+  }
 }
 
 }  // namespace
-
-void PutPolygon(std::span<const Vector2> polygon, ByteWriter& orders)
-{
-  orders.Put(static_cast<std::uint8_t>(polygon.size()));
-  for (const Vector2& corner : polygon)
-  {
-    orders.Put(corner.x());
-    orders.Put(corner.y());
-  }
-}
 
 void RefuseGroup(const char* reason)
 {
   throw std::runtime_error(std::string("dynamics2d and its regions do not fit together: ") + reason);
 }
 
+void PutModel(const Body& body, ByteWriter& stream)
+{
+  const BodyModel& model = body.model;
+  for (const auto flag : {static_cast<int>(model.motion), model.lies ? 1 : 0, model.has_gripper ? 1 : 0,
+                          model.has_turret_motor ? 1 : 0, model.grips_by_rod ? 1 : 0})
+    stream.Put(static_cast<std::uint8_t>(flag));
+  for (const double value : {model.radius, model.mass, model.inertia, model.friction, model.restitution,
+                             model.ground_force, model.ground_torque, body.half_axle})
+    stream.Put(value);
+  PutPolygon(model.polygon, stream);
+  stream.Put(body.state);
+}
+
+void GetModel(Body& body, ByteReader& stream)
+{
+  BodyModel& model = body.model;
+  const auto motion = stream.Get<std::uint8_t>();
+  if (motion > static_cast<int>(EMotion::kStatic)) RefuseGroup("a body moves in an unknown way");
+  model.motion = static_cast<EMotion>(motion);
+  for (bool* const flag : {&model.lies, &model.has_gripper, &model.has_turret_motor, &model.grips_by_rod})
+    *flag = stream.Get<std::uint8_t>() != 0;
+  for (double* const value : {&model.radius, &model.mass, &model.inertia, &model.friction, &model.restitution,
+                              &model.ground_force, &model.ground_torque, &body.half_axle})
+    *value = stream.Get<double>();
+  model.polygon = GetPolygon(stream);
+  if ((model.radius > 0) != model.polygon.empty()) RefuseGroup("a body has no outline, or two");
+  body.state = stream.Get<BodyState>();
+  body.heading = SinCosOf(body.state.angle);
+  UpdateShape(body);
+}
+
+void PutGroup(std::span<const Body> bodies, const GroupRun& run, ByteWriter& stream)
+{
+  stream.PutArray(run.bodies);
+  for (const std::uint32_t number : run.bodies)
+  {
+    const Body& body = bodies[number];
+    PutMotion(body, stream);
+    PutGrip(body, stream);
+    stream.Put(body.ground);
+    stream.Put(body.grip_forces);
+    stream.Put(body.drive);
+    stream.Put(body.turret_speed);
+    stream.Put(body.measures);
+    if (HasOutlineThatChanges(body)) PutPolygon(body.model.polygon, stream);
+  }
+  stream.PutArray(run.ways);
+  stream.PutArray(run.fixed);
+  stream.PutArray(run.contacts);
+  stream.Put(static_cast<std::uint8_t>(run.is_bounded ? 1 : 0));
+  stream.Put(run.steps_done);
+}
+
+void GetGroup(std::span<Body> bodies, GroupRun& run, ByteReader& stream)
+{
+  stream.GetArray(run.bodies);
+  if (!IsAscending(run.bodies, bodies.size())) RefuseGroup("a group has bodies that do not exist");
+  for (const std::uint32_t number : run.bodies)
+  {
+    Body& body = bodies[number];
+    GetMotion(body, stream);
+    GetGrip(body, stream);
+    body.heading = SinCosOf(body.state.angle);
+    body.ground = stream.Get<GroundForce>();
+    body.grip_forces = stream.Get<GripForces>();
+    body.drive = stream.Get<Twist>();
+    body.turret_speed = stream.Get<double>();
+    body.measures = stream.Get<TickMeasures>();
+    if (!HasOutlineThatChanges(body)) continue;
+    body.model.polygon = GetPolygon(stream);
+    if (body.model.polygon.empty()) RefuseGroup("a body has no outline");
+    UpdateShape(body);
+  }
+  stream.GetArray(run.ways);
+  stream.GetArray(run.fixed);
+  stream.GetArray(run.contacts);
+  run.is_bounded = stream.Get<std::uint8_t>() != 0;
+  run.steps_done = stream.Get<std::int32_t>();
+  run.goes_too_far = false;
+  if (run.ways.size() != run.bodies.size() || !IsAscending(run.fixed, bodies.size()) || run.steps_done < 0)
+    RefuseGroup("a group is not whole");
+  Check(bodies, run);
+}
+
+void PutResult(std::span<const Body> bodies, const GroupRun& run, const SolverSettings& settings, ByteWriter& result)
+{
+  result.Put(run.steps_done);
+  result.Put(static_cast<std::uint8_t>(run.goes_too_far ? 1 : 0));
+  for (const std::uint32_t number : run.bodies)
+  {
+    const Body& body = bodies[number];
+    PutMotion(body, result);
+    result.Put(body.ground);
+    if (body.gripped != kNoBody) result.Put(body.grip_forces);
+    if (body.half_axle > 0)
+    {
+      result.Put(body.measures.left_arc);
+      result.Put(body.measures.right_arc);
+    }
+    if (settings.measures_loads != 0 && body.gripped != kNoBody) result.Put(body.measures.load);
+  }
+  result.PutArray(run.contacts);
+}
+
+void GetResult(std::span<Body> bodies, GroupRun& run, const SolverSettings& settings, ByteReader& result)
+{
+  run.steps_done = result.Get<std::int32_t>();
+  run.goes_too_far = result.Get<std::uint8_t>() != 0;
+  for (const std::uint32_t number : run.bodies)
+  {
+    Body& body = bodies[number];
+    GetMotion(body, result);
+    body.ground = result.Get<GroundForce>();
+    if (body.gripped != kNoBody) body.grip_forces = result.Get<GripForces>();
+    if (body.half_axle > 0)
+    {
+      body.measures.left_arc = result.Get<double>();
+      body.measures.right_arc = result.Get<double>();
+    }
+    if (settings.measures_loads != 0 && body.gripped != kNoBody) body.measures.load = result.Get<TurretLoad>();
+  }
+  result.GetArray(run.contacts);
+  Check(bodies, run);
+}
+
 RemoteGroups::RemoteGroups(RegionTeam& team, unsigned threads)
-    : streams_(team), threads_(threads), closed_(team.RegionCount()), sent_(team.RegionCount())
+    : streams_(team), threads_(threads), runs_(team.RegionCount())
 {
 }
 
-void RemoteGroups::Run(RegionSettings settings, const std::function<void()>& meanwhile,
-                       const std::function<void(std::uint32_t, ByteReader&)>& take)
+void RemoteGroups::ForgetLoads()
 {
-  if (parts_.empty()) return meanwhile();
-  settings.threads = threads_;
-  streams_.Run([&](bool all_data, std::span<ByteWriter> streams) { Write(all_data, settings, streams); }, meanwhile);
+  streams_.ForgetLoads();
+  for (std::vector<GroupRun*>& runs : runs_) runs.clear();
+}
+
+void RemoteGroups::Add(GroupRun& run) { runs_[streams_.ChooseRegion(run.bodies.size())].push_back(&run); }
+
+void RemoteGroups::Run(std::span<Body> bodies, const SolverSettings& settings, double seconds, int steps,
+                       const std::function<void()>& meanwhile)
+{
+  if (std::ranges::all_of(runs_, [](const std::vector<GroupRun*>& runs) { return runs.empty(); })) return meanwhile();
+  const auto write = [&](bool all_data, std::span<ByteWriter> streams)
+  {
+    for (std::size_t region = 0; region < streams.size(); ++region)
+    {
+      ByteWriter& stream = streams[region];
+      stream.Put(static_cast<std::uint8_t>(all_data ? 1 : 0));
+      if (all_data)
+      {
+        stream.Put(settings);
+        stream.Put(static_cast<std::uint32_t>(threads_));
+        stream.Put(static_cast<std::uint32_t>(bodies.size()));
+        for (const Body& body : bodies) PutModel(body, stream);
+      }
+      stream.Put(seconds);
+      stream.Put(static_cast<std::int32_t>(steps));
+      stream.Put(static_cast<std::uint32_t>(runs_[region].size()));
+      for (const GroupRun* run : runs_[region]) PutGroup(bodies, *run, stream);
+    }
+  };
+  streams_.Run(write, meanwhile);
   for (std::size_t region = 0; region < streams_.Count(); ++region)
   {
-    closed_[region].clear();
+    if (runs_[region].empty()) continue;
     ByteReader result(streams_.ResultOf(region));
-    for (const std::size_t part : sent_[region])
-    {
-      GroupWorld::Remote& remote = *parts_[part].world->remote;
-      remote.done = remote.orders.Bytes().size();
-      take(parts_[part].group, result);
-    }
+    for (GroupRun* run : runs_[region]) GetResult(bodies, *run, settings, result);
     if (!result.AtEnd()) RefuseGroup("a result does not end");
   }
-  parts_.clear();
-}
-
-void RemoteGroups::Write(bool all_data, const RegionSettings& settings, std::span<ByteWriter> streams)
-{
-  for (std::size_t region = 0; region < streams.size(); ++region)
-  {
-    ByteWriter& stream = streams[region];
-    sent_[region].clear();
-    stream.Put(static_cast<std::uint8_t>(all_data ? 1 : 0));
-    if (all_data)
-      stream.Put(settings);
-    else
-      stream.PutArray(closed_[region]);
-  }
-  for (std::size_t k = 0; k < parts_.size(); ++k)
-  {
-    const GroupWorld::Remote& remote = *parts_[k].world->remote;
-    const std::span<const char> orders(remote.orders.Bytes());
-    const std::size_t done = all_data ? 0 : remote.done;
-    if (done == orders.size()) continue;
-    ByteWriter& stream = streams[remote.region];
-    stream.Put(parts_[k].number);
-    stream.Put(static_cast<std::uint8_t>(done == 0 ? 1 : 0));
-    stream.PutArray(orders.subspan(done));
-    sent_[remote.region].push_back(k);
-  }
-}
-
-ByteWriter& Dynamics2dWorld::Order(GroupWorld& world, EGroupOrder order, std::uint32_t number)
-{
-  ByteWriter& orders = world.remote->orders;
-  orders.Put(order);
-  orders.Put(number);
-  return orders;
-}
-
-// Returns false, and does nothing, if no region has the body.
-bool Dynamics2dWorld::OrderChange(const Body& body, EGroupOrder order) const
-{
-  if (!IsRemote(body)) return false;
-  ByteWriter& orders = Order(*worlds_[body.world], order, static_cast<std::uint32_t>(&body - bodies_.data()));
-  if (order == EGroupOrder::kSetOutline) PutPolygon(body.model.polygon, orders);
-  PutMotion(body, orders);
-  PutGrip(body, orders);
-  return true;
-}
-
-void Dynamics2dWorld::OrderBuild(GroupWorld& world, Body& body)
-{
-  ByteWriter& orders = Order(world, EGroupOrder::kBuild, static_cast<std::uint32_t>(&body - bodies_.data()));
-  PutModel(body.model, orders);
-  PutMotion(body, orders);
-  PutGrip(body, orders);
-  orders.Put(body.half_axle);
-  body.ordered = {body.drive, body.turret_speed};
-  orders.Put(body.ordered);
-}
-
-void Dynamics2dWorld::OrderSteps(std::size_t group, double seconds, int steps)
-{
-  GroupWorld& world = WorldOf(group);
-  ByteWriter& orders = world.remote->orders;
-  orders.Put(EGroupOrder::kSteps);
-  orders.Put(seconds);
-  orders.Put(static_cast<std::int32_t>(steps));
-  orders.Put(static_cast<std::int32_t>(world.steps_done));
-  orders.Put(static_cast<std::uint8_t>(are_all_in_one_ ? 1 : 0));
-  orders.Put(static_cast<std::uint32_t>(world.dynamic.size()));
-  for (std::size_t i = 0; i < world.dynamic.size(); ++i)
-  {
-    Body& body = bodies_[world.dynamic[i]];
-    const Command command{body.drive, body.turret_speed};
-    const bool is_other = std::memcmp(&command, &body.ordered, sizeof(Command)) != 0;
-    orders.Put(world.ways[i].most);
-    orders.Put(static_cast<std::uint8_t>(is_other ? 1 : 0));
-    if (!is_other) continue;
-    orders.Put(command);
-    body.ordered = command;
-  }
-}
-
-// The regions make the steps that are left of their groups, and this process does its own work meanwhile.
-void Dynamics2dWorld::RunWithRegions(double seconds, int steps, const std::function<void()>& meanwhile)
-{
-  for (const std::uint32_t group : order_)
-  {
-    GroupWorld& world = WorldOf(group);
-    if (!world.remote) continue;
-    if (world.steps_done < steps) OrderSteps(group, seconds, steps);
-    remote_->Add(group, world_of_group_[group], world);
-  }
-  remote_->Run({settings_.velocity_iterations, settings_.position_iterations, settings_.turret_torque,
-                measures_loads_ ? 1U : 0U, 1},
-               meanwhile, [&](std::uint32_t group, ByteReader& result) { TakeResult(group, result); });
-}
-
-void Dynamics2dWorld::TakeResult(std::size_t group, ByteReader& result)
-{
-  GroupWorld& world = WorldOf(group);
-  world.steps_done = result.Get<std::int32_t>();
-  world.goes_too_far = result.Get<std::uint8_t>() != 0;
-  world.remote->contacts = result.Get<std::int32_t>();
-  for (const std::uint32_t k : groups_.Bodies(group))
-  {
-    Body& body = bodies_[moving_[k]];
-    GetMotion(body, result);
-    GetMeasures(body, result);
-  }
-}
-
-void Dynamics2dWorld::PutMeasures(const Body& body, ByteWriter& result) const
-{
-  if (body.half_axle > 0)
-  {
-    result.Put(body.measures.left_arc);
-    result.Put(body.measures.right_arc);
-  }
-  if (measures_loads_ && body.model.has_gripper) result.Put(body.measures.load);
-}
-
-void Dynamics2dWorld::GetMeasures(Body& body, ByteReader& result) const
-{
-  if (body.half_axle > 0)
-  {
-    body.measures.left_arc = result.Get<double>();
-    body.measures.right_arc = result.Get<double>();
-  }
-  if (measures_loads_ && body.model.has_gripper) body.measures.load = result.Get<TurretLoad>();
 }
 
 }  // namespace swarmanoid::dynamics2d

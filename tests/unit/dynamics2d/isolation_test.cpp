@@ -63,15 +63,15 @@ TEST(Dynamics2d, AnIsolatedRobotAndItsTurretMoveAsTheSolverWouldMoveThem)
     worlds.Tick();
     ASSERT_NE(worlds.isolated.engine->StatusText().find(", 2 of 2 bodies isolated"), std::string::npos);
     ASSERT_NE(worlds.solved.engine->StatusText().find(", 0 of 2 bodies isolated"), std::string::npos);
-    EXPECT_LT((worlds.isolated.Position(robot) - worlds.solved.Position(robot)).norm(), 2e-5) << tick;
-    EXPECT_NEAR(WrapAngle(worlds.isolated.Yaw(robot) - worlds.solved.Yaw(robot)), 0, 2e-5) << tick;
+    EXPECT_LT((worlds.isolated.Position(robot) - worlds.solved.Position(robot)).norm(), 1e-9) << tick;
+    EXPECT_NEAR(WrapAngle(worlds.isolated.Yaw(robot) - worlds.solved.Yaw(robot)), 0, 1e-9) << tick;
     EXPECT_EQ(worlds.isolated.Attribute(robot, "turret_angle"), worlds.solved.Attribute(robot, "turret_angle")) << tick;
     for (int i = 0; i < 2; ++i)
       EXPECT_NEAR(worlds.isolated.Sensor("footbot_encoders", robot, i),
-                  worlds.solved.Sensor("footbot_encoders", robot, i), 1e-6);
+                  worlds.solved.Sensor("footbot_encoders", robot, i), 1e-9);
     for (int i = 0; i < 3; ++i)
       EXPECT_NEAR(worlds.isolated.Sensor("footbot_accelerometer", robot, i),
-                  worlds.solved.Sensor("footbot_accelerometer", robot, i), 1e-4);
+                  worlds.solved.Sensor("footbot_accelerometer", robot, i), 1e-7);
   }
 }
 
@@ -84,8 +84,8 @@ TEST(Dynamics2d, AnIsolatedPreySlidesAndSpinsAsTheSolverWouldHaveIt)
   for (int tick = 0; tick < 30; ++tick)
   {
     worlds.Tick();
-    EXPECT_LT((worlds.isolated.Position(prey) - worlds.solved.Position(prey)).norm(), 1e-6) << tick;
-    EXPECT_NEAR(WrapAngle(worlds.isolated.Yaw(prey) - worlds.solved.Yaw(prey)), 0, 1e-6) << tick;
+    EXPECT_LT((worlds.isolated.Position(prey) - worlds.solved.Position(prey)).norm(), 1e-9) << tick;
+    EXPECT_NEAR(WrapAngle(worlds.isolated.Yaw(prey) - worlds.solved.Yaw(prey)), 0, 1e-9) << tick;
   }
   EXPECT_GT((worlds.isolated.Position(prey) - Vector3(2, 2, 0)).norm(), 0.1);
 }
