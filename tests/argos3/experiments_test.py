@@ -327,6 +327,20 @@ class Experiments(RunningTest):
         sums = set(re.findall(r"sum\t(\d+)", said))
         self.assertEqual(len(sums), 12)
 
+    def test_a_sensor_of_a_script_is_read_from_its_first_use_on(self):
+        shutil.copy(HERE / "scripts/first_use.lua", self.folder)
+        devices = """<actuators><differential_steering/></actuators><sensors><footbot_proximity/><footbot_light implementation="rot_z_only"/>
+            <positioning/><battery/></sensors>""".replace("/>", ' implementation="default"/>', 1)
+        file = self.in_lua("first_use.lua", re.sub(r"<(footbot_proximity|positioning|battery)/>", r'<\1 implementation="default"/>', devices))
+        text = re.sub(r"<distribute>.*</distribute>", "", file.read_text(), flags=re.DOTALL)
+        file.write_text(text.replace("</arena>", '<foot-bot id="a"><body position="-1,-1,0" orientation="0,0,0"/><controller config="w"/></foot-bot></arena>'))
+        one = self.hash_of(file, "--single-process", "--ticks", 10, "--output", "one")
+        said = self.said_in("one")
+        x = float(re.search(r"x (\S+) steps 8", said).group(1))
+        self.assertTrue(-1 < x < -0.9, x)
+        self.assertIn("fields battery id light own params positioning proximity random wheels", said)
+        self.assertEqual(self.hash_of(file, "--controller-hosts", 2, "--ticks", 10, "--output", "cluster"), one)
+
     def test_the_devices_of_a_script(self):
         shutil.copy(HERE / "scripts/devices.lua", self.folder)
         devices = """<actuators><differential_steering implementation="default"/><leds implementation="default" medium="leds"/>
