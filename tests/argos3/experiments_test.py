@@ -237,6 +237,20 @@ class Experiments(RunningTest):
         # Loop functions that make no robots keep none ready.
         self.assertNotIn("<reserve", self.swarmanoid("convert", HERE / "puck.argos").stdout)
 
+    def test_the_kinematic_engine_may_stand_in_the_place_of_argos3s(self):
+        file = self.changed("wander.argos", ('<dynamics2d id="dyn2d"/>', '<dummy_engine id="dyn2d"/>'))
+        one = self.hash_of(file, "--single-process", "--output", "one")
+        self.assertEqual(self.hash_of(file, "--controller-hosts", 2, "--output", "cluster"), one)
+        self.assertNotEqual(self.hash_of(HERE / "wander.argos", "--single-process", "--output", "rigid"), one)
+        converted = self.swarmanoid("convert", file).stdout
+        self.assertIn('<dummy_engine id="dyn2d"', converted)
+        self.assertNotIn("wheel_friction", converted)
+        # What only a rigid engine has is refused, and so is an engine that nobody knows.
+        friction = self.changed("wander.argos", ('<dynamics2d id="dyn2d"/>', '<dummy_engine id="dyn2d"><friction box_linear_friction="1"/></dummy_engine>'))
+        self.assertRegex(self.swarmanoid("check", friction).stderr, r"wander\.argos:\d+:\d+: note: <friction>")
+        unknown = self.changed("wander.argos", ('<dynamics2d id="dyn2d"/>', '<physx id="dyn2d"/>'))
+        self.assertRegex(self.swarmanoid("check", unknown, code=3).stderr, r"<physx> has no counterpart; .* dummy_engine")
+
     def test_what_has_no_counterpart_is_named_with_its_place(self):
         file = self.changed("wander.argos", ("<footbot_proximity ", "<footbot_proximty "),
                             ("<cylinder id=\"pillar\"", "<prototype id=\"pillar\""),
