@@ -92,10 +92,6 @@ struct BusOptions
   std::optional<RunKey> key{};
   int key_fd = -1;
   std::string key_file{};
-  // Processes whose names begin so never meet this one, because both have nothing to say to each other: "controller
-  // host". Otherwise each process of a run costs each other one about a hundred datagrams. It has no effect with a
-  // discovery server, which introduces only those that have something to say.
-  std::string ignored_names{};
   bool insecure = false;  // no key: every process in the domain belongs to the run
   // All messages of this process that are not of a tick go this way.
   std::optional<GrantChannel> grant{};

@@ -227,11 +227,7 @@ private:
 int RunControllerHost(const WorkerSettings& settings, const BusOptions& bus)
 {
   const std::size_t host = settings.host;
-  // Hosts hear from the space server and the engines alone.
-  BusOptions without_hosts = bus;
-  without_hosts.ignored_names = HostName(0);
-  without_hosts.ignored_names.pop_back();  // the number
-  WorkerSession session(without_hosts, settings.experiment, HostName(host), {}, settings.incarnation, settings.machine);
+  WorkerSession session(bus, settings.experiment, HostName(host), {}, settings.incarnation, settings.machine);
   return session.Work(
       [&]
       {

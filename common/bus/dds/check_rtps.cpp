@@ -482,21 +482,6 @@ Reason CheckSubmessage(std::uint8_t kind, unsigned flags, const Bytes& body, con
   }
 }
 
-// Returns the name in an announcement of a participant, or an empty text.
-std::string_view NameInAnnouncement(const Bytes& body, unsigned flags)
-{
-  constexpr EntityId kWriterOfParticipants{0, 1, 0, 0xc2};
-  if (EntityAt(body, 8) != kWriterOfParticipants || (flags & kDataFlag) == 0) return {};
-  ListEnd qos;
-  if (CheckInlineQos(body, kDataFixedBytes, (flags & kInlineQosFlag) != 0, qos) != nullptr) return {};
-  const Bytes payload = body.From(qos.at);
-  constexpr unsigned kListLittleEndian = 3;
-  const Bytes list{payload.bytes.subspan(kEncapsulationBytes), payload.Byte(1) == kListLittleEndian};
-  for (std::size_t at = 0; list.Short(at) != kSentinel; at += 4 + list.Short(at + 2))
-    if (list.Short(at) == kEntityName) return {list.bytes.data() + at + 8, list.Word(at + 4) - 1};
-  return {};
-}
-
 bool IsOfFastDds(std::span<const char> datagram)
 {
   return std::memcmp(datagram.data() + 6, kVendorOfFastDds.data(), kVendorOfFastDds.size()) == 0;
@@ -533,23 +518,6 @@ RtpsVerdict CheckRtps(std::span<const char> datagram, const RtpsLimits& limits)
     at += 4 + length;
   }
   return {nullptr, datagram.size()};
-}
-
-std::string_view AnnouncedName(std::span<const char> datagram)
-{
-  using namespace rtps_structure;
-  for (std::size_t at = kHeaderBytes; at < datagram.size();)
-  {
-    const Bytes here{datagram.subspan(at), (static_cast<unsigned char>(datagram[at + 1]) & kLittleEndianFlag) != 0};
-    const std::uint8_t kind = here.Byte(0);
-    std::size_t length = here.Short(2);
-    if (length == 0 && kind != kPad && kind != kInfoTimestamp) length = here.size() - 4;
-    if (kind == kData)
-      if (const std::string_view name = NameInAnnouncement(here.Part(4, length), here.Byte(1)); !name.empty())
-        return name;
-    at += 4 + length;
-  }
-  return {};
 }
 
 }  // namespace swarmanoid

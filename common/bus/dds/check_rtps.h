@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string_view>
 
 namespace swarmanoid
 {
@@ -50,9 +49,5 @@ struct RtpsVerdict
 // Does not throw and does not allocate. The time is proportional to the number of submessages and parameters, not to
 // that of bytes.
 RtpsVerdict CheckRtps(std::span<const char> datagram, const RtpsLimits& limits = kMemberLimits);
-
-// Returns the name of the participant that a datagram announces. It is empty if the datagram announces none, or one
-// without a name. The datagram must be one that CheckRtps accepts.
-std::string_view AnnouncedName(std::span<const char> datagram);
 
 }  // namespace swarmanoid

@@ -63,8 +63,6 @@ public:
   {
     Pass(next, datagram, local, remote);
   }
-  // Returns whether a datagram is dropped in silence, before Receive.
-  virtual bool Ignores(Datagram) const { return false; }
   // The transport calls it in its thread for each datagram that it drops because of its structure.
   virtual void Refuse(const std::string& what, const rtps::Locator_t& remote) = 0;
 
@@ -78,7 +76,7 @@ public:
                const rtps::Locator_t& local, const rtps::Locator_t& remote) final
   {
     const Datagram datagram = Check({reinterpret_cast<const char*>(bytes), size}, kMemberLimits, remote);
-    if (!datagram.empty() && !Ignores(datagram)) Receive(*next, datagram, local, remote);
+    if (!datagram.empty()) Receive(*next, datagram, local, remote);
   }
 
 #if SWARMANOID_FAST_DDS_MAJOR >= 3

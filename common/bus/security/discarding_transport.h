@@ -35,10 +35,8 @@ struct DatagramListener
 struct DiscardingTransportDescriptor : transport::ChainingTransportDescriptor
 {
   DiscardingTransportDescriptor(std::shared_ptr<transport::TransportDescriptorInterface> udp,
-                                std::shared_ptr<DatagramListener> its_listener, std::string names_ignored)
-      : ChainingTransportDescriptor(std::move(udp)),
-        listener(std::move(its_listener)),
-        ignored_names(std::move(names_ignored))
+                                std::shared_ptr<DatagramListener> its_listener)
+      : ChainingTransportDescriptor(std::move(udp)), listener(std::move(its_listener))
   {
   }
 
@@ -46,7 +44,6 @@ struct DiscardingTransportDescriptor : transport::ChainingTransportDescriptor
   std::uint32_t max_message_size() const override { return maxMessageSize; }
 
   const std::shared_ptr<DatagramListener> listener;
-  const std::string ignored_names;  // BusOptions::ignored_names
 };
 
 class DiscardingTransport : public FilterTransport
@@ -58,10 +55,6 @@ public:
   void select_locators(rtps::LocatorSelector& selector) const override;
   bool Send(Socket& socket, Datagram datagram, rtps::LocatorsIterator& first, rtps::LocatorsIterator& last,
             const Deadline& deadline) override;
-  bool Ignores(Datagram datagram) const override
-  {
-    return !descriptor_.ignored_names.empty() && AnnouncedName(datagram).starts_with(descriptor_.ignored_names);
-  }
   void Refuse(const std::string& what, const rtps::Locator_t& remote) override;
 
 protected:

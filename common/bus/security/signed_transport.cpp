@@ -80,10 +80,8 @@ private:
 
 SignedTransportDescriptor::SignedTransportDescriptor(std::shared_ptr<transport::TransportDescriptorInterface> udp,
                                                      std::shared_ptr<DatagramSignatures> its_signatures,
-                                                     std::shared_ptr<DatagramListener> its_listener,
-                                                     std::string names_ignored)
-    : DiscardingTransportDescriptor(std::move(udp), std::move(its_listener), std::move(names_ignored)),
-      signatures(std::move(its_signatures))
+                                                     std::shared_ptr<DatagramListener> its_listener)
+    : DiscardingTransportDescriptor(std::move(udp), std::move(its_listener)), signatures(std::move(its_signatures))
 {
   maxMessageSize -= kSignatureBytes;
 }

@@ -13,7 +13,7 @@ struct SignedTransportDescriptor : DiscardingTransportDescriptor
 {
   SignedTransportDescriptor(std::shared_ptr<transport::TransportDescriptorInterface> udp,
                             std::shared_ptr<DatagramSignatures> its_signatures,
-                            std::shared_ptr<DatagramListener> its_listener, std::string names_ignored);
+                            std::shared_ptr<DatagramListener> its_listener);
 
   transport::TransportInterface* create_transport() const override;
 

@@ -182,12 +182,11 @@ Bus::Impl::Impl(const BusOptions& options, const std::string& name, const std::s
   udp->interfaceWhiteList = InterfaceAddresses(options.network_interface);
   datagrams->malformed = [this](const std::string& what, const std::string& address) { RefuseDatagram(what, address); };
   datagrams->forged = [this](const GuidPrefix& member, const std::string& sender) { RefuseDatagram(member, sender); };
-  const std::string ignored = options.discovery_server.empty() ? options.ignored_names : "";
   if (insecure)
-    qos.transport().user_transports.push_back(std::make_shared<DiscardingTransportDescriptor>(udp, datagrams, ignored));
+    qos.transport().user_transports.push_back(std::make_shared<DiscardingTransportDescriptor>(udp, datagrams));
   else
-    qos.transport().user_transports.push_back(std::make_shared<SignedTransportDescriptor>(
-        udp, std::make_shared<DatagramSignatures>(key_ring), datagrams, ignored));
+    qos.transport().user_transports.push_back(
+        std::make_shared<SignedTransportDescriptor>(udp, std::make_shared<DatagramSignatures>(key_ring), datagrams));
 
   rtps::BuiltinAttributes& builtin = qos.wire_protocol().builtin;
   builtin.discovery_config.initial_announcements.count = 20;

@@ -308,25 +308,6 @@ TEST(Bus, NamesAProcessThatWasKilledWithinASecond)
   EXPECT_LT(when - killed, 40s);
 }
 
-TEST(Bus, DoesNotMeetProcessesThatItIgnores)
-{
-  const FreeDomain domain;
-  BusOptions options = Options();
-  options.domain = domain.Id();
-  Bus hearing(options, "space server");
-  options.ignored_names = "engine ";
-  Bus ignoring(options, "engine 'air'");
-  std::atomic<int> heard = 0, ignored = 0;
-  const Subscription<StatusMessage> in(hearing, "x", [&](const StatusMessage&) { ++heard; });
-  const Subscription<StatusMessage> none(ignoring, "x", [&](const StatusMessage&) { ++ignored; });
-  const pid_t child = StartChild(fmt::format("victim {} lo - - 0", options.domain));
-  // More announcements than a process makes before it sends.
-  EXPECT_TRUE(Eventually([&] { return heard >= 10; }));
-  EXPECT_EQ(ignored, 0);
-  kill(child, SIGKILL);
-  waitpid(child, nullptr, 0);
-}
-
 TEST(Bus, RefusesInterfacesThatDoNotExistByName)
 {
   BusOptions options = Options();

@@ -57,31 +57,6 @@ TEST_P(LegalRtps, IsReadWithinItsBoundsWhereverItEnds)
   }
 }
 
-TEST(AnnouncedName, IsThatOfTheParticipant)
-{
-  EXPECT_EQ(AnnouncedName(Announcement(OwnParameters())), "engine");
-  // Behind other submessages, and before others.
-  const std::string announcement = Announcement(OwnParameters()).substr(RtpsHeader().size());
-  EXPECT_EQ(AnnouncedName(RtpsHeader() + Heartbeat(1, 2) + announcement + AckNack(1, 0)), "engine");
-}
-
-TEST(AnnouncedName, IsEmptyWithoutAnAnnouncement)
-{
-  EXPECT_EQ(AnnouncedName(RtpsHeader()), "");
-  EXPECT_EQ(AnnouncedName(RtpsHeader() + Heartbeat(1, 2)), "");
-  EXPECT_EQ(AnnouncedName(Announcement(kListEnd)), "");
-  // A writer of the run may send the same bytes.
-  EXPECT_EQ(AnnouncedName(RtpsHeader() + Data(kUserWriter, kHasData, kListEncapsulation + OwnParameters())), "");
-}
-
-TEST_P(LegalRtps, HasANameWithinItsBounds)
-{
-  const std::unique_ptr<char[]> exact(new char[GetParam().bytes.size()]);
-  std::copy(GetParam().bytes.begin(), GetParam().bytes.end(), exact.get());
-  const std::string_view name = AnnouncedName({exact.get(), GetParam().bytes.size()});
-  EXPECT_TRUE(name.empty() || name == "engine") << name;
-}
-
 struct AttackByRtps : testing::TestWithParam<RtpsDatagram>
 {
 };
