@@ -140,13 +140,20 @@ private:
     }
   }
 
+  // Besides ARGoS3's planar engine, our kinematic engine may be named in its place.
+  static bool IsPlane(std::string_view engine)
+  {
+    return engine == "dynamics2d" || engine == "dummy_engine" || engine == "kinematics2d";
+  }
+
   void ReadGround(ArenaConverter& arena)
   {
     const ConfigurationNode* engines = FindChild(root_, "physics_engines");
-    const ConfigurationNode* flat = engines == nullptr ? nullptr : FindChild(*engines, "dynamics2d");
-    if (flat == nullptr) return;
+    if (engines == nullptr) return;
+    const auto flat = std::ranges::find_if(engines->children, [](const auto& one) { return IsPlane(one->name); });
+    if (flat == engines->children.end()) return;
     GroundFriction ground;
-    if (const ConfigurationNode* friction = FindChild(*flat, "friction"))
+    if (const ConfigurationNode* friction = FindChild(**flat, "friction"))
     {
       const auto read = [&](const char* name, double& value)
       {
@@ -200,14 +207,16 @@ private:
     for (const auto& theirs : engines->children)
     {
       const SourceLocation& at = theirs->location;
-      const bool flat = theirs->name == "dynamics2d";
+      const bool flat = IsPlane(theirs->name);
       if (!flat && theirs->name != "pointmass3d" && theirs->name != "dynamics3d")
       {
-        Mistake(at,
-                "the engine <" + theirs->name + "> has no counterpart; dynamics2d, pointmass3d and dynamics3d have");
+        Mistake(at, "the engine <" + theirs->name +
+                        "> has no counterpart; dynamics2d, pointmass3d and dynamics3d have, and dummy_engine, the "
+                        "kinematic engine of this simulator, may stand in their place");
         continue;
       }
-      const std::string tag = flat ? "dynamics2d" : "dynamics3d";
+      const bool is_rigid_plane = theirs->name == "dynamics2d";
+      const std::string tag = flat ? theirs->name : "dynamics3d";
       const std::string id = OurCharacters(NeededText(*theirs, "id"));
       // Without boundaries the first engine of a kind has all entities.
       if (!have_volumes && std::ranges::any_of(made, [&](const MadeEngine& engine) { return engine.is_flat == flat; }))
@@ -219,11 +228,11 @@ private:
       SetValue(*engine, "id", id, at);
       if (flat) SetValue(*engine, "distance", TextOf(Number(*theirs, "elevation", 0) + arena.Origin().z()), at);
       // The motors of ARGoS3's foot-bots, not their wheels, limit the force (dynamics2d_footbot_model.cpp).
-      if (flat) SetValue(*engine, "wheel_friction", "1", at);
-      if (flat) SetValue(*engine, "gripper", "rod", at);
+      if (is_rigid_plane) SetValue(*engine, "wheel_friction", "1", at);
+      if (is_rigid_plane) SetValue(*engine, "gripper", "rod", at);
       NoteOthers(*theirs, flat ? std::set<std::string>{"id", "elevation"} : std::set<std::string>{"id"});
-      NoteOtherChildren(*theirs,
-                        flat ? std::set<std::string>{"boundaries", "friction"} : std::set<std::string>{"boundaries"});
+      NoteOtherChildren(*theirs, is_rigid_plane ? std::set<std::string>{"boundaries", "friction"}
+                                                : std::set<std::string>{"boundaries"});
       if (theirs->name == "pointmass3d") Note(at, "<pointmass3d> is dynamics3d here: bodies that meet collide");
       made.push_back({flat, id, FindChild(*theirs, "boundaries")});
     }

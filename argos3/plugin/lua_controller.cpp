@@ -1,11 +1,13 @@
 // Each robot has an interpreter of its own, in which the script is run once; then step() is called in each control
-// step, with the readings written to the table `robot` before.
+// step, with the readings written to the table `robot` before. Scripts often declare more sensors than they use, so a
+// sensor is read from the moment on at which the script first asks for its field of `robot`.
 #include "argos3/plugin/lua_controller.h"
 
 #include <argos3/core/utility/math/rng.h>
 #include <argos3/core/wrappers/lua/lua_controller.h>
 
 #include <cmath>
+#include <set>
 
 #include "argos3/plugin/lua_devices.h"
 #include "argos3/plugin/lua_vectors.h"
@@ -160,6 +162,7 @@ private:
     {
       AddFunctions(lua_, tag, *sensor);
       AddReadings(lua_, tag, *sensor);
+      sensors_.push_back({tag, sensor, FieldsOf(tag, *sensor)});
     }
     for (const auto& [type, actuator] : script_.actuators)
     {
@@ -175,7 +178,89 @@ private:
       lua_setfield(lua_, -2, parameter.Name().c_str());
     }
     Leave(lua_);
+    HideSensors();
     lua_setglobal(lua_, "robot");
+  }
+
+  // The fields of `robot` that a sensor writes.
+  std::set<std::string> FieldsOf(const std::string& tag, argos::CCI_Sensor& sensor)
+  {
+    std::set<std::string> fields;
+    lua_newtable(lua_);
+    AddReadings(lua_, tag, sensor);
+    for (lua_pushnil(lua_); lua_next(lua_, -2) != 0; lua_pop(lua_, 1)) fields.insert(lua_tostring(lua_, -2));
+    Leave(lua_);
+    return fields;
+  }
+
+  // Moves the fields of sensors from `robot`, which is on top of the stack, to a table of their own, where Lua finds
+  // them by its event `index`.
+  void HideSensors()
+  {
+    lua_newtable(lua_);
+    for (const Sensor& sensor : sensors_)
+      for (const std::string& field : sensor.fields)
+      {
+        lua_getfield(lua_, -2, field.c_str());
+        if (!lua_isnil(lua_, -1))
+          lua_setfield(lua_, -2, field.c_str());
+        else
+          Leave(lua_);
+        lua_pushnil(lua_);
+        lua_setfield(lua_, -3, field.c_str());
+      }
+    hidden_ = luaL_ref(lua_, LUA_REGISTRYINDEX);
+    lua_newtable(lua_);
+    SetFunction<FirstUse>(lua_, "__index", this);
+    SetFunction<Pairs>(lua_, "__pairs", this);
+    lua_setmetatable(lua_, -2);
+  }
+
+  // Called when the script reads a field of `robot` that is not there: a sensor's field that was not used yet, or nil.
+  static int FirstUse(lua_State* lua)
+  {
+    if (lua_type(lua, 2) != LUA_TSTRING) return 0;
+    lua_settop(lua, 2);
+    Subject<LuaController>(lua).Show(lua, lua_tostring(lua, 2));
+    lua_settop(lua, 2);
+    lua_rawget(lua, 1);
+    return 1;
+  }
+
+  // A script that goes through all fields uses all.
+  static int Pairs(lua_State* lua)
+  {
+    auto& controller = Subject<LuaController>(lua);
+    lua_settop(lua, 1);
+    for (const Sensor& sensor : controller.sensors_)
+      for (const std::string& field : sensor.fields) controller.Show(lua, field);
+    lua_settop(lua, 1);
+    lua_getglobal(lua, "next");
+    lua_pushvalue(lua, 1);
+    lua_pushnil(lua);
+    return 3;
+  }
+
+  // Puts a hidden field into `robot`, which is at index 1 of the stack, and reads its sensors.
+  void Show(lua_State* lua, const std::string& field)
+  {
+    lua_rawgeti(lua, LUA_REGISTRYINDEX, hidden_);
+    if (lua_getfield(lua, -1, field.c_str()) == LUA_TNIL) return;
+    lua_pushvalue(lua, 1);
+    lua_insert(lua, -2);
+    lua_setfield(lua, -2, field.c_str());
+    Leave(lua);
+    lua_pushnil(lua);
+    lua_setfield(lua, -2, field.c_str());
+    Leave(lua);
+    for (Sensor& sensor : sensors_)
+    {
+      if (!sensor.fields.contains(field)) continue;
+      sensor.is_used = true;
+      lua_pushvalue(lua, 1);
+      AddReadings(lua, sensor.tag, *sensor.sensor);
+      Leave(lua);
+    }
   }
 
   void Execute()
@@ -192,7 +277,8 @@ private:
     // A script may have replaced the table.
     if (lua_istable(lua_, -1))
     {
-      for (const auto& [tag, sensor] : GetAllSensors()) AddReadings(lua_, tag, *sensor);
+      for (const Sensor& sensor : sensors_)
+        if (sensor.is_used) AddReadings(lua_, sensor.tag, *sensor.sensor);
       ReadOwnSensors();
     }
     Leave(lua_);
@@ -217,6 +303,15 @@ private:
   lua_State*& lua_ = m_ptLuaState;
   argos::CRandom::CRNG* random_ = nullptr;
   std::vector<ticpp::Attribute> params_;
+  struct Sensor
+  {
+    std::string tag;
+    argos::CCI_Sensor* sensor;
+    std::set<std::string> fields;  // of `robot`
+    bool is_used = false;
+  };
+  std::vector<Sensor> sensors_;
+  int hidden_ = LUA_NOREF;  // the fields that were not used yet
 };
 
 }  // namespace

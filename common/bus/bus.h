@@ -92,6 +92,9 @@ struct BusOptions
   std::optional<RunKey> key{};
   int key_fd = -1;
   std::string key_file{};
+  // Otherwise this process meets only those of this machine that hear it, and not those that also only speak.
+  // Controller hosts have nothing to say to each other, and each pair that meets costs a hundred datagrams.
+  bool hears_announcements = true;
   bool insecure = false;  // no key: every process in the domain belongs to the run
   // All messages of this process that are not of a tick go this way.
   std::optional<GrantChannel> grant{};

@@ -227,7 +227,11 @@ private:
 int RunControllerHost(const WorkerSettings& settings, const BusOptions& bus)
 {
   const std::size_t host = settings.host;
-  WorkerSession session(bus, settings.experiment, HostName(host), {}, settings.incarnation, settings.machine);
+  // The space server and the engines hear it, and speak to it.
+  BusOptions without_others = bus;
+  without_others.hears_announcements = false;
+  WorkerSession session(without_others, settings.experiment, HostName(host), {}, settings.incarnation,
+                        settings.machine);
   return session.Work(
       [&]
       {

@@ -23,6 +23,7 @@ namespace
 // Up to this number, wake-ups across cores cost more than the parallel work saves (10 robots: 51 us a tick on one core,
 // 70 us on two).
 constexpr std::size_t kRobotsForOneCore = 300;
+constexpr std::size_t kHostsForOneCore = 8;  // the start of more takes long with one core
 // The same if the processes work one after the other: their messages stay in the core's cache (300 robots: 1.37 times
 // as fast on one core as on two, 1,000: 1.2, 2,000: 1.15, 4,000: as fast).
 constexpr std::size_t kRobotsInTurnForOneCore = 3000;
@@ -191,6 +192,7 @@ bool SharesOneCore(const ClusterPlan& plan)
   if (plan.settings.placement != "auto") return plan.settings.placement == "one-core";
   // Over a network, work beside the tick always exists: all cores give a tenth more ticks with 10 robots.
   if (!plan.machines.AllHere()) return false;
+  if (HostCount(plan) > kHostsForOneCore) return false;
   const bool in_turn = plan.is_serial && HostCount(plan) == 1;
   return plan.robots <= (in_turn ? kRobotsInTurnForOneCore : kRobotsForOneCore);
 }

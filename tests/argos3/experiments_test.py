@@ -237,6 +237,20 @@ class Experiments(RunningTest):
         # Loop functions that make no robots keep none ready.
         self.assertNotIn("<reserve", self.swarmanoid("convert", HERE / "puck.argos").stdout)
 
+    def test_the_kinematic_engine_may_stand_in_the_place_of_argos3s(self):
+        file = self.changed("wander.argos", ('<dynamics2d id="dyn2d"/>', '<dummy_engine id="dyn2d"/>'))
+        one = self.hash_of(file, "--single-process", "--output", "one")
+        self.assertEqual(self.hash_of(file, "--controller-hosts", 2, "--output", "cluster"), one)
+        self.assertNotEqual(self.hash_of(HERE / "wander.argos", "--single-process", "--output", "rigid"), one)
+        converted = self.swarmanoid("convert", file).stdout
+        self.assertIn('<dummy_engine id="dyn2d"', converted)
+        self.assertNotIn("wheel_friction", converted)
+        # What only a rigid engine has is refused, and so is an engine that nobody knows.
+        friction = self.changed("wander.argos", ('<dynamics2d id="dyn2d"/>', '<dummy_engine id="dyn2d"><friction box_linear_friction="1"/></dummy_engine>'))
+        self.assertRegex(self.swarmanoid("check", friction).stderr, r"wander\.argos:\d+:\d+: note: <friction>")
+        unknown = self.changed("wander.argos", ('<dynamics2d id="dyn2d"/>', '<physx id="dyn2d"/>'))
+        self.assertRegex(self.swarmanoid("check", unknown, code=3).stderr, r"<physx> has no counterpart; .* dummy_engine")
+
     def test_what_has_no_counterpart_is_named_with_its_place(self):
         file = self.changed("wander.argos", ("<footbot_proximity ", "<footbot_proximty "),
                             ("<cylinder id=\"pillar\"", "<prototype id=\"pillar\""),
@@ -326,6 +340,20 @@ class Experiments(RunningTest):
         said = "".join(log.read_text() for log in (self.folder / "cluster").glob("controller_host-*.log"))
         sums = set(re.findall(r"sum\t(\d+)", said))
         self.assertEqual(len(sums), 12)
+
+    def test_a_sensor_of_a_script_is_read_from_its_first_use_on(self):
+        shutil.copy(HERE / "scripts/first_use.lua", self.folder)
+        devices = """<actuators><differential_steering/></actuators><sensors><footbot_proximity/><footbot_light implementation="rot_z_only"/>
+            <positioning/><battery/></sensors>""".replace("/>", ' implementation="default"/>', 1)
+        file = self.in_lua("first_use.lua", re.sub(r"<(footbot_proximity|positioning|battery)/>", r'<\1 implementation="default"/>', devices))
+        text = re.sub(r"<distribute>.*</distribute>", "", file.read_text(), flags=re.DOTALL)
+        file.write_text(text.replace("</arena>", '<foot-bot id="a"><body position="-1,-1,0" orientation="0,0,0"/><controller config="w"/></foot-bot></arena>'))
+        one = self.hash_of(file, "--single-process", "--ticks", 10, "--output", "one")
+        said = self.said_in("one")
+        x = float(re.search(r"x (\S+) steps 8", said).group(1))
+        self.assertTrue(-1 < x < -0.9, x)
+        self.assertIn("fields battery id light own params positioning proximity random wheels", said)
+        self.assertEqual(self.hash_of(file, "--controller-hosts", 2, "--ticks", 10, "--output", "cluster"), one)
 
     def test_the_devices_of_a_script(self):
         shutil.copy(HERE / "scripts/devices.lua", self.folder)

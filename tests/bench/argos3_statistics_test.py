@@ -78,15 +78,26 @@ class Table(unittest.TestCase):
                              "here": {"items": ours, beside.SPEED: [2000.0] * 50}}}
 
     def test_what_agrees_and_what_differs(self):
-        text, agree, rows = beside.table(self.measured(normal(10, 2, 50, 3)), {})
+        text, agree, rows = beside.table(self.measured(normal(10, 2, 50, 3)))
         self.assertEqual((agree, rows), (1, 1))
         self.assertRegex(text, r"\| foraging \| items \| .* ± .* \(.*\) \| .* ± .* % \| yes \| 20 times \|")
-        self.assertIn("| no: mean |", beside.table(self.measured(normal(13, 2, 50, 2)), {})[0])
-        self.assertIn("| no: spread |", beside.table(self.measured(normal(10, 8, 50, 4)), {})[0])
+        self.assertIn("| no: mean |", beside.table(self.measured(normal(13, 2, 50, 2)))[0])
+        self.assertIn("| no: spread |", beside.table(self.measured(normal(10, 8, 50, 4)))[0])
 
     def test_speeds_of_crowds(self):
-        values = {"ARGoS3": {beside.SPEED: [50.0, 51.0, 49.0]}, "here": {beside.SPEED: [1000.0, 900.0, 5000.0]}}
-        self.assertIn("| 1,000 robots, dynamics2d | ticks/s | 50 | 1,000 | | | 20 times |", beside.table({}, {("dynamics2d", 1000, 20): values})[0])
+        values = {"ARGoS3": [50.0, 51.0, 49.0], "dynamics2d": [1000.0, 900.0, 5000.0], "dummy_engine": [5000.0]}
+        self.assertIn("| diffusion, 1,000 | `dynamics2d` | 50 | 1,000 (20 times) | 5,000 (100 times) |",
+                      beside.speed_table({("diffusion, 1,000", "dynamics2d"): values}))
+        # A file whose engine has no kinematic counterpart.
+        values = {"ARGoS3": [2.0], "dynamics3d": [50.0]}
+        self.assertIn("| diffusion, 100 | `pointmass3d` | 2 | 50 (25 times) |  |", beside.speed_table({("diffusion, 100", "pointmass3d"): values}))
+
+    def test_only_the_engine_differs_for_the_kinematic_engine(self):
+        rows = {row.name: row for row in beside.speed_rows() if row.engine == "dynamics2d"}
+        row = rows["all devices, 1,000"]
+        self.assertEqual(row.text_of("dynamics2d"), row.text)
+        self.assertEqual(row.text_of("dummy_engine").replace("<dummy_engine ", "<dynamics2d "), row.text)
+        self.assertIn("<dummy_engine ", row.text_of("dummy_engine"))
 
     def test_crowds_have_a_square_metre_for_each_robot(self):
         root = xml.etree.ElementTree.fromstring(beside.crowd("pointmass3d", 100, 20))
@@ -106,6 +117,16 @@ class Messages(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("/nowhere/bin/argos3 is not there; --argos3 or ARGOS3_PREFIX", done.stderr)
 
+    def test_examples_must_be_built(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for needed in ("bin/argos3", "include/argos3/core/simulator/loop_functions.h"):
+                path = pathlib.Path(folder) / needed
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.touch()
+            done = self.call("--speed", "--argos3", folder, "--examples", "/nowhere", "/nowhere")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("libfootbot_foraging.so is not there; --examples takes two build folders", done.stderr)
+
     def test_wrong_options(self):
         self.assertIn("give --statistics or --speed", self.call().stderr)
         self.assertIn("--seeds 2: the comparison of spreads needs at least 3", self.call("--statistics", "--seeds", "2").stderr)
@@ -115,6 +136,11 @@ class Scenes(unittest.TestCase):
     def test_each_scene_runs_here_and_writes_its_quantities(self):
         here = beside.Here(BUILD)
         with tempfile.TemporaryDirectory() as folder:
+            for row in beside.speed_rows():
+                if row.name in ("diffusion, 100", "all devices, 1,000"):
+                    for engine in row.ours:
+                        text = re.sub(r'length="\d+"', 'length="1"', row.text_of(engine))
+                        self.assertGreater(beside.run_one(here, text, 7, folder)[beside.SPEED], 0, row.name)
             for name in beside.SCENES:
                 text = re.sub(r'length="\d+"', 'length="3"', beside.scene(name))
                 values = beside.run_one(here, text, 7, folder)

@@ -14,14 +14,15 @@ from importlib.util import module_from_spec, spec_from_loader
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "cluster")]
 import two_machines  # noqa: E402
-from swarm import FINISHED, diffusion, diffusion_of_argos3  # noqa: E402
+from swarm import FINISHED, diffusion  # noqa: E402
 
 
-def load_scenes():
-    loader = SourceFileLoader("scenes", str(HERE / "scenes"))
-    module = module_from_spec(spec_from_loader("scenes", loader))
+def load_script(name):
+    """The module of a script of this folder."""
+    loader = SourceFileLoader(name, str(HERE / name))
+    module = module_from_spec(spec_from_loader(name, loader))
     loader.exec_module(module)
-    return module.SCENES
+    return module
 
 
 class Bench:
@@ -30,7 +31,8 @@ class Bench:
     def __init__(self, folder):
         self.folder = folder
         self.runs = 0
-        self.scenes = {scene.name: scene for scene in load_scenes()}
+        self.checkpoints = {}
+        self.scenes = {scene.name: scene for scene in load_script("scenes").SCENES}
 
     def file(self, name, text):
         """Writes the file again for each run, because builds load libraries of their own."""
@@ -53,8 +55,8 @@ class Bench:
         return [str(word) for word in (build / "bin" / "swarmanoid", "run", file, "--ticks", ticks, "--no-visualisers",
                                        "--output", self.folder / f"run_{self.runs}", *options)]
 
-    def finish(self, words):
-        """Ticks a second."""
+    def finish(self, words, since=0, keep=False):
+        """Ticks a second from tick `since` on. `keep`: the folder of the run stays."""
         with open(self.folder / "said", "w+", encoding="utf-8") as said:
             process = subprocess.Popen([*words, "--quiet"], stdout=said, stderr=subprocess.STDOUT,
                                        env=os.environ | {"SWARMANOID_SHARED_FOLDER": str(self.folder)})
@@ -67,12 +69,13 @@ class Bench:
             process.returncode = os.waitstatus_to_exitcode(status)
             said.seek(0)
             text = said.read()
-        shutil.rmtree(self.folder / f"run_{self.runs}", ignore_errors=True)
+        if not keep:
+            shutil.rmtree(self.folder / f"run_{self.runs}", ignore_errors=True)
         finished = FINISHED.search(text)
         if process.returncode != 0 or not finished:
             sys.exit(f"{' '.join(words)} failed:\n{text}")
         self.memory = usage.ru_maxrss * 1024 / 1e6
-        return int(finished.group(1)) / float(finished.group(4))
+        return (int(finished.group(1)) - since) / float(finished.group(4))
 
     def single(self, file, ticks, *options):
         return lambda build: self.finish(self.words(build, file(build), ticks, "--single-process", *options))
@@ -104,10 +107,44 @@ class Bench:
                 machines.remove()
         return measure
 
-    def start(self, build):
+    def one_tick(self):
+        """Seconds of a whole command."""
+        def measure(build):
+            words = self.words(build, self.swarm(10), 1, "--single-process")
+            started = time.monotonic()
+            self.finish(words)
+            return time.monotonic() - started
+        return measure
+
+    def aged(self, file, name, age, ticks):
+        """Ticks a second from a checkpoint of tick `age` on, which is made once for each build."""
+        def measure(build):
+            if (name, build) not in self.checkpoints:
+                words = self.words(build, file(build), age, "--single-process", "--checkpoint-every", age)
+                made = self.folder / f"run_{self.runs}"
+                self.finish(words, keep=True)
+                self.checkpoints[name, build] = made / "experiment.xml", made / f"checkpoint-{age:08}"
+            experiment, checkpoint = self.checkpoints[name, build]
+            return self.finish(self.words(build, experiment, age + ticks, "--single-process", "--threads", 1, "--restore", checkpoint), since=age)
+        return measure
+
+    def instructions(self, name):
+        """Of a robot in a tick (callgrind)."""
+        def measure(build):
+            counts = []
+            for ticks in (4, 12):
+                words = self.words(build, self.scene(build, name), ticks, "--single-process", "--quiet", "--threads", 1)
+                valgrind = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={self.folder}/callgrind.out"]
+                done = subprocess.run([*valgrind, *words], capture_output=True, text=True, check=True,
+                                      env=os.environ | {"SWARMANOID_SHARED_FOLDER": str(self.folder)})
+                counts.append(int(re.search(r"Collected : (\d+)", done.stderr).group(1)))
+            return (counts[1] - counts[0]) / 8 / self.scenes[name].robots
+        return measure
+
+    def start(self, build, hosts=1, robots=10):
         """From the start of the command until it says, on standard error, that the experiment is running."""
         started = time.monotonic()
-        process = subprocess.Popen(self.words(build, self.swarm(10), 2000), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen(self.words(build, self.swarm(robots), 100 if hosts > 1 else 2000, "--controller-hosts", hosts), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         running = next((time.monotonic() - started for line in process.stderr if "running" in line), None)
         process.stderr.read()
         if process.wait() != 0 or running is None:
@@ -135,20 +172,3 @@ class Bench:
         finally:
             run.send_signal(signal.SIGINT)
             run.wait()
-
-    def argos3(self, examples, robots, ticks):
-        """ARGoS3's ticks a second: what a run of several ticks takes more than one of a single tick, since starts are long."""
-        def measure(build):
-            seconds = []
-            for length in (1, ticks + 1):
-                path = self.folder / f"argos3_{robots}.argos"
-                path.write_text(diffusion_of_argos3(robots, length, examples))
-                started = time.monotonic()
-                run = subprocess.run(["argos3", "-n", "-z", "-c", path], capture_output=True, text=True)
-                seconds.append(time.monotonic() - started)
-                if run.returncode != 0:
-                    sys.exit(f"argos3 failed:\n{run.stdout}{run.stderr}")
-            if seconds[1] <= seconds[0]:
-                sys.exit(f"argos3: {ticks} ticks of {robots} robots took no longer than one")
-            return ticks / (seconds[1] - seconds[0])
-        return measure

@@ -6,11 +6,9 @@ import subprocess
 import sys
 import tempfile
 import unittest
-import xml.etree.ElementTree
 from importlib.machinery import SourceFileLoader
 
 sys.dont_write_bytecode = True
-from swarm import diffusion_of_argos3  # noqa: E402
 
 RUN = pathlib.Path(__file__).resolve().parent / "run"
 run = importlib.util.module_from_spec(importlib.util.spec_from_loader("run", SourceFileLoader("run", str(RUN))))
@@ -65,11 +63,6 @@ class Runs(unittest.TestCase):
         self.assertIn("no row has 'no such row' in its name", done.stderr)
         done = subprocess.run([sys.executable, RUN, "--build", "/nowhere"], capture_output=True, text=True)
         self.assertIn("/nowhere/bin/swarmanoid is not there", done.stderr)
-
-    def test_argos3_gets_an_experiment_of_its_own_kind(self):
-        root = xml.etree.ElementTree.fromstring(diffusion_of_argos3(100, 50, "examples"))
-        self.assertEqual(root.find("framework/experiment").get("length"), "5")
-        self.assertEqual(root.find("arena/distribute/entity").get("quantity"), "100")
 
 
 if __name__ == "__main__":

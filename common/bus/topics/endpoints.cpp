@@ -14,7 +14,7 @@ DdsDuration Milliseconds(double ms) { return Seconds(ms / 1e3); }
 
 }  // namespace
 
-dds::DataWriterQos WriterQos(const TopicQos& topic)
+dds::DataWriterQos WriterQos(const TopicQos& topic, bool spreads)
 {
   dds::DataWriterQos qos;
   qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
@@ -31,8 +31,9 @@ dds::DataWriterQos WriterQos(const TopicQos& topic)
   qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   qos.data_sharing().off();
   // Sets the heartbeat period while a reader has not confirmed a message. The period is the delay that a lost message
-  // causes.
-  SetHeartbeatPeriod(qos, Milliseconds(topic.hot ? 1 : 5));
+  // causes. On one machine messages are lost only if a process lags far behind, and then heartbeats would be more for
+  // it to read.
+  SetHeartbeatPeriod(qos, Milliseconds(topic.hot ? 1 : spreads ? 5 : 20));
   // Otherwise each datagram of a message has a heartbeat. The reader would answer with a list of datagrams still under
   // way.
   qos.reliable_writer_qos().disable_heartbeat_piggyback = topic.hot;

@@ -46,7 +46,8 @@ struct Publisher<Message>::Impl
         partition(its_partition),
         grant(its_grant ? its_grant : bus.grant),
         topic(TopicName<Message>(grant)),
-        writer(its_bus, ColdTopic<Message>(its_bus, topic), partition, WriterQos(QosOf(kTopicOf<Message>)))
+        writer(its_bus, ColdTopic<Message>(its_bus, topic), partition,
+               WriterQos(QosOf(kTopicOf<Message>), its_bus.Internals().spreads))
   {
   }
 

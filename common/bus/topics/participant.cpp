@@ -60,6 +60,9 @@ bool KeepLog()
   dds::Log::RegisterConsumer(std::make_unique<DdsLog>());
   return true;
 }
+// The multicast group of DDS discovery and its ports (RTPS 2.2, 9.6.1).
+constexpr const char* kMulticastGroup = "239.255.0.1";
+constexpr unsigned kFirstPort = 7400, kPortsOfADomain = 250;
 constexpr unsigned kPeerProcesses = 100;  // number of participants that are searched on each machine named as a peer
 
 std::atomic<bool> broken = false;
@@ -154,6 +157,7 @@ WriterId IdOf(const rtps::GUID_t& writer)
 
 Bus::Impl::Impl(const BusOptions& options, const std::string& name, const std::string& experiment)
     : insecure(options.insecure),
+      spreads(options.Spread()),
       grant(options.grant),
       key_ring(std::make_shared<KeyRing>(options.domain, GivenKey(options))),
       own_name(name),
@@ -201,6 +205,13 @@ Bus::Impl::Impl(const BusOptions& options, const std::string& name, const std::s
     for (const std::string& own : udp->interfaceWhiteList) builtin.initialPeersList.push_back(LocatorOf(own, 0));
     if (udp->interfaceWhiteList.empty()) builtin.initialPeersList.push_back(LocatorOf("127.0.0.1", 0));
     for (const std::string& peer : options.peers) builtin.initialPeersList.push_back(LocatorOf(peer, 0));
+  }
+  else if (!options.hears_announcements && !options.Spread())
+  {
+    // An address of its own for discovery takes the place of the multicast group, to which it still announces itself.
+    builtin.metatrafficUnicastLocatorList.push_back(LocatorOf("127.0.0.1", 0));
+    builtin.initialPeersList.push_back(
+        LocatorOf(kMulticastGroup, kFirstPort + kPortsOfADomain * static_cast<unsigned>(options.domain)));
   }
 
   [[maybe_unused]] static const bool logs = KeepLog();

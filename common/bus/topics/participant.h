@@ -46,6 +46,7 @@ struct Bus::Impl : ParticipantListener
   dds::DomainParticipant* participant = nullptr;
   DelayedCalls later;
   const bool insecure;
+  const bool spreads;  // reaches other machines
   const std::optional<GrantChannel> grant;
   const std::shared_ptr<KeyRing> key_ring;
   KeyRing& keys = *key_ring;
@@ -143,7 +144,8 @@ private:
   std::shared_ptr<ReaderEnd> reader_;  // held while a thread uses it
 };
 
-dds::DataWriterQos WriterQos(const TopicQos& topic);
+// `spreads`: messages may be lost on their way, since they reach other machines.
+dds::DataWriterQos WriterQos(const TopicQos& topic, bool spreads);
 dds::DataReaderQos ReaderQos(const TopicQos& topic, unsigned writers);
 
 }  // namespace swarmanoid

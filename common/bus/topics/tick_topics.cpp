@@ -91,7 +91,7 @@ struct HotPublisher<Message>::Impl
 
   static dds::DataWriterQos Qos(Bus& bus, const HotScope& scope)
   {
-    dds::DataWriterQos qos = WriterQos(QosOf(kTopicOf<Message>));
+    dds::DataWriterQos qos = WriterQos(QosOf(kTopicOf<Message>), scope.spread);
     const auto samples = qos.resource_limits().max_samples + qos.resource_limits().extra_samples;
     if (SharesMemory(bus, scope))
       RequireSharedMemory((scope.capacity + kMostSealBytes) * static_cast<std::size_t>(samples));

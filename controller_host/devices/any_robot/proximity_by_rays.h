@@ -36,13 +36,28 @@ protected:
 private:
   void MakeDue() override;
   bool MakeAlone(std::size_t k) override;
+  // In a world of upright bodies without moving parts, neighbours are remembered while MovedSince holds.
+  bool KnowsNear() const;
+  void FindNear();
   void Sense(std::size_t k);
+  // Computes the readings of a robot from near_ and the terrain.
+  void CastRays(std::size_t k);
+  // Adds a body that the robot can sense to the bodies near it.
+  void AddNear(std::uint32_t robot, std::uint32_t body)
+  {
+    if (body != robot && world_->Membership().ShareEngine(robot, body)) near_.push_back(body);
+  }
 
   std::shared_ptr<SensorWorld> world_;
   std::unique_ptr<FixedBodies> fixed_;
   double range_m_ = 0;
   double reach_m_ = 0;
   std::vector<std::uint32_t> near_;  // of the robot being sensed
+  bool remembers_ = false;
+  std::uint64_t near_since_ = 0;                 // MovedSince::Number
+  std::unique_ptr<FixedBodies> fixed_for_long_;  // bodies that may come near while MovedSince holds
+  std::vector<std::uint32_t> remembered_;        // the bodies near each robot, one robot after the other
+  std::vector<std::uint32_t> first_remembered_;  // of robot k there; has one number more than there are robots
 };
 
 }  // namespace swarmanoid

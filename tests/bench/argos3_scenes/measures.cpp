@@ -36,13 +36,56 @@ Real Heading(const CEmbodiedEntity& body)
 
 CVector2 Flat(const CVector3& position) { return CVector2(position.GetX(), position.GetY()); }
 
-// Follows the bodies of all robots, and writes the result.
-class CMeasure : public CLoopFunctions
+// Measures the processor time of steps, and writes the result.
+class CMeasureSpeed : public CLoopFunctions
+{
+public:
+  void Init(TConfigurationNode& node) override { GetNodeAttributeOrDefault(node, "output", output_, output_); }
+
+  void PostStep() override
+  {
+    if (ticks_ == 0) started_ = std::clock();
+    ++ticks_;
+  }
+
+  void PostExperiment() override
+  {
+    const Real seconds = static_cast<Real>(std::clock() - started_) / CLOCKS_PER_SEC;
+    Finish();
+    std::ofstream file(output_);
+    file.precision(17);
+    for (const auto& one : results_) file << one.first << '\t' << one.second << '\n';
+    // The first step only starts the clock.
+    file << "ticks per second\t" << (ticks_ - 1) / seconds << '\n';
+  }
+
+  // Lights mark the nest of experiments of foraging, and so does the floor.
+  CColor GetFloorColor(const CVector2& position) override
+  {
+    return position.GetX() < kNest ? CColor::GRAY50 : CColor::WHITE;
+  }
+
+protected:
+  static constexpr Real kNest = -1;  // m; the nest is west of it
+
+  virtual void Finish() {}
+  void Write(const std::string& quantity, Real value) { results_.emplace_back(quantity, value); }
+
+  int ticks_ = 0;
+
+private:
+  std::string output_ = "result.txt";
+  std::vector<std::pair<std::string, Real>> results_;
+  std::clock_t started_ = 0;
+};
+
+// Follows the bodies of all robots.
+class CMeasure : public CMeasureSpeed
 {
 public:
   void Init(TConfigurationNode& node) override
   {
-    GetNodeAttributeOrDefault(node, "output", output_, output_);
+    CMeasureSpeed::Init(node);
     auto& types = GetSpace().GetEntityMapPerTypePerId();
     if (types.count("foot-bot") != 0)
       for (auto& robot : types["foot-bot"])
@@ -65,8 +108,7 @@ public:
 
   void PostStep() override
   {
-    if (ticks_ == 0) started_ = std::clock();
-    ++ticks_;
+    CMeasureSpeed::PostStep();
     for (size_t i = 0; i < bodies_.size(); ++i)
     {
       const CVector2 now = Position(*bodies_[i]);
@@ -79,25 +121,12 @@ public:
     Observe();
   }
 
-  void PostExperiment() override
-  {
-    const Real seconds = static_cast<Real>(std::clock() - started_) / CLOCKS_PER_SEC;
-    Finish();
-    std::ofstream file(output_);
-    file.precision(17);
-    for (const auto& one : results_) file << one.first << '\t' << one.second << '\n';
-    // The first step only starts the clock.
-    file << "ticks per second\t" << (ticks_ - 1) / seconds << '\n';
-  }
-
 protected:
   virtual void Begin() {}
   virtual void Observe() {}
-  virtual void Finish() {}
 
   static CVector2 Position(const CEmbodiedEntity& body) { return Flat(body.GetOriginAnchor().Position); }
   Real Seconds() const { return ticks_ * kTick; }
-  void Write(const std::string& quantity, Real value) { results_.emplace_back(quantity, value); }
   Real Robots() const { return static_cast<Real>(bodies_.size()); }
   // The mean of what a function says of each robot by its number.
   Real Mean(const std::function<Real(size_t)>& value) const
@@ -160,14 +189,10 @@ protected:
   std::vector<CEmbodiedEntity*> bodies_;
   std::vector<CVector2> first_, last_;  // m
   std::vector<Real> heading_;
-  int ticks_ = 0;
 
 private:
-  std::string output_ = "result.txt";
-  std::vector<std::pair<std::string, Real>> results_;
   Real path_ = 0;    // m, of all robots together
   Real turned_ = 0;  // rad, of all robots together
-  std::clock_t started_ = 0;
 };
 
 class CMeasureDiffusion : public CMeasure
@@ -191,13 +216,6 @@ class CMeasureDiffusion : public CMeasure
 
 class CMeasureForaging : public CMeasure
 {
-public:
-  CColor GetFloorColor(const CVector2& position) override
-  {
-    return position.GetX() < kNest ? CColor::GRAY50 : CColor::WHITE;
-  }
-
-private:
   void Begin() override
   {
     random_ = CRandom::CreateRNG("argos");
@@ -237,7 +255,6 @@ private:
     return CVector2(random_->Uniform(CRange<Real>(-0.7, 1.8)), random_->Uniform(CRange<Real>(-1.8, 1.8)));
   }
 
-  static constexpr Real kNest = -1;  // m; the nest is west of it
   std::vector<CVector2> items_ = std::vector<CVector2>(8);
   CRandom::CRNG* random_ = nullptr;
   int delivered_ = 0;
@@ -480,6 +497,7 @@ class CMeasureBattery : public CMeasure
 
 }  // namespace
 
+REGISTER_LOOP_FUNCTIONS(CMeasureSpeed, "measure_speed")
 REGISTER_LOOP_FUNCTIONS(CMeasureDiffusion, "measure_diffusion")
 REGISTER_LOOP_FUNCTIONS(CMeasureForaging, "measure_foraging")
 REGISTER_LOOP_FUNCTIONS(CMeasureFlocking, "measure_flocking")

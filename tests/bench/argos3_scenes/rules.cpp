@@ -238,6 +238,30 @@ void CPowered::ControlStep()
     SteerAround(wants_charge_ ? Light() : CVector2(1, 0));
 }
 
+void CAllDevices::Init(TConfigurationNode& node)
+{
+  CDiffusion::Init(node);
+  ground_ = GetSensor<CCI_FootBotMotorGroundSensor>("footbot_motor_ground");
+  camera_ = GetSensor<CCI_ColoredBlobOmnidirectionalCameraSensor>("colored_blob_omnidirectional_camera");
+  camera_->Enable();
+  voice_ = GetActuator<CCI_RangeAndBearingActuator>("range_and_bearing");
+  ears_ = GetSensor<CCI_RangeAndBearingSensor>("range_and_bearing");
+  GetActuator<CCI_LEDsActuator>("leds")->SetAllColors(CColor::RED);
+}
+
+void CAllDevices::ControlStep()
+{
+  // A sum over all readings, so that none of them can be left out.
+  Real sum = Light().GetX();
+  for (const auto& reading : ground_->GetReadings()) sum += reading.Value;
+  for (const auto* blob : camera_->GetReadings().BlobList) sum += blob->Distance;
+  for (const auto& packet : ears_->GetReadings()) sum += packet.Range + packet.Data[0];
+  voice_->SetData(0, ++step_);
+  CDiffusion::ControlStep();
+  // Never so; the compiler does not know it.
+  if (sum < -1e9) wheels_->SetLinearVelocity(0, 0);
+}
+
 void CEPuckAvoider::Init(TConfigurationNode&)
 {
   wheels_ = GetActuator<CCI_DifferentialSteeringActuator>("differential_steering");
@@ -263,4 +287,5 @@ REGISTER_CONTROLLER(CPhototaxis, "scene_phototaxis")
 REGISTER_CONTROLLER(CChainLink, "scene_chain_link")
 REGISTER_CONTROLLER(CHopCounter, "scene_hop_counter")
 REGISTER_CONTROLLER(CPowered, "scene_powered")
+REGISTER_CONTROLLER(CAllDevices, "scene_all_devices")
 REGISTER_CONTROLLER(CEPuckAvoider, "scene_epuck_avoider")

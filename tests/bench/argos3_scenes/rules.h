@@ -167,6 +167,21 @@ private:
   argos::CCI_BatterySensor* battery_ = nullptr;
 };
 
+// Diffuses, and reads and writes every device that a forager of published experiments has.
+class CAllDevices : public CDiffusion
+{
+public:
+  void Init(argos::TConfigurationNode& node) override;
+  void ControlStep() override;
+
+private:
+  argos::CCI_FootBotMotorGroundSensor* ground_ = nullptr;
+  argos::CCI_ColoredBlobOmnidirectionalCameraSensor* camera_ = nullptr;
+  argos::CCI_RangeAndBearingActuator* voice_ = nullptr;
+  argos::CCI_RangeAndBearingSensor* ears_ = nullptr;
+  argos::UInt8 step_ = 0;
+};
+
 // An e-puck that turns left while something is before it.
 class CEPuckAvoider : public argos::CCI_Controller
 {

@@ -5,7 +5,9 @@
 #include "ci_colour_blob_sensor.h"
 #include "ci_controller.h"
 #include "ci_floor_field.h"
+#include "ci_proximity_sensor.h"
 #include "ci_range_and_bearing.h"
+#include "ci_wheels_actuator.h"
 #include "common/math/elementary.h"
 #include "eyebot/ci_eyebot_propellers_actuator.h"
 #include "footbot/ci_footbot_ground_sensor.h"
@@ -37,6 +39,8 @@ public:
     if (robot.HasActuator("footbot_wheels")) wheels_ = &robot.Actuator<CCI_FootBotWheelsActuator>("footbot_wheels");
     if (robot.HasActuator("eyebot_propellers"))
       propellers_ = &robot.Actuator<CCI_EyeBotPropellersActuator>("eyebot_propellers");
+    if (robot.HasActuator("wheels")) generic_wheels_ = &robot.Actuator<CCI_WheelsActuator>("wheels");
+    if (robot.HasSensor("proximity")) ring_ = &robot.Sensor<CCI_ProximitySensor>("proximity");
     if (robot.HasSensor("footbot_proximity"))
       proximity_ = &robot.Sensor<CCI_FootBotProximitySensor>("footbot_proximity");
     if (robot.HasSensor("footbot_omnidirectional_camera"))
@@ -60,6 +64,7 @@ public:
     if (heard_ != nullptr) read_ = static_cast<double>(heard_->GetAllPackets().size());
     if (camera_ != nullptr && looks_always_) read_ = static_cast<double>(camera_->GetAllBlobs().size());
     if (propellers_ != nullptr) propellers_->SetVelocity(0.1, 0, 0, 0.2);
+    if (generic_wheels_ != nullptr) return SteerByRing();
     if (wheels_ == nullptr) return;
     double turn = 0;
     if (proximity_ != nullptr)
@@ -69,7 +74,6 @@ public:
     }
     if (camera_ != nullptr && turn == 0)
       for (const CCI_ColourBlob& blob : camera_->GetAllBlobs()) turn += blob.angle_rad > 0 ? 0.1 : -0.1;
-    constexpr double kSpeed = 0.05;  // m/s
     wheels_->SetFootBotWheelsLinearVelocity(turn > 0 ? 0 : kSpeed, turn < 0 ? 0 : kSpeed);
     if (!steered_by_.empty()) SteerByAll();
   }
@@ -77,6 +81,17 @@ public:
   bool StepsInParallel() const override { return true; }
 
 private:
+  static constexpr double kSpeed = 0.05;  // m/s
+
+  // For robots with the generic ring: away from what is near on either side ahead.
+  void SteerByRing()
+  {
+    double turn = 0;
+    const auto readings = ring_->GetAllSensorReadings();
+    for (std::size_t i = 0; i < readings.size() / 4; ++i) turn -= readings[i] - readings[readings.size() - 1 - i];
+    generic_wheels_->SetLinearVelocity(turn > 0 ? 0 : kSpeed, turn < 0 ? 0 : kSpeed);
+  }
+
   // So that every bit that any sensor reads changes the way of the robot.
   void SteerByAll()
   {
@@ -100,6 +115,8 @@ private:
   CCI_FootBotWheelsActuator* wheels_ = nullptr;
   CCI_EyeBotPropellersActuator* propellers_ = nullptr;
   CCI_FootBotProximitySensor* proximity_ = nullptr;
+  CCI_ProximitySensor* ring_ = nullptr;
+  CCI_WheelsActuator* generic_wheels_ = nullptr;
   CCI_ColourBlobSensor* camera_ = nullptr;
 };
 

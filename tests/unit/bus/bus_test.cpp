@@ -96,8 +96,10 @@ struct Child
     BusOptions options = Options();
     std::string peer;
     bool share = false;
+    std::string deaf;
     words >> role >> options.domain >> options.network_interface >> peer >> options.discovery_server >>
-        std::boolalpha >> share;
+        std::boolalpha >> share >> deaf;
+    options.hears_announcements = deaf.empty();
     if (peer != "-") options.peers = {peer};
     if (options.discovery_server == "-") options.discovery_server.clear();
     int code = 2;
@@ -306,6 +308,32 @@ TEST(Bus, NamesAProcessThatWasKilledWithinASecond)
   EXPECT_EQ(gone, fmt::format("{}:{} engine 'ground' true", MachineName(), child));
   // Its lease is 5 s; the rest is for a busy machine.
   EXPECT_LT(when - killed, 40s);
+}
+
+TEST(Bus, ThoseThatOnlySpeakMeetThoseThatHear)
+{
+  const FreeDomain domain;
+  BusOptions options = Options();
+  options.domain = domain.Id();
+  const pid_t child = StartChild(fmt::format("victim {} lo - - false deaf", options.domain));
+  Bus hearing(options, "space server");
+  options.hears_announcements = false;
+  Bus deaf(options, "controller host 1");
+  std::atomic<int> heard = 0, others = 0;
+  const Subscription<StatusMessage> in(hearing, "x", [&](const StatusMessage&) { ++heard; });
+  const Subscription<StatusMessage> none(deaf, "x", [&](const StatusMessage&) { ++others; });
+  Publisher<StatusMessage> out(hearing, "x");
+  // More announcements than a process makes before it sends.
+  EXPECT_TRUE(Eventually([&] { return heard >= 10; }));
+  EXPECT_EQ(others, 0);
+  EXPECT_TRUE(Eventually(
+      [&]
+      {
+        out.Write({});
+        return others > 0;
+      }));
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
 }
 
 TEST(Bus, RefusesInterfacesThatDoNotExistByName)

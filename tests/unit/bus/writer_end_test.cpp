@@ -59,7 +59,7 @@ protected:
     dds::DataReaderQos reader_qos = ReaderQos(topic, 1);
     SetHeartbeatResponseDelay(reader_qos, {100, 0});
     const ReaderEnd reader(of_reader, topic_of(of_reader), "writer_end", reader_qos, nullptr);
-    dds::DataWriterQos writer_qos = WriterQos(topic);
+    dds::DataWriterQos writer_qos = WriterQos(topic, true);
     SetHeartbeatPeriod(writer_qos, {0, 20'000});
     for (int k = 0; k < count; ++k)
     {
