@@ -19,9 +19,9 @@ namespace
 constexpr Ink kWindInk{0x2060c0, 1, 3};
 constexpr Ink kBoltInk{0x303030, 0.85, 1};
 constexpr std::uint32_t kGreen = 0x20a040, kYellow = 0xe0b000, kRed = 0xd03020, kEmpty = 0x404040;
-constexpr double kBarWidth = 4;         // pixels
+constexpr double kBarWidth = 4;          // pixels
 constexpr double kAboveAreas_m = 0.013;  // renderers lift areas of the floor by less (visualiser/scene/scene.cpp)
-constexpr double kGustsInLength = 0.4;  // two deviations of low gusts, as a part of the wind at 6.1 m
+constexpr double kGustsInLength = 0.4;   // two deviations of low gusts, as a part of the wind at 6.1 m
 
 std::uint32_t ColourOf(double share) { return share > 0.5 ? kGreen : share > 0.2 ? kYellow : kRed; }
 
@@ -43,7 +43,8 @@ DrawnState::DrawnState(const CSwarmanoidSpace& space) : space_(space), wind_(spa
     if (!model) continue;
     const double width = kind.form == BodyForm::kCylinder ? size.x() : size.x() / 2;
     batteries_.push_back({e, BatteryView::Of(space, e)->Slot(BatterySlots::kCharge), model->capacity_j,
-                          kind.label_height_m > 0 ? kind.label_height_m : size.z() + 0.03, std::clamp(width, 0.02, 0.3)});
+                          kind.label_height_m > 0 ? kind.label_height_m : size.z() + 0.03,
+                          std::clamp(width, 0.02, 0.3)});
   }
   if (batteries_.size() > kMostBars) batteries_.clear();
 }
@@ -68,7 +69,8 @@ void DrawnState::DrawWind(Drawing& drawing) const
   const Vector3 half = fastest > 0 ? Vector3(air * (room / fastest / 2)) : Vector3(Vector3::Zero());
   const Vector3 place(0.7 * room, 0.7 * room, kAboveAreas_m + std::abs(half.z()));
   drawing.Arrow(place - half, place + half, kWindInk);
-  drawing.Text(place - Vector3(0, 0.4 * room, 0), fmt::format("wind {:.2f} m/s", std::sqrt(air.squaredNorm())), kWindInk);
+  drawing.Text(place - Vector3(0, 0.4 * room, 0), fmt::format("wind {:.2f} m/s", std::sqrt(air.squaredNorm())),
+               kWindInk);
 }
 
 void DrawnState::DrawStations(Drawing& drawing) const

@@ -25,7 +25,8 @@ public:
   // - an arrow of the wind in the corner at the origin, with the speed (m/s) over the middle of the arena. The arrow is
   //   as long as a fifth of the arena's shorter side at the fastest usual speed.
   // - a bolt on each charging station that has power
-  // - a bar over each robot with an energy_battery: its charged part is green, from half on yellow, from a fifth on red.
+  // - a bar over each robot with an energy_battery: its charged part is green, from half on yellow, from a fifth on
+  // red.
   //   Experiments with more than kMostBars of these robots have no bars.
   void Draw(Drawing& drawing) const;
   // Returns whether shapes follow poses, attributes or the clock, beyond the fields on the floor.
@@ -45,7 +46,7 @@ private:
     std::uint32_t robot;
     std::uint32_t charge_slot;
     double capacity_j;
-    double height_m;     // of the bar, above the robot's position
+    double height_m;      // of the bar, above the robot's position
     double half_width_m;  // of the bar
   };
 

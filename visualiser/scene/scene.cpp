@@ -42,7 +42,8 @@ std::uint16_t Number(ModelId model) { return static_cast<std::uint16_t>(model); 
 
 }  // namespace
 
-Scene::Scene(const CSwarmanoidSpace& space) : space_(space), models_(StandardModels()), drawn_state_(space), scanner_rays_(space)
+Scene::Scene(const CSwarmanoidSpace& space)
+    : space_(space), models_(StandardModels()), drawn_state_(space), scanner_rays_(space)
 {
   const Vector3f arena = ArenaSize().cast<float>();
   SceneItem& floor = AddItem(kNoEntity, ModelId::kRectangle);

@@ -61,8 +61,7 @@ std::string DrawingBytes(const DrawnState& state)
   }
   nlohmann::json texts = nlohmann::json::array();
   for (const DrawnMarks::Text& text : marks.texts)
-    texts.push_back({text.place.x(), text.place.y(), text.place.z(), ColourWord(text.colour, text.opacity),
-                     text.text});
+    texts.push_back({text.place.x(), text.place.y(), text.place.z(), ColourWord(text.colour, text.opacity), text.text});
   const std::string words = texts.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 
   DrawingHeader header;

@@ -1,5 +1,5 @@
-// The binary message with parts of the state and drawings of experiment functions, little-endian. docs/web_render.md specifies it. Only
-// web_render uses it.
+// The binary message with parts of the state and drawings of experiment functions, little-endian. docs/web_render.md
+// specifies it. Only web_render uses it.
 #pragma once
 
 #include <cstdint>
