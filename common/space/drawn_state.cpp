@@ -18,12 +18,12 @@ namespace
 
 constexpr Ink kWindInk{0x2060c0, 1, 3};
 constexpr Ink kBoltInk{0x303030, 0.85, 1};
-constexpr std::uint32_t kGreen = 0x20a040, kYellow = 0xe0b000, kRed = 0xd03020, kEmpty = 0x404040;
+constexpr std::uint32_t kBarGreen = 0x20a040, kBarYellow = 0xe0b000, kBarRed = 0xd03020, kBarEmpty = 0x404040;
 constexpr double kBarWidth = 4;          // pixels
 constexpr double kAboveAreas_m = 0.013;  // renderers lift areas of the floor by less (visualiser/scene/scene.cpp)
 constexpr double kGustsInLength = 0.4;   // two deviations of low gusts, as a part of the wind at 6.1 m
 
-std::uint32_t ColourOf(double share) { return share > 0.5 ? kGreen : share > 0.2 ? kYellow : kRed; }
+std::uint32_t BarColour(double share) { return share > 0.5 ? kBarGreen : share > 0.2 ? kBarYellow : kBarRed; }
 
 }  // namespace
 
@@ -97,8 +97,8 @@ void DrawnState::DrawBatteries(Drawing& drawing) const
     const double share = std::clamp(space_.Attributes()[battery.charge_slot] / battery.capacity_j, 0.0, 1.0);
     const Vector3 middle = space_.GetPose(battery.robot).position + Vector3(0, 0, battery.height_m);
     const auto at = [&](double part) { return Vector3(middle + Vector3((2 * part - 1) * battery.half_width_m, 0, 0)); };
-    if (share > 0) drawing.Segment(at(0), at(share), {ColourOf(share), 1, kBarWidth});
-    if (share < 1) drawing.Segment(at(share), at(1), {kEmpty, 1, kBarWidth});
+    if (share > 0) drawing.Segment(at(0), at(share), {BarColour(share), 1, kBarWidth});
+    if (share < 1) drawing.Segment(at(share), at(1), {kBarEmpty, 1, kBarWidth});
   }
 }
 
