@@ -19,8 +19,8 @@ class FlyingTest(LauncherTest):
         self.assertEqual(replayed.process.returncode, 0, replayed.stdout + replayed.stderr)
 
     def test_whichever_process_dies(self):
-        one = self.done("one", "--single-process", "--checkpoint-every", 50)
+        one = self.done("one", "--single-process", "--checkpoint-every", 100)
         for program, says in (("controller_host", REPLACED), ("engine_worker", REPLACED), ("space_server", AGAIN)):
             with self.subTest(program):
                 self.assert_survives(program, says, 90, program, one, CONFIGS / "crazyflies.xml", "--ticks", TICKS, "--controller-hosts", 2)
-        self.assert_restored(one, 50)
+        self.assert_restored(one, 100)

@@ -50,10 +50,10 @@ def ranges(lab):
         if reach:
             found = furthest_of(kind, library, "proximity", {}, place + reach, lambda now: max(now.values()) > 0)
             yield Row(f"{name}: furthest wall that a front sensor sees", "place + range", source, place + reach, found, HALF, "steps of 0.1 mm", "m")
-    scanners = (("turtlebot4", "TurtleBot 4: furthest wall of its scanner", -0.04, 12, {"beams": 4, "range": 12, "nearest": 0.15, "position": "-0.04, 0, 0.193"}, "turtlebot4-user-manual features.md@0c075942"),
+    scanners = (("turtlebot4", "TurtleBot 4: furthest wall of its scanner", -0.04, 12, {"beams": 1, "range": 12, "nearest": 0.15, "position": "-0.04, 0, 0.193"}, "turtlebot4-user-manual features.md@0c075942"),
                 ("epuck2", "e-puck2: furthest wall of its time-of-flight sensor", 0.034, 2, {"beams": 1, "range": 2, "position": "0.034, -0.0018, 0.033"}, "Webots' guide, e-puck2"))
     for kind, name, place, reach, parameters, source in scanners:
-        found = furthest_of(kind, ROBOTS[kind][1], "range_scanner", parameters, place + reach, lambda now: any(math.isfinite(value) for value in now.values()))
+        found = furthest_of(kind, ROBOTS[kind][1], "range_scanner", parameters, place + reach, lambda now: math.isfinite(now["distance 0"]))
         yield Row(name, "place + range", source, place + reach, found, HALF, "steps of 0.1 mm", "m")
-    drawn = furthest_of("crazyflie", "crazyflie", "proximity", {}, 0.02 + 4, lambda now: max(now.values()) > 0)
+    drawn = furthest_of("crazyflie", "crazyflie", "proximity", {}, 0.02 + 4, lambda now: now["0"] > 0)
     yield Row("Crazyflie: furthest wall of its front rangefinder", "place + range", "Bitcraze, Multi-ranger deck", 4.02, drawn, HALF, "steps of 0.1 mm", "m")
