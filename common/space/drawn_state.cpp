@@ -17,7 +17,7 @@ namespace
 {
 
 constexpr Ink kWindInk{0x2060c0, 1, 3};
-constexpr Ink kBoltInk{0x303030, 0.85, 1};
+constexpr Ink kBoltInk{0x303030, 1, 1};
 constexpr std::uint32_t kBarGreen = 0x20a040, kBarYellow = 0xe0b000, kBarRed = 0xd03020, kBarEmpty = 0x404040;
 constexpr double kBarWidth = 4;          // pixels
 constexpr double kAboveAreas_m = 0.013;  // renderers lift areas of the floor by less (visualiser/scene/scene.cpp)

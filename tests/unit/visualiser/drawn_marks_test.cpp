@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "common/space/drawn_state.h"
 #include "tests/unit/visualiser/small_world.h"
 
 namespace swarmanoid
