@@ -247,9 +247,8 @@ private:
       for (const std::string& kind : arena.Kinds())
       {
         if (kind == "light_bulb") continue;
-        // If both kinds of engines exist, eye-bots fly and foot-bots drive. Obstacles are in all.
-        if (has_both && (engine.is_flat ? kind == "eyebot" : kind != "eyebot" && RobotOfKind(kind) != nullptr))
-          continue;
+        // If both kinds of engines exist, some robots fly and the others drive. Obstacles are in all.
+        if (has_both && (engine.is_flat ? Flies(kind) : !Flies(kind) && RobotOfKind(kind) != nullptr)) continue;
         SetValue(*AddNode(*binding, "all", engines->location), "kind", kind, engines->location);
       }
     }

@@ -212,11 +212,11 @@ Bearers ArenaConverter::BearersOf(const ConfigurationNode& robot, const std::str
   bearers.kinds.insert(kind);
   if (kind == "footbot" || kind == kDemiurgeEPuck)
     bearers.camera_aperture = Positive(robot, "omnidirectional_camera_aperture", 70);
-  if (!row.is_generic)
+  if (!row.is_generic || row.flies)
   {
     const std::string camera = kind == "footbot" ? "perspective_camera_" : "camera_";
     bearers.perspective_aperture = Positive(robot, camera + "aperture", 30);
-    bearers.perspective_range = Positive(robot, camera + "range", 2);
+    bearers.perspective_range = Positive(robot, camera + "range", row.is_generic ? 10 : 2);
   }
   bearers.battery = FindChild(robot, "battery");
   bearers.params = FindChild(controller, "params");
@@ -264,7 +264,7 @@ void ArenaConverter::Convert(ConfigurationNode& ours)
       ConvertEntity(*child, OurIdOf(*child), *made, true);
   AddTranslations();
   AddSpares(*made);
-  SetValue(*made, "optimization", kinds_.contains("eyebot") ? "3D" : "2D", at);
+  SetValue(*made, "optimization", std::ranges::any_of(kinds_, Flies) ? "3D" : "2D", at);
 }
 
 void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, const std::string& id, ConfigurationNode& parent,
@@ -295,7 +295,7 @@ void ArenaConverter::ConvertEntity(const ConfigurationNode& theirs, const std::s
     if (robot == "footbot")
       known.insert({"omnidirectional_camera_aperture", "perspective_camera_aperture", "perspective_camera_range",
                     "perspective_camera_front"});
-    if (robot == "eyebot") known.insert({"camera_aperture", "camera_range"});
+    if (row.flies) known.insert({"camera_aperture", "camera_range"});
     NoteOthers(theirs, known);
     if (robot == "footbot" && !Flag(theirs, "perspective_camera_front", true))
       Mistake(FindAttributeOf(theirs, "perspective_camera_front")->location,

@@ -525,7 +525,8 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
     ConvertBattery(context, AddDevice(ours.sensors, tag, "generic_battery", at));
     attributes.Range("noise_range");
   }
-  else if (tag.starts_with("colored_blob_") && generic != nullptr)
+  else if (tag.starts_with("colored_blob_") && generic != nullptr &&
+           (!generic->flies || tag != "colored_blob_perspective_camera"))
     context.mistake(at, "<" + tag + "> is no sensor of <" + std::string(generic->tag) + ">; leave it out");
   else if (tag == "colored_blob_omnidirectional_camera")
   {
@@ -544,6 +545,7 @@ void ConvertSensor(const ConfigurationNode& node, const DeviceContext& context, 
     ConfigurationNode& device = AddDevice(ours.sensors, type, "generic_" + type, at);
     SetValue(device, "aperture", TextOf(context.bearers.perspective_aperture), at);
     SetValue(device, "range", TextOf(context.bearers.perspective_range), at);
+    if (generic != nullptr) SetValue(device, "position", TextOf(Vector3(kSpiriCamera, 0, 0)), at);
     attributes.Medium("led");
   }
   else if (tag == kScanner)

@@ -13,12 +13,12 @@ namespace
 // ARGoS3's antennas on the top of a body are hidden by bodies of the same height. Here they are a little below it.
 constexpr double kBelowTop = 0.001;  // m
 
-// The values are those of footbot_entity.cpp, eyebot_entity.cpp and epuck_entity.cpp of ARGoS3, of
+// The values are those of footbot_entity.cpp, eyebot_entity.cpp, epuck_entity.cpp and spiri_entity.cpp of ARGoS3, of
 // kheperaiv_entity.cpp of argos3-kheperaiv, of kilobot_entity.cpp of argos3-kilobot and of
 // epuck_entity.cpp of argos3-epuck.
 constexpr std::array kRobots{
     RobotRow{.tag = "foot-bot", .kind = "footbot", .constructor = "14CFootBotEntityC"},
-    RobotRow{.tag = "eye-bot", .kind = "eyebot", .constructor = "13CEyeBotEntityC"},
+    RobotRow{.tag = "eye-bot", .kind = "eyebot", .constructor = "13CEyeBotEntityC", .flies = true},
     RobotRow{.tag = "e-puck",
              .kind = "argos3_epuck",
              .is_generic = true,
@@ -65,6 +65,12 @@ constexpr std::array kRobots{
              .radio_range_name = "",
              .has_own_messages = true,
              .lacks = "differential_steering leds range_and_bearing proximity ground light battery"},
+    RobotRow{.tag = "spiri",
+             .kind = "argos3_spiri",
+             .is_generic = true,
+             .antenna_m = 0.045,
+             .flies = true,
+             .lacks = "differential_steering leds proximity ground light"},
 };
 
 const RobotRow* Find(std::string_view name, std::string_view RobotRow::*member)
@@ -91,6 +97,12 @@ Vector3 KilobotEye()
   constexpr double kEccentricity = 0.0092, kFromAxis = 0.0165 - 0.002, kHeight = 0.0217 + 0.0127;
   const SinCos angle = SinCosOf(DegreesToRadians(100));
   return {kEccentricity + kFromAxis * angle.cos, kFromAxis * angle.sin, kHeight};
+}
+
+bool Flies(std::string_view kind)
+{
+  const RobotRow* row = RobotOfKind(kind);
+  return row != nullptr && row->flies;
 }
 
 std::string RobotTags()

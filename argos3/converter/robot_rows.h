@@ -37,6 +37,8 @@ struct RobotRow
   double antenna_m = 0.1;         // above the base
   // The fastest speed of a wheel that ARGoS3 allows; 0: that of the kind.
   double max_speed_m_s = 0;
+  // It flies: in files with engines of both kinds it is in those with three dimensions.
+  bool flies = false;
   // Devices of ARGoS3's generic robots that this one does not have, separated by blanks.
   std::string_view lacks{};
   LightRingRow light{};
@@ -50,6 +52,10 @@ const RobotRow* RobotOfKind(std::string_view kind);
 const RobotRow* OwnerOfDevice(std::string_view device);
 // Returns the tags of all robots in ARGoS3, with commas between them.
 std::string RobotTags();
+bool Flies(std::string_view kind);
+
+// The camera of Spiris looks ahead from here (spiri_entity.cpp).
+inline constexpr double kSpiriCamera = 0.332340187;  // m, from the axis of the robot, at the height of its base
 
 // The e-puck of argos3-epuck. It has the same tag as ARGoS3's own, and is known by the devices of its controller.
 inline constexpr const char* kDemiurgeEPuck = "argos3_demiurge_epuck";

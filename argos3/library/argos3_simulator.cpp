@@ -6,6 +6,7 @@
 #include <argos3/plugins/robots/kheperaiv/simulator/kheperaiv_entity.h>
 #include <argos3/plugins/robots/kilobot/simulator/kilobot_entity.h>
 #include <argos3/plugins/robots/pi-puck/simulator/pipuck_entity.h>
+#include <argos3/plugins/robots/spiri/simulator/spiri_entity.h>
 #include <argos3/plugins/simulator/entities/box_entity.h>
 #include <argos3/plugins/simulator/entities/cylinder_entity.h>
 #include <argos3/plugins/simulator/entities/light_entity.h>
@@ -139,7 +140,8 @@ void CSpace::InsertAny(CEntity& entity)
   if (InsertIfRobot<CFootBotEntity>(*this, entity) || InsertIfRobot<CEyeBotEntity>(*this, entity) ||
       InsertIfRobot<CEPuckEntity>(*this, entity) || InsertIfRobot<CKheperaIVEntity>(*this, entity) ||
       InsertIfRobot<CKilobotEntity>(*this, entity) || InsertIfRobot<CPiPuckEntity>(*this, entity) ||
-      InsertIfBody<CBoxEntity>(*this, entity) || InsertIfBody<CCylinderEntity>(*this, entity))
+      InsertIfRobot<CSpiriEntity>(*this, entity) || InsertIfBody<CBoxEntity>(*this, entity) ||
+      InsertIfBody<CCylinderEntity>(*this, entity))
     return;
   if (auto* light = dynamic_cast<CLightEntity*>(&entity)) Insert(*light);
 }

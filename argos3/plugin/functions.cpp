@@ -8,6 +8,7 @@
 #include <argos3/plugins/robots/kheperaiv/simulator/kheperaiv_entity.h>
 #include <argos3/plugins/robots/kilobot/simulator/kilobot_entity.h>
 #include <argos3/plugins/robots/pi-puck/simulator/pipuck_entity.h>
+#include <argos3/plugins/robots/spiri/simulator/spiri_entity.h>
 #include <argos3/plugins/simulator/entities/box_entity.h>
 #include <argos3/plugins/simulator/entities/cylinder_entity.h>
 #include <argos3/plugins/simulator/entities/light_entity.h>
@@ -328,6 +329,8 @@ private:
       view.made = std::make_unique<argos::CKheperaIVEntity>(id);
     else if (tag == "argos3_pipuck")
       view.made = std::make_unique<argos::CPiPuckEntity>(id);
+    else if (tag == "argos3_spiri")
+      view.made = std::make_unique<argos::CSpiriEntity>(id);
     else if (view.is_box)
       view.made =
           std::make_unique<argos::CBoxEntity>(id, entity.IsMovable(), tag == "block" ? 0U : 1U,

@@ -1,5 +1,5 @@
-// The perspective camera of foot-bots, which looks ahead, and of eye-bots, which looks down. The image of 640 by 480
-// pixels with its edges at the aperture is that of perspective_camera_equipped_entity.h of ARGoS3.
+// The perspective camera of foot-bots and Spiris, which looks ahead, and of eye-bots, which looks down. The image of
+// 640 by 480 pixels with its edges at the aperture is that of perspective_camera_equipped_entity.h of ARGoS3.
 #include <argos3/plugins/robots/generic/control_interface/ci_colored_blob_perspective_camera_sensor.h>
 
 #include "argos3/plugin/device_parts.h"

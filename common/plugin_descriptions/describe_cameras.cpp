@@ -73,7 +73,9 @@ void DescribeCameras()
   DescribeCamera("eyebot_pan_tilt_camera", "eyebot", "camera that turns with the laser", ViewParameters("30", "2"),
                  Elevation::kReported);
   DescribeCamera("footbot_perspective_camera", "footbot", "camera in the rim that looks ahead",
-                 ViewParameters("30", "2"), Elevation::kReported);
+                 Joined(ViewParameters("30", "2"), {{"position", kVector3, "m", "0.085036758, 0, 0.174",
+                                                     "Of the eye, in the frame of the robot.", -1e6, 1e6}}),
+                 Elevation::kReported, {"argos3_spiri"});
   DescribeCamera("handbot_camera", "handbot", "camera that looks ahead", ViewParameters("30", "2"),
                  Elevation::kReported);
   DescribeSensor({.label = "pie_camera",

@@ -1,20 +1,21 @@
-// The shapes that renderers draw, one by one: the fields on the floor, and what experiment functions draw.
+// The shapes that renderers draw, one by one: parts of the state, and what experiment functions draw.
 #pragma once
 
 #include <span>
 #include <string_view>
 
-#include "common/space/drawn_fields.h"
+#include "common/space/drawn_state.h"
 #include "common/space/space.h"
 
 namespace swarmanoid
 {
 
-// Calls draw(shape, numbers, text, frame) for each shape, except those of entities outside the arena. `numbers` belong
-// to the shape during the call, and `text` to the space. The coordinates are in `frame`.
+// Calls draw(shape, numbers, text, frame) for each shape, except those of entities outside the arena. `numbers` and
+// `text` belong to the shape during the call. The coordinates are in `frame`.
 template <class Draw>
-void ForEachDrawnShape(const CSwarmanoidSpace& space, const Draw& draw)
+void ForEachDrawnShape(const DrawnState& state, const Draw& draw)
 {
+  const CSwarmanoidSpace& space = state.Space();
   const auto draw_all = [&](const Drawing& drawing)
   {
     std::size_t number = 0;
@@ -28,9 +29,9 @@ void ForEachDrawnShape(const CSwarmanoidSpace& space, const Draw& draw)
       draw(shape, numbers, words, shape.frame > 0 ? space.GetPose(shape.frame - 1) : Pose());
     }
   };
-  Drawing fields;
-  DrawFields(space, fields);
-  draw_all(fields);
+  Drawing of_state;
+  state.Draw(of_state);
+  draw_all(of_state);
   draw_all(space.GetDrawing());
 }
 

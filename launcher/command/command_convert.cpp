@@ -24,6 +24,7 @@
 #include "launcher/argos3_dry_run.h"
 #include "launcher/command/sub_command.h"
 #include "launcher/worlds/floor_plan.h"
+#include "launcher/worlds/ros_map.h"
 #include "launcher/worlds/sdf_world.h"
 #include "launcher/worlds/webots_file.h"
 #include "launcher/worlds/webots_world.h"
@@ -40,6 +41,7 @@ struct ConvertRequest
   std::string file;
   std::string output;
   FloorPlanOptions plan;
+  bool has_threshold = false;  // by the option
 };
 
 // Prints each mistake once.
@@ -82,14 +84,18 @@ int WriteWorld(const ConvertRequest& request, World world)
   return Write(request, text);
 }
 
-int WritePlan(const ConvertRequest& request)
+int WritePlan(const ConvertRequest& request, const std::string& picture_file, const FloorPlanOptions& options,
+              bool is_negated = false)
 {
-  if (!(request.plan.resolution_m > 0))
+  if (!(options.resolution_m > 0))
     throw UsageError("--resolution: a floor plan needs the edge of its pixels in metres, such as --resolution 0.05");
   FloorPlan plan;
   try
   {
-    plan = PlanFromPicture(ReadPlanPicture(request.file), request.plan, fs::path(request.file).filename());
+    GreyPicture picture = ReadPlanPicture(picture_file);
+    if (is_negated)
+      for (double& grey : picture.values) grey = 1 - grey;
+    plan = PlanFromPicture(picture, options, fs::path(request.file).filename());
   }
   catch (const std::runtime_error& mistake)
   {
@@ -97,8 +103,23 @@ int WritePlan(const ConvertRequest& request)
     return kExitInvalidFile;
   }
   PrintError("{}: {} x {} pixels, {:g} x {:g} m, {} walls\n", request.file, plan.columns, plan.rows,
-             plan.columns * request.plan.resolution_m, plan.rows * request.plan.resolution_m, plan.walls);
+             plan.columns * options.resolution_m, plan.rows * options.resolution_m, plan.walls);
   return Write(request, plan.experiment);
+}
+
+// The options of the command, if they are given, replace the values of the map.
+int WriteMap(const ConvertRequest& request)
+{
+  const RosMap map = ReadRosMap(ReadTextFile(request.file), request.file);
+  FloorPlanOptions options = request.plan;
+  if (!(options.resolution_m > 0)) options.resolution_m = map.resolution_m;
+  if (!request.has_threshold) options.threshold = 1 - map.occupied_threshold;
+  options.remark =
+      fmt::format(" The point 0, 0 is at {:g}, {:g} in the frame of the map.", map.origin.x(), map.origin.y());
+  if (map.origin.z() != 0)
+    PrintError("{}: note: the yaw of the origin, {:g} rad, is left out: rows of the picture are along x\n",
+               request.file, map.origin.z());
+  return WritePlan(request, fs::path(request.file).parent_path() / map.image, options, map.is_negated);
 }
 
 int WriteArgos3(const ConvertRequest& request, const ConfigurationNode& root)
@@ -125,9 +146,10 @@ int Convert(const ConvertRequest& request)
     throw UsageError("--output: it is the file to convert; choose another name");
   try
   {
-    if (IsPictureFile(request.file)) return WritePlan(request);
+    if (IsPictureFile(request.file)) return WritePlan(request, request.file, request.plan);
+    if (IsRosMapFile(request.file)) return WriteMap(request);
     if (request.plan.resolution_m > 0)
-      throw UsageError(fmt::format("--resolution: {} is no PNG, JPEG or PGM", Quoted(request.file)));
+      throw UsageError(fmt::format("--resolution: {} is no PNG, JPEG, PGM or map of ROS", Quoted(request.file)));
     const std::string text = ReadTextFile(request.file);
     if (IsWebotsFile(text)) return WriteWorld(request, ReadWebotsWorld(text, request.file));
     const auto root = ReadExperimentXml(text, request.file);
@@ -150,20 +172,21 @@ void AddConvertCommand(CLI::App& app, int& exit_code)
   auto request = std::make_shared<ConvertRequest>();
   CLI::App* verb =
       app.add_subcommand("convert", "Write an experiment of ARGoS3, a world or a floor plan as one of ours");
-  verb->add_option(
-          "FILE", request->file,
-          "An experiment of ARGoS3, a world of Gazebo (SDF) or Webots (.wbt), or a floor plan (PNG, JPEG, PGM)")
+  verb->add_option("FILE", request->file,
+                   "An experiment of ARGoS3, a world of Gazebo (SDF) or Webots (.wbt), or a floor plan (PNG, JPEG, "
+                   "PGM, map of ROS "
+                   "in YAML)")
       ->required();
   verb->add_option("--output", request->output, "The file to write; without it the standard output")->type_name("FILE");
   FloorPlanOptions& plan = request->plan;
   verb->add_option("--resolution", plan.resolution_m, "Of a floor plan: the edge of a pixel in metres")
       ->type_name("METRES")
       ->check(CLI::Range(1e-6, 1e3).description(""));
-  verb->add_option("--threshold", plan.threshold,
-                   "Of a floor plan: darker pixels are walls, from 0 (black) to 1 (white)")
-      ->type_name("GREY")
-      ->check(CLI::Range(0.0, 1.0).description(""))
-      ->capture_default_str();
+  CLI::Option* threshold = verb->add_option("--threshold", plan.threshold,
+                                            "Of a floor plan: darker pixels are walls, from 0 (black) to 1 (white)")
+                               ->type_name("GREY")
+                               ->check(CLI::Range(0.0, 1.0).description(""))
+                               ->capture_default_str();
   verb->add_option("--height", plan.height_m, "Of a floor plan: the height of its walls in metres")
       ->type_name("METRES")
       ->check(CLI::Range(1e-3, 1e3).description(""))
@@ -177,8 +200,14 @@ void AddConvertCommand(CLI::App& app, int& exit_code)
       "  swarmanoid convert experiments/foraging.argos --output foraging.xml\n"
       "  swarmanoid convert warehouse.sdf --output warehouse.xml\n"
       "  swarmanoid convert maze.wbt --output maze.xml\n"
-      "  swarmanoid convert office.png --resolution 0.05 --output office.xml");
-  verb->callback([request, &exit_code] { exit_code = Convert(*request); });
+      "  swarmanoid convert office.png --resolution 0.05 --output office.xml\n"
+      "  swarmanoid convert office.yaml --output office.xml");
+  verb->callback(
+      [request, threshold, &exit_code]
+      {
+        request->has_threshold = threshold->count() > 0;
+        exit_code = Convert(*request);
+      });
 }
 
 const RegisterSubCommand kConvert(14, AddConvertCommand);

@@ -173,8 +173,8 @@ FloorPlan PlanFromPicture(const GreyPicture& picture, const FloorPlanOptions& op
   // Ten digits keep positions exact to a micrometre, without the rounding errors of products.
   const auto number = [](double metres) { return fmt::format("{:.10g}", metres); };
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
-  text +=
-      ConvertedComment(source, fmt::format(": {} x {} pixels of {} m.", picture.columns, picture.rows, number(pixel)));
+  text += ConvertedComment(
+      source, fmt::format(": {} x {} pixels of {} m.{}", picture.columns, picture.rows, number(pixel), options.remark));
   text += "<ahss-config>\n  <framework clocktick=\"100\" maxclock=\"600\" seed=\"1\"/>\n";
   text += fmt::format("  <arena size=\"{}, {}, {}\" optimization=\"2D\">\n", number(picture.columns * pixel),
                       number(picture.rows * pixel), number(std::max(1.0, options.height_m)));

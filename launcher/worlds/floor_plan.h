@@ -15,6 +15,7 @@ struct FloorPlanOptions
   double resolution_m = 0;  // the edge of a pixel
   double threshold = 0.5;   // pixels darker than this are walls: 0 black, 1 white
   double height_m = 0.5;    // of the walls
+  std::string remark{};     // for the comment at the start
 };
 
 struct FloorPlan

@@ -18,11 +18,14 @@ FILE = f"""<argos-configuration>
   <colored_blob_perspective_camera medium="leds"/></sensors><params script="s.lua"/></lua_controller>
  <lua_controller id="puck"><actuators><differential_steering/></actuators><sensors><ground/><epuck_proximity/><battery/>
   <range_and_bearing medium="rab"/></sensors><params script="s.lua"/></lua_controller>
+ <lua_controller id="spir"><actuators/><sensors><battery/><range_and_bearing medium="rab"/><colored_blob_perspective_camera medium="leds"/></sensors>
+  <params script="s.lua"/></lua_controller>
 </controllers>
 <arena size="8,8,2" center="0,0,1">
  <floor id="f" source="image" path="f.png"/>
  <foot-bot id="a">{BODY.format("0,0,0")}<controller config="foot"/><battery discharge_model="motion"/></foot-bot>
  <eye-bot id="e">{BODY.format("1,0,1")}<controller config="eye"/><battery/></eye-bot>
+ <spiri id="s">{BODY.format("1,2,1")}<controller config="spir"/><battery/></spiri>
  <e-puck id="p">{BODY.format("2,0,0")}<controller config="puck"/><battery/></e-puck>
  <box id="w" size="1,1,1" movable="true" mass="1">{BODY.format("3,3,0")}{LEDS}</box>
  <cylinder id="c" radius="0.1" height="0.1" movable="true" mass="1">{BODY.format("-3,3,0")}{LEDS}</cylinder>

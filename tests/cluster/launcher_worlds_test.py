@@ -69,6 +69,28 @@ class Worlds(LauncherTest):
         self.assertEqual(made.find("arena").get("size"), "6, 4, 1")
         self.runs_alike(100, '<distribute quantity="10"><footbot id="fb" controller="diffusion"/></distribute>')
 
+    def test_a_map_of_ros(self):
+        shutil.copy(WORLDS / "office.pgm", self.folder)
+        (self.folder / "office.yaml").write_text("image: office.pgm  # by map_saver\nresolution: 0.5\norigin: [-1.5, -2, 0.1]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n")
+        run = self.run_it("convert", "office.yaml", "--output", "made.xml")
+        self.assertEqual(run.process.returncode, 0, run.stderr)
+        self.assertIn("office.yaml: 12 x 8 pixels, 6 x 4 m, 6 walls", run.stderr)
+        self.assertIn("note: the yaw of the origin, 0.1 rad", run.stderr)
+        self.assertIn("The point 0, 0 is at -1.5, -2 in the frame of the map.", (self.folder / "made.xml").read_text())
+        picture = self.run_it("convert", "office.pgm", "--resolution", "0.5")
+        walls = re.findall("<wall .*/>", picture.stdout)
+        self.assertEqual(re.findall("<wall .*/>", (self.folder / "made.xml").read_text()), walls)
+        self.runs_alike(40, '<distribute quantity="4"><footbot id="fb" controller="diffusion"/></distribute>')
+        self.assertIn("12 x 8 pixels, 3 x 2 m", self.run_it("convert", "office.yaml", "--resolution", "0.25").stderr)
+        (self.folder / "office.yaml").write_text("image: office.pgm\nresolution: 0.5\nnegate: 1\n")
+        self.assertNotEqual(re.findall("<wall .*/>", self.run_it("convert", "office.yaml").stdout), walls)
+        for text, says in (("image: office.pgm\n", "office.yaml:1:1: the map has no resolution"), ("image: absent.png\nresolution: 0.5\n", "absent.png"),
+                           ("image: office.pgm\nresolution: 0\n", "office.yaml:2:1: resolution is 0; it must be 1e-06 to 1000")):
+            (self.folder / "office.yaml").write_text(text)
+            run = self.run_it("convert", "office.yaml")
+            self.assertEqual((run.process.returncode, run.stdout), (3, ""), text)
+            self.assertIn(says, run.stderr)
+
     def test_paths_of_meshes_start_at_the_new_file(self):
         (self.folder / "in").mkdir()
         for name in ("room.sdf", "wedge.obj"):
@@ -94,7 +116,7 @@ class Worlds(LauncherTest):
                                   (["broken.wbt"], 3, "broken.wbt:3:1: the end of the file instead of a field of Solid"),
                                   (["cut.png", "--resolution", "1"], 3, "cannot read the PNG 'cut.png'"),
                                   (["cut.png"], 2, "--resolution: a floor plan needs the edge of its pixels"),
-                                  (["wrong.sdf", "--resolution", "1"], 2, "is no PNG, JPEG or PGM"),
+                                  (["wrong.sdf", "--resolution", "1"], 2, "is no PNG, JPEG, PGM or map of ROS"),
                                   (["other.xml"], 3, "the root element is <robot>"),
                                   (["absent.sdf"], 3, "absent.sdf: the file cannot be read: there is no such file"),
                                   (["pipe.sdf"], 3, "it is a pipe"),

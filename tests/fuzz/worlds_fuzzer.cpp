@@ -1,5 +1,5 @@
-// Any bytes are refused with a reason as a world of Webots or Gazebo, as a PGM, and as the manifest of a package, or
-// are read. A world that is read without a mistake makes an experiment whose text can be read.
+// Any bytes are refused with a reason as a world of Webots or Gazebo, as a PGM or a map of ROS, and as the manifest of
+// a package, or are read. A world that is read without a mistake makes an experiment whose text can be read.
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -8,6 +8,7 @@
 #include "common/configuration/xml_reader.h"
 #include "launcher/packages/package_manifest.h"
 #include "launcher/worlds/floor_plan.h"
+#include "launcher/worlds/ros_map.h"
 #include "launcher/worlds/sdf_world.h"
 #include "launcher/worlds/webots_world.h"
 #include "test_folders.h"
@@ -55,6 +56,9 @@ std::vector<fuzz::Input> fuzz::FirstInputs()
     std::ifstream file(std::string(SWARMANOID_SOURCE_FOLDER "/tests/worlds/") + name, std::ios::binary);
     inputs.push_back({std::istreambuf_iterator<char>(file), {}});
   }
+  const std::string map =
+      "image: office.pgm\nresolution: 0.5\norigin: [-1.5, -2, 0]\nnegate: 0\noccupied_thresh: 0.65\n";
+  inputs.push_back({map.begin(), map.end()});
   const std::string manifest =
       PackageManifest{"alice", "1.0", "Alice", "MIT", "", "2.0", {{"controllers/a/a.cpp", 3, "00"}}}.Text();
   inputs.push_back({manifest.begin(), manifest.end()});
@@ -73,5 +77,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* input, std::size_t cou
   Try([&] { Write(ReadSdfWorld(*ReadXml(text, file), file)); });
   Try([&] { PgmPicture(text); });
   Try([&] { PackageManifest::Parse(text); });
+  Try([&] { ReadRosMap(text, file); });
   return 0;
 }

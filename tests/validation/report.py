@@ -4,7 +4,7 @@ import re
 
 SCENES = []
 HEAD = "| quantity | "
-PUBLISHED = re.compile(r"ARGoS|ITU-R|Byers|Gauci")  # sources of published numbers
+PUBLISHED = re.compile(r"ARGoS|ITU-R|Byers|Gauci|Förster|MIL-F|Webots|create3|ros-thymio|turtlebot4|Bitcraze")  # sources of published numbers
 PROMISED, LINK = re.compile(r"docs/(\w+)(\.md[\w#-]*)"), r"[\1](\1\2)"  # sources that are pages of this documentation
 VERIFICATION, PROMISES, VALIDATION = "Verification", "Against this documentation", "Validation"
 PREFIX = {"Kinematic engine": "kinematic: ", "2D rigid-body engine": "dynamics2d: ", "3D rigid-body engine": "dynamics3d: "}  # of names, not shown in groups

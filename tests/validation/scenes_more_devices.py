@@ -1,7 +1,7 @@
 """The devices that the others do not need: further cameras, light from the air, microphones, joints, shown directions."""
 import math
 
-from experiment import block, element, footbot, probe
+from experiment import block, deviation, element, footbot, probe
 from report import ROUNDING, Row, scene
 from scenes_devices import ENGINE, GEOMETRY, GREEN, GROUP, RED, angles, lit, ring
 from scenes_kinematics2d import RADIUS
@@ -126,6 +126,27 @@ def shared_radio(lab):
         through, packets = (1 - 1 / slots) ** (senders - 1), senders * ticks
         yield Row(f"shared radio: packets of {senders} senders heard in one of {slots} slots", "N/m (1 - 1/m)^(N - 1)", "slotted ALOHA (Roberts 1975)", senders / slots * through,
                   heard / ticks / slots, 4 * math.sqrt(through * (1 - through) / packets) * senders / slots, "4 standard deviations")
+
+
+@scene(GROUP)
+def signals(lab):
+    """One sender amid receivers on a circle: path loss, and shadowing that is drawn once for each link."""
+    count, distance, sigma = (60 if lab.quick else 400), 20.0, 6
+    sender = footbot("s", 30.0, 30.0, 0, "s")
+    arena = sender + "".join(footbot(f"r{k}", 30 + distance * math.cos(math.tau * k / count), 30 + distance * math.sin(math.tau * k / count), 0, "r") for k in range(count))
+    for shadowing in (0, sigma):
+        radio = {"implementation": "shared_radio", "range": 2000, "path_loss": 3, "shadowing": shadowing}
+        result = lab.run(arena, probe("r", sensors={"radio": radio}) + probe("s", [(0, 2, "radio", 1)]), ENGINE, 3, size="60,60,2")
+        off = [value + 30 * math.log10(distance) for k in range(count) for name, value in result.readings(f"r{k}", "radio")[-1].items() if name.endswith("signal")]
+        if shadowing == 0:
+            yield Row("shared radio: signal 20 m away, path loss 3", "-10 n lg(d / 1 m)", "log-distance path loss", -30 * math.log10(distance), off[0] - 30 * math.log10(distance), ROUNDING * 100, "rounding", "dB")
+        else:
+            yield Row("shared radio: deviation of the signals of shadowed links", "σ", "normal", sigma, deviation(off), 4 * sigma / math.sqrt(2 * count), "4 s.e.", "dB")
+    arena = footbot("near", 6.0, 5.0, 0, "s") + footbot("far", 3.0, 5.0, 0, "s") + footbot("r", 5.0, 5.0, 0, "r")
+    for capture, expected in ((6.02, 1), (6.03, 0)):
+        who = probe("r", sensors={"radio": {"implementation": "shared_radio", "range": 100, "capture": capture}}) + probe("s", [(0, 20, "radio", 1)])
+        heard = len(lab.run(arena, who, ENGINE, 21).readings("r", "radio")[-1]) > 0
+        yield Row(f"shared radio: packets heard of a sender twice as near as another one, {capture} dB needed", "1 if 20 lg 2 is enough", "power ratio", expected, float(heard), 0, "counts")
 
 
 @scene(GROUP)

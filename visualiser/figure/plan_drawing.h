@@ -1,4 +1,4 @@
-// Drawings of experiment functions as a plan from above. Used by PlanScene.
+// Parts of the state and drawings of experiment functions as a plan from above. Used by PlanScene.
 #pragma once
 
 #include "visualiser/figure/plan_picture.h"

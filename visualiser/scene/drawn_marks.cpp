@@ -83,7 +83,7 @@ public:
         Cylinder();
         break;
       case Kind::kText:
-        marks_.texts.push_back({frame_ * At(0), text, colour_, opacity_});
+        marks_.texts.push_back({frame_ * At(0), std::string(text), colour_, opacity_});
         break;
     }
   }
@@ -188,14 +188,14 @@ private:
 
 }  // namespace
 
-void CutDrawing(const CSwarmanoidSpace& space, DrawnMarks& marks)
+void CutDrawing(const DrawnState& state, DrawnMarks& marks)
 {
   marks.lines.clear();
   marks.triangles.clear();
   marks.dots.clear();
   marks.texts.clear();
   ForEachDrawnShape(
-      space,
+      state,
       [&](const DrawnShape& shape, std::span<const float> numbers, std::string_view words, const Pose& pose)
       {
         const Isometry3f frame(Translation3f(pose.position.cast<float>()) * pose.orientation.cast<float>());

@@ -1,8 +1,9 @@
-// Converts drawings of experiment functions (common/messages/drawing.h) into primitives that every renderer can draw:
-// lines, triangles, dots and texts, all in the frame of the space. Plain values.
+// Converts parts of the state (common/space/drawn_state.h) and drawings of experiment functions
+// (common/messages/drawing.h) into primitives that every renderer can draw: lines, triangles, dots and texts, all in
+// the frame of the space. Plain values.
 #pragma once
 
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -12,7 +13,7 @@
 namespace swarmanoid
 {
 
-class CSwarmanoidSpace;
+class DrawnState;
 
 struct DrawnMarks
 {
@@ -39,7 +40,7 @@ struct DrawnMarks
   struct Text
   {
     Eigen::Vector3f place;  // the left end of the text
-    std::string_view text;  // a view into the space's drawing
+    std::string text;
     Colour colour;
     float opacity;
   };
@@ -50,7 +51,7 @@ struct DrawnMarks
   std::vector<Text> texts;
 };
 
-// Converts the drawing of the current space. Drawings in the frame of an entity outside the arena are left out.
-void CutDrawing(const CSwarmanoidSpace& space, DrawnMarks& marks);
+// Converts the shapes of the current tick. Drawings in the frame of an entity outside the arena are left out.
+void CutDrawing(const DrawnState& state, DrawnMarks& marks);
 
 }  // namespace swarmanoid

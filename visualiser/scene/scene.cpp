@@ -42,7 +42,8 @@ std::uint16_t Number(ModelId model) { return static_cast<std::uint16_t>(model); 
 
 }  // namespace
 
-Scene::Scene(const CSwarmanoidSpace& space) : space_(space), models_(StandardModels()), scanner_rays_(space)
+Scene::Scene(const CSwarmanoidSpace& space)
+    : space_(space), models_(StandardModels()), drawn_state_(space), scanner_rays_(space)
 {
   const Vector3f arena = ArenaSize().cast<float>();
   SceneItem& floor = AddItem(kNoEntity, ModelId::kRectangle);
@@ -250,7 +251,7 @@ void Scene::Update(const SceneOptions& options)
   }
   if (options.trails || trails_ != nullptr) Track();
   if (options.trails) AddTrails();
-  CutDrawing(space_, drawn_);
+  CutDrawing(drawn_state_, drawn_);
 }
 
 void Scene::UpdateLights()

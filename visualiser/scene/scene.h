@@ -12,6 +12,7 @@
 
 #include "common/plugin_descriptions/led_cones.h"
 #include "common/space/collision_models.h"
+#include "common/space/drawn_state.h"
 #include "common/space/query.h"
 #include "visualiser/scene/drawn_marks.h"
 #include "visualiser/scene/meshes.h"
@@ -108,7 +109,7 @@ public:
   std::span<const SceneLine> Lines() const { return lines_; }
   std::span<const SceneGlow> Glows() const { return glows_; }
   std::span<const SceneLabel> Labels() const { return labels_; }
-  // Returns the drawings of experiment functions.
+  // Returns parts of the state and drawings of experiment functions.
   const DrawnMarks& Drawn() const { return drawn_; }
 
   // Returns the size of the arena in metres.
@@ -183,6 +184,7 @@ private:
   std::vector<SceneLine> lines_;
   std::vector<SceneGlow> glows_;
   std::vector<SceneLabel> labels_;
+  DrawnState drawn_state_;
   DrawnMarks drawn_;
   std::vector<std::pair<std::uint32_t, std::shared_ptr<const Terrain>>> terrains_;
   std::vector<std::uint32_t> large_;                     // bodies too large for the search around a line

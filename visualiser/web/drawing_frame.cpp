@@ -31,10 +31,10 @@ char* AppendAll(char* place, const std::vector<Value>& values)
 
 }  // namespace
 
-std::string DrawingBytes(const CSwarmanoidSpace& space)
+std::string DrawingBytes(const DrawnState& state)
 {
   DrawnMarks marks;
-  CutDrawing(space, marks);
+  CutDrawing(state, marks);
   std::vector<DrawingLine> lines;
   for (const DrawnMarks::Line& line : marks.lines)
   {
@@ -61,15 +61,14 @@ std::string DrawingBytes(const CSwarmanoidSpace& space)
   }
   nlohmann::json texts = nlohmann::json::array();
   for (const DrawnMarks::Text& text : marks.texts)
-    texts.push_back({text.place.x(), text.place.y(), text.place.z(), ColourWord(text.colour, text.opacity),
-                     std::string(text.text)});
+    texts.push_back({text.place.x(), text.place.y(), text.place.z(), ColourWord(text.colour, text.opacity), text.text});
   const std::string words = texts.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 
   DrawingHeader header;
   header.lines = static_cast<std::uint32_t>(lines.size());
   header.triangles = static_cast<std::uint32_t>(triangles.size());
   header.dots = static_cast<std::uint32_t>(dots.size());
-  header.tick = space.GetTick();
+  header.tick = state.Space().GetTick();
   header.text_bytes = static_cast<std::uint32_t>(words.size());
   std::string bytes(sizeof header + lines.size() * sizeof(DrawingLine) + triangles.size() * sizeof(DrawingTriangle) +
                         dots.size() * sizeof(DrawingDot) + words.size(),

@@ -1,10 +1,11 @@
-// The binary message with the drawings of experiment functions, little-endian. docs/web_render.md specifies it. Only
-// web_render uses it.
+// The binary message with parts of the state and drawings of experiment functions, little-endian. docs/web_render.md
+// specifies it. Only web_render uses it.
 #pragma once
 
 #include <cstdint>
 #include <string>
 
+#include "common/space/drawn_state.h"
 #include "visualiser/scene/drawn_marks.h"
 
 namespace swarmanoid
@@ -47,7 +48,7 @@ struct DrawingDot
 };
 static_assert(sizeof(DrawingDot) == 20);
 
-// Returns the message for the current drawing of the space.
-std::string DrawingBytes(const CSwarmanoidSpace& space);
+// Returns the message for the current tick.
+std::string DrawingBytes(const DrawnState& state);
 
 }  // namespace swarmanoid

@@ -66,6 +66,7 @@ void CWebRender::Init(const RenderSetup& setup)
 {
   const Parameters& parameters = setup.parameters;
   space_ = &setup.space;
+  drawn_state_ = std::make_unique<DrawnState>(*space_);
   control_ = setup.control;
   monitor_ = setup.monitor;
   linger_s_ = parameters.Number("linger");
@@ -233,12 +234,14 @@ void CWebRender::SendDrawing()
   drawing_due_ = start + kDrawingPeriod;
   const bool is_empty = space_->GetDrawing().IsEmpty();
   if (drawing_revision_ == space_->DrawingRevision() && drawn_fields_ == space_->Fields().Revision() &&
-      (is_empty || drawing_poses_ == space_->Revision()))
+      (is_empty || drawing_poses_ == space_->Revision()) &&
+      (!drawn_state_->Changes() || drawn_tick_ == space_->GetTick()))
     return;
   drawing_revision_ = space_->DrawingRevision();
   drawn_fields_ = space_->Fields().Revision();
   drawing_poses_ = space_->Revision();
-  const WebServer::Bytes bytes = Shared(DrawingBytes(*space_));
+  drawn_tick_ = space_->GetTick();
+  const WebServer::Bytes bytes = Shared(DrawingBytes(*drawn_state_));
   host_->Server().Publish(WebServer::Slot::kDrawing, bytes);
   const std::chrono::duration<double> transfer(static_cast<double>(bytes->size()) / bytes_per_second_);
   drawing_due_ = std::max({drawing_due_, Clock::now() + kMarksShare * (Clock::now() - start),

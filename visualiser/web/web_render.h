@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "common/space/drawn_state.h"
 #include "visualiser/playback_reader.h"
 #include "visualiser/render.h"
 #include "visualiser/web/log_follower.h"
@@ -92,6 +93,8 @@ private:
   std::uint64_t drawing_revision_ = 1;            // the revision that pages have; at first they have none
   std::uint64_t drawn_fields_ = 1;                // the revision of the floor fields that pages have
   std::uint64_t drawing_poses_ = 0;
+  std::unique_ptr<DrawnState> drawn_state_;
+  std::uint64_t drawn_tick_ = ~0ULL;
   std::uint64_t marked_revision_ = 0, marked_attributes_ = 0;
 
   std::map<std::uint64_t, std::vector<std::uint32_t>> watched_;  // by client

@@ -35,6 +35,7 @@ struct FootbotPerspectiveCamera
 {
   using Interface = CCI_FootBotPerspectiveCameraSensor;
   static constexpr const char* kLabel = "footbot_perspective_camera";
+  static constexpr bool kHasPosition = true;
   // The camera is in the rim, as high as the beacon (ARGoS3, foot-bot).
   static CameraModel Model() { return {CameraModel::View::kAhead, {0.085036758, 0, 0.174}, 0, 0}; }
 };
@@ -99,6 +100,7 @@ protected:
   {
     CameraModel model = Traits::Model();
     if constexpr (requires { Traits::kHasHeight; }) model.eye.z() = setup.parameters.Number("height");
+    if constexpr (requires { Traits::kHasPosition; }) model.eye = setup.parameters.Vector3Of("position");
     InitCamera(setup, model);
     cameras_.reserve(setup.robots.size());
     for (std::size_t k = 0; k < setup.robots.size(); ++k) cameras_.emplace_back(*this, k);

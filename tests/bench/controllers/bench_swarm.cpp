@@ -1,11 +1,13 @@
 // Controllers for the benchmark's scenes. Footbots drive on and turn away from bodies in front, or towards the side on
 // which their cameras see most robots; eyebots fly circles. All send messages and light their LEDs.
+#include <array>
 #include <cmath>
 
 #include "ci_colour_blob_sensor.h"
 #include "ci_controller.h"
 #include "ci_floor_field.h"
 #include "ci_proximity_sensor.h"
+#include "ci_radio.h"
 #include "ci_range_and_bearing.h"
 #include "ci_wheels_actuator.h"
 #include "common/math/elementary.h"
@@ -39,8 +41,10 @@ public:
     if (robot.HasActuator("footbot_wheels")) wheels_ = &robot.Actuator<CCI_FootBotWheelsActuator>("footbot_wheels");
     if (robot.HasActuator("eyebot_propellers"))
       propellers_ = &robot.Actuator<CCI_EyeBotPropellersActuator>("eyebot_propellers");
-    if (robot.HasActuator("wheels")) generic_wheels_ = &robot.Actuator<CCI_WheelsActuator>("wheels");
-    if (robot.HasSensor("proximity")) ring_ = &robot.Sensor<CCI_ProximitySensor>("proximity");
+    if (robot.HasActuator("wheels")) any_wheels_ = &robot.Actuator<CCI_WheelsActuator>("wheels");
+    if (robot.HasSensor("proximity")) any_proximity_ = &robot.Sensor<CCI_ProximitySensor>("proximity");
+    if (robot.HasActuator("radio")) radio_ = &robot.Actuator<CCI_RadioActuator>("radio");
+    if (robot.HasSensor("radio")) packets_ = &robot.Sensor<CCI_RadioSensor>("radio");
     if (robot.HasSensor("footbot_proximity"))
       proximity_ = &robot.Sensor<CCI_FootBotProximitySensor>("footbot_proximity");
     if (robot.HasSensor("footbot_omnidirectional_camera"))
@@ -64,7 +68,9 @@ public:
     if (heard_ != nullptr) read_ = static_cast<double>(heard_->GetAllPackets().size());
     if (camera_ != nullptr && looks_always_) read_ = static_cast<double>(camera_->GetAllBlobs().size());
     if (propellers_ != nullptr) propellers_->SetVelocity(0.1, 0, 0, 0.2);
-    if (generic_wheels_ != nullptr) return SteerByRing();
+    if (radio_ != nullptr) radio_->Send(std::array<std::uint8_t, 4>{1, 2, 3, 4});
+    if (packets_ != nullptr) read_ = static_cast<double>(packets_->GetAllPackets().size());
+    if (any_wheels_ != nullptr && any_proximity_ != nullptr) DriveByAnyProximity();
     if (wheels_ == nullptr) return;
     double turn = 0;
     if (proximity_ != nullptr)
@@ -81,15 +87,13 @@ public:
   bool StepsInParallel() const override { return true; }
 
 private:
-  static constexpr double kSpeed = 0.05;  // m/s
-
-  // For robots with the generic ring: away from what is near on either side ahead.
-  void SteerByRing()
+  // Turns away from the side of the ring, left or right, that reads more.
+  void DriveByAnyProximity()
   {
+    const auto readings = any_proximity_->GetAllSensorReadings();
     double turn = 0;
-    const auto readings = ring_->GetAllSensorReadings();
-    for (std::size_t i = 0; i < readings.size() / 4; ++i) turn -= readings[i] - readings[readings.size() - 1 - i];
-    generic_wheels_->SetLinearVelocity(turn > 0 ? 0 : kSpeed, turn < 0 ? 0 : kSpeed);
+    for (std::size_t i = 0; i < readings.size() / 2; ++i) turn -= readings[i] - readings[readings.size() - 1 - i];
+    any_wheels_->SetLinearVelocity(turn > 0 ? 0 : kSpeed, turn < 0 ? 0 : kSpeed);
   }
 
   // So that every bit that any sensor reads changes the way of the robot.
@@ -101,6 +105,8 @@ private:
     for (std::size_t i = 0; i < readings_.size(); ++i) sum += static_cast<double>(i % 7 + 1) * readings_[i].value;
     wheels_->SetFootBotWheelsLinearVelocity(0.05 + 0.02 * Sin(sum), 0.05 + 0.02 * Cos(sum));
   }
+
+  static constexpr double kSpeed = 0.05;  // m/s
 
   int rounds_ = 0;
   volatile double thought_ = 0;  // keeps the compiler from removing the computation
@@ -115,9 +121,11 @@ private:
   CCI_FootBotWheelsActuator* wheels_ = nullptr;
   CCI_EyeBotPropellersActuator* propellers_ = nullptr;
   CCI_FootBotProximitySensor* proximity_ = nullptr;
-  CCI_ProximitySensor* ring_ = nullptr;
-  CCI_WheelsActuator* generic_wheels_ = nullptr;
   CCI_ColourBlobSensor* camera_ = nullptr;
+  CCI_WheelsActuator* any_wheels_ = nullptr;
+  CCI_ProximitySensor* any_proximity_ = nullptr;
+  CCI_RadioActuator* radio_ = nullptr;
+  CCI_RadioSensor* packets_ = nullptr;
 };
 
 REGISTER_CONTROLLER(CBenchSwarm, {.label = "bench_swarm",

@@ -16,6 +16,7 @@
 #include "common/control_interface/ci_wheels_actuator.h"
 #include "common/control_interface/footbot/ci_footbot_gripper_actuator.h"
 #include "common/space/battery_slots.h"
+#include "common/space/drawn_shapes.h"
 #include "common/space/space.h"
 #include "controller_host/device.h"
 #include "controller_host/devices/noise.h"
@@ -467,6 +468,51 @@ TEST(EnergyBattery, RefusesWhatItCannotDo)
   EnergyRun ignores({.battery = "empty='ignore'", .actuators = {"plain_battery_test_heater"}});
   ignores.Ticks(1);
   Heater::is_exposed = true;
+}
+
+// The bar of a robot is as wide as the robot. Its first part is the charge.
+TEST(EnergyBattery, IsDrawnAsABarOverTheRobotAndItsStationWithABolt)
+{
+  EnergyRun run({.battery = "capacity='100' start='0.6' idle='10'",
+                 .arena = "<footbot id='a' position='1,1,0' orientation='0,0,90' controller='c'/>"
+                          "<charging_station id='s' position='4,2,0' radius='0.5' charging_power='20'/>"
+                          "<charging_station id='dead' position='6,2,0' radius='0.5' charging_power='0'/>"});
+  const CSwarmanoidSpace& space = (*run).GetSpace();
+  const DrawnState state(space);
+  EXPECT_TRUE(state.Changes());
+  const auto drawn = [&]
+  {
+    std::vector<std::pair<double, std::uint32_t>> parts;  // widths and colours
+    double bolts = 0, first_x = 1e9, last_x = 0;
+    ForEachDrawnShape(state,
+                      [&](const DrawnShape& shape, std::span<const float> numbers, std::string_view, const Pose& frame)
+                      {
+                        if (shape.kind == DrawnShape::Kind::kPolygon)
+                        {
+                          bolts += 1;
+                          EXPECT_EQ(frame.position.x(), 4) << "the other station has no power";
+                          return;
+                        }
+                        parts.emplace_back(numbers[3] - numbers[0], shape.colour >> 8U);
+                        EXPECT_EQ(numbers[1], 1);
+                        first_x = std::min<double>(first_x, numbers[0]);
+                        last_x = std::max<double>(last_x, numbers[3]);
+                      });
+    EXPECT_EQ(bolts, 2);
+    EXPECT_NEAR((first_x + last_x) / 2, 1, 1e-6);
+    EXPECT_NEAR(last_x - first_x, 2 * 0.085, 1e-3);
+    return parts;
+  };
+  auto parts = drawn();
+  ASSERT_EQ(parts.size(), 2U);
+  EXPECT_NEAR(parts[0].first / (parts[0].first + parts[1].first), 0.6, 1e-6);
+  const std::uint32_t full = parts[0].second;
+  run.Ticks(20);
+  EXPECT_NE(drawn()[0].second, full) << "40 % are left";
+  run.Ticks(40);
+  parts = drawn();
+  ASSERT_EQ(parts.size(), 1U) << "it is empty";
+  EXPECT_NEAR(parts[0].first, 2 * 0.085, 1e-3);
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "common/configuration/configuration_tree.h"
+#include "launcher/worlds/ros_map.h"
 #include "simulation/register_all.h"
 #include "tests/unit/launcher/world_lines.h"
 #include "tests/world/message_of.h"
@@ -127,6 +129,47 @@ TEST(FloorPlan, DamagedPgmsAreRefused)
   EXPECT_THAT(PgmMistake("P2 2 1 3 7 1"), HasSubstr("a grey of 7 is more than its largest, 3"));
   EXPECT_THAT(test::MessageOf<std::runtime_error>([&] { ReadPlanPicture("/nowhere.png"); }),
               HasSubstr("cannot read the picture '/nowhere.png'"));
+}
+
+std::string MapMistake(const std::string& text)
+{
+  return test::MessageOf<ConfigurationError>([&] { ReadRosMap(text, "m.yaml"); });
+}
+
+TEST(RosMap, HasWhatMapServersWrite)
+{
+  const RosMap map = ReadRosMap(
+      "%YAML:1.0\n---\n# of a lab\nimage: \"my map.pgm\"  # a name\nresolution: 5e-2\r\norigin: [-10, 2.5, 0.000000]\n"
+      "negate: 1\noccupied_thresh: 0.7\nfree_thresh: 0.25\nmode: scale\n",
+      "m.yaml");
+  EXPECT_EQ(map.image, "my map.pgm");
+  EXPECT_EQ(map.resolution_m, 0.05);
+  EXPECT_EQ(map.origin, Vector3(-10, 2.5, 0));
+  EXPECT_EQ(map.occupied_threshold, 0.7);
+  EXPECT_TRUE(map.is_negated);
+  const RosMap other = ReadRosMap("image: a#b.png\nresolution: 1\norigin:\n- 1\n  - 2\n- -3\n", "m.yaml");
+  EXPECT_EQ(other.image, "a#b.png");
+  EXPECT_EQ(other.origin, Vector3(1, 2, -3));
+  EXPECT_EQ(other.occupied_threshold, 0.65);
+  EXPECT_FALSE(other.is_negated);
+  EXPECT_TRUE(IsRosMapFile("maps/lab.yaml"));
+  EXPECT_TRUE(IsRosMapFile("lab.yml"));
+  EXPECT_FALSE(IsRosMapFile("yaml.png"));
+}
+
+TEST(RosMap, MistakesAreNamedWithTheirLine)
+{
+  EXPECT_THAT(MapMistake(""), HasSubstr("m.yaml:1:1: the map has no image"));
+  EXPECT_THAT(MapMistake("image: a\n"), HasSubstr("the map has no resolution"));
+  EXPECT_THAT(MapMistake("image: a\nresolution: much\n"),
+              HasSubstr("m.yaml:2:1: resolution is 'much'; it must be a number"));
+  EXPECT_THAT(MapMistake("image: a\nresolution: -1\n"), HasSubstr("it must be 1e-06 to 1000"));
+  EXPECT_THAT(MapMistake("image: a\nresolution: nan\n"), HasSubstr("resolution"));
+  EXPECT_THAT(MapMistake("image: a\nresolution: 1\norigin: [1, 2]\n"),
+              HasSubstr("m.yaml:3:1: origin is '1, 2'; it must be 3 numbers"));
+  EXPECT_THAT(MapMistake("image: a\n\nimage: b\n"), HasSubstr("m.yaml:3:1: image stands in line 1 already"));
+  EXPECT_THAT(MapMistake("image: a\nwords\n"), HasSubstr("m.yaml:2:1: 'words' is no line of a map"));
+  EXPECT_THAT(MapMistake("image: a\nresolution: 1\nmode: raw\n"), HasSubstr("the mode 'raw' is not read"));
 }
 
 }  // namespace

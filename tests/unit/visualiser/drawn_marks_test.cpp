@@ -1,8 +1,10 @@
 // The drawings of experiment functions in the form for renderers of pictures.
 #include "visualiser/scene/drawn_marks.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "common/space/drawn_state.h"
 #include "tests/unit/visualiser/small_world.h"
 
 namespace swarmanoid
@@ -93,6 +95,40 @@ TEST_F(DrawnMarksTest, AreasHaveTheirColourAndLinesCloseCircles)
   EXPECT_EQ(marks_.triangles[0].colour, 0x00ff00U) << "without light";
   ASSERT_EQ(marks_.lines.size(), 36U + 1);
   EXPECT_TRUE(marks_.lines[0].from.isApprox(marks_.lines[35].to, 1e-5F));
+}
+
+TEST(DrawnWind, IsAnArrowWithItsSpeedInTheCornerAtTheOrigin)
+{
+  SmallWorld calm({4, 4, 1});
+  DrawnMarks marks;
+  CutDrawing(calm.Space(), marks);
+  EXPECT_TRUE(marks.lines.empty());
+  EXPECT_FALSE(DrawnState(calm.Space()).Changes());
+
+  SmallWorld world({4, 6, 1});
+  world.GetExperiment().wind = WindConfiguration{{-0.3, 0.4, 0}, 0, 3};
+  CutDrawing(world.Space(), marks);
+  ASSERT_EQ(marks.lines.size(), 1U);
+  const Vector3f way = marks.lines[0].to - marks.lines[0].from;
+  EXPECT_TRUE(way.isApprox(0.8F * Vector3f(-0.6F, 0.8F, 0), 1e-4F)) << way.transpose();
+  for (const Vector3f& end : {marks.lines[0].from, marks.lines[0].to})
+    EXPECT_TRUE((end.array() > 0).all() && end.x() < 1.2F && end.y() < 1.2F) << end.transpose();
+  ASSERT_EQ(marks.texts.size(), 1U);
+  EXPECT_EQ(marks.texts[0].text, "wind 0.50 m/s");
+}
+
+TEST(DrawnWind, FollowsItsGusts)
+{
+  SmallWorld world({4, 4, 1});
+  world.GetExperiment().wind = WindConfiguration{{1, 0, 0}, 5, 3};
+  const DrawnState state(world.Space());
+  DrawnMarks before, after;
+  CutDrawing(state, before);
+  world.Space().SetTick(100);
+  CutDrawing(state, after);
+  const Vector3 air = Wind(world.GetExperiment()).At({2, 2, 0.5}, world.Space().GetTime());
+  EXPECT_EQ(after.texts.at(0).text, fmt::format("wind {:.2f} m/s", air.norm()));
+  EXPECT_NE(after.texts.at(0).text, before.texts.at(0).text);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "ci_floor_field.h"
 #include "ci_radio.h"
 #include "ci_range_and_bearing.h"
+#include "ci_wheels_actuator.h"
 #include "eyebot/ci_eyebot_laser_actuator.h"
 #include "eyebot/ci_eyebot_propellers_actuator.h"
 #include "footbot/ci_footbot_beacon_actuator.h"
@@ -89,6 +90,8 @@ private:
     const auto colour = static_cast<std::uint32_t>(values[0]);
     if (command.device == "footbot_wheels")
       robot.Actuator<CCI_FootBotWheelsActuator>("footbot_wheels").SetFootBotWheelsLinearVelocity(values[0], values[1]);
+    else if (command.device == "wheels")
+      robot.Actuator<CCI_WheelsActuator>("wheels").SetLinearVelocity(values[0], values[1]);
     else if (command.device == "floor_field")
       robot.Actuator<CCI_FloorFieldActuator>("floor_field").SetRate(values[0]);
     else if (command.device == "footbot_gripper")
