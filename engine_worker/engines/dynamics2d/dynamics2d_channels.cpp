@@ -104,6 +104,12 @@ void CDynamics2dEngine::WriteSensors(std::span<double> sensors) const
 {
   for (const ChannelBlock& block : layout_->sensors)
   {
+    if (block.name == "joints")
+    {
+      const std::size_t count = block.entities.size() * static_cast<std::size_t>(block.width);
+      robots_.Sense(block, sensors.subspan(block.offset, count));
+      continue;
+    }
     double* value = sensors.data() + block.offset;
     for (const std::uint32_t entity : block.entities)
     {
