@@ -11,8 +11,8 @@
 namespace swarmanoid
 {
 
-// Joints turn or slide: positions are in rad or m, velocities in rad/s or m/s. Until it is commanded, a joint stays where
-// it started. A joint without effort moves freely, and ignores commands.
+// Joints turn or slide: positions are in rad or m, velocities in rad/s or m/s. Until it is commanded, a joint stays
+// where it started. A joint without effort moves freely, and ignores commands.
 class CCI_JointsActuator : public CCI_ActuatorOf<CCI_JointsActuator>
 {
 public:
@@ -54,8 +54,10 @@ public:
   static void Declare(Declaration& columns)
   {
     columns
-        .Set({{"#", "rad"}}, [](CCI_JointsActuator& joints, std::span<const double> values)
-             { joints.SetAllActuatorOutputs(values); }, &CCI_JointsActuator::GetNumJoints)
+        .Set(
+            {{"#", "rad"}},
+            [](CCI_JointsActuator& joints, std::span<const double> values) { joints.SetAllActuatorOutputs(values); },
+            &CCI_JointsActuator::GetNumJoints)
         .NameSettings(
             [](const CCI_JointsActuator& joints, std::size_t joint, CCI_Column& column)
             {

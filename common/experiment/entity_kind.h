@@ -309,8 +309,8 @@ bool IsFreeBox(EntityKind kind);
 // Returns whether only an engine that moves links can move the kind: it has no wheels or propellers, but joints.
 bool StandsOnLinks(EntityKind kind);
 // Returns whether a kind can carry a type of device. Types for all robots with a part are "wheels", "joints",
-// "led_ring", "directional_leds", "proximity" and "ground". Robots with propellers carry "eyebot_propellers", "eyebot_altitude" and
-// "eyebot_camera", and with a magnet "eyebot_attachment". A row can name further types.
+// "led_ring", "directional_leds", "proximity" and "ground". Robots with propellers carry "eyebot_propellers",
+// "eyebot_altitude" and "eyebot_camera", and with a magnet "eyebot_attachment". A row can name further types.
 bool Carries(EntityKind kind, std::string_view device_type);
 // Returns whether entities of the kind may be added to the arena and removed during a run.
 bool CanWait(EntityKind kind);

@@ -172,7 +172,8 @@ std::string MistakeInLinks(const Row& row)
         !IsLimited(link.damping) || !IsLimited(link.friction) || (link.effort > 0 && link.max_speed == 0))
       return fmt::format("the joint '{}' needs a range, and speed, effort, damping and friction of 0 or more",
                          link.joint);
-    if (!IsBody(link.body)) return fmt::format("the joint '{}' needs a link with the mass and the inertia of a body", link.joint);
+    if (!IsBody(link.body))
+      return fmt::format("the joint '{}' needs a link with the mass and the inertia of a body", link.joint);
   }
   return {};
 }
@@ -180,8 +181,8 @@ std::string MistakeInLinks(const Row& row)
 std::string MistakeInParts(const Row& row)
 {
   if (const std::string wrong = MistakeInLinks(row); !wrong.empty()) return wrong;
-  if (row.role != EntityRole::kRobot &&
-      (row.wheels || row.propellers || !row.links.empty() || row.leds || row.beacon_height_m || row.proximity || !row.ground_points.empty()))
+  if (row.role != EntityRole::kRobot && (row.wheels || row.propellers || !row.links.empty() || row.leds ||
+                                         row.beacon_height_m || row.proximity || !row.ground_points.empty()))
     return "wheels, propellers, links, LEDs and sensors are for robots";
   if (const std::string wrong = MistakeInPropellers(row); !wrong.empty()) return wrong;
   if (row.wheels &&
@@ -383,7 +384,8 @@ void AddAttributes(Row& row)
   }
   // The row keeps the names.
   for (const MovingLink& link : row.links)
-    all.push_back({link.attribute, 1, link.Start(), link.slides ? "position of the joint in metres" : "position of the joint in radians"});
+    all.push_back({link.attribute, 1, link.Start(),
+                   link.slides ? "position of the joint in metres" : "position of the joint in radians"});
   all.insert(all.end(), row.attributes.begin(), row.attributes.end());
   row.attributes = std::move(all);
 }

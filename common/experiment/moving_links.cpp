@@ -51,7 +51,8 @@ double NextReference(const MovingLink& link, const JointCommand& command, double
       return link.Within(reference + std::clamp(command.value, -link.max_speed, link.max_speed) * seconds);
     case JointCommand::Mode::kPosition:
     {
-      const double way = link.IsEndless() ? WrapAngle(command.value - reference) : link.Within(command.value) - reference;
+      const double way =
+          link.IsEndless() ? WrapAngle(command.value - reference) : link.Within(command.value) - reference;
       const double most = link.max_speed * seconds;
       return link.Within(reference + std::clamp(way, -most, most));
     }

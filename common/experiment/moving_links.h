@@ -28,8 +28,8 @@ struct LinkShape
     kHull       // size: the box around `hull`, whose centre is that of `pose`
   };
   Form form = Form::kBox;
-  Vector3 size = Vector3::Zero();                 // m
-  Pose pose{};                                    // of its centre, in the frame of the entity, all joints at 0
+  Vector3 size = Vector3::Zero();                    // m
+  Pose pose{};                                       // of its centre, in the frame of the entity, all joints at 0
   std::shared_ptr<const ConvexHull> hull = nullptr;  // in the frame of `pose`
 };
 
@@ -37,7 +37,7 @@ struct LinkShape
 struct LinkBody
 {
   double mass_kg = 0;
-  Vector3 centre_of_mass = Vector3::Zero();             // m
+  Vector3 centre_of_mass = Vector3::Zero();           // m
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // kg m², about the centre of mass, along the axes of the entity
   std::vector<LinkShape> shapes{};
 };
@@ -50,9 +50,9 @@ struct MovingLink
   std::string joint{};      // its name
   std::string attribute{};  // with its position: "joint_NAME"
   bool slides = false;
-  int parent = kBase;                 // index of the link that carries it, which is smaller than its own
-  Vector3 anchor = Vector3::Zero();   // a point on the axis, in the frame of the entity, all joints at 0
-  Vector3 axis = Vector3::UnitX();    // a unit vector, in the same frame
+  int parent = kBase;                // index of the link that carries it, which is smaller than its own
+  Vector3 anchor = Vector3::Zero();  // a point on the axis, in the frame of the entity, all joints at 0
+  Vector3 axis = Vector3::UnitX();   // a unit vector, in the same frame
   // The range of positions; infinite for a joint that turns without end.
   double lowest = -std::numeric_limits<double>::infinity();
   double highest = std::numeric_limits<double>::infinity();
@@ -73,8 +73,8 @@ struct MovingLink
 // `positions` has one for each link.
 std::vector<Pose> MotionsOfLinks(std::span<const MovingLink> links, std::span<const double> positions);
 
-// The motors of joints follow one law in all engines. A commanded position is approached at the joint's largest speed; a
-// commanded speed is kept. Both move a reference, which the joint follows.
+// The motors of joints follow one law in all engines. A commanded position is approached at the joint's largest speed;
+// a commanded speed is kept. Both move a reference, which the joint follows.
 struct JointCommand
 {
   enum class Mode : std::uint8_t

@@ -211,10 +211,10 @@ private:
     std::vector<std::string> names;
     for (const UrdfJoint* joint : rolling) names.push_back(joint->name);
     Error(links_.location,
-          fmt::format("a robot has two driven wheels, which are continuous joints about y; this one has {}{}. {}",
-                      rolling.size(), names.empty() ? "" : ": " + Listed(names),
-                      has_any ? "Joints of casters are of type fixed"
-                              : "A robot on legs has revolute or prismatic joints"));
+          fmt::format(
+              "a robot has two driven wheels, which are continuous joints about y; this one has {}{}. {}",
+              rolling.size(), names.empty() ? "" : ": " + Listed(names),
+              has_any ? "Joints of casters are of type fixed" : "A robot on legs has revolute or prismatic joints"));
     return false;
   }
 
@@ -268,9 +268,10 @@ private:
       if (IsStill(joint) || &joint == wheels_.left || &joint == wheels_.right) continue;
       if (wheels_.left != nullptr && !(joint.limit && joint.limit->effort.value_or(0) > 0))
       {
-        Note(joint.location, fmt::format("the joint '{}' ({}) has no effort in its <limit>: on a robot with driven wheels "
-                                         "it stands still at zero",
-                                         joint.name, joint.type));
+        Note(joint.location,
+             fmt::format("the joint '{}' ({}) has no effort in its <limit>: on a robot with driven wheels "
+                         "it stands still at zero",
+                         joint.name, joint.type));
         continue;
       }
       CheckMotion(joint);
@@ -284,8 +285,8 @@ private:
     };
     while (!left.empty())
     {
-      const auto next = std::ranges::find_if(left, [&](const UrdfJoint* joint)
-                                             { return !is_left(links_.LinkOf(joint->parent)); });
+      const auto next =
+          std::ranges::find_if(left, [&](const UrdfJoint* joint) { return !is_left(links_.LinkOf(joint->parent)); });
       moving_.push_back(*next);
       left.erase(next);
     }
@@ -300,9 +301,10 @@ private:
              c == '.' || c == '/';
     };
     if (joint.name.empty() || joint.name.size() > kLongestName || !std::ranges::all_of(joint.name, is_good))
-      Error(joint.location, fmt::format("the joint '{}' moves, so its name consists of 1 to {} letters, digits, '_', '-', "
-                                        "'.' and '/'",
-                                        joint.name, kLongestName));
+      Error(joint.location,
+            fmt::format("the joint '{}' moves, so its name consists of 1 to {} letters, digits, '_', '-', "
+                        "'.' and '/'",
+                        joint.name, kLongestName));
     if (std::ranges::count(links_.joints, joint.name, &UrdfJoint::name) > 1)
       Error(joint.location, fmt::format("the joint '{}' is there twice", joint.name));
     const bool is_endless = joint.type == "continuous";
@@ -316,23 +318,27 @@ private:
     const UrdfLimit& limit = *joint.limit;
     if (!limit.effort || !limit.velocity || *limit.effort < 0 || *limit.velocity < 0 ||
         (*limit.effort > 0 && *limit.velocity == 0))
-      Error(limit.location, fmt::format("the <limit> of the joint '{}' needs an 'effort' of 0 or more, and a 'velocity' "
-                                        "of more than 0 unless the effort is 0",
-                                        joint.name));
+      Error(limit.location,
+            fmt::format("the <limit> of the joint '{}' needs an 'effort' of 0 or more, and a 'velocity' "
+                        "of more than 0 unless the effort is 0",
+                        joint.name));
     if (is_endless) return;
     const double lower = limit.lower.value_or(0), upper = limit.upper.value_or(0);
     if (!(lower < upper))
-      Error(limit.location, fmt::format("the <limit> of the joint '{}' goes from {:g} to {:g}; 'lower' must be less than "
-                                        "'upper'",
-                                        joint.name, lower, upper));
+      Error(limit.location,
+            fmt::format("the <limit> of the joint '{}' goes from {:g} to {:g}; 'lower' must be less than "
+                        "'upper'",
+                        joint.name, lower, upper));
     if (joint.type == "revolute" && (lower < -kMostTurn || upper > kMostTurn))
-      Error(limit.location, fmt::format("the <limit> of the joint '{}' goes from {:g} to {:g} rad; it must be within -{:g} "
-                                        "and {:g}, or the joint continuous",
-                                        joint.name, lower, upper, kMostTurn, kMostTurn));
+      Error(limit.location,
+            fmt::format("the <limit> of the joint '{}' goes from {:g} to {:g} rad; it must be within -{:g} "
+                        "and {:g}, or the joint continuous",
+                        joint.name, lower, upper, kMostTurn, kMostTurn));
     if (joint.friction > 0 && limit.effort.value_or(0) > 0)
-      Note(joint.location, fmt::format("the friction of the joint '{}' has no effect: the effort of its motor is what the "
-                                       "friction leaves",
-                                       joint.name));
+      Note(joint.location,
+           fmt::format("the friction of the joint '{}' has no effect: the effort of its motor is what the "
+                       "friction leaves",
+                       joint.name));
   }
 
   // Returns the number of the link with which a link of the file moves.
@@ -393,13 +399,15 @@ private:
       body.mass_kg += link.mass;
       for (const UrdfShape& shape : link.collision) body.shapes.push_back(ShapeOf(shape, pose));
       if (link.mass > 0 && !link.inertia)
-        Error(link.location, fmt::format("the link '{}' moves {} and needs an <inertia> in its <inertial>", link.name, how));
+        Error(link.location,
+              fmt::format("the link '{}' moves {} and needs an <inertia> in its <inertial>", link.name, how));
     }
     if (!(body.mass_kg > 0))
     {
-      Error(first->location, fmt::format("the link '{}' moves {} and needs an <inertial> with a <mass> of more than 0 kg and "
-                                         "an <inertia>",
-                                         first->name, how));
+      Error(first->location,
+            fmt::format("the link '{}' moves {} and needs an <inertial> with a <mass> of more than 0 kg and "
+                        "an <inertia>",
+                        first->name, how));
       return body;
     }
     body.centre_of_mass /= body.mass_kg;
@@ -415,9 +423,10 @@ private:
     body.inertia = (body.inertia + body.inertia.transpose()).eval() / 2;
     const Vector3 moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(body.inertia).eigenvalues();
     if (!(moments.minCoeff() > 0 && 2 * moments.maxCoeff() <= moments.sum() * kRounded))
-      Error(first->location, fmt::format("the inertia of the link '{}' has the principal moments {:g}, {:g} and {:g} kg m²; "
-                                         "those of a body are above 0, and none is larger than the other two together",
-                                         first->name, moments.x(), moments.y(), moments.z()));
+      Error(first->location,
+            fmt::format("the inertia of the link '{}' has the principal moments {:g}, {:g} and {:g} kg m²; "
+                        "those of a body are above 0, and none is larger than the other two together",
+                        first->name, moments.x(), moments.y(), moments.z()));
     return body;
   }
 
@@ -439,9 +448,9 @@ private:
       case Form::kMesh:
       {
         made.form = LinkShape::Form::kHull;
-        const Eigen::AlignedBox3d box = std::accumulate(shape.corners.begin(), shape.corners.end(), Eigen::AlignedBox3d(),
-                                                        [](Eigen::AlignedBox3d all, const Vector3& corner)
-                                                        { return all.extend(corner); });
+        const Eigen::AlignedBox3d box =
+            std::accumulate(shape.corners.begin(), shape.corners.end(), Eigen::AlignedBox3d(),
+                            [](Eigen::AlignedBox3d all, const Vector3& corner) { return all.extend(corner); });
         std::vector<Vector3> corners = shape.corners;
         for (Vector3& corner : corners) corner -= box.center();
         made.size = box.sizes();
@@ -452,8 +461,8 @@ private:
     return made;
   }
 
-  // The origin is below the root link, on the ground that the shapes touch with the joints where they start. The body is
-  // the box about it that holds the shapes then.
+  // The origin is below the root link, on the ground that the shapes touch with the joints where they start. The body
+  // is the box about it that holds the shapes then.
   void StandOnGround()
   {
     EntityKindDescription& kind = result_.kind;
@@ -628,7 +637,7 @@ private:
 
   UrdfKind& result_;
   const UrdfLinks& links_;
-  Wheels wheels_;                           // none on a robot without driven wheels
+  Wheels wheels_;                         // none on a robot without driven wheels
   std::vector<const UrdfJoint*> moving_;  // by link of the kind
   Vector3 middle_ = Vector3::Zero();
 };

@@ -280,8 +280,9 @@ private:
       joint.damping = Numbers(dynamics, "damping", {0})[0];
       joint.friction = Numbers(dynamics, "friction", {0})[0];
       if (joint.damping < 0 || joint.friction < 0)
-        Error(dynamics, fmt::format("the joint '{}' has a damping of {:g} and a friction of {:g}; they must be at least 0",
-                                    joint.name, joint.damping, joint.friction));
+        Error(dynamics,
+              fmt::format("the joint '{}' has a damping of {:g} and a friction of {:g}; they must be at least 0",
+                          joint.name, joint.damping, joint.friction));
     }
     if (const TConfigurationTree mimic = element.Child("mimic"); mimic.Exists() && joint.type != "fixed")
       Error(mimic, fmt::format("the joint '{}' follows another one by <mimic>, which cannot be simulated; let the "

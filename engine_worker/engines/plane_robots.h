@@ -1,5 +1,6 @@
 // The parts of robots on a plane other than their drive: the handbot's head, arms, wrists, hands and rope, the links of
-// robots on wheels, and the magnets of flying robots, as kinematic models. Shared by kinematics2d and dynamics2d, in their engine's thread.
+// robots on wheels, and the magnets of flying robots, as kinematic models. Shared by kinematics2d and dynamics2d, in
+// their engine's thread.
 //
 // Joints turn at their commanded speeds within their ranges. A hand that closes takes the nearest block or prey of the
 // engine within its reach in the space. Hand and object then move as one rigid body on the plane. A handbot holds one

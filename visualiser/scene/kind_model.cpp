@@ -155,9 +155,10 @@ Model ModelOf(const std::string& name, const std::vector<MeshPart>& parts, const
       const Pose& motion = motions[static_cast<std::size_t>(part.link)];
       MeshBuilder at_zero(kSegments[level]);
       AddPart(at_zero, part, level, experiment);
-      builder.Append(at_zero.Take(),
-                     Eigen::Translation3f(motion.position.cast<float>()) * Eigen::Affine3f(motion.orientation.cast<float>()),
-                     Material::kTint);
+      builder.Append(
+          at_zero.Take(),
+          Eigen::Translation3f(motion.position.cast<float>()) * Eigen::Affine3f(motion.orientation.cast<float>()),
+          Material::kTint);
     }
     model.levels[static_cast<std::size_t>(level)] = builder.Take();
   }

@@ -1,5 +1,5 @@
-// The joints of any robot whose kind has them. Specific: the channel "joints" has a mode and a value for each joint, and
-// to the host a position, a speed and an effort. It has room for the most joints of a robot in the experiment.
+// The joints of any robot whose kind has them. Specific: the channel "joints" has a mode and a value for each joint,
+// and to the host a position, a speed and an effort. It has room for the most joints of a robot in the experiment.
 #include <cmath>
 #include <stdexcept>
 

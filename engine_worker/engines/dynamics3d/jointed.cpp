@@ -1,13 +1,14 @@
 // Problem: move the links of a robot by commands of position and speed, with limited speed and effort.
 //
 // Method: each joint is a hinge or a slider of ODE with stops at the ends of its range, and a motor beside it. A
-// command moves a reference: to a position at the joint's largest speed, or at the commanded speed. The motor's speed is
-// that of the reference and a gain times the distance to it, within the largest speed; the solver finds the effort that
-// it takes, up to the limit. Damping is a torque against the joint's speed, as large as it is at the end of the step.
+// command moves a reference: to a position at the joint's largest speed, or at the commanded speed. The motor's speed
+// is that of the reference and a gain times the distance to it, within the largest speed; the solver finds the effort
+// that it takes, up to the limit. Damping is a torque against the joint's speed, as large as it is at the end of the
+// step.
 //
-// Invariants: a reference is at most as far ahead of its joint as the motor goes at its largest speed in 1 / kGain, so a
-// joint that was held back does not jump. The frames of all bodies have the axes of the entity while all joints are at
-// 0. Positions always follow from the bodies alone. Source: docs/engines.md, "Joints" of `dynamics3d`.
+// Invariants: a reference is at most as far ahead of its joint as the motor goes at its largest speed in 1 / kGain, so
+// a joint that was held back does not jump. The frames of all bodies have the axes of the entity while all joints are
+// at 0. Positions always follow from the bodies alone. Source: docs/engines.md, "Joints" of `dynamics3d`.
 #include "engine_worker/engines/dynamics3d/jointed.h"
 
 #include <algorithm>
@@ -21,8 +22,8 @@ namespace swarmanoid::dynamics3d
 namespace
 {
 
-constexpr double kGain = 40;         // 1/s
-constexpr double kReported = 1e-4;   // rad or m: smaller changes of positions are not reported
+constexpr double kGain = 40;        // 1/s
+constexpr double kReported = 1e-4;  // rad or m: smaller changes of positions are not reported
 
 dMass MassOf(const LinkBody& body)
 {
@@ -91,7 +92,8 @@ JointedLinks::JointedLinks(Scene& scene, const CSwarmanoidSpaceEntity& entity, i
   {
     Link link;
     link.row = &row;
-    const Link* const carrier = row.parent == MovingLink::kBase ? nullptr : &links_[static_cast<std::size_t>(row.parent)];
+    const Link* const carrier =
+        row.parent == MovingLink::kBase ? nullptr : &links_[static_cast<std::size_t>(row.parent)];
     link.inner = carrier == nullptr ? base : carrier->body;
     const Vector3 inner_centre = carrier == nullptr ? base_centre : carrier->row->body.centre_of_mass;
     link.in_inner = row.body.centre_of_mass - inner_centre;

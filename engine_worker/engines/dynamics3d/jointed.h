@@ -52,9 +52,10 @@ private:
     const MovingLink* row = nullptr;
     int body = 0, inner = 0;  // numbers of bodies
     int joint = 0;
-    Vector3 in_inner = Vector3::Zero();  // the way (m) from the inner centre of mass to that of the link, all joints at 0
-    double radius = 0;                   // m, around the centre of mass
-    double mobility = 0;                 // rad/s² for 1 N m, or m/s² for 1 N, at most
+    Vector3 in_inner =
+        Vector3::Zero();  // the way (m) from the inner centre of mass to that of the link, all joints at 0
+    double radius = 0;    // m, around the centre of mass
+    double mobility = 0;  // rad/s² for 1 N m, or m/s² for 1 N, at most
     JointCommand command;
     double reference = 0;  // rad or m
     double position = 0;   // rad or m, at the end of the last step
