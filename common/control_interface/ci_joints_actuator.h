@@ -16,6 +16,7 @@ namespace swarmanoid
 class CCI_JointsActuator : public CCI_ActuatorOf<CCI_JointsActuator>
 {
 public:
+  // Returns the number of joints.
   virtual unsigned GetNumJoints() const = 0;
   // Returns the name of a joint, in the order of the URDF file. Throws std::out_of_range if it does not exist.
   virtual const std::string& GetName(unsigned joint) const = 0;

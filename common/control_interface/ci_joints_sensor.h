@@ -18,6 +18,7 @@ class CCI_JointsSensor : public CCI_SensorOf<CCI_JointsSensor>
 public:
   static constexpr std::size_t NUM_PER_JOINT = 3;  // position, velocity, effort
 
+  // Returns the number of joints.
   virtual unsigned GetNumJoints() const = 0;
   // Returns the name of a joint, in the order of the URDF file. Throws std::out_of_range if it does not exist.
   virtual const std::string& GetName(unsigned joint) const = 0;

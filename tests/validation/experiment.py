@@ -80,10 +80,11 @@ class Lab:
         self.numbers = itertools.count()
 
     def run(self, arena, controllers="", engine="dynamics3d", ticks=100, tick_ms=100, size="10,10,4", seed=1, every=1,
-            entities="", engines=None, volumes=(), moves=(), faults=(), processes=False, **parameters):
+            entities="", engines=None, volumes=(), moves=(), faults=(), kinds=None, processes=False, **parameters):
         """Runs a scene in one engine with these parameters, or in `engines`: tag, parameters and entities (none: all) by id.
         `volumes`: engines instead, as pairs of a tag and the volume in which it moves entities. `moves`: tick, entity, x, y
-        and heading of what is put elsewhere, into others too. `faults`: attributes of each. `processes`: as a cluster."""
+        and heading of what is put elsewhere, into others too. `faults`: attributes of each. `kinds`: texts of URDF files by the tag of
+        the kind. `processes`: as a cluster."""
         engines = engines or {f"engine_{k}": (tag, {}, None) for k, (tag, _) in enumerate(volumes)} or {"engine": (engine, parameters, None)}
         places = {f"engine_{k}": {"volume": volume} for k, (_, volume) in enumerate(volumes)}
         folder = self.folder / f"run_{next(self.numbers)}"
@@ -93,6 +94,10 @@ class Lab:
             shown["entities"] = entities
         text = element("framework", {}, "".join(element(tag, {}, value) for tag, value in (
             ("clocktick", tick_ms), ("maxclock", ticks), ("seed", seed), ("controller_path", self.libraries), ("plugin_path", self.libraries))))
+        for tag, urdf in (kinds or {}).items():
+            (folder / f"{tag}.urdf").write_text(urdf, encoding="utf-8")
+        if kinds:
+            text += element("entity_kinds", {}, "".join(element(tag, {"urdf": f"{tag}.urdf"}) for tag in kinds))
         text += element("controllers", {}, controllers) + element("arena", {"size": size, "optimization": "2D"}, arena)
         text += element("engines", {}, "".join(element(tag, {"id": name, **more}) for name, (tag, more, _) in engines.items()))
         text += element("arena_physics", {}, "".join(
