@@ -6,9 +6,10 @@
 // that it takes, up to the limit. Damping is a torque against the joint's speed, as large as it is at the end of the
 // step.
 //
-// Invariants: a reference is at most as far ahead of its joint as the motor goes at its largest speed in 1 / kGain, so
-// a joint that was held back does not jump. The frames of all bodies have the axes of the entity while all joints are
-// at 0. Positions always follow from the bodies alone. Source: docs/engines.md, "Joints" of `dynamics3d`.
+// Invariants: a reference is at most as far ahead of its joint as the motor goes at its largest speed in 1 /
+// kJointGain, so a joint that was held back does not jump. The frames of all bodies have the axes of the entity while
+// all joints are at 0. Positions always follow from the bodies alone. Source: docs/engines.md, "Joints" of
+// `dynamics3d`.
 #include "engine_worker/engines/dynamics3d/jointed.h"
 
 #include <algorithm>
@@ -22,8 +23,8 @@ namespace swarmanoid::dynamics3d
 namespace
 {
 
-constexpr double kGain = 40;        // 1/s
-constexpr double kReported = 1e-4;  // rad or m: smaller changes of positions are not reported
+constexpr double kJointGain = 40;           // 1/s
+constexpr double kReportedPosition = 1e-4;  // rad or m: smaller changes of positions are not reported
 
 dMass MassOf(const LinkBody& body)
 {
@@ -88,6 +89,7 @@ JointedLinks::JointedLinks(Scene& scene, const CSwarmanoidSpaceEntity& entity, i
   OdeWorld& world = scene.world;
   const Vector3 base_centre = PoseOf(world.RecordOf(base).first).position;
   std::vector<double> reaches;  // from the base's centre of mass to the farthest point of each link, however joints are
+  links_.reserve(rows_.size());
   for (const MovingLink& row : rows_)
   {
     Link link;
@@ -212,11 +214,11 @@ void JointedLinks::Drive(Link& link, double seconds)
   const MovingLink& row = *link.row;
   const double next = NextReference(row, link.command, link.reference, seconds);
   const double rate = (next - link.reference) / seconds;
-  const double lead = row.max_speed / kGain;
+  const double lead = row.max_speed / kJointGain;
   const double ahead = row.IsEndless() ? WrapAngle(next - link.position) : next - link.position;
   const double way = std::clamp(ahead, -lead, lead);
   link.reference = row.IsEndless() ? WrapAngle(link.position + way) : row.Within(link.position + way);
-  scene_.world.SetMotorSpeed(link.joint, std::clamp(rate + kGain * way, -row.max_speed, row.max_speed));
+  scene_.world.SetMotorSpeed(link.joint, std::clamp(rate + kJointGain * way, -row.max_speed, row.max_speed));
 }
 
 // The speed after the step decides, as far as this joint alone can tell: no damping makes the joint go back.
@@ -239,7 +241,7 @@ void JointedLinks::AfterStep()
 
 void JointedLinks::Report(AttributeReport& report) const
 {
-  for (const Link& link : links_) report.Set(link.row->attribute, link.position, 0, kReported);
+  for (const Link& link : links_) report.Set(link.row->attribute, link.position, 0, kReportedPosition);
 }
 
 void JointedLinks::Save(ByteWriter& state) const

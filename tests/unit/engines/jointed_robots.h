@@ -94,7 +94,7 @@ inline EntityKind CartWithArm()
   text += UrdfLink("mast", Inertial(0.2, 0.001));
   text += UrdfLink("upper", Inertial(0.1, 0.0003, "0.1 0 0") + UrdfBox("0.2 0.02 0.02", "0.1 0 0"));
   text += UrdfLink("hand", Inertial(0.05, 0.0001, "0.05 0 0") + UrdfBox("0.1 0.02 0.02", "0.05 0 0"));
-  text += UrdfJoint("lift", "prismatic", "base", "mast", "0 0 0.1", "0 0 1", UrdfLimit(0, 0.2, 30, 0.2));
+  text += UrdfJoint("lift", "prismatic", "base", "mast", "0 0 0.02", "0 0 1", UrdfLimit(0, 0.2, 30, 0.2));
   text += UrdfJoint("shoulder", "continuous", "mast", "upper", "0 0 0.05", "0 0 1", "<limit effort='2' velocity='2'/>");
   text += UrdfJoint("elbow", "revolute", "upper", "hand", "0.2 0 0", "0 1 0", UrdfLimit(-1, 1.2, 2, 3));
   return KindOfUrdf("test_cart_with_arm", text);
