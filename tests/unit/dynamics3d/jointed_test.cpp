@@ -227,6 +227,49 @@ TEST(JointedRobots, TheirLinksTouchOtherRobots)
   EXPECT_GT((world.Position(footbot) - Vector3(3, 5.3, 0)).norm(), 0.005);
 }
 
+// The walker of configs/hexapods.xml, with the tripod gait of user/controllers/tripod_gait: its joints follow a zigzag
+// with a period of 1 s.
+TEST(JointedRobots, WalkForwardOnSixLegsAndStayLevel)
+{
+  const std::string file = SWARMANOID_SOURCE_FOLDER "/configs/urdf/hexapod.urdf";
+  if (!KindOfTag("hexapod")) ASSERT_TRUE(RegisterUrdfKind("hexapod", file).empty());
+  const EntityKind kind = *KindOfTag("hexapod");
+  const std::vector<MovingLink>& links = DescriptionOf(kind).links;
+  ASSERT_EQ(links.size(), 12U);
+  Dynamics3dTestWorld world;
+  const std::uint32_t robot = world.Add(kind, {2, 5, 0}, Quaternion::Identity(), DescriptionOf(kind).size);
+  constexpr double kStride = 0.25, kLift = 0.4;  // rad
+  double most_tilt = 0, lowest = 1, highest = -1;
+  for (int tick = 0; tick < 100; ++tick)
+  {
+    std::vector<double> orders;
+    for (const MovingLink& link : links)
+    {
+      const bool is_left = link.joint.starts_with("left"), is_middle = link.joint.find("middle") != std::string::npos;
+      const double at = (tick + 1) * kTick + 0.25 + (is_left == is_middle ? 0.5 : 0);
+      const double phase = at - std::floor(at);
+      const double along = phase < 0.5 ? 1 - 4 * phase : 4 * phase - 3;
+      const double height = phase < 0.5 ? 0 : std::min(1.0, 2 * (1 - std::abs(4 * phase - 3)));
+      const double target = link.joint.ends_with("swing") ? kStride * along : kLift * height;
+      orders.push_back(kVelocity);
+      orders.push_back((target - world.Attribute(robot, link.attribute.c_str())) / kTick);
+    }
+    world.Command("joints", robot, orders);
+    world.Tick();
+    most_tilt = std::max(most_tilt, world.Tilt(robot));
+    lowest = std::min(lowest, world.Position(robot).z());
+    highest = std::max(highest, world.Position(robot).z());
+  }
+  // A foot at rest carries the body by its way: 4 strides of 0.14 m sin(0.25) in a second.
+  const double reach = 0.14;
+  EXPECT_NEAR(world.Position(robot).x() - 2, 10 * 4 * reach * Sin(kStride), 0.15 * 10 * 4 * reach * Sin(kStride));
+  EXPECT_NEAR(world.Position(robot).y(), 5, 0.15);
+  EXPECT_NEAR(world.Yaw(robot), 0, 0.15);
+  EXPECT_LT(most_tilt, 0.06);
+  EXPECT_GT(lowest, -0.01);
+  EXPECT_LT(highest, 0.015);
+}
+
 // Walkers, carts with arms, footbots and blocks in a crowd. All commands depend on the tick alone.
 class BusyLegs : public Dynamics3dTestWorld
 {
