@@ -19,6 +19,7 @@ set(PUBLIC_HEADERS
   controller_host/powered_device.h
   # kinds of robots and objects
   common/experiment/entity_kind.h
+  common/experiment/moving_links.h
   common/mesh/convex_hull.h
   # physics engines
   common/plugins/catalogue.h

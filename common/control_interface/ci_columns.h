@@ -79,6 +79,8 @@ struct CCI_ColumnGroup
   std::size_t count = 1;                                                // repetitions; 0: count_of returns them
   std::function<std::size_t(const CCI_Device&)> count_of{};             // set if the count differs between devices
   std::function<void(const CCI_Device&, std::vector<double>&)> read{};  // for readings: appends the numbers
+  // Gives the column of one repetition its own name and unit, if the device knows them.
+  std::function<void(const CCI_Device&, std::size_t, CCI_Column&)> adapt{};
 
   std::size_t CountOf(const CCI_Device& device) const { return count == 0 ? count_of(device) : count; }
   bool IsFor(CCI_Column::For audience) const { return columns.front().IsFor(audience); }
@@ -149,6 +151,26 @@ public:
     readings.push_back({std::move(columns), 1, {}, read});
     return *this;
   }
+  // Adds columns that are repeated as often as a range has numbers for them. adapt(device, repetition, column) gives
+  // each its name and unit.
+  template <class Get, class Adapt>
+  CCI_ColumnsOf& AddNamed(std::vector<CCI_Column> columns, Get get, Adapt adapt)
+  {
+    const std::size_t width = columns.size();
+    const auto count = [get, width](const CCI_Device& device)
+    { return std::size(std::invoke(get, This(device))) / width; };
+    const auto read = [get](const CCI_Device& device, std::vector<double>& values)
+    { Append(values, std::invoke(get, This(device))); };
+    readings.push_back({std::move(columns), 0, count, read, Adapted(adapt)});
+    return *this;
+  }
+  // Gives the columns of the last setting their names and units, as AddNamed does.
+  template <class Adapt>
+  CCI_ColumnsOf& NameSettings(Adapt adapt)
+  {
+    settings.back().adapt = Adapted(adapt);
+    return *this;
+  }
   // Adds the fields of each item of a range, which must have the same number of items at every tick.
   template <class Get, class... Gets>
   CCI_ColumnsOf& AddEach(Get get, CCI_Field<Gets>... fields)
@@ -216,6 +238,13 @@ public:
 private:
   template <class Get>
   using ResultOf = std::remove_cvref_t<std::invoke_result_t<Get, const Device&>>;
+
+  template <class Adapt>
+  static std::function<void(const CCI_Device&, std::size_t, CCI_Column&)> Adapted(Adapt adapt)
+  {
+    return [adapt](const CCI_Device& device, std::size_t repetition, CCI_Column& column)
+    { adapt(This(device), repetition, column); };
+  }
 
   static const Device& This(const CCI_Device& device) { return static_cast<const Device&>(device); }
 

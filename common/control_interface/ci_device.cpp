@@ -28,7 +28,10 @@ std::vector<CCI_Column> ColumnsFor(For audience, const std::vector<CCI_ColumnGro
       for (const CCI_Column& column : group.columns)
       {
         columns.push_back(column);
-        columns.back().name = Numbered(column.name, i);
+        if (group.adapt)
+          group.adapt(device, i, columns.back());
+        else
+          columns.back().name = Numbered(column.name, i);
       }
   }
   return columns;

@@ -76,6 +76,28 @@ void CheckRobotsWithoutEngine(const std::vector<bool>& owned, Reading& reading)
   }
 }
 
+// Reports the first robot of an engine that cannot move its links.
+void CheckLinks(const EngineConfiguration& engine, const std::vector<int>& engine_of, Reading& reading)
+{
+  const auto number = &engine - reading.experiment.engines.data();
+  const auto moves = [&](std::uint32_t entity)
+  {
+    const auto choices = reading.experiment.engine_choices.Of(entity);
+    return engine_of[entity] == number || (choices.size() > 1 && std::ranges::find(choices, number) != choices.end());
+  };
+  const PluginDescription* plugin = PluginCatalogue::Instance().Find(PluginKind::kEngine, engine.tag);
+  if (plugin == nullptr || plugin->moves_links) return;
+  for (const std::uint32_t i : engine.entities)
+  {
+    const EntityConfiguration& entity = reading.experiment.entities[i];
+    if (!StandsOnLinks(entity.kind) || !moves(i)) continue;
+    return reading.diagnostics.Add(
+        entity.location, fmt::format("the {} '{}' stands on links that joints move, which the engine '{}' ({}) cannot "
+                                     "move; use dynamics3d",
+                                     TagName(entity.kind), entity.id, engine.id, engine.tag));
+  }
+}
+
 // An entity farther than this from its plane would jump to it in the first tick (m).
 constexpr double kOnPlane = 1e-3;
 
@@ -173,6 +195,7 @@ void CheckDevicesOfEngines(Reading& reading)
   std::vector<bool> owned(experiment.entities.size(), false);
   for (const EngineConfiguration& engine : experiment.engines)
   {
+    CheckLinks(engine, engine_of, reading);
     const PluginDescription* plugin = PluginCatalogue::Instance().Find(PluginKind::kEngine, engine.tag);
     std::map<std::string, bool> checked;
     for (const std::uint32_t i : engine.entities)

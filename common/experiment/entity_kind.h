@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/configuration/parameter.h"
+#include "common/experiment/moving_links.h"
 #include "common/math/pose.h"
 
 namespace swarmanoid
@@ -231,6 +232,8 @@ struct MeshPart
   std::string file{};
   Vector3 scale = Vector3::Ones();
   Quaternion orientation = Quaternion::Identity();
+  // The link that the part moves with, an index into EntityKindDescription::links. It is placed with all joints at 0.
+  int link = MovingLink::kBase;
 };
 
 struct EntityKindDescription
@@ -266,6 +269,10 @@ struct EntityKindDescription
   std::optional<WheelDrive> wheels{};
   std::optional<Propellers> propellers{};
   std::vector<SolidPart> solids{};  // of a robot that flies; empty: one of its form and size
+  // Links that joints move, for robots without propellers. Without wheels, the robot stands on them or on its base, and
+  // `base` is the body that carries them. A robot on wheels is that body itself.
+  std::vector<MovingLink> links{};
+  std::optional<LinkBody> base{};
   std::optional<LedLayout> leds{};
   std::optional<double> beacon_height_m{};  // height of an LED above the middle; it sets the attribute "beacon"
   bool seen_by_cameras = false;             // by its attribute "colour"; LEDs are always seen
@@ -299,9 +306,11 @@ bool IsBodiless(EntityKind kind);
 bool HasBody(EntityKind kind);
 // Returns whether engines on a plane cut the body and keep its height and lean, as for a block.
 bool IsFreeBox(EntityKind kind);
-// Returns whether a kind can carry a type of device. Types for all robots with a part are "wheels", "led_ring",
-// "directional_leds", "proximity" and "ground". Robots with propellers carry "eyebot_propellers", "eyebot_altitude" and
-// "eyebot_camera", and with a magnet "eyebot_attachment". A row can name further types.
+// Returns whether only an engine that moves links can move the kind: it has no wheels or propellers, but joints.
+bool StandsOnLinks(EntityKind kind);
+// Returns whether a kind can carry a type of device. Types for all robots with a part are "wheels", "joints",
+// "led_ring", "directional_leds", "proximity" and "ground". Robots with propellers carry "eyebot_propellers",
+// "eyebot_altitude" and "eyebot_camera", and with a magnet "eyebot_attachment". A row can name further types.
 bool Carries(EntityKind kind, std::string_view device_type);
 // Returns whether entities of the kind may be added to the arena and removed during a run.
 bool CanWait(EntityKind kind);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,6 +26,7 @@ constexpr int kMostSlots = 1000;
 constexpr double kMostMetresOfRow = 100;
 constexpr double kStandOut = 0.01;  // m
 constexpr int kMostRotors = 16;
+constexpr std::size_t kMostLinks = 64;
 constexpr double kMostOfPropellers = 1e6;  // in the unit of the value
 constexpr double kGravity = 9.81;          // m/s²
 
@@ -88,6 +90,8 @@ bool IsPositive(double value) { return value > 0 && value <= kMostOfPropellers; 
 
 bool IsLimited(double value) { return value >= 0 && value <= kMostOfPropellers; }
 
+bool IsPlace3(const Vector3& place) { return place.allFinite() && place.norm() <= kMostMetresOfRow; }
+
 bool IsDrag(const Vector3& drag) { return (drag.array() >= 0).all() && (drag.array() <= kMostOfPropellers).all(); }
 
 std::string MistakeInRotors(const Rotors& rotors, double mass_kg)
@@ -136,11 +140,50 @@ std::string MistakeInPropellers(const Row& row)
   return flight.rotors ? MistakeInRotors(*flight.rotors, row.mass_kg) : std::string();
 }
 
+bool IsBody(const LinkBody& body)
+{
+  if (!IsPositive(body.mass_kg) || !IsPlace3(body.centre_of_mass) || !body.inertia.allFinite()) return false;
+  if (!body.inertia.isApprox(body.inertia.transpose(), 1e-9)) return false;
+  const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(body.inertia).eigenvalues();
+  return moments.minCoeff() > 0 && 2 * moments.maxCoeff() <= moments.sum() * 1.05;
+}
+
+std::string MistakeInLinks(const Row& row)
+{
+  if (row.links.empty()) return row.base ? "a base is for robots with links" : "";
+  if (row.propellers) return "a robot with propellers has no links";
+  if (row.wheels && row.base) return "a robot with wheels has no base";
+  if (!row.wheels && !row.base) return "links need a base, or wheels";
+  if (row.links.size() > kMostLinks)
+    return fmt::format("{} links that move; there may be {}", row.links.size(), kMostLinks);
+  if (row.base && !IsBody(*row.base)) return "the base needs a mass and an inertia of a body";
+  for (std::size_t k = 0; k < row.links.size(); ++k)
+  {
+    const MovingLink& link = row.links[k];
+    const auto same = [&](const MovingLink& other) { return other.joint == link.joint; };
+    if (link.joint.empty() || link.attribute.empty() || std::ranges::count_if(row.links, same) > 1)
+      return fmt::format("the joint '{}' needs a name of its own and an attribute", link.joint);
+    if (link.parent < MovingLink::kBase || link.parent >= static_cast<int>(k))
+      return fmt::format("the joint '{}' hangs on link {}; it must be one before it, or the base", link.joint,
+                         link.parent);
+    if (!IsPlace3(link.anchor) || !(std::abs(link.axis.norm() - 1) < 1e-9))
+      return fmt::format("the joint '{}' needs a finite anchor and an axis of length 1", link.joint);
+    if (!(link.lowest <= link.highest) || !IsLimited(link.max_speed) || !IsLimited(link.effort) ||
+        !IsLimited(link.damping) || !IsLimited(link.friction) || (link.effort > 0 && link.max_speed == 0))
+      return fmt::format("the joint '{}' needs a range, and speed, effort, damping and friction of 0 or more",
+                         link.joint);
+    if (!IsBody(link.body))
+      return fmt::format("the joint '{}' needs a link with the mass and the inertia of a body", link.joint);
+  }
+  return {};
+}
+
 std::string MistakeInParts(const Row& row)
 {
-  if (row.role != EntityRole::kRobot &&
-      (row.wheels || row.propellers || row.leds || row.beacon_height_m || row.proximity || !row.ground_points.empty()))
-    return "wheels, propellers, LEDs and sensors are for robots";
+  if (const std::string wrong = MistakeInLinks(row); !wrong.empty()) return wrong;
+  if (row.role != EntityRole::kRobot && (row.wheels || row.propellers || !row.links.empty() || row.leds ||
+                                         row.beacon_height_m || row.proximity || !row.ground_points.empty()))
+    return "wheels, propellers, links, LEDs and sensors are for robots";
   if (const std::string wrong = MistakeInPropellers(row); !wrong.empty()) return wrong;
   if (row.wheels &&
       !(IsLength(row.wheels->axle_m) && IsLength(row.wheels->radius_m) && IsLength(row.wheels->max_speed_m_s)))
@@ -207,6 +250,8 @@ std::string MistakeInParts(const Row& row)
     return "a ground sensor is at no finite place";
   for (const MeshPart& part : row.mesh)
   {
+    if (part.link < MovingLink::kBase || part.link >= static_cast<int>(row.links.size()))
+      return fmt::format("a part of the mesh is on link {}, and there are {}", part.link, row.links.size());
     const std::size_t leds = row.leds ? row.leds->places.size() : 0;
     if (part.paint == MeshPart::Paint::kLed && (part.led < 0 || static_cast<std::size_t>(part.led) >= leds))
       return fmt::format("a part of the mesh has the colour of LED {}, and there are {}", part.led, leds);
@@ -337,6 +382,10 @@ void AddAttributes(Row& row)
     all.push_back({"colour", 1, static_cast<double>(row.colour), "colour of the light", AttributeValue::kColour});
     all.push_back({"intensity", 1, 1, "intensity of the light"});
   }
+  // The row keeps the names.
+  for (const MovingLink& link : row.links)
+    all.push_back({link.attribute, 1, link.Start(),
+                   link.slides ? "position of the joint in metres" : "position of the joint in radians"});
   all.insert(all.end(), row.attributes.begin(), row.attributes.end());
   row.attributes = std::move(all);
 }
@@ -414,10 +463,13 @@ bool IsFreeBox(EntityKind kind)
   return row.form == BodyForm::kBox && row.origin == BodyOrigin::kCentre;
 }
 
+bool StandsOnLinks(EntityKind kind) { return DescriptionOf(kind).base.has_value(); }
+
 bool Carries(EntityKind kind, std::string_view device_type)
 {
   const EntityKindDescription& row = DescriptionOf(kind);
   if (device_type == "wheels") return row.wheels.has_value();
+  if (device_type == "joints") return !row.links.empty();
   if (device_type == "led_ring" || device_type == "directional_leds") return row.leds.has_value();
   if (device_type == "proximity") return row.proximity.has_value();
   if (device_type == "ground") return !row.ground_points.empty();

@@ -159,7 +159,8 @@ bool MayCarry(EntityKind kind, const DeviceConfiguration& device, const PluginDe
 void CheckOneKind(const DeviceConfiguration& device, const ControllerConfiguration& controller,
                   const std::map<EntityKind, Use>& uses, Reading& reading)
 {
-  constexpr std::array<std::string_view, 5> kShaped{"wheels", "led_ring", "directional_leds", "proximity", "ground"};
+  constexpr std::array<std::string_view, 6> kShaped{"wheels",           "joints",    "led_ring",
+                                                    "directional_leds", "proximity", "ground"};
   if (uses.size() < 2 || std::find(kShaped.begin(), kShaped.end(), device.type) == kShaped.end()) return;
   const auto& [first_kind, first] = *uses.begin();
   const auto& [second_kind, second] = *std::next(uses.begin());

@@ -85,7 +85,8 @@ void AppendPlugin(std::string& page, const PluginDescription& plugin)
   if (!plugin.robots.empty()) page += fmt::format("For: {}. ", Listed(plugin.robots));
   if (!plugin.channel.empty())
   {
-    page += fmt::format("Needs `{}` from the engine ({} numbers a robot). ", plugin.channel, plugin.channel_width);
+    page += fmt::format("Needs `{}` from the engine ({} numbers a {}). ", plugin.channel, plugin.channel_width,
+                        plugin.channel_is_per_joint ? "joint" : "robot");
   }
   if (!plugin.entity_tags.empty()) page += fmt::format("Simulates: {}. ", Listed(plugin.entity_tags));
   if (!plugin.channels.empty()) page += fmt::format("Offers: {}. ", Listed(plugin.channels));

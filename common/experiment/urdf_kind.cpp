@@ -1,7 +1,9 @@
-// A URDF file describes links and joints, and a kind has one rigid body with two driven wheels. The builder finds the
-// wheels first: they are the two continuous joints about the lateral axis, and the middle of their axle on the ground
-// becomes the origin. All other shapes then become one body: a cylinder if one upright cylinder covers them, a box
-// around them if not, and their convex hull if a mesh is among them.
+// A URDF file describes links and joints, and a kind has one body that carries others on joints. Two continuous joints
+// about the lateral axis with round links are driven wheels: the middle of their axle on the ground becomes the origin.
+// All shapes that no other joint moves then become one body: a cylinder if one upright cylinder covers them, a box
+// around them if not, and their convex hull if a mesh is among them. A robot without such wheels stands on its links:
+// its origin is below its root link, on the ground that its shapes touch when it starts, and its bodies keep their
+// shapes.
 //
 // Invariant: what a file has and the kind leaves out or changes is named in a note; a mistake is an error with its
 // line, and no kind is made.
@@ -9,10 +11,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 
 #include "common/configuration/wording.h"
@@ -28,6 +32,10 @@ namespace
 
 constexpr double kSamePlace = 1e-3;  // m
 constexpr double kSpeed = 0.3;       // m/s, for wheels without a limit: that of WheelDrive
+constexpr std::size_t kLongestName = 64;
+constexpr double kMostTurn = 3.12;  // rad: a joint with stops cannot tell half a turn from minus half a turn
+// Moments of inertia of a body satisfy the triangle inequality; files round them.
+constexpr double kRounded = 1.05;
 
 using Form = UrdfShape::Form;
 
@@ -113,14 +121,24 @@ public:
 
   void Build()
   {
-    if (!FindWheels()) return;
-    const UrdfLink& left = links_.LinkOf(wheels_.left->child);
-    const UrdfLink& right = links_.LinkOf(wheels_.right->child);
-    // The origin is the middle of the axle, on the ground.
-    middle_ = (left.pose.position + right.pose.position) / 2;
-    middle_.z() -= wheels_.radius;
-    SetDrive();
-    SetBody();
+    if (!FindWheels() || !FindMovingJoints()) return;
+    if (wheels_.left != nullptr)
+    {
+      const UrdfLink& left = links_.LinkOf(wheels_.left->child);
+      const UrdfLink& right = links_.LinkOf(wheels_.right->child);
+      // The origin is the middle of the axle, on the ground.
+      middle_ = (left.pose.position + right.pose.position) / 2;
+      middle_.z() -= wheels_.radius;
+      SetDrive();
+      SetLinks();
+      SetBody();
+    }
+    else
+    {
+      SetLinks();
+      if (!result_.errors.empty()) return;
+      StandOnGround();
+    }
     SetMass();
     SetMesh();
   }
@@ -140,52 +158,64 @@ private:
     return nullptr;
   }
 
-  // Finds the driven wheels: continuous joints about the axis to the left, with links that roll.
+  static bool IsStill(const UrdfJoint& joint) { return joint.type == "fixed"; }
+
+  bool IsAboutY(const UrdfJoint& joint) const
+  {
+    return std::abs((links_.LinkOf(joint.child).pose.orientation * joint.axis).y()) >= 1 - kSamePlace;
+  }
+
+  // Returns the joint whose child is a link; nullptr for the root.
+  const UrdfJoint* JointAbove(const std::string& link) const
+  {
+    const auto found = std::ranges::find(links_.joints, link, &UrdfJoint::child);
+    return found == links_.joints.end() ? nullptr : &*found;
+  }
+
+  // Finds the driven wheels: continuous joints about the axis to the left, with links that roll, on fixed links. If the
+  // robot has other joints, another number of wheels makes it a robot without driven wheels.
   bool FindWheels()
   {
     std::vector<const UrdfJoint*> rolling;
+    const UrdfJoint* no_shape = nullptr;
+    bool has_others = false, has_any = false;
     for (const UrdfJoint& joint : links_.joints)
     {
-      if (joint.type != "continuous") continue;
-      const UrdfLink& link = links_.LinkOf(joint.child);
-      const Vector3 axis = link.pose.orientation * joint.axis;
-      if (std::abs(axis.y()) < 1 - kSamePlace)
+      if (IsStill(joint)) continue;
+      has_any = true;
+      if (joint.type != "continuous" || !IsAboutY(joint))
       {
-        Note(joint.location, fmt::format("the joint '{}' turns about another axis than y: it is no driven wheel and "
-                                         "stands still",
-                                         joint.name));
+        has_others = true;
         continue;
       }
-      if (WheelShape(link) == nullptr)
-        Error(joint.location, fmt::format("the wheel '{}' of the joint '{}' needs a cylinder or a sphere in its "
-                                          "<collision> or <visual>, which states its radius",
-                                          joint.child, joint.name));
-      else
+      if (WheelShape(links_.LinkOf(joint.child)) == nullptr)
+        no_shape = no_shape == nullptr ? &joint : no_shape;
+      else if (const UrdfJoint* above = JointAbove(joint.parent); above == nullptr || IsStill(*above))
         rolling.push_back(&joint);
     }
-    if (!result_.errors.empty()) return false;
-    if (rolling.size() != 2)
+    if (rolling.size() == 2)
     {
-      std::vector<std::string> names;
-      for (const UrdfJoint* joint : rolling) names.push_back(joint->name);
-      std::vector<std::string> limited;
-      for (const UrdfJoint& joint : links_.joints)
-        if (joint.type == "revolute" &&
-            std::abs((links_.LinkOf(joint.child).pose.orientation * joint.axis).y()) >= 1 - kSamePlace)
-          limited.push_back("'" + joint.name + "'");
-      Error(links_.location, fmt::format("a robot has two driven wheels, which are continuous joints about y; this one "
-                                         "has {}{}. {}",
-                                         rolling.size(), names.empty() ? "" : ": " + Listed(names),
-                                         limited.empty() ? "Joints of casters are of type fixed"
-                                                         : fmt::format("About y, but of type revolute: {}; make wheels "
-                                                                       "continuous",
-                                                                       Listed(limited))));
+      wheels_ = {rolling[0], rolling[1], 0};
+      if (links_.LinkOf(wheels_.left->child).pose.position.y() < links_.LinkOf(wheels_.right->child).pose.position.y())
+        std::swap(wheels_.left, wheels_.right);
+      return CheckWheels();
+    }
+    if (has_others) return true;
+    if (no_shape != nullptr)
+    {
+      Error(no_shape->location, fmt::format("the wheel '{}' of the joint '{}' needs a cylinder or a sphere in its "
+                                            "<collision> or <visual>, which states its radius",
+                                            no_shape->child, no_shape->name));
       return false;
     }
-    wheels_ = {rolling[0], rolling[1], 0};
-    if (links_.LinkOf(wheels_.left->child).pose.position.y() < links_.LinkOf(wheels_.right->child).pose.position.y())
-      std::swap(wheels_.left, wheels_.right);
-    return CheckWheels();
+    std::vector<std::string> names;
+    for (const UrdfJoint* joint : rolling) names.push_back(joint->name);
+    Error(links_.location,
+          fmt::format(
+              "a robot has two driven wheels, which are continuous joints about y; this one has {}{}. {}",
+              rolling.size(), names.empty() ? "" : ": " + Listed(names),
+              has_any ? "Joints of casters are of type fixed" : "A robot on legs has revolute or prismatic joints"));
+    return false;
   }
 
   bool CheckWheels()
@@ -211,14 +241,254 @@ private:
     const double axle =
         links_.LinkOf(wheels_.left->child).pose.position.y() - links_.LinkOf(wheels_.right->child).pose.position.y();
     WheelDrive drive{axle, wheels_.radius, kSpeed};
-    const auto& left = wheels_.left->velocity;
-    const auto& right = wheels_.right->velocity;
+    const auto velocity = [&](const UrdfJoint& wheel) -> std::optional<double>
+    {
+      if (!wheel.limit || !wheel.limit->velocity) return std::nullopt;
+      if (!(*wheel.limit->velocity > 0))
+        Error(wheel.limit->location, "the velocity of a joint's limit must be more than 0 rad/s");
+      return wheel.limit->velocity;
+    };
+    const auto left = velocity(*wheels_.left);
+    const auto right = velocity(*wheels_.right);
     if (left || right)
       drive.max_speed_m_s = std::min(left.value_or(1e9), right.value_or(1e9)) * wheels_.radius;
     else
       Note(wheels_.left->location,
            fmt::format("its wheels have no <limit velocity=\"…\"/> (rad/s); the fastest speed is {:g} m/s", kSpeed));
     result_.kind.wheels = drive;
+  }
+
+  // Finds the joints that move links, each after those that carry it. On a robot with driven wheels, joints without a
+  // motor stand still: they are those of casters.
+  bool FindMovingJoints()
+  {
+    std::vector<const UrdfJoint*> left;
+    for (const UrdfJoint& joint : links_.joints)
+    {
+      if (IsStill(joint) || &joint == wheels_.left || &joint == wheels_.right) continue;
+      if (wheels_.left != nullptr && !(joint.limit && joint.limit->effort.value_or(0) > 0))
+      {
+        Note(joint.location,
+             fmt::format("the joint '{}' ({}) has no effort in its <limit>: on a robot with driven wheels "
+                         "it stands still at zero",
+                         joint.name, joint.type));
+        continue;
+      }
+      CheckMotion(joint);
+      left.push_back(&joint);
+    }
+    const auto is_left = [&](const UrdfLink& link)
+    {
+      for (const UrdfJoint* joint = JointAbove(link.name); joint != nullptr; joint = JointAbove(joint->parent))
+        if (std::ranges::find(left, joint) != left.end()) return true;
+      return false;
+    };
+    while (!left.empty())
+    {
+      const auto next =
+          std::ranges::find_if(left, [&](const UrdfJoint* joint) { return !is_left(links_.LinkOf(joint->parent)); });
+      moving_.push_back(*next);
+      left.erase(next);
+    }
+    return result_.errors.empty();
+  }
+
+  void CheckMotion(const UrdfJoint& joint)
+  {
+    const auto is_good = [](char c)
+    {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
+             c == '.' || c == '/';
+    };
+    if (joint.name.empty() || joint.name.size() > kLongestName || !std::ranges::all_of(joint.name, is_good))
+      Error(joint.location,
+            fmt::format("the joint '{}' moves, so its name consists of 1 to {} letters, digits, '_', '-', "
+                        "'.' and '/'",
+                        joint.name, kLongestName));
+    if (std::ranges::count(links_.joints, joint.name, &UrdfJoint::name) > 1)
+      Error(joint.location, fmt::format("the joint '{}' is there twice", joint.name));
+    const bool is_endless = joint.type == "continuous";
+    if (!joint.limit)
+    {
+      if (!is_endless)
+        Error(joint.location, fmt::format("the joint '{}' ({}) needs a <limit> with lower, upper, effort and velocity",
+                                          joint.name, joint.type));
+      return;
+    }
+    const UrdfLimit& limit = *joint.limit;
+    if (!limit.effort || !limit.velocity || *limit.effort < 0 || *limit.velocity < 0 ||
+        (*limit.effort > 0 && *limit.velocity == 0))
+      Error(limit.location,
+            fmt::format("the <limit> of the joint '{}' needs an 'effort' of 0 or more, and a 'velocity' "
+                        "of more than 0 unless the effort is 0",
+                        joint.name));
+    if (is_endless) return;
+    const double lower = limit.lower.value_or(0), upper = limit.upper.value_or(0);
+    if (!(lower < upper))
+      Error(limit.location,
+            fmt::format("the <limit> of the joint '{}' goes from {:g} to {:g}; 'lower' must be less than "
+                        "'upper'",
+                        joint.name, lower, upper));
+    if (joint.type == "revolute" && (lower < -kMostTurn || upper > kMostTurn))
+      Error(limit.location,
+            fmt::format("the <limit> of the joint '{}' goes from {:g} to {:g} rad; it must be within -{:g} "
+                        "and {:g}, or the joint continuous",
+                        joint.name, lower, upper, kMostTurn, kMostTurn));
+    if (joint.friction > 0 && limit.effort.value_or(0) > 0)
+      Note(joint.location,
+           fmt::format("the friction of the joint '{}' has no effect: the effort of its motor is what the "
+                       "friction leaves",
+                       joint.name));
+  }
+
+  // Returns the number of the link with which a link of the file moves.
+  int LinkNumberOf(const UrdfLink& link) const
+  {
+    for (const UrdfJoint* joint = JointAbove(link.name); joint != nullptr; joint = JointAbove(joint->parent))
+      if (const auto found = std::ranges::find(moving_, joint); found != moving_.end())
+        return static_cast<int>(found - moving_.begin());
+    return MovingLink::kBase;
+  }
+
+  // Sets the links that joints move, and the base of a robot without driven wheels.
+  void SetLinks()
+  {
+    EntityKindDescription& kind = result_.kind;
+    kind.links.clear();
+    for (const UrdfJoint* joint : moving_)
+    {
+      const UrdfLink& child = links_.LinkOf(joint->child);
+      MovingLink link;
+      link.joint = joint->name;
+      link.attribute = "joint_" + joint->name;
+      link.slides = joint->type == "prismatic";
+      link.parent = LinkNumberOf(links_.LinkOf(joint->parent));
+      link.anchor = InKind(child.pose).position;
+      link.axis = (child.pose.orientation * joint->axis).normalized();
+      if (joint->type != "continuous")
+      {
+        link.lowest = joint->limit->lower.value_or(0);
+        link.highest = joint->limit->upper.value_or(0);
+      }
+      if (joint->limit)
+      {
+        link.effort = joint->limit->effort.value_or(0);
+        link.max_speed = joint->limit->velocity.value_or(0);
+      }
+      link.damping = joint->damping;
+      link.friction = link.effort > 0 ? 0 : joint->friction;
+      link.body = BodyOf(static_cast<int>(kind.links.size()), fmt::format("by the joint '{}'", joint->name));
+      kind.links.push_back(std::move(link));
+    }
+    if (wheels_.left == nullptr) kind.base = BodyOf(MovingLink::kBase, "as the base of its joints");
+  }
+
+  // Returns the body of all links of the file that move with a link.
+  LinkBody BodyOf(int number, const std::string& how)
+  {
+    LinkBody body;
+    const UrdfLink* first = nullptr;
+    for (const UrdfLink& link : links_.links)
+    {
+      if (LinkNumberOf(link) != number) continue;
+      if (first == nullptr || JointAbove(link.name) == nullptr ||
+          std::ranges::find(moving_, JointAbove(link.name)) != moving_.end())
+        first = &link;
+      const Pose pose = InKind(link.pose);
+      body.centre_of_mass += link.mass * pose.Apply(link.centre_of_mass);
+      body.mass_kg += link.mass;
+      for (const UrdfShape& shape : link.collision) body.shapes.push_back(ShapeOf(shape, pose));
+      if (link.mass > 0 && !link.inertia)
+        Error(link.location,
+              fmt::format("the link '{}' moves {} and needs an <inertia> in its <inertial>", link.name, how));
+    }
+    if (!(body.mass_kg > 0))
+    {
+      Error(first->location,
+            fmt::format("the link '{}' moves {} and needs an <inertial> with a <mass> of more than 0 kg and "
+                        "an <inertia>",
+                        first->name, how));
+      return body;
+    }
+    body.centre_of_mass /= body.mass_kg;
+    for (const UrdfLink& link : links_.links)
+    {
+      if (LinkNumberOf(link) != number || link.mass == 0) continue;
+      const Pose pose = InKind(link.pose);
+      const Eigen::Matrix3d turn = pose.orientation.toRotationMatrix();
+      const Vector3 arm = pose.Apply(link.centre_of_mass) - body.centre_of_mass;
+      body.inertia += turn * link.inertia.value_or(Eigen::Matrix3d::Zero()) * turn.transpose() +
+                      link.mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
+    }
+    body.inertia = (body.inertia + body.inertia.transpose()).eval() / 2;
+    const Vector3 moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(body.inertia).eigenvalues();
+    if (!(moments.minCoeff() > 0 && 2 * moments.maxCoeff() <= moments.sum() * kRounded))
+      Error(first->location,
+            fmt::format("the inertia of the link '{}' has the principal moments {:g}, {:g} and {:g} kg m²; "
+                        "those of a body are above 0, and none is larger than the other two together",
+                        first->name, moments.x(), moments.y(), moments.z()));
+    return body;
+  }
+
+  LinkShape ShapeOf(const UrdfShape& shape, const Pose& link)
+  {
+    LinkShape made;
+    made.size = shape.size;
+    made.pose = link.Compose(shape.pose);
+    switch (shape.form)
+    {
+      case Form::kBox:
+        break;
+      case Form::kCylinder:
+        made.form = LinkShape::Form::kCylinder;
+        break;
+      case Form::kSphere:
+        made.form = LinkShape::Form::kSphere;
+        break;
+      case Form::kMesh:
+      {
+        made.form = LinkShape::Form::kHull;
+        const Eigen::AlignedBox3d box =
+            std::accumulate(shape.corners.begin(), shape.corners.end(), Eigen::AlignedBox3d(),
+                            [](Eigen::AlignedBox3d all, const Vector3& corner) { return all.extend(corner); });
+        std::vector<Vector3> corners = shape.corners;
+        for (Vector3& corner : corners) corner -= box.center();
+        made.size = box.sizes();
+        made.pose = made.pose.Compose({box.center(), Quaternion::Identity()});
+        made.hull = std::make_shared<const ConvexHull>(HullOf(corners));
+      }
+    }
+    return made;
+  }
+
+  // The origin is below the root link, on the ground that the shapes touch with the joints where they start. The body
+  // is the box about it that holds the shapes then.
+  void StandOnGround()
+  {
+    EntityKindDescription& kind = result_.kind;
+    std::vector<double> starts;
+    for (const MovingLink& link : kind.links) starts.push_back(link.Start());
+    const std::vector<Pose> motions = MotionsOfLinks(kind.links, starts);
+    Extent all;
+    for (const UrdfLink& link : links_.links)
+    {
+      const int number = LinkNumberOf(link);
+      const Pose pose = InKind(link.pose);
+      for (const UrdfShape& shape : link.collision)
+      {
+        all.Add(shape, number == MovingLink::kBase ? pose : motions[static_cast<std::size_t>(number)].Compose(pose));
+        if (shape.form == Form::kMesh) result_.collision_meshes.push_back(shape.file);
+      }
+    }
+    if (all.low.x() > all.high.x())
+      return Error(links_.location, "it needs a <collision> with a box, a cylinder, a sphere or a mesh");
+    middle_.z() = all.low.z();
+    SetLinks();
+    kind.form = BodyForm::kBox;
+    kind.size = {2 * std::max(std::abs(all.low.x()), std::abs(all.high.x())),
+                 2 * std::max(std::abs(all.low.y()), std::abs(all.high.y())), all.high.z() - all.low.z()};
+    kind.description =
+        "A robot of a URDF file. The position is below its root link, on the ground that it stands on at the start.";
   }
 
   // An upright cylinder about the middle of the axle stays a cylinder; other bodies become a box around it.
@@ -235,8 +505,9 @@ private:
       const bool is_wheel = link.name == wheels_.left->child || link.name == wheels_.right->child;
       for (const UrdfShape& shape : link.collision)
       {
-        all.Add(shape, InKind(link.pose));
         if (shape.form == Form::kMesh) result_.collision_meshes.push_back(shape.file);
+        if (LinkNumberOf(link) != MovingLink::kBase) continue;
+        all.Add(shape, InKind(link.pose));
         if (is_wheel) continue;
         has_mesh |= shape.form == Form::kMesh;
         for (const Vector3& corner : CornersOf(shape))
@@ -321,12 +592,14 @@ private:
     for (const UrdfLink& link : links_.links)
       for (const UrdfShape& shape : link.visual)
         AddPart(shape, InKind(link.pose).Compose(shape.pose),
-                link.name == wheels_.left->child || link.name == wheels_.right->child);
+                wheels_.left != nullptr && (link.name == wheels_.left->child || link.name == wheels_.right->child),
+                LinkNumberOf(link));
   }
 
-  void AddPart(const UrdfShape& shape, const Pose& pose, bool is_wheel)
+  void AddPart(const UrdfShape& shape, const Pose& pose, bool is_wheel, int link)
   {
     MeshPart part;
+    part.link = link;
     part.paint = PaintOf(shape, is_wheel);
     part.colour = shape.colour.value_or(part.colour);
     part.from = part.to = pose.position;
@@ -364,7 +637,8 @@ private:
 
   UrdfKind& result_;
   const UrdfLinks& links_;
-  Wheels wheels_;
+  Wheels wheels_;                         // none on a robot without driven wheels
+  std::vector<const UrdfJoint*> moving_;  // by link of the kind
   Vector3 middle_ = Vector3::Zero();
 };
 

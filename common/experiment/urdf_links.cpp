@@ -227,6 +227,23 @@ private:
     shapes.push_back(shape);
   }
 
+  void ReadInertial(const TConfigurationTree& inertial, UrdfLink& link)
+  {
+    const TConfigurationTree mass = inertial.Child("mass");
+    link.mass = Numbers(mass, "value", {0})[0];
+    if (link.mass < 0) Error(mass, fmt::format("a mass is {:g} kg; it must be at least 0", link.mass));
+    const Pose origin = Origin(inertial);
+    link.centre_of_mass = origin.position;
+    const TConfigurationTree inertia = inertial.Child("inertia");
+    if (!inertia.Exists()) return;
+    const auto moment = [&](const char* name) { return Numbers(inertia, name, {0})[0]; };
+    const double xy = moment("ixy"), xz = moment("ixz"), yz = moment("iyz");
+    Eigen::Matrix3d own;
+    own << moment("ixx"), xy, xz, xy, moment("iyy"), yz, xz, yz, moment("izz");
+    const Eigen::Matrix3d turn = origin.orientation.toRotationMatrix();
+    link.inertia = turn * own * turn.transpose();
+  }
+
   void ReadLink(const TConfigurationTree& element)
   {
     UrdfLink link;
@@ -242,15 +259,37 @@ private:
       else if (child.Name() == "collision")
         ReadShape(child, link.collision);
       else if (child.Name() == "inertial")
-      {
-        const TConfigurationTree mass = child.Child("mass");
-        link.mass = Numbers(mass, "value", {0})[0];
-        if (link.mass < 0) Error(mass, fmt::format("a mass is {:g} kg; it must be at least 0", link.mass));
-      }
+        ReadInertial(child, link);
       else
         NoEffect(child);
     }
     result_.links.push_back(std::move(link));
+  }
+
+  // Reads the limits and the resistance of a joint.
+  void ReadMotion(const TConfigurationTree& element, UrdfJoint& joint)
+  {
+    if (const TConfigurationTree limit = element.Child("limit"); limit.Exists())
+    {
+      const auto number = [&](const char* name) -> std::optional<double>
+      { return limit.HasAttribute(name) ? std::optional(Numbers(limit, name, {0})[0]) : std::nullopt; };
+      joint.limit = {number("lower"), number("upper"), number("effort"), number("velocity"), limit.Location()};
+    }
+    if (const TConfigurationTree dynamics = element.Child("dynamics"); dynamics.Exists())
+    {
+      joint.damping = Numbers(dynamics, "damping", {0})[0];
+      joint.friction = Numbers(dynamics, "friction", {0})[0];
+      if (joint.damping < 0 || joint.friction < 0)
+        Error(dynamics,
+              fmt::format("the joint '{}' has a damping of {:g} and a friction of {:g}; they must be at least 0",
+                          joint.name, joint.damping, joint.friction));
+    }
+    if (const TConfigurationTree mimic = element.Child("mimic"); mimic.Exists() && joint.type != "fixed")
+      Error(mimic, fmt::format("the joint '{}' follows another one by <mimic>, which cannot be simulated; let the "
+                               "controller move both",
+                               joint.name));
+    for (const char* without : {"calibration", "safety_controller"})
+      if (const TConfigurationTree other = element.Child(without); other.Exists()) NoEffect(other);
   }
 
   void ReadJoint(const TConfigurationTree& element)
@@ -267,18 +306,15 @@ private:
     if (std::ranges::find(types, joint.type) == types.end())
       Error(element, fmt::format("the joint '{}' is of type '{}'; the types are {}{}", joint.name, joint.type,
                                  Listed(types), DidYouMean(joint.type, types)));
-    else if (joint.type != "fixed" && joint.type != "continuous")
-      notes_.push_back(
-          {joint.location, fmt::format("the joint '{}' ({}) stands still at zero", joint.name, joint.type)});
+    else if (joint.type == "floating" || joint.type == "planar")
+      Error(element, fmt::format("the joint '{}' is of type {}, which no engine moves; revolute, continuous, prismatic "
+                                 "and fixed joints can be used",
+                                 joint.name, joint.type));
     if (joint.axis.norm() < 1e-6)
       Error(element, fmt::format("the joint '{}' has an axis of length 0", joint.name));
     else
       joint.axis.normalize();
-    if (const TConfigurationTree limit = element.Child("limit"); limit.Exists() && limit.HasAttribute("velocity"))
-    {
-      joint.velocity = Numbers(limit, "velocity", {0})[0];
-      if (!(*joint.velocity > 0)) Error(limit, "the velocity of a joint's limit must be more than 0 rad/s");
-    }
+    ReadMotion(element, joint);
     result_.joints.push_back(std::move(joint));
   }
 

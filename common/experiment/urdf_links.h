@@ -34,10 +34,20 @@ struct UrdfShape
 struct UrdfLink
 {
   std::string name{};
-  double mass = 0;  // kg
+  double mass = 0;                           // kg
+  std::optional<Eigen::Matrix3d> inertia{};  // kg m², about the centre of mass, in the frame of the link
+  Vector3 centre_of_mass = Vector3::Zero();  // m, in the frame of the link
   std::vector<UrdfShape> visual{};
   std::vector<UrdfShape> collision{};
   Pose pose{};  // in the frame of the root link
+  SourceLocation location{};
+};
+
+struct UrdfLimit
+{
+  std::optional<double> lower{}, upper{};  // rad or m
+  std::optional<double> effort{};          // N m or N
+  std::optional<double> velocity{};        // rad/s or m/s
   SourceLocation location{};
 };
 
@@ -47,9 +57,11 @@ struct UrdfJoint
   std::string type{};
   std::string parent{};
   std::string child{};
-  Pose origin{};                     // the pose of the child in the frame of the parent
-  Vector3 axis = Vector3::UnitX();   // in the frame of the child
-  std::optional<double> velocity{};  // rad/s: the limit of the joint
+  Pose origin{};                    // the pose of the child in the frame of the parent
+  Vector3 axis = Vector3::UnitX();  // in the frame of the child
+  std::optional<UrdfLimit> limit{};
+  double damping = 0;   // N m s/rad or N s/m
+  double friction = 0;  // N m or N
   SourceLocation location{};
 };
 

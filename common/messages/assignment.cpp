@@ -27,8 +27,19 @@ struct ControllerChannels
   bool has_battery = false;  // the server computes its charge from what the host reports
 };
 
-ControllerChannels ChannelsOf(const ControllerConfiguration& controller)
+// Returns the most joints of a robot in the experiment.
+int MostJoints(const Experiment& experiment)
 {
+  std::size_t most = 0;
+  for (const EntityConfiguration& entity : experiment.entities)
+    most = std::max(most, DescriptionOf(entity.kind).links.size());
+  return static_cast<int>(most);
+}
+
+ControllerChannels ChannelsOf(const ControllerConfiguration& controller, int most_joints)
+{
+  const auto width = [most_joints](const PluginDescription& description)
+  { return description.channel_width * (description.channel_is_per_joint ? most_joints : 1); };
   ControllerChannels channels;
   channels.may_fail = controller.MayFail();
   const PluginCatalogue& catalogue = PluginCatalogue::Instance();
@@ -38,13 +49,13 @@ ControllerChannels ChannelsOf(const ControllerConfiguration& controller)
     if (description == nullptr || description->channel.empty())
       channels.has_generic_actuators = true;
     else
-      channels.commands[description->channel] = description->channel_width;
+      channels.commands[description->channel] = width(*description);
   }
   for (const DeviceConfiguration& device : controller.sensors)
   {
     const PluginDescription* description = catalogue.Find(PluginKind::kSensor, device.type, device.implementation);
     if (description != nullptr && !description->channel.empty())
-      channels.sensors[description->channel] = description->channel_width;
+      channels.sensors[description->channel] = width(*description);
     channels.has_battery |= device.type == "battery" && device.implementation == kEnergyBattery;
   }
   return channels;
@@ -250,8 +261,9 @@ Assignment MakeAssignment(const Experiment& experiment, const HostTable& table)
 
   // Controllers: what each robot's devices exchange.
   std::map<std::string, ControllerChannels> channels_by_id;
+  const int most_joints = MostJoints(experiment);
   for (const ControllerConfiguration& controller : experiment.controllers)
-    channels_by_id.emplace(controller.id, ChannelsOf(controller));
+    channels_by_id.emplace(controller.id, ChannelsOf(controller, most_joints));
   std::vector<const ControllerChannels*> channels_of(count, nullptr);
   const std::vector<std::uint32_t> robots = RobotsOf(experiment);
   for (const std::uint32_t robot : robots)

@@ -29,6 +29,9 @@ std::vector<ParameterSpec> LedRingParameters()
 namespace
 {
 
+// Devices for all robots have an empty list of tags, and none of the simulator's own kinds has links.
+constexpr const char* kJointed = "kinds with joints";
+
 std::vector<ConfigurationError> MistakesInDirections(const Parameters& parameters)
 {
   constexpr std::size_t kMost = 360;
@@ -78,6 +81,28 @@ void DescribeAnyRobotDevices()
        .robots = TagsOfKinds([](const Kind& kind) { return kind.wheels.has_value(); }),
        .channel = "wheels",
        .channel_width = 2});
+  DescribeActuator(
+      {.label = "joints",
+       .implementation = "generic_joints",
+       .brief = "the joints of any robot that has them, by name: positions to go to, or speeds to keep",
+       .parameters = Joined({{.name = "control",
+                              .type = kChoice,
+                              .default_value = "position",
+                              .description = "Whether its columns, one for each joint, are positions or speeds.",
+                              .choices = {"position", "velocity"}}},
+                            NoiseParameters("each position, and each speed of a joint that is told to move", "")),
+       .robots = {kJointed},
+       .channel = "joints",
+       .channel_width = kJointCommandWidth,
+       .channel_is_per_joint = true});
+  DescribeSensor({.label = "joints",
+                  .implementation = "generic_joints",
+                  .brief = "position, speed and effort of each joint of any robot that has them",
+                  .parameters = NoiseParameters("each reading", ""),
+                  .robots = {kJointed},
+                  .channel = "joints",
+                  .channel_width = kJointReadingWidth,
+                  .channel_is_per_joint = true});
   DescribeActuator({.label = "led_ring",
                     .implementation = "generic_led_ring",
                     .brief = "the LEDs of any robot that has them",

@@ -40,7 +40,8 @@ ParameterSpec ThreadsParameter()
 
 std::vector<std::string> WithChannelsOfPlaneRobots(std::vector<std::string> own)
 {
-  for (const char* channel : {"eyebot_attach", "handbot_arms", "handbot_hands", "handbot_rope"}) own.push_back(channel);
+  for (const char* channel : {"eyebot_attach", "handbot_arms", "handbot_hands", "handbot_rope", "joints"})
+    own.push_back(channel);
   return own;
 }
 

@@ -20,6 +20,36 @@ double AttributeOf(const EntityConfiguration& entity, std::span<const double> at
   return 0;
 }
 
+// Adds the body of each shape. Sensors take a ball for a cylinder, and a hull for the box around it.
+void AddShapes(const LinkBody& body, const Pose& motion, std::vector<CollisionBody>& bodies)
+{
+  for (const LinkShape& shape : body.shapes)
+  {
+    const Pose pose = motion.Compose(shape.pose);
+    if (shape.form == LinkShape::Form::kSphere)
+      bodies.push_back({true, pose, shape.size});
+    else if (shape.form == LinkShape::Form::kCylinder)
+      bodies.push_back({true, pose, {shape.size.x(), shape.size.x(), shape.size.z() / 2}});
+    else
+      bodies.push_back({false, pose, shape.size / 2});
+  }
+}
+
+// The links where their joints are, and the base that carries them or the plain body.
+void AddJointedBodies(const EntityConfiguration& entity, std::span<const double> attributes,
+                      std::vector<CollisionBody>& bodies)
+{
+  const EntityKindDescription& kind = DescriptionOf(entity.kind);
+  if (kind.base)
+    AddShapes(*kind.base, {}, bodies);
+  else
+    AddPlainBody(entity, bodies);
+  std::vector<double> positions;
+  for (const MovingLink& link : kind.links) positions.push_back(AttributeOf(entity, attributes, link.attribute));
+  const std::vector<Pose> motions = MotionsOfLinks(kind.links, positions);
+  for (std::size_t k = 0; k < kind.links.size(); ++k) AddShapes(kind.links[k].body, motions[k], bodies);
+}
+
 Pose At(double x, double y, double z) { return {Vector3(x, y, z), Quaternion::Identity()}; }
 
 void AddGripperSquare(const EntityConfiguration& entity, std::span<const double> attributes,
@@ -62,6 +92,7 @@ void Dynamics2dBodies(const EntityConfiguration& entity, std::span<const double>
 void Dynamics3dBodies(const EntityConfiguration& entity, std::span<const double> attributes,
                       std::vector<CollisionBody>& bodies)
 {
+  if (!DescriptionOf(entity.kind).links.empty()) return AddJointedBodies(entity, attributes, bodies);
   if (DescriptionOf(entity.kind).mechanism != Mechanism::kArms) return AddPlainBody(entity, bodies);
   using S = HandbotParts;
   bodies.push_back({false, At(0, 0, S::kBaseHeight / 2), {S::kBaseSide / 2, S::kBaseSide / 2, S::kBaseHeight / 2}});

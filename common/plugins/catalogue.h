@@ -48,11 +48,14 @@ struct PluginDescription
   // If it is empty, the device is generic.
   std::string channel{};
   int channel_width = 0;
+  // The count is for each joint: the channel has room for the most joints of a robot in the experiment.
+  bool channel_is_per_joint = false;
   // Only engines have these: the channels and the entity tags that they can serve.
   std::vector<std::string> channels{};
   std::vector<std::string> entity_tags{};
-  bool any_kind = false;   // engines only: it also serves the kinds of users, by the rows of the kinds
-  bool can_split = false;  // engines only: its world may be cut into regions (CPhysicsEngine::MakeRegion)
+  bool any_kind = false;     // engines only: it also serves the kinds of users, by the rows of the kinds
+  bool moves_links = false;  // engines only: it moves robots that stand on links, without wheels or propellers
+  bool can_split = false;    // engines only: its world may be cut into regions (CPhysicsEngine::MakeRegion)
   // Engines only: entities may change between it and other engines while the run goes on (CPhysicsEngine::TakeOver).
   bool hands_over = false;
   // Engines only: parameters and tags of entities without effect in it; `swarmanoid check` reports them.

@@ -89,7 +89,8 @@ CollisionModels::CollisionModels(const CSwarmanoidSpace& space) : space_(space),
     double plain_reach = 0;
     for (const CollisionBody& body : bodies) reach = std::max(reach, ReachOf(body));
     for (const CollisionBody& body : plain) plain_reach = std::max(plain_reach, ReachOf(body));
-    if (has_hull || reach > plain_reach + kBeyondPlainBody) articulated_.push_back(entity);
+    const bool has_links = !DescriptionOf(space.GetEntity(entity).GetKind()).links.empty();
+    if (has_hull || has_links || reach > plain_reach + kBeyondPlainBody) articulated_.push_back(entity);
   }
 }
 

@@ -42,6 +42,12 @@ Robot& Find(std::vector<Robot>& robots, std::uint32_t entity)
   return *PlaceOf(robots, entity);
 }
 
+template <class Robot>
+const Robot& Find(const std::vector<Robot>& robots, std::uint32_t entity)
+{
+  return *PlaceOf(robots, entity);
+}
+
 }  // namespace
 
 void PlaneRobots::Init(const CSwarmanoidSpace& space, const PlaneFrame& frame, PlaneGrips& grips)
@@ -66,6 +72,13 @@ void PlaneRobots::AddOwned(const CSwarmanoidSpaceEntity& entity)
     handbots_.push_back(handbot);
     lifted_.push_back({index, 0, 0, 0, 0});
   }
+  if (!kind.links.empty())
+  {
+    Jointed& robot = jointed_.emplace_back(Jointed{.entity = index, .links = &kind.links});
+    robot.commands.resize(kind.links.size());
+    robot.speeds.resize(kind.links.size());
+    for (const MovingLink& link : kind.links) robot.positions.push_back(link.Start());
+  }
   if (kind.propellers && kind.propellers->magnet_reach_m > 0)
     magnets_.push_back({index, entity.GetSize().z() + kind.propellers->magnet_reach_m, false});
   if (kind.role != EntityRole::kObject || !kind.grippable) return;
@@ -83,7 +96,8 @@ bool PlaneRobots::Command(const ChannelBlock& block, std::span<const double> val
   const bool arms = block.name == "handbot_arms";
   const bool hands = block.name == "handbot_hands";
   const bool rope = block.name == "handbot_rope";
-  if (!arms && !hands && !rope && block.name != "eyebot_attach") return false;
+  const bool joints = block.name == "joints";
+  if (!arms && !hands && !rope && !joints && block.name != "eyebot_attach") return false;
   const auto width = static_cast<std::size_t>(block.width);
   for (std::size_t k = 0; k < block.entities.size(); ++k)
   {
@@ -104,7 +118,13 @@ bool PlaneRobots::Command(const ChannelBlock& block, std::span<const double> val
       HandbotOf(entity).launch = value[0] > 0.5;
       HandbotOf(entity).winch = std::clamp(value[1], -PlaneHandbot::kWinchSpeed, PlaneHandbot::kWinchSpeed);
     }
-    if (!arms && !hands && !rope) Find(magnets_, entity).attach = value[0] > 0.5;
+    if (joints)
+    {
+      std::vector<JointCommand>& commands = Find(jointed_, entity).commands;
+      for (std::size_t joint = 0; joint < commands.size(); ++joint)
+        commands[joint] = JointCommand::From({value + kJointCommandWidth * joint, kJointCommandWidth});
+    }
+    if (!arms && !hands && !rope && !joints) Find(magnets_, entity).attach = value[0] > 0.5;
   }
   return true;
 }
@@ -125,8 +145,34 @@ Vector2 PlaneRobots::Drift(std::uint32_t entity, double yaw_rate) const
                           heading.cos * on_plane.y() - heading.sin * on_plane.x());
 }
 
+void PlaneRobots::Sense(const ChannelBlock& block, std::span<double> values) const
+{
+  if (block.name != "joints") return;
+  const auto width = static_cast<std::size_t>(block.width);
+  for (std::size_t k = 0; k < block.entities.size(); ++k)
+  {
+    const Jointed& robot = Find(jointed_, block.entities[k]);
+    const std::span<double> mine = values.subspan(k * width, width);
+    std::ranges::fill(mine, 0.0);
+    for (std::size_t joint = 0; joint < robot.positions.size(); ++joint)
+    {
+      mine[kJointReadingWidth * joint] = robot.positions[joint];
+      mine[kJointReadingWidth * joint + 1] = robot.speeds[joint];
+    }
+  }
+}
+
 void PlaneRobots::Advance(double seconds)
 {
+  for (Jointed& robot : jointed_)
+    for (std::size_t joint = 0; joint < robot.positions.size(); ++joint)
+    {
+      const MovingLink& link = (*robot.links)[joint];
+      double& position = robot.positions[joint];
+      const double next = NextReference(link, robot.commands[joint], position, seconds);
+      robot.speeds[joint] = (next - position) / seconds;
+      position = link.IsEndless() ? WrapAngle(next) : next;
+    }
   near_objects_.Forget();
   attached_.clear();
   for (const Magnet& magnet : magnets_)
@@ -293,6 +339,9 @@ void PlaneRobots::TakeOver(std::uint32_t entity, double height, const EntityVelo
       robot->aperture[k] = it.GetAttribute("hand_aperture", k);
     }
   }
+  if (const auto robot = PlaceOf(jointed_, entity); robot != jointed_.end() && robot->entity == entity)
+    for (std::size_t joint = 0; joint < robot->positions.size(); ++joint)
+      robot->positions[joint] = space_->GetEntity(entity).GetAttribute((*robot->links)[joint].attribute);
   if (handbots_.empty()) return;  // nothing lifts or falls
   if (const auto lifted = PlaceOf(lifted_, entity); lifted != lifted_.end() && lifted->entity == entity && height > 0)
   {
@@ -337,6 +386,12 @@ void PlaneRobots::Report(AttributeChanges& changes) const
   for (const Magnet& magnet : magnets_)
     report(space_->GetEntity(magnet.entity).SlotOf("attached"),
            std::binary_search(attached_.begin(), attached_.end(), magnet.entity) ? 1 : 0);
+  for (const Jointed& robot : jointed_)
+  {
+    const CSwarmanoidSpaceEntity& entity = space_->GetEntity(robot.entity);
+    for (std::size_t joint = 0; joint < robot.positions.size(); ++joint)
+      report(entity.SlotOf((*robot.links)[joint].attribute), robot.positions[joint]);
+  }
   for (const Handbot& handbot : handbots_)
   {
     const CSwarmanoidSpaceEntity& entity = space_->GetEntity(handbot.entity);
@@ -371,6 +426,8 @@ void PlaneRobots::SaveState(ByteWriter& state) const
     state.Put(lifted.bearer);
     state.Put(lifted.above_bearer);
   }
+  for (const Jointed& robot : jointed_)
+    for (const double position : robot.positions) state.Put(position);
 }
 
 void PlaneRobots::LoadState(ByteReader& state)
@@ -399,6 +456,8 @@ void PlaneRobots::LoadState(ByteReader& state)
     lifted.bearer = lifted_number();
     lifted.above_bearer = state.Get<double>();
   }
+  for (Jointed& robot : jointed_)
+    for (double& position : robot.positions) position = state.Get<double>();
 }
 
 }  // namespace swarmanoid

@@ -1,5 +1,6 @@
-// The parts of robots on a plane other than their drive: the handbot's head, arms, wrists, hands and rope, and the
-// magnets of flying robots, as kinematic models. Shared by kinematics2d and dynamics2d, in their engine's thread.
+// The parts of robots on a plane other than their drive: the handbot's head, arms, wrists, hands and rope, the links of
+// robots on wheels, and the magnets of flying robots, as kinematic models. Shared by kinematics2d and dynamics2d, in
+// their engine's thread.
 //
 // Joints turn at their commanded speeds within their ranges. A hand that closes takes the nearest block or prey of the
 // engine within its reach in the space. Hand and object then move as one rigid body on the plane. A handbot holds one
@@ -66,6 +67,8 @@ public:
 
   // Returns true for a channel of this model. Throws std::runtime_error for values that are not finite.
   bool Command(const ChannelBlock& block, std::span<const double> values);
+  // Fills in the readings of a channel of this model; leaves those of other channels.
+  void Sense(const ChannelBlock& block, std::span<double> values) const;
   // Is called before the plane's motion. First hands and ropes grip and release; then all joints and heights become
   // those at the end of the tick.
   void Advance(double seconds);
@@ -112,6 +115,15 @@ private:
     double reach = 0;  // m, above the base of the robot
     bool attach = false;
   };
+  // A robot on wheels with links on joints, which touch nothing.
+  struct Jointed
+  {
+    std::uint32_t entity = 0;
+    const std::vector<MovingLink>* links = nullptr;
+    std::vector<JointCommand> commands{};
+    std::vector<double> positions{};  // rad or m
+    std::vector<double> speeds{};     // rad/s or m/s, in the last tick
+  };
   // An entity that can be in the air.
   struct Lifted
   {
@@ -139,6 +151,7 @@ private:
   double ceiling_ = 0;  // m above the plane; 0: none
   std::vector<Handbot> handbots_;
   std::vector<Magnet> magnets_;
+  std::vector<Jointed> jointed_;
   std::vector<std::uint32_t> attached_;
   std::vector<Lifted> lifted_;  // handbots, blocks and preys, by entity; none if there is no handbot
   std::vector<std::uint32_t> objects_;

@@ -11,6 +11,7 @@
 #include <functional>
 #include <map>
 
+#include "common/control_interface/ci_joints_actuator.h"
 #include "common/control_interface/ci_led_ring_actuator.h"
 #include "common/control_interface/ci_range_and_bearing.h"
 #include "common/control_interface/eyebot/ci_eyebot_attachment_actuator.h"
@@ -131,6 +132,36 @@ void Turret(const TopicSetup& setup, const std::string& type, Topics& topics)
                      [turret](const Float64& message) { turret->SetTurretAngularVelocity(Finite(message.data())); });
 }
 
+// Reads positions or velocities of joints by name. A joint with both gets its position.
+void Joints(const TopicSetup& setup, const std::string& type, Topics& topics)
+{
+  auto* joints = &setup.robot.Actuator<CCI_JointsActuator>(type);
+  setup.Add<JointState>(topics, "joint_commands",
+                        [joints](const JointState& message)
+                        {
+                          const auto& names = message.name();
+                          const bool has_positions = !message.position().empty();
+                          const auto& values = has_positions ? message.position() : message.velocity();
+                          if (values.size() != names.size())
+                            Refuse(fmt::format("a command has {} joints and {} {}", names.size(), values.size(),
+                                               has_positions ? "positions" : "velocities"));
+                          for (std::size_t k = 0; k < names.size(); ++k)
+                          {
+                            unsigned joint = 0;
+                            try
+                            {
+                              joint = joints->GetJoint(names[k]);
+                            }
+                            catch (const std::invalid_argument& error)
+                            {
+                              Refuse(error.what());
+                            }
+                            has_positions ? joints->SetPosition(joint, Finite(values[k]))
+                                          : joints->SetVelocity(joint, Finite(values[k]));
+                          }
+                        });
+}
+
 void Magnet(const TopicSetup& setup, const std::string& type, Topics& topics)
 {
   auto* magnet = &setup.robot.Actuator<CCI_EyeBotAttachmentActuator>(type);
@@ -197,9 +228,9 @@ using TopicMaker = void (*)(const TopicSetup& setup, const std::string& type, To
 const std::map<std::string, TopicMaker>& TopicMakers()
 {
   static const std::map<std::string, TopicMaker> makers{
-      {"eyebot_attachment", Magnet}, {"eyebot_laser", Laser},       {"eyebot_leds", Leds<CCI_EyeBotLedsActuator>},
-      {"footbot_beacon", Beacon},    {"footbot_gripper", Gripper},  {"footbot_leds", Leds<CCI_FootBotLedsActuator>},
-      {"footbot_turret", Turret},    {"range_and_bearing", Sender},
+      {"eyebot_attachment", Magnet}, {"eyebot_laser", Laser},      {"eyebot_leds", Leds<CCI_EyeBotLedsActuator>},
+      {"footbot_beacon", Beacon},    {"footbot_gripper", Gripper}, {"footbot_leds", Leds<CCI_FootBotLedsActuator>},
+      {"footbot_turret", Turret},    {"joints", Joints},           {"range_and_bearing", Sender},
   };
   return makers;
 }

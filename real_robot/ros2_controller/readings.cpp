@@ -13,6 +13,7 @@
 
 #include "common/control_interface/ci_ground_sensor.h"
 #include "common/control_interface/ci_gyroscope_sensor.h"
+#include "common/control_interface/ci_joints_sensor.h"
 #include "common/control_interface/ci_proximity_sensor.h"
 #include "common/control_interface/ci_range_and_bearing.h"
 #include "common/control_interface/ci_range_scanner_sensor.h"
@@ -374,7 +375,7 @@ private:
   unsigned level_ = 0;               // the layer of the scan
 };
 
-// Wheels, turret and gripper.
+// Wheels, turret and gripper, and the joints of other robots.
 class Joints : public ReadingPublisher
 {
 public:
@@ -384,6 +385,7 @@ public:
     if (robot.HasSensor("footbot_encoders")) wheels_ = &robot.Sensor<CCI_FootBotEncodersSensor>("footbot_encoders");
     if (robot.HasSensor("footbot_turret_encoder"))
       turret_ = &robot.Sensor<CCI_FootBotTurretEncoderSensor>("footbot_turret_encoder");
+    if (robot.HasSensor("joints")) joints_ = &robot.Sensor<CCI_JointsSensor>("joints");
     if (!robot.HasSensor("footbot_gripper")) return;
     gripper_ = &robot.Sensor<CCI_FootBotGripperSensor>("footbot_gripper");
     holding_.emplace(setup, "gripper/holding");
@@ -412,6 +414,15 @@ public:
       holding.data(gripper_->IsGripping());
       holding_->Publish(holding);
     }
+    if (joints_ != nullptr)
+    {
+      message.effort().resize(message.name().size(), kUnknown);
+      for (unsigned joint = 0; joint < joints_->GetNumJoints(); ++joint)
+      {
+        add(joints_->GetName(joint).c_str(), joints_->GetPosition(joint), joints_->GetVelocity(joint));
+        message.effort().push_back(joints_->GetEffort(joint));
+      }
+    }
     publisher_.Publish(message);
   }
   unsigned Listeners() const override { return publisher_.Listeners(); }
@@ -420,6 +431,7 @@ private:
   const CCI_FootBotEncodersSensor* wheels_ = nullptr;
   const CCI_FootBotTurretEncoderSensor* turret_ = nullptr;
   const CCI_FootBotGripperSensor* gripper_ = nullptr;
+  const CCI_JointsSensor* joints_ = nullptr;
   std::optional<ReadingTopic<Bool>> holding_;
   const WheelOdometry* rolled_;
   ReadingTopic<JointState> publisher_;
@@ -578,6 +590,7 @@ const std::map<std::string, Source>& Sources()
       {"footbot_turret_encoder", {"joints", Make<Joints>}},
       {"ground", {"ground", [](const ReadingSetup& setup) { return Make<Ground<CCI_GroundSensor>>(setup, "ground"); }}},
       {"gyroscope", {"imu", Make<Inertia>}},
+      {"joints", {"joints", Make<Joints>}},
       {"positioning", {}},
       {"proximity", {"proximity", Make<Ranges>}},
       {"range_and_bearing", {"range_and_bearing", Make<Packets>}},

@@ -83,8 +83,8 @@ class Lab:
             entities="", engines=None, volumes=(), moves=(), faults=(), kinds=None, processes=False, **parameters):
         """Runs a scene in one engine with these parameters, or in `engines`: tag, parameters and entities (none: all) by id.
         `volumes`: engines instead, as pairs of a tag and the volume in which it moves entities. `moves`: tick, entity, x, y
-        and heading of what is put elsewhere, into others too. `faults`: attributes of each. `kinds`: their libraries, by
-        kind. `processes`: as a cluster."""
+        and heading of what is put elsewhere, into others too. `faults`: attributes of each. `kinds`: by their tags, the libraries
+        or the texts of URDF files. `processes`: as a cluster."""
         engines = engines or {f"engine_{k}": (tag, {}, None) for k, (tag, _) in enumerate(volumes)} or {"engine": (engine, parameters, None)}
         places = {f"engine_{k}": {"volume": volume} for k, (_, volume) in enumerate(volumes)}
         folder = self.folder / f"run_{next(self.numbers)}"
@@ -94,7 +94,12 @@ class Lab:
             shown["entities"] = entities
         text = element("framework", {}, "".join(element(tag, {}, value) for tag, value in (
             ("clocktick", tick_ms), ("maxclock", ticks), ("seed", seed), ("controller_path", self.libraries), ("plugin_path", self.libraries))))
-        text += element("entity_kinds", {}, "".join(element(kind, {"library": library}) for kind, library in kinds.items())) if kinds else ""
+        for tag, kind in (kinds or {}).items():
+            if kind.startswith("<"):
+                (folder / f"{tag}.urdf").write_text(kind, encoding="utf-8")
+        if kinds:
+            text += element("entity_kinds", {}, "".join(
+                element(tag, {"urdf": f"{tag}.urdf"} if kind.startswith("<") else {"library": kind}) for tag, kind in kinds.items()))
         text += element("controllers", {}, controllers) + element("arena", {"size": size, "optimization": "2D"}, arena)
         text += element("engines", {}, "".join(element(tag, {"id": name, **more}) for name, (tag, more, _) in engines.items()))
         text += element("arena_physics", {}, "".join(

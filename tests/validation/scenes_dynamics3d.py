@@ -113,6 +113,46 @@ def dynamics3d_winch(lab):
     yield Row("dynamics3d: handbot pulled up by its winch at 0.1 m/s, speed", "v", "rope", 0.1, (z[-1] - z[20]) / ((len(z) - 21) * 0.1), 1e-3, "1 %", "m/s")
 
 
+def tower(links, joint, origin, axis, kind, more=""):
+    """A heavy tower with one more link on a joint, as a URDF file."""
+    heavy = '<inertial><mass value="500"/><inertia ixx="50" iyy="50" izz="50"/></inertial><collision><geometry><box size="0.4 0.4 1"/></geometry></collision>'
+    return f'''<robot name="tower"><link name="tower">{heavy}</link><link name="moved">{links}</link><joint name="{joint}" type="{kind}">
+<parent link="tower"/><child link="moved"/><origin xyz="{origin}"/><axis xyz="{axis}"/>{more}</joint></robot>'''
+
+
+BAR = f'<inertial><origin xyz="0 0 -0.25"/><mass value="0.4"/><inertia ixx="{0.4 * 0.25 / 12!r}" iyy="{0.4 * 0.25 / 12!r}" izz="{0.4 * 0.25 / 12!r}"/></inertial>'
+STANDING = element("jointed", {"id": "j", "position": "5,5,0", "controller": "c"})
+
+
+@scene(GROUP)
+def dynamics3d_joints(lab):
+    who = probe("c", sensors={"joints": {}})
+    a = math.radians(5)
+    urdf = tower(BAR, "swing", "0 0.3 0.3", "1 0 0", "continuous")
+    angles = [now["swing position"] for now in lab.run(STANDING, who, "dynamics3d", 1000, 10, kinds={"jointed": urdf},
+                                                       gravity=f"0,{G * math.sin(a)!r},{-G * math.cos(a)!r}").readings("j", "joints")]
+    middle = (max(angles) + min(angles)) / 2
+    crossings = [i + (middle - p) / (q - p) for i, (p, q) in enumerate(zip(angles, angles[1:])) if p < middle <= q]
+    period = 0.01 * (crossings[-1] - crossings[0]) / (len(crossings) - 1)
+    yield Row("dynamics3d: bar on a free joint, period", "2π √(2 l / (3 g)) (1 + α² / 16)", "pendulum, α = 5°, l = 0.5 m",
+              2 * math.pi * math.sqrt(1 / (3 * G)) * (1 + a * a / 16), period, 0.005 * period, "0.5 %", "s")
+    yield Row("dynamics3d: bar on a free joint, swing after 10 s", "2 α", "energy", 2 * a, max(angles[-200:]) - min(angles[-200:]), 0.05 * a, "2.5 %", "rad")
+
+    level = tower(BAR, "swing", "0 0.3 0.3", "1 0 0", "revolute", '<limit lower="-2" upper="2" effort="2" velocity="1.5"/>')
+    who = probe("c", [(0, 100, "joints", math.pi / 2)], sensors={"joints": {}}, actuators={"joints": {}})
+    now = lab.run(STANDING, who, "dynamics3d", 60, kinds={"jointed": level}).readings("j", "joints")
+    yield Row("dynamics3d: motor that turns a bar, speed", "v", "limit of the joint", 1.5, now[6]["swing velocity"], 0.015, "1 %", "rad/s")
+    yield Row("dynamics3d: motor that holds a level bar, effort", "m g l / 2", NEWTON, 0.4 * G * 0.25, now[-1]["swing effort"], 0.01 * 0.4 * G * 0.25, "1 %", "N m")
+
+    plate = '<inertial><mass value="2"/><inertia ixx="0.01" iyy="0.01" izz="0.01"/></inertial><collision><geometry><box size="0.3 0.3 0.02"/></geometry></collision>'
+    lift = tower(plate, "lift", "0 0 0.52", "0 0 1", "prismatic", '<limit lower="0" upper="0.5" effort="40" velocity="0.25"/>')
+    who = probe("c", [(0, 100, "joints", 0.4)], sensors={"joints": {}}, actuators={"joints": {}})
+    load = block("b", "5,5,1.081", "0.1,0.1,0.1", movable="true", mass=1)
+    result = lab.run(STANDING + load, who, "dynamics3d", 40, kinds={"jointed": lift})
+    yield Row("dynamics3d: load on a slider, lifted by", "x", "position of the joint", 0.4, result.track("b")[-1][2] - 1.08, 0.004, "1 %", "m")
+    yield Row("dynamics3d: slider under the load, effort", "m g", NEWTON, 3 * G, result.readings("j", "joints")[-1]["lift effort"], 0.03 * G, "1 %", "N")
+
+
 @scene(GROUP)
 def dynamics3d_stack(lab):
     cubes, seconds = (10, 10) if lab.quick else (20, 60)

@@ -4,6 +4,7 @@
 #include "visualiser/scene/kind_model.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "common/configuration/regular_file.h"
 #include "common/experiment/mesh_files.h"
@@ -132,19 +133,63 @@ void AddPart(MeshBuilder& builder, const MeshPart& part, int level, const Experi
 
 bool IsScaled(const EntityKindDescription& kind) { return kind.mesh.empty() && kind.size.isZero(); }
 
-Model KindModel(const EntityKindDescription& kind, const Experiment& experiment)
+namespace
 {
-  const std::vector<MeshPart> parts = kind.mesh.empty() ? BodyParts(kind) : kind.mesh;
+
+// Returns the model of some parts. Those of links are moved by the motion of their link, if motions are given.
+Model ModelOf(const std::string& name, const std::vector<MeshPart>& parts, const std::vector<Pose>& motions,
+              const Experiment& experiment)
+{
   Model model;
-  model.name = kind.tag;
+  model.name = name;
   for (int level = 0; level < kLevels; ++level)
   {
     MeshBuilder builder(kSegments[level]);
-    for (const MeshPart& part : parts) AddPart(builder, part, level, experiment);
+    for (const MeshPart& part : parts)
+    {
+      if (part.link == MovingLink::kBase || motions.empty())
+      {
+        AddPart(builder, part, level, experiment);
+        continue;
+      }
+      const Pose& motion = motions[static_cast<std::size_t>(part.link)];
+      MeshBuilder at_zero(kSegments[level]);
+      AddPart(at_zero, part, level, experiment);
+      builder.Append(
+          at_zero.Take(),
+          Eigen::Translation3f(motion.position.cast<float>()) * Eigen::Affine3f(motion.orientation.cast<float>()),
+          Material::kTint);
+    }
     model.levels[static_cast<std::size_t>(level)] = builder.Take();
   }
   Measure(model);
   return model;
+}
+
+}  // namespace
+
+Model KindModel(const EntityKindDescription& kind, const Experiment& experiment)
+{
+  const std::vector<MeshPart> parts = kind.mesh.empty() ? BodyParts(kind) : kind.mesh;
+  std::vector<double> starts;
+  for (const MovingLink& link : kind.links) starts.push_back(link.Start());
+  return ModelOf(kind.tag, parts, MotionsOfLinks(kind.links, starts), experiment);
+}
+
+std::vector<Model> LinkModels(const EntityKindDescription& kind, const Experiment& experiment)
+{
+  if (kind.links.empty()) return {KindModel(kind, experiment)};
+  const std::vector<MeshPart> all = kind.mesh.empty() ? BodyParts(kind) : kind.mesh;
+  std::vector<Model> models;
+  for (int link = MovingLink::kBase; link < static_cast<int>(kind.links.size()); ++link)
+  {
+    std::vector<MeshPart> parts;
+    std::ranges::copy_if(all, std::back_inserter(parts), [&](const MeshPart& part) { return part.link == link; });
+    const std::string name =
+        link == MovingLink::kBase ? kind.tag : kind.tag + "_" + kind.links[static_cast<std::size_t>(link)].joint;
+    models.push_back(ModelOf(name, parts, {}, experiment));
+  }
+  return models;
 }
 
 }  // namespace swarmanoid

@@ -38,6 +38,12 @@ Isometry3f PlaceOf(const Pose& pose)
 
 AngleAxisf About(const Vector3f& axis, double angle) { return AngleAxisf(static_cast<float>(angle), axis); }
 
+int FirstJointOf(EntityKind kind)
+{
+  const std::vector<MovingLink>& links = DescriptionOf(kind).links;
+  return links.empty() ? -1 : AttributeOffset(kind, links.front().attribute);
+}
+
 std::uint16_t Number(ModelId model) { return static_cast<std::uint16_t>(model); }
 
 }  // namespace
@@ -59,7 +65,7 @@ Scene::Scene(const CSwarmanoidSpace& space)
     slots_.push_back({offset("led"), led == nullptr ? 0 : led->count, offset("beacon"), offset("colour"),
                       offset("intensity"), offset("gripper_aperture"), offset("turret_angle"), offset("gripped"),
                       offset("head_angle"), offset("arm"), offset("wrist"), offset("hand_aperture"),
-                      offset("rope_attached"), offset("laser")});
+                      offset("rope_attached"), offset("laser"), FirstJointOf(static_cast<EntityKind>(k))});
   }
   for (std::uint32_t e = 0; e < space.Size(); ++e)
   {
@@ -156,12 +162,17 @@ void Scene::AddUsersEntity(Body& body)
 {
   const EntityKindDescription& kind = DescriptionOf(body.kind);
   const auto [model, is_new] = users_models_.emplace(body.kind, static_cast<std::uint16_t>(models_.size()));
-  if (is_new) models_.push_back(KindModel(kind, space_.GetExperiment()));
-  SceneItem& item = AddItem(body.entity, ModelId::kBox);
-  item.model = model->second;
-  item.tint = Paint(kind.colour);
-  if (IsScaled(kind)) item.scale = space_.GetEntity(body.entity).GetSize().cast<float>();
-  if (kind.leds) item.lights = body.lights = AddLights();
+  if (is_new)
+    for (Model& part : LinkModels(kind, space_.GetExperiment())) models_.push_back(std::move(part));
+  if (kind.leds) body.lights = AddLights();
+  for (std::size_t link = 0; link <= kind.links.size(); ++link)
+  {
+    SceneItem& item = AddItem(body.entity, ModelId::kBox);
+    item.model = static_cast<std::uint16_t>(model->second + link);
+    item.tint = Paint(kind.colour);
+    if (IsScaled(kind)) item.scale = space_.GetEntity(body.entity).GetSize().cast<float>();
+    item.lights = body.lights;
+  }
 }
 
 bool Scene::AddMeshOfObject(std::uint32_t entity)
@@ -306,6 +317,11 @@ void Scene::UpdateBodies()
         PlaceHandbot(body);
         break;
       case Mechanism::kNone:
+        if (SlotsOf(body).joint >= 0)
+        {
+          PlaceLinks(body);
+          break;
+        }
         for (std::uint32_t i = 0; i < body.items; ++i)
         {
           Place(body.first_item + i, PlaceOf(space_.GetPose(body.entity)));
@@ -380,6 +396,19 @@ void Scene::PlaceHandbot(const Body& body)
       Place(item++, hinge);
     }
   }
+}
+
+// The parts are the base, then the links.
+void Scene::PlaceLinks(const Body& body)
+{
+  const std::vector<MovingLink>& links = DescriptionOf(body.kind).links;
+  const Pose pose = space_.GetPose(body.entity);
+  std::vector<double> positions;
+  for (std::size_t k = 0; k < links.size(); ++k)
+    positions.push_back(Attribute(body, SlotsOf(body).joint + static_cast<int>(k)));
+  const std::vector<Pose> motions = MotionsOfLinks(links, positions);
+  Place(body.first_item, PlaceOf(pose));
+  for (std::uint32_t k = 0; k < links.size(); ++k) Place(body.first_item + 1 + k, PlaceOf(pose.Compose(motions[k])));
 }
 
 void Scene::Bounds(Vector3& low, Vector3& high) const

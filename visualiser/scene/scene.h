@@ -139,6 +139,7 @@ private:
     int aperture, turret, gripped;  // Mechanism::kTurretGripper
     int head, arm, wrist, hand, rope;
     int laser;
+    int joint;  // the first one; the others follow
   };
 
   void AddEntity(std::uint32_t entity);
@@ -156,6 +157,7 @@ private:
   void PlaceFootbot(const Body& body);
   void PlaceEyebot(const Body& body);
   void PlaceHandbot(const Body& body);
+  void PlaceLinks(const Body& body);
   void Place(std::uint32_t item, const Eigen::Isometry3f& place);
 
   void AddBeam(const Body& eyebot);
@@ -178,7 +180,7 @@ private:
   std::vector<SceneItem> items_;
   std::vector<Colour> lights_;
   std::vector<Slots> slots_;                            // by kind
-  std::map<EntityKind, std::uint16_t> users_models_;    // by users' kind that an entity has
+  std::map<EntityKind, std::uint16_t> users_models_;    // by users' kind that an entity has: the first of its models
   std::map<std::string, std::uint16_t> object_models_;  // by the name of the model
   std::vector<Body> bodies_;                            // all entities with items, ascending
   std::vector<SceneLine> lines_;

@@ -151,6 +151,12 @@ void CDynamics2dEngine::WriteSensors(std::span<double> sensors) const
 {
   for (const ChannelBlock& block : layout_->sensors)
   {
+    if (block.name == "joints")
+    {
+      const std::size_t count = block.entities.size() * static_cast<std::size_t>(block.width);
+      robots_.Sense(block, sensors.subspan(block.offset, count));
+      continue;
+    }
     double* value = sensors.data() + block.offset;
     const bool are_encoders = block.name == "footbot_encoders";
     const bool are_torques = block.name == "footbot_turret_torque";

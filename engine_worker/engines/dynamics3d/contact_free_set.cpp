@@ -95,13 +95,15 @@ double SpinOf(dBodyID body) { return std::sqrt(VectorOf(dBodyGetAngularVel(body)
 
 void ContactFreeSet::Add(Model& model, bool owned)
 {
-  Body& body =
-      bodies_.emplace_back(Body{.model = &model, .robot = dynamic_cast<WheeledModel*>(&model), .owned = owned});
+  // The closed form does not know links.
+  WheeledModel* const robot = model.Reach() > 0 ? nullptr : dynamic_cast<WheeledModel*>(&model);
+  Body& body = bodies_.emplace_back(Body{.model = &model, .robot = robot, .owned = owned});
   const std::array<double, 6> box = BoxOf(body);
   const Vector3 sides(box[1] - box[0], box[3] - box[2], box[5] - box[4]);
   // No rigid body, however it turns, needs more.
   body.radius = std::sqrt(3 * sides.squaredNorm()) / 2;
   if (owned && IsRobot(model.GetSpaceEntity().GetKind())) body.radius += kArms;
+  body.radius = std::max(body.radius, std::sqrt(2.0) * model.Reach());
   if (body.robot != nullptr) top_ = std::max(top_, body.robot->Height());
   solids_ = 0;
 }
@@ -270,6 +272,7 @@ bool ContactFreeSet::IsTooFar(const Body& body, const MovingOutline& outline) co
 double ContactFreeSet::LargestStep(const Body& body) const
 {
   if (body.robot != nullptr && body.robot->IsUpright()) return body.robot->LargestSpeed() * step_seconds_;
+  if (body.model->Reach() > 0) return body.model->LargestSpeed() * step_seconds_;
   const dBodyID main = MainBodyOf(body);
   return (SpeedInPlane(main) + SpinOf(main) * body.radius) * step_seconds_;
 }

@@ -9,6 +9,7 @@
 #include "common/space/space.h"
 #include "engine_worker/engines/dynamics3d/footbot.h"
 #include "engine_worker/engines/dynamics3d/handbot.h"
+#include "engine_worker/engines/dynamics3d/jointed.h"
 #include "engine_worker/engines/dynamics3d/propelled.h"
 #include "engine_worker/engines/dynamics3d/wheeled.h"
 #include "engine_worker/volume_members.h"
@@ -107,6 +108,7 @@ std::unique_ptr<Model> CDynamics3dEngine::MakeModel(const CSwarmanoidSpaceEntity
     case Mechanism::kNone:
       break;
   }
+  if (kind.base) return std::make_unique<JointedModel>(*scene_, entity);
   if (kind.propellers) return std::make_unique<PropelledModel>(*scene_, entity, CeilingHeight());
   if (kind.wheels) return std::make_unique<WheeledModel>(*scene_, entity, WheeledShape::Of(entity, scene_->density));
   return std::make_unique<ObjectModel>(*scene_, entity);

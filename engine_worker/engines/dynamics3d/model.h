@@ -97,6 +97,8 @@ public:
   // Returns the velocity of the entity's position.
   EntityVelocity Velocity() const;
 
+  // Returns how far (m) from the main body's centre of mass its links can come; 0 for a model without links.
+  virtual double Reach() const { return 0; }
   // Returns the largest speed (m/s) that any part of the outline has or can reach by itself.
   virtual double LargestSpeed() const;
   // Returns the box around the outline.

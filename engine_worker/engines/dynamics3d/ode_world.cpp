@@ -92,7 +92,16 @@ void OdeWorld::CreateBody(int number, dWorldID world)
 
 int OdeWorld::AddHinge(int outer, int inner, const Vector3& anchor, const Vector3& axis, double torque)
 {
-  hinges_.push_back({outer, inner, anchor, axis, torque, nullptr});
+  hinges_.push_back({.spec = {.outer = outer, .inner = inner, .anchor = anchor, .axis = axis, .effort = torque}});
+  CreateHinge(hinges_.back());
+  ++assemblies_.back().end_hinge;
+  return static_cast<int>(hinges_.size()) - 1;
+}
+
+int OdeWorld::AddJoint(const JointSpec& spec)
+{
+  hinges_.push_back({.spec = spec, .has_stops = true, .of_motor = std::make_unique<dJointFeedback>()});
+  *hinges_.back().of_motor = {};
   CreateHinge(hinges_.back());
   ++assemblies_.back().end_hinge;
   return static_cast<int>(hinges_.size()) - 1;
@@ -100,17 +109,76 @@ int OdeWorld::AddHinge(int outer, int inner, const Vector3& anchor, const Vector
 
 void OdeWorld::CreateHinge(HingeRecord& hinge) const
 {
-  hinge.joint = dJointCreateHinge(dBodyGetWorld(Body(hinge.outer)), nullptr);
-  dJointAttach(hinge.joint, Body(hinge.outer), Body(hinge.inner));
-  dJointSetHingeAnchor(hinge.joint, hinge.anchor.x(), hinge.anchor.y(), hinge.anchor.z());
-  dJointSetHingeAxis(hinge.joint, hinge.axis.x(), hinge.axis.y(), hinge.axis.z());
-  dJointSetHingeParam(hinge.joint, dParamFMax, hinge.torque);
+  const JointSpec& spec = hinge.spec;
+  const dBodyID outer = Body(spec.outer), inner = Body(spec.inner);
+  const dWorldID world = dBodyGetWorld(outer);
+  const Vector3& axis = spec.axis;
+  if (spec.slides)
+  {
+    hinge.joint = dJointCreateSlider(world, nullptr);
+    dJointAttach(hinge.joint, outer, inner);
+    dJointSetSliderAxis(hinge.joint, axis.x(), axis.y(), axis.z());
+    dJointSetSliderParam(hinge.joint, dParamLoStop, spec.lowest);
+    dJointSetSliderParam(hinge.joint, dParamHiStop, spec.highest);
+  }
+  else
+  {
+    hinge.joint = dJointCreateHinge(world, nullptr);
+    dJointAttach(hinge.joint, outer, inner);
+    dJointSetHingeAnchor(hinge.joint, spec.anchor.x(), spec.anchor.y(), spec.anchor.z());
+    dJointSetHingeAxis(hinge.joint, axis.x(), axis.y(), axis.z());
+    dJointSetHingeParam(hinge.joint, hinge.has_stops ? dParamLoStop : dParamFMax,
+                        hinge.has_stops ? spec.lowest : spec.effort);
+    if (hinge.has_stops) dJointSetHingeParam(hinge.joint, dParamHiStop, spec.highest);
+  }
+  if (!hinge.has_stops || !(spec.effort > 0)) return;
+  constexpr int kWithOuter = 1;
+  if (spec.slides)
+  {
+    hinge.motor = dJointCreateLMotor(world, nullptr);
+    dJointAttach(hinge.motor, outer, inner);
+    dJointSetLMotorNumAxes(hinge.motor, 1);
+    dJointSetLMotorAxis(hinge.motor, 0, kWithOuter, axis.x(), axis.y(), axis.z());
+    dJointSetLMotorParam(hinge.motor, dParamFMax, spec.effort);
+  }
+  else
+  {
+    hinge.motor = dJointCreateAMotor(world, nullptr);
+    dJointAttach(hinge.motor, outer, inner);
+    dJointSetAMotorNumAxes(hinge.motor, 1);
+    dJointSetAMotorAxis(hinge.motor, 0, kWithOuter, axis.x(), axis.y(), axis.z());
+    dJointSetAMotorParam(hinge.motor, dParamFMax, spec.effort);
+  }
+  dJointSetFeedback(hinge.motor, hinge.of_motor.get());
+}
+
+void OdeWorld::SetMotorSpeed(int number, double speed)
+{
+  const HingeRecord& hinge = hinges_[static_cast<std::size_t>(number)];
+  if (hinge.motor == nullptr) return;
+  if (hinge.spec.slides)
+    dJointSetLMotorParam(hinge.motor, dParamVel, speed);
+  else
+    dJointSetAMotorParam(hinge.motor, dParamVel, speed);
+}
+
+double OdeWorld::MotorEffort(int number) const
+{
+  const HingeRecord& hinge = hinges_[static_cast<std::size_t>(number)];
+  if (hinge.motor == nullptr) return 0;
+  const Vector3 axis = VectorToWorld(Body(hinge.spec.outer), hinge.spec.axis);
+  return axis.dot(VectorOf(hinge.spec.slides ? hinge.of_motor->f1 : hinge.of_motor->t1));
 }
 
 void OdeWorld::Move(std::uint32_t number, SolverWorld& to)
 {
   Assembly& assembly = assemblies_[number];
-  for (int hinge = assembly.first_hinge; hinge < assembly.end_hinge; ++hinge) dJointDestroy(Hinge(hinge));
+  for (int k = assembly.first_hinge; k < assembly.end_hinge; ++k)
+  {
+    const HingeRecord& hinge = hinges_[static_cast<std::size_t>(k)];
+    dJointDestroy(hinge.joint);
+    if (hinge.motor != nullptr) dJointDestroy(hinge.motor);
+  }
   for (int body = assembly.first_body; body < assembly.end_body; ++body)
   {
     RecordOf(body).before_move = Body(body);

@@ -156,6 +156,18 @@ struct WorldSettings
 
 class SolverWorld;
 
+// A joint between two bodies of one assembly, at their first poses: the outer one turns about the axis or slides along
+// it.
+struct JointSpec
+{
+  int outer = 0, inner = 0;
+  Vector3 anchor = Vector3::Zero(), axis = Vector3::UnitX();
+  bool slides = false;
+  double lowest = -std::numeric_limits<double>::infinity();  // rad, within half a turn, or m
+  double highest = std::numeric_limits<double>::infinity();
+  double effort = 0;  // N m or N, the most of the motor
+};
+
 struct BodyRecord
 {
   dBodyID body = nullptr;
@@ -210,7 +222,14 @@ public:
   // Adds a hinge between two bodies of the assembly, at their first poses, with a motor of that torque (N m). Returns
   // its number.
   int AddHinge(int outer, int inner, const Vector3& anchor, const Vector3& axis, double torque = 0);
+  // Adds a joint with stops as a further hinge. Its motor is a joint of its own, so that the solver knows the limits of
+  // both: a motor of ODE's hinge that leaves a stop would jump.
+  int AddJoint(const JointSpec& spec);
   dJointID Hinge(int number) const { return hinges_[static_cast<std::size_t>(number)].joint; }
+  // Sets the speed (rad/s or m/s) of the motor of a joint with stops. Does nothing if it has none.
+  void SetMotorSpeed(int number, double speed);
+  // Returns the torque (N m) or force (N) of that motor on the outer body in the last step.
+  double MotorEffort(int number) const;
 
   // Moves the bodies of an assembly, hinges and geoms included, to another world, or again into the same one. Joints of
   // links are lost. The bodies of a world are solved in the order in which they came.
@@ -286,10 +305,11 @@ private:
 
   struct HingeRecord
   {
-    int outer, inner;  // bodies
-    Vector3 anchor, axis;
-    double torque;
-    dJointID joint;
+    JointSpec spec;
+    bool has_stops = false;
+    dJointID joint = nullptr;
+    dJointID motor = nullptr;  // of its own
+    std::unique_ptr<dJointFeedback> of_motor{};
   };
 
   void CreateBody(int body, dWorldID world);

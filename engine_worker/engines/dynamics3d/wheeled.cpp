@@ -57,7 +57,8 @@ WheeledShape WheeledShape::Of(const CSwarmanoidSpaceEntity& entity, double densi
   const double half_length = shape.is_cylinder ? shape.size.x() : shape.size.x() / 2;
   const double area = shape.is_cylinder ? kPi * half_length * half_length : shape.size.x() * shape.size.y();
   const double given = entity.GetConfiguration().mass_kg;
-  const double mass = given > 0 ? given : density * area * shape.size.z();
+  double mass = given > 0 ? given : density * area * shape.size.z();
+  for (const MovingLink& link : kind.links) mass -= link.body.mass_kg;
   shape.wheel_radius = kind.wheels->radius_m;
   shape.half_track = kind.wheels->axle_m / 2;
   shape.clearance = std::min(shape.wheel_radius / 2, shape.size.z() / 4);
@@ -189,6 +190,14 @@ WheeledModel::WheeledModel(Scene& scene, const CSwarmanoidSpaceEntity& entity, c
                                    Vector3::UnitY());
   }
 
+  if (!DescriptionOf(entity.GetKind()).links.empty())
+    links_ = std::make_unique<JointedLinks>(scene, entity, MainBody(),
+                                            [this](const dMass& mass, const Pose& in_entity)
+                                            {
+                                              AddBody(mass, in_entity, EBody::kMechanism);
+                                              return bodies_.back().number;
+                                            });
+
   const double stall_torque = StallForce(shape) * shape.wheel_radius;
   const double lever = ShorterReach(shape) * ShorterReach(shape);
   Touch touch;
@@ -211,10 +220,23 @@ WheeledModel::WheeledModel(Scene& scene, const CSwarmanoidSpaceEntity& entity, c
                    in_chassis(x, shape.caster_radius));
   for (std::size_t wheel = 1; wheel <= 2; ++wheel)
     world.AddSolid(dCreateSphere(nullptr, shape.wheel_radius), bodies_[wheel].number, ELayer::kWheel, ESurface::kWheel);
+  if (links_) links_->AddSolids();
+}
+
+void WheeledModel::Place(const Pose& pose)
+{
+  Model::Place(pose);
+  if (links_) links_->Put(pose);
+}
+
+void WheeledModel::FollowAttributes()
+{
+  if (links_) links_->FollowAttributes(CurrentPose());
 }
 
 void WheeledModel::Command(std::string_view channel, std::span<const double> values)
 {
+  if (links_ && channel == "joints") links_->Command(values);
   if (channel != "footbot_wheels" && channel != "wheels") return;
   wheel_command_[0] = values[0];
   wheel_command_[1] = values[1];
@@ -247,8 +269,9 @@ void WheeledModel::SetVelocity(const EntityVelocity& velocity)
   }
 }
 
-void WheeledModel::BeforeStep(double /*seconds*/)
+void WheeledModel::BeforeStep(double seconds)
 {
+  if (links_) links_->BeforeStep(seconds);
   for (std::size_t wheel = 0; wheel < 2; ++wheel)
   {
     const double speed = dJointGetHingeAngleRate(Axle(wheel));
@@ -260,11 +283,28 @@ void WheeledModel::BeforeStep(double /*seconds*/)
 void WheeledModel::AfterStep(double seconds)
 {
   elapsed_ += seconds;
+  if (links_) links_->AfterStep();
   for (std::size_t wheel = 0; wheel < 2; ++wheel) wheel_turn_[wheel] += dJointGetHingeAngleRate(Axle(wheel)) * seconds;
+}
+
+void WheeledModel::Report(AttributeReport& report) const
+{
+  if (links_) links_->Report(report);
+}
+
+void WheeledModel::Save(ByteWriter& state) const
+{
+  if (links_) links_->Save(state);
+}
+
+void WheeledModel::Load(ByteReader& state)
+{
+  if (links_) links_->Load(state);
 }
 
 void WheeledModel::SaveTick(ByteWriter& state) const
 {
+  if (links_) links_->SaveTick(state);
   state.Put(wheel_command_);
   state.Put(wheel_turn_);
   state.Put(elapsed_);
@@ -274,6 +314,7 @@ void WheeledModel::SaveTick(ByteWriter& state) const
 
 void WheeledModel::LoadTick(ByteReader& state)
 {
+  if (links_) links_->LoadTick(state);
   wheel_command_ = state.Get<std::array<double, 2>>();
   wheel_turn_ = state.Get<std::array<double, 2>>();
   elapsed_ = state.Get<double>();
@@ -283,6 +324,7 @@ void WheeledModel::LoadTick(ByteReader& state)
 
 void WheeledModel::Sense(std::string_view channel, std::span<double> values) const
 {
+  if (links_ && channel == "joints") return links_->Sense(values);
   if (elapsed_ <= 0 || channel != "footbot_encoders") return Model::Sense(channel, values);
   for (std::size_t wheel = 0; wheel < 2; ++wheel) values[wheel] = wheel_turn_[wheel] * wheel_radius_;
 }

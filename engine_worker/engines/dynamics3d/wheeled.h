@@ -6,6 +6,7 @@
 #include <array>
 
 #include "engine_worker/engines/dynamics3d/differential_drive.h"
+#include "engine_worker/engines/dynamics3d/jointed.h"
 #include "engine_worker/engines/dynamics3d/model.h"
 
 namespace swarmanoid::dynamics3d
@@ -39,12 +40,17 @@ class WheeledModel : public Model
 public:
   WheeledModel(Scene& scene, const CSwarmanoidSpaceEntity& entity, const WheeledShape& shape);
 
+  void Place(const Pose& pose) override;
+  double Reach() const override { return links_ ? links_->Reach() : 0; }
   void Command(std::string_view channel, std::span<const double> values) override;
   void Sense(std::string_view channel, std::span<double> values) const override;
   void BeginTick() override;
   void SetLeftOut(bool left_out) override;
   void BeforeStep(double seconds) override;
   void AfterStep(double seconds) override;
+  void Report(AttributeReport& report) const override;
+  void Save(ByteWriter& state) const override;
+  void Load(ByteReader& state) override;
   void SaveTick(ByteWriter& state) const override;
   void LoadTick(ByteReader& state) override;
 
@@ -67,6 +73,7 @@ public:
   void BecomeSolved();
 
 protected:
+  void FollowAttributes() override;
   // The wheels roll.
   void SetVelocity(const EntityVelocity& velocity) override;
   // Called after the closed form moved the robot by `seconds`.
@@ -84,6 +91,7 @@ private:
   double largest_free_rate_;  // rad/s, of the wheels of a free robot
   bool brakes_freely_;        // its wheels stay down at full braking; if false, only a steady robot is free
   DifferentialDrive drive_;
+  std::unique_ptr<JointedLinks> links_;           // nullptr: none
   int axles_[2] = {0, 0};                         // hinges: left, right
   std::array<double, 2> wheel_command_ = {0, 0};  // rad/s
   std::array<double, 2> wheel_turn_ = {0, 0};     // rad, of the last tick

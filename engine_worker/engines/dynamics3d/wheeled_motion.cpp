@@ -54,6 +54,7 @@ Box WheeledModel::CurrentBox() const
 
 double WheeledModel::LargestSpeed() const
 {
+  if (links_) return std::max(Model::LargestSpeed(), links_->LargestSpeed());
   if (!IsUpright()) return Model::LargestSpeed();
   const std::array<double, 2> rates = WheelRates();
   double rate = 0;

@@ -270,6 +270,7 @@ void Kinematics2dEngine::Update(const EngineCommands& commands, EngineUpdate& up
         sensors.subspan(block.offset, block.entities.size() * static_cast<std::size_t>(block.width));
     if (block.name == "footbot_encoders") ReadEncoders(block, values);
     if (block.name == "footbot_turret_torque") ReadTurretTorques(block, values);
+    robots_.Sense(block, values);
   }
 }
 

@@ -9,6 +9,8 @@
 #include "common/control_interface/ci_functions_channel.h"
 #include "common/control_interface/ci_ground_sensor.h"
 #include "common/control_interface/ci_gyroscope_sensor.h"
+#include "common/control_interface/ci_joints_actuator.h"
+#include "common/control_interface/ci_joints_sensor.h"
 #include "common/control_interface/ci_led_ring_actuator.h"
 #include "common/control_interface/ci_light_sensor.h"
 #include "common/control_interface/ci_microphone_sensor.h"
@@ -52,6 +54,7 @@
 #include "common/control_interface/handbot/ci_handbot_proximity_sensor.h"
 #include "common/control_interface/handbot/ci_handbot_rope_actuator.h"
 #include "tests/unit/devices/test_world.h"
+#include "tests/unit/engines/jointed_robots.h"
 
 namespace swarmanoid
 {
@@ -59,7 +62,7 @@ namespace
 {
 
 constexpr std::uint32_t kColour = 0x804020;
-constexpr std::uint32_t kFootbotPlace = 0, kHandbotPlace = 2, kEyebotPlace = 3;
+constexpr std::uint32_t kFootbotPlace = 0, kHandbotPlace = 2, kEyebotPlace = 3, kCartPlace = 11;
 
 // Something for every sensor to see: robots that are lit and send, a light, a prey, a patch, an eyebot above. With
 // `others_first` two entities stand before them in the file, out of sight.
@@ -94,6 +97,7 @@ public:
     AddBlock({7, 5.5, 2.1}, {0.2, 1, 0.4});
     Add(EntityKind::kSoundSource, {6, 6, 0.3}, 0, {0, 0, 0}, false, -1);
     AddBlock({4.83, 5.12, 0.1}, {0.06, 0.01, 0.02});  // beside the claws of the handbot's left hand
+    Add(test::CartWithArm(), {9, 1, 0}, 0, DescriptionOf(test::CartWithArm()).size);
     for (std::uint32_t e = 0; e < Configuration().entities.size(); ++e)
       Configuration().entities[e].id = e < others ? "other" + std::to_string(e) : "e" + std::to_string(e - others);
     for (const std::uint32_t robot : {kFootbotPlace, 1U, kHandbotPlace, kEyebotPlace})
@@ -134,6 +138,7 @@ std::vector<double> ReadingsOf(const CCI_Sensor& sensor)
   if (const auto* s = As<CCI_FootBotEncodersSensor>(sensor)) return Copied(s->GetAllSensorReadings());
   if (const auto* s = As<CCI_FootBotAccelerometerSensor>(sensor)) return Copied(s->GetAllSensorReadings());
   if (const auto* s = As<CCI_HandBotJointsSensor>(sensor)) return Copied(s->GetAllSensorReadings());
+  if (const auto* s = As<CCI_JointsSensor>(sensor)) return Copied(s->GetAllSensorReadings());
   if (const auto* s = As<CCI_HandBotProximitySensor>(sensor)) return Copied(s->GetAllSensorReadings());
   if (const auto* s = As<CCI_FootBotGripperSensor>(sensor)) return {s->GetAperture()};
   if (const auto* s = As<CCI_FootBotTurretEncoderSensor>(sensor)) return {s->GetTurretAngle()};
@@ -222,6 +227,7 @@ void Use(CCI_Actuator& actuator)
 {
   if (auto* a = As<CCI_FootBotWheelsActuator>(actuator)) return a->SetFootBotWheelsLinearVelocity(0.1, 0.2);
   if (auto* a = As<CCI_WheelsActuator>(actuator)) return a->SetLinearVelocity(0.1, 0.2);
+  if (auto* a = As<CCI_JointsActuator>(actuator)) return a->SetPosition(0, 0.1);
   if (auto* a = As<CCI_FootBotGripperActuator>(actuator)) return a->SetGripper(1);
   if (auto* a = As<CCI_FootBotTurretActuator>(actuator)) return a->SetTurretAngularVelocity(1);
   if (auto* a = As<CCI_FootBotLedsActuator>(actuator)) return a->SetAllColours(0x205040);
@@ -252,6 +258,7 @@ std::uint32_t RobotFor(const PluginDescription& device)
 {
   if (device.robots.empty()) return kFootbotPlace;
   const std::string& robot = device.robots.front();
+  if (robot == "kinds with joints") return kCartPlace;
   return robot == "footbot" ? kFootbotPlace : robot == "eyebot" ? kEyebotPlace : kHandbotPlace;
 }
 

@@ -94,10 +94,12 @@ public:
   {
     const auto* entry = PluginRegistry<Interface>::Instance().Find(type, implementation);
     if (entry == nullptr) throw std::runtime_error("no device " + type + " " + implementation);
-    const auto width = static_cast<std::size_t>(entry->description.channel_width);
+    auto width = static_cast<std::size_t>(entry->description.channel_width);
+    if (entry->description.channel_is_per_joint)
+      width *= DescriptionOf(world.Space().GetEntity(robots.front()).GetKind()).links.size();
     values.assign(width * robots.size(), 0);
     for (std::size_t k = 0; k < robots.size(); ++k) offsets_.push_back(k * width);
-    channel_ = {values, offsets_, entry->description.channel_width};
+    channel_ = {values, offsets_, static_cast<int>(width)};
     batch = entry->create();
     const bool is_sensor = std::is_same_v<Interface, SensorBatch>;
     batch->Init({Parameters(TreeOf(parameters), entry->description.parameters), world.Space(), robots,

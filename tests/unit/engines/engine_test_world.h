@@ -184,12 +184,18 @@ private:
     if (std::ranges::find(description_.channels, device.channel) == description_.channels.end() ||
         std::ranges::find(blocks, device.channel, &ChannelBlock::name) != blocks.end())
       return;
-    ChannelBlock block{device.channel, device.channel_width, {}, size};
+    std::size_t joints = 0;
+    for (const EntityConfiguration& entity : experiment.entities)
+      joints = std::max(joints, DescriptionOf(entity.kind).links.size());
+    const int width = device.channel_width * (device.channel_is_per_joint ? static_cast<int>(joints) : 1);
+    ChannelBlock block{device.channel, width, {}, size};
     for (std::uint32_t i = 0; i < experiment.entities.size(); ++i)
     {
       const EntityKind kind = experiment.entities[i].kind;
       const bool is_flight = device.channel == "eyebot_propellers" && DescriptionOf(kind).propellers;
-      if ((is_flight || device.channel.starts_with(std::string(TagName(kind)) + "_")) && !IsMirror(i))
+      const bool has_it = (device.channel == "joints" && !DescriptionOf(kind).links.empty()) ||
+                          (device.channel == "wheels" && !IsBuiltIn(kind) && DescriptionOf(kind).wheels);
+      if ((is_flight || has_it || device.channel.starts_with(std::string(TagName(kind)) + "_")) && !IsMirror(i))
         block.entities.push_back(i);
     }
     if (block.entities.empty() || (block.name == "footbot_turret" && !uses_turrets_)) return;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/unit/engines/jointed_robots.h"
 #include "tests/unit/engines/saved_state_bytes.h"
 #include "tests/unit/engines/test_quadrotor.h"
 #include "tests/unit/kinematics2d/engine_fixture.h"
@@ -114,6 +115,32 @@ TEST_P(PlaneRobotsIn, JointsTurnAtTheirSpeedsWithinTheirRanges)
   f.Ticks(30);
   EXPECT_NEAR(Attribute(robot, "head_angle"), 4 - 2 * kPi, 1e-9);  // turns on and on
   EXPECT_NEAR(Attribute(robot, "arm", 0), 1.0472, 1e-12);
+}
+
+TEST_P(PlaneRobotsIn, LinksOfRobotsOnWheelsFollowTheirCommands)
+{
+  const auto robot = f.Add(test::CartWithArm(), Vector3(2, 3, 0));
+  f.AddCommands("joints", 6, {robot});
+  f.AddSensors("joints", 9, {robot});
+  f.Command(0) = 1;  // lift: to a position, at its 0.2 m/s
+  f.Command(1) = 0.1;
+  f.Command(2) = 2;  // shoulder: at a speed
+  f.Command(3) = 1;
+  f.Command(4) = 1;  // elbow: beyond its range
+  f.Command(5) = 9;
+  f.Ticks(3);
+  EXPECT_NEAR(Attribute(robot, "joint_lift"), 0.06, 1e-12);
+  EXPECT_NEAR(f.Sensor(0), 0.06, 1e-12);
+  EXPECT_NEAR(f.Sensor(1), 0.2, 1e-9);
+  EXPECT_NEAR(f.Sensor(2), 0, 0);
+  EXPECT_NEAR(Attribute(robot, "joint_shoulder"), 0.3, 1e-12);
+  EXPECT_NEAR(Attribute(robot, "joint_elbow"), 0.9, 1e-12);
+  ReplaceEngineBySavedState();
+  f.Ticks(37);
+  EXPECT_NEAR(Attribute(robot, "joint_lift"), 0.1, 1e-12);
+  EXPECT_NEAR(f.Sensor(1), 0, 1e-12);
+  EXPECT_NEAR(f.Sensor(3), 4 - 2 * kPi, 1e-9);  // turns on and on
+  EXPECT_NEAR(f.Sensor(6), 1.2, 1e-12);
 }
 
 TEST_P(PlaneRobotsIn, ACommandThatIsNotANumberNamesRobotAndChannel)

@@ -128,7 +128,8 @@ TEST(UrdfKind, NotesWhatHasNoEffect)
               ElementsAre(HasSubstr("package://NAME/… is looked for in the folder NAME beside or above this file")));
   EXPECT_THAT(
       notes("", "<link name='arm'/><joint name='a' type='revolute'><parent link='base'/><child link='arm'/></joint>"),
-      ElementsAre(HasSubstr("the joint 'a' (revolute) stands still at zero")));
+      ElementsAre(HasSubstr("the joint 'a' (revolute) has no effort in its <limit>: on a robot with driven wheels it "
+                            "stands still at zero")));
   EXPECT_THAT(notes(Box("0.1 0.1 0.1", "<origin rpy='0 0 0.5'/>", "visual"), ""),
               ElementsAre(HasSubstr("a box that is turned is drawn as the upright one")));
   EXPECT_THAT(TextsOf(WithBase(body).notes),
@@ -175,6 +176,119 @@ TEST(UrdfKind, PartsHaveTheirOwnColours)
   EXPECT_EQ(read.kind.mesh[0].paint, MeshPart::Paint::kBody);
   EXPECT_EQ(read.kind.mesh[1].paint, MeshPart::Paint::kOwn);
   EXPECT_EQ(read.kind.mesh[1].colour, 0x0000ffU);
+}
+
+TEST(UrdfKind, HasLinksOnTheJointsThatAreNotItsWheels)
+{
+  const std::string inertial =
+      "<inertial><origin xyz='0.1 0 0'/><mass value='0.3'/><inertia ixx='0.001' ixy='0' ixz='0' iyy='0.002' iyz='0' "
+      "izz='0.003'/></inertial>";
+  const std::string limit = "<limit lower='0.2' upper='0.9' effort='2' velocity='3'/><dynamics damping='0.1'/>";
+  // An arm on a post that is turned to the left, and a finger fixed at its end.
+  const UrdfKind read = WithBase(
+      "<inertial><mass value='2'/></inertial>" + Box("0.2 0.4 0.1", "<origin xyz='0.1 0 0.05'/>"), kWheels,
+      "<link name='post'/><joint name='p' type='fixed'><parent link='base'/><child link='post'/><origin xyz='0.1 0 "
+      "0.2' "
+      "rpy='0 0 1.5707963267948966'/></joint><link name='arm'>" +
+          inertial + Box("0.2 0.02 0.02", "<origin xyz='0.1 0 0'/>") +
+          "</link><joint name='shoulder' type='revolute'><parent link='post'/><child link='arm'/><axis xyz='0 2 0'/>" +
+          limit + "</joint><link name='finger'>" + inertial +
+          "</link><joint name='f' type='fixed'><parent link='arm'/><child link='finger'/><origin xyz='0.2 0 "
+          "0'/></joint>");
+  EXPECT_THAT(TextsOf(read.errors), IsEmpty());
+  ASSERT_EQ(read.kind.links.size(), 1U);
+  EXPECT_FALSE(read.kind.base.has_value());
+  EXPECT_TRUE(read.kind.size.isApprox(Vector3(0.2, 0.4, 0.15), 1e-9)) << "without the arm";
+  const MovingLink& arm = read.kind.links[0];
+  EXPECT_EQ(arm.joint, "shoulder");
+  EXPECT_EQ(arm.attribute, "joint_shoulder");
+  EXPECT_EQ(arm.parent, MovingLink::kBase);
+  EXPECT_FALSE(arm.slides);
+  EXPECT_TRUE(arm.anchor.isApprox(Vector3(0, 0, 0.25), 1e-9)) << arm.anchor.transpose();
+  EXPECT_TRUE(arm.axis.isApprox(Vector3(-1, 0, 0), 1e-9)) << arm.axis.transpose();
+  EXPECT_EQ(arm.lowest, 0.2);
+  EXPECT_EQ(arm.Start(), 0.2);
+  EXPECT_EQ(arm.highest, 0.9);
+  EXPECT_EQ(arm.effort, 2);
+  EXPECT_EQ(arm.max_speed, 3);
+  EXPECT_EQ(arm.damping, 0.1);
+  // Arm and finger: 0.1 and 0.3 m along the arm, which points to the left.
+  EXPECT_DOUBLE_EQ(arm.body.mass_kg, 0.6);
+  EXPECT_TRUE(arm.body.centre_of_mass.isApprox(Vector3(0, 0.2, 0.25), 1e-9)) << arm.body.centre_of_mass.transpose();
+  const Vector3 moments(2 * 0.002 + 0.6 * 0.01, 2 * 0.001, 2 * 0.003 + 0.6 * 0.01);
+  EXPECT_TRUE(arm.body.inertia.isApprox(Eigen::Matrix3d(moments.asDiagonal()), 1e-9)) << arm.body.inertia;
+  ASSERT_EQ(arm.body.shapes.size(), 1U);
+  EXPECT_TRUE(arm.body.shapes[0].pose.position.isApprox(Vector3(0, 0.1, 0.25), 1e-9));
+}
+
+TEST(UrdfKind, StandsOnItsLinksWithoutDrivenWheels)
+{
+  const std::string inertial = "<inertial><mass value='1'/><inertia ixx='0.01' iyy='0.01' izz='0.01'/></inertial>";
+  const std::string leg = "<link name='leg'>" + inertial + Box("0.02 0.02 0.3", "<origin xyz='0 0 -0.15'/>") +
+                          "</link><link name='foot'>" + inertial + "</link>";
+  const std::string joints =
+      "<joint name='toe' type='continuous'><parent link='leg'/><child link='foot'/><origin xyz='0 0 -0.3'/><axis "
+      "xyz='0 1 "
+      "0'/></joint><joint name='knee' type='prismatic'><parent link='body'/><child link='leg'/><origin xyz='0.1 0 0'/>"
+      "<axis xyz='0 0 1'/><limit lower='0.1' upper='0.2' effort='5' velocity='1'/></joint>";
+  const UrdfKind read = Read("<link name='body'>" + inertial + Box("0.4 0.2 0.1") + "</link>" + leg + joints);
+  EXPECT_THAT(TextsOf(read.errors), IsEmpty());
+  const EntityKindDescription& kind = read.kind;
+  ASSERT_TRUE(kind.base.has_value());
+  EXPECT_FALSE(kind.wheels.has_value());
+  // The leg starts 0.1 m up, and ends 0.2 m below the body's frame then.
+  EXPECT_TRUE(kind.size.isApprox(Vector3(0.4, 0.2, 0.45 - 0.2), 1e-9)) << kind.size.transpose();
+  EXPECT_TRUE(kind.base->centre_of_mass.isApprox(Vector3(0, 0, 0.2), 1e-9)) << kind.base->centre_of_mass.transpose();
+  // A joint comes after the one that carries it.
+  ASSERT_EQ(kind.links.size(), 2U);
+  EXPECT_EQ(kind.links[0].joint, "knee");
+  EXPECT_TRUE(kind.links[0].slides);
+  EXPECT_EQ(kind.links[1].joint, "toe");
+  EXPECT_EQ(kind.links[1].parent, 0);
+  EXPECT_EQ(kind.links[1].effort, 0);
+  EXPECT_TRUE(kind.links[1].IsEndless());
+}
+
+TEST(UrdfKind, RefusesJointsThatCannotMove)
+{
+  const std::string good = "<inertial><mass value='1'/><inertia ixx='0.01' iyy='0.01' izz='0.01'/></inertial>";
+  const auto refusal = [&](const std::string& type, const std::string& more, const std::string& inertial,
+                           const std::string& name = "hip")
+  {
+    const UrdfKind read = Read("<link name='body'>" + good + Box("0.4 0.2 0.1") + "</link>\n<link name='leg'>" +
+                               inertial + "</link>\n<joint name='" + name + "' type='" + type +
+                               "'><parent link='body'/><child link='leg'/>" + more + "</joint>\n");
+    const std::vector<std::string> texts = TextsOf(read.errors);
+    return texts.empty() ? std::string("none") : texts.front();
+  };
+  const std::string limit = "<limit lower='-1' upper='1' effort='2' velocity='3'/>";
+  EXPECT_EQ(refusal("revolute", limit, good), "none");
+  EXPECT_EQ(refusal("continuous", "", good), "none");
+  EXPECT_THAT(
+      refusal("revolute", "", good),
+      HasSubstr("r.urdf:4:1: the joint 'hip' (revolute) needs a <limit> with lower, upper, effort and velocity"));
+  EXPECT_THAT(
+      refusal("prismatic", "<limit lower='0' upper='1' velocity='3'/>", good),
+      HasSubstr("the <limit> of the joint 'hip' needs an 'effort' of 0 or more, and a 'velocity' of more than 0"));
+  EXPECT_THAT(refusal("revolute", "<limit lower='0' upper='1' effort='2' velocity='0'/>", good),
+              HasSubstr("unless the effort is 0"));
+  EXPECT_THAT(refusal("revolute", "<limit effort='2' velocity='3'/>", good),
+              HasSubstr("goes from 0 to 0; 'lower' must be less than 'upper'"));
+  EXPECT_THAT(refusal("revolute", "<limit lower='-4' upper='1' effort='2' velocity='3'/>", good),
+              HasSubstr("goes from -4 to 1 rad; it must be within -3.12 and 3.12, or the joint continuous"));
+  EXPECT_THAT(
+      refusal("revolute", limit, ""),
+      HasSubstr("r.urdf:3:1: the link 'leg' moves by the joint 'hip' and needs an <inertial> with a <mass> of more"));
+  EXPECT_THAT(refusal("revolute", limit, "<inertial><mass value='1'/></inertial>"),
+              HasSubstr("the link 'leg' moves by the joint 'hip' and needs an <inertia>"));
+  EXPECT_THAT(
+      refusal("revolute", limit, "<inertial><mass value='1'/><inertia ixx='0.01' iyy='0.01' izz='0.05'/></inertial>"),
+      HasSubstr("has the principal moments 0.01, 0.01 and 0.05 kg m²"));
+  EXPECT_THAT(refusal("revolute", limit + "<mimic joint='other'/>", good), HasSubstr("follows another one by <mimic>"));
+  EXPECT_THAT(refusal("revolute", limit + "<dynamics damping='-1'/>", good), HasSubstr("must be at least 0"));
+  EXPECT_THAT(refusal("floating", "", good), HasSubstr("is of type floating, which no engine moves"));
+  EXPECT_THAT(refusal("planar", "", good), HasSubstr("is of type planar"));
+  EXPECT_THAT(refusal("revolute", limit, good, "a b"), HasSubstr("its name consists of 1 to 64 letters"));
 }
 
 TEST(UrdfKind, RefusesWithThePlaceInTheFile)

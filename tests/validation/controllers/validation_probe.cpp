@@ -9,6 +9,7 @@
 #include "ci_controller.h"
 #include "ci_directional_leds_actuator.h"
 #include "ci_floor_field.h"
+#include "ci_joints_actuator.h"
 #include "ci_radio.h"
 #include "ci_range_and_bearing.h"
 #include "ci_wheels_actuator.h"
@@ -137,6 +138,8 @@ private:
     else if (command.device == "radio")
       robot.Actuator<CCI_RadioActuator>("radio").Send(
           std::vector<std::uint8_t>(static_cast<std::size_t>(values[0]), 1));
+    else if (command.device == "joints")
+      robot.Actuator<CCI_JointsActuator>("joints").SetAllActuatorOutputs(values);
     else
       throw std::invalid_argument("no command for the actuator " + command.device);
   }
