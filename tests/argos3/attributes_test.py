@@ -139,4 +139,4 @@ class Attributes(RunningTest):
         for element in root.iter():
             if element.tag != "params":
                 self.assertRegex(stderr, rf"'colur' of <{element.tag}> has no effect here")
-        self.assertRegex(stderr, r"'colur' of <body> has no effect here \(also at \d+:\d+, \d+:\d+, \d+:\d+, \d+:\d+\)")
+        self.assertRegex(stderr, r"'colur' of <body> has no effect here \(also at (\d+:\d+, ){4}\d+:\d+\)")
