@@ -90,7 +90,7 @@ void DescribeAnyRobotDevices()
                               .default_value = "position",
                               .description = "Whether its columns, one for each joint, are positions or speeds.",
                               .choices = {"position", "velocity"}}},
-                            NoiseParameters("each position, and each speed of a joint that is told to move", "")),
+                            NoiseParameters("each command of a joint that moves", "")),
        .robots = {kJointed},
        .channel = "joints",
        .channel_width = kJointCommandWidth,

@@ -236,8 +236,8 @@ TEST(UrdfKind, StandsOnItsLinksWithoutDrivenWheels)
   const EntityKindDescription& kind = read.kind;
   ASSERT_TRUE(kind.base.has_value());
   EXPECT_FALSE(kind.wheels.has_value());
-  // The leg starts 0.1 m up, and ends 0.2 m below the body's frame then.
-  EXPECT_TRUE(kind.size.isApprox(Vector3(0.4, 0.2, 0.45 - 0.2), 1e-9)) << kind.size.transpose();
+  // The leg starts 0.1 m up: it reaches from 0.2 m below the frame of the body to 0.1 m above it.
+  EXPECT_TRUE(kind.size.isApprox(Vector3(0.4, 0.2, 0.3), 1e-9)) << kind.size.transpose();
   EXPECT_TRUE(kind.base->centre_of_mass.isApprox(Vector3(0, 0, 0.2), 1e-9)) << kind.base->centre_of_mass.transpose();
   // A joint comes after the one that carries it.
   ASSERT_EQ(kind.links.size(), 2U);
