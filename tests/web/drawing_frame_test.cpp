@@ -5,7 +5,9 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "tests/unit/engines/jointed_robots.h"
 #include "tests/web/four_entities.h"
+#include "visualiser/web/drawn_links.h"
 
 namespace swarmanoid
 {
@@ -56,6 +58,31 @@ TEST(DrawingFrame, HasLinesTrianglesDotsAndTextsInTheSpace)
   EXPECT_EQ(texts[0][2], 1);
   EXPECT_EQ(texts[0][3], 0xffU);
   EXPECT_EQ(texts[0][4], "fb \"0\" \xc3\xa9\xef\xbf\xbd") << "what is no UTF-8 is replaced";
+}
+
+TEST(DrawnLinks, FollowTheJointsOfRobotsInTheArena)
+{
+  Experiment experiment = FourEntities::Make();
+  test::Add(experiment, test::Entity(test::CartWithArm(), "cart", {1, 3, 0}, {0.3, 0.2, 0.4}, true));
+  CSwarmanoidSpace space(experiment);
+  const DrawnLinks links(space);
+  ASSERT_TRUE(links.AreThere());
+  std::vector<DrawnMarks::Triangle> before, lifted;
+  links.Add(before);
+  // The boxes of the upper arm and the hand; the mast has no shape.
+  EXPECT_EQ(before.size(), 24U);
+  space.SetAttribute(space.GetEntity(4).SlotOf("joint_lift"), 0.1);
+  links.Add(lifted);
+  ASSERT_EQ(lifted.size(), before.size());
+  for (std::size_t k = 0; k < before.size(); ++k)
+    for (std::size_t corner = 0; corner < 3; ++corner)
+    {
+      const Eigen::Vector3f moved = lifted[k].corners[corner] - before[k].corners[corner];
+      EXPECT_NEAR((moved - Eigen::Vector3f(0, 0, 0.1F)).norm(), 0, 1e-6);
+      EXPECT_LT((before[k].corners[corner] - Eigen::Vector3f(1.3F, 3, 0.1F)).norm(), 0.4F) << "beside the cart";
+    }
+  FourEntities four;
+  EXPECT_FALSE(DrawnLinks(four.space).AreThere());
 }
 
 }  // namespace

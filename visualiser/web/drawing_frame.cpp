@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/space/space.h"
+#include "visualiser/web/drawn_links.h"
 
 namespace swarmanoid
 {
@@ -31,10 +32,11 @@ char* AppendAll(char* place, const std::vector<Value>& values)
 
 }  // namespace
 
-std::string DrawingBytes(const DrawnState& state)
+std::string DrawingBytes(const DrawnState& state, const DrawnLinks* links)
 {
   DrawnMarks marks;
   CutDrawing(state, marks);
+  if (links != nullptr) links->Add(marks.triangles);
   std::vector<DrawingLine> lines;
   for (const DrawnMarks::Line& line : marks.lines)
   {

@@ -48,7 +48,9 @@ struct DrawingDot
 };
 static_assert(sizeof(DrawingDot) == 20);
 
-// Returns the message for the current tick.
-std::string DrawingBytes(const DrawnState& state);
+class DrawnLinks;
+
+// Returns the message for the current tick, with the moving links of robots if `links` has them.
+std::string DrawingBytes(const DrawnState& state, const DrawnLinks* links = nullptr);
 
 }  // namespace swarmanoid

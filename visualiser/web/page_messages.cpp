@@ -142,7 +142,8 @@ Json Look(EntityKind kind, const Experiment& experiment)
   look["radius"] = is_box ? row.size.head<2>().norm() / 2 : row.size.x();
   look["height"] = row.size.z();
   look["colour"] = row.colour;
-  if (IsThere(kind, experiment)) look["model"] = Json::parse(ModelAsJson(KindModel(row, experiment)));
+  // Links that move come with the drawing (DrawnLinks).
+  if (IsThere(kind, experiment)) look["model"] = Json::parse(ModelAsJson(LinkModels(row, experiment).front()));
   return look;
 }
 

@@ -23,6 +23,7 @@
 #include "common/space/space.h"
 #include "visualiser/renderer_library.h"
 #include "visualiser/web/drawing_frame.h"
+#include "visualiser/web/drawn_links.h"
 
 namespace swarmanoid
 {
@@ -67,6 +68,7 @@ void CWebRender::Init(const RenderSetup& setup)
   const Parameters& parameters = setup.parameters;
   space_ = &setup.space;
   drawn_state_ = std::make_unique<DrawnState>(*space_);
+  drawn_links_ = std::make_unique<DrawnLinks>(*space_);
   control_ = setup.control;
   monitor_ = setup.monitor;
   linger_s_ = parameters.Number("linger");
@@ -235,13 +237,13 @@ void CWebRender::SendDrawing()
   const bool is_empty = space_->GetDrawing().IsEmpty();
   if (drawing_revision_ == space_->DrawingRevision() && drawn_fields_ == space_->Fields().Revision() &&
       (is_empty || drawing_poses_ == space_->Revision()) &&
-      (!drawn_state_->Changes() || drawn_tick_ == space_->GetTick()))
+      (!(drawn_state_->Changes() || drawn_links_->AreThere()) || drawn_tick_ == space_->GetTick()))
     return;
   drawing_revision_ = space_->DrawingRevision();
   drawn_fields_ = space_->Fields().Revision();
   drawing_poses_ = space_->Revision();
   drawn_tick_ = space_->GetTick();
-  const WebServer::Bytes bytes = Shared(DrawingBytes(*drawn_state_));
+  const WebServer::Bytes bytes = Shared(DrawingBytes(*drawn_state_, drawn_links_.get()));
   host_->Server().Publish(WebServer::Slot::kDrawing, bytes);
   const std::chrono::duration<double> transfer(static_cast<double>(bytes->size()) / bytes_per_second_);
   drawing_due_ = std::max({drawing_due_, Clock::now() + kMarksShare * (Clock::now() - start),

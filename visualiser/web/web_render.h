@@ -94,6 +94,7 @@ private:
   std::uint64_t drawn_fields_ = 1;                // the revision of the floor fields that pages have
   std::uint64_t drawing_poses_ = 0;
   std::unique_ptr<DrawnState> drawn_state_;
+  std::unique_ptr<DrawnLinks> drawn_links_;
   std::uint64_t drawn_tick_ = ~0ULL;
   std::uint64_t marked_revision_ = 0, marked_attributes_ = 0;
 
