@@ -23,7 +23,6 @@
 #include "common/space/space.h"
 #include "visualiser/renderer_library.h"
 #include "visualiser/web/drawing_frame.h"
-#include "visualiser/web/drawn_links.h"
 
 namespace swarmanoid
 {

@@ -14,6 +14,7 @@
 #include "common/space/drawn_state.h"
 #include "visualiser/playback_reader.h"
 #include "visualiser/render.h"
+#include "visualiser/web/drawn_links.h"
 #include "visualiser/web/log_follower.h"
 #include "visualiser/web/marks.h"
 #include "visualiser/web/page_messages.h"
