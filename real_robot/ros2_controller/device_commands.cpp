@@ -133,7 +133,7 @@ void Turret(const TopicSetup& setup, const std::string& type, Topics& topics)
 }
 
 // Reads positions or velocities of joints by name. A joint with both gets its position.
-void Joints(const TopicSetup& setup, const std::string& type, Topics& topics)
+void JointCommands(const TopicSetup& setup, const std::string& type, Topics& topics)
 {
   auto* joints = &setup.robot.Actuator<CCI_JointsActuator>(type);
   setup.Add<JointState>(topics, "joint_commands",
@@ -230,7 +230,7 @@ const std::map<std::string, TopicMaker>& TopicMakers()
   static const std::map<std::string, TopicMaker> makers{
       {"eyebot_attachment", Magnet}, {"eyebot_laser", Laser},      {"eyebot_leds", Leds<CCI_EyeBotLedsActuator>},
       {"footbot_beacon", Beacon},    {"footbot_gripper", Gripper}, {"footbot_leds", Leds<CCI_FootBotLedsActuator>},
-      {"footbot_turret", Turret},    {"joints", Joints},           {"range_and_bearing", Sender},
+      {"footbot_turret", Turret},    {"joints", JointCommands},    {"range_and_bearing", Sender},
   };
   return makers;
 }
