@@ -232,7 +232,10 @@ TEST(JointedRobots, TheirLinksTouchOtherRobots)
 TEST(JointedRobots, WalkForwardOnSixLegsAndStayLevel)
 {
   const std::string file = SWARMANOID_SOURCE_FOLDER "/configs/urdf/hexapod.urdf";
-  if (!KindOfTag("hexapod")) ASSERT_TRUE(RegisterUrdfKind("hexapod", file).empty());
+  if (!KindOfTag("hexapod"))
+  {
+    ASSERT_TRUE(RegisterUrdfKind("hexapod", file).empty());
+  }
   const EntityKind kind = *KindOfTag("hexapod");
   const std::vector<MovingLink>& links = DescriptionOf(kind).links;
   ASSERT_EQ(links.size(), 12U);

@@ -338,11 +338,12 @@ TEST(MistakesTogether, EnginesOfPlanesRefuseRobotsThatStandOnLinks)
 {
   const auto told = [](const std::string& engine)
   {
-    return ErrorsOf(ExperimentText{.kinds = "<hexapod urdf='" SWARMANOID_SOURCE_FOLDER "/configs/urdf/hexapod.urdf'/>",
-                                   .size = "9,9,3",
-                                   .arena = "<hexapod id='h' position='1,1,0'/>",
-                                   .engines = "<" + engine + " id='e'/>"}
-                        .Text());
+    return ErrorsOf(
+        test::ExperimentText{.kinds = "<hexapod urdf='" SWARMANOID_SOURCE_FOLDER "/configs/urdf/hexapod.urdf'/>",
+                             .size = "9,9,3",
+                             .arena = "<hexapod id='h' position='1,1,0'/>",
+                             .engines = "<" + engine + " id='e'/>"}
+            .Text());
   };
   EXPECT_THAT(
       told("dynamics2d"),
