@@ -7,6 +7,7 @@
 
 #include "common/experiment/diagnostics.h"
 #include "common/mesh/convex_hull.h"
+#include "test_folders.h"
 #include "tests/unit/experiment/fake_plugins.h"
 #include "tests/world/experiment_text.h"
 
@@ -338,12 +339,11 @@ TEST(MistakesTogether, EnginesOfPlanesRefuseRobotsThatStandOnLinks)
 {
   const auto told = [](const std::string& engine)
   {
-    return ErrorsOf(
-        test::ExperimentText{.kinds = "<hexapod urdf='" SWARMANOID_SOURCE_FOLDER "/configs/urdf/hexapod.urdf'/>",
-                             .size = "9,9,3",
-                             .arena = "<hexapod id='h' position='1,1,0'/>",
-                             .engines = "<" + engine + " id='e'/>"}
-            .Text());
+    return ErrorsOf(ExperimentText{.kinds = "<hexapod urdf='" SWARMANOID_SOURCE_FOLDER "/configs/urdf/hexapod.urdf'/>",
+                                   .size = "9,9,3",
+                                   .arena = "<hexapod id='h' position='1,1,0'/>",
+                                   .engines = "<" + engine + " id='e'/>"}
+                        .Text());
   };
   EXPECT_THAT(
       told("dynamics2d"),
