@@ -1,5 +1,6 @@
 // Links that joints move, against closed forms: pendulums, motors with limited speed and effort, stops, lifts. Walkers
 // walk, and give the same bits after a restart and in regions and threads.
+#include "test_folders.h"
 #include "tests/unit/engines/jointed_robots.h"
 
 #include "dynamics3d_test_world.h"
