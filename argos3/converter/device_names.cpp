@@ -609,8 +609,15 @@ void ConvertActuator(const ConfigurationNode& node, const DeviceContext& context
     attributes.Number("noise_std_dev");
   }
   else if ((tag == "leds" && generic != nullptr) || tag == "kilobot_led" || tag == "epuck_rgb_leds" ||
-           tag == "epuck_base_leds" || tag == "pipuck_leds")
+           tag == "epuck_base_leds")
     add_leds("led_ring");
+  else if (tag == "pipuck_leds")
+  {
+    // They are in a medium of ARGoS3 that none of the cameras here sees. So they look straight up, in no cone.
+    ConfigurationNode& device = AddDevice(ours.actuators, "directional_leds", "generic_directional_leds", at);
+    SetValue(device, "observable_angle", "0", at);
+    SetValue(device, "elevation", "90", at);
+  }
   else if (tag == "leds")
   {
     add_leds("footbot_leds");

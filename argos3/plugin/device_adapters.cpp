@@ -283,7 +283,9 @@ std::unique_ptr<SensorBridge> MakeSensor(const std::string& tag, const DeviceSet
 std::unique_ptr<ActuatorBridge> MakeActuator(const std::string& tag, const DeviceSetup& setup)
 {
   if (tag == "leds" && setup.robot.GetKind() == "eyebot") return std::make_unique<RingLeds>(setup, "eyebot_leds");
-  if (tag == "leds" && IsGeneric(setup.robot)) return std::make_unique<RingLeds>(setup, "led_ring");
+  if (tag == "leds" && IsGeneric(setup.robot))
+    return std::make_unique<RingLeds>(setup,
+                                      setup.robot.HasActuator("directional_leds") ? "directional_leds" : "led_ring");
   if (tag == "range_and_bearing") return std::make_unique<RangeAndBearingSender>(setup);
   if (auto flies = MakeEyeBotActuator(tag, setup)) return flies;
   return IsGeneric(setup.robot) ? MakeGenericActuator(tag, setup) : MakeFootBotActuator(tag, setup);

@@ -1,6 +1,7 @@
 """Pi-Pucks of ARGoS3: readings by its formulas, wheels, LEDs, scripts and loop functions."""
 import math
 import re
+import shutil
 
 from running import HERE, RunningTest
 
@@ -41,8 +42,13 @@ class PiPuck(RunningTest):
             for value, right in zip(map(float, direction.split(",")), (dx, side * dy, 0)):
                 self.assertAlmostEqual(value, right, places=2)
         self.assertRegex(said, r"robot 'k' at tick \d+: ground 0:0:0.03,0.01,0.002:origin:-1 1:1:0.03,0,0.002:origin:-1 2:1:0.03,-0.01,0.002:origin:-1")
-        # The omnidirectional camera sees no directional LEDs, as in ARGoS3.
-        self.assertEqual(set(re.findall(r"robot 'watcher' at tick \d+: blobs (\d+)", said)), {"0"})
+
+    def test_cameras_see_no_directional_leds_as_in_argos3(self):
+        shutil.copytree(HERE / "scripts", self.folder / "scripts")
+        for heading in (0, 45, 90, 135):
+            file = self.changed("pipuck.argos", ('position="0.1,0,0" orientation="90,0,0"', f'position="0.1,0,0" orientation="{heading},0,0"'))
+            self.swarmanoid("run", file, "--output", f"run{heading}")
+            self.assertEqual(set(re.findall(r"robot 'watcher' at tick \d+: blobs (\d+)", self.said_in(f"run{heading}"))), {"0"}, heading)
 
     def test_wheels_and_leds_follow_the_commands(self):
         said = self.swarmanoid("run", HERE / "pipuck.argos", "--output", "run").stderr + self.said_in("run")

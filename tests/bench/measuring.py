@@ -75,7 +75,8 @@ class Bench:
         if process.returncode != 0 or not finished:
             sys.exit(f"{' '.join(words)} failed:\n{text}")
         self.memory = usage.ru_maxrss * 1024 / 1e6
-        return (int(finished.group(1)) - since) / float(finished.group(4))
+        # Shorter times than the last digit are no time.
+        return (int(finished.group(1)) - since) / max(float(finished.group(4)), 1e-6)
 
     def single(self, file, ticks, *options):
         return lambda build: self.finish(self.words(build, file(build), ticks, "--single-process", *options))

@@ -111,7 +111,7 @@ void CDynamics2dEngine::AddEntity(const CSwarmanoidSpaceEntity& entity, EBinding
       BodyModel model = MovableModel(entity, EMotion::kDynamic, plane_, parameters_);
       model.has_turret_motor = std::binary_search(turret_robots_.begin(), turret_robots_.end(), entity.GetIndex());
       body = world_->AddBody(std::move(model), pose);
-      owned_.push_back({&entity, body, stance, stance});
+      owned_.push_back({&entity, body, stance, stance, pose});
       robots_.AddOwned(entity);
       if (DescriptionOf(entity.GetKind()).mechanism != Mechanism::kTurretGripper) break;
       footbot_of_entity_[entity.GetIndex()] = static_cast<std::uint32_t>(footbots_.size());
@@ -378,9 +378,17 @@ void CDynamics2dEngine::BeginAgain()
 {
   for (const Footbot& footbot : footbots_)
     world_->SetTurretAngle(footbot.body, space_->Attributes()[footbot.turret_slot]);
-  // A stance computed from a pose is rounded. If it is nearly the first stance, it becomes the first one to the last
-  // bit.
+  // A pose or stance computed from a pose of the space is rounded. If it is nearly the first one, it becomes the first
+  // one to the last bit.
   constexpr double kSame = 1e-12;
+  for (const Owned& owned : owned_)
+  {
+    const PlanePose pose = world_->PoseOf(owned.body);
+    const PlanePose& first = owned.first_pose;
+    if (std::abs(pose.u - first.u) < kSame && std::abs(pose.v - first.v) < kSame &&
+        std::abs(WrapAngle(pose.heading - first.heading)) < kSame)
+      world_->Place(owned.body, first);
+  }
   for (Owned& owned : owned_)
     if (std::abs(owned.stance.height - owned.first_stance.height) < kSame &&
         1 - std::abs(owned.stance.lean.dot(owned.first_stance.lean)) < kSame)

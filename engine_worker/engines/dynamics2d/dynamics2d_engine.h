@@ -45,6 +45,7 @@ private:
     const CSwarmanoidSpaceEntity* entity;
     int body;
     PlaneStance stance, first_stance;
+    PlanePose first_pose;
   };
   // A body that another engine moves.
   struct Mirror

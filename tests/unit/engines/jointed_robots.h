@@ -79,7 +79,7 @@ inline EntityKind FourLegs()
 }
 
 // A cart on two wheels with an arm of two joints and a lift.
-inline EntityKind CartWithArm()
+inline std::string LinksOfCartWithArm()
 {
   std::string text = UrdfLink("base", Inertial(3, 0.02) + UrdfBox("0.3 0.2 0.08"));
   for (const std::string side : {"left", "right"})
@@ -97,7 +97,8 @@ inline EntityKind CartWithArm()
   text += UrdfJoint("lift", "prismatic", "base", "mast", "0 0 0.02", "0 0 1", UrdfLimit(0, 0.2, 30, 0.2));
   text += UrdfJoint("shoulder", "continuous", "mast", "upper", "0 0 0.05", "0 0 1", "<limit effort='2' velocity='2'/>");
   text += UrdfJoint("elbow", "revolute", "upper", "hand", "0.2 0 0", "0 1 0", UrdfLimit(-1, 1.2, 2, 3));
-  return KindOfUrdf("test_cart_with_arm", text);
+  return text;
 }
+inline EntityKind CartWithArm() { return KindOfUrdf("test_cart_with_arm", LinksOfCartWithArm()); }
 
 }  // namespace swarmanoid::test

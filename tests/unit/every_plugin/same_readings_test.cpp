@@ -21,8 +21,10 @@
 #include "simulation/simulator.h"
 #include "space_server/experiment_functions.h"
 #include "test_folders.h"
+#include "tests/unit/engines/jointed_robots.h"
 #include "tests/unit/every_plugin/small_scene.h"
 #include "tests/world/experiment_text.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -191,7 +193,14 @@ const std::vector<CarryingRobot>& Robots()
         {"eyebot_attachment", "dummy_eyebot_attachment", {1}, 0, 10}},
        {},
        true},
-      {"epuck", "epuck", "1,10,0", "0,0,90", {{"wheels", "generic_wheels", {4, 4}}}, {}}};
+      {"epuck", "epuck", "1,10,0", "0,0,90", {{"wheels", "generic_wheels", {4, 4}}}, {}},
+      // Of the lift, the shoulder and the elbow.
+      {"carrier",
+       "test_cart_with_arm",
+       "4,10,0",
+       "0,0,0",
+       {{"joints", "generic_joints", {0.15, 1, -0.5}}},
+       {{"joints", "generic_joints"}}}};
   return robots;
 }
 
@@ -286,7 +295,11 @@ const std::vector<Reading>& Readings()
       {"hanger.x", 2, 0.01, "eyebot_attach", {{"kinematics2d", 2.26}, {"dynamics2d", 2.024}}},
       {"leaver.attached", 0, 0, "eyebot_attach"},
       {"leaver.x", 6 + 0.3 * 0.9, 0.15, "eyebot_attach"},
-      {"epuck.y", 10 + 4 * kEpuckWheel_m * kSeconds, 0.02, "wheels"}};
+      {"epuck.y", 10 + 4 * kEpuckWheel_m * kSeconds, 0.02, "wheels"},
+      {"carrier.joints.lift position", 0.15, 0.005, "joints"},
+      {"carrier.joints.shoulder position", 1, 0.03, "joints"},
+      {"carrier.joints.elbow position", -0.5, 0.01, "joints"},
+      {"carrier.joints.lift velocity", 0, 0.01, "joints"}};
   return readings;
 }
 
@@ -352,9 +365,12 @@ bool Serves(const std::string& engine, const std::string& channel)
 std::map<std::string, double> SeenIn(const Engine& engine, const std::string& without = "none",
                                      const std::function<void(CSimulator&)>& change = {})
 {
+  static const test::TemporaryFolder folder;
+  static const std::string cart =
+      folder.Write("cart.urdf", "<robot name='r'>\n" + test::LinksOfCartWithArm() + "</robot>");
   test::ExperimentText text{.framework = fmt::format("<maxclock>{}</maxclock><plugin_path>{}</plugin_path>",
                                                      kTicksOfScene, SWARMANOID_BUILD_FOLDER "/lib/swarmanoid"),
-                            .kinds = "<epuck library='epuck'/>",
+                            .kinds = "<epuck library='epuck'/><test_cart_with_arm urdf='" + cart + "'/>",
                             .size = fmt::format("12,12,{}", kCeiling_m),
                             .arena = kThings,
                             .engines = fmt::format("<{0} id='ground' {1}/><{0} id='ceiling' {2}/>", engine.label,
@@ -509,6 +525,23 @@ TEST(SameReadings, EachDeviceOfAnEngineIsInTheScene)
           << NameOfPlugin(kind, device->label, device->implementation)
           << " exchanges values with engines: add it to Robots() and what it reads to Readings()";
     }
+}
+
+TEST(SameReadings, EnginesOfPlanesRefuseRobotsThatStandOnLinks)
+{
+  RegisterEverything();
+  for (const Engine& engine : Engines())
+  {
+    const test::ExperimentText text{.kinds = "<hexapod urdf='" SWARMANOID_SOURCE_FOLDER "/configs/urdf/hexapod.urdf'/>",
+                                    .arena = "<hexapod id='h' position='1,1,0'/>",
+                                    .engines = "<" + engine.label + " id='e'/>"};
+    const LoadedExperiment loaded = LoadExperimentText(text.Text(), "test.xml", "/nowhere", {});
+    const std::string expected = "the hexapod 'h' stands on links that joints move, which the engine 'e' (" +
+                                 engine.label + ") cannot move; use dynamics3d";
+    const bool is_refused = std::ranges::any_of(
+        loaded.errors, [&](const Diagnostic& error) { return error.message.find(expected) != std::string::npos; });
+    EXPECT_EQ(is_refused, engine.label != "dynamics3d") << engine.label;
+  }
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 
 #include "common/experiment/diagnostics.h"
 #include "common/mesh/convex_hull.h"
-#include "test_folders.h"
 #include "tests/unit/experiment/fake_plugins.h"
 #include "tests/world/experiment_text.h"
 
@@ -333,23 +332,6 @@ TEST(MistakesTogether, ConsequencesOfAMistakeAreLeftOut)
   EXPECT_THAT(told("<rover urdf='none.urdf'/>", rover, "<entity id='s'/>"),
               testing::HasSubstr("there is no entity 's'"));
   EXPECT_THAT(told("<rover urdf='none.urdf'/>", "<rovr id='r'/>", ""), testing::HasSubstr("has no element <rovr>"));
-}
-
-TEST(MistakesTogether, EnginesOfPlanesRefuseRobotsThatStandOnLinks)
-{
-  const auto told = [](const std::string& engine)
-  {
-    return ErrorsOf(ExperimentText{.kinds = "<hexapod urdf='" SWARMANOID_SOURCE_FOLDER "/configs/urdf/hexapod.urdf'/>",
-                                   .size = "9,9,3",
-                                   .arena = "<hexapod id='h' position='1,1,0'/>",
-                                   .engines = "<" + engine + " id='e'/>"}
-                        .Text());
-  };
-  EXPECT_THAT(
-      told("dynamics2d"),
-      testing::HasSubstr("the hexapod 'h' stands on links that joints move, which the engine 'e' (dynamics2d) cannot "
-                         "move; use dynamics3d"));
-  EXPECT_EQ(told("dynamics3d"), "");
 }
 
 // The experiment only names such a file, so that its mistakes are causes.
