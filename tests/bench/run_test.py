@@ -49,7 +49,7 @@ class Runs(unittest.TestCase):
             self.assertIn("| cluster of 4 processes: from the command to the first tick | ", table)
             with open(pathlib.Path(folder) / "figures.csv", encoding="utf-8") as file:
                 rows = list(csv.DictReader(file))
-            self.assertEqual([row["unit"] for row in rows], ["s", "s"])
+            self.assertEqual([row["unit"] for row in rows], ["s", "MB", "s", "s"])
             self.assertTrue(all(0 < float(row["run 1"]) for row in rows))
 
     def test_a_scene_beside_another_build(self):
