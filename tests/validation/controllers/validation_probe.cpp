@@ -139,7 +139,10 @@ private:
       robot.Actuator<CCI_RadioActuator>("radio").Send(
           std::vector<std::uint8_t>(static_cast<std::size_t>(values[0]), 1));
     else if (command.device == "joints")
-      robot.Actuator<CCI_JointsActuator>("joints").SetAllActuatorOutputs(values);
+    {
+      auto& joints = robot.Actuator<CCI_JointsActuator>("joints");
+      joints.SetAllActuatorOutputs(std::span(values).first(joints.GetNumJoints()));
+    }
     else
       throw std::invalid_argument("no command for the actuator " + command.device);
   }
