@@ -23,9 +23,9 @@ bool IsOfWheels(const ChannelBlock& block) { return block.name == "footbot_wheel
 
 std::unique_ptr<BatteryReports> BatteryReports::Of(const CSwarmanoidSpace& space, const HostLayout& layout)
 {
-  std::unique_ptr<BatteryReports> reports(new BatteryReports(space, layout));
-  const bool has_battery = std::ranges::any_of(reports->batteries_, [](const auto& one) { return one.has_value(); });
-  return has_battery ? std::move(reports) : nullptr;
+  const bool has_battery = std::ranges::any_of(
+      layout.robots, [&](std::uint32_t entity) { return BatteryView::Of(space, entity).has_value(); });
+  return has_battery ? std::unique_ptr<BatteryReports>(new BatteryReports(space, layout)) : nullptr;
 }
 
 BatteryReports::BatteryReports(const CSwarmanoidSpace& space, const HostLayout& layout) : space_(space)

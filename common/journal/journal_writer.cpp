@@ -240,6 +240,7 @@ void JournalWriter::QueueRows()
   block.rows = std::move(rows_);
   rows_ = free_.empty() ? TickRows() : std::move(free_.back());
   if (!free_.empty()) free_.pop_back();
+  block.rows.Finish(rows_);
   rows_.Clear();
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/serialisation/reused_memory.h"
@@ -28,6 +29,9 @@ public:
   void Added();
   // Packs the rows that still wait for others. No rows can be added afterwards.
   void Finish();
+  // Takes over the memory for rows that are not packed yet from a packer that has finished, since it takes more than
+  // packed rows.
+  void TakeMemoryOf(RowPacker& finished) { std::swap(recent_, finished.recent_); }
 
   // Returns the bytes of each number (0 to 8), one column of TicksTogether ticks after the other.
   std::span<const char> Widths() const { return widths_; }

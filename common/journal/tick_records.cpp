@@ -132,6 +132,12 @@ void TickRows::Clear()
   rest_.Clear();
 }
 
+void TickRows::Finish(TickRows& next)
+{
+  numbers_.Finish();
+  next.numbers_.TakeMemoryOf(numbers_);
+}
+
 std::span<const char> TickRows::Content(ReusedMemory& room)
 {
   numbers_.Finish();

@@ -41,6 +41,8 @@ public:
   bool Add(const SpaceState& state, bool save, std::span<const SensorFrame> frames,
            std::span<const ControlCommands> commands);
   void Clear();
+  // Packs the newest ticks, and gives the memory for unpacked ones to `next`. Nothing can be added until Clear.
+  void Finish(TickRows& next);
   // Returns the content of a block, in `room`, which is kept for the next block. Nothing can be added until Clear.
   std::span<const char> Content(ReusedMemory& room);
 

@@ -17,11 +17,11 @@
 #include "common/bus/run_directory.h"
 #include "common/errors/exit_codes.h"
 #include "common/errors/print_error.h"
-#include "common/experiment/actors.h"
 #include "common/program/program.h"
 #include "common/threads/start_thread.h"
 #include "launcher/supervision/in_process_server.h"
 #include "launcher/supervision/manifest_at_death.h"
+#include "launcher/supervision/run_actors.h"
 #include "launcher/supervision/single_run.h"
 #include "launcher/supervision/supervisor.h"
 #include "launcher/system/installation.h"
@@ -115,17 +115,6 @@ ClusterOutcome ServeAndSupervise(const std::function<ClusterOutcome(ProcessSpawn
   return outcome;
 }
 
-// Whether the run goes on if the controller of a robot fails.
-std::function<bool(std::uint32_t)> MayFailOf(const Experiment& experiment)
-{
-  return [&experiment](std::uint32_t robot)
-  {
-    if (robot >= experiment.entities.size()) return false;
-    const ControllerConfiguration* controller = experiment.FindController(experiment.entities[robot].controller);
-    return controller != nullptr && controller->MayFail();
-  };
-}
-
 // Returns the clusters of this machine whose processes share one core, counted by core.
 std::map<int, std::size_t> RunsByCore()
 {
@@ -176,6 +165,8 @@ RunResult RunCluster(const ClusterPlan& plan, PreparedRun& run, const std::optio
   const std::string note = NoteAboutControllerHosts(request->controller_hosts, plan.controlled_robots, cores);
   if (!note.empty() && !request->quiet) display.Note(note);
 
+  const RunActors actors(*run.experiment);
+  run.experiment.reset();  // with many robots it takes much memory
   const ClusterStart start{.program_folder = ProgramFolder(),
                            .environment = EnvironmentOf(LimitsOf(request.Settings())),
                            .cores = ChooseCore(plan.bus.domain),
@@ -183,8 +174,8 @@ RunResult RunCluster(const ClusterPlan& plan, PreparedRun& run, const std::optio
   const SupervisedRun supervised{
       .command_of = [&start](const ClusterPlan& now, std::size_t process, const Incarnation& incarnation)
       { return CommandOf(now, start, process, incarnation); },
-      .actor_of = [&run](Actor::Kind kind, std::uint32_t number) { return ActorOf(*run.experiment, kind, number); },
-      .may_fail = MayFailOf(*run.experiment),
+      .actor_of = [&actors](Actor::Kind kind, std::uint32_t number) { return actors.Of(kind, number); },
+      .may_fail = [&actors](std::uint32_t robot) { return actors.MayFail(robot); },
       .retries = request->Replaces() ? request->retries : 0};
   SupervisorTimes times;
   if (supervised.retries > 0) times.stopped = std::chrono::milliseconds(static_cast<long>(1000 * request->lease_s));

@@ -17,7 +17,7 @@ namespace swarmanoid
 struct PreparedRun
 {
   RunRequest request;
-  std::unique_ptr<const Experiment> experiment;
+  std::unique_ptr<const Experiment> experiment;  // null once the processes of a cluster run
   RunFolder folder;
   Manifest manifest;
 };

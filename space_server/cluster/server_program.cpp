@@ -602,7 +602,7 @@ void ServerProgram::PublishEnd()
   if (BeginsAgain()) return;
   const auto now = Clock::now();
   snapshot_.last = true;
-  SendView(now);
+  if (views_.HasViewers()) SendView(now);
   views_.SendStatus(Status(RunStatus::Phase::kFinished, now), now);
 }
 

@@ -25,6 +25,25 @@ def load_script(name):
     return module
 
 
+def memory_of_tree(root):
+    """MB of a process and all that it started: pages that some share count once."""
+    parents, tree = {}, {root}
+    for folder in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            parents[int(folder.name)] = int((folder / "stat").read_text().rpartition(")")[2].split()[1])
+        except OSError:  # it has ended
+            pass
+    while more := {process for process, parent in parents.items() if parent in tree} - tree:
+        tree |= more
+    kilobytes = 0
+    for process in tree:
+        try:
+            kilobytes += int(re.search(r"^Pss: +(\d+)", pathlib.Path(f"/proc/{process}/smaps_rollup").read_text(), re.MULTILINE)[1])
+        except OSError:
+            pass
+    return kilobytes * 1024 / 1e6
+
+
 class Bench:
     """Makes the experiments, and runs them."""
 
@@ -85,6 +104,25 @@ class Bench:
         def measure(build):
             self.finish(self.words(build, file(build), ticks, "--single-process", "--threads", 1))
             return self.memory
+        return measure
+
+    def cluster_memory(self, file, ticks):
+        """MB of all processes at the time when they take most."""
+        def measure(build):
+            before, most, ended = memory_of_tree(os.getpid()), 0, threading.Event()
+
+            def watch():
+                nonlocal most
+                while not ended.wait(0.1):
+                    most = max(most, memory_of_tree(os.getpid()) - before)
+            watcher = threading.Thread(target=watch)
+            watcher.start()
+            try:
+                self.finish(self.words(build, file(build), ticks))
+            finally:
+                ended.set()
+                watcher.join()
+            return most
         return measure
 
     def cluster(self, file, ticks, *options):

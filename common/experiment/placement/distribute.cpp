@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 #include "common/configuration/wording.h"
 #include "common/experiment/body.h"
@@ -362,15 +363,23 @@ void SortByPlace(const Distribution& distribution, Experiment& experiment)
   }
   std::sort(places.begin(), places.end());
 
-  std::vector<EntityConfiguration> sorted;
   std::vector<std::uint32_t> new_index(distribution.count);
-  sorted.reserve(distribution.count);
-  for (const Place& place : places)
+  for (std::uint32_t k = 0; k < places.size(); ++k) new_index[places[k].index - first] = first + k;
+  // Moves the entities around each cycle of the permutation: a second list of them would take much memory.
+  std::vector<bool> is_moved(distribution.count);
+  for (std::uint32_t k = 0; k < places.size(); ++k)
   {
-    new_index[place.index - first] = first + static_cast<std::uint32_t>(sorted.size());
-    sorted.push_back(std::move(experiment.entities[place.index]));
+    if (is_moved[k]) continue;
+    EntityConfiguration carried = std::move(experiment.entities[first + k]);
+    std::uint32_t to = k;
+    for (std::uint32_t from = places[to].index - first; from != k; from = places[to].index - first)
+    {
+      experiment.entities[first + to] = std::move(experiment.entities[first + from]);
+      is_moved[std::exchange(to, from)] = true;
+    }
+    experiment.entities[first + to] = std::move(carried);
+    is_moved[to] = true;
   }
-  std::move(sorted.begin(), sorted.end(), experiment.entities.begin() + first);
   for (EngineConfiguration& engine : experiment.engines)
   {
     for (std::uint32_t& entity : engine.entities)
@@ -379,14 +388,11 @@ void SortByPlace(const Distribution& distribution, Experiment& experiment)
   }
 }
 
-}  // namespace
-
-void PlaceDistributed(Reading& reading)
+// Places the entities of all distributions. Returns false, after a report, if they do not fit.
+bool PlaceAll(Reading& reading)
 {
   const std::vector<Distribution>& distributions = reading.distributions;
-  const Vector3& arena = reading.experiment.arena_size;
-  if (distributions.empty() || !(arena.minCoeff() > 0)) return;
-  Placer placer(arena, reading);
+  Placer placer(reading.experiment.arena_size, reading);
   std::size_t next = 0;
   for (const Distribution& distribution : distributions)
   {
@@ -400,8 +406,15 @@ void PlaceDistributed(Reading& reading)
   {
     if (has_no_ground || !placer.Place(distribution)) Unplace(distribution, reading.experiment.entities);
   }
-  if (has_no_ground || reading.diagnostics.Count() != mistakes) return;
-  for (const Distribution& distribution : distributions)
+  return !has_no_ground && reading.diagnostics.Count() == mistakes;
+}
+
+}  // namespace
+
+void PlaceDistributed(Reading& reading)
+{
+  if (reading.distributions.empty() || !(reading.experiment.arena_size.minCoeff() > 0) || !PlaceAll(reading)) return;
+  for (const Distribution& distribution : reading.distributions)
     if (distribution.by_place) SortByPlace(distribution, reading.experiment);
 }
 
