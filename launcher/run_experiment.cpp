@@ -166,6 +166,8 @@ int Conclude(PreparedRun& run, const RunResult& result)
     manifest.state_hash = result.summary->hash;
     manifest.wall_s = result.summary->wall_s;
     manifest.real_time_factor = result.summary->real_time_factor;
+    manifest.threads = result.summary->threads;
+    manifest.shared_ticks = result.summary->shared_ticks;
   }
   try
   {

@@ -160,6 +160,11 @@ std::string Manifest::Text() const
     json["wall_s"] = wall_s;
     json["real_time_factor"] = real_time_factor;
   }
+  if (threads > 0)
+  {
+    json["threads"] = threads;
+    json["shared_ticks"] = shared_ticks;
+  }
   if (state_hash) json["state_hash"] = fmt::format("{:016x}", *state_hash);
   if (!failure.empty()) json["failure"] = failure;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

@@ -82,6 +82,8 @@ struct Manifest
   std::optional<std::uint64_t> state_hash;
   double wall_s = 0;
   double real_time_factor = 0;
+  unsigned threads = 0;            // one process only
+  std::uint64_t shared_ticks = 0;  // that all threads did
   std::string failure;
 
   std::string Text() const;

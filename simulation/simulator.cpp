@@ -337,6 +337,8 @@ const RunSummary& CSimulator::Finish()
   r.summary.entities = r.space.Size();
   r.summary.ticks = r.space.GetTick();
   r.summary.wall_s = SecondsSince(r.start);
+  r.summary.threads = r.pool ? r.pool->Threads() : 1;
+  r.summary.shared_ticks = r.sharing.Shared();
   r.summary.real_time_factor =
       RealTimeFactor(r.summary.ticks - r.first_tick, r.experiment.TickSeconds(), r.summary.wall_s);
   if (r.journal)

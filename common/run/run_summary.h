@@ -28,6 +28,8 @@ struct RunSummary
   bool failed = false;                  // the experiment functions reported a failure
   std::string failure{};                // which functions, and why
   std::optional<ResetRequest> reset{};  // the request that ended the run
+  unsigned threads = 0;                 // of a run in one process; 0: of a cluster
+  std::uint64_t shared_ticks = 0;       // that all these threads did
 };
 
 // Returns the speed of `ticks` simulated ticks relative to real time; 0 if no time has passed.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 
 #include "common/threads/worker_pool.h"
 
@@ -85,6 +86,7 @@ public:
   {
     if (pool == nullptr || pool->Threads() == 1) return tick();
     pool->Share(choice_.Shares());
+    if (choice_.Shares()) ++shared_;
     if (!choice_.Measures())
     {
       tick();
@@ -94,9 +96,12 @@ public:
     tick();
     choice_.Took(std::chrono::steady_clock::now() - start);
   }
+  // Returns the number of ticks that several threads did.
+  std::uint64_t Shared() const { return shared_; }
 
 private:
   ThreadChoice choice_;
+  std::uint64_t shared_ = 0;
 };
 
 }  // namespace swarmanoid

@@ -27,6 +27,9 @@ class Ends(LauncherTest):
             self.assertEqual(manifest["exit_code"], 0)
             self.assertEqual(manifest["command"][1:], ["run", str(EXPERIMENT), "--ticks", "200", "--output", out, *map(str, options)])
             self.assertIn(manifest["state_hash"], hashes)
+            # Ticks of 10 robots are too short for several threads. Threads of clusters are those of hosts.
+            self.assertEqual("threads" in manifest, number == 0)
+            self.assertEqual(manifest.get("shared_ticks", 0), 0)
             table = (self.folder / out / "positions.txt").read_text().splitlines()
             self.assertEqual(table[-1].split()[0], "200")
             effective = self.run_it("run", f"{out}/experiment.xml", "--single-process", "--quiet", "--output", out + "again")

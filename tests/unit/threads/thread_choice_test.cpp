@@ -175,6 +175,7 @@ TEST(ThreadedTicks, ThePoolKnowsWhetherATickIsShared)
                std::this_thread::sleep_for(2 * ThreadChoice::kWorthWaking);
              });
   EXPECT_EQ(shared, (std::set<bool>{false, true}));
+  EXPECT_EQ(ticks.Shared(), ThreadChoice::kTrials);
   unsigned count = 0;
   ticks.Do(nullptr, [&] { ++count; });
   WorkerPool one(1);
