@@ -73,7 +73,12 @@ std::string CommandLineComplaint(const CLI::App& app, const CLI::Error& error)
     }
     for (const std::string& long_name : each->get_lnames()) options.push_back("--" + long_name);
   }
-  const std::string near = DidYouMean(word, options);
+  std::string near = DidYouMean(word, options);
+  if (word.size() == 2)  // a letter of other programs, as in -o
+  {
+    std::erase_if(options, [&](const std::string& one) { return one.find("-" + word) != 0; });
+    if (!options.empty()) near = fmt::format("; its options with that letter: {}.", Listed(options));
+  }
   if (!near.empty()) return fmt::format("{} does not take {}{} All options: {} --help", name, Quoted(word), near, name);
   if (option == left.end() && !taken.empty())
     return fmt::format("{} does not take {}; it takes {}. All options: {} --help", name, Quoted(word), Listed(taken),

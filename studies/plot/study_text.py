@@ -18,7 +18,8 @@ def exponent_of(value):
 
 def fixed(value, decimals):
     """Rounded to so many decimals; tens and hundreds if they are below 0."""
-    return f"{round(value, decimals):.{max(decimals, 0)}f}"
+    rounded = round(value, decimals) + 0.0  # 0 for -0
+    return f"{rounded:.{max(decimals, 0)}f}"
 
 
 def number(value, digits=4):

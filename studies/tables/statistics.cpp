@@ -135,10 +135,14 @@ std::string IntervalText(const MeanInterval& interval)
   if (!std::isfinite(interval.half) || interval.half <= 0)
     return fmt::format("{:.4g} ± {:.2g}", interval.mean, interval.half);
   const int decimals = 1 - static_cast<int>(std::floor(std::log10(interval.half)));
-  const double unit = std::pow(10.0, std::min(decimals, 0));  // rounds to tens and hundreds
-  return fmt::format("{:.{}f} ± {:.{}f}", decimals < 0 ? std::round(interval.mean * unit) / unit : interval.mean,
-                     std::max(decimals, 0), decimals < 0 ? std::round(interval.half * unit) / unit : interval.half,
-                     std::max(decimals, 0));
+  const double unit = std::pow(10.0, decimals);
+  const auto text = [&](double value)
+  {
+    if (std::abs(value) * unit < 0.5) value = 0;                // and not -0
+    if (decimals < 0) value = std::round(value * unit) / unit;  // to tens and hundreds
+    return fmt::format("{:.{}f}", value, std::max(decimals, 0));
+  };
+  return text(interval.mean) + " ± " + text(interval.half);
 }
 
 }  // namespace swarmanoid

@@ -31,6 +31,8 @@ class CommandLine(OutsideTest):
         self.refused("swarmanoid", "run", "--branch", "runs/first", says=["--branch is 'runs/first'", "RUN@TICK", "for example"])
         self.refused("swarmanoid", "run", file, "--sed", "3",
                      says="swarmanoid run does not take '--sed'; did you mean '--set'? All options: swarmanoid run --help")
+        self.refused("swarmanoid", "convert", "-o", "there", "here.argos",
+                     says="swarmanoid convert does not take '-o'; its options with that letter: --output. All options: swarmanoid convert --help")
         self.refused("swarmanoid", "attach", says=["attach needs KIND: text, ", "for example: swarmanoid attach text\n"])
         self.refused("swarmanoid", "replay", self.folder, "text", "--verify", says="leave out it or 'text'")
         self.refused("swarmanoid", "edit", "first_try.xml", says="make one: swarmanoid new experiment first_try", code=3)

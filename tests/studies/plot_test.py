@@ -89,7 +89,7 @@ class Texts(unittest.TestCase):
     def test_numbers_are_written_as_people_do(self):
         for value, text in ((1012.3, "1012"), (0.000488, "0.000488"), (1e-7, "1 × 10⁻⁷"), (0, "0"), (-7.4334, "-7.433"), (999999.6, "1 × 10⁶"), (99.996, "100")):
             self.assertEqual(study_text.number(value), text)
-        for mean, half, text in ((306.7, 160, "310 ± 160"), (0.04635, 0.025, "0.046 ± 0.025"), (-7.433, 13, "-7 ± 13"), (0.12, 0.099, "0.120 ± 0.099"),
+        for mean, half, text in ((306.7, 160, "310 ± 160"), (0.04635, 0.025, "0.046 ± 0.025"), (-7.433, 13, "-7 ± 13"), (-120, 13000, "0 ± 13000"), (0.12, 0.099, "0.120 ± 0.099"),
                                  (1.234e7, 5.2e4, "(1.2340 ± 0.0052) × 10⁷"), (3, 0, "3 ± 0")):
             self.assertEqual(study_text.with_error(mean, half), text)
         self.assertEqual(study_text.probability(3e-7), "p < 0.0001")

@@ -80,6 +80,8 @@ TEST(StudyStatistics, AMeanHasTheDigitsOfItsInterval)
   EXPECT_EQ(IntervalText({0.723893, 0.0152}), "0.724 ± 0.015");
   EXPECT_EQ(IntervalText({306.7, 163}), "310 ± 160");
   EXPECT_EQ(IntervalText({-7.433, 13.1}), "-7 ± 13");
+  EXPECT_EQ(IntervalText({-0.4, 13.1}), "0 ± 13");
+  EXPECT_EQ(IntervalText({-120, 13100}), "0 ± 13000");
   EXPECT_EQ(IntervalText({7, std::numeric_limits<double>::infinity()}), "7 ± inf");
 }
 
