@@ -33,6 +33,8 @@ constexpr double kLastViewTime_s = 1;  // observers may be stopped
 constexpr auto kWorldAgain = 3s;       // between announcements to processes that have not joined
 constexpr auto kBrokenTime = 5s;       // time for the lease of a dead process to end
 constexpr auto kStuckTime = 1s;        // time for another process to replace it
+// So long after the last tick the end of the run is to answer all processes that leave: all receive each answer.
+constexpr auto kOneAnswerTime = 200ms;
 
 // Another process has ended the run.
 class EndedByOthers : public BusError
@@ -333,7 +335,7 @@ void ServerProgram::CheckFailures()
   if (options_.abandon != nullptr && *options_.abandon) throw BusError("the run was given up");
   // The launcher is told which processes have left, so that it expects their end.
   for (const std::string& name : session_.TakeLeft()) status_.Publish(ServerLeft{name});
-  session_.AnswerLeaves();
+  if (Clock::now() >= answers_from_) session_.AnswerLeaves();
   HelpReplacements();
   // The order matters: a process that leaves in good order has the last state. Any other one has failed.
   const std::optional<std::string> left = session_.FirstLeft();
@@ -469,6 +471,7 @@ void ServerProgram::Close()
   status_.Publish(ServerTick{result.ticks, experiment_.max_clock, result.real_time_factor});
   PublishEnd();
   wait_.Begin(Clock::now());
+  if (!BeginsAgain()) answers_from_ = Clock::now() + kOneAnswerTime;
   for (std::vector<std::string> there = session_.NotLeft(); !there.empty(); there = session_.NotLeft())
   {
     CheckFailures();

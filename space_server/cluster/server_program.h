@@ -162,6 +162,7 @@ private:
 
   Clock::time_point start_;
   Clock::time_point end_;
+  Clock::time_point answers_from_;  // before, processes that leave wait for their answers
   std::optional<ServerState::Phase> said_phase_;
   std::uint64_t last_tick_ = 0;
   std::optional<std::uint64_t> told_tick_;
