@@ -331,5 +331,30 @@ TEST_F(InspectionTest, ViewsComeAtThePaceThatIsWishedFor)
   ExpectEnd();
 }
 
+// An answer goes to all processes, so an answer for each of many would cost the square of their number.
+TEST_F(InspectionTest, TheEndOfARunAnswersAllThatLeave)
+{
+  Begin(20, 4, {"--paused"});
+  std::mutex mutex;
+  std::vector<std::string> answered;
+  const Subscription<LeaveMessage> leaves(*bus_, "inspected",
+                                          [&](const LeaveMessage& leave)
+                                          {
+                                            const std::lock_guard lock(mutex);
+                                            if (leave.name == "space server") answered.push_back(leave.process);
+                                          });
+  Ask("resume");
+  EXPECT_EQ(server_->Wait(), 0) << server_->Output();
+  for (ChildProcess& worker : workers_) EXPECT_EQ(worker.Wait(), 0) << worker.Output();
+  EXPECT_TRUE(Eventually(
+      [&]
+      {
+        const std::lock_guard lock(mutex);
+        return !answered.empty();
+      }));
+  const std::lock_guard lock(mutex);
+  EXPECT_EQ(answered, std::vector<std::string>{""});
+}
+
 }  // namespace
 }  // namespace swarmanoid
