@@ -28,28 +28,101 @@ using Line = std::array<std::uint64_t, kSide>;
 std::uint64_t Folded(std::uint64_t difference) { return (difference << 1U) ^ (0 - (difference >> 63U)); }
 std::uint64_t Unfolded(std::uint64_t folded) { return (folded >> 1U) ^ (0 - (folded & 1U)); }
 
-// Returns the expected value of the number at `at` in the row of a tick.
-double Expected(const double* at, std::size_t tick, std::size_t row, bool moves)
+// Returns the expected value of a number at a tick, from its values one and two ticks before.
+double Expected(const double* before, const double* before_that, std::size_t tick, bool moves)
 {
   if (tick == 0) return 0;
-  const double before = *(at - row);
-  if (!moves || tick == 1) return before;
-  return before + (before - *(at - 2 * row));
+  if (!moves || tick == 1) return *before;
+  return *before + (*before - *before_that);
 }
 
-// Computes the same for a line of numbers that all move, or all stay.
-template <bool kMoves>
-void FoldLine(const double* at, std::size_t row, Line& folded)
+std::uint64_t FoldedDifference(double number, double expected)
 {
-  const double* before = at - row;
-  const double* before_that = kMoves ? before - row : before;
+  return Folded(std::bit_cast<std::uint64_t>(number) - std::bit_cast<std::uint64_t>(expected));
+}
+
+// Computes the folded differences of a line of numbers that are all expected from that many values before.
+template <int kValues>
+void FoldLine(const double* at, const double* before, const double* before_that, Line& folded)
+{
   for (std::size_t k = 0; k < kSide; ++k)
   {
-    double expected = before[k];
-    if constexpr (kMoves) expected += before[k] - before_that[k];
-    folded[k] = Folded(std::bit_cast<std::uint64_t>(at[k]) - std::bit_cast<std::uint64_t>(expected));
+    double expected = 0;
+    if constexpr (kValues > 0) expected = before[k];
+    if constexpr (kValues > 1) expected += before[k] - before_that[k];
+    folded[k] = FoldedDifference(at[k], expected);
   }
 }
+
+char BytesOf(std::uint64_t folded) { return static_cast<char>((std::bit_width(folded) + 7) / 8); }
+
+// Packs the numbers [first, end) of some rows, line by line: each in as many bytes as its largest difference needs.
+class LinePacker
+{
+public:
+  using Rows = std::array<const double*, RowPacker::kBefore + kSide>;
+
+  LinePacker(const Rows& rows, std::size_t ticks, char* widths, char* out)
+      : rows_(rows), ticks_(ticks), widths_(widths), out_(out)
+  {
+  }
+  char* Behind() const { return out_; }
+
+  // Packs whole lines whose numbers are all expected from that many values before.
+  template <int kValues, std::size_t kTicks>
+  void Whole(std::size_t first, std::size_t end)
+  {
+    std::array<Line, kTicks> lines;
+    char* out = out_;  // in a register
+    for (; first < end; first += kSide)
+    {
+      Line any{};
+      for (std::size_t tick = 0; tick < kTicks; ++tick)
+      {
+        FoldLine<kValues>(rows_[tick + 2] + first, rows_[tick + 1] + first, rows_[tick] + first, lines[tick]);
+        for (std::size_t k = 0; k < kSide; ++k) any[k] |= lines[tick][k];
+      }
+      std::uint64_t any_of_line = 0;
+      for (const std::uint64_t differences : any) any_of_line |= differences;
+      if (any_of_line == 0) continue;  // the widths are 0 already
+      for (std::size_t k = 0; k < kSide; ++k)
+      {
+        const char width = BytesOf(any[k]);
+        widths_[first + k] = width;
+        for (std::size_t tick = 0; tick < kTicks; ++tick) out = Store(lines[tick][k], width, out);
+      }
+    }
+    out_ = out;
+  }
+  // Packs any numbers, of which those below `moving` move. `packed`: the number of earlier rows.
+  void Any(std::size_t first, std::size_t end, std::size_t moving, std::size_t packed)
+  {
+    for (; first < end; ++first)
+    {
+      std::array<std::uint64_t, kSide> folded{};
+      std::uint64_t any = 0;
+      for (std::size_t tick = 0; tick < ticks_; ++tick)
+        any |= folded[tick] =
+            FoldedDifference(rows_[tick + 2][first],
+                             Expected(rows_[tick + 1] + first, rows_[tick] + first, packed + tick, first < moving));
+      widths_[first] = BytesOf(any);
+      for (std::size_t tick = 0; tick < ticks_; ++tick) out_ = Store(folded[tick], widths_[first], out_);
+    }
+  }
+
+private:
+  // All eight bytes are written; the next number overwrites the unneeded ones.
+  static char* Store(std::uint64_t folded, char width, char* out)
+  {
+    std::memcpy(out, &folded, sizeof folded);
+    return out + width;
+  }
+
+  const Rows& rows_;
+  std::size_t ticks_;
+  char* widths_;
+  char* out_;
+};
 
 }  // namespace
 
@@ -60,7 +133,7 @@ void RowPacker::Begin(std::size_t row, std::size_t moving)
   row_ = row;
   moving_ = moving;
   together_ = TicksTogether(row);
-  packed_ = waiting_ = used_ = 0;
+  packed_ = waiting_ = used_ = oldest_ = 0;
   widths_.clear();
   recent_.AtLeast((kBefore + together_) * row * sizeof(double));
 }
@@ -77,46 +150,33 @@ void RowPacker::Finish()
 
 void RowPacker::Pack()
 {
-  // All eight bytes of each number are written; the next number overwrites the unneeded ones.
-  char* out = room_.AtLeast(used_ + (waiting_ * row_ + 1) * sizeof(std::uint64_t)) + used_;
-  std::array<Line, kSide> lines{};  // one for each tick
-  for (std::size_t first = 0; first < row_; first += kSide)
+  char* const out = room_.AtLeast(used_ + (waiting_ * row_ + 1) * sizeof(std::uint64_t)) + used_;
+  const std::size_t packed_widths = widths_.size();
+  widths_.resize(packed_widths + row_);
+  LinePacker::Rows rows{};
+  for (std::size_t place = 0; place < kBefore + waiting_; ++place) rows[place] = Row(place);
+  LinePacker lines(rows, waiting_, widths_.data() + packed_widths, out);
+  const bool is_one = waiting_ == 1;
+  if (!is_one && (waiting_ != kSide || packed_ < kBefore))
+    lines.Any(0, row_, moving_, packed_);
+  else
   {
-    const std::size_t count = std::min(kSide, row_ - first);
-    const bool all_move = first + kSide <= moving_;
-    const bool none_moves = first >= moving_;
-    Line any{};
-    for (std::size_t tick = 0; tick < waiting_; ++tick)
-    {
-      const double* at = Row(kBefore + tick) + first;
-      Line& folded = lines[tick];
-      if (count == kSide && packed_ + tick > 1 && all_move)
-        FoldLine<true>(at, row_, folded);
-      else if (count == kSide && packed_ + tick > 1 && none_moves)
-        FoldLine<false>(at, row_, folded);
-      else
-        for (std::size_t k = 0; k < count; ++k)
-          folded[k] = Folded(std::bit_cast<std::uint64_t>(at[k]) -
-                             std::bit_cast<std::uint64_t>(Expected(at + k, packed_ + tick, row_, first + k < moving_)));
-      for (std::size_t k = 0; k < kSide; ++k) any[k] |= folded[k];
-    }
-    if (std::ranges::all_of(any, [](std::uint64_t differences) { return differences == 0; }))
-    {
-      widths_.insert(widths_.end(), count, '\0');
-      continue;
-    }
-    for (std::size_t k = 0; k < count; ++k)
-    {
-      const std::size_t width = (static_cast<std::size_t>(std::bit_width(any[k])) + 7) / 8;
-      widths_.push_back(static_cast<char>(width));
-      if (width == 0) continue;
-      for (std::size_t tick = 0; tick < waiting_; ++tick, out += width)
-        std::memcpy(out, &lines[tick][k], sizeof(std::uint64_t));
-    }
+    // The first rows are expected as if nothing moved.
+    const std::size_t moving = packed_ < kBefore ? 0 : moving_;
+    const std::size_t end_of_moving = moving / kSide * kSide;
+    const std::size_t start_of_others = std::min((moving + kSide - 1) / kSide * kSide, row_);
+    const std::size_t end_of_others = start_of_others + (row_ - start_of_others) / kSide * kSide;
+    is_one ? lines.Whole<2, 1>(0, end_of_moving) : lines.Whole<2, kSide>(0, end_of_moving);
+    lines.Any(end_of_moving, start_of_others, moving, packed_);
+    if (packed_ == 0)
+      lines.Whole<0, 1>(start_of_others, end_of_others);
+    else
+      is_one ? lines.Whole<1, 1>(start_of_others, end_of_others)
+             : lines.Whole<1, kSide>(start_of_others, end_of_others);
+    lines.Any(end_of_others, row_, moving, packed_);
   }
-  used_ = static_cast<std::size_t>(out - room_.Bytes());
-  // If only one row was packed, the row before it stays.
-  std::copy_n(Row(waiting_), kBefore * row_, Row(0));
+  used_ = static_cast<std::size_t>(lines.Behind() - room_.Bytes());
+  oldest_ = (oldest_ + waiting_) % (kBefore + together_);
   packed_ += waiting_;
   waiting_ = 0;
 }
@@ -143,7 +203,9 @@ std::vector<double> UnpackRows(std::span<const char> widths, std::span<const cha
         std::uint64_t folded = 0;
         std::memcpy(&folded, in, size);
         double* at = rows.data() + tick * row + k;
-        const auto expected = std::bit_cast<std::uint64_t>(Expected(at, tick, row, k < moving));
+        const double* const before = at - std::min(tick, std::size_t{1}) * row;
+        const double* const before_that = at - std::min(tick, std::size_t{2}) * row;
+        const auto expected = std::bit_cast<std::uint64_t>(Expected(before, before_that, tick, k < moving));
         *at = std::bit_cast<double>(expected + Unfolded(folded));
       }
     }

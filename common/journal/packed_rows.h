@@ -38,18 +38,23 @@ public:
   // Returns the packed numbers in the same order, each with its ticks, little-endian.
   std::span<const char> Bytes() const { return {room_.Bytes(), used_}; }
 
-private:
   static constexpr std::size_t kBefore = 2;  // earlier rows that give the expectation
 
+private:
   void Pack();
-  double* Row(std::size_t place) { return reinterpret_cast<double*>(recent_.Bytes()) + place * row_; }
+  // Returns one of the rows in memory, from the oldest on.
+  double* Row(std::size_t place)
+  {
+    return reinterpret_cast<double*>(recent_.Bytes()) + (oldest_ + place) % (kBefore + together_) * row_;
+  }
 
   std::size_t row_ = 0;
   std::size_t moving_ = 0;
   std::size_t together_ = 1;
   std::size_t packed_ = 0;   // rows
   std::size_t waiting_ = 0;  // rows
-  ReusedMemory recent_;      // doubles: the last packed rows, then the waiting ones
+  ReusedMemory recent_;      // doubles: the last packed rows and the waiting ones, around a circle
+  std::size_t oldest_ = 0;   // the place of the oldest of these rows in the memory
   std::vector<char> widths_;
   ReusedMemory room_;
   std::size_t used_ = 0;  // used bytes of the memory
