@@ -19,10 +19,10 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "common/bus/dds_environment.h"
-#include "common/bus/run_directory.h"
 #include "common/errors/exit_codes.h"
 #include "common/program/file_descriptor.h"
+#include "common/run/access/dds_environment.h"
+#include "common/run/access/run_directory.h"
 #include "engine_worker/engines/fused_libraries.h"
 #include "launcher/showing.h"
 #include "launcher/system/command_process.h"

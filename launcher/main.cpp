@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/configuration/trust.h"
+#include "common/plugins/own_library.h"
 #include "common/program/program.h"
 #include "common/program/standard_output.h"
 #include "launcher/command/completion.h"
@@ -30,8 +31,17 @@ std::vector<std::string> WithHelp(std::vector<std::string> words)
   return words;
 }
 
+// Loads the library of studies, which adds its sub-commands. It needs SQLite, so other sub-commands do without it.
+// Returns its function for the processes that execute runs.
+decltype(&swarmanoid::RunStudyWorker) LoadStudies()
+{
+  return reinterpret_cast<decltype(&swarmanoid::RunStudyWorker)>(
+      swarmanoid::FunctionOfOwnLibrary("studies", "RunStudyWorker"));
+}
+
 int Complete(const std::vector<std::string>& words)
 {
+  LoadStudies();
   int exit_code = 0;
   CLI::App app("", "swarmanoid");
   swarmanoid::AddSubCommands(app, exit_code);
@@ -50,7 +60,7 @@ int main(int count, char** arguments)
   {
     const bool trusts = count > 2 && std::string_view(arguments[2]) == kTrustFlag;
     if (trusts) TrustExperiments();
-    return RunStudyWorker({arguments + (trusts ? 3 : 2), arguments + count});
+    return LoadStudies()({arguments + (trusts ? 3 : 2), arguments + count});
   }
   std::vector<std::string> words = WithHelp({arguments, arguments + count});
   std::vector<char*> given;
@@ -71,7 +81,9 @@ int main(int count, char** arguments)
       [&](CLI::App& app)
       {
         app.require_subcommand(1);
-        AddSubCommands(app, verb_code, words.size() > 1 ? words[1] : "");
+        const std::string word = words.size() > 1 ? words[1] : "";
+        if (!IsSubCommand(word)) LoadStudies();
+        AddSubCommands(app, verb_code, word);
       },
       [&] { return verb_code; });
   // Without arguments the help is printed, although the user did not ask for it.

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "argos3/converter/convert.h"
-#include "common/bus/free_domain.h"
 #include "common/checkpoint/checkpoint.h"
 #include "common/checkpoint/library_builds.h"
 #include "common/configuration/wording.h"
@@ -22,13 +21,14 @@
 #include "common/math/reproducible_math.h"
 #include "common/program/standard_output.h"
 #include "common/program/usage_error.h"
+#include "common/run/access/free_domain.h"
 #include "launcher/branch.h"
 #include "launcher/original_command.h"
 #include "launcher/showing.h"
+#include "launcher/supervision/bus_library.h"
 #include "launcher/supervision/cluster_plan.h"
 #include "launcher/supervision/cluster_run.h"
 #include "launcher/supervision/prepared_run.h"
-#include "launcher/supervision/run_on_bus.h"
 #include "launcher/supervision/single_run.h"
 #include "launcher/system/network_namespace.h"
 #include "simulation/load.h"
@@ -280,8 +280,8 @@ int RunHereOnBus(PreparedRun& first)
   return RunUntilEnd(first,
                      [&](PreparedRun& run)
                      {
-                       RunOnBus bus(run, key);
-                       return RunHere(run, &bus);
+                       const std::unique_ptr<RunLink> link = LoadBusLibrary().LinkOf(run, key);
+                       return RunHere(run, link.get());
                      });
 }
 

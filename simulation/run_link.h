@@ -45,6 +45,8 @@ public:
   virtual void Detach() = 0;
   // Sends the last state. `begins_again`: observers wait for the next run instead.
   virtual void Close(RunMonitor& run, bool begins_again) = 0;
+  // Tells observers that the run failed. It does nothing after Close.
+  virtual void Fail(const std::string& why) = 0;
 };
 
 }  // namespace swarmanoid

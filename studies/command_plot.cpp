@@ -125,7 +125,7 @@ void AddPlotCommand(CLI::App& app, int& exit_code)
   verb->callback([options, &exit_code] { exit_code = Plot(*options); });
 }
 
-const RegisterSubCommand kPlot(22, AddPlotCommand);
+const RegisterSubCommand kPlot(22, "plot", AddPlotCommand);
 
 }  // namespace
 }  // namespace swarmanoid

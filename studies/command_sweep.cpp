@@ -71,7 +71,7 @@ void AddSweepCommand(CLI::App& app, int& exit_code)
   verb->callback([options, &exit_code] { exit_code = Sweep(*options); });
 }
 
-const RegisterSubCommand kSweep(21, AddSweepCommand);
+const RegisterSubCommand kSweep(21, "sweep", AddSweepCommand);
 
 }  // namespace
 }  // namespace swarmanoid

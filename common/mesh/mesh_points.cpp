@@ -1,10 +1,9 @@
 #include "common/mesh/mesh_points.h"
 
-#include <dlfcn.h>
+#include <stdexcept>
 
 #include "common/configuration/regular_file.h"
-#include "common/math/reproducible_math.h"
-#include "common/plugins/library.h"
+#include "common/plugins/own_library.h"
 
 namespace swarmanoid
 {
@@ -16,13 +15,15 @@ using Import = decltype(&ImportMeshPoints);
 // Throws FileError if the library is missing, as in a build without Assimp.
 Import LoadImport()
 {
-  const std::string file = OwnLibraryFolder() + "/" SWARMANOID_MESH_LIBRARY;
-  void* const library = OpenLibrary(file);
-  void* const function = library == nullptr ? nullptr : dlsym(library, "ImportMeshPoints");
-  if (function == nullptr)
-    throw FileError("this installation reads no meshes (" + std::string(dlerror()) +
+  try
+  {
+    return reinterpret_cast<Import>(FunctionOfOwnLibrary("mesh_files", "ImportMeshPoints"));
+  }
+  catch (const std::runtime_error& error)
+  {
+    throw FileError("this installation reads no meshes (" + std::string(error.what()) +
                     "): install libassimp-dev, then build again");
-  return reinterpret_cast<Import>(function);
+  }
 }
 
 }  // namespace

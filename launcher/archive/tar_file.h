@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "common/bus/security/digest.h"
 #include "common/configuration/regular_file.h"
+#include "common/run/access/digest.h"
 
 namespace swarmanoid
 {

@@ -66,7 +66,7 @@ void AddArchiveCommand(CLI::App& app, int& exit_code)
   verb->callback([request, &exit_code] { exit_code = Archive(*request); });
 }
 
-const RegisterSubCommand kArchive(7, AddArchiveCommand);
+const RegisterSubCommand kArchive(7, "archive", AddArchiveCommand);
 
 }  // namespace
 }  // namespace swarmanoid

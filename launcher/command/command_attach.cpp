@@ -14,12 +14,12 @@
 #include <memory>
 #include <optional>
 
-#include "common/bus/membership/cluster_options.h"
-#include "common/bus/security/access_grant.h"
 #include "common/configuration/wording.h"
 #include "common/errors/exit_codes.h"
 #include "common/errors/print_error.h"
 #include "common/program/interrupts.h"
+#include "common/run/access/access_grant.h"
+#include "common/run/access/cluster_options.h"
 #include "launcher/command/renderer_words.h"
 #include "launcher/command/run_choice.h"
 #include "launcher/command/sub_command.h"
@@ -185,7 +185,7 @@ void AddAttachCommand(CLI::App& app, int& exit_code)
   verb->callback([options, verb, &exit_code] { exit_code = Attach(*options, *verb); });
 }
 
-const RegisterSubCommand kAttach(9, AddAttachCommand);
+const RegisterSubCommand kAttach(9, "attach", AddAttachCommand);
 
 }  // namespace
 }  // namespace swarmanoid

@@ -196,7 +196,7 @@ void AddCheckCommand(CLI::App& app, int& exit_code)
                  { exit_code = *json ? CheckForPrograms(*options, *engine) : Check(*options, *engine); });
 }
 
-const RegisterSubCommand kCheck(12, AddCheckCommand);
+const RegisterSubCommand kCheck(12, "check", AddCheckCommand);
 
 }  // namespace
 }  // namespace swarmanoid

@@ -10,18 +10,18 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "common/bus/membership/cluster_options.h"
-#include "common/bus/membership/control_client.h"
-#include "common/bus/security/access_grant.h"
 #include "common/configuration/configuration_tree.h"
 #include "common/configuration/wording.h"
 #include "common/errors/exit_codes.h"
 #include "common/errors/print_error.h"
 #include "common/messages/control_verbs.h"
+#include "common/run/access/access_grant.h"
+#include "common/run/access/cluster_options.h"
 #include "common/run/run_settings.h"
 #include "launcher/command/control_words.h"
 #include "launcher/command/run_choice.h"
 #include "launcher/command/sub_command.h"
+#include "launcher/supervision/bus_library.h"
 
 namespace swarmanoid
 {
@@ -34,7 +34,7 @@ struct ControlOptions
   BusOptions bus;
   bool json = false;
   std::map<std::string, std::optional<std::uint64_t>> parameters;  // the parameters given as --name
-  double patience_s = ControlClient::kPatience_s;
+  double patience_s = kPatience_s;
 };
 
 void PrintJson(const std::string& experiment, const ControlReplyMessage& reply)
@@ -61,8 +61,9 @@ int Control(ControlOptions& options, bool domain_given)
   CheckInsecure(run, options.bus);
   options.bus.domain = run.domain;
   UseNetworkOf(run, options.bus);
-  Bus bus(options.bus, "swarmanoid control", run.experiment);
-  if (!bus.MaySpeakTo(run.experiment))
+  const RunAnswer answer = LoadBusLibrary().Ask(options.bus, "swarmanoid control", run.experiment, words.order,
+                                                PatienceFor(words.order, options.patience_s));
+  if (!answer.may_speak)
   {
     PrintError(
         "swarmanoid: no run of experiment {} in domain {} on this machine is of user {}, and no key of it is "
@@ -70,13 +71,12 @@ int Control(ControlOptions& options, bool domain_given)
         Quoted(run.experiment), run.domain, UserName());
     return kExitProcessFailed;
   }
-  ControlClient client(bus, run.experiment);
-  const auto reply = client.Ask(words.order, PatienceFor(words.order, options.patience_s));
+  const auto& reply = answer.reply;
   if (!reply)
   {
     fmt::print(
         stderr, "swarmanoid: experiment {} in domain {} does not answer{}{}\n", Quoted(run.experiment), run.domain,
-        WhyNoAnswer(client.LatestStatus(), bus.Dropped(), options.bus.insecure),
+        WhyNoAnswer(answer.status, answer.dropped, options.bus.insecure),
         token ? fmt::format("; the run of {} may have ended, or be on another network", token->grant.Name()) : "");
     return kExitProcessFailed;
   }
@@ -143,7 +143,7 @@ void AddControlCommand(CLI::App& app, int& exit_code)
                  { exit_code = Control(*options, verb->get_option("--domain")->count() > 0); });
 }
 
-const RegisterSubCommand kControl(10, AddControlCommand);
+const RegisterSubCommand kControl(10, "control", AddControlCommand);
 
 }  // namespace
 }  // namespace swarmanoid

@@ -168,7 +168,6 @@ int Convert(const ConvertRequest& request)
 
 void AddConvertCommand(CLI::App& app, int& exit_code)
 {
-  ReadArgos3Experiments(RehearseArgos3);
   auto request = std::make_shared<ConvertRequest>();
   CLI::App* verb =
       app.add_subcommand("convert", "Write an experiment of ARGoS3, a world or a floor plan as one of ours");
@@ -210,7 +209,7 @@ void AddConvertCommand(CLI::App& app, int& exit_code)
       });
 }
 
-const RegisterSubCommand kConvert(14, AddConvertCommand);
+const RegisterSubCommand kConvert(14, "convert", AddConvertCommand);
 
 }  // namespace
 }  // namespace swarmanoid

@@ -119,7 +119,7 @@ void AddDemoCommand(CLI::App& app, int& exit_code)
   verb->callback([options, &exit_code] { exit_code = options->list ? List() : Play(*options); });
 }
 
-const RegisterSubCommand kDemo(19, AddDemoCommand);
+const RegisterSubCommand kDemo(19, "demo", AddDemoCommand);
 
 }  // namespace
 }  // namespace swarmanoid

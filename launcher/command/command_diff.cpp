@@ -124,7 +124,7 @@ void AddDiffCommand(CLI::App& app, int& exit_code)
   verb->callback([first, second, &exit_code] { exit_code = Diff(*first, *second); });
 }
 
-const RegisterSubCommand kDiff(4, AddDiffCommand);
+const RegisterSubCommand kDiff(4, "diff", AddDiffCommand);
 
 }  // namespace
 }  // namespace swarmanoid

@@ -72,7 +72,7 @@ void AddDoctorCommand(CLI::App& app, int& exit_code)
   verb->callback([json, &exit_code] { exit_code = Doctor(*json); });
 }
 
-const RegisterSubCommand kDoctor(20, AddDoctorCommand);
+const RegisterSubCommand kDoctor(20, "doctor", AddDoctorCommand);
 
 }  // namespace
 }  // namespace swarmanoid

@@ -149,7 +149,7 @@ void AddEditCommand(CLI::App& app, int& exit_code)
   verb->callback([options, &exit_code] { exit_code = Edit(*options); });
 }
 
-const RegisterSubCommand kEdit(13, AddEditCommand);
+const RegisterSubCommand kEdit(13, "edit", AddEditCommand);
 
 }  // namespace
 }  // namespace swarmanoid

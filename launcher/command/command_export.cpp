@@ -372,7 +372,7 @@ void AddExportCommand(CLI::App& app, int& exit_code)
   verb->callback([options, &exit_code] { exit_code = Export(*options); });
 }
 
-const RegisterSubCommand kExport(6, AddExportCommand);
+const RegisterSubCommand kExport(6, "export", AddExportCommand);
 
 }  // namespace
 }  // namespace swarmanoid

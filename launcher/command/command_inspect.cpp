@@ -188,7 +188,7 @@ void AddInspectCommand(CLI::App& app, int& exit_code)
   verb->callback([options, &exit_code] { exit_code = Inspect(*options); });
 }
 
-const RegisterSubCommand kInspect(5, AddInspectCommand);
+const RegisterSubCommand kInspect(5, "inspect", AddInspectCommand);
 
 }  // namespace
 }  // namespace swarmanoid

@@ -9,7 +9,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "common/bus/run_directory.h"
 #include "common/configuration/wording.h"
 #include "common/errors/exit_codes.h"
 #include "common/errors/print_error.h"
@@ -17,6 +16,7 @@
 #include "common/plugins/catalogue.h"
 #include "common/plugins/library.h"
 #include "common/program/shell_word.h"
+#include "common/run/access/run_directory.h"
 #include "launcher/command/sub_command.h"
 #include "launcher/packages/installed_packages.h"
 #include "launcher/plugin_text.h"
@@ -316,7 +316,7 @@ void AddListCommand(CLI::App& app, int& exit_code)
   packages->callback([file, options, &exit_code] { exit_code = ListPackages(*file, options->json); });
 }
 
-const RegisterSubCommand kList(15, AddListCommand);
+const RegisterSubCommand kList(15, "list", AddListCommand);
 
 }  // namespace
 }  // namespace swarmanoid

@@ -150,7 +150,7 @@ void AddNewCommand(CLI::App& app, int& exit_code)
   verb->require_subcommand(1);
 }
 
-const RegisterSubCommand kNew(16, AddNewCommand);
+const RegisterSubCommand kNew(16, "new", AddNewCommand);
 
 }  // namespace
 }  // namespace swarmanoid

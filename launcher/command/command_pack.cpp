@@ -110,8 +110,8 @@ void AddInstallCommand(CLI::App& app, int& exit_code)
   verb->callback([request, &exit_code] { exit_code = Install(*request); });
 }
 
-const RegisterSubCommand kPack(17, AddPackCommand);
-const RegisterSubCommand kInstall(18, AddInstallCommand);
+const RegisterSubCommand kPack(17, "pack", AddPackCommand);
+const RegisterSubCommand kInstall(18, "install", AddInstallCommand);
 
 }  // namespace
 }  // namespace swarmanoid

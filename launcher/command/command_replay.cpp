@@ -189,7 +189,7 @@ void AddReplayCommand(CLI::App& app, int& exit_code)
   verb->callback([options, &exit_code] { exit_code = Replay(*options); });
 }
 
-const RegisterSubCommand kReplay(3, AddReplayCommand);
+const RegisterSubCommand kReplay(3, "replay", AddReplayCommand);
 
 }  // namespace
 }  // namespace swarmanoid

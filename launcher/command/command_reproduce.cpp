@@ -269,7 +269,7 @@ void AddReproduceCommand(CLI::App& app, int& exit_code)
   verb->callback([options, &exit_code] { exit_code = Reproduce(*options); });
 }
 
-const RegisterSubCommand kReproduce(8, AddReproduceCommand);
+const RegisterSubCommand kReproduce(8, "reproduce", AddReproduceCommand);
 
 }  // namespace
 }  // namespace swarmanoid

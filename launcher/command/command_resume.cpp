@@ -138,7 +138,7 @@ void AddResumeCommand(CLI::App& app, int& exit_code)
                  { exit_code = Resume(fs::absolute(*folder).lexically_normal().string(), *options); });
 }
 
-const RegisterSubCommand kResume(2, AddResumeCommand);
+const RegisterSubCommand kResume(2, "resume", AddResumeCommand);
 
 }  // namespace
 }  // namespace swarmanoid

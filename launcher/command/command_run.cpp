@@ -91,7 +91,7 @@ void AddRunCommand(CLI::App& app, int& exit_code)
       });
 }
 
-const RegisterSubCommand kRun(1, AddRunCommand);
+const RegisterSubCommand kRun(1, "run", AddRunCommand);
 
 }  // namespace
 }  // namespace swarmanoid

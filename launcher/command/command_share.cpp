@@ -10,17 +10,17 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "common/bus/addresses.h"
-#include "common/bus/membership/cluster_options.h"
-#include "common/bus/membership/control_client.h"
-#include "common/bus/run_directory.h"
-#include "common/bus/security/access_grant.h"
 #include "common/configuration/wording.h"
 #include "common/errors/exit_codes.h"
 #include "common/errors/print_error.h"
 #include "common/program/shell_word.h"
+#include "common/run/access/access_grant.h"
+#include "common/run/access/addresses.h"
+#include "common/run/access/cluster_options.h"
+#include "common/run/access/run_directory.h"
 #include "launcher/command/run_choice.h"
 #include "launcher/command/sub_command.h"
+#include "launcher/supervision/bus_library.h"
 #include "launcher/system/network_namespace.h"
 
 namespace swarmanoid
@@ -143,9 +143,8 @@ int ShareRun(ShareOptions& options, bool domain_given)
   if (options.list) order = {"shares"};
   if (!options.revoke.empty()) order = {"revoke", {{"grant", options.revoke}}};
 
-  Bus bus(options.bus, "swarmanoid share");
-  ControlClient client(bus, run.experiment);
-  const auto reply = client.Ask(order, ControlClient::kPatience_s);
+  const BusLibrary& bus = LoadBusLibrary();
+  const auto reply = bus.Ask(options.bus, "swarmanoid share", run.experiment, order, kPatience_s).reply;
   if (!reply)
   {
     PrintError("swarmanoid: experiment {} in domain {} does not answer\n", Quoted(run.experiment), run.domain);
@@ -170,7 +169,7 @@ int ShareRun(ShareOptions& options, bool domain_given)
       token.discovery_server = token.address;
       token.address = server->first;
     }
-    token.key = ChannelOf(key, grant).key.value();
+    token.key = bus.ChannelOf(key, grant).key.value();
     PrintToken(token, options.json);
   }
   return kExitDone;
@@ -212,7 +211,7 @@ void AddShareCommand(CLI::App& app, int& exit_code)
                  { exit_code = ShareRun(*options, verb->get_option("--domain")->count() > 0); });
 }
 
-const RegisterSubCommand kShare(11, AddShareCommand);
+const RegisterSubCommand kShare(11, "share", AddShareCommand);
 
 }  // namespace
 }  // namespace swarmanoid

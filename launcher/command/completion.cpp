@@ -5,10 +5,10 @@
 #include <sstream>
 #include <utility>
 
-#include "common/bus/run_directory.h"
 #include "common/experiment/load_experiment.h"
 #include "common/messages/control_verbs.h"
 #include "common/plugins/catalogue.h"
+#include "common/run/access/run_directory.h"
 #include "launcher/command/sub_command.h"
 #include "launcher/plugin_text.h"
 #include "launcher/system/installation.h"

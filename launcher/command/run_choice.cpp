@@ -10,11 +10,11 @@
 #include <thread>
 #include <vector>
 
-#include "common/bus/run_directory.h"
-#include "common/bus/security/access_grant.h"
 #include "common/configuration/wording.h"
 #include "common/errors/print_error.h"
 #include "common/program/interrupts.h"
+#include "common/run/access/access_grant.h"
+#include "common/run/access/run_directory.h"
 #include "launcher/command/sub_command.h"
 #include "launcher/system/network_namespace.h"
 

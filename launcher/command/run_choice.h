@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "common/bus/run_directory.h"
+#include "common/run/access/run_directory.h"
 
 namespace swarmanoid
 {

@@ -6,19 +6,28 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <stdexcept>
 #include <vector>
 
+#include "argos3/converter/convert.h"
 #include "common/configuration/wording.h"
 #include "common/program/shell_word.h"
+#include "launcher/argos3_dry_run.h"
 
 namespace swarmanoid
 {
 namespace
 {
 
-std::multimap<int, RegisterSubCommand::Add>& Registered()
+struct SubCommand
 {
-  static std::multimap<int, RegisterSubCommand::Add> registered;
+  const char* name;
+  RegisterSubCommand::Add add;
+};
+
+std::multimap<int, SubCommand>& Registered()
+{
+  static std::multimap<int, SubCommand> registered;
   return registered;
 }
 
@@ -36,19 +45,34 @@ const std::map<int, const char*>& Headings()
 
 }  // namespace
 
-RegisterSubCommand::RegisterSubCommand(int order, Add add) { Registered().emplace(order, add); }
+RegisterSubCommand::RegisterSubCommand(int order, const char* name, Add add)
+{
+  Registered().emplace(order, SubCommand{name, add});
+}
+
+bool IsSubCommand(const std::string& word)
+{
+  return std::ranges::any_of(Registered(), [&](const auto& each) { return word == each.second.name; });
+}
 
 void AddSubCommands(CLI::App& app, int& exit_code, const std::string& word)
 {
-  for (const auto& [order, add] : Registered())
+  // Every sub-command reads experiments of ARGoS3, too.
+  ReadArgos3Experiments(RehearseArgos3);
+  // The options of all sub-commands take a quarter of the start of a run.
+  const bool adds_all = word.empty() || word.starts_with("-");
+  for (const auto& [order, command] : Registered())
   {
-    add(app, exit_code);
-    app.get_subcommands({}).back()->group(std::prev(Headings().upper_bound(order))->second);
+    if (!adds_all && word != command.name) continue;
+    command.add(app, exit_code);
+    CLI::App& added = *app.get_subcommands({}).back();
+    if (added.get_name() != command.name)
+      throw std::logic_error(fmt::format("the sub-command {} is registered as {}", added.get_name(), command.name));
+    added.group(std::prev(Headings().upper_bound(order))->second);
   }
-  if (word.empty() || word.starts_with("-")) return;
+  if (adds_all || IsSubCommand(word)) return;
   std::vector<std::string> names;
-  for (const CLI::App* known : app.get_subcommands({})) names.push_back(known->get_name());
-  if (std::find(names.begin(), names.end(), word) != names.end()) return;
+  for (const auto& [order, command] : Registered()) names.emplace_back(command.name);
   if (word.ends_with(".xml") || word.ends_with(".argos"))
     throw UsageError(fmt::format("there is no command {}; an experiment is run by: swarmanoid run {}", Quoted(word),
                                  ShellWord(word)));

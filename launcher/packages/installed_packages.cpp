@@ -8,10 +8,10 @@
 #include <set>
 #include <utility>
 
-#include "common/bus/security/digest.h"
 #include "common/configuration/output_file.h"
 #include "common/configuration/regular_file.h"
 #include "common/configuration/wording.h"
+#include "common/run/access/digest.h"
 #include "launcher/new_files.h"
 
 namespace swarmanoid

@@ -6,10 +6,10 @@
 #include <map>
 #include <utility>
 
-#include "common/bus/security/digest.h"
 #include "common/configuration/regular_file.h"
 #include "common/configuration/wording.h"
 #include "common/program/usage_error.h"
+#include "common/run/access/digest.h"
 #include "common/version/version.h"
 #include "launcher/archive/tar_file.h"
 #include "launcher/packages/installed_packages.h"

@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <utility>
 
-#include "common/bus/run_key.h"
+#include "common/run/access/run_key.h"
 
 namespace swarmanoid
 {

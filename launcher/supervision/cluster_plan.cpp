@@ -10,10 +10,10 @@
 #include <filesystem>
 #include <string_view>
 
-#include "common/bus/membership/worker_world.h"
 #include "common/configuration/wording.h"
 #include "common/messages/assignment.h"
 #include "common/program/usage_error.h"
+#include "common/run/visualiser_name.h"
 
 namespace swarmanoid
 {

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "common/bus/membership/cluster_options.h"
 #include "common/experiment/experiment.h"
 #include "common/program/process.h"
+#include "common/run/access/cluster_options.h"
 #include "common/run/run_settings.h"
 #include "launcher/supervision/machines.h"
 #include "launcher/supervision/run_request.h"

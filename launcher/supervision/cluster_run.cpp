@@ -14,11 +14,12 @@
 #include <thread>
 
 #include "common/activity/failure_report.h"
-#include "common/bus/run_directory.h"
 #include "common/errors/exit_codes.h"
 #include "common/errors/print_error.h"
 #include "common/program/program.h"
+#include "common/run/access/run_directory.h"
 #include "common/threads/start_thread.h"
+#include "launcher/supervision/bus_library.h"
 #include "launcher/supervision/in_process_server.h"
 #include "launcher/supervision/manifest_at_death.h"
 #include "launcher/supervision/run_actors.h"
@@ -26,8 +27,6 @@
 #include "launcher/supervision/supervisor.h"
 #include "launcher/system/installation.h"
 #include "launcher/system/network_namespace.h"
-#include "simulation/register_all.h"
-#include "space_server/cluster/server_main.h"
 
 namespace swarmanoid
 {
@@ -59,31 +58,6 @@ RunResult ResultOf(const ClusterOutcome& outcome)
   return result;
 }
 
-// Runs the space server's program in this process, with the user's watch function.
-int ServeHere(std::vector<std::string> words, int status, const std::atomic<bool>& stop,
-              const std::atomic<bool>& abandon, const std::optional<RunKey>& key, const WatchFunction& watch)
-{
-  ServerOptions options;
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  return RunProgram(
-      {"space_server", "", "", RegisterBuiltins, false, true}, static_cast<int>(arguments.size()), arguments.data(),
-      [&](CLI::App& app) { AddServerOptions(app, options); },
-      [&]
-      {
-        options.status_fd = status;
-        options.bus.key = key;
-        options.stop = &stop;
-        options.abandon = &abandon;
-        options.watch = [watch](SpaceServer& server)
-        {
-          CSimulator simulator = WatchedSimulator::Of(server);
-          watch(simulator);
-        };
-        return Serve(options);
-      });
-}
-
 // Ends the process while the user's watch function, which never returns, still holds the thread of the run.
 [[noreturn]] void LeaveStuck(const ClusterOutcome& outcome, const std::function<int(const RunResult&)>& conclude)
 {
@@ -100,6 +74,7 @@ ClusterOutcome ServeAndSupervise(const std::function<ClusterOutcome(ProcessSpawn
                                  const std::optional<RunKey>& key, const WatchFunction& watch,
                                  const std::function<int(const RunResult&)>& conclude)
 {
+  const BusLibrary& bus = LoadBusLibrary();
   InProcessServer server;
   ClusterOutcome outcome;
   std::thread supervising = StartThread("supervises the run",
@@ -110,7 +85,7 @@ ClusterOutcome ServeAndSupervise(const std::function<ClusterOutcome(ProcessSpawn
                                           server.Cancel();
                                         });
   server.Run([&](const auto& words, int status, const auto& stop, const auto& abandon)
-             { return ServeHere(words, status, stop, abandon, key, watch); });
+             { return bus.Serve(words, status, stop, abandon, key, watch); });
   supervising.join();
   return outcome;
 }

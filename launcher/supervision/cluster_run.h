@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "common/bus/run_key.h"
+#include "common/run/access/run_key.h"
 #include "launcher/supervision/cluster_plan.h"
 #include "launcher/supervision/prepared_run.h"
 #include "launcher/supervision/signal_descriptor.h"

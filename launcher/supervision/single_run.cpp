@@ -16,7 +16,7 @@
 #include "common/program/usage_error.h"
 #include "launcher/supervision/manifest_at_death.h"
 #include "launcher/supervision/progress_display.h"
-#include "launcher/supervision/run_on_bus.h"
+#include "simulation/run_link.h"
 #include "simulation/single_process.h"
 
 namespace swarmanoid
@@ -37,7 +37,7 @@ bool HasLoopFunctions(const Experiment& experiment)
                              [](const auto& functions) { return functions.tag == "argos3_loop_functions"; });
 }
 
-RunResult RunHere(const PreparedRun& prepared, RunOnBus* bus)
+RunResult RunHere(const PreparedRun& prepared, RunLink* link)
 {
   using Clock = ProgressDisplay::Clock;
 
@@ -57,7 +57,7 @@ RunResult RunHere(const PreparedRun& prepared, RunOnBus* bus)
   // Users of loop functions want to look back, too.
   if (request->journal && HasLoopFunctions(experiment))
     run.companions.journal_file = JournalFile(prepared.folder.Path());
-  run.companions.link = bus;
+  run.companions.link = link;
   run.stop = &InterruptFlag();
   run.companions.watch = request.Watch();
   run.may_reset = !request.Watch();
@@ -95,7 +95,7 @@ RunResult RunHere(const PreparedRun& prepared, RunOnBus* bus)
     result.exit_code = kExitProcessFailed;
     result.failure = error.what();
   }
-  if (bus != nullptr) bus->Fail(result.failure);
+  if (link != nullptr) link->Fail(result.failure);
   display.Clear();
   if (!result.failure.empty()) PrintError("{}\n", result.failure);
   return result;

@@ -12,9 +12,9 @@ void ApplyLimitsHere(const RunSettings& settings);
 // Returns whether an experiment has loop functions of ARGoS3, which need one process.
 bool HasLoopFunctions(const Experiment& experiment);
 
-class RunOnBus;
+class RunLink;
 
-// `bus`: by which users outside of this process watch and steer the run; nullptr: they cannot.
-RunResult RunHere(const PreparedRun& prepared, RunOnBus* bus = nullptr);
+// `link`: by which users outside of this process watch and steer the run; nullptr: they cannot.
+RunResult RunHere(const PreparedRun& prepared, RunLink* link = nullptr);
 
 }  // namespace swarmanoid

@@ -14,10 +14,10 @@
 
 #include "common/activity/failure_report.h"
 #include "common/bus/membership/library_check.h"
-#include "common/bus/security/access_grant.h"
 #include "common/configuration/wording.h"
 #include "common/plugins/library.h"
 #include "common/program/usage_error.h"
+#include "common/run/access/access_grant.h"
 #include "common/space/space.h"
 #include "common/threads/start_thread.h"
 #include "launcher/command/control_words.h"
@@ -314,8 +314,7 @@ ControlReplyMessage AttachedRun::Control(const std::vector<std::string>& words,
           fmt::format("no run of experiment {} in domain {} on this machine is of user {}, and no key of it is given; "
                       "the user who started it can steer it, or give you its key (docs/security.md)",
                       Quoted(choice_.experiment), choice_.domain, UserName()));
-    reply =
-        client_->Ask(order, PatienceFor(order, ControlClient::kPatience_s), [this] { return stop_ || SignalCame(); });
+    reply = client_->Ask(order, PatienceFor(order, kPatience_s), [this] { return stop_ || SignalCame(); });
     status = client_->LatestStatus();
     dropped = bus_->Dropped();
   }

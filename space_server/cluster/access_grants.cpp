@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/bus/addresses.h"
+#include "common/bus/security/derived_key.h"
 #include "common/configuration/wording.h"
 #include "common/errors/print_error.h"
 #include "common/messages/control_verbs.h"
+#include "common/run/access/addresses.h"
 
 namespace swarmanoid
 {

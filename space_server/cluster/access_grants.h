@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "common/bus/membership/server_session.h"
-#include "common/bus/security/access_grant.h"
+#include "common/run/access/access_grant.h"
 #include "common/threads/waiting.h"
 #include "space_server/event_log.h"
 

@@ -9,11 +9,11 @@
 #include <memory>
 
 #include "common/activity/failure_report.h"
-#include "common/bus/membership/cluster_options.h"
 #include "common/configuration/output_file.h"
 #include "common/errors/print_error.h"
 #include "common/experiment/load_experiment.h"
 #include "common/program/trust_flag.h"
+#include "common/run/access/cluster_options.h"
 
 namespace swarmanoid
 {

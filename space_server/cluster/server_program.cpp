@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <utility>
 
-#include "common/bus/security/digest.h"
 #include "common/checkpoint/host_state.h"
 #include "common/checkpoint/library_builds.h"
 #include "common/errors/exit_codes.h"
@@ -16,6 +15,7 @@
 #include "common/journal/journal_reader.h"
 #include "common/messages/control_verbs.h"
 #include "common/program/standard_output.h"
+#include "common/run/access/digest.h"
 #include "common/run/run_summary.h"
 #include "common/serialisation/save_check.h"
 #include "common/space/space.h"

@@ -13,8 +13,8 @@ namespace swarmanoid
 inline constexpr const char* kStudyWorkerFlag = "--study-worker";
 
 // Executes runs for another process. `words` is empty, or has the folder of the jobs and the number of the task.
-// Returns the exit code.
-int RunStudyWorker(const std::vector<std::string>& words);
+// Returns the exit code. The command finds it by its name, when it has loaded the library of studies.
+extern "C" int RunStudyWorker(const std::vector<std::string>& words);
 
 // The first byte of a message through the pipes.
 enum class StudyMessage : std::uint8_t

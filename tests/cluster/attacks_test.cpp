@@ -16,8 +16,9 @@
 #include <fmt/format.h>
 
 #include "common/bus/membership/control_client.h"
-#include "common/bus/run_directory.h"
-#include "common/bus/security/access_grant.h"
+#include "common/bus/security/derived_key.h"
+#include "common/run/access/access_grant.h"
+#include "common/run/access/run_directory.h"
 #include "test_folders.h"
 #include "tests/cluster/cluster_fixture.h"
 #include "tests/unit/bus/stranger.h"

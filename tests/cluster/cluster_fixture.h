@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "common/bus/free_domain.h"
 #include "common/messages/control_verbs.h"
+#include "common/run/access/free_domain.h"
 #include "tests/cluster/child_process.h"
 #include "tests/eventually.h"
 #include "tests/world/temporary_folder.h"

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "common/bus/membership/control_client.h"
-#include "common/bus/security/access_grant.h"
+#include "common/run/access/access_grant.h"
 #include "test_folders.h"
 #include "tests/cluster/cluster_fixture.h"
 

@@ -1,7 +1,7 @@
 """The experiments of configs/ with no robot and with one, in one process and as a cluster."""
 import re
 
-from harness import CONFIGS, LauncherTest
+from harness import CONFIGS, DIFFUSION, LauncherTest
 
 TICKS = 12
 # Each kind of engine, and entities of each source.
@@ -44,6 +44,20 @@ class Simplest(LauncherTest):
 
     def test_with_one_robot(self):
         self.compare(1, "--no-visualisers")
+
+    def test_a_run_in_one_process_loads_no_dds(self):
+        """It takes half of the start. The command that starts a cluster does without it, too, and without the libraries of studies."""
+        needed = {"--single-process": {"libswarmanoid_space"}, "--controller-hosts=1": {"libswarmanoid_run"}}
+        unneeded = re.compile(r"lib(fastrtps|fastdds|fastcdr|crypto|ssl|sqlite3|nlopt|swarmanoid_(bus|launcher_bus|space_server_node|studies))$")
+        for way, libraries in needed.items():
+            with self.subTest(way=way):
+                run = self.run_it("run", DIFFUSION, "--ticks", 2, "--quiet", "--no-visualisers", "--output", self.folder / way[2:8], way,
+                                  environment={"LD_DEBUG": "files", "LD_DEBUG_OUTPUT": str(self.folder / "loader")})
+                self.assertEqual(run.process.returncode, 0, run.stderr)
+                log = (self.folder / f"loader.{run.process.pid}").read_text()
+                loaded = {name.split(".so")[0] for name in re.findall(r"calling init: \S*/(lib\S+)", log)}
+                self.assertLessEqual(libraries, loaded)
+                self.assertEqual([name for name in sorted(loaded) if unneeded.match(name)], [])
 
     def test_what_draws_beside_one_robot(self):
         """A visualiser of a cluster hears of the run by the bus."""

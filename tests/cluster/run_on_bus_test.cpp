@@ -4,7 +4,7 @@
 
 #include "common/bus/membership/control_client.h"
 #include "common/experiment/load_experiment.h"
-#include "launcher/supervision/run_on_bus.h"
+#include "launcher/bus/run_on_bus.h"
 #include "simulation/register_all.h"
 #include "simulation/single_process.h"
 #include "tests/cluster/cluster_fixture.h"

@@ -24,6 +24,7 @@ COMMON = [
     ["common/space/terrain"],
     ["common/experiment/placement"],
     ["common/plugin_descriptions"],
+    ["common/run/access"],
     ["common/run"],
     ["idl"],  # headers that the build makes
     ["common/messages"],
@@ -68,14 +69,16 @@ def allowed():
     rules["argos3/program"] = rules["argos3"] + ["simulation", "launcher", "argos3/program"]
     # The simulator of one process registers all roles.
     rules["simulation"] = below + ROLES + ["simulation"]
-    rules["launcher"] = below + BUS + ROLES + ["space_server/cluster", "simulation", "argos3/converter", "launcher"]
+    # The launcher starts without DDS. It loads the library of launcher/bus, which takes part in runs.
+    rules["launcher"] = below + ROLES + ["simulation", "argos3/converter", "launcher"]
+    rules["launcher/bus"] = rules["launcher"] + BUS + ["space_server/cluster", "launcher/bus"]
     # The program has the sub-commands of studies too.
     rules["launcher/main.cpp"] = rules["launcher"] + ["studies"]
     # The module wraps the runner for one process, as a program of a user does, and looks on at runs as a visualiser does.
     rules["python"] = (below + BUS + ["controller_host", "space_server", "visualiser", "visualiser/cluster", "simulation", "launcher"]
                        + ["studies", "python"])
     # A layer on what programs of users have: no role.
-    rules["studies"] = below + BUS + ["simulation", "launcher", "studies"]
+    rules["studies"] = below + ["simulation", "launcher", "studies"]
     rules["real_robot"] = INTERFACE + ["common/logging", "common/program", "real_robot"]
     # A folder of drivers sees what drivers are made from, and no other drivers.
     rules["real_robot/drivers/ros2"] = rules["real_robot"] + ["common/bus/dds", "real_robot/drivers/ros2"]

@@ -8,7 +8,7 @@ from tracked import report, tracked
 DESCRIPTIONS = "common/plugin_descriptions/"
 OPTIONS = "common/run/run_settings.cpp"
 IMPLEMENTATION = re.compile(r'\.implementation = "(\w+)"')
-SUB_COMMAND = re.compile(r"RegisterSubCommand \w+\(\d+, (\w+)\)")
+SUB_COMMAND = re.compile(r'RegisterSubCommand \w+\(\d+, "[a-z]+", (\w+)\)')
 # Names of one word have other meanings, too.
 OPTION = re.compile(r'(?:Whole|Text|Path|Number|Flag)\(\s*"([a-z]+-[a-z-]+)"')
 # These use devices as users do; a check of experiments is about one device; some sub-commands take options of a run.

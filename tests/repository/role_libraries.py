@@ -1,4 +1,5 @@
-"""role_libraries.py PROGRAM...: the program of a role loads the libraries of its own role, and of no other.
+"""role_libraries.py PROGRAM...: the program of a role loads the libraries of its own role, and of no other. The command, which is the
+first of the programs, starts without DDS: it loads the library launcher_bus when it needs that.
 
 What a process must know of the others' engines, devices and renderers to read an experiment is in common/plugin_descriptions.
 """
@@ -19,6 +20,7 @@ OF_ROLE = {
 }
 # Solvers belong to the engines. Renderers that need graphics or films load theirs when one is made. Assimp is loaded for mesh files.
 SOLVERS = {"libode", "libbox2d"}
+LATE = re.compile(r"lib(fastrtps|fastdds|fastcdr|crypto|ssl|sqlite3|nlopt|swarmanoid_(bus|launcher_bus|space_server_node|studies))$")
 GRAPHICS = re.compile(r"lib(GL|EGL|OpenGL|epoxy|glfw|Ogre|imgui|SDL|X11|avcodec|avformat|avutil|swscale)|libassimp")
 
 
@@ -29,6 +31,11 @@ def loaded(program):
         if "not found" in line:
             raise RuntimeError(f"{program}: {line.strip()}")
     return {os.path.basename(line.split()[0]).split(".so")[0] for line in listing.splitlines() if ".so" in line}
+
+
+def mistakes_of_command(program):
+    for name in sorted(filter(LATE.match, loaded(program))):
+        yield f"{os.path.basename(program)} loads {name} at its start"
 
 
 def mistakes_of(program):
@@ -47,9 +54,10 @@ def mistakes_of(program):
 
 
 def main():
-    if {os.path.basename(program) for program in sys.argv[1:]} != set(OF_ROLE):
-        report([f"give the programs {', '.join(OF_ROLE)}"])
-    report([mistake for program in sys.argv[1:] for mistake in mistakes_of(program)])
+    command, *programs = sys.argv[1:]
+    if os.path.basename(command) != "swarmanoid" or {os.path.basename(program) for program in programs} != set(OF_ROLE):
+        report([f"give the programs swarmanoid, {', '.join(OF_ROLE)}"])
+    report([*mistakes_of_command(command), *(mistake for program in programs for mistake in mistakes_of(program))])
 
 
 main()

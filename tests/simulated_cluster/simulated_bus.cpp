@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "common/bus/bus.h"
-#include "common/bus/run_directory.h"
 #include "common/bus/topics/message_fields.h"
+#include "common/run/access/run_directory.h"
 #include "tests/simulated_cluster/simulated_network.h"
 
 namespace swarmanoid

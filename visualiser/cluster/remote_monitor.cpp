@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "common/bus/run_directory.h"
+#include "common/run/access/run_directory.h"
 
 namespace swarmanoid
 {

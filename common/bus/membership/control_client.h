@@ -20,10 +20,6 @@ namespace swarmanoid
 class ControlClient
 {
 public:
-  // How long a run may stand still without an answer, unless the user says otherwise. A process may need most of it to
-  // find the run, beside other work on the machine.
-  static constexpr double kPatience_s = 15;
-
   // `run`: WorldMessage::run, if known; otherwise Ask learns it.
   ControlClient(Bus& bus, const std::string& experiment, std::uint64_t run = 0);
 

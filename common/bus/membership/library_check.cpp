@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "common/bus/security/digest.h"
 #include "common/plugins/library.h"
+#include "common/run/access/digest.h"
 
 namespace swarmanoid
 {

@@ -13,7 +13,7 @@
 #include "common/bus/bus.h"
 #include "common/bus/guarded.h"
 #include "common/bus/membership/server_membership.h"
-#include "common/bus/run_directory.h"
+#include "common/run/access/run_directory.h"
 
 namespace swarmanoid
 {

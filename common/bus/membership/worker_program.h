@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 #include <functional>
 
-#include "common/bus/membership/cluster_options.h"
 #include "common/bus/membership/tick_gate.h"
 #include "common/experiment/experiment.h"
 #include "common/program/program.h"
+#include "common/run/access/cluster_options.h"
 
 namespace swarmanoid
 {

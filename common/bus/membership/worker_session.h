@@ -15,7 +15,7 @@
 #include "common/activity/failure_report.h"
 #include "common/bus/bus.h"
 #include "common/bus/membership/worker_membership.h"
-#include "common/bus/run_directory.h"
+#include "common/run/access/run_directory.h"
 #include "common/threads/waiting.h"
 
 namespace swarmanoid

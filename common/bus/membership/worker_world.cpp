@@ -92,6 +92,4 @@ std::string PartNameOfEngine(std::size_t engine) { return "engine " + std::to_st
 // No engine waits for a host without robots, so the server does.
 bool ServerHears(const HostLayout& host) { return host.reports_to_server || host.robots.empty(); }
 
-std::string VisualiserName(const RenderConfiguration& render) { return fmt::format("visualiser '{}'", render.id); }
-
 }  // namespace swarmanoid

@@ -9,6 +9,7 @@
 #include "common/checkpoint/checkpoint.h"
 #include "common/experiment/load_experiment.h"
 #include "common/messages/assignment.h"
+#include "common/run/visualiser_name.h"
 #include "common/space/space.h"
 #include "idl/messages.h"
 
@@ -56,7 +57,5 @@ std::string PartNameOfEngine(std::size_t engine);
 
 // Returns whether the server waits for the commands of a host.
 bool ServerHears(const HostLayout& host);
-
-std::string VisualiserName(const RenderConfiguration& render);  // "visualiser 'text'"
 
 }  // namespace swarmanoid

@@ -1,6 +1,6 @@
 #include "common/bus/security/key_ring.h"
 
-#include "common/bus/run_directory.h"
+#include "common/run/access/run_directory.h"
 
 namespace swarmanoid
 {

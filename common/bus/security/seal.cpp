@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "common/bus/bus.h"
+#include "common/bus/security/derived_key.h"
 
 namespace swarmanoid
 {

@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "common/bus/run_key.h"
+#include "common/run/access/run_key.h"
 
 namespace swarmanoid
 {

@@ -8,7 +8,6 @@
 // only counted.
 #include "common/bus/topics/participant.h"
 
-#include <pwd.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -25,12 +24,12 @@
 #include <fmt/format.h>
 
 #include "common/activity/failure_report.h"
-#include "common/bus/addresses.h"
-#include "common/bus/dds_environment.h"
 #include "common/configuration/shown_text.h"
 #include "common/errors/exit_codes.h"
 #include "common/errors/print_error.h"
 #include "common/logging/log.h"
+#include "common/run/access/addresses.h"
+#include "common/run/access/dds_environment.h"
 
 namespace swarmanoid
 {
@@ -41,7 +40,6 @@ namespace
 constexpr unsigned kSocketBuffer = 4U << 20;  // bytes; 10,000 robots lose datagrams with the system's default
 constexpr double kLongestPeriod_s = 0.5;      // the longest time between two announcements of a process
 constexpr std::size_t kSendersTold = 100;     // limit for the senders of bad messages in the log, by topic
-constexpr std::size_t kLongestUser = 100;     // bytes
 constexpr std::size_t kLongestSender = 200;   // bytes of a name in the log
 
 // Routes the log of Fast DDS. By default it writes to standard output, which is for the results of a run.
@@ -131,21 +129,7 @@ std::string MachineName()
 
 bool IsAlive(long pid) { return kill(static_cast<pid_t>(pid), 0) == 0 || errno == EPERM; }
 
-std::string UserName()
-{
-  const passwd* const user = getpwuid(geteuid());
-  return user != nullptr ? ShowableLine(user->pw_name, kLongestUser) : std::to_string(geteuid());
-}
-
 std::string ProcessId() { return fmt::format("{}:{}", MachineName(), getpid()); }
-
-std::optional<RunKey> GivenKey(const BusOptions& options)
-{
-  if (options.insecure || options.key) return options.key;
-  if (options.key_fd >= 0) return KeyOfDescriptor(options.key_fd);
-  if (!options.key_file.empty()) return KeyOfFile(options.key_file);
-  return std::nullopt;
-}
 
 WriterId IdOf(const rtps::GUID_t& writer)
 {

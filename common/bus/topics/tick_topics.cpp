@@ -1,8 +1,8 @@
-#include "common/bus/run_directory.h"
 #include "common/bus/topics/message_type.h"
 #include "common/bus/topics/participant.h"
 #include "common/math/random.h"
 #include "common/memory/shared_memory.h"
+#include "common/run/access/run_directory.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

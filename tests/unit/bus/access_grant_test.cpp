@@ -1,5 +1,6 @@
 // Access grants: what their keys depend on, when they end, and the text of their tokens.
-#include "common/bus/security/access_grant.h"
+#include "common/run/access/access_grant.h"
+#include "common/bus/security/derived_key.h"
 
 #include <gmock/gmock.h>
 

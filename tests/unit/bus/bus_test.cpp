@@ -19,9 +19,9 @@
 #include <gmock/gmock.h>
 
 #include "common/bus/dds/fast_dds.h"
-#include "common/bus/free_domain.h"
-#include "common/bus/run_directory.h"
 #include "common/logging/log.h"
+#include "common/run/access/free_domain.h"
+#include "common/run/access/run_directory.h"
 #include "idl/messages.h"
 #include "tests/eventually.h"
 #include "tests/world/message_of.h"

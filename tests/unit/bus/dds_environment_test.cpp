@@ -1,5 +1,5 @@
 // Variables that Fast DDS reads for other programs change nothing of a run.
-#include "common/bus/dds_environment.h"
+#include "common/run/access/dds_environment.h"
 
 #include <gmock/gmock.h>
 

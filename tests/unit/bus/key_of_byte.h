@@ -1,7 +1,7 @@
 // Keys of runs for tests.
 #pragma once
 
-#include "common/bus/run_key.h"
+#include "common/run/access/run_key.h"
 
 namespace swarmanoid::test
 {

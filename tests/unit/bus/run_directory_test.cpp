@@ -1,4 +1,4 @@
-#include "common/bus/run_directory.h"
+#include "common/run/access/run_directory.h"
 
 #include <sys/wait.h>
 #include <unistd.h>

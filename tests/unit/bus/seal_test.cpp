@@ -15,7 +15,7 @@
 #include <gmock/gmock.h>
 
 #include "common/bus/security/datagram_signatures.h"
-#include "common/bus/security/digest.h"
+#include "common/run/access/digest.h"
 #include "tests/eventually.h"
 #include "tests/unit/bus/key_of_byte.h"
 #include "tests/unit/bus/listener.h"

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "common/bus/free_domain.h"
 #include "common/bus/membership/server_session.h"
+#include "common/run/access/free_domain.h"
 
 namespace swarmanoid::test
 {

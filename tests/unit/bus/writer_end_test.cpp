@@ -7,8 +7,8 @@
 
 #include "common/bus/dds/data_type.h"
 #include "common/bus/dds/for_tests.h"
-#include "common/bus/run_directory.h"
 #include "common/bus/topics/participant.h"
+#include "common/run/access/run_directory.h"
 #include "tests/eventually.h"
 #include "tests/unit/bus/server_fixture.h"
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "common/bus/security/digest.h"
 #include "common/program/usage_error.h"
+#include "common/run/access/digest.h"
 #include "launcher/archive/tar_file.h"
 #include "launcher/packages/install_package.h"
 #include "launcher/packages/installed_packages.h"

@@ -1,6 +1,6 @@
 // The table of run settings: the allowed command lines, and the command lines of processes that are written from it.
 #include "common/run/run_settings.h"
-#include "common/bus/addresses.h"
+#include "common/run/access/addresses.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -8,8 +8,8 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
-#include "common/bus/membership/cluster_options.h"
 #include "common/program/usage_error.h"
+#include "common/run/access/cluster_options.h"
 #include "tests/world/message_of.h"
 
 namespace swarmanoid

@@ -1,4 +1,4 @@
-#include "common/bus/free_domain.h"
+#include "common/run/access/free_domain.h"
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 #include <string>
 
-#include "common/bus/bus.h"
-#include "common/bus/run_directory.h"
+#include "common/run/access/bus_options.h"
+#include "common/run/access/run_directory.h"
 
 namespace swarmanoid
 {

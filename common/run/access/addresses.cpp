@@ -1,4 +1,4 @@
-#include "common/bus/addresses.h"
+#include "common/run/access/addresses.h"
 
 #include <arpa/inet.h>
 #include <ifaddrs.h>
@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "common/bus/bus.h"
 #include "common/configuration/configuration_tree.h"
+#include "common/run/access/bus_options.h"
 
 namespace swarmanoid
 {

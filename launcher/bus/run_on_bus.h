@@ -30,8 +30,7 @@ public:
   std::vector<ProcessStatus> Attached() const override;
   void Detach() override;
   void Close(RunMonitor& run, bool begins_again) override;
-  // Tells observers that the run failed. It does nothing after Close.
-  void Fail(const std::string& why);
+  void Fail(const std::string& why) override;
 
 private:
   struct Parts;

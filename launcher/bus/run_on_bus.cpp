@@ -1,6 +1,6 @@
 // The thread of the run sends everything, between two ticks. Threads of the bus only leave requests and wake it. While
 // no program watches, a tick costs the reading of a clock.
-#include "launcher/supervision/run_on_bus.h"
+#include "launcher/bus/run_on_bus.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -8,10 +8,10 @@
 
 #include "common/bus/membership/server_session.h"
 #include "common/bus/membership/worker_world.h"
-#include "common/bus/security/digest.h"
 #include "common/checkpoint/library_builds.h"
 #include "common/errors/print_error.h"
 #include "common/messages/control_verbs.h"
+#include "common/run/access/digest.h"
 #include "controller_host/watched_robots.h"
 #include "space_server/cluster/view_publisher.h"
 #include "space_server/event_log.h"

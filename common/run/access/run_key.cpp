@@ -1,10 +1,6 @@
-#include "common/bus/run_key.h"
+#include "common/run/access/run_key.h"
 
 #include <fcntl.h>
-#include <openssl/core_names.h>
-#include <openssl/evp.h>
-#include <openssl/kdf.h>
-#include <openssl/params.h>
 #include <sys/random.h>
 #include <sys/stat.h>
 #include <termios.h>
@@ -13,15 +9,13 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <memory>
 #include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "common/bus/bus.h"
 #include "common/configuration/configuration_tree.h"
 #include "common/configuration/wording.h"
+#include "common/run/access/bus_options.h"
 
 namespace swarmanoid
 {
@@ -117,25 +111,6 @@ RunKey KeyOfDescriptor(int descriptor)
       "--key-fd {}: no key comes from it; the program that started this process, by ssh or otherwise, must leave its "
       "standard input open to the launcher",
       descriptor));
-}
-
-RunKey DerivedKey(const RunKey& key, std::span<const char> salt, const std::string& purpose)
-{
-  static EVP_KDF* const hkdf = EVP_KDF_fetch(nullptr, "HKDF", nullptr);
-  const std::unique_ptr<EVP_KDF_CTX, decltype(&EVP_KDF_CTX_free)> context(
-      hkdf == nullptr ? nullptr : EVP_KDF_CTX_new(hkdf), &EVP_KDF_CTX_free);
-  char digest[] = "SHA256";
-  // The parameters are only read.
-  const auto bytes = [](const char* name, const void* data, std::size_t size)
-  { return OSSL_PARAM_construct_octet_string(name, const_cast<void*>(data), size); };
-  const OSSL_PARAM parameters[] = {
-      OSSL_PARAM_construct_utf8_string(OSSL_KDF_PARAM_DIGEST, digest, 0),
-      bytes(OSSL_KDF_PARAM_KEY, key.data(), key.size()), bytes(OSSL_KDF_PARAM_SALT, salt.data(), salt.size()),
-      bytes(OSSL_KDF_PARAM_INFO, purpose.data(), purpose.size()), OSSL_PARAM_construct_end()};
-  RunKey derived{};
-  if (context == nullptr || EVP_KDF_derive(context.get(), derived.data(), derived.size(), parameters) != 1)
-    throw BusError("libcrypto has no HKDF, by which the keys of messages are made");
-  return derived;
 }
 
 }  // namespace swarmanoid

@@ -1,4 +1,4 @@
-#include "common/bus/security/access_grant.h"
+#include "common/run/access/access_grant.h"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -14,8 +14,8 @@
 
 #include <fmt/format.h>
 
-#include "common/bus/addresses.h"
 #include "common/configuration/shown_text.h"
+#include "common/run/access/addresses.h"
 
 namespace swarmanoid
 {
@@ -92,13 +92,6 @@ std::string NewGrantId()
 bool IsGrantId(const std::string& text)
 {
   return text.size() == kIdDigits && text.find_first_not_of("0123456789abcdef") == std::string::npos;
-}
-
-GrantChannel ChannelOf(const RunKey& run_key, const AccessGrant& grant)
-{
-  if (grant.role == GrantRole::kOpenView) return {kOpenChannel, std::nullopt};
-  const std::string purpose = fmt::format("swarmanoid share {} {} {}", grant.id, RoleWord(grant.role), grant.ends);
-  return {grant.id, DerivedKey(run_key, grant.id, purpose)};
 }
 
 std::string TextOf(const AccessToken& token)

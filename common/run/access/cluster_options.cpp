@@ -1,12 +1,12 @@
-#include "common/bus/membership/cluster_options.h"
+#include "common/run/access/cluster_options.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
 
-#include "common/bus/addresses.h"
 #include "common/configuration/configuration_tree.h"
+#include "common/run/access/addresses.h"
 
 namespace swarmanoid
 {

@@ -1,4 +1,4 @@
-#include "common/bus/dds_environment.h"
+#include "common/run/access/dds_environment.h"
 
 #include <cstdlib>
 #include <string_view>

@@ -5,7 +5,7 @@
 // Invariants: every folder and file within is opened relative to its parent, without following links, and is used only
 // if it belongs to this user. Other users can write to no such folder. The mark is written first and removed last, so a
 // folder without it is never removed.
-#include "common/bus/run_directory.h"
+#include "common/run/access/run_directory.h"
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -23,8 +23,8 @@
 #include <string_view>
 #include <utility>
 
-#include "common/bus/bus.h"
 #include "common/memory/shared_memory.h"
+#include "common/run/access/bus_options.h"
 
 namespace swarmanoid
 {

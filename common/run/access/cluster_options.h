@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "common/bus/bus.h"
 #include "common/program/options.h"
+#include "common/run/access/bus_options.h"
 
 namespace swarmanoid
 {

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <optional>
-#include <span>
 #include <string>
 
 namespace swarmanoid
@@ -25,8 +24,5 @@ std::optional<RunKey> KeyOfText(const std::string& text);
 RunKey KeyOfFile(const std::string& path);
 RunKey KeyOfDescriptor(int descriptor);
 inline constexpr const char* kKeyPrompt = "swarmanoid: give the key of the run";
-
-// Derives a key from another one (HKDF-SHA256, RFC 5869) that does not reveal it. Throws BusError.
-RunKey DerivedKey(const RunKey& key, std::span<const char> salt, const std::string& purpose);
 
 }  // namespace swarmanoid

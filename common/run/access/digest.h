@@ -14,7 +14,7 @@ namespace swarmanoid
 class Sha256
 {
 public:
-  // Throws BusError if libcrypto has no SHA-256.
+  // Loads libcrypto. Throws BusError if it is missing or has no SHA-256.
   Sha256();
   ~Sha256();
   void Add(std::span<const char> bytes);

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "common/bus/bus.h"
+#include "common/run/access/bus_options.h"
 
 namespace swarmanoid
 {
@@ -42,7 +42,6 @@ inline constexpr const char* kOpenChannel = "open";
 
 std::string NewGrantId();
 bool IsGrantId(const std::string& text);
-GrantChannel ChannelOf(const RunKey& run_key, const AccessGrant& grant);
 
 // The token that the holder of a grant with a key gets, beside the experiment's name.
 struct AccessToken
