@@ -199,7 +199,7 @@ private:
   swarmanoid::CCI_RangeAndBearingActuator* ours_;  // nullptr if the robot is in no medium
   const std::optional<std::uint8_t> channel_;
   bool has_sent_ = false;
-  argos::CByteArray sent_;            // the data in the last message
+  argos::CByteArray sent_;           // the data in the last message
   std::vector<std::uint8_t> bytes_;  // scratch
 };
 
@@ -271,8 +271,8 @@ private:
   const swarmanoid::CCI_RangeAndBearingSensor& ours_;
   const std::optional<std::uint8_t> channel_;
   const size_t data_size_;
-  const size_t size_;     // with the byte of the channel
-  const size_t further_;  // bytes behind the common ones
+  const size_t size_;                                                  // with the byte of the channel
+  const size_t further_;                                               // bytes behind the common ones
   const size_t first_bytes_ = std::min(data_size_, size_ - further_);  // of the data, in the common ones
   TReadings spare_;
 };

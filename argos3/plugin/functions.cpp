@@ -367,7 +367,8 @@ private:
       view.Show(given != running.given.end() ? given->second : view.made.get());
       if (view.body != nullptr)
       {
-        const Moving body{view.index, IsBox(space.GetEntity(view.index)) ? space.GetEntity(view.index).GetSize().z() / 2 : 0,
+        const Moving body{view.index,
+                          IsBox(space.GetEntity(view.index)) ? space.GetEntity(view.index).GetSize().z() / 2 : 0,
                           view.body};
         Place(space.GetPose(view.index), body.half_height, *body.body);
         if (view.body->IsMovable()) moving_.push_back(body);

@@ -94,7 +94,7 @@ void ReportChanges(std::span<const std::uint32_t> slots, std::span<const double>
       if (other < others && changes.slots[other] <= slots[i + kSlots - 1]) return false;
       return AreKnown<kSlots>(&slots[i], &values[i], known);
     };
-    if (const std::size_t known_slots = stay.template operator()<kRing>()   ? kRing
+    if (const std::size_t known_slots = stay.template operator()<kRing>()      ? kRing
                                         : stay.template operator()<kMessage>() ? kMessage
                                                                                : 0;
         known_slots != 0)

@@ -118,8 +118,14 @@ void BlobSources::Refresh()
   lowest_ = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < sources_.size(); ++i)
   {
-    const std::uint32_t nearest = CCI_Colour::Nearest(sources_[i].colour);
-    hue_[i] = static_cast<std::uint8_t>((nearest >> 14 & 4U) | (nearest >> 7 & 2U) | (nearest & 1U));
+    // Neighbours mostly have one colour, such as the LEDs of a ring.
+    if (i > 0 && sources_[i].colour == sources_[i - 1].colour)
+      hue_[i] = hue_[i - 1];
+    else
+    {
+      const std::uint32_t nearest = CCI_Colour::Nearest(sources_[i].colour);
+      hue_[i] = static_cast<std::uint8_t>((nearest >> 14 & 4U) | (nearest >> 7 & 2U) | (nearest & 1U));
+    }
     lowest_ = std::min(lowest_, sources_[i].position.z());
   }
 }
