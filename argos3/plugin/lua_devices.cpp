@@ -272,7 +272,7 @@ void ReadEach(lua_State* lua, Sensor& sensor, const char* name, SetPlace set_pla
 {
   Enter(lua, name);
   const auto& readings = sensor.GetReadings();
-  // As in ARGoS3, what does not change is written once.
+  // Places and angles do not change, so they are written once, as in ARGoS3.
   const bool is_new = lua_rawlen(lua, -1) < readings.size();
   lua_pushliteral(lua, "value");
   const int key = lua_gettop(lua);

@@ -93,7 +93,7 @@ TEST(AttributeChanges, OfRunsOfSlotsAreThoseOfSingleSlots)
     while (slots.size() < 60)
     {
       constexpr std::uint32_t kRuns[] = {1, 3, 12, 13, 27};
-      next += random() % 5 == 0 ? 1000 : 1 + random() % 3;
+      next += random() % 5 == 0 ? 1000U : 1U + static_cast<std::uint32_t>(random() % 3);
       for (std::uint32_t k = kRuns[random() % 5]; k > 0; --k) slots.push_back(next++);
     }
     SparseVector<double> known;

@@ -34,6 +34,7 @@ private:
   struct Holder
   {
     virtual ~Holder() = default;
+    // Returns the type of the value.
     virtual const std::type_info& Type() const = 0;
   };
   template <class T>
