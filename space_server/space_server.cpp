@@ -40,7 +40,7 @@ SpaceServer::SpaceServer(const Experiment& experiment, const Assignment& assignm
                                "no experiment functions are registered as '" + configuration.tag + "'");
     const Actor actor =
         FunctionsActor(experiment, static_cast<std::size_t>(&configuration - experiment.functions.data()));
-    functions_.push_back({&configuration, actor, nullptr});
+    functions_.push_back({&configuration, actor, nullptr, {}});
     RunCodeOf<ConfigurationError>(actor, ActivityStep::kInit, 0, [&] { functions_.back().object = entry->create(); });
   }
   CallFunctions(ActivityStep::kInit,
@@ -223,10 +223,13 @@ template <class Call>
 void SpaceServer::CallFunctions(ActivityStep step, Call call)
 {
   if (functions_.empty()) return;
-  const std::uint64_t what = StreamName(std::string("functions ") + NameOf(step));
-  for (const Functions& functions : functions_)
+  for (Functions& functions : functions_)
   {
-    editor_.BeginStep({experiment_.seed, StreamName(functions.configuration->id), what, space_.StreamTick()});
+    std::optional<StreamKey>& stream = functions.streams[static_cast<std::size_t>(step)];
+    if (!stream)
+      stream.emplace(experiment_.seed, StreamName(functions.configuration->id),
+                     StreamName(std::string("functions ") + NameOf(step)));
+    editor_.BeginStep({*stream, space_.StreamTick()});
     RunCodeOf<ConfigurationError>(functions.actor, step, space_.GetTick(), [&] { call(functions); });
   }
 }

@@ -117,6 +117,8 @@ private:
     const FunctionsConfiguration* configuration;
     Actor actor;
     std::unique_ptr<CExperimentFunctions> object;
+    // The random streams of each step, made at its first call.
+    std::array<std::optional<StreamKey>, static_cast<std::size_t>(ActivityStep::kInput) + 1> streams{};
   };
 
   void Merge(const EngineUpdate& update);

@@ -127,6 +127,16 @@ void ShowLeds(const std::string& ours, const CEntity& made)
 
 CCI_Controller& CControllableEntity::GetController()
 {
+  if (controller_ == nullptr || found_at_ != TheRunning().controller_changes)
+  {
+    controller_ = &FindController();
+    found_at_ = TheRunning().controller_changes;
+  }
+  return *controller_;
+}
+
+CCI_Controller& CControllableEntity::FindController()
+{
   const std::string& id = GetRootEntity().GetId();
   const auto& controllers = TheRunning().controllers;
   if (controllers.count(id) == 0) GiveController(GetRootEntity());

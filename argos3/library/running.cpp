@@ -19,8 +19,7 @@ namespace swarmanoid::argos3
 namespace
 {
 
-thread_local CCI_Robot* speaking_robot = nullptr;
-thread_local const SpaceEditor* speaking_functions = nullptr;
+thread_local Speaker::Speaking speaking;
 
 bool IsNumber(std::string_view text)
 {
@@ -137,25 +136,9 @@ Running& TheRunning()
   return running;
 }
 
-Speaker::Speaker(CCI_Robot& robot) : robot_before_(speaking_robot), editor_before_(speaking_functions)
-{
-  speaking_robot = &robot;
-  speaking_functions = nullptr;
-}
+Speaker::Speaker(const Speaking& now) : place_(speaking), before_(std::exchange(place_, now)) {}
 
-Speaker::Speaker(const SpaceEditor& editor) : robot_before_(speaking_robot), editor_before_(speaking_functions)
-{
-  speaking_robot = nullptr;
-  speaking_functions = &editor;
-}
-
-Speaker::~Speaker()
-{
-  speaking_robot = robot_before_;
-  speaking_functions = editor_before_;
-}
-
-bool Speaker::Speaks() { return speaking_robot != nullptr || speaking_functions != nullptr; }
+bool Speaker::Speaks() { return speaking.robot != nullptr || speaking.functions != nullptr; }
 
 std::uint64_t Speaker::RandomBits()
 {
@@ -163,15 +146,15 @@ std::uint64_t Speaker::RandomBits()
     throw argos::CARGoSException(
         "a random generator is created before Init; create it in Init, where the robot is known whose numbers it "
         "draws");
-  RandomStream& random = speaking_robot != nullptr ? speaking_robot->GetRandom() : speaking_functions->GetRandom();
+  RandomStream& random = speaking.robot != nullptr ? speaking.robot->GetRandom() : speaking.functions->GetRandom();
   const std::uint64_t high = random.Bits();
   return high << 32U | random.Bits();
 }
 
 void Speaker::Say(const std::string& line)
 {
-  if (speaking_robot != nullptr)
-    speaking_robot->Log(line);
+  if (speaking.robot != nullptr)
+    speaking.robot->Log(line);
   else
     std::cerr << line << '\n';
 }

@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "argos3/library/made_bodies.h"
@@ -146,6 +147,8 @@ struct Running
 {
   // The controllers of the robots whose controller host is this process, by ARGoS3's id.
   std::map<std::string, argos::CCI_Controller*> controllers;
+  // Counts the changes of `controllers`.
+  std::uint64_t controller_changes = 0;
   argos::CLoopFunctions* functions = nullptr;
   // Carries out the changes of functions; set while they run.
   SpaceEditor* editor = nullptr;
@@ -198,9 +201,15 @@ void SendWrittenMessages();
 class Speaker
 {
 public:
-  explicit Speaker(CCI_Robot& robot);
-  explicit Speaker(const SpaceEditor& editor);
-  ~Speaker();
+  // One of the two, or none.
+  struct Speaking
+  {
+    CCI_Robot* robot = nullptr;
+    const SpaceEditor* functions = nullptr;
+  };
+  explicit Speaker(CCI_Robot& robot) : Speaker(Speaking{&robot, nullptr}) {}
+  explicit Speaker(const SpaceEditor& editor) : Speaker(Speaking{nullptr, &editor}) {}
+  ~Speaker() { place_ = before_; }
   Speaker(const Speaker&) = delete;
   Speaker& operator=(const Speaker&) = delete;
 
@@ -210,8 +219,10 @@ public:
   static void Say(const std::string& line);
 
 private:
-  CCI_Robot* robot_before_;
-  const SpaceEditor* editor_before_;
+  explicit Speaker(const Speaking& now);
+
+  Speaking& place_;  // of this thread
+  Speaking before_;
 };
 
 }  // namespace swarmanoid::argos3

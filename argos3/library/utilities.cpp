@@ -12,6 +12,7 @@
 #include <regex>
 
 #include "argos3/library/running.h"
+#include "common/control_interface/footbot/ci_footbot_proximity_sensor.h"
 #include "common/math/elementary.h"
 
 namespace argos
@@ -63,11 +64,46 @@ std::string& PendingLine()
   return line;
 }
 
+// The angles of the sensors in rings of 24, which controllers ask for at each reading.
+class RingAngles
+{
+public:
+  RingAngles()
+  {
+    for (unsigned sensor = 0; sensor < kSensors; ++sensor)
+    {
+      const Real angle = CRadians(swarmanoid::CCI_FootBotProximitySensor::AngleOf(sensor)).SignedNormalize().GetValue();
+      known_[PlaceOf(angle)] = {angle, swarmanoid::SinCosOf(angle)};
+    }
+  }
+  swarmanoid::SinCos Of(Real angle) const
+  {
+    // The comparison is false for NaN.
+    if (angle > -ARGOS_PI && angle < ARGOS_PI)
+      if (const Known& known = known_[PlaceOf(angle)]; known.angle == angle) return known.both;
+    return swarmanoid::SinCosOf(angle);
+  }
+
+private:
+  struct Known
+  {
+    Real angle;
+    swarmanoid::SinCos both;
+  };
+  static constexpr unsigned kSensors = swarmanoid::CCI_FootBotProximitySensor::NUM_SENSORS;
+  static constexpr Real kHalf = kSensors / 2.0;
+  // The sensors look along the middles of equal parts of a turn.
+  static std::size_t PlaceOf(Real angle) { return static_cast<std::size_t>(angle * (kHalf / ARGOS_PI) + kHalf); }
+
+  std::array<Known, kSensors + 1> known_{};
+};
+
 }  // namespace
 
 void SinCos(const CRadians& angle, Real& sine, Real& cosine)
 {
-  const swarmanoid::SinCos both = swarmanoid::SinCosOf(angle.GetValue());
+  static const RingAngles ring;
+  const swarmanoid::SinCos both = ring.Of(angle.GetValue());
   sine = both.sin;
   cosine = both.cos;
 }

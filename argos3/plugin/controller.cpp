@@ -94,6 +94,7 @@ private:
 
   void Forget()
   {
+    ++TheRunning().controller_changes;
     TheRunning().controllers.erase(id_);
     TheRunning().controlled.erase(GetRobot()->GetId());
   }
@@ -122,6 +123,7 @@ private:
     controller_->SetId(id_);
     MakeDevices(options);
     own_devices_.Make(parameters_, GetRobot()->GetId(), *controller_);
+    ++TheRunning().controller_changes;
     if (!TheRunning().controllers.emplace(id_, controller_.get()).second)
       throw std::runtime_error("a process runs one ARGoS3 experiment at a time; another one has a robot '" + id_ + "'");
 

@@ -18,9 +18,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "argos3/converter/battery.h"
 #include "argos3/converter/robot_rows.h"
@@ -52,10 +54,12 @@ public:
   void Reset() override { SetAllColors(argos::CColor::BLACK); }
   void Commit() override
   {
+    if (!last_.Differs(m_tSettings)) return;
     for (unsigned led = 0; led < m_tSettings.size(); ++led) ring_.SetColour(led, Lit(m_tSettings[led]));
   }
 
 private:
+  LastColours last_;
   CCI_LedRingActuator& ring_;
 };
 
@@ -182,7 +186,10 @@ public:
   void Reset() override { ClearData(); }
   void Commit() override
   {
-    if (ours_ == nullptr) return;
+    // Our actuator sends the same bytes until others are set.
+    if (ours_ == nullptr || (has_sent_ && m_cData == sent_)) return;
+    sent_ = m_cData;
+    has_sent_ = true;
     bytes_.assign(m_cData.ToCArray(), m_cData.ToCArray() + m_cData.Size());
     if (channel_) bytes_.push_back(*channel_);
     ours_->SetBytes(bytes_);
@@ -191,7 +198,9 @@ public:
 private:
   swarmanoid::CCI_RangeAndBearingActuator* ours_;  // nullptr if the robot is in no medium
   const std::optional<std::uint8_t> channel_;
-  std::vector<std::uint8_t> bytes_;
+  bool has_sent_ = false;
+  argos::CByteArray sent_;           // the data in the last message
+  std::vector<std::uint8_t> bytes_;  // scratch
 };
 
 class RangeAndBearingReceiver : public SensorBridge, public argos::CCI_RangeAndBearingSensor
@@ -212,28 +221,40 @@ public:
   void Update() override
   {
     const auto packets = ours_.GetAllPackets();
-    m_tReadings.resize(packets.size());
+    SetCount(packets.size());
     std::size_t count = 0;
-    for (std::size_t i = 0; i < packets.size(); ++i)
+    for (const auto& ours : packets)
     {
       // Messages of another length are ignored.
-      const std::span<const std::uint8_t> further = ours_.GetFurtherBytes(packets[i]);
+      std::span<const std::uint8_t> further;
+      if (ours.further != 0) further = ours_.GetFurtherBytes(ours);
       if (further.size() != further_) continue;
-      if (channel_ && (further.empty() ? packets[i].message[size_ - 1] : further.back()) != *channel_) continue;
+      if (channel_ && (further.empty() ? ours.message[size_ - 1] : further.back()) != *channel_) continue;
       SPacket& packet = m_tReadings[count++];
-      packet.Range = kCentimetres * packets[i].range_m;
-      packet.HorizontalBearing.SetValue(packets[i].bearing_rad);
-      packet.VerticalBearing.SetValue(packets[i].vertical_bearing_rad);
-      if (noise_m_ > 0) Disturb(packets[i], packet);
-      packet.Data.Resize(size_);
-      std::copy_n(packets[i].message.begin(), size_ - further_, packet.Data.ToCArray());
-      std::copy(further.begin(), further.end(), packet.Data.ToCArray() + size_ - further_);
-      packet.Data.Resize(data_size_);
+      packet.Range = kCentimetres * ours.range_m;
+      packet.HorizontalBearing.SetValue(ours.bearing_rad);
+      packet.VerticalBearing.SetValue(ours.vertical_bearing_rad);
+      if (noise_m_ > 0) Disturb(ours, packet);
+      if (packet.Data.Size() != data_size_) packet.Data.Resize(data_size_);
+      UInt8* const bytes = packet.Data.ToCArray();
+      if (first_bytes_ == sizeof ours.message)
+        std::memcpy(bytes, ours.message.data(), sizeof ours.message);
+      else
+        std::copy_n(ours.message.begin(), first_bytes_, bytes);
+      if (data_size_ > first_bytes_) std::copy_n(further.begin(), data_size_ - first_bytes_, bytes + first_bytes_);
     }
-    m_tReadings.resize(count);
+    SetCount(count);
   }
 
 private:
+  // Packets that are left out keep their memory for later steps.
+  void SetCount(std::size_t count)
+  {
+    for (; m_tReadings.size() > count; m_tReadings.pop_back()) spare_.push_back(std::move(m_tReadings.back()));
+    for (; m_tReadings.size() < count && !spare_.empty(); spare_.pop_back())
+      m_tReadings.push_back(std::move(spare_.back()));
+    m_tReadings.resize(count);
+  }
   void Disturb(const swarmanoid::CCI_RangeAndBearingSensor::Packet& ours, SPacket& theirs) const
   {
     const SinCos bearing = SinCosOf(ours.bearing_rad);
@@ -250,8 +271,10 @@ private:
   const swarmanoid::CCI_RangeAndBearingSensor& ours_;
   const std::optional<std::uint8_t> channel_;
   const size_t data_size_;
-  const size_t size_;     // with the byte of the channel
-  const size_t further_;  // bytes behind the common ones
+  const size_t size_;                                                  // with the byte of the channel
+  const size_t further_;                                               // bytes behind the common ones
+  const size_t first_bytes_ = std::min(data_size_, size_ - further_);  // of the data, in the common ones
+  TReadings spare_;
 };
 
 bool IsGeneric(const CCI_Robot& robot)

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <type_traits>
 
 #include "argos3/plugin/device_adapters.h"
@@ -48,6 +49,24 @@ inline std::uint32_t Lit(const argos::CColor& colour)
   const auto shine = [&](std::uint32_t channel) { return channel * colour.GetAlpha() / 255; };
   return shine(colour.GetRed()) << 16U | shine(colour.GetGreen()) << 8U | shine(colour.GetBlue());
 }
+
+// The colours that an actuator passed on last. Our actuators keep them, so equal ones are not passed on again.
+class LastColours
+{
+public:
+  // Compares colours with the last ones, and remembers them.
+  bool Differs(const std::vector<argos::CColor>& colours)
+  {
+    static_assert(sizeof(argos::CColor) == 4);
+    if (colours.size() == last_.size() && std::memcmp(colours.data(), last_.data(), 4 * last_.size()) == 0)
+      return false;
+    last_ = colours;
+    return true;
+  }
+
+private:
+  std::vector<argos::CColor> last_;
+};
 
 // If robots have several media or sizes of messages, the last byte of a message names both.
 inline std::optional<std::uint8_t> ChannelOf(const TConfigurationTree& options)
@@ -135,10 +154,7 @@ class PaintedFloor
 {
 public:
   PaintedFloor(const Translation& translation, const swarmanoid::CCI_PositioningSensor& place)
-      : functions_(argos::CSimulator::GetInstance().GetLoopFunctions()),
-        middle_(translation.Argos3Position(place.GetPosition())),
-        cosine_(std::cos(place.GetHeading())),
-        sine_(std::sin(place.GetHeading()))
+      : PaintedFloor(translation.Argos3Position(place.GetPosition()), place.GetHeading())
   {
   }
   // Returns the grey value at a point in the frame of the robot (m): 0 on black, 1 on white.
@@ -149,6 +165,14 @@ public:
   }
 
 private:
+  PaintedFloor(const argos::CVector3& middle, double heading)
+      : functions_(argos::CSimulator::GetInstance().GetLoopFunctions()),
+        middle_(middle),
+        cosine_(std::cos(heading)),
+        sine_(std::sin(heading))
+  {
+  }
+
   argos::CLoopFunctions& functions_;
   const argos::CVector3 middle_;
   const double cosine_;

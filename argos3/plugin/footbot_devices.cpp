@@ -115,11 +115,13 @@ public:
   void Reset() override { SetAllColors(argos::CColor::BLACK); }
   void Commit() override
   {
+    if (!last_.Differs(m_tSettings)) return;
     for (unsigned led = 0; led < CCI_FootBotLedsActuator::NUM_LEDS; ++led) ring_.SetColour(led, Lit(m_tSettings[led]));
     beacon_.SetColour(Lit(m_tSettings.back()));
   }
 
 private:
+  LastColours last_;
   CCI_FootBotLedsActuator& ring_;
   CCI_FootBotBeaconActuator& beacon_;
 };
@@ -195,15 +197,17 @@ public:
   {
     const auto blobs = ours_.GetAllBlobs();
     if (blobs_.size() < blobs.size()) blobs_.resize(blobs.size());
-    for (std::size_t i = 0; i < blobs.size(); ++i)
+    m_sReadings.BlobList.resize(blobs.size());
+    SBlob* blob = blobs_.data();
+    for (std::size_t i = 0; i < blobs.size(); ++i, ++blob)
     {
       double distance_m = blobs[i].distance_m;
       double angle_rad = blobs[i].angle_rad;
-      DisturbBlob(robot_.GetRandom(), noise_, distance_m, angle_rad);
-      blobs_[i].Color = argos::CColor(0xff000000U | blobs[i].colour);
-      blobs_[i].Angle.SetValue(angle_rad);
-      blobs_[i].Distance = kCentimetres * distance_m;
-      m_sReadings.BlobList.push_back(&blobs_[i]);
+      if (noise_ > 0) DisturbBlob(robot_.GetRandom(), noise_, distance_m, angle_rad);
+      blob->Color = argos::CColor(0xff000000U | blobs[i].colour);
+      blob->Angle.SetValue(angle_rad);
+      blob->Distance = kCentimetres * distance_m;
+      m_sReadings.BlobList[i] = blob;
     }
   }
 

@@ -352,6 +352,7 @@ private:
   {
     argos::CSpace& theirs = argos::CSimulator::GetInstance().GetSpace();
     theirs.Clear();
+    moving_.clear();
     absent_.assign(space.Absent().begin(), space.Absent().end());
     if (floor_)
     {
@@ -364,7 +365,14 @@ private:
       if (!space.IsPresent(view.index)) continue;
       const auto given = running.given.find(space.GetEntity(view.index).GetId());
       view.Show(given != running.given.end() ? given->second : view.made.get());
-      Place(space, view);
+      if (view.body != nullptr)
+      {
+        const Moving body{view.index,
+                          IsBox(space.GetEntity(view.index)) ? space.GetEntity(view.index).GetSize().z() / 2 : 0,
+                          view.body};
+        Place(space.GetPose(view.index), body.half_height, *body.body);
+        if (view.body->IsMovable()) moving_.push_back(body);
+      }
       theirs.InsertAny(*view.entity);
     }
   }
@@ -374,24 +382,39 @@ private:
     const bool is_same = std::equal(absent_.begin(), absent_.end(), space.Absent().begin(), space.Absent().end());
     if (!is_same || TheRunning().presence_changed) Fill(space);
     TheRunning().presence_changed = false;
-    for (const View& view : views_)
-      if (view.body != nullptr && view.body->IsMovable() && space.IsPresent(view.index)) Place(space, view);
+    const PoseArrays& poses = space.Poses();
+    for (const Moving& moving : moving_)
+    {
+      const std::uint32_t i = moving.index;
+      Place({{poses.x[i], poses.y[i], poses.z[i]}, {poses.qw[i], poses.qx[i], poses.qy[i], poses.qz[i]}},
+            moving.half_height, *moving.body);
+    }
   }
 
-  void Place(const CSwarmanoidSpace& space, const View& view) const
+  // Our position is `half_height` above the one that ARGoS3's code sees.
+  void Place(const Pose& pose, double half_height, argos::CEmbodiedEntity& body) const
   {
-    if (view.body == nullptr) return;
-    const argos::SAnchor anchor = AnchorOf(space.GetEntity(view.index), space.GetPose(view.index));
-    view.body->GetOriginAnchor().Position = anchor.Position;
-    view.body->GetOriginAnchor().Orientation = anchor.Orientation;
-    view.body->UpdateAnchors();
+    argos::SAnchor& origin = body.GetOriginAnchor();
+    const Vector3 position =
+        half_height == 0 ? pose.position : Vector3(pose.position - pose.orientation * Vector3(0, 0, half_height));
+    origin.Position = translation_.Argos3Position(position);
+    origin.Orientation = Argos3Orientation(pose.orientation);
+    body.UpdateAnchors();
   }
 
   argos::CLoopFunctions* (*create_)() = nullptr;
   SourceLocation place_;
   Translation translation_;
   argos::TConfigurationNode element_;
+  // A movable body in the arena. Its position is updated in each step.
+  struct Moving
+  {
+    std::uint32_t index = 0;
+    double half_height = 0;  // m, of a box, whose position is its middle here
+    argos::CEmbodiedEntity* body = nullptr;
+  };
   std::vector<View> views_;
+  std::vector<Moving> moving_;
   std::vector<std::uint32_t> absent_;
   std::uint64_t length_ = 0;  // ticks
   bool ends_ = false;

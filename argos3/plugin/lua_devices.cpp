@@ -271,14 +271,23 @@ template <class Sensor, class SetPlace>
 void ReadEach(lua_State* lua, Sensor& sensor, const char* name, SetPlace set_place)
 {
   Enter(lua, name);
+  const auto& readings = sensor.GetReadings();
+  // Places and angles do not change, so they are written once, as in ARGoS3.
+  const bool is_new = lua_rawlen(lua, -1) < readings.size();
+  lua_pushliteral(lua, "value");
+  const int key = lua_gettop(lua);
   lua_Integer number = 0;
-  for (const auto& reading : sensor.GetReadings())
+  for (const auto& reading : readings)
   {
+    lua_pushvalue(lua, key - 1);
     Enter(lua, ++number);
-    Set(lua, "value", reading.Value);
-    set_place(reading);
-    Leave(lua);
+    if (is_new) set_place(reading);
+    lua_pushvalue(lua, key);
+    lua_pushnumber(lua, reading.Value);
+    lua_rawset(lua, -3);
+    lua_settop(lua, key);
   }
+  Leave(lua);
   Leave(lua);
 }
 

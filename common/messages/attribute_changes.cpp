@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "common/math/lanes.h"
+
 namespace swarmanoid
 {
 
@@ -43,6 +45,29 @@ void AttributeOrder::Apply(AttributeChanges& changes)
   changes.values.swap(ordered_.values);
 }
 
+namespace
+{
+
+// The slots that many robots have next to each other: those of LEDs and of a message.
+constexpr std::size_t kRing = 12;
+constexpr std::size_t kMessage = 3;
+
+// Returns whether values[0] … of slots[0] …, as many as kSlots, are in `known`. The slots ascend.
+template <std::size_t kSlots>
+bool AreKnown(const std::uint32_t* slots, const double* values, const SparseVector<double>& known)
+{
+  if (slots[kSlots - 1] - slots[0] != kSlots - 1) return false;
+  const double* const before = known.Part(slots[0], kSlots).data();
+  std::size_t i = 0;
+  LongLanes differ{};
+  for (; i + kDoubleLanes <= kSlots; i += kDoubleLanes) differ |= LoadLanes(before + i) != LoadLanes(values + i);
+  bool are_known = LaneMask(differ) == 0;
+  for (; i < kSlots; ++i) are_known &= before[i] == values[i];
+  return are_known;
+}
+
+}  // namespace
+
 void ReportChanges(std::span<const std::uint32_t> slots, std::span<const double> values,
                    const SparseVector<double>& known, AttributeChanges& changes)
 {
@@ -55,21 +80,31 @@ void ReportChanges(std::span<const std::uint32_t> slots, std::span<const double>
     const bool is_pending = next < pending.slots.size() && pending.slots[next] == slot;
     return (is_pending ? pending.values[next] : known[slot]) != value;
   };
-  if (changes.slots.empty())
-  {
-    for (std::size_t i = 0; i < slots.size(); ++i)
-      if (differs(slots[i], values[i])) changes.Add(slots[i], values[i]);
-    return;
-  }
   thread_local AttributeOrder order;
-  order.Apply(changes);
+  if (!changes.slots.empty()) order.Apply(changes);
   const std::size_t others = changes.slots.size();
   std::size_t other = 0;
-  for (std::size_t i = 0; i < slots.size(); ++i)
+  for (std::size_t i = 0; i < slots.size();)
   {
     while (other < others && changes.slots[other] < slots[i]) ++other;
+    // Most attributes stay, so several are compared at once.
+    const auto stay = [&]<std::size_t kSlots>()
+    {
+      if (slots.size() - i < kSlots || changes.pending != nullptr) return false;
+      if (other < others && changes.slots[other] <= slots[i + kSlots - 1]) return false;
+      return AreKnown<kSlots>(&slots[i], &values[i], known);
+    };
+    if (const std::size_t known_slots = stay.template operator()<kRing>()      ? kRing
+                                        : stay.template operator()<kMessage>() ? kMessage
+                                                                               : 0;
+        known_slots != 0)
+    {
+      i += known_slots;
+      continue;
+    }
     const bool changed_before = other < others && changes.slots[other] == slots[i];
     if (differs(slots[i], values[i]) || changed_before) changes.Add(slots[i], values[i]);
+    ++i;
   }
 }
 

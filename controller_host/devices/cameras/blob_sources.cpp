@@ -118,8 +118,14 @@ void BlobSources::Refresh()
   lowest_ = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < sources_.size(); ++i)
   {
-    const std::uint32_t nearest = CCI_Colour::Nearest(sources_[i].colour);
-    hue_[i] = static_cast<std::uint8_t>((nearest >> 14 & 4U) | (nearest >> 7 & 2U) | (nearest & 1U));
+    // Neighbours mostly have one colour, such as the LEDs of a ring.
+    if (i > 0 && sources_[i].colour == sources_[i - 1].colour)
+      hue_[i] = hue_[i - 1];
+    else
+    {
+      const std::uint32_t nearest = CCI_Colour::Nearest(sources_[i].colour);
+      hue_[i] = static_cast<std::uint8_t>((nearest >> 14 & 4U) | (nearest >> 7 & 2U) | (nearest & 1U));
+    }
     lowest_ = std::min(lowest_, sources_[i].position.z());
   }
 }
@@ -222,15 +228,35 @@ void BlobSources::AddDirectionalLeds(const Bearer& bearer)
   if (ring.on_turret) turret = SinCosOf(attributes[bearer.turret_slot]);
   const auto turned = [&](double x, double y, double z)
   { return Vector3(turret.cos * x - turret.sin * y, turret.sin * x + turret.cos * y, z); };
-  const Quaternion orientation = world_.Space().GetPose(bearer.entity).orientation;
+  const PoseArrays& poses = world_.Space().Poses();
+  const std::uint32_t entity = bearer.entity;
+  const bool is_upright = IsUpright(poses, entity);
+  const Heading heading = HeadingOf(poses, entity);
+  const Pose pose = world_.Space().GetPose(entity);
+  // The quaternion of an upright robot has x = y = 0, which shortens the product.
+  const auto in_space = [&](const Vector3& way) -> Vector3
+  {
+    if (!is_upright) return pose.orientation * way;
+    const double z = pose.orientation.z(), w = pose.orientation.w();
+    const double x2 = -z * way.y() + -z * way.y();
+    const double y2 = z * way.x() + z * way.x();
+    return {way.x() + w * x2 - z * y2, way.y() + w * y2 + z * x2, way.z()};
+  };
+  const auto place_of = [&](const Vector3& local) -> Vector3
+  {
+    if (!is_upright) return pose.Apply(local);
+    return {pose.position.x() + heading.cos * local.x() - heading.sin * local.y(),
+            pose.position.y() + heading.sin * local.x() + heading.cos * local.y(), pose.position.z() + local.z()};
+  };
   for (std::size_t i = 0; i < ring.places.size(); ++i)
   {
-    if (leds[i] == 0) continue;
+    const auto colour = static_cast<std::uint32_t>(leds[i]);
+    if (colour == 0) continue;
     const Vector3& axis = bearer.cones->axes[i];
-    AddPoint(bearer.entity, turned(ring.places[i].x(), ring.places[i].y(), ring.height_m),
-             static_cast<std::uint32_t>(leds[i]), static_cast<std::uint32_t>(BlobSource::kFirstLed + i));
     cones_.resize(sources_.size());
-    cones_.back() = {orientation * turned(axis.x(), axis.y(), axis.z()), bearer.cones->cosine};
+    sources_.push_back({place_of(turned(ring.places[i].x(), ring.places[i].y(), ring.height_m)), colour & kRgb,
+                        static_cast<std::uint32_t>(BlobSource::kFirstLed + i) & kParts, entity});
+    cones_.push_back({in_space(turned(axis.x(), axis.y(), axis.z())), bearer.cones->cosine});
   }
 }
 

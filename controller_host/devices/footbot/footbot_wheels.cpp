@@ -104,14 +104,20 @@ void Argos3FootbotWheels::Init(const DeviceSetup& setup)
 
 void Argos3FootbotWheels::Commit(const ChannelView& channel, AttributeChanges&)
 {
+  const bool factor_varies = factor_deviation_[0] != 0 || factor_deviation_[1] != 0;
   for (std::size_t k = 0; k < wheels_.size(); ++k)
   {
     double* values = &channel.values[channel.offsets[k]];
     for (std::size_t side = 0; side < 2; ++side) values[side] = Clamped(wheels_[k].wanted[side]);
     if (values[0] == 0 && values[1] == 0) continue;
-    RandomStream random = factor_streams_.Of(k);
-    for (std::size_t side = 0; side < 2; ++side)
-      values[side] = random.Gaussian(factor_mean_[side], factor_deviation_[side]) * (values[side] + bias_[k][side]);
+    std::array<double, 2> factor = factor_mean_;
+    if (factor_varies)
+    {
+      RandomStream random = factor_streams_.Of(k);
+      for (std::size_t side = 0; side < 2; ++side)
+        factor[side] = random.Gaussian(factor_mean_[side], factor_deviation_[side]);
+    }
+    for (std::size_t side = 0; side < 2; ++side) values[side] = factor[side] * (values[side] + bias_[k][side]);
   }
   AddNoise(channel);
 }

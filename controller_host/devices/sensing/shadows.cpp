@@ -5,8 +5,8 @@
 // body that touches several sectors is listed in all. A robot looks only at the cells of its own sector between the
 // distances at which its line is as high as any body. A test in single precision, widened by MarginAt, leaves few
 // candidates, which get the exact test. If all bodies are equal upright cylinders, a narrowed test already decides most
-// hits. Bodies that never move have one list for each sector, sorted by their nearest point, with the distances of the
-// part of the body that is in the sector.
+// hits. A few bodies are not sorted: each robot looks at all of them. Bodies that never move have one list for each
+// sector, sorted by their nearest point, with the distances of the part of the body that is in the sector.
 //
 // Invariant: every rounding widens the set of candidates, so no body that hides the source is missed.
 #include "controller_host/devices/sensing/shadows.h"
@@ -271,6 +271,8 @@ void MovingShadows::Sort(const Vector3& source, double reach)
   }
   reach_ = static_cast<float>(reach);
   reach_ += MarginAt(reach_);
+  are_few_ = count <= kFew;
+  if (are_few_) return ListAll(bodies);
 
   // A sector holds about eight bodies.
   constexpr std::size_t kBodies = 8, kFewest = 8, kMost = 4096;
@@ -319,6 +321,15 @@ void MovingShadows::Sort(const Vector3& source, double reach)
         radius_[place] = body_radius_[body];
         entity_[place] = static_cast<std::int32_t>(bodies[body]);
       });
+}
+
+void MovingShadows::ListAll(std::span<const std::uint32_t> bodies)
+{
+  x_.assign(body_x_.begin(), body_x_.end());
+  y_.assign(body_y_.begin(), body_y_.end());
+  radius_.assign(body_radius_.begin(), body_radius_.end());
+  entity_.assign(bodies.begin(), bodies.end());
+  entity_.resize(bodies.size() + kLanes);
 }
 
 inline MovingShadows::Lines MovingShadows::LinesTo(const SightedPoints& points, std::size_t group, FloatLanes x,
@@ -377,9 +388,15 @@ void MovingShadows::Look(const SightedPoints& points, const FixedShadows& fixed,
 
 inline bool MovingShadows::IsHidden(std::uint32_t robot, const Vector3& point, const Lines& lines, unsigned lane) const
 {
-  const std::uint32_t* const start = sort_.Starts();
-  const std::size_t begin = start[lines.first_cell[lane]];
-  const std::size_t end = start[lines.last_cell[lane] + 1];
+  std::size_t begin = 0, end = 0;
+  if (!are_few_)
+  {
+    const std::uint32_t* const start = sort_.Starts();
+    begin = start[lines.first_cell[lane]];
+    end = start[lines.last_cell[lane] + 1];
+  }
+  else if (lines.first[lane] <= lines.last[lane])
+    end = entity_.size() - kLanes;
   const FloatLanes way_x = Everywhere(lines.way_x[lane]);
   const FloatLanes way_y = Everywhere(lines.way_y[lane]);
   const FloatLanes margin = Everywhere(lines.margin[lane]);

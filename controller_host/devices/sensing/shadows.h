@@ -82,6 +82,8 @@ public:
 
 private:
   static constexpr int kRings = 8;  // of distance
+  // So few bodies are quicker to look at than to sort.
+  static constexpr std::size_t kFew = 4 * kLanes;
 
   // Lines of sight to kLanes points.
   struct Lines
@@ -97,8 +99,11 @@ private:
                 IntLanes sector) const;
   bool IsHidden(std::uint32_t robot, const Vector3& point, const Lines& lines, unsigned lane) const;
   IntLanes RingOf(FloatLanes distance) const;
+  // Lists the bodies in the order of the grid, all for each line.
+  void ListAll(std::span<const std::uint32_t> bodies);
 
   const SensorWorld& world_;
+  bool are_few_ = false;
   bool share_engines_ = false;  // all movable bodies are in the same engines
   bool are_exact_ = false;      // all are upright cylinders of one size that hide each other
   Vector3 source_ = Vector3::Zero();

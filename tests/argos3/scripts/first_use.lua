@@ -10,7 +10,11 @@ function step()
     robot.wheels.set_velocity(5, 5)
     return
   end
-  assert(#robot.proximity == 24 and rawget(robot, "proximity") == robot.proximity)
+  assert(#robot.proximity == 24 and robot.proximity[1].value >= 0 and rawget(robot, "proximity") == robot.proximity)
+  -- Angles are written once. A table that the script replaces is new.
+  if steps == 4 then robot.proximity[3].angle = "changed" end
+  if steps == 5 then assert(robot.proximity[3].angle == "changed") robot.proximity = {} end
+  if steps == 6 then assert(math.abs(robot.proximity[3].angle - math.rad(37.5)) < 1e-9 and robot.proximity[24].value) end
   -- A table that the script keeps is written again.
   local x = robot.positioning.position.x
   kept = kept or robot.positioning

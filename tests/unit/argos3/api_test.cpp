@@ -9,13 +9,17 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <sstream>
 
 #include "argos3/library/running.h"
+#include "common/control_interface/footbot/ci_footbot_proximity_sensor.h"
+#include "common/math/elementary.h"
 #include "tests/world/message_of.h"
 #include "tests/world/temporary_folder.h"
 
@@ -104,6 +108,31 @@ TEST(Argos3Api, VectorsHaveElements)
   for (const CVector2& other : {CVector2(1, 3), CVector2(3, 2)}) EXPECT_TRUE(CVector2(1, 2) != other) << other;
   for (const CVector3& other : {CVector3(1, 2, 4), CVector3(1, 4, 3), CVector3(4, 2, 3)})
     EXPECT_TRUE(CVector3(1, 2, 3) != other) << other;
+}
+
+TEST(Argos3Api, PolarVectorsAreTheProductsOfTheirLengthToTheLastBit)
+{
+  // The angles of rings of sensors, others, and the ends of the quarters of a turn.
+  std::vector<Real> angles{0, -0.0, 1e-300, 4, -4, 1e4, std::numeric_limits<Real>::quiet_NaN()};
+  for (unsigned sensor = 0; sensor < swarmanoid::CCI_FootBotProximitySensor::NUM_SENSORS; ++sensor)
+    angles.push_back(CRadians(swarmanoid::CCI_FootBotProximitySensor::AngleOf(sensor)).SignedNormalize().GetValue());
+  for (const Real end : {ARGOS_PI / 2, ARGOS_PI})
+    for (const Real sign : {1, -1})
+      for (const Real to : {0.0, 5.0}) angles.insert(angles.end(), {sign * end, sign * std::nextafter(end, to)});
+  CRandom::CRNG random(3);
+  for (int i = 0; i < 500; ++i) angles.push_back(random.Uniform(CRange<Real>(-ARGOS_PI, ARGOS_PI)));
+  const auto bits = [](Real number) { return std::bit_cast<UInt64>(number); };
+  for (const Real angle : angles)
+  {
+    const swarmanoid::SinCos both = swarmanoid::SinCosOf(angle);
+    for (const Real length : {0.0, -0.0, 0.7, -2.0, std::numeric_limits<Real>::infinity()})
+    {
+      const CVector2 vector(length, CRadians(angle));
+      const Real x = both.cos * length, y = both.sin * length;
+      EXPECT_TRUE(bits(vector.GetX()) == bits(x) || (std::isnan(vector.GetX()) && std::isnan(x))) << angle;
+      EXPECT_TRUE(bits(vector.GetY()) == bits(y) || (std::isnan(vector.GetY()) && std::isnan(y))) << angle;
+    }
+  }
 }
 
 TEST(Argos3Api, AnglesWrapIntoTheirRanges)

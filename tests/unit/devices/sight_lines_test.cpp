@@ -37,6 +37,17 @@ Verdict ByBruteForce(const SensorWorld& world, std::uint32_t observer, const Vec
   return verdict;
 }
 
+TEST(EngineMembership, LightsOutsideTheEngineLeaveOneWorldOfAllBodies)
+{
+  TestWorld world;
+  world.AddFootbot(5, 5);
+  world.AddBlock({9, 9, 0.5}, {0.2, 0.2, 1});
+  world.Add(EntityKind::kLightBulb, {1, 1, 1}, 0, {0, 0, 0}, false, -1);
+  EXPECT_TRUE(EngineMembership(world.Configuration()).IsOneWorld());
+  world.AddBlock({1, 9, 0.5}, {0.2, 0.2, 1}, 0, -1);
+  EXPECT_FALSE(EngineMembership(world.Configuration()).IsOneWorld());
+}
+
 // The buffers for bodies around are empty until a body was near.
 TEST(SightLines, AnEyeThatNeverHadABodyNearSeesEverything)
 {

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <map>
 #include <random>
 
@@ -79,6 +80,47 @@ TEST(AttributeChanges, AreThoseAgainstTheSpaceAfterPendingChanges)
   EXPECT_THAT(changes.slots, ElementsAre(0, 1, 3));
   EXPECT_THAT(changes.values, ElementsAre(1, 10, 30));
   EXPECT_EQ(changes.pending, &pending);
+}
+
+TEST(AttributeChanges, OfRunsOfSlotsAreThoseOfSingleSlots)
+{
+  std::mt19937 random(2);
+  for (int round = 0; round < 300; ++round)
+  {
+    // Robots have runs of slots, and some lie in pages that were never written.
+    std::vector<std::uint32_t> slots;
+    std::uint32_t next = 0;
+    while (slots.size() < 60)
+    {
+      constexpr std::uint32_t kRuns[] = {1, 3, 12, 13, 27};
+      next += random() % 5 == 0 ? 1000U : 1U + static_cast<std::uint32_t>(random() % 3);
+      for (std::uint32_t k = kRuns[random() % 5]; k > 0; --k) slots.push_back(next++);
+    }
+    SparseVector<double> known;
+    known.resize(next + 1);
+    for (const std::uint32_t slot : slots)
+      if (slot % 2000 < 900) known.Set(slot, static_cast<double>(random() % 3));
+    std::vector<double> values;
+    for (const std::uint32_t slot : slots) values.push_back(known[slot] + (random() % 30 == 0 ? 1 : 0));
+
+    AttributeChanges changes, pending;
+    if (round % 2 == 0)
+      for (int k = 0; k < 3; ++k) changes.Add(slots[random() % slots.size()], 7);
+    if (round % 3 == 0) pending.Add(slots[random() % slots.size()], 1);
+    if (round % 3 == 0) changes.pending = &pending;
+    AttributeChanges expected = changes;
+    AttributeOrder().Apply(expected);
+    const std::vector<std::uint32_t> before = expected.slots;
+    for (std::size_t i = 0; i < slots.size(); ++i)
+    {
+      const bool is_pending = !pending.slots.empty() && pending.slots[0] == slots[i];
+      const bool was_changed = std::ranges::find(before, slots[i]) != before.end();
+      if (values[i] != (is_pending ? 1 : known[slots[i]]) || was_changed) expected.Add(slots[i], values[i]);
+    }
+    ReportChanges(slots, values, known, changes);
+    EXPECT_EQ(changes.slots, expected.slots);
+    EXPECT_EQ(changes.values, expected.values);
+  }
 }
 
 }  // namespace

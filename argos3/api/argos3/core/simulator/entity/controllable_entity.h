@@ -26,6 +26,12 @@ public:
   void AddCheckedRay(bool /*obstructed*/, const CRay3&) {}
   void AddIntersectionPoint(const CRay3&, Real /*t*/) {}
   std::string GetTypeDescription() const override { return "controller"; }
+
+private:
+  CCI_Controller& FindController();
+
+  CCI_Controller* controller_ = nullptr;
+  UInt64 found_at_ = 0;  // the number of changes of controllers when it was found
 };
 
 }  // namespace argos

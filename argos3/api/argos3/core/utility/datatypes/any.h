@@ -26,19 +26,22 @@ public:
   template <class T>
   const T* Find() const
   {
-    const auto* held = dynamic_cast<const Held<T>*>(held_.get());
-    return held == nullptr ? nullptr : &held->value;
+    if (held_ == nullptr || held_->Type() != typeid(T)) return nullptr;
+    return &static_cast<const Held<T>*>(held_.get())->value;
   }
 
 private:
   struct Holder
   {
     virtual ~Holder() = default;
+    // Returns the type of the value.
+    virtual const std::type_info& Type() const = 0;
   };
   template <class T>
   struct Held : Holder
   {
     explicit Held(const T& held) : value(held) {}
+    const std::type_info& Type() const override { return typeid(T); }
     T value;
   };
 

@@ -5,6 +5,7 @@
 #include <argos3/core/utility/math/matrix/matrix.h>
 
 #include <array>
+#include <cstring>
 
 namespace argos
 {
@@ -24,8 +25,20 @@ public:
   }
   CVector2(Real length, const CRadians& angle)
   {
-    SinCos(angle, y_, x_);
-    *this *= length;
+    // Most readings of sensors are 0. Up to half a turn, the signs of sine and cosine are enough for them.
+    const UInt64 length_bits = BitsOf(length);
+    const UInt64 angle_bits = BitsOf(angle.GetValue());
+    const UInt64 turn_bits = angle_bits & ~kSignBit;
+    if ((length_bits & ~kSignBit) == 0 && turn_bits - 1 < kHalfTurnBits)
+    {
+      x_ = RealOf(length_bits ^ ((kQuarterTurnBits - turn_bits) & kSignBit));
+      y_ = RealOf(length_bits ^ (angle_bits & kSignBit));
+      return;
+    }
+    Real sine, cosine;
+    SinCos(angle, sine, cosine);
+    x_ = cosine * length;
+    y_ = sine * length;
   }
 
   Real GetX() const { return x_; }
@@ -88,6 +101,23 @@ public:
   }
 
 private:
+  // The bits of numbers: absolute values are in the order of their bits.
+  static constexpr UInt64 kSignBit = 0x8000000000000000;
+  static constexpr UInt64 kHalfTurnBits = 0x400921fb54442d18;     // pi
+  static constexpr UInt64 kQuarterTurnBits = 0x3ff921fb54442d18;  // pi / 2
+  static UInt64 BitsOf(Real number)
+  {
+    UInt64 bits;
+    std::memcpy(&bits, &number, sizeof bits);
+    return bits;
+  }
+  static Real RealOf(UInt64 bits)
+  {
+    Real number;
+    std::memcpy(&number, &bits, sizeof number);
+    return number;
+  }
+
   std::array<Real, 2> Coordinates() const { return {{x_, y_}}; }
 
   Real x_ = 0;
