@@ -201,7 +201,16 @@ void ContactFreeSet::SetUprights()
       if (!IsBesideRobots(box)) continue;
       const std::optional<Prism> prism = PrismOf(solid->geom);
       upright.is_upright = prism.has_value() && prism->slope.norm() < 1e-9;
-      if (upright.is_upright) upright.prism = *prism;
+      if (upright.is_upright)
+      {
+        upright.prism = *prism;
+        upright.half = {prism->half_x.norm(), prism->half_y.norm()};
+        if (prism->radius == 0)
+        {
+          upright.along_x = prism->half_x / upright.half.x();
+          upright.along_y = prism->half_y / upright.half.y();
+        }
+      }
       upright.low = box[4];
       upright.high = box[5];
     }
@@ -344,6 +353,25 @@ PlaneContact MeetWall(const Prism& robot, const Vector2& normal, double distance
 
 }  // namespace
 
+PlaneContact ContactFreeSet::MeetUpright(const Prism& robot, const Upright& upright) const
+{
+  if (!upright.normal.isZero(0)) return MeetWall(robot, upright.normal, upright.distance);
+  if (robot.radius == 0 || upright.prism.radius > 0) return Meet(robot, upright.prism);
+  // A disc beside a box.
+  const Vector2 way = robot.centre - upright.prism.centre;
+  const Vector2 place(way.dot(upright.along_x), way.dot(upright.along_y));
+  const Vector2 nearest = place.cwiseMax(-upright.half).cwiseMin(upright.half);
+  const Vector2 apart = place - nearest;
+  const double distance = std::sqrt(apart.squaredNorm());
+  if (distance < 1e-9) return Meet(robot, upright.prism);
+  PlaneContact contact;
+  contact.normal = (apart.x() * upright.along_x + apart.y() * upright.along_y) / distance;
+  contact.points[0] = {upright.prism.centre + nearest.x() * upright.along_x + nearest.y() * upright.along_y,
+                       robot.radius - distance};
+  contact.count = 1;
+  return contact;
+}
+
 void ContactFreeSet::AddContacts(const kinematics2d::Pair& pair, PlanarSolver& solver) const
 {
   const Body& first = bodies_[pair.first];
@@ -351,21 +379,21 @@ void ContactFreeSet::AddContacts(const kinematics2d::Pair& pair, PlanarSolver& s
   const Prism robot = PrismOf(*first.robot);
   PlaneContact meeting;
   PlanarContact contact{.first = first.in_solver, .friction = settings.friction, .restitution = settings.restitution};
-  double reach = kTouch + LargestStep(first);
+  double reach = kTouch + first.step_way;
   if (pair.second < bodies_.size())
   {
     const Body& second = bodies_[pair.second];
     contact.second = static_cast<int>(second.in_solver);
     contact.yielding = kRubbing;
     meeting = Meet(robot, PrismOf(*second.robot));
-    reach += LargestStep(second);
+    reach += second.step_way;
   }
   else
   {
     const Upright& upright = uprights_[pair.second - bodies_.size()];
     contact.friction = std::sqrt(settings.friction * upright.touch.friction.value_or(settings.friction));
     contact.restitution = std::max(settings.restitution, upright.touch.restitution.value_or(settings.restitution));
-    meeting = upright.normal.isZero(0) ? Meet(robot, upright.prism) : MeetWall(robot, upright.normal, upright.distance);
+    meeting = MeetUpright(robot, upright);
   }
   contact.normal = meeting.normal;
   for (const PlanePoint& point : std::span(meeting.points).first(meeting.count))
@@ -458,6 +486,16 @@ double ContactFreeSet::GapBetween(const Body& robot, std::uint32_t other) const
 {
   const Vector2 place = robot.robot->GroundPoint();
   double gap = -robot.robot->Radius();
+  if (other >= bodies_.size() && uprights_[other - bodies_.size()].is_upright)
+  {
+    const Upright& upright = uprights_[other - bodies_.size()];
+    if (!upright.normal.isZero(0)) return gap + upright.normal.dot(place) - upright.distance;
+    const Vector2 way = place - upright.prism.centre;
+    if (upright.prism.radius > 0) return gap + way.norm() - upright.prism.radius;
+    const double x = std::max(std::abs(way.dot(upright.along_x)) - upright.half.x(), 0.0);
+    const double y = std::max(std::abs(way.dot(upright.along_y)) - upright.half.y(), 0.0);
+    return gap + std::sqrt(x * x + y * y);
+  }
   if (other >= bodies_.size()) return gap + swarmanoid::DistanceTo(isolation_.Statics()[other - bodies_.size()], place);
   const Body& body = bodies_[other];
   if (body.robot != nullptr && body.robot->IsUpright())
@@ -473,6 +511,7 @@ void ContactFreeSet::FindTouching(std::span<const std::uint32_t> bodies, std::sp
     Body& body = bodies_[k];
     body.touches = false;
     body.island = k;
+    body.step_way = body.IsLeftOut() ? 0 : LargestStep(body);
     body.needs_ode = !body.may_be_free || !body.robot->StandsOnWheels();
   }
   for (const kinematics2d::Pair& pair : pairs)
@@ -481,8 +520,8 @@ void ContactFreeSet::FindTouching(std::span<const std::uint32_t> bodies, std::sp
     std::uint32_t other = pair.second;
     if (!bodies_[robot].may_be_free) std::swap(robot, other);
     Body& body = bodies_[robot];
-    double reach = kTouch + LargestStep(body);
-    if (other < bodies_.size()) reach += LargestStep(bodies_[other]);
+    double reach = kTouch + body.step_way;
+    if (other < bodies_.size()) reach += bodies_[other].step_way;
     if (GapBetween(body, other) >= reach) continue;
     body.touches = true;
     if (!MeetInPlane(body, other)) body.needs_ode = true;

@@ -84,6 +84,7 @@ private:
     bool is_near = false;       // there is a body that it may meet in this tick
     bool touches = false;       // or nearly
     bool is_in_plane = false;   // in the rest of the tick, and all that it can meet
+    double step_way = 0;        // m, by which it can come nearer to others in this step
     bool needs_ode = false;     // in this step: itself, or one of the island that begins with it
     std::uint32_t island = 0;   // another body that it touches, or itself
     int advanced = 0;           // steps of this tick that the closed form has done
@@ -101,6 +102,8 @@ private:
     Vector2 normal = Vector2::Zero();  // of a wall without end
     double distance = 0;
     Prism prism;
+    Vector2 along_x = Vector2::Zero(), along_y = Vector2::Zero();  // sides of a box
+    Vector2 half = Vector2::Zero();                                // m, of it
     Touch touch;
   };
 
@@ -115,6 +118,7 @@ private:
   void Search(int step);
   void FindInPlane(int step);
   bool MeetInPlane(const Body& robot, std::uint32_t other) const;
+  PlaneContact MeetUpright(const Prism& robot, const Upright& upright) const;
   void AddContacts(const kinematics2d::Pair& pair, PlanarSolver& solver) const;
   void Outline(const Body& body, double seconds, MovingOutline& outline);
   bool IsTooFar(const Body& body, const MovingOutline& outline) const;

@@ -30,6 +30,8 @@ constexpr double kWheelLoad = 0.77;    // the part of the weight that the wheels
 constexpr double kPart = 0.2;          // of an overlap that parts in a step
 constexpr double kLeft = 1e-4;         // m of overlap that stays, so that the contact does
 constexpr double kFastestParting = 1;  // m/s
+// A robot whose speeds change by less in a sweep (m/s) rests until a contact changes them.
+constexpr double kSmallest = 1e-5;
 
 }  // namespace
 
@@ -61,9 +63,10 @@ std::size_t PlanarSolver::Add(const DifferentialDrive& drive, PlaneMotion& motio
   robot.turn = motion.spin;
   const double load = kWheelLoad * kind.mass * gravity_ / 2;
   const double mass = 1 / (robot.inverse_mass + kind.half_track * kind.half_track * robot.inverse_inertia);
+  robot.ground_mass = mass;
+  robot.slip_mass = 1 / (1 / mass + robot.inverse_rim_mass);
   for (std::size_t wheel = 0; wheel < 2; ++wheel)
   {
-    robot.ground_mass[wheel] = mass;
     robot.rim[wheel] = kind.wheel_radius * motion.rates[wheel];
     robot.command[wheel] = kind.wheel_radius * commands[wheel];
     robot.most_motor[wheel] = drive.LargestTorque(commands[wheel], motion.rates[wheel]) / kind.wheel_radius * seconds_;
@@ -72,8 +75,8 @@ std::size_t PlanarSolver::Add(const DifferentialDrive& drive, PlaneMotion& motio
     const double slip = std::sqrt(along * along + robot.left * robot.left);
     const double rise = slip > kWheelSlip ? 1 + kSlipRise * std::min(slip, kFastestSlip) : 1;
     robot.most_grip[wheel] = wheel_friction_ * rise * load * seconds_;
-    robot.motor[wheel] = robot.along[wheel] = robot.across[wheel] = 0;
   }
+  robot.motor = robot.along = robot.across = {0, 0};
   return robots_.size() - 1;
 }
 
@@ -141,15 +144,31 @@ void PlanarSolver::Solve(int iterations)
   for (const PlanarContact& given : given_) Prepare(given);
   for (int iteration = 0; iteration < iterations; ++iteration)
   {
-    for (Robot& robot : robots_) Drive(robot);
-    for (Contact& contact : contacts_) Touch(contact);
+    for (Robot& robot : robots_)
+      if (robot.is_moving) robot.has_moved = Drive(robot);
+    for (Contact& contact : contacts_)
+    {
+      if (!contact.first->is_moving && (contact.second == nullptr || !contact.second->is_moving)) continue;
+      if (!Touch(contact)) continue;
+      contact.first->has_moved = true;
+      if (contact.second != nullptr) contact.second->has_moved = true;
+    }
+    bool is_any_moving = false;
+    for (Robot& robot : robots_)
+    {
+      robot.is_moving = robot.has_moved;
+      robot.has_moved = false;
+      is_any_moving = is_any_moving || robot.is_moving;
+    }
+    if (!is_any_moving) break;
   }
   for (Robot& robot : robots_) Move(robot);
 }
 
 // The motors and the ground at both wheels.
-void PlanarSolver::Drive(Robot& robot)
+bool PlanarSolver::Drive(Robot& robot)
 {
+  double largest = 0;
   const double half = -robot.left * robot.mass / 2;  // of what stops its sliding
   for (std::size_t wheel = 0; wheel < 2; ++wheel)
   {
@@ -158,12 +177,11 @@ void PlanarSolver::Drive(Robot& robot)
     double& rim = robot.rim[wheel];
     const double most = robot.most_motor[wheel];
     // The rim comes to its command and the ground with it. If the motor is too weak, the ground follows the rim.
-    double along = (robot.command[wheel] - ground) * robot.ground_mass[wheel];
+    double along = (robot.command[wheel] - ground) * robot.ground_mass;
     const double wanted = robot.motor[wheel] + robot.rim_mass * (robot.command[wheel] - rim) + along;
     double motor = std::clamp(wanted, -most, most);
     if (motor != wanted)
-      along = (rim + (motor - robot.motor[wheel]) * robot.inverse_rim_mass - ground) /
-              (1 / robot.ground_mass[wheel] + robot.inverse_rim_mass);
+      along = (rim + (motor - robot.motor[wheel]) * robot.inverse_rim_mass - ground) * robot.slip_mass;
 
     along += robot.along[wheel];
     double across = robot.across[wheel] + half;
@@ -179,31 +197,42 @@ void PlanarSolver::Drive(Robot& robot)
       motor = std::clamp(robot.motor[wheel] + robot.rim_mass * (robot.command[wheel] - slipping), -most, most);
     }
     const double more_along = along - robot.along[wheel];
-    rim += (motor - robot.motor[wheel] - more_along) * robot.inverse_rim_mass;
+    const double more_motor = motor - robot.motor[wheel];
+    largest = std::max({largest, std::abs(more_along), std::abs(more_motor)});
+    rim += (more_motor - more_along) * robot.inverse_rim_mass;
     robot.forward += more_along * robot.inverse_mass;
     robot.turn += side * more_along * robot.inverse_inertia;
-    robot.left += (across - robot.across[wheel]) * robot.inverse_mass;
+    const double more_across = across - robot.across[wheel];
+    largest = std::max(largest, std::abs(more_across));
+    robot.left += more_across * robot.inverse_mass;
     robot.motor[wheel] = motor;
     robot.along[wheel] = along;
     robot.across[wheel] = across;
   }
+  return largest > kSmallest * robot.mass;
 }
 
-void PlanarSolver::Touch(Contact& contact)
+bool PlanarSolver::Touch(Contact& contact)
 {
   const double most = contact.friction * contact.pressed;
+  double largest = 0;
   if (most > 0 || contact.rubbed != 0)
   {
     const double slip = SpeedAlong(contact, contact.tangent) + contact.yielding * contact.rubbed;
     const double rubbed = std::clamp(contact.rubbed - slip * contact.tangent_mass, -most, most);
+    largest = std::abs(rubbed - contact.rubbed);
     Push(contact, contact.tangent, rubbed - contact.rubbed);
     contact.rubbed = rubbed;
   }
   const double missing = contact.least_speed - SpeedAlong(contact, contact.normal);
   const double pressed = std::max(0.0, contact.pressed + missing * contact.normal_mass);
-  if (pressed == contact.pressed) return;
-  Push(contact, contact.normal, pressed - contact.pressed);
-  contact.pressed = pressed;
+  if (pressed != contact.pressed)
+  {
+    largest = std::max(largest, std::abs(pressed - contact.pressed));
+    Push(contact, contact.normal, pressed - contact.pressed);
+    contact.pressed = pressed;
+  }
+  return largest > kSmallest * contact.first->mass;
 }
 
 void PlanarSolver::Move(Robot& robot) const

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "common/math/pose.h"
@@ -47,11 +48,13 @@ private:
     double mass, inverse_mass, inverse_inertia;
     double half_track, wheel_radius;
     double rim_mass, inverse_rim_mass;  // a wheel's inertia at its rim
-    std::array<double, 2> ground_mass;  // that the ground drives at a wheel
+    double ground_mass, slip_mass;      // that the ground drives at a wheel, without and with its rim
     double forward, left, turn;
     std::array<double, 2> rim, command;
     std::array<double, 2> most_motor, most_grip;
     std::array<double, 2> motor, along, across;
+    // An impulse on it changed in the last sweep, or in this one.
+    bool is_moving = true, has_moved = false;
   };
   // A direction as speeds of a robot: forward, left, turn.
   using Row = std::array<double, 3>;
@@ -69,8 +72,9 @@ private:
   static double SpeedAlong(const Contact& contact, const std::array<Row, 2>& rows);
   static void Push(Contact& contact, const std::array<Row, 2>& rows, double impulse);
   void Prepare(const PlanarContact& contact);
-  static void Drive(Robot& robot);
-  static void Touch(Contact& contact);
+  // Return whether an impulse changed.
+  static bool Drive(Robot& robot);
+  static bool Touch(Contact& contact);
   void Move(Robot& robot) const;
 
   double seconds_ = 0;
