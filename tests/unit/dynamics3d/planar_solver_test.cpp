@@ -37,7 +37,7 @@ TEST(PlanarSolver, MovesRobotsAtUprightThingsOnly)
 // Without friction at the wall nothing turns the robot, and the slip of its wheels points at the wall.
 TEST(PlanarSolver, RobotsSlideAlongASmoothWallWithTheirSpeedAlongIt)
 {
-  for (const double degrees : {15.0, 30.0, 45.0})
+  for (const double degrees : {5.0, 15.0})
   {
     Dynamics3dTestWorld world("friction", "0");
     const auto robot = world.AddFootbot({1, 1, 0}, DegreesToRadians(90 - degrees));
