@@ -169,32 +169,38 @@ void PlanarSolver::Solve(int iterations)
 bool PlanarSolver::Drive(Robot& robot)
 {
   double largest = 0;
-  const double half = -robot.left * robot.mass / 2;  // of what stops its sliding
+  // Of what stops its sliding. As heavy as forward, so that a slipping wheel rubs against its slip.
+  const double half = -robot.left * robot.ground_mass;
   for (std::size_t wheel = 0; wheel < 2; ++wheel)
   {
     const double side = wheel == 0 ? -robot.half_track : robot.half_track;
     const double ground = robot.forward + side * robot.turn;
     double& rim = robot.rim[wheel];
     const double most = robot.most_motor[wheel];
-    // The rim comes to its command and the ground with it. If the motor is too weak, the ground follows the rim.
-    double along = (robot.command[wheel] - ground) * robot.ground_mass;
-    const double wanted = robot.motor[wheel] + robot.rim_mass * (robot.command[wheel] - rim) + along;
-    double motor = std::clamp(wanted, -most, most);
-    if (motor != wanted)
-      along = (rim + (motor - robot.motor[wheel]) * robot.inverse_rim_mass - ground) * robot.slip_mass;
-
-    along += robot.along[wheel];
-    double across = robot.across[wheel] + half;
-    const double square = along * along + across * across;
     const double grip = robot.most_grip[wheel];
-    if (square > grip * grip)
+    double along = 0, across = 0;
+    // The ground brings its slip to 0, within the disc of friction.
+    const auto hold = [&](double wanted)
     {
+      along = robot.along[wheel] + wanted;
+      across = robot.across[wheel] + half;
+      const double square = along * along + across * across;
+      if (square <= grip * grip) return;
       const double part = grip / std::sqrt(square);
       along *= part;
       across *= part;
-      // The motor turns a wheel that slips by itself.
-      const double slipping = rim - (along - robot.along[wheel]) * robot.inverse_rim_mass;
-      motor = std::clamp(robot.motor[wheel] + robot.rim_mass * (robot.command[wheel] - slipping), -most, most);
+    };
+    // What brings the rim to its command.
+    const auto motor_wanted = [&]
+    { return robot.motor[wheel] + robot.rim_mass * (robot.command[wheel] - rim) + along - robot.along[wheel]; };
+    hold((robot.command[wheel] - ground) * robot.ground_mass);
+    double motor = motor_wanted();
+    if (std::abs(motor) > most)
+    {
+      // The motor is too weak, so the ground and the rim come to one speed.
+      motor = std::clamp(motor, -most, most);
+      hold((rim + (motor - robot.motor[wheel]) * robot.inverse_rim_mass - ground) * robot.slip_mass);
+      motor = std::clamp(motor_wanted(), -most, most);
     }
     const double more_along = along - robot.along[wheel];
     const double more_motor = motor - robot.motor[wheel];
